@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "mtstereo/export.hpp"
+#include "mtstereo/result.hpp"
+
+namespace mtstereo {
+
+/// How many pixels get a disparity (paper, section II-A "Disparity map").
+enum class Mode {
+  kSparse,     ///< only the ends of the finest nodes: few pixels, few errors
+  kSemiDense,  ///< the whole of the finest nodes, linear in between: more pixels
+};
+
+/// Largest value of Parameter::kMaxDisparity [px].
+inline constexpr int kLargestMaxDisparity = 1024;
+
+/// Largest width and height of an image [px].
+inline constexpr int kLargestImageSide = 16384;
+
+/// One value of the parameter table. The order is that of parameter_table().
+enum class Parameter {
+  kMode,
+  kMaxDisparity,
+  kThreads,
+  kGrayLevels,
+  kMinNodeWidth,
+  kMaxNodeWidth,
+  kNodeLevels,
+  kMaxNeighbors,
+  kCostKernelSize,
+  kCostVolume,
+  kIntensityWeight,
+  kNodeConfidence,
+  kOutlierRadius,
+  kPixelSearchRange,
+  kPixelConfidence,
+  kSubpixel,
+};
+
+/// What a parameter's value looks like.
+enum class ParameterType {
+  kInteger,  ///< a whole number
+  kNumber,   ///< a number with a fraction
+  kBoolean,  ///< 0 or 1 (in text also false, true)
+  kChoice,   ///< one of ParameterInfo::choices
+  kLevels,   ///< falling whole numbers that end with 0, separated by commas, as in "1,0"
+};
+
+/// One row of the parameter table: the only place where a parameter is described. The checks, the
+/// element's properties, the command line options and the table in docs/ are made from it.
+struct ParameterInfo {
+  Parameter id;
+  const char* name;      ///< lower case, words joined by '-'; also the property's and option's name
+  const char* symbol;    ///< the paper's symbol in plain letters, "" where the paper has none
+  const char* unit;      ///< "px", "%", ... or "" for a bare number
+  ParameterType type;
+  double minimum;        ///< smallest value (kInteger, kNumber)
+  double maximum;        ///< largest value (kInteger, kNumber)
+  const char* choices;   ///< the words of a kChoice separated by '|', else ""
+  const char* default_sparse;      ///< default in Mode::kSparse, as text
+  const char* default_semi_dense;  ///< default in Mode::kSemiDense, as text
+  bool reallocates;      ///< true: a change sizes the buffers anew at the next frame
+  const char* help;      ///< one line
+};
+
+/// All parameters, in the order of Parameter. Never fails; the rows live as long as the program.
+MTSTEREO_API std::span<const ParameterInfo> parameter_table();
+
+/// The row of one parameter.
+MTSTEREO_API const ParameterInfo& parameter_info(Parameter id);
+
+/// The row of the parameter with this name, or nullptr.
+MTSTEREO_API const ParameterInfo* find_parameter(std::string_view name);
+
+/// A set of parameters. What was not set takes the default of the mode. A plain value: copy it
+/// freely; not meant to be shared between threads while one of them sets something.
+class MTSTEREO_API Parameters {
+ public:
+  /// All at their defaults, Mode::kSemiDense.
+  Parameters() = default;
+
+  /// Sets one parameter from a number. A kBoolean takes 0 and 1, a kChoice the index of the word
+  /// among its choices. Fails with kInvalidParameter, the message naming the parameter, the value
+  /// and the range; the set is then as it was. A kLevels takes text only.
+  Status set(Parameter id, double value);
+  /// Sets one parameter from text: a number, a word, or levels. Fails as above.
+  Status set(Parameter id, std::string_view text);
+  /// The same by name; an unknown name fails with kInvalidParameter.
+  Status set(std::string_view name, std::string_view text);
+  /// Back to the mode's default.
+  void unset(Parameter id);
+  /// True where a value was set, false where the mode's default holds.
+  bool is_set(Parameter id) const;
+
+  /// The value in force: what was set, or the mode's default. For a kBoolean 0 or 1, for a kChoice
+  /// the index of the word, for kLevels the number of levels.
+  double get(Parameter id) const;
+  /// The value in force as text, such that set() takes it back.
+  std::string text(Parameter id) const;
+
+  /// The mode in force.
+  Mode mode() const;
+  /// get() of a whole number.
+  int integer(Parameter id) const;
+  /// The levels of S in force, coarse to fine (Parameter::kNodeLevels); `count` of them are used.
+  struct Levels {
+    std::array<int, 8> level{};
+    int count = 0;
+  };
+  Levels node_levels() const;
+
+  /// Whether the parameters fit each other and images of this size. Fails with kFrameDoesNotFit or
+  /// kInvalidCombination, the message naming the parameter, its value, the size and what would fit.
+  Status check_frame(int width, int height) const;
+
+  /// Whether disparities below max-disparity fit into 16 bits at `scale` steps per px. Fails with
+  /// kInvalidCombination and a message that says what to set.
+  Status check_scale16(int scale) const;
+
+ private:
+  struct Value {
+    double number = 0;
+    Levels levels;
+  };
+  std::array<std::optional<Value>, 16> values_;
+  Value effective(Parameter id) const;
+};
+
+}  // namespace mtstereo

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "mtstereo/parameters.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace mtstereo {
+namespace {
+
+using P = Parameter;
+using T = ParameterType;
+
+// clang-format off
+constexpr ParameterInfo kTable[] = {
+    {P::kMode, "mode", "", "", T::kChoice, 0, 1, "sparse|semi-dense", "sparse", "semi-dense", false,
+     "how many pixels get a disparity: only the ends of the finest nodes, or the whole of them"},
+    {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", "64", "64", true,
+     "the disparities 0 .. max-disparity - 1 are searched; the nearest point that can be seen is at "
+     "focal length * baseline / max-disparity"},
+    {P::kThreads, "threads", "", "", T::kInteger, 0, 256, "", "0", "0", true,
+     "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
+    {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, 256, "", "16", "8", false,
+     "levels that the pre-processed image is quantized to: more levels, deeper trees, smaller leaves"},
+    {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", "0", "0", false,
+     "finest nodes have to be wider than this"},
+    {P::kMaxNodeWidth, "max-node-width", "omega_beta", "image widths", T::kNumber, 0.001, 1, "", "0.5", "0.5", false,
+     "finest nodes have to be narrower than this share of the image's width"},
+    {P::kNodeLevels, "node-levels", "S", "", T::kLevels, 0, 63, "", "1,0", "1,0", true,
+     "node levels that are matched, coarse to fine: n is the n-th ancestor of the finest nodes; "
+     "strictly falling, the last one is 0"},
+    {P::kMaxNeighbors, "max-neighbors", "omega_gamma", "rows", T::kInteger, 0, 100, "", "10", "10", true,
+     "nodes above and below that a node is matched together with"},
+    {P::kCostKernelSize, "cost-kernel-size", "omega_cv", "px", T::kInteger, 1, 41, "", "21", "21", true,
+     "side of the Gaussian that smooths the cost volume, an odd number; 1 = no smoothing"},
+    {P::kCostVolume, "cost-volume", "", "", T::kChoice, 0, 1, "half|full", "half", "half", true,
+     "resolution of the smoothed cost volume: half takes a quarter of the memory, full is the exact one"},
+    {P::kIntensityWeight, "intensity-weight", "alpha", "", T::kNumber, 0, 1, "", "0.8", "0.8", false,
+     "share of the intensity cost in a node pair's cost; the rest is the context cost"},
+    {P::kNodeConfidence, "node-confidence", "omega_Pi, coarse to fine", "%", T::kNumber, 0, 1000, "", "12", "12", false,
+     "a node pair is accepted where the second-best costs more than this above the best"},
+    {P::kOutlierRadius, "outlier-radius", "21", "px", T::kInteger, 0, 31, "", "21", "21", true,
+     "half the side of the window in which a disparity must agree with most others; 0 = no outlier removal"},
+    {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", "15", "15", false,
+     "guided pixel matching searches this much below and above the node's disparity"},
+    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", "12", "4", false,
+     "a pixel is kept where the second-best disparity costs more than this above the best"},
+    {P::kSubpixel, "subpixel", "", "", T::kBoolean, 0, 1, "", "true", "true", false,
+     "refine the disparity between whole pixels by a parabola through the costs"},
+};
+// clang-format on
+
+constexpr int kCount = static_cast<int>(std::size(kTable));
+
+constexpr bool table_is_in_order() {
+  for (int i = 0; i < kCount; ++i) {
+    if (static_cast<int>(kTable[i].id) != i) return false;
+  }
+  return true;
+}
+static_assert(table_is_in_order(), "the table has the order of Parameter");
+
+std::string number_text(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, end.ptr};
+}
+
+std::string range_text(const ParameterInfo& info) {
+  const std::string unit = *info.unit != '\0' ? std::string(" ") + info.unit : "";
+  switch (info.type) {
+    case T::kBoolean:
+      return "false or true";
+    case T::kChoice: {
+      std::string words = info.choices;
+      for (size_t at = 0; (at = words.find('|', at)) != std::string::npos; at += 4) {
+        words.replace(at, 1, " or ");
+      }
+      return words;
+    }
+    case T::kLevels:
+      return "up to 8 whole numbers, strictly falling from at most " + number_text(info.maximum) +
+             ", the last one 0, as in \"1,0\"";
+    case T::kInteger:
+    case T::kNumber:
+      break;
+  }
+  std::string text = number_text(info.minimum) + " to " + number_text(info.maximum) + unit;
+  if (info.id == P::kCostKernelSize) text += ", odd";
+  return text;
+}
+
+Error refuse(const ParameterInfo& info, std::string_view value) {
+  return {ErrorCode::kInvalidParameter, std::string(info.name) + " = " + std::string(value) +
+                                            " is not possible: it takes " + range_text(info)};
+}
+
+bool parse_number(std::string_view text, double& value) {
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  return end.ec == std::errc() && end.ptr == text.data() + text.size();
+}
+
+/// The index of `word` among the words of `choices` ("a|b|c"), or -1.
+int choice_index(std::string_view choices, std::string_view word) {
+  for (int index = 0;; ++index) {
+    const size_t bar = choices.find('|');
+    if (choices.substr(0, bar) == word) return index;
+    if (bar == std::string_view::npos) return -1;
+    choices.remove_prefix(bar + 1);
+  }
+}
+
+std::string_view choice_word(std::string_view choices, int index) {
+  for (; index > 0; --index) choices.remove_prefix(choices.find('|') + 1);
+  return choices.substr(0, choices.find('|'));
+}
+
+bool parse_levels(const ParameterInfo& info, std::string_view text, Parameters::Levels& levels) {
+  Parameters::Levels parsed;
+  while (true) {
+    const size_t comma = text.find(',');
+    const std::string_view item = text.substr(0, comma);
+    int level = 0;
+    const auto end = std::from_chars(item.data(), item.data() + item.size(), level);
+    if (end.ec != std::errc() || end.ptr != item.data() + item.size()) return false;
+    if (level < 0 || level > info.maximum) return false;
+    if (parsed.count == static_cast<int>(parsed.level.size())) return false;
+    if (parsed.count > 0 && level >= parsed.level[parsed.count - 1]) return false;
+    parsed.level[parsed.count++] = level;
+    if (comma == std::string_view::npos) break;
+    text.remove_prefix(comma + 1);
+  }
+  if (parsed.level[parsed.count - 1] != 0) return false;
+  levels = parsed;
+  return true;
+}
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+std::span<const ParameterInfo> parameter_table() { return kTable; }
+
+const ParameterInfo& parameter_info(Parameter id) { return kTable[static_cast<int>(id)]; }
+
+const ParameterInfo* find_parameter(std::string_view name) {
+  const auto* found = std::find_if(std::begin(kTable), std::end(kTable),
+                                   [&](const ParameterInfo& info) { return info.name == name; });
+  return found == std::end(kTable) ? nullptr : found;
+}
+
+Status Parameters::set(Parameter id, double value) {
+  const ParameterInfo& info = parameter_info(id);
+  const bool whole = info.type != T::kNumber;
+  if (info.type == T::kLevels || !(value >= info.minimum && value <= info.maximum) ||
+      (whole && value != std::floor(value)) ||
+      (id == P::kCostKernelSize && static_cast<int>(value) % 2 == 0)) {
+    return refuse(info, number_text(value));
+  }
+  values_[static_cast<int>(id)] = Value{value, {}};
+  return {};
+}
+
+Status Parameters::set(Parameter id, std::string_view text) {
+  const ParameterInfo& info = parameter_info(id);
+  double number = 0;
+  switch (info.type) {
+    case T::kLevels: {
+      Levels levels;
+      if (!parse_levels(info, text, levels)) return refuse(info, "\"" + std::string(text) + "\"");
+      values_[static_cast<int>(id)] = Value{static_cast<double>(levels.count), levels};
+      return {};
+    }
+    case T::kChoice: {
+      const int index = choice_index(info.choices, text);
+      if (index < 0) return refuse(info, "\"" + std::string(text) + "\"");
+      return set(id, index);
+    }
+    case T::kBoolean:
+      if (text == "true") return set(id, 1.0);
+      if (text == "false") return set(id, 0.0);
+      break;
+    case T::kInteger:
+    case T::kNumber:
+      break;
+  }
+  if (!parse_number(text, number)) return refuse(info, "\"" + std::string(text) + "\"");
+  return set(id, number);
+}
+
+Status Parameters::set(std::string_view name, std::string_view text) {
+  const ParameterInfo* info = find_parameter(name);
+  if (info == nullptr) {
+    std::string known;
+    for (const ParameterInfo& row : kTable) known += std::string(known.empty() ? "" : ", ") + row.name;
+    return Error{ErrorCode::kInvalidParameter,
+                 "there is no parameter \"" + std::string(name) + "\": there are " + known};
+  }
+  return set(info->id, text);
+}
+
+void Parameters::unset(Parameter id) { values_[static_cast<int>(id)].reset(); }
+
+bool Parameters::is_set(Parameter id) const { return values_[static_cast<int>(id)].has_value(); }
+
+Parameters::Value Parameters::effective(Parameter id) const {
+  if (is_set(id)) return *values_[static_cast<int>(id)];
+  const ParameterInfo& info = parameter_info(id);
+  Parameters defaults;
+  const bool sparse = id != P::kMode && mode() == Mode::kSparse;
+  // The table's own defaults are valid: a test sets every one of them.
+  const Status status =
+      defaults.set(id, std::string_view(sparse ? info.default_sparse : info.default_semi_dense));
+  return status.ok() ? *defaults.values_[static_cast<int>(id)] : Value{};
+}
+
+double Parameters::get(Parameter id) const { return effective(id).number; }
+
+int Parameters::integer(Parameter id) const { return static_cast<int>(get(id)); }
+
+std::string Parameters::text(Parameter id) const {
+  const ParameterInfo& info = parameter_info(id);
+  const Value value = effective(id);
+  switch (info.type) {
+    case T::kBoolean:
+      return value.number != 0 ? "true" : "false";
+    case T::kChoice:
+      return std::string(choice_word(info.choices, static_cast<int>(value.number)));
+    case T::kLevels: {
+      std::string text;
+      for (int i = 0; i < value.levels.count; ++i) {
+        text += (i > 0 ? "," : "") + std::to_string(value.levels.level[i]);
+      }
+      return text;
+    }
+    case T::kInteger:
+    case T::kNumber:
+      break;
+  }
+  return number_text(value.number);
+}
+
+Mode Parameters::mode() const { return static_cast<Mode>(integer(P::kMode)); }
+
+Parameters::Levels Parameters::node_levels() const { return effective(P::kNodeLevels).levels; }
+
+Status Parameters::check_frame(int width, int height) const {
+  const std::string size = size_text(width, height);
+  if (width < 1 || height < 1 || width > kLargestImageSide || height > kLargestImageSide) {
+    return Error{ErrorCode::kFrameDoesNotFit,
+                 "images of " + size + " px cannot be matched: each side has to be 1 to " +
+                     std::to_string(kLargestImageSide) + " px"};
+  }
+  const int disparities = integer(P::kMaxDisparity);
+  if (disparities > width) {
+    return Error{ErrorCode::kFrameDoesNotFit,
+                 "max-disparity = " + std::to_string(disparities) + " does not fit images of " + size +
+                     " px: set it to 1 to " + std::to_string(width) + " px, the image's width"};
+  }
+  const double widest = get(P::kMaxNodeWidth) * width;
+  const int narrowest = integer(P::kMinNodeWidth);
+  if (narrowest + 1 >= widest && narrowest > 0) {
+    return Error{ErrorCode::kInvalidCombination,
+                 "min-node-width = " + std::to_string(narrowest) + " px leaves no node below max-node-width = " +
+                     text(P::kMaxNodeWidth) + " image widths, which is " + number_text(widest) +
+                     " px in images of " + size + " px: lower the first or raise the second"};
+  }
+  return {};
+}
+
+Status Parameters::check_scale16(int scale) const {
+  const int disparities = integer(P::kMaxDisparity);
+  if (scale >= 1 && static_cast<long long>(disparities) * scale <= 65535) return {};
+  const int fitting = 65535 / disparities;
+  return Error{ErrorCode::kInvalidCombination,
+               "max-disparity = " + std::to_string(disparities) + " px times disparity-scale = " +
+                   std::to_string(scale) + " does not fit 16 bits (65535): set disparity-scale to 1 to " +
+                   std::to_string(fitting) +
+                   (scale >= 1 ? ", or max-disparity to at most " + std::to_string(65535 / scale) : "")};
+}
+
+}  // namespace mtstereo
