@@ -74,7 +74,8 @@ std::string size_text(int width, int height) {
 }  // namespace
 
 /// All that a matcher keeps from frame to frame. The functions follow the order of the method.
-struct Matcher::State {
+/// Hidden by name, since it would be shown with the class it belongs to.
+struct __attribute__((visibility("hidden"))) Matcher::State {
   explicit State(const Parameters& p) : parameters(p), settings(p) {}
 
   Parameters parameters;
@@ -114,12 +115,13 @@ struct Matcher::State {
 
   const LevelState& leaves() const { return levels[settings.node_levels.count - 1]; }
 
+  static constexpr int kBand = 32;  ///< [rows]
+
   /// Calls body(y0, y1, worker) for bands of rows. The bands are the same for every number of
   /// threads unless `per_thread`: then each thread gets one, for stages that carry work from row to
   /// row.
   template <typename Body>
   void for_rows(Body&& body, bool per_thread = false) {
-    constexpr int kBand = 32;
     const int bands = per_thread ? std::min(pool->threads(), height) : (height + kBand - 1) / kBand;
     pool->run(bands, [&](int band, int worker) {
       const int y0 = per_thread ? static_cast<int>(1LL * height * band / bands) : band * kBand;
@@ -135,8 +137,9 @@ void Matcher::State::take(const Parameters& p) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.reallocates && parameters.text(info.id) != p.text(info.id)) resize = true;
   }
+  const Settings taken(p);  // may throw: before anything has changed
   parameters = p;
-  settings = Settings(p);
+  settings = taken;
   if (resize) sized = false;
 }
 
@@ -146,8 +149,8 @@ void Matcher::State::size_buffers() {
   if (!pool || pool->threads() != threads) {
     pool.reset();
     pool.emplace(threads);
-    workers.resize(threads);
   }
+  workers.resize(threads);
   for (int side = 0; side < 2; ++side) {
     views[side].resize(width, height);
     trees[side].resize(width, height);
@@ -164,6 +167,12 @@ void Matcher::State::size_buffers() {
   ends.resize(leaves().left);
   map.resize(width, height);
   for (WorkerState& worker : workers) {
+    // As large as the stages ask for: which thread gets which band differs from frame to frame, and
+    // none is to allocate when its first one, or a higher one, comes late.
+    worker.median.resize(width, std::min(kBand + 4, height));
+    worker.gradient.resize(2 * (width + 2));
+    worker.marks.resize(trees[0].stride);
+    worker.intervals.resize(2 * levels[0].left.stride);
     worker.cost.resize(volume, kernel);
     worker.match.resize(width, settings.disparities, settings.max_neighbors);
   }
@@ -283,8 +292,11 @@ void Matcher::State::match_pixels() {
 }
 
 void Matcher::State::keep(Stage stage) {
-  if (!keep_stages) return;
   Image<std::int32_t>& copy = kept[static_cast<int>(stage)];
+  if (!keep_stages) {
+    copy.resize(0, 0);  // what is there belongs to an earlier frame
+    return;
+  }
   copy.resize(width, height);
   for (int y = 0; y < height; ++y) {
     std::memcpy(copy.row(y), map.row(y), width * sizeof(std::int32_t));
@@ -313,7 +325,11 @@ Result<Matcher> Matcher::create(const Parameters& parameters) {
 }
 
 Status Matcher::set_parameters(const Parameters& parameters) {
-  state_->take(parameters);
+  try {
+    state_->take(parameters);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "there is no memory left for other parameters"};
+  }
   return {};
 }
 
@@ -381,6 +397,7 @@ Status write_disparity16(DisparityView disparity, int scale, ImageView<std::uint
                                                    " is not possible: it takes 1 to 65535"};
   }
   if (disparity.data == nullptr || out.data == nullptr ||
+      disparity.stride < static_cast<std::ptrdiff_t>(disparity.width * sizeof(std::int32_t)) ||
       out.stride < static_cast<std::ptrdiff_t>(out.width * sizeof(std::uint16_t))) {
     return Error{ErrorCode::kInvalidImage,
                  "the disparity or the image it is to be written to has no data or a stride that "

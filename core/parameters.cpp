@@ -39,7 +39,7 @@ constexpr ParameterInfo kTable[] = {
      "share of the intensity cost in a node pair's cost; the rest is the context cost"},
     {P::kNodeConfidence, "node-confidence", "omega_Pi, coarse to fine", "%", T::kNumber, 0, 1000, "", "12", "12", false,
      "a node pair is accepted where the second-best costs more than this above the best"},
-    {P::kOutlierRadius, "outlier-radius", "21", "px", T::kInteger, 0, 31, "", "21", "21", true,
+    {P::kOutlierRadius, "outlier-radius", "", "px", T::kInteger, 0, 31, "", "21", "21", true,
      "half the side of the window in which a disparity must agree with most others; 0 = no outlier removal"},
     {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", "15", "15", false,
      "guided pixel matching searches this much below and above the node's disparity"},
@@ -278,7 +278,7 @@ Status Parameters::check_scale16(int scale) const {
                "max-disparity = " + std::to_string(disparities) + " px times disparity-scale = " +
                    std::to_string(scale) + " does not fit 16 bits (65535): set disparity-scale to 1 to " +
                    std::to_string(fitting) +
-                   (scale >= 1 ? ", or max-disparity to at most " + std::to_string(65535 / scale) : "")};
+                   (scale >= 1 && scale <= 65535 ? ", or max-disparity to at most " + std::to_string(65535 / scale) : "")};
 }
 
 }  // namespace mtstereo

@@ -59,6 +59,7 @@ class Image {
  public:
   void resize(int width, int height) {
     const std::size_t row = (width * sizeof(T) + 2 * kAlignment - 1) / kAlignment * kAlignment;
+    width_ = height_ = 0;  // what there is where the next line throws
     buffer_.resize(row / sizeof(T) * height);
     width_ = width;
     height_ = height;

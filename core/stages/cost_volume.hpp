@@ -11,7 +11,7 @@ namespace mtstereo {
 
 /// Step 4 (paper, "Cost volume"): the smoothed matching cost of every left pixel at every disparity.
 
-/// The smoothed costs, in kCostScale steps per grey value. With shift 1 one cell stands for 2 x 2
+/// The smoothed costs, in kCostScale steps per gray value. With shift 1 one cell stands for 2 x 2
 /// pixels: smoothing leaves nothing finer. Cells of pixels that cannot have a disparity (x < d)
 /// repeat the cost of the first one that can.
 struct CostVolume {

@@ -12,7 +12,8 @@ enum NodeMark : std::uint8_t {
   kHasSelectedDescendant = 2,
 };
 
-/// Lists the ancestors of the fine top nodes of one row, each once; returns how many.
+/// Lists the ancestors of the fine top nodes of one row in the order of these, without repeating
+/// one that follows itself; returns how many.
 int list_ancestors(const std::uint16_t* begin, const std::uint16_t* end,
                    const std::uint16_t* parent, int count, int ancestor, WidthRange widths,
                    const std::uint8_t* marks, std::uint16_t* list) {
@@ -23,8 +24,6 @@ int list_ancestors(const std::uint16_t* begin, const std::uint16_t* end,
     if (!(width > widths.above && width < widths.below)) continue;
     std::uint16_t selected = static_cast<std::uint16_t>(node);
     for (int step = 0; step < ancestor && selected != kNoNode; ++step) selected = parent[selected];
-    // Leaves come from left to right, so those with the same ancestor follow one another, but for
-    // the ones below another selected node, which the next step drops.
     if (selected == kNoNode || (listed > 0 && list[listed - 1] == selected)) continue;
     list[listed++] = selected;
   }
@@ -79,6 +78,9 @@ void select_nodes(const MaxTrees& trees, int ancestor, WidthRange widths, int y0
     for (int i = 0; i < listed; ++i) {
       const std::uint16_t node = list[i];
       if (marks[node] & kHasSelectedDescendant) continue;
+      // Leaves come from left to right. Between two with the same ancestor there can be one whose
+      // ancestor is above that; now that it is dropped, the two follow one another.
+      if (kept > 0 && list[kept - 1] == node) continue;
       list[kept] = node;
       level.begin[first + kept] = begin[node];
       level.end[first + kept] = end[node];

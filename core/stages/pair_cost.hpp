@@ -30,12 +30,12 @@ struct NodePair {
 };
 
 /// Mean of the cost volume along the left node of row y, at the disparity that goes linearly from
-/// the pair's begin disparity to its end disparity, both in 0 .. D - 1 [grey values]. At half
+/// the pair's begin disparity to its end disparity, both in 0 .. D - 1 [gray values]. At half
 /// resolution every second column is looked at.
 float intensity_cost(const CostVolume& volume, int y, const NodePair& pair);
 
 /// Mean of |aL / (aL + aR) - 1/2| over the pair and its ancestors, walked up side by side as far as
-/// both trees go, times 225, which brings it to the scale of grey values. aL and aR are the widths.
+/// both trees go, times 225, which brings it to the scale of gray values. aL and aR are the widths.
 float context_cost(const MaxTrees& left, const MaxTrees& right, int y, int left_node,
                    int right_node);
 

@@ -46,9 +46,9 @@ void median_rows(GrayView image, int y0, int y1, Image<std::uint8_t>& scratch,
   const int top = std::max(y0 - kRadius, 0);
   const int bottom = std::min(y1 + kRadius, image.height);
   scratch.resize(image.width, bottom - top);
-  // OpenCV takes no pointer to const; it only reads its input.
+  // OpenCV takes no pointer to const; it only reads its input. A single row may have any stride.
   const cv::Mat in(bottom - top, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.row(top)),
-                   image.stride);
+                   image.height == 1 ? image.width : image.stride);
   cv::Mat out(bottom - top, image.width, CV_8UC1, scratch.row(0), scratch.stride());
   cv::medianBlur(in, out, 2 * kRadius + 1);
   for (int y = y0; y < y1; ++y) std::memcpy(median.row(y), scratch.row(y - top), image.width);

@@ -13,11 +13,11 @@ namespace mtstereo {
 
 /// One view after pre-processing. All images have the view's size.
 struct PreprocessedView {
-  /// The median-filtered grey values.
+  /// The median-filtered gray values.
   Image<std::uint8_t> median;
   /// The quantized, inverted edge strength: 0 .. q - 1, high = little contrast.
   Image<std::uint8_t> level;
-  /// Grey value, horizontal and vertical Sobel of the median-filtered image, each times its weight
+  /// Gray value, horizontal and vertical Sobel of the median-filtered image, each times its weight
   /// in the cost (kCostWeights) and kCostScale, so that a cost is three absolute differences.
   Image<std::int16_t> gray;
   Image<std::int16_t> sobel_x;
@@ -26,10 +26,10 @@ struct PreprocessedView {
   void resize(int width, int height);
 };
 
-/// Steps of the fixed-point costs per grey value.
+/// Steps of the fixed-point costs per gray value.
 inline constexpr int kCostScale = 16;
 
-/// Weights of grey value, horizontal and vertical Sobel in the cost, times kCostScale and 256.
+/// Weights of gray value, horizontal and vertical Sobel in the cost, times kCostScale and 256.
 /// They are 0.30, 0.59 and 0.11.
 inline constexpr std::array<int, 3> kCostWeights = {1229, 2417, 451};
 

@@ -24,7 +24,7 @@ struct ImageView {
   }
 };
 
-/// 8-bit grey values (luma), as a camera gives them.
+/// 8-bit gray values (luma), as a camera gives them.
 using GrayView = ImageView<const std::uint8_t>;
 
 /// Disparity of the left view in fixed point: px = value / kDisparityOne. The left pixel (x, y) and

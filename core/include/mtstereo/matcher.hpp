@@ -38,14 +38,15 @@ struct FrameStatistics {
 /// The result does not depend on their number.
 class MTSTEREO_API Matcher {
  public:
-  /// A matcher with these parameters. Fails with kInvalidCombination or kOutOfMemory.
+  /// A matcher with these parameters; it sizes its buffers when the first frame comes. Fails with
+  /// kOutOfMemory.
   static Result<Matcher> create(const Parameters& parameters);
 
   Matcher(Matcher&&) noexcept;
   Matcher& operator=(Matcher&&) noexcept;
   ~Matcher();
 
-  /// Takes other parameters from the next frame on. Fails as create(), the old ones then stay.
+  /// Takes other parameters from the next frame on. Fails with kOutOfMemory.
   Status set_parameters(const Parameters& parameters);
   const Parameters& parameters() const;
 
@@ -65,7 +66,7 @@ class MTSTEREO_API Matcher {
   /// values 0 .. gray-levels - 1, high = little contrast. Holds until the next compute().
   GrayView preprocessed(Side side) const;
   /// The cost of the left pixel (x, y) at the whole disparity d, 0 <= d < max-disparity, d <= x, in
-  /// grey values (paper, "Cost volume"). 0 before the first frame.
+  /// gray values (paper, "Cost volume"). 0 before the first frame.
   double cost(int x, int y, int d) const;
 
   /// Of the last frame.
