@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "support/compare.hpp"
+#include "support/counting_allocator.hpp"
+#include "support/matching.hpp"
+#include "support/random.hpp"
+#include "support/sanitizers.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::same_image;
+
+class Allocation : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!test::allocations_are_counted()) {
+      GTEST_SKIP() << (test::kSanitized ? "the sanitizer has an allocator of its own"
+                                        : "the C library lets nobody count its allocations");
+    }
+  }
+  void TearDown() override { test::fail_allocation_after(-1); }
+};
+
+TEST_F(Allocation, IsCounted) {
+  // Behind a volatile pointer, so that the compiler cannot leave the pair of calls out.
+  void* volatile memory = nullptr;
+  test::count_allocations();
+  memory = std::malloc(8);
+  std::free(memory);
+  memory = std::aligned_alloc(64, 64);
+  std::free(memory);
+  memory = std::calloc(3, 5);
+  std::free(memory);
+  memory = ::operator new(8);
+  ::operator delete(memory);
+  EXPECT_EQ(4, test::allocations());
+  test::fail_allocation_after(1);
+  std::unique_ptr<int> first, second;
+  EXPECT_NO_THROW(first = std::make_unique<int>(1));
+  EXPECT_THROW(second = std::make_unique<int>(1), std::bad_alloc);
+  EXPECT_NO_THROW(second = std::make_unique<int>(1)) << "only one fails";
+}
+
+/// Allocations of each frame from the third on, the frames coming from memory that is there.
+void expect_no_allocations(std::initializer_list<std::pair<const char*, std::string>> values,
+                           bool keep_stages = false) {
+  const test::Pair pair = test::slanted_pair(333, 201, 40, 1);
+  const test::Pair other = test::slanted_pair(333, 201, 40, 2);
+  Matcher matcher = test::matcher(values);
+  matcher.keep_stages(keep_stages);
+  for (int frame = 0; frame < 12; ++frame) {
+    const test::Pair& now = frame % 2 == 0 ? pair : other;
+    test::count_allocations();
+    const bool ok = matcher.compute(now.left.view(), now.right.view()).ok();
+    const long count = test::allocations();
+    EXPECT_TRUE(ok);
+    if (frame < 2) continue;
+    EXPECT_EQ(0, count) << "frame " << frame;
+  }
+  EXPECT_GT(matcher.statistics().density, 0.05);
+}
+
+TEST_F(Allocation, NeverHappensInALaterFrameOnOneThread) {
+  expect_no_allocations({{"threads", "1"}});
+  expect_no_allocations({{"threads", "1"}, {"mode", "sparse"}});
+  expect_no_allocations({{"threads", "1"}, {"cost-volume", "full"}, {"node-levels", "3,1,0"}});
+  expect_no_allocations({{"threads", "1"}}, true);
+}
+
+TEST_F(Allocation, NeverHappensInALaterFrameOnTwoThreads) {
+  expect_no_allocations({{"threads", "2"}});
+  expect_no_allocations({{"threads", "2"}, {"mode", "sparse"}}, true);
+}
+
+TEST_F(Allocation, NeverHappensInALaterFrameOnMoreThreadsThanBands) {
+  expect_no_allocations({{"threads", "9"}});
+}
+
+TEST_F(Allocation, NeverHappensInASmallerFrame) {
+  Matcher matcher = test::matcher({{"threads", "1"}, {"max-disparity", "32"}});
+  for (int frame = 0; frame < 3; ++frame) {
+    for (const auto& [width, height] : {std::pair{300, 150}, {200, 100}, {299, 40}}) {
+      const test::Pair pair = test::slanted_pair(width, height, 20, 3);
+      test::count_allocations();
+      const bool ok = matcher.compute(pair.left.view(), pair.right.view()).ok();
+      const long count = test::allocations();
+      EXPECT_TRUE(ok);
+      // Another size makes the kernel anew, which is a handful of bytes.
+      if (frame == 0) continue;
+      EXPECT_LE(count, 4) << width << "x" << height;
+    }
+  }
+}
+
+/// Lets the first, the second, the third ... allocation of a first frame fail, until none is left
+/// to. Each time the frame has to fail in order, and the next one to be as ever.
+void expect_recovery(const char* threads, const char* volume) {
+  const test::Pair pair = test::slanted_pair(90, 70, 16, 4);
+  const Parameters parameters =
+      test::parameters({{"threads", threads}, {"cost-volume", volume}, {"max-disparity", "20"}});
+  Matcher undisturbed = std::move(Matcher::create(parameters).value());
+  const test::DisparityPlane expected = test::compute(undisturbed, pair.left, pair.right);
+  long failures = 0;
+  for (bool failed = true; failed && !testing::Test::HasFailure(); failures += failed) {
+    SCOPED_TRACE(testing::Message() << "allocation " << failures << ", " << threads << " threads");
+    Matcher matcher = std::move(Matcher::create(parameters).value());
+    test::fail_allocation_after(failures);
+    const Result<DisparityView> result = matcher.compute(pair.left.view(), pair.right.view());
+    failed = test::allocation_has_failed();
+    test::fail_allocation_after(-1);
+    if (!result.ok()) {
+      EXPECT_TRUE(test::fails_with(result, ErrorCode::kOutOfMemory, {}));
+      EXPECT_FALSE(result.error().message.empty());
+      EXPECT_EQ(0, matcher.cost(50, 20, 3)) << "there is no volume";
+      const GrayView level = matcher.preprocessed(Side::kLeft);
+      EXPECT_TRUE(level.data != nullptr || level.width == 0) << "a size without pixels";
+    }
+    EXPECT_TRUE(same_image(expected, test::compute(matcher, pair.left, pair.right)));
+  }
+  EXPECT_GT(failures, 50) << "the comparison means something";
+}
+
+TEST_F(Allocation, FailingAnywhereIsAnErrorAndNotTheEnd) {
+  expect_recovery("1", "half");
+  expect_recovery("2", "full");
+}
+
+TEST_F(Allocation, FailingSaysWhatToDo) {
+  const test::Pair pair = test::slanted_pair(90, 70, 16, 5);
+  Matcher matcher = test::matcher({{"threads", "1"}, {"max-disparity", "20"}});
+  test::fail_allocation_after(20);
+  const Result<DisparityView> result = matcher.compute(pair.left.view(), pair.right.view());
+  test::fail_allocation_after(-1);
+  EXPECT_TRUE(test::fails_with(result, ErrorCode::kOutOfMemory,
+                               {"memory", "90x70", "max-disparity = 20", "lower", "half"}));
+}
+
+TEST_F(Allocation, FailingWhileParametersAreTakenKeepsTheOldOnes) {
+  // Texts that are too long to be held without memory.
+  const Parameters old = test::parameters({{"max-disparity", "20"}});
+  const Parameters other = test::parameters(
+      {{"node-levels", "63,62,61,60,59,58,57,0"}, {"intensity-weight", "0.12345678901234567"}});
+  long failures = 0;
+  for (bool failed = true; failed; failures += failed) {
+    Matcher matcher = std::move(Matcher::create(old).value());
+    test::fail_allocation_after(failures);
+    const Status status = matcher.set_parameters(other);
+    failed = test::allocation_has_failed();
+    test::fail_allocation_after(-1);
+    EXPECT_NE(failed, status.ok());
+    EXPECT_EQ(failed ? 20 : 64, matcher.parameters().integer(Parameter::kMaxDisparity));
+  }
+  EXPECT_GT(failures, 0);
+  test::fail_allocation_after(0);
+  const Result<Matcher> none = Matcher::create(old);
+  test::fail_allocation_after(-1);
+  EXPECT_TRUE(test::fails_with(none, ErrorCode::kOutOfMemory, {"memory"}));
+}
+
+}  // namespace
+}  // namespace mtstereo

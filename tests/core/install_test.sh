@@ -1,0 +1,87 @@
+#!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
+#
+# Installs the build to a folder of its own, builds a program against what is there with nothing but
+# pkg-config, runs it, and looks at the names that the library shows.
+#
+# usage: install_test.sh BUILD PROGRAM.cpp VERSION PREFIX LIBDIR SANITIZE MESON... -- COMPILER...
+set -eu
+
+build=$1 program=$2 version=$3 prefix=$4 libdir=$5 sanitize=$6
+shift 6
+meson=
+while [ "$1" != -- ]; do
+  meson="$meson $1"
+  shift
+done
+shift
+
+if [ "$sanitize" != none ]; then
+  echo "skipped: built with -Db_sanitize=$sanitize, whose runtime a plain program does not have"
+  exit 77
+fi
+
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+fail() {
+  echo "failed: $*" >&2
+  exit 1
+}
+
+$meson install --no-rebuild --quiet -C "$build" --destdir "$root" >"$root/install.log" 2>&1 ||
+  { cat "$root/install.log"; fail "meson install"; }
+
+# Only what was installed: the headers are those of the sysroot, and its library comes first.
+library_path="$root$prefix/$libdir"
+export PKG_CONFIG_PATH="$library_path/pkgconfig"
+export PKG_CONFIG_SYSROOT_DIR="$root"
+flags=$(pkg-config --cflags --libs mtstereo) || fail "pkg-config does not know mtstereo"
+[ "$(pkg-config --modversion mtstereo)" = "$version" ] || fail "pkg-config tells another version"
+case $flags in
+  *"$root$prefix"*) ;;
+  *) fail "the flags lead somewhere else: $flags" ;;
+esac
+for word in opencv hwy; do
+  case $flags in
+    *$word*) fail "a user of the library is asked for $word: $flags" ;;
+  esac
+done
+
+# The flags are words on purpose.
+# shellcheck disable=SC2086
+"$@" -Wall -Wextra -Wpedantic -Werror "$program" -o "$root/program" $flags ||
+  fail "the program was not built with: $flags"
+# Every header stands for itself.
+for header in "$root$prefix"/include/mtstereo/*.hpp; do
+  # shellcheck disable=SC2086
+  printf '#include <mtstereo/%s>\n' "$(basename "$header")" |
+    "$@" -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c++ - $flags ||
+    fail "$(basename "$header") cannot be included alone"
+done
+
+output=$(LD_LIBRARY_PATH="$library_path${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$root/program") ||
+  fail "the program ended with $?"
+echo "the program says: $output"
+[ "${output%% *}" = "$version" ] || fail "the program tells another version: $output"
+[ "${output##* }" -gt 500 ] || fail "the program found too few pixels: $output"
+
+# What a program could link to: the library's own names, templates of the standard library that the
+# compiler has to share (weak, W and V, or unique, u), and the marks that the linker sets.
+nm -D --defined-only "$library_path/libmtstereo.so" >"$root/names.txt" || fail "nm"
+foreign=$(c++filt <"$root/names.txt" | awk '
+  { kind = $2; name = $0; sub(/^[^ ]+ [^ ]+ /, "", name) }
+  name ~ /^mtstereo::/ { next }
+  name ~ /^(__bss_start|_edata|_end|_init|_fini)$/ { next }
+  name ~ /^(vtable|typeinfo|typeinfo name|VTT|guard variable) for (mtstereo|std)::/ { next }
+  kind ~ /^[WVu]$/ && name ~ /std::|operator (new|delete)/ { next }
+  { print }')
+[ -z "$foreign" ] || fail "the library shows names that are not its own:
+$foreign"
+grep -q ' T ' "$root/names.txt" || fail "the library shows nothing"
+public='(Matcher|Parameters)::~?[A-Za-z0-9_=]+(\[abi:cxx11\])?|parameter_table|parameter_info|find_parameter|write_disparity16|version'
+inner=$(c++filt <"$root/names.txt" | grep -E ' [A-Za-z] mtstereo::' |
+  grep -vE " mtstereo::($public)\\(" || true)
+[ -z "$inner" ] || fail "the library shows names of its inside:
+$inner"
+echo "names shown: $(wc -l <"$root/names.txt"), of which shared templates of the standard library: $(
+  c++filt <"$root/names.txt" | grep -c ' [WVu] ' || true)"

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cstdio>
+#include <mtstereo/mtstereo.hpp>
+
+// Prints how many pixels of a pair with a square of 5 px disparity are seen at that disparity.
+int main() {
+  static unsigned char left[60][160], right[60][160];
+  for (int i = 0; i < 60 * 155; ++i) {
+    const int x = i % 155, y = i / 155;
+    left[y][x + 5] = right[y][x] =
+        static_cast<unsigned char>((x / 5 * 7919 + y / 4 * 104729) % 251);
+  }
+  auto matcher = mtstereo::Matcher::create(mtstereo::Parameters());
+  if (!matcher) return 1;
+  const auto map = matcher->compute({left[0], 160, 60, 160}, {right[0], 160, 60, 160});
+  if (!map) return std::fprintf(stderr, "%s\n", map.error().message.c_str()), 1;
+  int found = 0;
+  for (int i = 0; i < 60 * 160; ++i) found += (map->row(i / 160)[i % 160] + 128) / 256 == 5;
+  return std::printf("%s %d\n", mtstereo::version(), found) < 0;
+}

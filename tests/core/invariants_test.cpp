@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "support/compare.hpp"
+#include "support/matching.hpp"
+#include "support/padded_image.hpp"
+#include "support/random.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::copy_of;
+using test::DisparityPlane;
+using test::GrayPlane;
+using test::Pair;
+
+constexpr const char* kModes[] = {"sparse", "semi-dense"};
+constexpr Stage kAllStages[] = {Stage::kNodeMatching, Stage::kNodesFiltered, Stage::kExtrapolated,
+                                Stage::kPixelMatching, Stage::kFinal};
+
+/// Fails where a disparity points beyond the left border or reaches max-disparity.
+void expect_possible(const DisparityPlane& map, int max_disparity) {
+  EXPECT_TRUE(test::same_pixels(
+      map.width, map.height, [](int, int) { return true; },
+      [&](int x, int y) {
+        const int d = map(x, y);
+        return d == kNoDisparity ||
+               (d >= 1 && d <= x * kDisparityOne && d < max_disparity * kDisparityOne);
+      }))
+      << "max-disparity " << max_disparity;
+}
+
+/// Share of the disparities that are within one px of this one.
+double share_near(const DisparityPlane& map, double disparity) {
+  long near = 0;
+  for (const std::int32_t d : map.pixels) {
+    if (d != kNoDisparity && std::abs(d / 256.0 - disparity) <= 1) ++near;
+  }
+  return static_cast<double>(near) / static_cast<double>(std::max(test::known(map), 1L));
+}
+
+TEST(Invariants, AShiftedPairHasThatDisparityInBothModes) {
+  for (const char* const mode : kModes) {
+    for (const int shift : {3, 17, 40}) {
+      for (const char* const volume : {"half", "full"}) {
+        SCOPED_TRACE(testing::Message() << mode << ", " << shift << " px, " << volume);
+        const Pair pair = test::shifted_pair(320, 120, shift, shift);
+        Matcher matcher = test::matcher({{"mode", mode}, {"cost-volume", volume}});
+        const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+        EXPECT_GT(matcher.statistics().density, std::string(mode) == "sparse" ? 0.03 : 0.15);
+        EXPECT_GT(share_near(map, shift), 0.98);
+        expect_possible(map, 64);
+      }
+    }
+  }
+}
+
+TEST(Invariants, AnIdenticalPairIsAtInfinity) {
+  const GrayPlane image = test::texture(200, 80, 1);
+  for (const char* const mode : kModes) {
+    Matcher matcher = test::matcher({{"mode", mode}});
+    const DisparityPlane map = test::compute(matcher, image, image);
+    EXPECT_GT(test::known(map), 200) << mode;
+    EXPECT_GT(share_near(map, 0), 0.98) << mode;
+  }
+}
+
+TEST(Invariants, SwappedViewsGiveLittle) {
+  for (const char* const mode : kModes) {
+    const Pair pair = test::shifted_pair(320, 120, 17, 2);
+    Matcher matcher = test::matcher({{"mode", mode}});
+    const long right = test::known(test::compute(matcher, pair.left, pair.right));
+    const DisparityPlane swapped = test::compute(matcher, pair.right, pair.left);
+    EXPECT_LT(test::known(swapped), right / 4) << mode;
+    expect_possible(swapped, 64);
+  }
+}
+
+TEST(Invariants, UnrelatedViewsGiveLittle) {
+  for (const char* const mode : kModes) {
+    Matcher matcher = test::matcher({{"mode", mode}});
+    const DisparityPlane map =
+        test::compute(matcher, test::texture(320, 120, 3), test::texture(320, 120, 4));
+    EXPECT_LT(matcher.statistics().density, 0.1) << mode;
+    expect_possible(map, 64);
+  }
+}
+
+TEST(Invariants, FlatImagesGiveNothing) {
+  const GrayPlane textured = test::texture(120, 40, 5);
+  for (const char* const mode : kModes) {
+    Matcher matcher = test::matcher({{"mode", mode}});
+    for (const int gray : {0, 1, 128, 255}) {
+      const GrayPlane flat(120, 40, static_cast<std::uint8_t>(gray));
+      EXPECT_EQ(0, test::known(test::compute(matcher, flat, flat))) << mode << ", gray " << gray;
+      EXPECT_EQ(0, test::known(test::compute(matcher, flat, textured)))
+          << mode << ", gray " << gray;
+      EXPECT_EQ(0, test::known(test::compute(matcher, textured, flat)))
+          << mode << ", gray " << gray;
+    }
+  }
+}
+
+TEST(Invariants, EveryStageIsInRangeAtExtremeSearchRanges) {
+  for (const char* const mode : kModes) {
+    for (const auto& [width, disparities] : {std::pair{1, 1},
+                                             {2, 2},
+                                             {100, 1},
+                                             {100, 2},
+                                             {100, 3},
+                                             {100, 100},
+                                             {1023, 1023},
+                                             {1100, 1023},
+                                             {1100, 1024},
+                                             {1024, 1024}}) {
+      SCOPED_TRACE(testing::Message() << mode << ", " << width << " px");
+      const Pair pair = test::slanted_pair(width, 12, std::max(disparities / 2, 1), 6);
+      Matcher matcher =
+          test::matcher({{"mode", mode}, {"max-disparity", std::to_string(disparities)}});
+      matcher.keep_stages(true);
+      expect_possible(test::compute(matcher, pair.left, pair.right), disparities);
+      for (const Stage stage : kAllStages)
+        expect_possible(copy_of(matcher.stage(stage)), disparities);
+    }
+  }
+}
+
+TEST(Invariants, NoiseAtFullContrastIsInRange) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Matcher matcher = test::matcher({{"max-disparity", "90"},
+                                     {"node-confidence", "0"},
+                                     {"pixel-confidence", "0"},
+                                     {"outlier-radius", "0"}});
+    matcher.keep_stages(true);
+    test::compute(matcher, test::black_and_white(90, 60, seed),
+                  test::black_and_white(90, 60, seed + 50));
+    for (const Stage stage : kAllStages) expect_possible(copy_of(matcher.stage(stage)), 90);
+  }
+}
+
+TEST(Invariants, TheInputIsOnlyRead) {
+  const Pair pair = test::slanted_pair(150, 70, 20, 7);
+  for (const int padding : {0, 1, 42, 64}) {
+    const test::PaddedImage<std::uint8_t> left(pair.left, padding, 5), right(pair.right, padding);
+    Matcher matcher = test::matcher({});
+    ASSERT_TRUE(matcher.compute(left.view(), right.view()).ok());
+    EXPECT_TRUE(left.unchanged() && right.unchanged()) << "padding of " << padding << " bytes";
+  }
+}
+
+TEST(Invariants, EverySmallSizeIsMatched) {
+  Matcher matcher = test::matcher({{"max-disparity", "1"}});
+  for (int width = 1; width <= 12; ++width) {
+    for (int height = 1; height <= 12; ++height) {
+      const Pair pair = {test::noise(width, height, width),
+                         test::noise(width, height, height + 99)};
+      Parameters parameters = matcher.parameters();
+      test::set_all(parameters, {{"max-disparity", std::to_string(width)}});
+      ASSERT_TRUE(matcher.set_parameters(parameters).ok());
+      const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+      EXPECT_EQ(width, map.width);
+      EXPECT_EQ(height, map.height);
+      expect_possible(map, width);
+    }
+  }
+}
+
+TEST(Invariants, AnImageOfOnePixelHasNoDisparity) {
+  Matcher matcher = test::matcher({{"max-disparity", "1"}});
+  for (const char* const mode : kModes) {
+    Parameters parameters = matcher.parameters();
+    test::set_all(parameters, {{"mode", mode}});
+    ASSERT_TRUE(matcher.set_parameters(parameters).ok());
+    EXPECT_EQ(DisparityPlane(1, 1, kNoDisparity),
+              test::compute(matcher, GrayPlane(1, 1, 7), GrayPlane(1, 1, 200)));
+  }
+}
+
+TEST(Invariants, AWideImageIsSearchedFarAndWide) {
+  constexpr int kShift = 900;
+  const Pair pair = test::shifted_pair(8192, 64, kShift, 8);
+  Matcher matcher = test::matcher({{"max-disparity", "1024"}});
+  const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+  expect_possible(map, 1024);
+  EXPECT_GT(matcher.statistics().density, 0.1);
+  EXPECT_GT(share_near(map, kShift), 0.95);
+}
+
+TEST(Invariants, ADisparityDoesNotDependOnWhereAnImageIsCut) {
+  // Rows far from the cut see the same surroundings: neighbors, smoothing and votes end before it.
+  const Pair whole = test::slanted_pair(160, 200, 24, 9);
+  constexpr int kRows = 140, kReach = 5 + 2 * 21 + 2 * 10 * 2 + 4;
+  const auto top = [](const GrayPlane& image) {
+    GrayPlane cut(image.width, kRows);
+    std::copy_n(image.pixels.begin(), cut.pixels.size(), cut.pixels.begin());
+    return cut;
+  };
+  Matcher matcher = test::matcher({});
+  const DisparityPlane expected = test::compute(matcher, whole.left, whole.right);
+  const DisparityPlane map = test::compute(matcher, top(whole.left), top(whole.right));
+  EXPECT_TRUE(test::same_pixels(
+      160, kRows - kReach, [&](int x, int y) { return expected(x, y); },
+      [&](int x, int y) { return map(x, y); }));
+}
+
+}  // namespace
+}  // namespace mtstereo

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "mtstereo/matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "mtstereo/mtstereo.hpp"
+#include "support/compare.hpp"
+#include "support/matching.hpp"
+#include "support/random.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::copy_of;
+using test::DisparityPlane;
+using test::Pair;
+using test::same_image;
+
+constexpr Stage kAllStages[] = {Stage::kNodeMatching, Stage::kNodesFiltered, Stage::kExtrapolated,
+                                Stage::kPixelMatching, Stage::kFinal};
+
+/// What a matcher of its own says to a pair.
+DisparityPlane alone(const Parameters& parameters, const Pair& pair) {
+  Result<Matcher> matcher = Matcher::create(parameters);
+  EXPECT_TRUE(matcher.ok());
+  return test::compute(*matcher, pair.left, pair.right);
+}
+
+TEST(Matcher, KeepsTheParametersThatItIsMadeWith) {
+  const Matcher matcher = test::matcher({{"max-disparity", "77"}, {"mode", "sparse"}});
+  EXPECT_EQ(77, matcher.parameters().integer(Parameter::kMaxDisparity));
+  EXPECT_EQ(Mode::kSparse, matcher.parameters().mode());
+}
+
+TEST(Matcher, ShowsNothingBeforeTheFirstFrame) {
+  const Matcher matcher = test::matcher({});
+  for (const Stage stage : kAllStages) {
+    EXPECT_EQ(0, matcher.stage(stage).width);
+    EXPECT_EQ(0, matcher.stage(stage).height);
+  }
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    EXPECT_EQ(0, matcher.preprocessed(side).width);
+    EXPECT_EQ(0, matcher.preprocessed(side).height);
+  }
+  EXPECT_EQ(0, matcher.cost(0, 0, 0));
+  EXPECT_EQ(0, matcher.statistics().density);
+  EXPECT_EQ(0, matcher.statistics().milliseconds);
+}
+
+TEST(Matcher, KeepsTheStagesOnlyWhereAsked) {
+  const Pair pair = test::slanted_pair(120, 40, 20, 1);
+  Matcher matcher = test::matcher({});
+  test::compute(matcher, pair.left, pair.right);
+  for (const Stage stage : kAllStages) EXPECT_EQ(0, matcher.stage(stage).width) << "off at first";
+
+  matcher.keep_stages(true);
+  const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+  for (const Stage stage : kAllStages) {
+    EXPECT_EQ(120, matcher.stage(stage).width);
+    EXPECT_EQ(40, matcher.stage(stage).height);
+  }
+  EXPECT_TRUE(same_image(map, matcher.stage(Stage::kFinal)));
+  EXPECT_FALSE(same_image(map, matcher.stage(Stage::kNodeMatching)));
+
+  matcher.keep_stages(false);
+  test::compute(matcher, pair.right, pair.left);
+  for (const Stage stage : kAllStages) {
+    EXPECT_EQ(0, matcher.stage(stage).width) << "they are not those of the last frame";
+    EXPECT_EQ(0, matcher.stage(stage).height);
+  }
+}
+
+TEST(Matcher, GivesTheSameWithAndWithoutStages) {
+  const Pair pair = test::slanted_pair(150, 50, 20, 2);
+  Matcher with = test::matcher({}), without = test::matcher({});
+  with.keep_stages(true);
+  EXPECT_TRUE(same_image(test::compute(without, pair.left, pair.right),
+                         test::compute(with, pair.left, pair.right)));
+}
+
+TEST(Matcher, TakesParametersAtTheNextFrame) {
+  const Pair pair = test::slanted_pair(160, 50, 20, 3);
+  for (const ParameterInfo& info : parameter_table()) {
+    Parameters changed;
+    Status status;
+    switch (info.id) {
+      case Parameter::kMode:
+        status = changed.set(info.id, "sparse");
+        break;
+      case Parameter::kMaxDisparity:
+        status = changed.set(info.id, 15);
+        break;
+      case Parameter::kThreads:
+        status = changed.set(info.id, 3);
+        break;
+      case Parameter::kMinNodeWidth:
+        status = changed.set(info.id, 3);
+        break;
+      case Parameter::kMaxNodeWidth:
+        status = changed.set(info.id, 0.05);
+        break;
+      case Parameter::kIntensityWeight:
+        status = changed.set(info.id, 0.2);
+        break;
+      case Parameter::kNodeLevels:
+        status = changed.set(info.id, "0");
+        break;
+      case Parameter::kCostVolume:
+        status = changed.set(info.id, "full");
+        break;
+      case Parameter::kPixelSearchRange:
+        status = changed.set(info.id, 90);
+        break;
+      case Parameter::kSubpixel:
+        status = changed.set(info.id, "false");
+        break;
+      default:
+        status = changed.set(info.id, 3);
+    }
+    ASSERT_TRUE(status.ok()) << info.name;
+    SCOPED_TRACE(info.name + (" = " + changed.text(info.id)));
+
+    Matcher matcher = test::matcher({});
+    const Result<DisparityView> view = matcher.compute(pair.left.view(), pair.right.view());
+    ASSERT_TRUE(view.ok());
+    const DisparityPlane before = copy_of(*view);
+    ASSERT_TRUE(matcher.set_parameters(changed).ok());
+    EXPECT_TRUE(same_image(before, *view)) << "the last result holds until the next frame";
+    EXPECT_EQ(changed.text(info.id), matcher.parameters().text(info.id));
+
+    const DisparityPlane after = test::compute(matcher, pair.left, pair.right);
+    EXPECT_TRUE(same_image(alone(changed, pair), after));
+    if (info.id != Parameter::kThreads) {
+      EXPECT_FALSE(same_image(before, after)) << "the change is seen";
+    }
+    ASSERT_TRUE(matcher.set_parameters(Parameters()).ok());
+    EXPECT_TRUE(same_image(before, test::compute(matcher, pair.left, pair.right))) << "and back";
+  }
+}
+
+TEST(Matcher, GivesTheSameForTheSameFrame) {
+  const Pair pair = test::slanted_pair(130, 60, 20, 4);
+  const Pair other = test::slanted_pair(130, 60, 20, 5);
+  Matcher matcher = test::matcher({});
+  const DisparityPlane first = test::compute(matcher, pair.left, pair.right);
+  EXPECT_TRUE(same_image(first, test::compute(matcher, pair.left, pair.right)));
+  test::compute(matcher, other.left, other.right);
+  EXPECT_TRUE(same_image(first, test::compute(matcher, pair.left, pair.right)))
+      << "nothing is left of the frame before";
+}
+
+TEST(Matcher, TakesFramesOfChangingSize) {
+  Matcher matcher = test::matcher({{"max-disparity", "20"}});
+  for (const auto& [width, height] : {std::pair{100, 40},
+                                      {200, 90},
+                                      {20, 1},
+                                      {33, 200},
+                                      {200, 90},
+                                      {21, 21},
+                                      {199, 89},
+                                      {100, 40}}) {
+    SCOPED_TRACE(testing::Message() << width << "x" << height);
+    const Pair pair = test::slanted_pair(width, height, 18, width + height);
+    EXPECT_TRUE(same_image(alone(matcher.parameters(), pair),
+                           test::compute(matcher, pair.left, pair.right)));
+  }
+}
+
+TEST(Matcher, DoesNotNeedTheInputAfterTheCall) {
+  const Pair pair = test::slanted_pair(100, 40, 20, 6);
+  Matcher matcher = test::matcher({});
+  auto gone = std::make_unique<Pair>(pair);
+  const Result<DisparityView> view = matcher.compute(gone->left.view(), gone->right.view());
+  gone.reset();
+  ASSERT_TRUE(view.ok());
+  EXPECT_TRUE(same_image(alone(Parameters(), pair), *view));
+  EXPECT_GT(matcher.cost(50, 20, 10), 0);
+}
+
+TEST(Matcher, TakesTheSameImageForBothViews) {
+  const Pair pair = test::slanted_pair(100, 40, 20, 7);
+  Matcher matcher = test::matcher({});
+  const Result<DisparityView> view = matcher.compute(pair.left.view(), pair.left.view());
+  ASSERT_TRUE(view.ok());
+  const DisparityPlane map = copy_of(*view);
+  EXPECT_GT(test::known(map), 0);
+  EXPECT_TRUE(same_image(map, alone(Parameters(), {pair.left, pair.left})));
+}
+
+TEST(Matcher, CountsItsFrame) {
+  const Pair pair = test::slanted_pair(150, 50, 20, 8);
+  Matcher matcher = test::matcher({});
+  const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+  EXPECT_DOUBLE_EQ(test::known(map) / (150.0 * 50), matcher.statistics().density);
+  EXPECT_GT(matcher.statistics().milliseconds, 0);
+  const test::GrayPlane flat(150, 50, 90);
+  test::compute(matcher, flat, flat);
+  EXPECT_EQ(0, matcher.statistics().density);
+}
+
+TEST(Matcher, CanBeMoved) {
+  const Pair pair = test::slanted_pair(100, 40, 20, 9);
+  Matcher first = test::matcher({});
+  const DisparityPlane map = test::compute(first, pair.left, pair.right);
+  Matcher second = std::move(first);
+  EXPECT_TRUE(same_image(map, test::compute(second, pair.left, pair.right)));
+  Matcher third = test::matcher({{"mode", "sparse"}});
+  third = std::move(second);
+  EXPECT_TRUE(same_image(map, test::compute(third, pair.left, pair.right)));
+}
+
+TEST(Matcher, ShowsTheCostsOfTheLastFrame) {
+  const test::GrayPlane black(80, 20, 0), white(80, 20, 255);
+  Matcher matcher = test::matcher({{"max-disparity", "10"}});
+  test::compute(matcher, black, white);
+  // Nothing but the gray values differs, and their weight is 0.30.
+  for (const auto& [x, y, d] : {std::tuple{0, 0, 0}, {79, 19, 9}, {40, 10, 5}}) {
+    EXPECT_NEAR(0.30 * 255, matcher.cost(x, y, d), 0.5) << x << ", " << y << ", " << d;
+  }
+  test::compute(matcher, white, white);
+  EXPECT_EQ(0, matcher.cost(40, 10, 5));
+}
+
+TEST(Version, IsThreeNumbers) {
+  EXPECT_TRUE(std::regex_match(version(), std::regex("[0-9]+\\.[0-9]+\\.[0-9]+"))) << version();
+}
+
+}  // namespace
+}  // namespace mtstereo

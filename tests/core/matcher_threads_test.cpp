@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "support/compare.hpp"
+#include "support/matching.hpp"
+#include "support/random.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::copy_of;
+using test::DisparityPlane;
+using test::Pair;
+using test::same_image;
+
+constexpr Stage kAllStages[] = {Stage::kNodeMatching, Stage::kNodesFiltered, Stage::kExtrapolated,
+                                Stage::kPixelMatching, Stage::kFinal};
+
+/// Matches with this many threads and with one; every stage has to be the same.
+void expect_same_as_one_thread(const Pair& pair, Parameters parameters, int threads) {
+  SCOPED_TRACE(testing::Message() << pair.left.width << "x" << pair.left.height << ", " << threads
+                                  << " threads");
+  ASSERT_TRUE(parameters.set(Parameter::kThreads, 1).ok());
+  Matcher one = std::move(Matcher::create(parameters).value());
+  ASSERT_TRUE(parameters.set(Parameter::kThreads, threads).ok());
+  Matcher many = std::move(Matcher::create(parameters).value());
+  one.keep_stages(true);
+  many.keep_stages(true);
+  const DisparityPlane expected = test::compute(one, pair.left, pair.right);
+  EXPECT_GT(test::known(expected), 0);
+  for (int frame = 0; frame < 2; ++frame) {
+    EXPECT_TRUE(same_image(expected, test::compute(many, pair.left, pair.right)));
+    for (const Stage stage : kAllStages) {
+      EXPECT_TRUE(same_image(copy_of(one.stage(stage)), many.stage(stage)))
+          << "stage " << static_cast<int>(stage);
+    }
+  }
+}
+
+TEST(MatcherThreads, GiveTheSameForAnyNumber) {
+  const Pair pair = test::slanted_pair(211, 139, 40, 1);
+  for (const int threads : {0, 2, 3, 4, 7}) {
+    expect_same_as_one_thread(pair, test::parameters({}), threads);
+    expect_same_as_one_thread(
+        pair,
+        test::parameters({{"mode", "sparse"}, {"cost-volume", "full"}, {"max-disparity", "30"}}),
+        threads);
+  }
+}
+
+TEST(MatcherThreads, GiveTheSameAtTheSeamsOfBands) {
+  for (const int height : {31, 32, 33, 63, 64, 65, 97}) {
+    expect_same_as_one_thread(test::slanted_pair(120, height, 20, height), test::parameters({}), 3);
+  }
+}
+
+TEST(MatcherThreads, MayBeMoreThanRows) {
+  expect_same_as_one_thread(test::slanted_pair(120, 5, 10, 3), test::parameters({}), 16);
+}
+
+TEST(MatcherThreads, MayChangeFromFrameToFrame) {
+  const Pair pair = test::slanted_pair(160, 90, 30, 4);
+  Matcher matcher = test::matcher({{"threads", "1"}});
+  const DisparityPlane expected = test::compute(matcher, pair.left, pair.right);
+  for (const char* const threads : {"2", "1", "7", "3", "3", "0"}) {
+    ASSERT_TRUE(matcher.set_parameters(test::parameters({{"threads", threads}})).ok());
+    EXPECT_TRUE(same_image(expected, test::compute(matcher, pair.left, pair.right))) << threads;
+  }
+}
+
+TEST(MatcherThreads, TwoMatchersAtOnceGiveWhatTheyGiveAlone) {
+  struct Worker {
+    Pair pair;
+    Parameters parameters;
+    DisparityPlane expected;
+    int wrong = 0;
+  };
+  std::vector<Worker> workers = {
+      {test::slanted_pair(170, 80, 30, 5), test::parameters({{"threads", "2"}}), {}},
+      {test::slanted_pair(130, 120, 20, 6),
+       test::parameters({{"threads", "2"}, {"mode", "sparse"}, {"cost-volume", "full"}}),
+       {}},
+      {test::slanted_pair(90, 60, 20, 7), test::parameters({{"threads", "1"}}), {}}};
+  for (Worker& worker : workers) {
+    Matcher matcher = std::move(Matcher::create(worker.parameters).value());
+    worker.expected = test::compute(matcher, worker.pair.left, worker.pair.right);
+    EXPECT_GT(test::known(worker.expected), 0);
+  }
+  std::vector<std::thread> threads;
+  for (Worker& worker : workers) {
+    threads.emplace_back([&worker] {
+      Matcher matcher = std::move(Matcher::create(worker.parameters).value());
+      for (int frame = 0; frame < 10; ++frame) {
+        const auto result = matcher.compute(worker.pair.left.view(), worker.pair.right.view());
+        if (!result.ok() || !(copy_of(*result) == worker.expected)) ++worker.wrong;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const Worker& worker : workers) EXPECT_EQ(0, worker.wrong);
+}
+
+TEST(MatcherThreads, AMatcherMayMoveFromThreadToThread) {
+  const Pair pair = test::slanted_pair(120, 60, 20, 8);
+  Matcher matcher = test::matcher({{"threads", "2"}});
+  const DisparityPlane expected = test::compute(matcher, pair.left, pair.right);
+  for (int n = 0; n < 5; ++n) {
+    DisparityPlane map;
+    std::thread([&] { map = test::compute(matcher, pair.left, pair.right); }).join();
+    EXPECT_TRUE(same_image(expected, map));
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo

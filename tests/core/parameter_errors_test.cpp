@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/matching.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::fails_with;
+
+constexpr auto kInvalid = ErrorCode::kInvalidParameter;
+
+/// Tries a wrong value; the message has to hold the name, the value and `range`, and the value in
+/// force has to stay.
+template <typename Value>
+void expect_refused(const ParameterInfo& info, const Value& value, const std::string& shown,
+                    std::initializer_list<std::string> range) {
+  SCOPED_TRACE(testing::Message() << info.name << " = " << shown);
+  Parameters untouched;
+  EXPECT_TRUE(fails_with(untouched.set(info.id, value), kInvalid, {info.name, shown}));
+  EXPECT_FALSE(untouched.is_set(info.id));
+  EXPECT_EQ(info.default_semi_dense, untouched.text(info.id));
+
+  Parameters set;
+  ASSERT_TRUE(set.set(info.id, std::string_view(info.default_sparse)).ok());
+  EXPECT_TRUE(fails_with(set.set(info.id, value), kInvalid, range));
+  EXPECT_TRUE(set.is_set(info.id));
+  EXPECT_EQ(info.default_sparse, set.text(info.id)) << "the value before it stays";
+}
+
+std::string number(double value) {
+  Parameters any;
+  EXPECT_TRUE(any.set(Parameter::kPixelConfidence, std::abs(value)).ok());
+  return (value < 0 ? "-" : "") + any.text(Parameter::kPixelConfidence);
+}
+
+TEST(ParameterErrors, RefuseNumbersOutsideTheRange) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.type != ParameterType::kInteger && info.type != ParameterType::kNumber) continue;
+    const std::string low = std::to_string(static_cast<int>(info.minimum));
+    const std::string high = std::to_string(static_cast<int>(info.maximum));
+    const double step = info.type == ParameterType::kInteger ? 1 : 1e-6;
+    for (const double value :
+         {info.minimum - step, info.maximum + step, -1e300, 1e300, -kInfinity, kInfinity}) {
+      expect_refused(info, value, "", {low, "to " + high, info.unit});
+    }
+    expect_refused(info, std::nan(""), "nan", {low, "to " + high});
+    expect_refused(info, info.maximum + 1, std::to_string(static_cast<int>(info.maximum) + 1),
+                   {"to " + high});
+  }
+}
+
+TEST(ParameterErrors, RefuseTextOutsideTheRange) {
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.type != ParameterType::kInteger && info.type != ParameterType::kNumber) continue;
+    for (const std::string& text :
+         {std::to_string(static_cast<int>(info.maximum) + 1), std::string("-1"),
+          std::string("1e30"), std::string("inf"), std::string("-inf"), std::string("nan")}) {
+      expect_refused(info, std::string_view(text), "", {" to "});
+    }
+  }
+}
+
+TEST(ParameterErrors, RefuseTextThatIsNoNumber) {
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.type == ParameterType::kLevels) continue;
+    for (const char* const text : {"", " ", "abc", "1x", "0x1", " 1", "1 ", "+1", "--1", "1,5",
+                                   "1.2.3", "1e", "true1", "0|1", "\n1", "one"}) {
+      expect_refused(info, std::string_view(text), text, {"it takes"});
+    }
+    // A text with a zero byte in it is not the number before it.
+    expect_refused(info, std::string_view("1\0", 2), "", {"it takes"});
+  }
+}
+
+TEST(ParameterErrors, RefuseFractionsOfWholeNumbers) {
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.type == ParameterType::kNumber || info.type == ParameterType::kLevels) continue;
+    const double value = info.minimum + 0.5;
+    expect_refused(info, value, number(value), {});
+    if (info.type == ParameterType::kChoice) continue;
+    expect_refused(info, std::string_view("0.5"), "0.5", {});
+  }
+}
+
+TEST(ParameterErrors, RefuseOtherWordsThanTheChoices) {
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.type != ParameterType::kChoice) continue;
+    const std::string word =
+        std::string(info.choices).substr(0, std::string(info.choices).find('|'));
+    for (const std::string& text : {std::string(info.choices), word + "|", "|" + word, word + " ",
+                                    word.substr(1), word + word, std::string("0")}) {
+      expect_refused(info, std::string_view(text), text, {word + " or "});
+    }
+    std::string upper = word;
+    upper[0] = static_cast<char>(std::toupper(upper[0]));
+    expect_refused(info, std::string_view(upper), upper, {word});
+    for (const double index : {-1.0, 2.0, 0.5}) expect_refused(info, index, number(index), {word});
+  }
+}
+
+TEST(ParameterErrors, RefuseOtherWordsThanTrueAndFalse) {
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.type != ParameterType::kBoolean) continue;
+    for (const char* const text : {"yes", "no", "on", "True", "FALSE", "2", "-1", "t", "falsee"}) {
+      expect_refused(info, std::string_view(text), text, {"false or true"});
+    }
+    for (const double value : {-1.0, 2.0, 0.1}) expect_refused(info, value, number(value), {});
+  }
+}
+
+TEST(ParameterErrors, RefuseLevelsThatAreWrongInAnyWay) {
+  const ParameterInfo& info = parameter_info(Parameter::kNodeLevels);
+  for (const char* const text : {"",
+                                 ",",
+                                 "0,",
+                                 ",0",
+                                 "1",
+                                 "1,2",
+                                 "0,1",
+                                 "0,0",
+                                 "2,2,0",
+                                 "1,0,0",
+                                 "1,,0",
+                                 "1,0,",
+                                 " 1,0",
+                                 "1, 0",
+                                 "1,0 ",
+                                 "1;0",
+                                 "1.0",
+                                 "1.5,0",
+                                 "-1,0",
+                                 "1,-0.5",
+                                 "a,0",
+                                 "1,a",
+                                 "64,0",
+                                 "100,0",
+                                 "99999999999,0",
+                                 "8,7,6,5,4,3,2,1,0",
+                                 "1,0\n",
+                                 "+1,0",
+                                 "0x1,0"}) {
+    expect_refused(info, std::string_view(text), "\"" + std::string(text) + "\"",
+                   {"strictly falling", "8", "63", "1,0"});
+  }
+}
+
+TEST(ParameterErrors, RefuseANumberForLevels) {
+  const ParameterInfo& info = parameter_info(Parameter::kNodeLevels);
+  for (const double value : {0.0, 1.0, 2.0}) {
+    expect_refused(info, value, number(value), {"strictly falling"});
+  }
+}
+
+TEST(ParameterErrors, RefuseEvenKernels) {
+  const ParameterInfo& info = parameter_info(Parameter::kCostKernelSize);
+  for (int size = 2; size <= 40; size += 2) {
+    expect_refused(info, static_cast<double>(size), std::to_string(size), {"1 to 41", "odd"});
+    const std::string text = std::to_string(size);
+    expect_refused(info, std::string_view(text), text, {"odd"});
+  }
+}
+
+TEST(ParameterErrors, NameTheKnownParametersForAnUnknownOne) {
+  Parameters parameters;
+  for (const char* const name : {"", "max_disparity", "Mode", "mode\n", "no-such-thing"}) {
+    EXPECT_TRUE(fails_with(parameters.set(std::string_view(name), "1"), kInvalid,
+                           {std::string("\"") + name + "\"", "mode", "max-disparity", "subpixel"}));
+  }
+}
+
+TEST(ParameterErrors, RefuseFramesThatCannotBeMatched) {
+  const Parameters parameters = test::parameters({{"max-disparity", "1"}});
+  for (const auto& [width, height] : {std::pair{0, 1},
+                                      {1, 0},
+                                      {-1, 5},
+                                      {5, -1},
+                                      {16385, 1},
+                                      {1, 16385},
+                                      {1 << 30, 1 << 30},
+                                      {-(1 << 30), -(1 << 30)}}) {
+    EXPECT_TRUE(fails_with(parameters.check_frame(width, height), ErrorCode::kFrameDoesNotFit,
+                           {std::to_string(width) + "x" + std::to_string(height), "1 to 16384"}));
+  }
+}
+
+TEST(ParameterErrors, RefuseAMaxDisparityOverTheWidth) {
+  const Parameters parameters = test::parameters({{"max-disparity", "128"}});
+  EXPECT_TRUE(fails_with(parameters.check_frame(127, 400), ErrorCode::kFrameDoesNotFit,
+                         {"max-disparity = 128", "127x400", "1 to 127"}));
+  EXPECT_TRUE(parameters.check_frame(128, 400).ok());
+  EXPECT_TRUE(fails_with(Parameters().check_frame(1, 1), ErrorCode::kFrameDoesNotFit,
+                         {"max-disparity = 64", "1 to 1 px"}));
+}
+
+TEST(ParameterErrors, RefuseNodeWidthsThatLeaveNoNode) {
+  const auto check = [](const char* narrowest, const char* widest) {
+    return test::parameters({{"min-node-width", narrowest}, {"max-node-width", widest}})
+        .check_frame(100, 50);
+  };
+  EXPECT_TRUE(
+      fails_with(check("50", "0.5"), ErrorCode::kInvalidCombination,
+                 {"min-node-width = 50", "max-node-width = 0.5", "100x50", "lower", "raise"}));
+  EXPECT_TRUE(fails_with(check("49", "0.5"), ErrorCode::kInvalidCombination, {"min-node-width"}))
+      << "a node would have to be wider than 49 px and narrower than 50 px";
+  EXPECT_TRUE(check("48", "0.5").ok()) << "49 px will do";
+  EXPECT_TRUE(fails_with(check("16384", "1"), ErrorCode::kInvalidCombination, {"16384"}));
+}
+
+TEST(ParameterErrors, RefuseScalesThatDoNotFitSixteenBits) {
+  constexpr auto kCombination = ErrorCode::kInvalidCombination;
+  const Parameters parameters = test::parameters({{"max-disparity", "256"}});
+  EXPECT_TRUE(
+      fails_with(parameters.check_scale16(256), kCombination,
+                 {"max-disparity = 256", "disparity-scale = 256", "1 to 255", "at most 255"}));
+  for (const int scale : {0, -1, -256, std::numeric_limits<int>::min()}) {
+    EXPECT_TRUE(fails_with(parameters.check_scale16(scale), kCombination,
+                           {"disparity-scale = " + std::to_string(scale), "1 to 255"}));
+  }
+  for (const int scale : {65536, std::numeric_limits<int>::max()}) {
+    const Status status = test::parameters({{"max-disparity", "1"}}).check_scale16(scale);
+    EXPECT_TRUE(fails_with(status, kCombination, {"1 to 65535"}));
+    EXPECT_EQ(std::string::npos, status.error().message.find("at most 0"))
+        << "no max-disparity would fit: " << status.error().message;
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo

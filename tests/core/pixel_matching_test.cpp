@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/pixel_matching.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference/pixel_matching.hpp"
+#include "support/compare.hpp"
+#include "support/stages.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::copy_of;
+using test::DisparityPlane;
+using test::Random;
+using test::RandomVolume;
+
+DisparityPlane matched(const CostVolume& volume, const PixelMatchingOptions& options,
+                       const DisparityPlane& map) {
+  Image<std::int32_t> image = image_of(map);
+  for (int y = 0; y < map.height; y += 3) {
+    match_pixels(volume, options, y, std::min(y + 3, map.height), image);
+  }
+  return copy_of(image);
+}
+
+/// Random guesses that are possible.
+DisparityPlane random_guesses(int width, int height, int disparities, Random& random) {
+  DisparityPlane map(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 1; x < width; ++x) {
+      const int largest = 256 * std::min(x, disparities) - 1;
+      if (random.below(4) > 0 && largest > 0) map(x, y) = random.between(1, largest);
+    }
+  }
+  return map;
+}
+
+TEST(PixelMatching, EqualsReferenceAtEveryWidth) {
+  long known = 0;
+  for (int width = 1; width <= 70; ++width) {
+    Random random(width);
+    const int disparities = random.between(1, width);
+    const RandomVolume volume = test::random_volume(width, 7, disparities, width % 2, random, 400);
+    const DisparityPlane map = random_guesses(width, 7, disparities, random);
+    for (const double range : {0.0, 0.15, 1.0}) {
+      for (const double confidence : {0.0, 0.04, 2.0}) {
+        for (const bool subpixel : {false, true}) {
+          const DisparityPlane expected =
+              reference::match_pixels(volume.plain, {range, confidence, subpixel}, map);
+          EXPECT_TRUE(
+              same_image(expected, matched(volume.fast, {range, confidence, subpixel}, map)))
+              << "range " << range << ", confidence " << confidence << ", subpixel " << subpixel;
+          known += expected.pixels.size() -
+                   std::count(expected.pixels.begin(), expected.pixels.end(), 0);
+        }
+      }
+    }
+  }
+  EXPECT_GT(known, 10000) << "the comparison means something";
+}
+
+/// A volume of one row of 100 px whose costs at column 90 are `costs`.
+struct OnePixel {
+  explicit OnePixel(const std::vector<int>& costs) {
+    Random random(1);
+    volume = test::random_volume(100, 1, static_cast<int>(costs.size()), 0, random, 0);
+    for (std::size_t d = 0; d < costs.size(); ++d) {
+      volume.fast.cells[d * volume.fast.stride + kColumn] = static_cast<std::uint16_t>(costs[d]);
+    }
+  }
+  /// What a guess becomes [1/256 px].
+  int match(int guess, const PixelMatchingOptions& options) const {
+    DisparityPlane map(100, 1);
+    map(kColumn, 0) = guess;
+    return matched(volume.fast, options, map)(kColumn, 0);
+  }
+  static constexpr int kColumn = 90;
+  RandomVolume volume;
+};
+
+TEST(PixelMatching, FindsTheLeastCostNearTheGuess) {
+  std::vector<int> costs(60, 1000);
+  costs[42] = 100;
+  EXPECT_EQ(42 * 256, OnePixel(costs).match(40 * 256, {0.15, 0.12, false}));
+  EXPECT_EQ(42 * 256, OnePixel(costs).match(38 * 256, {0.15, 0.12, false}));
+}
+
+TEST(PixelMatching, SearchesBothEndsOfTheRange) {
+  for (const int best : {17, 23}) {
+    std::vector<int> costs(60, 1000);
+    costs[best] = 100;
+    EXPECT_EQ(best * 256, OnePixel(costs).match(20 * 256, {0.15, 0.12, false})) << "20 +- 3 px";
+    EXPECT_EQ(0, OnePixel(costs).match(20 * 256 + (best < 20 ? 1 : -1), {0.15, 0.12, false}))
+        << "just out of reach, all else costs the same";
+  }
+}
+
+TEST(PixelMatching, SearchesAFewPixelsAroundSmallDisparities) {
+  std::vector<int> costs(30, 1000);
+  costs[5] = 100;
+  EXPECT_EQ(5 * 256, OnePixel(costs).match(2 * 256, {0.15, 0.12, false}));
+}
+
+TEST(PixelMatching, DropsWhatHasACloseRunnerUp) {
+  std::vector<int> costs(60, 1000);
+  costs[20] = 100;
+  for (const int runner_up : {18, 22}) {
+    std::vector<int> rival = costs;
+    rival[runner_up] = 112;
+    EXPECT_EQ(0, OnePixel(rival).match(20 * 256, {0.15, 0.12, false}))
+        << "12 % is not more than 12 %";
+    rival[runner_up] = 113;
+    EXPECT_EQ(20 * 256, OnePixel(rival).match(20 * 256, {0.15, 0.12, false}));
+  }
+}
+
+TEST(PixelMatching, DoesNotCountTheNeighborsOfTheBestAsRunnersUp) {
+  std::vector<int> costs(60, 1000);
+  costs[19] = costs[21] = 101;
+  costs[20] = 100;
+  EXPECT_EQ(20 * 256, OnePixel(costs).match(20 * 256, {0.15, 0.12, false}));
+}
+
+TEST(PixelMatching, DropsWhatCannotBeCompared) {
+  EXPECT_EQ(0, OnePixel({5}).match(1, {0.15, 0.0, true})) << "one disparity";
+  EXPECT_EQ(0, OnePixel({5, 900}).match(1, {0.15, 0.0, true})) << "two disparities";
+  EXPECT_EQ(1, OnePixel({5, 900, 900}).match(1, {0.15, 0.0, true})) << "infinity is 1/256 px";
+}
+
+TEST(PixelMatching, RefinesByTheParabolaThroughThreeCosts) {
+  std::vector<int> costs(60, 2000);
+  for (const auto& [before, after] : {std::pair{300, 300}, {200, 400}, {101, 999}, {700, 100}}) {
+    costs[19] = before;
+    costs[20] = 100;
+    costs[21] = after;
+    const double a = (before + after) / 2.0 - 100, b = (after - before) / 2.0;
+    EXPECT_NEAR(256 * (20 - b / (2 * a)), OnePixel(costs).match(20 * 256, {0.15, 0.12, true}), 1)
+        << before << ", 100, " << after;
+  }
+}
+
+TEST(PixelMatching, StaysInTheRangeAtItsEnds) {
+  std::vector<int> costs(60, 1000);
+  costs[59] = 100;
+  EXPECT_EQ(59 * 256, OnePixel(costs).match(59 * 256, {0.15, 0.12, true}));
+  costs[0] = 50;
+  EXPECT_EQ(1, OnePixel(costs).match(1 * 256, {0.15, 0.12, true}));
+}
+
+}  // namespace
+}  // namespace mtstereo

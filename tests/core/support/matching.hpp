@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+#include <ostream>
+#include <string>
+#include <utility>
+
+#include "mtstereo/matcher.hpp"
+#include "support/plane.hpp"
+
+namespace mtstereo {
+
+/// How a failed expectation prints a code.
+inline void PrintTo(ErrorCode code, std::ostream* out) {
+  constexpr const char* kNames[] = {"kInvalidParameter", "kInvalidCombination", "kInvalidImage",
+                                    "kSizeMismatch",     "kFrameDoesNotFit",    "kOutOfMemory"};
+  *out << kNames[static_cast<int>(code)];
+}
+
+namespace test {
+
+/// Sets values by name; a value that is refused is a failure of the test.
+inline void set_all(Parameters& parameters,
+                    std::initializer_list<std::pair<const char*, std::string>> values) {
+  for (const auto& [name, text] : values) {
+    const Status status = parameters.set(std::string_view(name), text);
+    EXPECT_TRUE(status.ok()) << (status.ok() ? "" : status.error().message);
+  }
+}
+
+inline Parameters parameters(std::initializer_list<std::pair<const char*, std::string>> values) {
+  Parameters set;
+  set_all(set, values);
+  return set;
+}
+
+inline Matcher matcher(std::initializer_list<std::pair<const char*, std::string>> values) {
+  return std::move(Matcher::create(parameters(values)).value());
+}
+
+/// The disparities of one pair; an empty plane and a failure of the test where there are none.
+inline DisparityPlane compute(Matcher& matcher, const GrayPlane& left, const GrayPlane& right) {
+  const Result<DisparityView> result = matcher.compute(left.view(), right.view());
+  EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
+  return result.ok() ? copy_of(*result) : DisparityPlane();
+}
+
+/// Number of pixels that have a disparity.
+inline long known(const DisparityPlane& map) {
+  return static_cast<long>(map.pixels.size()) -
+         std::count(map.pixels.begin(), map.pixels.end(), kNoDisparity);
+}
+
+/// Succeeds where a call failed with this code and its message holds all of these words.
+template <typename Outcome>
+::testing::AssertionResult fails_with(const Outcome& outcome, ErrorCode code,
+                                      std::initializer_list<std::string> words) {
+  if (outcome.ok()) return ::testing::AssertionFailure() << "it did not fail";
+  const Error& error = outcome.error();
+  if (error.code != code) {
+    return ::testing::AssertionFailure()
+           << "it failed with " << ::testing::PrintToString(error.code) << ": " << error.message;
+  }
+  for (const std::string& word : words) {
+    if (error.message.find(word) != std::string::npos) continue;
+    return ::testing::AssertionFailure()
+           << "\"" << word << "\" is missing in the message: " << error.message;
+  }
+  return ::testing::AssertionSuccess();
+}
+
+}  // namespace test
+}  // namespace mtstereo

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "support/plane.hpp"
+
+namespace mtstereo::test {
+
+/// The same numbers on every machine (SplitMix64).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+
+  std::uint64_t next() {
+    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+  }
+  /// 0 .. count - 1.
+  int below(int count) { return static_cast<int>((next() >> 11) % count); }
+  /// first .. last.
+  int between(int first, int last) { return first + below(last - first + 1); }
+  /// 0 .. 1.
+  double share() { return static_cast<double>(next() >> 11) / (std::uint64_t{1} << 53); }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// Every pixel on its own, 0 .. largest.
+inline GrayPlane noise(int width, int height, std::uint64_t seed, int largest = 255) {
+  Random random(seed);
+  GrayPlane image(width, height);
+  for (std::uint8_t& pixel : image.pixels) {
+    pixel = static_cast<std::uint8_t>(random.below(largest + 1));
+  }
+  return image;
+}
+
+/// Only the extremes, 0 and 255.
+inline GrayPlane black_and_white(int width, int height, std::uint64_t seed) {
+  GrayPlane image = noise(width, height, seed, 1);
+  for (std::uint8_t& pixel : image.pixels) pixel = pixel == 0 ? 0 : 255;
+  return image;
+}
+
+/// Rows of runs of random length and value 0 .. largest: what the levels of a view look like.
+inline GrayPlane runs(int width, int height, std::uint64_t seed, int largest, int longest = 6) {
+  Random random(seed);
+  GrayPlane image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width;) {
+      const auto value = static_cast<std::uint8_t>(random.below(largest + 1));
+      for (int n = random.between(1, longest); n > 0 && x < width; --n) image(x++, y) = value;
+    }
+  }
+  return image;
+}
+
+/// Rectangles over one another with a little noise: edges and flat places, and no place that looks
+/// like another one.
+inline GrayPlane texture(int width, int height, std::uint64_t seed) {
+  Random random(seed);
+  GrayPlane image(width, height, 128);
+  const int rectangles = width * height / 40 + 4;
+  for (int i = 0; i < rectangles; ++i) {
+    const int x0 = random.between(-8, width);
+    const int y0 = random.between(-8, height);
+    const int x1 = std::min(x0 + random.between(3, 16), width);
+    const int y1 = std::min(y0 + random.between(3, 16), height);
+    const auto value = static_cast<std::uint8_t>(random.between(8, 247));
+    for (int y = std::max(y0, 0); y < y1; ++y) {
+      for (int x = std::max(x0, 0); x < x1; ++x) image(x, y) = value;
+    }
+  }
+  for (std::uint8_t& pixel : image.pixels) {
+    pixel = static_cast<std::uint8_t>(pixel + random.between(-3, 3));
+  }
+  return image;
+}
+
+/// Two views of one frontal plane.
+struct Pair {
+  GrayPlane left;
+  GrayPlane right;
+};
+
+/// A pair in which every point has the same disparity.
+inline Pair shifted_pair(int width, int height, int disparity, std::uint64_t seed) {
+  const GrayPlane scene = texture(width + disparity, height, seed);
+  Pair pair{GrayPlane(width, height), GrayPlane(width, height)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      pair.left(x, y) = scene(x, y);
+      pair.right(x, y) = scene(x + disparity, y);
+    }
+  }
+  return pair;
+}
+
+/// A pair whose disparity rises from row to row and steps in the middle, with noise of its own in
+/// each view: nothing fits perfectly, as with cameras.
+inline Pair slanted_pair(int width, int height, int largest, std::uint64_t seed) {
+  const GrayPlane scene = texture(width + largest, height, seed);
+  Random random(seed + 1);
+  Pair pair{GrayPlane(width, height), GrayPlane(width, height)};
+  const auto noisy = [&](std::uint8_t value) {
+    return static_cast<std::uint8_t>(std::clamp(value + random.between(-2, 2), 0, 255));
+  };
+  for (int y = 0; y < height; ++y) {
+    const int row_disparity = largest * y / (2 * height);
+    for (int x = 0; x < width; ++x) {
+      pair.left(x, y) = noisy(scene(x, y));
+      const int disparity = row_disparity + (x > width / 2 ? largest / 2 : 0);
+      pair.right(x, y) = noisy(scene(x + disparity, y));
+    }
+  }
+  return pair;
+}
+
+}  // namespace mtstereo::test

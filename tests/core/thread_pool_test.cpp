@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "base/thread_pool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace mtstereo {
+namespace {
+
+constexpr int kThreadCounts[] = {1, 2, 3, 4, 7};
+
+/// Runs one loop and counts the calls of each item; fails where a worker's number is out of range.
+std::vector<int> calls_of_a_loop(ThreadPool& pool, int items) {
+  std::vector<std::atomic<int>> calls(items);
+  std::atomic<int> wrong_workers{0};
+  pool.run(items, [&](int item, int worker) {
+    ++calls[item];
+    if (worker < 0 || worker >= pool.threads()) ++wrong_workers;
+  });
+  EXPECT_EQ(0, wrong_workers);
+  return {calls.begin(), calls.end()};
+}
+
+TEST(ThreadPool, HasTheThreadsAskedFor) {
+  for (const int threads : kThreadCounts) EXPECT_EQ(threads, ThreadPool(threads).threads());
+}
+
+TEST(ThreadPool, CallsEveryItemOnce) {
+  for (const int threads : kThreadCounts) {
+    ThreadPool pool(threads);
+    for (const int items : {0, 1, 2, threads, threads + 1, 1000}) {
+      EXPECT_EQ(std::vector<int>(items, 1), calls_of_a_loop(pool, items)) << threads << " threads";
+    }
+  }
+}
+
+TEST(ThreadPool, IsReadyForManyShortLoops) {
+  ThreadPool pool(4);
+  for (int loop = 0; loop < 3000; ++loop) {
+    const int items = loop % 6;
+    ASSERT_EQ(std::vector<int>(items, 1), calls_of_a_loop(pool, items)) << "loop " << loop;
+  }
+}
+
+TEST(ThreadPool, GivesEachWorkerScratchOfItsOwn) {
+  // Plain numbers: two threads with one worker's number would lose counts and race.
+  ThreadPool pool(4);
+  std::vector<long> scratch(4);
+  for (int loop = 0; loop < 50; ++loop) {
+    pool.run(200, [&](int, int worker) { ++scratch[worker]; });
+  }
+  EXPECT_EQ(50 * 200, scratch[0] + scratch[1] + scratch[2] + scratch[3]);
+}
+
+TEST(ThreadPool, ShowsTheCallerWhatTheItemsWrote) {
+  ThreadPool pool(3);
+  std::vector<int> values(500);
+  for (int loop = 1; loop <= 20; ++loop) {
+    pool.run(500, [&](int item, int) { values[item] += item; });
+    for (int i = 0; i < 500; ++i) ASSERT_EQ(loop * i, values[i]) << "after loop " << loop;
+  }
+}
+
+TEST(ThreadPool, WorksOnTheCallersThreadToo) {
+  ThreadPool pool(1);
+  const std::thread::id caller = std::this_thread::get_id();
+  pool.run(5, [&](int, int worker) {
+    EXPECT_EQ(caller, std::this_thread::get_id());
+    EXPECT_EQ(0, worker);
+  });
+}
+
+TEST(ThreadPool, PassesAnExceptionOnAndStaysUsable) {
+  for (const int threads : kThreadCounts) {
+    ThreadPool pool(threads);
+    for (const int items : {1, 2, 100}) {
+      for (const int bad : {0, items / 2, items - 1}) {
+        try {
+          pool.run(items, [&](int item, int) {
+            if (item == bad) throw std::runtime_error("item " + std::to_string(item));
+          });
+          ADD_FAILURE() << "nothing was thrown";
+        } catch (const std::runtime_error& error) {
+          EXPECT_EQ("item " + std::to_string(bad), error.what());
+        }
+        EXPECT_EQ(std::vector<int>(50, 1), calls_of_a_loop(pool, 50)) << threads << " threads";
+      }
+    }
+  }
+}
+
+TEST(ThreadPool, PassesOneOfManyExceptionsOn) {
+  ThreadPool pool(4);
+  for (int loop = 0; loop < 100; ++loop) {
+    EXPECT_THROW(pool.run(100, [](int, int) { throw std::runtime_error("all"); }),
+                 std::runtime_error);
+  }
+  EXPECT_EQ(std::vector<int>(50, 1), calls_of_a_loop(pool, 50));
+}
+
+TEST(ThreadPool, EndsWithoutHavingWorked) {
+  for (int n = 0; n < 200; ++n) ThreadPool pool(1 + n % 8);
+}
+
+TEST(ThreadPool, TakesABodyThatCannotBeChanged) {
+  ThreadPool pool(2);
+  std::atomic<int> sum{0};
+  const auto body = [&sum](int item, int) { sum += item; };
+  pool.run(10, body);
+  EXPECT_EQ(45, sum);
+}
+
+}  // namespace
+}  // namespace mtstereo

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include "mtstereo/matcher.hpp"
+#include "reference/frame.hpp"
+#include "support/compare.hpp"
+#include "support/matching.hpp"
+#include "support/padded_image.hpp"
+#include "support/random.hpp"
+#include "support/simd_targets.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::GrayPlane;
+using test::Random;
+using test::same_image;
+
+constexpr Stage kAllStages[] = {Stage::kNodeMatching, Stage::kNodesFiltered, Stage::kExtrapolated,
+                                Stage::kPixelMatching, Stage::kFinal};
+
+template <std::size_t N>
+std::string one_of(Random& random, const char* const (&choices)[N]) {
+  return choices[random.below(static_cast<int>(N))];
+}
+
+/// Parameters that fit images of this width, every one of them drawn.
+Parameters random_parameters(int width, Random& random) {
+  const std::string disparities = std::to_string(random.between(1, width));
+  return test::parameters({
+      {"mode", one_of(random, {"sparse", "semi-dense"})},
+      {"max-disparity", disparities},
+      {"threads", one_of(random, {"1", "2", "3"})},
+      {"gray-levels", one_of(random, {"2", "8", "16", "37", "256"})},
+      {"min-node-width", width > 12 ? one_of(random, {"0", "0", "1", "2"}) : "0"},
+      {"max-node-width", one_of(random, {"0.5", "0.5", "0.4", "1"})},
+      {"node-levels", one_of(random, {"1,0", "1,0", "0", "2,0", "2,1,0", "5,3,0", "9,0"})},
+      {"max-neighbors", one_of(random, {"10", "0", "1", "3", "25"})},
+      {"cost-kernel-size", one_of(random, {"21", "1", "3", "9", "41"})},
+      {"cost-volume", one_of(random, {"half", "full"})},
+      {"intensity-weight", one_of(random, {"0.8", "0", "0.5", "1"})},
+      {"node-confidence", one_of(random, {"12", "0", "3"})},
+      {"outlier-radius", one_of(random, {"21", "0", "1", "6", "31"})},
+      {"pixel-search-range", one_of(random, {"15", "0", "60", "100"})},
+      {"pixel-confidence", one_of(random, {"4", "0", "12"})},
+      {"subpixel", one_of(random, {"true", "false"})},
+  });
+}
+
+std::string text_of(const Parameters& parameters) {
+  std::string text;
+  for (const ParameterInfo& info : parameter_table()) {
+    text += std::string(info.name) + "=" + parameters.text(info.id) + " ";
+  }
+  return text;
+}
+
+/// Compares all that a matcher shows of its last frame.
+void expect_frame(const reference::Frame& expected, const Matcher& matcher) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    EXPECT_TRUE(same_image(expected.levels[static_cast<int>(side)], matcher.preprocessed(side)));
+  }
+  const int width = expected.stages[0].width, height = expected.stages[0].height;
+  for (int d = 0; d < expected.volume.disparities(); ++d) {
+    EXPECT_TRUE(test::same_pixels(
+        width, height,
+        [&](int x, int y) { return d <= x ? expected.volume.at(x, y, d) / 16.0 : 0.0; },
+        [&](int x, int y) { return d <= x ? matcher.cost(x, y, d) : 0.0; }))
+        << "costs of disparity " << d;
+  }
+  for (const Stage stage : kAllStages) {
+    EXPECT_TRUE(same_image(expected.stages[static_cast<int>(stage)], matcher.stage(stage)))
+        << "stage " << static_cast<int>(stage);
+  }
+}
+
+/// A pair that has something to match, or now and then none at all.
+test::Pair random_pair(int width, int height, Random& random) {
+  switch (random.below(6)) {
+    case 0:
+      return {test::noise(width, height, random.next()), test::noise(width, height, random.next())};
+    case 1:
+      return test::shifted_pair(width, height, random.below(width), random.next());
+    default:
+      return test::slanted_pair(width, height, std::max(width / 3, 1), random.next());
+  }
+}
+
+/// One matcher for frame after frame of changing size and parameters, compared with the reference.
+/// Returns the number of disparities found.
+long expect_reference_frames(int frames, std::uint64_t seed) {
+  Random random(seed);
+  Matcher matcher = test::matcher({});
+  matcher.keep_stages(true);
+  long found = 0;
+  for (int frame = 0; frame < frames && !testing::Test::HasFailure(); ++frame) {
+    const int width = random.between(1, random.below(3) == 0 ? 8 : 75);
+    const int height = random.between(1, 45);
+    const Parameters parameters = random_parameters(width, random);
+    SCOPED_TRACE(testing::Message() << "frame " << frame << " of seed " << seed << ", " << width
+                                    << "x" << height << ": " << text_of(parameters));
+    EXPECT_TRUE(matcher.set_parameters(parameters).ok());
+    const test::Pair pair = random_pair(width, height, random);
+    const test::PaddedImage<std::uint8_t> left(pair.left, random.below(70), random.below(9));
+    const test::PaddedImage<std::uint8_t> right(pair.right, random.below(70), random.below(9));
+    const Result<DisparityView> result = matcher.compute(left.view(), right.view());
+    if (!result.ok()) {
+      // The one combination that a frame can forbid here.
+      EXPECT_EQ(ErrorCode::kInvalidCombination, result.error().code) << result.error().message;
+      EXPECT_FALSE(parameters.check_frame(width, height).ok());
+      continue;
+    }
+    const reference::Frame expected = reference::match_frame(pair.left, pair.right, parameters);
+    expect_frame(expected, matcher);
+    EXPECT_TRUE(same_image(expected.stages[4], *result));
+    EXPECT_TRUE(left.unchanged() && right.unchanged()) << "the input was written to";
+    found += test::known(expected.stages[4]);
+  }
+  return found;
+}
+
+TEST(WholeFrame, EqualsReferenceWithAnyParametersAndSizes) {
+  long found = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) found += expect_reference_frames(60, seed);
+  EXPECT_GT(found, 1000) << "the comparison means something";
+}
+
+TEST(WholeFrame, EqualsReferenceWithTheDefaultsOfBothModes) {
+  for (const char* const mode : {"sparse", "semi-dense"}) {
+    const Parameters parameters = test::parameters({{"mode", mode}, {"max-disparity", "40"}});
+    const test::Pair pair = test::slanted_pair(180, 70, 30, 9);
+    Matcher matcher = std::move(Matcher::create(parameters).value());
+    matcher.keep_stages(true);
+    const test::DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+    const reference::Frame expected = reference::match_frame(pair.left, pair.right, parameters);
+    expect_frame(expected, matcher);
+    EXPECT_GT(test::known(map), 100) << mode;
+  }
+}
+
+TEST(WholeFrame, IsTheSameWithEveryInstructionSet) {
+  const test::Pair pair = test::slanted_pair(211, 101, 40, 10);
+  for (const char* const volume : {"half", "full"}) {
+    test::DisparityPlane expected;
+    test::for_each_simd_target([&] {
+      Matcher matcher = test::matcher({{"cost-volume", volume}});
+      const test::DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+      if (expected.width == 0) expected = map;
+      EXPECT_TRUE(same_image(expected, map)) << volume;
+    });
+    EXPECT_GT(test::known(expected), 1000);
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo
