@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+namespace mtstereo::eval {
+
+/// The 32-bit float stored at `bytes`, in the order of bytes told.
+inline float load_float(const char* bytes, std::endian order) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  if (order != std::endian::native) bits = __builtin_bswap32(bits);
+  return std::bit_cast<float>(bits);
+}
+
+/// Stores a 32-bit float at `bytes`, in the order of bytes told.
+inline void store_float(float value, char* bytes, std::endian order) {
+  auto bits = std::bit_cast<std::uint32_t>(value);
+  if (order != std::endian::native) bits = __builtin_bswap32(bits);
+  std::memcpy(bytes, &bits, sizeof bits);
+}
+
+}  // namespace mtstereo::eval

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace mtstereo::eval {
+
+/// A file or folder that cannot be used: the message names it and says what is wrong with it. The
+/// program reports it, leaves the pair out and goes on with the next.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(const std::string& what) : std::runtime_error(what) {}
+  InputError(const std::filesystem::path& file, const std::string& what)
+      : std::runtime_error(file.string() + ": " + what) {}
+};
+
+}  // namespace mtstereo::eval

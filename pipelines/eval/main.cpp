@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// mtstereo-eval: the matcher's errors, density and time on a folder of pairs with ground truth.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "eval/files.hpp"
+#include "eval/input_error.hpp"
+#include "eval/options.hpp"
+#include "eval/report.hpp"
+
+namespace mtstereo::eval {
+namespace {
+
+// One line on a terminal that is written over and over; nothing where stderr goes to a file.
+class Progress {
+ public:
+  explicit Progress(std::size_t total) : total_(total), on_(isatty(STDERR_FILENO) == 1) {}
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(std::size_t done, const std::string& name) const {
+    if (!on_) return;
+    constexpr std::size_t kWidth = 30;
+    const std::size_t filled = done * kWidth / std::max<std::size_t>(total_, 1);
+    std::cerr << "\r\033[K[" << std::string(filled, '#') << std::string(kWidth - filled, '.')
+              << "] " << done + 1 << "/" << total_ << " " << name << std::flush;
+  }
+  void clear() const {
+    if (on_) std::cerr << "\r\033[K" << std::flush;
+  }
+
+ private:
+  std::size_t total_;
+  bool on_;
+};
+
+void complain(const Problem& failure) {
+  std::cerr << "mtstereo-eval: " << failure.pair << ": " << failure.reason << '\n';
+}
+
+// What a run is to do, after --only and --limit.
+DataSet select_pairs(const Options& options) {
+  DataSet set =
+      find_pairs(options.folder, options.layout ? *options.layout : detect_layout(options.folder));
+  const auto unwanted = [&](const std::string& name) {
+    return name.find(options.only) == std::string::npos;
+  };
+  std::erase_if(set.pairs, [&](const StereoPair& pair) { return unwanted(pair.name); });
+  std::erase_if(set.problems, [&](const Problem& problem) { return unwanted(problem.pair); });
+  const auto limit = static_cast<std::size_t>(options.limit);
+  if (limit > 0 && set.pairs.size() > limit) set.pairs.resize(limit);
+  return set;
+}
+
+Report start_report(const Options& options, const DataSet& set) {
+  Report report;
+  report.dataset = layout_name(set.layout);
+  report.folder = set.root.string();
+  report.warm_up = options.run.warm_up;
+  report.repeat = options.run.repeat;
+  for (const ParameterInfo& info : parameter_table()) {
+    const bool from_data = info.id == Parameter::kMaxDisparity &&
+                           !options.run.parameters.is_set(Parameter::kMaxDisparity);
+    report.parameters.emplace_back(
+        info.name, from_data ? "as the data set has it" : options.run.parameters.text(info.id));
+  }
+  report.methods.emplace_back(kOwnMethod);
+  for (const Rival rival : options.run.rivals) {
+    report.methods.emplace_back(rival_name(rival));
+    report.rival_settings.emplace_back(rival_name(rival), rival_settings(rival));
+  }
+  report.failures = set.problems;
+  return report;
+}
+
+void run_all(const Options& options, const DataSet& set, Report& report) {
+  const int threads = options.run.parameters.integer(Parameter::kThreads);
+  cv::setNumThreads(threads > 0 ? threads : -1);  // -1: one for each processor
+  for (const Problem& problem : set.problems) complain(problem);
+  for (const std::string& note : set.notes) std::cerr << "mtstereo-eval: note: " << note << '\n';
+  Runner runner(options.run);
+  const Progress progress(set.pairs.size());
+  for (std::size_t i = 0; i < set.pairs.size(); ++i) {
+    progress.show(i, set.pairs[i].name);
+    PairReport pair = runner.run(set.pairs[i]);
+    progress.clear();
+    for (const std::string& note : pair.notes) std::cerr << "mtstereo-eval: note: " << note << '\n';
+    for (const std::string& reason : pair.failures) {
+      report.failures.push_back({pair.pair.name, reason});
+      complain(report.failures.back());
+    }
+    report.pairs.push_back(std::move(pair));
+  }
+}
+
+// Before the work, which can take hours: can the file be written at all?
+void require_writable(const std::optional<std::filesystem::path>& file) {
+  if (!file) return;
+  make_parent_folder(*file);
+  if (!std::ofstream(*file, std::ios::app)) throw InputError(*file, "cannot be written");
+}
+
+int list_pairs(const DataSet& set) {
+  for (const StereoPair& pair : set.pairs) {
+    std::cout << pair.name << "\n  left   " << pair.left.string() << "\n  right  "
+              << pair.right.string() << "\n  truth  " << pair.truth.string() << "\n  range  "
+              << (pair.max_disparity ? std::to_string(*pair.max_disparity) + " px" : "not told")
+              << '\n';
+  }
+  for (const Problem& problem : set.problems) complain(problem);
+  std::cout << set.pairs.size() << " pairs of " << layout_name(set.layout) << '\n';
+  return set.problems.empty() ? kAllFine : kSomeFailed;
+}
+
+// The table has been printed by now: a file that cannot be written takes nothing else with it.
+bool write_outputs(const Options& options, const Report& report) {
+  bool fine = true;
+  const auto write = [&fine](const std::filesystem::path& file, const std::string& text) {
+    try {
+      write_bytes(file, text);
+    } catch (const InputError& error) {
+      std::cerr << "mtstereo-eval: " << error.what() << '\n';
+      fine = false;
+    }
+  };
+  if (options.json) {
+    // Names of files need not be UTF-8; what is not becomes a replacement character.
+    constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+    write(*options.json, to_json(report).dump(2, ' ', false, kReplace) + "\n");
+  }
+  if (options.csv) write(*options.csv, to_csv(report));
+  return fine;
+}
+
+int run(const Options& options) {
+  const DataSet set = select_pairs(options);
+  if (set.pairs.empty() && set.problems.empty()) {
+    throw InputError(options.folder, "no pair has '" + options.only + "' in its name");
+  }
+  if (options.list) return list_pairs(set);
+  require_writable(options.json);
+  require_writable(options.csv);
+  Report report = start_report(options, set);
+  run_all(options, set, report);
+
+  print_table(std::cout, report);
+  std::cout << std::flush;
+  if (!report.failures.empty()) {
+    std::cerr << "mtstereo-eval: " << report.failures.size()
+              << " failures, named above; the mean is over the rest\n";
+  }
+  const bool written = write_outputs(options, report);
+  return written && report.failures.empty() ? kAllFine : kSomeFailed;
+}
+
+}  // namespace
+}  // namespace mtstereo::eval
+
+int main(int argc, char** argv) {
+  using namespace mtstereo::eval;
+  try {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    const ParsedOptions parsed = parse_options(argc, argv);
+    return parsed.options ? run(*parsed.options) : parsed.exit_status;
+  } catch (const std::exception& error) {
+    std::cerr << "mtstereo-eval: " << error.what() << '\n';
+    return kWrongUsage;
+  } catch (...) {
+    std::cerr << "mtstereo-eval: an unknown error\n";
+    return kWrongUsage;
+  }
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "eval/ground_truth.hpp"
+#include "mtstereo/image.hpp"
+
+namespace mtstereo::eval {
+
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// The thresholds t of "bad t" [px].
+inline constexpr std::array<double, 4> kBadThresholds{0.5, 1, 2, 4};
+
+/// How wrong an estimate is, over the pixels where there are both ground truth and an estimate.
+/// NaN where there is no such pixel.
+struct Metrics {
+  std::int64_t known = 0;     ///< pixels with ground truth
+  std::int64_t compared = 0;  ///< pixels with ground truth and an estimate
+  double avgerr = kNone;      ///< mean absolute error [px]
+  double rms = kNone;         ///< root of the mean squared error [px]
+  double d_all = kNone;       ///< D-all-est: error >= 3 px and >= 5 % of the truth [%]
+  std::array<double, kBadThresholds.size()> bad{kNone, kNone, kNone, kNone};  ///< error > t [%]
+  double known_density = kNone;  ///< compared / known [%]
+};
+
+/// What a disparity map is worth.
+struct Evaluation {
+  double density = kNone;      ///< pixels with an estimate / all pixels of the image [%]
+  Metrics all;                 ///< over all pixels with ground truth
+  std::optional<Metrics> noc;  ///< over those of them that both views see, where that is known
+};
+
+/// Compares an estimate with the truth (both CV_32FC1 [px], NaN = none), where `visible` (CV_8UC1)
+/// is not 0; everywhere where it is empty. The sizes must be equal (else InputError).
+Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& visible = {});
+
+/// The same with the density, for all pixels and, where the truth tells, for those both views see.
+Evaluation evaluate(const cv::Mat& estimate, const GroundTruth& truth);
+
+/// The same for a disparity map of the library.
+Evaluation evaluate(DisparityView estimate, const GroundTruth& truth);
+
+/// A disparity map of the library as CV_32FC1 [px], NaN where there is none.
+cv::Mat to_float(DisparityView disparity);
+
+/// A pair's part in the mean.
+struct WeightedEvaluation {
+  const Evaluation* evaluation = nullptr;
+  double weight = 1;
+};
+
+/// The mean over pairs: errors weighted, densities not. A pair without a pixel to compare is left
+/// out of the mean error. `noc` is there where any pair has it, and then the mean over those.
+Evaluation mean(const std::vector<WeightedEvaluation>& pairs);
+
+}  // namespace mtstereo::eval

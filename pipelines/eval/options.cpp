@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <map>
+
+namespace mtstereo::eval {
+namespace {
+
+// The text of the options before they are checked.
+struct Texts {
+  std::string folder;
+  std::string dataset = "auto";
+  std::string dmap = "auto";
+  std::string format = "pfm";
+  std::string json, csv, disparity_folder, picture_folder;
+  std::vector<std::string> compare;
+  std::map<std::string, std::string> parameters;
+};
+
+std::string parameter_help(const ParameterInfo& info) {
+  std::string text = info.help;
+  const std::string unit = *info.unit != '\0' ? std::string(" ") + info.unit : "";
+  const std::string sparse = info.default_sparse, semi_dense = info.default_semi_dense;
+  if (info.id == Parameter::kMaxDisparity) return text + " [default: as the data set has it]";
+  if (info.id == Parameter::kMode) return text + " [default: " + semi_dense + "]";
+  text += " [default: " + sparse + unit;
+  if (sparse != semi_dense) text += " sparse, " + semi_dense + unit + " semi-dense";
+  return text + "]";
+}
+
+std::string value_name(const ParameterInfo& info) {
+  switch (info.type) {
+    case ParameterType::kChoice:
+      return info.choices;
+    case ParameterType::kBoolean:
+      return "true|false";
+    case ParameterType::kLevels:
+      return "LEVELS";
+    case ParameterType::kInteger:
+    case ParameterType::kNumber:
+      break;
+  }
+  return *info.unit == '\0' ? "NUMBER" : info.unit;
+}
+
+void add_parameters(CLI::App& app, Texts& texts) {
+  for (const ParameterInfo& info : parameter_table()) {
+    app.add_option_function<std::string>(
+           std::string("--") + info.name,
+           [&texts, name = std::string(info.name)](const std::string& text) {
+             texts.parameters[name] = text;
+           },
+           parameter_help(info))
+        ->type_name(value_name(info))
+        ->group("The matcher's parameters");
+  }
+}
+
+void add_options(CLI::App& app, Texts& texts, Options& options) {
+  std::vector<std::string> layouts = layout_names();
+  layouts.insert(layouts.begin(), "auto");
+  app.add_option("FOLDER", texts.folder, "the data set's folder")->required()->type_name("");
+  app.add_option("--dataset", texts.dataset, "how FOLDER is laid out")
+      ->check(CLI::IsMember(layouts))
+      ->capture_default_str();
+  app.add_option("--only", options.only, "only the pairs whose name contains TEXT")
+      ->type_name("TEXT");
+  app.add_option("--limit", options.limit, "the first N of these pairs; 0 = all of them")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  app.add_flag("--list", options.list, "print the pairs that were found, and run nothing");
+  app.add_option(
+         "--dmap", texts.dmap,
+         "what the values of a *_dmap.bin are; auto = depth where both *_cam.txt are there, "
+         "else disparity")
+      ->check(CLI::IsMember({"auto", "depth", "disparity"}))
+      ->capture_default_str();
+  app.add_option("--warm-up", options.run.warm_up, "frames of each pair before the clock runs")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  app.add_option("--repeat", options.run.repeat,
+                 "timed frames of each pair; their median is the time")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--compare", texts.compare,
+                 "matchers of OpenCV to run on the same pairs: sgbm, sgbm-3way, sgbm-hh, bm")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->check(CLI::IsMember(rival_names()));
+}
+
+void add_outputs(CLI::App& app, Texts& texts) {
+  const std::string group = "Output";
+  app.add_option("--json", texts.json, "write all figures to this file")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--csv", texts.csv, "write all figures to this file")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--write-disparity", texts.disparity_folder, "write the disparity maps there")
+      ->type_name("DIR")
+      ->group(group);
+  app.add_option("--format", texts.format,
+                 "of these maps: pfm = 32-bit float, infinity = none; kitti = 16-bit PNG, px = "
+                 "value / 256, 0 = none")
+      ->check(CLI::IsMember({"pfm", "kitti"}))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--write-pictures", texts.picture_folder,
+                 "write a picture of each pair there: left image, truth, disparity and error")
+      ->type_name("DIR")
+      ->group(group);
+}
+
+std::optional<std::filesystem::path> path_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return std::filesystem::path(text);
+}
+
+// The parameters are checked by the library, whose messages name value and range.
+void apply_parameters(const Texts& texts, Parameters& parameters) {
+  for (const ParameterInfo& info : parameter_table()) {
+    const auto found = texts.parameters.find(info.name);
+    if (found == texts.parameters.end()) continue;
+    const Status status = parameters.set(info.id, found->second);
+    if (!status) throw CLI::ValidationError(std::string("--") + info.name, status.error().message);
+  }
+}
+
+void apply(const Texts& texts, Options& options) {
+  apply_parameters(texts, options.run.parameters);
+  options.folder = texts.folder;
+  if (texts.dataset != "auto") options.layout = find_layout(texts.dataset);
+  if (texts.dmap == "depth") options.run.dmap = DmapMeaning::kDepth;
+  if (texts.dmap == "disparity") options.run.dmap = DmapMeaning::kDisparity;
+  for (const std::string& name : texts.compare) {
+    const Rival rival = *find_rival(name);
+    const std::vector<Rival>& known = options.run.rivals;
+    const bool twice = std::find(known.begin(), known.end(), rival) != known.end();
+    if (!twice) options.run.rivals.push_back(rival);
+  }
+  options.json = path_of(texts.json);
+  options.csv = path_of(texts.csv);
+  options.run.disparity_folder = path_of(texts.disparity_folder);
+  options.run.picture_folder = path_of(texts.picture_folder);
+  if (texts.format == "kitti") options.run.disparity_format = DisparityFormat::kKitti;
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, const char* const* argv) {
+  CLI::App app{
+      "Runs MTStereo on a folder of stereo pairs with ground truth, and measures its errors, its "
+      "density and its time.",
+      "mtstereo-eval"};
+  app.set_version_flag("--version", version());
+  app.footer(
+      "Exit status: 0 all pairs were evaluated, 1 some could not be (they are named), 2 the "
+      "command "
+      "is wrong or there is nothing to evaluate.");
+  app.get_formatter()->column_width(36);
+  Texts texts;
+  Options options;
+  add_options(app, texts, options);
+  add_outputs(app, texts);
+  add_parameters(app, texts);
+  try {
+    app.parse(argc, argv);
+    apply(texts, options);
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for = error.get_exit_code() == 0;  // --help, --version
+    app.exit(error);
+    return {std::nullopt, asked_for ? kAllFine : kWrongUsage};
+  }
+  return {std::move(options), kAllFine};
+}
+
+}  // namespace mtstereo::eval

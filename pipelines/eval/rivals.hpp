@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mtstereo::eval {
+
+/// OpenCV's matchers that the option --compare runs on the same pairs.
+enum class Rival {
+  kSgbm,      ///< StereoSGBM, 5 directions
+  kSgbm3Way,  ///< StereoSGBM, 3 directions, in parallel
+  kSgbmHh,    ///< StereoSGBM, 8 directions, two passes
+  kBm,        ///< StereoBM
+};
+
+std::string_view rival_name(Rival rival);
+std::optional<Rival> find_rival(std::string_view name);
+std::vector<std::string> rival_names();
+
+/// Number of disparities that OpenCV searches for a range: rounded up to a multiple of 16.
+int rival_disparities(int max_disparity);
+
+/// The settings in one line, for the report.
+std::string rival_settings(Rival rival);
+
+/// Runs a matcher on two 8-bit gray images and gives CV_32FC1 [px], NaN where it found nothing.
+class RivalMatcher {
+ public:
+  RivalMatcher(Rival rival, int max_disparity);
+  ~RivalMatcher();
+  RivalMatcher(const RivalMatcher&) = delete;
+  RivalMatcher& operator=(const RivalMatcher&) = delete;
+
+  /// The part that is timed. Throws InputError where OpenCV refuses the images.
+  void compute(const cv::Mat& left, const cv::Mat& right);
+  /// The last result.
+  cv::Mat disparity() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace mtstereo::eval

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "eval/pfm.hpp"
+#include "eval/runner.hpp"
+#include "expect_error.hpp"
+#include "support.hpp"
+
+namespace mtstereo::eval {
+namespace {
+
+using testing::make_pair;
+using testing::TempFolder;
+using testing::write_pair_folder;
+
+StereoPair pair_with_range(std::optional<int> range) {
+  StereoPair pair;
+  pair.name = "pair";
+  pair.left = "folder/im0.png";
+  pair.max_disparity = range;
+  return pair;
+}
+
+TEST(SearchRange, IsTheDataSetsUnlessAskedFor) {
+  Parameters parameters;
+  std::vector<std::string> notes;
+  EXPECT_EQ(search_range(pair_with_range(30), parameters, 200, notes), 30);
+  ASSERT_TRUE(parameters.set(Parameter::kMaxDisparity, 50).ok());
+  EXPECT_EQ(search_range(pair_with_range(30), parameters, 200, notes), 50);
+  EXPECT_EQ(search_range(pair_with_range(std::nullopt), parameters, 200, notes), 50);
+  EXPECT_TRUE(notes.empty());
+}
+
+TEST(SearchRange, EndsAtTheImagesWidthAndSaysSo) {
+  std::vector<std::string> notes;
+  EXPECT_EQ(search_range(pair_with_range(300), Parameters(), 200, notes), 200);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(notes[0], ::testing::AllOf(::testing::HasSubstr("200"), ::testing::HasSubstr("300")));
+}
+
+TEST(SearchRange, EndsAtWhatTheLibraryTakesAndSaysSo) {
+  std::vector<std::string> notes;
+  EXPECT_EQ(search_range(pair_with_range(5000), Parameters(), 9000, notes), kLargestMaxDisparity);
+  EXPECT_EQ(notes.size(), 1U);
+}
+
+TEST(SearchRange, NobodyTellsIsAnErrorThatSaysWhatToDo) {
+  std::vector<std::string> notes;
+  EXPECT_INPUT_ERROR(search_range(pair_with_range(std::nullopt), Parameters(), 200, notes),
+                     "--max-disparity");
+}
+
+TEST(MedianSeconds, LeavesTheWarmUpOutAndTakesTheMiddle) {
+  using namespace std::chrono_literals;
+  int frames = 0;
+  // Slow: the two frames to warm up, and one of the three that are timed.
+  const double seconds = median_seconds(2, 3, [&] {
+    ++frames;
+    if (frames <= 3) std::this_thread::sleep_for(200ms);
+  });
+  EXPECT_EQ(frames, 5);
+  EXPECT_LT(seconds, 0.15);
+}
+
+TEST(MedianSeconds, IsTheTimeOfAFrame) {
+  using namespace std::chrono_literals;
+  EXPECT_GE(median_seconds(0, 2, [] { std::this_thread::sleep_for(20ms); }), 0.02);
+}
+
+class Running : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_pair_folder(folder_ / "A", make_pair(240, 120, 9), 32);
+    write_pair_folder(folder_ / "B", make_pair(200, 100, 5), 16);
+    pairs_ = find_pairs(folder_.path(), Layout::kMiddlebury).pairs;
+  }
+  TempFolder folder_;
+  std::vector<StereoPair> pairs_;
+};
+
+TEST_F(Running, FindsTheShiftOfARenderedPair) {
+  Runner runner({});
+  const PairReport report = runner.run(pairs_[0]);
+  ASSERT_TRUE(report.failures.empty()) << report.failures[0];
+  ASSERT_EQ(report.results.size(), 1U);
+  EXPECT_EQ(report.max_disparity, 32);
+  const MethodResult& own = report.results[0];
+  EXPECT_EQ(own.method, kOwnMethod);
+  EXPECT_GT(own.evaluation.density, 5);
+  EXPECT_LT(own.evaluation.all.avgerr, 1);
+  EXPECT_GT(own.seconds, 0);
+  EXPECT_NEAR(own.seconds_per_megapixel, own.seconds * 1e6 / (240 * 120), 1e-9);
+}
+
+TEST_F(Running, FindsTheShiftByTheRivals) {
+  RunSettings settings;
+  settings.rivals = {Rival::kSgbm, Rival::kSgbm3Way, Rival::kSgbmHh, Rival::kBm};
+  Runner runner(settings);
+  const PairReport report = runner.run(pairs_[0]);
+  ASSERT_TRUE(report.failures.empty()) << report.failures[0];
+  ASSERT_EQ(report.results.size(), 5U);
+  for (const MethodResult& result : report.results) {
+    EXPECT_LT(result.evaluation.all.avgerr, 1) << result.method;
+    EXPECT_GT(result.evaluation.density, 5) << result.method;
+  }
+}
+
+TEST_F(Running, TakesPairsOfDifferentSizesOneAfterTheOther) {
+  Runner runner({});
+  for (const StereoPair& pair : {pairs_[0], pairs_[1], pairs_[0]}) {
+    const PairReport report = runner.run(pair);
+    ASSERT_TRUE(report.failures.empty()) << report.failures[0];
+    EXPECT_LT(report.results.at(0).evaluation.all.avgerr, 1) << pair.name;
+  }
+}
+
+TEST_F(Running, ReportsABrokenPairAndGoesOn) {
+  Runner runner({});
+  testing::write_file(folder_ / "A/im1.png", "broken");
+  const PairReport broken = runner.run(pairs_[0]);
+  ASSERT_EQ(broken.failures.size(), 1U);
+  EXPECT_THAT(broken.failures[0], ::testing::HasSubstr("A/im1.png"));
+  EXPECT_TRUE(broken.results.empty());
+  EXPECT_TRUE(runner.run(pairs_[1]).failures.empty());
+}
+
+TEST_F(Running, ReportsParametersThatDoNotFitTheImages) {
+  RunSettings settings;
+  ASSERT_TRUE(settings.parameters.set("min-node-width", "150").ok());
+  settings.rivals = {Rival::kBm};
+  Runner runner(settings);
+  const PairReport report = runner.run(pairs_[0]);
+  ASSERT_EQ(report.failures.size(), 1U);
+  EXPECT_THAT(report.failures[0], ::testing::HasSubstr("min-node-width"));
+  EXPECT_EQ(report.results.size(), 1U) << "the rival does not mind";
+}
+
+TEST_F(Running, WritesMapsAndPicturesOfEveryMethod) {
+  RunSettings settings;
+  settings.rivals = {Rival::kBm};
+  settings.disparity_folder = folder_ / "maps";
+  settings.picture_folder = folder_ / "pictures";
+  Runner runner(settings);
+  ASSERT_TRUE(runner.run(pairs_[1]).failures.empty());
+  EXPECT_EQ(read_pfm(folder_ / "maps/B.pfm").size(), cv::Size(200, 100));
+  EXPECT_EQ(read_pfm(folder_ / "maps/bm/B.pfm").size(), cv::Size(200, 100));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "pictures/B.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "pictures/bm/B.png"));
+}
+
+TEST(Rivals, SearchAMultipleOf16) {
+  EXPECT_EQ(rival_disparities(1), 16);
+  EXPECT_EQ(rival_disparities(64), 64);
+  EXPECT_EQ(rival_disparities(70), 80);
+}
+
+TEST(Rivals, RefuseImagesOfDifferentSizes) {
+  RivalMatcher matcher(Rival::kBm, 16);
+  EXPECT_INPUT_ERROR(matcher.compute(cv::Mat::zeros(60, 80, CV_8U), cv::Mat::zeros(60, 81, CV_8U)),
+                     "OpenCV refuses");
+}
+
+TEST(Rivals, AreFoundByTheirNames) {
+  for (const std::string& name : rival_names()) {
+    ASSERT_TRUE(find_rival(name).has_value()) << name;
+    EXPECT_EQ(rival_name(*find_rival(name)), name);
+  }
+  EXPECT_FALSE(find_rival("elas").has_value());
+}
+
+}  // namespace
+}  // namespace mtstereo::eval
