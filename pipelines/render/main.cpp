@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// mtstereo-render: writes a rendered stereo clip with its exact ground truth.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <new>
+#include <string>
+
+#include "render/clip_writer.hpp"
+#include "render/render.hpp"
+
+namespace {
+
+using namespace mtstereo::render;
+
+struct Options {
+  std::string folder;
+  std::string scene = "street";
+  std::string size = "640x360";
+  int frames = 48;
+  double rate = 24;
+  double start = 0;
+  Layout layout = Layout::kClip;
+  bool overwrite = false;
+  bool gray = false;
+  Settings settings;
+};
+
+void define(CLI::App& app, Options& o) {
+  app.add_option("folder", o.folder, "output folder; made if it is not there")->required();
+  app.add_option("--scene", o.scene, "street, garden or room")->capture_default_str();
+  app.add_option("--size", o.size, "width and height of a view [px]")->capture_default_str();
+  app.add_option("--frames", o.frames, "number of frames")
+      ->check(CLI::Range(1, 999999))
+      ->capture_default_str();
+  app.add_option("--rate", o.rate, "frames per second of scene time")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->capture_default_str();
+  app.add_option("--start", o.start, "scene time of the first frame [s]")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  app.add_option("--seed", o.settings.seed, "varies the noise, the textures and small things")
+      ->capture_default_str();
+  app.add_option("--baseline", o.settings.baseline, "between the cameras [m]; 0 = the scene's")
+      ->capture_default_str();
+  app.add_option("--focal", o.settings.focal, "focal length [px]; 0 = 0.85 widths")
+      ->capture_default_str();
+  app.add_option("--noise", o.settings.noise, "deviation of the sensor's noise [gray values]")
+      ->capture_default_str();
+  app.add_option("--exposure", o.settings.exposure, "brightness of the right view over the left's")
+      ->capture_default_str();
+  app.add_option("--samples", o.settings.samples, "samples x samples rays a pixel")
+      ->capture_default_str();
+  app.add_option("--threads", o.settings.threads, "0 = one a processor")->capture_default_str();
+  const std::map<std::string, Layout> layouts = {{"clip", Layout::kClip},
+                                                 {"middlebury", Layout::kMiddlebury}};
+  app.add_option("--layout", o.layout,
+                 "clip: left/ right/ truth/ mask/ calib.txt; middlebury: a folder a frame")
+      ->transform(CLI::CheckedTransformer(layouts, CLI::ignore_case))
+      ->default_str("clip");
+  app.add_flag("--overwrite", o.overwrite, "replace the clip that is in the folder");
+  app.add_flag("--gray", o.gray, "gray pictures instead of color");
+}
+
+void parse_size(const std::string& text, Settings& settings) {
+  int used = 0;
+  const int found =
+      std::sscanf(text.c_str(), "%5dx%5d%n", &settings.width, &settings.height, &used);
+  if (found != 2 || used != static_cast<int>(text.size())) {
+    throw std::invalid_argument("--size is '" + text + "', it has to look like 640x360");
+  }
+}
+
+int run(Options& o) {
+  parse_size(o.size, o.settings);
+  o.settings.color = !o.gray;
+  if (const std::string wrong = check(o.settings); !wrong.empty()) {
+    throw std::invalid_argument(wrong);
+  }
+  const Scene scene = make_scene(o.scene, o.settings.seed);
+  const Settings settings = complete(scene, o.settings);
+  ClipWriter writer(o.folder, o.layout, o.overwrite);
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  for (int i = 0; i < o.frames; ++i) {
+    writer.write(i, render(scene, o.start + i / o.rate, settings), settings);
+    if (terminal) std::fprintf(stderr, "\rframe %d of %d", i + 1, o.frames);
+  }
+  if (terminal) std::fputc('\n', stderr);
+  writer.finish(settings);
+  std::cout << o.folder << ": " << o.frames << " frames of " << settings.width << "x"
+            << settings.height << ", focal length " << settings.focal << " px, baseline "
+            << settings.baseline << " m, disparities below " << writer.disparities() << " px\n";
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    CLI::App app("Renders a stereo clip with exact ground truth.", "mtstereo-render");
+    Options options;
+    define(app, options);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? 0 : 2;
+    }
+    return run(options);
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "mtstereo-render: " << error.what() << '\n';
+    return 2;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "mtstereo-render: not enough memory for this size\n";
+  } catch (const std::exception& error) {
+    std::cerr << "mtstereo-render: " << error.what() << '\n';
+  } catch (...) {
+    std::cerr << "mtstereo-render: unknown error\n";
+  }
+  return 1;
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "render/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mtstereo::render {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kNear = 0.02;  // nothing nearer to the camera is seen [m]
+constexpr int kTile = 16;       // [px]
+
+}  // namespace
+
+View::View(const Scene& scene, double time, const Settings& settings, double offset_x)
+    : scene_(scene),
+      width_(settings.width),
+      height_(settings.height),
+      focal_(settings.focal),
+      tiles_x_((settings.width + kTile - 1) / kTile),
+      tiles_y_((settings.height + kTile - 1) / kTile),
+      tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)) {
+  const Eigen::Isometry3d camera_from_world = scene.camera.pose_at(time).inverse();
+  const Vector3d eye(offset_x, 0, 0);
+  placed_.reserve(scene.objects.size());
+  for (const Object& object : scene.objects) {
+    place(object, camera_from_world, time, eye, scene.to_light.normalized());
+  }
+  // Nearest first: once something is hit, what lies behind it need not be tried.
+  for (auto& tile : tiles_) {
+    std::stable_sort(tile.begin(), tile.end(), [this](std::uint32_t a, std::uint32_t b) {
+      return placed_[a].nearest < placed_[b].nearest;
+    });
+  }
+}
+
+void View::place(const Object& object, const Eigen::Isometry3d& camera_from_world, double time,
+                 const Vector3d& eye, const Vector3d& to_light) {
+  const Eigen::Isometry3d world_from_object = object.pose_at(time);
+  Eigen::Isometry3d eye_from_object = camera_from_world * world_from_object;
+  eye_from_object.pretranslate(-eye);
+  const Eigen::Isometry3d object_from_eye = eye_from_object.inverse();
+
+  Placed placed;
+  placed.object = &object;
+  placed.object_from_camera = object_from_eye.linear();
+  placed.origin = object_from_eye.translation();
+  placed.to_light = world_from_object.linear().transpose() * to_light;
+  placed.nearest = 0;
+  placed_.push_back(placed);
+  sort_into_tiles(eye_from_object, static_cast<std::uint32_t>(placed_.size() - 1));
+}
+
+void View::sort_into_tiles(const Eigen::Isometry3d& eye_from_object, std::uint32_t index) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  const Vector3d half = bounding_box(*placed_[index].object);
+  double left = kFar, right = -kFar, top = kFar, bottom = -kFar, nearest = kFar, farthest = -kFar;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
+    const Vector3d p = eye_from_object * half.cwiseProduct(sign);
+    nearest = std::min(nearest, p.z());
+    farthest = std::max(farthest, p.z());
+    const double z = std::max(p.z(), kNear);
+    const double x = p.x() / z * focal_ + (width_ - 1) / 2.0;
+    const double y = p.y() / z * focal_ + (height_ - 1) / 2.0;
+    left = std::min(left, x), right = std::max(right, x);
+    top = std::min(top, y), bottom = std::max(bottom, y);
+  }
+  if (farthest <= kNear) return;
+  placed_[index].nearest = nearest;
+  if (nearest <= kNear) {
+    // Reaches behind the camera, where the projection of its corners says nothing.
+    left = top = -kFar;
+    right = bottom = kFar;
+  }
+  const auto tile_of = [](double v, int count) {
+    return static_cast<int>(std::clamp(std::floor(v / kTile), -1.0, static_cast<double>(count)));
+  };
+  // A pixel of margin: rays start up to half a pixel from the centers.
+  const int x0 = std::max(0, tile_of(left - 1, tiles_x_));
+  const int x1 = std::min(tiles_x_ - 1, tile_of(right + 1, tiles_x_));
+  const int y0 = std::max(0, tile_of(top - 1, tiles_y_));
+  const int y1 = std::min(tiles_y_ - 1, tile_of(bottom + 1, tiles_y_));
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      tiles_[static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles_x_) +
+             static_cast<std::size_t>(x)]
+          .push_back(index);
+    }
+  }
+}
+
+Vector3d View::direction(double x, double y) const {
+  return {(x - (width_ - 1) / 2.0) / focal_, (y - (height_ - 1) / 2.0) / focal_, 1};
+}
+
+View::Nearest View::nearest(const Vector3d& direction, double x, double y) const {
+  const int tile_x = std::clamp(static_cast<int>(x) / kTile, 0, tiles_x_ - 1);
+  const int tile_y = std::clamp(static_cast<int>(y) / kTile, 0, tiles_y_ - 1);
+  const auto& tile = tiles_[static_cast<std::size_t>(tile_y) * static_cast<std::size_t>(tiles_x_) +
+                            static_cast<std::size_t>(tile_x)];
+  Nearest best;
+  best.hit.t = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t index : tile) {
+    const Placed& placed = placed_[index];
+    if (placed.nearest > best.hit.t) break;
+    const Vector3d d = placed.object_from_camera * direction;
+    const auto hit = intersect(*placed.object, placed.origin, d, kNear);
+    if (hit && hit->t < best.hit.t) best = {&placed, *hit};
+  }
+  return best;
+}
+
+std::optional<double> View::depth(double x, double y) const {
+  const Nearest found = nearest(direction(x, y), x, y);
+  if (found.placed == nullptr) return std::nullopt;
+  return found.hit.t;  // the direction's z is 1, so t is the depth
+}
+
+std::optional<Seen> View::look(double x, double y) const {
+  const Vector3d ray = direction(x, y);
+  const Nearest found = nearest(ray, x, y);
+  if (found.placed == nullptr) return std::nullopt;
+  const Placed& placed = *found.placed;
+  const Hit& hit = found.hit;
+  const double facing = std::abs(hit.normal.dot(placed.object_from_camera * ray)) / ray.norm();
+  // A pixel covers more of a slanted surface, in one direction: the mean of both.
+  const double footprint = hit.t / focal_ / std::sqrt(std::max(facing, 0.02));
+  const double lit = std::abs(hit.normal.dot(placed.to_light));
+  const double shade = scene_.ambient + (1 - scene_.ambient) * lit;
+  const double gray = shade * gray_value(placed.object->texture, hit.u, hit.v, footprint);
+  return Seen{hit.t, static_cast<float>(gray), placed.object};
+}
+
+float View::sky(double y) const {
+  return static_cast<float>(std::clamp(0.95 - 0.15 * (1 - y / height_), 0.0, 1.0));
+}
+
+}  // namespace mtstereo::render

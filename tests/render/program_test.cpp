@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// mtstereo-render as a process: its files, its exit status and its messages.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <iomanip>
+#include <sstream>
+#include <string>
+
+#include "temporary_folder.hpp"
+
+namespace mtstereo::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int status = -1;
+  std::string output, errors;
+};
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    program_ = std::getenv("MTSTEREO_RENDER");
+    ASSERT_NE(program_, nullptr) << "MTSTEREO_RENDER has to name the program";
+  }
+
+  Outcome run(const std::string& arguments) const {
+    std::ostringstream command;
+    command << std::quoted(program_) << ' ' << arguments << " >" << folder_ / "stdout"
+            << " 2>" << folder_ / "stderr"
+            << " </dev/null";
+    const int raw = std::system(command.str().c_str());
+    Outcome outcome;
+    outcome.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128;
+    outcome.output = read_text(folder_ / "stdout");
+    outcome.errors = read_text(folder_ / "stderr");
+    return outcome;
+  }
+
+  // The clip's folder, quoted for the shell as the stream operator of a path does.
+  std::string out() const {
+    std::ostringstream text;
+    text << folder_ / "clip" << ' ';
+    return text.str();
+  }
+
+  const char* program_ = nullptr;
+  TemporaryFolder folder_;
+};
+
+TEST_F(Program, RendersAClip) {
+  const Outcome r = run(out() + "--size 48x27 --frames 3 --scene garden");
+  EXPECT_EQ(r.status, 0) << r.errors;
+  EXPECT_NE(r.output.find("3 frames of 48x27"), std::string::npos) << r.output;
+  for (const char* file : {"left/000002.png", "right/000002.png", "truth/000002.pfm",
+                           "mask/000002.png", "calib.txt"}) {
+    EXPECT_TRUE(fs::is_regular_file(folder_ / "clip" / file)) << file;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "clip/left/000003.png"));
+}
+
+TEST_F(Program, WritesTheSameBytesInEveryRun) {
+  ASSERT_EQ(run(out() + "--size 48x27 --frames 2 --threads 1").status, 0);
+  const std::string first = read_text(folder_ / "clip/right/000001.png");
+  ASSERT_EQ(run(out() + "--size 48x27 --frames 2 --threads 3 --overwrite").status, 0);
+  EXPECT_EQ(first, read_text(folder_ / "clip/right/000001.png"));
+}
+
+TEST_F(Program, WritesMiddleburysLayout) {
+  const Outcome r = run(out() + "--size 48x27 --frames 1 --layout middlebury");
+  EXPECT_EQ(r.status, 0) << r.errors;
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "clip/000000/disp0GT.pfm"));
+}
+
+struct Bad {
+  const char* arguments;
+  const char* says;
+};
+
+TEST_F(Program, RefusesWrongOptionsWithTheirNames) {
+  const Bad cases[] = {
+      {"--size 640", "--size"},      {"--size 640x360x3", "--size"},
+      {"--size axb", "--size"},      {"--size 0x10", "width"},
+      {"--size 10x-4", "height"},    {"--frames 0", "--frames"},
+      {"--frames many", "--frames"}, {"--scene moon", "street, garden, room"},
+      {"--baseline -1", "baseline"}, {"--focal nan", "focal"},
+      {"--noise 1e9", "noise"},      {"--exposure 0", "exposure"},
+      {"--rate 0", "--rate"},        {"--layout kitti", "--layout"},
+      {"--samples 99", "samples"},   {"--no-such-option", "--no-such-option"},
+  };
+  for (const Bad& bad : cases) {
+    const Outcome r = run(out() + bad.arguments);
+    EXPECT_EQ(r.status, 2) << bad.arguments;
+    EXPECT_NE(r.errors.find(bad.says), std::string::npos) << bad.arguments << ": " << r.errors;
+    EXPECT_FALSE(fs::exists(folder_ / "clip")) << bad.arguments;
+  }
+}
+
+TEST_F(Program, AsksForAFolder) {
+  const Outcome r = run("--frames 1");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_NE(r.errors.find("folder"), std::string::npos) << r.errors;
+}
+
+TEST_F(Program, NamesAFolderThatCannotBeWritten) {
+  const Outcome r = run("/dev/null/clip --frames 1 --size 8x8");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_NE(r.errors.find("/dev/null/clip"), std::string::npos) << r.errors;
+}
+
+TEST_F(Program, KeepsAnEarlierClipUnlessToldOtherwise) {
+  ASSERT_EQ(run(out() + "--size 8x8 --frames 2").status, 0);
+  const Outcome refused = run(out() + "--size 8x8 --frames 1");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.errors.find("--overwrite"), std::string::npos) << refused.errors;
+  EXPECT_EQ(run(out() + "--size 8x8 --frames 1 --overwrite").status, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "clip/left/000001.png"));
+}
+
+TEST_F(Program, HelpSucceeds) {
+  const Outcome r = run("--help");
+  EXPECT_EQ(r.status, 0);
+  EXPECT_NE(r.output.find("--scene"), std::string::npos) << r.output;
+}
+
+}  // namespace
+}  // namespace mtstereo::render

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Noise, exposure, determinism, odd sizes, and settings that are refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "render/render.hpp"
+
+namespace mtstereo::render {
+namespace {
+
+Settings small() {
+  Settings s;
+  s.width = 160, s.height = 90, s.samples = 1;
+  return s;
+}
+
+bool same(const StereoFrame& a, const StereoFrame& b) {
+  const auto equal = [](const cv::Mat& p, const cv::Mat& q) {
+    if (p.size() != q.size() || p.type() != q.type()) return false;
+    for (int y = 0; y < p.rows; ++y) {
+      if (std::memcmp(p.ptr(y), q.ptr(y), static_cast<std::size_t>(p.cols) * p.elemSize()) != 0) {
+        return false;
+      }
+    }
+    return true;
+  };
+  return equal(a.left, b.left) && equal(a.right, b.right) && equal(a.truth, b.truth) &&
+         equal(a.occluded, b.occluded);
+}
+
+TEST(Sensor, ResultDoesNotDependOnTheNumberOfThreads) {
+  const Scene scene = make_scene("garden", 1);
+  Settings s = small();
+  s.threads = 1;
+  const StereoFrame one = render(scene, 0.3, s);
+  for (const int threads : {2, 5, 0}) {
+    s.threads = threads;
+    EXPECT_TRUE(same(one, render(scene, 0.3, s))) << threads << " threads";
+  }
+}
+
+TEST(Sensor, NoiseHasTheDeviationThatWasAsked) {
+  // A plain gray wall: what varies is the noise.
+  SceneBuilder b("gray", 1);
+  Texture flat;
+  flat.noise_contrast = 0;
+  b.rectangle({0, 0, 3}, 50, 50, flat);
+  for (const double asked : {1.0, 2.0, 5.0}) {
+    Settings s = small();
+    s.noise = asked;
+    const StereoFrame f = render(b.scene(), 0, s);
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(f.left, mean, deviation);
+    const double rounding = 1.0 / 12;
+    EXPECT_NEAR(deviation[0], std::sqrt(asked * asked + rounding), 0.05 * asked);
+    s.noise = 0;
+    EXPECT_NEAR(mean[0], render(b.scene(), 0, s).left.at<std::uint8_t>(5, 5), 0.7);
+  }
+}
+
+TEST(Sensor, NoiseDiffersBetweenViewsFramesAndSeeds) {
+  SceneBuilder b("gray", 1);
+  Texture flat;
+  flat.noise_contrast = 0;
+  b.rectangle({0, 0, 3}, 50, 50, flat);
+  Settings s = small();
+  s.noise = 3;
+  const StereoFrame first = render(b.scene(), 0, s);
+  const auto different = [&](const cv::Mat& other) {
+    return cv::countNonZero(first.left != other) > other.rows * other.cols / 2;
+  };
+  EXPECT_TRUE(different(first.right));
+  EXPECT_TRUE(different(render(b.scene(), 0.04, s).left));
+  s.seed = 2;
+  EXPECT_TRUE(different(render(b.scene(), 0, s).left));
+}
+
+TEST(Sensor, NoiseAndExposureLeaveTheTruthAlone) {
+  const Scene scene = make_scene("room", 1);
+  Settings s = small();
+  s.noise = 0;
+  const StereoFrame clean = render(scene, 0, s);
+  s.noise = 4, s.exposure = 1.3;
+  const StereoFrame noisy = render(scene, 0, s);
+  EXPECT_EQ(cv::norm(clean.truth, noisy.truth, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(clean.occluded, noisy.occluded, cv::NORM_INF), 0);
+}
+
+TEST(Sensor, ExposureBrightensTheRightViewAlone) {
+  const Scene scene = make_scene("room", 1);
+  Settings s = small();
+  s.noise = 0;
+  const StereoFrame plain = render(scene, 0, s);
+  s.exposure = 1.2;
+  const StereoFrame bright = render(scene, 0, s);
+  EXPECT_EQ(cv::norm(plain.left, bright.left, cv::NORM_INF), 0);
+  EXPECT_NEAR(cv::mean(bright.right)[0] / cv::mean(plain.right)[0], 1.2, 0.02);
+}
+
+TEST(Sensor, OddSizesAreRendered) {
+  const Scene scene = make_scene("street", 1);
+  const int sizes[][2] = {{1, 1}, {1, 9}, {17, 1}, {33, 15}, {16, 16}, {31, 47}};
+  for (const auto& size : sizes) {
+    Settings s = small();
+    s.width = size[0], s.height = size[1];
+    const StereoFrame f = render(scene, 0, s);
+    const cv::Size expected(size[0], size[1]);
+    EXPECT_EQ(f.left.size(), expected);
+    EXPECT_EQ(f.right.size(), expected);
+    EXPECT_EQ(f.truth.size(), expected);
+    EXPECT_EQ(f.occluded.size(), expected);
+  }
+}
+
+TEST(Sensor, ColorAndGrayShowTheSame) {
+  const Scene scene = make_scene("garden", 1);
+  Settings s = small();
+  s.noise = 0;
+  const StereoFrame gray = render(scene, 0, s);
+  s.color = true;
+  const StereoFrame color = render(scene, 0, s);
+  ASSERT_EQ(color.left.type(), CV_8UC3);
+  ASSERT_EQ(gray.left.type(), CV_8UC1);
+  for (int x = 0; x < s.width; ++x) {
+    const auto p = color.left.at<cv::Vec3b>(60, x);
+    const double luma = 0.114 * p[0] + 0.587 * p[1] + 0.299 * p[2];
+    ASSERT_NEAR(gray.left.at<std::uint8_t>(60, x), luma, 1.01) << "column " << x;
+  }
+}
+
+struct Wrong {
+  const char* name;
+  void (*spoil)(Settings&);
+};
+
+class WrongSettings : public testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongSettings, AreRefusedByName) {
+  Settings s = small();
+  GetParam().spoil(s);
+  EXPECT_NE(check(s).find(GetParam().name), std::string::npos) << "message: " << check(s);
+  EXPECT_THROW(render(Scene(), 0, s), std::invalid_argument);
+}
+
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongSettings,
+    testing::Values(Wrong{"width", [](Settings& s) { s.width = 0; }},
+                    Wrong{"width", [](Settings& s) { s.width = 16385; }},
+                    Wrong{"height", [](Settings& s) { s.height = -3; }},
+                    Wrong{"focal", [](Settings& s) { s.focal = -1; }},
+                    Wrong{"focal", [](Settings& s) { s.focal = kNotANumber; }},
+                    Wrong{"baseline", [](Settings& s) { s.baseline = -0.1; }},
+                    Wrong{"baseline", [](Settings& s) { s.baseline = kNotANumber; }},
+                    Wrong{"noise", [](Settings& s) { s.noise = 1000; }},
+                    Wrong{"noise", [](Settings& s) { s.noise = kNotANumber; }},
+                    Wrong{"exposure", [](Settings& s) { s.exposure = 0; }},
+                    Wrong{"samples", [](Settings& s) { s.samples = 0; }},
+                    Wrong{"threads", [](Settings& s) { s.threads = -1; }}),
+    [](const auto& info) { return info.param.name + std::to_string(info.index); });
+
+TEST(Settings, DefaultsAreFine) { EXPECT_EQ(check(Settings()), ""); }
+
+}  // namespace
+}  // namespace mtstereo::render
