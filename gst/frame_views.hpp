@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <gst/video/video.h>
+
+#include <string>
+
+#include "mtstereo/image.hpp"
+
+namespace mtstereo::plugin {
+
+/// A video frame that is mapped as long as this object lives. It does not keep the buffer alive.
+class MappedFrame {
+ public:
+  /// Maps `buffer`, or leaves an object that is not mapped().
+  MappedFrame(const GstVideoInfo& info, GstBuffer* buffer, GstMapFlags flags);
+  ~MappedFrame();
+  MappedFrame(const MappedFrame&) = delete;
+  MappedFrame& operator=(const MappedFrame&) = delete;
+
+  /// True where the frame can be read (or written). Else problem() says why not.
+  bool mapped() const { return mapped_; }
+  const std::string& problem() const { return problem_; }
+
+  /// The first plane of an 8-bit format; only where mapped().
+  GrayView luma() const;
+  /// The plane of a 16-bit gray format; only where mapped() for writing.
+  ImageView<std::uint16_t> gray16() const;
+
+ private:
+  GstVideoFrame frame_{};
+  bool mapped_ = false;
+  std::string problem_;
+};
+
+/// True where the first plane of the format is 8-bit luma, one byte after the other: what the
+/// matcher reads in place.
+bool has_luma_plane(GstVideoFormat format);
+
+/// All formats of the installed GStreamer with such a plane, as text for caps: "{ GRAY8, ... }".
+std::string luma_formats();
+
+}  // namespace mtstereo::plugin
