@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace mtstereo::tests {
+
+/// Sends one pair (CV_8UC1) through the element `mtstereo` with these properties, as in
+/// "mode=sparse max-disparity=64", and returns its disparity in px (CV_32FC1, NaN = none). An empty
+/// picture where no buffer came out.
+cv::Mat match_with_element(const cv::Mat& left, const cv::Mat& right,
+                           const std::string& properties);
+
+}  // namespace mtstereo::tests

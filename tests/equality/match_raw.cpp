@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Runs the library over raw frames in files and writes what the element has to give: 16-bit
+// disparities with rows padded to 4 bytes.
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "mtstereo/mtstereo.hpp"
+
+namespace {
+
+using namespace mtstereo;
+
+std::vector<std::uint8_t> read(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+int fail(const std::string& message) {
+  std::fprintf(stderr, "match-raw: %s\n", message.c_str());
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("The library's disparities of raw frames");
+  std::string left_file, right_file, out_file;
+  int width = 0, height = 0, frames = 0;
+  std::vector<std::string> settings;
+  app.add_option("left", left_file)->required();
+  app.add_option("right", right_file)->required();
+  app.add_option("out", out_file)->required();
+  app.add_option("--width", width)->required();
+  app.add_option("--height", height)->required();
+  app.add_option("--frames", frames, "frames in each file")->required();
+  app.add_option("--set", settings, "parameter=value");
+  CLI11_PARSE(app, argc, argv);
+
+  Parameters parameters;
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    const Status set = parameters.set(setting.substr(0, equals), setting.substr(equals + 1));
+    if (!set) return fail(set.error().message);
+  }
+  auto matcher = Matcher::create(parameters);
+  if (!matcher) return fail(matcher.error().message);
+
+  const std::vector<std::uint8_t> left = read(left_file);
+  const std::vector<std::uint8_t> right = read(right_file);
+  const int stride = (width + 3) / 4 * 4;
+  const std::size_t frame_bytes = left.size() / frames;
+  if (left.size() != right.size() || left.size() % frames != 0 ||
+      frame_bytes < static_cast<std::size_t>(stride) * height) {
+    return fail("the files do not hold " + std::to_string(frames) + " frames each");
+  }
+  const int out_stride = (2 * width + 3) / 4 * 4;
+  std::ofstream out(out_file, std::ios::binary);
+  for (int frame = 0; frame < frames; ++frame) {
+    const GrayView left_view{left.data() + frame * frame_bytes, width, height, stride};
+    const GrayView right_view{right.data() + frame * frame_bytes, width, height, stride};
+    const auto disparity = matcher->compute(left_view, right_view);
+    if (!disparity) return fail(disparity.error().message);
+    std::vector<std::uint16_t> written(static_cast<std::size_t>(out_stride / 2) * height, 0);
+    const Status status =
+        write_disparity16(*disparity, 256, {written.data(), width, height, out_stride});
+    if (!status) return fail(status.error().message);
+    out.write(reinterpret_cast<const char*>(written.data()), written.size() * 2);
+  }
+  return out.good() ? 0 : fail("cannot write " + out_file);
+}
