@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# shellcheck shell=bash
+# What the ready pipelines share: options, the plugin's path, and the run itself. Sourced, not run.
+
+# shellcheck disable=SC2034  # the variables are read by the scripts that source this file
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=${BUILD:-$repository/build}
+dry_run=no
+seconds=
+out=
+sink='videoconvert ! autovideosink'
+matcher=(mtstereo name=m)
+color=(mtcolor)
+arguments=()
+
+fail() {
+  echo "$(basename "$0"): $*" >&2
+  exit 1
+}
+
+wrong_usage() {
+  echo "$(basename "$0"): $* (--help tells more)" >&2
+  exit 2
+}
+
+# The comment at the top of the calling script is its help.
+show_help() {
+  sed -n -e '1,2d' -e '/^#/!q' -e 's/^# \{0,1\}//p' "$0"
+  cat <<'END'
+
+Options of every ready pipeline:
+  --out FILE.mkv      record the disparity, lossless, instead of showing it
+  --mode MODE         sparse or semi-dense
+  --max-disparity N   search range [px]
+  --set NAME=VALUE    any other property of mtstereo (gst-inspect-1.0 mtstereo lists them)
+  --sink ELEMENT      where to show the colors, instead of autovideosink
+  --seconds N         stop after so long
+  --build DIR         where mtstereo was built (default: build/, or $BUILD)
+  --dry-run           print the gst-launch-1.0 line and do nothing
+END
+  exit 0
+}
+
+require_value() {
+  [ $# -ge 2 ] || wrong_usage "$1 needs a value"
+}
+
+is_number() {
+  [[ $1 =~ ^[0-9]{1,9}$ ]]
+}
+
+# Takes the common options out of the command line. What is left is in `arguments`; an option that
+# only the calling script knows goes through its own function own_option OPTION VALUE, which
+# says with its status whether the option exists (each of them takes a value).
+parse_options() {
+  while [ $# -gt 0 ]; do
+    case $1 in
+      --help | -h) show_help ;;
+      --dry-run) dry_run=yes ;;
+      --out | --mode | --max-disparity | --set | --sink | --seconds | --build)
+        require_value "$@"
+        common_option "$1" "$2"
+        shift
+        ;;
+      --*)
+        declare -F own_option >/dev/null || wrong_usage "there is no option $1"
+        require_value "$@"
+        own_option "$1" "$2" || wrong_usage "there is no option $1"
+        shift
+        ;;
+      *) arguments+=("$1") ;;
+    esac
+    shift
+  done
+}
+
+common_option() {
+  case $1 in
+    --out) out=$2 ;;
+    --mode)
+      [[ $2 == sparse || $2 == semi-dense ]] ||
+        wrong_usage "--mode is '$2', it has to be sparse or semi-dense"
+      matcher+=("mode=$2")
+      ;;
+    --max-disparity)
+      is_number "$2" || wrong_usage "--max-disparity is '$2', it has to be a whole number of px"
+      matcher+=("max-disparity=$2")
+      color+=("max-disparity=$2")
+      ;;
+    --set)
+      [[ $2 == ?*=* ]] || wrong_usage "--set is '$2', it has to look like threads=2"
+      matcher+=("$2")
+      ;;
+    --sink) sink=$2 ;;
+    --seconds)
+      is_number "$2" || wrong_usage "--seconds is '$2', it has to be a whole number"
+      seconds=$2
+      ;;
+    --build) build=$2 ;;
+  esac
+}
+
+require_file() {
+  [ -e "$1" ] || fail "there is no file $1"
+  [ -r "$1" ] || fail "the file $1 cannot be read"
+  [ ! -d "$1" ] || fail "$1 is a folder, a video file is needed"
+}
+
+# The element that reads a camera or a file.
+source_of() {
+  case $1 in
+    /dev/*) printf '%s\n' v4l2src "device=$1" ;;
+    *) printf '%s\n' filesrc "location=$1" ;;
+  esac
+}
+
+# What follows mtstereo: a color picture on the screen, or a lossless file.
+output_of() {
+  if [ -n "$out" ]; then
+    printf '%s\n' '!' queue '!' avenc_ffv1 '!' matroskamux '!' filesink "location=$out"
+  else
+    local words
+    read -ra words <<<"$sink"
+    printf '%s\n' '!' queue '!' "${color[@]}" '!' "${words[@]}"
+  fi
+}
+
+use_plugin() {
+  local plugin=$build/gst/libgstmtstereo.so
+  if [ ! -e "$plugin" ]; then
+    fail "the plugin is not built ($plugin is not there); build it with" \
+      "'meson setup $build && ninja -C $build', or name the folder with --build"
+  fi
+  export GST_PLUGIN_PATH=$build/gst${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
+}
+
+# A word as the shell takes it back; as it is where it has nothing special.
+quoted() {
+  if [[ $1 =~ ^[A-Za-z0-9_./:=,%@+!-]+$ ]]; then
+    printf ' %s' "$1"
+  else
+    printf " '%s'" "${1//\'/\'\\\'\'}"
+  fi
+}
+
+# Runs gst-launch-1.0, or prints it. -e: an interrupt ends files properly.
+launch() {
+  local line=(gst-launch-1.0 -e "$@")
+  if [ "$dry_run" = yes ]; then
+    local word
+    printf 'GST_PLUGIN_PATH=%q' "$build/gst"
+    for word in "${line[@]}"; do quoted "$word"; done
+    printf '\n'
+    return
+  fi
+  use_plugin
+  if [ -z "$seconds" ]; then
+    "${line[@]}"
+    return
+  fi
+  # An interrupt at the end of the time is no failure.
+  local status=0
+  timeout --signal=INT --kill-after=10 "$seconds" "${line[@]}" || status=$?
+  [ "$status" -eq 124 ] || return "$status"
+}

@@ -1,0 +1,249 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# demo.sh: everything from nothing. Installs what is missing, builds, renders a stereo clip, encodes
+# it to two H.264 files, runs these through mtstereo, and tells how good and how fast that was.
+# demo.sh LEFT RIGHT: the same with two rectified video files of your own (without ground truth).
+#
+# Options:
+#   --out DIR           where everything is written (default out/)
+#   --mode MODE         of the main result: sparse or semi-dense (default)
+#   --max-disparity N   search range [px] (default: the clip's; the element's for your own files)
+#   --frames N          of the rendered clip (default 48)
+#   --size WxH          of the rendered clip (default 640x360)
+#   --scene NAME        street (default), garden or room
+#   --build DIR         build folder (default: build/, or $BUILD)
+#   --no-build          take what is in the build folder, install and build nothing
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+repository=$(cd "$here/.." && pwd)
+build=${BUILD:-$repository/build}
+out=$repository/out
+mode=semi-dense
+max_disparity=
+frames=48
+size=640x360
+scene=street
+rate=24
+build_first=yes
+limit=900 # no pipeline runs longer [s]
+files=()
+
+fail() {
+  echo "demo.sh: $*" >&2
+  exit 1
+}
+
+wrong_usage() {
+  echo "demo.sh: $* (--help tells more)" >&2
+  exit 2
+}
+
+whole_number() {
+  [[ $2 =~ ^[1-9][0-9]{0,5}$ ]] || wrong_usage "$1 is '$2', it has to be a whole number above 0"
+}
+
+take_option() {
+  case $1 in
+    --out) out=$2 ;;
+    --mode)
+      [[ $2 == sparse || $2 == semi-dense ]] ||
+        wrong_usage "--mode is '$2', it has to be sparse or semi-dense"
+      mode=$2
+      ;;
+    --max-disparity) whole_number "$@" && max_disparity=$2 ;;
+    --frames) whole_number "$@" && frames=$2 ;;
+    --size)
+      [[ $2 =~ ^([1-9][0-9]{1,4})x([1-9][0-9]{1,4})$ ]] ||
+        wrong_usage "--size is '$2', it has to look like 640x360"
+      if [ $((BASH_REMATCH[1] % 2 + BASH_REMATCH[2] % 2)) -ne 0 ]; then
+        wrong_usage "--size is '$2', H.264 wants an even width and height"
+      fi
+      size=$2
+      ;;
+    --scene) scene=$2 ;;
+    --build) build=$2 ;;
+    *) wrong_usage "there is no option $1" ;;
+  esac
+}
+
+while [ $# -gt 0 ]; do
+  case $1 in
+    --help | -h)
+      sed -n -e '1,2d' -e '/^#/!q' -e 's/^# \{0,1\}//p' "$0"
+      exit 0
+      ;;
+    --no-build) build_first=no ;;
+    --*)
+      [ $# -ge 2 ] || wrong_usage "$1 needs a value, or is no option"
+      take_option "$1" "$2"
+      shift
+      ;;
+    *) files+=("$1") ;;
+  esac
+  shift
+done
+case ${#files[@]} in
+  0) ;;
+  2)
+    for file in "${files[@]}"; do
+      [ -f "$file" ] || fail "there is no file $file"
+      [ -r "$file" ] || fail "the file $file cannot be read"
+    done
+    ;;
+  *) wrong_usage "two video files are needed, LEFT and RIGHT, or none" ;;
+esac
+
+step() {
+  echo "== $*"
+}
+
+# Runs a pipeline quietly; when it fails, what it said comes out, and the demo ends.
+log=
+play() {
+  local status=0
+  timeout --kill-after=10 "$limit" gst-launch-1.0 "$@" >"$log" 2>&1 || status=$?
+  [ "$status" -ne 0 ] || return 0
+  grep -E -A3 '^ERROR|WARNING: erroneous|erroneous pipeline' "$log" >&2 || cat "$log" >&2
+  [ "$status" -ne 124 ] || fail "the pipeline was ended after $limit s"
+  fail "the pipeline failed"
+}
+
+# The seconds that the last pipeline played, as gst-launch-1.0 tells them.
+played_seconds() {
+  sed -n 's/^Execution ended after \([0-9]*\):\([0-9]*\):\([0-9.]*\)$/\1 \2 \3/p' "$log" |
+    awk '{ print $1 * 3600 + $2 * 60 + $3 }'
+}
+
+build_all() {
+  step "Packages and build ($build)"
+  "$here/install-packages.sh"
+  if [ ! -e "$build/build.ninja" ]; then
+    meson setup "$build" "$repository" >"$log" 2>&1 || { cat "$log" >&2 && fail "meson failed"; }
+  fi
+  ninja -C "$build" gst/libgstmtstereo.so pipelines/render/mtstereo-render \
+    pipelines/apps/mtstereo-compare >"$log" 2>&1 || { cat "$log" >&2 && fail "the build failed"; }
+}
+
+render_clip() {
+  step "Rendering $frames frames of the $scene, $size"
+  "$build/pipelines/render/mtstereo-render" "$out/clip" --overwrite --scene "$scene" \
+    --frames "$frames" --size "$size" --rate "$rate" || fail "the clip was not rendered"
+  local side
+  for side in left right; do
+    step "Encoding $out/$side.mp4 (H.264)"
+    play multifilesrc "location=$out/clip/$side/%06d.png" "caps=image/png,framerate=$rate/1" '!' \
+      pngdec '!' videoconvert '!' video/x-raw,format=I420 '!' \
+      x264enc pass=quant quantizer=10 speed-preset=medium key-int-max="$rate" '!' \
+      h264parse '!' mp4mux '!' filesink "location=$out/$side.mp4"
+  done
+  files=("$out/left.mp4" "$out/right.mp4")
+  if [ -z "$max_disparity" ]; then
+    max_disparity=$(sed -n 's/^ndisp=//p' "$out/clip/calib.txt")
+  fi
+}
+
+# Two video files -> lossless disparity. mtstereo's messages about wrong input come out here. The
+# watchdog ends a pipeline from which nothing came for a minute.
+match() {
+  local matcher=(mtstereo name=m "mode=$1")
+  [ -z "$max_disparity" ] || matcher+=("max-disparity=$max_disparity")
+  play -v \
+    filesrc "location=${files[0]}" '!' decodebin '!' videoconvert '!' queue '!' m.sink_left \
+    filesrc "location=${files[1]}" '!' decodebin '!' videoconvert '!' queue '!' m.sink_right \
+    "${matcher[@]}" '!' watchdog timeout=60000 '!' queue '!' avenc_ffv1 '!' matroskamux '!' \
+    filesink "location=$out/disparity-$1.mkv"
+  odd_width=$(odd width) odd_height=$(odd height)
+}
+
+# 1 where the width (height) of the disparity is odd, else 0; gst-launch-1.0 -v tells it.
+odd() {
+  local value
+  value=$(sed -n "s/.*GstMtStereo:m.GstAggregatorPad:src: caps = .* $1=(int)\\([0-9]*\\).*/\\1/p" "$log" |
+    head -n 1)
+  echo $((${value:-0} % 2))
+}
+
+# Lossless disparity -> 16-bit pictures, px = value / 256. The second argument is an element that
+# may end early.
+to_pictures() {
+  rm -rf "$out/disparity-$1"
+  mkdir -p "$out/disparity-$1"
+  play filesrc "location=$out/disparity-$1.mkv" '!' matroskademux '!' avdec_ffv1 '!' \
+    videoconvert '!' video/x-raw,format=GRAY16_BE '!' pngenc "${@:2}" '!' \
+    multifilesink "location=$out/disparity-$1/%06d.png"
+}
+
+# H.264 with its usual 4:2:0 wants even sizes, so an odd picture loses its last column or row.
+to_color() {
+  local color=(mtcolor)
+  [ -z "$max_disparity" ] || color+=("max-disparity=$max_disparity")
+  play filesrc "location=$out/disparity-$mode.mkv" '!' matroskademux '!' avdec_ffv1 '!' \
+    "${color[@]}" '!' videocrop "right=$odd_width" "bottom=$odd_height" '!' \
+    videoconvert '!' video/x-raw,format=I420 '!' x264enc pass=quant quantizer=18 '!' h264parse '!' mp4mux '!' filesink "location=$out/color.mp4"
+}
+
+compare() {
+  "$build/pipelines/apps/mtstereo-compare" "$@" || fail "the comparison failed"
+}
+
+demo_of_clip() {
+  local table=() m seconds speed row
+  render_clip
+  for m in sparse semi-dense; do
+    step "Matching the two files, mode $m"
+    match "$m"
+    seconds=$(played_seconds)
+    to_pictures "$m"
+    row=$(compare --label "$m" --disparity "$out/disparity-$m" --truth "$out/clip/truth" \
+      --mask "$out/clip/mask")
+    speed=$(awk -v n="$frames" -v s="$seconds" 'BEGIN { printf("%.1f", (s > 0) ? n / s : 0) }')
+    table+=("$row $(printf '%8s' "$speed")")
+  done
+  step "Color video and picture"
+  to_color
+  compare --disparity "$out/disparity-$mode" --truth "$out/clip/truth" --left "$out/clip/left" \
+    --picture "$out/demo.png" --width 1200 --frame $((frames / 2)) --max-disparity "$max_disparity" >/dev/null
+  echo
+  echo "Accuracy against the ground truth, mean over the clip; seen = pixels that both cameras see."
+  echo "fps = frames per second from the two H.264 files to the disparity file, $(nproc) processors."
+  printf '%-12s %6s %10s %9s %10s %14s %13s %8s\n' mode frames 'avgerr px' 'D-all %' 'density %' \
+    'seen avgerr px' 'seen D-all %' fps
+  printf '%s\n' "${table[@]}"
+}
+
+demo_of_files() {
+  limit=86400
+  step "Matching the two files, mode $mode"
+  match "$mode"
+  step "Color video and picture"
+  to_color
+  to_pictures "$mode" snapshot=true
+  play filesrc "location=${files[0]}" '!' decodebin '!' videoconvert '!' pngenc snapshot=true '!' \
+    filesink "location=$out/left.png"
+  compare --disparity "$out/disparity-$mode" --left "$out/left.png" --picture "$out/demo.png" \
+    --width 1600 --max-disparity "${max_disparity:-64}"
+}
+
+mkdir -p "$out" 2>/dev/null || fail "the folder $out cannot be made"
+log=$(mktemp) || fail "there is no room for a temporary file"
+trap 'rm -f "$log"' EXIT
+out=$(cd "$out" && pwd)
+
+if [ "$build_first" = yes ]; then
+  build_all
+elif [ ! -e "$build/gst/libgstmtstereo.so" ]; then
+  fail "there is no plugin in $build; leave --no-build away, or name the folder with --build"
+fi
+export GST_PLUGIN_PATH=$build/gst
+
+if [ ${#files[@]} -eq 0 ]; then
+  demo_of_clip
+  written=(left.mp4 right.mp4 disparity-sparse.mkv disparity-semi-dense.mkv)
+else
+  demo_of_files
+  written=("disparity-$mode.mkv")
+fi
+echo
+echo "Written:"
+for name in "${written[@]}" color.mp4 demo.png; do echo "  $out/$name"; done

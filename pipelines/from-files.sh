@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# from-files.sh LEFT RIGHT: disparity of two video files.
+#
+#   ./pipelines/from-files.sh left.mp4 right.mp4
+#   ./pipelines/from-files.sh left.mp4 right.mp4 --out disparity.mkv
+#
+# Both have the same size and are rectified. Frames are paired by their time stamps, so the files
+# have to start at the same moment.
+set -euo pipefail
+# shellcheck source=pipelines/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+parse_options "$@"
+[ ${#arguments[@]} -eq 2 ] || wrong_usage "two files are needed, LEFT and RIGHT"
+for file in "${arguments[@]}"; do require_file "$file"; done
+
+mapfile -t output < <(output_of)
+launch \
+  filesrc "location=${arguments[0]}" '!' decodebin '!' videoconvert '!' queue '!' m.sink_left \
+  filesrc "location=${arguments[1]}" '!' decodebin '!' videoconvert '!' queue '!' m.sink_right \
+  "${matcher[@]}" "${output[@]}"

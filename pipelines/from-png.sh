@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# from-png.sh LEFT RIGHT DISPARITY: disparity of two numbered sequences of PNG pictures.
+#
+#   ./pipelines/from-png.sh left/%06d.png right/%06d.png disparity/%06d.png
+#
+# What comes out are 16-bit PNG pictures as KITTI has them: px = value / 256, 0 = no disparity. The
+# folder of the disparities is made where it is not there. Without DISPARITY the colors are shown.
+#
+# Options:
+#   --first N           number of the first picture (default 0)
+#   --rate N            frames per second that they stand for (default 24)
+set -euo pipefail
+# shellcheck source=pipelines/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+first=0
+rate=24
+own_option() {
+  case $1 in
+    --first) first=$2 ;;
+    --rate) rate=$2 ;;
+    *) return 1 ;;
+  esac
+}
+parse_options "$@"
+case ${#arguments[@]} in
+  2 | 3) ;;
+  *) wrong_usage "two patterns such as left/%06d.png right/%06d.png are needed, a third for the result" ;;
+esac
+is_number "$first" || wrong_usage "--first is '$first', it has to be a whole number"
+is_number "$rate" || wrong_usage "--rate is '$rate', it has to be a whole number"
+for pattern in "${arguments[@]}"; do
+  [[ $pattern =~ ^[^%]*%(0[0-9]+)?d[^%]*$ ]] ||
+    wrong_usage "'$pattern' has no place for the number; it has to look like left/%06d.png"
+done
+if [ "$dry_run" = no ]; then
+  for pattern in "${arguments[@]:0:2}"; do
+    # shellcheck disable=SC2059  # the pattern is the format: it was checked above
+    require_file "$(printf "$pattern" "$first")"
+  done
+fi
+
+if [ ${#arguments[@]} -eq 3 ]; then
+  # Without the format, pngenc would be given 8 bits.
+  output=('!' videoconvert '!' video/x-raw,format=GRAY16_BE '!' pngenc '!'
+    multifilesink "location=${arguments[2]}" "index=$first")
+  [ "$dry_run" = yes ] || mkdir -p "$(dirname "${arguments[2]}")"
+else
+  mapfile -t output < <(output_of)
+fi
+reader=("index=$first" "caps=image/png,framerate=$rate/1" '!' pngdec '!' videoconvert '!' queue)
+launch \
+  multifilesrc "location=${arguments[0]}" "${reader[@]}" '!' m.sink_left \
+  multifilesrc "location=${arguments[1]}" "${reader[@]}" '!' m.sink_right \
+  "${matcher[@]}" "${output[@]}"

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""mtstereo-compare: its figures on maps that were made for it, its picture, and wrong input."""
+import pathlib
+import struct
+import tempfile
+import unittest
+import zlib
+
+from support import COMPARE, run
+
+WIDTH, HEIGHT = 8, 4
+
+
+def write_png(file, values, depth):
+    """Gray picture of 8 or 16 bit."""
+    def chunk(name, data):
+        body = name + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+    form = ">%dH" if depth == 16 else ">%dB"
+    rows = b"".join(b"\0" + struct.pack(form % len(row), *row) for row in values)
+    header = struct.pack(">IIBBBBB", len(values[0]), len(values), depth, 0, 0, 0, 0)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) +
+                     chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def write_pfm(file, values):
+    file.parent.mkdir(parents=True, exist_ok=True)
+    rows = b"".join(struct.pack("<%df" % len(row), *row) for row in reversed(values))
+    file.write_bytes(b"Pf\n%d %d\n-1.0\n" % (len(values[0]), len(values)) + rows)
+
+
+def everywhere(value):
+    return [[value] * WIDTH for _ in range(HEIGHT)]
+
+
+class Compare(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory(prefix="mtstereo-")
+        self.folder = pathlib.Path(self.temporary.name)
+        self.addCleanup(self.temporary.cleanup)
+        # Two frames with a true disparity of 10 px. Frame 0: 11 px everywhere. Frame 1: the upper
+        # half is 14 px, the lower half unknown.
+        half = HEIGHT // 2
+        write_png(self.folder / "d/000000.png", everywhere(11 * 256), 16)
+        write_png(self.folder / "d/000001.png",
+                  [[14 * 256] * WIDTH] * half + [[0] * WIDTH] * half, 16)
+        for name in ("000000", "000001"):
+            write_pfm(self.folder / f"t/{name}.pfm", everywhere(10.0))
+            # Of the upper half, the left is seen by both cameras.
+            seen = [[255] * 4 + [128] * 4] * half + [[255] * WIDTH] * half
+            write_png(self.folder / f"m/{name}.png", seen, 8)
+
+    def compare(self, *words):
+        return run([COMPARE, *words], self.folder)
+
+    def figures(self, *words):
+        done = self.compare("--disparity", "d", "--truth", "t", *words)
+        self.assertEqual(done.status, 0, str(done))
+        return done.output.split()
+
+    def assert_refuses(self, done, says, status=1):
+        self.assertEqual(done.status, status, str(done))
+        self.assertIn(says, done.errors, str(done))
+
+    def test_means_are_those_of_the_frames(self):
+        # avgerr (1 + 4) / 2, D-all (0 + 100) / 2, density (100 + 50) / 2
+        self.assertEqual(self.figures("--label", "two"), ["two", "2", "2.500", "50.00", "75.00"])
+
+    def test_mask_adds_what_both_cameras_see(self):
+        write_png(self.folder / "d/000001.png",
+                  [[10 * 256] * 4 + [14 * 256] * 4] * 2 + [[0] * WIDTH] * 2, 16)
+        self.assertEqual(self.figures("--mask", "m"),
+                         ["clip", "2", "1.500", "25.00", "75.00", "0.500", "0.00"])
+
+    def test_infinite_truth_is_left_out(self):
+        infinite = float("inf")
+        for name in ("000000", "000001"):
+            write_pfm(self.folder / f"t/{name}.pfm", [[10.0] * 7 + [infinite]] * HEIGHT)
+        self.assertEqual(self.figures()[2:4], ["2.500", "50.00"])
+
+    def test_picture_shows_left_disparity_and_truth(self):
+        write_png(self.folder / "l/000000.png", everywhere(100), 8)
+        write_png(self.folder / "l/000001.png", everywhere(100), 8)
+        self.figures("--left", "l", "--picture", "new/p.png", "--frame", "1")
+        data = (self.folder / "new/p.png").read_bytes()
+        self.assertEqual(struct.unpack(">II", data[16:24]), (3 * WIDTH, HEIGHT))
+
+    def test_picture_can_be_shrunk(self):
+        done = self.compare("--disparity", "d", "--picture", "p.png", "--width", "4")
+        self.assertEqual(done.status, 0, str(done))
+        data = (self.folder / "p.png").read_bytes()
+        self.assertEqual(struct.unpack(">II", data[16:24]), (4, 2))
+
+    def test_lost_frame_is_an_error(self):
+        (self.folder / "d/000001.png").unlink()
+        self.assert_refuses(self.compare("--disparity", "d", "--truth", "t"), "000001")
+
+    def test_frame_without_truth_is_an_error(self):
+        (self.folder / "t/000000.pfm").unlink()
+        self.assert_refuses(self.compare("--disparity", "d", "--truth", "t"), "000000")
+
+    def test_frame_without_mask_is_an_error(self):
+        (self.folder / "m/000000.png").unlink()
+        done = self.compare("--disparity", "d", "--truth", "t", "--mask", "m")
+        self.assert_refuses(done, "000000")
+
+    def test_different_sizes_are_an_error(self):
+        write_pfm(self.folder / "t/000001.pfm", [[10.0] * 3] * 3)
+        self.assert_refuses(self.compare("--disparity", "d", "--truth", "t"), "000001.pfm")
+
+    def test_broken_picture_is_named(self):
+        (self.folder / "d/000001.png").write_bytes(b"no picture")
+        self.assert_refuses(self.compare("--disparity", "d", "--truth", "t"), "000001.png")
+
+    def test_broken_truth_is_named(self):
+        truth = self.folder / "t/000001.pfm"
+        truth.write_bytes(truth.read_bytes()[:-5])
+        self.assert_refuses(self.compare("--disparity", "d", "--truth", "t"), "000001.pfm")
+
+    def test_missing_folder_is_named(self):
+        self.assert_refuses(self.compare("--disparity", "none", "--truth", "t"), "none")
+
+    def test_empty_folder_is_named(self):
+        (self.folder / "empty").mkdir()
+        self.assert_refuses(self.compare("--disparity", "empty", "--truth", "t"), "empty")
+
+    def test_frame_that_is_not_there_is_an_error(self):
+        done = self.compare("--disparity", "d", "--picture", "p.png", "--frame", "2")
+        self.assert_refuses(done, "frame 2")
+
+    def test_picture_that_cannot_be_written_is_named(self):
+        done = self.compare("--disparity", "d", "--picture", "/dev/null/p.png")
+        self.assert_refuses(done, "/dev/null")
+
+    def test_wrong_options_are_refused(self):
+        self.assert_refuses(self.compare("--truth", "t"), "--disparity", 2)
+        self.assert_refuses(self.compare("--disparity", "d"), "nothing to do", 2)
+        self.assert_refuses(self.compare("--disparity", "d", "--max-disparity", "0"),
+                            "--max-disparity", 2)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""demo.sh from end to end on a tiny clip, with video files, and with wrong input."""
+import re
+import unittest
+
+from support import BUILD, ClipTest, count_frames
+
+
+class Demo(ClipTest):
+    def demo(self, *words):
+        return self.run_script("demo.sh", "--no-build", "--build", BUILD, *words, seconds=120)
+
+    def test_makes_everything_from_nothing(self):
+        done = self.demo("--out", "all of it", "--frames", "4", "--size", "160x120")
+        self.assert_succeeds(done)
+        out = self.folder / "all of it"
+        for name in ("left.mp4", "right.mp4", "disparity-sparse.mkv", "disparity-semi-dense.mkv",
+                     "color.mp4", "demo.png"):
+            self.assertGreater((out / name).stat().st_size, 0, name)
+            self.assertIn(str(out / name), done.output)
+        self.assertEqual(count_frames(out / "disparity-semi-dense.mkv", self.folder), 4)
+        self.assertEqual(count_frames(out / "color.mp4", self.folder), 4)
+        rows = {row.split()[0]: row.split()[1:] for row in done.output.splitlines()
+                if re.match(r"(sparse|semi-dense) +\d", row)}
+        self.assertEqual(set(rows), {"sparse", "semi-dense"}, done.output)
+        for mode, row in rows.items():
+            frames, error, outliers, density, seen_error, seen_outliers, speed = map(float, row)
+            self.assertEqual(frames, 4, mode)
+            self.assertTrue(0 < error < 5, f"{mode}: {row}")
+            self.assertTrue(0 <= outliers < 50, f"{mode}: {row}")
+            self.assertTrue(1 < density <= 100, f"{mode}: {row}")
+            self.assertLessEqual(seen_error, error, f"{mode}: {row}")
+            self.assertLessEqual(seen_outliers, outliers, f"{mode}: {row}")
+            self.assertGreater(speed, 0, f"{mode}: {row}")
+        self.assertGreater(float(rows["semi-dense"][3]), float(rows["sparse"][3]), "density")
+
+    def test_takes_own_files(self):
+        done = self.demo("left.mp4", "right.mkv", "--out", "own", "--mode", "sparse",
+                         "--max-disparity", "32")
+        self.assert_succeeds(done)
+        self.assertEqual(count_frames(self.folder / "own/disparity-sparse.mkv", self.folder), 8)
+        for name in ("color.mp4", "demo.png"):
+            self.assertGreater((self.folder / "own" / name).stat().st_size, 0, name)
+
+    def test_shows_the_elements_message_where_sizes_differ(self):
+        other = self.demo("--out", "other", "--frames", "2", "--size", "128x96")
+        self.assert_succeeds(other)
+        done = self.demo("left.mp4", "other/right.mp4", "--out", "differ")
+        self.assert_refuses(done, "160x120", 1)
+        self.assertIn("128x96", done.errors)
+
+    def test_names_a_missing_file(self):
+        self.assert_refuses(self.demo("left.mp4", "nothing.mp4"), "nothing.mp4", 1)
+
+    def test_refuses_a_file_that_is_no_video(self):
+        (self.folder / "text.mp4").write_text("this is not a video\n" * 50)
+        done = self.demo("left.mp4", "text.mp4", "--out", "text")
+        self.assert_refuses(done, "the pipeline failed", 1)
+        self.assertIn("ERROR", done.errors)
+
+    def test_names_a_folder_that_cannot_be_made(self):
+        self.assert_refuses(self.demo("--out", "/dev/null/out"), "/dev/null/out", 1)
+
+    def test_refuses_wrong_options(self):
+        for words, says in ((["left.mp4"], "two video files"),
+                            (["a", "b", "c"], "two video files"),
+                            (["--mode", "dense"], "--mode"),
+                            (["--max-disparity", "-3"], "--max-disparity"),
+                            (["--frames", "0"], "--frames"),
+                            (["--size", "640"], "--size"),
+                            (["--size", "161x120"], "even"),
+                            (["--out"], "--out"),
+                            (["--colour", "red"], "--colour")):
+            self.assert_refuses(self.demo(*words), says, 2)
+
+    def test_refuses_an_unknown_scene(self):
+        done = self.demo("--out", "moon", "--scene", "moon")
+        self.assert_refuses(done, "street, garden, room", 1)
+
+    def test_tells_that_nothing_is_built(self):
+        done = self.run_script("demo.sh", "--no-build", "--build", "nowhere", "--out", "nobuild")
+        self.assert_refuses(done, "nowhere", 1)
+
+    def test_help_tells_the_options(self):
+        done = self.demo("--help")
+        self.assert_succeeds(done)
+        self.assertIn("--max-disparity", done.output)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs every command of README.md and docs/*.md, headless and on a small clip.
+
+Taken are the lines of ```sh blocks, each document in a folder of its own where the files are that
+its examples name. Only what a test machine lacks is replaced: the screen by a fakesink, cameras by
+test pictures, and behind "# needs a sender" a sender is started on the loopback network.
+"""
+import pathlib
+import re
+import shutil
+import tempfile
+import time
+import unittest
+
+from support import BUILD, SLOW, SOURCE, free_ports, make_clip, make_videos, require, run
+from support import start, stop
+
+DOCUMENTS = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
+
+# What installs, builds or runs the tests is run by them already.
+NOT_RUN = re.compile(r"(sudo |apt|git |cd |meson |ninja |\./tests/|\./\.ci/|docs/update\.sh"
+                     r"|\./docs/update\.sh|\./pipelines/install-packages\.sh)")
+RUN = re.compile(r"([A-Z_]+=\S+ +)*(gst-launch-1\.0|gst-inspect-1\.0|\./pipelines/|mtstereo-"
+                 r"|\./build/pipelines/|build/pipelines/|depth-of-center|mkdir |export )")
+
+
+class Command:
+    def __init__(self, document, line_number, text, needs):
+        self.where = f"{document.name}:{line_number}"
+        self.text, self.needs = text, needs
+
+
+def commands_of(document):
+    """The commands of a document's ```sh blocks, continued lines joined."""
+    commands, inside, joined, needs, first = [], False, "", "", 0
+    for number, line in enumerate(document.read_text().splitlines(), 1):
+        if line.strip().startswith("```"):
+            inside, needs = line.strip() == "```sh", ""
+            continue
+        if not inside or not line.strip():
+            continue
+        if line.lstrip().startswith("#"):
+            needs = line
+            continue
+        first = first if joined else number
+        joined += line
+        if joined.endswith("\\"):
+            joined = joined[:-1]
+            continue
+        text = re.sub(r"\s#\s.*$", "", joined.strip())  # a remark behind the command
+        commands.append(Command(document, first, text.strip(), needs + joined))
+        joined = ""
+    return commands
+
+
+def make_data_sets(folder):
+    """Small trees that lie like the public data sets, under the names of docs/evaluation.md."""
+    render = BUILD / "pipelines/render/mtstereo-render"
+    require(run([render, "trainingF", "--layout", "middlebury", "--size", "160x120", "--frames", "2",
+                 "--scene", "room"], folder))
+    kitti = folder / "data_scene_flow/training"
+    for name, side in (("image_2", "left"), ("image_3", "right")):
+        (kitti / name).mkdir(parents=True)
+        for n in range(2):
+            shutil.copy(folder / side / f"{n:06d}.png", kitti / name / f"{n:06d}_10.png")
+    # What the matcher itself says stands for the truth: this is about running, not about figures.
+    (kitti / "disp_occ_0").mkdir()
+    require(run([SOURCE / "pipelines/from-png.sh", "left/%06d.png", "right/%06d.png",
+                 "estimate/%06d.png"], folder))
+    for n in range(2):
+        shutil.copy(folder / f"estimate/{n:06d}.png", kitti / f"disp_occ_0/{n:06d}_10.png")
+    shutil.rmtree(folder / "estimate")
+    scene = "35mm_focallength/scene_forwards/fast"
+    for side in ("left", "right"):
+        pictures = folder / "driving/frames_cleanpass" / scene / side
+        pictures.mkdir(parents=True)
+        truth = folder / "driving/disparity" / scene / side
+        truth.mkdir(parents=True)
+        for n in range(2):
+            shutil.copy(folder / side / f"{n:06d}.png", pictures / f"{n + 1:04d}.png")
+            shutil.copy(folder / f"clip/truth/{n:06d}.pfm", truth / f"{n + 1:04d}.pfm")
+
+
+def prepare(folder):
+    """Everything that the examples name."""
+    make_clip(folder)
+    make_videos(folder)
+    for name in ("pipelines", "tests", "docs"):
+        (folder / name).symlink_to(SOURCE / name)
+    (folder / "build").symlink_to(BUILD)
+    make_data_sets(folder)
+
+
+def headless(text):
+    """The command as a machine without screen, cameras and time runs it."""
+    if text.startswith("./pipelines/demo.sh"):
+        short = "" if " left" in text else " --frames 4 --size 160x120"
+        return text + " --no-build" + short
+    if re.match(r"\./pipelines/from-", text) and "--out" not in text and "--help" not in text:
+        text += " --sink 'fakesink sync=false'"
+    return re.sub(r"\b(autovideosink|glimagesink|ximagesink|xvimagesink)\b( sync=\w+)?",
+                  "fakesink sync=false", text)
+
+
+def without_camera(text):
+    """Test pictures instead of cameras, as JPEG where the camera is asked for it."""
+    text = re.sub(r"v4l2src device=\S+( ! |\s+!\s+)image/jpeg",
+                  r"videotestsrc is-live=true num-buffers=20 ! jpegenc\1image/jpeg", text)
+    text = re.sub(r"v4l2src( device=\S+)?", "videotestsrc is-live=true num-buffers=20", text)
+    return text
+
+
+class Documentation(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory(prefix="mtstereo-")
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = pathlib.Path(self.temporary.name)
+
+    def check(self, document):
+        commands = commands_of(document)
+        if commands:
+            prepare(self.folder)
+        for command in commands:
+            with self.subTest(command.where):
+                self.check_command(command)
+
+    def check_command(self, command):
+        if NOT_RUN.match(command.text):
+            return
+        self.assertRegex(command.text, RUN, f"{command.where}: what is this command?")
+        text = command.text
+        if text.startswith("./pipelines/from-") and "needs" in command.needs:
+            done = run(["bash", "-c", text + " --dry-run"], self.folder)
+            self.assertEqual(done.status, 0, f"{command.where}: {done}")
+            text = done.output.strip()
+        if "camera" in command.needs and "needs" in command.needs:
+            text = without_camera(text)
+        text = headless(text)
+        if "udpsrc" in text:
+            self.check_receiver(command, text)
+        elif "rtspsrc" in text:
+            self.check_parses(command, text)
+        else:
+            done = run(["bash", "-c", text], self.folder, 120)
+            self.assertEqual(done.status, 0, f"{command.where}: {done}")
+            self.assertNotRegex(done.text, "CRITICAL|erroneous", f"{command.where}: {done}")
+
+    def check_receiver(self, command, text):
+        """Succeeds when disparity frames come out, made of what a sender sends meanwhile."""
+        ports = free_ports(2)
+        for old, new in zip(re.findall(r"port=(\d+)", text), ports):
+            text = text.replace(f"port={old}", f"port={new}")
+        text = text.replace("fakesink sync=false", "fakesink sync=false num-buffers=3")
+        receiver = start(["bash", "-c", text], self.folder)
+        try:
+            deadline = time.monotonic() + 60 * SLOW
+            while receiver.poll() is None and time.monotonic() < deadline:
+                require(run([SOURCE / "pipelines/network-sender.sh", "left.mp4", "right.mp4",
+                             "--ports", "{},{}".format(*ports)], self.folder))
+            self.assertEqual(receiver.poll(), 0, f"{command.where}: nothing came out of\n{text}")
+        finally:
+            stop(receiver)
+            receiver.communicate()
+
+    def check_parses(self, command, text):
+        """Nobody answers at the address; but the line has to be one."""
+        text = re.sub(r"rtsps?://[^ /]+", "rtsp://127.0.0.1:9", text)
+        done = run(["bash", "-c", text], self.folder)
+        self.assertIsNotNone(done.status, f"{command.where}: {done}")
+        self.assertNotRegex(done.text, "erroneous|syntax error|no element|no property",
+                            f"{command.where}: {done}")
+
+
+def add_test(document):
+    setattr(Documentation, "test_" + re.sub(r"\W", "_", document.name),
+            lambda self: self.check(document))
+
+
+for each in DOCUMENTS:
+    add_test(each)
+
+
+class Extraction(unittest.TestCase):
+    """A command that is not found would never be run."""
+
+    def commands(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "page.md"
+            file.write_text(text)
+            return commands_of(file)
+
+    def test_lines_are_joined_and_remarks_removed(self):
+        found = self.commands("a\n```sh\none \\\n  two   # remark\nthree\n```\nfour\n")
+        self.assertEqual([c.text for c in found], ["one   two", "three"])
+        self.assertEqual([c.where for c in found], ["page.md:3", "page.md:5"])
+
+    def test_other_blocks_are_left_alone(self):
+        self.assertEqual(self.commands("```cpp\nint a;\n```\n```\nprint\n```\n"), [])
+
+    def test_needs_are_those_of_the_block(self):
+        found = self.commands("```sh\n# needs two cameras\none\n```\n```sh\ntwo\n```\n")
+        self.assertIn("needs two cameras", found[0].needs)
+        self.assertNotIn("needs", found[1].needs)
+
+    def test_the_readme_is_read(self):
+        texts = [c.text for c in commands_of(SOURCE / "README.md")]
+        self.assertGreater(sum(text.startswith("gst-launch-1.0") for text in texts), 4)
+        self.assertIn("./pipelines/demo.sh", texts)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

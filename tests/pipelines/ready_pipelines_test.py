@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The ready pipelines, with files, over the loopback network, and with wrong input."""
+import re
+import shlex
+import time
+import unittest
+
+from matroska import lose_frames
+from support import COMPARE, PIPELINES, SLOW, ClipTest, count_frames, free_ports, launch, require
+from support import run, start, stop
+
+RATE = 24
+HEADLESS = ("--sink", "fakesink")
+
+
+class ReadyPipelines(ClipTest):
+    def compare(self, disparity):
+        """avgerr [px], D-all [%] and density [%] of a folder of disparity pictures."""
+        done = require(run([COMPARE, "--disparity", disparity, "--truth", "clip/truth"],
+                           self.folder))
+        return [float(word) for word in done.output.split()[2:5]]
+
+    def test_files_are_recorded_without_loss_of_a_frame(self):
+        done = self.run_script("from-files.sh", "left.mp4", "right.mp4", "--out", "files.mkv",
+                               "--max-disparity", "32", "--set", "threads=1")
+        self.assert_succeeds(done)
+        self.assertEqual(count_frames("files.mkv", self.folder), 8)
+
+    def test_files_are_shown(self):
+        self.assert_succeeds(self.run_script("from-files.sh", "left.mkv", "right.mp4", *HEADLESS))
+
+    def test_side_by_side_gives_what_two_files_give(self):
+        done = self.run_script("from-side-by-side.sh", "side-by-side.mp4", "--out", "sbs.mkv")
+        self.assert_succeeds(done)
+        self.assertEqual(count_frames("sbs.mkv", self.folder), 8)
+        require(run(["bash", "-c", "mkdir -p sbs && gst-launch-1.0 -q filesrc location=sbs.mkv ! "
+                     "matroskademux ! avdec_ffv1 ! videoconvert ! video/x-raw,format=GRAY16_BE ! "
+                     "pngenc ! multifilesink location=sbs/%06d.png"], self.folder))
+        error, _, density = self.compare("sbs")
+        # With the halves swapped, or not cut in the middle, hardly anything would match.
+        self.assertLess(error, 3)
+        self.assertGreater(density, 15)
+
+    def test_png_pictures_become_kitti_pictures(self):
+        done = self.run_script("from-png.sh", "left/%06d.png", "right/%06d.png",
+                               "new/folder/%06d.png")
+        self.assert_succeeds(done)
+        self.assertEqual(len(list((self.folder / "new/folder").iterdir())), 8)
+        header = (self.folder / "new/folder/000003.png").read_bytes()[24:26]
+        self.assertEqual(header, bytes([16, 0]), "16 bit, gray")
+        error, _, density = self.compare("new/folder")
+        self.assertLess(error, 3)
+        self.assertGreater(density, 15)
+
+    def test_first_picture_can_be_chosen(self):
+        done = self.run_script("from-png.sh", "left/%06d.png", "right/%06d.png", "late/%06d.png",
+                               "--first", "5")
+        self.assert_succeeds(done)
+        names = sorted(file.name for file in (self.folder / "late").iterdir())
+        self.assertEqual(names, ["000005.png", "000006.png", "000007.png"])
+
+    def test_network_streams_are_matched(self):
+        left, right = free_ports(2)
+        shown = self.run_script("from-network.sh", left, right, "--sink", "fakesink num-buffers=3",
+                                "--dry-run")
+        receiver = start(shlex.split("env " + shown.output), self.folder)
+        try:
+            # The clip is short, so it is sent again and again; the receiver ends on its own after
+            # the third disparity frame.
+            deadline = time.monotonic() + 60 * SLOW
+            while receiver.poll() is None and time.monotonic() < deadline:
+                self.assert_succeeds(self.run_script(
+                    "network-sender.sh", "left.mp4", "right.mp4", "--ports", f"{left},{right}"))
+            self.assertEqual(receiver.poll(), 0, "no disparity frames from the network")
+        finally:
+            stop(receiver)
+            receiver.communicate()
+
+    def test_time_limit_is_no_failure(self):
+        left, right = free_ports(2)  # nobody sends
+        done = self.run_script("from-network.sh", left, right, *HEADLESS, "--seconds", "2")
+        self.assert_succeeds(done)
+
+    def lossy(self, side, lost):
+        """The clip as a file of independent frames, without some of them."""
+        require(launch(f"multifilesrc location={side}/%06d.png caps=image/png,framerate=24/1 ! "
+                       f"pngdec ! videoconvert ! jpegenc quality=95 ! matroskamux ! "
+                       f"filesink location=whole-{side}.mkv", self.folder))
+        name = f"lossy-{side}.mkv"
+        count = lose_frames(self.folder / f"whole-{side}.mkv", self.folder / name, lost)
+        self.assertEqual(count, 8)
+        self.assertEqual(count_frames(name, self.folder), 8 - len(lost))
+        return name
+
+    def test_lost_frames_cost_their_pairs_and_nothing_else(self):
+        left, right = self.lossy("left", [2]), self.lossy("right", [4, 5])
+        done = run(["gst-launch-1.0", "-v", *f"filesrc location={left} ! decodebin ! videoconvert ! "
+                    f"m.sink_left filesrc location={right} ! decodebin ! videoconvert ! m.sink_right "
+                    "mtstereo name=m ! "
+                    "fakesink silent=false".split()], self.folder)
+        self.assert_succeeds(done)
+        times = re.findall(r"chain .*pts: 0:00:0(\d\.\d\d)", done.text)
+        expected = [f"{int(100 * n / RATE) / 100:.2f}" for n in (0, 1, 3, 6, 7)]
+        self.assertEqual(times, expected, str(done))
+
+    def test_stream_that_ends_early_ends_the_output(self):
+        right = self.lossy("right", [5, 6, 7])
+        done = self.run_script("from-files.sh", "left.mp4", right, "--out", "short.mkv")
+        self.assert_succeeds(done)
+        self.assertEqual(count_frames("short.mkv", self.folder), 5)
+
+    def test_cameras_are_asked_for_what_was_wanted(self):
+        done = self.run_script("from-cameras.sh", "/dev/video0", "/dev/video2", "--size", "320x240",
+                               "--rate", "15", "--dry-run")
+        self.assert_succeeds(done)
+        for words in ("v4l2src device=/dev/video0", "v4l2src device=/dev/video2",
+                      "width=320,height=240,framerate=15/1"):
+            self.assertIn(words, done.output)
+
+    def test_camera_pipelines_run_on_test_pictures(self):
+        for words in (["from-cameras.sh", "/dev/video0", "/dev/video2"],
+                      ["from-side-by-side.sh", "/dev/video0", "--size", "640x240"]):
+            done = self.run_script(*words, "--sink", "fakesink num-buffers=3", "--dry-run")
+            self.assert_succeeds(done)
+            line = re.sub(r"v4l2src device=\S+", "videotestsrc is-live=true", done.output)
+            self.assert_succeeds(run(["bash", "-c", line], self.folder))
+
+    def test_dry_run_prints_a_line_that_runs(self):
+        spaced = self.folder / "it's left.mp4"
+        spaced.write_bytes((self.folder / "left.mp4").read_bytes())
+        done = self.run_script("from-files.sh", spaced, "right.mp4", "--out", "dry run.mkv",
+                               "--dry-run")
+        self.assert_succeeds(done)
+        self.assertFalse((self.folder / "dry run.mkv").exists())
+        self.assert_succeeds(run(["bash", "-c", done.output], self.folder))
+        self.assertEqual(count_frames("dry run.mkv", self.folder), 8)
+
+
+class WrongUse(ClipTest):
+    def test_missing_inputs_are_named(self):
+        for words, says in (
+                (["from-files.sh", "left.mp4", "no.mp4"], "no.mp4"),
+                (["from-files.sh", "left.mp4", "left"], "folder"),
+                (["from-side-by-side.sh", "no.mp4"], "no.mp4"),
+                (["from-side-by-side.sh", "clip/calib.txt"], "no video"),
+                (["from-cameras.sh", "/dev/video97", "/dev/video98"], "/dev/video97"),
+                (["from-side-by-side.sh", "/dev/video97"], "/dev/video97"),
+                (["network-sender.sh", "no.mp4", "left.mp4"], "no.mp4"),
+                (["from-network.sh", "0", "5000"], "UDP port"),
+                (["from-network.sh", "http://a", "http://b"], "http://a"),
+                (["from-png.sh", "left/%06d.png", "nowhere/%06d.png", "o/%06d.png"], "nowhere"),
+                (["from-png.sh", "left/%06d.png", "right/%06d.png", "o/%06d.png", "--first", "99"],
+                 "000099.png")):
+            self.assert_refuses(self.run_script(*words), says, 1)
+
+    def test_wrong_options_are_named(self):
+        files = ["left.mp4", "right.mp4"]
+        for words, says in (
+                (["from-files.sh", "left.mp4"], "LEFT and RIGHT"),
+                (["from-files.sh", *files, "--mode", "dense"], "--mode"),
+                (["from-files.sh", *files, "--max-disparity", "many"], "--max-disparity"),
+                (["from-files.sh", *files, "--set", "threads"], "--set"),
+                (["from-files.sh", *files, "--seconds", "1.5"], "--seconds"),
+                (["from-files.sh", *files, "--seconds"], "--seconds"),
+                (["from-files.sh", *files, "--size", "3x3"], "--size"),
+                (["from-cameras.sh", "/dev/video0"], "two cameras"),
+                (["from-cameras.sh", "/dev/video0", "/dev/video2", "--size", "big"], "--size"),
+                (["from-cameras.sh", "/dev/video0", "/dev/video2", "--rate", "fast"], "--rate"),
+                (["from-side-by-side.sh", "/dev/video0", "--size", "5"], "--size"),
+                (["from-network.sh", "5000"], "two UDP ports"),
+                (["from-network.sh", "5000", "5002", "--latency", "long"], "--latency"),
+                (["from-network.sh", "5000", "5002", "--tolerance", "-1"], "--tolerance"),
+                (["network-sender.sh", *files, "--ports", "5000"], "--ports"),
+                (["from-png.sh", "left", "right"], "left/%06d.png"),
+                (["from-png.sh", "l%d.png", "r%d.png", "--first", "x"], "--first"),
+                (["from-png.sh", "l%s%n.png", "r%d.png"], "l%s%n.png")):
+            self.assert_refuses(self.run_script(*words), says, 2)
+
+    def test_property_that_does_not_exist_is_named(self):
+        done = self.run_script("from-files.sh", "left.mp4", "right.mp4", *HEADLESS, "--set",
+                               "speed=11")
+        self.assertNotEqual(done.status, 0, str(done))
+        self.assertIn("speed", done.errors)
+
+    def test_missing_build_is_told(self):
+        done = self.run_script("from-files.sh", "left.mp4", "right.mp4", "--build", "nowhere")
+        self.assert_refuses(done, "nowhere", 1)
+
+    def test_every_script_has_its_help(self):
+        for script in sorted(PIPELINES.glob("*.sh")):
+            if script.name in ("common.sh", "install-packages.sh"):
+                continue
+            done = self.run_script(script.name, "--help")
+            self.assert_succeeds(done)
+            self.assertIn(script.name, done.output.splitlines()[0])
+            self.assertNotIn("set -euo", done.output)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

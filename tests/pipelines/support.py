@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What the tests of the scripts and programs share: small clips, and commands with a time limit."""
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["MTSTEREO_SOURCE"])
+BUILD = pathlib.Path(os.environ["MTSTEREO_BUILD"])
+SLOW = float(os.environ.get("MTSTEREO_SLOW", "1"))  # how much slower a sanitized build may be
+PIPELINES = SOURCE / "pipelines"
+RENDER = BUILD / "pipelines/render/mtstereo-render"
+COMPARE = BUILD / "pipelines/apps/mtstereo-compare"
+CENTER = BUILD / "pipelines/apps/depth-of-center"
+
+
+class Outcome:
+    """How a command ended and what it said."""
+
+    def __init__(self, command, status, output, errors):
+        self.command, self.status, self.output, self.errors = command, status, output, errors
+        self.text = output + errors
+
+    def __str__(self):
+        words = " ".join(map(str, self.command))
+        return f"{words}\nstatus {self.status}\n{self.output}\n{self.errors}"
+
+
+def environment(folder):
+    env = dict(os.environ)
+    env["GST_PLUGIN_PATH"] = str(BUILD / "gst")
+    env["GST_REGISTRY"] = str(pathlib.Path(folder) / "registry.bin")
+    env["GST_DEBUG_NO_COLOR"] = "1"
+    env["BUILD"] = str(BUILD)
+    env["LC_ALL"] = "C.UTF-8"
+    programs = [BUILD / "pipelines" / part for part in ("apps", "eval", "render")]
+    env["PATH"] = os.pathsep.join([*map(str, programs), env["PATH"]])
+    env.pop("DISPLAY", None)
+    env.pop("WAYLAND_DISPLAY", None)
+    return env
+
+
+def start(command, folder):
+    """Starts a command in a session of its own, so that all of it can be ended."""
+    return subprocess.Popen([str(word) for word in command], cwd=folder, env=environment(folder),
+                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True, start_new_session=True)
+
+
+def stop(process, how=signal.SIGKILL):
+    try:
+        os.killpg(process.pid, how)
+    except ProcessLookupError:
+        pass
+
+
+def run(command, folder, seconds=60):
+    """Runs a command to its end; one that takes too long is ended, and has the status None."""
+    process = start(command, folder)
+    try:
+        output, errors = process.communicate(timeout=seconds * SLOW)
+        return Outcome(command, process.returncode, output, errors)
+    except subprocess.TimeoutExpired:
+        stop(process)
+        output, errors = process.communicate()
+        return Outcome(command, None, output, errors + f"\nstill running after {seconds} s")
+
+
+def launch(words, folder, seconds=60):
+    return run(["gst-launch-1.0", "-q", "-e", *words.split()], folder, seconds)
+
+
+def free_ports(count):
+    """UDP ports that nobody uses now."""
+    sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(count)]
+    for s in sockets:
+        s.bind(("127.0.0.1", 0))
+    ports = [s.getsockname()[1] for s in sockets]
+    for s in sockets:
+        s.close()
+    return ports
+
+
+def require(outcome):
+    if outcome.status != 0:
+        raise AssertionError(str(outcome))
+    return outcome
+
+
+H264 = "video/x-raw,format=I420 ! x264enc pass=quant quantizer=10 ! h264parse"
+
+
+def make_clip(folder, frames=8, size="160x120", scene="room"):
+    """Renders clip/ into the folder, and links left/ and right/ to its pictures."""
+    require(run([RENDER, "clip", "--frames", str(frames), "--size", size, "--scene", scene], folder))
+    for side in ("left", "right"):
+        (folder / side).symlink_to(folder / "clip" / side)
+
+
+def make_videos(folder):
+    """The clip as left, right and side-by-side video files, H.264 in .mp4 and .mkv."""
+    read = "multifilesrc location={}/%06d.png caps=image/png,framerate=24/1 ! pngdec ! videoconvert"
+    for side in ("left", "right"):
+        require(launch(f"{read.format(side)} ! {H264} ! tee name=t t. ! queue ! mp4mux ! "
+                       f"filesink location={side}.mp4 t. ! queue ! matroskamux ! "
+                       f"filesink location={side}.mkv", folder))
+    width = int.from_bytes((folder / "left/000000.png").read_bytes()[16:20], "big")
+    require(launch(f"compositor name=c sink_1::xpos={width} ! videoconvert ! {H264} ! mp4mux ! "
+                   f"filesink location=side-by-side.mp4 {read.format('left')} ! c.sink_0 "
+                   f"{read.format('right')} ! c.sink_1", folder))
+
+
+def count_frames(file, folder):
+    """Decodes a video file and counts its frames."""
+    counted = require(run(["gst-launch-1.0", "filesrc", f"location={file}", "!", "decodebin", "!",
+                           "fakesink", "silent=false", "-v"], folder))
+    return counted.text.count("chain   ******")
+
+
+class ClipTest(unittest.TestCase):
+    """Tests that work in a folder with a small clip in it, made once for all of them."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory(prefix="mtstereo-")
+        cls.folder = pathlib.Path(cls.temporary.name)
+        make_clip(cls.folder)
+        make_videos(cls.folder)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def run_script(self, name, *words, seconds=60):
+        return run([PIPELINES / name, *words], self.folder, seconds)
+
+    def assert_succeeds(self, outcome):
+        self.assertEqual(outcome.status, 0, str(outcome))
+
+    def assert_refuses(self, outcome, says, status):
+        self.assertEqual(outcome.status, status, str(outcome))
+        self.assertIn(says, outcome.errors, str(outcome))
