@@ -96,10 +96,12 @@ TEST_F(Allocation, NeverHappensInASmallerFrame) {
   }
 }
 
-/// Lets the first, the second, the third ... allocation of a first frame fail, until none is left
-/// to. Each time the frame has to fail in order, and the next one to be as ever.
+/// Lets the first, the second, the third ... allocation of a frame that is larger than the one
+/// before fail, until none is left to. Each time the frame has to fail in order, and the next to be
+/// as ever.
 void expect_recovery(const char* threads, const char* volume) {
   const test::Pair pair = test::slanted_pair(90, 70, 16, 4);
+  const test::Pair small = test::slanted_pair(40, 20, 8, 5);
   const Parameters parameters =
       test::parameters({{"threads", threads}, {"cost-volume", volume}, {"max-disparity", "20"}});
   Matcher undisturbed = std::move(Matcher::create(parameters).value());
@@ -108,6 +110,8 @@ void expect_recovery(const char* threads, const char* volume) {
   for (bool failed = true; failed && !testing::Test::HasFailure(); failures += failed) {
     SCOPED_TRACE(testing::Message() << "allocation " << failures << ", " << threads << " threads");
     Matcher matcher = std::move(Matcher::create(parameters).value());
+    matcher.keep_stages(true);
+    if (failures % 2 == 0) test::compute(matcher, small.left, small.right);
     test::fail_allocation_after(failures);
     const Result<DisparityView> result = matcher.compute(pair.left.view(), pair.right.view());
     failed = test::allocation_has_failed();
@@ -117,7 +121,9 @@ void expect_recovery(const char* threads, const char* volume) {
       EXPECT_FALSE(result.error().message.empty());
       EXPECT_EQ(0, matcher.cost(50, 20, 3)) << "there is no volume";
       const GrayView level = matcher.preprocessed(Side::kLeft);
+      const DisparityView stage = matcher.stage(Stage::kNodeMatching);
       EXPECT_TRUE(level.data != nullptr || level.width == 0) << "a size without pixels";
+      EXPECT_TRUE(stage.data != nullptr || stage.width == 0) << "a size without pixels";
     }
     EXPECT_TRUE(same_image(expected, test::compute(matcher, pair.left, pair.right)));
   }

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
+#include <cstdio>
+#include <memory>
 
 #include "mtstereo/mtstereo.hpp"
 #include "support/compare.hpp"
@@ -228,7 +229,9 @@ TEST(Matcher, ShowsTheCostsOfTheLastFrame) {
 }
 
 TEST(Version, IsThreeNumbers) {
-  EXPECT_TRUE(std::regex_match(version(), std::regex("[0-9]+\\.[0-9]+\\.[0-9]+"))) << version();
+  int major = 0, minor = 0, patch = 0, length = 0;
+  ASSERT_EQ(3, std::sscanf(version(), "%d.%d.%d%n", &major, &minor, &patch, &length)) << version();
+  EXPECT_EQ('\0', version()[length]) << version();
 }
 
 }  // namespace
