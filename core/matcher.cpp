@@ -29,7 +29,8 @@ namespace mtstereo {
 namespace {
 
 constexpr int kStages = 5;
-constexpr int kMostLevels = static_cast<int>(std::tuple_size_v<decltype(Parameters::Levels::level)>);
+constexpr int kMostLevels =
+    static_cast<int>(std::tuple_size_v<decltype(Parameters::Levels::level)>);
 
 /// What one level of S is matched with.
 struct LevelState {
@@ -69,6 +70,16 @@ Status check_view(const char* name, GrayView view) {
 
 std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height) + " px";
+}
+
+/// An error whose text may need memory that is not there: then it goes without.
+template <typename Text>
+Error error_of(ErrorCode code, Text&& text) noexcept {
+  try {
+    return {code, text()};
+  } catch (...) {
+    return {code, {}};
+  }
 }
 
 }  // namespace
@@ -286,9 +297,8 @@ void Matcher::State::extrapolate() {
 void Matcher::State::match_pixels() {
   const PixelMatchingOptions options = {settings.pixel_search_range, settings.pixel_confidence,
                                         settings.subpixel};
-  for_rows([&](int y0, int y1, WorkerState&) {
-    mtstereo::match_pixels(volume, options, y0, y1, map);
-  });
+  for_rows(
+      [&](int y0, int y1, WorkerState&) { mtstereo::match_pixels(volume, options, y0, y1, map); });
 }
 
 void Matcher::State::keep(Stage stage) {
@@ -359,14 +369,16 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) {
     state.compute(left, right);
   } catch (const std::bad_alloc&) {
     state.sized = false;
-    return Error{ErrorCode::kOutOfMemory,
-                 "there is not enough memory for images of " + size_text(left.width, left.height) +
-                     " with max-disparity = " + std::to_string(state.settings.disparities) +
-                     ": lower max-disparity, or set cost-volume = half"};
+    return error_of(ErrorCode::kOutOfMemory, [&] {
+      return "there is not enough memory for images of " + size_text(left.width, left.height) +
+             " with max-disparity = " + std::to_string(state.settings.disparities) +
+             ": lower max-disparity, or set cost-volume = half";
+    });
   } catch (const std::exception& exception) {
     state.sized = false;
-    return Error{ErrorCode::kOutOfMemory,
-                 std::string("the frame could not be matched: ") + exception.what()};
+    return error_of(ErrorCode::kSystem, [&] {
+      return std::string("the frame could not be matched: ") + exception.what();
+    });
   }
   return state.map.view();
 }

@@ -194,7 +194,8 @@ Status Parameters::set(std::string_view name, std::string_view text) {
   const ParameterInfo* info = find_parameter(name);
   if (info == nullptr) {
     std::string known;
-    for (const ParameterInfo& row : kTable) known += std::string(known.empty() ? "" : ", ") + row.name;
+    for (const ParameterInfo& row : kTable)
+      known += std::string(known.empty() ? "" : ", ") + row.name;
     return Error{ErrorCode::kInvalidParameter,
                  "there is no parameter \"" + std::string(name) + "\": there are " + known};
   }
@@ -255,17 +256,19 @@ Status Parameters::check_frame(int width, int height) const {
   }
   const int disparities = integer(P::kMaxDisparity);
   if (disparities > width) {
-    return Error{ErrorCode::kFrameDoesNotFit,
-                 "max-disparity = " + std::to_string(disparities) + " does not fit images of " + size +
-                     " px: set it to 1 to " + std::to_string(width) + " px, the image's width"};
+    return Error{ErrorCode::kFrameDoesNotFit, "max-disparity = " + std::to_string(disparities) +
+                                                  " does not fit images of " + size +
+                                                  " px: set it to 1 to " + std::to_string(width) +
+                                                  " px, the image's width"};
   }
   const double widest = get(P::kMaxNodeWidth) * width;
   const int narrowest = integer(P::kMinNodeWidth);
   if (narrowest + 1 >= widest && narrowest > 0) {
     return Error{ErrorCode::kInvalidCombination,
-                 "min-node-width = " + std::to_string(narrowest) + " px leaves no node below max-node-width = " +
-                     text(P::kMaxNodeWidth) + " image widths, which is " + number_text(widest) +
-                     " px in images of " + size + " px: lower the first or raise the second"};
+                 "min-node-width = " + std::to_string(narrowest) +
+                     " px leaves no node below max-node-width = " + text(P::kMaxNodeWidth) +
+                     " image widths, which is " + number_text(widest) + " px in images of " + size +
+                     " px: lower the first or raise the second"};
   }
   return {};
 }
@@ -275,10 +278,13 @@ Status Parameters::check_scale16(int scale) const {
   if (scale >= 1 && static_cast<long long>(disparities) * scale <= 65535) return {};
   const int fitting = 65535 / disparities;
   return Error{ErrorCode::kInvalidCombination,
-               "max-disparity = " + std::to_string(disparities) + " px times disparity-scale = " +
-                   std::to_string(scale) + " does not fit 16 bits (65535): set disparity-scale to 1 to " +
+               "max-disparity = " + std::to_string(disparities) +
+                   " px times disparity-scale = " + std::to_string(scale) +
+                   " does not fit 16 bits (65535): set disparity-scale to 1 to " +
                    std::to_string(fitting) +
-                   (scale >= 1 && scale <= 65535 ? ", or max-disparity to at most " + std::to_string(65535 / scale) : "")};
+                   (scale >= 1 && scale <= 65535
+                        ? ", or max-disparity to at most " + std::to_string(65535 / scale)
+                        : "")};
 }
 
 }  // namespace mtstereo

@@ -12,8 +12,8 @@
 
 namespace mtstereo {
 
-/// Bytes to which buffers and the rows of an Image are aligned, and that may be read beyond the last
-/// element: the widest vector of the supported processors.
+/// Bytes to which buffers and the rows of an Image are aligned, and that may be read beyond the
+/// last element: the widest vector of the supported processors.
 inline constexpr std::size_t kAlignment = 64;
 
 /// Owner of an array of plain values that only grows: asking for a size that was had before does

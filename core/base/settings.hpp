@@ -26,19 +26,19 @@ struct Settings {
         subpixel(p.get(Parameter::kSubpixel) != 0) {}
 
   Mode mode;
-  int disparities;              ///< D [px]
-  int gray_levels;              ///< q
-  int min_node_width;           ///< omega_alpha [px]
-  double max_node_width;        ///< omega_beta, share of the image's width
+  int disparities;                 ///< D [px]
+  int gray_levels;                 ///< q
+  int min_node_width;              ///< omega_alpha [px]
+  double max_node_width;           ///< omega_beta, share of the image's width
   Parameters::Levels node_levels;  ///< S
-  int max_neighbors;            ///< omega_gamma [rows]
-  int cost_kernel_size;         ///< omega_cv [px]
-  int cost_shift;               ///< 1: volume at half resolution, 0: at full
-  float intensity_weight;       ///< alpha, 0 .. 1
-  float node_confidence;        ///< omega_Pi of the nodes, as a share
-  int outlier_radius;           ///< [px]
-  double pixel_search_range;    ///< omega_omega, as a share
-  double pixel_confidence;      ///< omega_Pi of the pixels, as a share
+  int max_neighbors;               ///< omega_gamma [rows]
+  int cost_kernel_size;            ///< omega_cv [px]
+  int cost_shift;                  ///< 1: volume at half resolution, 0: at full
+  float intensity_weight;          ///< alpha, 0 .. 1
+  float node_confidence;           ///< omega_Pi of the nodes, as a share
+  int outlier_radius;              ///< [px]
+  double pixel_search_range;       ///< omega_omega, as a share
+  double pixel_confidence;         ///< omega_Pi of the pixels, as a share
   bool subpixel;
 };
 

@@ -28,10 +28,9 @@ class ThreadPool {
   template <typename Body>
   void run(int items, Body&& body) {
     using Plain = std::remove_reference_t<Body>;
-    run_loop(items, const_cast<std::remove_const_t<Plain>*>(&body),
-             [](void* context, int item, int worker) {
-               (*static_cast<Plain*>(context))(item, worker);
-             });
+    run_loop(
+        items, const_cast<std::remove_const_t<Plain>*>(&body),
+        [](void* context, int item, int worker) { (*static_cast<Plain*>(context))(item, worker); });
   }
 
  private:
@@ -50,11 +49,11 @@ class ThreadPool {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::condition_variable done_;
-  Loop loop_;                      // guarded by mutex_
-  long generation_ = 0;            // guarded by mutex_: counts the loops
-  int busy_ = 0;                   // guarded by mutex_: workers that are not done with the loop
-  bool stop_ = false;              // guarded by mutex_
-  std::exception_ptr exception_;   // guarded by mutex_: the first one of the loop
+  Loop loop_;                     // guarded by mutex_
+  long generation_ = 0;           // guarded by mutex_: counts the loops
+  int busy_ = 0;                  // guarded by mutex_: workers that are not done with the loop
+  bool stop_ = false;             // guarded by mutex_
+  std::exception_ptr exception_;  // guarded by mutex_: the first one of the loop
   std::atomic<int> next_item_{0};
 };
 

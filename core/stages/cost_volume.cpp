@@ -131,9 +131,10 @@ void cost_slices(const PreprocessedView& left, const PreprocessedView& right,
       for (int k = -radius; k <= radius; ++k) {
         rows[radius + k] = ring_row(d, std::clamp(out + k, 0, volume.rows - 1));
       }
-      smooth_column(rows, columns, kernel,
-                    volume.cells.data() +
-                        (static_cast<std::ptrdiff_t>(out) * volume.disparities + d) * volume.stride);
+      smooth_column(
+          rows, columns, kernel,
+          volume.cells.data() +
+              (static_cast<std::ptrdiff_t>(out) * volume.disparities + d) * volume.stride);
     }
   }
 }
@@ -186,7 +187,8 @@ void CostScratch::resize(const CostVolume& volume, const SmoothingKernel& kernel
 }
 
 int slices_per_block(const CostVolume& volume, const SmoothingKernel& kernel) {
-  constexpr std::size_t kRingBytes = 256 * 1024;  // leaves room for the rest in a second-level cache
+  constexpr std::size_t kRingBytes =
+      256 * 1024;  // leaves room for the rest in a second-level cache
   const std::size_t slice = (2 * kernel.size() - 1) * volume.stride * sizeof(std::int16_t);
   return static_cast<int>(std::clamp<std::size_t>(kRingBytes / slice, 1, 8));
 }

@@ -9,7 +9,8 @@
 
 namespace mtstereo {
 
-/// Step 4 (paper, "Cost volume"): the smoothed matching cost of every left pixel at every disparity.
+/// Step 4 (paper, "Cost volume"): the smoothed matching cost of every left pixel at every
+/// disparity.
 
 /// The smoothed costs, in kCostScale steps per gray value. With shift 1 one cell stands for 2 x 2
 /// pixels: smoothing leaves nothing finer. Cells of pixels that cannot have a disparity (x < d)
@@ -30,8 +31,9 @@ struct CostVolume {
   std::uint16_t at(int x, int y, int d) const { return row(y)[d * stride + (x >> shift)]; }
 };
 
-/// One half of a symmetric smoothing kernel: weights of the center and of the cells 1 .. n - 1 away,
-/// in 1 / 32768, that sum to 32768 over the whole kernel (one less where the kernel is one cell).
+/// One half of a symmetric smoothing kernel: weights of the center and of the cells 1 .. n - 1
+/// away, in 1 / 32768, that sum to 32768 over the whole kernel (one less where the kernel is one
+/// cell).
 using SmoothingKernel = std::vector<std::int16_t>;
 
 /// The kernel, in cells, of a Gaussian of `size` px (odd) with the standard deviation
@@ -50,8 +52,8 @@ struct CostScratch {
 /// Slices that are best made together, so that the rows at hand stay in the cache.
 int slices_per_block(const CostVolume& volume, const SmoothingKernel& kernel);
 
-/// Fills the slices d0 .. d1 - 1 of the volume; d1 - d0 is at most slices_per_block(). At the image's
-/// border the border's costs are repeated.
+/// Fills the slices d0 .. d1 - 1 of the volume; d1 - d0 is at most slices_per_block(). At the
+/// image's border the border's costs are repeated.
 void compute_cost_slices(const PreprocessedView& left, const PreprocessedView& right,
                          const SmoothingKernel& kernel, int d0, int d1, CostScratch& scratch,
                          CostVolume& volume);

@@ -10,8 +10,7 @@ void draw_node(int begin, int end, std::int32_t at_begin, std::int32_t at_end, s
   for (int x = begin; x <= end; ++x) {
     const std::int64_t rise = static_cast<std::int64_t>(at_end - at_begin) * (x - begin);
     // A point at infinity is told apart from no disparity by the smallest step.
-    const std::int32_t disparity =
-        std::max(at_begin + static_cast<std::int32_t>(rise / length), 1);
+    const std::int32_t disparity = std::max(at_begin + static_cast<std::int32_t>(rise / length), 1);
     if (disparity <= x * kDisparityOne) row[x] = disparity;
   }
 }

@@ -17,10 +17,10 @@ inline constexpr std::uint16_t kNoNode = 0xFFFF;
 /// the node's; nodes nest, and a node without children is a leaf. The nodes of row y stand at
 /// y * stride .. y * stride + count[y] - 1; an index of a node counts from the row's first.
 struct MaxTrees {
-  int width = 0;               ///< of the view [px]
-  int height = 0;              ///< of the view [px]
-  std::ptrdiff_t stride = 0;   ///< most nodes a row can have
-  Buffer<int> count;           ///< nodes of each row
+  int width = 0;                 ///< of the view [px]
+  int height = 0;                ///< of the view [px]
+  std::ptrdiff_t stride = 0;     ///< most nodes a row can have
+  Buffer<int> count;             ///< nodes of each row
   Buffer<std::uint16_t> begin;   ///< first column [px]
   Buffer<std::uint16_t> end;     ///< last column [px]
   Buffer<std::uint16_t> parent;  ///< index of the parent, kNoNode for the root

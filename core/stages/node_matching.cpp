@@ -102,8 +102,8 @@ void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeM
   for (int y = y0; y < y1; ++y) {
     for (int p = 0; p < before.count[y]; ++p) {
       const std::ptrdiff_t node = y * before.stride + p;
-      const int at_begin = median_over_neighbors(
-          before, y, p, max_neighbors, matches.begin_disparity.data(), kNodeUnmatched);
+      const int at_begin = median_over_neighbors(before, y, p, max_neighbors,
+                                                 matches.begin_disparity.data(), kNodeUnmatched);
       const int at_end = median_over_neighbors(before, y, p, max_neighbors,
                                                matches.end_disparity.data(), kNodeUnmatched);
       const bool found = at_begin != kNodeUnmatched;

@@ -71,8 +71,7 @@ void remove_rows(const VoteMap& votes, int y0, int y1, Image<std::int32_t>& map)
       if (out[x] == kNoDisparity) continue;
       const int left = std::max(x - radius, 0);
       const int right = std::min(x + radius, width);
-      const int voters =
-          static_cast<int>(below[right] - below[left] - above[right] + above[left]);
+      const int voters = static_cast<int>(below[right] - below[left] - above[right] + above[left]);
       const int enough = (voters + 1) / 2;
       // Column x of the view is column x + radius of the padded copy.
       const int inliers =

@@ -33,9 +33,9 @@ void copy_votes(const Image<std::int32_t>& map, int y0, int y1, VoteMap& votes);
 /// Sums up VoteMap::integral, whose rows are running sums after copy_votes().
 void sum_votes(VoteMap& votes);
 
-/// Removes from the rows y0 .. y1 - 1 of `map` every disparity d for which, in the window of columns
-/// x - radius .. x + radius - 1 and rows y - radius .. y + radius - 1, more pixels with a disparity
-/// differ from d by more than their horizontal distance [px] than by at most that.
+/// Removes from the rows y0 .. y1 - 1 of `map` every disparity d for which, in the window of
+/// columns x - radius .. x + radius - 1 and rows y - radius .. y + radius - 1, more pixels with a
+/// disparity differ from d by more than their horizontal distance [px] than by at most that.
 void remove_outliers(const VoteMap& votes, int y0, int y1, Image<std::int32_t>& map);
 
 }  // namespace mtstereo

@@ -17,7 +17,6 @@ NodePair node_pair(const NodeLevel& left, const NodeLevel& right, int y, int i, 
   return {left.begin[l], left.end[l], right.begin[r], right.end[r]};
 }
 
-
 }  // namespace
 
 float intensity_cost(const CostVolume& volume, int y, const NodePair& pair) {
@@ -135,8 +134,7 @@ float PairCosts::compute(int y, int i, int j) const {
   const NodeLevel& left = input_->left;
   const NodeLevel& right = input_->right;
   const float alpha = input_->intensity_weight;
-  const float intensity =
-      intensity_cost(input_->volume, y, node_pair(left, right, y, i, j));
+  const float intensity = intensity_cost(input_->volume, y, node_pair(left, right, y, i, j));
   const float context =
       context_cost(input_->left_trees, input_->right_trees, y, left.node[y * left.stride + i],
                    right.node[y * right.stride + j]);

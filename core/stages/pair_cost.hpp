@@ -63,9 +63,9 @@ class PairCosts {
 
  private:
   struct Row {
-    Buffer<Candidates> candidates;    ///< of each left node
-    Buffer<std::size_t> offset;       ///< of each left node: where its costs begin
-    Buffer<float> costs;              ///< kUnknown until asked for
+    Buffer<Candidates> candidates;  ///< of each left node
+    Buffer<std::size_t> offset;     ///< of each left node: where its costs begin
+    Buffer<float> costs;            ///< kUnknown until asked for
   };
   Row& row(int y) { return rows_[y % row_count_]; }
   const Row& row(int y) const { return rows_[y % row_count_]; }

@@ -60,7 +60,7 @@ void gradient_rows(const LevelTable& levels, int y0, int y1, Buffer<std::int16_t
   const int height = view.median.height();
   // One element before the row and one behind it stand for the mirrored border.
   scratch.resize(2 * (width + 2));
-  std::int16_t* smooth = scratch.data() + 1;                // vertical 1 2 1
+  std::int16_t* smooth = scratch.data() + 1;                  // vertical 1 2 1
   std::int16_t* difference = scratch.data() + width + 2 + 1;  // vertical -1 0 1
 
   for (int y = y0; y < y1; ++y) {

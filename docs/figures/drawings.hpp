@@ -13,8 +13,8 @@ namespace mtstereo::figures {
 /// A pre-processed image, its levels spread over 0 .. 255.
 cv::Mat draw_levels(GrayView levels, int gray_levels);
 
-/// The Max-tree of one row as bars: one a node, as wide as the node, the root at the top, each child
-/// below its parent, darker the deeper. Leaves are red.
+/// The Max-tree of one row as bars: one a node, as wide as the node, the root at the top, each
+/// child below its parent, darker the deeper. Leaves are red.
 cv::Mat draw_tree(const MaxTrees& trees, int y, int bar_height);
 
 /// The nodes of a level, each in a color of its own, over the dimmed image.

@@ -38,8 +38,8 @@ GrayView view_of(const cv::Mat& image) {
 
 Matcher matcher_of(const char* mode) {
   Parameters parameters;
-  for (const Status& status : {parameters.set("mode", mode),
-                               parameters.set(Parameter::kMaxDisparity, kDisparities)}) {
+  for (const Status& status :
+       {parameters.set("mode", mode), parameters.set(Parameter::kMaxDisparity, kDisparities)}) {
     if (!status) throw std::runtime_error(status.error().message);
   }
   Result<Matcher> matcher = Matcher::create(parameters);
@@ -53,9 +53,7 @@ void match(Matcher& matcher, const render::StereoFrame& frame) {
   if (!result) throw std::runtime_error(result.error().message);
 }
 
-cv::Mat colored(const cv::Mat& disparity) {
-  return eval::color_disparity(disparity, kDisparities);
-}
+cv::Mat colored(const cv::Mat& disparity) { return eval::color_disparity(disparity, kDisparities); }
 
 /// The disparity of least cost of every pixel on its own: what the cost volume alone knows.
 cv::Mat cheapest_disparity(const Matcher& matcher, cv::Size size) {
@@ -86,8 +84,7 @@ void draw_nodes(const Matcher& matcher, const render::StereoFrame& frame, const 
   MaxTrees trees;
   trees.resize(levels.width, levels.height);
   build_max_trees(image, 0, levels.height, trees);
-  eval::write_picture(folder / "max-tree.png",
-                      figures::draw_tree(trees, levels.height / 2, 14));
+  eval::write_picture(folder / "max-tree.png", figures::draw_tree(trees, levels.height / 2, 14));
 
   const WidthRange widths = {parameters.get(Parameter::kMinNodeWidth),
                              parameters.get(Parameter::kMaxNodeWidth) * levels.width};
@@ -119,12 +116,15 @@ void draw_pictures(const fs::path& folder) {
           figures::draw_levels(semi_dense.preprocessed(Side::kLeft), gray_levels),
           figures::draw_levels(semi_dense.preprocessed(Side::kRight), gray_levels)));
   draw_nodes(semi_dense, frame, folder);
-  eval::write_picture(folder / "cost-volume.png",
-                      figures::side_by_side(colored(cheapest_disparity(semi_dense, frame.left.size())),
-                                            colored(frame.truth)));
+  eval::write_picture(
+      folder / "cost-volume.png",
+      figures::side_by_side(colored(cheapest_disparity(semi_dense, frame.left.size())),
+                            colored(frame.truth)));
   const std::pair<const char*, Stage> stages[] = {
-      {"node-matching.png", Stage::kNodeMatching}, {"nodes-filtered.png", Stage::kNodesFiltered},
-      {"extrapolated.png", Stage::kExtrapolated},  {"pixel-matching.png", Stage::kPixelMatching},
+      {"node-matching.png", Stage::kNodeMatching},
+      {"nodes-filtered.png", Stage::kNodesFiltered},
+      {"extrapolated.png", Stage::kExtrapolated},
+      {"pixel-matching.png", Stage::kPixelMatching},
       {"final.png", Stage::kFinal},
   };
   for (const auto& [name, stage] : stages) {

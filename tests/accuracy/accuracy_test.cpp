@@ -34,8 +34,8 @@ void expect_kept(const eval::Evaluation& mean, const Figures& limit) {
   EXPECT_LE(mean.all.avgerr, limit.avgerr);
   EXPECT_LE(mean.all.d_all, limit.d_all);
   EXPECT_GE(mean.density, limit.density);
-  std::printf("  avgerr %.3f px, D-all %.2f %%, density %.2f %%\n", mean.all.avgerr,
-              mean.all.d_all, mean.density);
+  std::printf("  avgerr %.3f px, D-all %.2f %%, density %.2f %%\n", mean.all.avgerr, mean.all.d_all,
+              mean.density);
 }
 
 eval::Evaluation mean_of(const std::vector<eval::Evaluation>& evaluations) {
@@ -105,8 +105,8 @@ TEST_P(RealPairs, KeepTheirAccuracy) {
                                     {"eth3d", eval::Layout::kEth3d, 64}};
   std::vector<eval::Evaluation> evaluations;
   for (const Collection& collection : collections) {
-    const eval::DataSet set = eval::find_pairs(fs::path(folder) / collection.folder,
-                                               collection.layout);
+    const eval::DataSet set =
+        eval::find_pairs(fs::path(folder) / collection.folder, collection.layout);
     EXPECT_TRUE(set.problems.empty());
     for (const eval::StereoPair& pair : set.pairs) {
       const eval::LoadedPair loaded = eval::load_pair(pair);

@@ -49,8 +49,9 @@ cv::Mat disparity_of(GstBuffer* buffer, GstCaps* caps) {
     const std::uint8_t* row = plane + y * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
     for (int x = 0; x < disparity.cols; ++x) {
       const unsigned value = GST_READ_UINT16_LE(row + 2 * x);
-      disparity.at<float>(y, x) = value == 0 ? std::numeric_limits<float>::quiet_NaN()
-                                             : static_cast<float>(value) / static_cast<float>(scale);
+      disparity.at<float>(y, x) = value == 0
+                                      ? std::numeric_limits<float>::quiet_NaN()
+                                      : static_cast<float>(value) / static_cast<float>(scale);
     }
   }
   gst_video_frame_unmap(&frame);

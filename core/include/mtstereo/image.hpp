@@ -12,10 +12,10 @@ namespace mtstereo {
 /// read and never written.
 template <typename T>
 struct ImageView {
-  T* data = nullptr;           ///< first pixel of the first row
-  int width = 0;               ///< [px]
-  int height = 0;              ///< [px]
-  std::ptrdiff_t stride = 0;   ///< from row to row [bytes], at least width * sizeof(T)
+  T* data = nullptr;          ///< first pixel of the first row
+  int width = 0;              ///< [px]
+  int height = 0;             ///< [px]
+  std::ptrdiff_t stride = 0;  ///< from row to row [bytes], at least width * sizeof(T)
 
   /// First pixel of row y, 0 <= y < height.
   T* row(int y) const {

@@ -16,11 +16,11 @@ enum class Side { kLeft, kRight };
 
 /// A step whose disparity map can be asked for, in the order of the method (paper, fig. 2 b-f).
 enum class Stage {
-  kNodeMatching,    ///< the matched leaves, linear from end to end
-  kNodesFiltered,   ///< after the first outlier removal
-  kExtrapolated,    ///< after reliable node extrapolation
-  kPixelMatching,   ///< after guided pixel matching with its confidence check
-  kFinal,           ///< after the second outlier removal: the result
+  kNodeMatching,   ///< the matched leaves, linear from end to end
+  kNodesFiltered,  ///< after the first outlier removal
+  kExtrapolated,   ///< after reliable node extrapolation
+  kPixelMatching,  ///< after guided pixel matching with its confidence check
+  kFinal,          ///< after the second outlier removal: the result
 };
 
 /// What one frame took and gave.
@@ -55,8 +55,8 @@ class MTSTEREO_API Matcher {
 
   /// Matches one pair. Both images have the same size and are only read; they may be freed when
   /// the call returns. The result belongs to the matcher and holds until its next compute().
-  /// Fails with kInvalidImage, kSizeMismatch, kFrameDoesNotFit or kOutOfMemory; the matcher can be
-  /// used again afterwards.
+  /// Fails with kInvalidImage, kSizeMismatch, kFrameDoesNotFit, kInvalidCombination, kOutOfMemory
+  /// or kSystem; the matcher can be used again afterwards.
   Result<DisparityView> compute(GrayView left, GrayView right);
 
   /// A stage's disparity map of the last frame; an empty view before the first frame, or where
@@ -66,7 +66,8 @@ class MTSTEREO_API Matcher {
   /// values 0 .. gray-levels - 1, high = little contrast. Holds until the next compute().
   GrayView preprocessed(Side side) const;
   /// The cost of the left pixel (x, y) at the whole disparity d, 0 <= d < max-disparity, d <= x, in
-  /// gray values (paper, "Cost volume"). 0 before the first frame.
+  /// gray values (paper, "Cost volume"). 0 before the first frame, and after a change of a
+  /// parameter that reallocates until the next one.
   double cost(int x, int y, int d) const;
 
   /// Of the last frame.

@@ -57,17 +57,17 @@ enum class ParameterType {
 /// element's properties, the command line options and the table in docs/ are made from it.
 struct ParameterInfo {
   Parameter id;
-  const char* name;      ///< lower case, words joined by '-'; also the property's and option's name
-  const char* symbol;    ///< the paper's symbol in plain letters, "" where the paper has none
-  const char* unit;      ///< "px", "%", ... or "" for a bare number
+  const char* name;    ///< lower case, words joined by '-'; also the property's and option's name
+  const char* symbol;  ///< the paper's symbol in plain letters, "" where the paper has none
+  const char* unit;    ///< "px", "%", ... or "" for a bare number
   ParameterType type;
-  double minimum;        ///< smallest value (kInteger, kNumber)
-  double maximum;        ///< largest value (kInteger, kNumber)
-  const char* choices;   ///< the words of a kChoice separated by '|', else ""
+  double minimum;                  ///< smallest value (kInteger, kNumber)
+  double maximum;                  ///< largest value (kInteger, kNumber)
+  const char* choices;             ///< the words of a kChoice separated by '|', else ""
   const char* default_sparse;      ///< default in Mode::kSparse, as text
   const char* default_semi_dense;  ///< default in Mode::kSemiDense, as text
-  bool reallocates;      ///< true: a change sizes the buffers anew at the next frame
-  const char* help;      ///< one line
+  bool reallocates;                ///< true: a change sizes the buffers anew at the next frame
+  const char* help;                ///< one line
 };
 
 /// All parameters, in the order of Parameter. Never fails; the rows live as long as the program.

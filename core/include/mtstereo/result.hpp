@@ -22,6 +22,8 @@ enum class ErrorCode {
   kFrameDoesNotFit,
   /// The memory that the frame size and the search range need is not to be had.
   kOutOfMemory,
+  /// The system refused something else that was needed, such as a thread.
+  kSystem,
 };
 
 /// Why a call failed: a kind for programs and one sentence for people, which names what is wrong
