@@ -22,14 +22,18 @@ namespace {
 using namespace mtstereo;
 namespace fs = std::filesystem;
 
-constexpr int kDisparities = 48;
+constexpr int kDisparities = 40;
 
 /// A frame of the demo's scene, a little smaller.
 render::StereoFrame demo_frame() {
   render::Settings settings;
   settings.width = 480;
   settings.height = 270;
-  return render::render(render::make_scene("room", 1), 1.0, settings);
+  render::StereoFrame frame = render::render(render::make_scene("street", 1), 1.0, settings);
+  for (float& disparity : cv::Mat_<float>(frame.truth)) {
+    if (std::isinf(disparity)) disparity = std::numeric_limits<float>::quiet_NaN();  // the sky
+  }
+  return frame;
 }
 
 GrayView view_of(const cv::Mat& image) {
