@@ -123,6 +123,21 @@ bool take_gaps(ElementState& state, GstBuffer* left, GstBuffer* right) {
   return taken;
 }
 
+/// Sends a segment that waits. False where there is none: then nothing may be sent.
+bool send_segment(ElementState& state) {
+  if (state.segment == OutputSegment::kWaiting) {
+    GstEvent* event = nullptr;
+    {
+      const ObjectLock lock(state.element);
+      event = gst_event_new_segment(&GST_AGGREGATOR_PAD(state.source_pad())->segment);
+    }
+    gst_event_set_seqnum(event, state.segment_seqnum);
+    gst_pad_push_event(state.source_pad(), event);
+    state.segment = OutputSegment::kSent;
+  }
+  return state.segment == OutputSegment::kSent;
+}
+
 bool ended(const Input& input, GstBuffer* head) {
   return head == nullptr && gst_aggregator_pad_is_eos(input.pad);
 }
@@ -213,11 +228,8 @@ GstClockTime next_deadline(ElementState& state) {
 void end_output(ElementState& state, guint32 seqnum) {
   GstPad* pad = state.source_pad();
   const CapsPointer caps(gst_pad_get_current_caps(pad));
-  if (!caps) return;  // nothing has come out: the base class ends it when both streams are over
-  if (state.segment_pending) {
-    gst_aggregator_set_src_caps(state.element, caps.get());
-    state.segment_pending = false;
-  }
+  // Where nothing can have come out the base class ends it, when both streams are over.
+  if (!caps || !send_segment(state)) return;
   GstEvent* end = gst_event_new_eos();
   gst_event_set_seqnum(end, seqnum);
   gst_pad_push_event(pad, end);
@@ -227,12 +239,7 @@ void send_gap(ElementState& state, GstClockTime pts, GstClockTime duration) {
   GstPad* pad = state.source_pad();
   const CapsPointer caps(gst_pad_get_current_caps(pad));
   // Without caps the stream has not begun, and without a time there is nothing to tell.
-  if (!caps || !GST_CLOCK_TIME_IS_VALID(pts)) return;
-  if (state.segment_pending) {
-    // The base class sends a waiting segment only ahead of buffers and of caps.
-    gst_aggregator_set_src_caps(state.element, caps.get());
-    state.segment_pending = false;
-  }
+  if (!caps || !GST_CLOCK_TIME_IS_VALID(pts) || !send_segment(state)) return;
   gst_pad_push_event(pad, gst_event_new_gap(pts, duration));
 }
 

@@ -79,6 +79,14 @@ struct Input {
   GstVideoInfo info{};  ///< of the frame at the head of the pad's queue; only where has_caps
 };
 
+/// Where the left stream's segment is on its way downstream. The base class sends one only ahead of
+/// buffers: ahead of anything else it is sent here.
+enum class OutputSegment {
+  kNone,     ///< the left stream has none, since the start or the last flush
+  kWaiting,  ///< to be sent ahead of what comes next
+  kSent,
+};
+
 /// Everything that one mtstereo element knows. Made in its init, deleted in its finalize.
 struct ElementState {
   explicit ElementState(GstAggregator* aggregator) : element(aggregator) {}
@@ -103,8 +111,9 @@ struct ElementState {
   int checked_width = 0;         ///< the frame size that `active` was checked with [px]
   int checked_height = 0;
   std::optional<Matcher> matcher;
-  GstVideoInfo output{};         ///< of the disparity map; valid where the source pad has caps
-  bool segment_pending = false;  ///< a segment waits to be sent ahead of the next output
+  GstVideoInfo output{};  ///< of the disparity map; valid where the source pad has caps
+  OutputSegment segment = OutputSegment::kNone;
+  guint32 segment_seqnum = GST_SEQNUM_INVALID;  ///< of the left stream's segment
   UnpairedAlarm alarm;
   LonelyFrame lonely;              ///< the frame that waits alone for its partner
   GstClockTime known_latency = 0;  ///< that the base class adds to deadlines; 0: not known yet

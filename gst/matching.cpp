@@ -200,7 +200,7 @@ GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right)
   copy_frame_properties(left, right, output.get());
   count_pair(state);
   advance_position(state, left);
-  state.segment_pending = false;
+  state.segment = OutputSegment::kSent;  // by the base class, ahead of the buffer
   GST_LOG_OBJECT(state.element, "matched %" GST_PTR_FORMAT, static_cast<void*>(output.get()));
   return gst_aggregator_finish_buffer(state.element, output.release());
 }

@@ -90,10 +90,12 @@ gboolean take_segment(ElementState& state, Side side, GstAggregatorPad* pad, Gst
     return refuse_segment(state, side, event, segment->format);
   }
   const GstSegment copy = *segment;
+  const guint32 seqnum = gst_event_get_seqnum(event);
   if (!parent_class()->sink_event(state.element, pad, event)) return FALSE;
   if (side == Side::kRight) return TRUE;
   gst_aggregator_update_segment(state.element, &copy);
-  state.segment_pending = true;
+  state.segment = OutputSegment::kWaiting;
+  state.segment_seqnum = seqnum;
   const ObjectLock lock(state.element);
   state.qos_earliest = GST_CLOCK_TIME_NONE;
   return TRUE;
@@ -177,10 +179,7 @@ gboolean negotiate(GstAggregator* aggregator) {
     }
     if (!state.input(Side::kLeft).has_caps) return TRUE;  // again when they come
     if (!apply_settings(state)) return FALSE;
-    if (parent_class()->negotiate(aggregator)) {
-      state.segment_pending = false;
-      return TRUE;
-    }
+    if (parent_class()->negotiate(aggregator)) return TRUE;
     if (GST_PAD_IS_FLUSHING(state.source_pad())) return FALSE;
     const CapsPointer downstream(gst_pad_peer_query_caps(state.source_pad(), nullptr));
     post_error(state, GST_CORE_ERROR, GST_CORE_ERROR_NEGOTIATION,
@@ -249,7 +248,7 @@ gboolean start(GstAggregator* aggregator) {
     state.alarm.reset();
     state.lonely = {};
     state.known_latency = 0;
-    state.segment_pending = false;
+    state.segment = OutputSegment::kNone;
     return apply_settings(state);
   });
 }
@@ -265,6 +264,7 @@ GstFlowReturn flush(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
   state.alarm.reset();
   state.lonely = {};
+  state.segment = OutputSegment::kNone;
   const ObjectLock lock(aggregator);
   state.qos_earliest = GST_CLOCK_TIME_NONE;
   return GST_FLOW_OK;

@@ -195,6 +195,25 @@ TEST_F(Stream, AGapOfTheLeftStreamGoesOn) {
   EXPECT_TRUE(harness.wait_for_stats(2, 0, 1));
 }
 
+TEST_F(Stream, AGapThatComesFirstFollowsTheSegment) {
+  harness.event(Side::kLeft, gst_event_new_gap(0, kFrame));
+  right(0);
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_SEGMENT));
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap came ahead of the segment";
+}
+
+TEST_F(Stream, AGapThatComesFirstAfterAFlushFollowsTheSegment) {
+  harness.push_pair(pair, 0);
+  ASSERT_TRUE(harness.pull());
+  for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 7);
+  for (const Side side : {Side::kLeft, Side::kRight}) end_flush(side, 7);
+  ASSERT_TRUE(harness.pull_event(GST_EVENT_FLUSH_STOP));
+  harness.event(Side::kLeft, gst_event_new_gap(0, kFrame));
+  right(0);
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_SEGMENT));
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap came ahead of the segment";
+}
+
 TEST_F(Stream, AGapOfTheRightStreamCostsTheLeftFramesInIt) {
   harness.push_pair(pair, 0);
   ASSERT_TRUE(harness.pull());
