@@ -392,8 +392,12 @@ GrayView Matcher::preprocessed(Side side) const {
 }
 
 double Matcher::cost(int x, int y, int d) const {
-  if (!state_->sized) return 0;
-  return static_cast<double>(state_->volume.at(x, y, d)) / kCostScale;
+  const State& state = *state_;
+  if (!state.sized || x < 0 || x >= state.width || y < 0 || y >= state.height || d < 0 || d > x ||
+      d >= state.volume.disparities) {
+    return 0;
+  }
+  return static_cast<double>(state.volume.at(x, y, d)) / kCostScale;
 }
 
 FrameStatistics Matcher::statistics() const { return state_->statistics; }

@@ -95,6 +95,14 @@ Error refuse(const ParameterInfo& info, std::string_view value) {
                                             " is not possible: it takes " + range_text(info)};
 }
 
+bool in_table(Parameter id) { return static_cast<int>(id) >= 0 && static_cast<int>(id) < kCount; }
+
+Error refuse_id(Parameter id) {
+  return {ErrorCode::kInvalidParameter, "there is no parameter number " +
+                                            std::to_string(static_cast<int>(id)) +
+                                            ": the numbers are 0 to " + std::to_string(kCount - 1)};
+}
+
 bool parse_number(std::string_view text, double& value) {
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
   return end.ec == std::errc() && end.ptr == text.data() + text.size();
@@ -152,6 +160,7 @@ const ParameterInfo* find_parameter(std::string_view name) {
 }
 
 Status Parameters::set(Parameter id, double value) {
+  if (!in_table(id)) return refuse_id(id);
   const ParameterInfo& info = parameter_info(id);
   const bool whole = info.type != T::kNumber;
   if (info.type == T::kLevels || !(value >= info.minimum && value <= info.maximum) ||
@@ -164,6 +173,7 @@ Status Parameters::set(Parameter id, double value) {
 }
 
 Status Parameters::set(Parameter id, std::string_view text) {
+  if (!in_table(id)) return refuse_id(id);
   const ParameterInfo& info = parameter_info(id);
   double number = 0;
   switch (info.type) {

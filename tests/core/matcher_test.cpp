@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -232,6 +233,23 @@ TEST(Version, IsThreeNumbers) {
   int major = 0, minor = 0, patch = 0, length = 0;
   ASSERT_EQ(3, std::sscanf(version(), "%d.%d.%d%n", &major, &minor, &patch, &length)) << version();
   EXPECT_EQ('\0', version()[length]) << version();
+}
+
+TEST(Matcher, ACostOutsideOfTheImageIsNone) {
+  const Pair pair = test::slanted_pair(90, 40, 12, 3);
+  Matcher matcher = std::move(Matcher::create(test::parameters({{"max-disparity", "16"}})).value());
+  test::compute(matcher, pair.left, pair.right);
+  EXPECT_GT(matcher.cost(89, 39, 15), 0);
+  for (const auto& [x, y, d] : {std::array{-1, 0, 0},
+                                {90, 0, 0},
+                                {0, -1, 0},
+                                {0, 40, 0},
+                                {50, 20, -1},
+                                {50, 20, 16},
+                                {5, 20, 6},
+                                {100000, 100000, 3}}) {
+    EXPECT_EQ(matcher.cost(x, y, d), 0) << x << ", " << y << ", " << d;
+  }
 }
 
 }  // namespace

@@ -229,5 +229,17 @@ TEST(ParameterErrors, RefuseScalesThatDoNotFitSixteenBits) {
   }
 }
 
+TEST(ParameterErrors, AnIdThatIsNotInTheTableIsRefused) {
+  Parameters parameters;
+  for (const int id : {-1, static_cast<int>(parameter_table().size())}) {
+    const Status number = parameters.set(static_cast<Parameter>(id), 1.0);
+    const Status text = parameters.set(static_cast<Parameter>(id), "1");
+    ASSERT_FALSE(number.ok());
+    ASSERT_FALSE(text.ok());
+    EXPECT_EQ(ErrorCode::kInvalidParameter, number.error().code);
+    EXPECT_NE(std::string::npos, text.error().message.find(std::to_string(id)));
+  }
+}
+
 }  // namespace
 }  // namespace mtstereo

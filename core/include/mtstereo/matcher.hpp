@@ -42,6 +42,7 @@ class MTSTEREO_API Matcher {
   /// kOutOfMemory.
   static Result<Matcher> create(const Parameters& parameters);
 
+  /// One that was moved from can only be assigned to and destroyed.
   Matcher(Matcher&&) noexcept;
   Matcher& operator=(Matcher&&) noexcept;
   ~Matcher();
@@ -60,14 +61,14 @@ class MTSTEREO_API Matcher {
   Result<DisparityView> compute(GrayView left, GrayView right);
 
   /// A stage's disparity map of the last frame; an empty view before the first frame, or where
-  /// keep_stages() was off. Holds until the next compute().
+  /// keep_stages() was off in it. Holds until the next compute().
   DisparityView stage(Stage stage) const;
   /// The pre-processed image of the last frame that the Max-trees are made of (paper, fig. 2 a):
   /// values 0 .. gray-levels - 1, high = little contrast. Holds until the next compute().
   GrayView preprocessed(Side side) const;
   /// The cost of the left pixel (x, y) at the whole disparity d, 0 <= d < max-disparity, d <= x, in
-  /// gray values (paper, "Cost volume"). 0 before the first frame, and after a change of a
-  /// parameter that reallocates until the next one.
+  /// gray values (paper, "Cost volume"). 0 outside of the image and of these limits,
+  /// before the first frame, and after a change of a parameter that reallocates until the next one.
   double cost(int x, int y, int d) const;
 
   /// Of the last frame.

@@ -73,7 +73,7 @@ struct ParameterInfo {
 /// All parameters, in the order of Parameter. Never fails; the rows live as long as the program.
 MTSTEREO_API std::span<const ParameterInfo> parameter_table();
 
-/// The row of one parameter.
+/// The row of one parameter; the id has to be one of Parameter.
 MTSTEREO_API const ParameterInfo& parameter_info(Parameter id);
 
 /// The row of the parameter with this name, or nullptr.
