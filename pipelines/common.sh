@@ -72,6 +72,10 @@ parse_options() {
     esac
     shift
   done
+  local input
+  for input in "${arguments[@]}"; do
+    [[ -z $out || ! $out -ef $input ]] || fail "--out $out is the input itself: name another file"
+  done
 }
 
 common_option() {
@@ -83,7 +87,8 @@ common_option() {
       matcher+=("mode=$2")
       ;;
     --max-disparity)
-      is_number "$2" || wrong_usage "--max-disparity is '$2', it has to be a whole number of px"
+      { is_number "$2" && [ "$2" -ge 1 ] && [ "$2" -le 1024 ]; } ||
+        wrong_usage "--max-disparity is '$2', it has to be a whole number of px from 1 to 1024"
       matcher+=("max-disparity=$2")
       color+=("max-disparity=$2")
       ;;

@@ -51,7 +51,11 @@ take_option() {
         wrong_usage "--mode is '$2', it has to be sparse or semi-dense"
       mode=$2
       ;;
-    --max-disparity) whole_number "$@" && max_disparity=$2 ;;
+    --max-disparity)
+      whole_number "$@"
+      [ "$2" -le 1024 ] || wrong_usage "--max-disparity is '$2', it has to be 1 to 1024 px"
+      max_disparity=$2
+      ;;
     --frames) whole_number "$@" && frames=$2 ;;
     --size)
       [[ $2 =~ ^([1-9][0-9]{1,4})x([1-9][0-9]{1,4})$ ]] ||
@@ -229,6 +233,11 @@ mkdir -p "$out" 2>/dev/null || fail "the folder $out cannot be made"
 log=$(mktemp) || fail "there is no room for a temporary file"
 trap 'rm -f "$log"' EXIT
 out=$(cd "$out" && pwd)
+for file in "${files[@]}"; do
+  for name in "disparity-$mode.mkv" color.mp4 left.png demo.png; do
+    [[ ! $out/$name -ef $file ]] || fail "$file would be overwritten: name another folder with --out"
+  done
+done
 
 if [ "$build_first" = yes ]; then
   build_all

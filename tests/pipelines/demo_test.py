@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """demo.sh from end to end on a tiny clip, with video files, and with wrong input."""
 import re
+import shutil
 import unittest
 
 from support import BUILD, ClipTest, count_frames
@@ -59,6 +60,15 @@ class Demo(ClipTest):
         self.assert_refuses(done, "the pipeline failed", 1)
         self.assertIn("ERROR", done.errors)
 
+    def test_never_overwrites_its_input(self):
+        own = self.folder / "same"
+        own.mkdir()
+        shutil.copy(self.folder / "left.mp4", own / "color.mp4")
+        before = (own / "color.mp4").read_bytes()
+        done = self.demo("same/color.mp4", "right.mkv", "--out", "same")
+        self.assert_refuses(done, "would be overwritten", 1)
+        self.assertEqual((own / "color.mp4").read_bytes(), before)
+
     def test_names_a_folder_that_cannot_be_made(self):
         self.assert_refuses(self.demo("--out", "/dev/null/out"), "/dev/null/out", 1)
 
@@ -67,6 +77,7 @@ class Demo(ClipTest):
                             (["a", "b", "c"], "two video files"),
                             (["--mode", "dense"], "--mode"),
                             (["--max-disparity", "-3"], "--max-disparity"),
+                            (["--max-disparity", "5000"], "1 to 1024"),
                             (["--frames", "0"], "--frames"),
                             (["--size", "640"], "--size"),
                             (["--size", "161x120"], "even"),

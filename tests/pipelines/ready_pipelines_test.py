@@ -154,12 +154,19 @@ class WrongUse(ClipTest):
                  "000099.png")):
             self.assert_refuses(self.run_script(*words), says, 1)
 
+    def test_input_is_never_overwritten(self):
+        before = (self.folder / "left.mp4").read_bytes()
+        done = self.run_script("from-files.sh", "left.mp4", "right.mkv", "--out", "./left.mp4")
+        self.assert_refuses(done, "the input itself", 1)
+        self.assertEqual((self.folder / "left.mp4").read_bytes(), before)
+
     def test_wrong_options_are_named(self):
         files = ["left.mp4", "right.mp4"]
         for words, says in (
                 (["from-files.sh", "left.mp4"], "LEFT and RIGHT"),
                 (["from-files.sh", *files, "--mode", "dense"], "--mode"),
                 (["from-files.sh", *files, "--max-disparity", "many"], "--max-disparity"),
+                (["from-files.sh", *files, "--max-disparity", "5000"], "1 to 1024"),
                 (["from-files.sh", *files, "--set", "threads"], "--set"),
                 (["from-files.sh", *files, "--seconds", "1.5"], "--seconds"),
                 (["from-files.sh", *files, "--seconds"], "--seconds"),
