@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "base/thread_pool.hpp"
+#include "reference/speckle_removal.hpp"
+#include "stages/speckle_removal.hpp"
+#include "support/compare.hpp"
+#include "support/random_maps.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::copy_of;
+using test::DisparityPlane;
+
+constexpr int kThreadCounts[] = {1, 2, 3, 5};
+constexpr int kBand = 32;
+
+/// Calls body(first, last, worker) for parts of `length` that have `part` rows or columns.
+template <typename Body>
+void for_parts(ThreadPool& pool, int length, int part, Body&& body) {
+  pool.run((length + part - 1) / part,
+           [&](int i, int worker) { body(i * part, std::min((i + 1) * part, length), worker); });
+}
+
+/// A map of many bands whose patches reach from band to band.
+DisparityPlane tall_map(std::uint64_t seed) { return test::patches(150, 330, 1, seed); }
+
+TEST(FilterThreads, RemoveTheSameSpeckles) {
+  SpeckleRuns runs;
+  for (const int threads : kThreadCounts) {
+    ThreadPool pool(threads);
+    for (int seed = 0; seed < 10; ++seed) {
+      const DisparityPlane map = tall_map(seed);
+      Image<std::int32_t> image = image_of(map);
+      runs.resize(map.width, map.height);
+      for_parts(pool, map.height, kBand,
+                [&](int y0, int y1, int) { find_runs(image, 64, y0, y1, runs); });
+      join_bands(image, 64, kBand, runs);
+      for_parts(pool, map.height, kBand,
+                [&](int y0, int y1, int) { remove_small(runs, 40, y0, y1, image); });
+      EXPECT_TRUE(same_image(reference::remove_speckles(map, 64, 40), image))
+          << threads << " threads";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo
