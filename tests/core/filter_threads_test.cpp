@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "base/thread_pool.hpp"
+#include "reference/gap_filling.hpp"
 #include "reference/speckle_removal.hpp"
+#include "stages/gap_filling.hpp"
 #include "stages/speckle_removal.hpp"
 #include "support/compare.hpp"
 #include "support/random_maps.hpp"
@@ -14,6 +16,7 @@ namespace {
 
 using test::copy_of;
 using test::DisparityPlane;
+using test::GrayPlane;
 
 constexpr int kThreadCounts[] = {1, 2, 3, 5};
 constexpr int kBand = 32;
@@ -43,6 +46,33 @@ TEST(FilterThreads, RemoveTheSameSpeckles) {
                 [&](int y0, int y1, int) { remove_small(runs, 40, y0, y1, image); });
       EXPECT_TRUE(same_image(reference::remove_speckles(map, 64, 40), image))
           << threads << " threads";
+    }
+  }
+}
+
+TEST(FilterThreads, FillTheSameGaps) {
+  for (const int threads : kThreadCounts) {
+    ThreadPool pool(threads);
+    std::vector<Buffer<std::int32_t>> scratch(threads);
+    for (int seed = 0; seed < 10; ++seed) {
+      const DisparityPlane map = tall_map(20 + seed);
+      GrayPlane confidence(map.width, map.height);
+      for (std::size_t i = 0; i < map.pixels.size(); ++i) {
+        confidence.pixels[i] = map.pixels[i] == 0 ? 0 : static_cast<std::uint8_t>(1 + i % 255);
+      }
+      Image<std::int32_t> image = image_of(map);
+      Image<std::uint8_t> image_confidence = image_of(confidence);
+      for_parts(pool, map.height, kBand, [&](int y0, int y1, int) {
+        fill_gaps_along_rows(9, 500, y0, y1, image, image_confidence);
+      });
+      // Blocks that share cache lines and words: the harder case.
+      for_parts(pool, map.width, 7, [&](int x0, int x1, int worker) {
+        fill_gaps_along_columns(9, 500, x0, x1, scratch[worker], image, image_confidence);
+      });
+      const reference::ConfidentMap rows = reference::fill_gaps({map, confidence}, 9, 500, 1, 0);
+      const reference::ConfidentMap expected = reference::fill_gaps(rows, 9, 500, 0, 1);
+      EXPECT_TRUE(same_image(expected.map, image)) << threads << " threads";
+      EXPECT_TRUE(same_image(expected.confidence, image_confidence)) << threads << " threads";
     }
   }
 }
