@@ -15,8 +15,12 @@
 #include "base/buffer.hpp"
 #include "base/settings.hpp"
 #include "base/thread_pool.hpp"
+#include "stages/census.hpp"
+#include "stages/census_matching.hpp"
+#include "stages/confidence.hpp"
 #include "stages/cost_volume.hpp"
 #include "stages/disparity_drawing.hpp"
+#include "stages/gap_filling.hpp"
 #include "stages/max_tree.hpp"
 #include "stages/node_extrapolation.hpp"
 #include "stages/node_levels.hpp"
@@ -24,6 +28,8 @@
 #include "stages/outlier_removal.hpp"
 #include "stages/pixel_matching.hpp"
 #include "stages/preprocess.hpp"
+#include "stages/rim_trimming.hpp"
+#include "stages/speckle_removal.hpp"
 
 namespace mtstereo {
 namespace {
@@ -48,6 +54,12 @@ struct WorkerState {
   Buffer<std::int32_t> intervals;
   CostScratch cost;
   MatchScratch match;
+  Image<std::uint8_t> padded;
+  CensusMatchingScratch census;
+  PixelMatchingScratch pixels;
+  SupportScratch support;
+  RimScratch rim;
+  Buffer<std::int32_t> columns;
 };
 
 int thread_count(const Parameters& parameters) {
@@ -104,7 +116,13 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   CostVolume volume;
   VoteMap votes;
   LeafDisparities ends;
+  std::array<CensusImage, 2> census;  ///< the right one is mirrored
   Image<std::int32_t> map;
+  Image<std::uint8_t> ratio;       ///< peak ratios of the map
+  Image<std::uint8_t> confidence;  ///< of the map
+  SupportMap support;
+  SpeckleRuns speckles;
+  Image<std::uint8_t> rim_marks;
   std::array<Image<std::int32_t>, kStages> kept;
   std::vector<WorkerState> workers;
   FrameStatistics statistics;
@@ -120,13 +138,20 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   void match_level(int index);
   void remove_outliers();
   void extrapolate();
-  void match_pixels();
+  void match_pixels(GrayView left, GrayView right);
+  void remove_speckles();
+  void rate_confidence();
+  void trim_rims();
+  void keep_node_ends();
+  void fill_gaps();
+  CensusMatchingOptions census_options() const;
   void keep(Stage stage);
   double density() const;
 
   const LevelState& leaves() const { return levels[settings.node_levels.count - 1]; }
 
-  static constexpr int kBand = 32;  ///< [rows]
+  static constexpr int kBand = 32;     ///< [rows]
+  static constexpr int kColumns = 64;  ///< of a block of columns, whose cache lines are its own
 
   /// Calls body(y0, y1, worker) for bands of rows. The bands are the same for every number of
   /// threads unless `per_thread`: then each thread gets one, for stages that carry work from row to
@@ -177,6 +202,15 @@ void Matcher::State::size_buffers() {
   votes.resize(width, height, settings.outlier_radius);
   ends.resize(leaves().left);
   map.resize(width, height);
+  ratio.resize(width, height);
+  confidence.resize(width, height);
+  support.resize(width, height);
+  speckles.resize(width, height);
+  rim_marks.resize(width, height);
+  if (settings.census) {
+    census[0].resize(width, height, 0);
+    census[1].resize(width, height, cost_lanes(settings.disparities));
+  }
   for (WorkerState& worker : workers) {
     // As large as the stages ask for: which thread gets which band differs from frame to frame, and
     // none is to allocate when its first one, or a higher one, comes late.
@@ -186,6 +220,14 @@ void Matcher::State::size_buffers() {
     worker.intervals.resize(2 * levels[0].left.stride);
     worker.cost.resize(volume, kernel);
     worker.match.resize(width, settings.disparities, settings.max_neighbors);
+    worker.pixels.resize(width);
+    worker.support.resize(width);
+    worker.rim.resize(width, settings.rim_trim);
+    worker.columns.resize(kColumns);
+    if (settings.census) {
+      worker.padded.resize(width + 4, std::min(kBand, height) + 4);
+      worker.census.resize(width, census_options());
+    }
   }
   sized = true;
 }
@@ -205,9 +247,14 @@ void Matcher::State::compute(GrayView left, GrayView right) {
   keep(Stage::kNodesFiltered);
   extrapolate();
   keep(Stage::kExtrapolated);
-  match_pixels();
+  match_pixels(left, right);
   keep(Stage::kPixelMatching);
-  remove_outliers();
+  if (settings.pixel_outliers) remove_outliers();
+  remove_speckles();
+  rate_confidence();
+  trim_rims();
+  if (settings.mode == Mode::kSparse && settings.census) keep_node_ends();
+  fill_gaps();
   keep(Stage::kFinal);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   statistics = {took.count(), density()};
@@ -221,7 +268,9 @@ void Matcher::State::preprocess(GrayView left, GrayView right) {
       median_rows(images[side], y0, y1, worker.median, views[side].median);
     });
     for_rows([&](int y0, int y1, WorkerState& worker) {
-      gradient_rows(table, y0, y1, worker.gradient, views[side]);
+      const GrayView costs_from =
+          settings.median_in_costs ? views[side].median.view() : images[side];
+      gradient_rows(table, costs_from, y0, y1, worker.gradient, views[side]);
     });
   }
 }
@@ -288,17 +337,88 @@ void Matcher::State::remove_outliers() {
 
 void Matcher::State::extrapolate() {
   const NodeLevel& level = leaves().left;
+  // The census costs are only guided by the nodes: there whole nodes help in every mode.
+  const bool whole = settings.census || settings.mode != Mode::kSparse;
+  const int end_width = whole ? 0 : settings.node_end_width;
   for_rows([&](int y0, int y1, WorkerState&) { read_leaf_ends(level, map, y0, y1, ends); });
   for_rows([&](int y0, int y1, WorkerState&) {
-    extrapolate_leaves(level, ends, settings.max_neighbors, settings.mode, y0, y1, map);
+    extrapolate_leaves(level, ends, settings.max_neighbors, end_width, y0, y1, map);
   });
 }
 
-void Matcher::State::match_pixels() {
-  const PixelMatchingOptions options = {settings.pixel_search_range, settings.pixel_confidence,
-                                        settings.subpixel};
+CensusMatchingOptions Matcher::State::census_options() const {
+  return {settings.search_range, settings.census_cost, settings.smoothness, settings.selection};
+}
+
+void Matcher::State::match_pixels(GrayView left, GrayView right) {
+  if (!settings.census) {
+    const PixelMatchingOptions options = {settings.search_range, settings.selection};
+    for_rows([&](int y0, int y1, WorkerState& worker) {
+      mtstereo::match_pixels(volume, options, y0, y1, worker.pixels, map, ratio);
+    });
+    return;
+  }
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    census_rows(left, CensusOrder::kForward, y0, y1, worker.padded, census[0]);
+    census_rows(right, CensusOrder::kMirrored, y0, y1, worker.padded, census[1]);
+  });
+  const CensusMatchingOptions options = census_options();
+  constexpr bool kPerThread = true;
   for_rows(
-      [&](int y0, int y1, WorkerState&) { mtstereo::match_pixels(volume, options, y0, y1, map); });
+      [&](int y0, int y1, WorkerState& worker) {
+        match_pixels_by_census(left, census[0], census[1], options, y0, y1, worker.census, map,
+                               ratio);
+      },
+      kPerThread);
+}
+
+void Matcher::State::remove_speckles() {
+  if (settings.speckle_size <= 1) return;
+  for_rows([&](int y0, int y1, WorkerState&) { find_runs(map, kDisparityOne, y0, y1, speckles); });
+  join_bands(map, kDisparityOne, kBand, speckles);
+  for_rows([&](int y0, int y1, WorkerState&) {
+    remove_small(speckles, settings.speckle_size, y0, y1, map);
+  });
+}
+
+void Matcher::State::rate_confidence() {
+  for_rows([&](int y0, int y1, WorkerState&) { copy_support(map, ratio, y0, y1, support); });
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    rate_support(support, y0, y1, worker.support, confidence);
+    if (settings.min_confidence > 0) {
+      remove_doubtful(settings.min_confidence, y0, y1, map, confidence);
+    }
+  });
+}
+
+void Matcher::State::trim_rims() {
+  if (settings.rim_trim == 0) return;
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    mark_rim(map, settings.rim_trim, y0, y1, worker.rim, rim_marks);
+  });
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    trim_rim(rim_marks, settings.rim_trim, y0, y1, worker.rim, map);
+    clear_confidence(map, y0, y1, confidence);
+  });
+}
+
+void Matcher::State::keep_node_ends() {
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    keep_leaf_ends(leaves().left, ends, settings.max_neighbors, settings.node_end_width, y0, y1,
+                   worker.marks, map, confidence);
+  });
+}
+
+void Matcher::State::fill_gaps() {
+  if (settings.max_gap == 0) return;
+  for_rows([&](int y0, int y1, WorkerState&) {
+    fill_gaps_along_rows(settings.max_gap, kDisparityOne, y0, y1, map, confidence);
+  });
+  pool->run((width + kColumns - 1) / kColumns, [&](int block, int worker) {
+    const int x0 = block * kColumns;
+    fill_gaps_along_columns(settings.max_gap, kDisparityOne, x0, std::min(x0 + kColumns, width),
+                            workers[worker].columns, map, confidence);
+  });
 }
 
 void Matcher::State::keep(Stage stage) {
@@ -390,6 +510,8 @@ DisparityView Matcher::stage(Stage stage) const {
 GrayView Matcher::preprocessed(Side side) const {
   return state_->views[static_cast<int>(side)].level.view();
 }
+
+GrayView Matcher::confidence() const { return state_->confidence.view(); }
 
 double Matcher::cost(int x, int y, int d) const {
   const State& state = *state_;

@@ -12,45 +12,99 @@ using P = Parameter;
 using T = ParameterType;
 
 // clang-format off
+/// One default for every preset and mode.
+#define ALL(value) {{{{value, value, value}}, {{value, value, value}}}}
+/// One default for each preset.
+#define EACH(value, paper) {{{{value, value, value}}, {{paper, paper, paper}}}}
+/// Defaults for sparse, semi-dense and dense, and those of the paper, which knows two modes.
+#define MODES(sparse, semi, dense, paper_sparse, paper_semi) \
+  {{{{sparse, semi, dense}}, {{paper_sparse, paper_semi, paper_semi}}}}
+
 constexpr ParameterInfo kTable[] = {
-    {P::kMode, "mode", "", "", T::kChoice, 0, 1, "sparse|semi-dense", "sparse", "semi-dense", false,
-     "how many pixels get a disparity: only the ends of the finest nodes, or the whole of them"},
-    {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", "64", "64", true,
+    {P::kPreset, "preset", "", "", T::kChoice, 0, 1, "default|paper", EACH("default", "paper"), true,
+     "where the defaults of all other parameters come from: the most accurate ones, or those of the "
+     "published method"},
+    {P::kMode, "mode", "", "", T::kChoice, 0, 2, "sparse|semi-dense|dense", MODES("sparse", "semi-dense", "dense", "sparse", "semi-dense"), false,
+     "how many pixels get a disparity: few and right ones at the ends of the finest nodes, all that "
+     "can be trusted, or nearly all, with gaps filled"},
+    {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", ALL("64"), true,
      "the disparities 0 .. max-disparity - 1 are searched; the nearest point that can be seen is at "
      "focal length * baseline / max-disparity"},
-    {P::kThreads, "threads", "", "", T::kInteger, 0, 256, "", "0", "0", true,
+    {P::kThreads, "threads", "", "", T::kInteger, 0, 256, "", ALL("0"), true,
      "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
-    {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, 256, "", "16", "8", false,
+    {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, 256, "", MODES("16", "16", "16", "16", "8"), false,
      "levels that the pre-processed image is quantized to: more levels, deeper trees, smaller leaves"},
-    {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", "0", "0", false,
+    {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", ALL("0"), false,
      "finest nodes have to be wider than this"},
-    {P::kMaxNodeWidth, "max-node-width", "omega_beta", "image widths", T::kNumber, 0.001, 1, "", "0.5", "0.5", false,
+    {P::kMaxNodeWidth, "max-node-width", "omega_beta", "image widths", T::kNumber, 0.001, 1, "", EACH("1", "0.5"), false,
      "finest nodes have to be narrower than this share of the image's width"},
-    {P::kNodeLevels, "node-levels", "S", "", T::kLevels, 0, 63, "", "1,0", "1,0", true,
+    {P::kNodeLevels, "node-levels", "S", "", T::kLevels, 0, 63, "", EACH("0", "1,0"), true,
      "node levels that are matched, coarse to fine: n is the n-th ancestor of the finest nodes; "
      "strictly falling, the last one is 0"},
-    {P::kMaxNeighbors, "max-neighbors", "omega_gamma", "rows", T::kInteger, 0, 100, "", "10", "10", true,
+    {P::kMaxNeighbors, "max-neighbors", "omega_gamma", "rows", T::kInteger, 0, 100, "", ALL("10"), true,
      "nodes above and below that a node is matched together with"},
-    {P::kCostKernelSize, "cost-kernel-size", "omega_cv", "px", T::kInteger, 1, 41, "", "21", "21", true,
+    {P::kMedianFilter, "median-filter", "", "", T::kChoice, 0, 1, "trees|trees-and-costs", ALL("trees-and-costs"), false,
+     "what the median-filtered images are for: the Max-trees only, or the smoothed cost volume too"},
+    {P::kCostKernelSize, "cost-kernel-size", "omega_cv", "px", T::kInteger, 1, 41, "", ALL("21"), true,
      "side of the Gaussian that smooths the cost volume, an odd number; 1 = no smoothing"},
-    {P::kCostVolume, "cost-volume", "", "", T::kChoice, 0, 1, "half|full", "half", "half", true,
+    {P::kCostVolume, "cost-volume", "", "", T::kChoice, 0, 1, "half|full", ALL("half"), true,
      "resolution of the smoothed cost volume: half takes a quarter of the memory, full is the exact one"},
-    {P::kIntensityWeight, "intensity-weight", "alpha", "", T::kNumber, 0, 1, "", "0.8", "0.8", false,
+    {P::kIntensityWeight, "intensity-weight", "alpha", "", T::kNumber, 0, 1, "", ALL("0.8"), false,
      "share of the intensity cost in a node pair's cost; the rest is the context cost"},
-    {P::kNodeConfidence, "node-confidence", "omega_Pi, coarse to fine", "%", T::kNumber, 0, 1000, "", "12", "12", false,
+    {P::kNodeConfidence, "node-confidence", "omega_Pi, coarse to fine", "%", T::kNumber, 0, 1000, "", EACH("5", "12"), false,
      "a node pair is accepted where the second-best costs more than this above the best"},
-    {P::kOutlierRadius, "outlier-radius", "", "px", T::kInteger, 0, 31, "", "21", "21", true,
+    {P::kOutlierRadius, "outlier-radius", "", "px", T::kInteger, 0, 31, "", EACH("0", "21"), true,
      "half the side of the window in which a disparity must agree with most others; 0 = no outlier removal"},
-    {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", "15", "15", false,
-     "guided pixel matching searches this much below and above the node's disparity"},
-    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", "12", "4", false,
+    {P::kOutlierRemoval, "outlier-removal", "", "", T::kChoice, 0, 1, "nodes|nodes-and-pixels", EACH("nodes", "nodes-and-pixels"), false,
+     "where outliers are removed: from the nodes' disparities only, or from the pixels' too"},
+    {P::kPixelCost, "pixel-cost", "", "", T::kChoice, 0, 1, "census|gradient", EACH("census", "gradient"), true,
+     "cost of guided pixel matching: the census transform, which no change of exposure alters, "
+     "optimized along the scan-lines, or the paper's smoothed cost volume"},
+    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, 5, "", ALL("5"), true,
+     "side of the window that census costs are summed over: 1, 3 or 5"},
+    {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", ALL("15"), false,
+     "guided pixel matching expects disparities this much below and above the node's"},
+    {P::kBetweenNodes, "between-nodes", "", "", T::kChoice, 0, 2, "none|span|all", EACH("all", "none"), false,
+     "what is expected of a pixel between two nodes: no disparity at all, what both nodes span, or any"},
+    {P::kRangePenalty, "range-penalty", "", "bits", T::kInteger, 0, 24, "", ALL("2"), true,
+     "what a disparity that the nodes do not expect costs more (census); the gradient cost never "
+     "takes one"},
+    {P::kSmallStepPenalty, "small-step-penalty", "", "bits", T::kInteger, 0, 50, "", ALL("4"), false,
+     "cost of a step of one disparity from pixel to pixel of a scan-line (census)"},
+    {P::kLargeStepPenalty, "large-step-penalty", "", "bits", T::kInteger, 0, 50, "", ALL("30"), false,
+     "cost of a larger step where the gray value stays, less where it changes (census); "
+     "0 = no optimization along the scan-line"},
+    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", MODES("6", "6", "2", "12", "4"), false,
      "a pixel is kept where the second-best disparity costs more than this above the best"},
-    {P::kSubpixel, "subpixel", "", "", T::kBoolean, 0, 1, "", "true", "true", false,
+    {P::kRunnerUp, "runner-up", "", "", T::kChoice, 0, 1, "any|expected", EACH("any", "expected"), false,
+     "where the second-best disparity is looked for: among all, or among those that the nodes expect"},
+    {P::kLeftRightTolerance, "left-right-tolerance", "", "px", T::kInteger, -1, kLargestMaxDisparity, "", EACH("1", "-1"), false,
+     "largest difference between the disparity of a left pixel and that of its right one; -1 = no check"},
+    {P::kSubpixel, "subpixel", "", "", T::kBoolean, 0, 1, "", ALL("true"), false,
      "refine the disparity between whole pixels by a parabola through the costs"},
+    {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", EACH("300", "0"), false,
+     "connected areas with fewer pixels than this are removed; 0 = none"},
+    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", MODES("230", "190", "127", "0", "0"), false,
+     "disparities of less confidence (1 .. 255) are removed; 0 = none"},
+    {P::kRimTrim, "rim-trim", "", "px", T::kInteger, 0, 31, "", ALL("0"), false,
+     "pixels this near to one without a disparity are removed; 0 = none"},
+    {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, 31, "", EACH("3", "1"), false,
+     "mode sparse: pixels that are kept at each end of a finest node, an odd number"},
+    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", MODES("0", "0", "30", "0", "0"), false,
+     "gaps up to this wide are filled where both sides agree to 1 px; 0 = none"},
 };
+#undef ALL
+#undef EACH
+#undef MODES
 // clang-format on
 
-constexpr int kCount = static_cast<int>(std::size(kTable));
+constexpr int kCount = kParameters;
+static_assert(std::size(kTable) == kParameters);
+
+/// Parameters that take odd numbers only.
+constexpr bool is_odd_only(Parameter id) {
+  return id == P::kCostKernelSize || id == P::kCensusKernelSize || id == P::kNodeEndWidth;
+}
 
 constexpr bool table_is_in_order() {
   for (int i = 0; i < kCount; ++i) {
@@ -86,7 +140,7 @@ std::string range_text(const ParameterInfo& info) {
       break;
   }
   std::string text = number_text(info.minimum) + " to " + number_text(info.maximum) + unit;
-  if (info.id == P::kCostKernelSize) text += ", odd";
+  if (is_odd_only(info.id)) text += ", odd";
   return text;
 }
 
@@ -153,6 +207,32 @@ std::span<const ParameterInfo> parameter_table() { return kTable; }
 
 const ParameterInfo& parameter_info(Parameter id) { return kTable[static_cast<int>(id)]; }
 
+const char* parameter_default(Parameter id, Preset preset, Mode mode) {
+  return parameter_info(id).defaults[static_cast<int>(preset)][static_cast<int>(mode)];
+}
+
+namespace {
+
+/// The defaults of one preset: that of mode semi-dense, and what differs in the others.
+std::string preset_defaults_text(Parameter id, Preset preset) {
+  const std::string main = parameter_default(id, preset, Mode::kSemiDense);
+  std::string text = main;
+  for (const Mode mode : {Mode::kSparse, Mode::kDense}) {
+    const std::string other = parameter_default(id, preset, mode);
+    if (other != main) text += ", " + other + (mode == Mode::kSparse ? " sparse" : " dense");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string parameter_defaults_text(Parameter id) {
+  if (id == P::kPreset || id == P::kMode) return Parameters().text(id);
+  const std::string text = preset_defaults_text(id, Preset::kDefault);
+  const std::string paper = preset_defaults_text(id, Preset::kPaper);
+  return paper == text ? text : text + "; preset paper: " + paper;
+}
+
 const ParameterInfo* find_parameter(std::string_view name) {
   const auto* found = std::find_if(std::begin(kTable), std::end(kTable),
                                    [&](const ParameterInfo& info) { return info.name == name; });
@@ -165,7 +245,7 @@ Status Parameters::set(Parameter id, double value) {
   const bool whole = info.type != T::kNumber;
   if (info.type == T::kLevels || !(value >= info.minimum && value <= info.maximum) ||
       (whole && value != std::floor(value)) ||
-      (id == P::kCostKernelSize && static_cast<int>(value) % 2 == 0)) {
+      (is_odd_only(id) && static_cast<int>(value) % 2 == 0)) {
     return refuse(info, number_text(value));
   }
   values_[static_cast<int>(id)] = Value{value, {}};
@@ -218,12 +298,13 @@ bool Parameters::is_set(Parameter id) const { return values_[static_cast<int>(id
 
 Parameters::Value Parameters::effective(Parameter id) const {
   if (is_set(id)) return *values_[static_cast<int>(id)];
-  const ParameterInfo& info = parameter_info(id);
+  // Neither the preset's nor the mode's default may ask for itself.
+  const Preset of_preset = id == P::kPreset ? Preset::kDefault : preset();
+  const Mode of_mode = id == P::kPreset || id == P::kMode ? Mode::kSemiDense : mode();
   Parameters defaults;
-  const bool sparse = id != P::kMode && mode() == Mode::kSparse;
   // The table's own defaults are valid: a test sets every one of them.
   const Status status =
-      defaults.set(id, std::string_view(sparse ? info.default_sparse : info.default_semi_dense));
+      defaults.set(id, std::string_view(parameter_default(id, of_preset, of_mode)));
   return status.ok() ? *defaults.values_[static_cast<int>(id)] : Value{};
 }
 
@@ -252,6 +333,8 @@ std::string Parameters::text(Parameter id) const {
   }
   return number_text(value.number);
 }
+
+Preset Parameters::preset() const { return static_cast<Preset>(integer(P::kPreset)); }
 
 Mode Parameters::mode() const { return static_cast<Mode>(integer(P::kMode)); }
 

@@ -65,11 +65,8 @@ std::string blurb_of(const ParameterInfo& info) {
   };
   if (*info.unit != '\0') note(std::string("unit: ") + info.unit);
   if (*info.symbol != '\0') note(std::string("in the paper: ") + info.symbol);
-  if (info.id != Parameter::kMode &&
-      std::string_view(info.default_sparse) != info.default_semi_dense) {
-    note(std::string("unless set: ") + info.default_sparse + " in mode sparse, " +
-         info.default_semi_dense + " in mode semi-dense");
-  }
+  const std::string defaults = parameter_defaults_text(info.id);
+  if (defaults != Parameters().text(info.id)) note("unless set: " + defaults);
   return notes.empty() ? text : text + " (" + notes + ")";
 }
 
@@ -96,7 +93,8 @@ GParamSpec* make_property(const ParameterInfo& info) {
     case ParameterType::kLevels:
       break;
   }
-  return g_param_spec_string(info.name, info.name, blurb.c_str(), info.default_semi_dense, flags);
+  return g_param_spec_string(info.name, info.name, blurb.c_str(), defaults.text(info.id).c_str(),
+                             flags);
 }
 
 }  // namespace

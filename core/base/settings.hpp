@@ -2,6 +2,10 @@
 #pragma once
 
 #include "mtstereo/parameters.hpp"
+#include "stages/census_cost.hpp"
+#include "stages/disparity_selection.hpp"
+#include "stages/scanline_optimization.hpp"
+#include "stages/search_range.hpp"
 
 namespace mtstereo {
 
@@ -10,36 +14,59 @@ namespace mtstereo {
 struct Settings {
   explicit Settings(const Parameters& p)
       : mode(p.mode()),
-        disparities(p.integer(Parameter::kMaxDisparity)),
         gray_levels(p.integer(Parameter::kGrayLevels)),
         min_node_width(p.integer(Parameter::kMinNodeWidth)),
         max_node_width(p.get(Parameter::kMaxNodeWidth)),
         node_levels(p.node_levels()),
         max_neighbors(p.integer(Parameter::kMaxNeighbors)),
+        median_in_costs(p.text(Parameter::kMedianFilter) == "trees-and-costs"),
         cost_kernel_size(p.integer(Parameter::kCostKernelSize)),
         cost_shift(p.text(Parameter::kCostVolume) == "half" ? 1 : 0),
         intensity_weight(static_cast<float>(p.get(Parameter::kIntensityWeight))),
         node_confidence(static_cast<float>(p.get(Parameter::kNodeConfidence) / 100)),
         outlier_radius(p.integer(Parameter::kOutlierRadius)),
-        pixel_search_range(p.get(Parameter::kPixelSearchRange) / 100),
-        pixel_confidence(p.get(Parameter::kPixelConfidence) / 100),
-        subpixel(p.get(Parameter::kSubpixel) != 0) {}
+        pixel_outliers(p.text(Parameter::kOutlierRemoval) == "nodes-and-pixels"),
+        census(p.text(Parameter::kPixelCost) == "census"),
+        disparities(p.integer(Parameter::kMaxDisparity)),
+        search_range{p.get(Parameter::kPixelSearchRange) / 100,
+                     static_cast<BetweenNodes>(p.integer(Parameter::kBetweenNodes)), disparities},
+        census_cost{disparities, p.integer(Parameter::kCensusKernelSize),
+                    p.integer(Parameter::kRangePenalty)},
+        smoothness{p.integer(Parameter::kSmallStepPenalty),
+                   p.integer(Parameter::kLargeStepPenalty)},
+        selection{disparities, p.get(Parameter::kPixelConfidence) / 100,
+                  p.text(Parameter::kRunnerUp) == "expected",
+                  p.integer(Parameter::kLeftRightTolerance), p.get(Parameter::kSubpixel) != 0},
+        speckle_size(p.integer(Parameter::kSpeckleSize)),
+        min_confidence(p.integer(Parameter::kMinConfidence)),
+        rim_trim(p.integer(Parameter::kRimTrim)),
+        node_end_width(p.integer(Parameter::kNodeEndWidth)),
+        max_gap(p.integer(Parameter::kMaxGap)) {}
 
   Mode mode;
-  int disparities;                 ///< D [px]
   int gray_levels;                 ///< q
   int min_node_width;              ///< omega_alpha [px]
   double max_node_width;           ///< omega_beta, share of the image's width
   Parameters::Levels node_levels;  ///< S
   int max_neighbors;               ///< omega_gamma [rows]
+  bool median_in_costs;            ///< the cost volume is made of the median-filtered images
   int cost_kernel_size;            ///< omega_cv [px]
   int cost_shift;                  ///< 1: volume at half resolution, 0: at full
   float intensity_weight;          ///< alpha, 0 .. 1
   float node_confidence;           ///< omega_Pi of the nodes, as a share
   int outlier_radius;              ///< [px]
-  double pixel_search_range;       ///< omega_omega, as a share
-  double pixel_confidence;         ///< omega_Pi of the pixels, as a share
-  bool subpixel;
+  bool pixel_outliers;             ///< outliers are removed from the pixels' disparities too
+  bool census;                     ///< guided pixel matching takes the census cost
+  int disparities;                 ///< D [px]
+  SearchRangeOptions search_range;
+  CensusCostOptions census_cost;
+  SmoothnessOptions smoothness;  ///< [bits]
+  SelectionOptions selection;
+  int speckle_size;    ///< [px]
+  int min_confidence;  ///< 0 .. 255
+  int rim_trim;        ///< [px]
+  int node_end_width;  ///< [px]
+  int max_gap;         ///< [px]
 };
 
 }  // namespace mtstereo

@@ -25,29 +25,78 @@ void read_leaf_ends(const NodeLevel& leaves, const Image<std::int32_t>& map, int
   }
 }
 
+namespace {
+
+/// The disparities that a leaf takes at its ends; known where both are.
+struct LeafLine {
+  std::int32_t at_begin;
+  std::int32_t at_end;
+  bool known() const { return at_begin != kNoDisparity && at_end != kNoDisparity; }
+};
+
+LeafLine line_of(const NodeLevel& leaves, const LeafDisparities& ends, int max_neighbors, int y,
+                 int leaf) {
+  return {median_over_neighbors(leaves, y, leaf, max_neighbors, ends.begin.data(), kNoDisparity),
+          median_over_neighbors(leaves, y, leaf, max_neighbors, ends.end.data(), kNoDisparity)};
+}
+
+/// How far inside a leaf its ends are taken [px].
+int inset(int begin, int end) {
+  constexpr int kNarrow = 4;
+  constexpr int kInside = 2;
+  return end - begin + 1 > kNarrow ? kInside : 0;
+}
+
+}  // namespace
+
 void extrapolate_leaves(const NodeLevel& leaves, const LeafDisparities& ends, int max_neighbors,
-                        Mode mode, int y0, int y1, Image<std::int32_t>& map) {
-  constexpr int kNarrow = 4;  // [px]
-  constexpr int kInside = 2;  // [px]
+                        int end_width, int y0, int y1, Image<std::int32_t>& map) {
   for (int y = y0; y < y1; ++y) {
     std::int32_t* row = map.row(y);
     std::fill_n(row, map.width(), kNoDisparity);
     for (int i = 0; i < leaves.count[y]; ++i) {
-      const std::int32_t at_begin =
-          median_over_neighbors(leaves, y, i, max_neighbors, ends.begin.data(), kNoDisparity);
-      const std::int32_t at_end =
-          median_over_neighbors(leaves, y, i, max_neighbors, ends.end.data(), kNoDisparity);
-      if (at_begin == kNoDisparity || at_end == kNoDisparity) continue;
-      const std::ptrdiff_t leaf = y * leaves.stride + i;
-      const int begin = leaves.begin[leaf];
-      const int end = leaves.end[leaf];
-      if (mode == Mode::kSemiDense) {
-        draw_node(begin, end, at_begin, at_end, row);
+      const LeafLine line = line_of(leaves, ends, max_neighbors, y, i);
+      if (!line.known()) continue;
+      const int begin = leaves.begin[y * leaves.stride + i];
+      const int end = leaves.end[y * leaves.stride + i];
+      if (end_width == 0) {
+        draw_node(begin, end, line.at_begin, line.at_end, row);
         continue;
       }
-      const int inside = end - begin + 1 > kNarrow ? kInside : 0;
-      draw_node(begin + inside, begin + inside, at_begin, at_begin, row);
-      draw_node(end - inside, end - inside, at_end, at_end, row);
+      const int inside = inset(begin, end);
+      for (int k = -(end_width / 2); k <= end_width / 2; ++k) {
+        const int first = std::clamp(begin + inside + k, 0, map.width() - 1);
+        const int last = std::clamp(end - inside + k, 0, map.width() - 1);
+        draw_node(first, first, line.at_begin, line.at_begin, row);
+        draw_node(last, last, line.at_end, line.at_end, row);
+      }
+    }
+  }
+}
+
+void keep_leaf_ends(const NodeLevel& leaves, const LeafDisparities& ends, int max_neighbors,
+                    int end_width, int y0, int y1, Buffer<std::uint8_t>& marks,
+                    Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+  const int width = map.width();
+  for (int y = y0; y < y1; ++y) {
+    std::fill_n(marks.data(), width, std::uint8_t{0});
+    for (int i = 0; i < leaves.count[y]; ++i) {
+      if (!line_of(leaves, ends, max_neighbors, y, i).known()) continue;
+      const int begin = leaves.begin[y * leaves.stride + i];
+      const int end = leaves.end[y * leaves.stride + i];
+      const int inside = inset(begin, end);
+      for (const int middle : {begin + inside, end - inside}) {
+        const int first = std::max(middle - end_width / 2, 0);
+        const int last = std::min(middle + end_width / 2, width - 1);
+        std::fill(marks.data() + first, marks.data() + last + 1, std::uint8_t{1});
+      }
+    }
+    std::int32_t* row = map.row(y);
+    std::uint8_t* values = confidence.row(y);
+    for (int x = 0; x < width; ++x) {
+      if (marks[x] != 0) continue;
+      row[x] = kNoDisparity;
+      values[x] = 0;
     }
   }
 }

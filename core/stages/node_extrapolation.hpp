@@ -26,9 +26,18 @@ void read_leaf_ends(const NodeLevel& leaves, const Image<std::int32_t>& map, int
                     LeafDisparities& ends);
 
 /// Writes the rows y0 .. y1 - 1 of the map: each leaf takes the median begin and the median end
-/// disparity of itself and its neighbors. Sparse: at the leaf's ends, 2 px inside where it is wider
-/// than 4 px. Semi-dense: linearly along the leaf. kNoDisparity elsewhere.
+/// disparity of itself and its neighbors, linearly in between; kNoDisparity elsewhere.
+/// `end_width` 0: along the whole leaf. Otherwise on that many pixels around each of its ends, see
+/// keep_leaf_ends().
 void extrapolate_leaves(const NodeLevel& leaves, const LeafDisparities& ends, int max_neighbors,
-                        Mode mode, int y0, int y1, Image<std::int32_t>& map);
+                        int end_width, int y0, int y1, Image<std::int32_t>& map);
+
+/// Sets all but `end_width` pixels (an odd number) around the ends of the leaves to kNoDisparity in
+/// the rows y0 .. y1 - 1 of the map, and to 0 in those of `confidence`. The middle one of these
+/// pixels is the leaf's first or last one, or 2 px inside where the leaf is wider than 4 px.
+/// Only leaves that extrapolate_leaves() gives disparities to count. `marks` is one row.
+void keep_leaf_ends(const NodeLevel& leaves, const LeafDisparities& ends, int max_neighbors,
+                    int end_width, int y0, int y1, Buffer<std::uint8_t>& marks,
+                    Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
 
 }  // namespace mtstereo

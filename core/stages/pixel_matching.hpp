@@ -5,26 +5,33 @@
 
 #include "base/buffer.hpp"
 #include "stages/cost_volume.hpp"
+#include "stages/disparity_selection.hpp"
+#include "stages/search_range.hpp"
 
 namespace mtstereo {
 
-/// Step 9 (paper, "guided pixel matching" and "Confidence check"): each pixel's own best disparity
-/// near the one it has.
+/// Step 9 (paper, "guided pixel matching" and "Confidence check") on the cost volume that the nodes
+/// were matched with: each pixel's own best disparity among those that the nodes expect.
 
 struct PixelMatchingOptions {
-  double search_range;  ///< omega_omega: share of the disparity that is searched on both sides
-  double confidence;    ///< omega_Pi: the runner-up has to cost more than this share above the best
-  bool subpixel;        ///< refine by a parabola through the best and its two neighbors
+  SearchRangeOptions range;
+  SelectionOptions selection;
 };
 
-/// Replaces the disparities of the rows y0 .. y1 - 1: from d * (1 - search_range) to
-/// d * (1 + search_range), both included and at least kMinSearch px on both sides, the one of least
-/// cost. It is kept only where the best of the others, those next to it left out, costs more than
-/// `confidence` above it.
-void match_pixels(const CostVolume& volume, const PixelMatchingOptions& options, int y0, int y1,
-                  Image<std::int32_t>& map);
+/// Scratch memory of one thread.
+struct PixelMatchingScratch {
+  Buffer<std::uint16_t> low;
+  Buffer<std::uint16_t> high;
 
-/// Least distance that is searched on both sides of a disparity [px].
-inline constexpr int kMinSearch = 3;
+  void resize(int width);
+};
+
+/// Replaces the disparities of the rows y0 .. y1 - 1, which are the nodes', by the expected one of
+/// least cost, and writes their peak ratios (0 where there is no disparity). A disparity is kept
+/// only where the best of the others, those next to it left out, costs more than `confidence` above
+/// it, and where the right pixel's best disparity agrees.
+void match_pixels(const CostVolume& volume, const PixelMatchingOptions& options, int y0, int y1,
+                  PixelMatchingScratch& scratch, Image<std::int32_t>& map,
+                  Image<std::uint8_t>& ratio);
 
 }  // namespace mtstereo

@@ -54,41 +54,68 @@ void median_rows(GrayView image, int y0, int y1, Image<std::uint8_t>& scratch,
   for (int y = y0; y < y1; ++y) std::memcpy(median.row(y), scratch.row(y - top), image.width);
 }
 
-void gradient_rows(const LevelTable& levels, int y0, int y1, Buffer<std::int16_t>& scratch,
-                   PreprocessedView& view) {
-  const int width = view.median.width();
-  const int height = view.median.height();
-  // One element before the row and one behind it stand for the mirrored border.
-  scratch.resize(2 * (width + 2));
-  std::int16_t* smooth = scratch.data() + 1;                  // vertical 1 2 1
-  std::int16_t* difference = scratch.data() + width + 2 + 1;  // vertical -1 0 1
+namespace {
 
+/// Two rows of sums that a Sobel is made of, with one element before and one behind for the
+/// mirrored border.
+struct SobelSums {
+  std::int16_t* smooth;      ///< vertical 1 2 1
+  std::int16_t* difference;  ///< vertical -1 0 1
+
+  int dx(int x) const { return smooth[x + 1] - smooth[x - 1]; }
+  int dy(int x) const { return difference[x - 1] + 2 * difference[x] + difference[x + 1]; }
+};
+
+void sum_columns(GrayView image, int y, SobelSums sums) {
+  const int width = image.width;
+  const std::uint8_t* above = image.row(mirror(y - 1, image.height));
+  const std::uint8_t* here = image.row(y);
+  const std::uint8_t* below = image.row(mirror(y + 1, image.height));
+  for (int x = 0; x < width; ++x) {
+    sums.smooth[x] = static_cast<std::int16_t>(above[x] + 2 * here[x] + below[x]);
+    sums.difference[x] = static_cast<std::int16_t>(below[x] - above[x]);
+  }
+  for (std::int16_t* row : {sums.smooth, sums.difference}) {
+    row[-1] = row[mirror(-1, width)];
+    row[width] = row[mirror(width, width)];
+  }
+}
+
+void write_cost_row(GrayView image, int y, SobelSums sums, PreprocessedView& view) {
+  const std::uint8_t* here = image.row(y);
+  std::int16_t* gray = view.gray.row(y);
+  std::int16_t* sobel_x = view.sobel_x.row(y);
+  std::int16_t* sobel_y = view.sobel_y.row(y);
+  for (int x = 0; x < image.width; ++x) {
+    gray[x] = weighted(here[x], kCostWeights[0]);
+    sobel_x[x] = weighted(sums.dx(x), kCostWeights[1]);
+    sobel_y[x] = weighted(sums.dy(x), kCostWeights[2]);
+  }
+}
+
+void write_level_row(const LevelTable& levels, int y, SobelSums sums, PreprocessedView& view) {
+  std::uint8_t* level = view.level.row(y);
+  const int width = view.level.width();
+  for (int x = 0; x < width; ++x) {
+    // The edge strength waits in `smooth`'s left neighbor, which is no longer needed.
+    sums.smooth[x - 1] = static_cast<std::int16_t>(std::abs(sums.dx(x)) + std::abs(sums.dy(x)));
+  }
+  for (int x = 0; x < width; ++x) level[x] = levels[sums.smooth[x - 1]];
+}
+
+}  // namespace
+
+void gradient_rows(const LevelTable& levels, GrayView cost_image, int y0, int y1,
+                   Buffer<std::int16_t>& scratch, PreprocessedView& view) {
+  const GrayView median = view.median.view();
+  const int width = median.width;
+  scratch.resize(2 * (width + 2));
+  const SobelSums sums = {scratch.data() + 1, scratch.data() + width + 2 + 1};
   for (int y = y0; y < y1; ++y) {
-    const std::uint8_t* above = view.median.row(mirror(y - 1, height));
-    const std::uint8_t* here = view.median.row(y);
-    const std::uint8_t* below = view.median.row(mirror(y + 1, height));
-    for (int x = 0; x < width; ++x) {
-      smooth[x] = static_cast<std::int16_t>(above[x] + 2 * here[x] + below[x]);
-      difference[x] = static_cast<std::int16_t>(below[x] - above[x]);
-    }
-    for (std::int16_t* row : {smooth, difference}) {
-      row[-1] = row[mirror(-1, width)];
-      row[width] = row[mirror(width, width)];
-    }
-    std::int16_t* gray = view.gray.row(y);
-    std::int16_t* sobel_x = view.sobel_x.row(y);
-    std::int16_t* sobel_y = view.sobel_y.row(y);
-    std::uint8_t* level = view.level.row(y);
-    for (int x = 0; x < width; ++x) {
-      const int dx = smooth[x + 1] - smooth[x - 1];
-      const int dy = difference[x - 1] + 2 * difference[x] + difference[x + 1];
-      gray[x] = weighted(here[x], kCostWeights[0]);
-      sobel_x[x] = weighted(dx, kCostWeights[1]);
-      sobel_y[x] = weighted(dy, kCostWeights[2]);
-      // The edge strength waits in `smooth`'s left neighbor, which is no longer needed.
-      smooth[x - 1] = static_cast<std::int16_t>(std::abs(dx) + std::abs(dy));
-    }
-    for (int x = 0; x < width; ++x) level[x] = levels[smooth[x - 1]];
+    sum_columns(cost_image, y, sums);
+    write_cost_row(cost_image, y, sums, view);
+    if (cost_image.data != median.data) sum_columns(median, y, sums);
+    write_level_row(levels, y, sums, view);
   }
 }
 

@@ -17,8 +17,9 @@ struct PreprocessedView {
   Image<std::uint8_t> median;
   /// The quantized, inverted edge strength: 0 .. q - 1, high = little contrast.
   Image<std::uint8_t> level;
-  /// Gray value, horizontal and vertical Sobel of the median-filtered image, each times its weight
-  /// in the cost (kCostWeights) and kCostScale, so that a cost is three absolute differences.
+  /// Gray value, horizontal and vertical Sobel of the image that costs are made of, each times its
+  /// weight in the cost (kCostWeights) and kCostScale, so that a cost is three absolute
+  /// differences.
   Image<std::int16_t> gray;
   Image<std::int16_t> sobel_x;
   Image<std::int16_t> sobel_y;
@@ -47,9 +48,10 @@ void median_rows(GrayView image, int y0, int y1, Image<std::uint8_t>& scratch,
                  Image<std::uint8_t>& median);
 
 /// Sobel 3x3 (the image is mirrored at its border, without repeating the border) and the results
-/// made of it, for the rows y0 .. y1 - 1. Reads the median one row above and below.
-/// `scratch` is resized to one row.
-void gradient_rows(const LevelTable& levels, int y0, int y1, Buffer<std::int16_t>& scratch,
-                   PreprocessedView& view);
+/// made of it, for the rows y0 .. y1 - 1: the levels from the median, and what the costs are made
+/// of from `cost_image`, which is the median (the paper) or the view itself. Reads one row above
+/// and below. `scratch` is resized to one row.
+void gradient_rows(const LevelTable& levels, GrayView cost_image, int y0, int y1,
+                   Buffer<std::int16_t>& scratch, PreprocessedView& view);
 
 }  // namespace mtstereo

@@ -164,11 +164,11 @@ std::string range(const ParameterInfo& info) {
 }
 
 void print_table() {
-  std::puts("| parameter | symbol | unit | range | sparse | semi-dense | what it does |");
-  std::puts("| --- | --- | --- | --- | --- | --- | --- |");
+  std::puts("| parameter | symbol | unit | range | default | what it does |");
+  std::puts("| --- | --- | --- | --- | --- | --- |");
   for (const ParameterInfo& info : parameter_table()) {
-    std::printf("| `%s` | %s | %s | %s | %s | %s | %s |\n", info.name, info.symbol, info.unit,
-                range(info).c_str(), info.default_sparse, info.default_semi_dense,
+    std::printf("| `%s` | %s | %s | %s | %s | %s |\n", info.name, info.symbol, info.unit,
+                range(info).c_str(), cell(parameter_defaults_text(info.id)).c_str(),
                 cell(info.help).c_str());
   }
 }

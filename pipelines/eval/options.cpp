@@ -21,14 +21,10 @@ struct Texts {
 };
 
 std::string parameter_help(const ParameterInfo& info) {
-  std::string text = info.help;
-  const std::string unit = *info.unit != '\0' ? std::string(" ") + info.unit : "";
-  const std::string sparse = info.default_sparse, semi_dense = info.default_semi_dense;
-  if (info.id == Parameter::kMaxDisparity) return text + " [default: as the data set has it]";
-  if (info.id == Parameter::kMode) return text + " [default: " + semi_dense + "]";
-  text += " [default: " + sparse + unit;
-  if (sparse != semi_dense) text += " sparse, " + semi_dense + unit + " semi-dense";
-  return text + "]";
+  if (info.id == Parameter::kMaxDisparity) {
+    return std::string(info.help) + " [default: as the data set has it]";
+  }
+  return std::string(info.help) + " [default: " + parameter_defaults_text(info.id) + "]";
 }
 
 std::string value_name(const ParameterInfo& info) {

@@ -88,11 +88,12 @@ TEST_F(MatcherErrors, RefuseFramesThatAreTooLarge) {
 
 TEST_F(MatcherErrors, RefuseNodeWidthsThatDoNotFitTheFrame) {
   Parameters parameters = matcher_.parameters();
-  test::set_all(parameters, {{"min-node-width", "60"}});
+  test::set_all(parameters, {{"min-node-width", "60"}, {"max-node-width", "0.5"}});
   ASSERT_TRUE(matcher_.set_parameters(parameters).ok());
   EXPECT_TRUE(fails_with(matcher_.compute(left_, right_), ErrorCode::kInvalidCombination,
                          {"min-node-width = 60", "max-node-width = 0.5", "96x40"}));
   parameters.unset(Parameter::kMinNodeWidth);
+  parameters.unset(Parameter::kMaxNodeWidth);
   ASSERT_TRUE(matcher_.set_parameters(parameters).ok());
   EXPECT_TRUE(same_image(expected_, test::compute(matcher_, pair_.left, pair_.right)));
 }

@@ -82,49 +82,84 @@ TEST(Matcher, GivesTheSameWithAndWithoutStages) {
                          test::compute(with, pair.left, pair.right)));
 }
 
+/// A set of parameters, and another value of one of them whose change shows in it.
+struct Change {
+  std::initializer_list<std::pair<const char*, std::string>> base;
+  const char* value;
+};
+
+Change change_of(Parameter id) {
+  switch (id) {
+    case Parameter::kPreset:
+      return {{}, "paper"};
+    case Parameter::kMode:
+      return {{}, "sparse"};
+    case Parameter::kMaxDisparity:
+      return {{}, "15"};
+    case Parameter::kThreads:
+      return {{}, "3"};
+    case Parameter::kMaxNodeWidth:
+      return {{{"preset", "paper"}}, "0.05"};
+    case Parameter::kIntensityWeight:
+      return {{{"preset", "paper"}}, "0.2"};
+    case Parameter::kNodeLevels:
+      return {{{"preset", "paper"}}, "0"};
+    case Parameter::kMedianFilter:
+      return {{{"preset", "paper"}}, "trees"};
+    case Parameter::kCostVolume:
+      return {{{"preset", "paper"}}, "full"};
+    case Parameter::kOutlierRemoval:  // with costs that leave outliers
+      return {{{"preset", "paper"},
+               {"pixel-cost", "census"},
+               {"census-kernel-size", "1"},
+               {"large-step-penalty", "0"},
+               {"range-penalty", "0"},
+               {"pixel-confidence", "0"},
+               {"between-nodes", "all"}},
+              "nodes"};
+    case Parameter::kPixelCost:
+      return {{}, "gradient"};
+    case Parameter::kPixelSearchRange:
+      return {{{"preset", "paper"}}, "90"};
+    case Parameter::kBetweenNodes:
+      return {{}, "none"};
+    case Parameter::kRangePenalty:
+      return {{{"min-confidence", "0"}}, "24"};
+    case Parameter::kPixelConfidence:
+      return {{}, "60"};
+    case Parameter::kRunnerUp:
+      return {{{"preset", "paper"}}, "any"};
+    case Parameter::kLeftRightTolerance:
+      return {{}, "0"};
+    case Parameter::kSubpixel:
+      return {{}, "false"};
+    case Parameter::kSpeckleSize:
+      return {{}, "65535"};
+    case Parameter::kNodeEndWidth:
+      return {{{"mode", "sparse"}}, "9"};
+    case Parameter::kMaxGap:
+      return {{{"mode", "dense"}}, "0"};
+    case Parameter::kCensusKernelSize:
+    case Parameter::kSmallStepPenalty:
+    case Parameter::kLargeStepPenalty:
+    case Parameter::kMinConfidence:
+    case Parameter::kRimTrim:
+      return {{}, "3"};
+    default:
+      return {{{"preset", "paper"}}, "3"};
+  }
+}
+
 TEST(Matcher, TakesParametersAtTheNextFrame) {
   const Pair pair = test::slanted_pair(160, 50, 20, 3);
   for (const ParameterInfo& info : parameter_table()) {
-    Parameters changed;
-    Status status;
-    switch (info.id) {
-      case Parameter::kMode:
-        status = changed.set(info.id, "sparse");
-        break;
-      case Parameter::kMaxDisparity:
-        status = changed.set(info.id, 15);
-        break;
-      case Parameter::kThreads:
-        status = changed.set(info.id, 3);
-        break;
-      case Parameter::kMinNodeWidth:
-        status = changed.set(info.id, 3);
-        break;
-      case Parameter::kMaxNodeWidth:
-        status = changed.set(info.id, 0.05);
-        break;
-      case Parameter::kIntensityWeight:
-        status = changed.set(info.id, 0.2);
-        break;
-      case Parameter::kNodeLevels:
-        status = changed.set(info.id, "0");
-        break;
-      case Parameter::kCostVolume:
-        status = changed.set(info.id, "full");
-        break;
-      case Parameter::kPixelSearchRange:
-        status = changed.set(info.id, 90);
-        break;
-      case Parameter::kSubpixel:
-        status = changed.set(info.id, "false");
-        break;
-      default:
-        status = changed.set(info.id, 3);
-    }
-    ASSERT_TRUE(status.ok()) << info.name;
+    const Change change = change_of(info.id);
+    const Parameters base = test::parameters(change.base);
+    Parameters changed = base;
+    ASSERT_TRUE(changed.set(info.id, std::string_view(change.value)).ok()) << info.name;
     SCOPED_TRACE(info.name + (" = " + changed.text(info.id)));
 
-    Matcher matcher = test::matcher({});
+    Matcher matcher = std::move(Matcher::create(base).value());
     const Result<DisparityView> view = matcher.compute(pair.left.view(), pair.right.view());
     ASSERT_TRUE(view.ok());
     const DisparityPlane before = copy_of(*view);
@@ -137,7 +172,7 @@ TEST(Matcher, TakesParametersAtTheNextFrame) {
     if (info.id != Parameter::kThreads) {
       EXPECT_FALSE(same_image(before, after)) << "the change is seen";
     }
-    ASSERT_TRUE(matcher.set_parameters(Parameters()).ok());
+    ASSERT_TRUE(matcher.set_parameters(base).ok());
     EXPECT_TRUE(same_image(before, test::compute(matcher, pair.left, pair.right))) << "and back";
   }
 }

@@ -15,9 +15,12 @@ using test::DisparityPlane;
 using test::GrayPlane;
 using test::Random;
 
+constexpr int kWhole = 0;  // the width of the ends: all of the leaf
+constexpr int kOnePixel = 1;
+
 /// Step 8 on a whole map, in bands of `band` rows.
 DisparityPlane extrapolated(const NodeLevel& leaves, const DisparityPlane& map, int neighbors,
-                            Mode mode, int band = 1 << 20) {
+                            int end_width, int band = 1 << 20) {
   Image<std::int32_t> image = image_of(map);
   LeafDisparities ends;
   ends.resize(leaves);
@@ -25,7 +28,8 @@ DisparityPlane extrapolated(const NodeLevel& leaves, const DisparityPlane& map, 
     read_leaf_ends(leaves, image, y, std::min(y + band, map.height), ends);
   }
   for (int y = 0; y < map.height; y += band) {
-    extrapolate_leaves(leaves, ends, neighbors, mode, y, std::min(y + band, map.height), image);
+    extrapolate_leaves(leaves, ends, neighbors, end_width, y, std::min(y + band, map.height),
+                       image);
   }
   return copy_of(image);
 }
@@ -46,9 +50,9 @@ TEST(NodeExtrapolation, EqualsReferenceAtEveryWidthInBothModes) {
     const test::RandomLevels levels(width, 14, 0, 700 + width);
     const DisparityPlane map = random_map(width, 14, width);
     for (const int neighbors : {0, 1, 10}) {
-      for (const Mode mode : {Mode::kSparse, Mode::kSemiDense}) {
-        EXPECT_TRUE(same_image(reference::extrapolate(levels.plain_left, map, neighbors, mode),
-                               extrapolated(levels.left, map, neighbors, mode, 5)))
+      for (const int end_width : {0, 1, 3, 7}) {
+        EXPECT_TRUE(same_image(reference::extrapolate(levels.plain_left, map, neighbors, end_width),
+                               extrapolated(levels.left, map, neighbors, end_width, 5)))
             << width << " px, " << neighbors << " neighbors";
       }
     }
@@ -74,7 +78,7 @@ struct Column {
 
 TEST(NodeExtrapolation, GivesALeafItsNeighborsDisparities) {
   const Column column;
-  const DisparityPlane out = extrapolated(column.leaves, column.map, 1, Mode::kSemiDense);
+  const DisparityPlane out = extrapolated(column.leaves, column.map, 1, kWhole);
   for (int x = 10; x <= 17; ++x) {
     EXPECT_NEAR(256 * (3 + 4.0 * (x - 10) / 7), out(x, 1), 1) << "the lower of two medians";
   }
@@ -84,14 +88,14 @@ TEST(NodeExtrapolation, GivesALeafItsNeighborsDisparities) {
 
 TEST(NodeExtrapolation, AsksNobodyWithoutNeighbors) {
   const Column column;
-  const DisparityPlane out = extrapolated(column.leaves, column.map, 0, Mode::kSemiDense);
+  const DisparityPlane out = extrapolated(column.leaves, column.map, 0, kWhole);
   for (int x = 0; x < 40; ++x) EXPECT_EQ(0, out(x, 1)) << "column " << x;
   EXPECT_EQ(3 * 256, out(10, 0));
 }
 
 TEST(NodeExtrapolation, PutsSparseDisparitiesInsideTheEnds) {
   const Column column;
-  const DisparityPlane out = extrapolated(column.leaves, column.map, 1, Mode::kSparse);
+  const DisparityPlane out = extrapolated(column.leaves, column.map, 1, kOnePixel);
   for (int x = 0; x < 40; ++x) {
     EXPECT_EQ(x == 12 ? 3 * 256 : x == 15 ? 7 * 256 : 0, out(x, 1)) << "column " << x;
   }
@@ -104,7 +108,7 @@ TEST(NodeExtrapolation, PutsSparseDisparitiesAtTheEndsOfNarrowLeaves) {
     for (int x = 20; x < 20 + width; ++x) rows(x, 0) = 1;
     map(20, 0) = map(19 + width, 0) = 5 * 256;
     const NodeLevel leaves = test::level_of(test::trees_of(rows), 0, test::kAnyWidth);
-    const DisparityPlane out = extrapolated(leaves, map, 1, Mode::kSparse);
+    const DisparityPlane out = extrapolated(leaves, map, 1, kOnePixel);
     const int inside = width > 4 ? 2 : 0;
     for (int x = 0; x < 40; ++x) {
       const bool end = x == 20 + inside || x == 19 + width - inside;
@@ -116,7 +120,7 @@ TEST(NodeExtrapolation, PutsSparseDisparitiesAtTheEndsOfNarrowLeaves) {
 TEST(NodeExtrapolation, NeedsBothEnds) {
   Column column;
   for (const int y : {0, 2}) column.map(17, y) = 0;
-  const DisparityPlane out = extrapolated(column.leaves, column.map, 1, Mode::kSemiDense);
+  const DisparityPlane out = extrapolated(column.leaves, column.map, 1, kWhole);
   EXPECT_TRUE(same_image(DisparityPlane(40, 3), out));
 }
 

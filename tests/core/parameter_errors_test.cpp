@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "support/matching.hpp"
@@ -22,13 +24,15 @@ void expect_refused(const ParameterInfo& info, const Value& value, const std::st
   Parameters untouched;
   EXPECT_TRUE(fails_with(untouched.set(info.id, value), kInvalid, {info.name, shown}));
   EXPECT_FALSE(untouched.is_set(info.id));
-  EXPECT_EQ(info.default_semi_dense, untouched.text(info.id));
+  EXPECT_EQ(parameter_default(info.id, Preset::kDefault, Mode::kSemiDense),
+            untouched.text(info.id));
 
   Parameters set;
-  ASSERT_TRUE(set.set(info.id, std::string_view(info.default_sparse)).ok());
+  const char* const other = parameter_default(info.id, Preset::kPaper, Mode::kSparse);
+  ASSERT_TRUE(set.set(info.id, std::string_view(other)).ok());
   EXPECT_TRUE(fails_with(set.set(info.id, value), kInvalid, range));
   EXPECT_TRUE(set.is_set(info.id));
-  EXPECT_EQ(info.default_sparse, set.text(info.id)) << "the value before it stays";
+  EXPECT_EQ(other, set.text(info.id)) << "the value before it stays";
 }
 
 std::string number(double value) {
@@ -58,7 +62,7 @@ TEST(ParameterErrors, RefuseTextOutsideTheRange) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.type != ParameterType::kInteger && info.type != ParameterType::kNumber) continue;
     for (const std::string& text :
-         {std::to_string(static_cast<int>(info.maximum) + 1), std::string("-1"),
+         {std::to_string(static_cast<int>(info.maximum) + 1), std::string("-2"),
           std::string("1e30"), std::string("inf"), std::string("-inf"), std::string("nan")}) {
       expect_refused(info, std::string_view(text), "", {" to "});
     }
@@ -99,7 +103,9 @@ TEST(ParameterErrors, RefuseOtherWordsThanTheChoices) {
     std::string upper = word;
     upper[0] = static_cast<char>(std::toupper(upper[0]));
     expect_refused(info, std::string_view(upper), upper, {word});
-    for (const double index : {-1.0, 2.0, 0.5}) expect_refused(info, index, number(index), {word});
+    const auto words = std::count(info.choices, info.choices + std::strlen(info.choices), '|') + 1;
+    for (const double index : {-1.0, 1.0 * words, 0.5})
+      expect_refused(info, index, number(index), {word});
   }
 }
 

@@ -12,7 +12,9 @@ namespace {
 
 /// Values that a parameter has to take, as text.
 std::vector<std::string> valid_texts(const ParameterInfo& info) {
-  std::vector<std::string> texts = {info.default_sparse, info.default_semi_dense};
+  std::vector<std::string> texts;
+  for (const auto& of_modes : info.defaults)
+    texts.insert(texts.end(), of_modes.begin(), of_modes.end());
   switch (info.type) {
     case ParameterType::kInteger:
       texts.push_back(std::to_string(static_cast<int>(info.minimum)));
@@ -56,7 +58,7 @@ TEST(ParameterTable, HasTheOrderOfParameterAndUniqueNames) {
     EXPECT_NE('\0', *info.help) << info.name;
     EXPECT_LE(info.minimum, info.maximum) << info.name;
   }
-  EXPECT_EQ(static_cast<int>(Parameter::kSubpixel) + 1, index);
+  EXPECT_EQ(kParameters, index);
 }
 
 TEST(ParameterTable, HasNoRowForOtherNames) {
@@ -67,28 +69,64 @@ TEST(ParameterTable, HasNoRowForOtherNames) {
 
 TEST(Parameters, TakeEveryDefaultOfTheTable) {
   for (const ParameterInfo& info : parameter_table()) {
-    for (const char* const text : {info.default_sparse, info.default_semi_dense}) {
-      Parameters parameters;
-      const Status status = parameters.set(info.id, std::string_view(text));
-      EXPECT_TRUE(status.ok()) << info.name << ": " << (status.ok() ? "" : status.error().message);
-      EXPECT_EQ(text, parameters.text(info.id)) << info.name;
+    for (const auto& of_modes : info.defaults) {
+      for (const char* const text : of_modes) {
+        Parameters parameters;
+        const Status status = parameters.set(info.id, std::string_view(text));
+        EXPECT_TRUE(status.ok()) << info.name << ": "
+                                 << (status.ok() ? "" : status.error().message);
+        EXPECT_EQ(text, parameters.text(info.id)) << info.name;
+      }
     }
   }
 }
 
-TEST(Parameters, FollowTheModeWhereNothingIsSet) {
+TEST(Parameters, FollowPresetAndModeWhereNothingIsSet) {
+  const char* const presets[] = {"default", "paper"};
+  const char* const modes[] = {"sparse", "semi-dense", "dense"};
+  for (int preset = 0; preset < kPresets; ++preset) {
+    for (int mode = 0; mode < kModes; ++mode) {
+      const Parameters parameters =
+          test::parameters({{"preset", presets[preset]}, {"mode", modes[mode]}});
+      EXPECT_EQ(static_cast<Preset>(preset), parameters.preset());
+      EXPECT_EQ(static_cast<Mode>(mode), parameters.mode());
+      for (const ParameterInfo& info : parameter_table()) {
+        if (info.id == Parameter::kPreset || info.id == Parameter::kMode) continue;
+        EXPECT_EQ(info.defaults[preset][mode], parameters.text(info.id)) << info.name;
+        EXPECT_FALSE(parameters.is_set(info.id)) << info.name;
+      }
+    }
+  }
+}
+
+TEST(Parameters, BeginWithTheDefaultPresetInSemiDenseMode) {
   for (const ParameterInfo& info : parameter_table()) {
-    const Parameters sparse = test::parameters({{"mode", "sparse"}});
-    const Parameters semi_dense = test::parameters({{"mode", "semi-dense"}});
-    EXPECT_EQ(info.default_sparse, sparse.text(info.id)) << info.name;
-    EXPECT_EQ(info.default_semi_dense, semi_dense.text(info.id)) << info.name;
-    EXPECT_EQ(info.default_semi_dense, Parameters().text(info.id)) << info.name;
+    EXPECT_EQ(parameter_default(info.id, Preset::kDefault, Mode::kSemiDense),
+              Parameters().text(info.id))
+        << info.name;
     EXPECT_FALSE(Parameters().is_set(info.id)) << info.name;
   }
 }
 
+TEST(Parameters, OverrideAPresetOneByOne) {
+  const Parameters parameters =
+      test::parameters({{"speckle-size", "7"}, {"preset", "paper"}, {"pixel-cost", "census"}});
+  EXPECT_EQ(7, parameters.integer(Parameter::kSpeckleSize));
+  EXPECT_EQ("census", parameters.text(Parameter::kPixelCost));
+  EXPECT_EQ("21", parameters.text(Parameter::kOutlierRadius));
+  EXPECT_EQ("nodes-and-pixels", parameters.text(Parameter::kOutlierRemoval));
+}
+
+TEST(ParameterTable, TellsDefaultsInWords) {
+  EXPECT_EQ("64", parameter_defaults_text(Parameter::kMaxDisparity));
+  EXPECT_EQ("default", parameter_defaults_text(Parameter::kPreset));
+  EXPECT_EQ("semi-dense", parameter_defaults_text(Parameter::kMode));
+  EXPECT_EQ("16; preset paper: 8, 16 sparse", parameter_defaults_text(Parameter::kGrayLevels));
+  EXPECT_EQ("census; preset paper: gradient", parameter_defaults_text(Parameter::kPixelCost));
+}
+
 TEST(Parameters, KeepWhatIsSetWhenTheModeChanges) {
-  Parameters parameters = test::parameters({{"gray-levels", "37"}});
+  Parameters parameters = test::parameters({{"preset", "paper"}, {"gray-levels", "37"}});
   for (const char* const mode : {"sparse", "semi-dense"}) {
     test::set_all(parameters, {{"mode", mode}});
     EXPECT_EQ(37, parameters.integer(Parameter::kGrayLevels)) << mode;

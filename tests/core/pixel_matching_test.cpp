@@ -15,11 +15,26 @@ using test::DisparityPlane;
 using test::Random;
 using test::RandomVolume;
 
-DisparityPlane matched(const CostVolume& volume, const PixelMatchingOptions& options,
+/// Options of the paper's method, as shares.
+PixelMatchingOptions paper(double range, double confidence, bool subpixel) {
+  return {{range, BetweenNodes::kNone, 0}, {0, confidence, true, -1, subpixel}};
+}
+
+DisparityPlane matched(const CostVolume& volume, PixelMatchingOptions options,
                        const DisparityPlane& map) {
+  options.range.disparities = options.selection.disparities = volume.disparities;
   Image<std::int32_t> image = image_of(map);
+  Image<std::uint8_t> ratio;
+  ratio.resize(map.width, map.height);
+  PixelMatchingScratch scratch;
+  scratch.resize(map.width);
   for (int y = 0; y < map.height; y += 3) {
-    match_pixels(volume, options, y, std::min(y + 3, map.height), image);
+    match_pixels(volume, options, y, std::min(y + 3, map.height), scratch, image, ratio);
+  }
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      EXPECT_EQ(image.row(y)[x] == kNoDisparity, ratio.row(y)[x] == 0) << x << ", " << y;
+    }
   }
   return copy_of(image);
 }
@@ -49,7 +64,7 @@ TEST(PixelMatching, EqualsReferenceAtEveryWidth) {
           const DisparityPlane expected =
               reference::match_pixels(volume.plain, {range, confidence, subpixel}, map);
           EXPECT_TRUE(
-              same_image(expected, matched(volume.fast, {range, confidence, subpixel}, map)))
+              same_image(expected, matched(volume.fast, paper(range, confidence, subpixel), map)))
               << "range " << range << ", confidence " << confidence << ", subpixel " << subpixel;
           known += expected.pixels.size() -
                    std::count(expected.pixels.begin(), expected.pixels.end(), 0);
@@ -82,16 +97,17 @@ struct OnePixel {
 TEST(PixelMatching, FindsTheLeastCostNearTheGuess) {
   std::vector<int> costs(60, 1000);
   costs[42] = 100;
-  EXPECT_EQ(42 * 256, OnePixel(costs).match(40 * 256, {0.15, 0.12, false}));
-  EXPECT_EQ(42 * 256, OnePixel(costs).match(38 * 256, {0.15, 0.12, false}));
+  EXPECT_EQ(42 * 256, OnePixel(costs).match(40 * 256, paper(0.15, 0.12, false)));
+  EXPECT_EQ(42 * 256, OnePixel(costs).match(38 * 256, paper(0.15, 0.12, false)));
 }
 
 TEST(PixelMatching, SearchesBothEndsOfTheRange) {
   for (const int best : {17, 23}) {
     std::vector<int> costs(60, 1000);
     costs[best] = 100;
-    EXPECT_EQ(best * 256, OnePixel(costs).match(20 * 256, {0.15, 0.12, false})) << "20 +- 3 px";
-    EXPECT_EQ(0, OnePixel(costs).match(20 * 256 + (best < 20 ? 1 : -1), {0.15, 0.12, false}))
+    EXPECT_EQ(best * 256, OnePixel(costs).match(20 * 256, paper(0.15, 0.12, false)))
+        << "20 +- 3 px";
+    EXPECT_EQ(0, OnePixel(costs).match(20 * 256 + (best < 20 ? 1 : -1), paper(0.15, 0.12, false)))
         << "just out of reach, all else costs the same";
   }
 }
@@ -99,7 +115,7 @@ TEST(PixelMatching, SearchesBothEndsOfTheRange) {
 TEST(PixelMatching, SearchesAFewPixelsAroundSmallDisparities) {
   std::vector<int> costs(30, 1000);
   costs[5] = 100;
-  EXPECT_EQ(5 * 256, OnePixel(costs).match(2 * 256, {0.15, 0.12, false}));
+  EXPECT_EQ(5 * 256, OnePixel(costs).match(2 * 256, paper(0.15, 0.12, false)));
 }
 
 TEST(PixelMatching, DropsWhatHasACloseRunnerUp) {
@@ -108,10 +124,10 @@ TEST(PixelMatching, DropsWhatHasACloseRunnerUp) {
   for (const int runner_up : {18, 22}) {
     std::vector<int> rival = costs;
     rival[runner_up] = 112;
-    EXPECT_EQ(0, OnePixel(rival).match(20 * 256, {0.15, 0.12, false}))
+    EXPECT_EQ(0, OnePixel(rival).match(20 * 256, paper(0.15, 0.12, false)))
         << "12 % is not more than 12 %";
     rival[runner_up] = 113;
-    EXPECT_EQ(20 * 256, OnePixel(rival).match(20 * 256, {0.15, 0.12, false}));
+    EXPECT_EQ(20 * 256, OnePixel(rival).match(20 * 256, paper(0.15, 0.12, false)));
   }
 }
 
@@ -119,13 +135,13 @@ TEST(PixelMatching, DoesNotCountTheNeighborsOfTheBestAsRunnersUp) {
   std::vector<int> costs(60, 1000);
   costs[19] = costs[21] = 101;
   costs[20] = 100;
-  EXPECT_EQ(20 * 256, OnePixel(costs).match(20 * 256, {0.15, 0.12, false}));
+  EXPECT_EQ(20 * 256, OnePixel(costs).match(20 * 256, paper(0.15, 0.12, false)));
 }
 
 TEST(PixelMatching, DropsWhatCannotBeCompared) {
-  EXPECT_EQ(0, OnePixel({5}).match(1, {0.15, 0.0, true})) << "one disparity";
-  EXPECT_EQ(0, OnePixel({5, 900}).match(1, {0.15, 0.0, true})) << "two disparities";
-  EXPECT_EQ(1, OnePixel({5, 900, 900}).match(1, {0.15, 0.0, true})) << "infinity is 1/256 px";
+  EXPECT_EQ(0, OnePixel({5}).match(1, paper(0.15, 0.0, true))) << "one disparity";
+  EXPECT_EQ(0, OnePixel({5, 900}).match(1, paper(0.15, 0.0, true))) << "two disparities";
+  EXPECT_EQ(1, OnePixel({5, 900, 900}).match(1, paper(0.15, 0.0, true))) << "infinity is 1/256 px";
 }
 
 TEST(PixelMatching, RefinesByTheParabolaThroughThreeCosts) {
@@ -135,7 +151,8 @@ TEST(PixelMatching, RefinesByTheParabolaThroughThreeCosts) {
     costs[20] = 100;
     costs[21] = after;
     const double a = (before + after) / 2.0 - 100, b = (after - before) / 2.0;
-    EXPECT_NEAR(256 * (20 - b / (2 * a)), OnePixel(costs).match(20 * 256, {0.15, 0.12, true}), 1)
+    EXPECT_NEAR(256 * (20 - b / (2 * a)), OnePixel(costs).match(20 * 256, paper(0.15, 0.12, true)),
+                1)
         << before << ", 100, " << after;
   }
 }
@@ -143,9 +160,9 @@ TEST(PixelMatching, RefinesByTheParabolaThroughThreeCosts) {
 TEST(PixelMatching, StaysInTheRangeAtItsEnds) {
   std::vector<int> costs(60, 1000);
   costs[59] = 100;
-  EXPECT_EQ(59 * 256, OnePixel(costs).match(59 * 256, {0.15, 0.12, true}));
+  EXPECT_EQ(59 * 256, OnePixel(costs).match(59 * 256, paper(0.15, 0.12, true)));
   costs[0] = 50;
-  EXPECT_EQ(1, OnePixel(costs).match(1 * 256, {0.15, 0.12, true}));
+  EXPECT_EQ(1, OnePixel(costs).match(1 * 256, paper(0.15, 0.12, true)));
 }
 
 }  // namespace

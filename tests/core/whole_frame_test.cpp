@@ -28,6 +28,7 @@ std::string one_of(Random& random, const char* const (&choices)[N]) {
 Parameters random_parameters(int width, Random& random) {
   const std::string disparities = std::to_string(random.between(1, width));
   return test::parameters({
+      {"preset", "paper"},
       {"mode", one_of(random, {"sparse", "semi-dense"})},
       {"max-disparity", disparities},
       {"threads", one_of(random, {"1", "2", "3"})},
@@ -127,7 +128,8 @@ TEST(WholeFrame, EqualsReferenceWithAnyParametersAndSizes) {
 
 TEST(WholeFrame, EqualsReferenceWithTheDefaultsOfBothModes) {
   for (const char* const mode : {"sparse", "semi-dense"}) {
-    const Parameters parameters = test::parameters({{"mode", mode}, {"max-disparity", "40"}});
+    const Parameters parameters =
+        test::parameters({{"preset", "paper"}, {"mode", mode}, {"max-disparity", "40"}});
     const test::Pair pair = test::slanted_pair(180, 70, 30, 9);
     Matcher matcher = std::move(Matcher::create(parameters).value());
     matcher.keep_stages(true);
@@ -143,7 +145,7 @@ TEST(WholeFrame, IsTheSameWithEveryInstructionSet) {
   for (const char* const volume : {"half", "full"}) {
     test::DisparityPlane expected;
     test::for_each_simd_target([&] {
-      Matcher matcher = test::matcher({{"cost-volume", volume}});
+      Matcher matcher = test::matcher({{"preset", "paper"}, {"cost-volume", volume}});
       const test::DisparityPlane map = test::compute(matcher, pair.left, pair.right);
       if (expected.width == 0) expected = map;
       EXPECT_TRUE(same_image(expected, map)) << volume;

@@ -103,7 +103,7 @@ TEST_F(Program, NamesValueAndRangeOfAWrongParameter) {
   EXPECT_THAT(run.err, HasSubstr("max-disparity"));
   EXPECT_THAT(run.err, HasSubstr("99999"));
   EXPECT_THAT(run.err, HasSubstr(std::to_string(kLargestMaxDisparity)));
-  EXPECT_THAT(run_eval({set(), "--mode", "dense"}).err, HasSubstr("semi-dense"));
+  EXPECT_THAT(run_eval({set(), "--mode", "denser"}).err, HasSubstr("semi-dense"));
 }
 
 TEST_F(Program, HasAnOptionForEveryParameter) {
@@ -112,7 +112,7 @@ TEST_F(Program, HasAnOptionForEveryParameter) {
   for (const ParameterInfo& info : parameter_table()) {
     EXPECT_THAT(help.out, HasSubstr(std::string("--") + info.name + " "));
     // Each is passed on: its default is taken and shows in the report.
-    const std::string value = info.default_sparse;
+    const std::string value = parameter_default(info.id, Preset::kDefault, Mode::kSparse);
     const Outcome run = run_eval({set(), "--only", "B", "--mode", "sparse", "--json",
                                   folder_ / "r.json", std::string("--") + info.name, value});
     if (info.id == Parameter::kMode) continue;  // given twice

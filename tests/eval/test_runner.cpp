@@ -131,6 +131,7 @@ TEST_F(Running, ReportsABrokenPairAndGoesOn) {
 TEST_F(Running, ReportsParametersThatDoNotFitTheImages) {
   RunSettings settings;
   ASSERT_TRUE(settings.parameters.set("min-node-width", "150").ok());
+  ASSERT_TRUE(settings.parameters.set("max-node-width", "0.5").ok());
   settings.rivals = {Rival::kBm};
   Runner runner(settings);
   const PairReport report = runner.run(pairs_[0]);

@@ -73,21 +73,23 @@ TEST_F(Properties, DefaultsAreTheLibrarys) {
   EXPECT_EQ(text("qos"), "true");
 }
 
-TEST_F(Properties, UnsetOnesFollowTheMode) {
-  Parameters sparse;
-  ASSERT_TRUE(sparse.set(Parameter::kMode, std::string_view("sparse")).ok());
-  const Parameters dense;
-  gst_util_set_object_arg(G_OBJECT(element), "mode", "sparse");
-  int levels = 0;
-  double confidence = 0;
-  g_object_get(element, "gray-levels", &levels, "pixel-confidence", &confidence, nullptr);
-  EXPECT_EQ(levels, sparse.integer(Parameter::kGrayLevels));
-  EXPECT_EQ(confidence, sparse.get(Parameter::kPixelConfidence));
-  gst_util_set_object_arg(G_OBJECT(element), "mode", "semi-dense");
-  g_object_get(element, "gray-levels", &levels, "pixel-confidence", &confidence, nullptr);
-  EXPECT_EQ(levels, dense.integer(Parameter::kGrayLevels));
-  EXPECT_EQ(confidence, dense.get(Parameter::kPixelConfidence));
-  EXPECT_NE(sparse.get(Parameter::kGrayLevels), dense.get(Parameter::kGrayLevels));
+TEST_F(Properties, UnsetOnesFollowPresetAndMode) {
+  for (const char* const preset : {"paper", "default"}) {
+    for (const char* const mode : {"sparse", "dense", "semi-dense"}) {
+      Parameters expected;
+      ASSERT_TRUE(expected.set(Parameter::kPreset, std::string_view(preset)).ok());
+      ASSERT_TRUE(expected.set(Parameter::kMode, std::string_view(mode)).ok());
+      gst_util_set_object_arg(G_OBJECT(element), "preset", preset);
+      gst_util_set_object_arg(G_OBJECT(element), "mode", mode);
+      for (const ParameterInfo& info : parameter_table()) {
+        if (info.type == ParameterType::kNumber) continue;  // their text is another one
+        EXPECT_EQ(text(info.name), expected.text(info.id)) << info.name;
+      }
+      double confidence = 0;
+      g_object_get(element, "pixel-confidence", &confidence, nullptr);
+      EXPECT_EQ(confidence, expected.get(Parameter::kPixelConfidence));
+    }
+  }
 }
 
 TEST_F(Properties, SetOnesDoNotFollowTheMode) {
@@ -97,7 +99,7 @@ TEST_F(Properties, SetOnesDoNotFollowTheMode) {
 }
 
 TEST_F(Properties, ChoicesHaveShortNames) {
-  for (const char* word : {"sparse", "semi-dense"}) {
+  for (const char* word : {"sparse", "semi-dense", "dense"}) {
     gst_util_set_object_arg(G_OBJECT(element), "mode", word);
     EXPECT_EQ(text("mode"), word);
   }

@@ -60,6 +60,12 @@ class MTSTEREO_API Matcher {
   /// or kSystem; the matcher can be used again afterwards.
   Result<DisparityView> compute(GrayView left, GrayView right);
 
+  /// The confidence of each disparity of the last frame: 1 .. 255, higher = more trustworthy, and 0
+  /// where there is no disparity. An empty view before the first frame. It tells how many pixels
+  /// around have a disparity that fits, and how clearly these were told from their runners-up.
+  /// Belongs to the matcher and holds until its next compute().
+  GrayView confidence() const;
+
   /// A stage's disparity map of the last frame; an empty view before the first frame, or where
   /// keep_stages() was off in it. Holds until the next compute().
   DisparityView stage(Stage stage) const;

@@ -12,11 +12,20 @@
 
 namespace mtstereo {
 
-/// How many pixels get a disparity (paper, section II-A "Disparity map").
+/// How many pixels get a disparity (paper, section II-A "Disparity map"; dense goes beyond it).
 enum class Mode {
-  kSparse,     ///< only the ends of the finest nodes: few pixels, few errors
-  kSemiDense,  ///< the whole of the finest nodes, linear in between: more pixels
+  kSparse,     ///< only at the ends of the finest nodes: few pixels, few errors
+  kSemiDense,  ///< wherever a disparity can be trusted
+  kDense,      ///< also where it is less sure, and in gaps whose sides agree
 };
+inline constexpr int kModes = 3;
+
+/// A set of defaults for all parameters.
+enum class Preset {
+  kDefault,  ///< the most accurate that is known
+  kPaper,    ///< the method as it is published
+};
+inline constexpr int kPresets = 2;
 
 /// Largest value of Parameter::kMaxDisparity [px].
 inline constexpr int kLargestMaxDisparity = 1024;
@@ -26,6 +35,7 @@ inline constexpr int kLargestImageSide = 16384;
 
 /// One value of the parameter table. The order is that of parameter_table().
 enum class Parameter {
+  kPreset,
   kMode,
   kMaxDisparity,
   kThreads,
@@ -34,15 +44,33 @@ enum class Parameter {
   kMaxNodeWidth,
   kNodeLevels,
   kMaxNeighbors,
+  kMedianFilter,
   kCostKernelSize,
   kCostVolume,
   kIntensityWeight,
   kNodeConfidence,
   kOutlierRadius,
+  kOutlierRemoval,
+  kPixelCost,
+  kCensusKernelSize,
   kPixelSearchRange,
+  kBetweenNodes,
+  kRangePenalty,
+  kSmallStepPenalty,
+  kLargeStepPenalty,
   kPixelConfidence,
+  kRunnerUp,
+  kLeftRightTolerance,
   kSubpixel,
+  kSpeckleSize,
+  kMinConfidence,
+  kRimTrim,
+  kNodeEndWidth,
+  kMaxGap,
 };
+
+/// Number of parameters.
+inline constexpr int kParameters = static_cast<int>(Parameter::kMaxGap) + 1;
 
 /// What a parameter's value looks like.
 enum class ParameterType {
@@ -61,13 +89,13 @@ struct ParameterInfo {
   const char* symbol;  ///< the paper's symbol in plain letters, "" where the paper has none
   const char* unit;    ///< "px", "%", ... or "" for a bare number
   ParameterType type;
-  double minimum;                  ///< smallest value (kInteger, kNumber)
-  double maximum;                  ///< largest value (kInteger, kNumber)
-  const char* choices;             ///< the words of a kChoice separated by '|', else ""
-  const char* default_sparse;      ///< default in Mode::kSparse, as text
-  const char* default_semi_dense;  ///< default in Mode::kSemiDense, as text
-  bool reallocates;                ///< true: a change sizes the buffers anew at the next frame
-  const char* help;                ///< one line
+  double minimum;       ///< smallest value (kInteger, kNumber)
+  double maximum;       ///< largest value (kInteger, kNumber)
+  const char* choices;  ///< the words of a kChoice separated by '|', else ""
+  /// Defaults as text, by Preset and Mode.
+  std::array<std::array<const char*, kModes>, kPresets> defaults;
+  bool reallocates;  ///< true: a change sizes the buffers anew at the next frame
+  const char* help;  ///< one line
 };
 
 /// All parameters, in the order of Parameter. Never fails; the rows live as long as the program.
@@ -76,14 +104,21 @@ MTSTEREO_API std::span<const ParameterInfo> parameter_table();
 /// The row of one parameter; the id has to be one of Parameter.
 MTSTEREO_API const ParameterInfo& parameter_info(Parameter id);
 
+/// The default of one parameter as text.
+MTSTEREO_API const char* parameter_default(Parameter id, Preset preset, Mode mode);
+
+/// All defaults of one parameter in words for people, as in "6, 2 dense; preset paper: 4, 12
+/// sparse": what stands first holds in every mode that is not named.
+MTSTEREO_API std::string parameter_defaults_text(Parameter id);
+
 /// The row of the parameter with this name, or nullptr.
 MTSTEREO_API const ParameterInfo* find_parameter(std::string_view name);
 
-/// A set of parameters. What was not set takes the default of the mode. A plain value: copy it
-/// freely; not meant to be shared between threads while one of them sets something.
+/// A set of parameters. What was not set takes the default of the preset and the mode. A plain
+/// value: copy it freely; not meant to be shared between threads while one of them sets something.
 class MTSTEREO_API Parameters {
  public:
-  /// All at their defaults, Mode::kSemiDense.
+  /// All at their defaults, Preset::kDefault and Mode::kSemiDense.
   Parameters() = default;
 
   /// Sets one parameter from a number. A kBoolean takes 0 and 1, a kChoice the index of the word
@@ -94,18 +129,19 @@ class MTSTEREO_API Parameters {
   Status set(Parameter id, std::string_view text);
   /// The same by name; an unknown name fails with kInvalidParameter.
   Status set(std::string_view name, std::string_view text);
-  /// Back to the mode's default.
+  /// Back to the default of preset and mode.
   void unset(Parameter id);
-  /// True where a value was set, false where the mode's default holds.
+  /// True where a value was set, false where a default holds.
   bool is_set(Parameter id) const;
 
-  /// The value in force: what was set, or the mode's default. For a kBoolean 0 or 1, for a kChoice
-  /// the index of the word, for kLevels the number of levels.
+  /// The value in force: what was set, or the default of preset and mode. For a kBoolean 0 or 1,
+  /// for a kChoice the index of the word, for kLevels the number of levels.
   double get(Parameter id) const;
   /// The value in force as text, such that set() takes it back.
   std::string text(Parameter id) const;
 
-  /// The mode in force.
+  /// The preset and the mode in force.
+  Preset preset() const;
   Mode mode() const;
   /// get() of a whole number.
   int integer(Parameter id) const;
@@ -129,7 +165,7 @@ class MTSTEREO_API Parameters {
     double number = 0;
     Levels levels;
   };
-  std::array<std::optional<Value>, 16> values_;
+  std::array<std::optional<Value>, kParameters> values_;
   Value effective(Parameter id) const;
 };
 

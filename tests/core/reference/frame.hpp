@@ -37,7 +37,7 @@ inline Matches match_levels(const std::array<Trees, 2>& trees, const Volume& vol
   return matches;
 }
 
-/// The whole method on one pair.
+/// The whole method of the paper on one pair.
 inline Frame match_frame(const GrayPlane& left, const GrayPlane& right,
                          const Parameters& parameters) {
   const Settings s(parameters);
@@ -54,9 +54,11 @@ inline Frame match_frame(const GrayPlane& left, const GrayPlane& right,
   const Matches matches = match_levels(trees, frame.volume, s, left.width, leaves);
   frame.stages[0] = draw_matches(leaves, matches, left.width);
   frame.stages[1] = remove_outliers(frame.stages[0], s.outlier_radius);
-  frame.stages[2] = extrapolate(leaves, frame.stages[1], s.max_neighbors, s.mode);
+  frame.stages[2] = extrapolate(leaves, frame.stages[1], s.max_neighbors,
+                                s.mode == Mode::kSparse ? s.node_end_width : 0);
   frame.stages[3] = match_pixels(
-      frame.volume, {s.pixel_search_range, s.pixel_confidence, s.subpixel}, frame.stages[2]);
+      frame.volume, {s.search_range.range, s.selection.confidence, s.selection.subpixel},
+      frame.stages[2]);
   frame.stages[4] = remove_outliers(frame.stages[3], s.outlier_radius);
   return frame;
 }

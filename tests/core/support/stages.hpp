@@ -32,7 +32,8 @@ inline PreprocessedView preprocess(GrayView image, int gray_levels, int band = 1
     median_rows(image, y, std::min(y + band, image.height), median_scratch, view.median);
   }
   for (int y = 0; y < image.height; y += band) {
-    gradient_rows(table, y, std::min(y + band, image.height), gradient_scratch, view);
+    gradient_rows(table, view.median.view(), y, std::min(y + band, image.height), gradient_scratch,
+                  view);
   }
   return view;
 }

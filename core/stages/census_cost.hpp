@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "base/buffer.hpp"
+#include "stages/census.hpp"
+
+namespace mtstereo {
+
+/// The costs of guided pixel matching, row by row: differing bits of the census transforms, summed
+/// over a small window, and more of them where the nodes do not expect the disparity. Costs of a
+/// row lie disparity by disparity: cell [x][d] at x * lanes + d. Where no right pixel is (d > x)
+/// the first one of the row stands in: a cell that costs nothing where nothing is to be seen.
+
+struct CensusCostOptions {
+  int disparities;    ///< D
+  int kernel_size;    ///< side of the window the costs are summed over: 1, 3 or 5 px
+  int range_penalty;  ///< added where a disparity is not expected [bits], 0 .. 24
+};
+
+/// Cost of the cells d >= D.
+inline constexpr int kCensusNever = 255;
+
+/// Disparities that a pixel's costs take room for: D rounded up to whole vectors.
+inline int cost_lanes(int disparities) {
+  constexpr int kStep = 32;
+  return (disparities + kStep - 1) / kStep * kStep;
+}
+
+/// Steps of the costs per differing bit: the rows that are summed up. Across the row the costs are
+/// averaged, so that one step is one bit of one row.
+inline int cost_scale(const CensusCostOptions& options) { return options.kernel_size; }
+
+/// Scratch memory of one thread, and what it carries from row to row.
+struct CensusCostScratch {
+  Buffer<std::uint8_t> ring;      ///< differing bits of the last `kernel_size` rows
+  Buffer<std::uint8_t> vertical;  ///< their sum
+  Buffer<std::uint8_t> tables;    ///< penalties below and above a range, and behind D
+
+  void resize(int width, const CensusCostOptions& options);
+};
+
+/// Begins with row y: the rows y, y + 1 ... are then asked for in turn. `right` is mirrored and
+/// goes on for cost_lanes() columns beyond.
+void start_census_costs(const CensusImage& left, const CensusImage& right,
+                        const CensusCostOptions& options, int y, CensusCostScratch& scratch);
+
+/// Writes the costs of row y, which is the one begun with or the one behind the last one: width *
+/// lanes cells. Disparities outside low[x] .. high[x] cost the penalty more, unless low > high:
+/// then nothing is known of the pixel. Sums end at 255.
+void census_cost_row(const CensusImage& left, const CensusImage& right,
+                     const CensusCostOptions& options, int y, const std::uint16_t* low,
+                     const std::uint16_t* high, CensusCostScratch& scratch, std::uint8_t* costs);
+
+}  // namespace mtstereo

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "base/buffer.hpp"
+
+namespace mtstereo {
+
+/// The confidence of each disparity: how many pixels around it have one that fits, and how clearly
+/// they were told from their runners-up. A continuous form of the paper's votes ("Confidence check
+/// and map refinement") that also falls towards the rim of what is known.
+
+/// Half the side of the window, without its middle [px].
+inline constexpr int kSupportRadius = 4;
+
+/// A disparity supports one that is n px away (the larger of columns and rows) where the two differ
+/// by at most kSupportTolerance + n * kSupportSlope: surfaces may be slanted.
+inline constexpr int kSupportTolerance = 32;  ///< [1 / kVoteOne px]
+inline constexpr int kSupportSlope = 13;      ///< [1 / kVoteOne px per px]
+
+/// Copies of a disparity map and its peak ratios in the form that the sums are made of, with a
+/// border of kSupportRadius columns on both sides.
+struct SupportMap {
+  Image<std::uint16_t> disparity;  ///< [1 / kVoteOne px], kVoteNone where there is none
+  Image<std::uint16_t> ratio;      ///< 0 .. 255
+
+  void resize(int width, int height);
+};
+
+/// Copies the rows y0 .. y1 - 1.
+void copy_support(const Image<std::int32_t>& map, const Image<std::uint8_t>& ratio, int y0, int y1,
+                  SupportMap& support);
+
+/// Scratch memory of one thread.
+struct SupportScratch {
+  Buffer<std::uint16_t> count;  ///< pixels that support
+  Buffer<std::uint16_t> ratio;  ///< sum of their peak ratios
+
+  void resize(int width);
+};
+
+/// Writes the rows y0 .. y1 - 1: 255 times the cube root of c * c * r, where c is the share of the
+/// window's pixels that support the middle one, itself included, and r the sum of their peak ratios
+/// (0 .. 1) divided by the window's pixels. 1 at least; 0 where there is no disparity. The window
+/// ends at the image's border.
+void rate_support(const SupportMap& support, int y0, int y1, SupportScratch& scratch,
+                  Image<std::uint8_t>& confidence);
+
+/// Takes the disparities of the rows y0 .. y1 - 1 away whose confidence is below `least`.
+void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,
+                     Image<std::uint8_t>& confidence);
+
+/// Sets the confidence in the rows y0 .. y1 - 1 to 0 where the map has no disparity.
+void clear_confidence(const Image<std::int32_t>& map, int y0, int y1,
+                      Image<std::uint8_t>& confidence);
+
+}  // namespace mtstereo

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "mtstereo/image.hpp"
+
+namespace mtstereo {
+
+/// Where the parabola through three costs has its minimum, from the middle one, which is the
+/// smallest: -1/2 .. 1/2 px in 1 / kDisparityOne px.
+inline int parabola_offset(int before, int best, int after) {
+  const int curvature = before - 2 * best + after;
+  if (curvature <= 0) return 0;
+  return (before - after) * (kDisparityOne / 2) / curvature;
+}
+
+/// By how much the runner-up costs more than the best, as a share of it: 0 .. 255 for 0 .. 1.
+inline int peak_ratio(int best, int runner_up) {
+  return runner_up > best ? (runner_up - best) * 255 / runner_up : 0;
+}
+
+}  // namespace mtstereo
