@@ -5,46 +5,19 @@
 #include <gst/video/video.h>
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "latency.hpp"
 #include "mtstereo/matcher.hpp"
 #include "mtstereo/parameters.hpp"
+#include "ownership.hpp"
 #include "pairing.hpp"
 
 namespace mtstereo::plugin {
 
-/// What gst_buffer_unref and gst_caps_unref free, for every way out of a function.
-struct Unref {
-  void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
-  void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
-  void operator()(GstQuery* query) const { gst_query_unref(query); }
-  void operator()(gchar* text) const { g_free(text); }
-};
-using BufferPointer = std::unique_ptr<GstBuffer, Unref>;
-using CapsPointer = std::unique_ptr<GstCaps, Unref>;
-using QueryPointer = std::unique_ptr<GstQuery, Unref>;
-using TextPointer = std::unique_ptr<gchar, Unref>;
-
 /// Caps as text for a message.
 std::string caps_text(const GstCaps* caps);
-
-/// The element's object lock, held as long as this object lives. No message may be posted and no
-/// other lock of the aggregator taken meanwhile.
-class ObjectLock {
- public:
-  explicit ObjectLock(gpointer object) : object_(GST_OBJECT_CAST(object)) {
-    GST_OBJECT_LOCK(object_);
-  }
-  ~ObjectLock() { GST_OBJECT_UNLOCK(object_); }
-  ObjectLock(const ObjectLock&) = delete;
-  ObjectLock& operator=(const ObjectLock&) = delete;
-
- private:
-  GstObject* object_;
-};
 
 inline constexpr std::array<Side, 2> kSides = {Side::kLeft, Side::kRight};
 

@@ -22,6 +22,9 @@ class MappedFrame {
   bool mapped() const { return mapped_; }
   const std::string& problem() const { return problem_; }
 
+  /// The frame itself; only where mapped().
+  GstVideoFrame* frame() { return &frame_; }
+
   /// The first plane of an 8-bit format; only where mapped().
   GrayView luma() const;
   /// The plane of a 16-bit gray format; only where mapped() for writing.

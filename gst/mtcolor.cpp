@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "mtcolor.hpp"
 
-#include <gst/video/gstvideofilter.h>
 #include <gst/video/video.h>
 
-#include <exception>
 #include <vector>
 
 #include "color_table.hpp"
+#include "disparity_filter.hpp"
 #include "element_state.hpp"
 #include "mtstereo/parameters.hpp"
 
@@ -52,11 +51,7 @@ struct GstMtColorClass {
 enum Property : guint { kMaxDisparity = 1, kDisparityScale };
 
 constexpr const char* kPictures =
-    "video/x-raw, format = (string) { RGB, BGR, RGBx, BGRx, xRGB, xBGR, RGBA, BGRA, ARGB, ABGR }, "
-    "width = (int) [ 1, max ], height = (int) [ 1, max ], framerate = (fraction) [ 0/1, max ]";
-constexpr const char* kDisparities =
-    "video/x-raw, format = (string) GRAY16_LE, width = (int) [ 1, max ], "
-    "height = (int) [ 1, max ], framerate = (fraction) [ 0/1, max ]";
+    MTSTEREO_PICTURE_CAPS("{ RGB, BGR, RGBx, BGRx, xRGB, xBGR, RGBA, BGRA, ARGB, ABGR }");
 
 }  // namespace
 
@@ -94,21 +89,10 @@ void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
   }
 }
 
-/// What a disparity map and its picture have in common: all but the meaning of a pixel.
 GstCaps* transform_caps(GstBaseTransform*, GstPadDirection direction, GstCaps* caps,
                         GstCaps* filter) {
-  CapsPointer common(gst_caps_copy(caps));
-  for (guint i = 0; i < gst_caps_get_size(common.get()); ++i) {
-    gst_structure_remove_fields(gst_caps_get_structure(common.get(), i), "format", "colorimetry",
-                                "chroma-site", "disparity-scale", "max-disparity", nullptr);
-  }
-  const CapsPointer other(
-      gst_caps_from_string(direction == GST_PAD_SINK ? kPictures : kDisparities));
-  CapsPointer result(gst_caps_intersect_full(common.get(), other.get(), GST_CAPS_INTERSECT_FIRST));
-  if (filter != nullptr) {
-    result.reset(gst_caps_intersect_full(filter, result.get(), GST_CAPS_INTERSECT_FIRST));
-  }
-  return result.release();
+  const char* other = direction == GST_PAD_SINK ? kPictures : kDisparityCaps;
+  return filtered_caps(picture_caps(caps, other), filter).release();
 }
 
 gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCaps*,
@@ -183,16 +167,10 @@ void paint(const GstVideoFrame* in, const GstVideoFrame* out, const std::vector<
 GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVideoFrame* out) {
   auto* self = reinterpret_cast<GstMtColor*>(filter);
   ColorState& state = *self->state;
-  try {
-    const Range range = range_in_force(self);
-    if (range != state.range) {
-      state.table = color_table(range.max_disparity, range.scale);
-      state.range = range;
-    }
-  } catch (const std::exception& error) {
-    GST_ELEMENT_ERROR(filter, LIBRARY, FAILED, ("The table of colors cannot be made."),
-                      ("%s", error.what()));
-    return GST_FLOW_ERROR;
+  const Range range = range_in_force(self);
+  if (range != state.range) {
+    state.table = color_table(range.max_disparity, range.scale);
+    state.range = range;
   }
   paint(in, out, state.table);
   return GST_FLOW_OK;
@@ -201,13 +179,6 @@ GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVide
 void finalize(GObject* object) {
   delete reinterpret_cast<GstMtColor*>(object)->state;
   G_OBJECT_CLASS(mtcolor_element_parent_class)->finalize(object);
-}
-
-void add_pad_template(GstElementClass* element_class, const char* name, GstPadDirection direction,
-                      const char* text) {
-  const CapsPointer caps(gst_caps_from_string(text));
-  gst_element_class_add_pad_template(
-      element_class, gst_pad_template_new(name, direction, GST_PAD_ALWAYS, caps.get()));
 }
 
 }  // namespace
@@ -235,7 +206,7 @@ static void mtcolor_element_class_init(GstMtColorClass* klass) {
                        1, 65535, kFallbackScale, kFlags));
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
-  add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparities);
+  add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);
   add_pad_template(element_class, "src", GST_PAD_SRC, kPictures);
   gst_element_class_set_static_metadata(
       element_class, "Disparity in colors", "Filter/Converter/Video",
@@ -243,6 +214,7 @@ static void mtcolor_element_class_init(GstMtColorClass* klass) {
       "the mtstereo authors");
 
   GST_BASE_TRANSFORM_CLASS(klass)->transform_caps = transform_caps;
+  GST_BASE_TRANSFORM_CLASS(klass)->transform = transform_checked;
   GST_VIDEO_FILTER_CLASS(klass)->set_info = set_info;
   GST_VIDEO_FILTER_CLASS(klass)->transform_frame = transform_frame;
 }

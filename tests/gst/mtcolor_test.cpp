@@ -173,6 +173,35 @@ TEST(Color, WrongCapsAreAnErrorThatNamesThem) {
   EXPECT_NE(error.find("disparity-scale=0"), std::string::npos) << error;
 }
 
+/// What mtcolor says to a frame of 64x48 whose meta tells this of it.
+std::string error_of_frame(GstVideoFormat format, guint width, gint stride, gsize bytes) {
+  Pipeline pipeline("appsrc name=in is-live=false format=time caps=" +
+                    raw_caps("GRAY16_LE", 64, 48) + " ! mtcolor ! fakesink");
+  pipeline.set_state(GST_STATE_PLAYING);
+  GstBuffer* buffer = gst_buffer_new_allocate(nullptr, bytes, nullptr);
+  gst_buffer_memset(buffer, 0, 1, bytes);
+  gsize offsets[GST_VIDEO_MAX_PLANES] = {0};
+  gint strides[GST_VIDEO_MAX_PLANES] = {stride};
+  gst_buffer_add_video_meta_full(buffer, GST_VIDEO_FRAME_FLAG_NONE, format, width, 48, 1, offsets,
+                                 strides);
+  GstFlowReturn flow = GST_FLOW_OK;
+  g_signal_emit_by_name(pipeline.named("in"), "push-buffer", buffer, &flow);
+  gst_buffer_unref(buffer);
+  g_signal_emit_by_name(pipeline.named("in"), "end-of-stream", &flow);
+  return pipeline.wait_for_end();
+}
+
+TEST(Color, AFrameThatIsNotWhatItsCapsSayIsAnError) {
+  constexpr auto kGray16 = GST_VIDEO_FORMAT_GRAY16_LE;
+  EXPECT_EQ(error_of_frame(kGray16, 64, 128, 128 * 48), "");
+  const std::string rows = error_of_frame(kGray16, 64, 256, 128 * 48);
+  EXPECT_NE(rows.find("6144 bytes, 12160 are needed"), std::string::npos) << rows;
+  const std::string size = error_of_frame(kGray16, 32, 128, 128 * 48);
+  EXPECT_NE(size.find("32x48"), std::string::npos) << size;
+  const std::string format = error_of_frame(GST_VIDEO_FORMAT_GRAY8, 64, 128, 128 * 48);
+  EXPECT_NE(format.find("GRAY8 64x48"), std::string::npos) << format;
+}
+
 TEST(Color, FollowsMtstereoInAPipeline) {
   Pipeline pipeline(
       "videotestsrc num-buffers=3 pattern=smpte ! "
