@@ -148,7 +148,7 @@ TEST_F(PairOrder, StreamsOfDifferentRatesPairAtTheSlowerOne) {
   harness->caps(Side::kLeft, raw_caps("GRAY8", kWidth, kHeight, "15/1"));
   std::vector<GstClockTime> slow;
   std::vector<GstClockTime> fast;
-  for (GstClockTime i = 0; i < 20; ++i) {
+  for (GstClockTime i = 0; i < 19; ++i) {  // the last one has a partner
     const GstClockTime time = gst_util_uint64_scale_int(GST_SECOND, static_cast<gint>(i), 30);
     fast.push_back(time);
     if (i % 2 == 0) slow.push_back(time);
@@ -157,7 +157,7 @@ TEST_F(PairOrder, StreamsOfDifferentRatesPairAtTheSlowerOne) {
   Feeder rights(*harness, Side::kRight, pair, fast);
   EXPECT_EQ(times_until_end(), slow);
   EXPECT_EQ(harness->stats().dropped_left, 0u);
-  EXPECT_EQ(harness->stats().dropped_right, 10u);
+  EXPECT_EQ(harness->stats().dropped_right, 9u);
 }
 
 TEST_F(PairOrder, PairsInOrderWithoutTimeStamps) {
