@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "confidence_meta.hpp"
 #include "element_state.hpp"
 
 namespace mtstereo::plugin {
 namespace {
 
 constexpr guint kMinimumBuffers = 2;
-
-// What says how the left frame's memory is laid out or what its colors mean is not true of the
-// disparity map.
-bool belongs_to_pixels(const GstMetaInfo& info) {
-  return gst_meta_api_type_has_tag(info.api, _gst_meta_tag_memory) ||
-         gst_meta_api_type_has_tag(info.api, _gst_meta_tag_memory_reference) ||
-         gst_meta_api_type_has_tag(info.api,
-                                   g_quark_from_static_string(GST_META_TAG_VIDEO_COLORSPACE_STR));
-}
 
 gboolean copy_meta(GstBuffer* left, GstMeta** meta, gpointer user_data) {
   const GstMetaInfo* info = (*meta)->info;

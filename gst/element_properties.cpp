@@ -6,7 +6,7 @@
 namespace mtstereo::plugin {
 namespace {
 
-enum Property : guint { kDisparityScale = 1, kSyncTolerance, kQos, kStats };
+enum Property : guint { kDisparityScale = 1, kSyncTolerance, kConfidenceMap, kQos, kStats };
 
 void set_parameter(ElementState& state, const ParameterInfo& info, const GValue& value) {
   const ObjectLock lock(state.element);
@@ -55,6 +55,13 @@ void install_properties(GObjectClass* object_class) {
                          "stream)",
                          -1, G_MAXINT64, -1, kFlags));
   g_object_class_install_property(
+      object_class, kConfidenceMap,
+      g_param_spec_boolean("confidence-map", "confidence-map",
+                           "Attach to every disparity map how sure each of its values is: the "
+                           "field \"confidence\" of the meta MtStereoConfidenceMeta, a GRAY8 "
+                           "sample with 1 (hardly) to 255 (sure), 0 = no disparity",
+                           TRUE, kFlags));
+  g_object_class_install_property(
       object_class, kQos,
       g_param_spec_boolean("qos", "qos",
                            "Skip pairs that downstream reports as too late; sinks with sync=false "
@@ -80,6 +87,10 @@ void set_element_property(ElementState& state, guint id, const GValue* value, GP
     switch (id) {
       case kDisparityScale:
         state.settings.disparity_scale = g_value_get_int(value);
+        ++state.settings.revision;
+        return;
+      case kConfidenceMap:
+        state.settings.confidence_map = g_value_get_boolean(value);
         ++state.settings.revision;
         return;
       case kQos:
@@ -108,6 +119,9 @@ void get_element_property(ElementState& state, guint id, GValue* value, GParamSp
       return;
     case kSyncTolerance:
       g_value_set_int64(value, state.settings.sync_tolerance);
+      return;
+    case kConfidenceMap:
+      g_value_set_boolean(value, state.settings.confidence_map);
       return;
     case kQos:
       g_value_set_boolean(value, state.settings.qos);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "confidence_pool.hpp"
 #include "latency.hpp"
 #include "mtstereo/matcher.hpp"
 #include "mtstereo/parameters.hpp"
@@ -29,6 +30,7 @@ struct Settings {
   Parameters parameters;
   int disparity_scale = 256;   ///< steps per px
   gint64 sync_tolerance = -1;  ///< [ns]; -1: see tolerance_in_force()
+  bool confidence_map = true;  ///< every disparity map carries one
   bool qos = true;             ///< pairs that come too late are skipped
   std::string problem;         ///< a value that was refused, told when it matters; "" if none
   const ParameterInfo* problem_parameter = nullptr;  ///< whose value that was
@@ -85,6 +87,7 @@ struct ElementState {
   int checked_height = 0;
   std::optional<Matcher> matcher;
   GstVideoInfo output{};  ///< of the disparity map; valid where the source pad has caps
+  ConfidencePool confidence_pool;
   OutputSegment segment = OutputSegment::kNone;
   guint32 segment_seqnum = GST_SEQNUM_INVALID;  ///< of the left stream's segment
   UnpairedAlarm alarm;
@@ -132,6 +135,12 @@ gboolean propose_allocation(GstAggregator* aggregator, GstAggregatorPad* pad,
 GstFlowReturn acquire_output(ElementState& state, BufferPointer& buffer);
 /// Copies what belongs to a left frame beside its pixels: time stamps, flags and metas.
 void copy_frame_properties(GstBuffer* left, GstBuffer* right, GstBuffer* output);
+
+// confidence.cpp: runs in the source pad's task.
+
+/// Gives a disparity map that was computed and has its times the confidence of its pixels. False
+/// where there is no memory for it; an error was posted then.
+bool attach_confidence(ElementState& state, GstBuffer* output);
 
 // aggregation.cpp: runs in the source pad's task.
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "frame_views.hpp"
 
-#include <cstddef>
-
 namespace mtstereo::plugin {
 namespace {
 

@@ -3,6 +3,8 @@
 
 #include <gst/video/video.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "mtstereo/image.hpp"
@@ -35,6 +37,12 @@ class MappedFrame {
   bool mapped_ = false;
   std::string problem_;
 };
+
+/// The first byte of row y of a mapped frame's first plane; written only where it was mapped so.
+inline std::uint8_t* plane_row(const GstVideoFrame& frame, int y) {
+  return static_cast<std::uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0)) +
+         static_cast<std::ptrdiff_t>(y) * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
+}
 
 /// True where the first plane of the format is 8-bit luma, one byte after the other: what the
 /// matcher reads in place.

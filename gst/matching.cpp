@@ -198,6 +198,7 @@ GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right)
   flow = compute(state, left, right, output.get());
   if (flow != GST_FLOW_OK) return flow;
   copy_frame_properties(left, right, output.get());
+  if (state.active.confidence_map && !attach_confidence(state, output.get())) return GST_FLOW_ERROR;
   count_pair(state);
   advance_position(state, left);
   state.segment = OutputSegment::kSent;  // by the base class, ahead of the buffer

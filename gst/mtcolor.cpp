@@ -8,6 +8,7 @@
 #include "color_table.hpp"
 #include "disparity_filter.hpp"
 #include "element_state.hpp"
+#include "frame_views.hpp"
 #include "mtstereo/parameters.hpp"
 
 using namespace mtstereo::plugin;
@@ -150,10 +151,8 @@ PixelLayout layout_of(const GstVideoFrame* frame) {
 void paint(const GstVideoFrame* in, const GstVideoFrame* out, const std::vector<Rgb>& table) {
   const PixelLayout layout = layout_of(out);
   for (int y = 0; y < GST_VIDEO_FRAME_HEIGHT(in); ++y) {
-    const auto* from = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(in, 0)) +
-                       static_cast<gssize>(y) * GST_VIDEO_FRAME_PLANE_STRIDE(in, 0);
-    auto* to = static_cast<guint8*>(GST_VIDEO_FRAME_PLANE_DATA(out, 0)) +
-               static_cast<gssize>(y) * GST_VIDEO_FRAME_PLANE_STRIDE(out, 0);
+    const std::uint8_t* from = plane_row(*in, y);
+    std::uint8_t* to = plane_row(*out, y);
     for (int x = 0; x < GST_VIDEO_FRAME_WIDTH(in); ++x, from += 2, to += layout.step) {
       const Rgb& color = table[GST_READ_UINT16_LE(from)];
       to[layout.red] = color.red;

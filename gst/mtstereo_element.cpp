@@ -257,6 +257,7 @@ gboolean stop(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
   for (Input& input : state.inputs) input.has_caps = false;
   state.matcher.reset();
+  state.confidence_pool.clear();
   return TRUE;
 }
 

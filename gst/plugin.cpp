@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gst/gst.h>
 
+#include "confidence_meta.hpp"
 #include "mtcolor.hpp"
 #include "mtstereo/mtstereo.hpp"
 #include "mtstereo_element.hpp"
@@ -8,13 +9,15 @@
 namespace {
 
 gboolean plugin_init(GstPlugin* plugin) {
-  return gst_element_register(plugin, "mtstereo", GST_RANK_NONE, mtstereo_element_get_type()) &&
+  return mtstereo::plugin::register_confidence_meta() &&
+         gst_element_register(plugin, "mtstereo", GST_RANK_NONE, mtstereo_element_get_type()) &&
          gst_element_register(plugin, "mtcolor", GST_RANK_NONE, mtcolor_element_get_type());
 }
 
 }  // namespace
 
 #define PACKAGE "mtstereo"
-GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, mtstereo,
-                  "Disparity of two rectified cameras (MTStereo 2.0) and color pictures of it",
-                  plugin_init, MTSTEREO_VERSION, "LGPL", "mtstereo", "mtstereo")
+GST_PLUGIN_DEFINE(
+    GST_VERSION_MAJOR, GST_VERSION_MINOR, mtstereo,
+    "Disparity of two rectified cameras (MTStereo 2.0), its confidence and color pictures of it",
+    plugin_init, MTSTEREO_VERSION, "LGPL", "mtstereo", "mtstereo")

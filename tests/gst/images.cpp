@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <random>
 
+#include "confidence_reader.h"
 #include "mtstereo/mtstereo.hpp"
 
 namespace mtstereo::test {
@@ -73,24 +75,65 @@ GstBuffer* frame_buffer(const Picture& picture, GstClockTime pts, GstClockTime d
   return buffer;
 }
 
-std::vector<std::uint16_t> library_map(const Pair& pair, const Parameters& parameters, int scale) {
+namespace {
+
+/// A matcher that has matched the pair, and its result.
+struct Matched {
+  std::optional<Matcher> matcher;
+  DisparityView disparity;
+};
+
+Matched match(const Pair& pair, const Parameters& parameters) {
   const auto view = [](const Picture& picture) {
     return GrayView{picture.pixels.data(), picture.width, picture.height, picture.width};
   };
-  std::vector<std::uint16_t> values(pair.left.pixels.size());
   auto matcher = Matcher::create(parameters);
   if (!matcher) {
     ADD_FAILURE() << matcher.error().message;
-    return values;
+    return {};
   }
   const auto disparity = matcher->compute(view(pair.left), view(pair.right));
   if (!disparity) {
     ADD_FAILURE() << disparity.error().message;
-    return values;
+    return {};
   }
-  const Status written = write_disparity16(
-      *disparity, scale, {values.data(), pair.left.width, pair.left.height, pair.left.width * 2});
+  return {std::move(matcher.value()), *disparity};
+}
+
+}  // namespace
+
+std::vector<std::uint16_t> library_map(const Pair& pair, const Parameters& parameters, int scale) {
+  std::vector<std::uint16_t> values(pair.left.pixels.size());
+  const Matched matched = match(pair, parameters);
+  if (!matched.matcher) return values;
+  const Status written =
+      write_disparity16(matched.disparity, scale,
+                        {values.data(), pair.left.width, pair.left.height, pair.left.width * 2});
   EXPECT_TRUE(written.ok());
+  return values;
+}
+
+std::vector<std::uint8_t> library_confidence(const Pair& pair, const Parameters& parameters) {
+  std::vector<std::uint8_t> values;
+  const Matched matched = match(pair, parameters);
+  if (!matched.matcher) return values;
+  const GrayView view = matched.matcher->confidence();
+  for (int y = 0; y < view.height; ++y) {
+    values.insert(values.end(), view.row(y), view.row(y) + view.width);
+  }
+  return values;
+}
+
+std::vector<std::uint8_t> confidence_of(GstBuffer* disparity) {
+  std::vector<std::uint8_t> values;
+  GstVideoFrame frame;
+  if (!map_confidence(disparity, &frame)) return values;
+  for (int y = 0; y < GST_VIDEO_FRAME_HEIGHT(&frame); ++y) {
+    const auto* row = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0)) +
+                      static_cast<gssize>(y) * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
+    values.insert(values.end(), row, row + GST_VIDEO_FRAME_WIDTH(&frame));
+  }
+  gst_video_frame_unmap(&frame);
   return values;
 }
 

@@ -46,6 +46,12 @@ GstBuffer* frame_buffer(const Picture& picture, GstClockTime pts, GstClockTime d
 /// What the library makes of a pair: 16-bit fixed point, row after row.
 std::vector<std::uint16_t> library_map(const Pair& pair, const Parameters& parameters, int scale);
 
+/// What the library says of how sure that is, row after row.
+std::vector<std::uint8_t> library_confidence(const Pair& pair, const Parameters& parameters);
+
+/// The confidence map that a disparity map carries, row after row; empty where it carries none.
+std::vector<std::uint8_t> confidence_of(GstBuffer* disparity);
+
 /// The pixels of a GRAY16_LE buffer with these caps, row after row.
 std::vector<std::uint16_t> map_of(GstBuffer* buffer, int width, int height);
 

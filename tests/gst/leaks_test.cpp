@@ -87,6 +87,23 @@ void make_colors() {
   EXPECT_EQ(pipeline.run(), "");
 }
 
+/// Maps that are held to the end and beyond the elements'.
+void make_confidence() {
+  std::vector<BufferPointer> held;
+  for (const char* behind : {"identity", "tee ! queue"}) {
+    std::string launch = noise_launch(4, "max-disparity=16");
+    launch.insert(launch.find("! appsink"), std::string("! ") + behind + " ");
+    Pipeline pipeline(launch);
+    EXPECT_EQ(pipeline.run(), "");
+    GstSample* sample = nullptr;
+    g_signal_emit_by_name(pipeline.named("out"), "pull-sample", &sample);
+    held.emplace_back(gst_buffer_ref(gst_sample_get_buffer(sample)));
+    gst_sample_unref(sample);
+    EXPECT_EQ(pipeline.samples().size(), 3u);
+  }
+  EXPECT_EQ(confidence_of(held[0].get()).size(), 160u * 120);
+}
+
 struct Scenario {
   const char* name;
   void (*run)();
@@ -96,7 +113,8 @@ constexpr std::array kScenarios = {Scenario{"LeaveABuffer", leave_a_buffer},
                                    Scenario{"StopInTheMiddle", stop_in_the_middle},
                                    Scenario{"DropFramesAndSendGaps", drop_frames_and_send_gaps},
                                    Scenario{"GiveErrors", give_errors},
-                                   Scenario{"MakeColors", make_colors}};
+                                   Scenario{"MakeColors", make_colors},
+                                   Scenario{"MakeConfidence", make_confidence}};
 
 struct Outcome {
   int status = 0;
@@ -154,7 +172,7 @@ TEST_P(NoLeaks, WhereAProgram) {
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, NoLeaks,
                          testing::Values("PlayToTheEnd", "StopInTheMiddle", "DropFramesAndSendGaps",
-                                         "GiveErrors", "MakeColors"),
+                                         "GiveErrors", "MakeColors", "MakeConfidence"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gst/app/gstappsink.h>
 #include <gtest/gtest.h>
 
+#include "images.hpp"
+
 namespace mtstereo::test {
 namespace {
 
@@ -30,6 +32,7 @@ Sample sample_of(GstSample* from) {
     sample.bytes.assign(map.data, map.data + map.size);
     gst_buffer_unmap(buffer, &map);
   }
+  sample.confidence = confidence_of(buffer);
   return sample;
 }
 

@@ -14,6 +14,7 @@ struct Sample {
   GstClockTime pts = GST_CLOCK_TIME_NONE;
   std::string caps;
   std::vector<std::uint8_t> bytes;
+  std::vector<std::uint8_t> confidence;  ///< that came with it; empty: none did
 };
 
 /// A whole pipeline from a launch line. It ends with this object.

@@ -71,6 +71,7 @@ TEST_F(Properties, DefaultsAreTheLibrarys) {
   EXPECT_EQ(text("disparity-scale"), "256");
   EXPECT_EQ(text("sync-tolerance"), "-1");
   EXPECT_EQ(text("qos"), "true");
+  EXPECT_EQ(text("confidence-map"), "true");
 }
 
 TEST_F(Properties, UnsetOnesFollowPresetAndMode) {

@@ -181,6 +181,38 @@ for each in DOCUMENTS:
     add_test(each)
 
 
+def blocks_of(document, language):
+    """The texts of a document's blocks in this language."""
+    return re.findall(rf"^```{language}\n(.*?)^```$", document.read_text(), re.MULTILINE | re.DOTALL)
+
+
+class Programs(unittest.TestCase):
+    """What the documents show of programs is compiled or run too."""
+    element = SOURCE / "docs/element.md"
+
+    def test_c_is_what_the_tests_are_compiled_with(self):
+        shown = blocks_of(self.element, "c")
+        self.assertEqual(len(shown), 1)
+        compiled = (SOURCE / "tests/gst/confidence_reader.c").read_text()
+        self.assertIn(shown[0], compiled)
+
+    def test_python_runs_and_finds_the_confidence(self):
+        shown = blocks_of(self.element, "python")
+        self.assertEqual(len(shown), 1)
+        with tempfile.TemporaryDirectory(prefix="mtstereo-") as folder:
+            bindings = "import gi; gi.require_version('Gst', '1.0'); from gi.repository import Gst"
+            if run(["/usr/bin/python3", "-c", bindings], folder).status != 0:
+                self.skipTest("GStreamer's Python bindings (python3-gi) are not installed")
+            program = pathlib.Path(folder) / "program.py"
+            program.write_text(shown[0])
+            done = run(["/usr/bin/python3", program], folder, 120)
+        self.assertEqual(done.status, 0, str(done))
+        counts = re.findall(r"^322x240: (\d+) px with a confidence", done.output, re.MULTILINE)
+        self.assertEqual(len(counts), 3, str(done))
+        for count in counts:
+            self.assertTrue(0 < int(count) <= 322 * 240, str(done))
+
+
 class Extraction(unittest.TestCase):
     """A command that is not found would never be run."""
 
