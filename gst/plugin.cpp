@@ -3,6 +3,7 @@
 
 #include "confidence_meta.hpp"
 #include "mtcolor.hpp"
+#include "mtconfidence.hpp"
 #include "mtstereo/mtstereo.hpp"
 #include "mtstereo_element.hpp"
 
@@ -11,7 +12,9 @@ namespace {
 gboolean plugin_init(GstPlugin* plugin) {
   return mtstereo::plugin::register_confidence_meta() &&
          gst_element_register(plugin, "mtstereo", GST_RANK_NONE, mtstereo_element_get_type()) &&
-         gst_element_register(plugin, "mtcolor", GST_RANK_NONE, mtcolor_element_get_type());
+         gst_element_register(plugin, "mtcolor", GST_RANK_NONE, mtcolor_element_get_type()) &&
+         gst_element_register(plugin, "mtconfidence", GST_RANK_NONE,
+                              mtconfidence_element_get_type());
 }
 
 }  // namespace
@@ -19,5 +22,5 @@ gboolean plugin_init(GstPlugin* plugin) {
 #define PACKAGE "mtstereo"
 GST_PLUGIN_DEFINE(
     GST_VERSION_MAJOR, GST_VERSION_MINOR, mtstereo,
-    "Disparity of two rectified cameras (MTStereo 2.0), its confidence and color pictures of it",
+    "Disparity of two rectified cameras (MTStereo 2.0), its confidence and pictures of it",
     plugin_init, MTSTEREO_VERSION, "LGPL", "mtstereo", "mtstereo")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The confidence maps of mtstereo on their way through a pipeline.
+// The confidence maps of mtstereo on their way through a pipeline, and mtconfidence at work on
+// them.
 #include <gtest/gtest.h>
 
 #include "pipeline.hpp"
@@ -39,7 +40,8 @@ INSTANTIATE_TEST_SUITE_P(Elements, ConfidenceStays,
                                          "tee name=x ! queue",
                                          "tee name=x x. ! queue ! fakesink sync=false x. ! queue",
                                          "videoconvert ! video/x-raw,format=GRAY16_BE",
-                                         "videorate ! queue", "capsfilter caps=video/x-raw"),
+                                         "videorate ! queue", "mtconfidence",
+                                         "capsfilter caps=video/x-raw"),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
 class ConfidenceGoes : public testing::TestWithParam<const char*> {};
@@ -58,6 +60,61 @@ INSTANTIATE_TEST_SUITE_P(Elements, ConfidenceGoes,
                                          "videocrop left=8", "videobox left=8 right=-8",
                                          "videobox left=8", "mtcolor"),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
+
+TEST(MtConfidence, FiltersWhatMtstereoGives) {
+  Pipeline pipeline(launch_with("", "queue ! mtconfidence min-confidence=120"));
+  ASSERT_EQ(pipeline.run(), "");
+  const auto before = direct_samples();
+  const auto after = pipeline.samples();
+  ASSERT_EQ(after.size(), 3u);
+  for (std::size_t frame = 0; frame < after.size(); ++frame) {
+    std::size_t dropped = 0;
+    for (std::size_t i = 0; i < before[frame].confidence.size(); ++i) {
+      const bool keep = before[frame].confidence[i] >= 120;
+      dropped += !keep && before[frame].confidence[i] > 0;
+      const auto value = [&](const Sample& s) { return s.bytes[2 * i] | s.bytes[2 * i + 1] << 8; };
+      ASSERT_EQ(value(after[frame]), keep ? value(before[frame]) : 0) << i;
+      ASSERT_EQ(after[frame].confidence[i], keep ? before[frame].confidence[i] : 0) << i;
+    }
+    EXPECT_GT(dropped, 0u);
+  }
+}
+
+TEST(MtConfidence, ShowsWhatMtstereoGives) {
+  Pipeline pipeline(launch_with("", "mtconfidence output=confidence"));
+  ASSERT_EQ(pipeline.run(), "");
+  const auto before = direct_samples();
+  const auto after = pipeline.samples();
+  ASSERT_EQ(after.size(), 3u);
+  for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].bytes, before[i].confidence);
+}
+
+TEST(MtConfidence, SaysWhatIsMissingBehindAnMtstereoWithoutConfidence) {
+  Pipeline pipeline(launch_with("confidence-map=false", "mtconfidence"));
+  const std::string error = pipeline.run();
+  EXPECT_NE(error.find("confidence-map=true"), std::string::npos) << error;
+}
+
+TEST(MtConfidence, SaysWhatIsMissingBehindAScaler) {
+  Pipeline pipeline(launch_with("", "videoscale ! video/x-raw,width=80,height=60 ! mtconfidence"));
+  const std::string error = pipeline.run();
+  EXPECT_NE(error.find("videoscale"), std::string::npos) << error;
+}
+
+TEST(MtConfidence, WorksOnOneBranchOfATee) {
+  Pipeline pipeline(launch_with(
+      "",
+      "tee name=s s. ! queue ! mtconfidence min-confidence=255 ! fakesink sync=false s. ! "
+      "queue"));
+  ASSERT_EQ(pipeline.run(), "");
+  const auto expected = direct_samples();
+  const auto samples = pipeline.samples();
+  ASSERT_EQ(samples.size(), 3u);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].bytes, expected[i].bytes);
+    EXPECT_EQ(samples[i].confidence, expected[i].confidence);
+  }
+}
 
 }  // namespace
 }  // namespace mtstereo::test

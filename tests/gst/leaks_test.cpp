@@ -87,10 +87,11 @@ void make_colors() {
   EXPECT_EQ(pipeline.run(), "");
 }
 
-/// Maps that are held to the end and beyond the elements'.
+/// Maps that are held, and copied with another confidence, to the end and beyond the elements'.
 void make_confidence() {
   std::vector<BufferPointer> held;
-  for (const char* behind : {"identity", "tee ! queue"}) {
+  for (const char* behind : {"identity", "mtconfidence min-confidence=100",
+                             "mtconfidence output=confidence", "tee ! queue ! mtconfidence"}) {
     std::string launch = noise_launch(4, "max-disparity=16");
     launch.insert(launch.find("! appsink"), std::string("! ") + behind + " ");
     Pipeline pipeline(launch);
@@ -104,6 +105,13 @@ void make_confidence() {
   EXPECT_EQ(confidence_of(held[0].get()).size(), 160u * 120);
 }
 
+void miss_the_confidence() {
+  std::string launch = noise_launch(4, "max-disparity=16 confidence-map=false");
+  launch.insert(launch.find("! appsink"), "! mtconfidence ");
+  Pipeline pipeline(launch);
+  EXPECT_NE(pipeline.run(), "");
+}
+
 struct Scenario {
   const char* name;
   void (*run)();
@@ -114,7 +122,8 @@ constexpr std::array kScenarios = {Scenario{"LeaveABuffer", leave_a_buffer},
                                    Scenario{"DropFramesAndSendGaps", drop_frames_and_send_gaps},
                                    Scenario{"GiveErrors", give_errors},
                                    Scenario{"MakeColors", make_colors},
-                                   Scenario{"MakeConfidence", make_confidence}};
+                                   Scenario{"MakeConfidence", make_confidence},
+                                   Scenario{"MissTheConfidence", miss_the_confidence}};
 
 struct Outcome {
   int status = 0;
@@ -172,7 +181,8 @@ TEST_P(NoLeaks, WhereAProgram) {
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, NoLeaks,
                          testing::Values("PlayToTheEnd", "StopInTheMiddle", "DropFramesAndSendGaps",
-                                         "GiveErrors", "MakeColors", "MakeConfidence"),
+                                         "GiveErrors", "MakeColors", "MakeConfidence",
+                                         "MissTheConfidence"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
