@@ -5,12 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "eval/json_number.hpp"
+
 namespace mtstereo::eval {
 namespace {
 
 using nlohmann::json;
-
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 std::string bad_name(double threshold) {
   std::string text = std::to_string(threshold);
@@ -20,17 +20,20 @@ std::string bad_name(double threshold) {
 }
 
 json metrics_json(const Metrics& metrics) {
-  json result{{"known_pixels", metrics.known},    {"compared_pixels", metrics.compared},
-              {"avgerr", number(metrics.avgerr)}, {"rms", number(metrics.rms)},
-              {"d_all", number(metrics.d_all)},   {"known_density", number(metrics.known_density)}};
+  json result{{"known_pixels", metrics.known},
+              {"compared_pixels", metrics.compared},
+              {"avgerr", json_number(metrics.avgerr)},
+              {"rms", json_number(metrics.rms)},
+              {"d_all", json_number(metrics.d_all)},
+              {"known_density", json_number(metrics.known_density)}};
   for (std::size_t i = 0; i < kBadThresholds.size(); ++i) {
-    result[bad_name(kBadThresholds[i])] = number(metrics.bad[i]);
+    result[bad_name(kBadThresholds[i])] = json_number(metrics.bad[i]);
   }
   return result;
 }
 
 json evaluation_json(const Evaluation& evaluation) {
-  return {{"density", number(evaluation.density)},
+  return {{"density", json_number(evaluation.density)},
           {"all", metrics_json(evaluation.all)},
           {"noc", evaluation.noc ? metrics_json(*evaluation.noc) : json(nullptr)}};
 }
@@ -47,8 +50,8 @@ json pair_json(const PairReport& pair) {
               {"results", json::object()}};
   for (const MethodResult& method : pair.results) {
     json entry = evaluation_json(method.evaluation);
-    entry["seconds"] = number(method.seconds);
-    entry["seconds_per_megapixel"] = number(method.seconds_per_megapixel);
+    entry["seconds"] = json_number(method.seconds);
+    entry["seconds_per_megapixel"] = json_number(method.seconds_per_megapixel);
     result["results"][method.method] = std::move(entry);
   }
   return result;
@@ -112,8 +115,8 @@ json to_json(const Report& report) {
   for (const Summary& summary : summarize(report)) {
     json entry = evaluation_json(summary.evaluation);
     entry["pairs"] = summary.pairs;
-    entry["seconds_per_megapixel"] = number(summary.seconds_per_megapixel);
-    entry["time_ratio"] = number(summary.time_ratio);
+    entry["seconds_per_megapixel"] = json_number(summary.seconds_per_megapixel);
+    entry["time_ratio"] = json_number(summary.time_ratio);
     result["mean"][summary.method] = std::move(entry);
   }
   for (const Problem& failure : report.failures) {

@@ -2,25 +2,16 @@
 
 // The report as a table on the terminal.
 
-#include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <ostream>
-#include <sstream>
 
 #include "eval/report.hpp"
+#include "eval/text_table.hpp"
 
 namespace mtstereo::eval {
 namespace {
 
-using Row = std::vector<std::string>;
-
-std::string fixed(double value, int digits) {
-  if (!std::isfinite(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
+using Row = TableRow;
 
 Row header() {
   return {"pair", "method", "range", "avgerr", "D-all",   "bad0.5",
@@ -42,9 +33,9 @@ const Metrics* region_of(const Evaluation& evaluation, bool noc) {
   return evaluation.noc ? &*evaluation.noc : nullptr;
 }
 
-// The lines of one region; empty where no pair has it.
+// The lines of one region below the header; that alone where no pair has it.
 std::vector<Row> rows_of(const Report& report, const std::vector<Summary>& means, bool noc) {
-  std::vector<Row> rows;
+  std::vector<Row> rows{header()};
   for (const PairReport& pair : report.pairs) {
     for (const MethodResult& result : pair.results) {
       if (const Metrics* metrics = region_of(result.evaluation, noc)) {
@@ -62,22 +53,6 @@ std::vector<Row> rows_of(const Report& report, const std::vector<Summary>& means
   return rows;
 }
 
-void print_rows(std::ostream& out, std::vector<Row> rows) {
-  rows.insert(rows.begin(), header());
-  std::vector<std::size_t> widths(rows.front().size());
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string space(widths[i] - row[i].size(), ' ');
-      line += (i == 0 ? "" : "  ") + (i < 2 ? row[i] + space : space + row[i]);
-    }
-    out << line << '\n';
-  }
-}
-
 }  // namespace
 
 void print_table(std::ostream& out, const Report& report) {
@@ -90,13 +65,13 @@ void print_table(std::ostream& out, const Report& report) {
   out << "range px, avgerr px, D-all %, bad %, rms px, density % of all pixels, s per "
          "megapixel\n\n";
   const std::vector<Row> all = rows_of(report, means, false);
-  if (all.empty()) {
+  if (all.size() == 1) {
     out << "no pair could be evaluated\n";
     return;
   }
   out << "all pixels with ground truth\n";
   print_rows(out, all);
-  if (const std::vector<Row> noc = rows_of(report, means, true); !noc.empty()) {
+  if (const std::vector<Row> noc = rows_of(report, means, true); noc.size() > 1) {
     out << "\npixels with ground truth that both views see\n";
     print_rows(out, noc);
   }
