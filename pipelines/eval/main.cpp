@@ -6,14 +6,13 @@
 
 #include <algorithm>
 #include <exception>
-#include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <opencv2/core/utils/logger.hpp>
+#include <utility>
 
-#include "eval/files.hpp"
 #include "eval/input_error.hpp"
 #include "eval/options.hpp"
+#include "eval/outputs.hpp"
 #include "eval/report.hpp"
 
 namespace mtstereo::eval {
@@ -48,9 +47,7 @@ void complain(const Problem& failure) {
 }
 
 // What a run is to do, after --only and --limit.
-DataSet select_pairs(const Options& options) {
-  DataSet set =
-      find_pairs(options.folder, options.layout ? *options.layout : detect_layout(options.folder));
+DataSet select_pairs(const Options& options, DataSet set) {
   const auto unwanted = [&](const std::string& name) {
     return name.find(options.only) == std::string::npos;
   };
@@ -102,13 +99,6 @@ void run_all(const Options& options, const DataSet& set, Report& report) {
   }
 }
 
-// Before the work, which can take hours: can the file be written at all?
-void require_writable(const std::optional<std::filesystem::path>& file) {
-  if (!file) return;
-  make_parent_folder(*file);
-  if (!std::ofstream(*file, std::ios::app)) throw InputError(*file, "cannot be written");
-}
-
 int list_pairs(const DataSet& set) {
   for (const StereoPair& pair : set.pairs) {
     std::cout << pair.name << "\n  left   " << pair.left.string() << "\n  right  "
@@ -121,34 +111,15 @@ int list_pairs(const DataSet& set) {
   return set.problems.empty() ? kAllFine : kSomeFailed;
 }
 
-// The table has been printed by now: a file that cannot be written takes nothing else with it.
-bool write_outputs(const Options& options, const Report& report) {
-  bool fine = true;
-  const auto write = [&fine](const std::filesystem::path& file, const std::string& text) {
-    try {
-      write_bytes(file, text);
-    } catch (const InputError& error) {
-      std::cerr << "mtstereo-eval: " << error.what() << '\n';
-      fine = false;
-    }
-  };
-  if (options.json) {
-    // Names of files need not be UTF-8; what is not becomes a replacement character.
-    constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-    write(*options.json, to_json(report).dump(2, ' ', false, kReplace) + "\n");
-  }
-  if (options.csv) write(*options.csv, to_csv(report));
-  return fine;
-}
-
 int run(const Options& options) {
-  const DataSet set = select_pairs(options);
+  const Layout layout = options.layout ? *options.layout : detect_layout(options.folder);
+  const DataSet all = find_pairs(options.folder, layout);
+  const DataSet set = select_pairs(options, all);
   if (set.pairs.empty() && set.problems.empty()) {
     throw InputError(options.folder, "no pair has '" + options.only + "' in its name");
   }
   if (options.list) return list_pairs(set);
-  require_writable(options.json);
-  require_writable(options.csv);
+  check_outputs(options, all);
   Report report = start_report(options, set);
   run_all(options, set, report);
 

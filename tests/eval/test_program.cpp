@@ -168,6 +168,17 @@ TEST_F(Program, RefusesAFileThatCannotBeWrittenBeforeTheWork) {
   EXPECT_EQ(run.out, "");
 }
 
+TEST_F(Program, NeverOverwritesAnInput) {
+  const std::string before = read_file(folder_ / "set/A/disp0GT.pfm");
+  for (const char* option : {"--json", "--csv"}) {
+    // Also one of a pair that is not asked for.
+    const Outcome run = run_eval({set(), "--only", "B", option, folder_ / "set/A/disp0GT.pfm"});
+    EXPECT_EQ(run.status, 2) << option;
+    EXPECT_THAT(run.err, HasSubstr("belongs to the data set")) << option;
+    EXPECT_EQ(read_file(folder_ / "set/A/disp0GT.pfm"), before) << option;
+  }
+}
+
 TEST_F(Program, ListsWithoutRunning) {
   const Outcome run = run_eval({set(), "--list"});
   EXPECT_EQ(run.status, 0);

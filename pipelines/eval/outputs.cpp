@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/outputs.hpp"
+
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "eval/files.hpp"
+#include "eval/input_error.hpp"
+
+namespace mtstereo::eval {
+namespace fs = std::filesystem;
+namespace {
+
+void refuse_inputs(const fs::path& file, const DataSet& set) {
+  for (const StereoPair& pair : set.pairs) {
+    for (const fs::path& input : {pair.left, pair.right, pair.truth, pair.visible_mask,
+                                  pair.visible_truth, pair.cameras.first, pair.cameras.second}) {
+      std::error_code not_there;
+      if (!input.empty() && fs::equivalent(file, input, not_there)) {
+        throw InputError(file, "belongs to the data set: name another file to write to");
+      }
+    }
+  }
+}
+
+// The file is not left behind: the work may come to nothing.
+void require_writable(const fs::path& file) {
+  make_parent_folder(file);
+  const bool was_there = fs::exists(file);
+  if (!std::ofstream(file, std::ios::app)) throw InputError(file, "cannot be written");
+  std::error_code ignored;
+  if (!was_there) fs::remove(file, ignored);
+}
+
+bool attempt(const std::function<void()>& write) {
+  try {
+    write();
+    return true;
+  } catch (const InputError& error) {
+    std::cerr << "mtstereo-eval: " << error.what() << '\n';
+    return false;
+  }
+}
+
+}  // namespace
+
+void check_outputs(const Options& options, const DataSet& set) {
+  for (const std::optional<fs::path>& file : {options.json, options.csv}) {
+    if (!file) continue;
+    refuse_inputs(*file, set);
+    require_writable(*file);
+  }
+}
+
+bool write_outputs(const Options& options, const Report& report) {
+  bool fine = true;
+  if (options.json) {
+    // Names of files need not be UTF-8; what is not becomes a replacement character.
+    constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+    const std::string text = to_json(report).dump(2, ' ', false, kReplace) + "\n";
+    fine &= attempt([&] { write_bytes(*options.json, text); });
+  }
+  if (options.csv) fine &= attempt([&] { write_bytes(*options.csv, to_csv(report)); });
+  return fine;
+}
+
+}  // namespace mtstereo::eval
