@@ -85,6 +85,7 @@ void run_all(const Options& options, const DataSet& set, Report& report) {
   for (const Problem& problem : set.problems) complain(problem);
   for (const std::string& note : set.notes) std::cerr << "mtstereo-eval: note: " << note << '\n';
   Runner runner(options.run);
+  CurveCollector curve(report.methods);
   const Progress progress(set.pairs.size());
   for (std::size_t i = 0; i < set.pairs.size(); ++i) {
     progress.show(i, set.pairs[i].name);
@@ -95,8 +96,12 @@ void run_all(const Options& options, const DataSet& set, Report& report) {
       report.failures.push_back({pair.pair.name, reason});
       complain(report.failures.back());
     }
+    if (options.curve) curve.add(pair.pair.name, std::exchange(pair.sweeps, {}));
     report.pairs.push_back(std::move(pair));
   }
+  if (options.curve)
+    report.curve = make_curves(report.dataset, report.parameters,
+                               filter_settings(options.run.parameters), curve.means());
 }
 
 int list_pairs(const DataSet& set) {
@@ -124,6 +129,10 @@ int run(const Options& options) {
   run_all(options, set, report);
 
   print_table(std::cout, report);
+  if (report.curve) {
+    std::cout << '\n';
+    print_curves(std::cout, *report.curve);
+  }
   std::cout << std::flush;
   if (!report.failures.empty()) {
     std::cerr << "mtstereo-eval: " << report.failures.size()

@@ -35,8 +35,7 @@ struct Sums {
     ++compared;
     error += e;
     squared += e * e;
-    // 5 % as 20 e >= truth: exact at the border, unlike 0.05 * truth.
-    if (e >= 3 && 20 * e >= truth) ++outliers;
+    outliers += is_outlier(e, truth);
     for (std::size_t i = 0; i < bad.size(); ++i) bad[i] += e > kBadThresholds[i];
   }
 };

@@ -18,6 +18,12 @@ inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// The thresholds t of "bad t" [px].
 inline constexpr std::array<double, 4> kBadThresholds{0.5, 1, 2, 4};
 
+/// Whether D-all counts this error [px] at this true disparity [px].
+inline bool is_outlier(double error, double truth) {
+  // 5 % as 20 e >= truth: exact at the border, unlike 0.05 * truth.
+  return error >= 3 && 20 * error >= truth;
+}
+
 /// How wrong an estimate is, over the pixels where there are both ground truth and an estimate.
 /// NaN where there is no such pixel.
 struct Metrics {

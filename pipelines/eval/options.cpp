@@ -6,6 +6,8 @@
 #include <iostream>
 #include <map>
 
+#include "eval/files.hpp"
+
 namespace mtstereo::eval {
 namespace {
 
@@ -15,7 +17,7 @@ struct Texts {
   std::string dataset = "auto";
   std::string dmap = "auto";
   std::string format = "pfm";
-  std::string json, csv, disparity_folder, picture_folder;
+  std::string json, csv, curve, disparity_folder, picture_folder;
   std::vector<std::string> compare;
   std::map<std::string, std::string> parameters;
 };
@@ -91,6 +93,11 @@ void add_options(CLI::App& app, Texts& texts, Options& options) {
       ->check(CLI::IsMember(rival_names()));
 }
 
+std::string is_png(const std::string& file) {
+  if (extension_of(std::filesystem::path(file)) == ".png") return {};
+  return "the picture is a PNG: '" + file + "' has to end in .png";
+}
+
 void add_outputs(CLI::App& app, Texts& texts) {
   const std::string group = "Output";
   app.add_option("--json", texts.json, "write all figures to this file")
@@ -98,6 +105,12 @@ void add_outputs(CLI::App& app, Texts& texts) {
       ->group(group);
   app.add_option("--csv", texts.csv, "write all figures to this file")
       ->type_name("FILE")
+      ->group(group);
+  app.add_option("--curve", texts.curve,
+                 "sweep the confidence, print the errors at equal density and draw them to this "
+                 "PNG; with --compare those matchers' uniquenessRatio too")
+      ->type_name("FILE")
+      ->check(is_png)
       ->group(group);
   app.add_option("--write-disparity", texts.disparity_folder, "write the disparity maps there")
       ->type_name("DIR")
@@ -143,6 +156,8 @@ void apply(const Texts& texts, Options& options) {
   }
   options.json = path_of(texts.json);
   options.csv = path_of(texts.csv);
+  options.curve = path_of(texts.curve);
+  options.run.curve = options.curve.has_value();
   options.run.disparity_folder = path_of(texts.disparity_folder);
   options.run.picture_folder = path_of(texts.picture_folder);
   if (texts.format == "kitti") options.run.disparity_format = DisparityFormat::kKitti;

@@ -18,6 +18,7 @@ struct Options {
   bool list = false;             ///< only say what there is
   std::optional<std::filesystem::path> json;
   std::optional<std::filesystem::path> csv;
+  std::optional<std::filesystem::path> curve;  ///< the picture
   RunSettings run;
 };
 

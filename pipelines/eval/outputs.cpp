@@ -6,8 +6,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "eval/curve_plot.hpp"
 #include "eval/files.hpp"
 #include "eval/input_error.hpp"
+#include "eval/pictures.hpp"
 
 namespace mtstereo::eval {
 namespace fs = std::filesystem;
@@ -44,10 +46,17 @@ bool attempt(const std::function<void()>& write) {
   }
 }
 
+void write_curve(const fs::path& file, const CurveReport& report) {
+  if (report.pairs == 0) {
+    throw InputError(file, "is not written: there is no pair that all methods could do");
+  }
+  write_picture(file, draw_curves(report));
+}
+
 }  // namespace
 
 void check_outputs(const Options& options, const DataSet& set) {
-  for (const std::optional<fs::path>& file : {options.json, options.csv}) {
+  for (const std::optional<fs::path>& file : {options.json, options.csv, options.curve}) {
     if (!file) continue;
     refuse_inputs(*file, set);
     require_writable(*file);
@@ -63,6 +72,9 @@ bool write_outputs(const Options& options, const Report& report) {
     fine &= attempt([&] { write_bytes(*options.json, text); });
   }
   if (options.csv) fine &= attempt([&] { write_bytes(*options.csv, to_csv(report)); });
+  if (options.curve && report.curve) {
+    fine &= attempt([&] { write_curve(*options.curve, *report.curve); });
+  }
   return fine;
 }
 

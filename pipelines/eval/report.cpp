@@ -119,6 +119,7 @@ json to_json(const Report& report) {
     entry["time_ratio"] = json_number(summary.time_ratio);
     result["mean"][summary.method] = std::move(entry);
   }
+  if (report.curve) result["curve"] = curves_json(*report.curve);
   for (const Problem& failure : report.failures) {
     result["failures"].push_back({{"pair", failure.pair}, {"reason", failure.reason}});
   }

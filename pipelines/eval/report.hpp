@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "eval/curve_report.hpp"
 #include "eval/runner.hpp"
 
 namespace mtstereo::eval {
@@ -32,6 +33,7 @@ struct Report {
   std::vector<std::pair<std::string, std::string>> rival_settings;  ///< method and its settings
   std::vector<PairReport> pairs;
   std::vector<Problem> failures;
+  std::optional<CurveReport> curve;  ///< where it is asked for
 };
 
 /// The means, one for each of the report's methods.

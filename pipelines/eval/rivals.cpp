@@ -19,7 +19,6 @@ constexpr int kSgbmBlock = 5;
 constexpr int kP1 = 8 * kSgbmBlock * kSgbmBlock;
 constexpr int kP2 = 32 * kSgbmBlock * kSgbmBlock;
 constexpr int kDisp12MaxDiff = 1;
-constexpr int kUniquenessRatio = 10;
 constexpr int kSpeckleWindowSize = 100;
 constexpr int kSpeckleRange = 2;
 constexpr int kPreFilterCap = 63;
@@ -31,15 +30,15 @@ int sgbm_mode(Rival rival) {
   return cv::StereoSGBM::MODE_SGBM;
 }
 
-cv::Ptr<cv::StereoMatcher> make_matcher(Rival rival, int disparities) {
+cv::Ptr<cv::StereoMatcher> make_matcher(Rival rival, int disparities, int uniqueness_ratio) {
   if (rival != Rival::kBm) {
     return cv::StereoSGBM::create(0, disparities, kSgbmBlock, kP1, kP2, kDisp12MaxDiff,
-                                  kPreFilterCap, kUniquenessRatio, kSpeckleWindowSize,
+                                  kPreFilterCap, uniqueness_ratio, kSpeckleWindowSize,
                                   kSpeckleRange, sgbm_mode(rival));
   }
   cv::Ptr<cv::StereoBM> bm = cv::StereoBM::create(disparities, kBmBlock);
   bm->setDisp12MaxDiff(kDisp12MaxDiff);
-  bm->setUniquenessRatio(kUniquenessRatio);
+  bm->setUniquenessRatio(uniqueness_ratio);
   bm->setSpeckleWindowSize(kSpeckleWindowSize);
   bm->setSpeckleRange(kSpeckleRange);
   bm->setPreFilterCap(kPreFilterCap);
@@ -65,19 +64,19 @@ std::vector<std::string> rival_names() { return {kNames.begin(), kNames.end()}; 
 
 int rival_disparities(int max_disparity) { return (max_disparity + 15) / 16 * 16; }
 
-std::string rival_settings(Rival rival) {
-  const std::string common = "disp12MaxDiff " + std::to_string(kDisp12MaxDiff) +
-                             ", uniquenessRatio " + std::to_string(kUniquenessRatio) +
-                             ", speckleWindowSize " + std::to_string(kSpeckleWindowSize) +
-                             ", speckleRange " + std::to_string(kSpeckleRange) + ", preFilterCap " +
-                             std::to_string(kPreFilterCap);
+std::string rival_settings(Rival rival, const std::string& uniqueness_ratio) {
+  const std::string common =
+      "disp12MaxDiff " + std::to_string(kDisp12MaxDiff) + ", uniquenessRatio " + uniqueness_ratio +
+      ", speckleWindowSize " + std::to_string(kSpeckleWindowSize) + ", speckleRange " +
+      std::to_string(kSpeckleRange) + ", preFilterCap " + std::to_string(kPreFilterCap);
   if (rival == Rival::kBm) return "block " + std::to_string(kBmBlock) + ", " + common;
   return "block " + std::to_string(kSgbmBlock) + ", P1 " + std::to_string(kP1) + ", P2 " +
          std::to_string(kP2) + ", " + common;
 }
 
-RivalMatcher::RivalMatcher(Rival rival, int max_disparity) : state_(std::make_unique<State>()) {
-  state_->matcher = make_matcher(rival, rival_disparities(max_disparity));
+RivalMatcher::RivalMatcher(Rival rival, int max_disparity, int uniqueness_ratio)
+    : state_(std::make_unique<State>()) {
+  state_->matcher = make_matcher(rival, rival_disparities(max_disparity), uniqueness_ratio);
 }
 
 RivalMatcher::~RivalMatcher() = default;

@@ -25,13 +25,17 @@ std::vector<std::string> rival_names();
 /// Number of disparities that OpenCV searches for a range: rounded up to a multiple of 16.
 int rival_disparities(int max_disparity);
 
-/// The settings in one line, for the report.
-std::string rival_settings(Rival rival);
+/// The value of uniquenessRatio that the comparison runs with [%].
+inline constexpr int kUniquenessRatio = 10;
+
+/// The settings in one line, for the report, with this text for uniquenessRatio.
+std::string rival_settings(Rival rival,
+                           const std::string& uniqueness_ratio = std::to_string(kUniquenessRatio));
 
 /// Runs a matcher on two 8-bit gray images and gives CV_32FC1 [px], NaN where it found nothing.
 class RivalMatcher {
  public:
-  RivalMatcher(Rival rival, int max_disparity);
+  RivalMatcher(Rival rival, int max_disparity, int uniqueness_ratio = kUniquenessRatio);
   ~RivalMatcher();
   RivalMatcher(const RivalMatcher&) = delete;
   RivalMatcher& operator=(const RivalMatcher&) = delete;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "eval/input_error.hpp"
+#include "eval/rival_sweep.hpp"
 
 namespace mtstereo::eval {
 namespace fs = std::filesystem;
@@ -16,6 +17,12 @@ namespace {
 GrayView view_of(const cv::Mat& image) {
   return GrayView{image.ptr<std::uint8_t>(), image.cols, image.rows,
                   static_cast<std::ptrdiff_t>(image.step)};
+}
+
+// Without a copy; holds as long as the view.
+cv::Mat mat_of(GrayView view) {
+  return {view.height, view.width, CV_8UC1, const_cast<std::uint8_t*>(view.data),
+          static_cast<std::size_t>(view.stride)};
 }
 
 void require(const Status& status) {
@@ -118,14 +125,22 @@ void Runner::run_own(const LoadedPair& images, PairReport& report) {
     if (!result) throw InputError(result.error().message);
     disparity = *result;
   });
-  finish(kOwnMethod, to_float(disparity), seconds, images, report);
+  const cv::Mat map = to_float(disparity);
+  finish(kOwnMethod, map, seconds, images, report);
+  if (!settings_.curve) return;
+  report.sweeps.push_back(
+      {kOwnMethod, confidence_sweep(map, mat_of(matcher_->confidence()), images.truth.disparity)});
 }
 
 void Runner::run_rival(Rival rival, const LoadedPair& images, PairReport& report) {
   RivalMatcher matcher(rival, report.max_disparity);
   const double seconds = median_seconds(settings_.warm_up, settings_.repeat,
                                         [&] { matcher.compute(images.left, images.right); });
-  finish(std::string(rival_name(rival)), matcher.disparity(), seconds, images, report);
+  const std::string name(rival_name(rival));
+  finish(name, matcher.disparity(), seconds, images, report);
+  if (!settings_.curve) return;
+  report.sweeps.push_back({name, sweep_rival(rival, report.max_disparity, images,
+                                             filter_settings(settings_.parameters))});
 }
 
 void Runner::finish(const std::string& method, const cv::Mat& disparity, double seconds,

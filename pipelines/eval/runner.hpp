@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "eval/curve_means.hpp"
 #include "eval/datasets.hpp"
 #include "eval/metrics.hpp"
 #include "eval/pictures.hpp"
@@ -28,6 +29,7 @@ struct RunSettings {
   std::optional<std::filesystem::path> disparity_folder;
   DisparityFormat disparity_format = DisparityFormat::kPfm;
   std::optional<std::filesystem::path> picture_folder;
+  bool curve = false;  ///< sweep the confidence of every method
 };
 
 /// What one method reached on one pair.
@@ -44,6 +46,7 @@ struct PairReport {
   cv::Size size;
   int max_disparity = 0;              ///< searched [px]
   std::vector<MethodResult> results;  ///< the library's own first; methods that failed are not here
+  std::vector<MethodSweep> sweeps;    ///< where a curve is asked for, one for each method
   std::vector<std::string> failures;  ///< one sentence each
   std::vector<std::string> notes;
 };

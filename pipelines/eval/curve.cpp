@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "eval/input_error.hpp"
+
+namespace mtstereo::eval {
+namespace {
+
+// Sums over the pixels of one confidence, or of all from one confidence on.
+struct Bin {
+  std::int64_t predicted = 0;
+  std::int64_t compared = 0;
+  double error = 0;
+  std::int64_t outliers = 0;
+  std::int64_t bad1 = 0;
+
+  void compare(double estimate, double truth) {
+    const double e = std::abs(estimate - truth);
+    ++compared;
+    error += e;
+    outliers += is_outlier(e, truth);
+    bad1 += e > 1;
+  }
+  void add(const Bin& other) {
+    predicted += other.predicted;
+    compared += other.compared;
+    error += other.error;
+    outliers += other.outliers;
+    bad1 += other.bad1;
+  }
+};
+
+using Bins = std::array<Bin, kMostConfidence + 1>;
+
+Bins bins_of(const cv::Mat& estimate, const cv::Mat& confidence, const cv::Mat& truth) {
+  Bins bins{};
+  for (int y = 0; y < estimate.rows; ++y) {
+    const auto* found = estimate.ptr<float>(y);
+    const auto* trusted = confidence.ptr<std::uint8_t>(y);
+    const auto* wanted = truth.ptr<float>(y);
+    for (int x = 0; x < estimate.cols; ++x) {
+      if (std::isnan(found[x])) continue;
+      Bin& bin = bins[trusted[x]];
+      ++bin.predicted;
+      if (!std::isnan(wanted[x])) bin.compare(found[x], wanted[x]);
+    }
+  }
+  return bins;
+}
+
+CurvePoint point_of(const Bin& sum, std::size_t pixels) {
+  CurvePoint point;
+  if (pixels > 0) {
+    point.density = 100.0 * static_cast<double>(sum.predicted) / static_cast<double>(pixels);
+  }
+  if (sum.compared == 0) return point;
+  const auto compared = static_cast<double>(sum.compared);
+  point.avgerr = sum.error / compared;
+  point.d_all = 100.0 * static_cast<double>(sum.outliers) / compared;
+  point.bad1 = 100.0 * static_cast<double>(sum.bad1) / compared;
+  return point;
+}
+
+// Linear between two points; NaN where they do not enclose the density or one has no error.
+double between(const CurvePoint& a, const CurvePoint& b, double density,
+               const CurveMeasure& measure) {
+  const double low = a.*measure.value, high = b.*measure.value;
+  if (std::isnan(low) || std::isnan(high)) return kNone;
+  if (!(std::min(a.density, b.density) <= density && density <= std::max(a.density, b.density))) {
+    return kNone;
+  }
+  if (a.density == b.density) return std::min(low, high);
+  const double share = (density - a.density) / (b.density - a.density);
+  return low + share * (high - low);
+}
+
+}  // namespace
+
+CurvePoint point_of(const Evaluation& evaluation) {
+  static_assert(kBadThresholds[1] == 1);
+  const Metrics& all = evaluation.all;
+  return {evaluation.density, all.avgerr, all.d_all, all.bad[1]};
+}
+
+std::vector<CurvePoint> threshold_points(const cv::Mat& estimate, const cv::Mat& confidence,
+                                         const cv::Mat& truth) {
+  if (estimate.size() != confidence.size() || estimate.size() != truth.size()) {
+    throw InputError("disparity map, confidence and ground truth are of different sizes");
+  }
+  const Bins bins = bins_of(estimate, confidence, truth);
+  std::vector<CurvePoint> points(kMostConfidence);
+  Bin sum;
+  for (int threshold = kMostConfidence; threshold >= 1; --threshold) {
+    sum.add(bins[static_cast<std::size_t>(threshold)]);
+    points[static_cast<std::size_t>(threshold) - 1] = point_of(sum, estimate.total());
+  }
+  return points;
+}
+
+Sweep confidence_sweep(const cv::Mat& estimate, const cv::Mat& confidence, const cv::Mat& truth) {
+  Sweep sweep;
+  sweep.ratios = {0};
+  sweep.thresholds.resize(kMostConfidence);
+  std::iota(sweep.thresholds.begin(), sweep.thresholds.end(), 1);
+  sweep.points = threshold_points(estimate, confidence, truth);
+  return sweep;
+}
+
+Sweep at_threshold(const Sweep& sweep, std::size_t threshold) {
+  Sweep result;
+  result.ratios = sweep.ratios;
+  result.thresholds = {sweep.thresholds[threshold]};
+  for (std::size_t i = 0; i < sweep.ratios.size(); ++i) {
+    result.points.push_back(sweep.at(i, threshold));
+  }
+  return result;
+}
+
+double error_at(const Sweep& sweep, double density, const CurveMeasure& measure) {
+  double least = kNone;
+  // fmin() takes no notice of NaN.
+  const auto consider = [&](const CurvePoint& a, const CurvePoint& b) {
+    least = std::fmin(least, between(a, b, density, measure));
+  };
+  for (std::size_t i = 0; i < sweep.ratios.size(); ++i) {
+    for (std::size_t j = 0; j < sweep.thresholds.size(); ++j) {
+      const CurvePoint& here = sweep.at(i, j);
+      consider(here, here);
+      if (i > 0) consider(sweep.at(i - 1, j), here);
+      if (j > 0) consider(sweep.at(i, j - 1), here);
+    }
+  }
+  return least;
+}
+
+DensityRange density_range(const Sweep& sweep) {
+  DensityRange range;
+  for (const CurvePoint& point : sweep.points) {
+    if (std::isnan(point.avgerr)) continue;
+    range.least = std::fmin(range.least, point.density);
+    range.most = std::fmax(range.most, point.density);
+  }
+  return range;
+}
+
+}  // namespace mtstereo::eval

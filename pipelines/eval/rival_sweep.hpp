@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "eval/curve.hpp"
+#include "eval/datasets.hpp"
+#include "eval/rival_filters.hpp"
+#include "eval/rivals.hpp"
+
+namespace mtstereo::eval {
+
+/// The values of uniquenessRatio that a rival's curve is made of [%].
+inline constexpr std::array<int, 20> kUniquenessRatios{0,  5,  10, 15, 20, 25, 30, 35, 40, 45,
+                                                       50, 55, 60, 65, 70, 75, 80, 85, 90, 95};
+
+/// The values in one line, for the report.
+std::string uniqueness_ratios_text();
+
+/// Runs a rival once for each uniqueness ratio, all else as rival_settings() has it. The first
+/// column is what it gives, those behind it what the filters leave of that at the
+/// thresholds 1 .. kMostConfidence. Throws InputError where OpenCV refuses the images.
+Sweep sweep_rival(Rival rival, int max_disparity, const LoadedPair& images,
+                  const FilterSettings& filters);
+
+}  // namespace mtstereo::eval

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The program with --curve as a process.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "support.hpp"
+
+namespace mtstereo::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Outcome;
+using testing::read_file;
+using testing::run_eval;
+
+class CurveProgram : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    testing::write_pair_folder(folder_ / "set/A", testing::make_pair(240, 120, 9), 32);
+    testing::write_pair_folder(folder_ / "set/B", testing::make_pair(200, 100, 5), 16);
+  }
+  std::string set() const { return folder_ / "set"; }
+  std::string picture() const { return folder_ / "new/curve.png"; }
+  json report() const { return json::parse(read_file(folder_ / "r.json")); }
+  testing::TempFolder folder_;
+};
+
+TEST_F(CurveProgram, DrawsPrintsAndTellsTheCurveOfTheLibrary) {
+  const Outcome run = run_eval({set(), "--curve", picture(), "--json", folder_ / "r.json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, HasSubstr("errors at equal density, middlebury, plain mean of 2 pairs"));
+  const cv::Mat drawn = cv::imread(picture());
+  ASSERT_EQ(drawn.size(), cv::Size(1200, 600));
+  EXPECT_GT(cv::countNonZero(drawn.reshape(1) < 128), 3000);
+
+  const json curve = report()["curve"];
+  EXPECT_EQ(curve["pairs"], 2);
+  ASSERT_EQ(curve["curves"].size(), 1U);
+  const json& points = curve["curves"][0]["points"];
+  ASSERT_EQ(points.size(), 255U);
+  // At threshold 1 everything counts: the plain mean of the pairs' own figures.
+  const json pairs = report()["pairs"];
+  const auto figure = [&](int pair) {
+    return pairs[pair]["results"]["mtstereo"]["all"]["avgerr"].get<double>();
+  };
+  EXPECT_NEAR(points[0]["avgerr"], (figure(0) + figure(1)) / 2, 1e-9);
+  EXPECT_NEAR(points[0]["density"], report()["mean"]["mtstereo"]["density"], 1e-9);
+}
+
+TEST_F(CurveProgram, SweepsTheRivalsThatAreNamed) {
+  // With noise the second best cost comes close to the best.
+  cv::RNG random(5);
+  for (const char* pair : {"A", "B"}) {
+    const std::string file = folder_ / "set" / pair / "im1.png";
+    const cv::Mat clean = cv::imread(file, cv::IMREAD_GRAYSCALE);
+    cv::Mat noise(clean.size(), CV_8UC1);
+    random.fill(noise, cv::RNG::UNIFORM, 0, 90);
+    testing::write_image(file, clean * 0.6 + noise);
+  }
+  const Outcome run = run_eval({set(), "--curve", picture(), "--json", folder_ / "r.json",
+                                "--compare", "sgbm,sgbm-3way,sgbm-hh"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  for (const char* name : {"sgbm", "sgbm-3way", "sgbm-hh"}) {
+    EXPECT_THAT(run.out, HasSubstr("avgerr px  " + std::string(name) + " "));
+    EXPECT_THAT(run.out, HasSubstr("avgerr px  " + std::string(name) + " + filters"));
+  }
+  EXPECT_THAT(run.out, HasSubstr("uniquenessRatio 0 5 10"));
+  const json curves = report()["curve"]["curves"];
+  ASSERT_EQ(curves.size(), 7U);
+  EXPECT_EQ(curves[1]["points"].size(), 20U);
+  EXPECT_GT(curves[2]["points"].size(), 30U);
+  // The rival's best is nowhere above its own line.
+  int compared = 0;
+  for (std::size_t i = 0; i < curves[1]["at_density"].size(); ++i) {
+    const json alone = curves[1]["at_density"][i]["avgerr"];
+    if (alone.is_null()) continue;
+    EXPECT_LE(curves[2]["at_density"][i]["avgerr"], alone) << i;
+    ++compared;
+  }
+  EXPECT_GE(compared, 3);
+}
+
+TEST_F(CurveProgram, LeavesOutAPairThatOneMethodCouldNotDo) {
+  testing::TestPair flat = testing::make_pair(240, 120, 9);
+  flat.left.setTo(80);
+  flat.right.setTo(80);
+  testing::write_pair_folder(folder_ / "set/F", flat, 32);
+  const Outcome run = run_eval({set(), "--curve", picture(), "--json", folder_ / "r.json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("plain mean of 2 pairs"));
+  EXPECT_THAT(run.out, HasSubstr("left out: F: mtstereo has no disparity"));
+  EXPECT_EQ(report()["curve"]["left_out"][0]["pair"], "F");
+}
+
+TEST_F(CurveProgram, WritesNoPictureWithoutAPairWithGroundTruth) {
+  for (const char* pair : {"A", "B"}) fs::remove(folder_ / "set" / pair / "disp0GT.pfm");
+  const Outcome nothing = run_eval({set(), "--curve", picture()});
+  EXPECT_NE(nothing.status, 0);
+  EXPECT_THAT(nothing.err, HasSubstr("disp0GT.pfm"));
+  EXPECT_FALSE(fs::exists(picture()));
+
+  for (const char* pair : {"A", "B"}) {
+    testing::write_file(folder_ / "set" / pair / "disp0GT.pfm", "broken");
+  }
+  const Outcome broken = run_eval({set(), "--curve", picture()});
+  EXPECT_EQ(broken.status, 1);
+  EXPECT_THAT(broken.err, HasSubstr("curve.png: is not written: there is no pair"));
+  EXPECT_FALSE(fs::exists(picture()));
+}
+
+TEST_F(CurveProgram, RefusesAPictureThatCannotBeWrittenBeforeTheWork) {
+  testing::write_file(folder_ / "file", "");
+  const Outcome run = run_eval({set(), "--curve", folder_ / "file/curve.png"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("file"));
+  EXPECT_EQ(run.out, "");
+  fs::create_directories(folder_ / "folder.png");
+  EXPECT_THAT(run_eval({set(), "--curve", folder_ / "folder.png"}).err,
+              HasSubstr("folder.png: cannot be written"));
+}
+
+TEST_F(CurveProgram, RefusesAPictureThatIsNoPng) {
+  for (const char* name : {"curve.jpg", "curve", ""}) {
+    const Outcome run = run_eval({set(), "--curve", name});
+    EXPECT_EQ(run.status, 2) << name;
+    EXPECT_THAT(run.err, HasSubstr("--curve")) << name;
+    EXPECT_THAT(run.err, HasSubstr(".png")) << name;
+    EXPECT_EQ(run.out, "") << name;
+  }
+  EXPECT_EQ(run_eval({set(), "--curve"}).status, 2);
+}
+
+TEST_F(CurveProgram, NeverOverwritesAnInput) {
+  const std::string before = read_file(folder_ / "set/A/im0.png");
+  const Outcome run = run_eval({set(), "--only", "B", "--curve", folder_ / "set/A/im0.png"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("belongs to the data set"));
+  EXPECT_EQ(read_file(folder_ / "set/A/im0.png"), before);
+}
+
+TEST_F(CurveProgram, ReplacesAnEarlierPicture) {
+  testing::write_file(picture(), "an earlier one");
+  const Outcome run = run_eval({set(), "--only", "B", "--curve", picture()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_FALSE(cv::imread(picture()).empty());
+}
+
+TEST_F(CurveProgram, HasNoCurveUnlessAskedFor) {
+  const Outcome run = run_eval({set(), "--only", "B", "--json", folder_ / "r.json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, Not(HasSubstr("equal density")));
+  EXPECT_FALSE(report().contains("curve"));
+}
+
+}  // namespace
+}  // namespace mtstereo::eval
