@@ -81,7 +81,7 @@ constexpr ParameterInfo kTable[] = {
     {P::kLeftRightTolerance, "left-right-tolerance", "", "px", T::kInteger, -1, kLargestMaxDisparity, "", EACH("1", "-1"), false,
      "largest difference between the disparity of a left pixel and that of its right one; -1 = no check"},
     {P::kSubpixel, "subpixel", "", "", T::kBoolean, 0, 1, "", ALL("true"), false,
-     "refine the disparity between whole pixels by a parabola through the costs"},
+     "refine the disparity between whole pixels: by a V through the costs (census) or a parabola (gradient)"},
     {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", EACH("300", "0"), false,
      "connected areas with fewer pixels than this are removed; 0 = none"},
     {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", MODES("230", "190", "127", "0", "0"), false,

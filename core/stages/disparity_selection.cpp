@@ -93,7 +93,7 @@ std::int32_t select_one(Words d16, std::uint16_t* costs, int count, const Select
   if (runner_up == kHighest || !(runner_up > cost * (1 + options.confidence))) return kNoDisparity;
   int disparity = whole * kDisparityOne;
   if (options.subpixel && whole > 0 && whole + 1 < count && costs[whole + 1] >= cost) {
-    disparity += parabola_offset(costs[whole - 1], cost, costs[whole + 1]);
+    disparity += symmetric_v_offset(costs[whole - 1], cost, costs[whole + 1]);
   }
   best = static_cast<std::uint16_t>(whole);
   ratio = static_cast<std::uint8_t>(std::max(peak_ratio(cost, runner_up), 1));

@@ -15,7 +15,7 @@ struct SelectionOptions {
   double confidence;         ///< omega_Pi: the runner-up has to cost more than this share above
   bool runner_up_in_range;   ///< the runner-up is looked for in the expected range only
   int left_right_tolerance;  ///< largest difference to the right pixel's disparity [px], -1 = any
-  bool subpixel;             ///< refine by a parabola through the best and its two neighbors
+  bool subpixel;             ///< refine by the V of equal slopes through the best and its neighbors
 };
 
 /// Scratch memory of one thread: the best of each right pixel, in mirrored order.

@@ -13,6 +13,14 @@ inline int parabola_offset(int before, int best, int after) {
   return (before - after) * (kDisparityOne / 2) / curvature;
 }
 
+/// The same for the V of equal slopes through three costs. It suits costs that rise linearly on
+/// both sides of their minimum, as counts of differing bits do.
+inline int symmetric_v_offset(int before, int best, int after) {
+  const int slope = (before > after ? before : after) - best;
+  if (slope <= 0) return 0;
+  return (before - after) * (kDisparityOne / 2) / slope;
+}
+
 /// By how much the runner-up costs more than the best, as a share of it: 0 .. 255 for 0 .. 1.
 inline int peak_ratio(int best, int runner_up) {
   return runner_up > best ? (runner_up - best) * 255 / runner_up : 0;

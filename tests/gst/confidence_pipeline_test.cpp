@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Elements, ConfidenceGoes,
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
 TEST(MtConfidence, FiltersWhatMtstereoGives) {
-  Pipeline pipeline(launch_with("", "queue ! mtconfidence min-confidence=120"));
+  Pipeline pipeline(launch_with("", "queue ! mtconfidence min-confidence=240"));
   ASSERT_EQ(pipeline.run(), "");
   const auto before = direct_samples();
   const auto after = pipeline.samples();
@@ -70,7 +70,7 @@ TEST(MtConfidence, FiltersWhatMtstereoGives) {
   for (std::size_t frame = 0; frame < after.size(); ++frame) {
     std::size_t dropped = 0;
     for (std::size_t i = 0; i < before[frame].confidence.size(); ++i) {
-      const bool keep = before[frame].confidence[i] >= 120;
+      const bool keep = before[frame].confidence[i] >= 240;
       dropped += !keep && before[frame].confidence[i] > 0;
       const auto value = [&](const Sample& s) { return s.bytes[2 * i] | s.bytes[2 * i + 1] << 8; };
       ASSERT_EQ(value(after[frame]), keep ? value(before[frame]) : 0) << i;
