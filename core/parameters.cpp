@@ -34,7 +34,7 @@ constexpr ParameterInfo kTable[] = {
      "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
     {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, 256, "", MODES("16", "16", "16", "16", "8"), false,
      "levels that the pre-processed image is quantized to: more levels, deeper trees, smaller leaves"},
-    {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", ALL("0"), false,
+    {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", EACH("5", "0"), false,
      "finest nodes have to be wider than this"},
     {P::kMaxNodeWidth, "max-node-width", "omega_beta", "image widths", T::kNumber, 0.001, 1, "", EACH("1", "0.5"), false,
      "finest nodes have to be narrower than this share of the image's width"},
@@ -84,11 +84,11 @@ constexpr ParameterInfo kTable[] = {
      "refine the disparity between whole pixels: by a V through the costs (census) or a parabola (gradient)"},
     {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", EACH("300", "0"), false,
      "connected areas with fewer pixels than this are removed; 0 = none"},
-    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", MODES("230", "190", "127", "0", "0"), false,
+    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", MODES("218", "190", "126", "0", "0"), false,
      "disparities of less confidence (1 .. 255) are removed; 0 = none"},
     {P::kRimTrim, "rim-trim", "", "px", T::kInteger, 0, 31, "", ALL("0"), false,
      "pixels this near to one without a disparity are removed; 0 = none"},
-    {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, 31, "", EACH("3", "1"), false,
+    {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, 31, "", EACH("9", "1"), false,
      "mode sparse: pixels that are kept at each end of a finest node, an odd number"},
     {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", MODES("0", "0", "30", "0", "0"), false,
      "gaps up to this wide are filled where both sides agree to 1 px; 0 = none"},
@@ -356,7 +356,9 @@ Status Parameters::check_frame(int width, int height) const {
   }
   const double widest = get(P::kMaxNodeWidth) * width;
   const int narrowest = integer(P::kMinNodeWidth);
-  if (narrowest + 1 >= widest && narrowest > 0) {
+  // The defaults may leave an image without nodes; what was set has to make sense.
+  const bool chosen = is_set(P::kMinNodeWidth) || is_set(P::kMaxNodeWidth);
+  if (chosen && narrowest + 1 >= widest && narrowest > 0) {
     return Error{ErrorCode::kInvalidCombination,
                  "min-node-width = " + std::to_string(narrowest) +
                      " px leaves no node below max-node-width = " + text(P::kMaxNodeWidth) +

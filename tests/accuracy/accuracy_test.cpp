@@ -91,9 +91,9 @@ TEST_P(RenderedScenes, KeepTheirAccuracy) {
 // parameters 0.641, 6.06, 12.2 and 1.09, 10.9, 44.8.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RenderedScenes,
-    testing::Values(Gate{"Sparse", "mode=sparse", {0.17, 0.1, 20.0}},
-                    Gate{"SemiDense", "mode=semi-dense", {0.255, 0.85, 62.5}},
-                    Gate{"Dense", "mode=dense", {0.53, 4.4, 82.5}},
+    testing::Values(Gate{"Sparse", "mode=sparse", {0.18, 0.15, 6.5}},
+                    Gate{"SemiDense", "mode=semi-dense", {0.225, 0.75, 62.0}},
+                    Gate{"Dense", "mode=dense", {0.51, 4.4, 82.5}},
                     Gate{"PaperSparse", "preset=paper mode=sparse", {0.66, 6.3, 12.0}},
                     Gate{"PaperSemiDense", "preset=paper mode=semi-dense", {1.12, 11.2, 44.0}}),
     gate_name);
@@ -162,9 +162,9 @@ TEST_P(RealPairs, KeepTheirAccuracy) { expect_kept(evaluate_all(keep_as_it_is), 
 // parameters 0.834, 4.18, 10.3 and 1.78, 10.5, 45.9.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RealPairs,
-    testing::Values(Gate{"Sparse", "mode=sparse", {0.25, 0.15, 15.0}},
-                    Gate{"SemiDense", "mode=semi-dense", {0.335, 0.6, 64.0}},
-                    Gate{"Dense", "mode=dense", {0.64, 2.25, 79.5}},
+    testing::Values(Gate{"Sparse", "mode=sparse", {0.25, 0.12, 13.0}},
+                    Gate{"SemiDense", "mode=semi-dense", {0.315, 0.55, 64.0}},
+                    Gate{"Dense", "mode=dense", {0.63, 2.3, 79.5}},
                     Gate{"PaperSparse", "preset=paper mode=sparse", {0.86, 4.3, 10.1}},
                     Gate{"PaperSemiDense", "preset=paper mode=semi-dense", {1.83, 10.8, 45.2}}),
     gate_name);

@@ -136,7 +136,7 @@ Change change_of(Parameter id) {
     case Parameter::kSpeckleSize:
       return {{}, "65535"};
     case Parameter::kNodeEndWidth:
-      return {{{"mode", "sparse"}}, "9"};
+      return {{{"mode", "sparse"}}, "1"};
     case Parameter::kMaxGap:
       return {{{"mode", "dense"}}, "0"};
     case Parameter::kCensusKernelSize:
