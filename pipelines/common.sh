@@ -30,7 +30,7 @@ show_help() {
 
 Options of every ready pipeline:
   --out FILE.mkv      record the disparity, lossless, instead of showing it
-  --mode MODE         sparse or semi-dense
+  --mode MODE         sparse, semi-dense or dense
   --max-disparity N   search range [px]
   --set NAME=VALUE    any other property of mtstereo (gst-inspect-1.0 mtstereo lists them)
   --sink ELEMENT      where to show the colors, instead of autovideosink
@@ -82,8 +82,8 @@ common_option() {
   case $1 in
     --out) out=$2 ;;
     --mode)
-      [[ $2 == sparse || $2 == semi-dense ]] ||
-        wrong_usage "--mode is '$2', it has to be sparse or semi-dense"
+      [[ $2 == sparse || $2 == semi-dense || $2 == dense ]] ||
+        wrong_usage "--mode is '$2', it has to be sparse, semi-dense or dense"
       matcher+=("mode=$2")
       ;;
     --max-disparity)

@@ -6,7 +6,7 @@
 #
 # Options:
 #   --out DIR           where everything is written (default out/)
-#   --mode MODE         of the main result: sparse or semi-dense (default)
+#   --mode MODE         of the main result: sparse, semi-dense (default) or dense
 #   --max-disparity N   search range [px] (default: the clip's; the element's for your own files)
 #   --frames N          of the rendered clip (default 48)
 #   --size WxH          of the rendered clip (default 640x360)
@@ -47,8 +47,8 @@ take_option() {
   case $1 in
     --out) out=$2 ;;
     --mode)
-      [[ $2 == sparse || $2 == semi-dense ]] ||
-        wrong_usage "--mode is '$2', it has to be sparse or semi-dense"
+      [[ $2 == sparse || $2 == semi-dense || $2 == dense ]] ||
+        wrong_usage "--mode is '$2', it has to be sparse, semi-dense or dense"
       mode=$2
       ;;
     --max-disparity)
@@ -194,7 +194,7 @@ compare() {
 demo_of_clip() {
   local table=() m seconds speed row
   render_clip
-  for m in sparse semi-dense; do
+  for m in sparse semi-dense dense; do
     step "Matching the two files, mode $m"
     match "$m"
     seconds=$(played_seconds)
@@ -248,7 +248,7 @@ export GST_PLUGIN_PATH=$build/gst
 
 if [ ${#files[@]} -eq 0 ]; then
   demo_of_clip
-  written=(left.mp4 right.mp4 disparity-sparse.mkv disparity-semi-dense.mkv)
+  written=(left.mp4 right.mp4 disparity-sparse.mkv disparity-semi-dense.mkv disparity-dense.mkv)
 else
   demo_of_files
   written=("disparity-$mode.mkv")

@@ -17,14 +17,14 @@ class Demo(ClipTest):
         self.assert_succeeds(done)
         out = self.folder / "all of it"
         for name in ("left.mp4", "right.mp4", "disparity-sparse.mkv", "disparity-semi-dense.mkv",
-                     "color.mp4", "demo.png"):
+                     "disparity-dense.mkv", "color.mp4", "demo.png"):
             self.assertGreater((out / name).stat().st_size, 0, name)
             self.assertIn(str(out / name), done.output)
         self.assertEqual(count_frames(out / "disparity-semi-dense.mkv", self.folder), 4)
         self.assertEqual(count_frames(out / "color.mp4", self.folder), 4)
         rows = {row.split()[0]: row.split()[1:] for row in done.output.splitlines()
-                if re.match(r"(sparse|semi-dense) +\d", row)}
-        self.assertEqual(set(rows), {"sparse", "semi-dense"}, done.output)
+                if re.match(r"(sparse|semi-dense|dense) +\d", row)}
+        self.assertEqual(set(rows), {"sparse", "semi-dense", "dense"}, done.output)
         for mode, row in rows.items():
             frames, error, outliers, density, seen_error, seen_outliers, speed = map(float, row)
             self.assertEqual(frames, 4, mode)
@@ -35,6 +35,7 @@ class Demo(ClipTest):
             self.assertLessEqual(seen_outliers, outliers, f"{mode}: {row}")
             self.assertGreater(speed, 0, f"{mode}: {row}")
         self.assertGreater(float(rows["semi-dense"][3]), float(rows["sparse"][3]), "density")
+        self.assertGreater(float(rows["dense"][3]), float(rows["semi-dense"][3]), "density")
 
     def test_takes_own_files(self):
         done = self.demo("left.mp4", "right.mkv", "--out", "own", "--mode", "sparse",
@@ -75,7 +76,7 @@ class Demo(ClipTest):
     def test_refuses_wrong_options(self):
         for words, says in ((["left.mp4"], "two video files"),
                             (["a", "b", "c"], "two video files"),
-                            (["--mode", "dense"], "--mode"),
+                            (["--mode", "denser"], "--mode"),
                             (["--max-disparity", "-3"], "--max-disparity"),
                             (["--max-disparity", "5000"], "1 to 1024"),
                             (["--frames", "0"], "--frames"),

@@ -164,7 +164,7 @@ class WrongUse(ClipTest):
         files = ["left.mp4", "right.mp4"]
         for words, says in (
                 (["from-files.sh", "left.mp4"], "LEFT and RIGHT"),
-                (["from-files.sh", *files, "--mode", "dense"], "--mode"),
+                (["from-files.sh", *files, "--mode", "denser"], "--mode"),
                 (["from-files.sh", *files, "--max-disparity", "many"], "--max-disparity"),
                 (["from-files.sh", *files, "--max-disparity", "5000"], "1 to 1024"),
                 (["from-files.sh", *files, "--set", "threads"], "--set"),
