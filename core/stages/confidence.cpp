@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdlib>
 
 #include "mtstereo/image.hpp"
@@ -69,17 +68,19 @@ namespace {
 constexpr int kSide = 2 * kSupportRadius + 1;
 constexpr int kRootSteps = 4096;
 
-/// 255 times the cube root of i / kRootSteps.
-const std::array<std::uint8_t, kRootSteps + 1>& cube_roots() {
-  static const auto table = [] {
-    std::array<std::uint8_t, kRootSteps + 1> roots{};
-    for (int i = 0; i <= kRootSteps; ++i) {
-      roots[i] = static_cast<std::uint8_t>(std::lround(255 * std::cbrt(1.0 * i / kRootSteps)));
-    }
-    return roots;
-  }();
-  return table;
-}
+/// 255 times the cube root of i / kRootSteps, rounded half up. In whole numbers: the cube root of
+/// 1/8 is half a step, and what std::cbrt() makes of it differs from library to library.
+constexpr std::array<std::uint8_t, kRootSteps + 1> kCubeRoots = [] {
+  std::array<std::uint8_t, kRootSteps + 1> roots{};
+  std::int64_t root = 0;
+  for (std::int64_t i = 0; i <= kRootSteps; ++i) {
+    // Up where root + 1/2 is not above the exact one.
+    const std::int64_t cube = std::int64_t{255} * 255 * 255 * i;
+    while ((2 * root + 1) * (2 * root + 1) * (2 * root + 1) * kRootSteps <= 8 * cube) ++root;
+    roots[i] = static_cast<std::uint8_t>(root);
+  }
+  return roots;
+}();
 
 }  // namespace
 
@@ -116,7 +117,6 @@ void copy_support(const Image<std::int32_t>& map, const Image<std::uint8_t>& rat
 
 void rate_support(const SupportMap& support, int y0, int y1, SupportScratch& scratch,
                   Image<std::uint8_t>& confidence) {
-  const auto& roots = cube_roots();
   const int width = confidence.width();
   const int height = confidence.height();
   for (int y = y0; y < y1; ++y) {
@@ -137,7 +137,7 @@ void rate_support(const SupportMap& support, int y0, int y1, SupportScratch& scr
       const std::uint64_t all = 255 * pixels * pixels * pixels;
       const std::uint64_t count = scratch.count[x];
       const std::uint64_t product = count * count * scratch.ratio[x];
-      out[x] = std::max<std::uint8_t>(roots[product * kRootSteps / all], 1);
+      out[x] = std::max<std::uint8_t>(kCubeRoots[product * kRootSteps / all], 1);
     }
   }
 }
