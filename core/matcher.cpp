@@ -222,7 +222,8 @@ void Matcher::State::size_buffers() {
     worker.match.resize(width, settings.disparities, settings.max_neighbors);
     worker.pixels.resize(width);
     worker.support.resize(width);
-    worker.rim.resize(width, settings.rim_trim);
+    // For any rim, which changes from frame to frame without sizing anything anew.
+    worker.rim.resize(width, static_cast<int>(parameter_info(Parameter::kRimTrim).maximum));
     worker.columns.resize(kColumns);
     if (settings.census) {
       worker.padded.resize(width + 4, std::min(kBand, height) + 4);
