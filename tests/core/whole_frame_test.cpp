@@ -28,8 +28,8 @@ std::string one_of(Random& random, const char* const (&choices)[N]) {
 Parameters random_parameters(int width, Random& random) {
   const std::string disparities = std::to_string(random.between(1, width));
   return test::parameters({
-      {"preset", "paper"},
-      {"mode", one_of(random, {"sparse", "semi-dense"})},
+      {"preset", one_of(random, {"default", "paper"})},
+      {"mode", one_of(random, {"sparse", "semi-dense", "dense"})},
       {"max-disparity", disparities},
       {"threads", one_of(random, {"1", "2", "3"})},
       {"gray-levels", one_of(random, {"2", "8", "16", "37", "256"})},
@@ -37,14 +37,29 @@ Parameters random_parameters(int width, Random& random) {
       {"max-node-width", one_of(random, {"0.5", "0.5", "0.4", "1"})},
       {"node-levels", one_of(random, {"1,0", "1,0", "0", "2,0", "2,1,0", "5,3,0", "9,0"})},
       {"max-neighbors", one_of(random, {"10", "0", "1", "3", "25"})},
+      {"median-filter", one_of(random, {"trees", "trees-and-costs"})},
       {"cost-kernel-size", one_of(random, {"21", "1", "3", "9", "41"})},
       {"cost-volume", one_of(random, {"half", "full"})},
       {"intensity-weight", one_of(random, {"0.8", "0", "0.5", "1"})},
-      {"node-confidence", one_of(random, {"12", "0", "3"})},
+      {"node-confidence", one_of(random, {"12", "0", "0", "3"})},
       {"outlier-radius", one_of(random, {"21", "0", "1", "6", "31"})},
+      {"outlier-removal", one_of(random, {"nodes", "nodes-and-pixels"})},
+      {"pixel-cost", one_of(random, {"census", "census", "gradient"})},
+      {"census-kernel-size", one_of(random, {"5", "3", "1"})},
       {"pixel-search-range", one_of(random, {"15", "0", "60", "100"})},
+      {"between-nodes", one_of(random, {"all", "span", "none"})},
+      {"range-penalty", one_of(random, {"2", "0", "5", "24"})},
+      {"small-step-penalty", one_of(random, {"4", "0", "1", "50"})},
+      {"large-step-penalty", one_of(random, {"30", "0", "3", "50"})},
       {"pixel-confidence", one_of(random, {"4", "0", "12"})},
+      {"runner-up", one_of(random, {"any", "expected"})},
+      {"left-right-tolerance", one_of(random, {"1", "-1", "0", "5"})},
       {"subpixel", one_of(random, {"true", "false"})},
+      {"speckle-size", one_of(random, {"0", "0", "1", "5", "20"})},
+      {"min-confidence", one_of(random, {"0", "0", "0", "40", "90", "200"})},
+      {"rim-trim", one_of(random, {"0", "0", "0", "1", "2"})},
+      {"node-end-width", one_of(random, {"3", "1", "9", "31"})},
+      {"max-gap", one_of(random, {"0", "1", "6", "30"})},
   });
 }
 
@@ -73,6 +88,7 @@ void expect_frame(const reference::Frame& expected, const Matcher& matcher) {
     EXPECT_TRUE(same_image(expected.stages[static_cast<int>(stage)], matcher.stage(stage)))
         << "stage " << static_cast<int>(stage);
   }
+  EXPECT_TRUE(same_image(expected.confidence, matcher.confidence())) << "confidence";
 }
 
 /// A pair that has something to match, or now and then none at all.
@@ -122,35 +138,57 @@ long expect_reference_frames(int frames, std::uint64_t seed) {
 
 TEST(WholeFrame, EqualsReferenceWithAnyParametersAndSizes) {
   long found = 0;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) found += expect_reference_frames(60, seed);
-  EXPECT_GT(found, 1000) << "the comparison means something";
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) found += expect_reference_frames(60, seed);
+  EXPECT_GT(found, 10000) << "the comparison means something";
 }
 
-TEST(WholeFrame, EqualsReferenceWithTheDefaultsOfBothModes) {
-  for (const char* const mode : {"sparse", "semi-dense"}) {
-    const Parameters parameters =
-        test::parameters({{"preset", "paper"}, {"mode", mode}, {"max-disparity", "40"}});
-    const test::Pair pair = test::slanted_pair(180, 70, 30, 9);
-    Matcher matcher = std::move(Matcher::create(parameters).value());
-    matcher.keep_stages(true);
-    const test::DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-    const reference::Frame expected = reference::match_frame(pair.left, pair.right, parameters);
-    expect_frame(expected, matcher);
-    EXPECT_GT(test::known(map), 100) << mode;
+constexpr const char* kPresetNames[] = {"default", "paper"};
+constexpr const char* kModeNames[] = {"sparse", "semi-dense", "dense"};
+
+TEST(WholeFrame, EqualsReferenceWithTheDefaultsOfAllModes) {
+  for (const char* const preset : kPresetNames) {
+    for (const char* const mode : kModeNames) {
+      SCOPED_TRACE(testing::Message() << "preset " << preset << ", mode " << mode);
+      const Parameters parameters =
+          test::parameters({{"preset", preset}, {"mode", mode}, {"max-disparity", "40"}});
+      const test::Pair pair = test::slanted_pair(180, 70, 30, 9);
+      Matcher matcher = std::move(Matcher::create(parameters).value());
+      matcher.keep_stages(true);
+      const test::DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+      expect_frame(reference::match_frame(pair.left, pair.right, parameters), matcher);
+      EXPECT_GT(test::known(map), 100);
+    }
   }
 }
 
-TEST(WholeFrame, IsTheSameWithEveryInstructionSet) {
+/// Compares a matcher with these parameters on every instruction set with the first one.
+void expect_same_on_every_target(const Parameters& parameters) {
+  SCOPED_TRACE(text_of(parameters));
   const test::Pair pair = test::slanted_pair(211, 101, 40, 10);
-  for (const char* const volume : {"half", "full"}) {
-    test::DisparityPlane expected;
-    test::for_each_simd_target([&] {
-      Matcher matcher = test::matcher({{"preset", "paper"}, {"cost-volume", volume}});
-      const test::DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-      if (expected.width == 0) expected = map;
-      EXPECT_TRUE(same_image(expected, map)) << volume;
-    });
-    EXPECT_GT(test::known(expected), 1000);
+  test::DisparityPlane expected;
+  GrayPlane expected_confidence;
+  test::for_each_simd_target([&] {
+    Matcher matcher = std::move(Matcher::create(parameters).value());
+    const test::DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+    if (expected.width == 0) {
+      expected = map;
+      expected_confidence = test::copy_of(matcher.confidence());
+    }
+    EXPECT_TRUE(same_image(expected, map));
+    EXPECT_TRUE(same_image(expected_confidence, matcher.confidence()));
+  });
+  EXPECT_GT(test::known(expected), 1000);
+}
+
+TEST(WholeFrame, IsTheSameWithEveryInstructionSet) {
+  for (const char* const preset : kPresetNames) {
+    for (const char* const volume : {"half", "full"}) {
+      expect_same_on_every_target(test::parameters({{"preset", preset}, {"cost-volume", volume}}));
+    }
+  }
+  for (const char* const size : {"1", "3"}) {
+    expect_same_on_every_target(
+        test::parameters({{"mode", "dense"}, {"census-kernel-size", size}}));
   }
 }
 

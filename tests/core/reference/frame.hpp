@@ -4,9 +4,13 @@
 #include <array>
 
 #include "base/settings.hpp"
+#include "reference/confidence.hpp"
+#include "reference/gap_filling.hpp"
 #include "reference/node_extrapolation.hpp"
 #include "reference/outlier_removal.hpp"
 #include "reference/pixel_matching.hpp"
+#include "reference/rim_trimming.hpp"
+#include "reference/speckle_removal.hpp"
 
 namespace mtstereo::reference {
 
@@ -15,6 +19,7 @@ struct Frame {
   std::array<GrayPlane, 2> levels;  ///< the pre-processed views
   Volume volume;
   std::array<DisparityPlane, 5> stages;  ///< in the order of Stage
+  GrayPlane confidence;                  ///< of the last one
 };
 
 /// The matches of the leaves, level by level.
@@ -37,7 +42,40 @@ inline Matches match_levels(const std::array<Trees, 2>& trees, const Volume& vol
   return matches;
 }
 
-/// The whole method of the paper on one pair.
+/// Guided pixel matching by the one or the other cost.
+inline RatedMap match_pixels(const GrayPlane& left, const GrayPlane& right, const Volume& volume,
+                             const Settings& s, const DisparityPlane& nodes) {
+  if (!s.census) return match_pixels(volume, {s.search_range, s.selection}, nodes);
+  return match_pixels_by_census(left, right,
+                                {s.search_range, s.census_cost, s.smoothness, s.selection}, nodes);
+}
+
+/// What is kept of the pixels' disparities, and how sure it is.
+inline ConfidentMap refine(const RatedMap& pixels, const Level& leaves,
+                           const DisparityPlane& filtered_nodes, const Settings& s) {
+  ConfidentMap out;
+  out.map = s.pixel_outliers ? remove_outliers(pixels.map, s.outlier_radius) : pixels.map;
+  out.map = remove_speckles(out.map, 256, s.speckle_size);
+  out.confidence = rate_support(out.map, pixels.ratio);
+  const auto keep_where = [&](auto&& keep) {
+    for (std::size_t i = 0; i < out.map.pixels.size(); ++i) {
+      if (!keep(i)) out.map.pixels[i] = out.confidence.pixels[i] = 0;
+    }
+  };
+  keep_where([&](std::size_t i) { return out.confidence.pixels[i] >= s.min_confidence; });
+  if (s.rim_trim > 0) {
+    const DisparityPlane trimmed = trim_rim(out.map, s.rim_trim);
+    keep_where([&](std::size_t i) { return trimmed.pixels[i] != 0; });
+  }
+  if (s.mode == Mode::kSparse && s.census) {
+    const Plane<int> ends = leaf_ends(leaves, filtered_nodes, s.max_neighbors, s.node_end_width);
+    keep_where([&](std::size_t i) { return ends.pixels[i] != 0; });
+  }
+  out = fill_gaps(out, s.max_gap, 256, 1, 0);
+  return fill_gaps(out, s.max_gap, 256, 0, 1);
+}
+
+/// The whole method on one pair.
 inline Frame match_frame(const GrayPlane& left, const GrayPlane& right,
                          const Parameters& parameters) {
   const Settings s(parameters);
@@ -48,18 +86,21 @@ inline Frame match_frame(const GrayPlane& left, const GrayPlane& right,
     frame.levels[side] = levels(medians[side], s.gray_levels);
     trees[side] = max_trees(frame.levels[side]);
   }
-  frame.volume = cost_volume(cost_input(medians[0]), cost_input(medians[1]), s.disparities,
+  frame.volume = cost_volume(cost_input(s.median_in_costs ? medians[0] : left),
+                             cost_input(s.median_in_costs ? medians[1] : right), s.disparities,
                              s.cost_kernel_size, s.cost_shift);
   Level leaves;
   const Matches matches = match_levels(trees, frame.volume, s, left.width, leaves);
   frame.stages[0] = draw_matches(leaves, matches, left.width);
   frame.stages[1] = remove_outliers(frame.stages[0], s.outlier_radius);
-  frame.stages[2] = extrapolate(leaves, frame.stages[1], s.max_neighbors,
-                                s.mode == Mode::kSparse ? s.node_end_width : 0);
-  frame.stages[3] = match_pixels(
-      frame.volume, {s.search_range.range, s.selection.confidence, s.selection.subpixel},
-      frame.stages[2]);
-  frame.stages[4] = remove_outliers(frame.stages[3], s.outlier_radius);
+  const bool only_ends = s.mode == Mode::kSparse && !s.census;
+  frame.stages[2] =
+      extrapolate(leaves, frame.stages[1], s.max_neighbors, only_ends ? s.node_end_width : 0);
+  const RatedMap pixels = match_pixels(left, right, frame.volume, s, frame.stages[2]);
+  frame.stages[3] = pixels.map;
+  const ConfidentMap result = refine(pixels, leaves, frame.stages[1], s);
+  frame.stages[4] = result.map;
+  frame.confidence = result.confidence;
   return frame;
 }
 

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdlib>
+
+#include "support/plane.hpp"
+
+namespace mtstereo::reference {
+
+using test::DisparityPlane;
+using test::GrayPlane;
+
+/// What supports a disparity within 4 px of it.
+struct Support {
+  long pixels = 0;  ///< of the window that are inside of the image
+  long count = 0;   ///< of these, the ones whose disparity fits
+  long ratios = 0;  ///< sum of their peak ratios
+
+  /// c * c * r, 0 .. 1.
+  double share() const {
+    const double c = static_cast<double>(count) / static_cast<double>(pixels);
+    return c * c * static_cast<double>(ratios) / (255.0 * static_cast<double>(pixels));
+  }
+  /// The same in whole 1/4096.
+  long share_steps() const {
+    return count * count * ratios * 4096 / (255 * pixels * pixels * pixels);
+  }
+};
+
+/// A disparity n px away (the larger of columns and rows) supports where it differs by at most
+/// (32 + 13 n) / 32 px; disparities are compared in 1/32 px.
+inline Support support_of(const DisparityPlane& map, const GrayPlane& ratio, int x, int y) {
+  const auto steps = [](int disparity) { return (disparity + 4) / 8; };
+  Support support;
+  for (int v = y - 4; v <= y + 4; ++v) {
+    for (int u = x - 4; u <= x + 4; ++u) {
+      if (u < 0 || u >= map.width || v < 0 || v >= map.height) continue;
+      ++support.pixels;
+      if (map(u, v) == 0) continue;
+      const int away = std::max(std::abs(u - x), std::abs(v - y));
+      if (std::abs(steps(map(u, v)) - steps(map(x, y))) > 32 + 13 * away) continue;
+      ++support.count;
+      support.ratios += ratio(u, v);
+    }
+  }
+  return support;
+}
+
+/// 255 times the cube root of steps / 4096, rounded half up: the largest value that, less one half,
+/// is not above it.
+inline int cube_root(long steps) {
+  long root = 255;
+  while ((2 * root - 1) * (2 * root - 1) * (2 * root - 1) * 4096 > 8L * 255 * 255 * 255 * steps) {
+    --root;
+  }
+  return static_cast<int>(root);
+}
+
+/// The cube root of each share of support, 1 at least; 0 where there is no disparity.
+inline GrayPlane rate_support(const DisparityPlane& map, const GrayPlane& ratio) {
+  GrayPlane out(map.width, map.height);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (map(x, y) == 0) continue;
+      const long steps = support_of(map, ratio, x, y).share_steps();
+      out(x, y) = static_cast<std::uint8_t>(std::max(cube_root(steps), 1));
+    }
+  }
+  return out;
+}
+
+}  // namespace mtstereo::reference
