@@ -71,6 +71,29 @@ TEST_F(Allocation, NeverHappensInALaterFrameOnOneThread) {
   expect_no_allocations({{"threads", "1"}}, true);
 }
 
+TEST_F(Allocation, NeverHappensInALaterFrameInAnyModeOfAnyPreset) {
+  for (const char* const threads : {"1", "2"}) {
+    for (const char* const mode : {"sparse", "semi-dense", "dense"}) {
+      SCOPED_TRACE(testing::Message() << mode << ", threads " << threads);
+      expect_no_allocations({{"threads", threads}, {"preset", "paper"}, {"mode", mode}});
+      expect_no_allocations(
+          {{"threads", threads}, {"mode", mode}, {"rim-trim", "1"}, {"max-gap", "30"}});
+    }
+  }
+}
+
+TEST_F(Allocation, NeverHappensInALaterFrameWhoseRimIsWider) {
+  const test::Pair pair = test::slanted_pair(333, 201, 40, 1);
+  Matcher matcher = test::matcher({{"threads", "2"}});
+  for (int frame = 0; frame < 3; ++frame) test::compute(matcher, pair.left, pair.right);
+  ASSERT_TRUE(
+      matcher.set_parameters(test::parameters({{"threads", "2"}, {"rim-trim", "31"}})).ok());
+  test::count_allocations();
+  const bool ok = matcher.compute(pair.left.view(), pair.right.view()).ok();
+  EXPECT_EQ(0, test::allocations());
+  EXPECT_TRUE(ok);
+}
+
 TEST_F(Allocation, NeverHappensInALaterFrameOnTwoThreads) {
   expect_no_allocations({{"threads", "2"}});
   expect_no_allocations({{"threads", "2"}, {"mode", "sparse"}}, true);

@@ -16,7 +16,7 @@ using test::DisparityPlane;
 using test::GrayPlane;
 using test::Pair;
 
-constexpr const char* kModes[] = {"sparse", "semi-dense"};
+constexpr const char* kModes[] = {"sparse", "semi-dense", "dense"};
 constexpr Stage kAllStages[] = {Stage::kNodeMatching, Stage::kNodesFiltered, Stage::kExtrapolated,
                                 Stage::kPixelMatching, Stage::kFinal};
 
@@ -41,7 +41,7 @@ double share_near(const DisparityPlane& map, double disparity) {
   return static_cast<double>(near) / static_cast<double>(std::max(test::known(map), 1L));
 }
 
-TEST(Invariants, AShiftedPairHasThatDisparityInBothModes) {
+TEST(Invariants, AShiftedPairHasThatDisparityInAllModes) {
   for (const char* const mode : kModes) {
     for (const int shift : {3, 17, 40}) {
       for (const char* const volume : {"half", "full"}) {
@@ -203,6 +203,41 @@ TEST(Invariants, ADisparityDoesNotDependOnWhereAnImageIsCut) {
   EXPECT_TRUE(test::same_pixels(
       160, kRows - kReach, [&](int x, int y) { return expected(x, y); },
       [&](int x, int y) { return map(x, y); }));
+}
+
+TEST(Invariants, ThereIsConfidenceExactlyWhereADisparityIs) {
+  const Pair pair = test::slanted_pair(200, 90, 30, 10);
+  for (const char* const preset : {"default", "paper"}) {
+    for (const char* const mode : kModes) {
+      for (const char* const rim : {"0", "2"}) {
+        SCOPED_TRACE(testing::Message() << preset << ", " << mode << ", rim-trim " << rim);
+        Matcher matcher = test::matcher({{"preset", preset}, {"mode", mode}, {"rim-trim", rim}});
+        const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+        const GrayPlane confidence = copy_of(matcher.confidence());
+        EXPECT_GT(test::known(map), 10);
+        EXPECT_TRUE(test::same_pixels(
+            map.width, map.height, [&](int x, int y) { return map(x, y) != kNoDisparity; },
+            [&](int x, int y) { return confidence(x, y) != 0; }));
+      }
+    }
+  }
+}
+
+TEST(Invariants, NoDisparityHasLessConfidenceThanAsked) {
+  const Pair pair = test::slanted_pair(200, 90, 30, 11);
+  Matcher matcher = test::matcher({{"min-confidence", "0"}, {"max-gap", "0"}});
+  long before = test::known(test::compute(matcher, pair.left, pair.right));
+  for (const int least : {60, 150, 220}) {
+    Parameters parameters = matcher.parameters();
+    test::set_all(parameters, {{"min-confidence", std::to_string(least)}});
+    ASSERT_TRUE(matcher.set_parameters(parameters).ok());
+    const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+    const GrayPlane confidence = copy_of(matcher.confidence());
+    for (const std::uint8_t value : confidence.pixels) ASSERT_TRUE(value == 0 || value >= least);
+    EXPECT_LT(test::known(map), before) << "at least " << least;
+    before = test::known(map);
+  }
+  EXPECT_GT(before, 0);
 }
 
 }  // namespace

@@ -46,6 +46,8 @@ TEST(Matcher, ShowsNothingBeforeTheFirstFrame) {
     EXPECT_EQ(0, matcher.preprocessed(side).width);
     EXPECT_EQ(0, matcher.preprocessed(side).height);
   }
+  EXPECT_EQ(0, matcher.confidence().width);
+  EXPECT_EQ(0, matcher.confidence().height);
   EXPECT_EQ(0, matcher.cost(0, 0, 0));
   EXPECT_EQ(0, matcher.statistics().density);
   EXPECT_EQ(0, matcher.statistics().milliseconds);

@@ -36,6 +36,7 @@ void expect_same_as_one_thread(const Pair& pair, Parameters parameters, int thre
       EXPECT_TRUE(same_image(copy_of(one.stage(stage)), many.stage(stage)))
           << "stage " << static_cast<int>(stage);
     }
+    EXPECT_TRUE(same_image(copy_of(one.confidence()), many.confidence()));
   }
 }
 
@@ -47,6 +48,10 @@ TEST(MatcherThreads, GiveTheSameForAnyNumber) {
         pair,
         test::parameters({{"mode", "sparse"}, {"cost-volume", "full"}, {"max-disparity", "30"}}),
         threads);
+    expect_same_as_one_thread(
+        pair, test::parameters({{"mode", "dense"}, {"rim-trim", "2"}, {"min-confidence", "60"}}),
+        threads);
+    expect_same_as_one_thread(pair, test::parameters({{"preset", "paper"}}), threads);
   }
 }
 
