@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "mtstereo/mtstereo.hpp"
 #include "support/compare.hpp"
@@ -86,7 +88,7 @@ TEST(Matcher, GivesTheSameWithAndWithoutStages) {
 
 /// A set of parameters, and another value of one of them whose change shows in it.
 struct Change {
-  std::initializer_list<std::pair<const char*, std::string>> base;
+  std::vector<std::pair<const char*, std::string>> base;
   const char* value;
 };
 
@@ -156,7 +158,8 @@ TEST(Matcher, TakesParametersAtTheNextFrame) {
   const Pair pair = test::slanted_pair(160, 50, 20, 3);
   for (const ParameterInfo& info : parameter_table()) {
     const Change change = change_of(info.id);
-    const Parameters base = test::parameters(change.base);
+    Parameters base;
+    for (const auto& [name, text] : change.base) test::set_all(base, {{name, text}});
     Parameters changed = base;
     ASSERT_TRUE(changed.set(info.id, std::string_view(change.value)).ok()) << info.name;
     SCOPED_TRACE(info.name + (" = " + changed.text(info.id)));
