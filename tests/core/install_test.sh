@@ -78,7 +78,7 @@ foreign=$(c++filt <"$root/names.txt" | awk '
 [ -z "$foreign" ] || fail "the library shows names that are not its own:
 $foreign"
 grep -q ' T ' "$root/names.txt" || fail "the library shows nothing"
-public='(Matcher|Parameters)::~?[A-Za-z0-9_=]+(\[abi:cxx11\])?|parameter_table|parameter_info|find_parameter|write_disparity16|version'
+public='(Matcher|Parameters)::~?[A-Za-z0-9_=]+(\[abi:cxx11\])?|parameter_table|parameter_info|parameter_default|parameter_defaults_text(\[abi:cxx11\])?|find_parameter|write_disparity16|version'
 inner=$(c++filt <"$root/names.txt" | grep -E ' [A-Za-z] mtstereo::' |
   grep -vE " mtstereo::($public)\\(" || true)
 [ -z "$inner" ] || fail "the library shows names of its inside:
