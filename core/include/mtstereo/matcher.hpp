@@ -14,13 +14,14 @@ namespace mtstereo {
 /// Which view a stage's result belongs to.
 enum class Side { kLeft, kRight };
 
-/// A step whose disparity map can be asked for, in the order of the method (paper, fig. 2 b-f).
+/// A step whose disparity map can be asked for, in the order of the method (paper, fig. 2 b-f; what
+/// kFinal has seen besides is beyond the paper).
 enum class Stage {
   kNodeMatching,   ///< the matched leaves, linear from end to end
-  kNodesFiltered,  ///< after the first outlier removal
+  kNodesFiltered,  ///< after the outlier removal of the nodes, where there is one
   kExtrapolated,   ///< after reliable node extrapolation
-  kPixelMatching,  ///< after guided pixel matching with its confidence check
-  kFinal,          ///< after the second outlier removal: the result
+  kPixelMatching,  ///< after guided pixel matching with its checks of each pixel
+  kFinal,          ///< after all removals and the filling of gaps: the result
 };
 
 /// What one frame took and gave.
@@ -29,7 +30,8 @@ struct FrameStatistics {
   double density = 0;       ///< share of pixels with a disparity, 0 .. 1
 };
 
-/// MTStereo 2.0: finds the disparity of the left image of a rectified pair.
+/// MTStereo 2.0 and what goes beyond it: finds the disparity of the left image of a rectified pair
+/// (Parameter::kPreset tells which).
 ///
 /// A matcher is made once and used for frame after frame. The first frame of a size, and the first
 /// after a change that a parameter marks as reallocating, sizes the buffers; the frames after it
