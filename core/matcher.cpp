@@ -128,6 +128,7 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   FrameStatistics statistics;
 
   void take(const Parameters& p);
+  void forget_frame();
   void size_buffers();
   void compute(GrayView left, GrayView right);
 
@@ -177,6 +178,13 @@ void Matcher::State::take(const Parameters& p) {
   parameters = p;
   settings = taken;
   if (resize) sized = false;
+}
+
+/// After a frame that failed: what is half done is not to be seen.
+void Matcher::State::forget_frame() {
+  sized = false;
+  confidence.resize(0, 0);
+  for (PreprocessedView& view : views) view.level.resize(0, 0);
 }
 
 void Matcher::State::size_buffers() {
@@ -489,14 +497,14 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) {
     }
     state.compute(left, right);
   } catch (const std::bad_alloc&) {
-    state.sized = false;
+    state.forget_frame();
     return error_of(ErrorCode::kOutOfMemory, [&] {
       return "there is not enough memory for images of " + size_text(left.width, left.height) +
              " with max-disparity = " + std::to_string(state.settings.disparities) +
-             ": lower max-disparity, or set cost-volume = half";
+             ": lower max-disparity or threads, or set cost-volume = half";
     });
   } catch (const std::exception& exception) {
-    state.sized = false;
+    state.forget_frame();
     return error_of(ErrorCode::kSystem, [&] {
       return std::string("the frame could not be matched: ") + exception.what();
     });

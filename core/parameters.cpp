@@ -85,7 +85,8 @@ constexpr ParameterInfo kTable[] = {
     {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", EACH("300", "0"), false,
      "connected areas with fewer pixels than this are removed; 0 = none"},
     {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", MODES("218", "190", "126", "0", "0"), false,
-     "disparities of less confidence (1 .. 255) are removed; 0 = none"},
+     "disparities of less confidence (1 .. 255) are removed; 0 = none; what fills a gap has half the "
+     "confidence of its sides"},
     {P::kRimTrim, "rim-trim", "", "px", T::kInteger, 0, 31, "", ALL("0"), false,
      "pixels this near to one without a disparity are removed; 0 = none"},
     {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, 31, "", EACH("9", "1"), false,
