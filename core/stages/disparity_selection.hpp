@@ -29,11 +29,11 @@ struct SelectionScratch {
 };
 
 /// Writes a row of the disparity map [1 / kDisparityOne px] and of the peak ratios (0 where there
-/// is no disparity), from the costs of optimize_scanline(), which are changed. The best of equal
+/// is no disparity), from the costs of optimize_scanline(). The best of equal
 /// costs is the smallest disparity. The runner-up is the least cost of the disparities that are not
 /// next to the best; a pixel without one has no disparity. Pixels with low > high have no expected
 /// range.
-void select_disparities(std::uint16_t* sums, int width, const SelectionOptions& options,
+void select_disparities(const std::uint16_t* sums, int width, const SelectionOptions& options,
                         const std::uint16_t* low, const std::uint16_t* high,
                         SelectionScratch& scratch, std::int32_t* disparity, std::uint8_t* ratio);
 
