@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "summary.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "eval/rivals.hpp"
+
+namespace mtstereo::bench {
+namespace {
+
+double counter(const benchmark::BenchmarkReporter::Run& run, const char* name) {
+  const auto found = run.counters.find(name);
+  return found == run.counters.end() ? 0.0 : static_cast<double>(found->second);
+}
+
+/// The time of a method for the same frame with as many threads, NaN where it was not timed.
+double seconds_of(const std::vector<FrameTiming>& timings, const FrameCase& same,
+                  eval::Rival rival) {
+  for (const FrameTiming& timing : timings) {
+    if (timing.of.method == eval::rival_name(rival) && timing.of.frame == same.frame &&
+        timing.of.threads == same.threads) {
+      return timing.seconds;
+    }
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+std::vector<eval::TableRow> frame_table(const std::vector<FrameTiming>& timings) {
+  using eval::fixed;
+  std::vector<eval::TableRow> rows = {{"frame", "method", "threads", "CPUs", "ms", "s/MP",
+                                       "frames/s", "density %", "time / sgbm-3way", "time / bm"}};
+  for (const FrameTiming& timing : timings) {
+    rows.push_back(
+        {timing.of.frame, timing.of.method, std::to_string(timing.of.threads),
+         fixed(timing.processors, 2), fixed(timing.seconds * 1e3, 1),
+         fixed(timing.seconds_per_megapixel, 3), fixed(1 / timing.seconds, 1),
+         fixed(timing.density * 100, 1),
+         fixed(timing.seconds / seconds_of(timings, timing.of, eval::Rival::kSgbm3Way), 2),
+         fixed(timing.seconds / seconds_of(timings, timing.of, eval::Rival::kBm), 2)});
+  }
+  return rows;
+}
+
+void Summary::expect_frame(const std::string& name, FrameCase of) {
+  expected_.push_back({name, std::move(of)});
+}
+
+void Summary::take(const benchmark::BenchmarkReporter::Run& run) {
+  if (run.error_occurred) {
+    errors_.push_back(run.benchmark_name() + ": " + run.error_message);
+    return;
+  }
+  // Single repetitions come before their median, which then replaces them.
+  const bool median = run.aggregate_name == "median";
+  if (run.run_type == benchmark::BenchmarkReporter::Run::RT_Aggregate && !median) return;
+  FrameTiming& timing = timed_[run.run_name.function_name];
+  timing.seconds = run.GetAdjustedRealTime() / benchmark::GetTimeUnitMultiplier(run.time_unit);
+  timing.seconds_per_megapixel = counter(run, "s/MP");
+  timing.density = counter(run, kDensityCounter);
+  timing.processors = run.GetAdjustedCPUTime() / run.GetAdjustedRealTime();
+}
+
+std::vector<FrameTiming> Summary::timings() const {
+  std::vector<FrameTiming> timings;
+  for (const Expected& expected : expected_) {
+    const auto found = timed_.find(expected.name);
+    if (found == timed_.end()) continue;
+    timings.push_back(found->second);
+    timings.back().of = expected.of;
+  }
+  return timings;
+}
+
+void SummarizingReporter::ReportRuns(const std::vector<Run>& runs) {
+  std::vector<Run> shown;
+  for (const Run& run : runs) {
+    summary_.take(run);
+    const bool aggregate = run.run_type == Run::RT_Aggregate;
+    if (!aggregate || run.aggregate_name == "median" || run.aggregate_name == "cv") {
+      shown.push_back(run);
+    }
+  }
+  ConsoleReporter::ReportRuns(shown);
+}
+
+}  // namespace mtstereo::bench

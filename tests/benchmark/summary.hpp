@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "eval/text_table.hpp"
+
+namespace mtstereo::bench {
+
+/// The counter of every whole frame that tells the share of pixels with a disparity.
+inline constexpr const char* kDensityCounter = "density";
+
+/// What the benchmark of a whole frame is about.
+struct FrameCase {
+  std::string frame;
+  std::string method;
+  int threads = 1;
+};
+
+/// What was measured of it.
+struct FrameTiming {
+  FrameCase of;
+  double seconds = 0;                ///< of one frame [s]
+  double seconds_per_megapixel = 0;  ///< [s/MP]
+  double density = 0;                ///< 0 .. 1
+  double processors = 0;             ///< at work at once, on average
+};
+
+/// The table of whole frames: time, how many processors were at work at once, and the time as a
+/// multiple of what StereoSGBM with 3 directions and StereoBM take for the same frame with as many
+/// threads; "-" where they did not run.
+std::vector<eval::TableRow> frame_table(const std::vector<FrameTiming>& timings);
+
+/// Collects what is reported: of each benchmark the median, or its only repetition.
+class Summary {
+ public:
+  /// Announces the benchmark of a whole frame.
+  void expect_frame(const std::string& name, FrameCase of);
+
+  void take(const benchmark::BenchmarkReporter::Run& run);
+
+  /// The whole frames that were timed, in the order they were announced.
+  std::vector<FrameTiming> timings() const;
+  /// One sentence for each benchmark that failed, in the order they did.
+  const std::vector<std::string>& errors() const { return errors_; }
+
+ private:
+  struct Expected {
+    std::string name;
+    FrameCase of;
+  };
+  std::vector<Expected> expected_;
+  std::map<std::string, FrameTiming> timed_;
+  std::vector<std::string> errors_;
+};
+
+/// Reports to a summary, and medians and their spread (cv) on the console.
+class SummarizingReporter : public benchmark::ConsoleReporter {
+ public:
+  explicit SummarizingReporter(Summary& summary) : ConsoleReporter(OO_None), summary_(summary) {}
+  void ReportRuns(const std::vector<Run>& runs) override;
+
+ private:
+  Summary& summary_;
+};
+
+}  // namespace mtstereo::bench

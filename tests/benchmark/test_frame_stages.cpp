@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "frame_stages.hpp"
+
+namespace mtstereo::bench {
+namespace {
+
+bool has(const std::vector<std::string>& names, const char* name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+constexpr std::pair<const char*, const char*> kVariants[] = {{"default", "semi-dense"},
+                                                             {"default", "sparse"},
+                                                             {"default", "dense"},
+                                                             {"paper", "semi-dense"},
+                                                             {"paper", "sparse"}};
+
+// The constructor compares with the matcher; run again in any order, each gives the same again.
+TEST(FrameStages, GiveTheMatchersResultAndCanBeRunAgain) {
+  const Pair pair = render_street(203, 97);  // no whole number of bands
+  for (const auto& [preset, mode] : kVariants) {
+    SCOPED_TRACE(std::string(preset) + ", " + mode);
+    const Parameters parameters = parameters_of(preset, mode, 24, 1);
+    FrameStages stages(parameters, pair);
+    std::vector<std::string> names = FrameStages::names(parameters);
+    std::reverse(names.begin(), names.end());
+    for (const std::string& name : names) {
+      SCOPED_TRACE(name);
+      for (int i = 0; i < 2; ++i) {
+        stages.prepare(name);
+        stages.run(name);
+        EXPECT_NO_THROW(stages.require_result(name));
+      }
+    }
+  }
+}
+
+TEST(FrameStages, RunOnWhatAnotherStageLeftIsNoticed) {
+  const Pair pair = render_street(203, 97);
+  FrameStages stages(parameters_of("default", "semi-dense", 24, 1), pair);
+  stages.prepare("node-drawing");
+  stages.run("node-drawing");
+  EXPECT_THROW(stages.require_result("confidence"), std::runtime_error);
+}
+
+TEST(FrameStages, AreThoseThatTheParametersTurnOn) {
+  const auto semi_dense = FrameStages::names(parameters_of("default", "semi-dense", 24, 1));
+  EXPECT_TRUE(has(semi_dense, "census-matching"));
+  EXPECT_FALSE(has(semi_dense, "gap-filling"));
+  EXPECT_FALSE(has(semi_dense, "node-outliers"));
+  EXPECT_TRUE(has(FrameStages::names(parameters_of("default", "dense", 24, 1)), "gap-filling"));
+  EXPECT_TRUE(has(FrameStages::names(parameters_of("default", "sparse", 24, 1)), "node-ends"));
+  const auto paper = FrameStages::names(parameters_of("paper", "semi-dense", 24, 1));
+  EXPECT_TRUE(has(paper, "node-outliers"));
+  EXPECT_TRUE(has(paper, "gradient-matching"));
+  EXPECT_FALSE(has(paper, "census-matching"));
+}
+
+TEST(FrameStages, UnknownNameIsAnError) {
+  const Pair pair = render_street(64, 48);
+  FrameStages stages(parameters_of("default", "dense", 16, 1), pair);
+  EXPECT_THROW(stages.run("magic"), std::runtime_error);
+  EXPECT_THROW(stages.prepare(""), std::runtime_error);
+}
+
+TEST(FrameStages, FrameThatTheMatcherRefusesIsAnError) {
+  const Pair pair = render_street(64, 48);
+  EXPECT_THROW(FrameStages(parameters_of("default", "dense", 100, 1), pair), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace mtstereo::bench

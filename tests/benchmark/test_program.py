@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The benchmark still runs, to the end and over everything, and refuses what it does not know.
+
+No time is ever judged here.
+"""
+import json
+import os
+import pathlib
+import random
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+COMPARE = pathlib.Path(__file__).resolve().parent / "compare.py"
+METHODS = ("semi-dense", "sparse", "dense", "paper", "sgbm", "sgbm-3way", "bm")
+STAGES = ("preprocessing", "max-trees", "cost-volume", "node-levels", "node-matching",
+          "node-drawing", "node-extrapolation", "census", "census-matching", "speckle-removal",
+          "confidence", "gap-filling", "node-ends", "node-outliers", "gradient-matching")
+
+
+def run(*arguments, **environment):
+    known = {name: value for name, value in os.environ.items()
+             if not name.startswith(("BENCHMARK_", "MTSTEREO_"))}
+    return subprocess.run([PROGRAM, *map(str, arguments)], check=False, capture_output=True,
+                          text=True, timeout=280, env={**known, **environment})
+
+
+class QuickRun(unittest.TestCase):
+    """One run of everything, whose outputs all tests here look at."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.file = pathlib.Path(folder.name) / "result.json"
+        cls.done = run("--quick", f"--benchmark_out={cls.file}")
+        assert cls.done.returncode == 0, cls.done.stdout + cls.done.stderr
+        cls.result = json.loads(cls.file.read_text(encoding="utf-8"))
+
+    def medians(self, part):
+        return {entry["run_name"]: entry for entry in self.result["benchmarks"]
+                if entry["run_name"].startswith(part) and entry.get("aggregate_name") == "median"}
+
+    def test_has_every_method_with_one_and_two_threads(self):
+        medians = self.medians("frame/street-640x480-64/")
+        for method in METHODS:
+            for threads in (1, 2):
+                found = [entry for name, entry in medians.items()
+                         if f"/{method}/threads:{threads}/" in name]
+                self.assertEqual(1, len(found), f"{method} with {threads} threads")
+                self.assertGreater(found[0]["density"], 0)
+                self.assertLessEqual(found[0]["density"], 1)
+                seconds = found[0]["s/MP"] * 640 * 480 / 1e6
+                self.assertAlmostEqual(1, seconds * found[0]["frames/s"], delta=0.2)
+        self.assertEqual(2 * len(METHODS), len(medians))
+
+    def test_has_every_stage_once(self):
+        names = [name.split("/")[3] for name in self.medians("stage/")]
+        for stage in STAGES:
+            self.assertEqual(1, names.count(stage), stage)
+        for entry in self.medians("stage/").values():
+            self.assertGreater(entry["ns/px"], 0)
+
+    def test_has_the_memory_or_says_why_not(self):
+        found = [entry for entry in self.result["benchmarks"]
+                 if entry["run_name"].startswith("memory/")]
+        if not found:
+            self.assertIn("memory is not measured", self.done.stderr)
+            return
+        # Half a cost volume at 640x480, 64 disparities, alone has 9.4 MiB.
+        self.assertGreater(found[0]["peak_MiB"], 9)
+
+    def test_ends_with_a_table_that_compares_with_opencv(self):
+        table = self.done.stdout.split("time / sgbm-3way")[1].splitlines()[1:]
+        self.assertEqual(2 * len(METHODS), len(table), self.done.stdout)
+        for line in table:
+            self.assertNotIn("-", line.split()[-2:], line)
+
+    def test_result_can_be_compared(self):
+        done = subprocess.run([sys.executable, COMPARE, self.file, self.file], check=False,
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(0, done.returncode, done.stderr)
+        self.assertIn("frame/street-640x480-64/semi-dense/threads:1", done.stdout)
+
+
+class Refusals(unittest.TestCase):
+    def expect_failure(self, words, *arguments, **environment):
+        done = run(*arguments, **environment)
+        self.assertEqual(1, done.returncode, done.stdout + done.stderr)
+        self.assertIn(words, done.stderr)
+
+    def test_unknown_options_are_named(self):
+        self.expect_failure("--speed", "--quick", "--speed")
+        self.expect_failure("frame", "frame")
+
+    def test_filter_that_fits_nothing_fails(self):
+        self.expect_failure("no benchmark was run", "--quick", "--benchmark_filter=bicycle")
+
+    def test_output_that_cannot_be_written_fails(self):
+        self.expect_failure("/no/such/folder/file", "--quick",
+                            "--benchmark_out=/no/such/folder/file")
+
+    def test_sizes_that_are_none_are_refused(self):
+        for size in ("", "640", "640x480", "640x480x64x", "axbxc"):
+            with self.subTest(size):
+                self.expect_failure("WIDTHxHEIGHTxDISPARITIES", f"--measure-memory={size}")
+        for size in ("0x480x64", "-1x-1x64", "640x480x0", "64x48x65"):
+            with self.subTest(size):
+                self.expect_failure("error: ", f"--measure-memory={size}")
+
+    def test_folder_without_the_real_pair_is_told(self):
+        done = run("--benchmark_list_tests", MTSTEREO_TEST_DATA="/no/such/folder")
+        self.assertEqual(0, done.returncode, done.stderr)
+        self.assertIn("/no/such/folder", done.stderr)
+        self.assertIn("frame/street-1920x1080-128/", done.stdout)
+        self.assertNotIn("kitti", done.stdout)
+
+
+def write_png(file, rows, bits):
+    """A gray PNG file; `rows` are lists of numbers."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I",
+                                                                        zlib.crc32(kind + data))
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), bits, 0, 0, 0, 0)
+    pixel = "B" if bits == 8 else "H"
+    lines = b"".join(b"\0" + struct.pack(f">{len(row)}{pixel}", *row) for row in rows)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header)
+                     + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
+
+
+class PairFromFolder(unittest.TestCase):
+    """A pair in place of the real one, of which the benchmark judges what comes out."""
+
+    WIDTH, HEIGHT, SHIFT = 160, 48, 7
+
+    def run_on(self, rows):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        training = pathlib.Path(folder.name) / "kitti2015/training"
+        views = {"image_2": [row[:self.WIDTH] for row in rows],
+                 "image_3": [row[self.SHIFT:self.WIDTH + self.SHIFT] for row in rows]}
+        for name, view in views.items():
+            write_png(training / name / "000046_10.png", view, 8)
+        truth = [[self.SHIFT * 256] * self.WIDTH] * self.HEIGHT
+        write_png(training / "disp_occ_0/000046_10.png", truth, 16)
+        return run("--benchmark_filter=frame/kitti-160x48-100/semi-dense/",
+                   "--benchmark_repetitions=1", "--benchmark_min_time=0.001",
+                   MTSTEREO_TEST_DATA=folder.name)
+
+    def test_is_timed_where_something_is_found(self):
+        numbers = random.Random(1)
+        done = self.run_on([[numbers.randrange(256) for _ in range(self.WIDTH + self.SHIFT)]
+                            for _ in range(self.HEIGHT)])
+        self.assertEqual(0, done.returncode, done.stdout + done.stderr)
+        self.assertEqual(2, done.stdout.count("\nkitti-160x48-100  semi-dense"), done.stdout)
+
+    def test_fails_where_nothing_is_found(self):
+        done = self.run_on([[100] * (self.WIDTH + self.SHIFT)] * self.HEIGHT)
+        self.assertEqual(1, done.returncode, done.stdout + done.stderr)
+        for threads in (1, 2):
+            self.assertRegex(done.stderr, rf"error: frame/kitti-160x48-100/semi-dense/"
+                                          rf"threads:{threads}/.*: the result has no disparity")
+        self.assertNotIn("time / bm", done.stdout)
+
+
+class Help(unittest.TestCase):
+    def test_tells_both_kinds_of_options(self):
+        done = run("--help")
+        self.assertEqual(0, done.returncode)
+        self.assertIn("--quick", done.stdout)
+        self.assertIn("--benchmark_filter", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
