@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "base/buffer.hpp"
+#include "base/settings.hpp"
+#include "base/thread_pool.hpp"
+#include "mtstereo/matcher.hpp"
+#include "stages/census.hpp"
+#include "stages/census_matching.hpp"
+#include "stages/confidence.hpp"
+#include "stages/cost_volume.hpp"
+#include "stages/disparity_drawing.hpp"
+#include "stages/gap_filling.hpp"
+#include "stages/max_tree.hpp"
+#include "stages/node_extrapolation.hpp"
+#include "stages/node_levels.hpp"
+#include "stages/node_matching.hpp"
+#include "stages/outlier_removal.hpp"
+#include "stages/pixel_matching.hpp"
+#include "stages/preprocess.hpp"
+#include "stages/rim_trimming.hpp"
+#include "stages/speckle_removal.hpp"
+
+namespace mtstereo {
+
+inline constexpr int kStages = 5;
+inline constexpr int kMostLevels =
+    static_cast<int>(std::tuple_size_v<decltype(Parameters::Levels::level)>);
+
+/// What one level of S is matched with.
+struct LevelState {
+  NodeLevel left;
+  NodeLevel right;
+  SearchIntervals intervals;
+  NodeMatches matches;
+};
+
+/// Scratch memory of one thread.
+struct WorkerState {
+  Image<std::uint8_t> median;
+  Buffer<std::int16_t> gradient;
+  Buffer<std::uint8_t> marks;
+  Buffer<std::int32_t> intervals;
+  CostScratch cost;
+  MatchScratch match;
+  Image<std::uint8_t> padded;
+  CensusMatchingScratch census;
+  PixelMatchingScratch pixels;
+  SupportScratch support;
+  RimScratch rim;
+  Buffer<std::int32_t> columns;
+};
+
+/// All that a matcher keeps from frame to frame. The functions follow the order of the method.
+/// Hidden by name, since it would be shown with the class it belongs to.
+struct __attribute__((visibility("hidden"))) Matcher::State {
+  explicit State(const Parameters& p) : parameters(p), settings(p) {}
+
+  Parameters parameters;
+  Settings settings;
+  bool keep_stages = false;
+  bool sized = false;  ///< the buffers fit width, height and settings
+  int width = 0;
+  int height = 0;
+  std::optional<ThreadPool> pool;
+
+  std::array<PreprocessedView, 2> views;  ///< indexed by Side, as all pairs here
+  std::array<MaxTrees, 2> trees;
+  std::array<LevelState, kMostLevels> levels;  ///< the first settings.node_levels.count are used
+  SmoothingKernel kernel;
+  CostVolume volume;
+  VoteMap votes;
+  LeafDisparities ends;
+  std::array<CensusImage, 2> census;  ///< the right one is mirrored
+  Image<std::int32_t> map;
+  Image<std::uint8_t> ratio;       ///< peak ratios of the map
+  Image<std::uint8_t> confidence;  ///< of the map
+  SupportMap support;
+  SpeckleRuns speckles;
+  Image<std::uint8_t> rim_marks;
+  std::array<Image<std::int32_t>, kStages> kept;
+  std::vector<WorkerState> workers;
+  FrameStatistics statistics;
+
+  void take(const Parameters& p);
+  void forget_frame();
+  void size_buffers();
+  void compute(GrayView left, GrayView right);
+
+  void preprocess(GrayView left, GrayView right);
+  void build_trees();
+  void compute_costs();
+  void select_levels();
+  void match_level(int index);
+  void remove_outliers();
+  void extrapolate();
+  void match_pixels(GrayView left, GrayView right);
+  void remove_speckles();
+  void rate_confidence();
+  void trim_rims();
+  void keep_node_ends();
+  void fill_gaps();
+  CensusMatchingOptions census_options() const;
+  void keep(Stage stage);
+  double density() const;
+
+  const LevelState& leaves() const { return levels[settings.node_levels.count - 1]; }
+
+  static constexpr int kBand = 32;     ///< [rows]
+  static constexpr int kColumns = 64;  ///< of a block of columns, whose cache lines are its own
+
+  /// Calls body(y0, y1, worker) for bands of rows. The bands are the same for every number of
+  /// threads unless `per_thread`: then each thread gets one, for stages that carry work from row to
+  /// row.
+  template <typename Body>
+  void for_rows(Body&& body, bool per_thread = false) {
+    const int bands = per_thread ? std::min(pool->threads(), height) : (height + kBand - 1) / kBand;
+    pool->run(bands, [&](int band, int worker) {
+      const int y0 = per_thread ? static_cast<int>(1LL * height * band / bands) : band * kBand;
+      const int y1 = per_thread ? static_cast<int>(1LL * height * (band + 1) / bands)
+                                : std::min(y0 + kBand, height);
+      body(y0, y1, workers[worker]);
+    });
+  }
+};
+
+}  // namespace mtstereo

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The steps of the method in their order: what a matcher does with one frame.
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+#include "matcher_state.hpp"
+
+namespace mtstereo {
+namespace {
+
+int thread_count(const Parameters& parameters) {
+  const int wanted = parameters.integer(Parameter::kThreads);
+  return wanted > 0 ? wanted : std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
+}
+
+}  // namespace
+
+void Matcher::State::take(const Parameters& p) {
+  bool resize = false;
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.reallocates && parameters.text(info.id) != p.text(info.id)) resize = true;
+  }
+  const Settings taken(p);  // may throw: before anything has changed
+  parameters = p;
+  settings = taken;
+  if (resize) sized = false;
+}
+
+/// After a frame that failed: what is half done is not to be seen.
+void Matcher::State::forget_frame() {
+  sized = false;
+  confidence.resize(0, 0);
+  for (PreprocessedView& view : views) view.level.resize(0, 0);
+}
+
+void Matcher::State::size_buffers() {
+  sized = false;
+  const int threads = thread_count(parameters);
+  if (!pool || pool->threads() != threads) {
+    pool.reset();
+    pool.emplace(threads);
+  }
+  workers.resize(threads);
+  for (int side = 0; side < 2; ++side) {
+    views[side].resize(width, height);
+    trees[side].resize(width, height);
+  }
+  for (int i = 0; i < settings.node_levels.count; ++i) {
+    levels[i].left.resize(width, height);
+    levels[i].right.resize(width, height);
+    levels[i].intervals.resize(levels[i].left);
+    levels[i].matches.resize(levels[i].left);
+  }
+  kernel = smoothing_kernel(settings.cost_kernel_size, settings.cost_shift);
+  volume.resize(width, height, settings.disparities, settings.cost_shift);
+  votes.resize(width, height, settings.outlier_radius);
+  ends.resize(leaves().left);
+  map.resize(width, height);
+  ratio.resize(width, height);
+  confidence.resize(width, height);
+  support.resize(width, height);
+  speckles.resize(width, height);
+  rim_marks.resize(width, height);
+  if (settings.census) {
+    census[0].resize(width, height, 0);
+    census[1].resize(width, height, cost_lanes(settings.disparities));
+  }
+  for (WorkerState& worker : workers) {
+    // As large as the stages ask for: which thread gets which band differs from frame to frame, and
+    // none is to allocate when its first one, or a higher one, comes late.
+    worker.median.resize(width, std::min(kBand + 4, height));
+    worker.gradient.resize(2 * (width + 2));
+    worker.marks.resize(trees[0].stride);
+    worker.intervals.resize(2 * levels[0].left.stride);
+    worker.cost.resize(volume, kernel);
+    worker.match.resize(width, settings.disparities, settings.max_neighbors);
+    worker.pixels.resize(width);
+    worker.support.resize(width);
+    // For any rim, which changes from frame to frame without sizing anything anew.
+    worker.rim.resize(width, static_cast<int>(parameter_info(Parameter::kRimTrim).maximum));
+    worker.columns.resize(kColumns);
+    if (settings.census) {
+      worker.padded.resize(width + 4, std::min(kBand, height) + 4);
+      worker.census.resize(width, census_options());
+    }
+  }
+  sized = true;
+}
+
+void Matcher::State::compute(GrayView left, GrayView right) {
+  const auto start = std::chrono::steady_clock::now();
+  preprocess(left, right);
+  build_trees();
+  compute_costs();
+  select_levels();
+  for (int i = 0; i < settings.node_levels.count; ++i) match_level(i);
+  for_rows([&](int y0, int y1, WorkerState&) {
+    draw_matches(leaves().left, leaves().matches, y0, y1, map);
+  });
+  keep(Stage::kNodeMatching);
+  remove_outliers();
+  keep(Stage::kNodesFiltered);
+  extrapolate();
+  keep(Stage::kExtrapolated);
+  match_pixels(left, right);
+  keep(Stage::kPixelMatching);
+  if (settings.pixel_outliers) remove_outliers();
+  remove_speckles();
+  rate_confidence();
+  trim_rims();
+  if (settings.mode == Mode::kSparse && settings.census) keep_node_ends();
+  fill_gaps();
+  keep(Stage::kFinal);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  statistics = {took.count(), density()};
+}
+
+void Matcher::State::preprocess(GrayView left, GrayView right) {
+  const LevelTable table = level_table(settings.gray_levels);
+  const std::array<GrayView, 2> images = {left, right};
+  for (int side = 0; side < 2; ++side) {
+    for_rows([&](int y0, int y1, WorkerState& worker) {
+      median_rows(images[side], y0, y1, worker.median, views[side].median);
+    });
+    for_rows([&](int y0, int y1, WorkerState& worker) {
+      const GrayView costs_from =
+          settings.median_in_costs ? views[side].median.view() : images[side];
+      gradient_rows(table, costs_from, y0, y1, worker.gradient, views[side]);
+    });
+  }
+}
+
+void Matcher::State::build_trees() {
+  for (int side = 0; side < 2; ++side) {
+    for_rows([&](int y0, int y1, WorkerState&) {
+      build_max_trees(views[side].level, y0, y1, trees[side]);
+    });
+  }
+}
+
+void Matcher::State::compute_costs() {
+  const int block = slices_per_block(volume, kernel);
+  const int blocks = (volume.disparities + block - 1) / block;
+  pool->run(blocks, [&](int i, int worker) {
+    const int d0 = i * block;
+    const int d1 = std::min(d0 + block, volume.disparities);
+    compute_cost_slices(views[0], views[1], kernel, d0, d1, workers[worker].cost, volume);
+  });
+}
+
+void Matcher::State::select_levels() {
+  const WidthRange widths = {1.0 * settings.min_node_width, settings.max_node_width * width};
+  for (int i = 0; i < settings.node_levels.count; ++i) {
+    const int ancestor = settings.node_levels.level[i];
+    for (int side = 0; side < 2; ++side) {
+      NodeLevel& level = side == 0 ? levels[i].left : levels[i].right;
+      for_rows([&](int y0, int y1, WorkerState& worker) {
+        select_nodes(trees[side], ancestor, widths, y0, y1, worker.marks, level);
+      });
+      for_rows([&](int y0, int y1, WorkerState&) { link_neighbors(y0, y1, level); });
+    }
+  }
+}
+
+void Matcher::State::match_level(int index) {
+  LevelState& level = levels[index];
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    if (index == 0) {
+      first_intervals(level.left, settings.disparities, y0, y1, level.intervals);
+    } else {
+      finer_intervals(level.left, levels[index - 1].left, levels[index - 1].matches,
+                      settings.max_neighbors, y0, y1, worker.intervals, level.intervals);
+    }
+  });
+  const PairCostInput input = {trees[0],    trees[1], level.left,
+                               level.right, volume,   settings.intensity_weight};
+  constexpr bool kPerThread = true;
+  for_rows(
+      [&](int y0, int y1, WorkerState& worker) {
+        match_nodes(input, level.intervals, settings.max_neighbors, settings.node_confidence, y0,
+                    y1, worker.match, level.matches);
+      },
+      kPerThread);
+}
+
+void Matcher::State::remove_outliers() {
+  if (settings.outlier_radius == 0) return;
+  for_rows([&](int y0, int y1, WorkerState&) { copy_votes(map, y0, y1, votes); });
+  sum_votes(votes);
+  for_rows([&](int y0, int y1, WorkerState&) { mtstereo::remove_outliers(votes, y0, y1, map); });
+}
+
+void Matcher::State::extrapolate() {
+  const NodeLevel& level = leaves().left;
+  // The census costs are only guided by the nodes: there whole nodes help in every mode.
+  const bool whole = settings.census || settings.mode != Mode::kSparse;
+  const int end_width = whole ? 0 : settings.node_end_width;
+  for_rows([&](int y0, int y1, WorkerState&) { read_leaf_ends(level, map, y0, y1, ends); });
+  for_rows([&](int y0, int y1, WorkerState&) {
+    extrapolate_leaves(level, ends, settings.max_neighbors, end_width, y0, y1, map);
+  });
+}
+
+CensusMatchingOptions Matcher::State::census_options() const {
+  return {settings.search_range, settings.census_cost, settings.smoothness, settings.selection};
+}
+
+void Matcher::State::match_pixels(GrayView left, GrayView right) {
+  if (!settings.census) {
+    const PixelMatchingOptions options = {settings.search_range, settings.selection};
+    for_rows([&](int y0, int y1, WorkerState& worker) {
+      mtstereo::match_pixels(volume, options, y0, y1, worker.pixels, map, ratio);
+    });
+    return;
+  }
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    census_rows(left, CensusOrder::kForward, y0, y1, worker.padded, census[0]);
+    census_rows(right, CensusOrder::kMirrored, y0, y1, worker.padded, census[1]);
+  });
+  const CensusMatchingOptions options = census_options();
+  constexpr bool kPerThread = true;
+  for_rows(
+      [&](int y0, int y1, WorkerState& worker) {
+        match_pixels_by_census(left, census[0], census[1], options, y0, y1, worker.census, map,
+                               ratio);
+      },
+      kPerThread);
+}
+
+void Matcher::State::remove_speckles() {
+  if (settings.speckle_size <= 1) return;
+  for_rows([&](int y0, int y1, WorkerState&) { find_runs(map, kDisparityOne, y0, y1, speckles); });
+  join_bands(map, kDisparityOne, kBand, speckles);
+  for_rows([&](int y0, int y1, WorkerState&) {
+    remove_small(speckles, settings.speckle_size, y0, y1, map);
+  });
+}
+
+void Matcher::State::rate_confidence() {
+  for_rows([&](int y0, int y1, WorkerState&) { copy_support(map, ratio, y0, y1, support); });
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    rate_support(support, y0, y1, worker.support, confidence);
+    if (settings.min_confidence > 0) {
+      remove_doubtful(settings.min_confidence, y0, y1, map, confidence);
+    }
+  });
+}
+
+void Matcher::State::trim_rims() {
+  if (settings.rim_trim == 0) return;
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    mark_rim(map, settings.rim_trim, y0, y1, worker.rim, rim_marks);
+  });
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    trim_rim(rim_marks, settings.rim_trim, y0, y1, worker.rim, map);
+    clear_confidence(map, y0, y1, confidence);
+  });
+}
+
+void Matcher::State::keep_node_ends() {
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    keep_leaf_ends(leaves().left, ends, settings.max_neighbors, settings.node_end_width, y0, y1,
+                   worker.marks, map, confidence);
+  });
+}
+
+void Matcher::State::fill_gaps() {
+  if (settings.max_gap == 0) return;
+  for_rows([&](int y0, int y1, WorkerState&) {
+    fill_gaps_along_rows(settings.max_gap, kDisparityOne, y0, y1, map, confidence);
+  });
+  pool->run((width + kColumns - 1) / kColumns, [&](int block, int worker) {
+    const int x0 = block * kColumns;
+    fill_gaps_along_columns(settings.max_gap, kDisparityOne, x0, std::min(x0 + kColumns, width),
+                            workers[worker].columns, map, confidence);
+  });
+}
+
+void Matcher::State::keep(Stage stage) {
+  Image<std::int32_t>& copy = kept[static_cast<int>(stage)];
+  if (!keep_stages) {
+    copy.resize(0, 0);  // what is there belongs to an earlier frame
+    return;
+  }
+  copy.resize(width, height);
+  for (int y = 0; y < height; ++y) {
+    std::memcpy(copy.row(y), map.row(y), width * sizeof(std::int32_t));
+  }
+}
+
+double Matcher::State::density() const {
+  std::size_t known = 0;
+  for (int y = 0; y < height; ++y) {
+    known += width - std::count(map.row(y), map.row(y) + width, kNoDisparity);
+  }
+  return static_cast<double>(known) / (static_cast<double>(width) * height);
+}
+
+}  // namespace mtstereo
