@@ -15,7 +15,7 @@ namespace mtstereo {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Bytes = hn::CappedTag<std::uint8_t, 32>;
+using Bytes = hn::CappedTag<std::uint8_t, kCostStep>;
 
 /// Takes the costs of row `y` (inside the image) into the ring's row `slot` and into the sum, where
 /// they replace those that the ring held.

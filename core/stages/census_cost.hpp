@@ -22,10 +22,12 @@ struct CensusCostOptions {
 /// Cost of the cells d >= D.
 inline constexpr int kCensusNever = 255;
 
+/// The widest vectors that costs are worked on with [bytes].
+inline constexpr int kCostStep = 32;
+
 /// Disparities that a pixel's costs take room for: D rounded up to whole vectors.
 inline int cost_lanes(int disparities) {
-  constexpr int kStep = 32;
-  return (disparities + kStep - 1) / kStep * kStep;
+  return (disparities + kCostStep - 1) / kCostStep * kCostStep;
 }
 
 /// Steps of the costs per differing bit: the rows that are summed up. Across the row the costs are

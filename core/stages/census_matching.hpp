@@ -14,7 +14,8 @@
 namespace mtstereo {
 
 /// Guided pixel matching by the census cost: the steps of search_range, census_cost,
-/// scanline_optimization and disparity_selection, one row after the other.
+/// scanline_optimization and disparity_selection, one row after the other, the last two block by
+/// block.
 
 struct CensusMatchingOptions {
   SearchRangeOptions range;
@@ -31,7 +32,6 @@ struct CensusMatchingScratch {
   ScanlineScratch scanline;
   SelectionScratch selection;
   Buffer<std::uint8_t> costs;
-  Buffer<std::uint16_t> sums;
 
   void resize(int width, const CensusMatchingOptions& options);
 };

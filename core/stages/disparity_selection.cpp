@@ -2,6 +2,7 @@
 #include "stages/disparity_selection.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "mtstereo/image.hpp"
@@ -14,117 +15,261 @@
 // After foreach_target.h, which includes this file once more for each processor.
 #include <hwy/highway.h>
 
+namespace mtstereo {
+#ifndef MTSTEREO_SELECTION_WORDS
+#define MTSTEREO_SELECTION_WORDS
+constexpr int kDisparityBits = 7;
+constexpr int kMostGroups = (1024 + SelectionScratch::kGroup - 1) / SelectionScratch::kGroup;
+static_assert(SelectionScratch::kGroup == 1 << kDisparityBits);
+static_assert(kCostLimit << kDisparityBits <= SelectionScratch::kNone);
+#endif
+}  // namespace mtstereo
+
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Words = hn::CappedTag<std::uint16_t, 16>;
+using Words = hn::CappedTag<std::uint16_t, kCostStep>;
+using WordsVector = hn::Vec<Words>;
 
-constexpr std::uint16_t kHighest = 0xFFFF;
+constexpr std::uint16_t kNone = SelectionScratch::kNone;
+constexpr int kGroup = SelectionScratch::kGroup;
 
-/// The costs d, d + 1, ... of a pixel with `count` of them; kHighest behind these.
-template <class V>
-V load_costs(Words d16, const std::uint16_t* costs, int d, int count, V index) {
-  const V cost = hn::Load(d16, costs + d);
-  if (d + static_cast<int>(hn::Lanes(d16)) <= count) return cost;
-  const auto exists = hn::Lt(index, hn::Set(d16, static_cast<std::uint16_t>(count)));
-  return hn::IfThenElse(exists, cost, hn::Set(d16, kHighest));
+/// The costs d, d + 1, ... of a pixel with their disparities; kNone from `count` on.
+template <bool kAtBorder>
+HWY_INLINE WordsVector load_words(const std::uint16_t* costs, const std::uint16_t* index, int d,
+                                  int count) {
+  const Words d16;
+  const auto words =
+      hn::Or(hn::ShiftLeft<kDisparityBits>(hn::Load(d16, costs + d)), hn::Load(d16, index + d));
+  if (!kAtBorder) return words;
+  const auto place = hn::Add(hn::Iota(d16, 0), hn::Set(d16, static_cast<std::uint16_t>(d)));
+  const auto exists = hn::Lt(place, hn::Set(d16, static_cast<std::uint16_t>(count)));
+  return hn::IfThenElse(exists, words, hn::Set(d16, kNone));
 }
 
-/// The least of a pixel's costs. On the way they compete for the right pixels that they could show.
-int offer_to_right(Words d16, const std::uint16_t* costs, int count, std::uint16_t* right_least,
-                   std::uint16_t* right_disparity) {
-  const int step = static_cast<int>(hn::Lanes(d16));
-  auto index = hn::Iota(d16, 0);
-  auto least = hn::Set(d16, kHighest);
-  const auto next = hn::Set(d16, static_cast<std::uint16_t>(step));
-  for (int d = 0; d < count; d += step) {
-    const auto cost = load_costs(d16, costs, d, count, index);
-    const auto known = hn::LoadU(d16, right_least + d);
-    const auto better = hn::Lt(cost, known);
-    least = hn::Min(least, cost);
-    hn::StoreU(hn::Min(cost, known), d16, right_least + d);
-    hn::StoreU(hn::IfThenElse(better, index, hn::LoadU(d16, right_disparity + d)), d16,
-               right_disparity + d);
-    index = hn::Add(index, next);
+/// The least words of the disparities lane, lane + lanes, lane + 2 lanes ... of a group, and the
+/// second-least ones.
+struct Leasts {
+  WordsVector least;
+  WordsVector second;
+};
+
+/// Finds these for the disparities d0 .. d1 - 1. On the way the words compete for the right pixels
+/// that they could show, at right[d - d0].
+template <bool kAtBorder>
+HWY_INLINE Leasts compete(const std::uint16_t* costs, const std::uint16_t* index, int d0, int d1,
+                          int count, std::uint16_t* right) {
+  const Words d16;
+  Leasts leasts = {hn::Set(d16, kNone), hn::Set(d16, kNone)};
+  for (int d = d0; d < d1; d += static_cast<int>(hn::Lanes(d16))) {
+    const auto words = load_words<kAtBorder>(costs, index, d, count);
+    std::uint16_t* shown = right + (d - d0);
+    hn::StoreU(hn::Min(words, hn::LoadU(d16, shown)), d16, shown);
+    leasts.second = hn::Min(leasts.second, hn::Max(leasts.least, words));
+    leasts.least = hn::Min(leasts.least, words);
   }
-  return hn::GetLane(hn::MinOfLanes(d16, least));
+  return leasts;
 }
 
-/// The first disparity whose cost is `cost`, which is there.
-int first_with_cost(Words d16, const std::uint16_t* costs, int cost) {
-  const int step = static_cast<int>(hn::Lanes(d16));
-  const auto wanted = hn::Set(d16, static_cast<std::uint16_t>(cost));
-  for (int d = 0;; d += step) {
-    const auto found = hn::FindFirstTrue(d16, hn::Eq(hn::Load(d16, costs + d), wanted));
-    if (found >= 0) return d + static_cast<int>(found);
+#if HWY_TARGET == HWY_SCALAR
+
+/// With one lane there is nothing to gain from competing lane by lane.
+void offer(const std::uint16_t* costs, int begin, int end, int width, int disparities,
+           SelectionScratch& scratch) {
+  const int lanes = cost_lanes(disparities);
+  const std::ptrdiff_t turn = scratch.right_stride * ((lanes + kGroup - 1) / kGroup);
+  for (int x = begin; x < end; ++x, costs += lanes) {
+    std::uint16_t* right =
+        scratch.right.data() + (x % SelectionScratch::kTurns) * turn + (width - 1 - x);
+    const int count = std::min(disparities, x + 1);
+    const int best = static_cast<int>(std::min_element(costs, costs + count) - costs);
+    int second = kNone;
+    for (int d = 0; d < count; ++d) {
+      std::uint16_t& shown = right[d / kGroup * scratch.right_stride + d];
+      shown = static_cast<std::uint16_t>(
+          std::min(costs[d] << kDisparityBits | scratch.index[d], static_cast<int>(shown)));
+      if (std::abs(d - best) > 1) second = std::min<int>(second, costs[d]);
+    }
+    scratch.best[x] = static_cast<std::uint16_t>(best);
+    scratch.least[x] = costs[best];
+    scratch.second[x] = static_cast<std::uint16_t>(second);
   }
 }
 
-/// The least of a pixel's costs that are not within 1 of `best`, or kHighest.
-int runner_up_of_all(Words d16, const std::uint16_t* costs, int best, int count) {
-  const int step = static_cast<int>(hn::Lanes(d16));
-  auto index = hn::Iota(d16, 0);
-  auto least = hn::Set(d16, kHighest);
-  const auto next = hn::Set(d16, static_cast<std::uint16_t>(step));
-  // best - 1 .. best + 1 become 0 .. 2; below 0 the numbers begin again at the top.
-  const auto before = hn::Set(d16, static_cast<std::uint16_t>(best - 1));
-  const auto three = hn::Set(d16, 3);
-  for (int d = 0; d < count; d += step) {
-    const auto cost = load_costs(d16, costs, d, count, index);
-    const auto beside = hn::Lt(hn::Sub(index, before), three);
-    least = hn::Min(least, hn::IfThenElse(beside, hn::Set(d16, kHighest), cost));
-    index = hn::Add(index, next);
-  }
-  return hn::GetLane(hn::MinOfLanes(d16, least));
-}
+#else
 
-/// The same of the disparities first .. last only.
-int runner_up_of_range(const std::uint16_t* costs, int best, int first, int last) {
-  int least = kHighest;
-  for (int d = first; d <= last; ++d) {
-    if (std::abs(d - best) > 1) least = std::min<int>(least, costs[d]);
-  }
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(Words()));
+
+/// Pixels whose lanes are compared together.
+constexpr int kBatch = 8;
+
+/// The words of a batch, for each pixel those of its lanes.
+using BatchWords = std::uint16_t[kBatch][kLanes];
+
+/// The least of eight of a pixel's lanes each.
+using Eight = hn::CappedTag<std::uint16_t, kBatch>;
+HWY_INLINE hn::Vec<Eight> least_eight(const std::uint16_t* words) {
+  const Eight d8;
+  auto least = hn::Load(d8, words);
+  for (int i = kBatch; i < kLanes; i += kBatch) least = hn::Min(least, hn::Load(d8, words + i));
   return least;
 }
 
-/// The pixel's disparity and peak ratio before the left-right check, from its `count` costs, of
-/// which the least is `cost`. low > high: no disparity is expected.
-std::int32_t select_one(Words d16, const std::uint16_t* costs, int count, int cost,
-                        const SelectionOptions& options, int low, int high, std::uint16_t& best,
-                        std::uint8_t& ratio) {
-  if (low > high) return kNoDisparity;
-  const int whole = first_with_cost(d16, costs, cost);
-  const int runner_up = options.runner_up_in_range
-                            ? runner_up_of_range(costs, whole, low, std::min(high, count - 1))
-                            : runner_up_of_all(d16, costs, whole, count);
-  if (runner_up == kHighest || !(runner_up > cost * (1 + options.confidence))) return kNoDisparity;
-  int disparity = whole * kDisparityOne;
-  if (options.subpixel && whole > 0 && whole + 1 < count) {
-    disparity += symmetric_v_offset(costs[whole - 1], cost, costs[whole + 1]);
-  }
-  best = static_cast<std::uint16_t>(whole);
-  ratio = static_cast<std::uint8_t>(std::max(peak_ratio(cost, runner_up), 1));
-  return std::max(disparity, 1);
+/// Pixel by pixel the lesser of lanes that come from `a` and from `b` in turn.
+template <class V>
+HWY_INLINE V fold(V a, V b) {
+  const Eight d8;
+  return hn::Min(hn::InterleaveLower(d8, a, b), hn::InterleaveUpper(d8, a, b));
 }
 
-void select_row(const std::uint16_t* sums, int width, const SelectionOptions& options,
-                const std::uint16_t* low, const std::uint16_t* high, SelectionScratch& scratch,
-                std::int32_t* disparity, std::uint8_t* ratio) {
+/// The least word of each pixel of a batch, in the pixels' order.
+HWY_INLINE hn::Vec<Eight> least_words(const BatchWords& words) {
+  const auto even = fold(fold(least_eight(words[0]), least_eight(words[4])),
+                         fold(least_eight(words[2]), least_eight(words[6])));
+  const auto odd = fold(fold(least_eight(words[1]), least_eight(words[5])),
+                        fold(least_eight(words[3]), least_eight(words[7])));
+  return fold(even, odd);
+}
+
+/// The competitions of a batch's lanes in one group of disparities.
+struct BatchGroup {
+  BatchWords least;
+  BatchWords second;
+};
+
+/// The costs of a batch of pixels from column x on, or of fewer at the end.
+struct Batch {
+  const std::uint16_t* costs;
+  int x;
+  int pixels;
+  int lanes;
+  int disparities;
+  int width;
+};
+
+template <bool kAtBorder>
+HWY_INLINE void compete_in_group(const Batch& batch, int group, SelectionScratch& scratch,
+                                 BatchGroup& out) {
   const Words d16;
-  const int lanes = cost_lanes(options.disparities);
-  std::fill_n(scratch.least.data(), scratch.least.size(), kHighest);
-  for (int x = 0; x < width; ++x) {
-    const std::uint16_t* costs = sums + static_cast<std::ptrdiff_t>(x) * lanes;
-    const int count = std::min(options.disparities, x + 1);  // disparities with a right pixel
-    const int first = width - 1 - x;
-    const int cost = offer_to_right(d16, costs, count, scratch.least.data() + first,
-                                    scratch.disparity.data() + first);
-    scratch.best[x] = SelectionScratch::kNothing;
-    ratio[x] = 0;
-    disparity[x] =
-        select_one(d16, costs, count, cost, options, low[x], high[x], scratch.best[x], ratio[x]);
+  const int d0 = group * kGroup;
+  const int d1 = std::min(d0 + kGroup, batch.lanes);
+  const int groups = (batch.lanes + kGroup - 1) / kGroup;
+  for (int i = 0; i < batch.pixels; ++i) {
+    const int x = batch.x + i;
+    const std::ptrdiff_t competition =
+        (x % SelectionScratch::kTurns * groups + group) * scratch.right_stride;
+    std::uint16_t* right = scratch.right.data() + competition + (batch.width - 1 - x) + d0;
+    const int count = std::min(batch.disparities, x + 1);  // disparities with a right pixel
+    const Leasts leasts = compete<kAtBorder>(batch.costs + i * batch.lanes, scratch.index.data(),
+                                             d0, d1, count, right);
+    hn::Store(leasts.least, d16, out.least[i]);
+    hn::Store(leasts.second, d16, out.second[i]);
+  }
+}
+
+/// The cost of each word; kNone of kNone.
+template <class V>
+HWY_INLINE V costs_of(V words) {
+  const Eight d8;
+  const auto none = hn::Set(d8, kNone);
+  return hn::IfThenElse(hn::Eq(words, none), none, hn::ShiftRight<kDisparityBits>(words));
+}
+
+/// The least costs that are not within 1 of the batch's best disparities, which count from the
+/// group's first one. Lanes that are beside each other hold disparities that are: of each lane one
+/// word at most drops out, and then its second-least counts.
+HWY_INLINE hn::Vec<Eight> runners_up(const std::uint16_t* best, BatchGroup& group) {
+  const Words d16;
+  for (int i = 0; i < kBatch; ++i) {
+    const auto least = hn::Load(d16, group.least[i]);
+    // best - 1 .. best + 1 become 0 .. 2; below 0 the numbers begin again at the top.
+    const auto before = hn::Set(d16, static_cast<std::uint16_t>(best[i] - 1));
+    const auto disparity = hn::And(least, hn::Set(d16, kGroup - 1));
+    const auto beside = hn::Lt(hn::Sub(disparity, before), hn::Set(d16, 3));
+    hn::Store(hn::IfThenElse(beside, hn::Load(d16, group.second[i]), least), d16, group.least[i]);
+  }
+  return costs_of(least_words(group.least));
+}
+
+/// Writes a value of each pixel of a batch; what follows it may be there already.
+template <class V>
+HWY_INLINE void write_batch(V values, const Batch& batch, Buffer<std::uint16_t>& row) {
+  const Eight d8;
+  if (batch.pixels == kBatch) {
+    hn::StoreU(values, d8, row.data() + batch.x);
+    return;
+  }
+  HWY_ALIGN std::uint16_t all[kBatch];
+  hn::Store(values, d8, all);
+  std::copy_n(all, batch.pixels, row.data() + batch.x);
+}
+
+template <bool kAtBorder>
+HWY_INLINE void offer_batch(const Batch& batch, SelectionScratch& scratch) {
+  const Eight d8;
+  HWY_ALIGN BatchGroup groups[kMostGroups];
+  const int count = (batch.lanes + kGroup - 1) / kGroup;
+  auto least = hn::Set(d8, kNone);
+  auto best = hn::Zero(d8);
+  for (int g = 0; g < count; ++g) {
+    compete_in_group<kAtBorder>(batch, g, scratch, groups[g]);
+    const auto words = least_words(groups[g].least);
+    const auto costs = costs_of(words);
+    const auto disparities = hn::Add(hn::And(words, hn::Set(d8, kGroup - 1)),
+                                     hn::Set(d8, static_cast<std::uint16_t>(g * kGroup)));
+    best = hn::IfThenElse(hn::Lt(costs, least), disparities, best);
+    least = hn::Min(least, costs);
+  }
+  auto second = hn::Set(d8, kNone);
+  for (int g = 0; g < count; ++g) {
+    HWY_ALIGN std::uint16_t in_group[kBatch];
+    hn::Store(hn::Sub(best, hn::Set(d8, static_cast<std::uint16_t>(g * kGroup))), d8, in_group);
+    second = hn::Min(second, runners_up(in_group, groups[g]));
+  }
+  write_batch(best, batch, scratch.best);
+  write_batch(least, batch, scratch.least);
+  write_batch(second, batch, scratch.second);
+}
+
+void offer(const std::uint16_t* costs, int begin, int end, int width, int disparities,
+           SelectionScratch& scratch) {
+  const int lanes = cost_lanes(disparities);
+  for (int x = begin; x < end; x += kBatch, costs += kBatch * lanes) {
+    const Batch batch = {costs, x, std::min(kBatch, end - x), lanes, disparities, width};
+    if (x + 1 < disparities) {
+      offer_batch<true>(batch, scratch);
+    } else {
+      offer_batch<false>(batch, scratch);
+    }
+  }
+}
+
+#endif
+
+/// Writes the disparity of each right pixel's least word to where the words of its first
+/// competition are.
+void decide_right(int width, int groups, SelectionScratch& scratch) {
+  const Words d16;
+  const std::ptrdiff_t turn = scratch.right_stride * groups;
+  std::uint16_t* first = scratch.right.data();
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
+    auto least = hn::Set(d16, kNone);  // costs
+    auto best = hn::Zero(d16);         // disparities
+    for (int g = 0; g < groups; ++g) {
+      const std::uint16_t* competition = first + g * scratch.right_stride + x;
+      auto word = hn::LoadU(d16, competition);
+      for (int t = 1; t < SelectionScratch::kTurns; ++t) {
+        word = hn::Min(word, hn::LoadU(d16, competition + t * turn));
+      }
+      const auto cost = hn::ShiftRight<kDisparityBits>(word);
+      const auto disparity = hn::Add(hn::And(word, hn::Set(d16, kGroup - 1)),
+                                     hn::Set(d16, static_cast<std::uint16_t>(g * kGroup)));
+      best = hn::IfThenElse(hn::Lt(cost, least), disparity, best);
+      least = hn::Min(least, cost);
+    }
+    hn::StoreU(best, d16, first + x);
   }
 }
 
@@ -135,41 +280,94 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mtstereo {
 
-HWY_EXPORT(select_row);
+HWY_EXPORT(offer);
+HWY_EXPORT(decide_right);
 
 namespace {
 
-/// Takes away the disparities whose right pixel has another one.
-void check_left_right(int width, int tolerance, const SelectionScratch& scratch,
-                      std::int32_t* disparity, std::uint8_t* ratio) {
-  for (int x = 0; x < width; ++x) {
-    const int best = scratch.best[x];
-    if (best == SelectionScratch::kNothing) continue;
-    const int right = scratch.disparity[width - 1 - x + best];
-    if (std::abs(right - best) <= tolerance) continue;
-    disparity[x] = kNoDisparity;
-    ratio[x] = 0;
+int groups_of(int disparities) {
+  return (cost_lanes(disparities) + SelectionScratch::kGroup - 1) / SelectionScratch::kGroup;
+}
+
+/// The least cost of the disparities first .. last that are not within 1 of `best`, or kNone.
+int runner_up_of_range(const std::uint16_t* costs, int best, int first, int last) {
+  int least = SelectionScratch::kNone;
+  for (int d = first; d <= last; ++d) {
+    if (std::abs(d - best) > 1) least = std::min<int>(least, costs[d]);
   }
+  return least;
 }
 
 }  // namespace
 
-void SelectionScratch::resize(int width) {
-  // Whole vectors are read and written from each of them on.
-  constexpr int kVector = 16;
-  least.resize(width + kVector);
-  disparity.resize(width + kVector);
-  best.resize(width);
-  std::fill_n(disparity.data(), disparity.size(), std::uint16_t{0});
+RunnerUpTable runner_up_table(double confidence) {
+  RunnerUpTable table{};
+  for (int cost = 0; cost < kCostLimit; ++cost) {
+    table[cost] = static_cast<std::uint16_t>(std::floor(cost * (1 + confidence)) + 1);
+  }
+  return table;
 }
 
-void select_disparities(const std::uint16_t* sums, int width, const SelectionOptions& options,
-                        const std::uint16_t* low, const std::uint16_t* high,
-                        SelectionScratch& scratch, std::int32_t* disparity, std::uint8_t* ratio) {
-  HWY_DYNAMIC_DISPATCH(select_row)
-  (sums, width, options, low, high, scratch, disparity, ratio);
-  if (options.left_right_tolerance >= 0) {
-    check_left_right(width, options.left_right_tolerance, scratch, disparity, ratio);
+void SelectionScratch::resize(int width, int disparities) {
+  constexpr int kVector = kAlignment / sizeof(std::uint16_t);
+  const int lanes = cost_lanes(disparities);
+  index.resize(lanes);
+  for (int d = 0; d < lanes; ++d) {
+    index[d] = d < disparities ? static_cast<std::uint16_t>(d % kGroup) : kNone;
+  }
+  // Pixels offer all their lanes, also those that lie behind the image.
+  right_stride = (width + lanes + 2 * kVector - 1) / kVector * kVector;
+  right.resize(right_stride * groups_of(disparities) * kTurns);
+  for (Buffer<std::uint16_t>* row : {&best, &least, &second, &before, &after}) row->resize(width);
+}
+
+void start_selection(SelectionScratch& scratch) {
+  std::fill_n(scratch.right.data(), scratch.right.size(), SelectionScratch::kNone);
+}
+
+void offer_costs(const std::uint16_t* costs, int begin, int end, int width,
+                 const SelectionOptions& options, const std::uint16_t* low,
+                 const std::uint16_t* high, SelectionScratch& scratch) {
+  HWY_DYNAMIC_DISPATCH(offer)(costs, begin, end, width, options.disparities, scratch);
+  const int lanes = cost_lanes(options.disparities);
+  for (int x = begin; x < end; ++x, costs += lanes) {
+    const int best = scratch.best[x];
+    const int last = std::min(options.disparities, x + 1) - 1;
+    const bool inside = best > 0 && best < last;
+    scratch.before[x] = inside ? costs[best - 1] : SelectionScratch::kNone;
+    scratch.after[x] = inside ? costs[best + 1] : SelectionScratch::kNone;
+    if (options.runner_up_in_range) {
+      scratch.second[x] = static_cast<std::uint16_t>(
+          runner_up_of_range(costs, best, low[x], std::min<int>(high[x], last)));
+    }
+  }
+}
+
+void finish_selection(int width, const SelectionOptions& options, const std::uint16_t* low,
+                      const std::uint16_t* high, const RunnerUpTable& runner_up,
+                      SelectionScratch& scratch, std::int32_t* disparity, std::uint8_t* ratio) {
+  const int tolerance = options.left_right_tolerance;
+  if (tolerance >= 0) {
+    HWY_DYNAMIC_DISPATCH(decide_right)(width, groups_of(options.disparities), scratch);
+  }
+  for (int x = 0; x < width; ++x) {
+    disparity[x] = kNoDisparity;
+    ratio[x] = 0;
+    const int least = scratch.least[x];
+    const int second = scratch.second[x];
+    if (low[x] > high[x] || second == SelectionScratch::kNone || second < runner_up[least]) {
+      continue;
+    }
+    const int best = scratch.best[x];
+    if (tolerance >= 0 && std::abs(scratch.right[width - 1 - x + best] - best) > tolerance) {
+      continue;
+    }
+    int refined = best * kDisparityOne;
+    if (options.subpixel && scratch.before[x] != SelectionScratch::kNone) {
+      refined += symmetric_v_offset(scratch.before[x], least, scratch.after[x]);
+    }
+    disparity[x] = std::max(refined, 1);
+    ratio[x] = static_cast<std::uint8_t>(std::max(peak_ratio(least, second), 1));
   }
 }
 

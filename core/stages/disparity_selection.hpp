@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/buffer.hpp"
@@ -8,7 +9,7 @@
 namespace mtstereo {
 
 /// The last part of guided pixel matching: each pixel's disparity of least cost, and whether it can
-/// be trusted.
+/// be trusted. A row is begun, its pixels' costs are offered in any order, and then it is finished.
 
 struct SelectionOptions {
   int disparities;           ///< D
@@ -18,23 +19,51 @@ struct SelectionOptions {
   bool subpixel;             ///< refine by the V of equal slopes through the best and its neighbors
 };
 
-/// Scratch memory of one thread: the best of each right pixel, in mirrored order.
-struct SelectionScratch {
-  Buffer<std::uint16_t> least;      ///< cost
-  Buffer<std::uint16_t> disparity;  ///< whole disparity
-  Buffer<std::uint16_t> best;       ///< the same of each left pixel, or kNothing
-  static constexpr std::uint16_t kNothing = 0xFFFF;
+/// Costs that are compared are below this.
+inline constexpr int kCostLimit = 511;
 
-  void resize(int width);
+/// Of each cost of the best the least one that its runner-up has to have.
+using RunnerUpTable = std::array<std::uint16_t, kCostLimit>;
+RunnerUpTable runner_up_table(double confidence);
+
+/// Scratch memory of one thread.
+///
+/// Costs compete together with their disparities, in one word: the cost in the upper nine bits, the
+/// disparity in the lower seven, so that of equal costs the smallest disparity is less. More
+/// disparities than seven bits hold are cut into groups with competitions of their own.
+struct SelectionScratch {
+  static constexpr int kGroup = 128;              ///< disparities of a group
+  static constexpr std::uint16_t kNone = 0xFFFF;  ///< no cost with its disparity
+  /// Competitions for the same right pixel: the pixels of a row take turns, since each would wait
+  /// for what its neighbor has written.
+  static constexpr int kTurns = 4;
+
+  Buffer<std::uint16_t> index;  ///< of each disparity its lower word half, kNone behind the last
+  Buffer<std::uint16_t> right;  ///< [turn][group] the least words of the right pixels, mirrored
+  std::ptrdiff_t right_stride = 0;  ///< from group to group [elements]
+  /// Of each left pixel: its disparity of least cost, that cost, the runner-up's, and the costs of
+  /// the disparities before and after.
+  Buffer<std::uint16_t> best, least, second, before, after;
+
+  void resize(int width, int disparities);
 };
 
-/// Writes a row of the disparity map [1 / kDisparityOne px] and of the peak ratios (0 where there
-/// is no disparity), from the costs of optimize_scanline(). The best of equal
-/// costs is the smallest disparity. The runner-up is the least cost of the disparities that are not
-/// next to the best; a pixel without one has no disparity. Pixels with low > high have no expected
-/// range.
-void select_disparities(const std::uint16_t* sums, int width, const SelectionOptions& options,
-                        const std::uint16_t* low, const std::uint16_t* high,
-                        SelectionScratch& scratch, std::int32_t* disparity, std::uint8_t* ratio);
+/// Begins a row.
+void start_selection(SelectionScratch& scratch);
+
+/// Offers the costs of the columns begin .. end - 1, that of column x and disparity d at
+/// (x - begin) * cost_lanes() + d, all of them below kCostLimit. Pixels with low > high have no
+/// expected range.
+void offer_costs(const std::uint16_t* costs, int begin, int end, int width,
+                 const SelectionOptions& options, const std::uint16_t* low,
+                 const std::uint16_t* high, SelectionScratch& scratch);
+
+/// Writes the row of the disparity map [1 / kDisparityOne px] and of the peak ratios (0 where there
+/// is no disparity). The best of equal costs is the smallest disparity. The runner-up is the least
+/// cost of the disparities that are not next to the best; a pixel without one has no disparity, nor
+/// has one with low > high.
+void finish_selection(int width, const SelectionOptions& options, const std::uint16_t* low,
+                      const std::uint16_t* high, const RunnerUpTable& runner_up,
+                      SelectionScratch& scratch, std::int32_t* disparity, std::uint8_t* ratio);
 
 }  // namespace mtstereo

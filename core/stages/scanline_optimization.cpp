@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "stages/census_cost.hpp"
 
@@ -14,10 +15,18 @@
 #include <hwy/highway.h>
 
 namespace mtstereo {
-#ifndef MTSTEREO_SCANLINE_LAYOUT
-#define MTSTEREO_SCANLINE_LAYOUT
-/// What surrounds a pixel's path costs in ScanlineScratch::path: cells that no step comes from.
+#ifndef MTSTEREO_SCANLINE_ENDS
+#define MTSTEREO_SCANLINE_ENDS
+/// What surrounds a pixel's path costs in ScanlineScratch::ends: cells that no step comes from.
 constexpr int kMargin = 64;
+
+constexpr int kFromLeft = 0;
+constexpr int kFromRight = 1;
+
+/// Where a pixel's path costs stand in ScanlineScratch::ends.
+inline std::uint8_t* path_end(ScanlineScratch& scratch, int lanes, int path, int which) {
+  return scratch.ends.data() + kMargin + (2 * path + which) * (lanes + kMargin);
+}
 #endif
 }  // namespace mtstereo
 
@@ -26,6 +35,7 @@ namespace mtstereo {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Not wider: neighboring lanes of wider vectors are farther from each other than a shift.
 using Bytes = hn::CappedTag<std::uint8_t, 32>;
 
 /// The least of all lanes in every lane.
@@ -43,59 +53,170 @@ V least_of_lanes(Bytes d8, V v) {
 #endif
 }
 
-/// One step of a path: the path costs `now` of a pixel from those of the pixel before, whose least
-/// is `least_before` in every lane. Returns the least of the new ones.
+/// The lanes one before those of `v`, whose first is the last of `before`.
 template <class V>
-V step_path(Bytes d8, const std::uint8_t* costs, const std::uint8_t* before, V least_before,
-            V small_step, std::uint8_t large_step, int lanes, std::uint8_t* now) {
-  const int step = static_cast<int>(hn::Lanes(d8));
-  const V any = hn::SaturatedAdd(least_before, hn::Set(d8, large_step));
-  V least = hn::Set(d8, 255);
-  for (int d = 0; d < lanes; d += step) {
-    const V same = hn::Load(d8, before + d);
-    const V beside = hn::Min(hn::LoadU(d8, before + d - 1), hn::LoadU(d8, before + d + 1));
-    const V best = hn::Min(hn::Min(same, hn::SaturatedAdd(beside, small_step)), any);
-    const V path = hn::SaturatedAdd(hn::Load(d8, costs + d), hn::SaturatedSub(best, least_before));
-    hn::Store(path, d8, now + d);
-    least = hn::Min(least, path);
+HWY_INLINE V lanes_before(Bytes d8, V v, V before) {
+#if HWY_TARGET == HWY_SCALAR
+  (void)d8, (void)v;
+  return before;
+#else
+  if constexpr (hn::MaxLanes(d8) <= 16) {
+    return hn::CombineShiftRightBytes<15>(d8, v, before);
+  } else {
+    return hn::CombineShiftRightBytes<15>(d8, v, hn::ConcatLowerUpper(d8, v, before));
   }
-  return least_of_lanes(d8, least);
+#endif
 }
 
-void optimize(const std::uint8_t* costs, const std::uint8_t* gray, int width, int lanes,
-              int small_step_cost, const LargeStepTable& large_step, ScanlineScratch& scratch,
-              std::uint16_t* sums) {
-  const Bytes d8;
-  const hn::CappedTag<std::uint16_t, 16> d16;
-  const hn::Rebind<std::uint8_t, decltype(d16)> d8_of_16;
-  const int step16 = static_cast<int>(hn::Lanes(d16));
-  const auto small_step = hn::Set(d8, static_cast<std::uint8_t>(std::min(small_step_cost, 255)));
-  std::uint8_t* now = scratch.path.data() + kMargin;
-  std::uint8_t* before = now + lanes + kMargin;
+/// The lanes one behind those of `v`, whose last is the first of `behind`.
+template <class V>
+HWY_INLINE V lanes_behind(Bytes d8, V v, V behind) {
+#if HWY_TARGET == HWY_SCALAR
+  (void)d8, (void)v;
+  return behind;
+#else
+  if constexpr (hn::MaxLanes(d8) <= 16) {
+    return hn::CombineShiftRightBytes<1>(d8, behind, v);
+  } else {
+    return hn::CombineShiftRightBytes<1>(d8, hn::ConcatLowerUpper(d8, behind, v), v);
+  }
+#endif
+}
 
-  std::memset(before, 0, lanes);  // no path yet: all alike
-  auto least = hn::Zero(d8);
-  for (int x = 0; x < width; ++x) {
-    const std::uint8_t* cost = costs + static_cast<std::ptrdiff_t>(x) * lanes;
-    const int change = x > 0 ? std::abs(gray[x] - gray[x - 1]) : 0;
-    least = step_path(d8, cost, before, least, small_step, large_step[change], lanes, now);
-    std::memcpy(scratch.forward.data() + static_cast<std::ptrdiff_t>(x) * lanes, now, lanes);
-    std::swap(now, before);
+/// A path on its way along the row: the costs of its last pixel and what they begin with.
+class Path {
+ public:
+  Path(const ScanlineRow& row, int lanes, int path, ScanlineScratch& scratch)
+      : costs_(row.costs),
+        gray_(row.gray),
+        large_step_(row.large_step->data()),
+        lanes_(lanes),
+        back_(path == kFromLeft ? -1 : 1),
+        small_step_(hn::Set(Bytes(), static_cast<std::uint8_t>(std::min(row.small_step, 255)))),
+        least_(hn::Set(Bytes(), static_cast<std::uint8_t>(scratch.least[path]))),
+        newest_(path_end(scratch, lanes, path, scratch.newest[path])),
+        other_(path_end(scratch, lanes, path, 1 - scratch.newest[path])) {}
+
+  /// The first pixel: no path leads there.
+  void begin() {
+    std::memset(newest_, 0, lanes_);
+    least_ = hn::Zero(Bytes());
   }
-  std::memset(before, 0, lanes);
-  least = hn::Zero(d8);
-  for (int x = width - 1; x >= 0; --x) {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * lanes;
-    const int change = x + 1 < width ? std::abs(gray[x] - gray[x + 1]) : 0;
-    least = step_path(d8, costs + first, before, least, small_step, large_step[change], lanes, now);
-    const std::uint8_t* forward = scratch.forward.data() + first;
-    for (int d = 0; d < lanes; d += step16) {
-      const auto from_left = hn::PromoteTo(d16, hn::Load(d8_of_16, forward + d));
-      const auto from_right = hn::PromoteTo(d16, hn::Load(d8_of_16, now + d));
-      hn::Store(hn::Add(from_left, from_right), d16, sums + first + d);
+
+  /// Goes on to column x, which comes next; `first` where it is the path's first.
+  HWY_INLINE void step(int x, bool first) {
+    const Bytes d8;
+    const int step = static_cast<int>(hn::Lanes(d8));
+    const int change = first ? 0 : std::abs(gray_[x] - gray_[x + back_]);
+    const auto any = hn::SaturatedAdd(least_, hn::Set(d8, large_step_[change]));
+    const std::uint8_t* costs = costs_ + static_cast<std::ptrdiff_t>(x) * lanes_;
+    auto least = hn::Set(d8, 255);
+    // Whole vectors only: loads across what has just been stored would wait for it.
+    auto before = hn::Load(d8, newest_ - step);
+    auto same = hn::Load(d8, newest_);
+    for (int d = 0; d < lanes_; d += step) {
+      const auto behind = hn::Load(d8, newest_ + d + step);
+      const auto beside = hn::Min(lanes_before(d8, same, before), lanes_behind(d8, same, behind));
+      const auto best = hn::Min(hn::Min(same, hn::SaturatedAdd(beside, small_step_)), any);
+      const auto path = hn::SaturatedAdd(hn::Load(d8, costs + d), hn::SaturatedSub(best, least_));
+      hn::Store(path, d8, other_ + d);
+      least = hn::Min(least, path);
+      before = same;
+      same = behind;
     }
-    std::swap(now, before);
+    least_ = least_of_lanes(d8, least);
+    std::swap(newest_, other_);
   }
+
+  /// Keeps the last pixel's costs for the other path to find.
+  HWY_INLINE void keep(std::uint8_t* paths, int x) const {
+    const Bytes d8;
+    std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
+    for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(d8))) {
+      hn::Store(hn::Load(d8, newest_ + d), d8, kept + d);
+    }
+  }
+
+  /// Adds to the last pixel's costs those that the other path has kept there.
+  HWY_INLINE void add(const std::uint8_t* paths, int x, std::uint16_t* sums) const {
+    const hn::CappedTag<std::uint16_t, kCostStep> d16;
+    const hn::Rebind<std::uint8_t, decltype(d16)> d8;
+    const std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
+    for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(d16))) {
+      const auto one = hn::PromoteTo(d16, hn::Load(d8, newest_ + d));
+      const auto other = hn::PromoteTo(d16, hn::Load(d8, kept + d));
+      hn::Store(hn::Add(one, other), d16, sums + d);
+    }
+  }
+
+  /// Puts back what the next block begins with.
+  void leave(int path, ScanlineScratch& scratch) const {
+    scratch.least[path] = hn::GetLane(least_);
+    scratch.newest[path] = newest_ == path_end(scratch, lanes_, path, 0) ? 0 : 1;
+  }
+
+ private:
+  const std::uint8_t* costs_;
+  const std::uint8_t* gray_;
+  const std::uint8_t* large_step_;
+  int lanes_;
+  int back_;  // from a column to the one before
+  hn::Vec<Bytes> small_step_;
+  hn::Vec<Bytes> least_;  // of the last pixel's costs, in every lane
+  std::uint8_t* newest_;
+  std::uint8_t* other_;
+};
+
+/// Neighboring steps wait for each other; those of the two paths do not, so they take turns.
+void walk_to_middle(const ScanlineRow& row, ScanlineScratch& scratch) {
+  const int lanes = cost_lanes(row.disparities);
+  const int middle = row.width / 2;
+  Path from_left(row, lanes, kFromLeft, scratch);
+  Path from_right(row, lanes, kFromRight, scratch);
+  from_left.begin();
+  from_right.begin();
+  std::uint8_t* paths = scratch.paths.data();
+  for (int i = 0; i < middle; ++i) {
+    const int x = row.width - 1 - i;
+    from_left.step(i, i == 0);
+    from_left.keep(paths, i);
+    from_right.step(x, i == 0);
+    from_right.keep(paths, x);
+  }
+  if (row.width % 2 != 0) {
+    from_right.step(middle, middle == 0);
+    from_right.keep(paths, middle);
+  }
+  from_left.leave(kFromLeft, scratch);
+  from_right.leave(kFromRight, scratch);
+}
+
+/// Both paths over their blocks; that from the left goes begin .. end - 1, that from the right back
+/// from right_end - 1.
+void walk_block(const ScanlineRow& row, int left_begin, int left_end, int right_begin,
+                int right_end, ScanlineScratch& scratch) {
+  const int lanes = cost_lanes(row.disparities);
+  Path from_left(row, lanes, kFromLeft, scratch);
+  Path from_right(row, lanes, kFromRight, scratch);
+  const std::uint8_t* paths = scratch.paths.data();
+  std::uint16_t* left_sums = scratch.sums.data();
+  std::uint16_t* right_sums = left_sums + kScanlineBlock * lanes;
+  const int left_steps = left_end - left_begin;
+  const int right_steps = right_end - right_begin;
+  for (int i = 0; i < std::max(left_steps, right_steps); ++i) {
+    if (i < left_steps) {
+      const int x = left_begin + i;
+      from_left.step(x, x == 0);
+      from_left.add(paths, x, left_sums + i * lanes);
+    }
+    if (i < right_steps) {
+      const int x = right_end - 1 - i;
+      from_right.step(x, false);
+      from_right.add(paths, x, right_sums + (x - right_begin) * lanes);
+    }
+  }
+  from_left.leave(kFromLeft, scratch);
+  from_right.leave(kFromRight, scratch);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -105,7 +226,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mtstereo {
 
-HWY_EXPORT(optimize);
+HWY_EXPORT(walk_to_middle);
+HWY_EXPORT(walk_block);
 
 LargeStepTable large_step_table(const SmoothnessOptions& options) {
   LargeStepTable table{};
@@ -118,17 +240,31 @@ LargeStepTable large_step_table(const SmoothnessOptions& options) {
 
 void ScanlineScratch::resize(int width, int disparities) {
   const std::size_t lanes = cost_lanes(disparities);
-  forward.resize(width * lanes);
-  path.resize(2 * lanes + 3 * kMargin);
+  paths.resize(width * lanes);
+  sums.resize(2 * kScanlineBlock * lanes);
+  ends.resize(4 * (lanes + kMargin) + kMargin);
   // The margins stay as they are; no step comes from there.
-  std::memset(path.data(), 255, path.size());
+  std::memset(ends.data(), 255, ends.size());
 }
 
-void optimize_scanline(const std::uint8_t* costs, const std::uint8_t* gray, int width,
-                       int disparities, int small_step, const LargeStepTable& large_step,
-                       ScanlineScratch& scratch, std::uint16_t* sums) {
-  HWY_DYNAMIC_DISPATCH(optimize)
-  (costs, gray, width, cost_lanes(disparities), small_step, large_step, scratch, sums);
+int scanline_blocks(int width) { return (width - width / 2 + kScanlineBlock - 1) / kScanlineBlock; }
+
+void start_scanline(const ScanlineRow& row, ScanlineScratch& scratch) {
+  HWY_DYNAMIC_DISPATCH(walk_to_middle)(row, scratch);
+}
+
+std::array<ScanlineSums, 2> scanline_block(const ScanlineRow& row, int block,
+                                           ScanlineScratch& scratch) {
+  const int middle = row.width / 2;
+  const int left_begin = middle + block * kScanlineBlock;
+  const int left_end = std::min(left_begin + kScanlineBlock, row.width);
+  const int right_end = std::max(middle - block * kScanlineBlock, 0);
+  const int right_begin = std::max(right_end - kScanlineBlock, 0);
+  HWY_DYNAMIC_DISPATCH(walk_block)(row, left_begin, left_end, right_begin, right_end, scratch);
+  const std::uint16_t* sums = scratch.sums.data();
+  return {
+      ScanlineSums{left_begin, left_end, sums},
+      ScanlineSums{right_begin, right_end, sums + kScanlineBlock * cost_lanes(row.disparities)}};
 }
 
 }  // namespace mtstereo

@@ -8,33 +8,64 @@
 
 namespace mtstereo {
 
-/// Smooths the costs of guided pixel matching along the scan-line, from both ends: a pixel's
-/// neighbors draw it to their disparity, the less so the more the gray value changes between them.
+/// The part of guided pixel matching that lets the pixels of a row agree: two paths per row of
+/// semi-global matching, from the left and from the right.
+///
+/// Both paths begin at once, each at its end, and meet in the middle. Until there their costs are
+/// kept; from there on each finds the other's costs of the same pixel, so that the sums come out
+/// in blocks of pixels that are still in the cache, and no row of sums is ever written.
 
 struct SmoothnessOptions {
-  int small_step;  ///< P1: cost of a step of one disparity between neighbors
-  int large_step;  ///< P2: cost of any larger step, where the gray value stays
+  int small_step;  ///< P1: cost of a step of one disparity from pixel to pixel
+  int large_step;  ///< P2: cost of any larger step where the gray value stays; 0 = no optimization
 };
 
-/// P2 for each difference of gray values between neighbors: P2 * 8 / (8 + difference), at least P1
-/// and at most 255.
+/// P2 by the change of the gray value: large_step * 8 / (8 + change), not below small_step.
 using LargeStepTable = std::array<std::uint8_t, 256>;
 LargeStepTable large_step_table(const SmoothnessOptions& options);
 
-/// Scratch memory of one thread.
+/// One row to be optimized.
+struct ScanlineRow {
+  const std::uint8_t* costs;  ///< cell [x][d] at x * cost_lanes(disparities) + d
+  const std::uint8_t* gray;   ///< of the left view
+  int width;
+  int disparities;
+  int small_step;
+  const LargeStepTable* large_step;
+};
+
+/// Pixels of a block.
+inline constexpr int kScanlineBlock = 16;
+
+/// The sums of both paths' costs of the columns begin .. end - 1, at (x - begin) * lanes + d.
+struct ScanlineSums {
+  int begin;
+  int end;
+  const std::uint16_t* sums;
+};
+
+/// Scratch memory of one thread, and what is carried from block to block.
 struct ScanlineScratch {
-  Buffer<std::uint8_t> forward;  ///< path costs of a row from its left end
-  Buffer<std::uint8_t> path;     ///< the path costs of a pixel and of the one before
+  Buffer<std::uint8_t> paths;   ///< of each pixel the costs of the path that came there first
+  Buffer<std::uint8_t> ends;    ///< the costs of each path's last two pixels, with margins
+  Buffer<std::uint16_t> sums;   ///< of two blocks
+  std::array<int, 2> least{};   ///< of each path the least cost of its last pixel
+  std::array<int, 2> newest{};  ///< of each path which of the two pixels in `ends` is its last
 
   void resize(int width, int disparities);
 };
 
-/// Writes the sums of the two paths' costs of a row: cell [x][d] at x * lanes + d as in `costs`,
-/// see cost_lanes(). The cost of a path at a pixel is the pixel's cost plus the least of the path's
-/// costs at the pixel before with the steps' costs added, less the least without; it ends at 255.
-/// With P1 = P2 = 0 it is the pixel's cost.
-void optimize_scanline(const std::uint8_t* costs, const std::uint8_t* gray, int width,
-                       int disparities, int small_step, const LargeStepTable& large_step,
-                       ScanlineScratch& scratch, std::uint16_t* sums);
+/// Blocks that scanline_block() has to be called for: 0 .. count - 1, in this order.
+int scanline_blocks(int width);
+
+/// Both paths from their ends to the middle. The path cost of a cell is its cost plus the least of
+/// the path's costs of the pixel before, with the steps' costs, less the least of all of them; it
+/// ends at 255.
+void start_scanline(const ScanlineRow& row, ScanlineScratch& scratch);
+
+/// The sums of the next columns of both paths: those that the path from the left has come to, and
+/// those that the path from the right has. Either may be none. Valid until the next call.
+std::array<ScanlineSums, 2> scanline_block(const ScanlineRow& row, int block,
+                                           ScanlineScratch& scratch);
 
 }  // namespace mtstereo

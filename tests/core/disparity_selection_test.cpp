@@ -66,9 +66,19 @@ std::vector<Selected> selected(const RowCosts& sums, const SelectionOptions& opt
   }
   std::vector<std::int32_t> disparity(width, -77);
   std::vector<std::uint8_t> ratio(width, 77);
-  scratch.resize(width);
-  select_disparities(cells.data(), width, options, ranges.low.data(), ranges.high.data(), scratch,
-                     disparity.data(), ratio.data());
+  scratch.resize(width, options.disparities);
+  start_selection(scratch);
+  // In parts that come in any order.
+  const auto offer = [&](int begin, int end) {
+    offer_costs(cells.data() + static_cast<std::ptrdiff_t>(begin) * lanes, begin, end, width,
+                options, ranges.low.data(), ranges.high.data(), scratch);
+  };
+  const int third = width / 3;
+  offer(2 * third, width);
+  offer(0, third);
+  offer(third, 2 * third);
+  finish_selection(width, options, ranges.low.data(), ranges.high.data(),
+                   runner_up_table(options.confidence), scratch, disparity.data(), ratio.data());
   std::vector<Selected> row;
   for (int x = 0; x < width; ++x) row.push_back({disparity[x], ratio[x]});
   return row;

@@ -48,22 +48,28 @@ RowCosts optimized(const RowCosts& costs, const std::vector<std::uint8_t>& gray,
   const int disparities = static_cast<int>(costs[0].size());
   const int lanes = cost_lanes(disparities);
   Buffer<std::uint8_t> cells;
-  Buffer<std::uint16_t> sums;
   cells.resize(static_cast<std::size_t>(width) * lanes);
-  sums.resize(cells.size());
   std::fill_n(cells.data(), cells.size(), std::uint8_t{kCensusNever});
-  std::fill_n(sums.data(), sums.size(), std::uint16_t{0xA5A5});
   for (int x = 0; x < width; ++x) {
     std::copy(costs[x].begin(), costs[x].end(), cells.data() + static_cast<std::size_t>(x) * lanes);
   }
   scratch.resize(width, disparities);
-  optimize_scanline(cells.data(), gray.data(), width, disparities, options.small_step,
-                    large_step_table(options), scratch, sums.data());
+  const LargeStepTable large_step = large_step_table(options);
+  const ScanlineRow row = {cells.data(), gray.data(),        width,
+                           disparities,  options.small_step, &large_step};
   RowCosts out(width);
-  for (int x = 0; x < width; ++x) {
-    const std::uint16_t* first = sums.data() + static_cast<std::size_t>(x) * lanes;
-    out[x].assign(first, first + disparities);
+  start_scanline(row, scratch);
+  for (int block = 0; block < scanline_blocks(width); ++block) {
+    for (const ScanlineSums& part : scanline_block(row, block, scratch)) {
+      for (int x = part.begin; x < part.end; ++x) {
+        EXPECT_TRUE(out[x].empty()) << "column " << x << " comes once";
+        const std::uint16_t* first =
+            part.sums + static_cast<std::ptrdiff_t>(x - part.begin) * lanes;
+        out[x].assign(first, first + disparities);
+      }
+    }
   }
+  for (const std::vector<int>& pixel : out) EXPECT_FALSE(pixel.empty()) << "every column comes";
   return out;
 }
 
