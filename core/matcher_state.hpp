@@ -78,7 +78,7 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   CostVolume volume;
   VoteMap votes;
   LeafDisparities ends;
-  std::array<CensusImage, 2> census;  ///< the right one is mirrored
+  std::array<CensusImage, 2> census;
   Image<std::int32_t> map;
   Image<std::uint8_t> ratio;       ///< peak ratios of the map
   Image<std::uint8_t> confidence;  ///< of the map

@@ -64,8 +64,7 @@ void Matcher::State::size_buffers() {
   speckles.resize(width, height);
   rim_marks.resize(width, height);
   if (settings.census) {
-    census[0].resize(width, height, 0);
-    census[1].resize(width, height, cost_lanes(settings.disparities));
+    for (CensusImage& image : census) image.resize(width, height);
   }
   for (WorkerState& worker : workers) {
     // As large as the stages ask for: which thread gets which band differs from frame to frame, and
@@ -216,8 +215,8 @@ void Matcher::State::match_pixels(GrayView left, GrayView right) {
     return;
   }
   for_rows([&](int y0, int y1, WorkerState& worker) {
-    census_rows(left, CensusOrder::kForward, y0, y1, worker.padded, census[0]);
-    census_rows(right, CensusOrder::kMirrored, y0, y1, worker.padded, census[1]);
+    census_rows(left, y0, y1, worker.padded, census[0]);
+    census_rows(right, y0, y1, worker.padded, census[1]);
   });
   const CensusMatchingOptions options = census_options();
   constexpr bool kPerThread = true;

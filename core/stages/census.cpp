@@ -4,42 +4,119 @@
 #include <algorithm>
 #include <cstring>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/census.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
 namespace mtstereo {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Bytes = hn::CappedTag<std::uint8_t, kAlignment>;
+
+/// Side of the window.
+constexpr int kSide = 5;
+
+/// Byte kByte of the census transform of the pixels from column x on. `lines` are the window's
+/// rows, padded, with the gray values as signed numbers: few processors compare unsigned bytes.
+template <int kByte>
+hn::Vec<Bytes> census_byte(const std::uint8_t* const* lines, int x) {
+  constexpr int kMiddle = kCensusBits / 2;
+  const Bytes d8;
+  const hn::RebindToSigned<Bytes> di8;
+  const auto center = hn::BitCast(di8, hn::LoadU(d8, lines[kSide / 2] + x + kSide / 2));
+  auto byte = hn::Zero(d8);
+  for (int bit = 0; bit < 8; ++bit) {
+    // The window's pixels in a row, without the one in the middle.
+    const int neighbor = 8 * kByte + bit + (8 * kByte + bit >= kMiddle ? 1 : 0);
+    const auto value =
+        hn::BitCast(di8, hn::LoadU(d8, lines[neighbor / kSide] + x + neighbor % kSide));
+    const auto darker = hn::BitCast(d8, hn::VecFromMask(di8, hn::Lt(value, center)));
+    byte = hn::Or(byte, hn::And(darker, hn::Set(d8, static_cast<std::uint8_t>(1 << bit))));
+  }
+  return byte;
+}
+
+void transform_row(const std::uint8_t* const* lines, int width, std::uint32_t* words) {
+  const Bytes d8;
+  const int step = static_cast<int>(hn::Lanes(d8));
+  const auto write = [&](int x, std::uint32_t* out) {
+    // A word's first byte in memory is its lowest: the supported processors are little-endian.
+    hn::StoreInterleaved4(census_byte<0>(lines, x), census_byte<1>(lines, x),
+                          census_byte<2>(lines, x), hn::Zero(d8), d8,
+                          reinterpret_cast<std::uint8_t*>(out));
+  };
+  int x = 0;
+  for (; x + step <= width; x += step) write(x, words + x);
+  if (x < width) {
+    std::uint32_t last[kAlignment];
+    write(x, last);
+    std::memcpy(words + x, last, (width - x) * sizeof(std::uint32_t));
+  }
+}
+
+/// The lanes in the opposite order. Highway has no such function for bytes.
+hn::Vec<Bytes> reverse(hn::Vec<Bytes> bytes) {
+#if HWY_TARGET == HWY_SCALAR
+  return bytes;  // a single lane
+#else
+  const hn::RepartitionToWide<Bytes> d16;
+  const auto pairs = hn::Reverse(d16, hn::BitCast(d16, bytes));
+  return hn::BitCast(Bytes(), hn::Or(hn::ShiftLeft<8>(pairs), hn::ShiftRight<8>(pairs)));
+#endif
+}
+
+void split_row(const std::uint32_t* words, int width, RowOrder order, std::uint8_t* const* planes) {
+  const Bytes d8;
+  const int step = static_cast<int>(hn::Lanes(d8));
+  const bool mirrored = order == RowOrder::kMirrored;
+  int x = 0;
+  for (; x + step <= width; x += step) {
+    hn::Vec<Bytes> byte0, byte1, byte2, none;
+    hn::LoadInterleaved4(d8, reinterpret_cast<const std::uint8_t*>(words + x), byte0, byte1, byte2,
+                         none);
+    const int to = mirrored ? width - step - x : x;
+    hn::StoreU(mirrored ? reverse(byte0) : byte0, d8, planes[0] + to);
+    hn::StoreU(mirrored ? reverse(byte1) : byte1, d8, planes[1] + to);
+    hn::StoreU(mirrored ? reverse(byte2) : byte2, d8, planes[2] + to);
+  }
+  for (; x < width; ++x) {
+    for (int i = 0; i < kCensusBytes; ++i) {
+      planes[i][mirrored ? width - 1 - x : x] = static_cast<std::uint8_t>(words[x] >> 8 * i);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(transform_row);
+HWY_EXPORT(split_row);
+
 namespace {
 
 constexpr int kRadius = 2;
 
-/// Copies a row and repeats its ends.
-void pad_row(const std::uint8_t* row, int width, CensusOrder order, std::uint8_t* padded) {
+/// Copies a row and repeats its ends. The gray values are shifted to -128 .. 127.
+void pad_row(const std::uint8_t* row, int width, std::uint8_t* padded) {
   std::uint8_t* inside = padded + kRadius;
-  if (order == CensusOrder::kForward) {
-    std::memcpy(inside, row, width);
-  } else {
-    std::reverse_copy(row, row + width, inside);
-  }
+  for (int x = 0; x < width; ++x) inside[x] = row[x] ^ 0x80;
   for (int i = 1; i <= kRadius; ++i) {
     inside[-i] = inside[0];
     inside[width - 1 + i] = inside[width - 1];
   }
 }
 
-/// One bit of each pixel: whether its neighbor is darker. Whole rows at a time, which compilers
-/// turn into vectors.
-void add_bit(const std::uint8_t* center, const std::uint8_t* neighbor, int bit, int width,
-             std::uint8_t* out) {
-  for (int x = 0; x < width; ++x) {
-    out[x] = static_cast<std::uint8_t>(out[x] | ((neighbor[x] < center[x] ? 1 : 0) << bit));
-  }
-}
-
 }  // namespace
 
-void CensusImage::resize(int view_width, int height, int beyond) {
-  width = view_width;
-  for (Image<std::uint8_t>& image : plane) image.resize(width + beyond, height);
-}
-
-void census_rows(GrayView image, CensusOrder order, int y0, int y1, Image<std::uint8_t>& scratch,
+void census_rows(GrayView image, int y0, int y1, Image<std::uint8_t>& scratch,
                  CensusImage& census) {
   const int width = image.width;
   const int rows = y1 - y0 + 2 * kRadius;
@@ -48,27 +125,21 @@ void census_rows(GrayView image, CensusOrder order, int y0, int y1, Image<std::u
   }
   for (int i = 0; i < rows; ++i) {
     const int y = std::clamp(y0 - kRadius + i, 0, image.height - 1);
-    pad_row(image.row(y), width, order, scratch.row(i));
+    pad_row(image.row(y), width, scratch.row(i));
   }
+  const auto transform = HWY_DYNAMIC_DISPATCH(transform_row);
   for (int y = y0; y < y1; ++y) {
-    const std::uint8_t* center = scratch.row(y - y0 + kRadius) + kRadius;
-    for (Image<std::uint8_t>& plane : census.plane) std::memset(plane.row(y), 0, width);
-    int bit = 0;
-    for (int dy = -kRadius; dy <= kRadius; ++dy) {
-      const std::uint8_t* line = scratch.row(y - y0 + kRadius + dy) + kRadius;
-      for (int i = -kRadius; i <= kRadius; ++i) {
-        // The same neighbor has the same bit in both orders.
-        const int dx = order == CensusOrder::kForward ? i : -i;
-        if (dx == 0 && dy == 0) continue;
-        add_bit(center, line + dx, bit % 8, width, census.plane[bit / 8].row(y));
-        ++bit;
-      }
-    }
-    for (Image<std::uint8_t>& plane : census.plane) {
-      std::uint8_t* row = plane.row(y);
-      std::memset(row + width, row[width - 1], plane.width() - width);
-    }
+    const std::uint8_t* lines[2 * kRadius + 1];
+    for (int i = 0; i <= 2 * kRadius; ++i) lines[i] = scratch.row(y - y0 + i);
+    transform(lines, width, census.bits.row(y));
   }
 }
 
+void split_census_row(const std::uint32_t* bits, int width, RowOrder order, int beyond,
+                      std::uint8_t* const (&planes)[kCensusBytes]) {
+  HWY_DYNAMIC_DISPATCH(split_row)(bits, width, order, planes);
+  for (std::uint8_t* plane : planes) std::memset(plane + width, plane[width - 1], beyond);
+}
+
 }  // namespace mtstereo
+#endif  // HWY_ONCE

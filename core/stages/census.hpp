@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "base/buffer.hpp"
@@ -15,22 +14,29 @@ namespace mtstereo {
 /// Bits of a pixel's census transform: the window without its center.
 inline constexpr int kCensusBits = 24;
 
-/// The census transform of a view, eight bits in each plane. Behind the last column of the view
-/// come `beyond` more that repeat it: what a right pixel left of the image is taken for.
+/// Bytes of a pixel's census transform.
+inline constexpr int kCensusBytes = kCensusBits / 8;
+
+/// The census transform of a view: of each pixel the bits 0 .. 23 of a word, one for each neighbor,
+/// row by row from the top left.
 struct CensusImage {
-  std::array<Image<std::uint8_t>, kCensusBits / 8> plane;
-  int width = 0;  ///< of the view
+  Image<std::uint32_t> bits;
 
-  void resize(int view_width, int height, int beyond);
+  void resize(int width, int height) { bits.resize(width, height); }
 };
-
-/// Whether column x of the result is column x of the view, or counts from the right end: then a
-/// rising disparity runs to the right.
-enum class CensusOrder { kForward, kMirrored };
 
 /// Writes the rows y0 .. y1 - 1. Beyond the border the border's pixels are repeated. `scratch` is
 /// resized to the band at the first use.
-void census_rows(GrayView image, CensusOrder order, int y0, int y1, Image<std::uint8_t>& scratch,
-                 CensusImage& census);
+void census_rows(GrayView image, int y0, int y1, Image<std::uint8_t>& scratch, CensusImage& census);
+
+/// Whether element x of a row is column x of the view, or counts from the right end: then a rising
+/// disparity runs to the right.
+enum class RowOrder { kForward, kMirrored };
+
+/// Takes a row of `width` census words apart into rows of bytes: bits 0 .. 7 into the first plane
+/// and so on. Behind each come `beyond` elements more that repeat the last one: in a mirrored right
+/// view they stand for what is left of the image.
+void split_census_row(const std::uint32_t* bits, int width, RowOrder order, int beyond,
+                      std::uint8_t* const (&planes)[kCensusBytes]);
 
 }  // namespace mtstereo

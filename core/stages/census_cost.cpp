@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/census_cost.cpp"
@@ -16,23 +17,24 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Bytes = hn::CappedTag<std::uint8_t, kCostStep>;
+using CensusBytes = std::uint8_t* const[kCensusBytes];
 
-/// Takes the costs of row `y` (inside the image) into the ring's row `slot` and into the sum, where
-/// they replace those that the ring held.
-void replace_row(const CensusImage& left, const CensusImage& right, int disparities, int y,
+/// Takes the costs of a row into the ring's row `slot` and into the sum, where they replace those
+/// that the ring held. `right` is mirrored and goes on for cost_lanes() columns beyond.
+void replace_row(const CensusBytes& left, const CensusBytes& right, int width, int disparities,
                  std::uint8_t* slot, std::uint8_t* sum) {
   const Bytes d8;
   const int step = static_cast<int>(hn::Lanes(d8));
   const int lanes = cost_lanes(disparities);
-  for (int x = 0; x < left.width; ++x) {
-    const auto bits0 = hn::Set(d8, left.plane[0].row(y)[x]);
-    const auto bits1 = hn::Set(d8, left.plane[1].row(y)[x]);
-    const auto bits2 = hn::Set(d8, left.plane[2].row(y)[x]);
+  for (int x = 0; x < width; ++x) {
+    const auto bits0 = hn::Set(d8, left[0][x]);
+    const auto bits1 = hn::Set(d8, left[1][x]);
+    const auto bits2 = hn::Set(d8, left[2][x]);
     // Disparity d of this pixel is the mirrored right pixel width - 1 - x + d.
-    const int first = left.width - 1 - x;
-    const std::uint8_t* right0 = right.plane[0].row(y) + first;
-    const std::uint8_t* right1 = right.plane[1].row(y) + first;
-    const std::uint8_t* right2 = right.plane[2].row(y) + first;
+    const int first = width - 1 - x;
+    const std::uint8_t* right0 = right[0] + first;
+    const std::uint8_t* right1 = right[1] + first;
+    const std::uint8_t* right2 = right[2] + first;
     std::uint8_t* old = slot + static_cast<std::ptrdiff_t>(x) * lanes;
     std::uint8_t* total = sum + static_cast<std::ptrdiff_t>(x) * lanes;
     for (int d = 0; d < lanes; d += step) {
@@ -103,24 +105,34 @@ HWY_EXPORT(write_row);
 
 namespace {
 
+using CensusBytes = std::uint8_t* const[kCensusBytes];
+
 /// Takes the image's row next to `y` into ring and sum; beyond the border the border's row.
 void take_row(const CensusImage& left, const CensusImage& right, const CensusCostOptions& options,
               int y, CensusCostScratch& scratch) {
-  const int width = left.width;
-  const int height = left.plane[0].height();
-  const std::ptrdiff_t row_cells =
-      static_cast<std::ptrdiff_t>(width) * cost_lanes(options.disparities);
+  const int width = left.bits.width();
+  const int lanes = cost_lanes(options.disparities);
+  const int inside = std::clamp(y, 0, left.bits.height() - 1);
+  std::uint8_t* planes = scratch.planes.data();
+  const auto next_plane = [&](int size) { return std::exchange(planes, planes + size); };
+  const CensusBytes left_bytes = {next_plane(width), next_plane(width), next_plane(width)};
+  const CensusBytes right_bytes = {next_plane(width + lanes), next_plane(width + lanes),
+                                   next_plane(width + lanes)};
+  split_census_row(left.bits.row(inside), width, RowOrder::kForward, 0, left_bytes);
+  split_census_row(right.bits.row(inside), width, RowOrder::kMirrored, lanes, right_bytes);
+  const std::ptrdiff_t row_cells = static_cast<std::ptrdiff_t>(width) * lanes;
   const int size = options.kernel_size;
   const int slot = ((y % size) + size) % size;
   HWY_DYNAMIC_DISPATCH(replace_row)
-  (left, right, options.disparities, std::clamp(y, 0, height - 1),
-   scratch.ring.data() + slot * row_cells, scratch.vertical.data());
+  (left_bytes, right_bytes, width, options.disparities, scratch.ring.data() + slot * row_cells,
+   scratch.vertical.data());
 }
 
 }  // namespace
 
 void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
   const std::size_t lanes = cost_lanes(options.disparities);
+  planes.resize(kCensusBytes * (2 * width + lanes));
   ring.resize(width * lanes * options.kernel_size);
   vertical.resize(width * lanes);
   tables.resize(5 * lanes);
@@ -149,7 +161,7 @@ void census_cost_row(const CensusImage& left, const CensusImage& right,
                      const std::uint16_t* high, CensusCostScratch& scratch, std::uint8_t* costs) {
   take_row(left, right, options, y + options.kernel_size / 2, scratch);
   HWY_DYNAMIC_DISPATCH(write_row)
-  (options, left.width, low, high, scratch, costs);
+  (options, left.bits.width(), low, high, scratch, costs);
 }
 
 }  // namespace mtstereo

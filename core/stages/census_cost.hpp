@@ -36,15 +36,15 @@ inline int cost_scale(const CensusCostOptions& options) { return options.kernel_
 
 /// Scratch memory of one thread, and what it carries from row to row.
 struct CensusCostScratch {
-  Buffer<std::uint8_t> ring;      ///< differing bits of the last `kernel_size` rows
+  Buffer<std::uint8_t> planes;  ///< bytes of a row of the left view, then of the mirrored right one
+  Buffer<std::uint8_t> ring;    ///< differing bits of the last `kernel_size` rows
   Buffer<std::uint8_t> vertical;  ///< their sum
   Buffer<std::uint8_t> tables;    ///< penalties below and above a range, and behind D
 
   void resize(int width, const CensusCostOptions& options);
 };
 
-/// Begins with row y: the rows y, y + 1 ... are then asked for in turn. `right` is mirrored and
-/// goes on for cost_lanes() columns beyond.
+/// Begins with row y: the rows y, y + 1 ... are then asked for in turn.
 void start_census_costs(const CensusImage& left, const CensusImage& right,
                         const CensusCostOptions& options, int y, CensusCostScratch& scratch);
 

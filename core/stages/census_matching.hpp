@@ -37,8 +37,7 @@ struct CensusMatchingScratch {
 };
 
 /// Replaces the disparities of the rows y0 .. y1 - 1, which are the nodes', by the pixels' own, and
-/// writes their peak ratios. `right` is mirrored. The result does not depend on how the image is
-/// cut into such bands.
+/// writes their peak ratios. The result does not depend on how the image is cut into such bands.
 void match_pixels_by_census(GrayView left_image, const CensusImage& left, const CensusImage& right,
                             const CensusMatchingOptions& options, int y0, int y1,
                             CensusMatchingScratch& scratch, Image<std::int32_t>& map,

@@ -148,8 +148,7 @@ void FrameStages::size_maps() {
   rim_scratch_.resize(width_, settings_.rim_trim);
   columns_.resize(kColumns);
   if (!settings_.census) return;
-  census_[0].resize(width_, height_, 0);
-  census_[1].resize(width_, height_, cost_lanes(settings_.disparities));
+  for (CensusImage& image : census_) image.resize(width_, height_);
   census_rows_scratch_.resize(width_ + 4, std::min(kBand, height_) + 4);
   census_scratch_.resize(width_, census_options());
 }
@@ -233,8 +232,8 @@ void FrameStages::extrapolate() {
 
 void FrameStages::transform() {
   for_rows([&](int y0, int y1) {
-    census_rows(left_, CensusOrder::kForward, y0, y1, census_rows_scratch_, census_[0]);
-    census_rows(right_, CensusOrder::kMirrored, y0, y1, census_rows_scratch_, census_[1]);
+    census_rows(left_, y0, y1, census_rows_scratch_, census_[0]);
+    census_rows(right_, y0, y1, census_rows_scratch_, census_[1]);
   });
 }
 

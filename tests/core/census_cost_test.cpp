@@ -41,7 +41,7 @@ Ranges nothing_known(int width) {
 /// The costs of the rows y0 .. y1 - 1, one row of cells after the other.
 std::vector<std::uint8_t> costs_of(const CensusPair& pair, const CensusCostOptions& options, int y0,
                                    int y1, const Ranges& ranges, CensusCostScratch& scratch) {
-  const int width = pair.left.width;
+  const int width = pair.left.bits.width();
   const std::size_t cells = static_cast<std::size_t>(width) * cost_lanes(options.disparities);
   scratch.resize(width, options);
   Buffer<std::uint8_t> row;
@@ -60,7 +60,7 @@ std::vector<std::uint8_t> costs_of(const CensusPair& pair, const CensusCostOptio
 /// Compares every cell of the rows y0 .. y1 - 1; those behind D are never the least.
 void expect_reference(const Pair& views, const CensusCostOptions& options, int y0, int y1,
                       const Ranges& ranges, CensusCostScratch& scratch) {
-  const CensusPair pair(views.left.view(), views.right.view(), options.disparities);
+  const CensusPair pair(views.left.view(), views.right.view());
   const std::vector<std::uint8_t> costs = costs_of(pair, options, y0, y1, ranges, scratch);
   const reference::CensusCosts plain{reference::census(views.left), reference::census(views.right),
                                      options};
@@ -143,7 +143,7 @@ TEST(CensusCost, IsTheSameFromWhateverRowItBegins) {
 
 TEST(CensusCost, OfAnIdenticalPairIsNothingAtInfinity) {
   const GrayPlane image = test::noise(50, 5, 3);
-  const CensusPair pair(image.view(), image.view(), 20);
+  const CensusPair pair(image.view(), image.view());
   CensusCostScratch scratch;
   const auto costs = costs_of(pair, {20, 5, 2}, 0, 5, nothing_known(50), scratch);
   long more = 0;
@@ -155,16 +155,14 @@ TEST(CensusCost, OfAnIdenticalPairIsNothingAtInfinity) {
 }
 
 TEST(CensusCost, OfOpposedViewsIsAllBitsOfAllRows) {
-  // Planes that no image has: left all pixels of a window are darker than its center, right none.
+  // Words that no image has: left all pixels of a window are darker than its center, right none.
   for (const int size : {1, 3, 5}) {
     CensusImage left, right;
-    left.resize(20, 6, 0);
-    right.resize(20, 6, cost_lanes(20));
-    for (int i = 0; i < 3; ++i) {
-      for (int y = 0; y < 6; ++y) {
-        std::fill_n(left.plane[i].row(y), 20, std::uint8_t{0xFF});
-        std::fill_n(right.plane[i].row(y), 20 + cost_lanes(20), std::uint8_t{0});
-      }
+    left.resize(20, 6);
+    right.resize(20, 6);
+    for (int y = 0; y < 6; ++y) {
+      std::fill_n(left.bits.row(y), 20, (std::uint32_t{1} << kCensusBits) - 1);
+      std::fill_n(right.bits.row(y), 20, std::uint32_t{0});
     }
     CensusCostScratch scratch;
     const CensusCostOptions options = {20, size, 24};

@@ -22,7 +22,7 @@ using test::Random;
 /// to the first.
 RatedMap matched(const Pair& pair, const CensusMatchingOptions& options,
                  const DisparityPlane& nodes, int band, CensusMatchingScratch& scratch) {
-  const test::CensusPair census(pair.left.view(), pair.right.view(), options.cost.disparities);
+  const test::CensusPair census(pair.left.view(), pair.right.view());
   Image<std::int32_t> map = image_of(nodes);
   Image<std::uint8_t> ratio;
   ratio.resize(nodes.width, nodes.height);

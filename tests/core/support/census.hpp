@@ -11,37 +11,23 @@ namespace mtstereo::test {
 
 /// The census transform of a whole view, in bands of `band` rows that are taken from the last to
 /// the first, in memory that held something else.
-inline CensusImage census_of(GrayView image, CensusOrder order, int beyond, int band = 1 << 20) {
+inline CensusImage census_of(GrayView image, int band = 1 << 20) {
   CensusImage census;
-  census.resize(image.width, image.height, beyond);
-  for (Image<std::uint8_t>& plane : census.plane) poison(plane);
+  census.resize(image.width, image.height);
+  poison(census.bits);
   Image<std::uint8_t> scratch;
   scratch.resize(image.width + 4, std::min(band, image.height) + 4);
   poison(scratch);
   for (int i = (image.height + band - 1) / band - 1; i >= 0; --i) {
-    census_rows(image, order, i * band, std::min((i + 1) * band, image.height), scratch, census);
+    census_rows(image, i * band, std::min((i + 1) * band, image.height), scratch, census);
   }
   return census;
 }
 
-/// All bits of the columns 0 .. columns - 1.
-inline Plane<std::uint32_t> bits_of(const CensusImage& census, int columns) {
-  Plane<std::uint32_t> bits(columns, census.plane[0].height());
-  for (int y = 0; y < bits.height; ++y) {
-    for (int x = 0; x < columns; ++x) {
-      for (int i = 0; i < 3; ++i) {
-        bits(x, y) |= static_cast<std::uint32_t>(census.plane[i].row(y)[x]) << 8 * i;
-      }
-    }
-  }
-  return bits;
-}
-
 /// Both views as guided pixel matching takes them.
 struct CensusPair {
-  CensusPair(GrayView left_view, GrayView right_view, int disparities)
-      : left(census_of(left_view, CensusOrder::kForward, 0)),
-        right(census_of(right_view, CensusOrder::kMirrored, cost_lanes(disparities))) {}
+  CensusPair(GrayView left_view, GrayView right_view)
+      : left(census_of(left_view)), right(census_of(right_view)) {}
   CensusImage left, right;
 };
 
