@@ -19,6 +19,7 @@
 #include "stages/disparity_drawing.hpp"
 #include "stages/gap_filling.hpp"
 #include "stages/max_tree.hpp"
+#include "stages/median_filter.hpp"
 #include "stages/node_extrapolation.hpp"
 #include "stages/node_levels.hpp"
 #include "stages/node_matching.hpp"
@@ -44,8 +45,8 @@ struct LevelState {
 
 /// Scratch memory of one thread.
 struct WorkerState {
-  Image<std::uint8_t> median;
-  Buffer<std::int16_t> gradient;
+  MedianScratch median;
+  SobelScratch sobel;
   Buffer<std::uint8_t> marks;
   Buffer<std::int32_t> intervals;
   CostScratch cost;

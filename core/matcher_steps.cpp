@@ -45,6 +45,7 @@ void Matcher::State::size_buffers() {
   workers.resize(threads);
   for (int side = 0; side < 2; ++side) {
     views[side].resize(width, height);
+    views[side].resize_costs(width, height);
     trees[side].resize(width, height);
   }
   for (int i = 0; i < settings.node_levels.count; ++i) {
@@ -69,8 +70,8 @@ void Matcher::State::size_buffers() {
   for (WorkerState& worker : workers) {
     // As large as the stages ask for: which thread gets which band differs from frame to frame, and
     // none is to allocate when its first one, or a higher one, comes late.
-    worker.median.resize(width, std::min(kBand + 4, height));
-    worker.gradient.resize(2 * (width + 2));
+    worker.median.resize(width);
+    worker.sobel.resize(width);
     worker.marks.resize(trees[0].stride);
     worker.intervals.resize(2 * levels[0].left.stride);
     worker.cost.resize(volume, kernel);
@@ -117,7 +118,6 @@ void Matcher::State::compute(GrayView left, GrayView right) {
 }
 
 void Matcher::State::preprocess(GrayView left, GrayView right) {
-  const LevelTable table = level_table(settings.gray_levels);
   const std::array<GrayView, 2> images = {left, right};
   for (int side = 0; side < 2; ++side) {
     for_rows([&](int y0, int y1, WorkerState& worker) {
@@ -126,7 +126,8 @@ void Matcher::State::preprocess(GrayView left, GrayView right) {
     for_rows([&](int y0, int y1, WorkerState& worker) {
       const GrayView costs_from =
           settings.median_in_costs ? views[side].median.view() : images[side];
-      gradient_rows(table, costs_from, y0, y1, worker.gradient, views[side]);
+      level_rows(settings.gray_levels, y0, y1, worker.sobel, views[side]);
+      cost_rows(costs_from, y0, y1, worker.sobel, views[side]);
     });
   }
 }

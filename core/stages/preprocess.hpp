@@ -13,7 +13,7 @@ namespace mtstereo {
 
 /// One view after pre-processing. All images have the view's size.
 struct PreprocessedView {
-  /// The median-filtered gray values.
+  /// The median-filtered gray values (median_filter.hpp).
   Image<std::uint8_t> median;
   /// The quantized, inverted edge strength: 0 .. q - 1, high = little contrast.
   Image<std::uint8_t> level;
@@ -24,7 +24,10 @@ struct PreprocessedView {
   Image<std::int16_t> sobel_x;
   Image<std::int16_t> sobel_y;
 
+  /// Median and level.
   void resize(int width, int height);
+  /// The other three, which only a cost volume is made of.
+  void resize_costs(int width, int height);
 };
 
 /// Steps of the fixed-point costs per gray value.
@@ -34,24 +37,24 @@ inline constexpr int kCostScale = 16;
 /// They are 0.30, 0.59 and 0.11.
 inline constexpr std::array<int, 3> kCostWeights = {1229, 2417, 451};
 
-/// Largest |Sobel x| + |Sobel y| of an 8-bit image.
-inline constexpr int kLargestEdge = 2040;
+/// Scratch memory of one thread: sums of a row's columns.
+struct SobelScratch {
+  Buffer<std::int16_t> smooth;
+  Buffer<std::int16_t> difference;
 
-/// Level of each |Sobel x| + |Sobel y|: the mean of the two, inverted, stretched such that
-/// 125 becomes 0 and 255 stays, and quantized to q levels of equal width.
-using LevelTable = std::array<std::uint8_t, kLargestEdge + 1>;
-LevelTable level_table(int gray_levels);
+  void resize(int width);
+};
 
-/// Median 5x5 of the rows y0 .. y1 - 1; beyond the border the border's pixels are repeated.
-/// `scratch` is resized to the band at the first use.
-void median_rows(GrayView image, int y0, int y1, Image<std::uint8_t>& scratch,
-                 Image<std::uint8_t>& median);
+/// Both functions take the Sobel 3x3 (the image is mirrored at its border, without repeating the
+/// border) in the rows y0 .. y1 - 1 and read one row above and below. `scratch` is resized where it
+/// is too small.
 
-/// Sobel 3x3 (the image is mirrored at its border, without repeating the border) and the results
-/// made of it, for the rows y0 .. y1 - 1: the levels from the median, and what the costs are made
-/// of from `cost_image`, which is the median (the paper) or the view itself. Reads one row above
-/// and below. `scratch` is resized to one row.
-void gradient_rows(const LevelTable& levels, GrayView cost_image, int y0, int y1,
-                   Buffer<std::int16_t>& scratch, PreprocessedView& view);
+/// Writes the levels of the median: the mean of |Sobel x| and |Sobel y|, inverted, stretched such
+/// that 125 becomes 0 and 255 stays, and quantized to q = `gray_levels` (2 .. 256) of equal width.
+void level_rows(int gray_levels, int y0, int y1, SobelScratch& scratch, PreprocessedView& view);
+
+/// Writes what the costs are made of from `image`, which is the median (the paper) or the view
+/// itself.
+void cost_rows(GrayView image, int y0, int y1, SobelScratch& scratch, PreprocessedView& view);
 
 }  // namespace mtstereo

@@ -113,6 +113,7 @@ void FrameStages::for_rows(Body&& body) const {
 void FrameStages::size_views() {
   for (int side = 0; side < 2; ++side) {
     views_[side].resize(width_, height_);
+    views_[side].resize_costs(width_, height_);
     trees_[side].resize(width_, height_);
   }
   levels_.resize(settings_.node_levels.count);
@@ -124,8 +125,8 @@ void FrameStages::size_views() {
   }
   kernel_ = smoothing_kernel(settings_.cost_kernel_size, settings_.cost_shift);
   volume_.resize(width_, height_, settings_.disparities, settings_.cost_shift);
-  gradient_scratch_.resize(2 * (width_ + 2));
-  median_scratch_.resize(width_, std::min(kBand + 4, height_));
+  sobel_scratch_.resize(width_);
+  median_scratch_.resize(width_);
   marks_.resize(trees_[0].stride);
   intervals_scratch_.resize(2 * levels_[0].left.stride);
   cost_scratch_.resize(volume_, kernel_);
@@ -154,15 +155,16 @@ void FrameStages::size_maps() {
 }
 
 void FrameStages::preprocess() {
-  const LevelTable table = level_table(settings_.gray_levels);
   const std::array<GrayView, 2> images = {left_, right_};
   for (int side = 0; side < 2; ++side) {
     PreprocessedView& view = views_[side];
     for_rows(
         [&](int y0, int y1) { median_rows(images[side], y0, y1, median_scratch_, view.median); });
     const GrayView costs_from = settings_.median_in_costs ? view.median.view() : images[side];
-    for_rows(
-        [&](int y0, int y1) { gradient_rows(table, costs_from, y0, y1, gradient_scratch_, view); });
+    for_rows([&](int y0, int y1) {
+      level_rows(settings_.gray_levels, y0, y1, sobel_scratch_, view);
+      cost_rows(costs_from, y0, y1, sobel_scratch_, view);
+    });
   }
 }
 

@@ -14,6 +14,7 @@
 #include "stages/confidence.hpp"
 #include "stages/cost_volume.hpp"
 #include "stages/max_tree.hpp"
+#include "stages/median_filter.hpp"
 #include "stages/node_extrapolation.hpp"
 #include "stages/node_levels.hpp"
 #include "stages/node_matching.hpp"
@@ -103,8 +104,9 @@ class FrameStages {
   SupportMap support_;
   SpeckleRuns speckles_;
 
-  Image<std::uint8_t> median_scratch_, census_rows_scratch_;
-  Buffer<std::int16_t> gradient_scratch_;
+  MedianScratch median_scratch_;
+  SobelScratch sobel_scratch_;
+  Image<std::uint8_t> census_rows_scratch_;
   Buffer<std::uint8_t> marks_;
   Buffer<std::int32_t> intervals_scratch_, columns_;
   CostScratch cost_scratch_;

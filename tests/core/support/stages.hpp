@@ -4,6 +4,7 @@
 #include "reference/node_matching.hpp"
 #include "stages/cost_volume.hpp"
 #include "stages/max_tree.hpp"
+#include "stages/median_filter.hpp"
 #include "stages/node_levels.hpp"
 #include "stages/node_matching.hpp"
 #include "stages/preprocess.hpp"
@@ -22,18 +23,18 @@ void poison(Image<T>& image) {
 inline PreprocessedView preprocess(GrayView image, int gray_levels, int band = 1 << 20) {
   PreprocessedView view;
   view.resize(image.width, image.height);
+  view.resize_costs(image.width, image.height);
   poison(view.median);
   poison(view.level);
   for (Image<std::int16_t>* plane : {&view.gray, &view.sobel_x, &view.sobel_y}) poison(*plane);
-  const LevelTable table = level_table(gray_levels);
-  Image<std::uint8_t> median_scratch;
-  Buffer<std::int16_t> gradient_scratch;
+  MedianScratch median_scratch;
+  SobelScratch sobel_scratch;
   for (int y = 0; y < image.height; y += band) {
     median_rows(image, y, std::min(y + band, image.height), median_scratch, view.median);
   }
   for (int y = 0; y < image.height; y += band) {
-    gradient_rows(table, view.median.view(), y, std::min(y + band, image.height), gradient_scratch,
-                  view);
+    level_rows(gray_levels, y, std::min(y + band, image.height), sobel_scratch, view);
+    cost_rows(view.median.view(), y, std::min(y + band, image.height), sobel_scratch, view);
   }
   return view;
 }

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/median_filter.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/median_filter.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Bytes = hn::CappedTag<std::uint8_t, kAlignment>;
+using Vector = hn::Vec<Bytes>;
+
+/// A pair of places: the smaller value goes to the first one.
+struct Exchange {
+  std::uint8_t smaller, larger;
+};
+
+/// Sorts 5 values.
+constexpr Exchange kSortColumn[] = {{0, 3}, {1, 4}, {0, 2}, {1, 3}, {0, 1},
+                                    {2, 4}, {1, 2}, {3, 4}, {2, 3}};
+
+/// Brings the median of 5x5 values, of which each column is sorted, to the middle. Place 5 i + k is
+/// the i-th of column k. Found by a computer's search for few exchanges: half of them are needed
+/// for one of their values alone, the other one is never computed. Such a network is right for all
+/// values if it is for all columns of zeros and ones.
+constexpr Exchange kFindMedian[] = {
+    {21, 23}, {9, 8},   {0, 2},   {6, 7},   {20, 22}, {1, 4},   {12, 14}, {2, 4},   {1, 2},
+    {11, 14}, {12, 13}, {3, 4},   {16, 19}, {5, 8},   {15, 17}, {21, 24}, {5, 6},   {7, 9},
+    {10, 13}, {8, 9},   {12, 16}, {10, 12}, {6, 7},   {15, 24}, {0, 3},   {20, 23}, {17, 19},
+    {2, 3},   {15, 18}, {11, 12}, {12, 18}, {13, 14}, {15, 16}, {11, 15}, {7, 8},   {4, 17},
+    {20, 21}, {13, 8},  {12, 16}, {21, 22}, {3, 7},   {7, 15},  {17, 18}, {4, 12},  {8, 16},
+    {20, 13}, {12, 13}, {8, 12},  {12, 17}, {15, 8},  {8, 21},  {9, 13},  {15, 4},  {8, 12},
+    {4, 20},  {8, 9},   {12, 20}, {8, 12}};
+
+template <const auto& kNetwork, std::size_t kValues>
+HWY_INLINE void exchange_all(Vector (&values)[kValues]) {
+  const auto exchange = [&](Exchange pair) HWY_ATTR {
+    const Vector smaller = hn::Min(values[pair.smaller], values[pair.larger]);
+    values[pair.larger] = hn::Max(values[pair.smaller], values[pair.larger]);
+    values[pair.smaller] = smaller;
+  };
+  [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) HWY_ATTR {
+    (exchange(kNetwork[kIndex]), ...);
+  }
+  (std::make_index_sequence<std::size(kNetwork)>());
+}
+
+void sort_vector(const std::uint8_t* const* rows, int from, std::uint8_t* const* sorted, int to) {
+  const Bytes d8;
+  Vector column[kMedianSide];
+  for (int i = 0; i < kMedianSide; ++i) column[i] = hn::LoadU(d8, rows[i] + from);
+  exchange_all<kSortColumn>(column);
+  for (int i = 0; i < kMedianSide; ++i) hn::StoreU(column[i], d8, sorted[i] + to);
+}
+
+/// Sorts the columns of five rows. Reads nothing behind them: they may be the caller's.
+void sort_columns(const std::uint8_t* const* rows, int width, std::uint8_t* const* sorted) {
+  const int step = static_cast<int>(hn::Lanes(Bytes()));
+  int x = 0;
+  for (; x + step <= width; x += step) sort_vector(rows, x, sorted, x);
+  if (x < width) {
+    alignas(kAlignment) std::uint8_t copies[kMedianSide][kAlignment] = {};
+    const std::uint8_t* last[kMedianSide];
+    for (int i = 0; i < kMedianSide; ++i) {
+      std::memcpy(copies[i], rows[i] + x, width - x);
+      last[i] = copies[i];
+    }
+    sort_vector(last, 0, sorted, x);
+  }
+}
+
+/// The medians of a row from its sorted columns, of which two more stand on both sides.
+void write_medians(const std::uint8_t* const* sorted, int width, std::uint8_t* medians) {
+  const Bytes d8;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d8))) {
+    Vector values[kMedianSide * kMedianSide];
+    for (int i = 0; i < kMedianSide; ++i) {
+      for (int k = 0; k < kMedianSide; ++k) {
+        values[kMedianSide * i + k] = hn::LoadU(d8, sorted[i] + x + k - kMedianSide / 2);
+      }
+    }
+    exchange_all<kFindMedian>(values);
+    hn::StoreU(values[kMedianSide * kMedianSide / 2], d8, medians + x);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(sort_columns);
+HWY_EXPORT(write_medians);
+
+namespace {
+
+constexpr int kRadius = kMedianSide / 2;
+
+/// Repeats the ends of a row.
+void repeat_ends(std::uint8_t* row, int width) {
+  std::memset(row - kRadius, row[0], kRadius);
+  std::memset(row + width, row[width - 1], kRadius);
+}
+
+}  // namespace
+
+void MedianScratch::resize(int width) {
+  // As far as the last vector reaches.
+  for (Buffer<std::uint8_t>& row : sorted) row.resize(width + 2 * kRadius + kAlignment);
+}
+
+void median_rows(GrayView image, int y0, int y1, MedianScratch& scratch,
+                 Image<std::uint8_t>& median) {
+  scratch.resize(image.width);
+  for (int y = y0; y < y1; ++y) {
+    const std::uint8_t* rows[kMedianSide];
+    std::uint8_t* sorted[kMedianSide];
+    for (int i = 0; i < kMedianSide; ++i) {
+      rows[i] = image.row(std::clamp(y + i - kRadius, 0, image.height - 1));
+      sorted[i] = scratch.sorted[i].data() + kRadius;
+    }
+    HWY_DYNAMIC_DISPATCH(sort_columns)(rows, image.width, sorted);
+    for (std::uint8_t* row : sorted) repeat_ends(row, image.width);
+    HWY_DYNAMIC_DISPATCH(write_medians)(sorted, image.width, median.row(y));
+  }
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE
