@@ -81,9 +81,9 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) {
     return status.error();
   }
   try {
-    if (!state.sized || state.width != left.width || state.height != left.height) {
-      state.width = left.width;
-      state.height = left.height;
+    if (!state.sized || state.frame_width != left.width || state.frame_height != left.height) {
+      state.frame_width = left.width;
+      state.frame_height = left.height;
       state.size_buffers();
     }
     state.compute(left, right);
@@ -91,8 +91,8 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) {
     state.forget_frame();
     return error_of(ErrorCode::kOutOfMemory, [&] {
       return "there is not enough memory for images of " + size_text(left.width, left.height) +
-             " with max-disparity = " + std::to_string(state.settings.disparities) +
-             ": lower max-disparity or threads, or set cost-volume = half";
+             " with max-disparity = " + std::to_string(state.settings.max_disparity) +
+             ": lower max-disparity or threads, or set resolution = half or cost-volume = half";
     });
   } catch (const std::exception& exception) {
     state.forget_frame();
@@ -100,7 +100,7 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) {
       return std::string("the frame could not be matched: ") + exception.what();
     });
   }
-  return state.map.view();
+  return state.result;
 }
 
 DisparityView Matcher::stage(Stage stage) const {
@@ -111,7 +111,7 @@ GrayView Matcher::preprocessed(Side side) const {
   return state_->views[static_cast<int>(side)].level.view();
 }
 
-GrayView Matcher::confidence() const { return state_->confidence.view(); }
+GrayView Matcher::confidence() const { return state_->rated; }
 
 double Matcher::cost(int x, int y, int d) const {
   const State& state = *state_;

@@ -26,6 +26,7 @@
 #include "stages/outlier_removal.hpp"
 #include "stages/pixel_matching.hpp"
 #include "stages/preprocess.hpp"
+#include "stages/resolution.hpp"
 #include "stages/rim_trimming.hpp"
 #include "stages/speckle_removal.hpp"
 
@@ -67,12 +68,15 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   Parameters parameters;
   Settings settings;
   bool keep_stages = false;
-  bool sized = false;  ///< the buffers fit width, height and settings
-  int width = 0;
+  bool sized = false;  ///< the buffers fit the frame's size and the settings
+  int frame_width = 0;
+  int frame_height = 0;
+  int width = 0;  ///< of what is matched: the frame, or its half
   int height = 0;
   std::optional<ThreadPool> pool;
 
-  std::array<PreprocessedView, 2> views;  ///< indexed by Side, as all pairs here
+  std::array<Image<std::uint8_t>, 2> halves;  ///< the views at half resolution
+  std::array<PreprocessedView, 2> views;      ///< indexed by Side, as all pairs here
   std::array<MaxTrees, 2> trees;
   std::array<LevelState, kMostLevels> levels;  ///< the first settings.node_levels.count are used
   SmoothingKernel kernel;
@@ -86,15 +90,21 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   SupportMap support;
   SpeckleRuns speckles;
   Image<std::uint8_t> rim_marks;
+  Image<std::int32_t> enlarged_map;  ///< the map and its confidence at the frame's resolution
+  Image<std::uint8_t> enlarged_confidence;
   std::array<Image<std::int32_t>, kStages> kept;
   std::vector<WorkerState> workers;
+  DisparityView result;  ///< of the last frame, empty where it failed
+  GrayView rated;        ///< its confidence
   FrameStatistics statistics;
 
   void take(const Parameters& p);
   void forget_frame();
   void size_buffers();
   void compute(GrayView left, GrayView right);
+  void match(GrayView left, GrayView right);
 
+  void halve(GrayView left, GrayView right);
   void preprocess(GrayView left, GrayView right);
   void build_trees();
   void compute_costs();
@@ -108,6 +118,7 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   void trim_rims();
   void keep_node_ends();
   void fill_gaps();
+  void enlarge();
   CensusMatchingOptions census_options() const;
   void keep(Stage stage);
   double density() const;

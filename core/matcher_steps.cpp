@@ -31,12 +31,15 @@ void Matcher::State::take(const Parameters& p) {
 /// After a frame that failed: what is half done is not to be seen.
 void Matcher::State::forget_frame() {
   sized = false;
-  confidence.resize(0, 0);
+  result = {};
+  rated = {};
   for (PreprocessedView& view : views) view.level.resize(0, 0);
 }
 
 void Matcher::State::size_buffers() {
   sized = false;
+  width = settings.half ? half_of(frame_width) : frame_width;
+  height = settings.half ? half_of(frame_height) : frame_height;
   const int threads = thread_count(parameters);
   if (!pool || pool->threads() != threads) {
     pool.reset();
@@ -64,6 +67,11 @@ void Matcher::State::size_buffers() {
   support.resize(width, height);
   speckles.resize(width, height);
   rim_marks.resize(width, height);
+  if (settings.half) {
+    for (Image<std::uint8_t>& half : halves) half.resize(width, height);
+    enlarged_map.resize(frame_width, frame_height);
+    enlarged_confidence.resize(frame_width, frame_height);
+  }
   if (settings.census) {
     for (CensusImage& image : census) image.resize(width, height);
   }
@@ -91,6 +99,20 @@ void Matcher::State::size_buffers() {
 
 void Matcher::State::compute(GrayView left, GrayView right) {
   const auto start = std::chrono::steady_clock::now();
+  if (settings.half) {
+    halve(left, right);
+    match(halves[0].view(), halves[1].view());
+    enlarge();
+  } else {
+    match(left, right);
+  }
+  result = settings.half ? enlarged_map.view() : map.view();
+  rated = settings.half ? enlarged_confidence.view() : confidence.view();
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  statistics = {took.count(), density()};
+}
+
+void Matcher::State::match(GrayView left, GrayView right) {
   preprocess(left, right);
   build_trees();
   compute_costs();
@@ -113,8 +135,13 @@ void Matcher::State::compute(GrayView left, GrayView right) {
   if (settings.mode == Mode::kSparse && settings.census) keep_node_ends();
   fill_gaps();
   keep(Stage::kFinal);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-  statistics = {took.count(), density()};
+}
+
+void Matcher::State::halve(GrayView left, GrayView right) {
+  for_rows([&](int y0, int y1, WorkerState&) {
+    halve_rows(left, y0, y1, halves[0]);
+    halve_rows(right, y0, y1, halves[1]);
+  });
 }
 
 void Matcher::State::preprocess(GrayView left, GrayView right) {
@@ -278,6 +305,14 @@ void Matcher::State::fill_gaps() {
   });
 }
 
+void Matcher::State::enlarge() {
+  for_rows([&](int y0, int y1, WorkerState&) {
+    const int end = std::min(2 * y1, frame_height);
+    enlarge_rows(map, settings.max_disparity, 2 * y0, end, enlarged_map);
+    enlarge_confidence(confidence, 2 * y0, end, enlarged_confidence);
+  });
+}
+
 void Matcher::State::keep(Stage stage) {
   Image<std::int32_t>& copy = kept[static_cast<int>(stage)];
   if (!keep_stages) {
@@ -292,10 +327,11 @@ void Matcher::State::keep(Stage stage) {
 
 double Matcher::State::density() const {
   std::size_t known = 0;
-  for (int y = 0; y < height; ++y) {
-    known += width - std::count(map.row(y), map.row(y) + width, kNoDisparity);
+  for (int y = 0; y < result.height; ++y) {
+    const std::int32_t* row = result.row(y);
+    known += result.width - std::count(row, row + result.width, kNoDisparity);
   }
-  return static_cast<double>(known) / (static_cast<double>(width) * height);
+  return static_cast<double>(known) / (static_cast<double>(result.width) * result.height);
 }
 
 }  // namespace mtstereo

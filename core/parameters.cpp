@@ -12,59 +12,64 @@ using P = Parameter;
 using T = ParameterType;
 
 // clang-format off
-/// One default for every preset and mode.
-#define ALL(value) {{{{value, value, value}}, {{value, value, value}}}}
+// The defaults of a row: those of preset default, of fast and of paper, each in modes sparse,
+// semi-dense and dense.
+#define MODES(sparse, semi_dense, dense) {{sparse, semi_dense, dense}}
+#define BY_MODE(standard, fast, paper) {{standard, fast, paper}}
 /// One default for each preset.
-#define EACH(value, paper) {{{{value, value, value}}, {{paper, paper, paper}}}}
-/// Defaults for sparse, semi-dense and dense, and those of the paper, which knows two modes.
-#define MODES(sparse, semi, dense, paper_sparse, paper_semi) \
-  {{{{sparse, semi, dense}}, {{paper_sparse, paper_semi, paper_semi}}}}
+#define EACH(standard, fast, paper) \
+  BY_MODE(MODES(standard, standard, standard), MODES(fast, fast, fast), MODES(paper, paper, paper))
+/// One default for every preset and mode.
+#define ALL(value) EACH(value, value, value)
 
 constexpr ParameterInfo kTable[] = {
-    {P::kPreset, "preset", "", "", T::kChoice, 0, 1, "default|paper", EACH("default", "paper"), true,
-     "where the defaults of all other parameters come from: the most accurate ones, or those of the "
-     "published method"},
-    {P::kMode, "mode", "", "", T::kChoice, 0, 2, "sparse|semi-dense|dense", MODES("sparse", "semi-dense", "dense", "sparse", "semi-dense"), false,
+    {P::kPreset, "preset", "", "", T::kChoice, 0, 2, "default|fast|paper", EACH("default", "fast", "paper"), true,
+     "where the defaults of all other parameters come from: the most accurate ones, the most "
+     "accurate ones that take a third of the time, or those of the published method"},
+    {P::kMode, "mode", "", "", T::kChoice, 0, 2, "sparse|semi-dense|dense", BY_MODE(MODES("sparse", "semi-dense", "dense"), MODES("sparse", "semi-dense", "dense"), MODES("sparse", "semi-dense", "semi-dense")), false,
      "how many pixels get a disparity: few and right ones at the ends of the finest nodes, all that "
      "can be trusted, or nearly all, with gaps filled"},
     {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", ALL("64"), true,
      "the disparities 0 .. max-disparity - 1 are searched; the nearest point that can be seen is at "
      "focal length * baseline / max-disparity"},
+    {P::kResolution, "resolution", "", "", T::kChoice, 0, 1, "full|half", EACH("full", "half", "full"), true,
+     "at what resolution the views are matched: half is several times as fast; the disparity map has "
+     "the views' size and px either way, all parameters below count px of the resolution that is matched"},
     {P::kThreads, "threads", "", "", T::kInteger, 0, 256, "", ALL("0"), true,
      "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
-    {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, 256, "", MODES("16", "16", "16", "16", "8"), false,
+    {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, 256, "", BY_MODE(MODES("16", "16", "16"), MODES("16", "16", "16"), MODES("16", "8", "8")), false,
      "levels that the pre-processed image is quantized to: more levels, deeper trees, smaller leaves"},
-    {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", EACH("5", "0"), false,
+    {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", EACH("5", "3", "0"), false,
      "finest nodes have to be wider than this"},
-    {P::kMaxNodeWidth, "max-node-width", "omega_beta", "image widths", T::kNumber, 0.001, 1, "", EACH("1", "0.5"), false,
+    {P::kMaxNodeWidth, "max-node-width", "omega_beta", "image widths", T::kNumber, 0.001, 1, "", EACH("1", "1", "0.5"), false,
      "finest nodes have to be narrower than this share of the image's width"},
-    {P::kNodeLevels, "node-levels", "S", "", T::kLevels, 0, 63, "", EACH("0", "1,0"), true,
+    {P::kNodeLevels, "node-levels", "S", "", T::kLevels, 0, 63, "", EACH("0", "0", "1,0"), true,
      "node levels that are matched, coarse to fine: n is the n-th ancestor of the finest nodes; "
      "strictly falling, the last one is 0"},
     {P::kMaxNeighbors, "max-neighbors", "omega_gamma", "rows", T::kInteger, 0, 100, "", ALL("10"), true,
      "nodes above and below that a node is matched together with"},
     {P::kMedianFilter, "median-filter", "", "", T::kChoice, 0, 1, "trees|trees-and-costs", ALL("trees-and-costs"), false,
      "what the median-filtered images are for: the Max-trees only, or the smoothed cost volume too"},
-    {P::kCostKernelSize, "cost-kernel-size", "omega_cv", "px", T::kInteger, 1, 41, "", ALL("21"), true,
+    {P::kCostKernelSize, "cost-kernel-size", "omega_cv", "px", T::kInteger, 1, 41, "", EACH("21", "11", "21"), true,
      "side of the Gaussian that smooths the cost volume, an odd number; 1 = no smoothing"},
     {P::kCostVolume, "cost-volume", "", "", T::kChoice, 0, 1, "half|full", ALL("half"), true,
      "resolution of the smoothed cost volume: half takes a quarter of the memory, full is the exact one"},
     {P::kIntensityWeight, "intensity-weight", "alpha", "", T::kNumber, 0, 1, "", ALL("0.8"), false,
      "share of the intensity cost in a node pair's cost; the rest is the context cost"},
-    {P::kNodeConfidence, "node-confidence", "omega_Pi, coarse to fine", "%", T::kNumber, 0, 1000, "", EACH("5", "12"), false,
+    {P::kNodeConfidence, "node-confidence", "omega_Pi, coarse to fine", "%", T::kNumber, 0, 1000, "", EACH("5", "5", "12"), false,
      "a node pair is accepted where the second-best costs more than this above the best"},
-    {P::kOutlierRadius, "outlier-radius", "", "px", T::kInteger, 0, 31, "", EACH("0", "21"), true,
+    {P::kOutlierRadius, "outlier-radius", "", "px", T::kInteger, 0, 31, "", EACH("0", "0", "21"), true,
      "half the side of the window in which a disparity must agree with most others; 0 = no outlier removal"},
-    {P::kOutlierRemoval, "outlier-removal", "", "", T::kChoice, 0, 1, "nodes|nodes-and-pixels", EACH("nodes", "nodes-and-pixels"), false,
+    {P::kOutlierRemoval, "outlier-removal", "", "", T::kChoice, 0, 1, "nodes|nodes-and-pixels", EACH("nodes", "nodes", "nodes-and-pixels"), false,
      "where outliers are removed: from the nodes' disparities only, or from the pixels' too"},
-    {P::kPixelCost, "pixel-cost", "", "", T::kChoice, 0, 1, "census|gradient", EACH("census", "gradient"), true,
+    {P::kPixelCost, "pixel-cost", "", "", T::kChoice, 0, 1, "census|gradient", EACH("census", "census", "gradient"), true,
      "cost of guided pixel matching: the census transform, which no change of exposure alters, "
      "optimized along the scan-lines, or the paper's smoothed cost volume"},
-    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, 5, "", ALL("5"), true,
+    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, 5, "", EACH("5", "3", "5"), true,
      "side of the window that census costs are summed over: 1, 3 or 5"},
     {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", ALL("15"), false,
      "guided pixel matching expects disparities this much below and above the node's"},
-    {P::kBetweenNodes, "between-nodes", "", "", T::kChoice, 0, 2, "none|span|all", EACH("all", "none"), false,
+    {P::kBetweenNodes, "between-nodes", "", "", T::kChoice, 0, 2, "none|span|all", EACH("all", "all", "none"), false,
      "what is expected of a pixel between two nodes: no disparity at all, what both nodes span, or any"},
     {P::kRangePenalty, "range-penalty", "", "bits", T::kInteger, 0, 24, "", ALL("2"), true,
      "what a disparity that the nodes do not expect costs more (census); the gradient cost never "
@@ -74,28 +79,29 @@ constexpr ParameterInfo kTable[] = {
     {P::kLargeStepPenalty, "large-step-penalty", "", "bits", T::kInteger, 0, 50, "", ALL("30"), false,
      "cost of a larger step where the gray value stays, less where it changes (census); "
      "0 = no optimization along the scan-line"},
-    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", MODES("6", "6", "2", "12", "4"), false,
+    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", BY_MODE(MODES("6", "6", "2"), MODES("6", "6", "2"), MODES("12", "4", "4")), false,
      "a pixel is kept where the second-best disparity costs more than this above the best"},
-    {P::kRunnerUp, "runner-up", "", "", T::kChoice, 0, 1, "any|expected", EACH("any", "expected"), false,
+    {P::kRunnerUp, "runner-up", "", "", T::kChoice, 0, 1, "any|expected", EACH("any", "any", "expected"), false,
      "where the second-best disparity is looked for: among all, or among those that the nodes expect"},
-    {P::kLeftRightTolerance, "left-right-tolerance", "", "px", T::kInteger, -1, kLargestMaxDisparity, "", EACH("1", "-1"), false,
+    {P::kLeftRightTolerance, "left-right-tolerance", "", "px", T::kInteger, -1, kLargestMaxDisparity, "", EACH("1", "1", "-1"), false,
      "largest difference between the disparity of a left pixel and that of its right one; -1 = no check"},
     {P::kSubpixel, "subpixel", "", "", T::kBoolean, 0, 1, "", ALL("true"), false,
      "refine the disparity between whole pixels: by a V through the costs (census) or a parabola (gradient)"},
-    {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", EACH("300", "0"), false,
+    {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", EACH("300", "75", "0"), false,
      "connected areas with fewer pixels than this are removed; 0 = none"},
-    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", MODES("218", "190", "126", "0", "0"), false,
+    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("218", "190", "126"), MODES("228", "196", "136"), MODES("0", "0", "0")), false,
      "disparities of less confidence (1 .. 255) are removed; 0 = none; what fills a gap has half the "
      "confidence of its sides"},
     {P::kRimTrim, "rim-trim", "", "px", T::kInteger, 0, 31, "", ALL("0"), false,
      "pixels this near to one without a disparity are removed; 0 = none"},
-    {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, 31, "", EACH("9", "1"), false,
+    {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, 31, "", EACH("9", "9", "1"), false,
      "mode sparse: pixels that are kept at each end of a finest node, an odd number"},
-    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", MODES("0", "0", "30", "0", "0"), false,
+    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "0", "30"), MODES("0", "0", "15"), MODES("0", "0", "0")), false,
      "gaps up to this wide are filled where both sides agree to 1 px; 0 = none"},
 };
 #undef ALL
 #undef EACH
+#undef BY_MODE
 #undef MODES
 // clang-format on
 
@@ -229,9 +235,15 @@ std::string preset_defaults_text(Parameter id, Preset preset) {
 
 std::string parameter_defaults_text(Parameter id) {
   if (id == P::kPreset || id == P::kMode) return Parameters().text(id);
-  const std::string text = preset_defaults_text(id, Preset::kDefault);
-  const std::string paper = preset_defaults_text(id, Preset::kPaper);
-  return paper == text ? text : text + "; preset paper: " + paper;
+  const std::string standard = preset_defaults_text(id, Preset::kDefault);
+  std::string text = standard;
+  for (int preset = 1; preset < kPresets; ++preset) {
+    const std::string other = preset_defaults_text(id, static_cast<Preset>(preset));
+    if (other == standard) continue;
+    const std::string_view name = choice_word(parameter_info(P::kPreset).choices, preset);
+    text += "; preset " + std::string(name) + ": " + other;
+  }
+  return text;
 }
 
 const ParameterInfo* find_parameter(std::string_view name) {
@@ -355,7 +367,9 @@ Status Parameters::check_frame(int width, int height) const {
                                                   " px: set it to 1 to " + std::to_string(width) +
                                                   " px, the image's width"};
   }
-  const double widest = get(P::kMaxNodeWidth) * width;
+  const bool half = text(P::kResolution) == "half";
+  const int matched = half ? (width + 1) / 2 : width;
+  const double widest = get(P::kMaxNodeWidth) * matched;
   const int narrowest = integer(P::kMinNodeWidth);
   // The defaults may leave an image without nodes; what was set has to make sense.
   const bool chosen = is_set(P::kMinNodeWidth) || is_set(P::kMaxNodeWidth);
@@ -364,7 +378,8 @@ Status Parameters::check_frame(int width, int height) const {
                  "min-node-width = " + std::to_string(narrowest) +
                      " px leaves no node below max-node-width = " + text(P::kMaxNodeWidth) +
                      " image widths, which is " + number_text(widest) + " px in images of " + size +
-                     " px: lower the first or raise the second"};
+                     " px" + (half ? " at half resolution" : "") +
+                     ": lower the first or raise the second"};
   }
   return {};
 }

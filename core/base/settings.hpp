@@ -14,6 +14,9 @@ namespace mtstereo {
 struct Settings {
   explicit Settings(const Parameters& p)
       : mode(p.mode()),
+        half(p.text(Parameter::kResolution) == "half"),
+        max_disparity(p.integer(Parameter::kMaxDisparity)),
+        disparities(half ? (max_disparity + 1) / 2 : max_disparity),
         gray_levels(p.integer(Parameter::kGrayLevels)),
         min_node_width(p.integer(Parameter::kMinNodeWidth)),
         max_node_width(p.get(Parameter::kMaxNodeWidth)),
@@ -27,7 +30,6 @@ struct Settings {
         outlier_radius(p.integer(Parameter::kOutlierRadius)),
         pixel_outliers(p.text(Parameter::kOutlierRemoval) == "nodes-and-pixels"),
         census(p.text(Parameter::kPixelCost) == "census"),
-        disparities(p.integer(Parameter::kMaxDisparity)),
         search_range{p.get(Parameter::kPixelSearchRange) / 100,
                      static_cast<BetweenNodes>(p.integer(Parameter::kBetweenNodes)), disparities},
         census_cost{disparities, p.integer(Parameter::kCensusKernelSize),
@@ -44,6 +46,9 @@ struct Settings {
         max_gap(p.integer(Parameter::kMaxGap)) {}
 
   Mode mode;
+  bool half;                       ///< the views are matched at half resolution
+  int max_disparity;               ///< D [px of the views]
+  int disparities;                 ///< D [px of the resolution that is matched]
   int gray_levels;                 ///< q
   int min_node_width;              ///< omega_alpha [px]
   double max_node_width;           ///< omega_beta, share of the image's width
@@ -57,7 +62,6 @@ struct Settings {
   int outlier_radius;              ///< [px]
   bool pixel_outliers;             ///< outliers are removed from the pixels' disparities too
   bool census;                     ///< guided pixel matching takes the census cost
-  int disparities;                 ///< D [px]
   SearchRangeOptions search_range;
   CensusCostOptions census_cost;
   SmoothnessOptions smoothness;  ///< [bits]

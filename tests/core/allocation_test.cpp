@@ -75,7 +75,9 @@ TEST_F(Allocation, NeverHappensInALaterFrameInAnyModeOfAnyPreset) {
   for (const char* const threads : {"1", "2"}) {
     for (const char* const mode : {"sparse", "semi-dense", "dense"}) {
       SCOPED_TRACE(testing::Message() << mode << ", threads " << threads);
-      expect_no_allocations({{"threads", threads}, {"preset", "paper"}, {"mode", mode}});
+      for (const char* const preset : {"fast", "paper"}) {
+        expect_no_allocations({{"threads", threads}, {"preset", preset}, {"mode", mode}});
+      }
       expect_no_allocations(
           {{"threads", threads}, {"mode", mode}, {"rim-trim", "1"}, {"max-gap", "30"}});
     }
@@ -122,11 +124,13 @@ TEST_F(Allocation, NeverHappensInASmallerFrame) {
 /// Lets the first, the second, the third ... allocation of a frame that is larger than the one
 /// before fail, until none is left to. Each time the frame has to fail in order, and the next to be
 /// as ever.
-void expect_recovery(const char* threads, const char* volume) {
+void expect_recovery(const char* threads, const char* volume, const char* resolution = "full") {
   const test::Pair pair = test::slanted_pair(90, 70, 16, 4);
   const test::Pair small = test::slanted_pair(40, 20, 8, 5);
-  const Parameters parameters =
-      test::parameters({{"threads", threads}, {"cost-volume", volume}, {"max-disparity", "20"}});
+  const Parameters parameters = test::parameters({{"threads", threads},
+                                                  {"cost-volume", volume},
+                                                  {"resolution", resolution},
+                                                  {"max-disparity", "20"}});
   Matcher undisturbed = std::move(Matcher::create(parameters).value());
   const test::DisparityPlane expected = test::compute(undisturbed, pair.left, pair.right);
   long failures = 0;
@@ -156,6 +160,7 @@ void expect_recovery(const char* threads, const char* volume) {
 TEST_F(Allocation, FailingAnywhereIsAnErrorAndNotTheEnd) {
   expect_recovery("1", "half");
   expect_recovery("2", "full");
+  expect_recovery("1", "half", "half");
 }
 
 TEST_F(Allocation, FailingSaysWhatToDo) {

@@ -16,6 +16,7 @@ using test::DisparityPlane;
 using test::GrayPlane;
 using test::Pair;
 
+constexpr const char* kPresetNames[] = {"default", "fast", "paper"};
 constexpr const char* kModes[] = {"sparse", "semi-dense", "dense"};
 constexpr Stage kAllStages[] = {Stage::kNodeMatching, Stage::kNodesFiltered, Stage::kExtrapolated,
                                 Stage::kPixelMatching, Stage::kFinal};
@@ -53,6 +54,21 @@ TEST(Invariants, AShiftedPairHasThatDisparityInAllModes) {
         EXPECT_GT(share_near(map, shift), 0.98);
         expect_possible(map, 64);
       }
+    }
+  }
+}
+
+TEST(Invariants, AShiftedPairHasThatDisparityAtHalfResolution) {
+  for (const char* const mode : kModes) {
+    for (const int shift : {4, 17, 40}) {
+      SCOPED_TRACE(testing::Message() << mode << ", " << shift << " px");
+      const Pair pair = test::shifted_pair(321, 121, shift, shift);
+      Matcher matcher = test::matcher({{"preset", "fast"}, {"mode", mode}});
+      const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+      EXPECT_GT(matcher.statistics().density, std::string(mode) == "sparse" ? 0.005 : 0.15);
+      // An odd shift is none of whole half pixels.
+      EXPECT_GT(share_near(map, shift), shift % 2 == 0 ? 0.98 : 0.9);
+      expect_possible(map, 64);
     }
   }
 }
@@ -127,6 +143,34 @@ TEST(Invariants, EveryStageIsInRangeAtExtremeSearchRanges) {
   }
 }
 
+TEST(Invariants, TheResultIsInRangeAtHalfResolution) {
+  for (const char* const mode : kModes) {
+    for (const auto& [width, disparities] : {std::pair{1, 1},
+                                             {2, 1},
+                                             {2, 2},
+                                             {3, 3},
+                                             {101, 1},
+                                             {100, 2},
+                                             {101, 3},
+                                             {101, 101},
+                                             {100, 99},
+                                             {1100, 1023},
+                                             {1025, 1024}}) {
+      SCOPED_TRACE(testing::Message() << mode << ", " << width << " px, " << disparities);
+      const Pair pair = test::slanted_pair(width, 13, std::max(disparities / 2, 1), 6);
+      Matcher matcher = test::matcher({{"preset", "fast"},
+                                       {"mode", mode},
+                                       {"min-confidence", "0"},
+                                       {"max-disparity", std::to_string(disparities)}});
+      matcher.keep_stages(true);
+      expect_possible(test::compute(matcher, pair.left, pair.right), disparities);
+      for (const Stage stage : kAllStages) {
+        expect_possible(copy_of(matcher.stage(stage)), (disparities + 1) / 2);
+      }
+    }
+  }
+}
+
 TEST(Invariants, NoiseAtFullContrastIsInRange) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     Matcher matcher = test::matcher({{"max-disparity", "90"},
@@ -157,12 +201,15 @@ TEST(Invariants, EverySmallSizeIsMatched) {
       const Pair pair = {test::noise(width, height, width),
                          test::noise(width, height, height + 99)};
       Parameters parameters = matcher.parameters();
-      test::set_all(parameters, {{"max-disparity", std::to_string(width)}});
-      ASSERT_TRUE(matcher.set_parameters(parameters).ok());
-      const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-      EXPECT_EQ(width, map.width);
-      EXPECT_EQ(height, map.height);
-      expect_possible(map, width);
+      for (const char* const resolution : {"full", "half"}) {
+        test::set_all(parameters,
+                      {{"max-disparity", std::to_string(width)}, {"resolution", resolution}});
+        ASSERT_TRUE(matcher.set_parameters(parameters).ok());
+        const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+        EXPECT_EQ(width, map.width);
+        EXPECT_EQ(height, map.height);
+        expect_possible(map, width);
+      }
     }
   }
 }
@@ -207,7 +254,7 @@ TEST(Invariants, ADisparityDoesNotDependOnWhereAnImageIsCut) {
 
 TEST(Invariants, ThereIsConfidenceExactlyWhereADisparityIs) {
   const Pair pair = test::slanted_pair(200, 90, 30, 10);
-  for (const char* const preset : {"default", "paper"}) {
+  for (const char* const preset : kPresetNames) {
     for (const char* const mode : kModes) {
       for (const char* const rim : {"0", "2"}) {
         SCOPED_TRACE(testing::Message() << preset << ", " << mode << ", rim-trim " << rim);

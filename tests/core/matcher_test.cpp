@@ -78,6 +78,48 @@ TEST(Matcher, KeepsTheStagesOnlyWhereAsked) {
   }
 }
 
+TEST(Matcher, AtHalfResolutionShowsStagesOfHalfTheSizeAndAResultOfTheViews) {
+  const Pair pair = test::slanted_pair(201, 91, 40, 3);
+  Matcher matcher = test::matcher({{"resolution", "half"}, {"max-disparity", "61"}});
+  matcher.keep_stages(true);
+  const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+  EXPECT_EQ(201, map.width);
+  EXPECT_EQ(91, map.height);
+  EXPECT_EQ(201, matcher.confidence().width);
+  EXPECT_EQ(91, matcher.confidence().height);
+  EXPECT_GT(matcher.statistics().density, 0.1);
+  EXPECT_DOUBLE_EQ(test::known(map) / (201.0 * 91), matcher.statistics().density);
+  for (const Stage stage : kAllStages) {
+    EXPECT_EQ(101, matcher.stage(stage).width);
+    EXPECT_EQ(46, matcher.stage(stage).height);
+  }
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    EXPECT_EQ(101, matcher.preprocessed(side).width);
+    EXPECT_EQ(46, matcher.preprocessed(side).height);
+  }
+  const test::GrayPlane black(201, 91, 0), white(201, 91, 255);
+  test::compute(matcher, black, white);
+  EXPECT_GT(matcher.cost(100, 45, 30), 0);
+  for (const auto& [x, y, d] : {std::array{101, 45, 30}, {100, 46, 30}, {100, 45, 31}}) {
+    EXPECT_EQ(matcher.cost(x, y, d), 0) << x << ", " << y << ", " << d;
+  }
+}
+
+TEST(Matcher, HoldsTheLastResultWhileTheResolutionChanges) {
+  const Pair pair = test::slanted_pair(120, 50, 20, 4);
+  Matcher matcher = test::matcher({});
+  for (const char* const next : {"half", "full", "half"}) {
+    const Result<DisparityView> view = matcher.compute(pair.left.view(), pair.right.view());
+    ASSERT_TRUE(view.ok());
+    const DisparityPlane map = copy_of(*view);
+    const test::GrayPlane confidence = copy_of(matcher.confidence());
+    ASSERT_TRUE(matcher.set_parameters(test::parameters({{"resolution", next}})).ok());
+    EXPECT_TRUE(same_image(map, *view));
+    EXPECT_TRUE(same_image(confidence, matcher.confidence()));
+    EXPECT_EQ(0, matcher.cost(50, 20, 10)) << "until the next frame";
+  }
+}
+
 TEST(Matcher, GivesTheSameWithAndWithoutStages) {
   const Pair pair = test::slanted_pair(150, 50, 20, 2);
   Matcher with = test::matcher({}), without = test::matcher({});
@@ -100,6 +142,8 @@ Change change_of(Parameter id) {
       return {{}, "sparse"};
     case Parameter::kMaxDisparity:
       return {{}, "15"};
+    case Parameter::kResolution:
+      return {{}, "half"};
     case Parameter::kThreads:
       return {{}, "3"};
     case Parameter::kMaxNodeWidth:

@@ -51,7 +51,9 @@ TEST(MatcherThreads, GiveTheSameForAnyNumber) {
     expect_same_as_one_thread(
         pair, test::parameters({{"mode", "dense"}, {"rim-trim", "2"}, {"min-confidence", "60"}}),
         threads);
-    expect_same_as_one_thread(pair, test::parameters({{"preset", "paper"}}), threads);
+    for (const char* const preset : {"fast", "paper"}) {
+      expect_same_as_one_thread(pair, test::parameters({{"preset", preset}}), threads);
+    }
   }
 }
 

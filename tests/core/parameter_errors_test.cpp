@@ -217,6 +217,18 @@ TEST(ParameterErrors, RefuseNodeWidthsThatLeaveNoNode) {
   EXPECT_TRUE(fails_with(check("16384", "1"), ErrorCode::kInvalidCombination, {"16384"}));
 }
 
+TEST(ParameterErrors, RefuseNodeWidthsThatLeaveNoNodeAtHalfResolution) {
+  const auto check = [](const char* narrowest, int width) {
+    return test::parameters({{"min-node-width", narrowest}, {"resolution", "half"}})
+        .check_frame(width, 50);
+  };
+  EXPECT_TRUE(fails_with(check("60", 100), ErrorCode::kInvalidCombination,
+                         {"min-node-width = 60", "is 50 px", "100x50", "half resolution"}));
+  EXPECT_TRUE(fails_with(check("49", 100), ErrorCode::kInvalidCombination, {"min-node-width"}));
+  EXPECT_TRUE(check("48", 100).ok()) << "49 of 50 px will do";
+  EXPECT_TRUE(check("49", 101).ok()) << "an odd width has half a pixel more";
+}
+
 TEST(ParameterErrors, RefuseScalesThatDoNotFitSixteenBits) {
   constexpr auto kCombination = ErrorCode::kInvalidCombination;
   const Parameters parameters = test::parameters({{"max-disparity", "256"}});

@@ -82,7 +82,7 @@ TEST(Parameters, TakeEveryDefaultOfTheTable) {
 }
 
 TEST(Parameters, FollowPresetAndModeWhereNothingIsSet) {
-  const char* const presets[] = {"default", "paper"};
+  const char* const presets[] = {"default", "fast", "paper"};
   const char* const modes[] = {"sparse", "semi-dense", "dense"};
   for (int preset = 0; preset < kPresets; ++preset) {
     for (int mode = 0; mode < kModes; ++mode) {
@@ -121,6 +121,7 @@ TEST(ParameterTable, TellsDefaultsInWords) {
   EXPECT_EQ("64", parameter_defaults_text(Parameter::kMaxDisparity));
   EXPECT_EQ("default", parameter_defaults_text(Parameter::kPreset));
   EXPECT_EQ("semi-dense", parameter_defaults_text(Parameter::kMode));
+  EXPECT_EQ("full; preset fast: half", parameter_defaults_text(Parameter::kResolution));
   EXPECT_EQ("16; preset paper: 8, 16 sparse", parameter_defaults_text(Parameter::kGrayLevels));
   EXPECT_EQ("census; preset paper: gradient", parameter_defaults_text(Parameter::kPixelCost));
 }

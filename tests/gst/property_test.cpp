@@ -75,7 +75,7 @@ TEST_F(Properties, DefaultsAreTheLibrarys) {
 }
 
 TEST_F(Properties, UnsetOnesFollowPresetAndMode) {
-  for (const char* const preset : {"paper", "default"}) {
+  for (const char* const preset : {"paper", "fast", "default"}) {
     for (const char* const mode : {"sparse", "dense", "semi-dense"}) {
       Parameters expected;
       ASSERT_TRUE(expected.set(Parameter::kPreset, std::string_view(preset)).ok());

@@ -15,13 +15,15 @@ namespace mtstereo {
 enum class Side { kLeft, kRight };
 
 /// A step whose disparity map can be asked for, in the order of the method (paper, fig. 2 b-f; what
-/// kFinal has seen besides is beyond the paper).
+/// kFinal has seen besides is beyond the paper). With Parameter::kResolution half these are steps
+/// on the halved views: their maps have half the size, and their disparities are half as large.
 enum class Stage {
   kNodeMatching,   ///< the matched leaves, linear from end to end
   kNodesFiltered,  ///< after the outlier removal of the nodes, where there is one
   kExtrapolated,   ///< after reliable node extrapolation
   kPixelMatching,  ///< after guided pixel matching with its checks of each pixel
-  kFinal,          ///< after all removals and the filling of gaps: the result
+  kFinal,          ///< after all removals and the filling of gaps: the result, at the resolution
+                   ///< that is matched
 };
 
 /// What one frame took and gave.
@@ -72,10 +74,12 @@ class MTSTEREO_API Matcher {
   /// keep_stages() was off in it. Holds until the next compute().
   DisparityView stage(Stage stage) const;
   /// The pre-processed image of the last frame that the Max-trees are made of (paper, fig. 2 a):
-  /// values 0 .. gray-levels - 1, high = little contrast. Holds until the next compute().
+  /// values 0 .. gray-levels - 1, high = little contrast. As large as what is matched, which may be
+  /// half of the view (Parameter::kResolution). Holds until the next compute().
   GrayView preprocessed(Side side) const;
   /// The cost of the left pixel (x, y) at the whole disparity d, 0 <= d < max-disparity, d <= x, in
-  /// gray values (paper, "Cost volume"). 0 outside of the image and of these limits,
+  /// gray values (paper, "Cost volume"). All three count pixels of the resolution that is matched
+  /// (Parameter::kResolution). 0 outside of the image and of these limits,
   /// before the first frame, and after a change of a parameter that reallocates until the next one.
   double cost(int x, int y, int d) const;
 

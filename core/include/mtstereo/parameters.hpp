@@ -23,9 +23,10 @@ inline constexpr int kModes = 3;
 /// A set of defaults for all parameters.
 enum class Preset {
   kDefault,  ///< the most accurate that is known
+  kFast,     ///< the most accurate that is known in a third of the time
   kPaper,    ///< the method as it is published
 };
-inline constexpr int kPresets = 2;
+inline constexpr int kPresets = 3;
 
 /// Largest value of Parameter::kMaxDisparity [px].
 inline constexpr int kLargestMaxDisparity = 1024;
@@ -38,6 +39,7 @@ enum class Parameter {
   kPreset,
   kMode,
   kMaxDisparity,
+  kResolution,
   kThreads,
   kGrayLevels,
   kMinNodeWidth,

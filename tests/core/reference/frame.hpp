@@ -9,6 +9,7 @@
 #include "reference/node_extrapolation.hpp"
 #include "reference/outlier_removal.hpp"
 #include "reference/pixel_matching.hpp"
+#include "reference/resolution.hpp"
 #include "reference/rim_trimming.hpp"
 #include "reference/speckle_removal.hpp"
 
@@ -19,7 +20,8 @@ struct Frame {
   std::array<GrayPlane, 2> levels;  ///< the pre-processed views
   Volume volume;
   std::array<DisparityPlane, 5> stages;  ///< in the order of Stage
-  GrayPlane confidence;                  ///< of the last one
+  DisparityPlane map;                    ///< the result
+  GrayPlane confidence;
 };
 
 /// The matches of the leaves, level by level.
@@ -75,10 +77,8 @@ inline ConfidentMap refine(const RatedMap& pixels, const Level& leaves,
   return fill_gaps(out, s.max_gap, 256, 0, 1);
 }
 
-/// The whole method on one pair.
-inline Frame match_frame(const GrayPlane& left, const GrayPlane& right,
-                         const Parameters& parameters) {
-  const Settings s(parameters);
+/// The method on a pair as it is.
+inline Frame match_views(const GrayPlane& left, const GrayPlane& right, const Settings& s) {
   Frame frame;
   const std::array<GrayPlane, 2> medians = {median5(left), median5(right)};
   std::array<Trees, 2> trees;
@@ -99,8 +99,19 @@ inline Frame match_frame(const GrayPlane& left, const GrayPlane& right,
   const RatedMap pixels = match_pixels(left, right, frame.volume, s, frame.stages[2]);
   frame.stages[3] = pixels.map;
   const ConfidentMap result = refine(pixels, leaves, frame.stages[1], s);
-  frame.stages[4] = result.map;
+  frame.stages[4] = frame.map = result.map;
   frame.confidence = result.confidence;
+  return frame;
+}
+
+/// The whole method on one pair.
+inline Frame match_frame(const GrayPlane& left, const GrayPlane& right,
+                         const Parameters& parameters) {
+  const Settings s(parameters);
+  if (!s.half) return match_views(left, right, s);
+  Frame frame = match_views(halve(left), halve(right), s);
+  frame.map = enlarge(frame.map, left.width, left.height, s.max_disparity);
+  frame.confidence = enlarge_confidence(frame.confidence, left.width, left.height);
   return frame;
 }
 
