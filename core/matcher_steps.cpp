@@ -80,8 +80,8 @@ void Matcher::State::size_buffers() {
     // none is to allocate when its first one, or a higher one, comes late.
     worker.median.resize(width);
     worker.sobel.resize(width);
-    worker.marks.resize(trees[0].stride);
-    worker.intervals.resize(2 * levels[0].left.stride);
+    worker.marks.resize(width);
+    worker.intervals.resize(2 * most_leaves(width));
     worker.cost.resize(volume, kernel);
     worker.match.resize(width, settings.disparities, settings.max_neighbors);
     worker.pixels.resize(width);
@@ -183,8 +183,8 @@ void Matcher::State::select_levels() {
     const int ancestor = settings.node_levels.level[i];
     for (int side = 0; side < 2; ++side) {
       NodeLevel& level = side == 0 ? levels[i].left : levels[i].right;
-      for_rows([&](int y0, int y1, WorkerState& worker) {
-        select_nodes(trees[side], ancestor, widths, y0, y1, worker.marks, level);
+      for_rows([&](int y0, int y1, WorkerState&) {
+        select_nodes(trees[side], ancestor, widths, y0, y1, level);
       });
       for_rows([&](int y0, int y1, WorkerState&) { link_neighbors(y0, y1, level); });
     }

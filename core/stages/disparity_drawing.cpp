@@ -21,7 +21,7 @@ void draw_matches(const NodeLevel& left, const NodeMatches& matches, int y0, int
     std::int32_t* row = map.row(y);
     std::fill_n(row, map.width(), kNoDisparity);
     for (int i = 0; i < left.count[y]; ++i) {
-      const std::ptrdiff_t node = y * left.stride + i;
+      const std::ptrdiff_t node = left.first[y] + i;
       const std::int32_t at_begin = matches.begin_disparity[node];
       if (at_begin == kNodeUnmatched) continue;
       draw_node(left.begin[node], left.end[node], at_begin * kDisparityOne,

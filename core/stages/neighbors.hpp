@@ -19,17 +19,17 @@ T median_over_neighbors(const NodeLevel& level, int y, int i, int max_neighbors,
   T found[kMaxChain];
   int count = 0;
   const auto take = [&](int row, int node) {
-    const T value = values[row * level.stride + node];
+    const T value = values[level.first[row] + node];
     if (value != none) found[count++] = value;
   };
   take(y, i);
   const auto walk = [&](const Buffer<std::uint16_t>& link, int direction) {
     int row = y;
-    std::uint16_t node = link[row * level.stride + i];
+    std::uint16_t node = link[level.first[row] + i];
     for (int step = 0; step < max_neighbors && node != kNoNode; ++step) {
       row += direction;
       take(row, node);
-      node = link[row * level.stride + node];
+      node = link[level.first[row] + node];
     }
   };
   walk(level.up, -1);

@@ -9,8 +9,8 @@
 namespace mtstereo {
 
 void LeafDisparities::resize(const NodeLevel& leaves) {
-  begin.resize(leaves.node.size());
-  end.resize(leaves.node.size());
+  begin.resize(leaves.size());
+  end.resize(leaves.size());
 }
 
 void read_leaf_ends(const NodeLevel& leaves, const Image<std::int32_t>& map, int y0, int y1,
@@ -18,7 +18,7 @@ void read_leaf_ends(const NodeLevel& leaves, const Image<std::int32_t>& map, int
   for (int y = y0; y < y1; ++y) {
     const std::int32_t* row = map.row(y);
     for (int i = 0; i < leaves.count[y]; ++i) {
-      const std::ptrdiff_t leaf = y * leaves.stride + i;
+      const std::ptrdiff_t leaf = leaves.first[y] + i;
       ends.begin[leaf] = row[leaves.begin[leaf]];
       ends.end[leaf] = row[leaves.end[leaf]];
     }
@@ -57,8 +57,8 @@ void extrapolate_leaves(const NodeLevel& leaves, const LeafDisparities& ends, in
     for (int i = 0; i < leaves.count[y]; ++i) {
       const LeafLine line = line_of(leaves, ends, max_neighbors, y, i);
       if (!line.known()) continue;
-      const int begin = leaves.begin[y * leaves.stride + i];
-      const int end = leaves.end[y * leaves.stride + i];
+      const int begin = leaves.begin[leaves.first[y] + i];
+      const int end = leaves.end[leaves.first[y] + i];
       if (end_width == 0) {
         draw_node(begin, end, line.at_begin, line.at_end, row);
         continue;
@@ -82,8 +82,8 @@ void keep_leaf_ends(const NodeLevel& leaves, const LeafDisparities& ends, int ma
     std::fill_n(marks.data(), width, std::uint8_t{0});
     for (int i = 0; i < leaves.count[y]; ++i) {
       if (!line_of(leaves, ends, max_neighbors, y, i).known()) continue;
-      const int begin = leaves.begin[y * leaves.stride + i];
-      const int end = leaves.end[y * leaves.stride + i];
+      const int begin = leaves.begin[leaves.first[y] + i];
+      const int end = leaves.end[leaves.first[y] + i];
       const int inside = inset(begin, end);
       for (const int middle : {begin + inside, end - inside}) {
         const int first = std::max(middle - end_width / 2, 0);

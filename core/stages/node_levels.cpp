@@ -2,43 +2,82 @@
 #include "stages/node_levels.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mtstereo {
 namespace {
 
-/// What is known of a node while one row is looked at.
-enum NodeMark : std::uint8_t {
-  kHasChild = 1,
-  kHasSelectedDescendant = 2,
+/// The widths of a WidthRange as whole numbers, both included.
+struct WholeWidths {
+  explicit WholeWidths(WidthRange range)
+      : least(static_cast<int>(std::clamp(std::floor(range.above) + 1, 0.0, kBeyond))),
+        most(static_cast<int>(std::clamp(std::ceil(range.below) - 1, 0.0, kBeyond))) {}
+
+  bool hold(int width) const { return width >= least && width <= most; }
+
+  static constexpr double kBeyond = 0x10000;  // [px], wider than any node
+  int least;
+  int most;
 };
 
-/// Lists the ancestors of the fine top nodes of one row in the order of these, without repeating
-/// one that follows itself; returns how many.
-int list_ancestors(const std::uint16_t* begin, const std::uint16_t* end,
-                   const std::uint16_t* parent, int count, int ancestor, WidthRange widths,
-                   const std::uint8_t* marks, std::uint16_t* list) {
-  int listed = 0;
-  for (int node = 0; node < count; ++node) {
-    if (marks[node] & kHasChild) continue;
-    const int width = end[node] - begin[node] + 1;
-    if (!(width > widths.above && width < widths.below)) continue;
-    std::uint16_t selected = static_cast<std::uint16_t>(node);
-    for (int step = 0; step < ancestor && selected != kNoNode; ++step) selected = parent[selected];
-    if (selected == kNoNode || (listed > 0 && list[listed - 1] == selected)) continue;
-    list[listed++] = selected;
+/// One row of the trees.
+struct Tree {
+  Tree(const MaxTrees& trees, int y)
+      : begin(trees.begin.data() + trees.first[y]),
+        end(trees.end.data() + trees.first[y]),
+        parent(trees.parent.data() + trees.first[y]),
+        leaf(trees.leaf.data() + trees.first_leaf[y]),
+        leaves(trees.leaf_count[y]) {}
+
+  const std::uint16_t* begin;
+  const std::uint16_t* end;
+  const std::uint16_t* parent;
+  const std::uint16_t* leaf;
+  int leaves;
+};
+
+/// Where the nodes of one row of a level go.
+struct LevelRow {
+  std::uint16_t* node;
+  std::uint16_t* begin;
+  std::uint16_t* end;
+};
+
+/// Selects the leaves themselves, which never nest. Returns how many.
+int select_leaves(const Tree& tree, WholeWidths widths, LevelRow row) {
+  int kept = 0;
+  for (int i = 0; i < tree.leaves; ++i) {
+    const std::uint16_t node = tree.leaf[i];
+    const std::uint16_t begin = tree.begin[node];
+    const std::uint16_t end = tree.end[node];
+    row.node[kept] = node;
+    row.begin[kept] = begin;
+    row.end[kept] = end;
+    kept += widths.hold(end - begin + 1);
   }
-  return listed;
+  return kept;
 }
 
-/// Marks all proper ancestors of the listed nodes.
-void mark_ancestors(const std::uint16_t* parent, const std::uint16_t* list, int listed,
-                    std::uint8_t* marks) {
-  for (int i = 0; i < listed; ++i) {
-    for (std::uint16_t node = parent[list[i]];
-         node != kNoNode && !(marks[node] & kHasSelectedDescendant); node = parent[node]) {
-      marks[node] |= kHasSelectedDescendant;
-    }
+/// Selects the ancestors of the fine top nodes. Returns how many.
+int select_ancestors(const Tree& tree, int ancestor, WholeWidths widths, LevelRow row) {
+  int kept = 0;
+  for (int i = 0; i < tree.leaves; ++i) {
+    std::uint16_t node = tree.leaf[i];
+    if (!widths.hold(tree.end[node] - tree.begin[node] + 1)) continue;
+    for (int step = 0; step < ancestor && node != kNoNode; ++step) node = tree.parent[node];
+    if (node == kNoNode) continue;
+    // Leaves come from left to right and nodes nest. So of the nodes so far only the last one can
+    // have this one in it, and where this one has any in it or is one of them, then the last one.
+    const std::uint16_t begin = tree.begin[node];
+    const std::uint16_t end = tree.end[node];
+    if (kept > 0 && begin <= row.begin[kept - 1] && end >= row.end[kept - 1]) continue;
+    if (kept > 0 && end <= row.end[kept - 1]) --kept;
+    row.node[kept] = node;
+    row.begin[kept] = begin;
+    row.end[kept] = end;
+    ++kept;
   }
+  return kept;
 }
 
 }  // namespace
@@ -46,61 +85,50 @@ void mark_ancestors(const std::uint16_t* parent, const std::uint16_t* list, int 
 void NodeLevel::resize(int view_width, int view_height) {
   width = view_width;
   height = view_height;
-  // A level has at most one node a leaf, and between two leaves there is at least one pixel.
-  stride = (view_width + 1) / 2;
-  const std::size_t nodes = static_cast<std::size_t>(stride) * view_height;
+  // A level has at most one node a leaf.
+  const std::size_t nodes = static_cast<std::size_t>(most_leaves(view_width)) * view_height;
+  first.resize(view_height);
   count.resize(view_height);
   for (Buffer<std::uint16_t>* column : {&node, &begin, &end, &up, &down}) column->resize(nodes);
-  label.resize(view_width, view_height);
 }
 
 void select_nodes(const MaxTrees& trees, int ancestor, WidthRange widths, int y0, int y1,
-                  Buffer<std::uint8_t>& scratch, NodeLevel& level) {
-  scratch.resize(trees.stride);
-  std::uint8_t* marks = scratch.data();
+                  NodeLevel& level) {
+  const WholeWidths whole(widths);
+  std::uint32_t first = static_cast<std::uint32_t>(y0) * most_leaves(trees.width);
   for (int y = y0; y < y1; ++y) {
-    const std::uint16_t* begin = trees.begin.data() + y * trees.stride;
-    const std::uint16_t* end = trees.end.data() + y * trees.stride;
-    const std::uint16_t* parent = trees.parent.data() + y * trees.stride;
-    const int count = trees.count[y];
-    std::fill_n(marks, count, std::uint8_t{0});
-    for (int node = 0; node < count; ++node) {
-      if (parent[node] != kNoNode) marks[parent[node]] |= kHasChild;
-    }
-    const std::ptrdiff_t first = y * level.stride;
-    std::uint16_t* list = level.node.data() + first;
-    const int listed = list_ancestors(begin, end, parent, count, ancestor, widths, marks, list);
-    mark_ancestors(parent, list, listed, marks);
-
-    std::uint16_t* label = level.label.row(y);
-    std::fill_n(label, trees.width, kNoNode);
-    int kept = 0;
-    for (int i = 0; i < listed; ++i) {
-      const std::uint16_t node = list[i];
-      if (marks[node] & kHasSelectedDescendant) continue;
-      // Leaves come from left to right. Between two with the same ancestor there can be one whose
-      // ancestor is above that; now that it is dropped, the two follow one another.
-      if (kept > 0 && list[kept - 1] == node) continue;
-      list[kept] = node;
-      level.begin[first + kept] = begin[node];
-      level.end[first + kept] = end[node];
-      std::fill(label + begin[node], label + end[node] + 1, static_cast<std::uint16_t>(kept));
-      ++kept;
-    }
-    level.count[y] = kept;
+    const Tree tree(trees, y);
+    const LevelRow row = {level.node.data() + first, level.begin.data() + first,
+                          level.end.data() + first};
+    level.first[y] = first;
+    level.count[y] = ancestor == 0 ? select_leaves(tree, whole, row)
+                                   : select_ancestors(tree, ancestor, whole, row);
+    first += level.count[y];
   }
 }
 
+namespace {
+
+/// Finds the nodes of row `to` that cover the center columns of the nodes of row y.
+void link_rows(const NodeLevel& level, int y, int to, Buffer<std::uint16_t>& link) {
+  const std::uint32_t first = level.first[y];
+  const std::uint32_t last = first + level.count[y];
+  if (to < 0 || to >= level.height) {
+    std::fill(link.data() + first, link.data() + last, kNoNode);
+    return;
+  }
+  CoveringNode covering(level, to);
+  for (std::uint32_t i = first; i < last; ++i) {
+    link[i] = covering.at((level.begin[i] + level.end[i]) / 2);
+  }
+}
+
+}  // namespace
+
 void link_neighbors(int y0, int y1, NodeLevel& level) {
   for (int y = y0; y < y1; ++y) {
-    const std::uint16_t* above = y > 0 ? level.label.row(y - 1) : nullptr;
-    const std::uint16_t* below = y + 1 < level.height ? level.label.row(y + 1) : nullptr;
-    const std::ptrdiff_t first = y * level.stride;
-    for (int i = 0; i < level.count[y]; ++i) {
-      const int center = level.center(y, i);
-      level.up[first + i] = above != nullptr ? above[center] : kNoNode;
-      level.down[first + i] = below != nullptr ? below[center] : kNoNode;
-    }
+    link_rows(level, y, y - 1, level.up);
+    link_rows(level, y, y + 1, level.down);
   }
 }
 

@@ -37,8 +37,8 @@ void add_chain(const PairCostInput& input, const Buffer<std::uint16_t>& left_lin
                const Buffer<std::uint16_t>& right_link, int direction, int max_neighbors, int y,
                int i, int j, PairCosts& costs, ChainSum& chain) {
   for (int step = 0; step < max_neighbors; ++step) {
-    const std::uint16_t l = left_link[y * input.left.stride + i];
-    const std::uint16_t r = right_link[y * input.right.stride + j];
+    const std::uint16_t l = left_link[input.left.first[y] + i];
+    const std::uint16_t r = right_link[input.right.first[y] + j];
     if (l == kNoNode || r == kNoNode) return;
     y += direction;
     i = l;
@@ -67,13 +67,13 @@ bool at_border(const NodeLevel& level, std::ptrdiff_t node) {
 }  // namespace
 
 void NodeMatches::resize(const NodeLevel& left) {
-  begin_disparity.resize(left.node.size());
-  end_disparity.resize(left.node.size());
+  begin_disparity.resize(left.size());
+  end_disparity.resize(left.size());
 }
 
 void SearchIntervals::resize(const NodeLevel& left) {
-  first.resize(left.node.size());
-  last.resize(left.node.size());
+  first.resize(left.size());
+  last.resize(left.size());
 }
 
 void MatchScratch::resize(int width, int disparities, int max_neighbors) {
@@ -85,7 +85,7 @@ void MatchScratch::resize(int width, int disparities, int max_neighbors) {
 void first_intervals(const NodeLevel& left, int disparities, int y0, int y1,
                      SearchIntervals& intervals) {
   for (int y = y0; y < y1; ++y) {
-    const std::ptrdiff_t row = y * left.stride;
+    const std::ptrdiff_t row = left.first[y];
     for (int i = 0; i < left.count[y]; ++i) {
       intervals.first[row + i] = left.begin[row + i] - disparities;
       intervals.last[row + i] = left.end[row + i];
@@ -96,12 +96,12 @@ void first_intervals(const NodeLevel& left, int disparities, int y0, int y1,
 void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeMatches& matches,
                      int max_neighbors, int y0, int y1, Buffer<std::int32_t>& scratch,
                      SearchIntervals& intervals) {
-  scratch.resize(2 * before.stride);
+  scratch.resize(2 * most_leaves(before.width));
   std::int32_t* first = scratch.data();
-  std::int32_t* last = scratch.data() + before.stride;
+  std::int32_t* last = scratch.data() + most_leaves(before.width);
   for (int y = y0; y < y1; ++y) {
     for (int p = 0; p < before.count[y]; ++p) {
-      const std::ptrdiff_t node = y * before.stride + p;
+      const std::ptrdiff_t node = before.first[y] + p;
       const int at_begin = median_over_neighbors(before, y, p, max_neighbors,
                                                  matches.begin_disparity.data(), kNodeUnmatched);
       const int at_end = median_over_neighbors(before, y, p, max_neighbors,
@@ -110,11 +110,11 @@ void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeM
       first[p] = found ? before.begin[node] - at_begin : 1;
       last[p] = found ? before.end[node] - at_end : 0;
     }
-    const std::uint16_t* ancestor = before.label.row(y);
+    CoveringNode ancestor(before, y);
     for (int i = 0; i < left.count[y]; ++i) {
-      const std::ptrdiff_t node = y * left.stride + i;
+      const std::ptrdiff_t node = left.first[y] + i;
       // A node of the level before that covers the center is an ancestor: the trees nest.
-      const std::uint16_t p = ancestor[left.center(y, i)];
+      const std::uint16_t p = ancestor.at((left.begin[node] + left.end[node]) / 2);
       intervals.first[node] = p == kNoNode ? 1 : first[p];
       intervals.last[node] = p == kNoNode ? 0 : last[p];
     }
@@ -128,8 +128,8 @@ void match_nodes(const PairCostInput& input, const SearchIntervals& intervals, i
   scratch.costs.start(input);
   for (int y = y0; y < y1; ++y) {
     scratch.costs.move_to(y);
-    const std::ptrdiff_t left_row = y * left.stride;
-    const std::ptrdiff_t right_row = y * right.stride;
+    const std::ptrdiff_t left_row = left.first[y];
+    const std::ptrdiff_t right_row = right.first[y];
     std::fill_n(scratch.left.data(), left.count[y], Best{kInfinity, kInfinity, -1});
     std::fill_n(scratch.right.data(), right.count[y], Best{kInfinity, kInfinity, -1});
     for (int i = 0; i < left.count[y]; ++i) {

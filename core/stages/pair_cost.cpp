@@ -12,8 +12,8 @@ constexpr float kUnknown = -1;     // not computed so far
 constexpr float kImpossible = -2;  // what the caller gets for a pair that cannot match
 
 NodePair node_pair(const NodeLevel& left, const NodeLevel& right, int y, int i, int j) {
-  const std::ptrdiff_t l = y * left.stride + i;
-  const std::ptrdiff_t r = y * right.stride + j;
+  const std::ptrdiff_t l = left.first[y] + i;
+  const std::ptrdiff_t r = right.first[y] + j;
   return {left.begin[l], left.end[l], right.begin[r], right.end[r]};
 }
 
@@ -40,12 +40,12 @@ float intensity_cost(const CostVolume& volume, int y, const NodePair& pair) {
 float context_cost(const MaxTrees& left, const MaxTrees& right, int y, int left_node,
                    int right_node) {
   constexpr float kGrayScale = 225;
-  const std::uint16_t* left_begin = left.begin.data() + y * left.stride;
-  const std::uint16_t* left_end = left.end.data() + y * left.stride;
-  const std::uint16_t* left_parent = left.parent.data() + y * left.stride;
-  const std::uint16_t* right_begin = right.begin.data() + y * right.stride;
-  const std::uint16_t* right_end = right.end.data() + y * right.stride;
-  const std::uint16_t* right_parent = right.parent.data() + y * right.stride;
+  const std::uint16_t* left_begin = left.begin.data() + left.first[y];
+  const std::uint16_t* left_end = left.end.data() + left.first[y];
+  const std::uint16_t* left_parent = left.parent.data() + left.first[y];
+  const std::uint16_t* right_begin = right.begin.data() + right.first[y];
+  const std::uint16_t* right_end = right.end.data() + right.first[y];
+  const std::uint16_t* right_parent = right.parent.data() + right.first[y];
   float sum = 0;
   int steps = 0;
   std::uint16_t l = static_cast<std::uint16_t>(left_node);
@@ -135,9 +135,8 @@ float PairCosts::compute(int y, int i, int j) const {
   const NodeLevel& right = input_->right;
   const float alpha = input_->intensity_weight;
   const float intensity = intensity_cost(input_->volume, y, node_pair(left, right, y, i, j));
-  const float context =
-      context_cost(input_->left_trees, input_->right_trees, y, left.node[y * left.stride + i],
-                   right.node[y * right.stride + j]);
+  const float context = context_cost(input_->left_trees, input_->right_trees, y,
+                                     left.node[left.first[y] + i], right.node[right.first[y] + j]);
   return alpha * intensity + (1 - alpha) * context;
 }
 

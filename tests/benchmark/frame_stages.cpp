@@ -127,8 +127,8 @@ void FrameStages::size_views() {
   volume_.resize(width_, height_, settings_.disparities, settings_.cost_shift);
   sobel_scratch_.resize(width_);
   median_scratch_.resize(width_);
-  marks_.resize(trees_[0].stride);
-  intervals_scratch_.resize(2 * levels_[0].left.stride);
+  marks_.resize(width_);
+  intervals_scratch_.resize(2 * most_leaves(width_));
   cost_scratch_.resize(volume_, kernel_);
   match_scratch_.resize(width_, settings_.disparities, settings_.max_neighbors);
 }
@@ -188,7 +188,7 @@ void FrameStages::select_levels() {
     for (int side = 0; side < 2; ++side) {
       NodeLevel& level = side == 0 ? levels_[i].left : levels_[i].right;
       for_rows([&](int y0, int y1) {
-        select_nodes(trees_[side], settings_.node_levels.level[i], widths, y0, y1, marks_, level);
+        select_nodes(trees_[side], settings_.node_levels.level[i], widths, y0, y1, level);
       });
       for_rows([&](int y0, int y1) { link_neighbors(y0, y1, level); });
     }

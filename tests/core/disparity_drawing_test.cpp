@@ -64,9 +64,9 @@ TEST(DrawMatches, EqualsReferenceAtEveryWidth) {
       plain.emplace_back(levels.plain_left[y].size());
       for (int i = 0; i < levels.left.count[y]; ++i) {
         if (random.below(3) > 0) plain[y][i] = {random.below(width), random.below(width)};
-        matches.begin_disparity[y * levels.left.stride + i] =
+        matches.begin_disparity[levels.left.first[y] + i] =
             static_cast<std::int16_t>(plain[y][i].begin);
-        matches.end_disparity[y * levels.left.stride + i] =
+        matches.end_disparity[levels.left.first[y] + i] =
             static_cast<std::int16_t>(plain[y][i].end);
       }
     }

@@ -5,8 +5,9 @@
 
 #include <tuple>
 
-#include "reference/max_tree.hpp"
+#include "reference/node_levels.hpp"
 #include "support/compare.hpp"
+#include "support/simd_targets.hpp"
 #include "support/stages.hpp"
 
 namespace mtstereo {
@@ -19,7 +20,7 @@ using Outline = std::tuple<int, int, int, int>;
 
 std::vector<Outline> outlines(const MaxTrees& trees, int y) {
   std::vector<Outline> list;
-  const std::ptrdiff_t row = y * trees.stride;
+  const std::ptrdiff_t row = trees.first[y];
   for (int i = 0; i < trees.count[y]; ++i) {
     const int parent = trees.parent[row + i];
     list.emplace_back(trees.begin[row + i], trees.end[row + i],
@@ -40,9 +41,31 @@ std::vector<Outline> outlines(const std::vector<reference::TreeNode>& tree) {
   return list;
 }
 
-void expect_reference(const GrayPlane& levels) {
-  const MaxTrees trees = test::trees_of(levels);
+/// The columns of the leaves from left to right.
+std::vector<std::pair<int, int>> leaves(const MaxTrees& trees, int y) {
+  std::vector<std::pair<int, int>> list;
+  for (int i = 0; i < trees.leaf_count[y]; ++i) {
+    const std::ptrdiff_t node = trees.first[y] + trees.leaf[trees.first_leaf[y] + i];
+    list.emplace_back(trees.begin[node], trees.end[node]);
+  }
+  return list;
+}
+
+std::vector<std::pair<int, int>> leaves(const std::vector<reference::TreeNode>& tree) {
+  std::vector<std::pair<int, int>> list;
+  for (int i = 0; i < static_cast<int>(tree.size()); ++i) {
+    if (reference::is_leaf(tree, i)) list.emplace_back(tree[i].begin, tree[i].end);
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+void expect_reference(const GrayPlane& levels, int band = 1 << 20) {
+  const MaxTrees trees = test::trees_of(levels, band);
   for (int y = 0; y < levels.height; ++y) {
+    ASSERT_EQ(leaves(reference::max_tree(&levels(0, y), levels.width)), leaves(trees, y))
+        << "row " << y << ": "
+        << testing::PrintToString(std::vector<int>(&levels(0, y), &levels(0, y) + levels.width));
     ASSERT_EQ(outlines(reference::max_tree(&levels(0, y), levels.width)), outlines(trees, y))
         << "row " << y << ": "
         << testing::PrintToString(std::vector<int>(&levels(0, y), &levels(0, y) + levels.width));
@@ -64,10 +87,39 @@ TEST(MaxTree, EqualsReferenceForEveryShortRow) {
   }
 }
 
-TEST(MaxTree, EqualsReferenceAtEveryWidth) {
-  for (int width = 1; width <= 70; ++width) {
-    expect_reference(test::noise(width, 5, width, 15));
-    expect_reference(test::runs(width, 5, width, 7));
+TEST(MaxTree, EqualsReferenceAtEveryWidthOnEveryTarget) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 140; ++width) {
+      expect_reference(test::noise(width, 5, width, 15));
+      expect_reference(test::runs(width, 5, width, 7));
+    }
+  });
+}
+
+TEST(MaxTree, DoesNotDependOnBands) {
+  for (const int band : {1, 3, 32, 39}) expect_reference(test::runs(90, 40, 2, 5), band);
+}
+
+TEST(MaxTree, HoldsBandsFullOfNodes) {
+  // The most leaves that there can be, with nothing left between one band's and the next one's.
+  for (int width = 1; width <= 66; ++width) {
+    for (const int first : {0, 1}) {
+      GrayPlane levels(width, 6);
+      for (int x = 0; x < width; ++x) {
+        for (int y = 0; y < 6; ++y) levels(x, y) = static_cast<std::uint8_t>((x + first) % 2);
+      }
+      expect_reference(levels, 2);
+    }
+  }
+}
+
+TEST(MaxTree, PacksTheRowsOfABand) {
+  const MaxTrees trees = test::trees_of(test::runs(90, 40, 2, 5), 16);
+  for (int y = 1; y < 40; ++y) {
+    if (y % 16 == 0) continue;
+    EXPECT_EQ(trees.first[y - 1] + trees.count[y - 1], trees.first[y]) << "row " << y;
+    EXPECT_EQ(trees.first_leaf[y - 1] + trees.leaf_count[y - 1], trees.first_leaf[y])
+        << "row " << y;
   }
 }
 
@@ -105,7 +157,7 @@ TEST(MaxTree, NodesNestAndRiseFromParentToChild) {
   const GrayPlane levels = test::runs(500, 40, 4, 15);
   const MaxTrees trees = test::trees_of(levels);
   for (int y = 0; y < levels.height; ++y) {
-    const std::ptrdiff_t row = y * trees.stride;
+    const std::ptrdiff_t row = trees.first[y];
     int roots = 0;
     for (int i = 0; i < trees.count[y]; ++i) {
       const int parent = trees.parent[row + i];
@@ -131,7 +183,7 @@ TEST(MaxTree, AreasAddUp) {
   const GrayPlane levels = test::runs(333, 30, 5, 9);
   const MaxTrees trees = test::trees_of(levels);
   for (int y = 0; y < levels.height; ++y) {
-    const std::ptrdiff_t row = y * trees.stride;
+    const std::ptrdiff_t row = trees.first[y];
     for (int i = 0; i < trees.count[y]; ++i) {
       const int begin = trees.begin[row + i], end = trees.end[row + i];
       const int level = node_level(levels, y, begin, end);
@@ -147,11 +199,11 @@ TEST(MaxTree, AreasAddUp) {
 
 TEST(MaxTree, WritesOnlyTheRowsThatItIsGiven) {
   const GrayPlane levels = test::runs(50, 12, 6, 7);
-  MaxTrees trees = test::trees_of(levels);
-  const GrayPlane other = test::runs(50, 12, 7, 7);
-  build_max_trees(image_of(other), 4, 9, trees);
+  MaxTrees trees = test::trees_of(levels, 4);
+  const GrayPlane other = test::noise(50, 12, 7, 15);  // more nodes
+  build_max_trees(image_of(other), 4, 8, trees);
   for (int y = 0; y < 12; ++y) {
-    const GrayPlane& source = y >= 4 && y < 9 ? other : levels;
+    const GrayPlane& source = y >= 4 && y < 8 ? other : levels;
     EXPECT_EQ(outlines(reference::max_tree(&source(0, y), 50)), outlines(trees, y)) << "row " << y;
   }
 }

@@ -16,7 +16,7 @@ constexpr int kNone = -7;
 template <typename T>
 Buffer<T> random_values(const NodeLevel& level, Random& random, int of_ten_none) {
   Buffer<T> values;
-  values.resize(level.node.size());
+  values.resize(level.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = static_cast<T>(random.below(10) < of_ten_none ? kNone : random.between(0, 50));
   }
@@ -36,7 +36,7 @@ void expect_reference(int width, int height, int most, int of_ten_none, std::uin
       std::vector<int> found;
       for (const reference::Place& place :
            reference::surroundings(levels.plain_left, {y, i}, most)) {
-        const T value = values[place.y * levels.left.stride + place.i];
+        const T value = values[levels.left.first[place.y] + place.i];
         if (value != kNone) found.push_back(value);
       }
       ASSERT_EQ(
@@ -68,8 +68,8 @@ TEST(MedianOverNeighbors, TakesTheLongestChains) {
   }
   const NodeLevel level = test::level_of(test::trees_of(rows), 0, test::kAnyWidth);
   Buffer<std::int32_t> values;
-  values.resize(level.node.size());
-  for (int y = 0; y < 301; ++y) values[y * level.stride] = 1000 + y;
+  values.resize(level.size());
+  for (int y = 0; y < 301; ++y) values[level.first[y]] = 1000 + y;
   EXPECT_EQ(1150, median_over_neighbors(level, 150, 0, 100, values.data(), 0));
   EXPECT_EQ(1000 + 50, median_over_neighbors(level, 0, 0, 100, values.data(), 0));
   EXPECT_EQ(1000 + 250, median_over_neighbors(level, 300, 0, 100, values.data(), 0));

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "reference/node_levels.hpp"
-#include "support/compare.hpp"
 #include "support/stages.hpp"
 
 namespace mtstereo {
@@ -16,7 +15,7 @@ using Columns = std::vector<std::pair<int, int>>;
 Columns columns(const NodeLevel& level, int y) {
   Columns list;
   for (int i = 0; i < level.count[y]; ++i) {
-    list.emplace_back(level.begin[y * level.stride + i], level.end[y * level.stride + i]);
+    list.emplace_back(level.begin[level.first[y] + i], level.end[level.first[y] + i]);
   }
   return list;
 }
@@ -34,19 +33,20 @@ void expect_nodes(const GrayPlane& levels, const MaxTrees& trees, const referenc
         << "row " << y << ": "
         << testing::PrintToString(std::vector<int>(&levels(0, y), &levels(0, y) + levels.width));
     for (int i = 0; i < level.count[y]; ++i) {
-      const std::ptrdiff_t at = y * level.stride + i;
-      const std::ptrdiff_t node = y * trees.stride + level.node[at];
+      const std::ptrdiff_t at = level.first[y] + i;
+      const std::ptrdiff_t node = trees.first[y] + level.node[at];
       EXPECT_EQ(level.begin[at], trees.begin[node]) << "row " << y << ", node " << i;
       EXPECT_EQ(level.end[at], trees.end[node]) << "row " << y << ", node " << i;
     }
   }
-  EXPECT_TRUE(test::same_pixels(
-      levels.width, levels.height,
-      [&](int x, int y) { return reference::covering(expected, y, x); },
-      [&](int x, int y) {
-        const int node = level.label.row(y)[x];
-        return node == kNoNode ? -1 : node;
-      }));
+  for (int y = 0; y < levels.height; ++y) {
+    CoveringNode covering(level, y);
+    for (int x = 0; x < levels.width; ++x) {
+      const int node = covering.at(x);
+      ASSERT_EQ(reference::covering(expected, y, x), node == kNoNode ? -1 : node)
+          << "at (" << x << ", " << y << ")";
+    }
+  }
 }
 
 void expect_links(const reference::Level& expected, const NodeLevel& level) {
@@ -55,7 +55,7 @@ void expect_links(const reference::Level& expected, const NodeLevel& level) {
   };
   for (int y = 0; y < level.height; ++y) {
     for (int i = 0; i < level.count[y]; ++i) {
-      const std::ptrdiff_t at = y * level.stride + i;
+      const std::ptrdiff_t at = level.first[y] + i;
       const int center = expected[y][i].center();
       EXPECT_EQ(reference::covering(expected, y - 1, center), index(level.up[at]))
           << "above node " << i << " of row " << y;

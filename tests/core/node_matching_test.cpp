@@ -41,7 +41,7 @@ void expect_intervals(const reference::Intervals& expected, const NodeLevel& lef
                       const SearchIntervals& intervals) {
   for (int y = 0; y < left.height; ++y) {
     for (int i = 0; i < left.count[y]; ++i) {
-      const std::ptrdiff_t at = y * left.stride + i;
+      const std::ptrdiff_t at = left.first[y] + i;
       const auto [first, last] = expected[y][i];
       if (first > last) {
         ASSERT_GT(intervals.first[at], intervals.last[at]) << "row " << y << ", node " << i;
@@ -59,7 +59,7 @@ int expect_matches(const reference::Matches& expected, const NodeLevel& left,
   int matched = 0;
   for (int y = 0; y < left.height; ++y) {
     for (int i = 0; i < left.count[y]; ++i) {
-      const std::ptrdiff_t at = y * left.stride + i;
+      const std::ptrdiff_t at = left.first[y] + i;
       EXPECT_EQ(expected[y][i].begin, matches.begin_disparity[at]) << "row " << y << ", node " << i;
       EXPECT_EQ(expected[y][i].end, matches.end_disparity[at]) << "row " << y << ", node " << i;
       if (expected[y][i].begin >= 0) ++matched;
@@ -134,8 +134,8 @@ TEST(NodeMatching, EqualsReferenceAtAFinerLevel) {
       for (int i = 0; i < coarse.left.count[y]; ++i) {
         reference::Match& match = plain_before[y][i];
         if (random.below(3) == 0) match = {random.below(50), random.below(50)};
-        before.begin_disparity[y * coarse.left.stride + i] = static_cast<std::int16_t>(match.begin);
-        before.end_disparity[y * coarse.left.stride + i] = static_cast<std::int16_t>(match.end);
+        before.begin_disparity[coarse.left.first[y] + i] = static_cast<std::int16_t>(match.begin);
+        before.end_disparity[coarse.left.first[y] + i] = static_cast<std::int16_t>(match.end);
       }
     }
     SearchIntervals intervals;

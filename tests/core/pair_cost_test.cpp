@@ -108,8 +108,8 @@ void expect_context(const RandomLevels& levels) {
   for (int y = 0; y < levels.left.height; ++y) {
     for (int i = 0; i < levels.left.count[y]; ++i) {
       for (int j = 0; j < levels.right.count[y]; ++j) {
-        const int left = levels.left.node[y * levels.left.stride + i];
-        const int right = levels.right.node[y * levels.right.stride + j];
+        const int left = levels.left.node[levels.left.first[y] + i];
+        const int right = levels.right.node[levels.right.first[y] + j];
         const double expected = reference::context_cost<double>(
             levels.plain_left_trees[y], levels.plain_right_trees[y],
             levels.plain_left[y][i].tree_node, levels.plain_right[y][j].tree_node);
@@ -132,7 +132,7 @@ TEST(ContextCost, OfEqualTreesIsZero) {
   const RandomLevels levels(rows, rows, 0);
   for (int y = 0; y < 5; ++y) {
     for (int i = 0; i < levels.left.count[y]; ++i) {
-      const int node = levels.left.node[y * levels.left.stride + i];
+      const int node = levels.left.node[levels.left.first[y] + i];
       EXPECT_EQ(0, context_cost(levels.left_trees, levels.right_trees, y, node, node));
     }
   }

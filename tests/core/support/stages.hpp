@@ -39,11 +39,14 @@ inline PreprocessedView preprocess(GrayView image, int gray_levels, int band = 1
   return view;
 }
 
-/// Step 2 on the levels of a whole view.
-inline MaxTrees trees_of(const GrayPlane& levels) {
+/// Step 2 on the levels of a whole view, in bands of `band` rows.
+inline MaxTrees trees_of(const GrayPlane& levels, int band = 1 << 20) {
   MaxTrees trees;
   trees.resize(levels.width, levels.height);
-  build_max_trees(image_of(levels), 0, levels.height, trees);
+  const Image<std::uint8_t> image = image_of(levels);
+  for (int y = 0; y < levels.height; y += band) {
+    build_max_trees(image, y, std::min(y + band, levels.height), trees);
+  }
   return trees;
 }
 
@@ -52,9 +55,8 @@ inline NodeLevel level_of(const MaxTrees& trees, int ancestor, WidthRange widths
                           int band = 1 << 20) {
   NodeLevel level;
   level.resize(trees.width, trees.height);
-  Buffer<std::uint8_t> scratch;
   for (int y = 0; y < trees.height; y += band) {
-    select_nodes(trees, ancestor, widths, y, std::min(y + band, trees.height), scratch, level);
+    select_nodes(trees, ancestor, widths, y, std::min(y + band, trees.height), level);
   }
   for (int y = 0; y < trees.height; y += band) {
     link_neighbors(y, std::min(y + band, trees.height), level);
