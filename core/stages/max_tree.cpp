@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "mtstereo/parameters.hpp"
 
@@ -85,8 +86,9 @@ class Changes {
 
  private:
   std::uint64_t word(int i) const {
-    std::uint64_t word = 0;
-    for (int byte = 0; byte < 8; ++byte) word |= std::uint64_t{bits_[8 * i + byte]} << 8 * byte;
+    std::uint64_t word;
+    std::memcpy(&word, bits_ + 8 * i, sizeof(word));
+    if constexpr (std::endian::native == std::endian::big) word = __builtin_bswap64(word);
     return word;
   }
 
@@ -108,62 +110,61 @@ struct RowNodes {
 /// Builds one row's tree from left to right. The open nodes, whose end is not known yet, form a
 /// stack of rising levels, the last of which is that of the current pixel; a fall of the level
 /// closes nodes. Those that a fall closes right after a rise are the leaves.
+///
+/// Whether the level rises or falls cannot be predicted, so both go the same way: as if the last
+/// node were closed. Where it stays open, what was written of it is written anew once it is not.
 void build_row(const std::uint8_t* level, int width, RowNodes& nodes) {
   struct Open {
     std::int16_t level;
     std::uint16_t node;
     std::uint16_t begin;
   };
-  // Levels are 8-bit, so no more than 256 nodes are open; below them lies what no level falls to.
-  Open stack[257 + 1];
+  // Levels are 8-bit, so no more than 256 nodes are open. Below them lies what no level falls to,
+  // above them one that was written and not opened.
+  Open stack[1 + 256 + 1];
   stack[0] = {-1, kNoNode, 0};
-  Open* top = stack;
-  int rises = 0;  // 1 after a rise
+  stack[1] = {level[0], 0, 0};
+  Open* top = stack + 1;
+  nodes.begin[0] = 0;
+  int count = 1;
+  int leaves = 0;
+  int rose = 1;  // 1 after a rise, else 0
 
-  const auto open = [&](int begin, int at_level) {
-    const auto column = static_cast<std::uint16_t>(begin);
-    nodes.begin[nodes.count] = column;
-    *top = {static_cast<std::int16_t>(at_level), static_cast<std::uint16_t>(nodes.count), column};
-    ++nodes.count;
-    return top->node;
-  };
-  const auto fall = [&](int x, int now) {
-    nodes.leaf[nodes.leaves] = top->node;
-    nodes.leaves += rises;
-    rises = 0;
-    do {
-      const std::uint16_t closed = top->node;
-      const int begin = top->begin;
-      nodes.end[closed] = static_cast<std::uint16_t>(x - 1);
-      --top;
-      // The component goes on at the new level: as the next open node, or as one not seen so far.
-      if (top->level < now) {
-        ++top;
-        open(begin, now);
-      }
-      nodes.parent[closed] = top->node;
-    } while (top->level > now);
-  };
-
-  ++top;
-  open(0, level[0]);
-  rises = 1;
   Changes(level, width).for_each([&](int x) {
     const int now = level[x];
-    if (now > top->level) {
-      ++top;
-      open(x, now);
-      rises = 1;
-    } else {
-      fall(x, now);
+    const int falls = now < level[x - 1];
+    const auto last = static_cast<std::uint16_t>(x - 1);
+    std::uint16_t closed = top->node;
+    // Of a new node: where the closed one does after a fall, else here.
+    std::uint16_t begin = static_cast<std::uint16_t>(x ^ ((x ^ top->begin) & -falls));
+    nodes.end[closed] = last;
+    nodes.leaf[leaves] = closed;
+    leaves += falls & rose;
+    rose = 1 - falls;
+    top -= falls;
+    for (; top->level > now; --top) {
+      nodes.parent[closed] = top->node;
+      closed = top->node;
+      begin = top->begin;
+      nodes.end[closed] = last;
     }
+    // After a fall the component goes on at the new level: as the next open node, or as one not
+    // seen so far.
+    const int opens = top->level < now;
+    top[1] = {static_cast<std::int16_t>(now), static_cast<std::uint16_t>(count), begin};
+    nodes.begin[count] = begin;
+    count += opens;
+    top += opens;
+    nodes.parent[closed] = top->node;
   });
-  nodes.leaf[nodes.leaves] = top->node;
-  nodes.leaves += rises;
+  nodes.leaf[leaves] = top->node;
+  leaves += rose;
   for (; top != stack; --top) {
     nodes.end[top->node] = static_cast<std::uint16_t>(width - 1);
     nodes.parent[top->node] = top[-1].node;
   }
+  nodes.count = count;
+  nodes.leaves = leaves;
 }
 
 }  // namespace
