@@ -110,6 +110,8 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   void compute_costs();
   void select_levels();
   void match_level(int index);
+  bool nodes_are_drawn() const;
+  void draw_nodes();
   void remove_outliers();
   void extrapolate();
   void match_pixels(GrayView left, GrayView right);

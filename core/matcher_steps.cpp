@@ -118,9 +118,7 @@ void Matcher::State::match(GrayView left, GrayView right) {
   compute_costs();
   select_levels();
   for (int i = 0; i < settings.node_levels.count; ++i) match_level(i);
-  for_rows([&](int y0, int y1, WorkerState&) {
-    draw_matches(leaves().left, leaves().matches, y0, y1, map);
-  });
+  draw_nodes();
   keep(Stage::kNodeMatching);
   remove_outliers();
   keep(Stage::kNodesFiltered);
@@ -212,6 +210,16 @@ void Matcher::State::match_level(int index) {
       kPerThread);
 }
 
+/// Whether the map of the matched nodes is needed: else only their ends are.
+bool Matcher::State::nodes_are_drawn() const { return keep_stages || settings.outlier_radius > 0; }
+
+void Matcher::State::draw_nodes() {
+  if (!nodes_are_drawn()) return;
+  for_rows([&](int y0, int y1, WorkerState&) {
+    draw_matches(leaves().left, leaves().matches, y0, y1, map);
+  });
+}
+
 void Matcher::State::remove_outliers() {
   if (settings.outlier_radius == 0) return;
   for_rows([&](int y0, int y1, WorkerState&) { copy_votes(map, y0, y1, votes); });
@@ -224,7 +232,13 @@ void Matcher::State::extrapolate() {
   // The census costs are only guided by the nodes: there whole nodes help in every mode.
   const bool whole = settings.census || settings.mode != Mode::kSparse;
   const int end_width = whole ? 0 : settings.node_end_width;
-  for_rows([&](int y0, int y1, WorkerState&) { read_leaf_ends(level, map, y0, y1, ends); });
+  for_rows([&](int y0, int y1, WorkerState&) {
+    if (nodes_are_drawn()) {
+      read_leaf_ends(level, map, y0, y1, ends);
+    } else {
+      take_match_ends(level, leaves().matches, y0, y1, ends);
+    }
+  });
   for_rows([&](int y0, int y1, WorkerState&) {
     extrapolate_leaves(level, ends, settings.max_neighbors, end_width, y0, y1, map);
   });

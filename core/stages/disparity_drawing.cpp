@@ -2,16 +2,26 @@
 #include "stages/disparity_drawing.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace mtstereo {
 
 void draw_node(int begin, int end, std::int32_t at_begin, std::int32_t at_end, std::int32_t* row) {
+  // From column to column the disparity goes on by a whole step, and by one more wherever the
+  // parts that are left over make one.
   const int length = std::max(end - begin, 1);
+  const int step = (at_end - at_begin) / length;
+  const int part = std::abs((at_end - at_begin) % length);
+  const int one = at_end < at_begin ? -1 : 1;
+  std::int32_t disparity = at_begin;
+  int parts = 0;
   for (int x = begin; x <= end; ++x) {
-    const std::int64_t rise = static_cast<std::int64_t>(at_end - at_begin) * (x - begin);
-    // A point at infinity is told apart from no disparity by the smallest step.
-    const std::int32_t disparity = std::max(at_begin + static_cast<std::int32_t>(rise / length), 1);
-    if (disparity <= x * kDisparityOne) row[x] = disparity;
+    const std::int32_t drawn = drawn_disparity(x, disparity);
+    if (drawn != kNoDisparity) row[x] = drawn;
+    parts += part;
+    const bool whole = parts >= length;
+    parts -= whole ? length : 0;
+    disparity += step + (whole ? one : 0);
   }
 }
 

@@ -25,6 +25,23 @@ void read_leaf_ends(const NodeLevel& leaves, const Image<std::int32_t>& map, int
   }
 }
 
+void take_match_ends(const NodeLevel& leaves, const NodeMatches& matches, int y0, int y1,
+                     LeafDisparities& ends) {
+  for (int y = y0; y < y1; ++y) {
+    const std::size_t first = leaves.first[y];
+    for (std::size_t leaf = first; leaf < first + leaves.count[y]; ++leaf) {
+      ends.begin[leaf] = ends.end[leaf] = kNoDisparity;
+      if (matches.begin_disparity[leaf] == kNodeUnmatched) continue;
+      const int begin = leaves.begin[leaf];
+      const int end = leaves.end[leaf];
+      ends.begin[leaf] = drawn_disparity(begin, matches.begin_disparity[leaf] * kDisparityOne);
+      ends.end[leaf] = end == begin
+                           ? ends.begin[leaf]
+                           : drawn_disparity(end, matches.end_disparity[leaf] * kDisparityOne);
+    }
+  }
+}
+
 namespace {
 
 /// The disparities that a leaf takes at its ends; known where both are.
@@ -36,8 +53,9 @@ struct LeafLine {
 
 LeafLine line_of(const NodeLevel& leaves, const LeafDisparities& ends, int max_neighbors, int y,
                  int leaf) {
-  return {median_over_neighbors(leaves, y, leaf, max_neighbors, ends.begin.data(), kNoDisparity),
-          median_over_neighbors(leaves, y, leaf, max_neighbors, ends.end.data(), kNoDisparity)};
+  const EndMedians median = medians_over_neighbors(
+      leaves, y, leaf, max_neighbors, ends.begin.data(), ends.end.data(), kNoDisparity);
+  return {median.begin, median.end};
 }
 
 /// How far inside a leaf its ends are taken [px].

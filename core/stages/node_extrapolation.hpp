@@ -6,6 +6,7 @@
 #include "base/buffer.hpp"
 #include "mtstereo/parameters.hpp"
 #include "stages/node_levels.hpp"
+#include "stages/node_matching.hpp"
 
 namespace mtstereo {
 
@@ -24,6 +25,10 @@ struct LeafDisparities {
 /// Reads what the map holds at the ends of the leaves of the rows y0 .. y1 - 1.
 void read_leaf_ends(const NodeLevel& leaves, const Image<std::int32_t>& map, int y0, int y1,
                     LeafDisparities& ends);
+
+/// The same, where the map is what draw_matches() makes of the matches of the leaves.
+void take_match_ends(const NodeLevel& leaves, const NodeMatches& matches, int y0, int y1,
+                     LeafDisparities& ends);
 
 /// Writes the rows y0 .. y1 - 1 of the map: each leaf takes the median begin and the median end
 /// disparity of itself and its neighbors, linearly in between; kNoDisparity elsewhere.

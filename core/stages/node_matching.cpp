@@ -102,13 +102,12 @@ void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeM
   for (int y = y0; y < y1; ++y) {
     for (int p = 0; p < before.count[y]; ++p) {
       const std::ptrdiff_t node = before.first[y] + p;
-      const int at_begin = median_over_neighbors(before, y, p, max_neighbors,
-                                                 matches.begin_disparity.data(), kNodeUnmatched);
-      const int at_end = median_over_neighbors(before, y, p, max_neighbors,
-                                               matches.end_disparity.data(), kNodeUnmatched);
-      const bool found = at_begin != kNodeUnmatched;
-      first[p] = found ? before.begin[node] - at_begin : 1;
-      last[p] = found ? before.end[node] - at_end : 0;
+      const EndMedians median =
+          medians_over_neighbors(before, y, p, max_neighbors, matches.begin_disparity.data(),
+                                 matches.end_disparity.data(), kNodeUnmatched);
+      const bool found = median.begin != kNodeUnmatched;
+      first[p] = found ? before.begin[node] - median.begin : 1;
+      last[p] = found ? before.end[node] - median.end : 0;
     }
     CoveringNode ancestor(before, y);
     for (int i = 0; i < left.count[y]; ++i) {

@@ -51,14 +51,16 @@ FrameStages::FrameStages(const Parameters& parameters, const Pair& pair)
 
 std::vector<FrameStages::Step> FrameStages::steps_of(const Settings& settings) {
   using S = FrameStages;
-  std::vector<Step> steps = {
-      {"preprocessing", &S::preprocess},   {"max-trees", &S::build_trees},
-      {"cost-volume", &S::compute_costs},  {"node-levels", &S::select_levels},
-      {"node-matching", &S::match_levels}, {"node-drawing", &S::draw}};
+  std::vector<Step> steps = {{"preprocessing", &S::preprocess},
+                             {"max-trees", &S::build_trees},
+                             {"cost-volume", &S::compute_costs},
+                             {"node-levels", &S::select_levels},
+                             {"node-matching", &S::match_levels}};
   const auto add = [&](bool on, const char* name, void (S::*run)()) {
     if (on) steps.push_back({name, run});
   };
   const bool outliers = settings.outlier_radius > 0;
+  add(outliers, "node-drawing", &S::draw);
   add(outliers, "node-outliers", &S::remove_outliers);
   add(true, "node-extrapolation", &S::extrapolate);
   add(settings.census, "census", &S::transform);
@@ -226,7 +228,13 @@ void FrameStages::remove_outliers() {
 void FrameStages::extrapolate() {
   const bool whole = settings_.census || settings_.mode != Mode::kSparse;
   const int end_width = whole ? 0 : settings_.node_end_width;
-  for_rows([&](int y0, int y1) { read_leaf_ends(leaves().left, map_, y0, y1, ends_); });
+  for_rows([&](int y0, int y1) {
+    if (settings_.outlier_radius > 0) {
+      read_leaf_ends(leaves().left, map_, y0, y1, ends_);
+    } else {
+      take_match_ends(leaves().left, leaves().matches, y0, y1, ends_);
+    }
+  });
   for_rows([&](int y0, int y1) {
     extrapolate_leaves(leaves().left, ends_, settings_.max_neighbors, end_width, y0, y1, map_);
   });

@@ -42,8 +42,8 @@ TEST(FrameStages, GiveTheMatchersResultAndCanBeRunAgain) {
 TEST(FrameStages, RunOnWhatAnotherStageLeftIsNoticed) {
   const Pair pair = render_street(203, 97);
   FrameStages stages(parameters_of("default", "semi-dense", 24, 1), pair);
-  stages.prepare("node-drawing");
-  stages.run("node-drawing");
+  stages.prepare("node-extrapolation");
+  stages.run("node-extrapolation");
   EXPECT_THROW(stages.require_result("confidence"), std::runtime_error);
 }
 
@@ -55,6 +55,8 @@ TEST(FrameStages, AreThoseThatTheParametersTurnOn) {
   EXPECT_TRUE(has(FrameStages::names(parameters_of("default", "dense", 24, 1)), "gap-filling"));
   EXPECT_TRUE(has(FrameStages::names(parameters_of("default", "sparse", 24, 1)), "node-ends"));
   const auto paper = FrameStages::names(parameters_of("paper", "semi-dense", 24, 1));
+  EXPECT_FALSE(has(semi_dense, "node-drawing")) << "only outliers are looked for in that map";
+  EXPECT_TRUE(has(paper, "node-drawing"));
   EXPECT_TRUE(has(paper, "node-outliers"));
   EXPECT_TRUE(has(paper, "gradient-matching"));
   EXPECT_FALSE(has(paper, "census-matching"));

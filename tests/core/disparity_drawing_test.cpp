@@ -34,6 +34,22 @@ TEST(DrawNode, IsLinearFromEndToEnd) {
   }
 }
 
+TEST(DrawNode, EqualsReferenceOfAnyLengthAndSlope) {
+  Random random(2);
+  for (int n = 0; n < 3000; ++n) {
+    const int width = random.between(1, n % 50 == 0 ? 16384 : 400);
+    const int begin = random.below(width), end = random.between(begin, width - 1);
+    const int most = n % 3 == 0 ? 3 : 1024 * 256;
+    const int at_begin = random.below(most), at_end = random.below(most);
+    DisparityPlane expected(width, 1);
+    reference::draw_node(begin, end, at_begin, at_end, 0, expected);
+    DisparityPlane actual(width, 1);
+    draw_node(begin, end, at_begin, at_end, actual.pixels.data());
+    ASSERT_TRUE(same_image(expected, actual))
+        << at_begin << " to " << at_end << " in [" << begin << ", " << end << "]";
+  }
+}
+
 TEST(DrawNode, LeavesPixelsLeftOfTheirDisparity) {
   std::vector<std::int32_t> row(20, -1);
   draw_node(2, 15, 6 * 256, 6 * 256, row.data());

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reference/node_extrapolation.hpp"
+#include "stages/disparity_drawing.hpp"
 #include "support/compare.hpp"
 #include "support/stages.hpp"
 
@@ -43,6 +44,40 @@ DisparityPlane random_map(int width, int height, std::uint64_t seed) {
     }
   }
   return map;
+}
+
+TEST(NodeExtrapolation, TakesTheEndsThatADrawnMapWouldHave) {
+  long known = 0;
+  for (int width = 1; width <= 70; ++width) {
+    const NodeLevel leaves = test::RandomLevels(width, 12, 0, 300 + width).left;
+    Random random(width);
+    NodeMatches matches;
+    matches.resize(leaves);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const bool matched = random.below(3) > 0;
+      matches.begin_disparity[i] =
+          static_cast<std::int16_t>(matched ? random.below(width) : kNodeUnmatched);
+      matches.end_disparity[i] =
+          static_cast<std::int16_t>(matched ? random.below(width) : kNodeUnmatched);
+    }
+    Image<std::int32_t> map = image_of(DisparityPlane(width, 12, 77));
+    draw_matches(leaves, matches, 0, 12, map);
+    LeafDisparities read, taken;
+    read.resize(leaves);
+    taken.resize(leaves);
+    read_leaf_ends(leaves, map, 0, 12, read);
+    for (int y = 0; y < 12; y += 5) {
+      take_match_ends(leaves, matches, y, std::min(y + 5, 12), taken);
+    }
+    for (int y = 0; y < 12; ++y) {
+      for (std::size_t i = leaves.first[y]; i < leaves.first[y] + leaves.count[y]; ++i) {
+        ASSERT_EQ(read.begin[i], taken.begin[i]) << "row " << y << " of " << width << " px";
+        ASSERT_EQ(read.end[i], taken.end[i]) << "row " << y << " of " << width << " px";
+        known += read.begin[i] != kNoDisparity;
+      }
+    }
+  }
+  EXPECT_GT(known, 500) << "the comparison means something";
 }
 
 /// A map and its confidence around the ends of the leaves, in bands of `band` rows.
