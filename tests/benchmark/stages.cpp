@@ -9,21 +9,18 @@
 #include <string>
 
 #include "frame_stages.hpp"
+#include "frame_timing.hpp"
 #include "guarded.hpp"
 
 namespace mtstereo::bench {
 namespace {
 
-struct Variant {
-  const char* name;
-  const char* preset;
-  const char* mode;
-};
 constexpr Variant kVariants[] = {
-    {"semi-dense", "default", "semi-dense"},
+    kDefaultVariant,
     {"sparse", "default", "sparse"},
     {"dense", "default", "dense"},
     {"paper", "paper", "semi-dense"},
+    {"fast", "fast", "semi-dense"},
 };
 
 /// Made when the first of its stages is timed.
@@ -54,9 +51,8 @@ void add(const FramePointer& frame, const Variant& variant, const std::string& s
         guarded(state, [&] {
           const OpenCvThreads one_thread(1);
           if (*stages == nullptr) {
-            *stages = std::make_unique<FrameStages>(
-                parameters_of(variant.preset, variant.mode, frame->disparities(), 1),
-                frame->images());
+            *stages =
+                std::make_unique<FrameStages>(parameters_of(variant, *frame, 1), frame->images());
           }
           const double seconds = time_stage(state, stage, **stages);
           constexpr double kNanosecond = 1e-9;
@@ -73,9 +69,9 @@ void add(const FramePointer& frame, const Variant& variant, const std::string& s
 void register_stages(const FramePointer& frame) {
   std::set<std::string> known;
   for (const Variant& variant : kVariants) {
+    if (!has_preset(variant.preset)) continue;
     const auto stages = std::make_shared<std::unique_ptr<FrameStages>>();
-    const Parameters parameters =
-        parameters_of(variant.preset, variant.mode, frame->disparities(), 1);
+    const Parameters parameters = parameters_of(variant, *frame, 1);
     for (const std::string& stage : FrameStages::names(parameters)) {
       if (known.insert(stage).second) add(frame, variant, stage, stages);
     }

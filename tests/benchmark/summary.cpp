@@ -2,6 +2,7 @@
 #include "summary.hpp"
 
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "eval/rivals.hpp"
@@ -14,12 +15,11 @@ double counter(const benchmark::BenchmarkReporter::Run& run, const char* name) {
   return found == run.counters.end() ? 0.0 : static_cast<double>(found->second);
 }
 
-/// The time of a method for the same frame with as many threads, NaN where it was not timed.
-double seconds_of(const std::vector<FrameTiming>& timings, const FrameCase& same,
-                  eval::Rival rival) {
+/// The time of the same frame with another method or number of threads, NaN where it was not timed.
+double seconds_of(const std::vector<FrameTiming>& timings, const std::string& frame,
+                  std::string_view method, int threads) {
   for (const FrameTiming& timing : timings) {
-    if (timing.of.method == eval::rival_name(rival) && timing.of.frame == same.frame &&
-        timing.of.threads == same.threads) {
+    if (timing.of.method == method && timing.of.frame == frame && timing.of.threads == threads) {
       return timing.seconds;
     }
   }
@@ -31,15 +31,19 @@ double seconds_of(const std::vector<FrameTiming>& timings, const FrameCase& same
 std::vector<eval::TableRow> frame_table(const std::vector<FrameTiming>& timings) {
   using eval::fixed;
   std::vector<eval::TableRow> rows = {{"frame", "method", "threads", "CPUs", "ms", "s/MP",
-                                       "frames/s", "density %", "time / sgbm-3way", "time / bm"}};
+                                       "frames/s", "density %", "speedup", "time / semi-dense",
+                                       "time / sgbm-3way", "time / bm"}};
   for (const FrameTiming& timing : timings) {
-    rows.push_back(
-        {timing.of.frame, timing.of.method, std::to_string(timing.of.threads),
-         fixed(timing.processors, 2), fixed(timing.seconds * 1e3, 1),
-         fixed(timing.seconds_per_megapixel, 3), fixed(1 / timing.seconds, 1),
-         fixed(timing.density * 100, 1),
-         fixed(timing.seconds / seconds_of(timings, timing.of, eval::Rival::kSgbm3Way), 2),
-         fixed(timing.seconds / seconds_of(timings, timing.of, eval::Rival::kBm), 2)});
+    const FrameCase& of = timing.of;
+    const auto ratio_to = [&](std::string_view method) {
+      return fixed(timing.seconds / seconds_of(timings, of.frame, method, of.threads), 2);
+    };
+    rows.push_back({of.frame, of.method, std::to_string(of.threads), fixed(timing.processors, 2),
+                    fixed(timing.seconds * 1e3, 1), fixed(timing.seconds_per_megapixel, 3),
+                    fixed(1 / timing.seconds, 1), fixed(timing.density * 100, 1),
+                    fixed(seconds_of(timings, of.frame, of.method, 1) / timing.seconds, 2),
+                    ratio_to(kDefaultMethod), ratio_to(eval::rival_name(eval::Rival::kSgbm3Way)),
+                    ratio_to(eval::rival_name(eval::Rival::kBm))});
   }
   return rows;
 }
@@ -72,6 +76,11 @@ std::vector<FrameTiming> Summary::timings() const {
     timings.back().of = expected.of;
   }
   return timings;
+}
+
+double Summary::seconds_of(const std::string& name) const {
+  const auto found = timed_.find(name);
+  return found == timed_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second.seconds;
 }
 
 void SummarizingReporter::ReportRuns(const std::vector<Run>& runs) {

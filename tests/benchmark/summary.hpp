@@ -14,6 +14,9 @@ namespace mtstereo::bench {
 /// The counter of every whole frame that tells the share of pixels with a disparity.
 inline constexpr const char* kDensityCounter = "density";
 
+/// The method that the library's defaults are.
+inline constexpr const char* kDefaultMethod = "semi-dense";
+
 /// What the benchmark of a whole frame is about.
 struct FrameCase {
   std::string frame;
@@ -30,9 +33,10 @@ struct FrameTiming {
   double processors = 0;             ///< at work at once, on average
 };
 
-/// The table of whole frames: time, how many processors were at work at once, and the time as a
-/// multiple of what StereoSGBM with 3 directions and StereoBM take for the same frame with as many
-/// threads; "-" where they did not run.
+/// The table of whole frames: time, how many processors were at work at once, how many times as
+/// fast it is as with one thread, and the time as a multiple of what the defaults, StereoSGBM with
+/// 3 directions and StereoBM take for the same frame with as many threads; "-" where the other was
+/// not timed.
 std::vector<eval::TableRow> frame_table(const std::vector<FrameTiming>& timings);
 
 /// Collects what is reported: of each benchmark the median, or its only repetition.
@@ -45,6 +49,8 @@ class Summary {
 
   /// The whole frames that were timed, in the order they were announced.
   std::vector<FrameTiming> timings() const;
+  /// The median of any benchmark [s], by its name without options; NaN where it was not timed.
+  double seconds_of(const std::string& name) const;
   /// One sentence for each benchmark that failed, in the order they did.
   const std::vector<std::string>& errors() const { return errors_; }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "summary.hpp"
 
 namespace mtstereo::bench {
@@ -78,6 +80,9 @@ TEST(Summary, NamesWhatFailedAndHasNoTimeOfIt) {
   EXPECT_EQ("a: the maps differ", summary.errors().front());
 }
 
+// Columns of the table.
+constexpr std::size_t kSpeedup = 8, kToDefault = 9, kToSgbm = 10, kToBm = 11;
+
 TEST(FrameTable, DividesByTheRivalsOfTheSameFrameAndThreads) {
   const auto rows = frame_table({{{"f", "semi-dense", 1}, 0.100, 0.2, 0.5, 0.9},
                                  {{"f", "sgbm-3way", 1}, 0.050, 0.1, 0.7, 1},
@@ -86,18 +91,50 @@ TEST(FrameTable, DividesByTheRivalsOfTheSameFrameAndThreads) {
                                  {{"g", "sgbm-3way", 1}, 0.001, 0.1, 0.7, 1}});
   ASSERT_EQ(6U, rows.size());
   EXPECT_EQ((eval::TableRow{"f", "semi-dense", "1", "0.90", "100.0", "0.200", "10.0", "50.0",
-                            "2.00", "4.00"}),
+                            "1.00", "1.00", "2.00", "4.00"}),
             rows[1]);
-  EXPECT_EQ("1.00", rows[2][8]);
-  EXPECT_EQ("0.50", rows[3][8]);
+  for (const eval::TableRow& row : rows) EXPECT_EQ(rows.front().size(), row.size());
+  EXPECT_EQ("1.00", rows[2][kToSgbm]);
+  EXPECT_EQ("0.50", rows[3][kToSgbm]);
+}
+
+TEST(FrameTable, DividesByTheDefaultsOfTheSameFrameAndThreads) {
+  const auto rows = frame_table({{{"f", "semi-dense", 1}, 0.100, 0.2, 0.5, 1},
+                                 {{"f", "semi-dense", 2}, 0.060, 0.2, 0.5, 2},
+                                 {{"f", "fast", 1}, 0.025, 0.1, 0.5, 1},
+                                 {{"f", "fast", 2}, 0.030, 0.1, 0.5, 2},
+                                 {{"g", "fast", 1}, 0.030, 0.1, 0.5, 1}});
+  ASSERT_EQ(6U, rows.size());
+  EXPECT_EQ("0.25", rows[3][kToDefault]);
+  EXPECT_EQ("0.50", rows[4][kToDefault]);
+  EXPECT_EQ("-", rows[5][kToDefault]);
+}
+
+TEST(FrameTable, SpeedupIsOverOneThreadOfTheSameFrameAndMethod) {
+  const auto rows = frame_table({{{"f", "semi-dense", 1}, 0.100, 0.2, 0.5, 1},
+                                 {{"f", "bm", 1}, 0.300, 0.2, 0.5, 1},
+                                 {{"g", "semi-dense", 1}, 0.300, 0.2, 0.5, 1},
+                                 {{"f", "semi-dense", 2}, 0.050, 0.2, 0.5, 2},
+                                 {{"f", "sparse", 2}, 0.050, 0.2, 0.5, 2}});
+  ASSERT_EQ(6U, rows.size());
+  EXPECT_EQ("1.00", rows[1][kSpeedup]);
+  EXPECT_EQ("2.00", rows[4][kSpeedup]);
+  EXPECT_EQ("-", rows[5][kSpeedup]);
 }
 
 TEST(FrameTable, HasNoRatioWhereTheRivalDidNotRun) {
   const auto rows = frame_table(
       {{{"f", "semi-dense", 1}, 0.100, 0.2, 0.5, 1}, {{"f", "bm", 2}, 0.010, 0.2, 0.5, 1}});
   ASSERT_EQ(3U, rows.size());
-  EXPECT_EQ("-", rows[1][8]);
-  EXPECT_EQ("-", rows[1][9]);
+  EXPECT_EQ("-", rows[1][kToSgbm]);
+  EXPECT_EQ("-", rows[1][kToBm]);
+}
+
+TEST(Summary, TellsTheTimeOfWhatWasNotAnnouncedToo) {
+  Summary summary;
+  summary.take(repetition("target/SSSE3", 20));
+  EXPECT_DOUBLE_EQ(0.020, summary.seconds_of("target/SSSE3"));
+  EXPECT_TRUE(std::isnan(summary.seconds_of("target")));
 }
 
 }  // namespace
