@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -18,9 +19,11 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "frame_timing.hpp"
 #include "guarded.hpp"
 #include "outcome.hpp"
 
@@ -29,6 +32,23 @@ namespace {
 
 struct Size {
   int width, height, disparities;
+};
+
+/// What is measured, besides the defaults of each size: what stands behind the size.
+struct Case {
+  const char* settings;
+  const char* preset;  ///< that the settings need
+  bool at_all_sizes;   ///< else at the last one only
+};
+constexpr Case kCases[] = {
+    {"", "default", true},
+    {"/cost-volume=full", "default", true},
+    {"/preset=paper", "paper", true},
+    {"/preset=paper/cost-volume=full", "paper", true},
+    {"/preset=fast", "fast", true},
+    {"/mode=sparse", "default", false},
+    {"/mode=dense", "default", false},
+    {"/threads=2", "default", false},
 };
 
 struct MemoryUse {
@@ -84,31 +104,67 @@ std::string output_of(const std::string& program, const std::string& argument) {
   return text;
 }
 
-MemoryUse use_of(const std::string& size) {
+MemoryUse use_of(const std::string& what) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-  std::istringstream figures(output_of(program, kMemoryOption + size));
+  std::istringstream figures(output_of(program, kMemoryOption + what));
   MemoryUse use;
   if (figures >> use.peak >> use.first_frame) return use;
   throw std::runtime_error("the process that measures memory told no figures");
 }
 
+/// Sets what stands behind slashes, as in "/mode=dense/threads=2".
+Parameters parameters_with(Parameters parameters, std::string_view settings) {
+  while (!settings.empty()) {
+    const std::string_view setting = settings.substr(1, settings.find('/', 1) - 1);
+    settings.remove_prefix(1 + setting.size());
+    const std::string_view name = setting.substr(0, setting.find('='));
+    const std::string_view value = setting.substr(std::min(name.size() + 1, setting.size()));
+    const Status set = parameters.set(name, value);
+    if (!set) throw std::runtime_error(set.error().message);
+  }
+  return parameters;
+}
+
+void measure(benchmark::State& state, const std::string& what) {
+  MemoryUse use;
+  for ([[maybe_unused]] auto _ : state) {
+    use = use_of(what);
+    state.SetIterationTime(use.first_frame);
+  }
+  constexpr double kKibPerMib = 1024;
+  state.counters["peak_MiB"] = use.peak / kKibPerMib;
+}
+
+void add(const std::string& what, int repetitions) {
+  benchmark::RegisterBenchmark(
+      ("memory/first-frame-" + what).c_str(),
+      [what](benchmark::State& state) { guarded(state, [&] { measure(state, what); }); })
+      ->Unit(benchmark::kMillisecond)
+      ->UseManualTime()
+      ->Iterations(1)
+      ->Repetitions(repetitions);
+}
+
 }  // namespace
 
-void measure_memory(const char* size) {
+void measure_memory(const char* what) {
   Size of{};
   int length = 0;
-  if (std::sscanf(size, "%dx%dx%d%n", &of.width, &of.height, &of.disparities, &length) != 3 ||
-      size[length] != '\0') {
-    throw std::runtime_error(std::string(kMemoryOption) + size +
-                             ": wanted is WIDTHxHEIGHTxDISPARITIES, as in 640x480x64");
+  if (std::sscanf(what, "%dx%dx%d%n", &of.width, &of.height, &of.disparities, &length) != 3 ||
+      (what[length] != '\0' && what[length] != '/')) {
+    throw std::runtime_error(std::string(kMemoryOption) + what +
+                             ": wanted is WIDTHxHEIGHTxDISPARITIES[/PARAMETER=VALUE]..., as in "
+                             "640x480x64/mode=dense");
   }
+  const Parameters parameters =
+      parameters_with(parameters_of("default", "semi-dense", of.disparities, 1), what + length);
   const Pair pair = render_street(of.width, of.height);
-  const OpenCvThreads one_thread(1);
+  const OpenCvThreads opencv_threads(parameters.integer(Parameter::kThreads));
   malloc_trim(0);
   if (!reset_peak()) throw std::runtime_error("/proc/self/clear_refs cannot be written");
   const double before = status_figure("VmRSS");
   const auto start = std::chrono::steady_clock::now();
-  Matcher matcher = make_matcher(parameters_of("default", "semi-dense", of.disparities, 1));
+  Matcher matcher = make_matcher(parameters);
   match(matcher, pair);
   const std::chrono::duration<double> first_frame = std::chrono::steady_clock::now() - start;
   const DisparityView disparity = match(matcher, pair);
@@ -125,22 +181,10 @@ void register_memory(bool quick) {
   std::vector<std::string> sizes = {"640x480x64"};
   if (!quick) sizes.emplace_back("1920x1080x128");
   for (const std::string& size : sizes) {
-    benchmark::RegisterBenchmark(("memory/first-frame-" + size).c_str(),
-                                 [size](benchmark::State& state) {
-                                   guarded(state, [&] {
-                                     MemoryUse use;
-                                     for ([[maybe_unused]] auto _ : state) {
-                                       use = use_of(size);
-                                       state.SetIterationTime(use.first_frame);
-                                     }
-                                     constexpr double kKibPerMib = 1024;
-                                     state.counters["peak_MiB"] = use.peak / kKibPerMib;
-                                   });
-                                 })
-        ->Unit(benchmark::kMillisecond)
-        ->UseManualTime()
-        ->Iterations(1)
-        ->Repetitions(quick ? 1 : 3);
+    for (const Case& one : kCases) {
+      if (!has_preset(one.preset) || (!one.at_all_sizes && size != sizes.back())) continue;
+      add(size + one.settings, quick ? 1 : 3);
+    }
   }
 }
 

@@ -74,8 +74,14 @@ class QuickRun(unittest.TestCase):
         if not found:
             self.assertIn("memory is not measured", self.done.stderr)
             return
-        # Half a cost volume at 640x480, 64 disparities, alone has 9.4 MiB.
-        self.assertGreater(found[0]["peak_MiB"], 9)
+        peaks = {entry["run_name"].split("/iterations")[0].split("first-frame-")[1]:
+                 entry["peak_MiB"] for entry in found}
+        # Half a cost volume at 640x480, 64 disparities, alone has 9.4 MiB, a full one 37.5 MiB.
+        self.assertGreater(peaks["640x480x64"], 9)
+        self.assertGreater(peaks["640x480x64/preset=paper/cost-volume=full"], 37)
+        for settings in ("cost-volume=full", "preset=paper", "mode=sparse", "mode=dense",
+                         "threads=2"):
+            self.assertIn(f"640x480x64/{settings}", peaks)
 
     def test_has_every_target_of_the_processor(self):
         names = [name.split("/")[2] for name in self.medians("target/street-640x480-64/")]
@@ -132,6 +138,13 @@ class Refusals(unittest.TestCase):
         for size in ("0x480x64", "-1x-1x64", "640x480x0", "64x48x65"):
             with self.subTest(size):
                 self.expect_failure("error: ", f"--measure-memory={size}")
+
+    def test_settings_that_are_none_are_refused_by_name(self):
+        for setting in ("speed=1", "mode", "mode=", "mode=fair", "threads=-1", "", "="):
+            with self.subTest(setting):
+                name = setting.split("=")[0] or 'no parameter ""'
+                self.expect_failure(name, f"--measure-memory=64x48x16/{setting}")
+                self.expect_failure(name, f"--measure-memory=64x48x16/mode=dense/{setting}")
 
     def test_folder_without_the_real_pair_is_told(self):
         done = run("--benchmark_list_tests", MTSTEREO_TEST_DATA="/no/such/folder")
