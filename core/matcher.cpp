@@ -115,8 +115,8 @@ GrayView Matcher::confidence() const { return state_->rated; }
 
 double Matcher::cost(int x, int y, int d) const {
   const State& state = *state_;
-  if (!state.sized || x < 0 || x >= state.width || y < 0 || y >= state.height || d < 0 || d > x ||
-      d >= state.volume.disparities) {
+  if (!state.sized || !state.settings.needs_volume() || x < 0 || x >= state.width || y < 0 ||
+      y >= state.height || d < 0 || d > x || d >= state.volume.disparities) {
     return 0;
   }
   return static_cast<double>(state.volume.at(x, y, d)) / kCostScale;

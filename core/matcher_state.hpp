@@ -107,6 +107,7 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   void halve(GrayView left, GrayView right);
   void preprocess(GrayView left, GrayView right);
   void build_trees();
+  void transform(GrayView left, GrayView right);
   void compute_costs();
   void select_levels();
   void match_level(int index);
@@ -114,7 +115,7 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   void draw_nodes();
   void remove_outliers();
   void extrapolate();
-  void match_pixels(GrayView left, GrayView right);
+  void match_pixels(GrayView left);
   void remove_speckles();
   void rate_confidence();
   void trim_rims();

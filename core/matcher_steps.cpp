@@ -48,7 +48,7 @@ void Matcher::State::size_buffers() {
   workers.resize(threads);
   for (int side = 0; side < 2; ++side) {
     views[side].resize(width, height);
-    views[side].resize_costs(width, height);
+    if (settings.needs_volume()) views[side].resize_costs(width, height);
     trees[side].resize(width, height);
   }
   for (int i = 0; i < settings.node_levels.count; ++i) {
@@ -57,8 +57,10 @@ void Matcher::State::size_buffers() {
     levels[i].intervals.resize(levels[i].left);
     levels[i].matches.resize(levels[i].left);
   }
-  kernel = smoothing_kernel(settings.cost_kernel_size, settings.cost_shift);
-  volume.resize(width, height, settings.disparities, settings.cost_shift);
+  if (settings.needs_volume()) {
+    kernel = smoothing_kernel(settings.cost_kernel_size, settings.cost_shift);
+    volume.resize(width, height, settings.disparities, settings.cost_shift);
+  }
   votes.resize(width, height, settings.outlier_radius);
   ends.resize(leaves().left);
   map.resize(width, height);
@@ -72,7 +74,7 @@ void Matcher::State::size_buffers() {
     enlarged_map.resize(frame_width, frame_height);
     enlarged_confidence.resize(frame_width, frame_height);
   }
-  if (settings.census) {
+  if (settings.needs_census()) {
     for (CensusImage& image : census) image.resize(width, height);
   }
   for (WorkerState& worker : workers) {
@@ -82,17 +84,15 @@ void Matcher::State::size_buffers() {
     worker.sobel.resize(width);
     worker.marks.resize(width);
     worker.intervals.resize(2 * most_leaves(width));
-    worker.cost.resize(volume, kernel);
+    if (settings.needs_volume()) worker.cost.resize(volume, kernel);
     worker.match.resize(width, settings.disparities, settings.max_neighbors);
     worker.pixels.resize(width);
     worker.support.resize(width);
     // For any rim, which changes from frame to frame without sizing anything anew.
     worker.rim.resize(width, static_cast<int>(parameter_info(Parameter::kRimTrim).maximum));
     worker.columns.resize(kColumns);
-    if (settings.census) {
-      worker.padded.resize(width + 4, std::min(kBand, height) + 4);
-      worker.census.resize(width, census_options());
-    }
+    if (settings.needs_census()) worker.padded.resize(width + 4, std::min(kBand, height) + 4);
+    if (settings.census) worker.census.resize(width, census_options());
   }
   sized = true;
 }
@@ -115,7 +115,8 @@ void Matcher::State::compute(GrayView left, GrayView right) {
 void Matcher::State::match(GrayView left, GrayView right) {
   preprocess(left, right);
   build_trees();
-  compute_costs();
+  if (settings.needs_census()) transform(left, right);
+  if (settings.needs_volume()) compute_costs();
   select_levels();
   for (int i = 0; i < settings.node_levels.count; ++i) match_level(i);
   draw_nodes();
@@ -124,7 +125,7 @@ void Matcher::State::match(GrayView left, GrayView right) {
   keep(Stage::kNodesFiltered);
   extrapolate();
   keep(Stage::kExtrapolated);
-  match_pixels(left, right);
+  match_pixels(left);
   keep(Stage::kPixelMatching);
   if (settings.pixel_outliers) remove_outliers();
   remove_speckles();
@@ -149,9 +150,10 @@ void Matcher::State::preprocess(GrayView left, GrayView right) {
       median_rows(images[side], y0, y1, worker.median, views[side].median);
     });
     for_rows([&](int y0, int y1, WorkerState& worker) {
+      level_rows(settings.gray_levels, y0, y1, worker.sobel, views[side]);
+      if (!settings.needs_volume()) return;
       const GrayView costs_from =
           settings.median_in_costs ? views[side].median.view() : images[side];
-      level_rows(settings.gray_levels, y0, y1, worker.sobel, views[side]);
       cost_rows(costs_from, y0, y1, worker.sobel, views[side]);
     });
   }
@@ -163,6 +165,13 @@ void Matcher::State::build_trees() {
       build_max_trees(views[side].level, y0, y1, trees[side]);
     });
   }
+}
+
+void Matcher::State::transform(GrayView left, GrayView right) {
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    census_rows(left, y0, y1, worker.padded, census[0]);
+    census_rows(right, y0, y1, worker.padded, census[1]);
+  });
 }
 
 void Matcher::State::compute_costs() {
@@ -199,8 +208,13 @@ void Matcher::State::match_level(int index) {
                       settings.max_neighbors, y0, y1, worker.intervals, level.intervals);
     }
   });
-  const PairCostInput input = {trees[0],    trees[1], level.left,
-                               level.right, volume,   settings.intensity_weight};
+  const PairCostInput input = {trees[0],
+                               trees[1],
+                               level.left,
+                               level.right,
+                               settings.node_census ? nullptr : &volume,
+                               &census,
+                               settings.intensity_weight};
   constexpr bool kPerThread = true;
   for_rows(
       [&](int y0, int y1, WorkerState& worker) {
@@ -248,7 +262,7 @@ CensusMatchingOptions Matcher::State::census_options() const {
   return {settings.search_range, settings.census_cost, settings.smoothness, settings.selection};
 }
 
-void Matcher::State::match_pixels(GrayView left, GrayView right) {
+void Matcher::State::match_pixels(GrayView left) {
   if (!settings.census) {
     const PixelMatchingOptions options = {settings.search_range, settings.selection};
     for_rows([&](int y0, int y1, WorkerState& worker) {
@@ -256,10 +270,6 @@ void Matcher::State::match_pixels(GrayView left, GrayView right) {
     });
     return;
   }
-  for_rows([&](int y0, int y1, WorkerState& worker) {
-    census_rows(left, y0, y1, worker.padded, census[0]);
-    census_rows(right, y0, y1, worker.padded, census[1]);
-  });
   const CensusMatchingOptions options = census_options();
   constexpr bool kPerThread = true;
   for_rows(

@@ -22,6 +22,7 @@ struct Settings {
         max_node_width(p.get(Parameter::kMaxNodeWidth)),
         node_levels(p.node_levels()),
         max_neighbors(p.integer(Parameter::kMaxNeighbors)),
+        node_census(p.text(Parameter::kNodeCost) == "census"),
         median_in_costs(p.text(Parameter::kMedianFilter) == "trees-and-costs"),
         cost_kernel_size(p.integer(Parameter::kCostKernelSize)),
         cost_shift(p.text(Parameter::kCostVolume) == "half" ? 1 : 0),
@@ -54,6 +55,7 @@ struct Settings {
   double max_node_width;           ///< omega_beta, share of the image's width
   Parameters::Levels node_levels;  ///< S
   int max_neighbors;               ///< omega_gamma [rows]
+  bool node_census;                ///< nodes are compared by the census transform
   bool median_in_costs;            ///< the cost volume is made of the median-filtered images
   int cost_kernel_size;            ///< omega_cv [px]
   int cost_shift;                  ///< 1: volume at half resolution, 0: at full
@@ -71,6 +73,9 @@ struct Settings {
   int rim_trim;        ///< [px]
   int node_end_width;  ///< [px]
   int max_gap;         ///< [px]
+
+  bool needs_census() const { return node_census || census; }
+  bool needs_volume() const { return !node_census || !census; }
 };
 
 }  // namespace mtstereo

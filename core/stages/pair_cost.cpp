@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "stages/node_census_cost.hpp"
+
 namespace mtstereo {
 namespace {
 
@@ -20,17 +22,14 @@ NodePair node_pair(const NodeLevel& left, const NodeLevel& right, int y, int i, 
 }  // namespace
 
 float intensity_cost(const CostVolume& volume, int y, const NodePair& pair) {
-  constexpr int kFraction = 16;  // bits behind the point of a disparity
   const int step = 1 << volume.shift;
-  const int length = pair.left_end - pair.left_begin;
-  const std::int64_t rise = pair.end_disparity() - pair.begin_disparity();
-  const int slope = length == 0 ? 0 : static_cast<int>(rise * (1 << kFraction) / length) * step;
+  const int slope = disparity_slope(pair) * step;
   const std::uint16_t* row = volume.row(y);
-  int disparity = (pair.begin_disparity() << kFraction) + (1 << (kFraction - 1));
+  int disparity = (pair.begin_disparity() << kSlopeBits) + (1 << (kSlopeBits - 1));
   std::uint64_t sum = 0;
   int samples = 0;
   for (int x = pair.left_begin; x <= pair.left_end; x += step) {
-    sum += row[(disparity >> kFraction) * volume.stride + (x >> volume.shift)];
+    sum += row[(disparity >> kSlopeBits) * volume.stride + (x >> volume.shift)];
     disparity += slope;
     ++samples;
   }
@@ -134,7 +133,12 @@ float PairCosts::compute(int y, int i, int j) const {
   const NodeLevel& left = input_->left;
   const NodeLevel& right = input_->right;
   const float alpha = input_->intensity_weight;
-  const float intensity = intensity_cost(input_->volume, y, node_pair(left, right, y, i, j));
+  const NodePair pair = node_pair(left, right, y, i, j);
+  const float intensity =
+      input_->volume != nullptr
+          ? intensity_cost(*input_->volume, y, pair)
+          : census_intensity_cost((*input_->census)[0], (*input_->census)[1], y, pair);
+  if (alpha == 1) return intensity;
   const float context = context_cost(input_->left_trees, input_->right_trees, y,
                                      left.node[left.first[y] + i], right.node[right.first[y] + j]);
   return alpha * intensity + (1 - alpha) * context;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
+
 #include "base/buffer.hpp"
+#include "stages/census.hpp"
 #include "stages/cost_volume.hpp"
 #include "stages/max_tree.hpp"
 #include "stages/node_levels.hpp"
+#include "stages/node_pair.hpp"
 
 namespace mtstereo {
 
@@ -16,17 +20,9 @@ struct PairCostInput {
   const MaxTrees& right_trees;
   const NodeLevel& left;
   const NodeLevel& right;
-  const CostVolume& volume;
-  float intensity_weight;  ///< alpha
-};
-
-/// A pair of nodes by their columns.
-struct NodePair {
-  int left_begin, left_end;    ///< first and last column of the left node [px]
-  int right_begin, right_end;  ///< of the right node [px]
-
-  int begin_disparity() const { return left_begin - right_begin; }
-  int end_disparity() const { return left_end - right_end; }
+  const CostVolume* volume;                  ///< what the intensity cost is taken from,
+  const std::array<CensusImage, 2>* census;  ///< or, without a volume, both views' census
+  float intensity_weight;                    ///< alpha
 };
 
 /// Mean of the cost volume along the left node of row y, at the disparity that goes linearly from

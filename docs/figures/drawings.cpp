@@ -37,7 +37,7 @@ cv::Mat draw_levels(GrayView levels, int gray_levels) {
 }
 
 cv::Mat draw_tree(const MaxTrees& trees, int y, int bar_height) {
-  const std::ptrdiff_t row = y * trees.stride;
+  const std::ptrdiff_t row = trees.first[y];
   const int count = trees.count[y];
   std::vector<int> depth(count, 0);
   std::vector<bool> leaf(count, true);
@@ -62,12 +62,11 @@ cv::Mat draw_tree(const MaxTrees& trees, int y, int bar_height) {
 cv::Mat draw_nodes(const NodeLevel& level, const cv::Mat& gray) {
   cv::Mat picture = to_color(gray) * 0.4;
   for (int y = 0; y < level.height; ++y) {
-    const std::uint16_t* label = level.label.row(y);
-    for (int x = 0; x < level.width; ++x) {
-      if (label[x] == kNoNode) continue;
+    for (int i = 0; i < level.count[y]; ++i) {
+      const int begin = level.begin[level.first[y] + i];
+      const int end = level.end[level.first[y] + i];
       // Colored by where a node begins, so that neighbors of a shape look alike.
-      const int begin = level.begin[y * level.stride + label[x]];
-      picture.at<cv::Vec3b>(y, x) = color_of(begin / 4);
+      for (int x = begin; x <= end; ++x) picture.at<cv::Vec3b>(y, x) = color_of(begin / 4);
     }
   }
   return picture;

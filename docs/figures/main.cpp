@@ -40,10 +40,10 @@ GrayView view_of(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
 }
 
-Matcher matcher_of(const char* mode) {
+Matcher matcher_of(const char* preset, const char* mode) {
   Parameters parameters;
-  for (const Status& status :
-       {parameters.set("mode", mode), parameters.set(Parameter::kMaxDisparity, kDisparities)}) {
+  for (const Status& status : {parameters.set("preset", preset), parameters.set("mode", mode),
+                               parameters.set(Parameter::kMaxDisparity, kDisparities)}) {
     if (!status) throw std::runtime_error(status.error().message);
   }
   Result<Matcher> matcher = Matcher::create(parameters);
@@ -94,10 +94,9 @@ void draw_nodes(const Matcher& matcher, const render::StereoFrame& frame, const 
                              parameters.get(Parameter::kMaxNodeWidth) * levels.width};
   NodeLevel coarse;
   NodeLevel fine;
-  Buffer<std::uint8_t> scratch;
   for (auto [ancestor, level] : {std::pair{1, &coarse}, std::pair{0, &fine}}) {
     level->resize(levels.width, levels.height);
-    select_nodes(trees, ancestor, widths, 0, levels.height, scratch, *level);
+    select_nodes(trees, ancestor, widths, 0, levels.height, *level);
   }
   eval::write_picture(folder / "nodes.png",
                       figures::side_by_side(figures::draw_nodes(coarse, frame.left),
@@ -107,9 +106,11 @@ void draw_nodes(const Matcher& matcher, const render::StereoFrame& frame, const 
 void draw_pictures(const fs::path& folder) {
   fs::create_directories(folder);
   const render::StereoFrame frame = demo_frame();
-  Matcher semi_dense = matcher_of("semi-dense");
-  Matcher sparse = matcher_of("sparse");
+  Matcher semi_dense = matcher_of("default", "semi-dense");
+  Matcher sparse = matcher_of("default", "sparse");
+  Matcher paper = matcher_of("paper", "semi-dense");  // has a cost volume
   match(semi_dense, frame);
+  match(paper, frame);
   match(sparse, frame);
 
   eval::write_picture(folder / "pair.png", figures::side_by_side(frame.left, frame.right));
@@ -120,10 +121,9 @@ void draw_pictures(const fs::path& folder) {
           figures::draw_levels(semi_dense.preprocessed(Side::kLeft), gray_levels),
           figures::draw_levels(semi_dense.preprocessed(Side::kRight), gray_levels)));
   draw_nodes(semi_dense, frame, folder);
-  eval::write_picture(
-      folder / "cost-volume.png",
-      figures::side_by_side(colored(cheapest_disparity(semi_dense, frame.left.size())),
-                            colored(frame.truth)));
+  eval::write_picture(folder / "cost-volume.png",
+                      figures::side_by_side(colored(cheapest_disparity(paper, frame.left.size())),
+                                            colored(frame.truth)));
   const std::pair<const char*, Stage> stages[] = {
       {"node-matching.png", Stage::kNodeMatching},
       {"nodes-filtered.png", Stage::kNodesFiltered},

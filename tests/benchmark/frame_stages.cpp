@@ -51,19 +51,18 @@ FrameStages::FrameStages(const Parameters& parameters, const Pair& pair)
 
 std::vector<FrameStages::Step> FrameStages::steps_of(const Settings& settings) {
   using S = FrameStages;
-  std::vector<Step> steps = {{"preprocessing", &S::preprocess},
-                             {"max-trees", &S::build_trees},
-                             {"cost-volume", &S::compute_costs},
-                             {"node-levels", &S::select_levels},
-                             {"node-matching", &S::match_levels}};
+  std::vector<Step> steps = {{"preprocessing", &S::preprocess}, {"max-trees", &S::build_trees}};
   const auto add = [&](bool on, const char* name, void (S::*run)()) {
     if (on) steps.push_back({name, run});
   };
   const bool outliers = settings.outlier_radius > 0;
+  add(settings.needs_census(), "census", &S::transform);
+  add(settings.needs_volume(), "cost-volume", &S::compute_costs);
+  add(true, "node-levels", &S::select_levels);
+  add(true, "node-matching", &S::match_levels);
   add(outliers, "node-drawing", &S::draw);
   add(outliers, "node-outliers", &S::remove_outliers);
   add(true, "node-extrapolation", &S::extrapolate);
-  add(settings.census, "census", &S::transform);
   add(settings.census, "census-matching", &S::match_by_census);
   add(!settings.census, "gradient-matching", &S::match_by_costs);
   add(outliers && settings.pixel_outliers, "pixel-outliers", &S::remove_outliers);
@@ -115,7 +114,7 @@ void FrameStages::for_rows(Body&& body) const {
 void FrameStages::size_views() {
   for (int side = 0; side < 2; ++side) {
     views_[side].resize(width_, height_);
-    views_[side].resize_costs(width_, height_);
+    if (settings_.needs_volume()) views_[side].resize_costs(width_, height_);
     trees_[side].resize(width_, height_);
   }
   levels_.resize(settings_.node_levels.count);
@@ -125,13 +124,15 @@ void FrameStages::size_views() {
     level.intervals.resize(level.left);
     level.matches.resize(level.left);
   }
-  kernel_ = smoothing_kernel(settings_.cost_kernel_size, settings_.cost_shift);
-  volume_.resize(width_, height_, settings_.disparities, settings_.cost_shift);
+  if (settings_.needs_volume()) {
+    kernel_ = smoothing_kernel(settings_.cost_kernel_size, settings_.cost_shift);
+    volume_.resize(width_, height_, settings_.disparities, settings_.cost_shift);
+    cost_scratch_.resize(volume_, kernel_);
+  }
   sobel_scratch_.resize(width_);
   median_scratch_.resize(width_);
   marks_.resize(width_);
   intervals_scratch_.resize(2 * most_leaves(width_));
-  cost_scratch_.resize(volume_, kernel_);
   match_scratch_.resize(width_, settings_.disparities, settings_.max_neighbors);
 }
 
@@ -150,10 +151,11 @@ void FrameStages::size_maps() {
   support_scratch_.resize(width_);
   rim_scratch_.resize(width_, settings_.rim_trim);
   columns_.resize(kColumns);
-  if (!settings_.census) return;
-  for (CensusImage& image : census_) image.resize(width_, height_);
-  census_rows_scratch_.resize(width_ + 4, std::min(kBand, height_) + 4);
-  census_scratch_.resize(width_, census_options());
+  if (settings_.needs_census()) {
+    for (CensusImage& image : census_) image.resize(width_, height_);
+    census_rows_scratch_.resize(width_ + 4, std::min(kBand, height_) + 4);
+  }
+  if (settings_.census) census_scratch_.resize(width_, census_options());
 }
 
 void FrameStages::preprocess() {
@@ -165,7 +167,7 @@ void FrameStages::preprocess() {
     const GrayView costs_from = settings_.median_in_costs ? view.median.view() : images[side];
     for_rows([&](int y0, int y1) {
       level_rows(settings_.gray_levels, y0, y1, sobel_scratch_, view);
-      cost_rows(costs_from, y0, y1, sobel_scratch_, view);
+      if (settings_.needs_volume()) cost_rows(costs_from, y0, y1, sobel_scratch_, view);
     });
   }
 }
@@ -208,8 +210,13 @@ void FrameStages::match_levels() {
                         settings_.max_neighbors, y0, y1, intervals_scratch_, level.intervals);
       }
     });
-    const PairCostInput input = {trees_[0],   trees_[1], level.left,
-                                 level.right, volume_,   settings_.intensity_weight};
+    const PairCostInput input = {trees_[0],
+                                 trees_[1],
+                                 level.left,
+                                 level.right,
+                                 settings_.node_census ? nullptr : &volume_,
+                                 &census_,
+                                 settings_.intensity_weight};
     match_nodes(input, level.intervals, settings_.max_neighbors, settings_.node_confidence, 0,
                 height_, match_scratch_, level.matches);
   }

@@ -67,7 +67,10 @@ void expect_no_allocations(std::initializer_list<std::pair<const char*, std::str
 TEST_F(Allocation, NeverHappensInALaterFrameOnOneThread) {
   expect_no_allocations({{"threads", "1"}});
   expect_no_allocations({{"threads", "1"}, {"mode", "sparse"}});
-  expect_no_allocations({{"threads", "1"}, {"cost-volume", "full"}, {"node-levels", "3,1,0"}});
+  expect_no_allocations({{"threads", "1"},
+                         {"node-cost", "gradient"},
+                         {"cost-volume", "full"},
+                         {"node-levels", "3,1,0"}});
   expect_no_allocations({{"threads", "1"}}, true);
 }
 
@@ -124,11 +127,11 @@ TEST_F(Allocation, NeverHappensInASmallerFrame) {
 /// Lets the first, the second, the third ... allocation of a frame that is larger than the one
 /// before fail, until none is left to. Each time the frame has to fail in order, and the next to be
 /// as ever.
-void expect_recovery(const char* threads, const char* volume, const char* resolution = "full") {
+void expect_recovery(const char* threads, const char* node_cost, const char* resolution = "full") {
   const test::Pair pair = test::slanted_pair(90, 70, 16, 4);
   const test::Pair small = test::slanted_pair(40, 20, 8, 5);
   const Parameters parameters = test::parameters({{"threads", threads},
-                                                  {"cost-volume", volume},
+                                                  {"node-cost", node_cost},
                                                   {"resolution", resolution},
                                                   {"max-disparity", "20"}});
   Matcher undisturbed = std::move(Matcher::create(parameters).value());
@@ -158,9 +161,9 @@ void expect_recovery(const char* threads, const char* volume, const char* resolu
 }
 
 TEST_F(Allocation, FailingAnywhereIsAnErrorAndNotTheEnd) {
-  expect_recovery("1", "half");
-  expect_recovery("2", "full");
-  expect_recovery("1", "half", "half");
+  expect_recovery("1", "gradient");
+  expect_recovery("2", "census");
+  expect_recovery("1", "gradient", "half");
 }
 
 TEST_F(Allocation, FailingSaysWhatToDo) {

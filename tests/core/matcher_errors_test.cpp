@@ -17,7 +17,7 @@ class MatcherErrors : public testing::Test {
  protected:
   MatcherErrors()
       : pair_(test::slanted_pair(96, 40, 20, 1)),
-        matcher_(test::matcher({{"max-disparity", "32"}})),
+        matcher_(test::matcher({{"max-disparity", "32"}, {"node-cost", "gradient"}})),
         expected_(test::compute(matcher_, pair_.left, pair_.right)),
         left_(pair_.left.view()),
         right_(pair_.right.view()) {}

@@ -80,7 +80,8 @@ TEST(Matcher, KeepsTheStagesOnlyWhereAsked) {
 
 TEST(Matcher, AtHalfResolutionShowsStagesOfHalfTheSizeAndAResultOfTheViews) {
   const Pair pair = test::slanted_pair(201, 91, 40, 3);
-  Matcher matcher = test::matcher({{"resolution", "half"}, {"max-disparity", "61"}});
+  Matcher matcher =
+      test::matcher({{"resolution", "half"}, {"max-disparity", "61"}, {"node-cost", "gradient"}});
   matcher.keep_stages(true);
   const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
   EXPECT_EQ(201, map.width);
@@ -165,6 +166,7 @@ Change change_of(Parameter id) {
                {"pixel-confidence", "0"},
                {"between-nodes", "all"}},
               "nodes"};
+    case Parameter::kNodeCost:
     case Parameter::kPixelCost:
       return {{}, "gradient"};
     case Parameter::kPixelSearchRange:
@@ -260,12 +262,12 @@ TEST(Matcher, TakesFramesOfChangingSize) {
 
 TEST(Matcher, DoesNotNeedTheInputAfterTheCall) {
   const Pair pair = test::slanted_pair(100, 40, 20, 6);
-  Matcher matcher = test::matcher({});
+  Matcher matcher = test::matcher({{"node-cost", "gradient"}});
   auto gone = std::make_unique<Pair>(pair);
   const Result<DisparityView> view = matcher.compute(gone->left.view(), gone->right.view());
   gone.reset();
   ASSERT_TRUE(view.ok());
-  EXPECT_TRUE(same_image(alone(Parameters(), pair), *view));
+  EXPECT_TRUE(same_image(alone(matcher.parameters(), pair), *view));
   EXPECT_GT(matcher.cost(50, 20, 10), 0);
 }
 
@@ -303,7 +305,7 @@ TEST(Matcher, CanBeMoved) {
 
 TEST(Matcher, ShowsTheCostsOfTheLastFrame) {
   const test::GrayPlane black(80, 20, 0), white(80, 20, 255);
-  Matcher matcher = test::matcher({{"max-disparity", "10"}});
+  Matcher matcher = test::matcher({{"max-disparity", "10"}, {"node-cost", "gradient"}});
   test::compute(matcher, black, white);
   // Nothing but the gray values differs, and their weight is 0.30.
   for (const auto& [x, y, d] : {std::tuple{0, 0, 0}, {79, 19, 9}, {40, 10, 5}}) {
@@ -311,6 +313,10 @@ TEST(Matcher, ShowsTheCostsOfTheLastFrame) {
   }
   test::compute(matcher, white, white);
   EXPECT_EQ(0, matcher.cost(40, 10, 5));
+  test::compute(matcher, black, white);
+  ASSERT_TRUE(matcher.set_parameters(test::parameters({{"max-disparity", "10"}})).ok());
+  test::compute(matcher, black, white);
+  EXPECT_EQ(0, matcher.cost(40, 10, 5)) << "there is no volume any more";
 }
 
 TEST(Version, IsThreeNumbers) {
@@ -321,7 +327,9 @@ TEST(Version, IsThreeNumbers) {
 
 TEST(Matcher, ACostOutsideOfTheImageIsNone) {
   const Pair pair = test::slanted_pair(90, 40, 12, 3);
-  Matcher matcher = std::move(Matcher::create(test::parameters({{"max-disparity", "16"}})).value());
+  Matcher matcher = std::move(
+      Matcher::create(test::parameters({{"max-disparity", "16"}, {"node-cost", "gradient"}}))
+          .value());
   test::compute(matcher, pair.left, pair.right);
   EXPECT_GT(matcher.cost(89, 39, 15), 0);
   for (const auto& [x, y, d] : {std::array{-1, 0, 0},

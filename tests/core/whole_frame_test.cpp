@@ -38,6 +38,7 @@ Parameters random_parameters(int width, Random& random) {
       {"max-node-width", one_of(random, {"0.5", "0.5", "0.4", "1"})},
       {"node-levels", one_of(random, {"1,0", "1,0", "0", "2,0", "2,1,0", "5,3,0", "9,0"})},
       {"max-neighbors", one_of(random, {"10", "0", "1", "3", "25"})},
+      {"node-cost", one_of(random, {"census", "gradient"})},
       {"median-filter", one_of(random, {"trees", "trees-and-costs"})},
       {"cost-kernel-size", one_of(random, {"21", "1", "3", "9", "41"})},
       {"cost-volume", one_of(random, {"half", "full"})},

@@ -79,8 +79,9 @@ class MTSTEREO_API Matcher {
   GrayView preprocessed(Side side) const;
   /// The cost of the left pixel (x, y) at the whole disparity d, 0 <= d < max-disparity, d <= x, in
   /// gray values (paper, "Cost volume"). All three count pixels of the resolution that is matched
-  /// (Parameter::kResolution). 0 outside of the image and of these limits,
-  /// before the first frame, and after a change of a parameter that reallocates until the next one.
+  /// (Parameter::kResolution). 0 outside of the image and of these limits, before the first frame,
+  /// after a change of a parameter that reallocates until the next one, and where neither
+  /// Parameter::kNodeCost nor Parameter::kPixelCost is "gradient": then there is no cost volume.
   double cost(int x, int y, int d) const;
 
   /// Of the last frame.

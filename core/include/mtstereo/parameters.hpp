@@ -46,6 +46,7 @@ enum class Parameter {
   kMaxNodeWidth,
   kNodeLevels,
   kMaxNeighbors,
+  kNodeCost,
   kMedianFilter,
   kCostKernelSize,
   kCostVolume,

@@ -30,6 +30,11 @@ inline Plane<std::uint32_t> census(const GrayPlane& image) {
   return out;
 }
 
+/// The census transforms of both views.
+struct CensusPair {
+  Plane<std::uint32_t> left, right;
+};
+
 /// Costs of one row: those of pixel x at disparity d are [x][d].
 using RowCosts = std::vector<std::vector<int>>;
 

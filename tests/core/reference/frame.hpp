@@ -26,7 +26,7 @@ struct Frame {
 
 /// The matches of the leaves, level by level.
 inline Matches match_levels(const std::array<Trees, 2>& trees, const Volume& volume,
-                            const Settings& s, int width, Level& leaves) {
+                            const CensusPair& census, const Settings& s, int width, Level& leaves) {
   Level before;
   Matches matches;
   for (int n = 0; n < s.node_levels.count; ++n) {
@@ -35,7 +35,9 @@ inline Matches match_levels(const std::array<Trees, 2>& trees, const Volume& vol
     const Level right = select_nodes(trees[1], s.node_levels.level[n], s.min_node_width, below);
     const Intervals intervals = n == 0 ? first_intervals(left, s.disparities)
                                        : finer_intervals(left, before, matches, s.max_neighbors);
-    const PairInput input{trees[0], trees[1], left, right, volume, s.intensity_weight};
+    const PairInput input{
+        trees[0], trees[1],          left, right, s.node_census ? nullptr : &volume,
+        &census,  s.intensity_weight};
     matches =
         match_nodes(input, intervals, s.max_neighbors, s.disparities, s.node_confidence, width);
     before = left;
@@ -86,11 +88,13 @@ inline Frame match_views(const GrayPlane& left, const GrayPlane& right, const Se
     frame.levels[side] = levels(medians[side], s.gray_levels);
     trees[side] = max_trees(frame.levels[side]);
   }
-  frame.volume = cost_volume(cost_input(s.median_in_costs ? medians[0] : left),
-                             cost_input(s.median_in_costs ? medians[1] : right), s.disparities,
-                             s.cost_kernel_size, s.cost_shift);
+  if (s.needs_volume())
+    frame.volume = cost_volume(cost_input(s.median_in_costs ? medians[0] : left),
+                               cost_input(s.median_in_costs ? medians[1] : right), s.disparities,
+                               s.cost_kernel_size, s.cost_shift);
   Level leaves;
-  const Matches matches = match_levels(trees, frame.volume, s, left.width, leaves);
+  const Matches matches =
+      match_levels(trees, frame.volume, {census(left), census(right)}, s, left.width, leaves);
   frame.stages[0] = draw_matches(leaves, matches, left.width);
   frame.stages[1] = remove_outliers(frame.stages[0], s.outlier_radius);
   const bool only_ends = s.mode == Mode::kSparse && !s.census;

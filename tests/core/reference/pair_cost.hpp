@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "reference/census.hpp"
 #include "reference/cost_volume.hpp"
 #include "reference/node_levels.hpp"
 
@@ -14,7 +15,8 @@ struct PairInput {
   const Trees& right_trees;
   const Level& left;
   const Level& right;
-  const Volume& volume;
+  const Volume* volume;      ///< what intensity costs are taken from,
+  const CensusPair* census;  ///< or, without a volume, both views' census
   float alpha;
 };
 
@@ -53,6 +55,24 @@ Real intensity_cost(const Volume& volume, int y, const LevelNode& left, const Le
   return static_cast<Real>(sum) / static_cast<Real>(count * 16);
 }
 
+/// Mean number of differing bits, times 4, over every second column from 5 px before the left node
+/// to 5 px behind it that both views have.
+template <typename Real>
+Real census_intensity_cost(const CensusPair& census, int y, const LevelNode& left,
+                           const LevelNode& right) {
+  const Ends disparities = ends(left, right);
+  long sum = 0;
+  int count = 0;
+  const int first = std::max(left.begin - 5, disparities.begin);
+  for (int x = first; x < left.end + 6 && x < census.left.width; x += 2) {
+    const int offset = std::min(std::max(x, left.begin), left.end) - left.begin;
+    const int d = disparity_along(disparities, left.end - left.begin, offset);
+    sum += std::popcount(census.left(x, y) ^ census.right(x - d, y));
+    ++count;
+  }
+  return static_cast<Real>(4 * sum) / static_cast<Real>(count);
+}
+
 /// Mean of |aL / (aL + aR) - 1/2| = |aL - aR| / (2 (aL + aR)) over the pair and its ancestors,
 /// times 225.
 template <typename Real>
@@ -75,9 +95,12 @@ Real pair_cost(const PairInput& input, int y, int i, int j) {
   const LevelNode& left = input.left[y][i];
   const LevelNode& right = input.right[y][j];
   const Real alpha = input.alpha;
-  return alpha * intensity_cost<Real>(input.volume, y, left, right) +
-         (1 - alpha) * context_cost<Real>(input.left_trees[y], input.right_trees[y], left.tree_node,
-                                          right.tree_node);
+  const Real intensity = input.volume != nullptr
+                             ? intensity_cost<Real>(*input.volume, y, left, right)
+                             : census_intensity_cost<Real>(*input.census, y, left, right);
+  return alpha * intensity + (1 - alpha) * context_cost<Real>(input.left_trees[y],
+                                                              input.right_trees[y], left.tree_node,
+                                                              right.tree_node);
 }
 
 }  // namespace mtstereo::reference
