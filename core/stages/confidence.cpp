@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
 #include "mtstereo/image.hpp"
 #include "stages/outlier_removal.hpp"
@@ -14,43 +13,155 @@
 // After foreach_target.h, which includes this file once more for each processor.
 #include <hwy/highway.h>
 
+// Included once for each processor, but common to all.
+#ifndef MTSTEREO_CONFIDENCE_WINDOW
+#define MTSTEREO_CONFIDENCE_WINDOW
+namespace mtstereo {
+
+constexpr int kSide = 2 * kSupportRadius + 1;
+
+/// Steps that the product of the shares is cut to.
+constexpr int kRootSteps = 4096;
+
+}  // namespace mtstereo
+#endif  // MTSTEREO_CONFIDENCE_WINDOW
+
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Words = hn::CappedTag<std::uint16_t, 32>;
+using Words = hn::CappedTag<std::uint16_t, kAlignment / 2>;
+using Signed = hn::RebindToSigned<Words>;
 
-/// Sums up the support of each pixel of a row.
-void sum_row(const SupportMap& support, int y, SupportScratch& scratch) {
+void copy_row(const std::int32_t* map, const std::uint8_t* map_ratio, int width,
+              std::uint16_t* disparity, std::uint16_t* ratio) {
+  constexpr int kSteps = kDisparityOne / kVoteOne;
+  constexpr int kShift = 3;
+  static_assert(kSteps == 1 << kShift);
+  const hn::CappedTag<std::int32_t, kAlignment / 4> d32;
+  const hn::Rebind<std::uint16_t, decltype(d32)> d16;
+  const hn::Rebind<std::uint8_t, decltype(d32)> d8;
+  const auto none = hn::Set(d16, kSupportNone);
+  const auto one = hn::Set(d16, kSupportOne);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
+    const auto value = hn::LoadU(d32, map + x);
+    const auto rounded = hn::ShiftRight<kShift>(hn::Add(value, hn::Set(d32, kSteps / 2)));
+    // Known disparities are never rounded to 0 and nothing else is: but then the mask is exact.
+    const auto known = hn::DemoteTo(d16, hn::Min(value, hn::Set(d32, 1)));
+    const auto missing = hn::Eq(known, hn::Zero(d16));
+    const auto ratios = hn::Or(hn::PromoteTo(d16, hn::LoadU(d8, map_ratio + x)), one);
+    hn::StoreU(hn::IfThenElse(missing, none, hn::DemoteTo(d16, rounded)), d16, disparity + x);
+    hn::StoreU(hn::IfThenZeroElse(missing, ratios), d16, ratio + x);
+  }
+}
+
+/// Adds what supports a vector of disparities in one row of their windows, kAway rows away.
+/// `middle` is the disparities less 2^15, so that signed numbers compare like unsigned ones.
+template <int kAway, class V>
+HWY_INLINE void add_line(const SupportMap& support, int y, int x, hn::Vec<Signed> middle, V& count,
+                         V& ratio) {
   const Words d16;
-  const int step = static_cast<int>(hn::Lanes(d16));
+  const Signed di16;
+  const std::uint16_t* disparities = support.disparity.row(y) + x;
+  const std::uint16_t* ratios = support.ratio.row(y) + x;
+  V sum = hn::Zero(d16);
+  for (int i = 0; i < kSide; ++i) {
+    const int columns = i < kSupportRadius ? kSupportRadius - i : i - kSupportRadius;
+    const int away = columns > kAway ? columns : kAway;
+    const int tolerance = kSupportTolerance + away * kSupportSlope;
+    // middle + tolerance - other has to be 0 .. 2 * tolerance.
+    const auto largest = hn::Add(middle, hn::Set(di16, static_cast<std::int16_t>(tolerance)));
+    const auto distance = hn::Sub(largest, hn::BitCast(di16, hn::LoadU(d16, disparities + i)));
+    const auto end = hn::Set(di16, static_cast<std::int16_t>(2 * tolerance + 1 - (1 << 15)));
+    const auto supports = hn::RebindMask(d16, hn::Lt(distance, end));
+    sum = hn::Add(sum, hn::IfThenElseZero(supports, hn::LoadU(d16, ratios + i)));
+  }
+  count = hn::Add(count, hn::ShiftRight<12>(sum));
+  ratio = hn::Add(ratio, hn::And(sum, hn::Set(d16, kSupportOne - 1)));
+}
+
+/// Adds the rows of the windows on both sides of row y, kAway rows away, that are in the image.
+template <int kAway, class V>
+HWY_INLINE void add_lines(const SupportMap& support, int y, int x, hn::Vec<Signed> middle, V& count,
+                          V& ratio) {
+  const int last = support.disparity.height() - 1;
+  if (y >= kAway) add_line<kAway>(support, y - kAway, x, middle, count, ratio);
+  if (y + kAway <= last) add_line<kAway>(support, y + kAway, x, middle, count, ratio);
+}
+
+/// Sums up the support of each pixel of a row; the count is 0 where there is no disparity.
+void sum_row(const SupportMap& support, int y, SupportScratch& scratch) {
+  static_assert(kSupportRadius == 4);
+  const Words d16;
+  const Signed di16;
   const int width = support.disparity.width() - 2 * kSupportRadius;
-  const int top = std::max(y - kSupportRadius, 0);
-  const int bottom = std::min(y + kSupportRadius, support.disparity.height() - 1);
-  const auto one = hn::Set(d16, 1);
-  for (int x = 0; x < width; x += step) {
-    const auto middle = hn::LoadU(d16, support.disparity.row(y) + x + kSupportRadius);
+  const std::uint16_t* row = support.disparity.row(y) + kSupportRadius;
+  const auto none = hn::Set(d16, kSupportNone);
+  const auto lowest = hn::Set(d16, std::uint16_t{1} << 15);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
+    const auto disparity = hn::LoadU(d16, row + x);
     auto count = hn::Zero(d16);
-    auto sum = hn::Zero(d16);
-    for (int row = top; row <= bottom; ++row) {
-      const std::uint16_t* disparities = support.disparity.row(row) + x;
-      const std::uint16_t* ratios = support.ratio.row(row) + x;
-      for (int i = 0; i <= 2 * kSupportRadius; ++i) {
-        const int away = std::max(std::abs(row - y), std::abs(i - kSupportRadius));
-        const auto tolerance =
-            hn::Set(d16, static_cast<std::uint16_t>(kSupportTolerance + away * kSupportSlope));
-        const auto other = hn::LoadU(d16, disparities + i);
-        // One of the two saturating differences is 0, the other one is the distance.
-        const auto distance =
-            hn::Or(hn::SaturatedSub(other, middle), hn::SaturatedSub(middle, other));
-        const auto supports = hn::Eq(hn::SaturatedSub(distance, tolerance), hn::Zero(d16));
-        count = hn::Add(count, hn::IfThenElseZero(supports, one));
-        sum = hn::Add(sum, hn::IfThenElseZero(supports, hn::LoadU(d16, ratios + i)));
-      }
+    auto ratio = hn::Zero(d16);
+    if (!hn::AllTrue(d16, hn::Eq(disparity, none))) {
+      const auto middle = hn::BitCast(di16, hn::Sub(disparity, lowest));
+      add_line<0>(support, y, x, middle, count, ratio);
+      add_lines<1>(support, y, x, middle, count, ratio);
+      add_lines<2>(support, y, x, middle, count, ratio);
+      add_lines<3>(support, y, x, middle, count, ratio);
+      add_lines<4>(support, y, x, middle, count, ratio);
     }
-    hn::StoreU(count, d16, scratch.count.data() + x);
-    hn::StoreU(sum, d16, scratch.ratio.data() + x);
+    const auto missing = hn::Eq(disparity, none);
+    hn::StoreU(hn::IfThenZeroElse(missing, count), d16, scratch.count.data() + x);
+    hn::StoreU(ratio, d16, scratch.ratio.data() + x);
+  }
+}
+
+/// The steps of count * count * ratio / (255 * pixels^3) for windows of so many pixels, and 1; 0
+/// where nothing was counted.
+void find_steps(int pixels, int width, SupportScratch& scratch) {
+  const hn::CappedTag<double, kAlignment / 8> df64;
+  const hn::Rebind<std::int32_t, decltype(df64)> d32;
+  const hn::Rebind<std::uint16_t, decltype(df64)> d16;
+  // One half keeps what is whole above the whole number by more than any rounding: the numerator
+  // is a whole number below 2^40, `all` is below 2^28.
+  const double all = 255.0 * pixels * pixels * pixels;
+  const auto scale = hn::Set(df64, 1 / all);
+  const auto half = hn::Set(df64, 0.5);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(df64))) {
+    const auto count = hn::PromoteTo(d32, hn::LoadU(d16, scratch.count.data() + x));
+    const auto ratio = hn::PromoteTo(d32, hn::LoadU(d16, scratch.ratio.data() + x));
+    const auto product = hn::PromoteTo(df64, hn::Mul(hn::Mul(count, count), ratio));
+    const auto numerator = hn::Add(hn::Mul(product, hn::Set(df64, kRootSteps)), half);
+    const auto steps = hn::DemoteTo(d32, hn::Mul(numerator, scale));
+    const auto some = hn::Min(count, hn::Set(d32, 1));
+    hn::StoreU(hn::DemoteTo(d16, hn::Add(steps, some)), d16, scratch.steps.data() + x);
+  }
+}
+
+using Map = hn::CappedTag<std::int32_t, kAlignment / 4>;
+using MapConfidence = hn::Rebind<std::uint8_t, Map>;
+
+/// Both reach into the padding of the rows.
+void remove_below(int least, int width, std::int32_t* map, std::uint8_t* confidence) {
+  const Map d32;
+  const MapConfidence d8;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
+    const auto value = hn::PromoteTo(d32, hn::LoadU(d8, confidence + x));
+    const auto doubtful = hn::Lt(value, hn::Set(d32, least));
+    hn::StoreU(hn::IfThenZeroElse(doubtful, hn::LoadU(d32, map + x)), d32, map + x);
+    hn::StoreU(hn::DemoteTo(d8, hn::IfThenZeroElse(doubtful, value)), d8, confidence + x);
+  }
+}
+
+void clear_row(const std::int32_t* map, int width, std::uint8_t* confidence) {
+  static_assert(kNoDisparity == 0);
+  const Map d32;
+  const MapConfidence d8;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
+    const auto value = hn::PromoteTo(d32, hn::LoadU(d8, confidence + x));
+    const auto none = hn::Eq(hn::LoadU(d32, map + x), hn::Zero(d32));
+    hn::StoreU(hn::DemoteTo(d8, hn::IfThenZeroElse(none, value)), d8, confidence + x);
   }
 }
 
@@ -61,26 +172,47 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mtstereo {
 
+HWY_EXPORT(copy_row);
 HWY_EXPORT(sum_row);
+HWY_EXPORT(find_steps);
+HWY_EXPORT(remove_below);
+HWY_EXPORT(clear_row);
 
 namespace {
 
-constexpr int kSide = 2 * kSupportRadius + 1;
-constexpr int kRootSteps = 4096;
-
-/// 255 times the cube root of i / kRootSteps, rounded half up. In whole numbers: the cube root of
-/// 1/8 is half a step, and what std::cbrt() makes of it differs from library to library.
-constexpr std::array<std::uint8_t, kRootSteps + 1> kCubeRoots = [] {
-  std::array<std::uint8_t, kRootSteps + 1> roots{};
+/// Of i + 1: 255 times the cube root of i / kRootSteps, rounded half up, 1 at least. Of 0: 0. In
+/// whole numbers: the cube root of 1/8 is half a step, and what std::cbrt() makes of it differs
+/// from library to library.
+constexpr std::array<std::uint8_t, kRootSteps + 2> kCubeRoots = [] {
+  std::array<std::uint8_t, kRootSteps + 2> roots{};
   std::int64_t root = 0;
   for (std::int64_t i = 0; i <= kRootSteps; ++i) {
     // Up where root + 1/2 is not above the exact one.
     const std::int64_t cube = std::int64_t{255} * 255 * 255 * i;
     while ((2 * root + 1) * (2 * root + 1) * (2 * root + 1) * kRootSteps <= 8 * cube) ++root;
-    roots[i] = static_cast<std::uint8_t>(root);
+    roots[i + 1] = static_cast<std::uint8_t>(std::max<std::int64_t>(root, 1));
   }
   return roots;
 }();
+
+/// The part of a window's `kSide` rows or columns that is inside of the image.
+int inside(int middle, int size) {
+  return std::min(middle + kSupportRadius, size - 1) - std::max(middle - kSupportRadius, 0) + 1;
+}
+
+/// Corrects the steps of the columns whose windows end at the image's border.
+void find_border_steps(int rows, int width, SupportScratch& scratch) {
+  for (int x = 0; x < width; ++x) {
+    if (x == kSupportRadius) x = std::max(x, width - kSupportRadius);
+    if (x == width) break;
+    const std::uint64_t pixels = static_cast<std::uint64_t>(rows) * inside(x, width);
+    const std::uint64_t count = scratch.count[x];
+    if (count == 0) continue;
+    const std::uint64_t product = count * count * scratch.ratio[x];
+    scratch.steps[x] =
+        static_cast<std::uint16_t>(product * kRootSteps / (255 * pixels * pixels * pixels) + 1);
+  }
+}
 
 }  // namespace
 
@@ -91,76 +223,57 @@ void SupportMap::resize(int width, int height) {
 }
 
 void SupportScratch::resize(int width) {
-  constexpr int kVector = 32;
+  constexpr int kVector = kAlignment / 2;
   count.resize(width + kVector);
   ratio.resize(width + kVector);
+  steps.resize(width + kVector);
 }
 
 void copy_support(const Image<std::int32_t>& map, const Image<std::uint8_t>& ratio, int y0, int y1,
                   SupportMap& support) {
-  constexpr int kRatio = kDisparityOne / kVoteOne;
   const int width = map.width();
+  const std::ptrdiff_t behind = support.disparity.stride() - kSupportRadius - width;
   for (int y = y0; y < y1; ++y) {
-    const std::int32_t* in = map.row(y);
-    const std::uint8_t* in_ratio = ratio.row(y);
     std::uint16_t* out = support.disparity.row(y);
     std::uint16_t* out_ratio = support.ratio.row(y);
-    std::fill_n(out, support.disparity.stride(), kVoteNone);
-    std::fill_n(out_ratio, support.ratio.stride(), std::uint16_t{0});
-    for (int x = 0; x < width; ++x) {
-      if (in[x] == kNoDisparity) continue;
-      out[x + kSupportRadius] = static_cast<std::uint16_t>((in[x] + kRatio / 2) / kRatio);
-      out_ratio[x + kSupportRadius] = in_ratio[x];
-    }
+    HWY_DYNAMIC_DISPATCH(copy_row)
+    (map.row(y), ratio.row(y), width, out + kSupportRadius, out_ratio + kSupportRadius);
+    std::fill_n(out, kSupportRadius, kSupportNone);
+    std::fill_n(out_ratio, kSupportRadius, std::uint16_t{0});
+    std::fill_n(out + kSupportRadius + width, behind, kSupportNone);
+    std::fill_n(out_ratio + kSupportRadius + width, behind, std::uint16_t{0});
   }
+}
+
+void find_support_steps(int pixels, int width, SupportScratch& scratch) {
+  HWY_DYNAMIC_DISPATCH(find_steps)(pixels, width, scratch);
 }
 
 void rate_support(const SupportMap& support, int y0, int y1, SupportScratch& scratch,
                   Image<std::uint8_t>& confidence) {
   const int width = confidence.width();
-  const int height = confidence.height();
   for (int y = y0; y < y1; ++y) {
+    const int rows = inside(y, confidence.height());
     HWY_DYNAMIC_DISPATCH(sum_row)(support, y, scratch);
-    const std::uint16_t* middle = support.disparity.row(y) + kSupportRadius;
+    find_support_steps(rows * kSide, width, scratch);
+    find_border_steps(rows, width, scratch);
     std::uint8_t* out = confidence.row(y);
-    const int rows = std::min(y + kSupportRadius, height - 1) - std::max(y - kSupportRadius, 0) + 1;
-    for (int x = 0; x < width; ++x) {
-      if (middle[x] == kVoteNone) {
-        out[x] = 0;
-        continue;
-      }
-      const bool whole = x >= kSupportRadius && x + kSupportRadius < width;
-      const int columns =
-          whole ? kSide
-                : std::min(x + kSupportRadius, width - 1) - std::max(x - kSupportRadius, 0) + 1;
-      const std::uint64_t pixels = static_cast<std::uint64_t>(rows) * columns;
-      const std::uint64_t all = 255 * pixels * pixels * pixels;
-      const std::uint64_t count = scratch.count[x];
-      const std::uint64_t product = count * count * scratch.ratio[x];
-      out[x] = std::max<std::uint8_t>(kCubeRoots[product * kRootSteps / all], 1);
-    }
+    const std::uint16_t* steps = scratch.steps.data();
+    for (int x = 0; x < width; ++x) out[x] = kCubeRoots[steps[x]];
   }
 }
 
 void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,
                      Image<std::uint8_t>& confidence) {
   for (int y = y0; y < y1; ++y) {
-    std::int32_t* row = map.row(y);
-    std::uint8_t* values = confidence.row(y);
-    for (int x = 0; x < map.width(); ++x) {
-      if (values[x] >= least) continue;
-      row[x] = kNoDisparity;
-      values[x] = 0;
-    }
+    HWY_DYNAMIC_DISPATCH(remove_below)(least, map.width(), map.row(y), confidence.row(y));
   }
 }
 
 void clear_confidence(const Image<std::int32_t>& map, int y0, int y1,
                       Image<std::uint8_t>& confidence) {
   for (int y = y0; y < y1; ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      if (map.row(y)[x] == kNoDisparity) confidence.row(y)[x] = 0;
-    }
+    HWY_DYNAMIC_DISPATCH(clear_row)(map.row(y), map.width(), confidence.row(y));
   }
 }
 

@@ -19,11 +19,17 @@ inline constexpr int kSupportRadius = 4;
 inline constexpr int kSupportTolerance = 32;  ///< [1 / kVoteOne px]
 inline constexpr int kSupportSlope = 13;      ///< [1 / kVoteOne px per px]
 
+/// Further from every disparity than any tolerance, the distance taken modulo 2^16.
+inline constexpr std::uint16_t kSupportNone = 0xC000;
+
+/// What each disparity adds to a sum of ratios: the upper bits count. A row of the window fits.
+inline constexpr std::uint16_t kSupportOne = 1 << 12;
+
 /// Copies of a disparity map and its peak ratios in the form that the sums are made of, with a
 /// border of kSupportRadius columns on both sides.
 struct SupportMap {
-  Image<std::uint16_t> disparity;  ///< [1 / kVoteOne px], kVoteNone where there is none
-  Image<std::uint16_t> ratio;      ///< 0 .. 255
+  Image<std::uint16_t> disparity;  ///< [1 / kVoteOne px], kSupportNone where there is none
+  Image<std::uint16_t> ratio;      ///< kSupportOne and 0 .. 255, 0 where there is no disparity
 
   void resize(int width, int height);
 };
@@ -36,6 +42,7 @@ void copy_support(const Image<std::int32_t>& map, const Image<std::uint8_t>& rat
 struct SupportScratch {
   Buffer<std::uint16_t> count;  ///< pixels that support
   Buffer<std::uint16_t> ratio;  ///< sum of their peak ratios
+  Buffer<std::uint16_t> steps;  ///< what the confidence is the cube root of, and 1; 0 for none
 
   void resize(int width);
 };
@@ -46,6 +53,11 @@ struct SupportScratch {
 /// there is no disparity. The window ends at the image's border.
 void rate_support(const SupportMap& support, int y0, int y1, SupportScratch& scratch,
                   Image<std::uint8_t>& confidence);
+
+/// The step of rate_support() by itself that is not obviously exact: the 1/4096 that the product is
+/// cut to, and 1, from count and ratio, for windows of `pixels` pixels (up to 81); 0 where nothing
+/// was counted.
+void find_support_steps(int pixels, int width, SupportScratch& scratch);
 
 /// Takes the disparities of the rows y0 .. y1 - 1 away whose confidence is below `least`.
 void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,

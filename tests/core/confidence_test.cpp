@@ -77,6 +77,20 @@ TEST(Confidence, EqualsReferenceAtEveryHeight) {
   }
 }
 
+TEST(Confidence, EqualsReferenceAtBothEndsOfTheDisparities) {
+  // What is close modulo 2^16 does not support, nor does what has no disparity.
+  test::for_each_simd_target([] {
+    for (int seed = 0; seed < 6; ++seed) {
+      Random random(seed);
+      DisparityPlane map = disparity_noise(70, 20, seed, 3000, 200 + seed);
+      for (std::int32_t& d : map.pixels) {
+        if (d != 0 && random.below(2) == 0) d = test::kLargestDisparity - d;
+      }
+      expect_reference(map, random, 7);
+    }
+  });
+}
+
 TEST(Confidence, EqualsReferenceOverAllDisparities) {
   // The tolerance is 1 px and more: disparities of a few px, and the least and the largest at once.
   for (int seed = 0; seed < 10; ++seed) {
@@ -109,6 +123,29 @@ TEST(Confidence, IsTheCubeRootOfTheShareOfSupport) {
       }
     }
   }
+}
+
+TEST(Confidence, CutsEveryShareAsWholeNumbersDo) {
+  test::for_each_simd_target([] {
+    SupportScratch scratch;
+    scratch.resize(255 * 81 + 1);
+    for (int pixels = 9; pixels <= 81; pixels += 9) {
+      for (int count = 0; count <= pixels; ++count) {
+        const int width = 255 * count + 1;
+        for (int ratio = 0; ratio < width; ++ratio) {
+          scratch.count[ratio] = static_cast<std::uint16_t>(count);
+          scratch.ratio[ratio] = static_cast<std::uint16_t>(ratio);
+        }
+        find_support_steps(pixels, width, scratch);
+        for (int ratio = 0; ratio < width; ++ratio) {
+          const reference::Support support{pixels, count, ratio};
+          const long expected = count == 0 ? 0 : support.share_steps() + 1;
+          ASSERT_EQ(expected, scratch.steps[ratio])
+              << count << " of " << pixels << ", ratios of " << ratio;
+        }
+      }
+    }
+  });
 }
 
 TEST(Confidence, RoundsTheHalfOfAnExactCubeRootUp) {
@@ -169,6 +206,29 @@ TEST(Confidence, CountsSlantedSurfacesAndNotSteps) {
   EXPECT_EQ(255, middle_of(-168));
   EXPECT_LT(middle_of(171), 250);
   EXPECT_LT(middle_of(1000), 60);
+}
+
+TEST(Confidence, TakesTheDoubtfulAwayAndClearsOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 70; ++width) {
+      const DisparityPlane map = disparity_noise(width, 2, width % 10, 900, width);
+      const GrayPlane confidence = test::noise(width, 2, width);
+      Image<std::int32_t> image = image_of(map);
+      Image<std::uint8_t> values = image_of(confidence);
+      remove_doubtful(128, 0, 1, image, values);
+      clear_confidence(image, 0, 1, values);
+      EXPECT_TRUE(test::same_pixels(
+          width, 2, [&](int x, int y) { return y == 1 || confidence(x, y) >= 128 ? map(x, y) : 0; },
+          [&](int x, int y) { return image.row(y)[x]; }));
+      EXPECT_TRUE(test::same_pixels(
+          width, 2,
+          [&](int x, int y) {
+            const bool kept = y == 1 || (confidence(x, y) >= 128 && map(x, y) != 0);
+            return kept ? int{confidence(x, y)} : 0;
+          },
+          [&](int x, int y) { return int{values.row(y)[x]}; }));
+    }
+  });
 }
 
 TEST(Confidence, TakesTheDoubtfulAwayAndNothingElse) {
