@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "reference/search_range.hpp"
 #include "support/random.hpp"
+#include "support/simd_targets.hpp"
 
 namespace mtstereo {
 namespace {
@@ -56,16 +60,50 @@ Row random_nodes(int width, int disparities, Random& random) {
 
 constexpr BetweenNodes kAllWays[] = {BetweenNodes::kNone, BetweenNodes::kSpan, BetweenNodes::kAll};
 
-TEST(SearchRange, EqualsReferenceAtEveryWidth) {
-  for (int width = 1; width <= 70; ++width) {
-    Random random(width);
-    for (const BetweenNodes between : kAllWays) {
-      for (const double range : {0.0, 0.15, 0.6, 1.0}) {
-        const int disparities = random.between(1, 90);
-        expect_reference(random_nodes(width, disparities, random), {range, between, disparities});
+TEST(SearchRange, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 70; ++width) {
+      Random random(width);
+      for (const BetweenNodes between : kAllWays) {
+        for (const double range : {0.0, 0.15, 0.6, 1.0}) {
+          const int disparities = random.between(1, 90);
+          expect_reference(random_nodes(width, disparities, random), {range, between, disparities});
+        }
       }
     }
-  }
+  });
+}
+
+TEST(SearchRange, OfEveryDisparityIsWhatRoundedEndsAre) {
+  constexpr int kDisparities = 1024;
+  Row nodes;
+  for (int disparity = 1; disparity < 256 * kDisparities; ++disparity) nodes.push_back(disparity);
+  test::for_each_simd_target([&] {
+    for (const double range : {0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 1.0 / 3, 0.7, 1.0}) {
+      const std::vector<Range> ranges =
+          ranges_of(nodes, {range, BetweenNodes::kNone, kDisparities});
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const double disparity = nodes[i] / 256.0;
+        const double reach = std::max(disparity * range, 3.0);
+        ASSERT_EQ(std::max(std::ceil(disparity - reach), 0.0), ranges[i].low) << nodes[i];
+        ASSERT_EQ(std::min(std::floor(disparity + reach), kDisparities - 1.0), ranges[i].high)
+            << nodes[i];
+      }
+    }
+  });
+}
+
+TEST(SearchRange, WritesNothingBehindTheRow) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 20; ++width) {
+      const Row nodes(width, 2560);
+      std::vector<std::uint16_t> low(width + 1, 0x5A5A), high(width + 1, 0x5A5A);
+      find_search_ranges(nodes.data(), width, {0.15, BetweenNodes::kSpan, 40}, low.data(),
+                         high.data());
+      EXPECT_EQ(0x5A5A, low[width]) << width;
+      EXPECT_EQ(0x5A5A, high[width]) << width;
+    }
+  });
 }
 
 TEST(SearchRange, EqualsReferenceWithTheMostDisparities) {
