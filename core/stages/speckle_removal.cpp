@@ -2,13 +2,91 @@
 #include "stages/speckle_removal.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <utility>
 
 #include "mtstereo/image.hpp"
 #include "mtstereo/parameters.hpp"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/speckle_removal.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
 namespace mtstereo {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Disparities = hn::CappedTag<std::int32_t, kAlignment / 4>;
+
+/// Columns that are looked at together.
+constexpr int kWord = 64;
+
+/// Bit i of both stands for column i.
+struct ColumnBits {
+  std::uint64_t known = 0;   ///< has a disparity
+  std::uint64_t joined = 0;  ///< is connected to the next column
+};
+
+std::uint64_t bits_of(hn::Mask<Disparities> mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Disparities(), mask, bytes);
+  // Only the bytes that were just written: processors would wait for a longer load.
+  return hn::Lanes(Disparities()) > 8 ? bytes[0] | bytes[1] << 8 : bytes[0];
+}
+
+/// Looks at the first `columns` of a row, kWord at most, and at the one behind.
+ColumnBits column_bits(const std::int32_t* row, int columns, std::int32_t tolerance) {
+  const Disparities d32;
+  const auto none = hn::Set(d32, kNoDisparity);
+  const auto most = hn::Set(d32, tolerance);
+  ColumnBits bits;
+  for (int i = 0; i < columns; i += static_cast<int>(hn::Lanes(d32))) {
+    const auto here = hn::LoadU(d32, row + i);
+    const auto next = hn::LoadU(d32, row + i + 1);
+    const auto apart = hn::Or(hn::Gt(hn::Abs(hn::Sub(next, here)), most), hn::Eq(next, none));
+    bits.known |= bits_of(hn::Not(hn::Eq(here, none))) << i;
+    bits.joined |= bits_of(hn::Not(apart)) << i;
+  }
+  bits.known &= ~std::uint64_t{0} >> (kWord - columns);
+  bits.joined &= bits.known;
+  return bits;
+}
+
+/// Writes the columns of the bits from `first` on; `to` is behind the last one then.
+void write_columns(std::uint64_t bits, int first, std::uint16_t*& to) {
+  for (; bits != 0; bits &= bits - 1) {
+    *to++ = static_cast<std::uint16_t>(first + std::countr_zero(bits));
+  }
+}
+
+/// Writes first and last columns of a row's runs and returns their number. Reads the row's padding.
+int find_row_runs(const std::int32_t* row, int width, std::int32_t tolerance, std::uint16_t* begin,
+                  std::uint16_t* last) {
+  const std::uint16_t* const first_run = begin;
+  std::uint64_t joined_before = 0;  // whether the last column is connected to the next one
+  for (int x = 0; x < width; x += kWord) {
+    ColumnBits bits = column_bits(row + x, std::min(kWord, width - x), tolerance);
+    if (x + kWord >= width) bits.joined &= ~(std::uint64_t{1} << (width - 1 - x));
+    write_columns(bits.known & ~(bits.joined << 1 | joined_before), x, begin);
+    write_columns(bits.known & ~bits.joined, x, last);
+    joined_before = bits.joined >> (kWord - 1);
+  }
+  return static_cast<int>(begin - first_run);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(find_row_runs);
+
 namespace {
 
 static_assert(kLargestImageSide <= 0xFFFF, "columns are kept in 16 bits");
@@ -40,22 +118,17 @@ void unite(std::uint32_t* link, std::uint32_t a, std::uint32_t b) {
 }
 
 /// Writes the runs of one row from index `run` on and returns the index after the last one.
-std::uint32_t find_row_runs(const std::int32_t* row, std::int32_t tolerance, std::uint32_t run,
-                            SpeckleRuns& runs) {
-  const int width = runs.width;
-  for (int x = 0; x < width;) {
-    if (row[x] == kNoDisparity) {
-      ++x;
-      continue;
-    }
-    const int begin = x++;
-    while (x < width && row[x] != kNoDisparity && std::abs(row[x] - row[x - 1]) <= tolerance) ++x;
-    runs.begin[run] = static_cast<std::uint16_t>(begin);
-    runs.end[run] = static_cast<std::uint16_t>(x);
-    runs.link[run] = kRootRun + static_cast<std::uint32_t>(x - begin);
-    ++run;
+std::uint32_t write_row_runs(const std::int32_t* row, std::int32_t tolerance, std::uint32_t run,
+                             SpeckleRuns& runs) {
+  std::uint16_t* begin = runs.begin.data() + run;
+  std::uint16_t* end = runs.end.data() + run;
+  std::uint32_t* link = runs.link.data() + run;
+  const int count = HWY_DYNAMIC_DISPATCH(find_row_runs)(row, runs.width, tolerance, begin, end);
+  for (int i = 0; i < count; ++i) {
+    ++end[i];  // behind the last column
+    link[i] = kRootRun + static_cast<std::uint32_t>(end[i] - begin[i]);
   }
-  return run;
+  return run + static_cast<std::uint32_t>(count);
 }
 
 /// True where a column of begin .. end - 1, all known in both rows, connects them.
@@ -106,7 +179,7 @@ void find_runs(const Image<std::int32_t>& map, std::int32_t tolerance, int y0, i
   std::uint32_t run = static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(runs.width);
   for (int y = y0; y < y1; ++y) {
     runs.first[y] = run;
-    run = find_row_runs(map.row(y), tolerance, run, runs);
+    run = write_row_runs(map.row(y), tolerance, run, runs);
     runs.last[y] = run;
     if (y > y0) join_rows(map, tolerance, y, runs);
   }
@@ -132,3 +205,4 @@ void remove_small(const SpeckleRuns& runs, int size, int y0, int y1, Image<std::
 }
 
 }  // namespace mtstereo
+#endif  // HWY_ONCE

@@ -9,6 +9,7 @@
 #include "reference/speckle_removal.hpp"
 #include "support/compare.hpp"
 #include "support/random_maps.hpp"
+#include "support/simd_targets.hpp"
 
 namespace mtstereo {
 namespace {
@@ -56,6 +57,40 @@ TEST(SpeckleRemoval, EqualsReferenceAtEveryWidth) {
                        1 + width % 30);
     }
   }
+}
+
+TEST(SpeckleRemoval, EqualsReferenceInRowsOfEveryWidthOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 200; ++width) {
+      expect_reference(disparity_noise(width, 3, width % 4, 700, width), 256, 1 + width % 9);
+      // Long runs, which go on from one word of columns to the next.
+      expect_reference(patches(width, 3, 0, 500 + width), 1 << 20, width + 1);
+    }
+  });
+}
+
+TEST(SpeckleRemoval, FindsTheRunsOfARow) {
+  constexpr int kWidth = 150;
+  DisparityPlane map(kWidth, 1);
+  // A run that ends with the first 64 columns, one that begins with the next, a step, the last one.
+  for (int x = 3; x < 64; ++x) map(x, 0) = 1000;
+  for (int x = 64; x < 130; ++x) map(x, 0) = 3000;
+  for (int x = 130; x < 140; ++x) map(x, 0) = 3257;
+  map(kWidth - 1, 0) = 1;
+  test::for_each_simd_target([&] {
+    SpeckleRuns runs;
+    runs.resize(kWidth, 1);
+    find_runs(image_of(map), 256, 0, 1, runs);
+    ASSERT_EQ(0u, runs.first[0]);
+    ASSERT_EQ(4u, runs.last[0]);
+    constexpr int kBegin[] = {3, 64, 130, kWidth - 1};
+    constexpr int kEnd[] = {64, 130, 140, kWidth};
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_EQ(kBegin[i], runs.begin[i]);
+      EXPECT_EQ(kEnd[i], runs.end[i]);
+      EXPECT_EQ(kRootRun + static_cast<std::uint32_t>(kEnd[i] - kBegin[i]), runs.link[i]);
+    }
+  });
 }
 
 TEST(SpeckleRemoval, EqualsReferenceInOneRowAndInOneColumn) {
