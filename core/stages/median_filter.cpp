@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
@@ -41,25 +42,32 @@ constexpr Exchange kFindMedian[] = {
     {20, 13}, {12, 13}, {8, 12},  {12, 17}, {15, 8},  {8, 21},  {9, 13},  {15, 4},  {8, 12},
     {4, 20},  {8, 9},   {12, 20}, {8, 12}};
 
-template <const auto& kNetwork, std::size_t kValues>
-HWY_INLINE void exchange_all(Vector (&values)[kValues]) {
-  const auto exchange = [&](Exchange pair) HWY_ATTR {
-    const Vector smaller = hn::Min(values[pair.smaller], values[pair.larger]);
-    values[pair.larger] = hn::Max(values[pair.smaller], values[pair.larger]);
-    values[pair.smaller] = smaller;
+/// Exchanges along a network. `values` are references: some processors have no arrays of vectors.
+template <const auto& kNetwork, class Values>
+HWY_INLINE void exchange_all(const Values& values) {
+  const auto exchange = [](Vector& smaller, Vector& larger) HWY_ATTR {
+    const Vector least = hn::Min(smaller, larger);
+    larger = hn::Max(smaller, larger);
+    smaller = least;
   };
   [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) HWY_ATTR {
-    (exchange(kNetwork[kIndex]), ...);
+    (exchange(std::get<kNetwork[kIndex].smaller>(values),
+              std::get<kNetwork[kIndex].larger>(values)),
+     ...);
   }
   (std::make_index_sequence<std::size(kNetwork)>());
 }
 
 void sort_vector(const std::uint8_t* const* rows, int from, std::uint8_t* const* sorted, int to) {
   const Bytes d8;
-  Vector column[kMedianSide];
-  for (int i = 0; i < kMedianSide; ++i) column[i] = hn::LoadU(d8, rows[i] + from);
-  exchange_all<kSortColumn>(column);
-  for (int i = 0; i < kMedianSide; ++i) hn::StoreU(column[i], d8, sorted[i] + to);
+  const auto load = [&](int i) HWY_ATTR { return hn::LoadU(d8, rows[i] + from); };
+  Vector v0 = load(0), v1 = load(1), v2 = load(2), v3 = load(3), v4 = load(4);
+  exchange_all<kSortColumn>(std::tie(v0, v1, v2, v3, v4));
+  hn::StoreU(v0, d8, sorted[0] + to);
+  hn::StoreU(v1, d8, sorted[1] + to);
+  hn::StoreU(v2, d8, sorted[2] + to);
+  hn::StoreU(v3, d8, sorted[3] + to);
+  hn::StoreU(v4, d8, sorted[4] + to);
 }
 
 /// Sorts the columns of five rows. Reads nothing behind them: they may be the caller's.
@@ -82,14 +90,16 @@ void sort_columns(const std::uint8_t* const* rows, int width, std::uint8_t* cons
 void write_medians(const std::uint8_t* const* sorted, int width, std::uint8_t* medians) {
   const Bytes d8;
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d8))) {
-    Vector values[kMedianSide * kMedianSide];
-    for (int i = 0; i < kMedianSide; ++i) {
-      for (int k = 0; k < kMedianSide; ++k) {
-        values[kMedianSide * i + k] = hn::LoadU(d8, sorted[i] + x + k - kMedianSide / 2);
-      }
-    }
-    exchange_all<kFindMedian>(values);
-    hn::StoreU(values[kMedianSide * kMedianSide / 2], d8, medians + x);
+    const auto load = [&](int i, int k)
+                          HWY_ATTR { return hn::LoadU(d8, sorted[i] + x + k - kMedianSide / 2); };
+    Vector a0 = load(0, 0), a1 = load(0, 1), a2 = load(0, 2), a3 = load(0, 3), a4 = load(0, 4);
+    Vector b0 = load(1, 0), b1 = load(1, 1), b2 = load(1, 2), b3 = load(1, 3), b4 = load(1, 4);
+    Vector c0 = load(2, 0), c1 = load(2, 1), c2 = load(2, 2), c3 = load(2, 3), c4 = load(2, 4);
+    Vector d0 = load(3, 0), d1 = load(3, 1), d2 = load(3, 2), d3 = load(3, 3), d4 = load(3, 4);
+    Vector e0 = load(4, 0), e1 = load(4, 1), e2 = load(4, 2), e3 = load(4, 3), e4 = load(4, 4);
+    exchange_all<kFindMedian>(std::tie(a0, a1, a2, a3, a4, b0, b1, b2, b3, b4, c0, c1, c2, c3, c4,
+                                       d0, d1, d2, d3, d4, e0, e1, e2, e3, e4));
+    hn::StoreU(c2, d8, medians + x);
   }
 }
 
