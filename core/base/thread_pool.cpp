@@ -1,12 +1,28 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "base/thread_pool.hpp"
 
+#include <chrono>
 #include <exception>
 #include <utility>
 
 namespace mtstereo {
+namespace {
 
-ThreadPool::ThreadPool(int threads) {
+/// How long a thread looks again and again before it sleeps: a sleeping one is back only after that
+/// long, and from one loop of a frame to the next it is rarely longer.
+constexpr std::chrono::microseconds kSpinTime{50};
+
+/// Waits for `done` to be true; gives up in the end, and the processor in between.
+template <typename Done>
+void spin_until(Done&& done) {
+  const auto limit = std::chrono::steady_clock::now() + kSpinTime;
+  while (!done() && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
+}
+
+}  // namespace
+
+ThreadPool::ThreadPool(int threads)
+    : spins_(threads <= static_cast<int>(std::thread::hardware_concurrency())) {
   workers_.reserve(threads - 1);
   try {
     for (int worker = 1; worker < threads; ++worker) {
@@ -39,13 +55,19 @@ void ThreadPool::run_loop(int items, void* context, Call call) {
   if (share) {
     const std::lock_guard lock(mutex_);
     loop_ = loop;
+    open_ = true;
     ++generation_;
-    busy_ = static_cast<int>(workers_.size());
   }
   if (share) wake_.notify_all();
   take_items(loop, 0);
   std::unique_lock lock(mutex_);
-  if (share) done_.wait(lock, [this] { return busy_ == 0; });
+  open_ = false;
+  if (busy_ > 0 && spins_) {
+    lock.unlock();
+    spin_until([this] { return busy_ == 0; });
+    lock.lock();
+  }
+  done_.wait(lock, [this] { return busy_ == 0; });
   if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
 }
 
@@ -62,12 +84,15 @@ void ThreadPool::take_items(const Loop& loop, int worker) {
 
 void ThreadPool::work(int worker) {
   for (long seen = 0;;) {
+    if (spins_) spin_until([&] { return generation_ != seen; });
     Loop loop;
     {
       std::unique_lock lock(mutex_);
       wake_.wait(lock, [&] { return stop_ || generation_ != seen; });
       if (stop_) return;
       seen = generation_;
+      if (!open_) continue;  // the others were faster
+      ++busy_;
       loop = loop_;
     }
     take_items(loop, worker);

@@ -11,7 +11,8 @@
 namespace mtstereo {
 
 /// A fixed number of threads that share the items of one loop after the other. The thread that
-/// calls run() is one of them. One thread at a time may call run().
+/// calls run() is one of them. One thread at a time may call run(). For some ten microseconds after
+/// a loop the threads stay awake for the next one, unless they are more than the processors.
 class ThreadPool {
  public:
   /// `threads` >= 1, the caller's included. Throws std::system_error where a thread cannot start.
@@ -50,11 +51,14 @@ class ThreadPool {
   std::condition_variable wake_;
   std::condition_variable done_;
   Loop loop_;                     // guarded by mutex_
-  long generation_ = 0;           // guarded by mutex_: counts the loops
-  int busy_ = 0;                  // guarded by mutex_: workers that are not done with the loop
+  bool open_ = false;             // guarded by mutex_: the loop can still be joined
   bool stop_ = false;             // guarded by mutex_
   std::exception_ptr exception_;  // guarded by mutex_: the first one of the loop
   std::atomic<int> next_item_{0};
+  // Written under mutex_, read without it while a thread has not given up and gone to sleep.
+  std::atomic<long> generation_{0};  // counts the loops
+  std::atomic<int> busy_{0};         // workers that have joined the loop and are not done
+  const bool spins_;                 // a thread that waits takes no processor from one that works
 };
 
 }  // namespace mtstereo

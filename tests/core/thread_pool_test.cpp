@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <ctime>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace mtstereo {
 namespace {
@@ -43,6 +47,42 @@ TEST(ThreadPool, IsReadyForManyShortLoops) {
     const int items = loop % 6;
     ASSERT_EQ(std::vector<int>(items, 1), calls_of_a_loop(pool, items)) << "loop " << loop;
   }
+}
+
+TEST(ThreadPool, WakesUpAfterAPause) {
+  for (const int threads : kThreadCounts) {
+    ThreadPool pool(threads);
+    for (int loop = 0; loop < 20; ++loop) {
+      std::this_thread::sleep_for(std::chrono::microseconds(100 * (loop % 4)));
+      ASSERT_EQ(std::vector<int>(9, 1), calls_of_a_loop(pool, 9)) << threads << " threads";
+    }
+  }
+}
+
+TEST(ThreadPool, SharesItemsThatLast) {
+  // Two items that wait for one another: with only one thread at them this would never end.
+  ThreadPool pool(2);
+  for (int loop = 0; loop < 50; ++loop) {
+    if (loop % 10 == 9) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::atomic<int> there{0};
+    std::atomic<int> alone{0};
+    pool.run(2, [&](int, int) {
+      ++there;
+      const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+      while (there < 2 && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
+      if (there < 2) ++alone;
+    });
+    ASSERT_EQ(0, alone) << "loop " << loop;
+  }
+}
+
+TEST(ThreadPool, LeavesTheProcessorAloneWhileIdle) {
+  ThreadPool pool(std::max(static_cast<int>(std::thread::hardware_concurrency()), 2));
+  calls_of_a_loop(pool, 100);
+  const std::clock_t before = std::clock();  // of all threads
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const double used = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  EXPECT_LT(used, 0.1) << "seconds of 0.3";
 }
 
 TEST(ThreadPool, GivesEachWorkerScratchOfItsOwn) {
