@@ -106,10 +106,9 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
 
   void halve(GrayView left, GrayView right);
   void preprocess(GrayView left, GrayView right);
-  void build_trees();
+  void build_trees();  ///< and selects the nodes that are to be matched
   void transform(GrayView left, GrayView right);
   void compute_costs();
-  void select_levels();
   void match_level(int index);
   bool nodes_are_drawn() const;
   void draw_nodes();
@@ -124,7 +123,7 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   void enlarge();
   CensusMatchingOptions census_options() const;
   void keep(Stage stage);
-  double density() const;
+  double density();
 
   const LevelState& leaves() const { return levels[settings.node_levels.count - 1]; }
 
@@ -142,6 +141,25 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
       const int y1 = per_thread ? static_cast<int>(1LL * height * (band + 1) / bands)
                                 : std::min(y0 + kBand, height);
       body(y0, y1, workers[worker]);
+    });
+  }
+
+  /// Calls body(side, y0, y1, worker) for the bands of both views, as for_rows() does for one.
+  template <typename Body>
+  void for_rows_of_both(Body&& body) {
+    const int bands = (height + kBand - 1) / kBand;
+    pool->run(2 * bands, [&](int item, int worker) {
+      const int y0 = item % bands * kBand;
+      body(item / bands, y0, std::min(y0 + kBand, height), workers[worker]);
+    });
+  }
+
+  /// Calls body(x0, x1, worker) for blocks of the columns 0 .. columns - 1.
+  template <typename Body>
+  void for_columns(int columns, Body&& body) {
+    pool->run((columns + kColumns - 1) / kColumns, [&](int block, int worker) {
+      const int x0 = block * kColumns;
+      body(x0, std::min(x0 + kColumns, columns), workers[worker]);
     });
   }
 };

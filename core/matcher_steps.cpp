@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The steps of the method in their order: what a matcher does with one frame.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <thread>
@@ -61,7 +62,7 @@ void Matcher::State::size_buffers() {
     kernel = smoothing_kernel(settings.cost_kernel_size, settings.cost_shift);
     volume.resize(width, height, settings.disparities, settings.cost_shift);
   }
-  votes.resize(width, height, settings.outlier_radius);
+  if (settings.outlier_radius > 0) votes.resize(width, height, settings.outlier_radius);
   ends.resize(leaves().left);
   map.resize(width, height);
   ratio.resize(width, height);
@@ -117,7 +118,6 @@ void Matcher::State::match(GrayView left, GrayView right) {
   build_trees();
   if (settings.needs_census()) transform(left, right);
   if (settings.needs_volume()) compute_costs();
-  select_levels();
   for (int i = 0; i < settings.node_levels.count; ++i) match_level(i);
   draw_nodes();
   keep(Stage::kNodeMatching);
@@ -145,26 +145,26 @@ void Matcher::State::halve(GrayView left, GrayView right) {
 
 void Matcher::State::preprocess(GrayView left, GrayView right) {
   const std::array<GrayView, 2> images = {left, right};
-  for (int side = 0; side < 2; ++side) {
-    for_rows([&](int y0, int y1, WorkerState& worker) {
-      median_rows(images[side], y0, y1, worker.median, views[side].median);
-    });
-    for_rows([&](int y0, int y1, WorkerState& worker) {
-      level_rows(settings.gray_levels, y0, y1, worker.sobel, views[side]);
-      if (!settings.needs_volume()) return;
-      const GrayView costs_from =
-          settings.median_in_costs ? views[side].median.view() : images[side];
-      cost_rows(costs_from, y0, y1, worker.sobel, views[side]);
-    });
-  }
+  for_rows_of_both([&](int side, int y0, int y1, WorkerState& worker) {
+    median_rows(images[side], y0, y1, worker.median, views[side].median);
+  });
+  for_rows_of_both([&](int side, int y0, int y1, WorkerState& worker) {
+    level_rows(settings.gray_levels, y0, y1, worker.sobel, views[side]);
+    if (!settings.needs_volume()) return;
+    const GrayView costs_from = settings.median_in_costs ? views[side].median.view() : images[side];
+    cost_rows(costs_from, y0, y1, worker.sobel, views[side]);
+  });
 }
 
 void Matcher::State::build_trees() {
-  for (int side = 0; side < 2; ++side) {
-    for_rows([&](int y0, int y1, WorkerState&) {
-      build_max_trees(views[side].level, y0, y1, trees[side]);
-    });
-  }
+  const WidthRange widths = {1.0 * settings.min_node_width, settings.max_node_width * width};
+  for_rows_of_both([&](int side, int y0, int y1, WorkerState&) {
+    build_max_trees(views[side].level, y0, y1, trees[side]);
+    for (int i = 0; i < settings.node_levels.count; ++i) {
+      NodeLevel& level = side == 0 ? levels[i].left : levels[i].right;
+      select_nodes(trees[side], settings.node_levels.level[i], widths, y0, y1, level);
+    }
+  });
 }
 
 void Matcher::State::transform(GrayView left, GrayView right) {
@@ -184,23 +184,11 @@ void Matcher::State::compute_costs() {
   });
 }
 
-void Matcher::State::select_levels() {
-  const WidthRange widths = {1.0 * settings.min_node_width, settings.max_node_width * width};
-  for (int i = 0; i < settings.node_levels.count; ++i) {
-    const int ancestor = settings.node_levels.level[i];
-    for (int side = 0; side < 2; ++side) {
-      NodeLevel& level = side == 0 ? levels[i].left : levels[i].right;
-      for_rows([&](int y0, int y1, WorkerState&) {
-        select_nodes(trees[side], ancestor, widths, y0, y1, level);
-      });
-      for_rows([&](int y0, int y1, WorkerState&) { link_neighbors(y0, y1, level); });
-    }
-  }
-}
-
 void Matcher::State::match_level(int index) {
   LevelState& level = levels[index];
   for_rows([&](int y0, int y1, WorkerState& worker) {
+    link_neighbors(y0, y1, level.left);
+    link_neighbors(y0, y1, level.right);
     if (index == 0) {
       first_intervals(level.left, settings.disparities, y0, y1, level.intervals);
     } else {
@@ -220,6 +208,8 @@ void Matcher::State::match_level(int index) {
       [&](int y0, int y1, WorkerState& worker) {
         match_nodes(input, level.intervals, settings.max_neighbors, settings.node_confidence, y0,
                     y1, worker.match, level.matches);
+        const bool leaf = index + 1 == settings.node_levels.count;
+        if (leaf && !nodes_are_drawn()) take_match_ends(level.left, level.matches, y0, y1, ends);
       },
       kPerThread);
 }
@@ -237,7 +227,8 @@ void Matcher::State::draw_nodes() {
 void Matcher::State::remove_outliers() {
   if (settings.outlier_radius == 0) return;
   for_rows([&](int y0, int y1, WorkerState&) { copy_votes(map, y0, y1, votes); });
-  sum_votes(votes);
+  for_columns(votes.integral.width(),
+              [&](int x0, int x1, WorkerState&) { sum_votes(x0, x1, votes); });
   for_rows([&](int y0, int y1, WorkerState&) { mtstereo::remove_outliers(votes, y0, y1, map); });
 }
 
@@ -246,13 +237,9 @@ void Matcher::State::extrapolate() {
   // The census costs are only guided by the nodes: there whole nodes help in every mode.
   const bool whole = settings.census || settings.mode != Mode::kSparse;
   const int end_width = whole ? 0 : settings.node_end_width;
-  for_rows([&](int y0, int y1, WorkerState&) {
-    if (nodes_are_drawn()) {
-      read_leaf_ends(level, map, y0, y1, ends);
-    } else {
-      take_match_ends(level, leaves().matches, y0, y1, ends);
-    }
-  });
+  if (nodes_are_drawn()) {
+    for_rows([&](int y0, int y1, WorkerState&) { read_leaf_ends(level, map, y0, y1, ends); });
+  }
   for_rows([&](int y0, int y1, WorkerState&) {
     extrapolate_leaves(level, ends, settings.max_neighbors, end_width, y0, y1, map);
   });
@@ -322,10 +309,9 @@ void Matcher::State::fill_gaps() {
   for_rows([&](int y0, int y1, WorkerState&) {
     fill_gaps_along_rows(settings.max_gap, kDisparityOne, y0, y1, map, confidence);
   });
-  pool->run((width + kColumns - 1) / kColumns, [&](int block, int worker) {
-    const int x0 = block * kColumns;
-    fill_gaps_along_columns(settings.max_gap, kDisparityOne, x0, std::min(x0 + kColumns, width),
-                            workers[worker].columns, map, confidence);
+  for_columns(width, [&](int x0, int x1, WorkerState& worker) {
+    fill_gaps_along_columns(settings.max_gap, kDisparityOne, x0, x1, worker.columns, map,
+                            confidence);
   });
 }
 
@@ -349,12 +335,17 @@ void Matcher::State::keep(Stage stage) {
   }
 }
 
-double Matcher::State::density() const {
-  std::size_t known = 0;
-  for (int y = 0; y < result.height; ++y) {
-    const std::int32_t* row = result.row(y);
-    known += result.width - std::count(row, row + result.width, kNoDisparity);
-  }
+double Matcher::State::density() {
+  std::atomic<std::int64_t> known{0};
+  const int bands = (result.height + kBand - 1) / kBand;
+  pool->run(bands, [&](int band, int) {
+    std::int64_t in_band = 0;
+    for (int y = band * kBand; y < std::min((band + 1) * kBand, result.height); ++y) {
+      const std::int32_t* row = result.row(y);
+      in_band += result.width - std::count(row, row + result.width, kNoDisparity);
+    }
+    known += in_band;
+  });
   return static_cast<double>(known) / (static_cast<double>(result.width) * result.height);
 }
 

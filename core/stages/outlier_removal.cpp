@@ -115,12 +115,11 @@ void copy_votes(const Image<std::int32_t>& map, int y0, int y1, VoteMap& votes) 
   }
 }
 
-void sum_votes(VoteMap& votes) {
-  const int columns = votes.integral.width();
+void sum_votes(int x0, int x1, VoteMap& votes) {
   for (int y = 1; y < votes.integral.height(); ++y) {
     const std::uint32_t* above = votes.integral.row(y - 1);
     std::uint32_t* sums = votes.integral.row(y);
-    for (int x = 0; x < columns; ++x) sums[x] += above[x];
+    for (int x = x0; x < x1; ++x) sums[x] += above[x];
   }
 }
 

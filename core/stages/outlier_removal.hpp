@@ -30,8 +30,9 @@ inline constexpr std::uint16_t kVoteNone = 0xFFFF;
 /// Copies the rows y0 .. y1 - 1 of the map.
 void copy_votes(const Image<std::int32_t>& map, int y0, int y1, VoteMap& votes);
 
-/// Sums up VoteMap::integral, whose rows are running sums after copy_votes().
-void sum_votes(VoteMap& votes);
+/// Sums up the columns x0 .. x1 - 1 of VoteMap::integral, whose rows are running sums after
+/// copy_votes().
+void sum_votes(int x0, int x1, VoteMap& votes);
 
 /// Removes from the rows y0 .. y1 - 1 of `map` every disparity d for which, in the window of
 /// columns x - radius .. x + radius - 1 and rows y - radius .. y + radius - 1, more pixels with a

@@ -137,7 +137,7 @@ void FrameStages::size_views() {
 }
 
 void FrameStages::size_maps() {
-  votes_.resize(width_, height_, settings_.outlier_radius);
+  if (settings_.outlier_radius > 0) votes_.resize(width_, height_, settings_.outlier_radius);
   ends_.resize(leaves().left);
   map_.resize(width_, height_);
   ratio_.resize(width_, height_);
@@ -228,7 +228,7 @@ void FrameStages::draw() {
 
 void FrameStages::remove_outliers() {
   for_rows([&](int y0, int y1) { copy_votes(map_, y0, y1, votes_); });
-  sum_votes(votes_);
+  sum_votes(0, votes_.integral.width(), votes_);
   for_rows([&](int y0, int y1) { mtstereo::remove_outliers(votes_, y0, y1, map_); });
 }
 

@@ -23,7 +23,9 @@ DisparityPlane filtered(const DisparityPlane& map, int radius, int band = 1 << 2
   for (int y = 0; y < map.height; y += band) {
     copy_votes(image, y, std::min(y + band, map.height), votes);
   }
-  sum_votes(votes);
+  const int columns = votes.integral.width();
+  const int block = std::min(band, columns);
+  for (int x = 0; x < columns; x += block) sum_votes(x, std::min(x + block, columns), votes);
   for (int y = 0; y < map.height; y += band) {
     remove_outliers(votes, y, std::min(y + band, map.height), image);
   }
