@@ -144,6 +144,25 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
     });
   }
 
+  /// As for_rows() `per_thread`, with two bands for each thread of several, which are about the
+  /// same work: work(y) tells that of a row.
+  template <typename Work, typename Body>
+  void for_rows_of_work(Work&& work, Body&& body) {
+    const int bands = pool->threads() == 1 ? 1 : std::min(2 * pool->threads(), height);
+    std::int64_t total = 0;
+    for (int y = 0; y < height; ++y) total += work(y);
+    const auto first_row = [&](int band) {
+      int y = 0;
+      for (std::int64_t done = 0; y < height && done * bands < total * band; ++y) done += work(y);
+      return y;
+    };
+    pool->run(bands, [&](int band, int worker) {
+      const int y0 = first_row(band);
+      const int y1 = band + 1 == bands ? height : first_row(band + 1);
+      if (y0 < y1) body(y0, y1, workers[worker]);
+    });
+  }
+
   /// Calls body(side, y0, y1, worker) for the bands of both views, as for_rows() does for one.
   template <typename Body>
   void for_rows_of_both(Body&& body) {

@@ -203,15 +203,16 @@ void Matcher::State::match_level(int index) {
                                settings.node_census ? nullptr : &volume,
                                &census,
                                settings.intensity_weight};
-  constexpr bool kPerThread = true;
-  for_rows(
-      [&](int y0, int y1, WorkerState& worker) {
-        match_nodes(input, level.intervals, settings.max_neighbors, settings.node_confidence, y0,
-                    y1, worker.match, level.matches);
-        const bool leaf = index + 1 == settings.node_levels.count;
-        if (leaf && !nodes_are_drawn()) take_match_ends(level.left, level.matches, y0, y1, ends);
-      },
-      kPerThread);
+  // Nodes may be crowded in one part of the view: as many pairs of them as there are is the work.
+  const auto work = [&](int y) {
+    return 1 + std::int64_t{level.left.count[y]} * level.right.count[y];
+  };
+  for_rows_of_work(work, [&](int y0, int y1, WorkerState& worker) {
+    match_nodes(input, level.intervals, settings.max_neighbors, settings.node_confidence, y0, y1,
+                worker.match, level.matches);
+    const bool leaf = index + 1 == settings.node_levels.count;
+    if (leaf && !nodes_are_drawn()) take_match_ends(level.left, level.matches, y0, y1, ends);
+  });
 }
 
 /// Whether the map of the matched nodes is needed: else only their ends are.
