@@ -11,86 +11,191 @@
 // After foreach_target.h, which includes this file once more for each processor.
 #include <hwy/highway.h>
 
+namespace mtstereo {
+#ifndef MTSTEREO_CENSUS_WINDOW
+#define MTSTEREO_CENSUS_WINDOW
+/// One row of both views, taken apart. The right one is mirrored and goes on for cost_lanes()
+/// columns beyond.
+struct CensusRow {
+  std::uint8_t* left[kCensusBytes];
+  std::uint8_t* right[kCensusBytes];
+};
+
+/// The sums over the window's rows, on their way from row to row.
+struct CensusWindow {
+  int width;
+  int lanes;
+  CensusRow in;        ///< the row that comes into the window
+  CensusRow out;       ///< the row that leaves it
+  std::uint8_t* kept;  ///< costs of the row that leaves it, in whose place come those of the other
+  std::uint8_t* sums;
+};
+
+/// See CensusCostScratch::tables.
+struct CensusTables {
+  const std::uint8_t* below;
+  const std::uint8_t* above;
+  const std::uint8_t* never;
+};
+#endif
+}  // namespace mtstereo
+
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Bytes = hn::CappedTag<std::uint8_t, kCostStep>;
-using CensusBytes = std::uint8_t* const[kCensusBytes];
+using Vector = hn::Vec<Bytes>;
 
-/// Takes the costs of a row into the ring's row `slot` and into the sum, where they replace those
-/// that the ring held. `right` is mirrored and goes on for cost_lanes() columns beyond.
-void replace_row(const CensusBytes& left, const CensusBytes& right, int width, int disparities,
-                 std::uint8_t* slot, std::uint8_t* sum) {
+/// Whether the bits of the row that leaves the window are counted once more rather than kept: that
+/// is cheaper where counting is one instruction, and leaves the cache to others.
+#if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_NEON
+constexpr bool kCountTwice = true;
+#else
+constexpr bool kCountTwice = false;
+#endif
+
+/// Counts the bits in which one left pixel differs from the right ones of all disparities.
+class Difference {
+ public:
+  /// Disparity d of column x is the mirrored right pixel width - 1 - x + d.
+  Difference(const CensusRow& row, int width, int x)
+      : bits0_(hn::Set(Bytes(), row.left[0][x])),
+        bits1_(hn::Set(Bytes(), row.left[1][x])),
+        bits2_(hn::Set(Bytes(), row.left[2][x])),
+        right0_(row.right[0] + (width - 1 - x)),
+        right1_(row.right[1] + (width - 1 - x)),
+        right2_(row.right[2] + (width - 1 - x)) {}
+
+  HWY_INLINE Vector count(int d) const {
+    const Bytes d8;
+    const auto count0 = hn::PopulationCount(hn::Xor(bits0_, hn::LoadU(d8, right0_ + d)));
+    const auto count1 = hn::PopulationCount(hn::Xor(bits1_, hn::LoadU(d8, right1_ + d)));
+    const auto count2 = hn::PopulationCount(hn::Xor(bits2_, hn::LoadU(d8, right2_ + d)));
+    return hn::Add(hn::Add(count0, count1), count2);
+  }
+
+ private:
+  Vector bits0_, bits1_, bits2_;
+  const std::uint8_t* right0_;
+  const std::uint8_t* right1_;
+  const std::uint8_t* right2_;
+};
+
+/// Moves the sums of column x on by one row.
+HWY_INLINE void move_sums(const CensusWindow& window, int x) {
   const Bytes d8;
   const int step = static_cast<int>(hn::Lanes(d8));
-  const int lanes = cost_lanes(disparities);
-  for (int x = 0; x < width; ++x) {
-    const auto bits0 = hn::Set(d8, left[0][x]);
-    const auto bits1 = hn::Set(d8, left[1][x]);
-    const auto bits2 = hn::Set(d8, left[2][x]);
-    // Disparity d of this pixel is the mirrored right pixel width - 1 - x + d.
-    const int first = width - 1 - x;
-    const std::uint8_t* right0 = right[0] + first;
-    const std::uint8_t* right1 = right[1] + first;
-    const std::uint8_t* right2 = right[2] + first;
-    std::uint8_t* old = slot + static_cast<std::ptrdiff_t>(x) * lanes;
-    std::uint8_t* total = sum + static_cast<std::ptrdiff_t>(x) * lanes;
-    for (int d = 0; d < lanes; d += step) {
-      const auto count0 = hn::PopulationCount(hn::Xor(bits0, hn::LoadU(d8, right0 + d)));
-      const auto count1 = hn::PopulationCount(hn::Xor(bits1, hn::LoadU(d8, right1 + d)));
-      const auto count2 = hn::PopulationCount(hn::Xor(bits2, hn::LoadU(d8, right2 + d)));
-      const auto cost = hn::Add(hn::Add(count0, count1), count2);
-      hn::Store(hn::Add(hn::Sub(hn::Load(d8, total + d), hn::Load(d8, old + d)), cost), d8,
-                total + d);
-      hn::Store(cost, d8, old + d);
+  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
+  std::uint8_t* sums = window.sums + first;
+  const Difference in(window.in, window.width, x);
+  if (kCountTwice) {
+    const Difference out(window.out, window.width, x);
+    for (int d = 0; d < window.lanes; d += step) {
+      const auto sum = hn::Sub(hn::Load(d8, sums + d), out.count(d));
+      hn::Store(hn::Add(sum, in.count(d)), d8, sums + d);
+    }
+    return;
+  }
+  std::uint8_t* kept = window.kept + first;
+  for (int d = 0; d < window.lanes; d += step) {
+    const auto count = in.count(d);
+    const auto sum = hn::Sub(hn::Load(d8, sums + d), hn::Load(d8, kept + d));
+    hn::Store(hn::Add(sum, count), d8, sums + d);
+    hn::Store(count, d8, kept + d);
+  }
+}
+
+/// The sums without any row: those of the rows that come are all that there is.
+void clear_sums(const CensusWindow& window, int rows) {
+  const std::size_t cells = static_cast<std::size_t>(window.width) * window.lanes;
+  std::memset(window.sums, 0, cells);
+  if (!kCountTwice) std::memset(window.kept, 0, cells * rows);
+}
+
+/// Takes in the window's first rows, with which nothing leaves it.
+void add_row(const CensusWindow& window) {
+  const Bytes d8;
+  for (int x = 0; x < window.width; ++x) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
+    const Difference in(window.in, window.width, x);
+    for (int d = 0; d < window.lanes; d += static_cast<int>(hn::Lanes(d8))) {
+      const auto count = in.count(d);
+      std::uint8_t* sums = window.sums + first + d;
+      hn::Store(hn::Add(hn::Load(d8, sums), count), d8, sums);
+      if (!kCountTwice) hn::Store(count, d8, window.kept + first + d);
     }
   }
 }
 
 /// The binomial mean along the row of 1, 3 or 5 cells that lie at `offsets` from the middle one.
-template <class V>
-V mean_along_row(Bytes d8, const std::uint8_t* sums, const std::ptrdiff_t* offsets, int size,
-                 V middle) {
-  if (size == 1) return middle;
-  const V near =
-      hn::AverageRound(hn::LoadU(d8, sums + offsets[1]), hn::LoadU(d8, sums + offsets[2]));
-  if (size == 3) return hn::AverageRound(near, middle);
+template <int kSize>
+HWY_INLINE Vector mean_along_row(const std::uint8_t* sums, const std::ptrdiff_t* offsets) {
+  const Bytes d8;
+  const auto middle = hn::Load(d8, sums);
+  if (kSize == 1) return middle;
+  const auto near =
+      hn::AverageRound(hn::Load(d8, sums + offsets[1]), hn::Load(d8, sums + offsets[2]));
+  if (kSize == 3) return hn::AverageRound(near, middle);
   // 1 4 6 4 1 in sixteenths.
-  const V far =
-      hn::AverageRound(hn::LoadU(d8, sums + offsets[0]), hn::LoadU(d8, sums + offsets[3]));
-  const V rest = hn::AverageRound(middle, hn::AverageRound(far, middle));
+  const auto far =
+      hn::AverageRound(hn::Load(d8, sums + offsets[0]), hn::Load(d8, sums + offsets[3]));
+  const auto rest = hn::AverageRound(middle, hn::AverageRound(far, middle));
   return hn::AverageRound(near, rest);
 }
 
-void write_row(const CensusCostOptions& options, int width, const std::uint16_t* low,
-               const std::uint16_t* high, const CensusCostScratch& scratch, std::uint8_t* costs) {
+/// Writes the costs of column x, of which the disparities low .. high are expected.
+template <int kSize>
+HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, int low, int high,
+                            const CensusTables& tables, std::uint8_t* costs) {
   const Bytes d8;
   const int step = static_cast<int>(hn::Lanes(d8));
-  const int lanes = cost_lanes(options.disparities);
-  const std::uint8_t* below_table = scratch.tables.data();
-  const std::uint8_t* above_table = below_table + 2 * lanes;
-  const std::uint8_t* never = above_table + 2 * lanes;
-  for (int x = 0; x < width; ++x) {
-    const std::uint8_t* sums = scratch.vertical.data() + static_cast<std::ptrdiff_t>(x) * lanes;
-    std::uint8_t* out = costs + static_cast<std::ptrdiff_t>(x) * lanes;
-    const std::ptrdiff_t offsets[4] = {
-        static_cast<std::ptrdiff_t>(std::max(x - 2, 0) - x) * lanes,
-        static_cast<std::ptrdiff_t>(std::max(x - 1, 0) - x) * lanes,
-        static_cast<std::ptrdiff_t>(std::min(x + 1, width - 1) - x) * lanes,
-        static_cast<std::ptrdiff_t>(std::min(x + 2, width - 1) - x) * lanes};
-    const bool expected = low[x] <= high[x];
-    // Windows into tables of two halves: the penalty lies left of `low` and right of `high`.
-    const std::uint8_t* below = below_table + lanes - (expected ? low[x] : 0);
-    const std::uint8_t* above = above_table + (expected ? lanes - 1 - high[x] : 0);
+  const int last = window.width - 1;
+  const std::ptrdiff_t lanes = window.lanes;
+  const std::ptrdiff_t offsets[4] = {
+      (std::max(x - 2, 0) - x) * lanes, (std::max(x - 1, 0) - x) * lanes,
+      (std::min(x + 1, last) - x) * lanes, (std::min(x + 2, last) - x) * lanes};
+  const std::uint8_t* sums = window.sums + x * lanes;
+  std::uint8_t* out = costs + x * lanes;
+  const auto mean = [&](int d) { return mean_along_row<kSize>(sums + d, offsets); };
+  if (low > high || (low == 0 && high == disparities - 1)) {
     for (int d = 0; d < lanes; d += step) {
-      const auto mean =
-          mean_along_row(d8, sums + d, offsets, options.kernel_size, hn::Load(d8, sums + d));
-      const auto penalty = hn::Max(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d));
-      hn::Store(hn::Max(hn::SaturatedAdd(mean, penalty), hn::Load(d8, never + d)), d8, out + d);
+      hn::Store(hn::Max(mean(d), hn::Load(d8, tables.never + d)), d8, out + d);
     }
+    return;
   }
+  // Windows into tables of two halves: the penalty lies left of `low` and right of `high`.
+  const std::uint8_t* below = tables.below + lanes - low;
+  const std::uint8_t* above = tables.above + lanes - 1 - high;
+  for (int d = 0; d < lanes; d += step) {
+    const auto penalty = hn::Max(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d));
+    const auto cost = hn::SaturatedAdd(mean(d), penalty);
+    hn::Store(hn::Max(cost, hn::Load(d8, tables.never + d)), d8, out + d);
+  }
+}
+
+/// Moves the sums on by one row and writes its costs, column after column, since those beside it
+/// are still at hand.
+template <int kSize>
+void write_row_of(const CensusWindow& window, int disparities, const std::uint16_t* low,
+                  const std::uint16_t* high, const CensusTables& tables, std::uint8_t* costs) {
+  constexpr int kReach = kSize / 2;
+  const int width = window.width;
+  for (int x = 0; x < std::min(kReach, width); ++x) move_sums(window, x);
+  for (int x = 0; x < width; ++x) {
+    if (x + kReach < width) move_sums(window, x + kReach);
+    write_costs<kSize>(window, disparities, x, low[x], high[x], tables, costs);
+  }
+}
+
+void write_row(const CensusWindow& window, const CensusCostOptions& options,
+               const std::uint16_t* low, const std::uint16_t* high, const CensusTables& tables,
+               std::uint8_t* costs) {
+  const auto write = options.kernel_size == 5   ? write_row_of<5>
+                     : options.kernel_size == 3 ? write_row_of<3>
+                                                : write_row_of<1>;
+  write(window, options.disparities, low, high, tables, costs);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -100,41 +205,56 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mtstereo {
 
-HWY_EXPORT(replace_row);
+HWY_EXPORT(clear_sums);
+HWY_EXPORT(add_row);
 HWY_EXPORT(write_row);
 
 namespace {
 
-using CensusBytes = std::uint8_t* const[kCensusBytes];
+/// The rows that are held apart: those of the window, and the one that comes.
+int rows_apart(const CensusCostOptions& options) { return options.kernel_size + 1; }
 
-/// Takes the image's row next to `y` into ring and sum; beyond the border the border's row.
-void take_row(const CensusImage& left, const CensusImage& right, const CensusCostOptions& options,
-              int y, CensusCostScratch& scratch) {
+int wrapped(int i, int count) { return (i % count + count) % count; }
+
+/// Where the bytes of row y, which may be outside of the image, are.
+CensusRow place_of(int y, int width, const CensusCostOptions& options, CensusCostScratch& scratch) {
+  const int right_width = width + cost_lanes(options.disparities);
+  std::uint8_t* bytes =
+      scratch.planes.data() + static_cast<std::ptrdiff_t>(wrapped(y, rows_apart(options))) *
+                                  kCensusBytes * (width + right_width);
+  CensusRow row{};
+  for (std::uint8_t*& plane : row.left) plane = std::exchange(bytes, bytes + width);
+  for (std::uint8_t*& plane : row.right) plane = std::exchange(bytes, bytes + right_width);
+  return row;
+}
+
+/// Makes row y ready to come into the window; beyond the border it is the border's row.
+CensusWindow window_with(const CensusImage& left, const CensusImage& right,
+                         const CensusCostOptions& options, int y, CensusCostScratch& scratch) {
   const int width = left.bits.width();
   const int lanes = cost_lanes(options.disparities);
   const int inside = std::clamp(y, 0, left.bits.height() - 1);
-  std::uint8_t* planes = scratch.planes.data();
-  const auto next_plane = [&](int size) { return std::exchange(planes, planes + size); };
-  const CensusBytes left_bytes = {next_plane(width), next_plane(width), next_plane(width)};
-  const CensusBytes right_bytes = {next_plane(width + lanes), next_plane(width + lanes),
-                                   next_plane(width + lanes)};
-  split_census_row(left.bits.row(inside), width, RowOrder::kForward, 0, left_bytes);
-  split_census_row(right.bits.row(inside), width, RowOrder::kMirrored, lanes, right_bytes);
-  const std::ptrdiff_t row_cells = static_cast<std::ptrdiff_t>(width) * lanes;
-  const int size = options.kernel_size;
-  const int slot = ((y % size) + size) % size;
-  HWY_DYNAMIC_DISPATCH(replace_row)
-  (left_bytes, right_bytes, width, options.disparities, scratch.ring.data() + slot * row_cells,
-   scratch.vertical.data());
+  const CensusRow in = place_of(y, width, options, scratch);
+  split_census_row(left.bits.row(inside), width, RowOrder::kForward, 0, in.left);
+  split_census_row(right.bits.row(inside), width, RowOrder::kMirrored, lanes, in.right);
+  const std::ptrdiff_t kept =
+      static_cast<std::ptrdiff_t>(wrapped(y, options.kernel_size)) * width * lanes;
+  return {width,
+          lanes,
+          in,
+          place_of(y - options.kernel_size, width, options, scratch),
+          scratch.kept.data() + kept,
+          scratch.sums.data()};
 }
 
 }  // namespace
 
 void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
   const std::size_t lanes = cost_lanes(options.disparities);
-  planes.resize(kCensusBytes * (2 * width + lanes));
-  ring.resize(width * lanes * options.kernel_size);
-  vertical.resize(width * lanes);
+  planes.resize(kCensusBytes * (2 * width + lanes) * rows_apart(options));
+  std::memset(planes.data(), 0, planes.size());
+  kept.resize(width * lanes * options.kernel_size);
+  sums.resize(width * lanes);
   tables.resize(5 * lanes);
   const int penalty = std::min(options.range_penalty * cost_scale(options), 255);
   std::uint8_t* below = tables.data();
@@ -150,18 +270,27 @@ void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
 
 void start_census_costs(const CensusImage& left, const CensusImage& right,
                         const CensusCostOptions& options, int y, CensusCostScratch& scratch) {
-  std::memset(scratch.ring.data(), 0, scratch.ring.size());
-  std::memset(scratch.vertical.data(), 0, scratch.vertical.size());
   const int reach = options.kernel_size / 2;
-  for (int i = -reach; i < reach; ++i) take_row(left, right, options, y + i, scratch);
+  const int width = left.bits.width();
+  const int lanes = cost_lanes(options.disparities);
+  HWY_DYNAMIC_DISPATCH(clear_sums)
+  ({width, lanes, {}, {}, scratch.kept.data(), scratch.sums.data()}, options.kernel_size);
+  // The row that leaves the window first is one of none, whose costs are to be 0: both views alike.
+  const CensusRow none = place_of(y - reach - 1, width, options, scratch);
+  std::memset(none.left[0], 0, kCensusBytes * (2 * width + lanes));
+  for (int i = -reach; i < reach; ++i) {
+    HWY_DYNAMIC_DISPATCH(add_row)(window_with(left, right, options, y + i, scratch));
+  }
 }
 
 void census_cost_row(const CensusImage& left, const CensusImage& right,
                      const CensusCostOptions& options, int y, const std::uint16_t* low,
                      const std::uint16_t* high, CensusCostScratch& scratch, std::uint8_t* costs) {
-  take_row(left, right, options, y + options.kernel_size / 2, scratch);
+  const std::size_t lanes = cost_lanes(options.disparities);
+  const std::uint8_t* tables = scratch.tables.data();
   HWY_DYNAMIC_DISPATCH(write_row)
-  (options, left.bits.width(), low, high, scratch, costs);
+  (window_with(left, right, options, y + options.kernel_size / 2, scratch), options, low, high,
+   {tables, tables + 2 * lanes, tables + 4 * lanes}, costs);
 }
 
 }  // namespace mtstereo

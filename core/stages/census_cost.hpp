@@ -36,10 +36,13 @@ inline int cost_scale(const CensusCostOptions& options) { return options.kernel_
 
 /// Scratch memory of one thread, and what it carries from row to row.
 struct CensusCostScratch {
-  Buffer<std::uint8_t> planes;  ///< bytes of a row of the left view, then of the mirrored right one
-  Buffer<std::uint8_t> ring;    ///< differing bits of the last `kernel_size` rows
-  Buffer<std::uint8_t> vertical;  ///< their sum
-  Buffer<std::uint8_t> tables;    ///< penalties below and above a range, and behind D
+  /// Rows of both views taken apart into bytes: those of the window, and the one that comes next.
+  Buffer<std::uint8_t> planes;
+  /// Differing bits of the window's rows, for processors that are slow to count them once more when
+  /// a row leaves the window; others never touch it.
+  Buffer<std::uint8_t> kept;
+  Buffer<std::uint8_t> sums;    ///< differing bits over the window's rows
+  Buffer<std::uint8_t> tables;  ///< penalties below and above a range, and behind D
 
   void resize(int width, const CensusCostOptions& options);
 };
