@@ -45,8 +45,14 @@ namespace mtstereo {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Bytes = hn::CappedTag<std::uint8_t, kCostStep>;
-using Vector = hn::Vec<Bytes>;
+using Narrow = hn::CappedTag<std::uint8_t, kCostStep>;
+using Wide = hn::CappedTag<std::uint8_t, 2 * kCostStep>;
+
+/// Whether pixels are whole wide vectors.
+bool is_wide(int lanes) {
+  const int wide = static_cast<int>(hn::MaxLanes(Wide()));
+  return wide > static_cast<int>(hn::MaxLanes(Narrow())) && lanes % wide == 0;
+}
 
 /// Whether the bits of the row that leaves the window are counted once more rather than kept: that
 /// is cheaper where counting is one instruction, and leaves the cache to others.
@@ -57,19 +63,20 @@ constexpr bool kCountTwice = false;
 #endif
 
 /// Counts the bits in which one left pixel differs from the right ones of all disparities.
+template <class D8>
 class Difference {
  public:
   /// Disparity d of column x is the mirrored right pixel width - 1 - x + d.
   Difference(const CensusRow& row, int width, int x)
-      : bits0_(hn::Set(Bytes(), row.left[0][x])),
-        bits1_(hn::Set(Bytes(), row.left[1][x])),
-        bits2_(hn::Set(Bytes(), row.left[2][x])),
+      : bits0_(hn::Set(D8(), row.left[0][x])),
+        bits1_(hn::Set(D8(), row.left[1][x])),
+        bits2_(hn::Set(D8(), row.left[2][x])),
         right0_(row.right[0] + (width - 1 - x)),
         right1_(row.right[1] + (width - 1 - x)),
         right2_(row.right[2] + (width - 1 - x)) {}
 
-  HWY_INLINE Vector count(int d) const {
-    const Bytes d8;
+  HWY_INLINE hn::Vec<D8> count(int d) const {
+    const D8 d8;
     const auto count0 = hn::PopulationCount(hn::Xor(bits0_, hn::LoadU(d8, right0_ + d)));
     const auto count1 = hn::PopulationCount(hn::Xor(bits1_, hn::LoadU(d8, right1_ + d)));
     const auto count2 = hn::PopulationCount(hn::Xor(bits2_, hn::LoadU(d8, right2_ + d)));
@@ -77,21 +84,22 @@ class Difference {
   }
 
  private:
-  Vector bits0_, bits1_, bits2_;
+  hn::Vec<D8> bits0_, bits1_, bits2_;
   const std::uint8_t* right0_;
   const std::uint8_t* right1_;
   const std::uint8_t* right2_;
 };
 
 /// Moves the sums of column x on by one row.
+template <class D8>
 HWY_INLINE void move_sums(const CensusWindow& window, int x) {
-  const Bytes d8;
+  const D8 d8;
   const int step = static_cast<int>(hn::Lanes(d8));
   const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
   std::uint8_t* sums = window.sums + first;
-  const Difference in(window.in, window.width, x);
+  const Difference<D8> in(window.in, window.width, x);
   if (kCountTwice) {
-    const Difference out(window.out, window.width, x);
+    const Difference<D8> out(window.out, window.width, x);
     for (int d = 0; d < window.lanes; d += step) {
       const auto sum = hn::Sub(hn::Load(d8, sums + d), out.count(d));
       hn::Store(hn::Add(sum, in.count(d)), d8, sums + d);
@@ -116,10 +124,11 @@ void clear_sums(const CensusWindow& window, int rows) {
 
 /// Takes in the window's first rows, with which nothing leaves it.
 void add_row(const CensusWindow& window) {
-  const Bytes d8;
+  using D8 = Narrow;
+  const D8 d8;
   for (int x = 0; x < window.width; ++x) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
-    const Difference in(window.in, window.width, x);
+    const Difference<D8> in(window.in, window.width, x);
     for (int d = 0; d < window.lanes; d += static_cast<int>(hn::Lanes(d8))) {
       const auto count = in.count(d);
       std::uint8_t* sums = window.sums + first + d;
@@ -130,9 +139,9 @@ void add_row(const CensusWindow& window) {
 }
 
 /// The binomial mean along the row of 1, 3 or 5 cells that lie at `offsets` from the middle one.
-template <int kSize>
-HWY_INLINE Vector mean_along_row(const std::uint8_t* sums, const std::ptrdiff_t* offsets) {
-  const Bytes d8;
+template <int kSize, class D8>
+HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const std::uint8_t* sums,
+                                      const std::ptrdiff_t* offsets) {
   const auto middle = hn::Load(d8, sums);
   if (kSize == 1) return middle;
   const auto near =
@@ -146,10 +155,10 @@ HWY_INLINE Vector mean_along_row(const std::uint8_t* sums, const std::ptrdiff_t*
 }
 
 /// Writes the costs of column x, of which the disparities low .. high are expected.
-template <int kSize>
+template <int kSize, class D8>
 HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, int low, int high,
                             const CensusTables& tables, std::uint8_t* costs) {
-  const Bytes d8;
+  const D8 d8;
   const int step = static_cast<int>(hn::Lanes(d8));
   const int last = window.width - 1;
   const std::ptrdiff_t lanes = window.lanes;
@@ -158,7 +167,7 @@ HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, 
       (std::min(x + 1, last) - x) * lanes, (std::min(x + 2, last) - x) * lanes};
   const std::uint8_t* sums = window.sums + x * lanes;
   std::uint8_t* out = costs + x * lanes;
-  const auto mean = [&](int d) { return mean_along_row<kSize>(sums + d, offsets); };
+  const auto mean = [&](int d) { return mean_along_row<kSize>(d8, sums + d, offsets); };
   if (low > high || (low == 0 && high == disparities - 1)) {
     for (int d = 0; d < lanes; d += step) {
       hn::Store(hn::Max(mean(d), hn::Load(d8, tables.never + d)), d8, out + d);
@@ -177,24 +186,30 @@ HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, 
 
 /// Moves the sums on by one row and writes its costs, column after column, since those beside it
 /// are still at hand.
-template <int kSize>
-void write_row_of(const CensusWindow& window, int disparities, const std::uint16_t* low,
-                  const std::uint16_t* high, const CensusTables& tables, std::uint8_t* costs) {
+template <int kSize, class D8>
+void write_row_of(const CensusWindow& of_window, int disparities, const std::uint16_t* low,
+                  const std::uint16_t* high, const CensusTables& of_tables, std::uint8_t* costs) {
+  // Copies, which no byte that is written can be a part of.
+  const CensusWindow window = of_window;
+  const CensusTables tables = of_tables;
   constexpr int kReach = kSize / 2;
   const int width = window.width;
-  for (int x = 0; x < std::min(kReach, width); ++x) move_sums(window, x);
+  for (int x = 0; x < std::min(kReach, width); ++x) move_sums<D8>(window, x);
   for (int x = 0; x < width; ++x) {
-    if (x + kReach < width) move_sums(window, x + kReach);
-    write_costs<kSize>(window, disparities, x, low[x], high[x], tables, costs);
+    if (x + kReach < width) move_sums<D8>(window, x + kReach);
+    write_costs<kSize, D8>(window, disparities, x, low[x], high[x], tables, costs);
   }
 }
 
 void write_row(const CensusWindow& window, const CensusCostOptions& options,
                const std::uint16_t* low, const std::uint16_t* high, const CensusTables& tables,
                std::uint8_t* costs) {
-  const auto write = options.kernel_size == 5   ? write_row_of<5>
-                     : options.kernel_size == 3 ? write_row_of<3>
-                                                : write_row_of<1>;
+  const auto by_size = [&]<class D8>(D8) {
+    return options.kernel_size == 5   ? write_row_of<5, D8>
+           : options.kernel_size == 3 ? write_row_of<3, D8>
+                                      : write_row_of<1, D8>;
+  };
+  const auto write = is_wide(window.lanes) ? by_size(Wide()) : by_size(Narrow());
   write(window, options.disparities, low, high, tables, costs);
 }
 

@@ -156,14 +156,17 @@ HWY_INLINE void compete_in_group(const Batch& batch, int group, SelectionScratch
   const int d0 = group * kGroup;
   const int d1 = std::min(d0 + kGroup, batch.lanes);
   const int groups = (batch.lanes + kGroup - 1) / kGroup;
+  // Copies, which no word that is written can be a part of.
+  const std::ptrdiff_t stride = scratch.right_stride;
+  std::uint16_t* const first = scratch.right.data();
+  const std::uint16_t* const index = scratch.index.data();
   for (int i = 0; i < batch.pixels; ++i) {
     const int x = batch.x + i;
-    const std::ptrdiff_t competition =
-        (x % SelectionScratch::kTurns * groups + group) * scratch.right_stride;
-    std::uint16_t* right = scratch.right.data() + competition + (batch.width - 1 - x) + d0;
+    const std::ptrdiff_t competition = (x % SelectionScratch::kTurns * groups + group) * stride;
+    std::uint16_t* right = first + competition + (batch.width - 1 - x) + d0;
     const int count = std::min(batch.disparities, x + 1);  // disparities with a right pixel
-    const Leasts leasts = compete<kAtBorder>(batch.costs + i * batch.lanes, scratch.index.data(),
-                                             d0, d1, count, right);
+    const Leasts leasts =
+        compete<kAtBorder>(batch.costs + i * batch.lanes, index, d0, d1, count, right);
     hn::Store(leasts.least, d16, out.least[i]);
     hn::Store(leasts.second, d16, out.second[i]);
   }
