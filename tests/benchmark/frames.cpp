@@ -23,12 +23,11 @@ std::string frame_name(const std::string& what, cv::Size size, int disparities) 
 
 }  // namespace
 
-Pair render_street(int width, int height) {
+Pair render_street(int width, int height, double time) {
   render::Settings settings;
   settings.width = width;
   settings.height = height;
-  constexpr double kTime = 1.0;  // [s] into the scene
-  render::StereoFrame frame = render::render(render::make_scene("street", 1), kTime, settings);
+  render::StereoFrame frame = render::render(render::make_scene("street", 1), time, settings);
   return {std::move(frame.left), std::move(frame.right)};
 }
 

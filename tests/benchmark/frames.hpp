@@ -16,8 +16,8 @@ struct Pair {
   cv::Mat right;
 };
 
-/// A street, rendered: the same bytes in every run.
-Pair render_street(int width, int height);
+/// A street at a time [s] into the scene, rendered: the same bytes in every run.
+Pair render_street(int width, int height, double time = 1);
 
 GrayView view_of(const cv::Mat& image);
 

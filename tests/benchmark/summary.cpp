@@ -60,6 +60,7 @@ void Summary::take(const benchmark::BenchmarkReporter::Run& run) {
   // Single repetitions come before their median, which then replaces them.
   const bool median = run.aggregate_name == "median";
   if (run.run_type == benchmark::BenchmarkReporter::Run::RT_Aggregate && !median) return;
+  counters_[run.run_name.function_name] = run.counters;
   FrameTiming& timing = timed_[run.run_name.function_name];
   timing.seconds = run.GetAdjustedRealTime() / benchmark::GetTimeUnitMultiplier(run.time_unit);
   timing.seconds_per_megapixel = counter(run, "s/MP");
@@ -81,6 +82,14 @@ std::vector<FrameTiming> Summary::timings() const {
 double Summary::seconds_of(const std::string& name) const {
   const auto found = timed_.find(name);
   return found == timed_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second.seconds;
+}
+
+double Summary::counter_of(const std::string& name, const std::string& counter) const {
+  const auto of_name = counters_.find(name);
+  if (of_name == counters_.end() || of_name->second.count(counter) == 0) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return static_cast<double>(of_name->second.at(counter));
 }
 
 void SummarizingReporter::ReportRuns(const std::vector<Run>& runs) {

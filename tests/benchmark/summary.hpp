@@ -51,6 +51,8 @@ class Summary {
   std::vector<FrameTiming> timings() const;
   /// The median of any benchmark [s], by its name without options; NaN where it was not timed.
   double seconds_of(const std::string& name) const;
+  /// The same of one of its counters.
+  double counter_of(const std::string& name, const std::string& counter) const;
   /// One sentence for each benchmark that failed, in the order they did.
   const std::vector<std::string>& errors() const { return errors_; }
 
@@ -61,6 +63,7 @@ class Summary {
   };
   std::vector<Expected> expected_;
   std::map<std::string, FrameTiming> timed_;
+  std::map<std::string, benchmark::UserCounters> counters_;
   std::vector<std::string> errors_;
 };
 

@@ -134,7 +134,10 @@ TEST(Summary, TellsTheTimeOfWhatWasNotAnnouncedToo) {
   Summary summary;
   summary.take(repetition("target/SSSE3", 20));
   EXPECT_DOUBLE_EQ(0.020, summary.seconds_of("target/SSSE3"));
+  EXPECT_DOUBLE_EQ(0.75, summary.counter_of("target/SSSE3", kDensityCounter));
   EXPECT_TRUE(std::isnan(summary.seconds_of("target")));
+  EXPECT_TRUE(std::isnan(summary.counter_of("target", kDensityCounter)));
+  EXPECT_TRUE(std::isnan(summary.counter_of("target/SSSE3", "pixels")));
 }
 
 }  // namespace
