@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 
+#include "eval/plot_panel.hpp"
 #include "eval/rival_sweep.hpp"
 
 namespace mtstereo::eval {
@@ -18,29 +18,6 @@ constexpr int kPanelTop = 120;
 constexpr int kPanelHeight = 375;
 constexpr int kPanelWidth = 510;
 constexpr std::array<int, 2> kPanelLeft{60, 665};
-constexpr double kLargeText = 0.55;
-constexpr double kMediumText = 0.48;
-constexpr double kSmallText = 0.42;
-// Points of lines in 1/16 px, for smooth ones.
-constexpr int kShift = 4;
-
-const cv::Scalar kInk(40, 40, 40);
-const cv::Scalar kGrid(225, 225, 225);
-
-void put_text(cv::Mat& picture, const std::string& text, cv::Point at, double size,
-              const cv::Scalar& color = kInk) {
-  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, color, 1, cv::LINE_AA);
-}
-
-cv::Size text_size(const std::string& text, double size) {
-  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, nullptr);
-}
-
-std::string short_number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 // A line as drawn: where a value is NaN it is interrupted.
 struct Line {
@@ -84,70 +61,11 @@ int thickness_of(const Curve& curve) {
   return curve.envelope ? 2 : 1;
 }
 
-class Panel {
- public:
-  Panel(cv::Mat& picture, cv::Rect area, double most)
-      : picture_(picture), area_(area), ticks_(axis_ticks(most)) {}
-
-  void draw_axes(const CurveMeasure& measure) {
-    for (int density = 0; density <= 100; density += 10) {
-      const int x = at(density, 0).x;
-      cv::line(picture_, {x, area_.y}, {x, bottom()}, kGrid);
-      const std::string number = std::to_string(density);
-      const cv::Size size = text_size(number, kMediumText);
-      put_text(picture_, number, {x - size.width / 2, bottom() + 18}, kMediumText);
-    }
-    for (const double tick : ticks_) {
-      const int y = at(0, tick).y;
-      cv::line(picture_, {area_.x, y}, {right(), y}, kGrid);
-      const std::string number = short_number(tick);
-      const cv::Size size = text_size(number, kMediumText);
-      put_text(picture_, number, {area_.x - size.width - 7, y + size.height / 2}, kMediumText);
-    }
-    cv::rectangle(picture_, {area_.x, area_.y}, {right(), bottom()}, kInk);
-    put_text(picture_, std::string(measure.name) + " [" + measure.unit + "]",
-             {area_.x, area_.y - 9}, kLargeText);
-    const std::string label = "density [%]";
-    put_text(picture_, label, {right() - text_size(label, kLargeText).width, bottom() + 40},
-             kLargeText);
-  }
-
-  void draw(const Line& line) {
-    const cv::Scalar color = curve_color(line.curve->method);
-    std::vector<cv::Point> run;
-    const auto finish_run = [&] {
-      if (run.size() > 1) {
-        cv::polylines(picture_, run, false, color, thickness_of(*line.curve), cv::LINE_AA, kShift);
-      }
-      run.clear();
-    };
-    for (const cv::Point2d& point : line.points) {
-      if (std::isnan(point.y)) {
-        finish_run();
-        continue;
-      }
-      if (has_dots(*line.curve)) {
-        cv::circle(picture_, at(point.x, point.y), 3, color, cv::FILLED, cv::LINE_AA);
-      }
-      run.push_back(at(point.x, point.y, 1 << kShift));
-    }
-    finish_run();
-  }
-
- private:
-  int right() const { return area_.x + area_.width; }
-  int bottom() const { return area_.y + area_.height; }
-
-  cv::Point at(double density, double error, int scale = 1) const {
-    const double x = area_.x + density / 100 * area_.width;
-    const double y = bottom() - error / ticks_.back() * area_.height;
-    return {static_cast<int>(std::lround(x * scale)), static_cast<int>(std::lround(y * scale))};
-  }
-
-  cv::Mat& picture_;
-  cv::Rect area_;
-  std::vector<double> ticks_;
-};
+std::vector<double> density_ticks() {
+  std::vector<double> ticks;
+  for (int density = 0; density <= 100; density += 10) ticks.push_back(density);
+  return ticks;
+}
 
 void draw_legend(cv::Mat& picture, const std::vector<Curve>& curves) {
   constexpr int kSample = 34, kGap = 22, kRow = 22;
@@ -197,20 +115,6 @@ cv::Rect panel_area(int panel) {
   return {kPanelLeft.at(static_cast<std::size_t>(panel)), kPanelTop, kPanelWidth, kPanelHeight};
 }
 
-std::vector<double> axis_ticks(double most) {
-  constexpr int kMostSteps = 7;
-  if (!(most > 0) || !std::isfinite(most)) most = 1;
-  const double power = std::pow(10, std::floor(std::log10(most)) - 1);
-  double step = power;
-  for (const double factor : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
-    step = factor * power;
-    if (most / step <= kMostSteps) break;
-  }
-  std::vector<double> ticks{0};
-  for (int i = 1; ticks.back() < most; ++i) ticks.push_back(i * step);
-  return ticks;
-}
-
 cv::Mat draw_curves(const CurveReport& report) {
   cv::Mat picture(kHeight, kWidth, CV_8UC3, cv::Scalar::all(255));
   draw_captions(picture, report);
@@ -219,10 +123,14 @@ cv::Mat draw_curves(const CurveReport& report) {
     const CurveMeasure& measure = kCurveMeasures[static_cast<std::size_t>(i)];
     std::vector<Line> lines;
     for (const Curve& curve : report.curves) lines.push_back(line_of(curve, measure));
-    Panel panel(picture, panel_area(i), largest_error(lines));
-    panel.draw_axes(measure);
+    PlotPanel panel(picture, panel_area(i), density_ticks(), axis_ticks(largest_error(lines)));
+    panel.draw_axes("density [%]", std::string(measure.name) + " [" + measure.unit + "]");
     // The library's own last, so that it lies above.
-    for (auto line = lines.rbegin(); line != lines.rend(); ++line) panel.draw(*line);
+    for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+      const cv::Scalar color = curve_color(line->curve->method);
+      if (has_dots(*line->curve)) panel.draw_dots(line->points, color);
+      panel.draw_line(line->points, color, thickness_of(*line->curve));
+    }
   }
   return picture;
 }

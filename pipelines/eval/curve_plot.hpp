@@ -2,7 +2,6 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <vector>
 
 #include "eval/curve_report.hpp"
 
@@ -17,9 +16,5 @@ cv::Scalar curve_color(std::size_t method);
 
 /// Where the axes of the two panels run in the picture: density 0 .. 100 % from left to right.
 cv::Rect panel_area(int panel);
-
-/// The steps of an axis from 0: at most 7 of them of 1, 2 or 5 times a power of ten, the last one
-/// not below `most`.
-std::vector<double> axis_ticks(double most);
 
 }  // namespace mtstereo::eval

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "eval/curve_plot.hpp"
+#include "eval/plot_panel.hpp"
 
 namespace mtstereo::eval {
 namespace {
