@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Measures, and writes the figures into docs/benchmark.md and the plot of the growth beside it.
+
+Runs the benchmarks of a build, or takes the results of a run before (--no-run). What stands between
+the two marks of the page is replaced. The exit status is 1 where a program fails and 2 where a
+result or the page cannot be used; the page is then as it was.
+"""
+import argparse
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import tables
+from compare import InputError
+from results import Result
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
+PICTURE = "benchmark-growth.png"
+
+
+class RunError(Exception):
+    """A program that failed; the message names it."""
+
+
+def run(program, *arguments, **environment):
+    try:
+        subprocess.run([program, *map(str, arguments)], check=True,
+                       env={**os.environ, **environment})
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise RunError(f"{program}: {error}") from error
+
+
+def measure(build, result, element_result):
+    """Runs both programs of the build; without the plugin there is no second one."""
+    programs = build / "tests/benchmark"
+    run(programs / "mtstereo-benchmark", f"--benchmark_out={result}")
+    element = programs / "mtstereo-benchmark-element"
+    if element.exists():
+        plugins = os.pathsep.join(filter(None, [str(build / "gst"),
+                                                os.environ.get("GST_PLUGIN_PATH")]))
+        run(element, f"--benchmark_out={element_result}", GST_PLUGIN_PATH=plugins)
+
+
+def draw_growth(build, result, picture):
+    panels = tables.growth_panels(result)
+    if not panels:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        plot = pathlib.Path(folder) / "plot.json"
+        plot.write_text(json.dumps({"title": tables.GROWTH_TITLE, "panels": panels}),
+                        encoding="utf-8")
+        run(build / "docs/figures/mtstereo-figures", "--growth", plot, picture)
+
+
+def section(result, element_result, picture):
+    parts = [tables.machine(result, element_result), tables.frames(result), tables.stages(result),
+             tables.targets(result), tables.growth(result, picture), tables.memory(result)]
+    if element_result:
+        parts.append(tables.element(element_result))
+    return "\n\n".join(part for part in parts if part)
+
+
+def read_page(page):
+    """What stands before and behind the figures."""
+    try:
+        text = page.read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
+        raise InputError(f"{page}: cannot be read: {error}") from error
+    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(END) < text.index(BEGIN):
+        raise InputError(f"{page}: has to have the line {BEGIN} once, and the line {END} behind it")
+    return text[:text.index(BEGIN)], text[text.index(END) + len(END):]
+
+
+def update(options):
+    before, behind = read_page(options.page)
+    result_file = options.result or options.build / "benchmark.json"
+    element_file = options.element_result or options.build / "benchmark-element.json"
+    if not options.no_run:
+        element_file.unlink(missing_ok=True)  # not an older one, where there is no plugin now
+        measure(options.build, result_file, element_file)
+    result = Result(result_file)
+    has_element = options.element_result or element_file.exists()
+    element_result = Result(element_file) if has_element else None
+    picture = options.page.parent / "images" / PICTURE
+    try:
+        text = section(result, element_result, f"images/{PICTURE}")
+        doubts = tables.doubts(result)
+    except (ValueError, KeyError, IndexError, TypeError, ArithmeticError) as error:
+        raise InputError(f"{result_file} or {element_file}: has not what the programs of today "
+                         f"tell: {error!r}") from error
+    draw_growth(options.build, result, picture)
+    options.page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{behind}", encoding="utf-8")
+    for panel in tables.growth_panels(result):
+        print(f"time over {panel['x']}: {panel['caption']}")
+    for doubt in doubts:
+        print(f"figures.py: take again on a quiet machine: {doubt}", file=sys.stderr)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("build", nargs="?", type=pathlib.Path, default=SOURCE / "build",
+                        help="folder of the build (default: %(default)s)")
+    parser.add_argument("--no-run", action="store_true",
+                        help="measure nothing, take the results that are there")
+    parser.add_argument("--result", type=pathlib.Path,
+                        help="result of mtstereo-benchmark (default: BUILD/benchmark.json)")
+    parser.add_argument("--element-result", type=pathlib.Path,
+                        help="that of mtstereo-benchmark-element, where there is one "
+                             "(default: BUILD/benchmark-element.json)")
+    parser.add_argument("--page", type=pathlib.Path, default=SOURCE / "docs/benchmark.md",
+                        help="page to be written (default: %(default)s)")
+    options = parser.parse_args()
+    try:
+        update(options)
+    except InputError as error:
+        print(f"figures.py: {error}", file=sys.stderr)
+        return 2
+    except (RunError, OSError) as error:
+        print(f"figures.py: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
