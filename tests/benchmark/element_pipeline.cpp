@@ -32,9 +32,11 @@ GstElement* parsed(const std::string& launch) {
   GstElement* pipeline =
       gst_parse_launch_full(launch.c_str(), nullptr, GST_PARSE_FLAG_FATAL_ERRORS, &error);
   if (pipeline != nullptr) return pipeline;
-  throw std::runtime_error(std::string(error->message) +
-                           " (GST_PLUGIN_PATH has to name the folder of the plugin, as in "
-                           "GST_PLUGIN_PATH=build/gst)");
+  std::string message = error->message;
+  if (g_error_matches(error, GST_PARSE_ERROR, GST_PARSE_ERROR_NO_SUCH_ELEMENT)) {
+    message += ": GST_PLUGIN_PATH has to name the folder of the plugin, as in build/gst";
+  }
+  throw std::runtime_error(message);
 }
 
 GstElement* named(GstElement* pipeline, const char* name) {
@@ -92,7 +94,6 @@ ElementPipeline::ElementPipeline(const std::string& properties, int width, int h
   }
   g_signal_connect(sink_.get(), "handoff", G_CALLBACK(take), this);
   if (gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING) == GST_STATE_CHANGE_FAILURE) {
-    gst_element_set_state(pipeline_.get(), GST_STATE_NULL);
     require_no_error();
     throw std::runtime_error("the pipeline does not start");
   }

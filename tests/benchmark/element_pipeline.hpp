@@ -77,8 +77,16 @@ class ElementPipeline {
   template <typename T>
   using Pointer = std::unique_ptr<T, Unref>;
 
+  struct Stop {
+    void operator()(GstElement* pipeline) const {
+      gst_element_set_state(pipeline, GST_STATE_NULL);
+      gst_object_unref(pipeline);
+    }
+  };
+
   cv::Size size_;
-  Pointer<GstElement> pipeline_, left_, right_, sink_;
+  std::unique_ptr<GstElement, Stop> pipeline_;
+  Pointer<GstElement> left_, right_, sink_;
   Pointer<GstBus> bus_;
   GstClockTime next_time_ = 0;
 
