@@ -17,7 +17,9 @@
 #include "stages/confidence.hpp"
 #include "stages/cost_volume.hpp"
 #include "stages/disparity_drawing.hpp"
+#include "stages/disparity_refinement.hpp"
 #include "stages/gap_filling.hpp"
+#include "stages/map_smoothing.hpp"
 #include "stages/max_tree.hpp"
 #include "stages/median_filter.hpp"
 #include "stages/node_extrapolation.hpp"
@@ -58,6 +60,9 @@ struct WorkerState {
   SupportScratch support;
   RimScratch rim;
   Buffer<std::int32_t> columns;
+  SmoothingScratch smoothing;
+  Image<std::uint8_t> frame_padded;
+  RefinementScratch refinement;
 };
 
 /// All that a matcher keeps from frame to frame. The functions follow the order of the method.
@@ -90,8 +95,11 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   SupportMap support;
   SpeckleRuns speckles;
   Image<std::uint8_t> rim_marks;
+  Image<std::int32_t> smoothed;      ///< the map, smoothed along its rows
   Image<std::int32_t> enlarged_map;  ///< the map and its confidence at the frame's resolution
   Image<std::uint8_t> enlarged_confidence;
+  std::array<CensusImage, 2> frame_census;  ///< of the views as they are
+  Image<std::int32_t> refined_map;
   std::array<Image<std::int32_t>, kStages> kept;
   std::vector<WorkerState> workers;
   DisparityView result;  ///< of the last frame, empty where it failed
@@ -120,7 +128,9 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   void trim_rims();
   void keep_node_ends();
   void fill_gaps();
+  void smooth();
   void enlarge();
+  void refine(GrayView left, GrayView right);
   CensusMatchingOptions census_options() const;
   void keep(Stage stage);
   double density();

@@ -70,10 +70,15 @@ void Matcher::State::size_buffers() {
   support.resize(width, height);
   speckles.resize(width, height);
   rim_marks.resize(width, height);
+  smoothed.resize(width, height);
   if (settings.half) {
     for (Image<std::uint8_t>& half : halves) half.resize(width, height);
     enlarged_map.resize(frame_width, frame_height);
     enlarged_confidence.resize(frame_width, frame_height);
+  }
+  if (settings.refined) {
+    for (CensusImage& image : frame_census) image.resize(frame_width, frame_height);
+    refined_map.resize(frame_width, frame_height);
   }
   if (settings.needs_census()) {
     for (CensusImage& image : census) image.resize(width, height);
@@ -92,8 +97,15 @@ void Matcher::State::size_buffers() {
     // For any rim, which changes from frame to frame without sizing anything anew.
     worker.rim.resize(width, static_cast<int>(parameter_info(Parameter::kRimTrim).maximum));
     worker.columns.resize(kColumns);
+    // For any radius too.
+    worker.smoothing.resize(width,
+                            static_cast<int>(parameter_info(Parameter::kSmoothingRadius).maximum));
     if (settings.needs_census()) worker.padded.resize(width + 4, std::min(kBand, height) + 4);
     if (settings.census) worker.census.resize(width, census_options());
+    if (settings.refined) {
+      worker.frame_padded.resize(frame_width + 4, std::min(2 * kBand, frame_height) + 4);
+      worker.refinement.resize(frame_width);
+    }
   }
   sized = true;
 }
@@ -104,10 +116,11 @@ void Matcher::State::compute(GrayView left, GrayView right) {
     halve(left, right);
     match(halves[0].view(), halves[1].view());
     enlarge();
+    if (settings.refined) refine(left, right);
   } else {
     match(left, right);
   }
-  result = settings.half ? enlarged_map.view() : map.view();
+  result = settings.refined ? refined_map.view() : settings.half ? enlarged_map.view() : map.view();
   rated = settings.half ? enlarged_confidence.view() : confidence.view();
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   statistics = {took.count(), density()};
@@ -133,6 +146,7 @@ void Matcher::State::match(GrayView left, GrayView right) {
   trim_rims();
   if (settings.mode == Mode::kSparse && settings.census) keep_node_ends();
   fill_gaps();
+  smooth();
   keep(Stage::kFinal);
 }
 
@@ -316,12 +330,38 @@ void Matcher::State::fill_gaps() {
   });
 }
 
+void Matcher::State::smooth() {
+  const int radius = settings.smoothing_radius;
+  if (radius == 0) return;
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    smooth_along_rows(map, radius, y0, y1, worker.smoothing, smoothed);
+  });
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    smooth_along_columns(smoothed, radius, y0, y1, worker.smoothing, map);
+  });
+}
+
 void Matcher::State::enlarge() {
   for_rows([&](int y0, int y1, WorkerState&) {
     const int end = std::min(2 * y1, frame_height);
     enlarge_rows(map, settings.max_disparity, 2 * y0, end, enlarged_map);
     enlarge_confidence(confidence, 2 * y0, end, enlarged_confidence);
   });
+}
+
+void Matcher::State::refine(GrayView left, GrayView right) {
+  const auto frame_rows = [&](int y) { return std::min(2 * y, frame_height); };
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    census_rows(left, 2 * y0, frame_rows(y1), worker.frame_padded, frame_census[0]);
+    census_rows(right, 2 * y0, frame_rows(y1), worker.frame_padded, frame_census[1]);
+  });
+  constexpr bool kPerThread = true;
+  for_rows(
+      [&](int y0, int y1, WorkerState& worker) {
+        refine_disparities(frame_census[0], frame_census[1], enlarged_map, settings.max_disparity,
+                           2 * y0, frame_rows(y1), worker.refinement, refined_map);
+      },
+      kPerThread);
 }
 
 void Matcher::State::keep(Stage stage) {

@@ -32,9 +32,10 @@ constexpr ParameterInfo kTable[] = {
     {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", ALL("64"), true,
      "the disparities 0 .. max-disparity - 1 are searched; the nearest point that can be seen is at "
      "focal length * baseline / max-disparity"},
-    {P::kResolution, "resolution", "", "", T::kChoice, 0, 1, "full|half", EACH("full", "half", "full"), true,
-     "at what resolution the views are matched: half is several times as fast; the disparity map has "
-     "the views' size and px either way, all parameters below count px of the resolution that is matched"},
+    {P::kResolution, "resolution", "", "", T::kChoice, 0, 2, "full|half-refined|half", EACH("full", "half-refined", "full"), true,
+     "at what resolution the views are matched: half is several times as fast, and half-refined refines its "
+     "disparities at full resolution; the disparity map has the views' size and px in any case, all parameters "
+     "below count px of the resolution that is matched"},
     {P::kThreads, "threads", "", "", T::kInteger, 0, 256, "", ALL("0"), true,
      "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
     {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, 256, "", BY_MODE(MODES("16", "16", "16"), MODES("16", "16", "16"), MODES("16", "8", "8")), false,
@@ -101,6 +102,8 @@ constexpr ParameterInfo kTable[] = {
      "mode sparse: pixels that are kept at each end of a finest node, an odd number"},
     {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "0", "30"), MODES("0", "0", "15"), MODES("0", "0", "0")), false,
      "gaps up to this wide are filled where both sides agree to 1 px; 0 = none"},
+    {P::kSmoothingRadius, "smoothing-radius", "", "px", T::kInteger, 0, 31, "", EACH("0", "3", "0"), false,
+     "disparities are smoothed along each surface, with the pixels this near in a row and a column; 0 = no smoothing"},
 };
 #undef ALL
 #undef EACH
@@ -370,7 +373,7 @@ Status Parameters::check_frame(int width, int height) const {
                                                   " px: set it to 1 to " + std::to_string(width) +
                                                   " px, the image's width"};
   }
-  const bool half = text(P::kResolution) == "half";
+  const bool half = text(P::kResolution) != "full";
   const int matched = half ? (width + 1) / 2 : width;
   const double widest = get(P::kMaxNodeWidth) * matched;
   const int narrowest = integer(P::kMinNodeWidth);

@@ -14,7 +14,8 @@ namespace mtstereo {
 struct Settings {
   explicit Settings(const Parameters& p)
       : mode(p.mode()),
-        half(p.text(Parameter::kResolution) == "half"),
+        half(p.text(Parameter::kResolution) != "full"),
+        refined(p.text(Parameter::kResolution) == "half-refined"),
         max_disparity(p.integer(Parameter::kMaxDisparity)),
         disparities(half ? (max_disparity + 1) / 2 : max_disparity),
         gray_levels(p.integer(Parameter::kGrayLevels)),
@@ -44,10 +45,12 @@ struct Settings {
         min_confidence(p.integer(Parameter::kMinConfidence)),
         rim_trim(p.integer(Parameter::kRimTrim)),
         node_end_width(p.integer(Parameter::kNodeEndWidth)),
-        max_gap(p.integer(Parameter::kMaxGap)) {}
+        max_gap(p.integer(Parameter::kMaxGap)),
+        smoothing_radius(p.integer(Parameter::kSmoothingRadius)) {}
 
   Mode mode;
   bool half;                       ///< the views are matched at half resolution
+  bool refined;                    ///< and the disparities refined at full resolution
   int max_disparity;               ///< D [px of the views]
   int disparities;                 ///< D [px of the resolution that is matched]
   int gray_levels;                 ///< q
@@ -68,11 +71,12 @@ struct Settings {
   CensusCostOptions census_cost;
   SmoothnessOptions smoothness;  ///< [bits]
   SelectionOptions selection;
-  int speckle_size;    ///< [px]
-  int min_confidence;  ///< 0 .. 255
-  int rim_trim;        ///< [px]
-  int node_end_width;  ///< [px]
-  int max_gap;         ///< [px]
+  int speckle_size;      ///< [px]
+  int min_confidence;    ///< 0 .. 255
+  int rim_trim;          ///< [px]
+  int node_end_width;    ///< [px]
+  int max_gap;           ///< [px]
+  int smoothing_radius;  ///< [px]
 
   bool needs_census() const { return node_census || census; }
   bool needs_volume() const { return !node_census || !census; }

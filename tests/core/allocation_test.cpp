@@ -163,7 +163,7 @@ void expect_recovery(const char* threads, const char* node_cost, const char* res
 TEST_F(Allocation, FailingAnywhereIsAnErrorAndNotTheEnd) {
   expect_recovery("1", "gradient");
   expect_recovery("2", "census");
-  expect_recovery("1", "gradient", "half");
+  expect_recovery("1", "gradient", "half-refined");
 }
 
 TEST_F(Allocation, FailingSaysWhatToDo) {

@@ -201,7 +201,7 @@ TEST(Invariants, EverySmallSizeIsMatched) {
       const Pair pair = {test::noise(width, height, width),
                          test::noise(width, height, height + 99)};
       Parameters parameters = matcher.parameters();
-      for (const char* const resolution : {"full", "half"}) {
+      for (const char* const resolution : {"full", "half", "half-refined"}) {
         test::set_all(parameters,
                       {{"max-disparity", std::to_string(width)}, {"resolution", resolution}});
         ASSERT_TRUE(matcher.set_parameters(parameters).ok());

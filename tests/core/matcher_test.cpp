@@ -81,7 +81,7 @@ TEST(Matcher, KeepsTheStagesOnlyWhereAsked) {
 TEST(Matcher, AtHalfResolutionShowsStagesOfHalfTheSizeAndAResultOfTheViews) {
   const Pair pair = test::slanted_pair(201, 91, 40, 3);
   Matcher matcher =
-      test::matcher({{"resolution", "half"}, {"max-disparity", "61"}, {"node-cost", "gradient"}});
+      test::matcher({{"preset", "fast"}, {"max-disparity", "61"}, {"node-cost", "gradient"}});
   matcher.keep_stages(true);
   const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
   EXPECT_EQ(201, map.width);
@@ -109,7 +109,7 @@ TEST(Matcher, AtHalfResolutionShowsStagesOfHalfTheSizeAndAResultOfTheViews) {
 TEST(Matcher, HoldsTheLastResultWhileTheResolutionChanges) {
   const Pair pair = test::slanted_pair(120, 50, 20, 4);
   Matcher matcher = test::matcher({});
-  for (const char* const next : {"half", "full", "half"}) {
+  for (const char* const next : {"half", "full", "half-refined", "half", "full"}) {
     const Result<DisparityView> view = matcher.compute(pair.left.view(), pair.right.view());
     ASSERT_TRUE(view.ok());
     const DisparityPlane map = copy_of(*view);
@@ -194,6 +194,7 @@ Change change_of(Parameter id) {
     case Parameter::kLargeStepPenalty:
     case Parameter::kMinConfidence:
     case Parameter::kRimTrim:
+    case Parameter::kSmoothingRadius:
       return {{}, "3"};
     default:
       return {{{"preset", "paper"}}, "3"};

@@ -121,7 +121,7 @@ TEST(ParameterTable, TellsDefaultsInWords) {
   EXPECT_EQ("64", parameter_defaults_text(Parameter::kMaxDisparity));
   EXPECT_EQ("default", parameter_defaults_text(Parameter::kPreset));
   EXPECT_EQ("semi-dense", parameter_defaults_text(Parameter::kMode));
-  EXPECT_EQ("full; preset fast: half", parameter_defaults_text(Parameter::kResolution));
+  EXPECT_EQ("full; preset fast: half-refined", parameter_defaults_text(Parameter::kResolution));
   EXPECT_EQ("16; preset paper: 8, 16 sparse", parameter_defaults_text(Parameter::kGrayLevels));
   EXPECT_EQ("census; preset paper: gradient", parameter_defaults_text(Parameter::kPixelCost));
 }

@@ -31,7 +31,7 @@ Parameters random_parameters(int width, Random& random) {
       {"preset", one_of(random, {"default", "fast", "paper"})},
       {"mode", one_of(random, {"sparse", "semi-dense", "dense"})},
       {"max-disparity", disparities},
-      {"resolution", one_of(random, {"full", "full", "half"})},
+      {"resolution", one_of(random, {"full", "full", "half", "half-refined"})},
       {"threads", one_of(random, {"1", "2", "3"})},
       {"gray-levels", one_of(random, {"2", "8", "16", "37", "256"})},
       {"min-node-width", width > 24 ? one_of(random, {"0", "0", "1", "2"}) : "0"},
@@ -62,6 +62,7 @@ Parameters random_parameters(int width, Random& random) {
       {"rim-trim", one_of(random, {"0", "0", "0", "1", "2"})},
       {"node-end-width", one_of(random, {"3", "1", "9", "31"})},
       {"max-gap", one_of(random, {"0", "1", "6", "30"})},
+      {"smoothing-radius", one_of(random, {"0", "0", "1", "3", "31"})},
   });
 }
 

@@ -70,10 +70,11 @@ enum class Parameter {
   kRimTrim,
   kNodeEndWidth,
   kMaxGap,
+  kSmoothingRadius,
 };
 
 /// Number of parameters.
-inline constexpr int kParameters = static_cast<int>(Parameter::kMaxGap) + 1;
+inline constexpr int kParameters = static_cast<int>(Parameter::kSmoothingRadius) + 1;
 
 /// What a parameter's value looks like.
 enum class ParameterType {

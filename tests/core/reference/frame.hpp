@@ -5,7 +5,9 @@
 
 #include "base/settings.hpp"
 #include "reference/confidence.hpp"
+#include "reference/disparity_refinement.hpp"
 #include "reference/gap_filling.hpp"
+#include "reference/map_smoothing.hpp"
 #include "reference/node_extrapolation.hpp"
 #include "reference/outlier_removal.hpp"
 #include "reference/pixel_matching.hpp"
@@ -76,7 +78,9 @@ inline ConfidentMap refine(const RatedMap& pixels, const Level& leaves,
     keep_where([&](std::size_t i) { return ends.pixels[i] != 0; });
   }
   out = fill_gaps(out, s.max_gap, 256, 1, 0);
-  return fill_gaps(out, s.max_gap, 256, 0, 1);
+  out = fill_gaps(out, s.max_gap, 256, 0, 1);
+  out.map = smooth(out.map, s.smoothing_radius);
+  return out;
 }
 
 /// The method on a pair as it is.
@@ -115,6 +119,7 @@ inline Frame match_frame(const GrayPlane& left, const GrayPlane& right,
   if (!s.half) return match_views(left, right, s);
   Frame frame = match_views(halve(left), halve(right), s);
   frame.map = enlarge(frame.map, left.width, left.height, s.max_disparity);
+  if (s.refined) frame.map = refine(census(left), census(right), frame.map, s.max_disparity);
   frame.confidence = enlarge_confidence(frame.confidence, left.width, left.height);
   return frame;
 }
