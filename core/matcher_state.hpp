@@ -126,6 +126,7 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
   void remove_speckles();
   void rate_confidence();
   void trim_rims();
+  bool keeps_only_ends() const;
   void keep_node_ends();
   void fill_gaps();
   void smooth();

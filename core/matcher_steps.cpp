@@ -144,7 +144,7 @@ void Matcher::State::match(GrayView left, GrayView right) {
   remove_speckles();
   rate_confidence();
   trim_rims();
-  if (settings.mode == Mode::kSparse && settings.census) keep_node_ends();
+  keep_node_ends();
   fill_gaps();
   smooth();
   keep(Stage::kFinal);
@@ -256,7 +256,7 @@ void Matcher::State::extrapolate() {
     for_rows([&](int y0, int y1, WorkerState&) { read_leaf_ends(level, map, y0, y1, ends); });
   }
   for_rows([&](int y0, int y1, WorkerState&) {
-    extrapolate_leaves(level, ends, settings.max_neighbors, end_width, y0, y1, map);
+    extrapolate_leaves(level, settings.max_neighbors, end_width, y0, y1, ends, map);
   });
 }
 
@@ -292,9 +292,17 @@ void Matcher::State::remove_speckles() {
 }
 
 void Matcher::State::rate_confidence() {
-  for_rows([&](int y0, int y1, WorkerState&) { copy_support(map, ratio, y0, y1, support); });
+  // Pixels that are not kept support others, but need no rating.
+  const bool only_ends = keeps_only_ends() && settings.rim_trim == 0;
   for_rows([&](int y0, int y1, WorkerState& worker) {
-    rate_support(support, y0, y1, worker.support, confidence);
+    copy_support(map, ratio, y0, y1, support);
+    if (only_ends) {
+      keep_leaf_ends(leaves().left, ends, settings.node_end_width, y0, y1, worker.marks, map,
+                     ratio);
+    }
+  });
+  for_rows([&](int y0, int y1, WorkerState& worker) {
+    rate_support(support, ratio, y0, y1, worker.support, confidence);
     if (settings.min_confidence > 0) {
       remove_doubtful(settings.min_confidence, y0, y1, map, confidence);
     }
@@ -312,10 +320,16 @@ void Matcher::State::trim_rims() {
   });
 }
 
+/// Whether the pixels' disparities are kept at the ends of the finest nodes only.
+bool Matcher::State::keeps_only_ends() const {
+  return settings.mode == Mode::kSparse && settings.census;
+}
+
 void Matcher::State::keep_node_ends() {
+  if (!keeps_only_ends() || settings.rim_trim == 0) return;  // done before the rating
   for_rows([&](int y0, int y1, WorkerState& worker) {
-    keep_leaf_ends(leaves().left, ends, settings.max_neighbors, settings.node_end_width, y0, y1,
-                   worker.marks, map, confidence);
+    keep_leaf_ends(leaves().left, ends, settings.node_end_width, y0, y1, worker.marks, map,
+                   confidence);
   });
 }
 

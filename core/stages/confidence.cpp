@@ -90,10 +90,12 @@ HWY_INLINE void add_lines(const SupportMap& support, int y, int x, hn::Vec<Signe
   if (y + kAway <= last) add_line<kAway>(support, y + kAway, x, middle, count, ratio);
 }
 
-/// Sums up the support of each pixel of a row; the count is 0 where there is no disparity.
-void sum_row(const SupportMap& support, int y, SupportScratch& scratch) {
+/// Sums up the support of each pixel of a row; the count is 0 where there is no disparity, or
+/// `asked` is 0.
+void sum_row(const SupportMap& support, const std::uint8_t* asked, int y, SupportScratch& scratch) {
   static_assert(kSupportRadius == 4);
   const Words d16;
+  const hn::Rebind<std::uint8_t, Words> d8;
   const Signed di16;
   const int width = support.disparity.width() - 2 * kSupportRadius;
   const std::uint16_t* row = support.disparity.row(y) + kSupportRadius;
@@ -103,7 +105,9 @@ void sum_row(const SupportMap& support, int y, SupportScratch& scratch) {
     const auto disparity = hn::LoadU(d16, row + x);
     auto count = hn::Zero(d16);
     auto ratio = hn::Zero(d16);
-    if (!hn::AllTrue(d16, hn::Eq(disparity, none))) {
+    const auto unasked = hn::Eq(hn::PromoteTo(d16, hn::LoadU(d8, asked + x)), hn::Zero(d16));
+    const auto missing = hn::Or(unasked, hn::Eq(disparity, none));
+    if (!hn::AllTrue(d16, missing)) {
       const auto middle = hn::BitCast(di16, hn::Sub(disparity, lowest));
       add_line<0>(support, y, x, middle, count, ratio);
       add_lines<1>(support, y, x, middle, count, ratio);
@@ -111,7 +115,6 @@ void sum_row(const SupportMap& support, int y, SupportScratch& scratch) {
       add_lines<3>(support, y, x, middle, count, ratio);
       add_lines<4>(support, y, x, middle, count, ratio);
     }
-    const auto missing = hn::Eq(disparity, none);
     hn::StoreU(hn::IfThenZeroElse(missing, count), d16, scratch.count.data() + x);
     hn::StoreU(ratio, d16, scratch.ratio.data() + x);
   }
@@ -249,12 +252,12 @@ void find_support_steps(int pixels, int width, SupportScratch& scratch) {
   HWY_DYNAMIC_DISPATCH(find_steps)(pixels, width, scratch);
 }
 
-void rate_support(const SupportMap& support, int y0, int y1, SupportScratch& scratch,
-                  Image<std::uint8_t>& confidence) {
+void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, int y0, int y1,
+                  SupportScratch& scratch, Image<std::uint8_t>& confidence) {
   const int width = confidence.width();
   for (int y = y0; y < y1; ++y) {
     const int rows = inside(y, confidence.height());
-    HWY_DYNAMIC_DISPATCH(sum_row)(support, y, scratch);
+    HWY_DYNAMIC_DISPATCH(sum_row)(support, asked.row(y), y, scratch);
     find_support_steps(rows * kSide, width, scratch);
     find_border_steps(rows, width, scratch);
     std::uint8_t* out = confidence.row(y);

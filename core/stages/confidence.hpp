@@ -50,9 +50,10 @@ struct SupportScratch {
 /// Writes the rows y0 .. y1 - 1: 255 times the cube root of c * c * r, where c is the share of the
 /// window's pixels that support the middle one, itself included, and r the sum of their peak ratios
 /// (0 .. 1) divided by the window's pixels. The product is cut to whole 1/4096. 1 at least; 0 where
-/// there is no disparity. The window ends at the image's border.
-void rate_support(const SupportMap& support, int y0, int y1, SupportScratch& scratch,
-                  Image<std::uint8_t>& confidence);
+/// there is no disparity, and where `asked` is 0: a pixel can support others without being rated.
+/// The window ends at the image's border.
+void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, int y0, int y1,
+                  SupportScratch& scratch, Image<std::uint8_t>& confidence);
 
 /// The step of rate_support() by itself that is not obviously exact: the 1/4096 that the product is
 /// cut to, and 1, from count and ratio, for windows of `pixels` pixels (up to 81); 0 where nothing

@@ -11,6 +11,7 @@ namespace mtstereo {
 void LeafDisparities::resize(const NodeLevel& leaves) {
   begin.resize(leaves.size());
   end.resize(leaves.size());
+  given.resize(leaves.size());
 }
 
 void read_leaf_ends(const NodeLevel& leaves, const Image<std::int32_t>& map, int y0, int y1,
@@ -67,13 +68,14 @@ int inset(int begin, int end) {
 
 }  // namespace
 
-void extrapolate_leaves(const NodeLevel& leaves, const LeafDisparities& ends, int max_neighbors,
-                        int end_width, int y0, int y1, Image<std::int32_t>& map) {
+void extrapolate_leaves(const NodeLevel& leaves, int max_neighbors, int end_width, int y0, int y1,
+                        LeafDisparities& ends, Image<std::int32_t>& map) {
   for (int y = y0; y < y1; ++y) {
     std::int32_t* row = map.row(y);
     std::fill_n(row, map.width(), kNoDisparity);
     for (int i = 0; i < leaves.count[y]; ++i) {
       const LeafLine line = line_of(leaves, ends, max_neighbors, y, i);
+      ends.given[leaves.first[y] + i] = line.known() ? 1 : 0;
       if (!line.known()) continue;
       const int begin = leaves.begin[leaves.first[y] + i];
       const int end = leaves.end[leaves.first[y] + i];
@@ -92,14 +94,14 @@ void extrapolate_leaves(const NodeLevel& leaves, const LeafDisparities& ends, in
   }
 }
 
-void keep_leaf_ends(const NodeLevel& leaves, const LeafDisparities& ends, int max_neighbors,
-                    int end_width, int y0, int y1, Buffer<std::uint8_t>& marks,
-                    Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+void keep_leaf_ends(const NodeLevel& leaves, const LeafDisparities& ends, int end_width, int y0,
+                    int y1, Buffer<std::uint8_t>& marks, Image<std::int32_t>& map,
+                    Image<std::uint8_t>& values) {
   const int width = map.width();
   for (int y = y0; y < y1; ++y) {
     std::fill_n(marks.data(), width, std::uint8_t{0});
     for (int i = 0; i < leaves.count[y]; ++i) {
-      if (!line_of(leaves, ends, max_neighbors, y, i).known()) continue;
+      if (ends.given[leaves.first[y] + i] == 0) continue;
       const int begin = leaves.begin[leaves.first[y] + i];
       const int end = leaves.end[leaves.first[y] + i];
       const int inside = inset(begin, end);
@@ -109,12 +111,13 @@ void keep_leaf_ends(const NodeLevel& leaves, const LeafDisparities& ends, int ma
         std::fill(marks.data() + first, marks.data() + last + 1, std::uint8_t{1});
       }
     }
-    std::int32_t* row = map.row(y);
-    std::uint8_t* values = confidence.row(y);
+    static_assert(kNoDisparity == 0);
+    const std::uint8_t* __restrict__ mark = marks.data();
+    std::int32_t* __restrict__ row = map.row(y);
+    std::uint8_t* __restrict__ row_values = values.row(y);
     for (int x = 0; x < width; ++x) {
-      if (marks[x] != 0) continue;
-      row[x] = kNoDisparity;
-      values[x] = 0;
+      row[x] = mark[x] != 0 ? row[x] : kNoDisparity;
+      row_values[x] = mark[x] != 0 ? row_values[x] : std::uint8_t{0};
     }
   }
 }

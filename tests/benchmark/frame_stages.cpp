@@ -42,6 +42,8 @@ FrameStages::FrameStages(const Parameters& parameters, const Pair& pair)
   size_maps();
   for (const Step& step : steps_) {
     before_.push_back(maps());
+    ratio_before_.push_back(
+        cv::Mat(height_, width_, CV_8UC1, ratio_.row(0), ratio_.stride()).clone());
     (this->*step.run)();
   }
   before_.push_back(maps());
@@ -69,7 +71,8 @@ std::vector<FrameStages::Step> FrameStages::steps_of(const Settings& settings) {
   add(settings.speckle_size > 1, "speckle-removal", &S::remove_speckles);
   add(true, "confidence", &S::rate_confidence);
   add(settings.rim_trim > 0, "rim-trimming", &S::trim_rims);
-  add(settings.mode == Mode::kSparse && settings.census, "node-ends", &S::keep_node_ends);
+  add(settings.mode == Mode::kSparse && settings.census && settings.rim_trim > 0, "node-ends",
+      &S::keep_node_ends);
   add(settings.max_gap > 0, "gap-filling", &S::fill_gaps);
   return steps;
 }
@@ -91,6 +94,7 @@ void FrameStages::prepare(const std::string& name) {
   const Outcome& before = before_[index_of(name)];
   copy_to(before.disparity, map_);
   copy_to(before.confidence, confidence_);
+  copy_to(ratio_before_[index_of(name)], ratio_);
 }
 
 void FrameStages::run(const std::string& name) { (this->*steps_[index_of(name)].run)(); }
@@ -141,6 +145,7 @@ void FrameStages::size_maps() {
   ends_.resize(leaves().left);
   map_.resize(width_, height_);
   ratio_.resize(width_, height_);
+  clear(ratio_);
   confidence_.resize(width_, height_);
   clear(map_);  // copied before the first stage writes there
   clear(confidence_);
@@ -243,7 +248,7 @@ void FrameStages::extrapolate() {
     }
   });
   for_rows([&](int y0, int y1) {
-    extrapolate_leaves(leaves().left, ends_, settings_.max_neighbors, end_width, y0, y1, map_);
+    extrapolate_leaves(leaves().left, settings_.max_neighbors, end_width, y0, y1, ends_, map_);
   });
 }
 
@@ -272,10 +277,19 @@ void FrameStages::remove_speckles() {
   for_rows([&](int y0, int y1) { remove_small(speckles_, settings_.speckle_size, y0, y1, map_); });
 }
 
+bool FrameStages::rates_only_ends() const {
+  return settings_.mode == Mode::kSparse && settings_.census && settings_.rim_trim == 0;
+}
+
 void FrameStages::rate_confidence() {
-  for_rows([&](int y0, int y1) { copy_support(map_, ratio_, y0, y1, support_); });
   for_rows([&](int y0, int y1) {
-    rate_support(support_, y0, y1, support_scratch_, confidence_);
+    copy_support(map_, ratio_, y0, y1, support_);
+    if (rates_only_ends()) {
+      keep_leaf_ends(leaves().left, ends_, settings_.node_end_width, y0, y1, marks_, map_, ratio_);
+    }
+  });
+  for_rows([&](int y0, int y1) {
+    rate_support(support_, ratio_, y0, y1, support_scratch_, confidence_);
     if (settings_.min_confidence > 0) {
       remove_doubtful(settings_.min_confidence, y0, y1, map_, confidence_);
     }
@@ -294,8 +308,8 @@ void FrameStages::trim_rims() {
 
 void FrameStages::keep_node_ends() {
   for_rows([&](int y0, int y1) {
-    keep_leaf_ends(leaves().left, ends_, settings_.max_neighbors, settings_.node_end_width, y0, y1,
-                   marks_, map_, confidence_);
+    keep_leaf_ends(leaves().left, ends_, settings_.node_end_width, y0, y1, marks_, map_,
+                   confidence_);
   });
 }
 

@@ -80,6 +80,7 @@ class FrameStages {
   void remove_speckles();
   void rate_confidence();
   void trim_rims();
+  bool rates_only_ends() const;
   void keep_node_ends();
   void fill_gaps();
 
@@ -89,7 +90,8 @@ class FrameStages {
   GrayView left_, right_;
   int width_, height_;
   std::vector<Step> steps_;
-  std::vector<Outcome> before_;  ///< each step; one more: behind the last
+  std::vector<cv::Mat> ratio_before_;  ///< each step
+  std::vector<Outcome> before_;        ///< each step; one more: behind the last
 
   std::array<PreprocessedView, 2> views_;
   std::array<MaxTrees, 2> trees_;

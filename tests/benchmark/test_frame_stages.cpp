@@ -53,7 +53,10 @@ TEST(FrameStages, AreThoseThatTheParametersTurnOn) {
   EXPECT_FALSE(has(semi_dense, "gap-filling"));
   EXPECT_FALSE(has(semi_dense, "node-outliers"));
   EXPECT_TRUE(has(FrameStages::names(parameters_of("default", "dense", 24, 1)), "gap-filling"));
-  EXPECT_TRUE(has(FrameStages::names(parameters_of("default", "sparse", 24, 1)), "node-ends"));
+  Parameters sparse = parameters_of("default", "sparse", 24, 1);
+  EXPECT_FALSE(has(FrameStages::names(sparse), "node-ends")) << "chosen before the rating";
+  ASSERT_TRUE(sparse.set(Parameter::kRimTrim, 1).ok());
+  EXPECT_TRUE(has(FrameStages::names(sparse), "node-ends")) << "chosen behind the rims";
   const auto paper = FrameStages::names(parameters_of("paper", "semi-dense", 24, 1));
   EXPECT_FALSE(has(semi_dense, "node-drawing")) << "only outliers are looked for in that map";
   EXPECT_TRUE(has(paper, "node-drawing"));

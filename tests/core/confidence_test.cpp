@@ -32,7 +32,9 @@ GrayPlane random_ratios(const DisparityPlane& map, Random& random) {
   return ratio;
 }
 
-GrayPlane rated(const DisparityPlane& map, const GrayPlane& ratio, int band = 1 << 20) {
+/// Rates the pixels that have a ratio, or those that `asked` has.
+GrayPlane rated(const DisparityPlane& map, const GrayPlane& ratio, int band = 1 << 20,
+                const GrayPlane* asked = nullptr) {
   SupportMap support;
   SupportScratch scratch;
   Image<std::uint8_t> confidence;
@@ -46,14 +48,22 @@ GrayPlane rated(const DisparityPlane& map, const GrayPlane& ratio, int band = 1 
     for (int i = bands - 1; i >= 0; --i) body(i * band, std::min((i + 1) * band, map.height));
   };
   for_bands([&](int y0, int y1) { copy_support(image_of(map), image_of(ratio), y0, y1, support); });
-  for_bands([&](int y0, int y1) { rate_support(support, y0, y1, scratch, confidence); });
+  for_bands([&](int y0, int y1) {
+    rate_support(support, image_of(asked != nullptr ? *asked : ratio), y0, y1, scratch, confidence);
+  });
   return copy_of(confidence);
 }
 
 void expect_reference(const DisparityPlane& map, Random& random, int band) {
   const GrayPlane ratio = random_ratios(map, random);
-  EXPECT_TRUE(same_image(reference::rate_support(map, ratio), rated(map, ratio, band)))
-      << "bands of " << band << " rows";
+  GrayPlane expected = reference::rate_support(map, ratio);
+  EXPECT_TRUE(same_image(expected, rated(map, ratio, band))) << "bands of " << band << " rows";
+  GrayPlane asked = ratio;
+  for (std::size_t i = 0; i < asked.pixels.size(); ++i) {
+    if (random.below(4) == 0) continue;
+    asked.pixels[i] = expected.pixels[i] = 0;
+  }
+  EXPECT_TRUE(same_image(expected, rated(map, ratio, band, &asked))) << "where it is asked for";
 }
 
 TEST(Confidence, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {

@@ -29,7 +29,7 @@ DisparityPlane extrapolated(const NodeLevel& leaves, const DisparityPlane& map, 
     read_leaf_ends(leaves, image, y, std::min(y + band, map.height), ends);
   }
   for (int y = 0; y < map.height; y += band) {
-    extrapolate_leaves(leaves, ends, neighbors, end_width, y, std::min(y + band, map.height),
+    extrapolate_leaves(leaves, neighbors, end_width, y, std::min(y + band, map.height), ends,
                        image);
   }
   return copy_of(image);
@@ -93,13 +93,14 @@ Kept kept(const NodeLevel& leaves, const DisparityPlane& nodes, int neighbors, i
   ends.resize(leaves);
   read_leaf_ends(leaves, image_of(nodes), 0, height, ends);
   Image<std::int32_t> map = image_of(of.map);
+  extrapolate_leaves(leaves, neighbors, 0, 0, height, ends, map);
+  map = image_of(of.map);
   Image<std::uint8_t> confidence = image_of(of.confidence);
   Buffer<std::uint8_t> marks;
   marks.resize(width);
   std::fill_n(marks.data(), width, std::uint8_t{0xA5});
   for (int y = 0; y < height; y += band) {
-    keep_leaf_ends(leaves, ends, neighbors, end_width, y, std::min(y + band, height), marks, map,
-                   confidence);
+    keep_leaf_ends(leaves, ends, end_width, y, std::min(y + band, height), marks, map, confidence);
   }
   return {copy_of(map), copy_of(confidence)};
 }
