@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "mtstereo/image.hpp"
 #include "stages/census_cost.hpp"
@@ -21,7 +22,9 @@ namespace mtstereo {
 constexpr int kDisparityBits = 7;
 constexpr int kMostGroups = (1024 + SelectionScratch::kGroup - 1) / SelectionScratch::kGroup;
 static_assert(SelectionScratch::kGroup == 1 << kDisparityBits);
-static_assert(kCostLimit << kDisparityBits <= SelectionScratch::kNone);
+constexpr int kLowest = std::numeric_limits<std::int16_t>::min();
+constexpr int kMostCost = (kCostLimit - 1) << kDisparityBits;
+static_assert(kLowest + kMostCost + SelectionScratch::kGroup - 1 < SelectionScratch::kNone);
 #endif
 }  // namespace mtstereo
 
@@ -30,22 +33,23 @@ namespace mtstereo {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Words = hn::CappedTag<std::uint16_t, kCostStep>;
+using Words = hn::CappedTag<std::int16_t, kCostStep>;
 using WordsVector = hn::Vec<Words>;
 
-constexpr std::uint16_t kNone = SelectionScratch::kNone;
+constexpr std::int16_t kNone = SelectionScratch::kNone;
 constexpr int kGroup = SelectionScratch::kGroup;
 
 /// The costs d, d + 1, ... of a pixel with their disparities; kNone from `count` on.
 template <bool kAtBorder>
-HWY_INLINE WordsVector load_words(const std::uint16_t* costs, const std::uint16_t* index, int d,
+HWY_INLINE WordsVector load_words(const std::uint16_t* costs, const std::int16_t* index, int d,
                                   int count) {
   const Words d16;
-  const auto words =
-      hn::Or(hn::ShiftLeft<kDisparityBits>(hn::Load(d16, costs + d)), hn::Load(d16, index + d));
+  const hn::RebindToUnsigned<Words> du16;
+  const auto cost = hn::BitCast(d16, hn::Load(du16, costs + d));
+  const auto words = hn::Add(hn::ShiftLeft<kDisparityBits>(cost), hn::Load(d16, index + d));
   if (!kAtBorder) return words;
-  const auto place = hn::Add(hn::Iota(d16, 0), hn::Set(d16, static_cast<std::uint16_t>(d)));
-  const auto exists = hn::Lt(place, hn::Set(d16, static_cast<std::uint16_t>(count)));
+  const auto place = hn::Add(hn::Iota(d16, 0), hn::Set(d16, static_cast<std::int16_t>(d)));
+  const auto exists = hn::Lt(place, hn::Set(d16, static_cast<std::int16_t>(count)));
   return hn::IfThenElse(exists, words, hn::Set(d16, kNone));
 }
 
@@ -59,18 +63,28 @@ struct Leasts {
 /// Finds these for the disparities d0 .. d1 - 1. On the way the words compete for the right pixels
 /// that they could show, at right[d - d0].
 template <bool kAtBorder>
-HWY_INLINE Leasts compete(const std::uint16_t* costs, const std::uint16_t* index, int d0, int d1,
-                          int count, std::uint16_t* right) {
+HWY_INLINE Leasts compete(const std::uint16_t* costs, const std::int16_t* index, int d0, int d1,
+                          int count, std::int16_t* right) {
   const Words d16;
   Leasts leasts = {hn::Set(d16, kNone), hn::Set(d16, kNone)};
   for (int d = d0; d < d1; d += static_cast<int>(hn::Lanes(d16))) {
     const auto words = load_words<kAtBorder>(costs, index, d, count);
-    std::uint16_t* shown = right + (d - d0);
+    std::int16_t* shown = right + (d - d0);
     hn::StoreU(hn::Min(words, hn::LoadU(d16, shown)), d16, shown);
     leasts.second = hn::Min(leasts.second, hn::Max(leasts.least, words));
     leasts.least = hn::Min(leasts.least, words);
   }
   return leasts;
+}
+
+/// The cost of each word; kNone of kNone.
+template <class D16>
+HWY_INLINE hn::Vec<D16> costs_of(D16 d16, hn::Vec<D16> words) {
+  const hn::RebindToUnsigned<D16> du16;
+  const auto lowest = hn::Set(du16, std::uint16_t{1} << 15);
+  const auto costs = hn::ShiftRight<kDisparityBits>(hn::Xor(hn::BitCast(du16, words), lowest));
+  const auto none = hn::Set(d16, kNone);
+  return hn::IfThenElse(hn::Eq(words, none), none, hn::BitCast(d16, costs));
 }
 
 #if HWY_TARGET == HWY_SCALAR
@@ -81,20 +95,20 @@ void offer(const std::uint16_t* costs, int begin, int end, int width, int dispar
   const int lanes = cost_lanes(disparities);
   const std::ptrdiff_t turn = scratch.right_stride * ((lanes + kGroup - 1) / kGroup);
   for (int x = begin; x < end; ++x, costs += lanes) {
-    std::uint16_t* right =
+    std::int16_t* right =
         scratch.right.data() + (x % SelectionScratch::kTurns) * turn + (width - 1 - x);
     const int count = std::min(disparities, x + 1);
     const int best = static_cast<int>(std::min_element(costs, costs + count) - costs);
     int second = kNone;
     for (int d = 0; d < count; ++d) {
-      std::uint16_t& shown = right[d / kGroup * scratch.right_stride + d];
-      shown = static_cast<std::uint16_t>(
-          std::min(costs[d] << kDisparityBits | scratch.index[d], static_cast<int>(shown)));
+      std::int16_t& shown = right[d / kGroup * scratch.right_stride + d];
+      const int word = (costs[d] << kDisparityBits) + scratch.index[d];
+      shown = static_cast<std::int16_t>(std::min<int>(word, shown));
       if (std::abs(d - best) > 1) second = std::min<int>(second, costs[d]);
     }
-    scratch.best[x] = static_cast<std::uint16_t>(best);
-    scratch.least[x] = costs[best];
-    scratch.second[x] = static_cast<std::uint16_t>(second);
+    scratch.best[x] = static_cast<std::int16_t>(best);
+    scratch.least[x] = static_cast<std::int16_t>(costs[best]);
+    scratch.second[x] = static_cast<std::int16_t>(second);
   }
 }
 
@@ -106,11 +120,11 @@ constexpr int kLanes = static_cast<int>(hn::MaxLanes(Words()));
 constexpr int kBatch = 8;
 
 /// The words of a batch, for each pixel those of its lanes.
-using BatchWords = std::uint16_t[kBatch][kLanes];
+using BatchWords = std::int16_t[kBatch][kLanes];
 
 /// The least of eight of a pixel's lanes each.
-using Eight = hn::CappedTag<std::uint16_t, kBatch>;
-HWY_INLINE hn::Vec<Eight> least_eight(const std::uint16_t* words) {
+using Eight = hn::CappedTag<std::int16_t, kBatch>;
+HWY_INLINE hn::Vec<Eight> least_eight(const std::int16_t* words) {
   const Eight d8;
   auto least = hn::Load(d8, words);
   for (int i = kBatch; i < kLanes; i += kBatch) least = hn::Min(least, hn::Load(d8, words + i));
@@ -158,12 +172,12 @@ HWY_INLINE void compete_in_group(const Batch& batch, int group, SelectionScratch
   const int groups = (batch.lanes + kGroup - 1) / kGroup;
   // Copies, which no word that is written can be a part of.
   const std::ptrdiff_t stride = scratch.right_stride;
-  std::uint16_t* const first = scratch.right.data();
-  const std::uint16_t* const index = scratch.index.data();
+  std::int16_t* const first = scratch.right.data();
+  const std::int16_t* const index = scratch.index.data();
   for (int i = 0; i < batch.pixels; ++i) {
     const int x = batch.x + i;
     const std::ptrdiff_t competition = (x % SelectionScratch::kTurns * groups + group) * stride;
-    std::uint16_t* right = first + competition + (batch.width - 1 - x) + d0;
+    std::int16_t* right = first + competition + (batch.width - 1 - x) + d0;
     const int count = std::min(batch.disparities, x + 1);  // disparities with a right pixel
     const Leasts leasts =
         compete<kAtBorder>(batch.costs + i * batch.lanes, index, d0, d1, count, right);
@@ -172,39 +186,32 @@ HWY_INLINE void compete_in_group(const Batch& batch, int group, SelectionScratch
   }
 }
 
-/// The cost of each word; kNone of kNone.
-template <class V>
-HWY_INLINE V costs_of(V words) {
-  const Eight d8;
-  const auto none = hn::Set(d8, kNone);
-  return hn::IfThenElse(hn::Eq(words, none), none, hn::ShiftRight<kDisparityBits>(words));
-}
-
 /// The least costs that are not within 1 of the batch's best disparities, which count from the
 /// group's first one. Lanes that are beside each other hold disparities that are: of each lane one
 /// word at most drops out, and then its second-least counts.
-HWY_INLINE hn::Vec<Eight> runners_up(const std::uint16_t* best, BatchGroup& group) {
+HWY_INLINE hn::Vec<Eight> runners_up(const std::int16_t* best, BatchGroup& group) {
   const Words d16;
   for (int i = 0; i < kBatch; ++i) {
     const auto least = hn::Load(d16, group.least[i]);
-    // best - 1 .. best + 1 become 0 .. 2; below 0 the numbers begin again at the top.
-    const auto before = hn::Set(d16, static_cast<std::uint16_t>(best[i] - 1));
+    // best - 1 .. best + 1 become 0 .. 2.
+    const auto before = hn::Set(d16, static_cast<std::int16_t>(best[i] - 1));
     const auto disparity = hn::And(least, hn::Set(d16, kGroup - 1));
-    const auto beside = hn::Lt(hn::Sub(disparity, before), hn::Set(d16, 3));
+    const auto offset = hn::Sub(disparity, before);
+    const auto beside = hn::And(hn::Gt(offset, hn::Set(d16, -1)), hn::Lt(offset, hn::Set(d16, 3)));
     hn::Store(hn::IfThenElse(beside, hn::Load(d16, group.second[i]), least), d16, group.least[i]);
   }
-  return costs_of(least_words(group.least));
+  return costs_of(Eight(), least_words(group.least));
 }
 
 /// Writes a value of each pixel of a batch; what follows it may be there already.
 template <class V>
-HWY_INLINE void write_batch(V values, const Batch& batch, Buffer<std::uint16_t>& row) {
+HWY_INLINE void write_batch(V values, const Batch& batch, Buffer<std::int16_t>& row) {
   const Eight d8;
   if (batch.pixels == kBatch) {
     hn::StoreU(values, d8, row.data() + batch.x);
     return;
   }
-  HWY_ALIGN std::uint16_t all[kBatch];
+  HWY_ALIGN std::int16_t all[kBatch];
   hn::Store(values, d8, all);
   std::copy_n(all, batch.pixels, row.data() + batch.x);
 }
@@ -219,16 +226,16 @@ HWY_INLINE void offer_batch(const Batch& batch, SelectionScratch& scratch) {
   for (int g = 0; g < count; ++g) {
     compete_in_group<kAtBorder>(batch, g, scratch, groups[g]);
     const auto words = least_words(groups[g].least);
-    const auto costs = costs_of(words);
+    const auto costs = costs_of(d8, words);
     const auto disparities = hn::Add(hn::And(words, hn::Set(d8, kGroup - 1)),
-                                     hn::Set(d8, static_cast<std::uint16_t>(g * kGroup)));
+                                     hn::Set(d8, static_cast<std::int16_t>(g * kGroup)));
     best = hn::IfThenElse(hn::Lt(costs, least), disparities, best);
     least = hn::Min(least, costs);
   }
   auto second = hn::Set(d8, kNone);
   for (int g = 0; g < count; ++g) {
-    HWY_ALIGN std::uint16_t in_group[kBatch];
-    hn::Store(hn::Sub(best, hn::Set(d8, static_cast<std::uint16_t>(g * kGroup))), d8, in_group);
+    HWY_ALIGN std::int16_t in_group[kBatch];
+    hn::Store(hn::Sub(best, hn::Set(d8, static_cast<std::int16_t>(g * kGroup))), d8, in_group);
     second = hn::Min(second, runners_up(in_group, groups[g]));
   }
   write_batch(best, batch, scratch.best);
@@ -256,19 +263,19 @@ void offer(const std::uint16_t* costs, int begin, int end, int width, int dispar
 void decide_right(int width, int groups, SelectionScratch& scratch) {
   const Words d16;
   const std::ptrdiff_t turn = scratch.right_stride * groups;
-  std::uint16_t* first = scratch.right.data();
+  std::int16_t* first = scratch.right.data();
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
     auto least = hn::Set(d16, kNone);  // costs
     auto best = hn::Zero(d16);         // disparities
     for (int g = 0; g < groups; ++g) {
-      const std::uint16_t* competition = first + g * scratch.right_stride + x;
+      const std::int16_t* competition = first + g * scratch.right_stride + x;
       auto word = hn::LoadU(d16, competition);
       for (int t = 1; t < SelectionScratch::kTurns; ++t) {
         word = hn::Min(word, hn::LoadU(d16, competition + t * turn));
       }
-      const auto cost = hn::ShiftRight<kDisparityBits>(word);
+      const auto cost = costs_of(d16, word);
       const auto disparity = hn::Add(hn::And(word, hn::Set(d16, kGroup - 1)),
-                                     hn::Set(d16, static_cast<std::uint16_t>(g * kGroup)));
+                                     hn::Set(d16, static_cast<std::int16_t>(g * kGroup)));
       best = hn::IfThenElse(hn::Lt(cost, least), disparity, best);
       least = hn::Min(least, cost);
     }
@@ -316,12 +323,14 @@ void SelectionScratch::resize(int width, int disparities) {
   const int lanes = cost_lanes(disparities);
   index.resize(lanes);
   for (int d = 0; d < lanes; ++d) {
-    index[d] = d < disparities ? static_cast<std::uint16_t>(d % kGroup) : kNone;
+    // Behind the last disparity the cells cost the most, which makes kNone of them.
+    const int word = d < disparities ? kLowest + d % kGroup : kNone - kMostCost;
+    index[d] = static_cast<std::int16_t>(word);
   }
   // Pixels offer all their lanes, also those that lie behind the image.
   right_stride = (width + lanes + 2 * kVector - 1) / kVector * kVector;
   right.resize(right_stride * groups_of(disparities) * kTurns);
-  for (Buffer<std::uint16_t>* row : {&best, &least, &second, &before, &after}) row->resize(width);
+  for (Buffer<std::int16_t>* row : {&best, &least, &second, &before, &after}) row->resize(width);
 }
 
 void start_selection(SelectionScratch& scratch) {
@@ -337,10 +346,12 @@ void offer_costs(const std::uint16_t* costs, int begin, int end, int width,
     const int best = scratch.best[x];
     const int last = std::min(options.disparities, x + 1) - 1;
     const bool inside = best > 0 && best < last;
-    scratch.before[x] = inside ? costs[best - 1] : SelectionScratch::kNone;
-    scratch.after[x] = inside ? costs[best + 1] : SelectionScratch::kNone;
+    scratch.before[x] =
+        inside ? static_cast<std::int16_t>(costs[best - 1]) : SelectionScratch::kNone;
+    scratch.after[x] =
+        inside ? static_cast<std::int16_t>(costs[best + 1]) : SelectionScratch::kNone;
     if (options.runner_up_in_range) {
-      scratch.second[x] = static_cast<std::uint16_t>(
+      scratch.second[x] = static_cast<std::int16_t>(
           runner_up_of_range(costs, best, low[x], std::min<int>(high[x], last)));
     }
   }

@@ -29,21 +29,22 @@ RunnerUpTable runner_up_table(double confidence);
 /// Scratch memory of one thread.
 ///
 /// Costs compete together with their disparities, in one word: the cost in the upper nine bits, the
-/// disparity in the lower seven, so that of equal costs the smallest disparity is less. More
-/// disparities than seven bits hold are cut into groups with competitions of their own.
+/// disparity in the lower seven, so that of equal costs the smallest disparity is less; all of it
+/// less 2^15, since signed words are compared everywhere in one instruction. More disparities than
+/// seven bits hold are cut into groups with competitions of their own.
 struct SelectionScratch {
-  static constexpr int kGroup = 128;              ///< disparities of a group
-  static constexpr std::uint16_t kNone = 0xFFFF;  ///< no cost with its disparity
+  static constexpr int kGroup = 128;             ///< disparities of a group
+  static constexpr std::int16_t kNone = 0x7FFF;  ///< no word, and no cost
   /// Competitions for the same right pixel: the pixels of a row take turns, since each would wait
   /// for what its neighbor has written.
   static constexpr int kTurns = 4;
 
-  Buffer<std::uint16_t> index;  ///< of each disparity its lower word half, kNone behind the last
-  Buffer<std::uint16_t> right;  ///< [turn][group] the least words of the right pixels, mirrored
+  Buffer<std::int16_t> index;       ///< of each disparity what makes a word of its cost
+  Buffer<std::int16_t> right;       ///< [turn][group] the least words of the right pixels, mirrored
   std::ptrdiff_t right_stride = 0;  ///< from group to group [elements]
   /// Of each left pixel: its disparity of least cost, that cost, the runner-up's, and the costs of
   /// the disparities before and after.
-  Buffer<std::uint16_t> best, least, second, before, after;
+  Buffer<std::int16_t> best, least, second, before, after;
 
   void resize(int width, int disparities);
 };
@@ -52,7 +53,8 @@ struct SelectionScratch {
 void start_selection(SelectionScratch& scratch);
 
 /// Offers the costs of the columns begin .. end - 1, that of column x and disparity d at
-/// (x - begin) * cost_lanes() + d, all of them below kCostLimit. Pixels with low > high have no
+/// (x - begin) * cost_lanes() + d, all of them below kCostLimit, and those of the cells d >= D just
+/// below it. Pixels with low > high have no
 /// expected range.
 void offer_costs(const std::uint16_t* costs, int begin, int end, int width,
                  const SelectionOptions& options, const std::uint16_t* low,
