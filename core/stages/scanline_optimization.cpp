@@ -44,6 +44,13 @@ V least_of_lanes(Bytes d8, V v) {
 #if HWY_TARGET == HWY_SCALAR
   (void)d8;
   return v;
+#elif HWY_TARGET == HWY_SSSE3
+  // Has no minimum of unsigned words.
+  v = hn::Min(v, hn::ShiftRightBytes<8>(d8, v));
+  v = hn::Min(v, hn::ShiftRightBytes<4>(d8, v));
+  v = hn::Min(v, hn::ShiftRightBytes<2>(d8, v));
+  v = hn::Min(v, hn::ShiftRightBytes<1>(d8, v));
+  return hn::TableLookupBytes(v, hn::Zero(d8));
 #else
   const hn::Repartition<std::uint16_t, Bytes> d16;
   const auto pairs = hn::BitCast(d16, v);
