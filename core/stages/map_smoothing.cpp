@@ -2,66 +2,72 @@
 #include "stages/map_smoothing.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "mtstereo/image.hpp"
-#include "mtstereo/parameters.hpp"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/map_smoothing.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
 namespace mtstereo {
-namespace {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
 
-/// Pixels of a row that are smoothed at a time: their sums stay in the first cache.
-constexpr int kBlock = 256;
+using Ints = hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)>;
+using Vec = hn::Vec<Ints>;
 
-/// The sums of some neighboring pixels.
-struct Sums {
-  std::int32_t rise[kBlock];   ///< how much the pairs are above the pixel [1 / kDisparityOne px]
-  std::int32_t count[kBlock];  ///< pixels that are taken, itself included
-};
+/// The means of the pixels from column x on; at least one of them has a disparity.
+Vec means_at(const std::int32_t* const* lines, int radius, int x, Vec middle) {
+  const Ints di32;
+  const hn::Rebind<float, Ints> df32;
+  const auto zero = hn::Zero(di32), near = hn::Set(di32, kDisparityOne);
+  const auto two = hn::Set(di32, 2);
+  auto rises = zero;              // how much the pairs are above the pixel
+  auto count = hn::Set(di32, 1);  // pixels that are taken, itself included
+  for (int distance = 1; distance <= radius; ++distance) {
+    const auto one = hn::LoadU(di32, lines[radius - distance] + x);
+    const auto other = hn::LoadU(di32, lines[radius + distance] + x);
+    const auto rise = hn::Sub(one, middle), fall = hn::Sub(other, middle);
+    const auto apart = hn::Gt(hn::Max(hn::Abs(rise), hn::Abs(fall)), near);
+    const auto taken = hn::AndNot(apart, hn::Gt(hn::Min(one, other), zero));
+    rises = hn::Add(rises, hn::IfThenElseZero(taken, hn::Add(rise, fall)));
+    count = hn::Add(count, hn::IfThenElseZero(taken, two));
+  }
+  // Towards zero, which keeps to the pixel's own.
+  const auto mean = hn::Div(hn::ConvertTo(df32, rises), hn::ConvertTo(df32, count));
+  const auto known = hn::Gt(middle, zero);
+  return hn::IfThenElseZero(known, hn::Add(middle, hn::ConvertTo(di32, mean)));
+}
 
-/// Adds a pair of pixels where both continue the one between them. Plain arithmetic without
-/// branches: compilers turn it into vectors.
-void add_pairs(const std::int32_t* __restrict__ middle, const std::int32_t* __restrict__ one,
-               const std::int32_t* __restrict__ other, int count, Sums& sums) {
-  for (int i = 0; i < count; ++i) {
-    const std::int32_t rise = one[i] - middle[i];
-    const std::int32_t fall = other[i] - middle[i];
-    const bool taken = (one[i] != kNoDisparity) & (other[i] != kNoDisparity) &
-                       (std::abs(rise) <= kDisparityOne) & (std::abs(fall) <= kDisparityOne);
-    sums.rise[i] += taken ? rise + fall : 0;
-    sums.count[i] += taken ? 2 : 0;
+/// Smooths the row in the middle of `lines`: lines[radius - i][x] and lines[radius + i][x] are the
+/// pair at the distance i from its pixel x.
+void smooth_row(const std::int32_t* const* lines, int radius, int width, std::int32_t* out) {
+  const Ints di32;
+  const auto none = hn::Zero(di32);
+  static_assert(kNoDisparity == 0);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(di32))) {
+    const auto middle = hn::LoadU(di32, lines[radius] + x);
+    const bool empty = hn::AllTrue(di32, hn::Eq(middle, none));
+    hn::StoreU(empty ? none : means_at(lines, radius, x, middle), di32, out + x);
   }
 }
 
-void write_means(const std::int32_t* __restrict__ middle, const Sums& sums, int count,
-                 std::int32_t* __restrict__ out) {
-  for (int i = 0; i < count; ++i) {
-    // Towards zero, which keeps to the pixel's own.
-    const auto rise = static_cast<std::int32_t>(static_cast<float>(sums.rise[i]) /
-                                                static_cast<float>(sums.count[i]));
-    out[i] = middle[i] == kNoDisparity ? kNoDisparity : middle[i] + rise;
-  }
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(smooth_row);
+
+void SmoothingScratch::resize(int width, int radius) {
+  line.resize(width + 2 * radius);
+  lines.resize(2 * radius + 1);
 }
-
-/// Smooths a row; pair(distance) gives the two rows that hold the pixels at this distance.
-template <typename Pair>
-void smooth_row(const std::int32_t* middle, int width, int radius, Pair&& pair, std::int32_t* out) {
-  Sums sums;
-  for (int x = 0; x < width; x += kBlock) {
-    const int count = std::min(width - x, kBlock);
-    std::fill_n(sums.rise, count, 0);
-    std::fill_n(sums.count, count, 1);
-    for (int distance = 1; distance <= radius; ++distance) {
-      const auto [one, other] = pair(distance);
-      add_pairs(middle + x, one + x, other + x, count, sums);
-    }
-    write_means(middle + x, sums, count, out + x);
-  }
-}
-
-}  // namespace
-
-void SmoothingScratch::resize(int width, int radius) { line.resize(width + 2 * radius); }
 
 void smooth_along_rows(const Image<std::int32_t>& map, int radius, int y0, int y1,
                        SmoothingScratch& scratch, Image<std::int32_t>& smoothed) {
@@ -69,12 +75,11 @@ void smooth_along_rows(const Image<std::int32_t>& map, int radius, int y0, int y
   std::int32_t* middle = scratch.line.data() + radius;
   std::fill_n(middle - radius, radius, kNoDisparity);
   std::fill_n(middle + width, radius, kNoDisparity);
+  for (int i = 0; i <= 2 * radius; ++i) scratch.lines[i] = scratch.line.data() + i;
+  const auto smooth = HWY_DYNAMIC_DISPATCH(smooth_row);
   for (int y = y0; y < y1; ++y) {
     std::copy_n(map.row(y), width, middle);
-    smooth_row(
-        middle, width, radius,
-        [&](int distance) { return std::pair(middle - distance, middle + distance); },
-        smoothed.row(y));
+    smooth(scratch.lines.data(), radius, width, smoothed.row(y));
   }
 }
 
@@ -82,14 +87,16 @@ void smooth_along_columns(const Image<std::int32_t>& smoothed, int radius, int y
                           SmoothingScratch& scratch, Image<std::int32_t>& map) {
   const int width = map.width();
   std::fill_n(scratch.line.data(), width, kNoDisparity);
-  const auto row = [&](int y) {
-    return y >= 0 && y < map.height() ? smoothed.row(y) : scratch.line.data();
-  };
+  const auto smooth = HWY_DYNAMIC_DISPATCH(smooth_row);
   for (int y = y0; y < y1; ++y) {
-    smooth_row(
-        smoothed.row(y), width, radius,
-        [&](int distance) { return std::pair(row(y - distance), row(y + distance)); }, map.row(y));
+    for (int i = 0; i <= 2 * radius; ++i) {
+      const int row = y - radius + i;
+      const bool inside = row >= 0 && row < map.height();
+      scratch.lines[i] = inside ? smoothed.row(row) : scratch.line.data();
+    }
+    smooth(scratch.lines.data(), radius, width, map.row(y));
   }
 }
 
 }  // namespace mtstereo
+#endif  // HWY_ONCE

@@ -19,7 +19,8 @@ namespace mtstereo {
 
 /// Scratch memory of one thread.
 struct SmoothingScratch {
-  Buffer<std::int32_t> line;  ///< a row with zeros on both sides
+  Buffer<std::int32_t> line;          ///< a row with zeros on both sides
+  Buffer<const std::int32_t*> lines;  ///< where the neighbors of a row's pixels begin
 
   /// The only one that allocates, for maps of this width and this radius or a smaller one.
   void resize(int width, int radius);
