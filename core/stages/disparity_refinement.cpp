@@ -56,21 +56,58 @@ void round_row(const std::int32_t* __restrict__ disparity, int width,
   }
 }
 
-/// The costs of a row at all shifts; none where there is no disparity.
+using Vec = hn::Vec<Ints>;
+using Bits = hn::Vec<hn::RebindToUnsigned<Ints>>;
+
+/// The costs of the pixels from column x on at all shifts; partner(i) gives the right view's bits.
+template <typename Partner>
+HWY_INLINE void store_costs(Bits bits, Bits known, int x, const RingRow& ring, Partner&& partner) {
+  const Ints di32;
+  const hn::Rebind<std::uint8_t, Ints> d8;
+  for (int i = 0; i < Scratch::kShifts; ++i) {
+    const auto cost = hn::Mul(hn::PopulationCount(hn::Xor(bits, partner(i))), known);
+    hn::StoreU(hn::DemoteTo(d8, hn::BitCast(di32, cost)), d8, ring.costs[i] + x);
+  }
+}
+
+/// The costs of a row at all shifts; none where there is no disparity. `right` begins kReach before
+/// the row's first pixel, and a vector more before it can be read.
 void cost_row(const std::uint32_t* left, const std::uint32_t* right, const std::int32_t* places,
               int width, const RingRow& ring) {
   const Ints di32;
   const hn::RebindToUnsigned<Ints> du32;
   const hn::Rebind<std::uint8_t, Ints> d8;
+  constexpr std::int32_t kNever = 1 << 30;
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(di32))) {
+    const auto known = hn::PromoteTo(du32, hn::LoadU(d8, ring.known + x));
+    const auto unknown = hn::Eq(hn::BitCast(di32, known), hn::Zero(di32));
+    if (hn::AllTrue(di32, unknown)) {
+      for (std::uint8_t* costs : ring.costs) hn::StoreU(hn::Zero(d8), d8, costs + x);
+      continue;
+    }
     const auto bits = hn::LoadU(du32, left + x);
     const auto place = hn::LoadU(di32, places + x);
-    const auto known = hn::PromoteTo(du32, hn::LoadU(d8, ring.known + x));
-    for (int i = 0; i < Scratch::kShifts; ++i) {
-      const auto partner = hn::GatherIndex(du32, right + 2 * kReach - i, place);
-      const auto cost = hn::Mul(hn::PopulationCount(hn::Xor(bits, partner)), known);
-      hn::StoreU(hn::DemoteTo(d8, hn::BitCast(di32, cost)), d8, ring.costs[i] + x);
+    // Where the pixels' partners begin, would all of them have one disparity.
+    const auto first = hn::Sub(place, hn::Iota(di32, 0));
+    const auto nearest = hn::IfThenElse(unknown, hn::Set(di32, kNever), first);
+    const auto farthest = hn::IfThenElse(unknown, hn::Set(di32, -kNever), first);
+    const std::int32_t least = hn::GetLane(hn::MinOfLanes(di32, nearest));
+    const std::int32_t most = hn::GetLane(hn::MaxOfLanes(di32, farthest));
+    if (most - least > 1) {
+      store_costs(bits, known, x, ring,
+                  [&](int i) { return hn::GatherIndex(du32, right + 2 * kReach - i, place); });
+      continue;
     }
+    // On most surfaces the partners are neighbors too: no need to gather them one by one.
+    const std::uint32_t* partners = right + 2 * kReach + least;
+    const auto is_least = hn::RebindMask(du32, hn::Eq(first, hn::Set(di32, least)));
+    auto next = hn::LoadU(du32, partners + 1);
+    store_costs(bits, known, x, ring, [&](int i) {
+      const auto same = hn::LoadU(du32, partners - i);
+      const auto partner = hn::IfThenElse(is_least, same, next);
+      next = same;
+      return partner;
+    });
   }
 }
 
@@ -84,7 +121,7 @@ void fill_ring_row(const CensusImage& left, const CensusImage& right,
     std::memset(ring.known, 0, width);
     return;
   }
-  std::uint32_t* line = scratch.right.data();
+  std::uint32_t* line = scratch.right.data() + Scratch::kBefore;
   std::copy_n(right.bits.row(y), width, line + kReach);
   std::fill_n(line, kReach, line[kReach]);
   std::fill_n(line + kReach + width, kReach, line[kReach + width - 1]);
@@ -134,8 +171,6 @@ void sum_windows(int width, Scratch& scratch) {
   sum_window(scratch.known_columns.data(), width, sums(kKnown));
 }
 
-using Vec = hn::Vec<Ints>;
-
 /// Three costs around the smallest one of the shifts -1 .. 1 px, and that shift.
 struct Minimum {
   Vec before, best, after, shift;
@@ -143,7 +178,8 @@ struct Minimum {
 
 /// The costs are in 1/128 bits: a shift by 1 px away from the given disparities costs 2 bits for
 /// each pixel of the window.
-Minimum find_minimum(const std::int16_t* sums, std::ptrdiff_t stride, Vec rounded, Vec known) {
+HWY_INLINE Minimum find_minimum(const std::int16_t* sums, std::ptrdiff_t stride, Vec rounded,
+                                Vec known) {
   const Ints di32;
   const hn::Rebind<std::int16_t, Ints> d16;
   const auto cost = [&](int i, Vec away) {
@@ -179,6 +215,10 @@ void refine_row(const std::int32_t* map, int width, int limit, const Scratch& sc
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(di32))) {
     const std::int16_t* sums = scratch.sums.data() + x;
     const auto given = hn::LoadU(di32, map + x);
+    if (hn::AllTrue(di32, hn::Eq(given, zero))) {
+      hn::StoreU(zero, di32, out + x);
+      continue;
+    }
     const auto rounded = hn::PromoteTo(di32, hn::LoadU(d16, sums + kRounded * scratch.stride));
     const auto known = hn::PromoteTo(di32, hn::LoadU(d16, sums + kKnown * scratch.stride));
     const Minimum at = find_minimum(sums, scratch.stride, rounded, known);
@@ -223,7 +263,8 @@ void RefinementScratch::resize(int width) {
   // Whole vectors are read and written behind the last pixel of a row.
   constexpr int kVector = static_cast<int>(kAlignment);
   stride = (width + 2 * kRefinementRadius + kVector) / kVector * kVector;
-  right.resize(stride);
+  right.resize(kBefore + stride);
+  std::memset(right.data(), 0, right.size() * sizeof(right[0]));
   places.resize(stride);
   costs.resize(kRows * kShifts * stride);
   rounded.resize(kRows * stride);

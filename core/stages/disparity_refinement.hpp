@@ -26,6 +26,8 @@ inline constexpr int kRefinementRadius = 3;
 struct RefinementScratch {
   static constexpr int kShifts = 5;                        ///< -2 .. 2 px
   static constexpr int kRows = 2 * kRefinementRadius + 2;  ///< those of the window and one more
+  /// So many numbers in front of the row in `right`: a vector that may be read.
+  static constexpr int kBefore = kAlignment / sizeof(std::uint32_t);
 
   std::ptrdiff_t stride = 0;           ///< from row to row of all that have several [elements]
   Buffer<std::uint32_t> right;         ///< a row of the right view with its ends repeated

@@ -80,6 +80,35 @@ TEST(DisparityRefinement, EqualsReferenceWithEveryInstructionSet) {
   test::for_each_simd_target([&] { expect_reference(pair, map); });
 }
 
+/// A slanted surface with holes, some of them wider than a vector.
+DisparityPlane surface(int width, int height, int disparity, int slant, Random& random) {
+  DisparityPlane map(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) map(x, y) = std::max(disparity + slant * x - 9 * y, 1);
+    for (int hole = 0; hole < 3; ++hole) {
+      const int begin = random.below(width);
+      const int end = std::min(begin + random.below(40), width);
+      for (int x = begin; x < end; ++x) map(x, y) = 0;
+    }
+  }
+  return possible(map);
+}
+
+TEST(DisparityRefinement, EqualsReferenceOnEverySlantWithEveryInstructionSet) {
+  const Pair pair = test::slanted_pair(131, 23, 30, 7);
+  test::for_each_simd_target([&] {
+    Random random(8);
+    // Up to 256, where all points of a row have one partner.
+    for (const int slant : {-200, -40, -7, 0, 7, 16, 40, 120, 256}) {
+      SCOPED_TRACE("slant " + std::to_string(slant));
+      // At infinity, near, and so near that only the first column of the right view is left.
+      for (const int disparity : {0, 5000, test::kLargestDisparity}) {
+        expect_reference(pair, surface(131, 23, disparity, slant, random));
+      }
+    }
+  });
+}
+
 /// Share of the known pixels right of column `first` that are within `most` px of a disparity.
 double share_within(const DisparityPlane& map, int first, double disparity, double most) {
   long near = 0, known = 0;
