@@ -10,6 +10,7 @@
 #include "support/compare.hpp"
 #include "support/padded_image.hpp"
 #include "support/random_maps.hpp"
+#include "support/simd_targets.hpp"
 
 namespace mtstereo {
 namespace {
@@ -117,14 +118,26 @@ TEST(Halving, LetsTheLastPixelOfAnOddSideStandForItself) {
   EXPECT_EQ(203, half(1, 1));
 }
 
-TEST(Enlarging, EqualsReferenceAtEverySize) {
-  for (int width = 1; width <= 90; ++width) {
-    for (const int height : {1, 2, 3, 31, 64}) {
-      const int seed = 100 * width + height;
-      const DisparityPlane half = test::patches(half_of(width), half_of(height), width % 4, seed);
-      expect_reference(possible(half), width, height, kFar);
+TEST(Enlarging, EqualsReferenceAtEverySizeOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 90; ++width) {
+      for (const int height : {1, 2, 3, 31, 64}) {
+        const int seed = 100 * width + height;
+        const DisparityPlane half = test::patches(half_of(width), half_of(height), width % 4, seed);
+        expect_reference(possible(half), width, height, kFar);
+      }
     }
-  }
+  });
+}
+
+TEST(Enlarging, EqualsReferenceWhereWholeVectorsAreUnknown) {
+  test::for_each_simd_target([] {
+    DisparityPlane half = test::patches(150, 40, 0, 7);
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 2 * y; x < std::min(2 * y + 66, 150); ++x) half(x, y) = 0;
+    }
+    expect_reference(possible(half), 299, 79, kFar);
+  });
 }
 
 TEST(Enlarging, EqualsReferenceOnNoiseOfEveryDensity) {
