@@ -7,6 +7,7 @@
 
 #include "stages/disparity_drawing.hpp"
 #include "stages/gap_filling.hpp"
+#include "stages/resolution.hpp"
 
 namespace mtstereo::bench {
 namespace {
@@ -31,33 +32,39 @@ void copy_to(const cv::Mat& from, Image<T>& to) {
 
 FrameStages::FrameStages(const Parameters& parameters, const Pair& pair)
     : settings_(parameters),
-      left_(view_of(pair.left)),
-      right_(view_of(pair.right)),
-      width_(left_.width),
-      height_(left_.height),
+      frame_left_(view_of(pair.left)),
+      frame_right_(view_of(pair.right)),
+      left_(frame_left_),
+      right_(frame_right_),
+      width_(settings_.half ? half_of(left_.width) : left_.width),
+      height_(settings_.half ? half_of(left_.height) : left_.height),
       steps_(steps_of(settings_)) {
   Matcher matcher = make_matcher(parameters);
   const DisparityView expected = match(matcher, pair);
   size_views();
   size_maps();
-  for (const Step& step : steps_) {
-    before_.push_back(maps());
+  size_frame();
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    before_.push_back(outcome(maps_before(i)));
     ratio_before_.push_back(
         cv::Mat(height_, width_, CV_8UC1, ratio_.row(0), ratio_.stride()).clone());
-    (this->*step.run)();
+    (this->*steps_[i].run)();
   }
-  before_.push_back(maps());
+  before_.push_back(outcome(steps_.back().result));
   require_same("the matcher and the stages one by one", outcome_of(expected, matcher.confidence()),
                before_.back());
 }
 
 std::vector<FrameStages::Step> FrameStages::steps_of(const Settings& settings) {
   using S = FrameStages;
-  std::vector<Step> steps = {{"preprocessing", &S::preprocess}, {"max-trees", &S::build_trees}};
-  const auto add = [&](bool on, const char* name, void (S::*run)()) {
-    if (on) steps.push_back({name, run});
+  std::vector<Step> steps;
+  const auto add = [&](bool on, const char* name, void (S::*run)(), Maps result = Maps::kMatched) {
+    if (on) steps.push_back({name, run, result});
   };
   const bool outliers = settings.outlier_radius > 0;
+  add(settings.half, "halving", &S::halve);
+  add(true, "preprocessing", &S::preprocess);
+  add(true, "max-trees", &S::build_trees);
   add(settings.needs_census(), "census", &S::transform);
   add(settings.needs_volume(), "cost-volume", &S::compute_costs);
   add(true, "node-levels", &S::select_levels);
@@ -74,6 +81,10 @@ std::vector<FrameStages::Step> FrameStages::steps_of(const Settings& settings) {
   add(settings.mode == Mode::kSparse && settings.census && settings.rim_trim > 0, "node-ends",
       &S::keep_node_ends);
   add(settings.max_gap > 0, "gap-filling", &S::fill_gaps);
+  add(settings.smoothing_radius > 0, "smoothing", &S::smooth);
+  add(settings.half, "enlarging", &S::enlarge, Maps::kEnlarged);
+  add(settings.refined, "frame-census", &S::transform_frame, Maps::kEnlarged);
+  add(settings.refined, "refinement", &S::refine, Maps::kRefined);
   return steps;
 }
 
@@ -91,19 +102,30 @@ std::size_t FrameStages::index_of(const std::string& name) const {
 }
 
 void FrameStages::prepare(const std::string& name) {
-  const Outcome& before = before_[index_of(name)];
-  copy_to(before.disparity, map_);
-  copy_to(before.confidence, confidence_);
-  copy_to(ratio_before_[index_of(name)], ratio_);
+  const std::size_t step = index_of(name);
+  const bool matched = maps_before(step) == Maps::kMatched;
+  copy_to(before_[step].disparity, matched ? map_ : enlarged_map_);
+  copy_to(before_[step].confidence, matched ? confidence_ : enlarged_confidence_);
+  copy_to(ratio_before_[step], ratio_);
 }
 
 void FrameStages::run(const std::string& name) { (this->*steps_[index_of(name)].run)(); }
 
 void FrameStages::require_result(const std::string& name) const {
-  require_same("the stage " + name + ", run again", before_[index_of(name) + 1], maps());
+  const std::size_t step = index_of(name);
+  require_same("the stage " + name + ", run again", before_[step + 1],
+               outcome(steps_[step].result));
 }
 
-Outcome FrameStages::maps() const { return outcome_of(map_.view(), confidence_.view()); }
+FrameStages::Maps FrameStages::maps_before(std::size_t step) const {
+  return step == 0 ? Maps::kMatched : steps_[step - 1].result;
+}
+
+Outcome FrameStages::outcome(Maps maps) const {
+  if (maps == Maps::kMatched) return outcome_of(map_.view(), confidence_.view());
+  const Image<std::int32_t>& map = maps == Maps::kEnlarged ? enlarged_map_ : refined_map_;
+  return outcome_of(map.view(), enlarged_confidence_.view());
+}
 
 CensusMatchingOptions FrameStages::census_options() const {
   return {settings_.search_range, settings_.census_cost, settings_.smoothness, settings_.selection};
@@ -161,6 +183,33 @@ void FrameStages::size_maps() {
     census_rows_scratch_.resize(width_ + 4, std::min(kBand, height_) + 4);
   }
   if (settings_.census) census_scratch_.resize(width_, census_options());
+}
+
+void FrameStages::size_frame() {
+  if (settings_.smoothing_radius > 0) {
+    smoothed_.resize(width_, height_);
+    smoothing_scratch_.resize(width_, settings_.smoothing_radius);
+  }
+  if (settings_.half) {
+    for (Image<std::uint8_t>& half : halves_) half.resize(width_, height_);
+    left_ = halves_[0].view();
+    right_ = halves_[1].view();
+    enlarged_map_.resize(frame_left_.width, frame_left_.height);
+    enlarged_confidence_.resize(frame_left_.width, frame_left_.height);
+  }
+  if (settings_.refined) {
+    for (CensusImage& image : frame_census_) image.resize(frame_left_.width, frame_left_.height);
+    refined_map_.resize(frame_left_.width, frame_left_.height);
+    frame_rows_scratch_.resize(frame_left_.width + 4, std::min(2 * kBand, frame_left_.height) + 4);
+    refinement_scratch_.resize(frame_left_.width);
+  }
+}
+
+void FrameStages::halve() {
+  for_rows([&](int y0, int y1) {
+    halve_rows(frame_left_, y0, y1, halves_[0]);
+    halve_rows(frame_right_, y0, y1, halves_[1]);
+  });
 }
 
 void FrameStages::preprocess() {
@@ -321,6 +370,37 @@ void FrameStages::fill_gaps() {
     fill_gaps_along_columns(settings_.max_gap, kDisparityOne, x, std::min(x + kColumns, width_),
                             columns_, map_, confidence_);
   }
+}
+
+void FrameStages::smooth() {
+  const int radius = settings_.smoothing_radius;
+  for_rows([&](int y0, int y1) {
+    smooth_along_rows(map_, radius, y0, y1, smoothing_scratch_, smoothed_);
+  });
+  for_rows([&](int y0, int y1) {
+    smooth_along_columns(smoothed_, radius, y0, y1, smoothing_scratch_, map_);
+  });
+}
+
+void FrameStages::enlarge() {
+  for_rows([&](int y0, int y1) {
+    const int end = std::min(2 * y1, frame_left_.height);
+    enlarge_rows(map_, settings_.max_disparity, 2 * y0, end, enlarged_map_);
+    enlarge_confidence(confidence_, 2 * y0, end, enlarged_confidence_);
+  });
+}
+
+void FrameStages::transform_frame() {
+  for_rows([&](int y0, int y1) {
+    const int end = std::min(2 * y1, frame_left_.height);
+    census_rows(frame_left_, 2 * y0, end, frame_rows_scratch_, frame_census_[0]);
+    census_rows(frame_right_, 2 * y0, end, frame_rows_scratch_, frame_census_[1]);
+  });
+}
+
+void FrameStages::refine() {
+  refine_disparities(frame_census_[0], frame_census_[1], enlarged_map_, settings_.max_disparity, 0,
+                     frame_left_.height, refinement_scratch_, refined_map_);
 }
 
 }  // namespace mtstereo::bench

@@ -13,6 +13,8 @@
 #include "stages/census_matching.hpp"
 #include "stages/confidence.hpp"
 #include "stages/cost_volume.hpp"
+#include "stages/disparity_refinement.hpp"
+#include "stages/map_smoothing.hpp"
 #include "stages/max_tree.hpp"
 #include "stages/median_filter.hpp"
 #include "stages/node_extrapolation.hpp"
@@ -52,20 +54,26 @@ class FrameStages {
     SearchIntervals intervals;
     NodeMatches matches;
   };
+  /// The maps that a step leaves its result in, which the next one begins with.
+  enum class Maps { kMatched, kEnlarged, kRefined };
   struct Step {
     std::string name;
     void (FrameStages::*run)();
+    Maps result = Maps::kMatched;
   };
 
   static std::vector<Step> steps_of(const Settings& settings);
   std::size_t index_of(const std::string& name) const;
-  Outcome maps() const;
+  Maps maps_before(std::size_t step) const;
+  Outcome outcome(Maps maps) const;
   CensusMatchingOptions census_options() const;
   template <typename Body>
   void for_rows(Body&& body) const;
   void size_views();
   void size_maps();
+  void size_frame();
 
+  void halve();
   void preprocess();
   void build_trees();
   void compute_costs();
@@ -83,12 +91,17 @@ class FrameStages {
   bool rates_only_ends() const;
   void keep_node_ends();
   void fill_gaps();
+  void smooth();
+  void enlarge();
+  void transform_frame();
+  void refine();
 
   const Level& leaves() const { return levels_[settings_.node_levels.count - 1]; }
 
   Settings settings_;
-  GrayView left_, right_;
-  int width_, height_;
+  GrayView frame_left_, frame_right_;
+  GrayView left_, right_;  ///< what is matched: the frame or its halves
+  int width_, height_;     ///< of what is matched
   std::vector<Step> steps_;
   std::vector<cv::Mat> ratio_before_;  ///< each step
   std::vector<Outcome> before_;        ///< each step; one more: behind the last
@@ -105,6 +118,10 @@ class FrameStages {
   Image<std::uint8_t> ratio_, confidence_, rim_marks_;
   SupportMap support_;
   SpeckleRuns speckles_;
+  Image<std::int32_t> smoothed_, enlarged_map_, refined_map_;
+  Image<std::uint8_t> enlarged_confidence_;
+  std::array<Image<std::uint8_t>, 2> halves_;
+  std::array<CensusImage, 2> frame_census_;
 
   MedianScratch median_scratch_;
   SobelScratch sobel_scratch_;
@@ -117,6 +134,9 @@ class FrameStages {
   PixelMatchingScratch pixel_scratch_;
   SupportScratch support_scratch_;
   RimScratch rim_scratch_;
+  SmoothingScratch smoothing_scratch_;
+  Image<std::uint8_t> frame_rows_scratch_;
+  RefinementScratch refinement_scratch_;
 };
 
 }  // namespace mtstereo::bench

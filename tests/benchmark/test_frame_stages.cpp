@@ -13,11 +13,10 @@ bool has(const std::vector<std::string>& names, const char* name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-constexpr std::pair<const char*, const char*> kVariants[] = {{"default", "semi-dense"},
-                                                             {"default", "sparse"},
-                                                             {"default", "dense"},
-                                                             {"paper", "semi-dense"},
-                                                             {"paper", "sparse"}};
+constexpr std::pair<const char*, const char*> kVariants[] = {
+    {"default", "semi-dense"}, {"default", "sparse"}, {"default", "dense"},
+    {"fast", "semi-dense"},    {"fast", "sparse"},    {"fast", "dense"},
+    {"paper", "semi-dense"},   {"paper", "sparse"}};
 
 // The constructor compares with the matcher; run again in any order, each gives the same again.
 TEST(FrameStages, GiveTheMatchersResultAndCanBeRunAgain) {
@@ -63,6 +62,29 @@ TEST(FrameStages, AreThoseThatTheParametersTurnOn) {
   EXPECT_TRUE(has(paper, "node-outliers"));
   EXPECT_TRUE(has(paper, "gradient-matching"));
   EXPECT_FALSE(has(paper, "census-matching"));
+}
+
+TEST(FrameStages, OfThePresetFastSurroundThoseOfHalfTheFrame) {
+  const std::vector<std::string> fast =
+      FrameStages::names(parameters_of("fast", "semi-dense", 24, 1));
+  const auto default_names = FrameStages::names(parameters_of("default", "semi-dense", 24, 1));
+  EXPECT_EQ("halving", fast.front());
+  const std::vector<std::string> last(fast.end() - 4, fast.end());
+  EXPECT_EQ((std::vector<std::string>{"smoothing", "enlarging", "frame-census", "refinement"}),
+            last);
+  for (const char* name : {"halving", "smoothing", "enlarging", "frame-census", "refinement"}) {
+    EXPECT_FALSE(has(default_names, name)) << name;
+  }
+}
+
+TEST(FrameStages, RunOnWhatAnotherStageOfTheFrameLeftIsNoticed) {
+  const Pair pair = render_street(203, 97);
+  FrameStages stages(parameters_of("fast", "semi-dense", 24, 1), pair);
+  stages.prepare("speckle-removal");
+  stages.run("enlarging");
+  EXPECT_THROW(stages.require_result("enlarging"), std::runtime_error);
+  stages.run("refinement");
+  EXPECT_THROW(stages.require_result("refinement"), std::runtime_error);
 }
 
 TEST(FrameStages, UnknownNameIsAnError) {

@@ -20,7 +20,8 @@ COMPARE = pathlib.Path(__file__).resolve().parent / "compare.py"
 METHODS = ("semi-dense", "fast", "sparse", "dense", "paper", "sgbm", "sgbm-3way", "bm")
 STAGES = ("preprocessing", "max-trees", "cost-volume", "node-levels", "node-matching",
           "node-drawing", "node-extrapolation", "census", "census-matching", "speckle-removal",
-          "confidence", "gap-filling", "node-outliers", "gradient-matching")
+          "confidence", "gap-filling", "node-outliers", "gradient-matching",
+          "halving", "smoothing", "enlarging", "frame-census", "refinement")
 
 
 def run(*arguments, **environment):
