@@ -13,12 +13,28 @@
 
 namespace mtstereo {
 
-/// How a failed expectation prints a code.
-inline void PrintTo(ErrorCode code, std::ostream* out) {
-  constexpr const char* kNames[] = {"kInvalidParameter", "kInvalidCombination", "kInvalidImage",
-                                    "kSizeMismatch",     "kFrameDoesNotFit",    "kOutOfMemory"};
-  *out << kNames[static_cast<int>(code)];
+inline const char* name_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kInvalidParameter:
+      return "kInvalidParameter";
+    case ErrorCode::kInvalidCombination:
+      return "kInvalidCombination";
+    case ErrorCode::kInvalidImage:
+      return "kInvalidImage";
+    case ErrorCode::kSizeMismatch:
+      return "kSizeMismatch";
+    case ErrorCode::kFrameDoesNotFit:
+      return "kFrameDoesNotFit";
+    case ErrorCode::kOutOfMemory:
+      return "kOutOfMemory";
+    case ErrorCode::kSystem:
+      return "kSystem";
+  }
+  return "an unknown code";
 }
+
+/// How a failed expectation prints a code.
+inline void PrintTo(ErrorCode code, std::ostream* out) { *out << name_of(code); }
 
 namespace test {
 
