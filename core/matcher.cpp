@@ -29,6 +29,24 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height) + " px";
 }
 
+/// What needs less memory than these parameters do; nothing that they have already.
+std::string ways_to_save(const Parameters& parameters, const Settings& settings) {
+  std::string ways = "take smaller images, lower max-disparity";
+  if (parameters.integer(Parameter::kThreads) != 1) ways += " or threads";
+  if (!settings.half) {
+    ways += ", or set resolution = half or preset = fast";
+  } else if (settings.refined) {
+    ways += ", or set resolution = half";
+  }
+  if (settings.needs_volume()) {
+    ways += ", or leave out the cost volume: set ";
+    if (!settings.node_census) ways += "node-cost = census";
+    if (!settings.node_census && !settings.census) ways += " and ";
+    if (!settings.census) ways += "pixel-cost = census";
+  }
+  return ways;
+}
+
 /// An error whose text may need memory that is not there: then it goes without.
 template <typename Text>
 Error error_of(ErrorCode code, Text&& text) noexcept {
@@ -91,8 +109,8 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) {
     state.forget_frame();
     return error_of(ErrorCode::kOutOfMemory, [&] {
       return "there is not enough memory for images of " + size_text(left.width, left.height) +
-             " with max-disparity = " + std::to_string(state.settings.max_disparity) +
-             ": lower max-disparity or threads, or set resolution = half or cost-volume = half";
+             " with max-disparity = " + std::to_string(state.settings.max_disparity) + ": " +
+             ways_to_save(state.parameters, state.settings);
     });
   } catch (const std::exception& exception) {
     state.forget_frame();
