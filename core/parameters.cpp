@@ -53,13 +53,15 @@ constexpr ParameterInfo kTable[] = {
      "what nodes are compared by: the census transform of their pixels and of the few beside them, or the "
      "paper's smoothed cost volume"},
     {P::kMedianFilter, "median-filter", "", "", T::kChoice, 0, 1, "trees|trees-and-costs", ALL("trees-and-costs"), false,
-     "what the median-filtered images are for: the Max-trees only, or the smoothed cost volume too"},
+     "what the median-filtered images are for: the Max-trees only, or the smoothed cost volume (gradient) too"},
     {P::kCostKernelSize, "cost-kernel-size", "omega_cv", "px", T::kInteger, 1, 41, "", EACH("21", "11", "21"), true,
-     "side of the Gaussian that smooths the cost volume, an odd number; 1 = no smoothing"},
+     "side of the Gaussian that smooths the cost volume (gradient), an odd number; 1 = no smoothing"},
     {P::kCostVolume, "cost-volume", "", "", T::kChoice, 0, 1, "half|full", ALL("half"), true,
-     "resolution of the smoothed cost volume: half takes a quarter of the memory, full is the exact one"},
+     "resolution of the smoothed cost volume (gradient), which exists only where node-cost or pixel-cost is "
+     "gradient: half takes a quarter of the memory, full is the exact one"},
     {P::kIntensityWeight, "intensity-weight", "alpha", "", T::kNumber, 0, 1, "", EACH("1", "1", "0.8"), false,
-     "share of the intensity cost in a node pair's cost; the rest is the context cost"},
+     "share of the intensity cost, which node-cost names, in a node pair's cost; the rest is the context cost, "
+     "which compares the widths of the nodes' ancestors"},
     {P::kNodeConfidence, "node-confidence", "omega_Pi, coarse to fine", "%", T::kNumber, 0, 1000, "", EACH("3", "3", "12"), false,
      "a node pair is accepted where the second-best costs more than this above the best"},
     {P::kOutlierRadius, "outlier-radius", "", "px", T::kInteger, 0, 31, "", EACH("0", "0", "21"), true,
