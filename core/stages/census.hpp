@@ -8,8 +8,9 @@
 
 namespace mtstereo {
 
-/// What the census cost is made of: which pixels of the 5x5 window are darker than its center. Gain
-/// and offset of a camera, and any other monotonic change of the gray values, do not change it.
+/// Step 4, which all census costs are made of: which pixels of the 5x5 window are darker than its
+/// center. Gain and offset of a camera, and any other monotonic change of the gray values, do not
+/// change it.
 
 /// Bits of a pixel's census transform: the window without its center.
 inline constexpr int kCensusBits = 24;

@@ -22,7 +22,8 @@ struct CensusCostOptions {
 /// Cost of the cells d >= D.
 inline constexpr int kCensusNever = 255;
 
-/// The widest vectors that costs are worked on with [bytes].
+/// What a pixel's costs are a multiple of, and with that the widest vectors that all work on costs
+/// can use [bytes]. Single steps take wider ones where a pixel's costs are whole ones of these too.
 inline constexpr int kCostStep = 32;
 
 /// Disparities that a pixel's costs take room for: D rounded up to whole vectors.

@@ -9,8 +9,8 @@
 
 namespace mtstereo {
 
-/// Step 4 (paper, "Cost volume"): the smoothed matching cost of every left pixel at every
-/// disparity.
+/// Step 4b (paper, "Cost volume"): the smoothed matching cost of every left pixel at every
+/// disparity, where nodes or pixels are compared by it.
 
 /// The smoothed costs, in kCostScale steps per gray value. With shift 1 one cell stands for 2 x 2
 /// pixels: smoothing leaves nothing finer. Cells of pixels that cannot have a disparity (x < d)

@@ -10,8 +10,8 @@
 
 namespace mtstereo {
 
-/// Step 9 (paper, "guided pixel matching" and "Confidence check") on the cost volume that the nodes
-/// were matched with: each pixel's own best disparity among those that the nodes expect.
+/// Step 9 (paper, "guided pixel matching" and "Confidence check") on the smoothed cost
+/// volume: each pixel's own best disparity among those that the nodes expect.
 
 struct PixelMatchingOptions {
   SearchRangeOptions range;

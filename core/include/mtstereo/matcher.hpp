@@ -55,7 +55,8 @@ class MTSTEREO_API Matcher {
   Status set_parameters(const Parameters& parameters);
   const Parameters& parameters() const;
 
-  /// Keeps every stage's disparity map for stage(), at the cost of a copy each. Off at first.
+  /// Keeps every stage's disparity map for stage(), at the cost of a copy each and of drawing what
+  /// only stage() shows. Off at first.
   void keep_stages(bool keep);
 
   /// Matches one pair. Both images have the same size and are only read; they may be freed when
