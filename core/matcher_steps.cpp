@@ -16,6 +16,13 @@ int thread_count(const Parameters& parameters) {
   return wanted > 0 ? wanted : std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
 }
 
+/// Counts in 32 bits, as wide as the disparities: vectors of both fit.
+int known_pixels(const std::int32_t* row, int width) {
+  int known = 0;
+  for (int x = 0; x < width; ++x) known += row[x] != kNoDisparity;
+  return known;
+}
+
 }  // namespace
 
 void Matcher::State::take(const Parameters& p) {
@@ -396,8 +403,7 @@ double Matcher::State::density() {
   pool->run(bands, [&](int band, int) {
     std::int64_t in_band = 0;
     for (int y = band * kBand; y < std::min((band + 1) * kBand, result.height); ++y) {
-      const std::int32_t* row = result.row(y);
-      in_band += result.width - std::count(row, row + result.width, kNoDisparity);
+      in_band += known_pixels(result.row(y), result.width);
     }
     known += in_band;
   });
