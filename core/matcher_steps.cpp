@@ -42,6 +42,7 @@ void Matcher::State::forget_frame() {
   result = {};
   rated = {};
   for (PreprocessedView& view : views) view.level.resize(0, 0);
+  for (Image<std::int32_t>& stage : kept) stage.resize(0, 0);
 }
 
 void Matcher::State::size_buffers() {

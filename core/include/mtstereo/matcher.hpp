@@ -71,8 +71,9 @@ class MTSTEREO_API Matcher {
   /// Belongs to the matcher and holds until its next compute().
   GrayView confidence() const;
 
-  /// A stage's disparity map of the last frame; an empty view before the first frame, or where
-  /// keep_stages() was off in it. Holds until the next compute().
+  /// A stage's disparity map of the last frame; an empty view before the first frame, and where
+  /// it failed with kOutOfMemory or kSystem or keep_stages() was off in it. Holds until the next
+  /// compute().
   DisparityView stage(Stage stage) const;
   /// The pre-processed image of the last frame that the Max-trees are made of (paper, fig. 2 a):
   /// values 0 .. gray-levels - 1, high = little contrast. As large as what is matched, which may be
