@@ -112,6 +112,9 @@ class Path {
 
   /// Goes on to column x, which comes next; `first` where it is the path's first.
   HWY_INLINE void step(int x, bool first) {
+#if HWY_TARGET == HWY_SCALAR
+    step_plainly(x, first);
+#else
     const Bytes d8;
     const int step = static_cast<int>(hn::Lanes(d8));
     const int change = first ? 0 : std::abs(gray_[x] - gray_[x + back_]);
@@ -133,27 +136,40 @@ class Path {
     }
     least_ = least_of_lanes(d8, least);
     std::swap(newest_, other_);
+#endif
   }
 
   /// Keeps the last pixel's costs for the other path to find.
   HWY_INLINE void keep(std::uint8_t* paths, int x) const {
-    const Bytes d8;
     std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
+#if HWY_TARGET == HWY_SCALAR
+    std::memcpy(kept, newest_, lanes_);
+#else
+    const Bytes d8;
     for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(d8))) {
       hn::Store(hn::Load(d8, newest_ + d), d8, kept + d);
     }
+#endif
   }
 
   /// Adds to the last pixel's costs those that the other path has kept there.
   HWY_INLINE void add(const std::uint8_t* paths, int x, std::uint16_t* sums) const {
+    const std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
+#if HWY_TARGET == HWY_SCALAR
+    const std::uint8_t* __restrict__ one = newest_;
+    const std::uint8_t* __restrict__ other = kept;
+    std::uint16_t* __restrict__ out = sums;
+    const int lanes = lanes_;
+    for (int d = 0; d < lanes; ++d) out[d] = static_cast<std::uint16_t>(one[d] + other[d]);
+#else
     const hn::CappedTag<std::uint16_t, kCostStep> d16;
     const hn::Rebind<std::uint8_t, decltype(d16)> d8;
-    const std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
     for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(d16))) {
       const auto one = hn::PromoteTo(d16, hn::Load(d8, newest_ + d));
       const auto other = hn::PromoteTo(d16, hn::Load(d8, kept + d));
       hn::Store(hn::Add(one, other), d16, sums + d);
     }
+#endif
   }
 
   /// Puts back what the next block begins with.
@@ -163,6 +179,34 @@ class Path {
   }
 
  private:
+#if HWY_TARGET == HWY_SCALAR
+  /// The same in a loop that compilers turn into vectors of what every such processor has.
+  void step_plainly(int x, bool first) {
+    const int change = first ? 0 : std::abs(gray_[x] - gray_[x + back_]);
+    const int least_before = hn::GetLane(least_);
+    const int small_step = hn::GetLane(small_step_);
+    const auto most = static_cast<std::uint8_t>(255 - small_step);
+    const auto any = static_cast<std::uint8_t>(std::min(least_before + large_step_[change], 255));
+    const std::uint8_t* __restrict__ costs = costs_ + static_cast<std::ptrdiff_t>(x) * lanes_;
+    const std::uint8_t* __restrict__ last = newest_;
+    std::uint8_t* __restrict__ next = other_;
+    const int lanes = lanes_;
+    const auto lesser = [](std::uint8_t a, std::uint8_t b) { return a < b ? a : b; };
+    std::uint8_t least = 255;
+    for (int d = 0; d < lanes; ++d) {
+      const std::uint8_t beside = lesser(lesser(last[d - 1], last[d + 1]), most);
+      const auto stepped = static_cast<std::uint8_t>(beside + small_step);
+      const std::uint8_t best = lesser(lesser(last[d], stepped), any);
+      const auto rise = static_cast<std::uint8_t>(best - least_before);
+      const auto room = static_cast<std::uint8_t>(255 - rise);
+      next[d] = static_cast<std::uint8_t>(lesser(costs[d], room) + rise);
+    }
+    for (int d = 0; d < lanes; ++d) least = lesser(least, next[d]);
+    least_ = hn::Set(Bytes(), least);
+    std::swap(newest_, other_);
+  }
+#endif
+
   const std::uint8_t* costs_;
   const std::uint8_t* gray_;
   const std::uint8_t* large_step_;
