@@ -17,8 +17,44 @@ namespace mtstereo {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+#if HWY_TARGET == HWY_SCALAR
+// A single lane in Highway, which may have nothing for SSE2. The compiler's own vectors become
+// instructions of whatever processor it compiles for.
+using Vector = std::uint8_t __attribute__((vector_size(16)));
+
+HWY_INLINE int lanes() { return sizeof(Vector); }
+
+HWY_INLINE Vector load(const std::uint8_t* from) {
+  Vector vector;
+  std::memcpy(&vector, from, sizeof(vector));
+  return vector;
+}
+
+HWY_INLINE void store(const Vector& vector, std::uint8_t* to) {
+  std::memcpy(to, &vector, sizeof(vector));
+}
+
+HWY_INLINE void exchange(Vector& smaller, Vector& larger) {
+  const Vector least = smaller < larger ? smaller : larger;
+  larger = smaller < larger ? larger : smaller;
+  smaller = least;
+}
+#else
 using Bytes = hn::CappedTag<std::uint8_t, kAlignment>;
 using Vector = hn::Vec<Bytes>;
+
+HWY_INLINE int lanes() { return static_cast<int>(hn::Lanes(Bytes())); }
+
+HWY_INLINE Vector load(const std::uint8_t* from) { return hn::LoadU(Bytes(), from); }
+
+HWY_INLINE void store(const Vector& vector, std::uint8_t* to) { hn::StoreU(vector, Bytes(), to); }
+
+HWY_INLINE void exchange(Vector& smaller, Vector& larger) {
+  const Vector least = hn::Min(smaller, larger);
+  larger = hn::Max(smaller, larger);
+  smaller = least;
+}
+#endif
 
 /// A pair of places: the smaller value goes to the first one.
 struct Exchange {
@@ -45,11 +81,6 @@ constexpr Exchange kFindMedian[] = {
 /// Exchanges along a network. `values` are references: some processors have no arrays of vectors.
 template <const auto& kNetwork, class Values>
 HWY_INLINE void exchange_all(const Values& values) {
-  const auto exchange = [](Vector& smaller, Vector& larger) HWY_ATTR {
-    const Vector least = hn::Min(smaller, larger);
-    larger = hn::Max(smaller, larger);
-    smaller = least;
-  };
   [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) HWY_ATTR {
     (exchange(std::get<kNetwork[kIndex].smaller>(values),
               std::get<kNetwork[kIndex].larger>(values)),
@@ -59,20 +90,19 @@ HWY_INLINE void exchange_all(const Values& values) {
 }
 
 void sort_vector(const std::uint8_t* const* rows, int from, std::uint8_t* const* sorted, int to) {
-  const Bytes d8;
-  const auto load = [&](int i) HWY_ATTR { return hn::LoadU(d8, rows[i] + from); };
-  Vector v0 = load(0), v1 = load(1), v2 = load(2), v3 = load(3), v4 = load(4);
+  const auto column = [&](int i) HWY_ATTR { return load(rows[i] + from); };
+  Vector v0 = column(0), v1 = column(1), v2 = column(2), v3 = column(3), v4 = column(4);
   exchange_all<kSortColumn>(std::tie(v0, v1, v2, v3, v4));
-  hn::StoreU(v0, d8, sorted[0] + to);
-  hn::StoreU(v1, d8, sorted[1] + to);
-  hn::StoreU(v2, d8, sorted[2] + to);
-  hn::StoreU(v3, d8, sorted[3] + to);
-  hn::StoreU(v4, d8, sorted[4] + to);
+  store(v0, sorted[0] + to);
+  store(v1, sorted[1] + to);
+  store(v2, sorted[2] + to);
+  store(v3, sorted[3] + to);
+  store(v4, sorted[4] + to);
 }
 
 /// Sorts the columns of five rows. Reads nothing behind them: they may be the caller's.
 void sort_columns(const std::uint8_t* const* rows, int width, std::uint8_t* const* sorted) {
-  const int step = static_cast<int>(hn::Lanes(Bytes()));
+  const int step = lanes();
   int x = 0;
   for (; x + step <= width; x += step) sort_vector(rows, x, sorted, x);
   if (x < width) {
@@ -88,18 +118,17 @@ void sort_columns(const std::uint8_t* const* rows, int width, std::uint8_t* cons
 
 /// The medians of a row from its sorted columns, of which two more stand on both sides.
 void write_medians(const std::uint8_t* const* sorted, int width, std::uint8_t* medians) {
-  const Bytes d8;
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d8))) {
-    const auto load = [&](int i, int k)
-                          HWY_ATTR { return hn::LoadU(d8, sorted[i] + x + k - kMedianSide / 2); };
-    Vector a0 = load(0, 0), a1 = load(0, 1), a2 = load(0, 2), a3 = load(0, 3), a4 = load(0, 4);
-    Vector b0 = load(1, 0), b1 = load(1, 1), b2 = load(1, 2), b3 = load(1, 3), b4 = load(1, 4);
-    Vector c0 = load(2, 0), c1 = load(2, 1), c2 = load(2, 2), c3 = load(2, 3), c4 = load(2, 4);
-    Vector d0 = load(3, 0), d1 = load(3, 1), d2 = load(3, 2), d3 = load(3, 3), d4 = load(3, 4);
-    Vector e0 = load(4, 0), e1 = load(4, 1), e2 = load(4, 2), e3 = load(4, 3), e4 = load(4, 4);
+  for (int x = 0; x < width; x += lanes()) {
+    const auto place = [&](int i, int k)
+                           HWY_ATTR { return load(sorted[i] + x + k - kMedianSide / 2); };
+    Vector a0 = place(0, 0), a1 = place(0, 1), a2 = place(0, 2), a3 = place(0, 3), a4 = place(0, 4);
+    Vector b0 = place(1, 0), b1 = place(1, 1), b2 = place(1, 2), b3 = place(1, 3), b4 = place(1, 4);
+    Vector c0 = place(2, 0), c1 = place(2, 1), c2 = place(2, 2), c3 = place(2, 3), c4 = place(2, 4);
+    Vector d0 = place(3, 0), d1 = place(3, 1), d2 = place(3, 2), d3 = place(3, 3), d4 = place(3, 4);
+    Vector e0 = place(4, 0), e1 = place(4, 1), e2 = place(4, 2), e3 = place(4, 3), e4 = place(4, 4);
     exchange_all<kFindMedian>(std::tie(a0, a1, a2, a3, a4, b0, b1, b2, b3, b4, c0, c1, c2, c3, c4,
                                        d0, d1, d2, d3, d4, e0, e1, e2, e3, e4));
-    hn::StoreU(c2, d8, medians + x);
+    store(c2, medians + x);
   }
 }
 
