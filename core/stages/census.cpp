@@ -15,23 +15,86 @@ namespace mtstereo {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Bytes = hn::CappedTag<std::uint8_t, kAlignment>;
-
 /// Side of the window.
 constexpr int kSide = 5;
+
+/// The place of a bit's pixel: the window's in a row, without the one in the middle.
+constexpr int neighbor_of(int bit) { return bit < kCensusBits / 2 ? bit : bit + 1; }
+
+#if HWY_TARGET == HWY_SCALAR
+// A single lane in Highway, which may have nothing for SSE2. Loops that are plain enough become
+// vectors of whatever processor the compiler compiles for.
+
+/// Sets the bits `mask` of the pixels whose neighbor is darker. The gray values are signed numbers.
+void mark_darker(const std::uint8_t* __restrict__ neighbors,
+                 const std::uint8_t* __restrict__ centers, std::uint8_t mask,
+                 std::uint8_t* __restrict__ bytes) {
+  for (std::size_t i = 0; i < kAlignment; ++i) {
+    const bool darker =
+        static_cast<std::int8_t>(neighbors[i]) < static_cast<std::int8_t>(centers[i]);
+    bytes[i] |= static_cast<std::uint8_t>(-darker & mask);  // a choice would become a branch
+  }
+}
+
+/// The census transform of kAlignment pixels from column x on.
+void transform_block(const std::uint8_t* const* lines, int x, std::uint32_t* __restrict__ words) {
+  std::uint8_t bytes[kCensusBytes][kAlignment] = {};
+  for (int bit = 0; bit < kCensusBits; ++bit) {
+    const int neighbor = neighbor_of(bit);
+    mark_darker(lines[neighbor / kSide] + x + neighbor % kSide, lines[kSide / 2] + x + kSide / 2,
+                static_cast<std::uint8_t>(1 << bit % 8), bytes[bit / 8]);
+  }
+  for (std::size_t i = 0; i < kAlignment; ++i) {
+    words[i] = static_cast<std::uint32_t>(bytes[0][i] | bytes[1][i] << 8 | bytes[2][i] << 16);
+  }
+}
+
+void transform_row(const std::uint8_t* const* lines, int width, std::uint32_t* words) {
+  constexpr int kStep = kAlignment;
+  int x = 0;
+  for (; x + kStep <= width; x += kStep) transform_block(lines, x, words + x);
+  if (x < width) {
+    std::uint32_t last[kStep];
+    transform_block(lines, x, last);
+    std::memcpy(words + x, last, (width - x) * sizeof(std::uint32_t));
+  }
+}
+
+void split_forward(const std::uint32_t* words, int count, std::uint8_t* const* planes, int to) {
+  const auto split = [=](const std::uint32_t* __restrict__ from, std::uint8_t* __restrict__ plane,
+                         int shift) {
+    for (int x = 0; x < count; ++x) plane[x] = static_cast<std::uint8_t>(from[x] >> shift);
+  };
+  for (int i = 0; i < kCensusBytes; ++i) split(words, planes[i] + to, 8 * i);
+}
+
+void split_row(const std::uint32_t* words, int width, RowOrder order, std::uint8_t* const* planes) {
+  if (order == RowOrder::kForward) {
+    split_forward(words, width, planes, 0);
+    return;
+  }
+  // Turned round in a loop of its own: compilers do not vectorize the two at once.
+  constexpr int kStep = kAlignment;
+  for (int x = 0; x < width; x += kStep) {
+    const int count = std::min(kStep, width - x);
+    std::uint32_t mirrored[kStep];
+    std::reverse_copy(words + width - x - count, words + width - x, mirrored);
+    split_forward(mirrored, count, planes, x);
+  }
+}
+#else
+using Bytes = hn::CappedTag<std::uint8_t, kAlignment>;
 
 /// Byte kByte of the census transform of the pixels from column x on. `lines` are the window's
 /// rows, padded, with the gray values as signed numbers: few processors compare unsigned bytes.
 template <int kByte>
 hn::Vec<Bytes> census_byte(const std::uint8_t* const* lines, int x) {
-  constexpr int kMiddle = kCensusBits / 2;
   const Bytes d8;
   const hn::RebindToSigned<Bytes> di8;
   const auto center = hn::BitCast(di8, hn::LoadU(d8, lines[kSide / 2] + x + kSide / 2));
   auto byte = hn::Zero(d8);
   for (int bit = 0; bit < 8; ++bit) {
-    // The window's pixels in a row, without the one in the middle.
-    const int neighbor = 8 * kByte + bit + (8 * kByte + bit >= kMiddle ? 1 : 0);
+    const int neighbor = neighbor_of(8 * kByte + bit);
     const auto value =
         hn::BitCast(di8, hn::LoadU(d8, lines[neighbor / kSide] + x + neighbor % kSide));
     const auto darker = hn::BitCast(d8, hn::VecFromMask(di8, hn::Lt(value, center)));
@@ -60,13 +123,9 @@ void transform_row(const std::uint8_t* const* lines, int width, std::uint32_t* w
 
 /// The lanes in the opposite order. Highway has no such function for bytes.
 hn::Vec<Bytes> reverse(hn::Vec<Bytes> bytes) {
-#if HWY_TARGET == HWY_SCALAR
-  return bytes;  // a single lane
-#else
   const hn::RepartitionToWide<Bytes> d16;
   const auto pairs = hn::Reverse(d16, hn::BitCast(d16, bytes));
   return hn::BitCast(Bytes(), hn::Or(hn::ShiftLeft<8>(pairs), hn::ShiftRight<8>(pairs)));
-#endif
 }
 
 void split_row(const std::uint32_t* words, int width, RowOrder order, std::uint8_t* const* planes) {
@@ -89,6 +148,7 @@ void split_row(const std::uint32_t* words, int width, RowOrder order, std::uint8
     }
   }
 }
+#endif  // HWY_TARGET
 
 }  // namespace HWY_NAMESPACE
 }  // namespace mtstereo
