@@ -174,17 +174,24 @@ void clear_sums(const CensusWindow& window, int rows) {
 
 /// Takes in the window's first rows, with which nothing leaves it.
 void add_row(const CensusWindow& window) {
-  using D8 = Narrow;
-  const D8 d8;
   for (int x = 0; x < window.width; ++x) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
-    const Difference<D8> in(window.in, window.width, x);
+#if HWY_TARGET == HWY_SCALAR
+    std::uint8_t* __restrict__ sums = window.sums + first;
+    std::uint8_t* __restrict__ kept = window.kept + first;
+    count_plainly(window.in, window.width, x, window.lanes, kept);
+    const int lanes = window.lanes;
+    for (int d = 0; d < lanes; ++d) sums[d] = static_cast<std::uint8_t>(sums[d] + kept[d]);
+#else
+    const Narrow d8;
+    const Difference<Narrow> in(window.in, window.width, x);
     for (int d = 0; d < window.lanes; d += static_cast<int>(hn::Lanes(d8))) {
       const auto count = in.count(d);
       std::uint8_t* sums = window.sums + first + d;
       hn::Store(hn::Add(hn::Load(d8, sums), count), d8, sums);
       if (!kCountTwice) hn::Store(count, d8, window.kept + first + d);
     }
+#endif
   }
 }
 
