@@ -2,10 +2,10 @@
 #pragma once
 
 #include "mtstereo/parameters.hpp"
-#include "stages/census_cost.hpp"
-#include "stages/disparity_selection.hpp"
-#include "stages/scanline_optimization.hpp"
-#include "stages/search_range.hpp"
+#include "stages/pixels/census_cost.hpp"
+#include "stages/pixels/disparity_selection.hpp"
+#include "stages/pixels/scanline_optimization.hpp"
+#include "stages/pixels/search_range.hpp"
 
 namespace mtstereo {
 

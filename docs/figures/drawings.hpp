@@ -5,8 +5,8 @@
 
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
-#include "stages/max_tree.hpp"
-#include "stages/node_levels.hpp"
+#include "stages/nodes/node_levels.hpp"
+#include "stages/prepare/max_tree.hpp"
 
 namespace mtstereo::figures {
 

@@ -17,8 +17,8 @@
 #include "growth.hpp"
 #include "mtstereo/mtstereo.hpp"
 #include "render/render.hpp"
-#include "stages/max_tree.hpp"
-#include "stages/node_levels.hpp"
+#include "stages/nodes/node_levels.hpp"
+#include "stages/prepare/max_tree.hpp"
 
 namespace {
 

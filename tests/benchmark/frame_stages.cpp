@@ -5,9 +5,10 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "stages/disparity_drawing.hpp"
-#include "stages/gap_filling.hpp"
-#include "stages/resolution.hpp"
+#include "stages/nodes/disparity_drawing.hpp"
+#include "stages/prepare/halving.hpp"
+#include "stages/refine/enlarging.hpp"
+#include "stages/refine/gap_filling.hpp"
 
 namespace mtstereo::bench {
 namespace {

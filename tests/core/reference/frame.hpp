@@ -4,16 +4,17 @@
 #include <array>
 
 #include "base/settings.hpp"
-#include "reference/confidence.hpp"
-#include "reference/disparity_refinement.hpp"
-#include "reference/gap_filling.hpp"
-#include "reference/map_smoothing.hpp"
-#include "reference/node_extrapolation.hpp"
-#include "reference/outlier_removal.hpp"
-#include "reference/pixel_matching.hpp"
-#include "reference/resolution.hpp"
-#include "reference/rim_trimming.hpp"
-#include "reference/speckle_removal.hpp"
+#include "reference/nodes/node_extrapolation.hpp"
+#include "reference/nodes/outlier_removal.hpp"
+#include "reference/pixels/pixel_matching.hpp"
+#include "reference/prepare/halving.hpp"
+#include "reference/refine/confidence.hpp"
+#include "reference/refine/disparity_refinement.hpp"
+#include "reference/refine/enlarging.hpp"
+#include "reference/refine/gap_filling.hpp"
+#include "reference/refine/map_smoothing.hpp"
+#include "reference/refine/rim_trimming.hpp"
+#include "reference/refine/speckle_removal.hpp"
 
 namespace mtstereo::reference {
 

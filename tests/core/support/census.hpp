@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "stages/census.hpp"
-#include "stages/census_cost.hpp"
+#include "stages/pixels/census_cost.hpp"
+#include "stages/prepare/census.hpp"
 #include "support/plane.hpp"
 #include "support/random.hpp"
 #include "support/stages.hpp"

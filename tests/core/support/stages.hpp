@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "reference/node_matching.hpp"
-#include "stages/cost_volume.hpp"
-#include "stages/max_tree.hpp"
-#include "stages/median_filter.hpp"
-#include "stages/node_levels.hpp"
-#include "stages/node_matching.hpp"
-#include "stages/preprocess.hpp"
+#include "reference/nodes/node_matching.hpp"
+#include "stages/nodes/node_levels.hpp"
+#include "stages/nodes/node_matching.hpp"
+#include "stages/prepare/cost_volume.hpp"
+#include "stages/prepare/max_tree.hpp"
+#include "stages/prepare/median_filter.hpp"
+#include "stages/prepare/preprocess.hpp"
 #include "support/random.hpp"
 
 namespace mtstereo::test {

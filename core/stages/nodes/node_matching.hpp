@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "base/buffer.hpp"
+#include "stages/nodes/node_levels.hpp"
+#include "stages/nodes/pair_cost.hpp"
+
+namespace mtstereo {
+
+/// Step 5 (paper, "Matching cost aggregation"): matches the nodes of one level.
+
+/// No disparity, where a node's disparity is expected.
+inline constexpr std::int16_t kNodeUnmatched = -1;
+
+/// The matches of one level's left nodes, laid out as the columns of NodeLevel. Both disparities of
+/// a node are there, or both are kNodeUnmatched.
+struct NodeMatches {
+  Buffer<std::int16_t> begin_disparity;  ///< at the node's first column [px]
+  Buffer<std::int16_t> end_disparity;    ///< at the node's last column [px]
+
+  void resize(const NodeLevel& left);
+};
+
+/// Where each left node's partner may lie in the right view: within columns first .. last; none
+/// where first > last. Laid out as the columns of NodeLevel.
+struct SearchIntervals {
+  Buffer<std::int32_t> first;
+  Buffer<std::int32_t> last;
+
+  void resize(const NodeLevel& left);
+};
+
+/// The intervals of the coarsest level, for the rows y0 .. y1 - 1: [l - D, l'] for a node [l, l'].
+void first_intervals(const NodeLevel& left, int disparities, int y0, int y1,
+                     SearchIntervals& intervals);
+
+/// The intervals of a finer level, for the rows y0 .. y1 - 1: [p - nL, p' - nR], where [p, p'] is
+/// the node's ancestor in the level before, and nL and nR are the medians of the begin and of the
+/// end disparities over the ancestor and its neighbors. Without these there is none.
+/// `scratch` is resized to one row of the level before.
+void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeMatches& matches,
+                     int max_neighbors, int y0, int y1, Buffer<std::int32_t>& scratch,
+                     SearchIntervals& intervals);
+
+/// Scratch memory of one thread for match_nodes().
+struct MatchScratch {
+  /// The best pair that a node has been part of, and the cost of the second-best.
+  struct Best {
+    float cost;
+    float second;
+    int partner;
+  };
+  PairCosts costs;
+  Buffer<Best> left;
+  Buffer<Best> right;
+
+  void resize(int width, int disparities, int max_neighbors);
+};
+
+/// Matches the nodes of the rows y0 .. y1 - 1. The cost of a pair is the mean over it and its
+/// neighbors, the chains of the left and of the right node walked side by side. A pair is accepted
+/// where each is the other's best, the second-best of both costs more than `confidence` (a share)
+/// above, and neither node touches the left or right border.
+void match_nodes(const PairCostInput& input, const SearchIntervals& intervals, int max_neighbors,
+                 float confidence, int y0, int y1, MatchScratch& scratch, NodeMatches& matches);
+
+}  // namespace mtstereo

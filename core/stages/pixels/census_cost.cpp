@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/pixels/census_cost.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/pixels/census_cost.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+namespace mtstereo {
+#ifndef MTSTEREO_CENSUS_WINDOW
+#define MTSTEREO_CENSUS_WINDOW
+/// One row of both views, taken apart. The right one is mirrored and goes on for cost_lanes()
+/// columns beyond.
+struct CensusRow {
+  std::uint8_t* left[kCensusBytes];
+  std::uint8_t* right[kCensusBytes];
+};
+
+/// The sums over the window's rows, on their way from row to row.
+struct CensusWindow {
+  int width;
+  int lanes;
+  CensusRow in;        ///< the row that comes into the window
+  CensusRow out;       ///< the row that leaves it
+  std::uint8_t* kept;  ///< costs of the row that leaves it, in whose place come those of the other
+  std::uint8_t* sums;
+};
+
+/// Of the largest number of disparities.
+constexpr int kMostLanes = (1024 + kCostStep - 1) / kCostStep * kCostStep;
+
+/// See CensusCostScratch::tables.
+struct CensusTables {
+  const std::uint8_t* below;
+  const std::uint8_t* above;
+  const std::uint8_t* never;
+};
+#endif
+}  // namespace mtstereo
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Narrow = hn::CappedTag<std::uint8_t, kCostStep>;
+using Wide = hn::CappedTag<std::uint8_t, 2 * kCostStep>;
+
+/// Whether pixels are whole wide vectors.
+bool is_wide(int lanes) {
+  const int wide = static_cast<int>(hn::MaxLanes(Wide()));
+  return wide > static_cast<int>(hn::MaxLanes(Narrow())) && lanes % wide == 0;
+}
+
+/// Whether the bits of the row that leaves the window are counted once more rather than kept: that
+/// is cheaper where counting is one instruction, and leaves the cache to others.
+#if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_NEON
+constexpr bool kCountTwice = true;
+#else
+constexpr bool kCountTwice = false;
+#endif
+
+/// Counts the bits in which one left pixel differs from the right ones of all disparities.
+template <class D8>
+class Difference {
+ public:
+  /// Disparity d of column x is the mirrored right pixel width - 1 - x + d.
+  Difference(const CensusRow& row, int width, int x)
+      : bits0_(hn::Set(D8(), row.left[0][x])),
+        bits1_(hn::Set(D8(), row.left[1][x])),
+        bits2_(hn::Set(D8(), row.left[2][x])),
+        right0_(row.right[0] + (width - 1 - x)),
+        right1_(row.right[1] + (width - 1 - x)),
+        right2_(row.right[2] + (width - 1 - x)) {}
+
+  HWY_INLINE hn::Vec<D8> count(int d) const {
+    const D8 d8;
+    const auto count0 = hn::PopulationCount(hn::Xor(bits0_, hn::LoadU(d8, right0_ + d)));
+    const auto count1 = hn::PopulationCount(hn::Xor(bits1_, hn::LoadU(d8, right1_ + d)));
+    const auto count2 = hn::PopulationCount(hn::Xor(bits2_, hn::LoadU(d8, right2_ + d)));
+    return hn::Add(hn::Add(count0, count1), count2);
+  }
+
+ private:
+  hn::Vec<D8> bits0_, bits1_, bits2_;
+  const std::uint8_t* right0_;
+  const std::uint8_t* right1_;
+  const std::uint8_t* right2_;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+/// The differing bits of a left pixel and the right ones of all disparities, eight of these in a
+/// word. This and the loops below are such that compilers turn them into vectors of what every
+/// processor has.
+void count_plainly(const CensusRow& row, int width, int x, int lanes,
+                   std::uint8_t* __restrict__ counts) {
+  constexpr std::uint64_t kEach = 0x0101010101010101;
+  const std::uint64_t bits[3] = {kEach * row.left[0][x], kEach * row.left[1][x],
+                                 kEach * row.left[2][x]};
+  const std::uint8_t* right[3] = {row.right[0] + (width - 1 - x), row.right[1] + (width - 1 - x),
+                                  row.right[2] + (width - 1 - x)};
+  const auto pairs = [](std::uint64_t v) { return v - ((v >> 1) & (kEach * 0x55)); };
+  const auto nibbles = [](std::uint64_t v) {
+    return (v & (kEach * 0x33)) + ((v >> 2) & (kEach * 0x33));
+  };
+  for (int d = 0; d < lanes; d += 8) {
+    std::uint64_t words[3];
+    for (int i = 0; i < 3; ++i) {
+      std::memcpy(&words[i], right[i] + d, 8);
+      words[i] ^= bits[i];
+    }
+    // The three bits of each place as one number.
+    const std::uint64_t half = words[0] ^ words[1];
+    const std::uint64_t ones = half ^ words[2];
+    const std::uint64_t twos = (words[0] & words[1]) | (half & words[2]);
+    const std::uint64_t sum = nibbles(pairs(ones)) + 2 * nibbles(pairs(twos));
+    const std::uint64_t count = (sum & (kEach * 0x0F)) + ((sum >> 4) & (kEach * 0x0F));
+    std::memcpy(counts + d, &count, 8);
+  }
+}
+
+/// Moves the sums of column x on by one row.
+template <class D8>
+void move_sums(const CensusWindow& window, int x) {
+  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
+  std::uint8_t counts[kMostLanes];
+  count_plainly(window.in, window.width, x, window.lanes, counts);
+  std::uint8_t* __restrict__ sums = window.sums + first;
+  std::uint8_t* __restrict__ kept = window.kept + first;
+  const int lanes = window.lanes;
+  for (int d = 0; d < lanes; ++d) {
+    sums[d] = static_cast<std::uint8_t>(sums[d] - kept[d] + counts[d]);
+    kept[d] = counts[d];
+  }
+}
+#else
+/// Moves the sums of column x on by one row.
+template <class D8>
+HWY_INLINE void move_sums(const CensusWindow& window, int x) {
+  const D8 d8;
+  const int step = static_cast<int>(hn::Lanes(d8));
+  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
+  std::uint8_t* sums = window.sums + first;
+  const Difference<D8> in(window.in, window.width, x);
+  if (kCountTwice) {
+    const Difference<D8> out(window.out, window.width, x);
+    for (int d = 0; d < window.lanes; d += step) {
+      const auto sum = hn::Sub(hn::Load(d8, sums + d), out.count(d));
+      hn::Store(hn::Add(sum, in.count(d)), d8, sums + d);
+    }
+    return;
+  }
+  std::uint8_t* kept = window.kept + first;
+  for (int d = 0; d < window.lanes; d += step) {
+    const auto count = in.count(d);
+    const auto sum = hn::Sub(hn::Load(d8, sums + d), hn::Load(d8, kept + d));
+    hn::Store(hn::Add(sum, count), d8, sums + d);
+    hn::Store(count, d8, kept + d);
+  }
+}
+#endif
+
+/// The sums without any row: those of the rows that come are all that there is.
+void clear_sums(const CensusWindow& window, int rows) {
+  const std::size_t cells = static_cast<std::size_t>(window.width) * window.lanes;
+  std::memset(window.sums, 0, cells);
+  if (!kCountTwice) std::memset(window.kept, 0, cells * rows);
+}
+
+/// Takes in the window's first rows, with which nothing leaves it.
+void add_row(const CensusWindow& window) {
+  for (int x = 0; x < window.width; ++x) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
+#if HWY_TARGET == HWY_SCALAR
+    std::uint8_t* __restrict__ sums = window.sums + first;
+    std::uint8_t* __restrict__ kept = window.kept + first;
+    count_plainly(window.in, window.width, x, window.lanes, kept);
+    const int lanes = window.lanes;
+    for (int d = 0; d < lanes; ++d) sums[d] = static_cast<std::uint8_t>(sums[d] + kept[d]);
+#else
+    const Narrow d8;
+    const Difference<Narrow> in(window.in, window.width, x);
+    for (int d = 0; d < window.lanes; d += static_cast<int>(hn::Lanes(d8))) {
+      const auto count = in.count(d);
+      std::uint8_t* sums = window.sums + first + d;
+      hn::Store(hn::Add(hn::Load(d8, sums), count), d8, sums);
+      if (!kCountTwice) hn::Store(count, d8, window.kept + first + d);
+    }
+#endif
+  }
+}
+
+#if HWY_TARGET == HWY_SCALAR
+/// Writes the costs of column x, of which the disparities low .. high are expected.
+template <int kSize, class D8>
+void write_costs(const CensusWindow& window, int disparities, int x, int low, int high,
+                 const CensusTables& tables, std::uint8_t* costs) {
+  const int last = window.width - 1;
+  const int lanes = window.lanes;
+  const auto column = [&](int at) {
+    return window.sums + static_cast<std::ptrdiff_t>(std::clamp(at, 0, last)) * lanes;
+  };
+  const std::uint8_t* far0 = column(x - 2);
+  const std::uint8_t* near0 = column(x - 1);
+  const std::uint8_t* middle = column(x);
+  const std::uint8_t* near1 = column(x + 1);
+  const std::uint8_t* far1 = column(x + 2);
+  const std::uint8_t* never = tables.never;
+  std::uint8_t* __restrict__ out = costs + static_cast<std::ptrdiff_t>(x) * lanes;
+  const auto mean = [](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>((a + b + 1) >> 1);
+  };
+  for (int d = 0; d < lanes; ++d) {
+    const std::uint8_t near = mean(near0[d], near1[d]);
+    const std::uint8_t far = mean(far0[d], far1[d]);
+    const std::uint8_t all = mean(near, mean(middle[d], mean(far, middle[d])));
+    const std::uint8_t three = mean(near, middle[d]);
+    out[d] = std::max(kSize == 5 ? all : kSize == 3 ? three : middle[d], never[d]);
+  }
+  if (low > high || (low == 0 && high == disparities - 1)) return;
+  const std::uint8_t* below = tables.below + lanes - low;
+  const std::uint8_t* above = tables.above + lanes - 1 - high;
+  for (int d = 0; d < lanes; ++d) {
+    const std::uint8_t penalty = std::max(below[d], above[d]);
+    const auto room = static_cast<std::uint8_t>(255 - penalty);
+    out[d] = static_cast<std::uint8_t>(std::min(out[d], room) + penalty);
+  }
+}
+#else
+/// The binomial mean along the row of 1, 3 or 5 cells that lie at `offsets` from the middle one.
+template <int kSize, class D8>
+HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const std::uint8_t* sums,
+                                      const std::ptrdiff_t* offsets) {
+  const auto middle = hn::Load(d8, sums);
+  if (kSize == 1) return middle;
+  const auto near =
+      hn::AverageRound(hn::Load(d8, sums + offsets[1]), hn::Load(d8, sums + offsets[2]));
+  if (kSize == 3) return hn::AverageRound(near, middle);
+  // 1 4 6 4 1 in sixteenths.
+  const auto far =
+      hn::AverageRound(hn::Load(d8, sums + offsets[0]), hn::Load(d8, sums + offsets[3]));
+  const auto rest = hn::AverageRound(middle, hn::AverageRound(far, middle));
+  return hn::AverageRound(near, rest);
+}
+
+/// Writes the costs of column x, of which the disparities low .. high are expected.
+template <int kSize, class D8>
+HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, int low, int high,
+                            const CensusTables& tables, std::uint8_t* costs) {
+  const D8 d8;
+  const int step = static_cast<int>(hn::Lanes(d8));
+  const int last = window.width - 1;
+  const std::ptrdiff_t lanes = window.lanes;
+  const std::ptrdiff_t offsets[4] = {
+      (std::max(x - 2, 0) - x) * lanes, (std::max(x - 1, 0) - x) * lanes,
+      (std::min(x + 1, last) - x) * lanes, (std::min(x + 2, last) - x) * lanes};
+  const std::uint8_t* sums = window.sums + x * lanes;
+  std::uint8_t* out = costs + x * lanes;
+  const auto mean = [&](int d) { return mean_along_row<kSize>(d8, sums + d, offsets); };
+  if (low > high || (low == 0 && high == disparities - 1)) {
+    for (int d = 0; d < lanes; d += step) {
+      hn::Store(hn::Max(mean(d), hn::Load(d8, tables.never + d)), d8, out + d);
+    }
+    return;
+  }
+  // Windows into tables of two halves: the penalty lies left of `low` and right of `high`.
+  const std::uint8_t* below = tables.below + lanes - low;
+  const std::uint8_t* above = tables.above + lanes - 1 - high;
+  for (int d = 0; d < lanes; d += step) {
+    const auto penalty = hn::Max(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d));
+    const auto cost = hn::SaturatedAdd(mean(d), penalty);
+    hn::Store(hn::Max(cost, hn::Load(d8, tables.never + d)), d8, out + d);
+  }
+}
+#endif
+
+/// Moves the sums on by one row and writes its costs, column after column, since those beside it
+/// are still at hand.
+template <int kSize, class D8>
+void write_row_of(const CensusWindow& of_window, int disparities, const std::uint16_t* low,
+                  const std::uint16_t* high, const CensusTables& of_tables, std::uint8_t* costs) {
+  // Copies, which no byte that is written can be a part of.
+  const CensusWindow window = of_window;
+  const CensusTables tables = of_tables;
+  constexpr int kReach = kSize / 2;
+  const int width = window.width;
+  for (int x = 0; x < std::min(kReach, width); ++x) move_sums<D8>(window, x);
+  for (int x = 0; x < width; ++x) {
+    if (x + kReach < width) move_sums<D8>(window, x + kReach);
+    write_costs<kSize, D8>(window, disparities, x, low[x], high[x], tables, costs);
+  }
+}
+
+void write_row(const CensusWindow& window, const CensusCostOptions& options,
+               const std::uint16_t* low, const std::uint16_t* high, const CensusTables& tables,
+               std::uint8_t* costs) {
+  const auto by_size = [&]<class D8>(D8) {
+    return options.kernel_size == 5   ? write_row_of<5, D8>
+           : options.kernel_size == 3 ? write_row_of<3, D8>
+                                      : write_row_of<1, D8>;
+  };
+  const auto write = is_wide(window.lanes) ? by_size(Wide()) : by_size(Narrow());
+  write(window, options.disparities, low, high, tables, costs);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(clear_sums);
+HWY_EXPORT(add_row);
+HWY_EXPORT(write_row);
+
+namespace {
+
+/// The rows that are held apart: those of the window, and the one that comes.
+int rows_apart(const CensusCostOptions& options) { return options.kernel_size + 1; }
+
+int wrapped(int i, int count) { return (i % count + count) % count; }
+
+/// Where the bytes of row y, which may be outside of the image, are.
+CensusRow place_of(int y, int width, const CensusCostOptions& options, CensusCostScratch& scratch) {
+  const int right_width = width + cost_lanes(options.disparities);
+  std::uint8_t* bytes =
+      scratch.planes.data() + static_cast<std::ptrdiff_t>(wrapped(y, rows_apart(options))) *
+                                  kCensusBytes * (width + right_width);
+  CensusRow row{};
+  for (std::uint8_t*& plane : row.left) plane = std::exchange(bytes, bytes + width);
+  for (std::uint8_t*& plane : row.right) plane = std::exchange(bytes, bytes + right_width);
+  return row;
+}
+
+/// Makes row y ready to come into the window; beyond the border it is the border's row.
+CensusWindow window_with(const CensusImage& left, const CensusImage& right,
+                         const CensusCostOptions& options, int y, CensusCostScratch& scratch) {
+  const int width = left.bits.width();
+  const int lanes = cost_lanes(options.disparities);
+  const int inside = std::clamp(y, 0, left.bits.height() - 1);
+  const CensusRow in = place_of(y, width, options, scratch);
+  split_census_row(left.bits.row(inside), width, RowOrder::kForward, 0, in.left);
+  split_census_row(right.bits.row(inside), width, RowOrder::kMirrored, lanes, in.right);
+  const std::ptrdiff_t kept =
+      static_cast<std::ptrdiff_t>(wrapped(y, options.kernel_size)) * width * lanes;
+  return {width,
+          lanes,
+          in,
+          place_of(y - options.kernel_size, width, options, scratch),
+          scratch.kept.data() + kept,
+          scratch.sums.data()};
+}
+
+}  // namespace
+
+void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
+  const std::size_t lanes = cost_lanes(options.disparities);
+  planes.resize(kCensusBytes * (2 * width + lanes) * rows_apart(options));
+  std::memset(planes.data(), 0, planes.size());
+  kept.resize(width * lanes * options.kernel_size);
+  sums.resize(width * lanes);
+  tables.resize(5 * lanes);
+  const int penalty = std::min(options.range_penalty * cost_scale(options), 255);
+  std::uint8_t* below = tables.data();
+  std::uint8_t* above = below + 2 * lanes;
+  std::uint8_t* never = above + 2 * lanes;
+  std::memset(below, penalty, lanes);
+  std::memset(below + lanes, 0, lanes);
+  std::memset(above, 0, lanes);
+  std::memset(above + lanes, penalty, lanes);
+  std::memset(never, 0, options.disparities);
+  std::memset(never + options.disparities, kCensusNever, lanes - options.disparities);
+}
+
+void start_census_costs(const CensusImage& left, const CensusImage& right,
+                        const CensusCostOptions& options, int y, CensusCostScratch& scratch) {
+  const int reach = options.kernel_size / 2;
+  const int width = left.bits.width();
+  const int lanes = cost_lanes(options.disparities);
+  HWY_DYNAMIC_DISPATCH(clear_sums)
+  ({width, lanes, {}, {}, scratch.kept.data(), scratch.sums.data()}, options.kernel_size);
+  // The row that leaves the window first is one of none, whose costs are to be 0: both views alike.
+  const CensusRow none = place_of(y - reach - 1, width, options, scratch);
+  std::memset(none.left[0], 0, kCensusBytes * (2 * width + lanes));
+  for (int i = -reach; i < reach; ++i) {
+    HWY_DYNAMIC_DISPATCH(add_row)(window_with(left, right, options, y + i, scratch));
+  }
+}
+
+void census_cost_row(const CensusImage& left, const CensusImage& right,
+                     const CensusCostOptions& options, int y, const std::uint16_t* low,
+                     const std::uint16_t* high, CensusCostScratch& scratch, std::uint8_t* costs) {
+  const std::size_t lanes = cost_lanes(options.disparities);
+  const std::uint8_t* tables = scratch.tables.data();
+  HWY_DYNAMIC_DISPATCH(write_row)
+  (window_with(left, right, options, y + options.kernel_size / 2, scratch), options, low, high,
+   {tables, tables + 2 * lanes, tables + 4 * lanes}, costs);
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "base/buffer.hpp"
+#include "mtstereo/image.hpp"
+#include "stages/pixels/census_cost.hpp"
+#include "stages/pixels/disparity_selection.hpp"
+#include "stages/pixels/scanline_optimization.hpp"
+#include "stages/pixels/search_range.hpp"
+#include "stages/prepare/census.hpp"
+
+namespace mtstereo {
+
+/// Guided pixel matching by the census cost: the steps of search_range, census_cost,
+/// scanline_optimization and disparity_selection, one row after the other, the last two block by
+/// block.
+
+struct CensusMatchingOptions {
+  SearchRangeOptions range;
+  CensusCostOptions cost;
+  SmoothnessOptions smoothness;
+  SelectionOptions selection;
+};
+
+/// Scratch memory of one thread: a few rows of costs.
+struct CensusMatchingScratch {
+  Buffer<std::uint16_t> low;
+  Buffer<std::uint16_t> high;
+  CensusCostScratch cost;
+  ScanlineScratch scanline;
+  SelectionScratch selection;
+  Buffer<std::uint8_t> costs;
+
+  void resize(int width, const CensusMatchingOptions& options);
+};
+
+/// Replaces the disparities of the rows y0 .. y1 - 1, which are the nodes', by the pixels' own, and
+/// writes their peak ratios. The result does not depend on how the image is cut into such bands.
+void match_pixels_by_census(GrayView left_image, const CensusImage& left, const CensusImage& right,
+                            const CensusMatchingOptions& options, int y0, int y1,
+                            CensusMatchingScratch& scratch, Image<std::int32_t>& map,
+                            Image<std::uint8_t>& ratio);
+
+}  // namespace mtstereo

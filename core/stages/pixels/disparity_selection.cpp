@@ -1,0 +1,470 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/pixels/disparity_selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "mtstereo/image.hpp"
+#include "stages/pixels/census_cost.hpp"
+#include "stages/pixels/subpixel.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/pixels/disparity_selection.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+namespace mtstereo {
+#ifndef MTSTEREO_SELECTION_WORDS
+#define MTSTEREO_SELECTION_WORDS
+constexpr int kDisparityBits = 7;
+constexpr int kMostGroups = (1024 + SelectionScratch::kGroup - 1) / SelectionScratch::kGroup;
+static_assert(SelectionScratch::kGroup == 1 << kDisparityBits);
+constexpr int kLowest = std::numeric_limits<std::int16_t>::min();
+constexpr int kMostCost = (kCostLimit - 1) << kDisparityBits;
+static_assert(kLowest + kMostCost + SelectionScratch::kGroup - 1 < SelectionScratch::kNone);
+#endif
+}  // namespace mtstereo
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::int16_t kNone = SelectionScratch::kNone;
+constexpr int kGroup = SelectionScratch::kGroup;
+
+#if HWY_TARGET == HWY_SCALAR
+
+// With one lane there is nothing to gain from Highway's vectors. These are plain loops without
+// branches, from which the compiler makes the vectors that every processor has.
+
+/// By value: std::min() chooses between addresses, which no vector loop can.
+HWY_INLINE std::int16_t lesser(std::int16_t a, std::int16_t b) { return a < b ? a : b; }
+
+/// The least word of `cells` costs, which it leaves in `words`. On the way the words compete for
+/// the right pixels that they could show.
+HWY_INLINE std::int16_t compete(const std::uint16_t* __restrict__ costs,
+                                const std::int16_t* __restrict__ index, int cells,
+                                std::int16_t* __restrict__ words,
+                                std::int16_t* __restrict__ right) {
+  std::int16_t least = kNone;
+  for (int d = 0; d < cells; ++d) {
+    const auto word = static_cast<std::int16_t>((costs[d] << kDisparityBits) + index[d]);
+    words[d] = word;
+    right[d] = std::min(word, right[d]);
+    least = std::min(word, least);
+  }
+  return least;
+}
+
+/// The least of `cells` words.
+HWY_INLINE std::int16_t least_of(const std::int16_t* words, int cells) {
+  std::int16_t least = kNone;
+  for (int d = 0; d < cells; ++d) least = std::min(words[d], least);
+  return least;
+}
+
+/// The cost of a word; kNone of kNone.
+HWY_INLINE std::int16_t cost_of(std::int16_t word) {
+  return word == kNone ? kNone : static_cast<std::int16_t>((word - kLowest) >> kDisparityBits);
+}
+
+/// A pixel's words, that of disparity d at d + 1: those beside the best are there always.
+using PixelWords = std::int16_t[kMostGroups * kGroup + 2];
+
+/// Lets the first `cells` costs of column x compete, then takes the best and those beside it out.
+HWY_INLINE void offer_pixel(const std::uint16_t* costs, int x, int cells, std::int16_t* right,
+                            SelectionScratch& scratch, PixelWords& words) {
+  int least = kNone;  // cost
+  int best = 0;
+  for (int d0 = 0; d0 < cells; d0 += kGroup, right += scratch.right_stride) {
+    const std::int16_t word = compete(costs + d0, scratch.index.data() + d0,
+                                      std::min(kGroup, cells - d0), words + 1 + d0, right + d0);
+    const int cost = cost_of(word);
+    if (cost < least) best = d0 + (word & (kGroup - 1));
+    least = std::min(cost, least);
+  }
+  scratch.best[x] = static_cast<std::int16_t>(best);
+  scratch.least[x] = static_cast<std::int16_t>(least);
+  std::fill_n(words + best, 3, kNone);
+}
+
+void offer(const std::uint16_t* costs, int begin, int end, int width, int disparities,
+           SelectionScratch& scratch) {
+  const int lanes = cost_lanes(disparities);
+  const std::ptrdiff_t turn = scratch.right_stride * ((lanes + kGroup - 1) / kGroup);
+  // Whole vectors, but where those disparities are missing that lie outside of the right image.
+  const auto cells_of = [&](int x) { return x + 1 < disparities ? x + 1 : lanes; };
+  // A batch: vectors that are read right after a part of them was written have to wait for it.
+  PixelWords words[SelectionScratch::kTurns];
+  for (int x0 = begin; x0 < end; x0 += SelectionScratch::kTurns) {
+    const int x1 = std::min(x0 + SelectionScratch::kTurns, end);
+    for (int x = x0; x < x1; ++x, costs += lanes) {
+      std::int16_t* right =
+          scratch.right.data() + (x % SelectionScratch::kTurns) * turn + (width - 1 - x);
+      offer_pixel(costs, x, cells_of(x), right, scratch, words[x - x0]);
+    }
+    for (int x = x0; x < x1; ++x) {
+      scratch.second[x] = cost_of(least_of(words[x - x0] + 1, cells_of(x)));
+    }
+  }
+}
+
+/// Writes the disparity of each right pixel's least word to where the words of its first
+/// competition are.
+void decide_right(int width, int groups, SelectionScratch& scratch) {
+  constexpr int kBlock = 32;  // what there is room for behind the last pixel
+  static_assert(SelectionScratch::kTurns == 4);
+  const std::ptrdiff_t turn = scratch.right_stride * groups;
+  for (int x = 0; x < width; x += kBlock) {
+    std::int16_t* first = scratch.right.data() + x;
+    std::int16_t least[kBlock];  // costs
+    std::int16_t best[kBlock] = {};
+    std::fill_n(least, kBlock, std::int16_t{kCostLimit});
+    for (int g = 0; g < groups; ++g) {
+      const std::int16_t* turn0 = first + g * scratch.right_stride;
+      const std::int16_t* turn1 = turn0 + turn;
+      const std::int16_t* turn2 = turn1 + turn;
+      const std::int16_t* turn3 = turn2 + turn;
+      for (int i = 0; i < kBlock; ++i) {
+        const std::int16_t word = lesser(lesser(turn0[i], turn1[i]), lesser(turn2[i], turn3[i]));
+        const auto cost = static_cast<std::int16_t>((word - kLowest) >> kDisparityBits);
+        const auto disparity = static_cast<std::int16_t>((word & (kGroup - 1)) + g * kGroup);
+        const std::int16_t before = best[i];
+        best[i] = cost < least[i] ? disparity : before;
+        least[i] = lesser(cost, least[i]);
+      }
+    }
+    std::copy_n(best, kBlock, first);
+  }
+}
+
+#else
+
+using Words = hn::CappedTag<std::int16_t, kCostStep>;
+using WordsVector = hn::Vec<Words>;
+
+/// The costs d, d + 1, ... of a pixel with their disparities; kNone from `count` on.
+template <bool kAtBorder>
+HWY_INLINE WordsVector load_words(const std::uint16_t* costs, const std::int16_t* index, int d,
+                                  int count) {
+  const Words d16;
+  const hn::RebindToUnsigned<Words> du16;
+  const auto cost = hn::BitCast(d16, hn::Load(du16, costs + d));
+  const auto words = hn::Add(hn::ShiftLeft<kDisparityBits>(cost), hn::Load(d16, index + d));
+  if (!kAtBorder) return words;
+  const auto place = hn::Add(hn::Iota(d16, 0), hn::Set(d16, static_cast<std::int16_t>(d)));
+  const auto exists = hn::Lt(place, hn::Set(d16, static_cast<std::int16_t>(count)));
+  return hn::IfThenElse(exists, words, hn::Set(d16, kNone));
+}
+
+/// The least words of the disparities lane, lane + lanes, lane + 2 lanes ... of a group, and the
+/// second-least ones.
+struct Leasts {
+  WordsVector least;
+  WordsVector second;
+};
+
+/// Finds these for the disparities d0 .. d1 - 1. On the way the words compete for the right pixels
+/// that they could show, at right[d - d0].
+template <bool kAtBorder>
+HWY_INLINE Leasts compete(const std::uint16_t* costs, const std::int16_t* index, int d0, int d1,
+                          int count, std::int16_t* right) {
+  const Words d16;
+  Leasts leasts = {hn::Set(d16, kNone), hn::Set(d16, kNone)};
+  for (int d = d0; d < d1; d += static_cast<int>(hn::Lanes(d16))) {
+    const auto words = load_words<kAtBorder>(costs, index, d, count);
+    std::int16_t* shown = right + (d - d0);
+    hn::StoreU(hn::Min(words, hn::LoadU(d16, shown)), d16, shown);
+    leasts.second = hn::Min(leasts.second, hn::Max(leasts.least, words));
+    leasts.least = hn::Min(leasts.least, words);
+  }
+  return leasts;
+}
+
+/// The cost of each word; kNone of kNone.
+template <class D16>
+HWY_INLINE hn::Vec<D16> costs_of(D16 d16, hn::Vec<D16> words) {
+  const hn::RebindToUnsigned<D16> du16;
+  const auto lowest = hn::Set(du16, std::uint16_t{1} << 15);
+  const auto costs = hn::ShiftRight<kDisparityBits>(hn::Xor(hn::BitCast(du16, words), lowest));
+  const auto none = hn::Set(d16, kNone);
+  return hn::IfThenElse(hn::Eq(words, none), none, hn::BitCast(d16, costs));
+}
+
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(Words()));
+
+/// Pixels whose lanes are compared together.
+constexpr int kBatch = 8;
+
+/// The words of a batch, for each pixel those of its lanes.
+using BatchWords = std::int16_t[kBatch][kLanes];
+
+/// The least of eight of a pixel's lanes each.
+using Eight = hn::CappedTag<std::int16_t, kBatch>;
+HWY_INLINE hn::Vec<Eight> least_eight(const std::int16_t* words) {
+  const Eight d8;
+  auto least = hn::Load(d8, words);
+  for (int i = kBatch; i < kLanes; i += kBatch) least = hn::Min(least, hn::Load(d8, words + i));
+  return least;
+}
+
+/// Pixel by pixel the lesser of lanes that come from `a` and from `b` in turn.
+template <class V>
+HWY_INLINE V fold(V a, V b) {
+  const Eight d8;
+  return hn::Min(hn::InterleaveLower(d8, a, b), hn::InterleaveUpper(d8, a, b));
+}
+
+/// The least word of each pixel of a batch, in the pixels' order.
+HWY_INLINE hn::Vec<Eight> least_words(const BatchWords& words) {
+  const auto even = fold(fold(least_eight(words[0]), least_eight(words[4])),
+                         fold(least_eight(words[2]), least_eight(words[6])));
+  const auto odd = fold(fold(least_eight(words[1]), least_eight(words[5])),
+                        fold(least_eight(words[3]), least_eight(words[7])));
+  return fold(even, odd);
+}
+
+/// The competitions of a batch's lanes in one group of disparities.
+struct BatchGroup {
+  BatchWords least;
+  BatchWords second;
+};
+
+/// The costs of a batch of pixels from column x on, or of fewer at the end.
+struct Batch {
+  const std::uint16_t* costs;
+  int x;
+  int pixels;
+  int lanes;
+  int disparities;
+  int width;
+};
+
+template <bool kAtBorder>
+HWY_INLINE void compete_in_group(const Batch& batch, int group, SelectionScratch& scratch,
+                                 BatchGroup& out) {
+  const Words d16;
+  const int d0 = group * kGroup;
+  const int d1 = std::min(d0 + kGroup, batch.lanes);
+  const int groups = (batch.lanes + kGroup - 1) / kGroup;
+  // Copies, which no word that is written can be a part of.
+  const std::ptrdiff_t stride = scratch.right_stride;
+  std::int16_t* const first = scratch.right.data();
+  const std::int16_t* const index = scratch.index.data();
+  for (int i = 0; i < batch.pixels; ++i) {
+    const int x = batch.x + i;
+    const std::ptrdiff_t competition = (x % SelectionScratch::kTurns * groups + group) * stride;
+    std::int16_t* right = first + competition + (batch.width - 1 - x) + d0;
+    const int count = std::min(batch.disparities, x + 1);  // disparities with a right pixel
+    const Leasts leasts =
+        compete<kAtBorder>(batch.costs + i * batch.lanes, index, d0, d1, count, right);
+    hn::Store(leasts.least, d16, out.least[i]);
+    hn::Store(leasts.second, d16, out.second[i]);
+  }
+}
+
+/// The least costs that are not within 1 of the batch's best disparities, which count from the
+/// group's first one. Lanes that are beside each other hold disparities that are: of each lane one
+/// word at most drops out, and then its second-least counts.
+HWY_INLINE hn::Vec<Eight> runners_up(const std::int16_t* best, BatchGroup& group) {
+  const Words d16;
+  for (int i = 0; i < kBatch; ++i) {
+    const auto least = hn::Load(d16, group.least[i]);
+    // best - 1 .. best + 1 become 0 .. 2.
+    const auto before = hn::Set(d16, static_cast<std::int16_t>(best[i] - 1));
+    const auto disparity = hn::And(least, hn::Set(d16, kGroup - 1));
+    const auto offset = hn::Sub(disparity, before);
+    const auto beside = hn::And(hn::Gt(offset, hn::Set(d16, -1)), hn::Lt(offset, hn::Set(d16, 3)));
+    hn::Store(hn::IfThenElse(beside, hn::Load(d16, group.second[i]), least), d16, group.least[i]);
+  }
+  return costs_of(Eight(), least_words(group.least));
+}
+
+/// Writes a value of each pixel of a batch; what follows it may be there already.
+template <class V>
+HWY_INLINE void write_batch(V values, const Batch& batch, Buffer<std::int16_t>& row) {
+  const Eight d8;
+  if (batch.pixels == kBatch) {
+    hn::StoreU(values, d8, row.data() + batch.x);
+    return;
+  }
+  HWY_ALIGN std::int16_t all[kBatch];
+  hn::Store(values, d8, all);
+  std::copy_n(all, batch.pixels, row.data() + batch.x);
+}
+
+template <bool kAtBorder>
+HWY_INLINE void offer_batch(const Batch& batch, SelectionScratch& scratch) {
+  const Eight d8;
+  HWY_ALIGN BatchGroup groups[kMostGroups];
+  const int count = (batch.lanes + kGroup - 1) / kGroup;
+  auto least = hn::Set(d8, kNone);
+  auto best = hn::Zero(d8);
+  for (int g = 0; g < count; ++g) {
+    compete_in_group<kAtBorder>(batch, g, scratch, groups[g]);
+    const auto words = least_words(groups[g].least);
+    const auto costs = costs_of(d8, words);
+    const auto disparities = hn::Add(hn::And(words, hn::Set(d8, kGroup - 1)),
+                                     hn::Set(d8, static_cast<std::int16_t>(g * kGroup)));
+    best = hn::IfThenElse(hn::Lt(costs, least), disparities, best);
+    least = hn::Min(least, costs);
+  }
+  auto second = hn::Set(d8, kNone);
+  for (int g = 0; g < count; ++g) {
+    HWY_ALIGN std::int16_t in_group[kBatch];
+    hn::Store(hn::Sub(best, hn::Set(d8, static_cast<std::int16_t>(g * kGroup))), d8, in_group);
+    second = hn::Min(second, runners_up(in_group, groups[g]));
+  }
+  write_batch(best, batch, scratch.best);
+  write_batch(least, batch, scratch.least);
+  write_batch(second, batch, scratch.second);
+}
+
+void offer(const std::uint16_t* costs, int begin, int end, int width, int disparities,
+           SelectionScratch& scratch) {
+  const int lanes = cost_lanes(disparities);
+  for (int x = begin; x < end; x += kBatch, costs += kBatch * lanes) {
+    const Batch batch = {costs, x, std::min(kBatch, end - x), lanes, disparities, width};
+    if (x + 1 < disparities) {
+      offer_batch<true>(batch, scratch);
+    } else {
+      offer_batch<false>(batch, scratch);
+    }
+  }
+}
+
+/// Writes the disparity of each right pixel's least word to where the words of its first
+/// competition are.
+void decide_right(int width, int groups, SelectionScratch& scratch) {
+  const Words d16;
+  const std::ptrdiff_t turn = scratch.right_stride * groups;
+  std::int16_t* first = scratch.right.data();
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
+    auto least = hn::Set(d16, kNone);  // costs
+    auto best = hn::Zero(d16);         // disparities
+    for (int g = 0; g < groups; ++g) {
+      const std::int16_t* competition = first + g * scratch.right_stride + x;
+      auto word = hn::LoadU(d16, competition);
+      for (int t = 1; t < SelectionScratch::kTurns; ++t) {
+        word = hn::Min(word, hn::LoadU(d16, competition + t * turn));
+      }
+      const auto cost = costs_of(d16, word);
+      const auto disparity = hn::Add(hn::And(word, hn::Set(d16, kGroup - 1)),
+                                     hn::Set(d16, static_cast<std::int16_t>(g * kGroup)));
+      best = hn::IfThenElse(hn::Lt(cost, least), disparity, best);
+      least = hn::Min(least, cost);
+    }
+    hn::StoreU(best, d16, first + x);
+  }
+}
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(offer);
+HWY_EXPORT(decide_right);
+
+namespace {
+
+int groups_of(int disparities) {
+  return (cost_lanes(disparities) + SelectionScratch::kGroup - 1) / SelectionScratch::kGroup;
+}
+
+/// The least cost of the disparities first .. last that are not within 1 of `best`, or kNone.
+int runner_up_of_range(const std::uint16_t* costs, int best, int first, int last) {
+  int least = SelectionScratch::kNone;
+  for (int d = first; d <= last; ++d) {
+    if (std::abs(d - best) > 1) least = std::min<int>(least, costs[d]);
+  }
+  return least;
+}
+
+}  // namespace
+
+RunnerUpTable runner_up_table(double confidence) {
+  RunnerUpTable table{};
+  for (int cost = 0; cost < kCostLimit; ++cost) {
+    table[cost] = static_cast<std::uint16_t>(std::floor(cost * (1 + confidence)) + 1);
+  }
+  return table;
+}
+
+void SelectionScratch::resize(int width, int disparities) {
+  constexpr int kVector = kAlignment / sizeof(std::uint16_t);
+  const int lanes = cost_lanes(disparities);
+  index.resize(lanes);
+  for (int d = 0; d < lanes; ++d) {
+    // Behind the last disparity the cells cost the most, which makes kNone of them.
+    const int word = d < disparities ? kLowest + d % kGroup : kNone - kMostCost;
+    index[d] = static_cast<std::int16_t>(word);
+  }
+  // Pixels offer all their lanes, also those that lie behind the image.
+  right_stride = (width + lanes + 2 * kVector - 1) / kVector * kVector;
+  right.resize(right_stride * groups_of(disparities) * kTurns);
+  for (Buffer<std::int16_t>* row : {&best, &least, &second, &before, &after}) row->resize(width);
+}
+
+void start_selection(SelectionScratch& scratch) {
+  std::fill_n(scratch.right.data(), scratch.right.size(), SelectionScratch::kNone);
+}
+
+void offer_costs(const std::uint16_t* costs, int begin, int end, int width,
+                 const SelectionOptions& options, const std::uint16_t* low,
+                 const std::uint16_t* high, SelectionScratch& scratch) {
+  HWY_DYNAMIC_DISPATCH(offer)(costs, begin, end, width, options.disparities, scratch);
+  const int lanes = cost_lanes(options.disparities);
+  for (int x = begin; x < end; ++x, costs += lanes) {
+    const int best = scratch.best[x];
+    const int last = std::min(options.disparities, x + 1) - 1;
+    const bool inside = best > 0 && best < last;
+    scratch.before[x] =
+        inside ? static_cast<std::int16_t>(costs[best - 1]) : SelectionScratch::kNone;
+    scratch.after[x] =
+        inside ? static_cast<std::int16_t>(costs[best + 1]) : SelectionScratch::kNone;
+    if (options.runner_up_in_range) {
+      scratch.second[x] = static_cast<std::int16_t>(
+          runner_up_of_range(costs, best, low[x], std::min<int>(high[x], last)));
+    }
+  }
+}
+
+void finish_selection(int width, const SelectionOptions& options, const std::uint16_t* low,
+                      const std::uint16_t* high, const RunnerUpTable& runner_up,
+                      SelectionScratch& scratch, std::int32_t* disparity, std::uint8_t* ratio) {
+  const int tolerance = options.left_right_tolerance;
+  if (tolerance >= 0) {
+    HWY_DYNAMIC_DISPATCH(decide_right)(width, groups_of(options.disparities), scratch);
+  }
+  for (int x = 0; x < width; ++x) {
+    disparity[x] = kNoDisparity;
+    ratio[x] = 0;
+    const int least = scratch.least[x];
+    const int second = scratch.second[x];
+    if (low[x] > high[x] || second == SelectionScratch::kNone || second < runner_up[least]) {
+      continue;
+    }
+    const int best = scratch.best[x];
+    if (tolerance >= 0 && std::abs(scratch.right[width - 1 - x + best] - best) > tolerance) {
+      continue;
+    }
+    int refined = best * kDisparityOne;
+    if (options.subpixel && scratch.before[x] != SelectionScratch::kNone) {
+      refined += symmetric_v_offset(scratch.before[x], least, scratch.after[x]);
+    }
+    disparity[x] = std::max(refined, 1);
+    ratio[x] = static_cast<std::uint8_t>(std::max(peak_ratio(least, second), 1));
+  }
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE

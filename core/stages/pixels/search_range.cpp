@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/pixels/search_range.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "mtstereo/image.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/pixels/search_range.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+// Included once for each processor, but common to all.
+#ifndef MTSTEREO_SEARCH_RANGE_BLOCK
+#define MTSTEREO_SEARCH_RANGE_BLOCK
+namespace mtstereo {
+
+/// Pixels that are looked at together.
+constexpr int kBlock = 8;
+
+struct SearchRange {
+  std::uint16_t low, high;
+};
+
+inline bool has_node(const std::int32_t* nodes) {
+  static_assert(kNoDisparity == 0);
+  std::uint64_t pairs[kBlock / 2];
+  std::memcpy(pairs, nodes, sizeof(pairs));
+  return (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
+}
+
+}  // namespace mtstereo
+#endif  // MTSTEREO_SEARCH_RANGE_BLOCK
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Doubles = hn::CappedTag<double, kBlock>;
+using Disparities = hn::Rebind<std::int32_t, Doubles>;
+using Ends = hn::Rebind<std::uint16_t, Doubles>;
+
+/// The ranges around a vector of nodes; `none` where there is none. A disparity in px is exact, so
+/// that it makes no difference whether compilers fuse its product and the sums.
+void write_vector(const std::int32_t* nodes, const SearchRangeOptions& options, SearchRange none,
+                  std::uint16_t* low, std::uint16_t* high) {
+  const Doubles df64;
+  const Disparities d32;
+  const Ends d16;
+  const auto node = hn::LoadU(d32, nodes);
+  const auto disparity = hn::Mul(hn::PromoteTo(df64, node), hn::Set(df64, 1.0 / kDisparityOne));
+  const auto reach =
+      hn::Max(hn::Mul(disparity, hn::Set(df64, options.range)), hn::Set(df64, kMinSearch));
+  const auto first = hn::Max(hn::Sub(disparity, reach), hn::Zero(df64));
+  // Numbers from 2^52 on are whole: rounded to the nearest one, and up where that is below.
+  const auto whole = hn::Set(df64, 4503599627370496.0);
+  const auto rounded = hn::Sub(hn::Add(first, whole), whole);
+  const auto up = hn::IfThenElseZero(hn::Lt(rounded, first), hn::Set(df64, 1.0));
+  const auto lows = hn::DemoteTo(d16, hn::DemoteTo(d32, hn::Add(rounded, up)));
+  const auto last = hn::DemoteTo(d32, hn::Add(disparity, reach));
+  const auto highs = hn::DemoteTo(d16, hn::Min(last, hn::Set(d32, options.disparities - 1)));
+  // 1 where there is a node: disparities are positive.
+  const auto known = hn::DemoteTo(d16, hn::Min(node, hn::Set(d32, 1)));
+  const auto missing = hn::Eq(known, hn::Zero(d16));
+  hn::StoreU(hn::IfThenElse(missing, hn::Set(d16, none.low), lows), d16, low);
+  hn::StoreU(hn::IfThenElse(missing, hn::Set(d16, none.high), highs), d16, high);
+}
+
+/// Writes the ranges of kBlock pixels that are not all without a node.
+void write_block(const std::int32_t* nodes, const SearchRangeOptions& options, SearchRange none,
+                 std::uint16_t* low, std::uint16_t* high) {
+  for (int i = 0; i < kBlock; i += static_cast<int>(hn::Lanes(Doubles()))) {
+    write_vector(nodes + i, options, none, low + i, high + i);
+  }
+}
+
+void write_row(const std::int32_t* nodes, int width, const SearchRangeOptions& options,
+               SearchRange none, std::uint16_t* low, std::uint16_t* high) {
+  int x = 0;
+  for (; x + kBlock <= width; x += kBlock) {
+    if (has_node(nodes + x)) {
+      write_block(nodes + x, options, none, low + x, high + x);
+    } else {
+      std::fill_n(low + x, kBlock, none.low);
+      std::fill_n(high + x, kBlock, none.high);
+    }
+  }
+  if (x < width) {
+    std::int32_t last_nodes[kBlock] = {};
+    std::uint16_t last_low[kBlock], last_high[kBlock];
+    std::memcpy(last_nodes, nodes + x, (width - x) * sizeof(*nodes));
+    write_block(last_nodes, options, none, last_low, last_high);
+    std::copy_n(last_low, width - x, low + x);
+    std::copy_n(last_high, width - x, high + x);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(write_row);
+
+namespace {
+
+/// Between two nodes: from the low end of the smaller one to the high end of the larger one.
+void span_gaps(const std::int32_t* nodes, int width, std::uint16_t* low, std::uint16_t* high) {
+  int last = -1;  // the last column with a node
+  for (int x = 0; x < width; ++x) {
+    if (nodes[x] == kNoDisparity) continue;
+    if (last >= 0 && last + 1 < x) {
+      const bool rising = nodes[last] < nodes[x];
+      std::fill(low + last + 1, low + x, low[rising ? last : x]);
+      std::fill(high + last + 1, high + x, high[rising ? x : last]);
+    }
+    last = x;
+  }
+}
+
+}  // namespace
+
+void find_search_ranges(const std::int32_t* nodes, int width, const SearchRangeOptions& options,
+                        std::uint16_t* low, std::uint16_t* high) {
+  const bool all = options.between_nodes == BetweenNodes::kAll;
+  const SearchRange none =
+      all ? SearchRange{0, static_cast<std::uint16_t>(options.disparities - 1)} : SearchRange{1, 0};
+  HWY_DYNAMIC_DISPATCH(write_row)(nodes, width, options, none, low, high);
+  if (options.between_nodes == BetweenNodes::kSpan) span_gaps(nodes, width, low, high);
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/prepare/census.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/prepare/census.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Side of the window.
+constexpr int kSide = 5;
+
+/// The place of a bit's pixel: the window's in a row, without the one in the middle.
+constexpr int neighbor_of(int bit) { return bit < kCensusBits / 2 ? bit : bit + 1; }
+
+#if HWY_TARGET == HWY_SCALAR
+// A single lane in Highway, which may have nothing for SSE2. Loops that are plain enough become
+// vectors of whatever processor the compiler compiles for.
+
+/// Sets the bits `mask` of the pixels whose neighbor is darker. The gray values are signed numbers.
+void mark_darker(const std::uint8_t* __restrict__ neighbors,
+                 const std::uint8_t* __restrict__ centers, std::uint8_t mask,
+                 std::uint8_t* __restrict__ bytes) {
+  for (std::size_t i = 0; i < kAlignment; ++i) {
+    const bool darker =
+        static_cast<std::int8_t>(neighbors[i]) < static_cast<std::int8_t>(centers[i]);
+    bytes[i] |= static_cast<std::uint8_t>(-darker & mask);  // a choice would become a branch
+  }
+}
+
+/// The census transform of kAlignment pixels from column x on.
+void transform_block(const std::uint8_t* const* lines, int x, std::uint32_t* __restrict__ words) {
+  std::uint8_t bytes[kCensusBytes][kAlignment] = {};
+  for (int bit = 0; bit < kCensusBits; ++bit) {
+    const int neighbor = neighbor_of(bit);
+    mark_darker(lines[neighbor / kSide] + x + neighbor % kSide, lines[kSide / 2] + x + kSide / 2,
+                static_cast<std::uint8_t>(1 << bit % 8), bytes[bit / 8]);
+  }
+  for (std::size_t i = 0; i < kAlignment; ++i) {
+    words[i] = static_cast<std::uint32_t>(bytes[0][i] | bytes[1][i] << 8 | bytes[2][i] << 16);
+  }
+}
+
+void transform_row(const std::uint8_t* const* lines, int width, std::uint32_t* words) {
+  constexpr int kStep = kAlignment;
+  int x = 0;
+  for (; x + kStep <= width; x += kStep) transform_block(lines, x, words + x);
+  if (x < width) {
+    std::uint32_t last[kStep];
+    transform_block(lines, x, last);
+    std::memcpy(words + x, last, (width - x) * sizeof(std::uint32_t));
+  }
+}
+
+void split_forward(const std::uint32_t* words, int count, std::uint8_t* const* planes, int to) {
+  const auto split = [=](const std::uint32_t* __restrict__ from, std::uint8_t* __restrict__ plane,
+                         int shift) {
+    for (int x = 0; x < count; ++x) plane[x] = static_cast<std::uint8_t>(from[x] >> shift);
+  };
+  for (int i = 0; i < kCensusBytes; ++i) split(words, planes[i] + to, 8 * i);
+}
+
+void split_row(const std::uint32_t* words, int width, RowOrder order, std::uint8_t* const* planes) {
+  if (order == RowOrder::kForward) {
+    split_forward(words, width, planes, 0);
+    return;
+  }
+  // Turned round in a loop of its own: compilers do not vectorize the two at once.
+  constexpr int kStep = kAlignment;
+  for (int x = 0; x < width; x += kStep) {
+    const int count = std::min(kStep, width - x);
+    std::uint32_t mirrored[kStep];
+    std::reverse_copy(words + width - x - count, words + width - x, mirrored);
+    split_forward(mirrored, count, planes, x);
+  }
+}
+#else
+using Bytes = hn::CappedTag<std::uint8_t, kAlignment>;
+
+/// Byte kByte of the census transform of the pixels from column x on. `lines` are the window's
+/// rows, padded, with the gray values as signed numbers: few processors compare unsigned bytes.
+template <int kByte>
+hn::Vec<Bytes> census_byte(const std::uint8_t* const* lines, int x) {
+  const Bytes d8;
+  const hn::RebindToSigned<Bytes> di8;
+  const auto center = hn::BitCast(di8, hn::LoadU(d8, lines[kSide / 2] + x + kSide / 2));
+  auto byte = hn::Zero(d8);
+  for (int bit = 0; bit < 8; ++bit) {
+    const int neighbor = neighbor_of(8 * kByte + bit);
+    const auto value =
+        hn::BitCast(di8, hn::LoadU(d8, lines[neighbor / kSide] + x + neighbor % kSide));
+    const auto darker = hn::BitCast(d8, hn::VecFromMask(di8, hn::Lt(value, center)));
+    byte = hn::Or(byte, hn::And(darker, hn::Set(d8, static_cast<std::uint8_t>(1 << bit))));
+  }
+  return byte;
+}
+
+void transform_row(const std::uint8_t* const* lines, int width, std::uint32_t* words) {
+  const Bytes d8;
+  const int step = static_cast<int>(hn::Lanes(d8));
+  const auto write = [&](int x, std::uint32_t* out) {
+    // A word's first byte in memory is its lowest: the supported processors are little-endian.
+    hn::StoreInterleaved4(census_byte<0>(lines, x), census_byte<1>(lines, x),
+                          census_byte<2>(lines, x), hn::Zero(d8), d8,
+                          reinterpret_cast<std::uint8_t*>(out));
+  };
+  int x = 0;
+  for (; x + step <= width; x += step) write(x, words + x);
+  if (x < width) {
+    std::uint32_t last[kAlignment];
+    write(x, last);
+    std::memcpy(words + x, last, (width - x) * sizeof(std::uint32_t));
+  }
+}
+
+/// The lanes in the opposite order. Highway has no such function for bytes.
+hn::Vec<Bytes> reverse(hn::Vec<Bytes> bytes) {
+  const hn::RepartitionToWide<Bytes> d16;
+  const auto pairs = hn::Reverse(d16, hn::BitCast(d16, bytes));
+  return hn::BitCast(Bytes(), hn::Or(hn::ShiftLeft<8>(pairs), hn::ShiftRight<8>(pairs)));
+}
+
+void split_row(const std::uint32_t* words, int width, RowOrder order, std::uint8_t* const* planes) {
+  const Bytes d8;
+  const int step = static_cast<int>(hn::Lanes(d8));
+  const bool mirrored = order == RowOrder::kMirrored;
+  int x = 0;
+  for (; x + step <= width; x += step) {
+    hn::Vec<Bytes> byte0, byte1, byte2, none;
+    hn::LoadInterleaved4(d8, reinterpret_cast<const std::uint8_t*>(words + x), byte0, byte1, byte2,
+                         none);
+    const int to = mirrored ? width - step - x : x;
+    hn::StoreU(mirrored ? reverse(byte0) : byte0, d8, planes[0] + to);
+    hn::StoreU(mirrored ? reverse(byte1) : byte1, d8, planes[1] + to);
+    hn::StoreU(mirrored ? reverse(byte2) : byte2, d8, planes[2] + to);
+  }
+  for (; x < width; ++x) {
+    for (int i = 0; i < kCensusBytes; ++i) {
+      planes[i][mirrored ? width - 1 - x : x] = static_cast<std::uint8_t>(words[x] >> 8 * i);
+    }
+  }
+}
+#endif  // HWY_TARGET
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(transform_row);
+HWY_EXPORT(split_row);
+
+namespace {
+
+constexpr int kRadius = 2;
+
+/// Copies a row and repeats its ends. The gray values are shifted to -128 .. 127.
+void pad_row(const std::uint8_t* row, int width, std::uint8_t* padded) {
+  std::uint8_t* inside = padded + kRadius;
+  for (int x = 0; x < width; ++x) inside[x] = row[x] ^ 0x80;
+  for (int i = 1; i <= kRadius; ++i) {
+    inside[-i] = inside[0];
+    inside[width - 1 + i] = inside[width - 1];
+  }
+}
+
+}  // namespace
+
+void census_rows(GrayView image, int y0, int y1, Image<std::uint8_t>& scratch,
+                 CensusImage& census) {
+  const int width = image.width;
+  const int rows = y1 - y0 + 2 * kRadius;
+  if (scratch.width() < width + 2 * kRadius || scratch.height() < rows) {
+    scratch.resize(width + 2 * kRadius, rows);
+  }
+  for (int i = 0; i < rows; ++i) {
+    const int y = std::clamp(y0 - kRadius + i, 0, image.height - 1);
+    pad_row(image.row(y), width, scratch.row(i));
+  }
+  const auto transform = HWY_DYNAMIC_DISPATCH(transform_row);
+  for (int y = y0; y < y1; ++y) {
+    const std::uint8_t* lines[2 * kRadius + 1];
+    for (int i = 0; i <= 2 * kRadius; ++i) lines[i] = scratch.row(y - y0 + i);
+    transform(lines, width, census.bits.row(y));
+  }
+}
+
+void split_census_row(const std::uint32_t* bits, int width, RowOrder order, int beyond,
+                      std::uint8_t* const (&planes)[kCensusBytes]) {
+  HWY_DYNAMIC_DISPATCH(split_row)(bits, width, order, planes);
+  for (std::uint8_t* plane : planes) std::memset(plane + width, plane[width - 1], beyond);
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE

@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/confidence.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "mtstereo/image.hpp"
+#include "stages/nodes/outlier_removal.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/refine/confidence.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+// Included once for each processor, but common to all.
+#ifndef MTSTEREO_CONFIDENCE_WINDOW
+#define MTSTEREO_CONFIDENCE_WINDOW
+namespace mtstereo {
+
+constexpr int kSide = 2 * kSupportRadius + 1;
+
+/// Steps that the product of the shares is cut to.
+constexpr int kRootSteps = 4096;
+
+}  // namespace mtstereo
+#endif  // MTSTEREO_CONFIDENCE_WINDOW
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Words = hn::CappedTag<std::uint16_t, kAlignment / 2>;
+using Signed = hn::RebindToSigned<Words>;
+
+void copy_row(const std::int32_t* map, const std::uint8_t* map_ratio, int width,
+              std::uint16_t* disparity, std::uint16_t* ratio) {
+  constexpr int kSteps = kDisparityOne / kVoteOne;
+  constexpr int kShift = 3;
+  static_assert(kSteps == 1 << kShift);
+  const hn::CappedTag<std::int32_t, kAlignment / 4> d32;
+  const hn::Rebind<std::uint16_t, decltype(d32)> d16;
+  const hn::Rebind<std::uint8_t, decltype(d32)> d8;
+  const auto none = hn::Set(d16, kSupportNone);
+  const auto one = hn::Set(d16, kSupportOne);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
+    const auto value = hn::LoadU(d32, map + x);
+    const auto rounded = hn::ShiftRight<kShift>(hn::Add(value, hn::Set(d32, kSteps / 2)));
+    // Known disparities are never rounded to 0 and nothing else is: but then the mask is exact.
+    const auto known = hn::DemoteTo(d16, hn::Min(value, hn::Set(d32, 1)));
+    const auto missing = hn::Eq(known, hn::Zero(d16));
+    const auto ratios = hn::Or(hn::PromoteTo(d16, hn::LoadU(d8, map_ratio + x)), one);
+    hn::StoreU(hn::IfThenElse(missing, none, hn::DemoteTo(d16, rounded)), d16, disparity + x);
+    hn::StoreU(hn::IfThenZeroElse(missing, ratios), d16, ratio + x);
+  }
+}
+
+#if HWY_TARGET == HWY_SCALAR
+
+// With one lane there is nothing to gain from Highway's vectors. These are plain loops without
+// branches, from which the compiler makes the vectors that every processor has.
+
+/// Pixels that are summed up together; the rows are padded for them.
+constexpr int kBlock = 32;
+static_assert(kBlock <= static_cast<int>(kAlignment / 2));
+
+using BlockWords = std::uint16_t[kBlock];
+
+/// The ratio of a pixel in one column of a window if it supports the middle, otherwise 0.
+template <int kAway, int kColumn>
+HWY_INLINE int support_of(int middle, const std::uint16_t* disparities,
+                          const std::uint16_t* ratios) {
+  constexpr int kColumns = std::max(kColumn - kSupportRadius, kSupportRadius - kColumn);
+  constexpr int kTolerance = kSupportTolerance + std::max(kColumns, kAway) * kSupportSlope;
+  // All less 2^15: signed words are compared in one instruction.
+  constexpr int kLowest = std::numeric_limits<std::int16_t>::min();
+  const auto distance =
+      static_cast<std::int16_t>(middle + kTolerance + kLowest - disparities[kColumn]);
+  // A mask: its pixel is loaded in any case.
+  const std::uint16_t supports = distance <= 2 * kTolerance + kLowest ? 0xFFFF : 0;
+  return ratios[kColumn] & supports;
+}
+
+/// Adds what supports a block of disparities in one row of their windows, kAway rows away.
+template <int kAway, int... kColumn>
+HWY_INLINE void add_line(const SupportMap& support, int y, int x, const std::uint16_t* middle,
+                         BlockWords& count, BlockWords& ratio,
+                         std::integer_sequence<int, kColumn...>) {
+  const std::uint16_t* disparities = support.disparity.row(y) + x;
+  const std::uint16_t* ratios = support.ratio.row(y) + x;
+  for (int i = 0; i < kBlock; ++i) {
+    const auto sum = static_cast<std::uint16_t>(
+        (... + support_of<kAway, kColumn>(middle[i], disparities + i, ratios + i)));
+    count[i] = static_cast<std::uint16_t>(count[i] + (sum >> 12));
+    ratio[i] = static_cast<std::uint16_t>(ratio[i] + (sum & (kSupportOne - 1)));
+  }
+}
+
+/// Adds the rows of the windows on both sides of row y, kAway rows away, that are in the image.
+template <int kAway>
+HWY_INLINE void add_lines(const SupportMap& support, int y, int x, const std::uint16_t* middle,
+                          BlockWords& count, BlockWords& ratio) {
+  constexpr std::make_integer_sequence<int, kSide> kColumns;
+  const int last = support.disparity.height() - 1;
+  if (y >= kAway) add_line<kAway>(support, y - kAway, x, middle, count, ratio, kColumns);
+  if (kAway > 0 && y + kAway <= last) {
+    add_line<kAway>(support, y + kAway, x, middle, count, ratio, kColumns);
+  }
+}
+
+/// Sums up the support of each pixel of a row; the count is 0 where there is no disparity, or
+/// `asked` is 0.
+void sum_row(const SupportMap& support, const std::uint8_t* asked, int y, SupportScratch& scratch) {
+  static_assert(kSupportRadius == 4);
+  const int width = support.disparity.width() - 2 * kSupportRadius;
+  for (int x = 0; x < width; x += kBlock) {
+    const std::uint16_t* middle = support.disparity.row(y) + kSupportRadius + x;
+    BlockWords wanted;  // all bits or none
+    BlockWords count = {};
+    BlockWords ratio = {};
+    unsigned any = 0;
+    for (int i = 0; i < kBlock; ++i) {
+      wanted[i] = (asked[x + i] != 0) & (middle[i] != kSupportNone) ? 0xFFFF : 0;
+      any |= wanted[i];
+    }
+    if (any != 0) {
+      add_lines<0>(support, y, x, middle, count, ratio);
+      add_lines<1>(support, y, x, middle, count, ratio);
+      add_lines<2>(support, y, x, middle, count, ratio);
+      add_lines<3>(support, y, x, middle, count, ratio);
+      add_lines<4>(support, y, x, middle, count, ratio);
+    }
+    for (int i = 0; i < kBlock; ++i) count[i] &= wanted[i];
+    std::copy_n(count, kBlock, scratch.count.data() + x);
+    std::copy_n(ratio, kBlock, scratch.ratio.data() + x);
+  }
+}
+
+/// The steps of count * count * ratio / (255 * pixels^3) for windows of so many pixels, and 1; 0
+/// where nothing was counted.
+void find_steps(int pixels, int width, SupportScratch& scratch) {
+  const std::uint16_t* __restrict__ counts = scratch.count.data();
+  const std::uint16_t* __restrict__ ratios = scratch.ratio.data();
+  std::uint16_t* __restrict__ out = scratch.steps.data();
+  const double scale = 1 / (255.0 * pixels * pixels * pixels);
+  for (int x = 0; x < width; ++x) {
+    // At most kSide^4, which words can multiply.
+    const auto square = static_cast<std::uint16_t>(counts[x] * counts[x]);
+    const auto product = static_cast<std::int32_t>(square * ratios[x]);
+    // One half: as below.
+    const auto steps = static_cast<std::int32_t>((product * double{kRootSteps} + 0.5) * scale);
+    out[x] = static_cast<std::uint16_t>(steps + (counts[x] != 0));
+  }
+}
+
+#else
+
+/// Adds what supports a vector of disparities in one row of their windows, kAway rows away.
+/// `middle` is the disparities less 2^15, so that signed numbers compare like unsigned ones.
+template <int kAway, class V>
+HWY_INLINE void add_line(const SupportMap& support, int y, int x, hn::Vec<Signed> middle, V& count,
+                         V& ratio) {
+  const Words d16;
+  const Signed di16;
+  const std::uint16_t* disparities = support.disparity.row(y) + x;
+  const std::uint16_t* ratios = support.ratio.row(y) + x;
+  V sum = hn::Zero(d16);
+  for (int i = 0; i < kSide; ++i) {
+    const int columns = i < kSupportRadius ? kSupportRadius - i : i - kSupportRadius;
+    const int away = columns > kAway ? columns : kAway;
+    const int tolerance = kSupportTolerance + away * kSupportSlope;
+    // middle + tolerance - other has to be 0 .. 2 * tolerance.
+    const auto largest = hn::Add(middle, hn::Set(di16, static_cast<std::int16_t>(tolerance)));
+    const auto distance = hn::Sub(largest, hn::BitCast(di16, hn::LoadU(d16, disparities + i)));
+    const auto end = hn::Set(di16, static_cast<std::int16_t>(2 * tolerance + 1 - (1 << 15)));
+    const auto supports = hn::RebindMask(d16, hn::Lt(distance, end));
+    sum = hn::Add(sum, hn::IfThenElseZero(supports, hn::LoadU(d16, ratios + i)));
+  }
+  count = hn::Add(count, hn::ShiftRight<12>(sum));
+  ratio = hn::Add(ratio, hn::And(sum, hn::Set(d16, kSupportOne - 1)));
+}
+
+/// Adds the rows of the windows on both sides of row y, kAway rows away, that are in the image.
+template <int kAway, class V>
+HWY_INLINE void add_lines(const SupportMap& support, int y, int x, hn::Vec<Signed> middle, V& count,
+                          V& ratio) {
+  const int last = support.disparity.height() - 1;
+  if (y >= kAway) add_line<kAway>(support, y - kAway, x, middle, count, ratio);
+  if (y + kAway <= last) add_line<kAway>(support, y + kAway, x, middle, count, ratio);
+}
+
+/// Sums up the support of each pixel of a row; the count is 0 where there is no disparity, or
+/// `asked` is 0.
+void sum_row(const SupportMap& support, const std::uint8_t* asked, int y, SupportScratch& scratch) {
+  static_assert(kSupportRadius == 4);
+  const Words d16;
+  const hn::Rebind<std::uint8_t, Words> d8;
+  const Signed di16;
+  const int width = support.disparity.width() - 2 * kSupportRadius;
+  const std::uint16_t* row = support.disparity.row(y) + kSupportRadius;
+  const auto none = hn::Set(d16, kSupportNone);
+  const auto lowest = hn::Set(d16, std::uint16_t{1} << 15);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
+    const auto disparity = hn::LoadU(d16, row + x);
+    auto count = hn::Zero(d16);
+    auto ratio = hn::Zero(d16);
+    const auto unasked = hn::Eq(hn::PromoteTo(d16, hn::LoadU(d8, asked + x)), hn::Zero(d16));
+    const auto missing = hn::Or(unasked, hn::Eq(disparity, none));
+    if (!hn::AllTrue(d16, missing)) {
+      const auto middle = hn::BitCast(di16, hn::Sub(disparity, lowest));
+      add_line<0>(support, y, x, middle, count, ratio);
+      add_lines<1>(support, y, x, middle, count, ratio);
+      add_lines<2>(support, y, x, middle, count, ratio);
+      add_lines<3>(support, y, x, middle, count, ratio);
+      add_lines<4>(support, y, x, middle, count, ratio);
+    }
+    hn::StoreU(hn::IfThenZeroElse(missing, count), d16, scratch.count.data() + x);
+    hn::StoreU(ratio, d16, scratch.ratio.data() + x);
+  }
+}
+
+/// The steps of count * count * ratio / (255 * pixels^3) for windows of so many pixels, and 1; 0
+/// where nothing was counted.
+void find_steps(int pixels, int width, SupportScratch& scratch) {
+  const hn::CappedTag<double, kAlignment / 8> df64;
+  const hn::Rebind<std::int32_t, decltype(df64)> d32;
+  const hn::Rebind<std::uint16_t, decltype(df64)> d16;
+  // One half keeps what is whole above the whole number by more than any rounding: the numerator
+  // is a whole number below 2^40, `all` is below 2^28.
+  const double all = 255.0 * pixels * pixels * pixels;
+  const auto scale = hn::Set(df64, 1 / all);
+  const auto half = hn::Set(df64, 0.5);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(df64))) {
+    const auto count = hn::PromoteTo(d32, hn::LoadU(d16, scratch.count.data() + x));
+    const auto ratio = hn::PromoteTo(d32, hn::LoadU(d16, scratch.ratio.data() + x));
+    const auto product = hn::PromoteTo(df64, hn::Mul(hn::Mul(count, count), ratio));
+    const auto numerator = hn::Add(hn::Mul(product, hn::Set(df64, kRootSteps)), half);
+    const auto steps = hn::DemoteTo(d32, hn::Mul(numerator, scale));
+    const auto some = hn::Min(count, hn::Set(d32, 1));
+    hn::StoreU(hn::DemoteTo(d16, hn::Add(steps, some)), d16, scratch.steps.data() + x);
+  }
+}
+
+#endif
+
+using Map = hn::CappedTag<std::int32_t, kAlignment / 4>;
+using MapConfidence = hn::Rebind<std::uint8_t, Map>;
+
+/// Both reach into the padding of the rows.
+void remove_below(int least, int width, std::int32_t* map, std::uint8_t* confidence) {
+  const Map d32;
+  const MapConfidence d8;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
+    const auto value = hn::PromoteTo(d32, hn::LoadU(d8, confidence + x));
+    const auto doubtful = hn::Lt(value, hn::Set(d32, least));
+    hn::StoreU(hn::IfThenZeroElse(doubtful, hn::LoadU(d32, map + x)), d32, map + x);
+    hn::StoreU(hn::DemoteTo(d8, hn::IfThenZeroElse(doubtful, value)), d8, confidence + x);
+  }
+}
+
+void clear_row(const std::int32_t* map, int width, std::uint8_t* confidence) {
+  static_assert(kNoDisparity == 0);
+  const Map d32;
+  const MapConfidence d8;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
+    const auto value = hn::PromoteTo(d32, hn::LoadU(d8, confidence + x));
+    const auto none = hn::Eq(hn::LoadU(d32, map + x), hn::Zero(d32));
+    hn::StoreU(hn::DemoteTo(d8, hn::IfThenZeroElse(none, value)), d8, confidence + x);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(copy_row);
+HWY_EXPORT(sum_row);
+HWY_EXPORT(find_steps);
+HWY_EXPORT(remove_below);
+HWY_EXPORT(clear_row);
+
+namespace {
+
+/// Of i + 1: 255 times the cube root of i / kRootSteps, rounded half up, 1 at least. Of 0: 0. In
+/// whole numbers: the cube root of 1/8 is half a step, and what std::cbrt() makes of it differs
+/// from library to library.
+constexpr std::array<std::uint8_t, kRootSteps + 2> kCubeRoots = [] {
+  std::array<std::uint8_t, kRootSteps + 2> roots{};
+  std::int64_t root = 0;
+  for (std::int64_t i = 0; i <= kRootSteps; ++i) {
+    // Up where root + 1/2 is not above the exact one.
+    const std::int64_t cube = std::int64_t{255} * 255 * 255 * i;
+    while ((2 * root + 1) * (2 * root + 1) * (2 * root + 1) * kRootSteps <= 8 * cube) ++root;
+    roots[i + 1] = static_cast<std::uint8_t>(std::max<std::int64_t>(root, 1));
+  }
+  return roots;
+}();
+
+/// The part of a window's `kSide` rows or columns that is inside of the image.
+int inside(int middle, int size) {
+  return std::min(middle + kSupportRadius, size - 1) - std::max(middle - kSupportRadius, 0) + 1;
+}
+
+/// Corrects the steps of the columns whose windows end at the image's border.
+void find_border_steps(int rows, int width, SupportScratch& scratch) {
+  for (int x = 0; x < width; ++x) {
+    if (x == kSupportRadius) x = std::max(x, width - kSupportRadius);
+    if (x == width) break;
+    const std::uint64_t pixels = static_cast<std::uint64_t>(rows) * inside(x, width);
+    const std::uint64_t count = scratch.count[x];
+    if (count == 0) continue;
+    const std::uint64_t product = count * count * scratch.ratio[x];
+    scratch.steps[x] =
+        static_cast<std::uint16_t>(product * kRootSteps / (255 * pixels * pixels * pixels) + 1);
+  }
+}
+
+}  // namespace
+
+void SupportMap::resize(int width, int height) {
+  // As wide as the vectors that begin inside reach.
+  disparity.resize(width + 2 * kSupportRadius, height);
+  ratio.resize(width + 2 * kSupportRadius, height);
+}
+
+void SupportScratch::resize(int width) {
+  constexpr int kVector = kAlignment / 2;
+  count.resize(width + kVector);
+  ratio.resize(width + kVector);
+  steps.resize(width + kVector);
+}
+
+void copy_support(const Image<std::int32_t>& map, const Image<std::uint8_t>& ratio, int y0, int y1,
+                  SupportMap& support) {
+  const int width = map.width();
+  const std::ptrdiff_t behind = support.disparity.stride() - kSupportRadius - width;
+  for (int y = y0; y < y1; ++y) {
+    std::uint16_t* out = support.disparity.row(y);
+    std::uint16_t* out_ratio = support.ratio.row(y);
+    HWY_DYNAMIC_DISPATCH(copy_row)
+    (map.row(y), ratio.row(y), width, out + kSupportRadius, out_ratio + kSupportRadius);
+    std::fill_n(out, kSupportRadius, kSupportNone);
+    std::fill_n(out_ratio, kSupportRadius, std::uint16_t{0});
+    std::fill_n(out + kSupportRadius + width, behind, kSupportNone);
+    std::fill_n(out_ratio + kSupportRadius + width, behind, std::uint16_t{0});
+  }
+}
+
+void find_support_steps(int pixels, int width, SupportScratch& scratch) {
+  HWY_DYNAMIC_DISPATCH(find_steps)(pixels, width, scratch);
+}
+
+void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, int y0, int y1,
+                  SupportScratch& scratch, Image<std::uint8_t>& confidence) {
+  const int width = confidence.width();
+  for (int y = y0; y < y1; ++y) {
+    const int rows = inside(y, confidence.height());
+    HWY_DYNAMIC_DISPATCH(sum_row)(support, asked.row(y), y, scratch);
+    find_support_steps(rows * kSide, width, scratch);
+    find_border_steps(rows, width, scratch);
+    std::uint8_t* out = confidence.row(y);
+    const std::uint16_t* steps = scratch.steps.data();
+    for (int x = 0; x < width; ++x) out[x] = kCubeRoots[steps[x]];
+  }
+}
+
+void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,
+                     Image<std::uint8_t>& confidence) {
+  for (int y = y0; y < y1; ++y) {
+    HWY_DYNAMIC_DISPATCH(remove_below)(least, map.width(), map.row(y), confidence.row(y));
+  }
+}
+
+void clear_confidence(const Image<std::int32_t>& map, int y0, int y1,
+                      Image<std::uint8_t>& confidence) {
+  for (int y = y0; y < y1; ++y) {
+    HWY_DYNAMIC_DISPATCH(clear_row)(map.row(y), map.width(), confidence.row(y));
+  }
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE

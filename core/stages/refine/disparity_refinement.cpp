@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/disparity_refinement.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "mtstereo/image.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/refine/disparity_refinement.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Scratch = RefinementScratch;
+using Ints = hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)>;
+
+constexpr int kRadius = kRefinementRadius;
+constexpr int kSide = 2 * kRadius + 1;
+constexpr int kReach = Scratch::kShifts / 2;  // of the shifts [px]
+static_assert(kSide * kCensusBits < 256, "a column's costs are summed in bytes");
+
+/// The rows of one image row in the ring of the scratch memory.
+struct RingRow {
+  std::uint8_t* costs[Scratch::kShifts];
+  std::int8_t* rounded;
+  std::uint8_t* known;
+};
+
+RingRow ring_row(int y, Scratch& scratch) {
+  // The first rows that are asked for are above the image.
+  const std::ptrdiff_t row = (y + 2 * Scratch::kRows) % Scratch::kRows;
+  RingRow ring;
+  for (int i = 0; i < Scratch::kShifts; ++i) {
+    ring.costs[i] = scratch.costs.data() + (row * Scratch::kShifts + i) * scratch.stride;
+  }
+  ring.rounded = scratch.rounded.data() + row * scratch.stride;
+  ring.known = scratch.known.data() + row * scratch.stride;
+  return ring;
+}
+
+/// Takes the disparities of a row apart: whole pixels and what is rounded off.
+void round_row(const std::int32_t* __restrict__ disparity, int width,
+               std::int32_t* __restrict__ places, std::int8_t* __restrict__ rounded,
+               std::uint8_t* __restrict__ known) {
+  for (int x = 0; x < width; ++x) {
+    const std::int32_t whole = (disparity[x] + kDisparityOne / 2) / kDisparityOne;
+    places[x] = x - whole;
+    rounded[x] = static_cast<std::int8_t>(disparity[x] - whole * kDisparityOne);
+    known[x] = disparity[x] != kNoDisparity;
+  }
+}
+
+using Vec = hn::Vec<Ints>;
+using Bits = hn::Vec<hn::RebindToUnsigned<Ints>>;
+
+/// The costs of the pixels from column x on at all shifts; partner(i) gives the right view's bits.
+template <typename Partner>
+HWY_INLINE void store_costs(Bits bits, Bits known, int x, const RingRow& ring, Partner&& partner) {
+  const Ints di32;
+  const hn::Rebind<std::uint8_t, Ints> d8;
+  for (int i = 0; i < Scratch::kShifts; ++i) {
+    const auto cost = hn::Mul(hn::PopulationCount(hn::Xor(bits, partner(i))), known);
+    hn::StoreU(hn::DemoteTo(d8, hn::BitCast(di32, cost)), d8, ring.costs[i] + x);
+  }
+}
+
+/// The costs of a row at all shifts; none where there is no disparity. `right` begins kReach before
+/// the row's first pixel, and a vector more before it can be read.
+void cost_row(const std::uint32_t* left, const std::uint32_t* right, const std::int32_t* places,
+              int width, const RingRow& ring) {
+  const Ints di32;
+  const hn::RebindToUnsigned<Ints> du32;
+  const hn::Rebind<std::uint8_t, Ints> d8;
+  constexpr std::int32_t kNever = 1 << 30;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(di32))) {
+    const auto known = hn::PromoteTo(du32, hn::LoadU(d8, ring.known + x));
+    const auto unknown = hn::Eq(hn::BitCast(di32, known), hn::Zero(di32));
+    if (hn::AllTrue(di32, unknown)) {
+      for (std::uint8_t* costs : ring.costs) hn::StoreU(hn::Zero(d8), d8, costs + x);
+      continue;
+    }
+    const auto bits = hn::LoadU(du32, left + x);
+    const auto place = hn::LoadU(di32, places + x);
+    // Where the pixels' partners begin, would all of them have one disparity.
+    const auto first = hn::Sub(place, hn::Iota(di32, 0));
+    const auto nearest = hn::IfThenElse(unknown, hn::Set(di32, kNever), first);
+    const auto farthest = hn::IfThenElse(unknown, hn::Set(di32, -kNever), first);
+    const std::int32_t least = hn::GetLane(hn::MinOfLanes(di32, nearest));
+    const std::int32_t most = hn::GetLane(hn::MaxOfLanes(di32, farthest));
+    if (most - least > 1) {
+      store_costs(bits, known, x, ring,
+                  [&](int i) { return hn::GatherIndex(du32, right + 2 * kReach - i, place); });
+      continue;
+    }
+    // On most surfaces the partners are neighbors too: no need to gather them one by one.
+    const std::uint32_t* partners = right + 2 * kReach + least;
+    const auto is_least = hn::RebindMask(du32, hn::Eq(first, hn::Set(di32, least)));
+    auto next = hn::LoadU(du32, partners + 1);
+    store_costs(bits, known, x, ring, [&](int i) {
+      const auto same = hn::LoadU(du32, partners - i);
+      const auto partner = hn::IfThenElse(is_least, same, next);
+      next = same;
+      return partner;
+    });
+  }
+}
+
+void fill_ring_row(const CensusImage& left, const CensusImage& right,
+                   const Image<std::int32_t>& map, int y, Scratch& scratch) {
+  const int width = map.width();
+  const RingRow ring = ring_row(y, scratch);
+  if (y < 0 || y >= map.height()) {
+    for (std::uint8_t* costs : ring.costs) std::memset(costs, 0, width);
+    std::memset(ring.rounded, 0, width);
+    std::memset(ring.known, 0, width);
+    return;
+  }
+  std::uint32_t* line = scratch.right.data() + Scratch::kBefore;
+  std::copy_n(right.bits.row(y), width, line + kReach);
+  std::fill_n(line, kReach, line[kReach]);
+  std::fill_n(line + kReach + width, kReach, line[kReach + width - 1]);
+  round_row(map.row(y), width, scratch.places.data(), ring.rounded, ring.known);
+  cost_row(left.bits.row(y), line, scratch.places.data(), width, ring);
+}
+
+/// Moves the sums of columns on by a row.
+template <typename Value, typename Sum>
+void move_sums(const Value* __restrict__ added, const Value* __restrict__ removed, int width,
+               Sum* __restrict__ sums) {
+  for (int x = 0; x < width; ++x) sums[x] = static_cast<Sum>(sums[x] + added[x] - removed[x]);
+}
+
+void move_columns(int y, int width, Scratch& scratch) {
+  const RingRow added = ring_row(y + kRadius, scratch);
+  const RingRow removed = ring_row(y - kRadius - 1, scratch);
+  for (int i = 0; i < Scratch::kShifts; ++i) {
+    move_sums(added.costs[i], removed.costs[i], width,
+              scratch.cost_columns.data() + i * scratch.stride + kRadius);
+  }
+  move_sums(added.rounded, removed.rounded, width, scratch.round_columns.data() + kRadius);
+  move_sums(added.known, removed.known, width, scratch.known_columns.data() + kRadius);
+}
+
+/// The sums over the window from those over its columns, which begin at the window's first one.
+template <typename Sum>
+void sum_window(const Sum* __restrict__ columns, int width, std::int16_t* __restrict__ sums) {
+  static_assert(kSide == 7);
+  for (int x = 0; x < width; ++x) {
+    sums[x] =
+        static_cast<std::int16_t>(columns[x] + columns[x + 1] + columns[x + 2] + columns[x + 3] +
+                                  columns[x + 4] + columns[x + 5] + columns[x + 6]);
+  }
+}
+
+/// Sums over windows, a row of each: the costs of the shifts, what is rounded off, what is known.
+constexpr int kRounded = Scratch::kShifts;
+constexpr int kKnown = Scratch::kShifts + 1;
+
+void sum_windows(int width, Scratch& scratch) {
+  const auto sums = [&](int row) { return scratch.sums.data() + row * scratch.stride; };
+  for (int i = 0; i < Scratch::kShifts; ++i) {
+    sum_window(scratch.cost_columns.data() + i * scratch.stride, width, sums(i));
+  }
+  sum_window(scratch.round_columns.data(), width, sums(kRounded));
+  sum_window(scratch.known_columns.data(), width, sums(kKnown));
+}
+
+/// Three costs around the smallest one of the shifts -1 .. 1 px, and that shift.
+struct Minimum {
+  Vec before, best, after, shift;
+};
+
+/// The costs are in 1/128 bits: a shift by 1 px away from the given disparities costs 2 bits for
+/// each pixel of the window.
+HWY_INLINE Minimum find_minimum(const std::int16_t* sums, std::ptrdiff_t stride, Vec rounded,
+                                Vec known) {
+  const Ints di32;
+  const hn::Rebind<std::int16_t, Ints> d16;
+  const auto cost = [&](int i, Vec away) {
+    const auto sum = hn::PromoteTo(di32, hn::LoadU(d16, sums + i * stride));
+    return hn::Add(hn::ShiftLeft<7>(sum), hn::Abs(away));
+  };
+  const auto one = hn::ShiftLeft<8>(known), two = hn::ShiftLeft<9>(known);
+  const auto two_less = cost(0, hn::Add(two, rounded));
+  const auto one_less = cost(1, hn::Add(one, rounded));
+  const auto same = cost(2, rounded);
+  const auto one_more = cost(3, hn::Sub(one, rounded));
+  const auto two_more = cost(4, hn::Sub(two, rounded));
+  const auto best = hn::Min(hn::Min(one_less, same), one_more);
+  const auto less = hn::Eq(one_less, best);
+  const auto more = hn::Eq(one_more, best);  // where it is not less
+  const auto select = [&](Vec if_less, Vec if_same, Vec if_more) {
+    return hn::IfThenElse(less, if_less, hn::IfThenElse(more, if_more, if_same));
+  };
+  return {select(two_less, one_less, same), best, select(same, one_more, two_more),
+          select(hn::Set(di32, -kDisparityOne), hn::Zero(di32), hn::Set(di32, kDisparityOne))};
+}
+
+/// Refines one row by the sums over its windows.
+void refine_row(const std::int32_t* map, int width, int limit, const Scratch& scratch,
+                std::int32_t* out) {
+  const Ints di32;
+  const hn::Rebind<std::int16_t, Ints> d16;
+  const hn::Rebind<float, Ints> df32;
+  const auto zero = hn::Zero(di32), unit = hn::Set(di32, 1);
+  const auto ratio = [&](Vec a, Vec b) {
+    return hn::Div(hn::ConvertTo(df32, a), hn::ConvertTo(df32, hn::Max(b, unit)));
+  };
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(di32))) {
+    const std::int16_t* sums = scratch.sums.data() + x;
+    const auto given = hn::LoadU(di32, map + x);
+    if (hn::AllTrue(di32, hn::Eq(given, zero))) {
+      hn::StoreU(zero, di32, out + x);
+      continue;
+    }
+    const auto rounded = hn::PromoteTo(di32, hn::LoadU(d16, sums + kRounded * scratch.stride));
+    const auto known = hn::PromoteTo(di32, hn::LoadU(d16, sums + kKnown * scratch.stride));
+    const Minimum at = find_minimum(sums, scratch.stride, rounded, known);
+    const auto slope = hn::Sub(hn::Max(at.before, at.after), at.best);
+    const auto between = ratio(hn::ShiftLeft<7>(hn::Sub(at.before, at.after)), slope);
+    const auto change = hn::ConvertTo(di32, hn::Sub(between, ratio(rounded, known)));
+    const auto refined = hn::Add(given, hn::Add(at.shift, change));
+    const auto column = hn::ShiftLeft<8>(hn::Iota(di32, x));
+    const auto possible = hn::Max(hn::Min(refined, hn::Min(column, hn::Set(di32, limit))), unit);
+    // A minimum is below one side at least and above none.
+    const auto told =
+        hn::AndNot(hn::Lt(hn::Min(at.before, at.after), at.best), hn::Gt(slope, zero));
+    const auto kept = hn::IfThenElse(told, possible, given);
+    hn::StoreU(hn::IfThenElse(hn::Eq(given, zero), zero, kept), di32, out + x);
+  }
+}
+
+void refine_band(const CensusImage& left, const CensusImage& right, const Image<std::int32_t>& map,
+                 int max_disparity, int y0, int y1, Scratch& scratch,
+                 Image<std::int32_t>& refined) {
+  const int width = map.width();
+  const int limit = max_disparity * kDisparityOne - 1;
+  for (int y = y0 - 2 * kRadius; y < y1; ++y) {
+    fill_ring_row(left, right, map, y + kRadius, scratch);
+    move_columns(y, width, scratch);
+    if (y < y0) continue;
+    sum_windows(width, scratch);
+    refine_row(map.row(y), width, limit, scratch, refined.row(y));
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(refine_band);
+
+void RefinementScratch::resize(int width) {
+  // Whole vectors are read and written behind the last pixel of a row.
+  constexpr int kVector = static_cast<int>(kAlignment);
+  stride = (width + 2 * kRefinementRadius + kVector) / kVector * kVector;
+  right.resize(kBefore + stride);
+  std::memset(right.data(), 0, right.size() * sizeof(right[0]));
+  places.resize(stride);
+  costs.resize(kRows * kShifts * stride);
+  rounded.resize(kRows * stride);
+  known.resize(kRows * stride);
+  cost_columns.resize(kShifts * stride);
+  round_columns.resize(stride);
+  known_columns.resize(stride);
+  sums.resize((kShifts + 2) * stride);
+}
+
+void refine_disparities(const CensusImage& left, const CensusImage& right,
+                        const Image<std::int32_t>& map, int max_disparity, int y0, int y1,
+                        RefinementScratch& scratch, Image<std::int32_t>& refined) {
+  // Nothing is known above the first window and beyond the ends of rows.
+  const auto clear = [](auto& buffer) {
+    std::memset(buffer.data(), 0, buffer.size() * sizeof(buffer[0]));
+  };
+  clear(scratch.places);
+  clear(scratch.costs);
+  clear(scratch.rounded);
+  clear(scratch.known);
+  clear(scratch.cost_columns);
+  clear(scratch.round_columns);
+  clear(scratch.known_columns);
+  HWY_DYNAMIC_DISPATCH(refine_band)(left, right, map, max_disparity, y0, y1, scratch, refined);
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE

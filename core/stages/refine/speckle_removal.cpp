@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/speckle_removal.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <utility>
+
+#include "mtstereo/image.hpp"
+#include "mtstereo/parameters.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "stages/refine/speckle_removal.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file once more for each processor.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Disparities = hn::CappedTag<std::int32_t, kAlignment / 4>;
+
+/// Columns that are looked at together.
+constexpr int kWord = 64;
+
+/// Bit i of both stands for column i.
+struct ColumnBits {
+  std::uint64_t known = 0;   ///< has a disparity
+  std::uint64_t joined = 0;  ///< is connected to the next column
+};
+
+std::uint64_t bits_of(hn::Mask<Disparities> mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Disparities(), mask, bytes);
+  // Only the bytes that were just written: processors would wait for a longer load.
+  return hn::Lanes(Disparities()) > 8 ? bytes[0] | bytes[1] << 8 : bytes[0];
+}
+
+/// Looks at the first `columns` of a row, kWord at most, and at the one behind.
+ColumnBits column_bits(const std::int32_t* row, int columns, std::int32_t tolerance) {
+  const Disparities d32;
+  const auto none = hn::Set(d32, kNoDisparity);
+  const auto most = hn::Set(d32, tolerance);
+  ColumnBits bits;
+  for (int i = 0; i < columns; i += static_cast<int>(hn::Lanes(d32))) {
+    const auto here = hn::LoadU(d32, row + i);
+    const auto next = hn::LoadU(d32, row + i + 1);
+    const auto apart = hn::Or(hn::Gt(hn::Abs(hn::Sub(next, here)), most), hn::Eq(next, none));
+    bits.known |= bits_of(hn::Not(hn::Eq(here, none))) << i;
+    bits.joined |= bits_of(hn::Not(apart)) << i;
+  }
+  bits.known &= ~std::uint64_t{0} >> (kWord - columns);
+  bits.joined &= bits.known;
+  return bits;
+}
+
+/// Writes the columns of the bits from `first` on; `to` is behind the last one then.
+void write_columns(std::uint64_t bits, int first, std::uint16_t*& to) {
+  for (; bits != 0; bits &= bits - 1) {
+    *to++ = static_cast<std::uint16_t>(first + std::countr_zero(bits));
+  }
+}
+
+/// Writes first and last columns of a row's runs and returns their number. Reads the row's padding.
+int find_row_runs(const std::int32_t* row, int width, std::int32_t tolerance, std::uint16_t* begin,
+                  std::uint16_t* last) {
+  const std::uint16_t* const first_run = begin;
+  std::uint64_t joined_before = 0;  // whether the last column is connected to the next one
+  for (int x = 0; x < width; x += kWord) {
+    ColumnBits bits = column_bits(row + x, std::min(kWord, width - x), tolerance);
+    if (x + kWord >= width) bits.joined &= ~(std::uint64_t{1} << (width - 1 - x));
+    write_columns(bits.known & ~(bits.joined << 1 | joined_before), x, begin);
+    write_columns(bits.known & ~bits.joined, x, last);
+    joined_before = bits.joined >> (kWord - 1);
+  }
+  return static_cast<int>(begin - first_run);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace mtstereo
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(find_row_runs);
+
+namespace {
+
+static_assert(kLargestImageSide <= 0xFFFF, "columns are kept in 16 bits");
+static_assert(1LL * kLargestImageSide * kLargestImageSide < kRootRun,
+              "neither an index nor a size reaches the flag");
+
+bool is_root(std::uint32_t link) { return (link & kRootRun) != 0; }
+
+/// The root of the run's component; halves the way there for the next time.
+std::uint32_t find_root(std::uint32_t* link, std::uint32_t run) {
+  while (!is_root(link[run])) {
+    const std::uint32_t above = link[run];
+    if (is_root(link[above])) return above;
+    link[run] = link[above];
+    run = link[run];
+  }
+  return run;
+}
+
+/// Makes one component of the two runs' components. The smaller one is put below the larger one, so
+/// that no way to a root has more steps than the logarithm of the component's size.
+void unite(std::uint32_t* link, std::uint32_t a, std::uint32_t b) {
+  a = find_root(link, a);
+  b = find_root(link, b);
+  if (a == b) return;
+  if (link[a] < link[b]) std::swap(a, b);
+  link[a] += link[b] - kRootRun;
+  link[b] = a;
+}
+
+/// Writes the runs of one row from index `run` on and returns the index after the last one.
+std::uint32_t write_row_runs(const std::int32_t* row, std::int32_t tolerance, std::uint32_t run,
+                             SpeckleRuns& runs) {
+  std::uint16_t* begin = runs.begin.data() + run;
+  std::uint16_t* end = runs.end.data() + run;
+  std::uint32_t* link = runs.link.data() + run;
+  const int count = HWY_DYNAMIC_DISPATCH(find_row_runs)(row, runs.width, tolerance, begin, end);
+  for (int i = 0; i < count; ++i) {
+    ++end[i];  // behind the last column
+    link[i] = kRootRun + static_cast<std::uint32_t>(end[i] - begin[i]);
+  }
+  return run + static_cast<std::uint32_t>(count);
+}
+
+/// True where a column of begin .. end - 1, all known in both rows, connects them.
+bool columns_connect(const std::int32_t* above, const std::int32_t* row, std::int32_t tolerance,
+                     int begin, int end) {
+  for (int x = begin; x < end; ++x) {
+    if (std::abs(above[x] - row[x]) <= tolerance) return true;
+  }
+  return false;
+}
+
+/// Connects the runs of row y - 1 to those of row y.
+void join_rows(const Image<std::int32_t>& map, std::int32_t tolerance, int y, SpeckleRuns& runs) {
+  const std::uint32_t last_above = runs.last[y - 1];
+  const std::uint32_t last = runs.last[y];
+  std::uint32_t above = runs.first[y - 1];
+  std::uint32_t run = runs.first[y];
+  while (above < last_above && run < last) {
+    const int begin = std::max(runs.begin[above], runs.begin[run]);
+    const int end = std::min(runs.end[above], runs.end[run]);
+    if (columns_connect(map.row(y - 1), map.row(y), tolerance, begin, end)) {
+      unite(runs.link.data(), above, run);
+    }
+    // Whichever ends first cannot overlap anything that follows the other one.
+    if (runs.end[above] == end) {
+      ++above;
+    } else {
+      ++run;
+    }
+  }
+}
+
+}  // namespace
+
+void SpeckleRuns::resize(int map_width, int map_height) {
+  const std::size_t pixels = static_cast<std::size_t>(map_width) * map_height;
+  first.resize(map_height);
+  last.resize(map_height);
+  begin.resize(pixels);
+  end.resize(pixels);
+  link.resize(pixels);
+  width = map_width;
+  height = map_height;
+}
+
+void find_runs(const Image<std::int32_t>& map, std::int32_t tolerance, int y0, int y1,
+               SpeckleRuns& runs) {
+  std::uint32_t run = static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(runs.width);
+  for (int y = y0; y < y1; ++y) {
+    runs.first[y] = run;
+    run = write_row_runs(map.row(y), tolerance, run, runs);
+    runs.last[y] = run;
+    if (y > y0) join_rows(map, tolerance, y, runs);
+  }
+}
+
+void join_bands(const Image<std::int32_t>& map, std::int32_t tolerance, int band,
+                SpeckleRuns& runs) {
+  for (int y = band; y < runs.height; y += band) join_rows(map, tolerance, y, runs);
+}
+
+void remove_small(const SpeckleRuns& runs, int size, int y0, int y1, Image<std::int32_t>& map) {
+  if (size <= 1) return;
+  const std::uint32_t* link = runs.link.data();
+  const std::uint32_t enough = kRootRun + static_cast<std::uint32_t>(size);
+  for (int y = y0; y < y1; ++y) {
+    std::int32_t* row = map.row(y);
+    for (std::uint32_t i = runs.first[y]; i < runs.last[y]; ++i) {
+      std::uint32_t root = i;  // without shorter ways for the next time: other bands read them
+      while (!is_root(link[root])) root = link[root];
+      if (link[root] < enough) std::fill(row + runs.begin[i], row + runs.end[i], kNoDisparity);
+    }
+  }
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE

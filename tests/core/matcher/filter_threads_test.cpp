@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "base/thread_pool.hpp"
+#include "reference/refine/gap_filling.hpp"
+#include "reference/refine/rim_trimming.hpp"
+#include "reference/refine/speckle_removal.hpp"
+#include "stages/refine/gap_filling.hpp"
+#include "stages/refine/rim_trimming.hpp"
+#include "stages/refine/speckle_removal.hpp"
+#include "support/compare.hpp"
+#include "support/random_maps.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::copy_of;
+using test::DisparityPlane;
+using test::GrayPlane;
+
+constexpr int kThreadCounts[] = {1, 2, 3, 5};
+constexpr int kBand = 32;
+
+/// Calls body(first, last, worker) for parts of `length` that have `part` rows or columns.
+template <typename Body>
+void for_parts(ThreadPool& pool, int length, int part, Body&& body) {
+  pool.run((length + part - 1) / part,
+           [&](int i, int worker) { body(i * part, std::min((i + 1) * part, length), worker); });
+}
+
+/// A map of many bands whose patches reach from band to band.
+DisparityPlane tall_map(std::uint64_t seed) { return test::patches(150, 330, 1, seed); }
+
+TEST(FilterThreads, RemoveTheSameSpeckles) {
+  SpeckleRuns runs;
+  for (const int threads : kThreadCounts) {
+    ThreadPool pool(threads);
+    for (int seed = 0; seed < 10; ++seed) {
+      const DisparityPlane map = tall_map(seed);
+      Image<std::int32_t> image = image_of(map);
+      runs.resize(map.width, map.height);
+      for_parts(pool, map.height, kBand,
+                [&](int y0, int y1, int) { find_runs(image, 64, y0, y1, runs); });
+      join_bands(image, 64, kBand, runs);
+      for_parts(pool, map.height, kBand,
+                [&](int y0, int y1, int) { remove_small(runs, 40, y0, y1, image); });
+      EXPECT_TRUE(same_image(reference::remove_speckles(map, 64, 40), image))
+          << threads << " threads";
+    }
+  }
+}
+
+TEST(FilterThreads, FillTheSameGaps) {
+  for (const int threads : kThreadCounts) {
+    ThreadPool pool(threads);
+    std::vector<Buffer<std::int32_t>> scratch(threads);
+    for (int seed = 0; seed < 10; ++seed) {
+      const DisparityPlane map = tall_map(20 + seed);
+      GrayPlane confidence(map.width, map.height);
+      for (std::size_t i = 0; i < map.pixels.size(); ++i) {
+        confidence.pixels[i] = map.pixels[i] == 0 ? 0 : static_cast<std::uint8_t>(1 + i % 255);
+      }
+      Image<std::int32_t> image = image_of(map);
+      Image<std::uint8_t> image_confidence = image_of(confidence);
+      for_parts(pool, map.height, kBand, [&](int y0, int y1, int) {
+        fill_gaps_along_rows(9, 500, y0, y1, image, image_confidence);
+      });
+      // Blocks that share cache lines and words: the harder case.
+      for_parts(pool, map.width, 7, [&](int x0, int x1, int worker) {
+        fill_gaps_along_columns(9, 500, x0, x1, scratch[worker], image, image_confidence);
+      });
+      const reference::ConfidentMap rows = reference::fill_gaps({map, confidence}, 9, 500, 1, 0);
+      const reference::ConfidentMap expected = reference::fill_gaps(rows, 9, 500, 0, 1);
+      EXPECT_TRUE(same_image(expected.map, image)) << threads << " threads";
+      EXPECT_TRUE(same_image(expected.confidence, image_confidence)) << threads << " threads";
+    }
+  }
+}
+
+TEST(FilterThreads, TrimTheSameRim) {
+  for (const int threads : kThreadCounts) {
+    ThreadPool pool(threads);
+    std::vector<RimScratch> scratch(threads);
+    Image<std::uint8_t> marks;
+    for (int seed = 0; seed < 10; ++seed) {
+      const DisparityPlane map = test::patches(150, 330, 0, 40 + seed);
+      Image<std::int32_t> image = image_of(map);
+      marks.resize(map.width, map.height);
+      for (RimScratch& one : scratch) one.resize(map.width, 2);
+      for_parts(pool, map.height, kBand, [&](int y0, int y1, int worker) {
+        mark_rim(image, 2, y0, y1, scratch[worker], marks);
+      });
+      for_parts(pool, map.height, kBand, [&](int y0, int y1, int worker) {
+        trim_rim(marks, 2, y0, y1, scratch[worker], image);
+      });
+      EXPECT_TRUE(same_image(reference::trim_rim(map, 2), image)) << threads << " threads";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo

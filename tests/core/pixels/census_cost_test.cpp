@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/pixels/census_cost.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference/prepare/census.hpp"
+#include "support/census.hpp"
+#include "support/compare.hpp"
+#include "support/simd_targets.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::CensusPair;
+using test::GrayPlane;
+using test::Pair;
+using test::Random;
+
+/// What is expected of each pixel of a row.
+struct Ranges {
+  std::vector<std::uint16_t> low, high;
+};
+
+/// Ranges of every kind: narrow, wide, all, and none (low > high).
+Ranges random_ranges(int width, int disparities, Random& random) {
+  Ranges ranges;
+  for (int x = 0; x < width; ++x) {
+    const int low = random.below(disparities);
+    const bool none = random.below(4) == 0;
+    ranges.low.push_back(static_cast<std::uint16_t>(none ? 1 : low));
+    ranges.high.push_back(
+        static_cast<std::uint16_t>(none ? 0 : random.between(low, disparities - 1)));
+  }
+  return ranges;
+}
+
+Ranges nothing_known(int width) {
+  return {std::vector<std::uint16_t>(width, 1), std::vector<std::uint16_t>(width, 0)};
+}
+
+/// The costs of the rows y0 .. y1 - 1, one row of cells after the other.
+std::vector<std::uint8_t> costs_of(const CensusPair& pair, const CensusCostOptions& options, int y0,
+                                   int y1, const Ranges& ranges, CensusCostScratch& scratch) {
+  const int width = pair.left.bits.width();
+  const std::size_t cells = static_cast<std::size_t>(width) * cost_lanes(options.disparities);
+  scratch.resize(width, options);
+  Buffer<std::uint8_t> row;
+  row.resize(cells);
+  std::vector<std::uint8_t> costs;
+  start_census_costs(pair.left, pair.right, options, y0, scratch);
+  for (int y = y0; y < y1; ++y) {
+    std::fill_n(row.data(), cells, std::uint8_t{0xA5});
+    census_cost_row(pair.left, pair.right, options, y, ranges.low.data(), ranges.high.data(),
+                    scratch, row.data());
+    costs.insert(costs.end(), row.data(), row.data() + cells);
+  }
+  return costs;
+}
+
+/// Compares every cell of the rows y0 .. y1 - 1; those behind D are never the least.
+void expect_reference(const Pair& views, const CensusCostOptions& options, int y0, int y1,
+                      const Ranges& ranges, CensusCostScratch& scratch) {
+  const CensusPair pair(views.left.view(), views.right.view());
+  const std::vector<std::uint8_t> costs = costs_of(pair, options, y0, y1, ranges, scratch);
+  const reference::CensusCosts plain{reference::census(views.left), reference::census(views.right),
+                                     options};
+  const int lanes = cost_lanes(options.disparities);
+  const int width = views.left.width;
+  for (int y = y0; y < y1; ++y) {
+    EXPECT_TRUE(test::same_pixels(
+        lanes, width,
+        [&](int d, int x) {
+          return d < options.disparities ? plain.cost(x, y, d, ranges.low[x], ranges.high[x])
+                                         : kCensusNever;
+        },
+        [&](int d, int x) {
+          return static_cast<int>(
+              costs[(static_cast<std::size_t>(y - y0) * width + x) * lanes + d]);
+        }))
+        << "cells (disparity, column) of row " << y << " of " << views.left.height << ", D "
+        << options.disparities << ", window " << options.kernel_size << ", penalty "
+        << options.range_penalty;
+  }
+}
+
+Pair noise_pair(int width, int height, std::uint64_t seed) {
+  return {test::noise(width, height, seed, 40), test::noise(width, height, seed + 1, 40)};
+}
+
+TEST(CensusCost, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    CensusCostScratch scratch;
+    for (int width = 1; width <= 70; ++width) {
+      Random random(width);
+      const int height = random.between(1, 7);
+      const int disparities = random.between(1, width);
+      for (const int size : {1, 3, 5}) {
+        expect_reference(noise_pair(width, height, 10 * width),
+                         {disparities, size, random.below(25)}, 0, height,
+                         random_ranges(width, disparities, random), scratch);
+      }
+    }
+  });
+}
+
+TEST(CensusCost, EqualsReferenceForEveryNumberOfDisparities) {
+  CensusCostScratch scratch;
+  for (int disparities = 1; disparities <= 70; ++disparities) {
+    Random random(disparities);
+    expect_reference(noise_pair(72, 4, disparities), {disparities, 5, 2}, 0, 4,
+                     random_ranges(72, disparities, random), scratch);
+  }
+  for (const int disparities : {200, 1023, 1024}) {
+    Random random(disparities);
+    expect_reference(noise_pair(disparities + 1, 2, disparities), {disparities, 3, 2}, 0, 2,
+                     random_ranges(disparities + 1, disparities, random), scratch);
+  }
+}
+
+TEST(CensusCost, EqualsReferenceWithEveryPenalty) {
+  CensusCostScratch scratch;
+  for (int penalty = 0; penalty <= 24; ++penalty) {
+    for (const int size : {1, 3, 5}) {
+      Random random(penalty);
+      expect_reference(noise_pair(40, 3, penalty), {37, size, penalty}, 0, 3,
+                       random_ranges(40, 37, random), scratch);
+    }
+  }
+}
+
+TEST(CensusCost, IsTheSameFromWhateverRowItBegins) {
+  constexpr int kHeight = 11;
+  const Pair views = noise_pair(35, kHeight, 1);
+  Random random(2);
+  const Ranges ranges = random_ranges(35, 30, random);
+  CensusCostScratch scratch;
+  for (const int size : {1, 3, 5}) {
+    for (int y0 = 0; y0 < kHeight; ++y0) {
+      expect_reference(views, {30, size, 3}, y0, kHeight, ranges, scratch);
+    }
+  }
+}
+
+TEST(CensusCost, OfAnIdenticalPairIsNothingAtInfinity) {
+  const GrayPlane image = test::noise(50, 5, 3);
+  const CensusPair pair(image.view(), image.view());
+  CensusCostScratch scratch;
+  const auto costs = costs_of(pair, {20, 5, 2}, 0, 5, nothing_known(50), scratch);
+  long more = 0;
+  for (int pixel = 0; pixel < 5 * 50; ++pixel) {
+    EXPECT_EQ(0, costs[static_cast<std::size_t>(pixel) * 32]) << "pixel " << pixel;
+    more += costs[static_cast<std::size_t>(pixel) * 32 + 7] > 0;
+  }
+  EXPECT_GT(more, 200) << "other disparities cost something";
+}
+
+TEST(CensusCost, OfOpposedViewsIsAllBitsOfAllRows) {
+  // Words that no image has: left all pixels of a window are darker than its center, right none.
+  for (const int size : {1, 3, 5}) {
+    CensusImage left, right;
+    left.resize(20, 6);
+    right.resize(20, 6);
+    for (int y = 0; y < 6; ++y) {
+      std::fill_n(left.bits.row(y), 20, (std::uint32_t{1} << kCensusBits) - 1);
+      std::fill_n(right.bits.row(y), 20, std::uint32_t{0});
+    }
+    CensusCostScratch scratch;
+    const CensusCostOptions options = {20, size, 24};
+    scratch.resize(20, options);
+    std::vector<std::uint16_t> low(20, 5), high(20, 8);
+    Buffer<std::uint8_t> row;
+    row.resize(20 * 32);
+    start_census_costs(left, right, options, 0, scratch);
+    census_cost_row(left, right, options, 0, low.data(), high.data(), scratch, row.data());
+    for (int d = 0; d < 20; ++d) {
+      const int bits = d >= 5 && d <= 8 ? 24 : 48;
+      EXPECT_EQ(bits * cost_scale(options), row[10 * 32 + d]) << "window " << size << ", d " << d;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo

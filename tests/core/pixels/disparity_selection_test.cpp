@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/pixels/disparity_selection.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference/pixels/disparity_selection.hpp"
+#include "support/compare.hpp"
+#include "support/random.hpp"
+#include "support/simd_targets.hpp"
+
+namespace mtstereo {
+namespace {
+
+using reference::RowCosts;
+using reference::Selected;
+using test::Random;
+
+/// What is expected of each pixel of a row; none where low > high.
+struct Ranges {
+  std::vector<std::uint16_t> low, high;
+};
+
+Ranges all_expected(int width, int disparities) {
+  return {std::vector<std::uint16_t>(width, 0),
+          std::vector<std::uint16_t>(width, static_cast<std::uint16_t>(disparities - 1))};
+}
+
+Ranges random_ranges(int width, int disparities, Random& random) {
+  Ranges ranges = all_expected(width, disparities);
+  for (int x = 0; x < width; ++x) {
+    const int kind = random.below(8);
+    if (kind < 3) continue;
+    const int low = kind == 3 ? 1 : random.below(disparities);
+    const int high = kind == 3 ? 0 : random.between(low, disparities - 1);
+    ranges.low[x] = static_cast<std::uint16_t>(low);
+    ranges.high[x] = static_cast<std::uint16_t>(high);
+  }
+  return ranges;
+}
+
+/// Costs with many equal ones, and with a best disparity that goes on from pixel to pixel, so that
+/// the right view agrees now and then.
+RowCosts random_sums(int width, int disparities, int largest, Random& random) {
+  RowCosts sums(width, std::vector<int>(disparities));
+  int best = random.below(disparities);
+  for (std::vector<int>& pixel : sums) {
+    for (int& cost : pixel) cost = random.below(largest + 1);
+    if (random.below(8) == 0) best = random.below(disparities);
+    if (random.below(4) == 0) best = std::clamp(best + random.between(-1, 1), 0, disparities - 1);
+    pixel[best] /= 16;
+  }
+  return sums;
+}
+
+/// One row, in `scratch` that may hold another one.
+std::vector<Selected> selected(const RowCosts& sums, const SelectionOptions& options,
+                               const Ranges& ranges, SelectionScratch& scratch) {
+  constexpr int kNever = 510;
+  const int width = static_cast<int>(sums.size());
+  const int lanes = cost_lanes(options.disparities);
+  Buffer<std::uint16_t> cells;
+  cells.resize(static_cast<std::size_t>(width) * lanes);
+  std::fill_n(cells.data(), cells.size(), std::uint16_t{kNever});
+  for (int x = 0; x < width; ++x) {
+    std::copy(sums[x].begin(), sums[x].end(), cells.data() + static_cast<std::size_t>(x) * lanes);
+  }
+  std::vector<std::int32_t> disparity(width, -77);
+  std::vector<std::uint8_t> ratio(width, 77);
+  scratch.resize(width, options.disparities);
+  start_selection(scratch);
+  // In parts that come in any order.
+  const auto offer = [&](int begin, int end) {
+    offer_costs(cells.data() + static_cast<std::ptrdiff_t>(begin) * lanes, begin, end, width,
+                options, ranges.low.data(), ranges.high.data(), scratch);
+  };
+  const int third = width / 3;
+  offer(2 * third, width);
+  offer(0, third);
+  offer(third, 2 * third);
+  finish_selection(width, options, ranges.low.data(), ranges.high.data(),
+                   runner_up_table(options.confidence), scratch, disparity.data(), ratio.data());
+  std::vector<Selected> row;
+  for (int x = 0; x < width; ++x) row.push_back({disparity[x], ratio[x]});
+  return row;
+}
+
+/// Compares disparities and peak ratios; returns how many disparities there are.
+long expect_reference(const RowCosts& sums, const SelectionOptions& options, const Ranges& ranges,
+                      SelectionScratch& scratch) {
+  const std::vector<Selected> expected =
+      reference::select_disparities(sums, options, ranges.low, ranges.high);
+  const std::vector<Selected> actual = selected(sums, options, ranges, scratch);
+  const auto value = [](const std::vector<Selected>& row) {
+    return [&row](int x, int y) { return y == 0 ? row[x].disparity : row[x].ratio; };
+  };
+  EXPECT_TRUE(test::same_pixels(static_cast<int>(sums.size()), 2, value(expected), value(actual)))
+      << "disparities (row 0) and ratios (row 1), D " << options.disparities << ", confidence "
+      << options.confidence << ", runner-up in range " << options.runner_up_in_range
+      << ", tolerance " << options.left_right_tolerance << ", subpixel " << options.subpixel;
+  return std::count_if(expected.begin(), expected.end(),
+                       [](const Selected& pixel) { return pixel.disparity != 0; });
+}
+
+/// Every kind of options on random rows of this size.
+long expect_reference_with_all_options(int width, int disparities, Random& random,
+                                       SelectionScratch& scratch) {
+  long known = 0;
+  for (const double confidence : {0.0, 0.06, 1.0}) {
+    for (const bool in_range : {false, true}) {
+      for (const int tolerance : {-1, 0, 1}) {
+        const int largest = random.below(3) == 0 ? 12 : 510;
+        known +=
+            expect_reference(random_sums(width, disparities, largest, random),
+                             {disparities, confidence, in_range, tolerance, random.below(2) == 0},
+                             random_ranges(width, disparities, random), scratch);
+      }
+    }
+  }
+  return known;
+}
+
+TEST(DisparitySelection, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    long known = 0;
+    SelectionScratch scratch;
+    for (int disparities = 1; disparities <= 70; ++disparities) {
+      Random random(disparities);
+      known += expect_reference_with_all_options(disparities + random.below(60), disparities,
+                                                 random, scratch);
+    }
+    for (const int disparities : {300, 1024}) {
+      Random random(disparities);
+      known += expect_reference_with_all_options(disparities + 5, disparities, random, scratch);
+    }
+    EXPECT_GT(known, 10000) << "the comparison means something";
+  });
+}
+
+TEST(DisparitySelection, EqualsReferenceAtEveryWidth) {
+  SelectionScratch scratch;
+  for (int width = 1; width <= 70; ++width) {
+    Random random(width);
+    expect_reference_with_all_options(width, random.between(1, width), random, scratch);
+  }
+}
+
+TEST(DisparitySelection, EqualsReferenceWhereAllCostsAreTheSame) {
+  SelectionScratch scratch;
+  for (const int cost : {0, 1, 510}) {
+    const RowCosts sums(60, std::vector<int>(40, cost));
+    for (const int tolerance : {-1, 0}) {
+      EXPECT_EQ(
+          0, expect_reference(sums, {40, 0, false, tolerance, true}, all_expected(60, 40), scratch))
+          << "nothing costs more than another";
+    }
+  }
+}
+
+/// A row of 60 px in which pixel 50 has these costs, and all others the same ones.
+struct OnePixel {
+  explicit OnePixel(const std::vector<int>& costs)
+      : disparities(static_cast<int>(costs.size())), sums(60, std::vector<int>(disparities, 500)) {
+    sums[50] = costs;
+  }
+  Selected select(double confidence, bool in_range = false, int low = 0, int high = 39,
+                  int tolerance = -1, bool subpixel = false) const {
+    Ranges ranges = all_expected(60, disparities);
+    ranges.low[50] = static_cast<std::uint16_t>(low);
+    ranges.high[50] = static_cast<std::uint16_t>(high);
+    SelectionScratch scratch;
+    return selected(sums, {disparities, confidence, in_range, tolerance, subpixel}, ranges,
+                    scratch)[50];
+  }
+  int disparities;
+  RowCosts sums;
+};
+
+TEST(DisparitySelection, TakesTheSmallestOfEqualCosts) {
+  std::vector<int> costs(40, 400);
+  costs[20] = costs[21] = 100;
+  EXPECT_EQ(20 * 256, OnePixel(costs).select(0.5).disparity);
+}
+
+TEST(DisparitySelection, DropsWhatHasACloseRunnerUp) {
+  std::vector<int> costs(40, 400);
+  costs[20] = 100;
+  for (const int runner_up : {0, 18, 22, 39}) {
+    std::vector<int> rival = costs;
+    rival[runner_up] = 112;
+    EXPECT_EQ(0, OnePixel(rival).select(0.12).disparity) << "12 % is not more than 12 %";
+    EXPECT_EQ(0, OnePixel(rival).select(0.12).ratio);
+    rival[runner_up] = 113;
+    EXPECT_EQ(20 * 256, OnePixel(rival).select(0.12).disparity);
+    EXPECT_EQ(13 * 255 / 113, OnePixel(rival).select(0.12).ratio);
+  }
+}
+
+TEST(DisparitySelection, LooksForTheRunnerUpWhereItIsTold) {
+  std::vector<int> costs(40, 400);
+  costs[20] = 100;
+  costs[30] = 101;
+  EXPECT_EQ(0, OnePixel(costs).select(0.12, false, 15, 25).disparity);
+  EXPECT_EQ(20 * 256, OnePixel(costs).select(0.12, true, 15, 25).disparity);
+  EXPECT_EQ(0, OnePixel(costs).select(0.12, true, 15, 30).disparity) << "both ends are included";
+  EXPECT_EQ(0, OnePixel(costs).select(0.12, true, 19, 21).disparity) << "no runner-up there";
+}
+
+TEST(DisparitySelection, GivesNothingWhereNothingIsExpected) {
+  std::vector<int> costs(40, 400);
+  costs[20] = 0;
+  EXPECT_EQ(255, OnePixel(costs).select(0.12).ratio);
+  EXPECT_EQ(0, OnePixel(costs).select(0.12, false, 1, 0).disparity);
+  EXPECT_EQ(0, OnePixel(costs).select(0.12, false, 1, 0).ratio);
+}
+
+TEST(DisparitySelection, DropsWhatTheRightPixelDoesNotConfirm) {
+  // The right pixel 30 is shown by the left pixels 50 at 20 px and 50 + n at 20 + n px.
+  std::vector<int> costs(40, 400);
+  costs[20] = 100;
+  for (const int away : {1, 2}) {
+    OnePixel pixel(costs);
+    pixel.sums[50 + away][20 + away] = 99;
+    for (const int tolerance : {0, 1, 2, 3}) {
+      EXPECT_EQ(tolerance >= away ? 20 * 256 : 0,
+                pixel.select(0.12, false, 0, 39, tolerance).disparity)
+          << away << " px away, tolerance " << tolerance;
+    }
+    EXPECT_EQ(20 * 256, pixel.select(0.12, false, 0, 39, -1).disparity) << "no check";
+    pixel.sums[50 + away][20 + away] = 100;
+    EXPECT_EQ(20 * 256, pixel.select(0.12, false, 0, 39, 0).disparity) << "the first of equals";
+  }
+}
+
+TEST(DisparitySelection, RefinesByTheVOfEqualSlopesThroughThreeCosts) {
+  for (const auto& [before, after] : {std::pair{300, 300}, {200, 400}, {101, 399}, {400, 100}}) {
+    std::vector<int> costs(40, 500);
+    costs[19] = before;
+    costs[20] = 100;
+    costs[21] = after;
+    // The steeper side tells the slope, the other side lies on the line that goes up with it.
+    const double slope = std::max(before, after) - 100;
+    EXPECT_NEAR(256 * (20 + (before - after) / (2 * slope)),
+                OnePixel(costs).select(0.12, false, 0, 39, -1, true).disparity, 1)
+        << before << ", 100, " << after;
+  }
+}
+
+TEST(DisparitySelection, GivesAPixelAtTheBorderOnlyDisparitiesThatItCanHave) {
+  // Behind the left border all would be cheaper.
+  RowCosts sums(40, std::vector<int>(40));
+  for (int x = 0; x < 40; ++x) {
+    for (int d = 0; d < 40; ++d) sums[x][d] = d > x ? 0 : 400 - d;
+  }
+  SelectionScratch scratch;
+  const auto row = selected(sums, {40, 0, false, -1, true}, all_expected(40, 40), scratch);
+  for (int x = 0; x < 40; ++x) {
+    EXPECT_EQ(x < 2 ? 0 : 256 * x, row[x].disparity) << "too few to compare where x is below 2";
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/prepare/census.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <vector>
+
+#include "reference/prepare/census.hpp"
+#include "support/census.hpp"
+#include "support/compare.hpp"
+#include "support/padded_image.hpp"
+#include "support/simd_targets.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::census_of;
+using test::GrayPlane;
+using test::Random;
+
+test::Plane<std::uint32_t> bits_of(const GrayPlane& image) {
+  return test::copy_of(census_of(image.view()).bits);
+}
+
+/// Compares a view's transform with the reference, in bands.
+void expect_reference(const GrayPlane& image, GrayView view, int band) {
+  EXPECT_TRUE(test::same_image(reference::census(image), census_of(view, band).bits))
+      << "bands of " << band;
+}
+
+TEST(Census, EqualsReferenceAtEverySizeOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 140; ++width) {
+      for (int height = 1; height <= 9; height += width < 20 ? 1 : 4) {
+        const GrayPlane image = test::noise(width, height, 100 * width + height, 6);
+        expect_reference(image, image.view(), 1 + (width + height) % 5);
+      }
+    }
+  });
+}
+
+TEST(Census, EqualsReferenceOverAllGrayValues) {
+  test::for_each_simd_target([] {
+    const GrayPlane noise = test::noise(300, 20, 4);
+    expect_reference(noise, noise.view(), 7);
+    const GrayPlane extremes = test::black_and_white(300, 20, 5);
+    expect_reference(extremes, extremes.view(), 7);
+  });
+}
+
+TEST(Census, EqualsReferenceInEveryBand) {
+  const GrayPlane image = test::texture(45, 40, 1);
+  for (int band = 1; band <= 41; ++band) expect_reference(image, image.view(), band);
+}
+
+TEST(Census, EqualsReferenceAtEveryStride) {
+  for (int padding = 0; padding < 70; padding += 3) {
+    const GrayPlane image = test::noise(37, 8, padding);
+    const test::PaddedImage<std::uint8_t> padded(image, padding, padding % 7);
+    expect_reference(image, padded.view(), 3);
+    EXPECT_TRUE(padded.unchanged());
+  }
+}
+
+TEST(Census, HasABitForEachNeighborThatIsDarker) {
+  // One dark pixel is in the window of 24 others, each of which has another bit for it.
+  GrayPlane image(9, 9, 200);
+  image(4, 4) = 199;
+  const test::Plane<std::uint32_t> bits = bits_of(image);
+  std::uint32_t seen = 0;
+  for (int y = 0; y < 9; ++y) {
+    for (int x = 0; x < 9; ++x) {
+      const bool near = std::abs(x - 4) <= 2 && std::abs(y - 4) <= 2 && !(x == 4 && y == 4);
+      EXPECT_EQ(near ? 1 : 0, std::popcount(bits(x, y))) << x << ", " << y;
+      EXPECT_EQ(0u, seen & bits(x, y)) << x << ", " << y;
+      seen |= bits(x, y);
+    }
+  }
+  EXPECT_EQ((1u << kCensusBits) - 1, seen);
+}
+
+TEST(Census, OfAFlatImageIsNothing) {
+  for (const int gray : {0, 1, 254, 255}) {
+    const GrayPlane flat(33, 7, static_cast<std::uint8_t>(gray));
+    EXPECT_TRUE(same_image(test::Plane<std::uint32_t>(33, 7), bits_of(flat)));
+  }
+}
+
+TEST(Census, DoesNotChangeWithTheExposure) {
+  Random random(2);
+  for (int i = 0; i < 40; ++i) {
+    const GrayPlane image = test::noise(random.between(1, 60), random.between(1, 12), i, 100);
+    const GrayPlane other = test::exposed_otherwise(image, random);
+    EXPECT_FALSE(image == other);
+    EXPECT_TRUE(same_image(bits_of(image), bits_of(other)));
+  }
+}
+
+TEST(Census, ChangesWhereTheOrderOfGrayValuesDoes) {
+  const GrayPlane image = test::noise(40, 9, 3, 100);
+  GrayPlane inverted = image;
+  for (std::uint8_t& gray : inverted.pixels) gray = static_cast<std::uint8_t>(255 - gray);
+  EXPECT_FALSE(same_image(bits_of(image), bits_of(inverted)));
+}
+
+std::vector<std::uint32_t> random_words(int count, Random& random) {
+  std::vector<std::uint32_t> words;
+  for (int i = 0; i < count; ++i) {
+    words.push_back(static_cast<std::uint32_t>(random.next()) & ((1u << kCensusBits) - 1));
+  }
+  return words;
+}
+
+/// Splits the words and compares each plane, and that nothing behind it was written.
+void expect_split(const std::vector<std::uint32_t>& words, RowOrder order, int beyond) {
+  const int width = static_cast<int>(words.size());
+  constexpr std::uint8_t kUntouched = 0xA5;
+  // No more memory than the function is allowed to touch, and a byte that it is not.
+  std::vector<std::vector<std::uint8_t>> planes(
+      kCensusBytes, std::vector<std::uint8_t>(width + beyond + 1, kUntouched));
+  std::uint8_t* const rows[] = {planes[0].data(), planes[1].data(), planes[2].data()};
+  split_census_row(words.data(), width, order, beyond, rows);
+  for (int i = 0; i < kCensusBytes; ++i) {
+    std::vector<std::uint8_t> expected;
+    for (const std::uint32_t word : words) {
+      expected.push_back(static_cast<std::uint8_t>(word >> 8 * i));
+    }
+    if (order == RowOrder::kMirrored) std::reverse(expected.begin(), expected.end());
+    expected.resize(width + beyond, expected.back());
+    expected.push_back(kUntouched);
+    EXPECT_EQ(expected, planes[i])
+        << "plane " << i << ", width " << width << ", " << beyond << " beyond, "
+        << (order == RowOrder::kMirrored ? "mirrored" : "forward");
+  }
+}
+
+TEST(SplitCensusRow, TakesTheBytesApartAtEveryWidthOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 200; ++width) {
+      Random random(width);
+      const std::vector<std::uint32_t> words = random_words(width, random);
+      for (const int beyond : {0, 1, 32, 97}) {
+        expect_split(words, RowOrder::kForward, beyond);
+        expect_split(words, RowOrder::kMirrored, beyond);
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace mtstereo

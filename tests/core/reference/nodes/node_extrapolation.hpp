@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+
+#include "reference/nodes/disparity_drawing.hpp"
+
+namespace mtstereo::reference {
+
+/// The disparities at both ends of a leaf.
+struct Line {
+  int at_begin, at_end;
+};
+
+/// The medians, over a leaf and its neighbors, of what the map holds at the leaves' begins and at
+/// their ends; nothing unless both are known.
+inline std::optional<Line> line_of(const Level& leaves, const DisparityPlane& map, Place place,
+                                   int most) {
+  std::vector<int> begins, ends;
+  for (const Place& near : surroundings(leaves, place, most)) {
+    const LevelNode& leaf = leaves[near.y][near.i];
+    if (map(leaf.begin, near.y) != 0) begins.push_back(map(leaf.begin, near.y));
+    if (map(leaf.end, near.y) != 0) ends.push_back(map(leaf.end, near.y));
+  }
+  if (begins.empty() || ends.empty()) return {};
+  return Line{lower_median(begins, 0), lower_median(ends, 0)};
+}
+
+/// How far inside a leaf its ends are taken: 2 px where it is wider than 4 px.
+inline int inset(const LevelNode& leaf) { return leaf.end - leaf.begin + 1 > 4 ? 2 : 0; }
+
+/// Each leaf takes its line: drawn along the leaf with `end_width` 0, else put on that many pixels
+/// at its ends.
+inline DisparityPlane extrapolate(const Level& leaves, const DisparityPlane& map, int most,
+                                  int end_width) {
+  DisparityPlane out(map.width, map.height);
+  for (int y = 0; y < map.height; ++y) {
+    for (int i = 0; i < static_cast<int>(leaves[y].size()); ++i) {
+      const std::optional<Line> line = line_of(leaves, map, {y, i}, most);
+      if (!line) continue;
+      const LevelNode& leaf = leaves[y][i];
+      if (end_width == 0) {
+        draw_node(leaf.begin, leaf.end, line->at_begin, line->at_end, y, out);
+        continue;
+      }
+      const int inside = inset(leaf);
+      for (int k = -(end_width / 2); k <= end_width / 2; ++k) {
+        const int first = std::clamp(leaf.begin + inside + k, 0, map.width - 1);
+        const int last = std::clamp(leaf.end - inside + k, 0, map.width - 1);
+        draw_node(first, first, line->at_begin, line->at_begin, y, out);
+        draw_node(last, last, line->at_end, line->at_end, y, out);
+      }
+    }
+  }
+  return out;
+}
+
+/// Where leaves end that take a line from `nodes`: 1 on `end_width` pixels around each end, else 0.
+inline Plane<int> leaf_ends(const Level& leaves, const DisparityPlane& nodes, int most,
+                            int end_width) {
+  Plane<int> ends(nodes.width, nodes.height);
+  for (int y = 0; y < nodes.height; ++y) {
+    for (int i = 0; i < static_cast<int>(leaves[y].size()); ++i) {
+      if (!line_of(leaves, nodes, {y, i}, most)) continue;
+      const LevelNode& leaf = leaves[y][i];
+      for (int x = 0; x < nodes.width; ++x) {
+        const int away = std::min(std::abs(x - (leaf.begin + inset(leaf))),
+                                  std::abs(x - (leaf.end - inset(leaf))));
+        if (2 * away < end_width) ends(x, y) = 1;
+      }
+    }
+  }
+  return ends;
+}
+
+/// The map, or its confidence, where leaves end.
+template <typename T>
+Plane<T> keep_leaf_ends(const Plane<int>& ends, Plane<T> kept) {
+  for (std::size_t i = 0; i < kept.pixels.size(); ++i) {
+    if (ends.pixels[i] == 0) kept.pixels[i] = 0;
+  }
+  return kept;
+}
+
+}  // namespace mtstereo::reference

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdlib>
+
+#include "reference/prepare/census.hpp"
+#include "stages/pixels/disparity_selection.hpp"
+
+namespace mtstereo::reference {
+
+/// A disparity in 1/256 px and its peak ratio; both 0 where there is none.
+struct Selected {
+  int disparity = 0;
+  int ratio = 0;
+};
+
+/// The curve through the best cost and its two neighbors whose least place refines the disparity.
+enum class Refinement {
+  kParabola,    ///< what the gradient cost takes
+  kSymmetricV,  ///< two lines of equal slopes: what the census cost takes
+};
+
+/// Where the curve is least, in 1/256 px from the best cost; the two rise from there by `before`
+/// and `after`, none of them below 0.
+inline int refined(Refinement curve, int before, int after) {
+  const int scale = curve == Refinement::kParabola ? before + after : std::max(before, after);
+  return scale > 0 ? 128 * (before - after) / scale : 0;
+}
+
+/// Where the first of the least values stands.
+inline int first_least(const std::vector<int>& values) {
+  return static_cast<int>(std::min_element(values.begin(), values.end()) - values.begin());
+}
+
+/// The disparity `best` of a pixel as far as its own costs tell: all of them are those of the
+/// disparities that have a right pixel, low .. high are those that are expected.
+inline Selected judge(const std::vector<int>& costs, int best, int low, int high,
+                      const SelectionOptions& options, Refinement curve) {
+  const int cost = costs[best];
+  const int last = static_cast<int>(costs.size()) - 1;
+  std::vector<int> others;
+  for (int d = 0; d <= last; ++d) {
+    const bool counts = !options.runner_up_in_range || (low <= d && d <= high);
+    if (std::abs(d - best) > 1 && counts) others.push_back(costs[d]);
+  }
+  if (others.empty()) return {};
+  const int other = *std::min_element(others.begin(), others.end());
+  if (!(other > cost * (1 + options.confidence))) return {};
+  int disparity = 256 * best;
+  if (options.subpixel && best > 0 && best < last) {
+    const int before = costs[best - 1] - cost;
+    const int after = costs[best + 1] - cost;
+    if (before >= 0 && after >= 0) disparity += refined(curve, before, after);
+  }
+  const int ratio = (other - cost) * 255 / other;
+  return {std::max(disparity, 1), std::max(ratio, 1)};
+}
+
+/// The best disparity of a right pixel, given cost(x, d) of the left ones.
+template <typename Cost>
+int best_of_right(int right_x, int width, int disparities, Cost&& cost) {
+  std::vector<int> costs;
+  for (int d = 0; d < disparities && right_x + d < width; ++d)
+    costs.push_back(cost(right_x + d, d));
+  return first_least(costs);
+}
+
+/// True where the right pixel agrees that left pixel x has the disparity `best`.
+template <typename Cost>
+bool right_agrees(int x, int best, int width, const SelectionOptions& options, Cost&& cost) {
+  if (options.left_right_tolerance < 0) return true;
+  const int other = best_of_right(x - best, width, options.disparities, cost);
+  return std::abs(other - best) <= options.left_right_tolerance;
+}
+
+/// One row from its costs; low[x] > high[x] where nothing is expected.
+template <typename Range>
+std::vector<Selected> select_disparities(const RowCosts& sums, const SelectionOptions& options,
+                                         const Range& low, const Range& high) {
+  const int width = static_cast<int>(sums.size());
+  std::vector<Selected> row(width);
+  for (int x = 0; x < width; ++x) {
+    if (low[x] > high[x]) continue;
+    std::vector<int> costs = sums[x];
+    costs.resize(std::min(options.disparities, x + 1));
+    const int best = first_least(costs);
+    const auto cost = [&](int column, int d) { return sums[column][d]; };
+    if (!right_agrees(x, best, width, options, cost)) continue;
+    row[x] = judge(costs, best, low[x], high[x], options, Refinement::kSymmetricV);
+  }
+  return row;
+}
+
+}  // namespace mtstereo::reference

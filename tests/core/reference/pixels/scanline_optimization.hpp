@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdlib>
+
+#include "reference/prepare/census.hpp"
+#include "stages/pixels/scanline_optimization.hpp"
+
+namespace mtstereo::reference {
+
+/// P2 where the gray value changes by this much; 0 switches the optimization off.
+inline int large_step(const SmoothnessOptions& options, int change) {
+  if (options.large_step == 0) return 0;
+  return std::min(std::max(options.large_step * 8 / (8 + change), options.small_step), 255);
+}
+
+/// The costs of the path that comes from the left (direction 1) or from the right (-1).
+inline RowCosts path_costs(const RowCosts& costs, const std::uint8_t* gray,
+                           const SmoothnessOptions& options, int direction) {
+  const int width = static_cast<int>(costs.size());
+  const int disparities = static_cast<int>(costs[0].size());
+  RowCosts path = costs;
+  for (int i = 1; i < width; ++i) {
+    const int x = direction > 0 ? i : width - 1 - i;
+    const std::vector<int>& before = path[x - direction];
+    const int least = *std::min_element(before.begin(), before.end());
+    const int jump = least + large_step(options, std::abs(gray[x] - gray[x - direction]));
+    for (int d = 0; d < disparities; ++d) {
+      int best = std::min(before[d], jump);
+      if (d > 0) best = std::min(best, before[d - 1] + options.small_step);
+      if (d + 1 < disparities) best = std::min(best, before[d + 1] + options.small_step);
+      path[x][d] = std::min(costs[x][d] + best - least, 255);
+    }
+  }
+  return path;
+}
+
+/// The sums of both paths' costs.
+inline RowCosts optimize_scanline(const RowCosts& costs, const std::uint8_t* gray,
+                                  const SmoothnessOptions& options) {
+  RowCosts sums = path_costs(costs, gray, options, 1);
+  const RowCosts from_right = path_costs(costs, gray, options, -1);
+  for (std::size_t x = 0; x < sums.size(); ++x) {
+    for (std::size_t d = 0; d < sums[x].size(); ++d) sums[x][d] += from_right[x][d];
+  }
+  return sums;
+}
+
+}  // namespace mtstereo::reference

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdlib>
+
+#include "reference/prepare/census.hpp"
+#include "support/plane.hpp"
+
+namespace mtstereo::reference {
+
+using test::DisparityPlane;
+using test::Plane;
+
+/// The disparity of a known pixel after the refinement by the window of 7x7 around it.
+inline int refined_disparity(const Plane<std::uint32_t>& left, const Plane<std::uint32_t>& right,
+                             const DisparityPlane& map, int max_disparity, int x, int y) {
+  int known = 0, rounded = 0;
+  std::array<int, 5> costs{};  // of the shifts -2 .. 2
+  for (int v = std::max(y - 3, 0); v <= std::min(y + 3, map.height - 1); ++v) {
+    for (int u = std::max(x - 3, 0); u <= std::min(x + 3, map.width - 1); ++u) {
+      if (map(u, v) == 0) continue;
+      const int whole = (map(u, v) + 128) / 256;
+      ++known;
+      rounded += map(u, v) - 256 * whole;
+      for (int shift = -2; shift <= 2; ++shift) {
+        costs[shift + 2] += std::popcount(left(u, v) ^ right.clamped(u - whole - shift, v));
+      }
+    }
+  }
+  for (int shift = -2; shift <= 2; ++shift) {
+    costs[shift + 2] = 128 * costs[shift + 2] + std::abs(256 * shift * known - rounded);
+  }
+  int best = -1;
+  for (const int shift : {1, 0}) {
+    if (costs[shift + 2] < costs[best + 2]) best = shift;
+  }
+  const int before = costs[best + 1], least = costs[best + 2], after = costs[best + 3];
+  const int slope = std::max(before, after) - least;
+  if (before < least || after < least || slope == 0) return map(x, y);
+  const float between = static_cast<float>((before - after) * 128) / static_cast<float>(slope);
+  const float off = static_cast<float>(rounded) / static_cast<float>(known);
+  const int refined = map(x, y) + 256 * best + static_cast<int>(between - off);
+  return std::max(std::min({refined, 256 * x, 256 * max_disparity - 1}), 1);
+}
+
+inline DisparityPlane refine(const Plane<std::uint32_t>& left, const Plane<std::uint32_t>& right,
+                             const DisparityPlane& map, int max_disparity) {
+  DisparityPlane refined(map.width, map.height);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (map(x, y) == 0) continue;
+      refined(x, y) = refined_disparity(left, right, map, max_disparity, x, y);
+    }
+  }
+  return refined;
+}
+
+}  // namespace mtstereo::reference
