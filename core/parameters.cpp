@@ -25,17 +25,20 @@ using T = ParameterType;
 constexpr ParameterInfo kTable[] = {
     {P::kPreset, "preset", "", "", T::kChoice, 0, 2, "default|fast|paper", EACH("default", "fast", "paper"), true,
      "where the defaults of all other parameters come from: the most accurate ones, the most "
-     "accurate ones that take a third of the time, or those of the published method"},
+     "accurate ones that take a third of the time, or those of the published method",
+     {"the most accurate settings", "the most accurate settings that take a third of the time", "the published method"}},
     {P::kMode, "mode", "", "", T::kChoice, 0, 2, "sparse|semi-dense|dense", BY_MODE(MODES("sparse", "semi-dense", "dense"), MODES("sparse", "semi-dense", "dense"), MODES("sparse", "semi-dense", "semi-dense")), false,
      "how many pixels get a disparity: few and right ones at the ends of the finest nodes, all that "
-     "can be trusted, or nearly all, with gaps filled"},
+     "can be trusted, or nearly all, with gaps filled",
+     {"few pixels with few errors, at the ends of the finest nodes", "all disparities that can be trusted", "most pixels: less certain disparities too, and gaps filled"}},
     {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", ALL("64"), true,
      "the disparities 0 .. max-disparity - 1 are searched; the nearest point that can be seen is at "
      "focal length * baseline / max-disparity"},
     {P::kResolution, "resolution", "", "", T::kChoice, 0, 2, "full|half-refined|half", EACH("full", "half-refined", "full"), true,
      "at what resolution the views are matched: half is several times as fast, and half-refined refines its "
      "disparities at full resolution; the disparity map has the views' size and px in any case, all parameters "
-     "below count px of the resolution that is matched"},
+     "below count px of the resolution that is matched",
+     {"matched at full resolution", "matched at half resolution, refined at full resolution", "matched at half resolution only"}},
     {P::kThreads, "threads", "", "", T::kInteger, 0, 256, "", ALL("0"), true,
      "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
     {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, 256, "", BY_MODE(MODES("16", "16", "16"), MODES("16", "16", "16"), MODES("16", "8", "8")), false,
@@ -51,14 +54,17 @@ constexpr ParameterInfo kTable[] = {
      "nodes above and below that a node is matched together with"},
     {P::kNodeCost, "node-cost", "", "", T::kChoice, 0, 1, "census|gradient", EACH("census", "census", "gradient"), true,
      "what nodes are compared by: the census transform of their pixels and of the few beside them, or the "
-     "paper's smoothed cost volume"},
+     "paper's smoothed cost volume",
+     {"census transform of the pixels in and next to the node", "smoothed cost volume of gray values and gradients, as in the paper"}},
     {P::kMedianFilter, "median-filter", "", "", T::kChoice, 0, 1, "trees|trees-and-costs", ALL("trees-and-costs"), false,
-     "what the median-filtered images are for: the Max-trees only, or the smoothed cost volume (gradient) too"},
+     "what the median-filtered images are for: the Max-trees only, or the smoothed cost volume (gradient) too",
+     {"median-filtered images for the Max-trees only", "median-filtered images for the Max-trees and the cost volume"}},
     {P::kCostKernelSize, "cost-kernel-size", "omega_cv", "px", T::kInteger, 1, 41, "", EACH("21", "11", "21"), true,
      "side of the Gaussian that smooths the cost volume (gradient), an odd number; 1 = no smoothing"},
     {P::kCostVolume, "cost-volume", "", "", T::kChoice, 0, 1, "half|full", ALL("half"), true,
      "resolution of the smoothed cost volume (gradient), which exists only where node-cost or pixel-cost is "
-     "gradient: half takes a quarter of the memory, full is the exact one"},
+     "gradient: half takes a quarter of the memory, full is the exact one",
+     {"half resolution, a quarter of the memory", "full resolution, exact costs"}},
     {P::kIntensityWeight, "intensity-weight", "alpha", "", T::kNumber, 0, 1, "", EACH("1", "1", "0.8"), false,
      "share of the intensity cost, which node-cost names, in a node pair's cost; the rest is the context cost, "
      "which compares the widths of the nodes' ancestors"},
@@ -67,16 +73,19 @@ constexpr ParameterInfo kTable[] = {
     {P::kOutlierRadius, "outlier-radius", "", "px", T::kInteger, 0, 31, "", EACH("0", "0", "21"), true,
      "half the side of the window in which a disparity must agree with most others; 0 = no outlier removal"},
     {P::kOutlierRemoval, "outlier-removal", "", "", T::kChoice, 0, 1, "nodes|nodes-and-pixels", EACH("nodes", "nodes", "nodes-and-pixels"), false,
-     "where outliers are removed: from the nodes' disparities only, or from the pixels' too"},
+     "where outliers are removed: from the nodes' disparities only, or from the pixels' too",
+     {"from the disparities of nodes only", "from the disparities of nodes and of pixels"}},
     {P::kPixelCost, "pixel-cost", "", "", T::kChoice, 0, 1, "census|gradient", EACH("census", "census", "gradient"), true,
      "cost of guided pixel matching: the census transform, which no change of exposure alters, "
-     "optimized along the scan-lines, or the paper's smoothed cost volume"},
+     "optimized along the scan-lines, or the paper's smoothed cost volume",
+     {"census transform, optimized along the scan-lines", "smoothed cost volume of gray values and gradients, as in the paper"}},
     {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, 5, "", EACH("5", "3", "5"), true,
      "side of the window that census costs are summed over: 1, 3 or 5"},
     {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", ALL("15"), false,
      "guided pixel matching expects disparities this much below and above the node's"},
     {P::kBetweenNodes, "between-nodes", "", "", T::kChoice, 0, 2, "none|span|all", EACH("all", "all", "none"), false,
-     "what is expected of a pixel between two nodes: no disparity at all, what both nodes span, or any"},
+     "what is expected of a pixel between two nodes: no disparity at all, what both nodes span, or any",
+     {"no disparity is expected", "the disparities that the two nodes span are expected", "every disparity is expected"}},
     {P::kRangePenalty, "range-penalty", "", "bits", T::kInteger, 0, 24, "", ALL("2"), true,
      "what a disparity that the nodes do not expect costs more (census); the gradient cost never "
      "takes one"},
@@ -88,7 +97,8 @@ constexpr ParameterInfo kTable[] = {
     {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", BY_MODE(MODES("6", "6", "2"), MODES("6", "6", "2"), MODES("12", "4", "4")), false,
      "a pixel is kept where the second-best disparity costs more than this above the best"},
     {P::kRunnerUp, "runner-up", "", "", T::kChoice, 0, 1, "any|expected", EACH("any", "any", "expected"), false,
-     "where the second-best disparity is looked for: among all, or among those that the nodes expect"},
+     "where the second-best disparity is looked for: among all, or among those that the nodes expect",
+     {"among all disparities", "among the disparities that the nodes expect"}},
     {P::kLeftRightTolerance, "left-right-tolerance", "", "px", T::kInteger, -1, kLargestMaxDisparity, "", EACH("1", "1", "-1"), false,
      "largest difference between the disparity of a left pixel and that of its right one; -1 = no check"},
     {P::kSubpixel, "subpixel", "", "", T::kBoolean, 0, 1, "", ALL("true"), false,

@@ -73,6 +73,9 @@ enum class Parameter {
   kSmoothingRadius,
 };
 
+/// Largest number of choices of a ParameterType::kChoice.
+inline constexpr int kMostChoices = 3;
+
 /// Number of parameters.
 inline constexpr int kParameters = static_cast<int>(Parameter::kSmoothingRadius) + 1;
 
@@ -100,6 +103,8 @@ struct ParameterInfo {
   std::array<std::array<const char*, kModes>, kPresets> defaults;
   bool reallocates;  ///< true: a change sizes the buffers anew at the next frame
   const char* help;  ///< one line
+  /// A kChoice: one line on each choice, in the order of `choices`; nullptr after the last one.
+  std::array<const char*, kMostChoices> choice_help{};
 };
 
 /// All parameters, in the order of Parameter. Never fails; the rows live as long as the program.

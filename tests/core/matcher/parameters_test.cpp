@@ -10,6 +10,17 @@
 namespace mtstereo {
 namespace {
 
+/// The words of a choice; none for parameters of other types.
+std::vector<std::string> choice_words(const ParameterInfo& info) {
+  std::vector<std::string> words;
+  if (info.type != ParameterType::kChoice) return words;
+  for (std::string rest = std::string(info.choices) + "|"; !rest.empty();) {
+    words.push_back(rest.substr(0, rest.find('|')));
+    rest.erase(0, rest.find('|') + 1);
+  }
+  return words;
+}
+
 /// Values that a parameter has to take, as text.
 std::vector<std::string> valid_texts(const ParameterInfo& info) {
   std::vector<std::string> texts;
@@ -30,12 +41,11 @@ std::vector<std::string> valid_texts(const ParameterInfo& info) {
     case ParameterType::kBoolean:
       for (const char* const text : {"true", "false", "0", "1"}) texts.push_back(text);
       break;
-    case ParameterType::kChoice:
-      for (std::string rest = std::string(info.choices) + "|"; !rest.empty();) {
-        texts.push_back(rest.substr(0, rest.find('|')));
-        rest.erase(0, rest.find('|') + 1);
-      }
+    case ParameterType::kChoice: {
+      const std::vector<std::string> words = choice_words(info);
+      texts.insert(texts.end(), words.begin(), words.end());
       break;
+    }
     case ParameterType::kLevels:
       for (const char* const text : {"0", "63,0", "7,6,5,4,3,2,1,0", "2,1,0"})
         texts.push_back(text);
@@ -59,6 +69,25 @@ TEST(ParameterTable, HasTheOrderOfParameterAndUniqueNames) {
     EXPECT_LE(info.minimum, info.maximum) << info.name;
   }
   EXPECT_EQ(kParameters, index);
+}
+
+TEST(ParameterTable, DescribesEveryChoice) {
+  for (const ParameterInfo& info : parameter_table()) {
+    const std::vector<std::string> words = choice_words(info);
+    ASSERT_LE(words.size(), info.choice_help.size()) << info.name;
+    std::set<std::string> texts;
+    for (std::size_t i = 0; i < info.choice_help.size(); ++i) {
+      const char* const help = info.choice_help[i];
+      if (i >= words.size()) {
+        EXPECT_EQ(nullptr, help) << info.name << " has no choice " << i;
+        continue;
+      }
+      ASSERT_NE(nullptr, help) << info.name << " = " << words[i];
+      EXPECT_NE('\0', *help) << info.name << " = " << words[i];
+      EXPECT_NE(words[i], help) << info.name;
+      EXPECT_TRUE(texts.insert(help).second) << info.name << " describes two choices by: " << help;
+    }
+  }
 }
 
 TEST(ParameterTable, HasNoRowForOtherNames) {
