@@ -6,17 +6,23 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "drawings.hpp"
 #include "eval/metrics.hpp"
 #include "eval/pictures.hpp"
+#include "frame_matcher.hpp"
 #include "growth.hpp"
 #include "mtstereo/mtstereo.hpp"
 #include "render/render.hpp"
+#include "stages/nodes/disparity_drawing.hpp"
 #include "stages/nodes/node_levels.hpp"
 #include "stages/prepare/max_tree.hpp"
 
@@ -43,35 +49,42 @@ GrayView view_of(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
 }
 
-Matcher matcher_of(const char* preset, const char* mode) {
+FrameMatcher matcher_of(const char* preset, const char* mode) {
   Parameters parameters;
   for (const Status& status : {parameters.set("preset", preset), parameters.set("mode", mode),
                                parameters.set(Parameter::kMaxDisparity, kDisparities)}) {
     if (!status) throw std::runtime_error(status.error().message);
   }
-  Result<Matcher> matcher = Matcher::create(parameters);
-  if (!matcher) throw std::runtime_error(matcher.error().message);
-  matcher->keep_stages(true);
-  return std::move(*matcher);
+  return FrameMatcher(Settings(parameters));
 }
 
-void match(Matcher& matcher, const render::StereoFrame& frame) {
-  const auto result = matcher.compute(view_of(frame.left), view_of(frame.right));
-  if (!result) throw std::runtime_error(result.error().message);
+using Drawing = std::function<void(const FrameMemory& memory)>;
+
+/// Matches the frame and draws after the steps that are named.
+void match(FrameMatcher matcher, const render::StereoFrame& frame,
+           const std::map<std::string_view, Drawing>& drawings) {
+  std::size_t drawn = 0;
+  matcher.compute(view_of(frame.left), view_of(frame.right),
+                  [&](const Step& step, const FrameMemory& memory) {
+                    const auto drawing = drawings.find(step.name);
+                    if (drawing == drawings.end()) return;
+                    drawing->second(memory);
+                    ++drawn;
+                  });
+  if (drawn != drawings.size()) throw std::runtime_error("a step that is to be drawn did not run");
 }
 
 cv::Mat colored(const cv::Mat& disparity) { return eval::color_disparity(disparity, kDisparities); }
 
-/// The disparity of least cost of every pixel on its own: what the cost volume alone knows.
-cv::Mat cheapest_disparity(const Matcher& matcher, cv::Size size) {
+/// The disparity of least cost of every pixel on its own, from the cost volume alone.
+cv::Mat cheapest_disparity(const CostVolume& volume, cv::Size size) {
   cv::Mat map(size, CV_32FC1);
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
-      double least = std::numeric_limits<double>::infinity();
+      int least = std::numeric_limits<int>::max();
       for (int d = 0; d < std::min(kDisparities, x + 1); ++d) {
-        const double cost = matcher.cost(x, y, d);
-        if (cost >= least) continue;
-        least = cost;
+        if (volume.at(x, y, d) >= least) continue;
+        least = volume.at(x, y, d);
         map.at<float>(y, x) = static_cast<float>(d);
       }
     }
@@ -79,66 +92,86 @@ cv::Mat cheapest_disparity(const Matcher& matcher, cv::Size size) {
   return map;
 }
 
-/// The pictures of the trees and the nodes, made by the stages themselves.
-void draw_nodes(const Matcher& matcher, const render::StereoFrame& frame, const fs::path& folder) {
-  const Parameters& parameters = matcher.parameters();
-  const GrayView levels = matcher.preprocessed(Side::kLeft);
-  Image<std::uint8_t> image;
-  image.resize(levels.width, levels.height);
-  for (int y = 0; y < levels.height; ++y) {
-    std::copy_n(levels.row(y), levels.width, image.row(y));
-  }
-  MaxTrees trees;
-  trees.resize(levels.width, levels.height);
-  build_max_trees(image, 0, levels.height, trees);
-  eval::write_picture(folder / "max-tree.png", figures::draw_tree(trees, levels.height / 2, 14));
+/// The nodes of level 1, the parents, which the default does not match.
+NodeLevel parents(const MaxTrees& trees, const Settings& settings) {
+  const WidthRange widths = {1.0 * settings.min_node_width, settings.max_node_width * trees.width};
+  NodeLevel level;
+  level.resize(trees.width, trees.height);
+  select_nodes(trees, 1, widths, 0, trees.height, level);
+  return level;
+}
 
-  const WidthRange widths = {parameters.get(Parameter::kMinNodeWidth),
-                             parameters.get(Parameter::kMaxNodeWidth) * levels.width};
-  NodeLevel coarse;
-  NodeLevel fine;
-  for (auto [ancestor, level] : {std::pair{1, &coarse}, std::pair{0, &fine}}) {
-    level->resize(levels.width, levels.height);
-    select_nodes(trees, ancestor, widths, 0, levels.height, *level);
+/// The map of the matched leaves, which the default does not draw.
+cv::Mat matched_leaves(const Nodes& nodes) {
+  const NodeLevelMatches& leaves = nodes.leaves();
+  Image<std::int32_t> map;
+  map.resize(leaves.left.width, leaves.left.height);
+  draw_matches(leaves.left, leaves.matches, 0, leaves.left.height, map);
+  return eval::to_float(map.view());
+}
+
+/// The maps after the steps whose pictures show both modes.
+using Maps = std::map<std::string, cv::Mat>;
+
+Maps maps_of_steps(const char* mode, const render::StereoFrame& frame,
+                   std::map<std::string_view, Drawing> drawings) {
+  Maps maps;
+  drawings["node-matching"] = [&](const FrameMemory& memory) {
+    maps["node-matching"] = matched_leaves(memory.nodes);
+  };
+  for (const auto& [step, name] : {std::pair{"node-extrapolation", "extrapolated"},
+                                   {"census-matching", "pixel-matching"},
+                                   {"confidence", "final"}}) {
+    drawings[step] = [&maps, name = name](const FrameMemory& memory) {
+      maps[name] = eval::to_float(memory.maps.disparity.view());
+    };
   }
-  eval::write_picture(folder / "nodes.png",
-                      figures::side_by_side(figures::draw_nodes(coarse, frame.left),
-                                            figures::draw_nodes(fine, frame.left)));
+  match(matcher_of("default", mode), frame, drawings);
+  return maps;
 }
 
 void draw_pictures(const fs::path& folder) {
   fs::create_directories(folder);
   const render::StereoFrame frame = demo_frame();
-  Matcher semi_dense = matcher_of("default", "semi-dense");
-  Matcher sparse = matcher_of("default", "sparse");
-  Matcher paper = matcher_of("paper", "semi-dense");  // has a cost volume
-  match(semi_dense, frame);
-  match(paper, frame);
-  match(sparse, frame);
-
-  eval::write_picture(folder / "pair.png", figures::side_by_side(frame.left, frame.right));
-  const int gray_levels = semi_dense.parameters().integer(Parameter::kGrayLevels);
-  eval::write_picture(
-      folder / "preprocessed.png",
-      figures::side_by_side(
-          figures::draw_levels(semi_dense.preprocessed(Side::kLeft), gray_levels),
-          figures::draw_levels(semi_dense.preprocessed(Side::kRight), gray_levels)));
-  draw_nodes(semi_dense, frame, folder);
-  eval::write_picture(folder / "cost-volume.png",
-                      figures::side_by_side(colored(cheapest_disparity(paper, frame.left.size())),
-                                            colored(frame.truth)));
-  const std::pair<const char*, Stage> stages[] = {
-      {"node-matching.png", Stage::kNodeMatching},
-      {"nodes-filtered.png", Stage::kNodesFiltered},
-      {"extrapolated.png", Stage::kExtrapolated},
-      {"pixel-matching.png", Stage::kPixelMatching},
-      {"final.png", Stage::kFinal},
+  const auto write = [&](const char* name, const cv::Mat& picture) {
+    eval::write_picture(folder / name, picture);
   };
-  for (const auto& [name, stage] : stages) {
-    eval::write_picture(folder / name,
-                        figures::side_by_side(colored(eval::to_float(semi_dense.stage(stage))),
-                                              colored(eval::to_float(sparse.stage(stage)))));
+  write("pair.png", figures::side_by_side(frame.left, frame.right));
+  const Settings settings{Parameters()};
+  const Drawing preprocessed = [&](const FrameMemory& memory) {
+    const auto draw = [&](int side) {
+      return figures::draw_levels(memory.views.preprocessed[side].level.view(),
+                                  settings.gray_levels);
+    };
+    write("preprocessed.png", figures::side_by_side(draw(0), draw(1)));
+  };
+  const Drawing trees = [&](const FrameMemory& memory) {
+    const MaxTrees& left = memory.views.trees[0];
+    write("max-tree.png", figures::draw_tree(left, left.height / 2, 14));
+    write("nodes.png",
+          figures::side_by_side(figures::draw_nodes(parents(left, settings), frame.left),
+                                figures::draw_nodes(memory.nodes.leaves().left, frame.left)));
+  };
+  const Maps semi_dense =
+      maps_of_steps("semi-dense", frame, {{"preprocessing", preprocessed}, {"max-trees", trees}});
+  for (const auto& [name, map] : maps_of_steps("sparse", frame, {})) {
+    write((name + ".png").c_str(),
+          figures::side_by_side(colored(semi_dense.at(name)), colored(map)));
   }
+  const Drawing volume = [&](const FrameMemory& memory) {
+    const cv::Mat cheapest = cheapest_disparity(memory.costs.volume, frame.left.size());
+    write("cost-volume.png", figures::side_by_side(colored(cheapest), colored(frame.truth)));
+  };
+  Maps paper;
+  match(matcher_of("paper", "semi-dense"), frame,
+        {{"cost-volume", volume},
+         {"node-drawing",
+          [&](const FrameMemory& m) { paper["drawn"] = eval::to_float(m.maps.disparity.view()); }},
+         {"node-outliers", [&](const FrameMemory& m) {
+            paper["filtered"] = eval::to_float(m.maps.disparity.view());
+          }}});
+  write("nodes-filtered.png",
+        figures::side_by_side(colored(paper.at("drawn")), colored(paper.at("filtered"))));
 }
 
 /// Text inside a cell of a Markdown table.

@@ -13,7 +13,7 @@
 #include "options.hpp"
 #include "scaling.hpp"
 #include "simd_targets.hpp"
-#include "stages.hpp"
+#include "step_times.hpp"
 #include "summary.hpp"
 #include "whole_frame.hpp"
 
@@ -59,7 +59,7 @@ int run(int argc, char** argv) {
   const std::vector<bench::FramePointer> frames =
       bench::frames(options.quick(), std::getenv("MTSTEREO_TEST_DATA"));
   bench::register_whole_frames(frames, summary);
-  bench::register_stages(bench::main_frame(frames));
+  bench::register_steps(bench::main_frame(frames), options.quick() ? 0 : 0.2);
   bench::register_targets(bench::main_frame(frames));
   bench::register_scaling(options.quick());
   bench::register_memory(options.quick());

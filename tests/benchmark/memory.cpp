@@ -42,7 +42,7 @@ struct Case {
 };
 constexpr Case kCases[] = {
     {"", "default", true},
-    {"/node-cost=gradient/cost-volume=full", "default", true},
+    {"/cost=gradient/cost-volume=full", "default", true},
     {"/preset=paper", "paper", true},
     {"/preset=paper/cost-volume=full", "paper", true},
     {"/preset=fast", "fast", true},

@@ -18,10 +18,10 @@ import zlib
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
 COMPARE = pathlib.Path(__file__).resolve().parent / "compare.py"
 METHODS = ("semi-dense", "fast", "sparse", "dense", "paper", "sgbm", "sgbm-3way", "bm")
-STAGES = ("preprocessing", "max-trees", "cost-volume", "node-levels", "node-matching",
+STAGES = ("preprocessing", "max-trees", "cost-volume", "node-matching",
           "node-drawing", "node-extrapolation", "census", "census-matching", "speckle-removal",
           "confidence", "gap-filling", "node-outliers", "gradient-matching",
-          "halving", "smoothing", "enlarging", "frame-census", "refinement")
+          "halving", "smoothing", "enlarging", "given-census", "refinement")
 
 
 def run(*arguments, **environment):
@@ -80,7 +80,7 @@ class QuickRun(unittest.TestCase):
         self.assertGreater(peaks["640x480x64"], 2)
         self.assertGreater(peaks["640x480x64/preset=paper"], 9)
         self.assertGreater(peaks["640x480x64/preset=paper/cost-volume=full"], 37)
-        for settings in ("node-cost=gradient/cost-volume=full", "preset=fast", "mode=sparse",
+        for settings in ("cost=gradient/cost-volume=full", "preset=fast", "mode=sparse",
                          "mode=dense", "threads=2"):
             self.assertIn(f"640x480x64/{settings}", peaks)
 

@@ -46,15 +46,13 @@ enum class Parameter {
   kMaxNodeWidth,
   kNodeLevels,
   kMaxNeighbors,
-  kNodeCost,
-  kMedianFilter,
+  kCost,
   kCostKernelSize,
   kCostVolume,
   kIntensityWeight,
   kNodeConfidence,
   kOutlierRadius,
   kOutlierRemoval,
-  kPixelCost,
   kCensusKernelSize,
   kPixelSearchRange,
   kBetweenNodes,
@@ -67,7 +65,6 @@ enum class Parameter {
   kSubpixel,
   kSpeckleSize,
   kMinConfidence,
-  kRimTrim,
   kNodeEndWidth,
   kMaxGap,
   kSmoothingRadius,
@@ -101,27 +98,26 @@ struct ParameterInfo {
   const char* choices;  ///< the words of a kChoice separated by '|', else ""
   /// Defaults as text, by Preset and Mode.
   std::array<std::array<const char*, kModes>, kPresets> defaults;
-  bool reallocates;  ///< true: a change sizes the buffers anew at the next frame
   const char* help;  ///< one line
   /// A kChoice: one line on each choice, in the order of `choices`; nullptr after the last one.
   std::array<const char*, kMostChoices> choice_help{};
 };
 
 /// All parameters, in the order of Parameter. Never fails; the rows live as long as the program.
-MTSTEREO_API std::span<const ParameterInfo> parameter_table();
+MTSTEREO_API std::span<const ParameterInfo> parameter_table() noexcept;
 
 /// The row of one parameter; the id has to be one of Parameter.
-MTSTEREO_API const ParameterInfo& parameter_info(Parameter id);
+MTSTEREO_API const ParameterInfo& parameter_info(Parameter id) noexcept;
 
 /// The default of one parameter as text.
-MTSTEREO_API const char* parameter_default(Parameter id, Preset preset, Mode mode);
+MTSTEREO_API const char* parameter_default(Parameter id, Preset preset, Mode mode) noexcept;
 
 /// All defaults of one parameter in words for people, as in "6, 2 dense; preset paper: 4, 12
 /// sparse": what stands first holds in every mode that is not named.
 MTSTEREO_API std::string parameter_defaults_text(Parameter id);
 
 /// The row of the parameter with this name, or nullptr.
-MTSTEREO_API const ParameterInfo* find_parameter(std::string_view name);
+MTSTEREO_API const ParameterInfo* find_parameter(std::string_view name) noexcept;
 
 /// A set of parameters. What was not set takes the default of the preset and the mode. A plain
 /// value: copy it freely; not meant to be shared between threads while one of them sets something.
@@ -133,49 +129,50 @@ class MTSTEREO_API Parameters {
   /// Sets one parameter from a number. A kBoolean takes 0 and 1, a kChoice the index of the word
   /// among its choices. Fails with kInvalidParameter, the message naming the parameter, the value
   /// and the range; the set is then as it was. A kLevels takes text only.
-  Status set(Parameter id, double value);
+  Status set(Parameter id, double value) noexcept;
   /// Sets one parameter from text: a number, a word, or levels. Fails as above.
-  Status set(Parameter id, std::string_view text);
+  Status set(Parameter id, std::string_view text) noexcept;
   /// The same by name; an unknown name fails with kInvalidParameter.
-  Status set(std::string_view name, std::string_view text);
+  Status set(std::string_view name, std::string_view text) noexcept;
   /// Back to the default of preset and mode.
-  void unset(Parameter id);
+  void unset(Parameter id) noexcept;
   /// True where a value was set, false where a default holds.
-  bool is_set(Parameter id) const;
+  bool is_set(Parameter id) const noexcept;
 
   /// The value in force: what was set, or the default of preset and mode. For a kBoolean 0 or 1,
   /// for a kChoice the index of the word, for kLevels the number of levels.
-  double get(Parameter id) const;
+  double get(Parameter id) const noexcept;
   /// The value in force as text, such that set() takes it back.
   std::string text(Parameter id) const;
 
   /// The preset and the mode in force.
-  Preset preset() const;
-  Mode mode() const;
+  Preset preset() const noexcept;
+  Mode mode() const noexcept;
   /// get() of a whole number.
-  int integer(Parameter id) const;
+  int integer(Parameter id) const noexcept;
   /// The levels of S in force, coarse to fine (Parameter::kNodeLevels); `count` of them are used.
   struct Levels {
     std::array<int, 8> level{};
     int count = 0;
   };
-  Levels node_levels() const;
+  Levels node_levels() const noexcept;
 
   /// Whether the parameters fit each other and images of this size. Fails with kFrameDoesNotFit or
   /// kInvalidCombination, the message naming the parameter, its value, the size and what would fit.
-  Status check_frame(int width, int height) const;
+  Status check_frame(int width, int height) const noexcept;
 
   /// Whether disparities below max-disparity fit into 16 bits at `scale` steps per px. Fails with
   /// kInvalidCombination and a message that says what to set.
-  Status check_scale16(int scale) const;
+  Status check_scale16(int scale) const noexcept;
 
  private:
   struct Value {
     double number = 0;
     Levels levels;
   };
+  static std::optional<Value> parse(const ParameterInfo& info, std::string_view text) noexcept;
   std::array<std::optional<Value>, kParameters> values_;
-  Value effective(Parameter id) const;
+  Value effective(Parameter id) const noexcept;
 };
 
 }  // namespace mtstereo

@@ -33,7 +33,12 @@ struct Error {
   std::string message;
 };
 
-/// A value, or the reason why there is none. No call of this library throws.
+/// A value, or the reason why there is none.
+///
+/// Functions of this library that return a Result or a Status are noexcept: where even the memory
+/// for a message is missing, the Error has the code kOutOfMemory and an empty message. Functions
+/// that return a std::string may throw std::bad_alloc, as copies of an Error may. All other
+/// functions are noexcept.
 template <typename T>
 class [[nodiscard]] Result {
  public:

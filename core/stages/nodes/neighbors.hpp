@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/limits.hpp"
 #include "stages/nodes/node_levels.hpp"
 
 namespace mtstereo {
 
 /// Largest number of values that a node and its neighbors above and below can have.
-inline constexpr int kMaxChain = 2 * 100 + 1;
+inline constexpr int kMaxChain = 2 * kLargestNeighbors + 1;
 
 /// Values of a node and its neighbors, of which the median is wanted.
 class ChainValues {

@@ -76,6 +76,11 @@ void SearchIntervals::resize(const NodeLevel& left) {
   last.resize(left.size());
 }
 
+void IntervalScratch::resize(int width) {
+  first.resize(most_leaves(width));
+  last.resize(most_leaves(width));
+}
+
 void MatchScratch::resize(int width, int disparities, int max_neighbors) {
   costs.resize(width, disparities, max_neighbors);
   left.resize((width + 1) / 2);
@@ -94,11 +99,11 @@ void first_intervals(const NodeLevel& left, int disparities, int y0, int y1,
 }
 
 void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeMatches& matches,
-                     int max_neighbors, int y0, int y1, Buffer<std::int32_t>& scratch,
+                     int max_neighbors, int y0, int y1, IntervalScratch& scratch,
                      SearchIntervals& intervals) {
-  scratch.resize(2 * most_leaves(before.width));
-  std::int32_t* first = scratch.data();
-  std::int32_t* last = scratch.data() + most_leaves(before.width);
+  scratch.resize(before.width);
+  std::int32_t* first = scratch.first.data();
+  std::int32_t* last = scratch.last.data();
   for (int y = y0; y < y1; ++y) {
     for (int p = 0; p < before.count[y]; ++p) {
       const std::ptrdiff_t node = before.first[y] + p;

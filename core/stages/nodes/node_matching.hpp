@@ -36,12 +36,20 @@ struct SearchIntervals {
 void first_intervals(const NodeLevel& left, int disparities, int y0, int y1,
                      SearchIntervals& intervals);
 
+/// Scratch memory of one thread for finer_intervals(): the intervals of a row of the level before.
+struct IntervalScratch {
+  Buffer<std::int32_t> first;
+  Buffer<std::int32_t> last;
+
+  void resize(int width);
+};
+
 /// The intervals of a finer level, for the rows y0 .. y1 - 1: [p - nL, p' - nR], where [p, p'] is
 /// the node's ancestor in the level before, and nL and nR are the medians of the begin and of the
 /// end disparities over the ancestor and its neighbors. Without these there is none.
-/// `scratch` is resized to one row of the level before.
+/// `scratch` is resized where it is too small.
 void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeMatches& matches,
-                     int max_neighbors, int y0, int y1, Buffer<std::int32_t>& scratch,
+                     int max_neighbors, int y0, int y1, IntervalScratch& scratch,
                      SearchIntervals& intervals);
 
 /// Scratch memory of one thread for match_nodes().

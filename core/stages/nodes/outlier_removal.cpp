@@ -19,6 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Largest window in columns, rounded up to the widest vector.
 constexpr int kMaxColumns = 64;
+static_assert(2 * kLargestOutlierRadius <= kMaxColumns);
 
 /// Number of pixels of the window that begins at `first` whose disparity is within the column's
 /// tolerance of `disparity`. Stops early at `enough`.

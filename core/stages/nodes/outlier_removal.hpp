@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "base/buffer.hpp"
+#include "base/limits.hpp"
 
 namespace mtstereo {
 
@@ -26,6 +27,7 @@ inline constexpr int kVoteOne = 32;
 
 /// A VoteMap's pixel without a disparity; no disparity comes as near as a window's radius.
 inline constexpr std::uint16_t kVoteNone = 0xFFFF;
+static_assert((kLargestMaxDisparity + 2 * kLargestOutlierRadius) * kVoteOne < kVoteNone);
 
 /// Copies the rows y0 .. y1 - 1 of the map.
 void copy_votes(const Image<std::int32_t>& map, int y0, int y1, VoteMap& votes);

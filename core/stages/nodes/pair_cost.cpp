@@ -64,10 +64,11 @@ float context_cost(const MaxTrees& left, const MaxTrees& right, int y, int left_
 
 void PairCosts::resize(int width, int disparities, int max_neighbors) {
   const int rows = 2 * max_neighbors + 1;
-  if (rows != row_count_) {
+  if (rows > row_capacity_) {
     rows_ = std::make_unique<Row[]>(rows);
-    row_count_ = rows;
+    row_capacity_ = rows;
   }
+  row_count_ = rows;
   max_neighbors_ = max_neighbors;
   disparities_ = disparities;
   // Nodes of a row have a pixel between them, so at most every second column begins one.

@@ -70,6 +70,7 @@ class PairCosts {
 
   const PairCostInput* input_ = nullptr;
   std::unique_ptr<Row[]> rows_;
+  int row_capacity_ = 0;
   int row_count_ = 0;
   int max_neighbors_ = 0;
   int disparities_ = 0;

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "base/limits.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/pixels/census_cost.cpp"
 #include <hwy/foreach_target.h>
@@ -32,7 +34,7 @@ struct CensusWindow {
 };
 
 /// Of the largest number of disparities.
-constexpr int kMostLanes = (1024 + kCostStep - 1) / kCostStep * kCostStep;
+constexpr int kMostLanes = (kLargestMaxDisparity + kCostStep - 1) / kCostStep * kCostStep;
 
 /// See CensusCostScratch::tables.
 struct CensusTables {

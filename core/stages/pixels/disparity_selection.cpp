@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "base/limits.hpp"
 #include "mtstereo/image.hpp"
 #include "stages/pixels/census_cost.hpp"
 #include "stages/pixels/subpixel.hpp"
@@ -20,7 +21,8 @@ namespace mtstereo {
 #ifndef MTSTEREO_SELECTION_WORDS
 #define MTSTEREO_SELECTION_WORDS
 constexpr int kDisparityBits = 7;
-constexpr int kMostGroups = (1024 + SelectionScratch::kGroup - 1) / SelectionScratch::kGroup;
+constexpr int kMostGroups =
+    (kLargestMaxDisparity + SelectionScratch::kGroup - 1) / SelectionScratch::kGroup;
 static_assert(SelectionScratch::kGroup == 1 << kDisparityBits);
 constexpr int kLowest = std::numeric_limits<std::int16_t>::min();
 constexpr int kMostCost = (kCostLimit - 1) << kDisparityBits;

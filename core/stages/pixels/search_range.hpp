@@ -3,17 +3,12 @@
 
 #include <cstdint>
 
+#include "choices.hpp"
+
 namespace mtstereo {
 
 /// The first half of step 9 (paper, "guided pixel matching"): which disparities the nodes expect at
 /// each pixel of a row.
-
-/// What a pixel between two nodes is expected to have.
-enum class BetweenNodes {
-  kNone,  ///< nothing: it gets no disparity (the paper)
-  kSpan,  ///< what both nodes beside it span
-  kAll,   ///< any disparity
-};
 
 struct SearchRangeOptions {
   double range;  ///< omega_omega: share of the disparity that is expected on both sides

@@ -176,21 +176,24 @@ void pad_row(const std::uint8_t* row, int width, std::uint8_t* padded) {
 
 }  // namespace
 
-void census_rows(GrayView image, int y0, int y1, Image<std::uint8_t>& scratch,
-                 CensusImage& census) {
+void CensusScratch::resize(int width, int rows) {
+  padded.resize(width + 2 * kRadius, rows + 2 * kRadius);
+}
+
+void census_rows(GrayView image, int y0, int y1, CensusScratch& scratch, CensusImage& census) {
   const int width = image.width;
   const int rows = y1 - y0 + 2 * kRadius;
-  if (scratch.width() < width + 2 * kRadius || scratch.height() < rows) {
-    scratch.resize(width + 2 * kRadius, rows);
+  if (scratch.padded.width() < width + 2 * kRadius || scratch.padded.height() < rows) {
+    scratch.resize(width, y1 - y0);
   }
   for (int i = 0; i < rows; ++i) {
     const int y = std::clamp(y0 - kRadius + i, 0, image.height - 1);
-    pad_row(image.row(y), width, scratch.row(i));
+    pad_row(image.row(y), width, scratch.padded.row(i));
   }
   const auto transform = HWY_DYNAMIC_DISPATCH(transform_row);
   for (int y = y0; y < y1; ++y) {
     const std::uint8_t* lines[2 * kRadius + 1];
-    for (int i = 0; i <= 2 * kRadius; ++i) lines[i] = scratch.row(y - y0 + i);
+    for (int i = 0; i <= 2 * kRadius; ++i) lines[i] = scratch.padded.row(y - y0 + i);
     transform(lines, width, census.bits.row(y));
   }
 }

@@ -26,9 +26,17 @@ struct CensusImage {
   void resize(int width, int height) { bits.resize(width, height); }
 };
 
+/// Scratch memory of one thread: the rows of a band with their borders.
+struct CensusScratch {
+  Image<std::uint8_t> padded;
+
+  /// For bands of up to `rows` rows of views of up to this width.
+  void resize(int width, int rows);
+};
+
 /// Writes the rows y0 .. y1 - 1. Beyond the border the border's pixels are repeated. `scratch` is
-/// resized to the band at the first use.
-void census_rows(GrayView image, int y0, int y1, Image<std::uint8_t>& scratch, CensusImage& census);
+/// resized where it is too small.
+void census_rows(GrayView image, int y0, int y1, CensusScratch& scratch, CensusImage& census);
 
 /// Whether element x of a row is column x of the view, or counts from the right end: then a rising
 /// disparity runs to the right.

@@ -261,17 +261,6 @@ void remove_below(int least, int width, std::int32_t* map, std::uint8_t* confide
   }
 }
 
-void clear_row(const std::int32_t* map, int width, std::uint8_t* confidence) {
-  static_assert(kNoDisparity == 0);
-  const Map d32;
-  const MapConfidence d8;
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
-    const auto value = hn::PromoteTo(d32, hn::LoadU(d8, confidence + x));
-    const auto none = hn::Eq(hn::LoadU(d32, map + x), hn::Zero(d32));
-    hn::StoreU(hn::DemoteTo(d8, hn::IfThenZeroElse(none, value)), d8, confidence + x);
-  }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace mtstereo
 HWY_AFTER_NAMESPACE();
@@ -283,7 +272,6 @@ HWY_EXPORT(copy_row);
 HWY_EXPORT(sum_row);
 HWY_EXPORT(find_steps);
 HWY_EXPORT(remove_below);
-HWY_EXPORT(clear_row);
 
 namespace {
 
@@ -374,13 +362,6 @@ void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,
                      Image<std::uint8_t>& confidence) {
   for (int y = y0; y < y1; ++y) {
     HWY_DYNAMIC_DISPATCH(remove_below)(least, map.width(), map.row(y), confidence.row(y));
-  }
-}
-
-void clear_confidence(const Image<std::int32_t>& map, int y0, int y1,
-                      Image<std::uint8_t>& confidence) {
-  for (int y = y0; y < y1; ++y) {
-    HWY_DYNAMIC_DISPATCH(clear_row)(map.row(y), map.width(), confidence.row(y));
   }
 }
 

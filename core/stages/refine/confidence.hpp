@@ -64,8 +64,4 @@ void find_support_steps(int pixels, int width, SupportScratch& scratch);
 void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,
                      Image<std::uint8_t>& confidence);
 
-/// Sets the confidence in the rows y0 .. y1 - 1 to 0 where the map has no disparity.
-void clear_confidence(const Image<std::int32_t>& map, int y0, int y1,
-                      Image<std::uint8_t>& confidence);
-
 }  // namespace mtstereo

@@ -49,12 +49,10 @@ TEST_F(Allocation, IsCounted) {
 }
 
 /// Allocations of each frame from the third on, the frames coming from memory that is there.
-void expect_no_allocations(std::initializer_list<std::pair<const char*, std::string>> values,
-                           bool keep_stages = false) {
+void expect_no_allocations(std::initializer_list<std::pair<const char*, std::string>> values) {
   const test::Pair pair = test::slanted_pair(333, 201, 40, 1);
   const test::Pair other = test::slanted_pair(333, 201, 40, 2);
   Matcher matcher = test::matcher(values);
-  matcher.keep_stages(keep_stages);
   for (int frame = 0; frame < 12; ++frame) {
     const test::Pair& now = frame % 2 == 0 ? pair : other;
     test::count_allocations();
@@ -70,11 +68,8 @@ void expect_no_allocations(std::initializer_list<std::pair<const char*, std::str
 TEST_F(Allocation, NeverHappensInALaterFrameOnOneThread) {
   expect_no_allocations({{"threads", "1"}});
   expect_no_allocations({{"threads", "1"}, {"mode", "sparse"}});
-  expect_no_allocations({{"threads", "1"},
-                         {"node-cost", "gradient"},
-                         {"cost-volume", "full"},
-                         {"node-levels", "3,1,0"}});
-  expect_no_allocations({{"threads", "1"}}, true);
+  expect_no_allocations(
+      {{"threads", "1"}, {"cost", "gradient"}, {"cost-volume", "full"}, {"node-levels", "3,1,0"}});
 }
 
 TEST_F(Allocation, NeverHappensInALaterFrameInAnyModeOfAnyPreset) {
@@ -84,27 +79,41 @@ TEST_F(Allocation, NeverHappensInALaterFrameInAnyModeOfAnyPreset) {
       for (const char* const preset : {"fast", "paper"}) {
         expect_no_allocations({{"threads", threads}, {"preset", preset}, {"mode", mode}});
       }
-      expect_no_allocations(
-          {{"threads", threads}, {"mode", mode}, {"rim-trim", "1"}, {"max-gap", "30"}});
+      expect_no_allocations({{"threads", threads}, {"mode", mode}, {"max-gap", "30"}});
     }
   }
 }
 
-TEST_F(Allocation, NeverHappensInALaterFrameWhoseRimIsWider) {
+/// Alternates between two sets of parameters, frame by frame; from the third frame on that takes no
+/// memory, whichever parameters differ.
+void expect_free_change(std::initializer_list<std::pair<const char*, std::string>> one,
+                        std::initializer_list<std::pair<const char*, std::string>> other) {
   const test::Pair pair = test::slanted_pair(333, 201, 40, 1);
-  Matcher matcher = test::matcher({{"threads", "2"}});
-  for (int frame = 0; frame < 3; ++frame) test::compute(matcher, pair.left, pair.right);
-  ASSERT_TRUE(
-      matcher.set_parameters(test::parameters({{"threads", "2"}, {"rim-trim", "31"}})).ok());
-  test::count_allocations();
-  const bool ok = matcher.compute(pair.left.view(), pair.right.view()).ok();
-  EXPECT_EQ(0, test::allocations());
-  EXPECT_TRUE(ok);
+  const Parameters sets[] = {test::parameters(one), test::parameters(other)};
+  Matcher matcher = std::move(Matcher::create(sets[0]).value());
+  for (int frame = 0; frame < 6; ++frame) {
+    test::count_allocations();
+    const bool ok = matcher.set_parameters(sets[frame % 2]).ok() &&
+                    matcher.compute(pair.left.view(), pair.right.view()).ok();
+    const long count = test::allocations();
+    EXPECT_TRUE(ok);
+    if (frame < 2) continue;
+    EXPECT_EQ(0, count) << "frame " << frame;
+  }
+}
+
+TEST_F(Allocation, NeverHappensAfterAChangeThatNeedsNoMoreMemory) {
+  expect_free_change({{"threads", "2"}}, {{"threads", "2"}, {"min-confidence", "90"}});
+  expect_free_change({{"threads", "1"}}, {{"threads", "1"}, {"mode", "dense"}});
+  expect_free_change({{"threads", "1"}}, {{"threads", "1"}, {"preset", "fast"}});
+  expect_free_change({{"threads", "1"}}, {{"threads", "1"}, {"preset", "paper"}});
+  expect_free_change({{"threads", "2"}, {"max-disparity", "90"}},
+                     {{"threads", "2"}, {"max-disparity", "33"}, {"max-neighbors", "3"}});
 }
 
 TEST_F(Allocation, NeverHappensInALaterFrameOnTwoThreads) {
   expect_no_allocations({{"threads", "2"}});
-  expect_no_allocations({{"threads", "2"}, {"mode", "sparse"}}, true);
+  expect_no_allocations({{"threads", "2"}, {"mode", "sparse"}});
 }
 
 TEST_F(Allocation, NeverHappensInALaterFrameOnMoreThreadsThanBands) {
@@ -120,9 +129,8 @@ TEST_F(Allocation, NeverHappensInASmallerFrame) {
       const bool ok = matcher.compute(pair.left.view(), pair.right.view()).ok();
       const long count = test::allocations();
       EXPECT_TRUE(ok);
-      // Another size makes the kernel anew, which is a handful of bytes.
       if (frame == 0) continue;
-      EXPECT_LE(count, 4) << width << "x" << height;
+      EXPECT_EQ(0, count) << width << "x" << height;
     }
   }
 }
@@ -130,20 +138,17 @@ TEST_F(Allocation, NeverHappensInASmallerFrame) {
 /// Lets the first, the second, the third ... allocation of a frame that is larger than the one
 /// before fail, until none is left to. Each time the frame has to fail in order, and the next to be
 /// as ever.
-void expect_recovery(const char* threads, const char* node_cost, const char* resolution = "full") {
+void expect_recovery(const char* threads, const char* cost, const char* resolution = "full") {
   const test::Pair pair = test::slanted_pair(90, 70, 16, 4);
   const test::Pair small = test::slanted_pair(40, 20, 8, 5);
-  const Parameters parameters = test::parameters({{"threads", threads},
-                                                  {"node-cost", node_cost},
-                                                  {"resolution", resolution},
-                                                  {"max-disparity", "20"}});
+  const Parameters parameters = test::parameters(
+      {{"threads", threads}, {"cost", cost}, {"resolution", resolution}, {"max-disparity", "20"}});
   Matcher undisturbed = std::move(Matcher::create(parameters).value());
   const test::DisparityPlane expected = test::compute(undisturbed, pair.left, pair.right);
   long failures = 0;
   for (bool failed = true; failed && !testing::Test::HasFailure(); failures += failed) {
     SCOPED_TRACE(testing::Message() << "allocation " << failures << ", " << threads << " threads");
     Matcher matcher = std::move(Matcher::create(parameters).value());
-    matcher.keep_stages(true);
     if (failures % 2 == 0) test::compute(matcher, small.left, small.right);
     test::fail_allocation_after(failures);
     const Result<DisparityView> result = matcher.compute(pair.left.view(), pair.right.view());
@@ -152,13 +157,7 @@ void expect_recovery(const char* threads, const char* node_cost, const char* res
     if (!result.ok()) {
       EXPECT_TRUE(test::fails_with(result, ErrorCode::kOutOfMemory, {}));
       EXPECT_FALSE(result.error().message.empty());
-      EXPECT_EQ(0, matcher.cost(50, 20, 3)) << "there is no volume";
-      const GrayView level = matcher.preprocessed(Side::kLeft);
-      EXPECT_TRUE(level.data != nullptr || level.width == 0) << "a size without pixels";
-      // Neither those of a frame that is half done nor those of one before it.
-      for (int stage = 0; stage <= static_cast<int>(Stage::kFinal); ++stage) {
-        EXPECT_EQ(0, matcher.stage(static_cast<Stage>(stage)).width) << "stage " << stage;
-      }
+      EXPECT_EQ(0, matcher.confidence().width) << "neither that of this frame nor of one before";
     }
     EXPECT_TRUE(same_image(expected, test::compute(matcher, pair.left, pair.right)));
   }
@@ -193,42 +192,74 @@ void expect_advice(std::initializer_list<std::pair<const char*, std::string>> va
 
 TEST_F(Allocation, FailingSaysWhatToDo) {
   expect_advice({{"threads", "2"}},
-                "max-disparity = 20: take smaller images, lower max-disparity or threads, or set "
+                "max-disparity = 20: use smaller images, lower max-disparity or threads, or set "
                 "resolution = half or preset = fast");
-  expect_advice({{"node-cost", "gradient"}},
-                ", or leave out the cost volume: set node-cost = census");
-  expect_advice({{"pixel-cost", "gradient"}},
-                ", or leave out the cost volume: set pixel-cost = census");
-  expect_advice({{"preset", "paper"}},
-                ", or leave out the cost volume: set node-cost = census and pixel-cost = census");
+  expect_advice({{"preset", "paper"}}, ", or set cost = census, which needs no cost volume");
 }
 
 TEST_F(Allocation, FailingDoesNotProposeWhatIsSetAlready) {
   expect_advice({{"preset", "fast"}}, "lower max-disparity or threads, or set resolution = half");
   expect_advice({{"threads", "1"}, {"resolution", "half"}},
-                "max-disparity = 20: take smaller images, lower max-disparity");
+                "max-disparity = 20: use smaller images, lower max-disparity");
 }
 
-TEST_F(Allocation, FailingWhileParametersAreTakenKeepsTheOldOnes) {
-  // Texts that are too long to be held without memory.
-  const Parameters old = test::parameters({{"max-disparity", "20"}});
-  const Parameters other = test::parameters(
-      {{"node-levels", "63,62,61,60,59,58,57,0"}, {"intensity-weight", "0.12345678901234567"}});
-  long failures = 0;
-  for (bool failed = true; failed; failures += failed) {
-    Matcher matcher = std::move(Matcher::create(old).value());
-    test::fail_allocation_after(failures);
-    const Status status = matcher.set_parameters(other);
-    failed = test::allocation_has_failed();
-    test::fail_allocation_after(-1);
-    EXPECT_NE(failed, status.ok());
-    EXPECT_EQ(failed ? 20 : 64, matcher.parameters().integer(Parameter::kMaxDisparity));
-  }
-  EXPECT_GT(failures, 0);
+TEST_F(Allocation, FailingToMakeAMatcherIsAnError) {
   test::fail_allocation_after(0);
-  const Result<Matcher> none = Matcher::create(old);
+  const Result<Matcher> none = Matcher::create(Parameters());
   test::fail_allocation_after(-1);
   EXPECT_TRUE(test::fails_with(none, ErrorCode::kOutOfMemory, {"memory"}));
+}
+
+TEST_F(Allocation, NeverHappensWhileParametersAreSetAndTaken) {
+  Matcher matcher = test::matcher({});
+  Parameters parameters;
+  test::count_allocations();
+  bool ok = parameters.set("node-levels", "63,62,61,60,59,58,57,0").ok();
+  ok = parameters.set("intensity-weight", "0.12345678901234567").ok() && ok;
+  ok = parameters.set(Parameter::kCost, "gradient").ok() && ok;
+  ok = parameters.check_frame(640, 480).ok() && parameters.check_scale16(256).ok() && ok;
+  ok = matcher.set_parameters(parameters).ok() && ok;
+  const long count = test::allocations();
+  EXPECT_TRUE(ok);
+  EXPECT_EQ(0, count);
+}
+
+/// Lets the first, the second ... allocation of a call that fails fail too. It has to return an
+/// error each time and never to throw.
+template <typename Call>
+void expect_error_without_memory(ErrorCode code, Call&& call) {
+  long failures = 0;
+  for (bool failed = true; failed; failures += failed) {
+    test::fail_allocation_after(failures);
+    const auto outcome = call();
+    failed = test::allocation_has_failed();
+    test::fail_allocation_after(-1);
+    ASSERT_FALSE(outcome.ok());
+    EXPECT_EQ(failed ? ErrorCode::kOutOfMemory : code, outcome.error().code);
+    EXPECT_EQ(failed, outcome.error().message.empty());
+  }
+  EXPECT_GT(failures, 0) << "the message needs memory";
+}
+
+TEST_F(Allocation, FailingWhileAMessageIsMadeIsAnErrorWithoutOne) {
+  Parameters parameters;
+  expect_error_without_memory(ErrorCode::kInvalidParameter,
+                              [&] { return parameters.set(Parameter::kMaxDisparity, -1); });
+  expect_error_without_memory(ErrorCode::kInvalidParameter,
+                              [&] { return parameters.set(Parameter::kNodeLevels, "1,2"); });
+  expect_error_without_memory(ErrorCode::kInvalidParameter,
+                              [&] { return parameters.set("max-disparty", "64"); });
+  expect_error_without_memory(ErrorCode::kFrameDoesNotFit,
+                              [&] { return parameters.check_frame(0, 0); });
+  expect_error_without_memory(ErrorCode::kInvalidCombination,
+                              [&] { return parameters.check_scale16(65535); });
+  expect_error_without_memory(ErrorCode::kSizeMismatch, [&] {
+    return write_disparity16({}, 256, {nullptr, 1, 1, 2});
+  });
+  Matcher matcher = test::matcher({});
+  const test::GrayPlane left(80, 20), right(81, 20);
+  expect_error_without_memory(ErrorCode::kSizeMismatch,
+                              [&] { return matcher.compute(left.view(), right.view()); });
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ class MatcherErrors : public testing::Test {
  protected:
   MatcherErrors()
       : pair_(test::slanted_pair(96, 40, 20, 1)),
-        matcher_(test::matcher({{"max-disparity", "32"}, {"node-cost", "gradient"}})),
+        matcher_(test::matcher({{"max-disparity", "32"}, {"cost", "gradient"}})),
         expected_(test::compute(matcher_, pair_.left, pair_.right)),
         left_(pair_.left.view()),
         right_(pair_.right.view()) {}
@@ -102,17 +102,17 @@ TEST_F(MatcherErrors, KeepTheLastFrame) {
   const Result<DisparityView> result = matcher_.compute(left_, right_);
   ASSERT_TRUE(result.ok());
   const FrameStatistics before = matcher_.statistics();
-  const double cost = matcher_.cost(50, 20, 10);
+  const test::GrayPlane confidence = test::copy_of(matcher_.confidence());
   EXPECT_FALSE(matcher_.compute({}, {}).ok());
   right_.width = 50;
   EXPECT_FALSE(matcher_.compute(left_, right_).ok());
   EXPECT_EQ(before.density, matcher_.statistics().density);
-  EXPECT_EQ(cost, matcher_.cost(50, 20, 10));
-  EXPECT_EQ(96, matcher_.preprocessed(Side::kLeft).width);
+  EXPECT_TRUE(same_image(expected_, *result));
+  EXPECT_TRUE(same_image(confidence, matcher_.confidence()));
 }
 
 TEST_F(MatcherErrors, StartFromTheFirstFrameToo) {
-  Matcher fresh = test::matcher({{"max-disparity", "32"}});
+  Matcher fresh = test::matcher({{"max-disparity", "32"}, {"cost", "gradient"}});
   EXPECT_FALSE(fresh.compute({}, {}).ok());
   right_.height = 20;
   EXPECT_FALSE(fresh.compute(left_, right_).ok());

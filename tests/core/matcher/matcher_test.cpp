@@ -22,9 +22,6 @@ using test::DisparityPlane;
 using test::Pair;
 using test::same_image;
 
-constexpr Stage kAllStages[] = {Stage::kNodeMatching, Stage::kNodesFiltered, Stage::kExtrapolated,
-                                Stage::kPixelMatching, Stage::kFinal};
-
 /// What a matcher of its own says to a pair.
 DisparityPlane alone(const Parameters& parameters, const Pair& pair) {
   Result<Matcher> matcher = Matcher::create(parameters);
@@ -40,49 +37,15 @@ TEST(Matcher, KeepsTheParametersThatItIsMadeWith) {
 
 TEST(Matcher, ShowsNothingBeforeTheFirstFrame) {
   const Matcher matcher = test::matcher({});
-  for (const Stage stage : kAllStages) {
-    EXPECT_EQ(0, matcher.stage(stage).width);
-    EXPECT_EQ(0, matcher.stage(stage).height);
-  }
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    EXPECT_EQ(0, matcher.preprocessed(side).width);
-    EXPECT_EQ(0, matcher.preprocessed(side).height);
-  }
   EXPECT_EQ(0, matcher.confidence().width);
   EXPECT_EQ(0, matcher.confidence().height);
-  EXPECT_EQ(0, matcher.cost(0, 0, 0));
   EXPECT_EQ(0, matcher.statistics().density);
   EXPECT_EQ(0, matcher.statistics().milliseconds);
 }
 
-TEST(Matcher, KeepsTheStagesOnlyWhereAsked) {
-  const Pair pair = test::slanted_pair(120, 40, 20, 1);
-  Matcher matcher = test::matcher({});
-  test::compute(matcher, pair.left, pair.right);
-  for (const Stage stage : kAllStages) EXPECT_EQ(0, matcher.stage(stage).width) << "off at first";
-
-  matcher.keep_stages(true);
-  const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-  for (const Stage stage : kAllStages) {
-    EXPECT_EQ(120, matcher.stage(stage).width);
-    EXPECT_EQ(40, matcher.stage(stage).height);
-  }
-  EXPECT_TRUE(same_image(map, matcher.stage(Stage::kFinal)));
-  EXPECT_FALSE(same_image(map, matcher.stage(Stage::kNodeMatching)));
-
-  matcher.keep_stages(false);
-  test::compute(matcher, pair.right, pair.left);
-  for (const Stage stage : kAllStages) {
-    EXPECT_EQ(0, matcher.stage(stage).width) << "they are not those of the last frame";
-    EXPECT_EQ(0, matcher.stage(stage).height);
-  }
-}
-
-TEST(Matcher, AtHalfResolutionShowsStagesOfHalfTheSizeAndAResultOfTheViews) {
+TEST(Matcher, AtHalfResolutionHasAResultOfTheSizeOfTheViews) {
   const Pair pair = test::slanted_pair(201, 91, 40, 3);
-  Matcher matcher =
-      test::matcher({{"preset", "fast"}, {"max-disparity", "61"}, {"node-cost", "gradient"}});
-  matcher.keep_stages(true);
+  Matcher matcher = test::matcher({{"preset", "fast"}, {"max-disparity", "61"}});
   const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
   EXPECT_EQ(201, map.width);
   EXPECT_EQ(91, map.height);
@@ -90,20 +53,6 @@ TEST(Matcher, AtHalfResolutionShowsStagesOfHalfTheSizeAndAResultOfTheViews) {
   EXPECT_EQ(91, matcher.confidence().height);
   EXPECT_GT(matcher.statistics().density, 0.1);
   EXPECT_DOUBLE_EQ(test::known(map) / (201.0 * 91), matcher.statistics().density);
-  for (const Stage stage : kAllStages) {
-    EXPECT_EQ(101, matcher.stage(stage).width);
-    EXPECT_EQ(46, matcher.stage(stage).height);
-  }
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    EXPECT_EQ(101, matcher.preprocessed(side).width);
-    EXPECT_EQ(46, matcher.preprocessed(side).height);
-  }
-  const test::GrayPlane black(201, 91, 0), white(201, 91, 255);
-  test::compute(matcher, black, white);
-  EXPECT_GT(matcher.cost(100, 45, 30), 0);
-  for (const auto& [x, y, d] : {std::array{101, 45, 30}, {100, 46, 30}, {100, 45, 31}}) {
-    EXPECT_EQ(matcher.cost(x, y, d), 0) << x << ", " << y << ", " << d;
-  }
 }
 
 TEST(Matcher, HoldsTheLastResultWhileTheResolutionChanges) {
@@ -117,16 +66,7 @@ TEST(Matcher, HoldsTheLastResultWhileTheResolutionChanges) {
     ASSERT_TRUE(matcher.set_parameters(test::parameters({{"resolution", next}})).ok());
     EXPECT_TRUE(same_image(map, *view));
     EXPECT_TRUE(same_image(confidence, matcher.confidence()));
-    EXPECT_EQ(0, matcher.cost(50, 20, 10)) << "until the next frame";
   }
-}
-
-TEST(Matcher, GivesTheSameWithAndWithoutStages) {
-  const Pair pair = test::slanted_pair(150, 50, 20, 2);
-  Matcher with = test::matcher({}), without = test::matcher({});
-  with.keep_stages(true);
-  EXPECT_TRUE(same_image(test::compute(without, pair.left, pair.right),
-                         test::compute(with, pair.left, pair.right)));
 }
 
 /// A set of parameters, and another value of one of them whose change shows in it.
@@ -153,21 +93,18 @@ Change change_of(Parameter id) {
       return {{{"preset", "paper"}}, "0.2"};
     case Parameter::kNodeLevels:
       return {{{"preset", "paper"}}, "0"};
-    case Parameter::kMedianFilter:
-      return {{{"preset", "paper"}}, "trees"};
     case Parameter::kCostVolume:
       return {{{"preset", "paper"}}, "full"};
     case Parameter::kOutlierRemoval:  // with costs that leave outliers
       return {{{"preset", "paper"},
-               {"pixel-cost", "census"},
+               {"cost", "census"},
                {"census-kernel-size", "1"},
                {"large-step-penalty", "0"},
                {"range-penalty", "0"},
                {"pixel-confidence", "0"},
                {"between-nodes", "all"}},
               "nodes"};
-    case Parameter::kNodeCost:
-    case Parameter::kPixelCost:
+    case Parameter::kCost:
       return {{}, "gradient"};
     case Parameter::kPixelSearchRange:
       return {{{"preset", "paper"}}, "90"};
@@ -193,7 +130,6 @@ Change change_of(Parameter id) {
     case Parameter::kSmallStepPenalty:
     case Parameter::kLargeStepPenalty:
     case Parameter::kMinConfidence:
-    case Parameter::kRimTrim:
     case Parameter::kSmoothingRadius:
       return {{}, "3"};
     default:
@@ -263,13 +199,12 @@ TEST(Matcher, TakesFramesOfChangingSize) {
 
 TEST(Matcher, DoesNotNeedTheInputAfterTheCall) {
   const Pair pair = test::slanted_pair(100, 40, 20, 6);
-  Matcher matcher = test::matcher({{"node-cost", "gradient"}});
+  Matcher matcher = test::matcher({{"cost", "gradient"}});
   auto gone = std::make_unique<Pair>(pair);
   const Result<DisparityView> view = matcher.compute(gone->left.view(), gone->right.view());
   gone.reset();
   ASSERT_TRUE(view.ok());
   EXPECT_TRUE(same_image(alone(matcher.parameters(), pair), *view));
-  EXPECT_GT(matcher.cost(50, 20, 10), 0);
 }
 
 TEST(Matcher, TakesTheSameImageForBothViews) {
@@ -304,45 +239,10 @@ TEST(Matcher, CanBeMoved) {
   EXPECT_TRUE(same_image(map, test::compute(third, pair.left, pair.right)));
 }
 
-TEST(Matcher, ShowsTheCostsOfTheLastFrame) {
-  const test::GrayPlane black(80, 20, 0), white(80, 20, 255);
-  Matcher matcher = test::matcher({{"max-disparity", "10"}, {"node-cost", "gradient"}});
-  test::compute(matcher, black, white);
-  // Nothing but the gray values differs, and their weight is 0.30.
-  for (const auto& [x, y, d] : {std::tuple{0, 0, 0}, {79, 19, 9}, {40, 10, 5}}) {
-    EXPECT_NEAR(0.30 * 255, matcher.cost(x, y, d), 0.5) << x << ", " << y << ", " << d;
-  }
-  test::compute(matcher, white, white);
-  EXPECT_EQ(0, matcher.cost(40, 10, 5));
-  test::compute(matcher, black, white);
-  ASSERT_TRUE(matcher.set_parameters(test::parameters({{"max-disparity", "10"}})).ok());
-  test::compute(matcher, black, white);
-  EXPECT_EQ(0, matcher.cost(40, 10, 5)) << "there is no volume any more";
-}
-
 TEST(Version, IsThreeNumbers) {
   int major = 0, minor = 0, patch = 0, length = 0;
   ASSERT_EQ(3, std::sscanf(version(), "%d.%d.%d%n", &major, &minor, &patch, &length)) << version();
   EXPECT_EQ('\0', version()[length]) << version();
-}
-
-TEST(Matcher, ACostOutsideOfTheImageIsNone) {
-  const Pair pair = test::slanted_pair(90, 40, 12, 3);
-  Matcher matcher = std::move(
-      Matcher::create(test::parameters({{"max-disparity", "16"}, {"node-cost", "gradient"}}))
-          .value());
-  test::compute(matcher, pair.left, pair.right);
-  EXPECT_GT(matcher.cost(89, 39, 15), 0);
-  for (const auto& [x, y, d] : {std::array{-1, 0, 0},
-                                {90, 0, 0},
-                                {0, -1, 0},
-                                {0, 40, 0},
-                                {50, 20, -1},
-                                {50, 20, 16},
-                                {5, 20, 6},
-                                {100000, 100000, 3}}) {
-    EXPECT_EQ(matcher.cost(x, y, d), 0) << x << ", " << y << ", " << d;
-  }
 }
 
 }  // namespace

@@ -139,9 +139,9 @@ TEST(Parameters, BeginWithTheDefaultPresetInSemiDenseMode) {
 
 TEST(Parameters, OverrideAPresetOneByOne) {
   const Parameters parameters =
-      test::parameters({{"speckle-size", "7"}, {"preset", "paper"}, {"pixel-cost", "census"}});
+      test::parameters({{"speckle-size", "7"}, {"preset", "paper"}, {"cost", "census"}});
   EXPECT_EQ(7, parameters.integer(Parameter::kSpeckleSize));
-  EXPECT_EQ("census", parameters.text(Parameter::kPixelCost));
+  EXPECT_EQ("census", parameters.text(Parameter::kCost));
   EXPECT_EQ("21", parameters.text(Parameter::kOutlierRadius));
   EXPECT_EQ("nodes-and-pixels", parameters.text(Parameter::kOutlierRemoval));
 }
@@ -152,7 +152,7 @@ TEST(ParameterTable, TellsDefaultsInWords) {
   EXPECT_EQ("semi-dense", parameter_defaults_text(Parameter::kMode));
   EXPECT_EQ("full; preset fast: half-refined", parameter_defaults_text(Parameter::kResolution));
   EXPECT_EQ("16; preset paper: 8, 16 sparse", parameter_defaults_text(Parameter::kGrayLevels));
-  EXPECT_EQ("census; preset paper: gradient", parameter_defaults_text(Parameter::kPixelCost));
+  EXPECT_EQ("census; preset paper: gradient", parameter_defaults_text(Parameter::kCost));
 }
 
 TEST(Parameters, KeepWhatIsSetWhenTheModeChanges) {

@@ -8,6 +8,7 @@
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
+#include "support/watching.hpp"
 
 namespace mtstereo {
 namespace {
@@ -15,9 +16,6 @@ namespace {
 using test::GrayPlane;
 using test::Random;
 using test::same_image;
-
-constexpr Stage kAllStages[] = {Stage::kNodeMatching, Stage::kNodesFiltered, Stage::kExtrapolated,
-                                Stage::kPixelMatching, Stage::kFinal};
 
 template <std::size_t N>
 std::string one_of(Random& random, const char* const (&choices)[N]) {
@@ -38,15 +36,13 @@ Parameters random_parameters(int width, Random& random) {
       {"max-node-width", one_of(random, {"0.5", "0.5", "0.4", "1"})},
       {"node-levels", one_of(random, {"1,0", "1,0", "0", "2,0", "2,1,0", "5,3,0", "9,0"})},
       {"max-neighbors", one_of(random, {"10", "0", "1", "3", "25"})},
-      {"node-cost", one_of(random, {"census", "gradient"})},
-      {"median-filter", one_of(random, {"trees", "trees-and-costs"})},
       {"cost-kernel-size", one_of(random, {"21", "1", "3", "9", "41"})},
       {"cost-volume", one_of(random, {"half", "full"})},
       {"intensity-weight", one_of(random, {"0.8", "0", "0.5", "1"})},
       {"node-confidence", one_of(random, {"12", "0", "0", "3"})},
       {"outlier-radius", one_of(random, {"21", "0", "1", "6", "31"})},
       {"outlier-removal", one_of(random, {"nodes", "nodes-and-pixels"})},
-      {"pixel-cost", one_of(random, {"census", "census", "gradient"})},
+      {"cost", one_of(random, {"census", "census", "gradient"})},
       {"census-kernel-size", one_of(random, {"5", "3", "1"})},
       {"pixel-search-range", one_of(random, {"15", "0", "60", "100"})},
       {"between-nodes", one_of(random, {"all", "span", "none"})},
@@ -59,7 +55,6 @@ Parameters random_parameters(int width, Random& random) {
       {"subpixel", one_of(random, {"true", "false"})},
       {"speckle-size", one_of(random, {"0", "0", "1", "5", "20"})},
       {"min-confidence", one_of(random, {"0", "0", "0", "40", "90", "200"})},
-      {"rim-trim", one_of(random, {"0", "0", "0", "1", "2"})},
       {"node-end-width", one_of(random, {"3", "1", "9", "31"})},
       {"max-gap", one_of(random, {"0", "1", "6", "30"})},
       {"smoothing-radius", one_of(random, {"0", "0", "1", "3", "31"})},
@@ -74,26 +69,58 @@ std::string text_of(const Parameters& parameters) {
   return text;
 }
 
-/// Compares all that a matcher shows of its last frame.
-void expect_frame(const reference::Frame& expected, const Matcher& matcher) {
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    EXPECT_TRUE(same_image(expected.levels[static_cast<int>(side)], matcher.preprocessed(side)));
+/// Compares the disparities at the ends of the leaves with those of the drawn leaves.
+void expect_ends(const reference::Frame& expected, const Nodes& nodes) {
+  const NodeLevel& leaves = nodes.leaves().left;
+  for (int y = 0; y < leaves.height; ++y) {
+    for (int i = 0; i < leaves.count[y]; ++i) {
+      const std::size_t leaf = leaves.first[y] + i;
+      ASSERT_EQ(expected.nodes(leaves.begin[leaf], y), nodes.ends.begin[leaf]) << i << ", " << y;
+      ASSERT_EQ(expected.nodes(leaves.end[leaf], y), nodes.ends.end[leaf]) << i << ", " << y;
+    }
   }
-  const int width = expected.stages[0].width, height = expected.stages[0].height;
-  for (int d = 0; d < expected.volume.disparities(); ++d) {
-    EXPECT_TRUE(test::same_pixels(
-        width, height,
-        [&](int x, int y) { return d <= x ? expected.volume.at(x, y, d) / 16.0 : 0.0; },
-        [&](int x, int y) { return d <= x ? matcher.cost(x, y, d) : 0.0; }))
-        << "costs of disparity " << d;
+}
+
+/// Compares what a step leaves with what its scalar version leaves.
+void expect_step(const reference::Frame& expected, const Step& step, const FrameMemory& memory) {
+  SCOPED_TRACE(testing::Message() << "after " << step.name);
+  for (int side = 0; side < 2; ++side) {
+    if (step.name == "halving") {
+      EXPECT_TRUE(same_image(expected.views[side], memory.views.matched[side]));
+    } else if (step.name == "preprocessing") {
+      EXPECT_TRUE(same_image(expected.levels[side], memory.views.preprocessed[side].level.view()));
+    }
   }
-  const bool kept = matcher.stage(Stage::kFinal).width > 0;
-  for (const Stage stage : kAllStages) {
-    if (!kept) break;
-    EXPECT_TRUE(same_image(expected.stages[static_cast<int>(stage)], matcher.stage(stage)))
-        << "stage " << static_cast<int>(stage);
+  if (step.name == "cost-volume") {
+    for (int d = 0; d < expected.volume.disparities(); ++d) {
+      EXPECT_TRUE(test::same_pixels(
+          expected.views[0].width, expected.views[0].height,
+          [&](int x, int y) { return d <= x ? int{expected.volume.at(x, y, d)} : 0; },
+          [&](int x, int y) { return d <= x ? int{memory.costs.volume.at(x, y, d)} : 0; }))
+          << "costs of disparity " << d;
+    }
   }
-  EXPECT_TRUE(same_image(expected.confidence, matcher.confidence())) << "confidence";
+  if (step.name == "node-matching") expect_ends(expected, memory.nodes);
+  const DisparityView map = test::map_after(step, memory);
+  if (map.width > 0) {
+    EXPECT_TRUE(same_image(expected.map, map));
+  }
+  if (step.name == "confidence" || step.name == "gap-filling") {
+    EXPECT_TRUE(same_image(expected.confidence, memory.maps.confidence.view()));
+  }
+}
+
+/// Matches a pair and compares it with the scalar versions step by step. Returns the map.
+test::DisparityPlane expect_reference(FrameMatcher& matcher, const test::Pair& pair, GrayView left,
+                                      GrayView right) {
+  reference::Frame expected(pair.left, pair.right, matcher.settings());
+  matcher.compute(left, right, [&](const Step& step, const FrameMemory& memory) {
+    reference::run(step.name, expected);
+    expect_step(expected, step, memory);
+  });
+  EXPECT_TRUE(same_image(expected.map, matcher.disparity()));
+  EXPECT_TRUE(same_image(expected.confidence, matcher.confidence()));
+  return expected.map;
 }
 
 /// A pair that has something to match, or now and then none at all.
@@ -112,7 +139,7 @@ test::Pair random_pair(int width, int height, Random& random) {
 /// Returns the number of disparities found.
 long expect_reference_frames(int frames, std::uint64_t seed) {
   Random random(seed);
-  Matcher matcher = test::matcher({});
+  FrameMatcher matcher{Settings(Parameters())};
   long found = 0;
   for (int frame = 0; frame < frames && !testing::Test::HasFailure(); ++frame) {
     const int width = random.between(1, random.below(3) == 0 ? 8 : 75);
@@ -120,25 +147,13 @@ long expect_reference_frames(int frames, std::uint64_t seed) {
     const Parameters parameters = random_parameters(width, random);
     SCOPED_TRACE(testing::Message() << "frame " << frame << " of seed " << seed << ", " << width
                                     << "x" << height << ": " << text_of(parameters));
-    EXPECT_TRUE(matcher.set_parameters(parameters).ok());
-    const bool keeps = frame % 4 != 0;  // without, some maps are not made
-    matcher.keep_stages(keeps);
     const test::Pair pair = random_pair(width, height, random);
     const test::PaddedImage<std::uint8_t> left(pair.left, random.below(70), random.below(9));
     const test::PaddedImage<std::uint8_t> right(pair.right, random.below(70), random.below(9));
-    const Result<DisparityView> result = matcher.compute(left.view(), right.view());
-    if (!result.ok()) {
-      // The one combination that a frame can forbid here.
-      EXPECT_EQ(ErrorCode::kInvalidCombination, result.error().code) << result.error().message;
-      EXPECT_FALSE(parameters.check_frame(width, height).ok());
-      continue;
-    }
-    const reference::Frame expected = reference::match_frame(pair.left, pair.right, parameters);
-    EXPECT_EQ(keeps, matcher.stage(Stage::kFinal).width > 0);
-    expect_frame(expected, matcher);
-    EXPECT_TRUE(same_image(expected.map, *result));
+    if (!parameters.check_frame(width, height).ok()) continue;
+    matcher.set(Settings(parameters));
+    found += test::known(expect_reference(matcher, pair, left.view(), right.view()));
     EXPECT_TRUE(left.unchanged() && right.unchanged()) << "the input was written to";
-    found += test::known(expected.map);
   }
   return found;
 }
@@ -159,12 +174,9 @@ TEST(WholeFrame, EqualsReferenceWithTheDefaultsOfAllModes) {
       const Parameters parameters =
           test::parameters({{"preset", preset}, {"mode", mode}, {"max-disparity", "40"}});
       const test::Pair pair = test::slanted_pair(180, 70, 30, 9);
-      Matcher matcher = std::move(Matcher::create(parameters).value());
-      matcher.keep_stages(true);
-      const test::DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-      const reference::Frame expected = reference::match_frame(pair.left, pair.right, parameters);
-      expect_frame(expected, matcher);
-      EXPECT_TRUE(same_image(expected.map, map));
+      FrameMatcher matcher{Settings(parameters)};
+      const test::DisparityPlane map =
+          expect_reference(matcher, pair, pair.left.view(), pair.right.view());
       EXPECT_GT(test::known(map), 100);
     }
   }

@@ -140,7 +140,7 @@ TEST(NodeMatching, EqualsReferenceAtAFinerLevel) {
     }
     SearchIntervals intervals;
     intervals.resize(fine.left);
-    Buffer<std::int32_t> scratch;
+    IntervalScratch scratch;
     for (int y = 0; y < 20; y += 6) {
       finer_intervals(fine.left, coarse.left, before, options.neighbors, y, std::min(y + 6, 20),
                       scratch, intervals);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <string_view>
+#include <utility>
 
-#include "base/settings.hpp"
 #include "reference/nodes/node_extrapolation.hpp"
 #include "reference/nodes/outlier_removal.hpp"
 #include "reference/pixels/pixel_matching.hpp"
@@ -13,116 +15,169 @@
 #include "reference/refine/enlarging.hpp"
 #include "reference/refine/gap_filling.hpp"
 #include "reference/refine/map_smoothing.hpp"
-#include "reference/refine/rim_trimming.hpp"
 #include "reference/refine/speckle_removal.hpp"
+#include "settings.hpp"
 
 namespace mtstereo::reference {
 
-/// Everything a matcher shows of one frame.
+/// What the scalar versions of the steps keep of one frame.
 struct Frame {
-  std::array<GrayPlane, 2> levels;  ///< the pre-processed views
+  Frame(const GrayPlane& left, const GrayPlane& right, const Settings& s)
+      : settings(s), given{left, right}, views{left, right} {}
+
+  const Settings settings;
+  std::array<GrayPlane, 2> given;
+  std::array<GrayPlane, 2> views;  ///< what is matched
+  std::array<GrayPlane, 2> medians;
+  std::array<GrayPlane, 2> levels;
+  std::array<Trees, 2> trees;
   Volume volume;
-  std::array<DisparityPlane, 5> stages;  ///< in the order of Stage
-  DisparityPlane map;                    ///< the result
+  Level leaves;
+  Matches matches;
+  DisparityPlane nodes;  ///< the drawn leaves, without outliers once these were removed
+  DisparityPlane map;
+  GrayPlane ratio;
   GrayPlane confidence;
 };
 
-/// The matches of the leaves, level by level.
-inline Matches match_levels(const std::array<Trees, 2>& trees, const Volume& volume,
-                            const CensusPair& census, const Settings& s, int width, Level& leaves) {
-  Level before;
-  Matches matches;
+inline void halve(Frame& f) {
+  for (int side = 0; side < 2; ++side) f.views[side] = halve(f.given[side]);
+}
+
+inline void preprocess(Frame& f) {
+  for (int side = 0; side < 2; ++side) {
+    f.medians[side] = median5(f.views[side]);
+    f.levels[side] = levels(f.medians[side], f.settings.gray_levels);
+  }
+}
+
+inline void build_trees(Frame& f) {
+  for (int side = 0; side < 2; ++side) f.trees[side] = max_trees(f.levels[side]);
+}
+
+inline void compute_costs(Frame& f) {
+  f.volume = cost_volume(cost_input(f.medians[0]), cost_input(f.medians[1]), f.settings.disparities,
+                         f.settings.cost_kernel_size,
+                         f.settings.cost_volume == CostVolumeResolution::kHalf ? 1 : 0);
+}
+
+inline void match_levels(Frame& f) {
+  const Settings& s = f.settings;
+  const int width = f.views[0].width;
+  const CensusPair census_pair = {census(f.views[0]), census(f.views[1])};
   for (int n = 0; n < s.node_levels.count; ++n) {
     const double below = s.max_node_width * width;
-    const Level left = select_nodes(trees[0], s.node_levels.level[n], s.min_node_width, below);
-    const Level right = select_nodes(trees[1], s.node_levels.level[n], s.min_node_width, below);
-    const Intervals intervals = n == 0 ? first_intervals(left, s.disparities)
-                                       : finer_intervals(left, before, matches, s.max_neighbors);
+    const Level left = select_nodes(f.trees[0], s.node_levels.level[n], s.min_node_width, below);
+    const Level right = select_nodes(f.trees[1], s.node_levels.level[n], s.min_node_width, below);
+    const Intervals intervals = n == 0
+                                    ? first_intervals(left, s.disparities)
+                                    : finer_intervals(left, f.leaves, f.matches, s.max_neighbors);
     const PairInput input{
-        trees[0], trees[1],          left, right, s.node_census ? nullptr : &volume,
-        &census,  s.intensity_weight};
-    matches =
+        f.trees[0],   f.trees[1],        left, right, s.census() ? nullptr : &f.volume,
+        &census_pair, s.intensity_weight};
+    f.matches =
         match_nodes(input, intervals, s.max_neighbors, s.disparities, s.node_confidence, width);
-    before = left;
+    f.leaves = left;
   }
-  leaves = before;
-  return matches;
+  f.nodes = draw_matches(f.leaves, f.matches, width);
 }
 
-/// Guided pixel matching by the one or the other cost.
-inline RatedMap match_pixels(const GrayPlane& left, const GrayPlane& right, const Volume& volume,
-                             const Settings& s, const DisparityPlane& nodes) {
-  if (!s.census) return match_pixels(volume, {s.search_range, s.selection}, nodes);
-  return match_pixels_by_census(left, right,
-                                {s.search_range, s.census_cost, s.smoothness, s.selection}, nodes);
+inline void draw_nodes(Frame& f) { f.map = f.nodes; }
+
+inline void remove_node_outliers(Frame& f) {
+  f.map = f.nodes = remove_outliers(f.nodes, f.settings.outlier_radius);
 }
 
-/// What is kept of the pixels' disparities, and how sure it is.
-inline ConfidentMap refine(const RatedMap& pixels, const Level& leaves,
-                           const DisparityPlane& filtered_nodes, const Settings& s) {
-  ConfidentMap out;
-  out.map = s.pixel_outliers ? remove_outliers(pixels.map, s.outlier_radius) : pixels.map;
-  out.map = remove_speckles(out.map, 256, s.speckle_size);
-  out.confidence = rate_support(out.map, pixels.ratio);
+inline void extrapolate(Frame& f) {
+  f.map = extrapolate(f.leaves, f.nodes, f.settings.max_neighbors, f.settings.drawn_end_width());
+}
+
+inline void take(Frame& f, const RatedMap& pixels) {
+  f.map = pixels.map;
+  f.ratio = pixels.ratio;
+}
+
+inline void match_by_census(Frame& f) {
+  take(f, match_pixels_by_census(f.views[0], f.views[1], f.settings.census_matching(), f.map));
+}
+
+inline void match_by_gradient(Frame& f) {
+  take(f, match_pixels(f.volume, {f.settings.search_range, f.settings.selection}, f.map));
+}
+
+inline void remove_pixel_outliers(Frame& f) {
+  f.map = remove_outliers(f.map, f.settings.outlier_radius);
+}
+
+inline void remove_speckles(Frame& f) {
+  f.map = remove_speckles(f.map, 256, f.settings.speckle_size);
+}
+
+inline void rate_confidence(Frame& f) {
+  const Settings& s = f.settings;
+  f.confidence = rate_support(f.map, f.ratio);
   const auto keep_where = [&](auto&& keep) {
-    for (std::size_t i = 0; i < out.map.pixels.size(); ++i) {
-      if (!keep(i)) out.map.pixels[i] = out.confidence.pixels[i] = 0;
+    for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
+      if (!keep(i)) f.map.pixels[i] = f.confidence.pixels[i] = 0;
     }
   };
-  keep_where([&](std::size_t i) { return out.confidence.pixels[i] >= s.min_confidence; });
-  if (s.rim_trim > 0) {
-    const DisparityPlane trimmed = trim_rim(out.map, s.rim_trim);
-    keep_where([&](std::size_t i) { return trimmed.pixels[i] != 0; });
-  }
-  if (s.mode == Mode::kSparse && s.census) {
-    const Plane<int> ends = leaf_ends(leaves, filtered_nodes, s.max_neighbors, s.node_end_width);
-    keep_where([&](std::size_t i) { return ends.pixels[i] != 0; });
-  }
-  out = fill_gaps(out, s.max_gap, 256, 1, 0);
-  out = fill_gaps(out, s.max_gap, 256, 0, 1);
-  out.map = smooth(out.map, s.smoothing_radius);
-  return out;
+  keep_where([&](std::size_t i) { return f.confidence.pixels[i] >= s.min_confidence; });
+  if (!s.keeps_only_ends()) return;
+  const Plane<int> ends = leaf_ends(f.leaves, f.nodes, s.max_neighbors, s.node_end_width);
+  keep_where([&](std::size_t i) { return ends.pixels[i] != 0; });
 }
 
-/// The method on a pair as it is.
-inline Frame match_views(const GrayPlane& left, const GrayPlane& right, const Settings& s) {
-  Frame frame;
-  const std::array<GrayPlane, 2> medians = {median5(left), median5(right)};
-  std::array<Trees, 2> trees;
-  for (int side = 0; side < 2; ++side) {
-    frame.levels[side] = levels(medians[side], s.gray_levels);
-    trees[side] = max_trees(frame.levels[side]);
-  }
-  if (s.needs_volume())
-    frame.volume = cost_volume(cost_input(s.median_in_costs ? medians[0] : left),
-                               cost_input(s.median_in_costs ? medians[1] : right), s.disparities,
-                               s.cost_kernel_size, s.cost_shift);
-  Level leaves;
-  const Matches matches =
-      match_levels(trees, frame.volume, {census(left), census(right)}, s, left.width, leaves);
-  frame.stages[0] = draw_matches(leaves, matches, left.width);
-  frame.stages[1] = remove_outliers(frame.stages[0], s.outlier_radius);
-  const bool only_ends = s.mode == Mode::kSparse && !s.census;
-  frame.stages[2] =
-      extrapolate(leaves, frame.stages[1], s.max_neighbors, only_ends ? s.node_end_width : 0);
-  const RatedMap pixels = match_pixels(left, right, frame.volume, s, frame.stages[2]);
-  frame.stages[3] = pixels.map;
-  const ConfidentMap result = refine(pixels, leaves, frame.stages[1], s);
-  frame.stages[4] = frame.map = result.map;
-  frame.confidence = result.confidence;
-  return frame;
+inline void fill_gaps(Frame& f) {
+  ConfidentMap filled = {f.map, f.confidence};
+  filled = fill_gaps(filled, f.settings.max_gap, 256, 1, 0);
+  filled = fill_gaps(filled, f.settings.max_gap, 256, 0, 1);
+  f.map = filled.map;
+  f.confidence = filled.confidence;
 }
 
-/// The whole method on one pair.
-inline Frame match_frame(const GrayPlane& left, const GrayPlane& right,
-                         const Parameters& parameters) {
-  const Settings s(parameters);
-  if (!s.half) return match_views(left, right, s);
-  Frame frame = match_views(halve(left), halve(right), s);
-  frame.map = enlarge(frame.map, left.width, left.height, s.max_disparity);
-  if (s.refined) frame.map = refine(census(left), census(right), frame.map, s.max_disparity);
-  frame.confidence = enlarge_confidence(frame.confidence, left.width, left.height);
-  return frame;
+inline void smooth(Frame& f) { f.map = smooth(f.map, f.settings.smoothing_radius); }
+
+inline void enlarge(Frame& f) {
+  const int width = f.given[0].width, height = f.given[0].height;
+  f.map = enlarge(f.map, width, height, f.settings.max_disparity);
+  f.confidence = enlarge_confidence(f.confidence, width, height);
+}
+
+inline void refine(Frame& f) {
+  f.map = refine(census(f.given[0]), census(f.given[1]), f.map, f.settings.max_disparity);
+}
+
+inline void nothing(Frame&) {}  // reference::census() is computed where it is needed
+
+/// The scalar version of each step of the matcher's list, by its name.
+inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = {
+    {"halving", halve},
+    {"preprocessing", preprocess},
+    {"max-trees", build_trees},
+    {"census", nothing},
+    {"cost-volume", compute_costs},
+    {"node-matching", match_levels},
+    {"node-drawing", draw_nodes},
+    {"node-outliers", remove_node_outliers},
+    {"node-extrapolation", extrapolate},
+    {"census-matching", match_by_census},
+    {"gradient-matching", match_by_gradient},
+    {"pixel-outliers", remove_pixel_outliers},
+    {"speckle-removal", remove_speckles},
+    {"confidence", rate_confidence},
+    {"gap-filling", fill_gaps},
+    {"smoothing", smooth},
+    {"enlarging", enlarge},
+    {"given-census", nothing},
+    {"refinement", refine},
+};
+
+/// Runs the scalar version of a step. A step without one leaves the frame as it is: where the step
+/// changes a map, the comparison after it fails.
+inline void run(std::string_view step, Frame& frame) {
+  const auto* found = std::find_if(std::begin(kScalarSteps), std::end(kScalarSteps),
+                                   [&](const auto& scalar) { return scalar.first == step; });
+  if (found != std::end(kScalarSteps)) found->second(frame);
 }
 
 }  // namespace mtstereo::reference

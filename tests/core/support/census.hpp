@@ -15,9 +15,9 @@ inline CensusImage census_of(GrayView image, int band = 1 << 20) {
   CensusImage census;
   census.resize(image.width, image.height);
   poison(census.bits);
-  Image<std::uint8_t> scratch;
-  scratch.resize(image.width + 4, std::min(band, image.height) + 4);
-  poison(scratch);
+  CensusScratch scratch;
+  scratch.resize(image.width, std::min(band, image.height));
+  poison(scratch.padded);
   for (int i = (image.height + band - 1) / band - 1; i >= 0; --i) {
     census_rows(image, i * band, std::min((i + 1) * band, image.height), scratch, census);
   }

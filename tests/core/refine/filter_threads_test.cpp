@@ -5,10 +5,8 @@
 
 #include "base/thread_pool.hpp"
 #include "reference/refine/gap_filling.hpp"
-#include "reference/refine/rim_trimming.hpp"
 #include "reference/refine/speckle_removal.hpp"
 #include "stages/refine/gap_filling.hpp"
-#include "stages/refine/rim_trimming.hpp"
 #include "stages/refine/speckle_removal.hpp"
 #include "support/compare.hpp"
 #include "support/random_maps.hpp"
@@ -75,27 +73,6 @@ TEST(FilterThreads, FillTheSameGaps) {
       const reference::ConfidentMap expected = reference::fill_gaps(rows, 9, 500, 0, 1);
       EXPECT_TRUE(same_image(expected.map, image)) << threads << " threads";
       EXPECT_TRUE(same_image(expected.confidence, image_confidence)) << threads << " threads";
-    }
-  }
-}
-
-TEST(FilterThreads, TrimTheSameRim) {
-  for (const int threads : kThreadCounts) {
-    ThreadPool pool(threads);
-    std::vector<RimScratch> scratch(threads);
-    Image<std::uint8_t> marks;
-    for (int seed = 0; seed < 10; ++seed) {
-      const DisparityPlane map = test::patches(150, 330, 0, 40 + seed);
-      Image<std::int32_t> image = image_of(map);
-      marks.resize(map.width, map.height);
-      for (RimScratch& one : scratch) one.resize(map.width, 2);
-      for_parts(pool, map.height, kBand, [&](int y0, int y1, int worker) {
-        mark_rim(image, 2, y0, y1, scratch[worker], marks);
-      });
-      for_parts(pool, map.height, kBand, [&](int y0, int y1, int worker) {
-        trim_rim(marks, 2, y0, y1, scratch[worker], image);
-      });
-      EXPECT_TRUE(same_image(reference::trim_rim(map, 2), image)) << threads << " threads";
     }
   }
 }

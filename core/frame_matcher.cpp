@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "frame_matcher.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "stages/prepare/halving.hpp"
+
+namespace mtstereo {
+namespace {
+
+int thread_count(const Settings& settings) {
+  if (settings.threads > 0) return settings.threads;
+  return std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
+}
+
+/// Counts in 32 bits, as wide as the disparities: vectors of both fit.
+int known_pixels(const std::int32_t* row, int width) {
+  int known = 0;
+  for (int x = 0; x < width; ++x) known += row[x] != kNoDisparity;
+  return known;
+}
+
+}  // namespace
+
+void FrameMatcher::set(const Settings& settings) {
+  settings_ = settings;
+  sized_ = false;
+}
+
+void FrameMatcher::resize(ImageSize frame) {
+  if (sized_ && size_.frame == frame) return;
+  sized_ = false;
+  size_.frame = frame;
+  size_.matched = settings_.half() ? ImageSize{half_of(frame.width), half_of(frame.height)} : frame;
+  size_.threads = thread_count(settings_);
+  if (!pool_ || pool_->threads() != size_.threads) {
+    pool_.reset();
+    pool_.emplace(size_.threads);
+  }
+  memory_.resize(settings_, size_);
+  sized_ = true;
+}
+
+void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observer) {
+  disparity_ = {};
+  confidence_ = {};
+  resize({left.width, left.height});
+  Views& views = memory_.views;
+  views.given = {left, right};
+  views.matched = views.given;
+  if (settings_.half()) views.matched = {views.halves[0].view(), views.halves[1].view()};
+  const Bands bands(*pool_, size_.matched.height);
+  const Bands given_bands(*pool_, size_.frame.height);
+  const StepContext context = {settings_, bands, given_bands};
+  for (const Step& step : steps()) {
+    if (!step.runs(settings_)) continue;
+    step.run(context, memory_);
+    if (observer) observer(step, memory_);
+  }
+  const bool half = settings_.half();
+  const Image<std::int32_t>& map = settings_.refined() ? memory_.enlarged.refined
+                                   : half              ? memory_.enlarged.disparity
+                                                       : memory_.maps.disparity;
+  disparity_ = map.view();
+  confidence_ = half ? memory_.enlarged.confidence.view() : memory_.maps.confidence.view();
+}
+
+double FrameMatcher::density() {
+  if (disparity_.height == 0) return 0;
+  std::atomic<std::int64_t> known{0};
+  Bands(*pool_, disparity_.height).rows([&](int y0, int y1, int) {
+    std::int64_t in_band = 0;
+    for (int y = y0; y < y1; ++y) in_band += known_pixels(disparity_.row(y), disparity_.width);
+    known += in_band;
+  });
+  return static_cast<double>(known) / (static_cast<double>(disparity_.width) * disparity_.height);
+}
+
+}  // namespace mtstereo

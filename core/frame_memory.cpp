@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "frame_memory.hpp"
+
+#include <algorithm>
+
+#include "base/bands.hpp"
+#include "stages/prepare/halving.hpp"
+
+namespace mtstereo {
+namespace {
+
+/// Rows of a band, where the image has that many.
+int band_rows(const ImageSize& size) { return std::min(Bands::kRows, size.height); }
+
+}  // namespace
+
+void Views::resize(const Settings& settings, const FrameSize& size) {
+  const auto [width, height] = size.matched;
+  for (int side = 0; side < 2; ++side) {
+    if (settings.half()) halves[side].resize(width, height);
+    preprocessed[side].resize(width, height);
+    if (!settings.census()) preprocessed[side].resize_costs(width, height);
+    trees[side].resize(width, height);
+    if (settings.census()) census[side].resize(width, height);
+    if (settings.refined()) given_census[side].resize(size.frame.width, size.frame.height);
+  }
+  scratch.resize(size.threads);
+  for (Scratch& worker : scratch) {
+    worker.median.resize(width);
+    worker.sobel.resize(width);
+    const ImageSize& largest = settings.refined() ? size.frame : size.matched;
+    worker.census.resize(largest.width, band_rows(largest));
+  }
+}
+
+void Nodes::resize(const Settings& settings, const FrameSize& size) {
+  const auto [width, height] = size.matched;
+  level_count = settings.node_levels.count;
+  for (int i = 0; i < level_count; ++i) {
+    levels[i].left.resize(width, height);
+    levels[i].right.resize(width, height);
+    levels[i].intervals.resize(levels[i].left);
+    levels[i].matches.resize(levels[i].left);
+  }
+  ends.resize(leaves().left);
+  scratch.resize(size.threads);
+  for (Scratch& worker : scratch) {
+    worker.intervals.resize(width);
+    worker.match.resize(width, settings.disparities, settings.max_neighbors);
+  }
+}
+
+void Costs::resize(const Settings& settings, const FrameSize& size) {
+  const auto [width, height] = size.matched;
+  scratch.resize(size.threads);
+  if (settings.census()) {
+    for (Scratch& worker : scratch) worker.census.resize(width, settings.census_matching());
+    return;
+  }
+  const int shift = settings.cost_volume == CostVolumeResolution::kHalf ? 1 : 0;
+  if (kernel.empty() || kernel_size != settings.cost_kernel_size || volume.shift != shift) {
+    kernel = smoothing_kernel(settings.cost_kernel_size, shift);
+    kernel_size = settings.cost_kernel_size;
+  }
+  volume.resize(width, height, settings.disparities, shift);
+  for (Scratch& worker : scratch) {
+    worker.volume.resize(volume, kernel);
+    worker.gradient.resize(width);
+  }
+}
+
+void Maps::resize(const Settings& settings, const FrameSize& size) {
+  const auto [width, height] = size.matched;
+  disparity.resize(width, height);
+  ratio.resize(width, height);
+  confidence.resize(width, height);
+  if (settings.outlier_radius > 0) votes.resize(width, height, settings.outlier_radius);
+  speckles.resize(width, height);
+  support.resize(width, height);
+  if (settings.smoothing_radius > 0) smoothed.resize(width, height);
+  scratch.resize(size.threads);
+  for (Scratch& worker : scratch) {
+    worker.marks.resize(width);
+    worker.support.resize(width);
+    worker.columns.resize(Bands::kColumns);
+    worker.smoothing.resize(width, settings.smoothing_radius);
+  }
+}
+
+void EnlargedMaps::resize(const Settings& settings, const FrameSize& size) {
+  const auto [width, height] = size.frame;
+  if (settings.half()) {
+    disparity.resize(width, height);
+    confidence.resize(width, height);
+  }
+  if (!settings.refined()) return;
+  refined.resize(width, height);
+  scratch.resize(size.threads);
+  for (RefinementScratch& worker : scratch) worker.resize(width);
+}
+
+void FrameMemory::resize(const Settings& settings, const FrameSize& size) {
+  views.resize(settings, size);
+  nodes.resize(settings, size);
+  costs.resize(settings, size);
+  maps.resize(settings, size);
+  enlarged.resize(settings, size);
+}
+
+}  // namespace mtstereo

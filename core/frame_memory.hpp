@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/buffer.hpp"
+#include "base/limits.hpp"
+#include "settings.hpp"
+#include "stages/nodes/node_extrapolation.hpp"
+#include "stages/nodes/node_levels.hpp"
+#include "stages/nodes/node_matching.hpp"
+#include "stages/nodes/outlier_removal.hpp"
+#include "stages/pixels/census_matching.hpp"
+#include "stages/pixels/pixel_matching.hpp"
+#include "stages/prepare/census.hpp"
+#include "stages/prepare/cost_volume.hpp"
+#include "stages/prepare/max_tree.hpp"
+#include "stages/prepare/median_filter.hpp"
+#include "stages/prepare/preprocess.hpp"
+#include "stages/refine/confidence.hpp"
+#include "stages/refine/disparity_refinement.hpp"
+#include "stages/refine/map_smoothing.hpp"
+#include "stages/refine/speckle_removal.hpp"
+
+namespace mtstereo {
+
+/// The memory of one matcher, in groups. A group holds the results of its stages, which later
+/// stages read, and the scratch memory of each thread. It is sized by its own resize(), the only
+/// place that allocates, which must be called after every change of settings or size. Buffers only
+/// grow, so that resize() is cheap where nothing larger is needed.
+
+/// A width and a height [px].
+struct ImageSize {
+  int width = 0;
+  int height = 0;
+  bool operator==(const ImageSize&) const = default;
+};
+
+/// What the groups are sized by.
+struct FrameSize {
+  ImageSize frame;    ///< of the given views and the result
+  ImageSize matched;  ///< of what is matched: the frame's size, or half of it
+  int threads = 1;
+};
+
+/// The two views and what the stages in prepare/ make of each. All arrays are indexed by Side.
+struct Views {
+  std::array<GrayView, 2> given;    ///< the views of this frame; they belong to the caller
+  std::array<GrayView, 2> matched;  ///< what is matched: the given views or their halves
+  std::array<Image<std::uint8_t>, 2> halves;
+  std::array<PreprocessedView, 2> preprocessed;
+  std::array<MaxTrees, 2> trees;
+  std::array<CensusImage, 2> census;        ///< of the matched views
+  std::array<CensusImage, 2> given_census;  ///< of the given views, for the refinement of halves
+
+  struct Scratch {
+    MedianScratch median;
+    SobelScratch sobel;
+    CensusScratch census;
+  };
+  std::vector<Scratch> scratch;  ///< one for each thread
+
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
+/// One level of S: its nodes and their matches.
+struct NodeLevelMatches {
+  NodeLevel left;
+  NodeLevel right;
+  SearchIntervals intervals;
+  NodeMatches matches;
+};
+
+/// The nodes and their matches: the stages in nodes/.
+struct Nodes {
+  std::array<NodeLevelMatches, kMostNodeLevels> levels;  ///< coarse to fine
+  int level_count = 0;                                   ///< number of levels that are used
+  LeafDisparities ends;                                  ///< of the leaves, the finest level
+
+  struct Scratch {
+    IntervalScratch intervals;
+    MatchScratch match;
+  };
+  std::vector<Scratch> scratch;  ///< one for each thread
+
+  const NodeLevelMatches& leaves() const { return levels[level_count - 1]; }
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
+/// The costs of pixels: the cost volume (gradient), or a few rows of census costs in each thread's
+/// scratch memory.
+struct Costs {
+  SmoothingKernel kernel;
+  int kernel_size = 0;  ///< the size [px] that the kernel was made for
+  CostVolume volume;
+
+  struct Scratch {
+    CostScratch volume;
+    CensusMatchingScratch census;
+    PixelMatchingScratch gradient;
+  };
+  std::vector<Scratch> scratch;  ///< one for each thread
+
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
+/// The disparity map of the matched views and what the stages in refine/ need beside it.
+struct Maps {
+  Image<std::int32_t> disparity;
+  Image<std::uint8_t> ratio;       ///< peak ratios
+  Image<std::uint8_t> confidence;  ///< 1 .. 255, 0 where there is no disparity
+  VoteMap votes;
+  SpeckleRuns speckles;
+  SupportMap support;
+  Image<std::int32_t> smoothed;  ///< smoothed along the rows only
+
+  struct Scratch {
+    Buffer<std::uint8_t> marks;  ///< a row
+    SupportScratch support;
+    Buffer<std::int32_t> columns;  ///< a block of columns
+    SmoothingScratch smoothing;
+  };
+  std::vector<Scratch> scratch;  ///< one for each thread
+
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
+/// The map at the size of the given views, where their halves are matched.
+struct EnlargedMaps {
+  Image<std::int32_t> disparity;
+  Image<std::uint8_t> confidence;
+  Image<std::int32_t> refined;
+  std::vector<RefinementScratch> scratch;  ///< one for each thread
+
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
+/// All groups.
+struct FrameMemory {
+  Views views;
+  Nodes nodes;
+  Costs costs;
+  Maps maps;
+  EnlargedMaps enlarged;
+
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
+}  // namespace mtstereo

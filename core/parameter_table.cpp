@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The parameter table: every parameter is described here and nowhere else.
+#include <algorithm>
+
+#include "base/limits.hpp"
+#include "choices.hpp"
+#include "mtstereo/parameters.hpp"
+
+namespace mtstereo {
+namespace {
+
+using P = Parameter;
+using T = ParameterType;
+
+// clang-format off
+// The defaults of a row: those of the presets default, fast and paper, each in the modes sparse,
+// semi-dense and dense.
+#define MODES(sparse, semi_dense, dense) {{sparse, semi_dense, dense}}
+#define BY_MODE(standard, fast, paper) {{standard, fast, paper}}
+// One default for each preset.
+#define EACH(standard, fast, paper) \
+  BY_MODE(MODES(standard, standard, standard), MODES(fast, fast, fast), MODES(paper, paper, paper))
+// One default for every preset and mode.
+#define ALL(value) EACH(value, value, value)
+
+constexpr ParameterInfo kTable[] = {
+    {P::kPreset, "preset", "", "", T::kChoice, 0, 2, "default|fast|paper", EACH("default", "fast", "paper"),
+     "source of the defaults of all other parameters: the most accurate settings, the most accurate settings "
+     "that take a third of the time, or the published method",
+     {"the most accurate settings", "the most accurate settings that take a third of the time", "the published method"}},
+    {P::kMode, "mode", "", "", T::kChoice, 0, 2, "sparse|semi-dense|dense", BY_MODE(MODES("sparse", "semi-dense", "dense"), MODES("sparse", "semi-dense", "dense"), MODES("sparse", "semi-dense", "semi-dense")),
+     "which pixels get a disparity: few and reliable ones at the ends of the finest nodes, all reliable ones, "
+     "or most pixels, with gaps filled",
+     {"few pixels with few errors, at the ends of the finest nodes", "all disparities that can be trusted", "most pixels: less certain disparities too, and gaps filled"}},
+    {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", ALL("64"),
+     "the disparities 0 .. max-disparity - 1 are searched; the nearest measurable point is at "
+     "focal length * baseline / max-disparity"},
+    {P::kResolution, "resolution", "", "", T::kChoice, 0, 2, "full|half-refined|half", EACH("full", "half-refined", "full"),
+     "resolution at which the views are matched: half is several times as fast, and half-refined refines its "
+     "disparities at full resolution; the disparity map always has the size and the px of the views, all "
+     "parameters below count px of the matched resolution",
+     {"matched at full resolution", "matched at half resolution, refined at full resolution", "matched at half resolution only"}},
+    {P::kThreads, "threads", "", "", T::kInteger, 0, 256, "", ALL("0"),
+     "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
+    {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, kLargestGrayLevels, "", BY_MODE(MODES("16", "16", "16"), MODES("16", "16", "16"), MODES("16", "8", "8")),
+     "levels that the pre-processed image is quantized to: more levels, deeper trees, smaller leaves"},
+    {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", EACH("5", "3", "0"),
+     "finest nodes must be wider than this"},
+    {P::kMaxNodeWidth, "max-node-width", "omega_beta", "image widths", T::kNumber, 0.001, 1, "", EACH("1", "1", "0.5"),
+     "finest nodes must be narrower than this share of the image's width"},
+    {P::kNodeLevels, "node-levels", "S", "", T::kLevels, 0, kLargestNodeLevel, "", EACH("0", "0", "1,0"),
+     "matched node levels, coarse to fine: level n holds the n-th ancestors of the finest nodes; "
+     "strictly falling, the last one is 0"},
+    {P::kMaxNeighbors, "max-neighbors", "omega_gamma", "rows", T::kInteger, 0, kLargestNeighbors, "", ALL("10"),
+     "neighbors above and below that a node is matched together with"},
+    {P::kCost, "cost", "", "", T::kChoice, 0, 1, "census|gradient", EACH("census", "census", "gradient"),
+     "matching cost of nodes and pixels: the census transform, which no change of exposure alters, optimized "
+     "along the scan-lines, or the paper's smoothed cost volume of gray values and gradients",
+     {"census transform, optimized along the scan-lines", "smoothed cost volume of gray values and gradients, as in the paper"}},
+    {P::kCostKernelSize, "cost-kernel-size", "omega_cv", "px", T::kInteger, 1, kLargestCostKernel, "", ALL("21"),
+     "side of the Gaussian that smooths the cost volume (gradient), an odd number; 1 = no smoothing"},
+    {P::kCostVolume, "cost-volume", "", "", T::kChoice, 0, 1, "half|full", ALL("half"),
+     "resolution of the smoothed cost volume (gradient): half takes a quarter of the memory, full is exact",
+     {"half resolution, a quarter of the memory", "full resolution, exact costs"}},
+    {P::kIntensityWeight, "intensity-weight", "alpha", "", T::kNumber, 0, 1, "", EACH("1", "1", "0.8"),
+     "share of the intensity cost in the cost of a node pair; the rest is the context cost, which compares the "
+     "widths of the nodes' ancestors"},
+    {P::kNodeConfidence, "node-confidence", "omega_Pi, coarse to fine", "%", T::kNumber, 0, 1000, "", EACH("3", "3", "12"),
+     "a node pair is accepted where the second-best pair costs more than this above the best"},
+    {P::kOutlierRadius, "outlier-radius", "", "px", T::kInteger, 0, kLargestOutlierRadius, "", EACH("0", "0", "21"),
+     "half the side of the window in which a disparity must agree with most others; 0 = no outlier removal"},
+    {P::kOutlierRemoval, "outlier-removal", "", "", T::kChoice, 0, 1, "nodes|nodes-and-pixels", EACH("nodes", "nodes", "nodes-and-pixels"),
+     "where outliers are removed: from the disparities of nodes only, or from those of pixels too",
+     {"from the disparities of nodes only", "from the disparities of nodes and of pixels"}},
+    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, kLargestCensusKernel, "", EACH("5", "3", "5"),
+     "side of the window that census costs are summed over: 1, 3 or 5"},
+    {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", ALL("15"),
+     "guided pixel matching expects disparities this much below and above the node's"},
+    {P::kBetweenNodes, "between-nodes", "", "", T::kChoice, 0, 2, "none|span|all", EACH("all", "all", "none"),
+     "what is expected of a pixel between two nodes: no disparity, the disparities that both nodes span, or any",
+     {"no disparity is expected", "the disparities that the two nodes span are expected", "every disparity is expected"}},
+    {P::kRangePenalty, "range-penalty", "", "bits", T::kInteger, 0, kLargestRangePenalty, "", ALL("2"),
+     "additional cost of a disparity that the nodes do not expect (census); with the gradient cost such a "
+     "disparity is never selected"},
+    {P::kSmallStepPenalty, "small-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", ALL("4"),
+     "cost of a step of one disparity from pixel to pixel of a scan-line (census)"},
+    {P::kLargeStepPenalty, "large-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", ALL("30"),
+     "cost of a larger step where the gray value is constant, less where it changes (census); "
+     "0 = no optimization along the scan-line"},
+    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", BY_MODE(MODES("6", "6", "2"), MODES("6", "6", "2"), MODES("12", "4", "4")),
+     "a pixel keeps its disparity where the second-best one costs more than this above the best"},
+    {P::kRunnerUp, "runner-up", "", "", T::kChoice, 0, 1, "any|expected", EACH("any", "any", "expected"),
+     "where the second-best disparity is searched: among all, or among those that the nodes expect",
+     {"among all disparities", "among the disparities that the nodes expect"}},
+    {P::kLeftRightTolerance, "left-right-tolerance", "", "px", T::kInteger, -1, kLargestMaxDisparity, "", EACH("1", "1", "-1"),
+     "largest difference between the disparity of a left pixel and that of its right one; -1 = no check"},
+    {P::kSubpixel, "subpixel", "", "", T::kBoolean, 0, 1, "", ALL("true"),
+     "refine the disparity between whole pixels: by a V through the costs (census) or a parabola (gradient)"},
+    {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", EACH("300", "75", "0"),
+     "connected areas with fewer pixels than this are removed; 0 = none"},
+    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("218", "190", "126"), MODES("228", "196", "136"), MODES("0", "0", "0")),
+     "disparities of lower confidence (1 .. 255) are removed; 0 = none; a filled gap has half the "
+     "confidence of its sides"},
+    {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, kLargestNodeEnd, "", EACH("9", "9", "1"),
+     "mode sparse: pixels that keep their disparity at each end of a finest node, an odd number"},
+    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "0", "30"), MODES("0", "0", "15"), MODES("0", "0", "0")),
+     "gaps up to this width are filled where both sides agree to 1 px; 0 = none"},
+    {P::kSmoothingRadius, "smoothing-radius", "", "px", T::kInteger, 0, kLargestSmoothingRadius, "", EACH("0", "3", "0"),
+     "disparities are smoothed along each surface over this many pixels on both sides, in rows and in columns; "
+     "0 = no smoothing"},
+};
+#undef ALL
+#undef EACH
+#undef BY_MODE
+#undef MODES
+// clang-format on
+
+static_assert(std::size(kTable) == kParameters);
+
+constexpr bool table_is_in_order() {
+  for (int i = 0; i < kParameters; ++i) {
+    if (static_cast<int>(kTable[i].id) != i) return false;
+  }
+  return true;
+}
+static_assert(table_is_in_order(), "the table has the order of Parameter");
+
+/// Whether the table's row of a choice has exactly the words that the enum is bound to.
+template <typename Enum>
+constexpr bool is_bound() {
+  const ParameterInfo& info = kTable[static_cast<int>(ChoiceOf<Enum>::kParameter)];
+  std::string_view rest = info.choices;
+  for (const std::string_view word : ChoiceOf<Enum>::kWords) {
+    if (rest.substr(0, word.size()) != word) return false;
+    rest.remove_prefix(word.size());
+    if (rest.empty()) return word == ChoiceOf<Enum>::kWords.back();
+    if (rest.front() != '|') return false;
+    rest.remove_prefix(1);
+  }
+  return false;
+}
+static_assert(is_bound<Preset>() && is_bound<Mode>() && is_bound<Resolution>() && is_bound<Cost>());
+static_assert(is_bound<CostVolumeResolution>() && is_bound<OutlierRemoval>());
+static_assert(is_bound<BetweenNodes>() && is_bound<RunnerUp>());
+
+}  // namespace
+
+std::span<const ParameterInfo> parameter_table() noexcept { return kTable; }
+
+const ParameterInfo& parameter_info(Parameter id) noexcept { return kTable[static_cast<int>(id)]; }
+
+const char* parameter_default(Parameter id, Preset preset, Mode mode) noexcept {
+  return parameter_info(id).defaults[static_cast<int>(preset)][static_cast<int>(mode)];
+}
+
+const ParameterInfo* find_parameter(std::string_view name) noexcept {
+  const auto* found = std::find_if(std::begin(kTable), std::end(kTable),
+                                   [&](const ParameterInfo& info) { return info.name == name; });
+  return found == std::end(kTable) ? nullptr : found;
+}
+
+}  // namespace mtstereo

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "settings.hpp"
+
+namespace mtstereo {
+namespace {
+
+using P = Parameter;
+
+/// A percentage as a share.
+double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
+
+int matched_disparities(const Parameters& p) {
+  const int disparities = p.integer(P::kMaxDisparity);
+  return choice<Resolution>(p) == Resolution::kFull ? disparities : (disparities + 1) / 2;
+}
+
+}  // namespace
+
+Settings::Settings(const Parameters& p)
+    : mode(p.mode()),
+      resolution(choice<Resolution>(p)),
+      cost(choice<Cost>(p)),
+      threads(p.integer(P::kThreads)),
+      max_disparity(p.integer(P::kMaxDisparity)),
+      disparities(matched_disparities(p)),
+      gray_levels(p.integer(P::kGrayLevels)),
+      min_node_width(p.integer(P::kMinNodeWidth)),
+      max_node_width(p.get(P::kMaxNodeWidth)),
+      node_levels(p.node_levels()),
+      max_neighbors(p.integer(P::kMaxNeighbors)),
+      cost_kernel_size(p.integer(P::kCostKernelSize)),
+      cost_volume(choice<CostVolumeResolution>(p)),
+      intensity_weight(static_cast<float>(p.get(P::kIntensityWeight))),
+      node_confidence(static_cast<float>(share(p, P::kNodeConfidence))),
+      outlier_radius(p.integer(P::kOutlierRadius)),
+      outlier_removal(choice<OutlierRemoval>(p)),
+      search_range{share(p, P::kPixelSearchRange), choice<BetweenNodes>(p), disparities},
+      census_cost{disparities, p.integer(P::kCensusKernelSize), p.integer(P::kRangePenalty)},
+      smoothness{p.integer(P::kSmallStepPenalty), p.integer(P::kLargeStepPenalty)},
+      selection{disparities, share(p, P::kPixelConfidence),
+                choice<RunnerUp>(p) == RunnerUp::kExpected, p.integer(P::kLeftRightTolerance),
+                p.get(P::kSubpixel) != 0},
+      speckle_size(p.integer(P::kSpeckleSize)),
+      min_confidence(p.integer(P::kMinConfidence)),
+      node_end_width(p.integer(P::kNodeEndWidth)),
+      max_gap(p.integer(P::kMaxGap)),
+      smoothing_radius(p.integer(P::kSmoothingRadius)) {}
+
+}  // namespace mtstereo

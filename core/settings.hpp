@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "choices.hpp"
+#include "mtstereo/parameters.hpp"
+#include "stages/pixels/census_cost.hpp"
+#include "stages/pixels/census_matching.hpp"
+#include "stages/pixels/disparity_selection.hpp"
+#include "stages/pixels/scanline_optimization.hpp"
+#include "stages/pixels/search_range.hpp"
+
+namespace mtstereo {
+
+/// The parameters of one frame as typed numbers: made from Parameters once, before the frame
+/// starts. The parameter table states the meaning of each field. Lengths in px count pixels of the
+/// matched resolution unless stated otherwise.
+struct Settings {
+  explicit Settings(const Parameters& parameters);
+
+  Mode mode;
+  Resolution resolution;
+  Cost cost;
+  int threads;        ///< 0: one for each processor
+  int max_disparity;  ///< D [px of the views]
+  int disparities;    ///< D [px]
+
+  // nodes
+  int gray_levels;                 ///< q
+  int min_node_width;              ///< omega_alpha [px]
+  double max_node_width;           ///< omega_beta, share of the image's width
+  Parameters::Levels node_levels;  ///< S
+  int max_neighbors;               ///< omega_gamma [rows]
+  int cost_kernel_size;            ///< omega_cv [px]
+  CostVolumeResolution cost_volume;
+  float intensity_weight;  ///< alpha, 0 .. 1
+  float node_confidence;   ///< omega_Pi of the nodes, as a share
+  int outlier_radius;      ///< [px], 0 = no outlier removal
+  OutlierRemoval outlier_removal;
+
+  // pixels
+  SearchRangeOptions search_range;
+  CensusCostOptions census_cost;
+  SmoothnessOptions smoothness;  ///< [bits]
+  SelectionOptions selection;
+
+  // refinement
+  int speckle_size;      ///< [px]
+  int min_confidence;    ///< 0 .. 255
+  int node_end_width;    ///< [px]
+  int max_gap;           ///< [px]
+  int smoothing_radius;  ///< [px]
+
+  /// Whether the views are matched at half resolution.
+  bool half() const { return resolution != Resolution::kFull; }
+  /// Whether the disparities are refined at full resolution after that.
+  bool refined() const { return resolution == Resolution::kHalfRefined; }
+  bool census() const { return cost == Cost::kCensus; }
+  CensusMatchingOptions census_matching() const {
+    return {search_range, census_cost, smoothness, selection};
+  }
+  /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost
+  /// the nodes themselves are drawn at their ends only, see drawn_end_width().
+  bool keeps_only_ends() const { return mode == Mode::kSparse && census(); }
+  /// Pixels around each end of a leaf that guided pixel matching starts from; 0: the whole leaf,
+  /// since the census cost is only guided by the nodes.
+  int drawn_end_width() const { return mode == Mode::kSparse && !census() ? node_end_width : 0; }
+};
+
+}  // namespace mtstereo

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The steps of the method and their order. To add one: a stage in stages/ with its test, a function
+// here that calls it, and a line in the list at the end. The build compiles the stages whose
+// headers are included here.
+#include "steps.hpp"
+
+#include <algorithm>
+
+#include "stages/nodes/disparity_drawing.hpp"
+#include "stages/nodes/node_extrapolation.hpp"
+#include "stages/nodes/node_levels.hpp"
+#include "stages/nodes/node_matching.hpp"
+#include "stages/nodes/outlier_removal.hpp"
+#include "stages/pixels/census_matching.hpp"
+#include "stages/pixels/pixel_matching.hpp"
+#include "stages/prepare/census.hpp"
+#include "stages/prepare/cost_volume.hpp"
+#include "stages/prepare/halving.hpp"
+#include "stages/prepare/max_tree.hpp"
+#include "stages/prepare/median_filter.hpp"
+#include "stages/prepare/preprocess.hpp"
+#include "stages/refine/confidence.hpp"
+#include "stages/refine/disparity_refinement.hpp"
+#include "stages/refine/enlarging.hpp"
+#include "stages/refine/gap_filling.hpp"
+#include "stages/refine/map_smoothing.hpp"
+#include "stages/refine/speckle_removal.hpp"
+
+namespace mtstereo {
+namespace {
+
+// prepare
+
+void halve(const StepContext& step, Views& views) {
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int) {
+    halve_rows(views.given[side], y0, y1, views.halves[side]);
+  });
+}
+
+void preprocess(const StepContext& step, Views& views) {
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
+    median_rows(views.matched[side], y0, y1, views.scratch[worker].median,
+                views.preprocessed[side].median);
+  });
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
+    PreprocessedView& view = views.preprocessed[side];
+    SobelScratch& scratch = views.scratch[worker].sobel;
+    level_rows(step.settings.gray_levels, y0, y1, scratch, view);
+    if (!step.settings.census()) cost_rows(view.median.view(), y0, y1, scratch, view);
+  });
+}
+
+void build_trees(const StepContext& step, Views& views, Nodes& nodes) {
+  const Settings& settings = step.settings;
+  const WidthRange widths = {1.0 * settings.min_node_width,
+                             settings.max_node_width * views.matched[0].width};
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int) {
+    build_max_trees(views.preprocessed[side].level, y0, y1, views.trees[side]);
+    for (int i = 0; i < nodes.level_count; ++i) {
+      NodeLevel& level = side == 0 ? nodes.levels[i].left : nodes.levels[i].right;
+      select_nodes(views.trees[side], settings.node_levels.level[i], widths, y0, y1, level);
+    }
+  });
+}
+
+void transform(const StepContext& step, Views& views) {
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
+    census_rows(views.matched[side], y0, y1, views.scratch[worker].census, views.census[side]);
+  });
+}
+
+void compute_cost_volume(const StepContext& step, const Views& views, Costs& costs) {
+  const int block = slices_per_block(costs.volume, costs.kernel);
+  step.bands.blocks(costs.volume.disparities, block, [&](int d0, int d1, int worker) {
+    compute_cost_slices(views.preprocessed[0], views.preprocessed[1], costs.kernel, d0, d1,
+                        costs.scratch[worker].volume, costs.volume);
+  });
+}
+
+// nodes
+
+/// Links the neighbors of level i and finds the search intervals of its left nodes.
+void prepare_level(const StepContext& step, int i, Nodes& nodes) {
+  NodeLevelMatches& level = nodes.levels[i];
+  const Settings& settings = step.settings;
+  step.bands.rows([&](int y0, int y1, int worker) {
+    link_neighbors(y0, y1, level.left);
+    link_neighbors(y0, y1, level.right);
+    if (i == 0) {
+      first_intervals(level.left, settings.disparities, y0, y1, level.intervals);
+    } else {
+      const NodeLevelMatches& before = nodes.levels[i - 1];
+      finer_intervals(level.left, before.left, before.matches, settings.max_neighbors, y0, y1,
+                      nodes.scratch[worker].intervals, level.intervals);
+    }
+  });
+}
+
+void match_levels(const StepContext& step, const Views& views, const Costs& costs, Nodes& nodes) {
+  const Settings& settings = step.settings;
+  for (int i = 0; i < nodes.level_count; ++i) {
+    prepare_level(step, i, nodes);
+    NodeLevelMatches& level = nodes.levels[i];
+    const PairCostInput input = {views.trees[0],
+                                 views.trees[1],
+                                 level.left,
+                                 level.right,
+                                 settings.census() ? nullptr : &costs.volume,
+                                 &views.census,
+                                 settings.intensity_weight};
+    // Nodes may be crowded in one part of the view: the work is the number of possible pairs.
+    const auto work = [&](int y) {
+      return 1 + std::int64_t{level.left.count[y]} * level.right.count[y];
+    };
+    step.bands.rows_by_work(work, [&](int y0, int y1, int worker) {
+      match_nodes(input, level.intervals, settings.max_neighbors, settings.node_confidence, y0, y1,
+                  nodes.scratch[worker].match, level.matches);
+      const bool leaves = i + 1 == nodes.level_count;
+      if (leaves) take_match_ends(level.left, level.matches, y0, y1, nodes.ends);
+    });
+  }
+}
+
+void draw_leaves(const StepContext& step, const Nodes& nodes, Maps& maps) {
+  const NodeLevelMatches& leaves = nodes.leaves();
+  step.bands.rows([&](int y0, int y1, int) {
+    draw_matches(leaves.left, leaves.matches, y0, y1, maps.disparity);
+  });
+}
+
+void remove_outliers(const StepContext& step, Maps& maps) {
+  step.bands.rows([&](int y0, int y1, int) { copy_votes(maps.disparity, y0, y1, maps.votes); });
+  step.bands.columns(maps.votes.integral.width(),
+                     [&](int x0, int x1, int) { sum_votes(x0, x1, maps.votes); });
+  step.bands.rows(
+      [&](int y0, int y1, int) { mtstereo::remove_outliers(maps.votes, y0, y1, maps.disparity); });
+}
+
+/// Removes outliers from the map of the nodes and takes what remains at their ends.
+void remove_node_outliers(const StepContext& step, Nodes& nodes, Maps& maps) {
+  remove_outliers(step, maps);
+  step.bands.rows([&](int y0, int y1, int) {
+    read_leaf_ends(nodes.leaves().left, maps.disparity, y0, y1, nodes.ends);
+  });
+}
+
+void extrapolate(const StepContext& step, Nodes& nodes, Maps& maps) {
+  const Settings& settings = step.settings;
+  step.bands.rows([&](int y0, int y1, int) {
+    extrapolate_leaves(nodes.leaves().left, settings.max_neighbors, settings.drawn_end_width(), y0,
+                       y1, nodes.ends, maps.disparity);
+  });
+}
+
+// pixels
+
+void match_by_census(const StepContext& step, const Views& views, Costs& costs, Maps& maps) {
+  const CensusMatchingOptions options = step.settings.census_matching();
+  step.bands.rows_per_thread([&](int y0, int y1, int worker) {
+    match_pixels_by_census(views.matched[0], views.census[0], views.census[1], options, y0, y1,
+                           costs.scratch[worker].census, maps.disparity, maps.ratio);
+  });
+}
+
+void match_by_gradient(const StepContext& step, Costs& costs, Maps& maps) {
+  const PixelMatchingOptions options = {step.settings.search_range, step.settings.selection};
+  step.bands.rows([&](int y0, int y1, int worker) {
+    match_pixels(costs.volume, options, y0, y1, costs.scratch[worker].gradient, maps.disparity,
+                 maps.ratio);
+  });
+}
+
+// refine
+
+void remove_speckles(const StepContext& step, Maps& maps) {
+  step.bands.rows([&](int y0, int y1, int) {
+    find_runs(maps.disparity, kDisparityOne, y0, y1, maps.speckles);
+  });
+  join_bands(maps.disparity, kDisparityOne, Bands::kRows, maps.speckles);
+  step.bands.rows([&](int y0, int y1, int) {
+    remove_small(maps.speckles, step.settings.speckle_size, y0, y1, maps.disparity);
+  });
+}
+
+void rate_confidence(const StepContext& step, const Nodes& nodes, Maps& maps) {
+  const Settings& settings = step.settings;
+  step.bands.rows([&](int y0, int y1, int worker) {
+    copy_support(maps.disparity, maps.ratio, y0, y1, maps.support);
+    // Pixels that lose their disparity here support others, but need no rating.
+    if (settings.keeps_only_ends()) {
+      keep_leaf_ends(nodes.leaves().left, nodes.ends, settings.node_end_width, y0, y1,
+                     maps.scratch[worker].marks, maps.disparity, maps.ratio);
+    }
+  });
+  step.bands.rows([&](int y0, int y1, int worker) {
+    rate_support(maps.support, maps.ratio, y0, y1, maps.scratch[worker].support, maps.confidence);
+    if (settings.min_confidence > 0) {
+      remove_doubtful(settings.min_confidence, y0, y1, maps.disparity, maps.confidence);
+    }
+  });
+}
+
+void fill_gaps(const StepContext& step, Maps& maps) {
+  const int max_gap = step.settings.max_gap;
+  step.bands.rows([&](int y0, int y1, int) {
+    fill_gaps_along_rows(max_gap, kDisparityOne, y0, y1, maps.disparity, maps.confidence);
+  });
+  step.bands.columns(maps.disparity.width(), [&](int x0, int x1, int worker) {
+    fill_gaps_along_columns(max_gap, kDisparityOne, x0, x1, maps.scratch[worker].columns,
+                            maps.disparity, maps.confidence);
+  });
+}
+
+void smooth(const StepContext& step, Maps& maps) {
+  const int radius = step.settings.smoothing_radius;
+  step.bands.rows([&](int y0, int y1, int worker) {
+    smooth_along_rows(maps.disparity, radius, y0, y1, maps.scratch[worker].smoothing,
+                      maps.smoothed);
+  });
+  step.bands.rows([&](int y0, int y1, int worker) {
+    smooth_along_columns(maps.smoothed, radius, y0, y1, maps.scratch[worker].smoothing,
+                         maps.disparity);
+  });
+}
+
+void enlarge(const StepContext& step, const Maps& maps, EnlargedMaps& enlarged) {
+  step.given_bands.rows([&](int y0, int y1, int) {
+    enlarge_rows(maps.disparity, step.settings.max_disparity, y0, y1, enlarged.disparity);
+    enlarge_confidence(maps.confidence, y0, y1, enlarged.confidence);
+  });
+}
+
+void transform_given(const StepContext& step, Views& views) {
+  step.given_bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
+    census_rows(views.given[side], y0, y1, views.scratch[worker].census, views.given_census[side]);
+  });
+}
+
+void refine(const StepContext& step, const Views& views, EnlargedMaps& enlarged) {
+  step.given_bands.rows_per_thread([&](int y0, int y1, int worker) {
+    refine_disparities(views.given_census[0], views.given_census[1], enlarged.disparity,
+                       step.settings.max_disparity, y0, y1, enlarged.scratch[worker],
+                       enlarged.refined);
+  });
+}
+
+// The groups of the memory by their type.
+template <typename Group>
+Group& group(FrameMemory& memory) {
+  using Plain = std::remove_const_t<Group>;
+  if constexpr (std::is_same_v<Plain, Views>) return memory.views;
+  if constexpr (std::is_same_v<Plain, Nodes>) return memory.nodes;
+  if constexpr (std::is_same_v<Plain, Costs>) return memory.costs;
+  if constexpr (std::is_same_v<Plain, Maps>) return memory.maps;
+  if constexpr (std::is_same_v<Plain, EnlargedMaps>) return memory.enlarged;
+}
+
+/// A step's function, called with the groups that it reads (const) and writes.
+template <auto kFunction, typename... Groups>
+void on(const StepContext& context, FrameMemory& memory) {
+  kFunction(context, group<Groups>(memory)...);
+}
+
+bool always(const Settings&) { return true; }
+bool if_half(const Settings& s) { return s.half(); }
+bool if_refined(const Settings& s) { return s.refined(); }
+bool if_census(const Settings& s) { return s.census(); }
+bool if_gradient(const Settings& s) { return !s.census(); }
+bool if_outliers(const Settings& s) { return s.outlier_radius > 0; }
+bool if_pixel_outliers(const Settings& s) {
+  return s.outlier_radius > 0 && s.outlier_removal == OutlierRemoval::kNodesAndPixels;
+}
+bool if_speckles(const Settings& s) { return s.speckle_size > 1; }
+bool if_gaps(const Settings& s) { return s.max_gap > 0; }
+bool if_smoothing(const Settings& s) { return s.smoothing_radius > 0; }
+
+// clang-format off
+constexpr Step kSteps[] = {
+    // name                 runs               runs on
+    // prepare
+    {"halving",             if_half,           on<halve, Views>},
+    {"preprocessing",       always,            on<preprocess, Views>},
+    {"max-trees",           always,            on<build_trees, Views, Nodes>},
+    {"census",              if_census,         on<transform, Views>},
+    {"cost-volume",         if_gradient,       on<compute_cost_volume, const Views, Costs>},
+    // nodes
+    {"node-matching",       always,            on<match_levels, const Views, const Costs, Nodes>},
+    {"node-drawing",        if_outliers,       on<draw_leaves, const Nodes, Maps>},
+    {"node-outliers",       if_outliers,       on<remove_node_outliers, Nodes, Maps>},
+    {"node-extrapolation",  always,            on<extrapolate, Nodes, Maps>},
+    // pixels
+    {"census-matching",     if_census,         on<match_by_census, const Views, Costs, Maps>},
+    {"gradient-matching",   if_gradient,       on<match_by_gradient, Costs, Maps>},
+    // refine
+    {"pixel-outliers",      if_pixel_outliers, on<remove_outliers, Maps>},
+    {"speckle-removal",     if_speckles,       on<remove_speckles, Maps>},
+    {"confidence",          always,            on<rate_confidence, const Nodes, Maps>},
+    {"gap-filling",         if_gaps,           on<fill_gaps, Maps>},
+    {"smoothing",           if_smoothing,      on<smooth, Maps>},
+    {"enlarging",           if_half,           on<enlarge, const Maps, EnlargedMaps>},
+    {"given-census",        if_refined,        on<transform_given, Views>},
+    {"refinement",          if_refined,        on<refine, const Views, EnlargedMaps>},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Step> steps() { return kSteps; }
+
+}  // namespace mtstereo

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "frame_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/matching.hpp"
+
+namespace mtstereo {
+namespace {
+
+Settings settings_of(std::initializer_list<std::pair<const char*, std::string>> values) {
+  return Settings(test::parameters(values));
+}
+
+constexpr FrameSize kFull = {{101, 51}, {101, 51}, 2};
+constexpr FrameSize kHalf = {{101, 51}, {51, 26}, 3};
+
+TEST(FrameMemory, HasWhatTheStepsOfTheDefaultNeed) {
+  FrameMemory memory;
+  memory.resize(settings_of({}), kFull);
+  for (int side = 0; side < 2; ++side) {
+    EXPECT_EQ(101, memory.views.preprocessed[side].level.width());
+    EXPECT_EQ(51, memory.views.census[side].bits.height());
+    EXPECT_EQ(0, memory.views.halves[side].width());
+    EXPECT_EQ(0, memory.views.preprocessed[side].gray.width())
+        << "only a cost volume is made of it";
+  }
+  EXPECT_EQ(1, memory.nodes.level_count);
+  EXPECT_EQ(0u, memory.costs.volume.cells.size());
+  EXPECT_EQ(101, memory.maps.disparity.width());
+  EXPECT_EQ(0, memory.maps.votes.disparity.width());
+  EXPECT_EQ(0, memory.enlarged.disparity.width());
+  EXPECT_EQ(2u, memory.views.scratch.size());
+  EXPECT_EQ(2u, memory.nodes.scratch.size());
+  EXPECT_EQ(2u, memory.costs.scratch.size());
+  EXPECT_EQ(2u, memory.maps.scratch.size());
+}
+
+TEST(FrameMemory, HasACostVolumeForTheGradientCostAlone) {
+  FrameMemory memory;
+  memory.resize(settings_of({{"preset", "paper"}}), kFull);
+  EXPECT_GT(memory.costs.volume.cells.size(), 0u);
+  EXPECT_EQ(0, memory.views.census[0].bits.width());
+  EXPECT_EQ(2, memory.nodes.level_count);
+  EXPECT_GT(memory.maps.votes.disparity.width(), 101);
+}
+
+TEST(FrameMemory, HasMapsOfBothSizesForHalvedViews) {
+  FrameMemory memory;
+  memory.resize(settings_of({{"preset", "fast"}}), kHalf);
+  EXPECT_EQ(51, memory.views.halves[1].width());
+  EXPECT_EQ(51, memory.maps.disparity.width());
+  EXPECT_EQ(101, memory.enlarged.disparity.width());
+  EXPECT_EQ(101, memory.enlarged.refined.width());
+  EXPECT_EQ(101, memory.views.given_census[0].bits.width());
+  EXPECT_EQ(3u, memory.enlarged.scratch.size());
+}
+
+TEST(FrameMemory, KeepsItsBuffersWhereNothingLargerIsNeeded) {
+  FrameMemory memory;
+  memory.resize(settings_of({}), kFull);
+  const std::int32_t* map = memory.maps.disparity.row(0);
+  const std::uint32_t* census = memory.views.census[0].bits.row(0);
+  memory.resize(settings_of({{"max-disparity", "20"}, {"mode", "dense"}}), kFull);
+  memory.resize(settings_of({{"preset", "fast"}}), kHalf);
+  memory.resize(settings_of({}), kFull);
+  EXPECT_EQ(map, memory.maps.disparity.row(0));
+  EXPECT_EQ(census, memory.views.census[0].bits.row(0));
+}
+
+}  // namespace
+}  // namespace mtstereo

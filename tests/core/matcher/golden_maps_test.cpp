@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The results themselves: hashes of the disparity map and the confidence of every preset and mode
+// on synthetic pairs. They are equal on every processor, for every compiler and number of threads.
+// A change that is not meant to change results must leave them alone; one that is meant to prints
+// the new table, see CONTRIBUTING.md.
+#include <gtest/gtest.h>
+
+#include <cinttypes>
+#include <cstdio>
+
+#include "support/matching.hpp"
+#include "support/random.hpp"
+
+namespace mtstereo {
+namespace {
+
+/// FNV-1a over the pixels of an image, in 64 bits.
+template <typename View>
+std::uint64_t hash_of(const View& view, std::uint64_t hash) {
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = 0; x < view.width; ++x) {
+      auto value = static_cast<std::uint32_t>(view.row(y)[x]);
+      for (int byte = 0; byte < 4; ++byte, value >>= 8) {
+        hash = (hash ^ (value & 0xFF)) * 1099511628211u;
+      }
+    }
+  }
+  return hash;
+}
+
+/// A slanted surface, noise that matches nowhere, and steps: textured, flat and repetitive areas.
+std::vector<test::Pair> pairs() {
+  return {test::slanted_pair(333, 141, 50, 11),
+          test::shifted_pair(200, 97, 13, 12),
+          {test::noise(160, 64, 13), test::noise(160, 64, 14)},
+          {test::black_and_white(121, 60, 15), test::black_and_white(121, 60, 15)}};
+}
+
+struct Golden {
+  const char* preset;
+  const char* mode;
+  std::uint64_t hash;
+};
+
+constexpr Golden kGolden[] = {
+    {"default", "sparse", 0xe3c1048a58e1395b},     {"default", "semi-dense", 0x82e5d10b4e40e5cc},
+    {"default", "dense", 0xd705afc9d58432c1},      {"fast", "sparse", 0x0ed7d79f1c86e984},
+    {"fast", "semi-dense", 0xe429e3f0c3f91aa8},    {"default", "sparse", 0xe3c1048a58e1395b},
+    {"default", "semi-dense", 0x82e5d10b4e40e5cc}, {"default", "dense", 0xd705afc9d58432c1},
+    {"fast", "sparse", 0x0ed7d79f1c86e984},        {"fast", "semi-dense", 0xe429e3f0c3f91aa8},
+    {"fast", "dense", 0xe6449cfeeb1c1df5},         {"paper", "sparse", 0x98e213ddc5698efd},
+    {"paper", "semi-dense", 0x2b88bcb41e29aab0},   {"paper", "sparse", 0x98e213ddc5698efd},
+    {"paper", "semi-dense", 0x2b88bcb41e29aab0},
+};
+
+TEST(GoldenMaps, AreEqualBitForBit) {
+  for (const Golden& golden : kGolden) {
+    std::uint64_t hash = 14695981039346656037u;
+    for (const test::Pair& pair : pairs()) {
+      Matcher matcher =
+          test::matcher({{"preset", golden.preset}, {"mode", golden.mode}, {"threads", "2"}});
+      const Result<DisparityView> map = matcher.compute(pair.left.view(), pair.right.view());
+      ASSERT_TRUE(map.ok());
+      hash = hash_of(matcher.confidence(), hash_of(*map, hash));
+    }
+    char row[96];
+    std::snprintf(row, sizeof row, "{\"%s\", \"%s\", 0x%016" PRIx64 "},", golden.preset,
+                  golden.mode, hash);
+    EXPECT_EQ(golden.hash, hash) << "the table's row is now\n    " << row;
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo

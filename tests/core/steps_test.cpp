@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "steps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "support/watching.hpp"
+
+namespace mtstereo {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(Steps, HaveDifferentNames) {
+  std::set<std::string_view> names;
+  for (const Step& step : steps()) EXPECT_TRUE(names.insert(step.name).second) << step.name;
+}
+
+/// Expects that all of these steps run, in this order; others may run between them.
+void expect_order(const Parameters& parameters, const Names& expected) {
+  const Names names = test::names_of_steps(parameters);
+  auto at = names.begin();
+  for (const std::string& name : expected) {
+    const auto found = std::find(at, names.end(), name);
+    if (found == names.end()) {
+      ADD_FAILURE() << name << " does not run, or runs too early";
+    } else {
+      at = found + 1;
+    }
+  }
+}
+
+void expect_none_of(const Parameters& parameters, const Names& absent) {
+  for (const std::string& name : test::names_of_steps(parameters)) {
+    EXPECT_EQ(0, std::count(absent.begin(), absent.end(), name)) << name << " runs";
+  }
+}
+
+TEST(Steps, OfTheDefaultRunInThisOrder) {
+  expect_order({}, {"preprocessing", "max-trees", "census", "node-matching", "node-extrapolation",
+                    "census-matching", "speckle-removal", "confidence"});
+  expect_none_of({}, {"halving", "cost-volume", "node-drawing", "node-outliers",
+                      "gradient-matching", "pixel-outliers", "gap-filling", "smoothing",
+                      "enlarging", "given-census", "refinement"});
+}
+
+TEST(Steps, OfModeDenseFillGapsAfterTheConfidence) {
+  expect_order(test::parameters({{"mode", "dense"}}),
+               {"census-matching", "speckle-removal", "confidence", "gap-filling"});
+}
+
+TEST(Steps, OfPresetFastWorkOnHalvedViews) {
+  expect_order(test::parameters({{"preset", "fast"}}),
+               {"halving", "preprocessing", "max-trees", "census", "node-matching",
+                "node-extrapolation", "census-matching", "speckle-removal", "confidence",
+                "smoothing", "enlarging", "given-census", "refinement"});
+}
+
+TEST(Steps, OfPresetPaperAreThoseOfThePaper) {
+  const Parameters paper = test::parameters({{"preset", "paper"}});
+  expect_order(paper, {"preprocessing", "max-trees", "cost-volume", "node-matching", "node-drawing",
+                       "node-outliers", "node-extrapolation", "gradient-matching", "pixel-outliers",
+                       "confidence"});
+  expect_none_of(paper, {"halving", "census", "census-matching", "speckle-removal", "gap-filling",
+                         "smoothing", "enlarging", "given-census", "refinement"});
+}
+
+TEST(Steps, AreLeftOutBySettings) {
+  const auto runs = [](const char* step, const char* parameter, const char* value) {
+    const Names names = test::names_of_steps(test::parameters({{parameter, value}}));
+    return std::count(names.begin(), names.end(), step) > 0;
+  };
+  EXPECT_FALSE(runs("speckle-removal", "speckle-size", "0"));
+  EXPECT_FALSE(runs("speckle-removal", "speckle-size", "1"));
+  EXPECT_TRUE(runs("speckle-removal", "speckle-size", "2"));
+  EXPECT_TRUE(runs("gap-filling", "max-gap", "1"));
+  EXPECT_TRUE(runs("smoothing", "smoothing-radius", "1"));
+  EXPECT_TRUE(runs("node-outliers", "outlier-radius", "1"));
+  EXPECT_FALSE(runs("pixel-outliers", "outlier-radius", "1"));
+  EXPECT_TRUE(runs("enlarging", "resolution", "half"));
+  EXPECT_FALSE(runs("refinement", "resolution", "half"));
+}
+
+}  // namespace
+}  // namespace mtstereo

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frame_matcher.hpp"
+#include "support/matching.hpp"
+#include "support/plane.hpp"
+
+namespace mtstereo::test {
+
+/// The disparity map as it is after a step; empty where no step has written one yet.
+inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
+  static constexpr std::string_view kBefore[] = {"halving", "preprocessing", "max-trees",
+                                                 "census",  "cost-volume",   "node-matching"};
+  if (std::count(std::begin(kBefore), std::end(kBefore), step.name) > 0) return {};
+  if (step.name == "refinement") return memory.enlarged.refined.view();
+  if (step.name == "enlarging" || step.name == "given-census") {
+    return memory.enlarged.disparity.view();
+  }
+  return memory.maps.disparity.view();
+}
+
+/// The map after each step that ran, where there is one.
+using StepMaps = std::vector<std::pair<std::string, DisparityPlane>>;
+
+inline StepMaps maps_after_steps(FrameMatcher& matcher, const GrayPlane& left,
+                                 const GrayPlane& right) {
+  StepMaps maps;
+  matcher.compute(left.view(), right.view(), [&](const Step& step, const FrameMemory& memory) {
+    const DisparityView map = map_after(step, memory);
+    if (map.width > 0) maps.emplace_back(step.name, copy_of(map));
+  });
+  return maps;
+}
+
+inline StepMaps maps_after_steps(const Parameters& parameters, const GrayPlane& left,
+                                 const GrayPlane& right) {
+  FrameMatcher matcher{Settings(parameters)};
+  return maps_after_steps(matcher, left, right);
+}
+
+/// The names of the steps that run with these parameters.
+inline std::vector<std::string> names_of_steps(const Parameters& parameters) {
+  const Settings settings(parameters);
+  std::vector<std::string> names;
+  for (const Step& step : steps()) {
+    if (step.runs(settings)) names.emplace_back(step.name);
+  }
+  return names;
+}
+
+}  // namespace mtstereo::test
