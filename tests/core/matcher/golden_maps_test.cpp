@@ -42,16 +42,18 @@ struct Golden {
   std::uint64_t hash;
 };
 
+// clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0xe3c1048a58e1395b},     {"default", "semi-dense", 0x82e5d10b4e40e5cc},
-    {"default", "dense", 0xd705afc9d58432c1},      {"fast", "sparse", 0x0ed7d79f1c86e984},
-    {"fast", "semi-dense", 0xe429e3f0c3f91aa8},    {"default", "sparse", 0xe3c1048a58e1395b},
-    {"default", "semi-dense", 0x82e5d10b4e40e5cc}, {"default", "dense", 0xd705afc9d58432c1},
-    {"fast", "sparse", 0x0ed7d79f1c86e984},        {"fast", "semi-dense", 0xe429e3f0c3f91aa8},
-    {"fast", "dense", 0xe6449cfeeb1c1df5},         {"paper", "sparse", 0x98e213ddc5698efd},
-    {"paper", "semi-dense", 0x2b88bcb41e29aab0},   {"paper", "sparse", 0x98e213ddc5698efd},
+    {"default", "sparse", 0xe3c1048a58e1395b},
+    {"default", "semi-dense", 0x82e5d10b4e40e5cc},
+    {"default", "dense", 0xd705afc9d58432c1},
+    {"fast", "sparse", 0x0ed7d79f1c86e984},
+    {"fast", "semi-dense", 0xe429e3f0c3f91aa8},
+    {"fast", "dense", 0xe6449cfeeb1c1df5},
+    {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };
+// clang-format on
 
 TEST(GoldenMaps, AreEqualBitForBit) {
   for (const Golden& golden : kGolden) {
