@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gst/gst.h>
 
-#include "confidence_meta.hpp"
-#include "mtcolor.hpp"
-#include "mtconfidence.hpp"
+#include "filters/mtcolor.hpp"
+#include "filters/mtconfidence.hpp"
+#include "matcher/mtstereo_element.hpp"
 #include "mtstereo/mtstereo.hpp"
-#include "mtstereo_element.hpp"
+#include "shared/confidence_meta.hpp"
 
 namespace {
 

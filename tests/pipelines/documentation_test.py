@@ -193,7 +193,7 @@ class Programs(unittest.TestCase):
     def test_c_is_what_the_tests_are_compiled_with(self):
         shown = blocks_of(self.element, "c")
         self.assertEqual(len(shown), 1)
-        compiled = (SOURCE / "tests/gst/confidence_reader.c").read_text()
+        compiled = (SOURCE / "tests/gst/support/confidence_reader.c").read_text()
         self.assertIn(shown[0], compiled)
 
     def test_python_runs_and_finds_the_confidence(self):

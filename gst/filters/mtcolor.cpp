@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "filters/mtcolor.hpp"
+
+#include <gst/video/video.h>
+
+#include <vector>
+
+#include "filters/color_table.hpp"
+#include "filters/disparity_filter.hpp"
+#include "matcher/element_state.hpp"
+#include "mtstereo/parameters.hpp"
+#include "shared/frame_views.hpp"
+
+using namespace mtstereo::plugin;
+
+GST_DEBUG_CATEGORY_STATIC(mtcolor_debug);
+#define GST_CAT_DEFAULT mtcolor_debug
+
+namespace {
+
+constexpr int kFallbackMaxDisparity = 64;
+constexpr int kFallbackScale = 256;
+
+/// Which table is in use, and what it was made for.
+struct Range {
+  int max_disparity = 0;  ///< [px]
+  int scale = 0;          ///< steps per px
+  bool operator==(const Range&) const = default;
+};
+
+struct ColorState {
+  // Guarded by the element's object lock.
+  int max_disparity = 0;       ///< property; 0: as the caps say [px]
+  int scale = kFallbackScale;  ///< property: where the caps say nothing
+
+  // Only of the streaming thread.
+  int caps_max_disparity = 0;  ///< 0: the caps say nothing
+  int caps_scale = 0;          ///< 0: the caps say nothing
+  Range range;
+  std::vector<Rgb> table;
+};
+
+struct GstMtColor {
+  GstVideoFilter parent;
+  ColorState* state;
+};
+
+struct GstMtColorClass {
+  GstVideoFilterClass parent_class;
+};
+
+enum Property : guint { kMaxDisparity = 1, kDisparityScale };
+
+constexpr const char* kPictures =
+    MTSTEREO_PICTURE_CAPS("{ RGB, BGR, RGBx, BGRx, xRGB, xBGR, RGBA, BGRA, ARGB, ABGR }");
+
+}  // namespace
+
+G_DEFINE_TYPE(GstMtColor, mtcolor_element, GST_TYPE_VIDEO_FILTER)
+
+namespace {
+
+ColorState& state_of(gpointer element) { return *reinterpret_cast<GstMtColor*>(element)->state; }
+
+void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+  const ObjectLock lock(object);
+  switch (id) {
+    case kMaxDisparity:
+      state_of(object).max_disparity = g_value_get_int(value);
+      break;
+    case kDisparityScale:
+      state_of(object).scale = g_value_get_int(value);
+      break;
+    default:
+      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  }
+}
+
+void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+  const ObjectLock lock(object);
+  switch (id) {
+    case kMaxDisparity:
+      g_value_set_int(value, state_of(object).max_disparity);
+      break;
+    case kDisparityScale:
+      g_value_set_int(value, state_of(object).scale);
+      break;
+    default:
+      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  }
+}
+
+GstCaps* transform_caps(GstBaseTransform*, GstPadDirection direction, GstCaps* caps,
+                        GstCaps* filter) {
+  const char* other = direction == GST_PAD_SINK ? kPictures : kDisparityCaps;
+  return filtered_caps(picture_caps(caps, other), filter).release();
+}
+
+gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCaps*,
+                  GstVideoInfo*) {
+  ColorState& state = state_of(filter);
+  const GstStructure* structure = gst_caps_get_structure(in_caps, 0);
+  state.caps_scale = 0;
+  state.caps_max_disparity = 0;
+  const bool has_scale = gst_structure_get_int(structure, "disparity-scale", &state.caps_scale);
+  const bool has_range =
+      gst_structure_get_int(structure, "max-disparity", &state.caps_max_disparity);
+  if ((has_scale && (state.caps_scale < 1 || state.caps_scale > 65535)) ||
+      (has_range && state.caps_max_disparity < 1)) {
+    GST_ELEMENT_ERROR(filter, STREAM, FORMAT,
+                      ("The caps of the disparity map have disparity-scale=%d and "
+                       "max-disparity=%d. The scale has to be 1 to 65535 steps per px and the "
+                       "range at least 1 px: correct them where the caps are set.",
+                       state.caps_scale, state.caps_max_disparity),
+                      ("caps: %s", caps_text(in_caps).c_str()));
+    return FALSE;
+  }
+  return TRUE;
+}
+
+Range range_in_force(GstMtColor* self) {
+  const ColorState& state = *self->state;
+  const ObjectLock lock(self);
+  Range range;
+  range.scale = state.caps_scale != 0 ? state.caps_scale : state.scale;
+  range.max_disparity = state.max_disparity != 0        ? state.max_disparity
+                        : state.caps_max_disparity != 0 ? state.caps_max_disparity
+                                                        : kFallbackMaxDisparity;
+  return range;
+}
+
+/// Where the parts of a pixel are [bytes].
+struct PixelLayout {
+  int step = 0;
+  int red = 0;
+  int green = 0;
+  int blue = 0;
+  int rest = -1;  ///< the fourth byte, alpha or unused; -1: none
+};
+
+PixelLayout layout_of(const GstVideoFrame* frame) {
+  PixelLayout layout;
+  layout.step = GST_VIDEO_FRAME_COMP_PSTRIDE(frame, GST_VIDEO_COMP_R);
+  layout.red = GST_VIDEO_FRAME_COMP_POFFSET(frame, GST_VIDEO_COMP_R);
+  layout.green = GST_VIDEO_FRAME_COMP_POFFSET(frame, GST_VIDEO_COMP_G);
+  layout.blue = GST_VIDEO_FRAME_COMP_POFFSET(frame, GST_VIDEO_COMP_B);
+  if (layout.step == 4) layout.rest = 0 + 1 + 2 + 3 - layout.red - layout.green - layout.blue;
+  return layout;
+}
+
+void paint(const GstVideoFrame* in, const GstVideoFrame* out, const std::vector<Rgb>& table) {
+  const PixelLayout layout = layout_of(out);
+  for (int y = 0; y < GST_VIDEO_FRAME_HEIGHT(in); ++y) {
+    const std::uint8_t* from = plane_row(*in, y);
+    std::uint8_t* to = plane_row(*out, y);
+    for (int x = 0; x < GST_VIDEO_FRAME_WIDTH(in); ++x, from += 2, to += layout.step) {
+      const Rgb& color = table[GST_READ_UINT16_LE(from)];
+      to[layout.red] = color.red;
+      to[layout.green] = color.green;
+      to[layout.blue] = color.blue;
+      if (layout.rest >= 0) to[layout.rest] = 255;
+    }
+  }
+}
+
+GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVideoFrame* out) {
+  auto* self = reinterpret_cast<GstMtColor*>(filter);
+  ColorState& state = *self->state;
+  const Range range = range_in_force(self);
+  if (range != state.range) {
+    state.table = color_table(range.max_disparity, range.scale);
+    state.range = range;
+  }
+  paint(in, out, state.table);
+  return GST_FLOW_OK;
+}
+
+void finalize(GObject* object) {
+  delete reinterpret_cast<GstMtColor*>(object)->state;
+  G_OBJECT_CLASS(mtcolor_element_parent_class)->finalize(object);
+}
+
+}  // namespace
+
+static void mtcolor_element_class_init(GstMtColorClass* klass) {
+  GST_DEBUG_CATEGORY_INIT(mtcolor_debug, "mtcolor", 0, "color pictures of disparity maps");
+  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
+                                                   GST_PARAM_MUTABLE_PLAYING);
+  auto* object_class = G_OBJECT_CLASS(klass);
+  object_class->set_property = set_property;
+  object_class->get_property = get_property;
+  object_class->finalize = finalize;
+  g_object_class_install_property(
+      object_class, kMaxDisparity,
+      g_param_spec_int("max-disparity", "max-disparity",
+                       "The disparity that gets the last color, in px; the range is the same in "
+                       "every frame (0: the max-disparity that mtstereo puts into the caps, 64 "
+                       "where they tell none)",
+                       0, mtstereo::kLargestMaxDisparity, 0, kFlags));
+  g_object_class_install_property(
+      object_class, kDisparityScale,
+      g_param_spec_int("disparity-scale", "disparity-scale",
+                       "Steps per px of the input where its caps have no disparity-scale, as "
+                       "behind a decoder; the caps come first",
+                       1, 65535, kFallbackScale, kFlags));
+
+  auto* element_class = GST_ELEMENT_CLASS(klass);
+  add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);
+  add_pad_template(element_class, "src", GST_PAD_SRC, kPictures);
+  gst_element_class_set_static_metadata(
+      element_class, "Disparity in colors", "Filter/Converter/Video",
+      "Color picture of a disparity map: a fixed range, blue is far, red is near, black is unknown",
+      "the mtstereo authors");
+
+  GST_BASE_TRANSFORM_CLASS(klass)->transform_caps = transform_caps;
+  GST_BASE_TRANSFORM_CLASS(klass)->transform = transform_checked;
+  GST_VIDEO_FILTER_CLASS(klass)->set_info = set_info;
+  GST_VIDEO_FILTER_CLASS(klass)->transform_frame = transform_frame;
+}
+
+static void mtcolor_element_init(GstMtColor* self) { self->state = new ColorState; }

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "filters/mtconfidence.hpp"
+
+#include <string>
+
+#include "filters/disparity_filter.hpp"
+#include "shared/confidence_meta.hpp"
+#include "shared/confidence_pool.hpp"
+#include "shared/frame_views.hpp"
+
+using namespace mtstereo::plugin;
+
+GST_DEBUG_CATEGORY_STATIC(mtconfidence_debug);
+#define GST_CAT_DEFAULT mtconfidence_debug
+
+namespace {
+
+enum Output : gint { kDisparity, kConfidence };
+
+struct ConfidenceState {
+  // Guarded by the element's object lock.
+  gint min_confidence = 0;
+  gint output = kDisparity;
+
+  // Only of the streaming thread, and of stop, which runs when that does not.
+  ConfidencePool pool;
+};
+
+struct GstMtConfidence {
+  GstVideoFilter parent;
+  ConfidenceState* state;
+};
+
+struct GstMtConfidenceClass {
+  GstVideoFilterClass parent_class;
+};
+
+enum Property : guint { kMinConfidence = 1, kOutput };
+
+constexpr const char* kPictures = MTSTEREO_PICTURE_CAPS("GRAY8");
+constexpr const char* kOutputs = MTSTEREO_PICTURE_CAPS("{ GRAY16_LE, GRAY8 }");
+
+GType output_type() {
+  static const GEnumValue values[] = {
+      {kDisparity, "The disparities that are sure enough (GRAY16_LE)", "disparity"},
+      {kConfidence, "How sure they are (GRAY8)", "confidence"},
+      {0, nullptr, nullptr}};
+  static const GType type = g_enum_register_static("MtConfidenceOutput", values);
+  return type;
+}
+
+}  // namespace
+
+G_DEFINE_TYPE(GstMtConfidence, mtconfidence_element, GST_TYPE_VIDEO_FILTER)
+
+namespace {
+
+ConfidenceState& state_of(gpointer element) {
+  return *reinterpret_cast<GstMtConfidence*>(element)->state;
+}
+
+void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+  switch (id) {
+    case kMinConfidence: {
+      const ObjectLock lock(object);
+      state_of(object).min_confidence = g_value_get_int(value);
+      return;
+    }
+    case kOutput: {
+      {
+        const ObjectLock lock(object);
+        state_of(object).output = g_value_get_enum(value);
+      }
+      // The other output has other caps.
+      gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
+      return;
+    }
+    default:
+      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  }
+}
+
+void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+  const ObjectLock lock(object);
+  switch (id) {
+    case kMinConfidence:
+      g_value_set_int(value, state_of(object).min_confidence);
+      break;
+    case kOutput:
+      g_value_set_enum(value, state_of(object).output);
+      break;
+    default:
+      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  }
+}
+
+GstCaps* transform_caps(GstBaseTransform* transform, GstPadDirection direction, GstCaps* caps,
+                        GstCaps* filter) {
+  gint output = kDisparity;
+  {
+    const ObjectLock lock(transform);
+    output = state_of(transform).output;
+  }
+  const bool to_src = direction == GST_PAD_SINK;
+  const char* source = output == kConfidence ? kPictures : kDisparityCaps;
+  const CapsPointer possible(gst_caps_from_string(to_src ? kDisparityCaps : source));
+  CapsPointer mine(gst_caps_intersect_full(caps, possible.get(), GST_CAPS_INTERSECT_FIRST));
+  if (output == kConfidence) mine = picture_caps(mine.get(), to_src ? kPictures : kDisparityCaps);
+  return filtered_caps(std::move(mine), filter).release();
+}
+
+/// Size and place of every pixel stay, so what is told of the frame stays true.
+gboolean transform_meta(GstBaseTransform*, GstBuffer*, GstMeta* meta, GstBuffer*) {
+  return !belongs_to_pixels(*meta->info);
+}
+
+// --- frames ---
+
+/// What comes out of a pair of maps, where only what has at least this confidence is kept.
+struct Threshold {
+  std::uint8_t least = 0;
+  std::uint8_t confidence(std::uint8_t value) const {
+    return value >= least ? value : std::uint8_t{0};
+  }
+};
+
+void filter_confidence(const GstVideoFrame& from, GstVideoFrame& to, Threshold threshold) {
+  for (int y = 0; y < GST_VIDEO_FRAME_HEIGHT(&from); ++y) {
+    const std::uint8_t* in = plane_row(from, y);
+    std::uint8_t* out = plane_row(to, y);
+    for (int x = 0; x < GST_VIDEO_FRAME_WIDTH(&from); ++x) out[x] = threshold.confidence(in[x]);
+  }
+}
+
+void filter_disparity(const GstVideoFrame& from, const GstVideoFrame& confidence, GstVideoFrame& to,
+                      Threshold threshold) {
+  for (int y = 0; y < GST_VIDEO_FRAME_HEIGHT(&from); ++y) {
+    const std::uint8_t* in = plane_row(from, y);
+    const std::uint8_t* sure = plane_row(confidence, y);
+    std::uint8_t* out = plane_row(to, y);
+    for (int x = 0; x < GST_VIDEO_FRAME_WIDTH(&from); ++x) {
+      const bool keep = sure[x] >= threshold.least;
+      out[2 * x] = keep ? in[2 * x] : std::uint8_t{0};
+      out[2 * x + 1] = keep ? in[2 * x + 1] : std::uint8_t{0};
+    }
+  }
+}
+
+GstFlowReturn refuse_confidence(GstVideoFilter* filter, const std::string& problem) {
+  GST_ELEMENT_ERROR(filter, STREAM, WRONG_TYPE,
+                    ("A disparity map has a confidence map that does not belong to it: %s. What is "
+                     "between mtstereo and mtconfidence is at fault, or what attached it.",
+                     problem.c_str()),
+                    ("meta %s", kConfidenceMeta));
+  return GST_FLOW_ERROR;
+}
+
+GstFlowReturn refuse_missing(GstVideoFilter* filter) {
+  GST_ELEMENT_ERROR(
+      filter, STREAM, WRONG_TYPE,
+      ("A disparity map came without its confidence map. Put an mtstereo with confidence-map=true "
+       "ahead, and nothing between it and mtconfidence that makes other frames of its maps, as "
+       "videoscale, an encoder, a file or a network do."),
+      ("no sample \"%s\" in a meta %s", kConfidenceField, kConfidenceMeta));
+  return GST_FLOW_ERROR;
+}
+
+/// What does not fit the disparity map of this size; "" where all does.
+std::string confidence_problem(GstSample* sample, const GstVideoInfo& disparity,
+                               GstVideoInfo& info) {
+  GstCaps* caps = gst_sample_get_caps(sample);
+  if (caps == nullptr || gst_sample_get_buffer(sample) == nullptr ||
+      !gst_video_info_from_caps(&info, caps) ||
+      GST_VIDEO_INFO_FORMAT(&info) != GST_VIDEO_FORMAT_GRAY8) {
+    return "it is not a GRAY8 frame with caps";
+  }
+  if (info.width == disparity.width && info.height == disparity.height) return {};
+  return "it has " + std::to_string(info.width) + "x" + std::to_string(info.height) +
+         " px, the disparity map " + std::to_string(disparity.width) + "x" +
+         std::to_string(disparity.height);
+}
+
+/// What is left of the confidence, in a buffer of its own; NULL where there is no memory for it.
+BufferPointer filtered_map(ConfidencePool& pool, const GstVideoInfo& disparity,
+                           const GstVideoFrame& confidence, Threshold threshold) {
+  if (!pool.fit(disparity)) return nullptr;
+  BufferPointer map = pool.acquire();
+  if (!map) return nullptr;
+  MappedFrame frame(pool.info(), map.get(), GST_MAP_WRITE);
+  if (!frame.mapped()) return nullptr;
+  filter_confidence(confidence, *frame.frame(), threshold);
+  return map;
+}
+
+GstFlowReturn attach_filtered(GstVideoFilter* filter, const GstVideoFrame& confidence,
+                              Threshold threshold, GstBuffer* out) {
+  ConfidencePool& pool = state_of(filter).pool;
+  BufferPointer map = filtered_map(pool, filter->in_info, confidence, threshold);
+  if (!map) {
+    GST_ELEMENT_ERROR(filter, RESOURCE, NO_SPACE_LEFT,
+                      ("There is no memory for a confidence map of %dx%d px.",
+                       filter->in_info.width, filter->in_info.height),
+                      (nullptr));
+    return GST_FLOW_ERROR;
+  }
+  const SamplePointer sample = pool.finish(std::move(map), out);
+  set_confidence(out, sample.get());
+  return GST_FLOW_OK;
+}
+
+GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVideoFrame* out) {
+  Threshold threshold;
+  {
+    const ObjectLock lock(filter);
+    threshold.least = static_cast<std::uint8_t>(state_of(filter).min_confidence);
+  }
+  GstSample* sample = confidence_of(in->buffer);
+  if (sample == nullptr) return refuse_missing(filter);
+  GstVideoInfo info;
+  const std::string problem = confidence_problem(sample, filter->in_info, info);
+  if (!problem.empty()) return refuse_confidence(filter, problem);
+  MappedFrame confidence(info, gst_sample_get_buffer(sample), GST_MAP_READ);
+  if (!confidence.mapped()) return refuse_confidence(filter, confidence.problem());
+
+  // As negotiated: the property may have changed since.
+  if (GST_VIDEO_FRAME_FORMAT(out) == GST_VIDEO_FORMAT_GRAY8) {
+    filter_confidence(*confidence.frame(), *out, threshold);
+    return GST_FLOW_OK;
+  }
+  filter_disparity(*in, *confidence.frame(), *out, threshold);
+  if (threshold.least > 0) {
+    return attach_filtered(filter, *confidence.frame(), threshold, out->buffer);
+  }
+  set_confidence(out->buffer, sample);
+  return GST_FLOW_OK;
+}
+
+// --- life ---
+
+gboolean stop(GstBaseTransform* transform) {
+  state_of(transform).pool.clear();
+  return TRUE;
+}
+
+void finalize(GObject* object) {
+  delete reinterpret_cast<GstMtConfidence*>(object)->state;
+  G_OBJECT_CLASS(mtconfidence_element_parent_class)->finalize(object);
+}
+
+void install_properties(GObjectClass* object_class) {
+  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
+                                                   GST_PARAM_MUTABLE_PLAYING);
+  g_object_class_install_property(
+      object_class, kMinConfidence,
+      g_param_spec_int("min-confidence", "min-confidence",
+                       "Disparities of less confidence become 0, none, and their confidence too "
+                       "(0: all stay, 255: only the surest stay)",
+                       0, 255, 0, kFlags));
+  g_object_class_install_property(
+      object_class, kOutput,
+      g_param_spec_enum("output", "output", "What comes out of the pad src", output_type(),
+                        kDisparity, kFlags));
+  gst_type_mark_as_plugin_api(output_type(), static_cast<GstPluginAPIFlags>(0));
+}
+
+}  // namespace
+
+static void mtconfidence_element_class_init(GstMtConfidenceClass* klass) {
+  GST_DEBUG_CATEGORY_INIT(mtconfidence_debug, "mtconfidence", 0, "confidence of disparity maps");
+  auto* object_class = G_OBJECT_CLASS(klass);
+  object_class->set_property = set_property;
+  object_class->get_property = get_property;
+  object_class->finalize = finalize;
+  install_properties(object_class);
+
+  auto* element_class = GST_ELEMENT_CLASS(klass);
+  add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);
+  add_pad_template(element_class, "src", GST_PAD_SRC, kOutputs);
+  gst_element_class_set_static_metadata(
+      element_class, "Disparity by confidence", "Filter/Video",
+      "Drops the disparities of mtstereo that are not sure enough, or shows how sure they are",
+      "the mtstereo authors");
+
+  auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
+  transform_class->stop = stop;
+  transform_class->transform_caps = transform_caps;
+  transform_class->transform_meta = transform_meta;
+  transform_class->transform = transform_checked;
+  GST_VIDEO_FILTER_CLASS(klass)->transform_frame = transform_frame;
+}
+
+static void mtconfidence_element_init(GstMtConfidence* self) { self->state = new ConfidenceState; }

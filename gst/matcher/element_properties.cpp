@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/element_properties.hpp"
+
+#include "matcher/parameter_properties.hpp"
+
+namespace mtstereo::plugin {
+namespace {
+
+enum Property : guint { kDisparityScale = 1, kSyncTolerance, kConfidenceMap, kQos, kStats };
+
+void set_parameter(ElementState& state, const ParameterInfo& info, const GValue& value) {
+  const ObjectLock lock(state.element);
+  Settings& settings = state.settings;
+  const Status status = set_parameter_from_value(settings.parameters, info, value);
+  ++settings.revision;
+  if (!status) {
+    // There may be no bus yet to tell it on: it is told when the element starts, or at the next
+    // pair where it runs.
+    settings.problem = status.error().message;
+    settings.problem_parameter = &info;
+  } else if (settings.problem_parameter == &info) {
+    settings.problem.clear();
+    settings.problem_parameter = nullptr;
+  }
+}
+
+GstStructure* statistics_structure(const Statistics& statistics) {
+  const double mean =
+      statistics.pairs > 0 ? statistics.total_ms / static_cast<double>(statistics.pairs) : 0.0;
+  return gst_structure_new(
+      "mtstereo-stats", "pairs", G_TYPE_UINT64, statistics.pairs, "dropped-left", G_TYPE_UINT64,
+      statistics.dropped[0], "dropped-right", G_TYPE_UINT64, statistics.dropped[1], "skipped",
+      G_TYPE_UINT64, statistics.skipped, "last-ms", G_TYPE_DOUBLE, statistics.last_ms, "mean-ms",
+      G_TYPE_DOUBLE, mean, "density", G_TYPE_DOUBLE, statistics.density, nullptr);
+}
+
+}  // namespace
+
+void install_properties(GObjectClass* object_class) {
+  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
+                                                   GST_PARAM_MUTABLE_PLAYING);
+  install_parameter_properties(object_class);
+  g_object_class_install_property(
+      object_class, kDisparityScale,
+      g_param_spec_int("disparity-scale", "disparity-scale",
+                       "Steps per px of the output: disparity in px = value / disparity-scale, "
+                       "0 = none; max-disparity times this has to fit 16 bits (256: KITTI, "
+                       "16: OpenCV)",
+                       1, 65535, 256, kFlags));
+  g_object_class_install_property(
+      object_class, kSyncTolerance,
+      g_param_spec_int64("sync-tolerance", "sync-tolerance",
+                         "How far the running times of a left and a right frame may be apart for "
+                         "them to be a pair, in nanoseconds (-1: half a frame, of the faster "
+                         "stream)",
+                         -1, G_MAXINT64, -1, kFlags));
+  g_object_class_install_property(
+      object_class, kConfidenceMap,
+      g_param_spec_boolean("confidence-map", "confidence-map",
+                           "Attach to every disparity map how sure each of its values is: the "
+                           "field \"confidence\" of the meta MtStereoConfidenceMeta, a GRAY8 "
+                           "sample with 1 (hardly) to 255 (sure), 0 = no disparity",
+                           TRUE, kFlags));
+  g_object_class_install_property(
+      object_class, kQos,
+      g_param_spec_boolean("qos", "qos",
+                           "Skip pairs that downstream reports as too late; sinks with sync=false "
+                           "report none",
+                           TRUE, kFlags));
+  g_object_class_install_property(
+      object_class, kStats,
+      g_param_spec_boxed("stats", "stats",
+                         "pairs, dropped-left, dropped-right (frames without partner), skipped "
+                         "(pairs that came too late), last-ms and mean-ms (time to match a pair), "
+                         "density (share of pixels with a disparity in the last pair)",
+                         GST_TYPE_STRUCTURE,
+                         static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));
+}
+
+void set_element_property(ElementState& state, guint id, const GValue* value, GParamSpec* spec) {
+  if (const ParameterInfo* info = parameter_of_property(id)) {
+    set_parameter(state, *info, *value);
+    return;
+  }
+  {
+    const ObjectLock lock(state.element);
+    switch (id) {
+      case kDisparityScale:
+        state.settings.disparity_scale = g_value_get_int(value);
+        ++state.settings.revision;
+        return;
+      case kConfidenceMap:
+        state.settings.confidence_map = g_value_get_boolean(value);
+        ++state.settings.revision;
+        return;
+      case kQos:
+        state.settings.qos = g_value_get_boolean(value);
+        return;
+      case kSyncTolerance:
+        state.settings.sync_tolerance = g_value_get_int64(value);
+        break;
+      default:
+        G_OBJECT_WARN_INVALID_PROPERTY_ID(state.element, id, spec);
+        return;
+    }
+  }
+  update_pairing_latency(state);  // takes the aggregator's lock, which comes before the object's
+}
+
+void get_element_property(ElementState& state, guint id, GValue* value, GParamSpec* spec) {
+  const ObjectLock lock(state.element);
+  if (const ParameterInfo* info = parameter_of_property(id)) {
+    parameter_to_value(state.settings.parameters, *info, *value);
+    return;
+  }
+  switch (id) {
+    case kDisparityScale:
+      g_value_set_int(value, state.settings.disparity_scale);
+      return;
+    case kSyncTolerance:
+      g_value_set_int64(value, state.settings.sync_tolerance);
+      return;
+    case kConfidenceMap:
+      g_value_set_boolean(value, state.settings.confidence_map);
+      return;
+    case kQos:
+      g_value_set_boolean(value, state.settings.qos);
+      return;
+    case kStats:
+      g_value_take_boxed(value, statistics_structure(state.statistics));
+      return;
+    default:
+      G_OBJECT_WARN_INVALID_PROPERTY_ID(state.element, id, spec);
+  }
+}
+
+}  // namespace mtstereo::plugin

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <bit>
+
+#include "matcher/element_state.hpp"
+#include "matcher/mtstereo_element.hpp"
+#include "shared/frame_views.hpp"
+
+#define GST_CAT_DEFAULT mtstereo_debug
+
+namespace mtstereo::plugin {
+namespace {
+
+/// Where a left frame lies on the source pad's time line.
+struct OutputTimes {
+  GstClockTime running = GST_CLOCK_TIME_NONE;
+  GstClockTime stream = GST_CLOCK_TIME_NONE;
+};
+
+OutputTimes output_times(const ElementState& state, GstBuffer* left) {
+  OutputTimes times;
+  if (!GST_BUFFER_PTS_IS_VALID(left)) return times;
+  const ObjectLock lock(state.element);
+  const GstSegment& segment = GST_AGGREGATOR_PAD(state.source_pad())->segment;
+  if (segment.format != GST_FORMAT_TIME) return times;
+  times.running = gst_segment_to_running_time(&segment, GST_FORMAT_TIME, GST_BUFFER_PTS(left));
+  times.stream = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, GST_BUFFER_PTS(left));
+  return times;
+}
+
+bool check_streams(ElementState& state) {
+  const Input& left = state.input(Side::kLeft);
+  const Input& right = state.input(Side::kRight);
+  if (!left.has_caps || !right.has_caps) {
+    post_error(state, GST_CORE_ERROR, GST_CORE_ERROR_NEGOTIATION,
+               std::string("Frames came to ") +
+                   pad_name(left.has_caps ? Side::kRight : Side::kLeft) +
+                   " without caps before them. Put a capsfilter ahead of it.",
+               state.streams_text());
+    return false;
+  }
+  if (left.info.width == right.info.width && left.info.height == right.info.height) return true;
+  const auto size = [](const GstVideoInfo& info) {
+    return std::to_string(info.width) + "x" + std::to_string(info.height);
+  };
+  post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_WRONG_TYPE,
+             "The two streams have different sizes: left " + size(left.info) + ", right " +
+                 size(right.info) +
+                 ". A rectified pair has one size: set both cameras to the same one, or put "
+                 "videoscale and a capsfilter ahead of one pad.",
+             state.streams_text());
+  return false;
+}
+
+/// Takes settings that have changed since the last pair; the caps tell some of them.
+bool refresh_settings(ElementState& state) {
+  const Settings now = state.snapshot();
+  const Input& left = state.input(Side::kLeft);
+  const bool negotiated = gst_pad_has_current_caps(state.source_pad());
+  const bool same_caps = negotiated && now.disparity_scale == state.active.disparity_scale &&
+                         now.parameters.integer(Parameter::kMaxDisparity) ==
+                             state.active.parameters.integer(Parameter::kMaxDisparity);
+  if (same_caps && now.revision == state.active.revision &&
+      state.checked_width == left.info.width && state.checked_height == left.info.height) {
+    return true;
+  }
+  if (same_caps) return apply_settings(state);
+  return gst_aggregator_negotiate(state.element);
+}
+
+/// What matching takes [ns]. Call with the object lock.
+GstClockTimeDiff matching_time(const ElementState& state) {
+  return static_cast<GstClockTimeDiff>(state.processing.reported_ms() * GST_MSECOND);
+}
+
+/// True where downstream would throw the disparity map away because it comes too late.
+bool is_late(ElementState& state, GstBuffer* left, const OutputTimes& times) {
+  if (!GST_CLOCK_TIME_IS_VALID(times.running)) return false;
+  GstClockTimeDiff lateness = 0;
+  double proportion = 1;
+  Statistics counted;
+  {
+    const ObjectLock lock(state.element);
+    if (!state.settings.qos || !GST_CLOCK_TIME_IS_VALID(state.qos_earliest)) return false;
+    // What downstream told is when a map had to be there; this one would be there a matching later.
+    lateness = GST_CLOCK_DIFF(times.running, state.qos_earliest) + matching_time(state);
+    if (lateness <= 0) return false;
+    ++state.statistics.skipped;
+    counted = state.statistics;
+    proportion = state.qos_proportion;
+  }
+  const bool live = GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element));
+  GstMessage* message =
+      gst_message_new_qos(GST_OBJECT_CAST(state.element), live, times.running, times.stream,
+                          GST_BUFFER_PTS(left), GST_BUFFER_DURATION(left));
+  gst_message_set_qos_values(message, lateness, proportion, 1000000);
+  gst_message_set_qos_stats(message, GST_FORMAT_BUFFERS, counted.pairs, counted.skipped);
+  gst_element_post_message(GST_ELEMENT_CAST(state.element), message);
+  return true;
+}
+
+GstFlowReturn refuse_frame(ElementState& state, const char* what, const std::string& problem) {
+  post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
+             std::string("A frame of ") + what + " is not what its caps say: " + problem +
+                 ". The element ahead of it is at fault.",
+             state.streams_text());
+  return GST_FLOW_ERROR;
+}
+
+void to_little_endian(ImageView<std::uint16_t> map) {
+  if constexpr (std::endian::native == std::endian::big) {
+    for (int y = 0; y < map.height; ++y) {
+      std::uint16_t* row = map.row(y);
+      for (int x = 0; x < map.width; ++x) row[x] = GUINT16_SWAP_LE_BE(row[x]);
+    }
+  }
+}
+
+/// Fills the output from the two frames; no message is posted where it returns GST_FLOW_OK.
+GstFlowReturn compute(ElementState& state, GstBuffer* left, GstBuffer* right, GstBuffer* output) {
+  const MappedFrame left_frame(state.input(Side::kLeft).info, left, GST_MAP_READ);
+  if (!left_frame.mapped()) return refuse_frame(state, "sink_left", left_frame.problem());
+  const MappedFrame right_frame(state.input(Side::kRight).info, right, GST_MAP_READ);
+  if (!right_frame.mapped()) return refuse_frame(state, "sink_right", right_frame.problem());
+  const MappedFrame map(state.output, output, GST_MAP_WRITE);
+  if (!map.mapped()) return refuse_frame(state, "downstream's buffer pool", map.problem());
+
+  const Result<DisparityView> disparity =
+      state.matcher->compute(left_frame.luma(), right_frame.luma());
+  Status status = disparity
+                      ? write_disparity16(*disparity, state.active.disparity_scale, map.gray16())
+                      : Status(disparity.error());
+  if (!status) {
+    const bool memory = status.error().code == ErrorCode::kOutOfMemory;
+    post_error(state, memory ? GST_RESOURCE_ERROR : GST_LIBRARY_ERROR,
+               memory ? static_cast<gint>(GST_RESOURCE_ERROR_NO_SPACE_LEFT)
+                      : static_cast<gint>(GST_LIBRARY_ERROR_FAILED),
+               status.error().message, state.streams_text());
+    return GST_FLOW_ERROR;
+  }
+  to_little_endian(map.gray16());
+  return GST_FLOW_OK;
+}
+
+void count_pair(ElementState& state) {
+  const FrameStatistics frame = state.matcher->statistics();
+  const bool live = GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element));
+  bool changed = false;
+  {
+    const ObjectLock lock(state.element);
+    ++state.statistics.pairs;
+    state.statistics.last_ms = frame.milliseconds;
+    state.statistics.total_ms += frame.milliseconds;
+    state.statistics.density = frame.density;
+    changed = state.processing.measured(frame.milliseconds);
+  }
+  if (changed && live) {
+    gst_element_post_message(GST_ELEMENT_CAST(state.element),
+                             gst_message_new_latency(GST_OBJECT_CAST(state.element)));
+  }
+}
+
+void advance_position(const ElementState& state, GstBuffer* left) {
+  if (!GST_BUFFER_PTS_IS_VALID(left)) return;
+  const ObjectLock lock(state.element);
+  GstSegment& segment = GST_AGGREGATOR_PAD(state.source_pad())->segment;
+  segment.position = GST_BUFFER_PTS(left);
+  if (segment.rate > 0 && GST_BUFFER_DURATION_IS_VALID(left)) {
+    segment.position += GST_BUFFER_DURATION(left);
+  }
+}
+
+}  // namespace
+
+GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right) {
+  const OutputTimes times = output_times(state, left);
+  if (GST_CLOCK_TIME_IS_VALID(times.stream)) {
+    gst_object_sync_values(GST_OBJECT_CAST(state.element), times.stream);
+  }
+  if (!check_streams(state)) return GST_FLOW_ERROR;
+  if (!refresh_settings(state)) {
+    // A flush that comes in between is no failure, and the base class knows about it.
+    return GST_PAD_IS_FLUSHING(state.source_pad()) ? GST_FLOW_FLUSHING : GST_FLOW_ERROR;
+  }
+  // No gap is sent for it: a sink waits for the time of a gap, and more pairs would come too late.
+  if (is_late(state, left, times)) return GST_FLOW_OK;
+  gst_aggregator_selected_samples(state.element, GST_BUFFER_PTS(left), GST_CLOCK_TIME_NONE,
+                                  GST_BUFFER_DURATION(left), nullptr);
+
+  BufferPointer output;
+  GstFlowReturn flow = acquire_output(state, output);
+  if (flow == GST_FLOW_ERROR) {
+    post_error(state, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_NO_SPACE_LEFT,
+               "There is no memory for a disparity map of " + std::to_string(state.output.size) +
+                   " bytes.",
+               state.streams_text());
+  }
+  if (flow != GST_FLOW_OK) return flow;
+  flow = compute(state, left, right, output.get());
+  if (flow != GST_FLOW_OK) return flow;
+  copy_frame_properties(left, right, output.get());
+  if (state.active.confidence_map && !attach_confidence(state, output.get())) return GST_FLOW_ERROR;
+  count_pair(state);
+  advance_position(state, left);
+  state.segment = OutputSegment::kSent;  // by the base class, ahead of the buffer
+  GST_LOG_OBJECT(state.element, "matched %" GST_PTR_FORMAT, static_cast<void*>(output.get()));
+  return gst_aggregator_finish_buffer(state.element, output.release());
+}
+
+}  // namespace mtstereo::plugin

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/parameter_properties.hpp"
+
+#include <gst/gst.h>
+
+#include <cctype>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mtstereo::plugin {
+namespace {
+
+/// What the type system keeps pointers to for as long as the program runs.
+struct EnumType {
+  std::string type_name;
+  std::deque<std::string> words;
+  std::vector<GEnumValue> values;  // ends with zeros
+  GType type = 0;
+};
+
+// "cost-volume" -> "GstMtStereoCostVolume"
+std::string enum_type_name(std::string_view parameter) {
+  std::string name = "GstMtStereo";
+  bool upper = true;
+  for (const char c : parameter) {
+    if (c == '-') {
+      upper = true;
+      continue;
+    }
+    name += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    upper = false;
+  }
+  return name;
+}
+
+GType choice_type(const ParameterInfo& info) {
+  // Never freed, as types live until the very end of the program.
+  static auto* const types = new std::deque<EnumType>;
+  EnumType* made = &types->emplace_back();
+  made->type_name = enum_type_name(info.name);
+  std::string_view rest = info.choices;
+  while (!rest.empty()) {
+    const std::size_t bar = rest.find('|');
+    made->words.emplace_back(rest.substr(0, bar));
+    rest = bar == std::string_view::npos ? std::string_view() : rest.substr(bar + 1);
+  }
+  for (std::size_t i = 0; i < made->words.size(); ++i) {
+    const char* word = made->words[i].c_str();
+    made->values.push_back({static_cast<gint>(i), word, word});
+  }
+  made->values.push_back({0, nullptr, nullptr});
+  made->type = g_enum_register_static(made->type_name.c_str(), made->values.data());
+  gst_type_mark_as_plugin_api(made->type, static_cast<GstPluginAPIFlags>(0));
+  return made->type;
+}
+
+std::string blurb_of(const ParameterInfo& info) {
+  std::string text = info.help;
+  std::string notes;
+  const auto note = [&notes](const std::string& words) {
+    if (!notes.empty()) notes += "; ";
+    notes += words;
+  };
+  if (*info.unit != '\0') note(std::string("unit: ") + info.unit);
+  if (*info.symbol != '\0') note(std::string("in the paper: ") + info.symbol);
+  const std::string defaults = parameter_defaults_text(info.id);
+  if (defaults != Parameters().text(info.id)) note("unless set: " + defaults);
+  return notes.empty() ? text : text + " (" + notes + ")";
+}
+
+GParamSpec* make_property(const ParameterInfo& info) {
+  const Parameters defaults;
+  const std::string blurb = blurb_of(info);
+  const auto flags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_NAME |
+                                              G_PARAM_STATIC_NICK | GST_PARAM_MUTABLE_PLAYING);
+  const auto steered = static_cast<GParamFlags>(flags | GST_PARAM_CONTROLLABLE);
+  switch (info.type) {
+    case ParameterType::kInteger:
+      return g_param_spec_int(info.name, info.name, blurb.c_str(), static_cast<gint>(info.minimum),
+                              static_cast<gint>(info.maximum),
+                              static_cast<gint>(defaults.get(info.id)), steered);
+    case ParameterType::kNumber:
+      return g_param_spec_double(info.name, info.name, blurb.c_str(), info.minimum, info.maximum,
+                                 defaults.get(info.id), steered);
+    case ParameterType::kBoolean:
+      return g_param_spec_boolean(info.name, info.name, blurb.c_str(), defaults.get(info.id) != 0,
+                                  steered);
+    case ParameterType::kChoice:
+      return g_param_spec_enum(info.name, info.name, blurb.c_str(), choice_type(info),
+                               static_cast<gint>(defaults.get(info.id)), flags);
+    case ParameterType::kLevels:
+      break;
+  }
+  return g_param_spec_string(info.name, info.name, blurb.c_str(), defaults.text(info.id).c_str(),
+                             flags);
+}
+
+}  // namespace
+
+void install_parameter_properties(GObjectClass* object_class) {
+  guint id = kFirstParameterProperty;
+  for (const ParameterInfo& info : parameter_table()) {
+    g_object_class_install_property(object_class, id++, make_property(info));
+  }
+}
+
+const ParameterInfo* parameter_of_property(guint property_id) {
+  const auto table = parameter_table();
+  if (property_id < kFirstParameterProperty) return nullptr;
+  const std::size_t index = property_id - kFirstParameterProperty;
+  return index < table.size() ? &table[index] : nullptr;
+}
+
+Status set_parameter_from_value(Parameters& parameters, const ParameterInfo& info,
+                                const GValue& value) {
+  switch (info.type) {
+    case ParameterType::kInteger:
+      return parameters.set(info.id, static_cast<double>(g_value_get_int(&value)));
+    case ParameterType::kNumber:
+      return parameters.set(info.id, g_value_get_double(&value));
+    case ParameterType::kBoolean:
+      return parameters.set(info.id, g_value_get_boolean(&value) ? 1.0 : 0.0);
+    case ParameterType::kChoice:
+      return parameters.set(info.id, static_cast<double>(g_value_get_enum(&value)));
+    case ParameterType::kLevels:
+      break;
+  }
+  const gchar* text = g_value_get_string(&value);
+  return parameters.set(info.id, std::string_view(text != nullptr ? text : ""));
+}
+
+void parameter_to_value(const Parameters& parameters, const ParameterInfo& info, GValue& value) {
+  switch (info.type) {
+    case ParameterType::kInteger:
+      g_value_set_int(&value, parameters.integer(info.id));
+      return;
+    case ParameterType::kNumber:
+      g_value_set_double(&value, parameters.get(info.id));
+      return;
+    case ParameterType::kBoolean:
+      g_value_set_boolean(&value, parameters.get(info.id) != 0);
+      return;
+    case ParameterType::kChoice:
+      g_value_set_enum(&value, static_cast<gint>(parameters.get(info.id)));
+      return;
+    case ParameterType::kLevels:
+      break;
+  }
+  g_value_set_string(&value, parameters.text(info.id).c_str());
+}
+
+}  // namespace mtstereo::plugin

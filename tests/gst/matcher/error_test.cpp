@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Wrong input: one error of the element, which names what is wrong on which side and what to do.
+#include <gtest/gtest.h>
+
+#include "support/stereo_harness.hpp"
+
+namespace mtstereo::test {
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+class Refusal : public testing::Test {
+ protected:
+  /// Pushes a pair of frames that the caps may be wrong about.
+  void push(int width = 64, int height = 48) {
+    const Pair pair = noise_pair(width, height, 4, 1);
+    harness.push(Side::kLeft, frame_buffer(pair.left, 0, kFrame));
+    harness.push(Side::kRight, frame_buffer(pair.right, 0, kFrame));
+  }
+  void expect_one_error(std::initializer_list<const char*> text,
+                        std::initializer_list<const char*> details) {
+    const Report error = harness.error();
+    ASSERT_NE(error.text, "") << "no error";
+    for (const char* part : text) EXPECT_TRUE(has(error.text, part)) << part << "\n" << error.text;
+    for (const char* part : details) {
+      EXPECT_TRUE(has(error.details, part)) << part << "\n" << error.details;
+    }
+    EXPECT_EQ(harness.further_errors(), 0);
+    EXPECT_EQ(harness.stats().pairs, 0u);
+  }
+
+  StereoHarness harness;
+};
+
+TEST_F(Refusal, DifferentSizesAreNamed) {
+  harness.caps(raw_caps("GRAY8", 64, 48), raw_caps("GRAY8", 32, 24));
+  const Pair left = noise_pair(64, 48, 4, 1);
+  const Pair right = noise_pair(32, 24, 4, 1);
+  harness.push(Side::kLeft, frame_buffer(left.left, 0, kFrame));
+  harness.push(Side::kRight, frame_buffer(right.right, 0, kFrame));
+  expect_one_error({"left 64x48", "right 32x24"},
+                   {"sink_left: GRAY8 64x48", "sink_right: GRAY8 32x24"});
+}
+
+TEST_F(Refusal, AfterAnErrorTheStreamsEnd) {
+  harness.caps(raw_caps("GRAY8", 64, 48), raw_caps("GRAY8", 32, 24));
+  push();
+  ASSERT_NE(harness.error().text, "");
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
+  EXPECT_EQ(harness.push(Side::kLeft, frame_buffer(noise_pair(64, 48, 4, 1).left, 0, kFrame)),
+            GST_FLOW_ERROR);
+  EXPECT_EQ(harness.push(Side::kRight, frame_buffer(noise_pair(64, 48, 4, 1).left, 0, kFrame)),
+            GST_FLOW_ERROR);
+}
+
+TEST_F(Refusal, InterlacedVideoIsNamed) {
+  harness.caps(raw_caps("GRAY8", 64, 48),
+               raw_caps("GRAY8", 64, 48) + ",interlace-mode=interleaved");
+  push();
+  expect_one_error({"sink_right", "interlaced", "interleaved", "deinterlace"},
+                   {"interlace-mode=(string)interleaved", "sink_left: GRAY8 64x48"});
+}
+
+TEST_F(Refusal, VideoThatMayBeInterlacedIsNamed) {
+  harness.caps(raw_caps("NV12", 64, 48) + ",interlace-mode=mixed", raw_caps("GRAY8", 64, 48));
+  expect_one_error({"sink_left", "mixed", "deinterlace"}, {"NV12"});
+}
+
+class WrongFormat : public Refusal, public testing::WithParamInterface<const char*> {};
+
+TEST_P(WrongFormat, IsNamed) {
+  harness.caps(raw_caps(GetParam(), 64, 48), raw_caps("GRAY8", 64, 48));
+  expect_one_error({"sink_left", GetParam(), "videoconvert"}, {GetParam(), "GRAY8"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Some, WrongFormat,
+                         testing::Values("RGB", "BGRx", "YUY2", "UYVY", "GRAY16_LE", "I420_10LE",
+                                         "P010_10LE", "v210"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST_F(Refusal, CodedVideoIsNamed) {
+  harness.caps("video/x-h264,width=64,height=48", raw_caps("GRAY8", 64, 48));
+  expect_one_error({"sink_left", "video/x-h264", "decode"}, {"video/x-h264"});
+}
+
+TEST_F(Refusal, MemoryOfAGraphicsCardIsNamed) {
+  harness.caps(raw_caps("GRAY8", 64, 48),
+               "video/x-raw(memory:GLMemory),format=GRAY8,width=64,height=48");
+  expect_one_error({"sink_right", "memory:GLMemory", "gldownload"}, {"GLMemory"});
+}
+
+TEST_F(Refusal, FieldsOfAlternatingVideoAreNamed) {
+  harness.caps(
+      "video/x-raw(format:Interlaced),format=GRAY8,width=64,height=48,"
+      "interlace-mode=alternate",
+      raw_caps("GRAY8", 64, 48));
+  expect_one_error({"sink_left", "alternate", "deinterlace"}, {"alternate"});
+}
+
+TEST_F(Refusal, CapsWithoutASizeAreNamed) {
+  harness.caps("video/x-raw,format=GRAY8", raw_caps("GRAY8", 64, 48));
+  expect_one_error({"sink_left", "width and height"}, {"GRAY8"});
+}
+
+TEST_F(Refusal, TwoWrongStreamsGiveOneError) {
+  harness.caps(raw_caps("RGB", 64, 48), raw_caps("BGR", 64, 48));
+  push();
+  expect_one_error({"videoconvert"}, {});
+}
+
+TEST_F(Refusal, ABufferThatIsTooSmallIsNamed) {
+  harness.caps(raw_caps("GRAY8", 64, 48));
+  harness.push(Side::kLeft, frame_buffer(noise_pair(64, 48, 4, 1).left, 0, kFrame));
+  harness.push(Side::kRight, frame_buffer(noise_pair(64, 20, 4, 1).left, 0, kFrame));
+  expect_one_error({"sink_right", "1280 bytes", "3072 bytes"}, {"64x48"});
+}
+
+TEST_F(Refusal, AMetaThatPointsBehindTheBufferIsNamed) {
+  harness.caps(raw_caps("GRAY8", 64, 48));
+  GstBuffer* left = frame_buffer(noise_pair(64, 48, 4, 1).left, 0, kFrame);
+  gsize offset[GST_VIDEO_MAX_PLANES] = {0};
+  gint stride[GST_VIDEO_MAX_PLANES] = {1000};
+  gst_buffer_add_video_meta_full(left, GST_VIDEO_FRAME_FLAG_NONE, GST_VIDEO_FORMAT_GRAY8, 64, 48, 1,
+                                 offset, stride);
+  harness.push(Side::kLeft, left);
+  harness.push(Side::kRight, frame_buffer(noise_pair(64, 48, 4, 1).right, 0, kFrame));
+  expect_one_error({"sink_left", "3072 bytes"}, {"64x48"});
+}
+
+TEST_F(Refusal, AMetaOfAnotherSizeIsNamed) {
+  harness.caps(raw_caps("GRAY8", 64, 48));
+  GstBuffer* left = frame_buffer(noise_pair(64, 48, 4, 1).left, 0, kFrame);
+  gsize offset[GST_VIDEO_MAX_PLANES] = {0};
+  gint stride[GST_VIDEO_MAX_PLANES] = {48};
+  gst_buffer_add_video_meta_full(left, GST_VIDEO_FRAME_FLAG_NONE, GST_VIDEO_FORMAT_GRAY8, 48, 64, 1,
+                                 offset, stride);
+  harness.push(Side::kLeft, left);
+  harness.push(Side::kRight, frame_buffer(noise_pair(64, 48, 4, 1).right, 0, kFrame));
+  expect_one_error({"sink_left", "48x64", "64x48"}, {});
+}
+
+TEST_F(Refusal, ARangeThatIsWiderThanTheFrameIsNamed) {
+  g_object_set(harness.element(), "max-disparity", 100, nullptr);
+  harness.caps(raw_caps("GRAY8", 64, 48));
+  push();
+  expect_one_error({"max-disparity", "100", "64"}, {"max-disparity=100", "64x48"});
+}
+
+TEST_F(Refusal, DownstreamThatWantsSomethingElseIsNamed) {
+  gst_harness_set_sink_caps_str(harness.output(), "video/x-raw,format=GRAY16_LE,width=640");
+  harness.caps(raw_caps("GRAY8", 64, 48));
+  push();
+  expect_one_error({"does not take", "GRAY16_LE"}, {"width=(int)64", "width=(int)640"});
+}
+
+class RefusedAtStart : public testing::Test {
+ protected:
+  /// The error that an element with these properties gives when it is started.
+  Report start(const std::string& properties) {
+    GstElement* element = make_element(properties);
+    GstBus* bus = gst_bus_new();
+    gst_element_set_bus(element, bus);
+    EXPECT_EQ(gst_element_set_state(element, GST_STATE_PAUSED), GST_STATE_CHANGE_FAILURE);
+    Report report;
+    int errors = 0;
+    while (GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR)) {
+      GError* error = nullptr;
+      gchar* details = nullptr;
+      gst_message_parse_error(message, &error, &details);
+      report = {error->message, details, error->domain, error->code};
+      g_error_free(error);
+      g_free(details);
+      gst_message_unref(message);
+      ++errors;
+    }
+    EXPECT_EQ(errors, 1);
+    gst_element_set_state(element, GST_STATE_NULL);
+    gst_element_set_bus(element, nullptr);
+    gst_object_unref(bus);
+    gst_object_unref(element);
+    return report;
+  }
+};
+
+TEST_F(RefusedAtStart, AScaleThatDoesNotFitSixteenBits) {
+  const Report error = start("max-disparity=300 disparity-scale=256");
+  EXPECT_TRUE(has(error.text, "max-disparity")) << error.text;
+  EXPECT_TRUE(has(error.text, "256")) << error.text;
+  EXPECT_TRUE(has(error.details, "max-disparity=300")) << error.details;
+  EXPECT_TRUE(has(error.details, "disparity-scale=256")) << error.details;
+  EXPECT_EQ(error.domain, GST_LIBRARY_ERROR);
+  EXPECT_EQ(error.code, GST_LIBRARY_ERROR_SETTINGS);
+}
+
+TEST_F(RefusedAtStart, LevelsThatAreNoLevels) {
+  for (const char* levels : {"0,1", "2", "a", "1,,0", ""}) {
+    const Report error = start(std::string("node-levels=") + levels);
+    EXPECT_TRUE(has(error.text, "node-levels")) << error.text;
+  }
+}
+
+TEST_F(RefusedAtStart, AKernelOfEvenSize) {
+  const Report error = start("cost-kernel-size=4");
+  EXPECT_TRUE(has(error.text, "cost-kernel-size")) << error.text;
+  EXPECT_TRUE(has(error.text, "odd")) << error.text;
+}
+
+TEST_F(RefusedAtStart, ButNotAfterTheValueWasCorrected) {
+  GstElement* element = make_element("cost-kernel-size=4 cost-kernel-size=5");
+  EXPECT_NE(gst_element_set_state(element, GST_STATE_PAUSED), GST_STATE_CHANGE_FAILURE);
+  gst_element_set_state(element, GST_STATE_NULL);
+  gst_object_unref(element);
+}
+
+}  // namespace
+}  // namespace mtstereo::test

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Live streams: deadlines, latency and quality of service. Time is a test clock's.
+#include <gtest/gtest.h>
+
+#include "support/stereo_harness.hpp"
+
+namespace mtstereo::test {
+namespace {
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+class Live : public testing::Test {
+ protected:
+  void start(bool live, const std::string& properties = "max-disparity=16") {
+    harness = std::make_unique<StereoHarness>(properties, live);
+    harness->caps(raw_caps("GRAY8", kWidth, kHeight));
+  }
+  GstFlowReturn left(GstClockTime time) {
+    return harness->push(Side::kLeft, frame_buffer(pair.left, time, kFrame));
+  }
+  GstFlowReturn right(GstClockTime time) {
+    return harness->push(Side::kRight, frame_buffer(pair.right, time, kFrame));
+  }
+  /// Lets the element's one wait for the clock end.
+  bool pass_deadline() { return gst_harness_crank_single_clock_wait(harness->output()); }
+  GstClockTime latency() { return gst_harness_query_latency(harness->output()); }
+
+  Pair pair = noise_pair(kWidth, kHeight, 5, 3);
+  std::unique_ptr<StereoHarness> harness;
+};
+
+TEST_F(Live, PairsFramesThatComeInTime) {
+  start(true);
+  for (GstClockTime i = 0; i < 3; ++i) {
+    harness->push_pair(pair, i * kFrame);
+    ASSERT_TRUE(harness->pull()) << i;
+  }
+}
+
+TEST_F(Live, DropsALoneLeftFrameAtTheDeadlineAndSendsAGap) {
+  start(true);
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  left(kFrame);
+  EXPECT_TRUE(harness->silent()) << "the deadline is not there yet";
+  ASSERT_TRUE(pass_deadline());
+  EXPECT_TRUE(harness->wait_for_stats(1, 1, 0));
+  const EventPointer gap = harness->pull_event(GST_EVENT_GAP);
+  ASSERT_TRUE(gap);
+  GstClockTime time = 0;
+  gst_event_parse_gap(gap.get(), &time, nullptr);
+  EXPECT_EQ(time, kFrame);
+}
+
+TEST_F(Live, DropsALoneRightFrameAtTheDeadlineAndSendsAGap) {
+  start(true);
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  right(kFrame);
+  ASSERT_TRUE(pass_deadline());
+  EXPECT_TRUE(harness->wait_for_stats(1, 0, 1));
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_GAP));
+}
+
+TEST_F(Live, GoesOnWhenACameraDiesAndComesBack) {
+  start(true);
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  for (GstClockTime i = 1; i <= 5; ++i) {
+    left(i * kFrame);
+    ASSERT_TRUE(pass_deadline()) << i;
+    ASSERT_TRUE(harness->wait_for_stats(1, i, 0)) << i;
+  }
+  harness->push_pair(pair, 6 * kFrame);
+  const BufferPointer map = harness->pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 6 * kFrame);
+}
+
+TEST_F(Live, WarnsWhenACameraHasDied) {
+  start(true);
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  for (GstClockTime i = 1; i <= 30; ++i) {
+    left(i * kFrame);
+    ASSERT_TRUE(pass_deadline()) << i;
+    ASSERT_TRUE(harness->wait_for_stats(1, i, 0)) << i;
+  }
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("sink_right"), std::string::npos) << warning.text;
+  EXPECT_NE(warning.text.find("latency"), std::string::npos) << warning.text;
+}
+
+TEST_F(Live, AFrameWithoutTimeStampWaitsForItsPartner) {
+  start(true);
+  left(GST_CLOCK_TIME_NONE);
+  EXPECT_TRUE(harness->silent());
+  right(GST_CLOCK_TIME_NONE);
+  EXPECT_TRUE(harness->pull());
+}
+
+TEST_F(Live, FilesAreNeverDroppedOnTime) {
+  start(false);
+  left(0);
+  gst_harness_set_time(harness->output(), 1000 * GST_SECOND);
+  EXPECT_TRUE(harness->silent());
+  right(0);
+  EXPECT_TRUE(harness->pull());
+  EXPECT_TRUE(harness->wait_for_stats(1, 0, 0));
+}
+
+TEST_F(Live, LatencyHoldsTheWaitForAPartner) {
+  start(true);
+  gst_harness_set_upstream_latency(harness->side(Side::kLeft), 10 * GST_MSECOND);
+  gst_harness_set_upstream_latency(harness->side(Side::kRight), 10 * GST_MSECOND);
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  EXPECT_NEAR(static_cast<double>(latency()), static_cast<double>(10 * GST_MSECOND + kFrame), 10.0);
+}
+
+TEST_F(Live, LatencyFollowsAWideTolerance) {
+  start(true, "max-disparity=16 sync-tolerance=100000000");
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  EXPECT_EQ(latency(), 100 * GST_MSECOND);
+}
+
+TEST_F(Live, LatencyHoldsTheTimeThatMatchingTakes) {
+  start(true);
+  for (GstClockTime i = 0; i < 4; ++i) {
+    harness->push_pair(pair, i * kFrame);
+    ASSERT_TRUE(harness->pull());
+  }
+  EXPECT_GT(latency(), kFrame + 1000) << "nothing for the matching";
+  EXPECT_LT(latency(), kFrame + 10 * GST_SECOND);
+  EXPECT_GT(harness->stats().mean_ms, 0.0);
+}
+
+TEST_F(Live, SkipsPairsThatDownstreamCallsLate) {
+  start(true);
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  gst_harness_push_upstream_event(harness->output(),
+                                  gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 2.0, 3 * kFrame, 0));
+  harness->push_pair(pair, kFrame);
+  harness->push_pair(pair, 4 * kFrame);
+  const BufferPointer map = harness->pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 4 * kFrame);
+  EXPECT_EQ(harness->stats().skipped, 1u);
+  EXPECT_EQ(harness->stats().pairs, 2u);
+  const MessagePointer message(
+      gst_bus_timed_pop_filtered(GST_ELEMENT_BUS(harness->element()), GST_SECOND, GST_MESSAGE_QOS));
+  ASSERT_TRUE(message);
+  guint64 processed = 0;
+  guint64 dropped = 0;
+  gst_message_parse_qos_stats(message.get(), nullptr, &processed, &dropped);
+  EXPECT_EQ(processed, 1u);
+  EXPECT_EQ(dropped, 1u);
+}
+
+TEST_F(Live, MatchesLatePairsWhereQosIsOff) {
+  start(true, "max-disparity=16 qos=false");
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  gst_harness_push_upstream_event(harness->output(),
+                                  gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 2.0, 3 * kFrame, 0));
+  harness->push_pair(pair, kFrame);
+  EXPECT_TRUE(harness->pull());
+  EXPECT_EQ(harness->stats().skipped, 0u);
+}
+
+TEST_F(Live, TheTimeThatMatchingTakesCountsAsLateness) {
+  start(true);
+  for (GstClockTime i = 0; i < 3; ++i) {
+    harness->push_pair(pair, i * kFrame);
+    ASSERT_TRUE(harness->pull());
+  }
+  // A map at 10 s would be just in time now, so one that still has to be matched is not.
+  gst_harness_push_upstream_event(
+      harness->output(), gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 1.0, 0, 10 * GST_SECOND));
+  harness->push_pair(pair, 10 * GST_SECOND + 1000);
+  harness->push_pair(pair, 20 * GST_SECOND);
+  const BufferPointer map = harness->pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 20 * GST_SECOND);
+  EXPECT_EQ(harness->stats().skipped, 1u);
+}
+
+TEST_F(Live, ALateFrameWaitsAMomentForItsPartner) {
+  start(true);
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  gst_harness_set_time(harness->output(), 10 * GST_SECOND);
+  left(kFrame);  // far behind the clock, as after a long match
+  EXPECT_TRUE(harness->silent());
+  EXPECT_EQ(harness->stats().dropped_left, 0u);
+  right(kFrame);
+  EXPECT_TRUE(harness->pull());
+  left(2 * kFrame);
+  ASSERT_TRUE(pass_deadline());
+  EXPECT_TRUE(harness->wait_for_stats(2, 1, 0)) << "the moment has to end";
+}
+
+TEST_F(Live, KeepsQosEventsFromTheSourcesWhereEveryPairIsWanted) {
+  start(true, "max-disparity=16 qos=false");
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  gst_harness_push_upstream_event(harness->output(),
+                                  gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 2.0, 0, kFrame));
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    while (EventPointer event{gst_harness_try_pull_upstream_event(harness->side(side))}) {
+      EXPECT_NE(GST_EVENT_TYPE(event.get()), GST_EVENT_QOS);
+    }
+  }
+}
+
+TEST_F(Live, PassesQosEventsOnToBothSources) {
+  start(true);
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  gst_harness_push_upstream_event(harness->output(),
+                                  gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 2.0, 0, kFrame));
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    bool seen = false;
+    while (EventPointer event{gst_harness_try_pull_upstream_event(harness->side(side))}) {
+      seen = seen || GST_EVENT_TYPE(event.get()) == GST_EVENT_QOS;
+    }
+    EXPECT_TRUE(seen);
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo::test

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Which frames the element pairs, which it drops, and what it counts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "support/stereo_harness.hpp"
+
+namespace mtstereo::test {
+namespace {
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+class PairOrder : public testing::Test {
+ protected:
+  void start(const std::string& properties = "max-disparity=16") {
+    harness = std::make_unique<StereoHarness>(properties);
+    harness->caps(raw_caps("GRAY8", kWidth, kHeight));
+  }
+  void left(GstClockTime time) {
+    harness->push(Side::kLeft, frame_buffer(pair.left, time, kFrame));
+  }
+  void right(GstClockTime time) {
+    harness->push(Side::kRight, frame_buffer(pair.right, time, kFrame));
+  }
+  /// The time stamps of everything that comes out until the end of the stream.
+  std::vector<GstClockTime> times_until_end() {
+    EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS)) << "no end of stream";
+    std::vector<GstClockTime> times;
+    while (BufferPointer buffer = harness->pull(0)) times.push_back(GST_BUFFER_PTS(buffer.get()));
+    return times;
+  }
+
+  Pair pair = noise_pair(kWidth, kHeight, 5, 1);
+  std::unique_ptr<StereoHarness> harness;
+};
+
+TEST_F(PairOrder, EveryPairComesOutOnceInOrder) {
+  start();
+  for (GstClockTime i = 0; i < 10; ++i) {
+    harness->push_pair(pair, i * kFrame);
+    const BufferPointer map = harness->pull();
+    ASSERT_TRUE(map) << "pair " << i;
+    EXPECT_EQ(GST_BUFFER_PTS(map.get()), i * kFrame);
+  }
+  EXPECT_TRUE(harness->silent());
+  EXPECT_EQ(harness->stats().pairs, 10u);
+}
+
+TEST_F(PairOrder, NothingComesOutBeforeBothFramesAreThere) {
+  start();
+  left(0);
+  EXPECT_TRUE(harness->silent());
+  right(0);
+  EXPECT_TRUE(harness->pull());
+}
+
+TEST_F(PairOrder, DropsLeftFrameWithoutPartnerAndCountsIt) {
+  start();
+  left(0);
+  right(kFrame);
+  left(kFrame);
+  const BufferPointer map = harness->pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), kFrame);
+  EXPECT_TRUE(harness->wait_for_stats(1, 1, 0));
+}
+
+TEST_F(PairOrder, DropsRightFrameWithoutPartnerAndCountsIt) {
+  start();
+  right(0);
+  left(kFrame);
+  right(kFrame);
+  const BufferPointer map = harness->pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), kFrame);
+  EXPECT_TRUE(harness->wait_for_stats(1, 0, 1));
+}
+
+TEST_F(PairOrder, PairsFramesLessThanHalfAFrameApart) {
+  start();
+  left(0);
+  right(kFrame / 2 - 1);
+  EXPECT_TRUE(harness->pull());
+  left(10 * kFrame);
+  right(10 * kFrame - kFrame / 2 + 1);
+  const BufferPointer map = harness->pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 10 * kFrame) << "the time is the left frame's";
+}
+
+TEST_F(PairOrder, KeepsToTheToleranceThatIsSet) {
+  start("max-disparity=16 sync-tolerance=1000000");
+  left(0);
+  right(1'000'001);
+  EXPECT_TRUE(harness->wait_for_stats(0, 1, 0));
+  left(2'000'001);
+  EXPECT_TRUE(harness->pull());
+}
+
+TEST_F(PairOrder, ToleranceCanBeChangedWhilePlaying) {
+  start("max-disparity=16 sync-tolerance=0");
+  left(0);
+  right(1);
+  EXPECT_TRUE(harness->wait_for_stats(0, 1, 0));
+  g_object_set(harness->element(), "sync-tolerance", static_cast<gint64>(kFrame), nullptr);
+  left(kFrame);
+  EXPECT_TRUE(harness->pull());
+}
+
+TEST_F(PairOrder, PairsADelayedStreamOnceItIsThere) {
+  start();
+  std::vector<GstClockTime> early;
+  std::vector<GstClockTime> late;
+  for (GstClockTime i = 0; i < 12; ++i) early.push_back(i * kFrame);
+  for (GstClockTime i = 5; i < 12; ++i) late.push_back(i * kFrame);
+  Feeder lefts(*harness, Side::kLeft, pair, early);
+  Feeder rights(*harness, Side::kRight, pair, late);
+  EXPECT_EQ(times_until_end(), late);
+  EXPECT_EQ(harness->stats().dropped_left, 5u);
+  EXPECT_EQ(harness->stats().dropped_right, 0u);
+}
+
+TEST_F(PairOrder, LostFramesCostOnlyTheirOwnPairs) {
+  start();
+  std::vector<GstClockTime> lefts;
+  std::vector<GstClockTime> rights;
+  std::vector<GstClockTime> both;
+  for (GstClockTime i = 0; i < 30; ++i) {
+    const bool lost_left = i % 7 == 3;
+    const bool lost_right = i % 5 == 2;
+    if (!lost_left) lefts.push_back(i * kFrame);
+    if (!lost_right) rights.push_back(i * kFrame);
+    if (!lost_left && !lost_right) both.push_back(i * kFrame);
+  }
+  Feeder first(*harness, Side::kLeft, pair, lefts);
+  Feeder second(*harness, Side::kRight, pair, rights);
+  EXPECT_EQ(times_until_end(), both);
+  EXPECT_EQ(harness->stats().pairs, both.size());
+  EXPECT_EQ(harness->stats().dropped_left, lefts.size() - both.size());
+  EXPECT_EQ(harness->stats().dropped_right, rights.size() - both.size());
+}
+
+TEST_F(PairOrder, StreamsOfDifferentRatesPairAtTheSlowerOne) {
+  start();
+  harness->caps(Side::kLeft, raw_caps("GRAY8", kWidth, kHeight, "15/1"));
+  std::vector<GstClockTime> slow;
+  std::vector<GstClockTime> fast;
+  for (GstClockTime i = 0; i < 19; ++i) {  // the last one has a partner
+    const GstClockTime time = gst_util_uint64_scale_int(GST_SECOND, static_cast<gint>(i), 30);
+    fast.push_back(time);
+    if (i % 2 == 0) slow.push_back(time);
+  }
+  Feeder lefts(*harness, Side::kLeft, pair, slow);
+  Feeder rights(*harness, Side::kRight, pair, fast);
+  EXPECT_EQ(times_until_end(), slow);
+  EXPECT_EQ(harness->stats().dropped_left, 0u);
+  EXPECT_EQ(harness->stats().dropped_right, 9u);
+}
+
+TEST_F(PairOrder, PairsInOrderWithoutTimeStamps) {
+  start();
+  for (int i = 0; i < 3; ++i) {
+    harness->push_pair(pair, GST_CLOCK_TIME_NONE);
+    const BufferPointer map = harness->pull();
+    ASSERT_TRUE(map) << i;
+    EXPECT_FALSE(GST_BUFFER_PTS_IS_VALID(map.get()));
+  }
+}
+
+TEST_F(PairOrder, TimeStampsOnOneSideOnlyAreAnErrorThatNamesBoth) {
+  start();
+  left(0);
+  right(GST_CLOCK_TIME_NONE);
+  const Report error = harness->error();
+  EXPECT_NE(error.text.find("sink_left have time stamps"), std::string::npos) << error.text;
+  EXPECT_NE(error.text.find("sink_right have none"), std::string::npos) << error.text;
+  EXPECT_EQ(harness->further_errors(), 0);
+}
+
+TEST_F(PairOrder, ThePadsOffsetShiftsAStream) {
+  harness = std::make_unique<StereoHarness>("max-disparity=16");
+  // As on the command line: mtstereo sink_right::offset=1000000000
+  gst_child_proxy_set(GST_CHILD_PROXY(harness->element()), "sink_right::offset",
+                      static_cast<gint64>(GST_SECOND), nullptr);
+  harness->caps(raw_caps("GRAY8", kWidth, kHeight));
+  left(GST_SECOND);
+  right(0);
+  EXPECT_TRUE(harness->pull());
+  EXPECT_TRUE(harness->wait_for_stats(1, 0, 0));
+}
+
+TEST_F(PairOrder, ComparesRunningTimesAndNotTimeStamps) {
+  harness = std::make_unique<StereoHarness>("max-disparity=16");
+  harness->caps(raw_caps("GRAY8", kWidth, kHeight));
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.start = 100 * GST_SECOND;
+  segment.time = 100 * GST_SECOND;
+  harness->event(Side::kRight, gst_event_new_segment(&segment));
+  left(2 * kFrame);
+  right(100 * GST_SECOND + 2 * kFrame);
+  EXPECT_TRUE(harness->pull());
+}
+
+TEST_F(PairOrder, DropsFramesOutsideOfTheirSegment) {
+  harness = std::make_unique<StereoHarness>("max-disparity=16");
+  harness->caps(raw_caps("GRAY8", kWidth, kHeight));
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.start = GST_SECOND;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    harness->event(side, gst_event_new_segment(&segment));
+  }
+  harness->push_pair(pair, 0);
+  harness->push_pair(pair, GST_SECOND);
+  const BufferPointer map = harness->pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), GST_SECOND);
+  EXPECT_TRUE(harness->wait_for_stats(1, 0, 0));
+}
+
+TEST_F(PairOrder, WarnsOnceWhereTheStreamsNeverMeet) {
+  start("max-disparity=16 sync-tolerance=1000000");
+  std::vector<GstClockTime> lefts;
+  std::vector<GstClockTime> rights;
+  for (GstClockTime i = 0; i < 40; ++i) {
+    lefts.push_back(i * kFrame);
+    rights.push_back(i * kFrame + 9'000'000);
+  }
+  Feeder first(*harness, Side::kLeft, pair, lefts);
+  Feeder second(*harness, Side::kRight, pair, rights);
+  EXPECT_TRUE(times_until_end().empty());
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("sync-tolerance"), std::string::npos) << warning.text;
+  EXPECT_NE(warning.text.find("1.000 ms"), std::string::npos) << warning.text;
+  EXPECT_NE(warning.details.find("ms after the left one"), std::string::npos) << warning.details;
+  EXPECT_EQ(harness->warning(0.1).text, "");
+}
+
+TEST_F(PairOrder, TheOrderOfPushingDoesNotMatter) {
+  std::vector<Pair> pairs;
+  for (unsigned i = 0; i < 8; ++i) pairs.push_back(noise_pair(kWidth, kHeight, 4, i));
+  std::vector<std::vector<std::uint16_t>> expected;
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    start();
+    std::mt19937 random(seed);
+    std::size_t next[2] = {0, 0};
+    std::vector<std::vector<std::uint16_t>> maps;
+    while (maps.size() < pairs.size()) {
+      // One frame fits into a pad: a side may be at most one frame ahead of the other.
+      const std::size_t side = next[0] > next[1] ? 1 : next[1] > next[0] ? 0 : random() % 2;
+      const Pair& current = pairs[next[side]];
+      const GstClockTime time = next[side]++ * kFrame;
+      harness->push(side == 0 ? Side::kLeft : Side::kRight,
+                    frame_buffer(side == 0 ? current.left : current.right, time, kFrame));
+      if (next[0] != next[1]) continue;
+      const BufferPointer map = harness->pull();
+      ASSERT_TRUE(map) << "seed " << seed;
+      maps.push_back(map_of(map.get(), kWidth, kHeight));
+    }
+    if (seed == 0) expected = maps;
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      EXPECT_EQ(first_difference(expected[i], maps[i], kWidth), "")
+          << "seed " << seed << " pair " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo::test

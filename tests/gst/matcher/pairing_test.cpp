@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/pairing.hpp"
+
+#include <gtest/gtest.h>
+
+#include "matcher/latency.hpp"
+
+namespace mtstereo::plugin {
+namespace {
+
+constexpr Nanoseconds kMs = 1'000'000;
+
+TEST(Pairing, PairsFramesOfTheSameTime) {
+  const PairingDecision decision = decide_pairing(40 * kMs, 40 * kMs, 0);
+  EXPECT_EQ(decision.action, PairingAction::kPair);
+  EXPECT_EQ(decision.difference, 0);
+}
+
+TEST(Pairing, PairsFramesThatAreExactlyTheToleranceApart) {
+  EXPECT_EQ(decide_pairing(40 * kMs, 50 * kMs, 10 * kMs).action, PairingAction::kPair);
+  EXPECT_EQ(decide_pairing(50 * kMs, 40 * kMs, 10 * kMs).action, PairingAction::kPair);
+}
+
+TEST(Pairing, DropsLeftFrameWithoutPartner) {
+  const PairingDecision decision = decide_pairing(40 * kMs, 50 * kMs + 1, 10 * kMs);
+  EXPECT_EQ(decision.action, PairingAction::kDropLeft);
+  EXPECT_EQ(decision.difference, 10 * kMs + 1);
+}
+
+TEST(Pairing, DropsRightFrameWithoutPartner) {
+  const PairingDecision decision = decide_pairing(50 * kMs + 1, 40 * kMs, 10 * kMs);
+  EXPECT_EQ(decision.action, PairingAction::kDropRight);
+  EXPECT_EQ(decision.difference, -10 * kMs - 1);
+}
+
+TEST(Pairing, ComparesTimesBeforeTheSegment) {
+  EXPECT_EQ(decide_pairing(-3 * kMs, 4 * kMs, 10 * kMs).action, PairingAction::kPair);
+  EXPECT_EQ(decide_pairing(-30 * kMs, 4 * kMs, 10 * kMs).action, PairingAction::kDropLeft);
+}
+
+TEST(Pairing, PairsInOrderWhereNeitherFrameHasATime) {
+  EXPECT_EQ(decide_pairing(std::nullopt, std::nullopt, 0).action, PairingAction::kPair);
+}
+
+TEST(Pairing, RefusesTimesOnOneSideOnly) {
+  EXPECT_EQ(decide_pairing(0, std::nullopt, kMs).action, PairingAction::kMixedStamping);
+  EXPECT_EQ(decide_pairing(std::nullopt, 0, kMs).action, PairingAction::kMixedStamping);
+}
+
+TEST(Tolerance, IsWhatTheUserSet) {
+  EXPECT_EQ(tolerance_in_force(7, {40 * kMs, 40 * kMs}, {20 * kMs, 20 * kMs}), 7);
+  EXPECT_EQ(tolerance_in_force(0, {40 * kMs, 40 * kMs}, {}), 0);
+}
+
+TEST(Tolerance, IsHalfAFrameOfTheFasterStream) {
+  EXPECT_EQ(tolerance_in_force(-1, {40 * kMs, 20 * kMs}, {2 * kMs, 2 * kMs}), 10 * kMs);
+  EXPECT_EQ(tolerance_in_force(-1, {20 * kMs, 40 * kMs}, {}), 10 * kMs);
+  EXPECT_EQ(tolerance_in_force(-1, {std::nullopt, 40 * kMs}, {2 * kMs, 2 * kMs}), 20 * kMs);
+}
+
+TEST(Tolerance, FallsBackToTheBuffersAndThenToTwentyMilliseconds) {
+  EXPECT_EQ(tolerance_in_force(-1, {}, {60 * kMs, std::nullopt}), 30 * kMs);
+  EXPECT_EQ(tolerance_in_force(-1, {}, {}), 20 * kMs);
+}
+
+TEST(LonelyFrame, OnTimeHasTheDeadlineOfItsTime) {
+  LonelyFrame frame;
+  EXPECT_EQ(frame.deadline(true, 100 * kMs, 110 * kMs, 50 * kMs), 100 * kMs);
+  EXPECT_EQ(frame.deadline(true, 100 * kMs, 140 * kMs, 50 * kMs), 100 * kMs) << "seen again";
+}
+
+TEST(LonelyFrame, LateOnesGetAGraceOnce) {
+  LonelyFrame frame;
+  constexpr Nanoseconds kNow = 400 * kMs;
+  const Nanoseconds expected = kNow + LonelyFrame::kGrace - 50 * kMs;
+  EXPECT_EQ(frame.deadline(true, 100 * kMs, kNow, 50 * kMs), expected);
+  EXPECT_EQ(frame.deadline(true, 100 * kMs, kNow + 10 * kMs, 50 * kMs), expected)
+      << "the grace must not begin anew";
+  EXPECT_EQ(frame.deadline(false, 100 * kMs, kNow + 10 * kMs, 50 * kMs), expected + 10 * kMs)
+      << "a frame of the other side is another frame";
+}
+
+TEST(UnpairedAlarm, RingsAfterARunOfDroppedFrames) {
+  UnpairedAlarm alarm;
+  for (int i = 1; i < UnpairedAlarm::kRun; ++i) EXPECT_FALSE(alarm.dropped(i)) << i;
+  EXPECT_TRUE(alarm.dropped(UnpairedAlarm::kRun));
+}
+
+TEST(UnpairedAlarm, KeepsQuietWhereEverySecondFrameFindsAPartner) {
+  UnpairedAlarm alarm;
+  for (int i = 0; i < 10 * UnpairedAlarm::kRun; ++i) {
+    EXPECT_FALSE(alarm.dropped(i * UnpairedAlarm::kInterval)) << i;
+    alarm.paired();
+  }
+}
+
+TEST(UnpairedAlarm, RingsAgainOnlyAfterTheInterval) {
+  UnpairedAlarm alarm;
+  for (int i = 1; i < UnpairedAlarm::kRun; ++i) alarm.dropped(0);
+  EXPECT_TRUE(alarm.dropped(0));
+  EXPECT_FALSE(alarm.dropped(UnpairedAlarm::kInterval - 1));
+  EXPECT_TRUE(alarm.dropped(UnpairedAlarm::kInterval));
+}
+
+TEST(ProcessingLatency, LeavesOutTheFirstPair) {
+  ProcessingLatency latency;
+  EXPECT_FALSE(latency.measured(900));
+  EXPECT_EQ(latency.reported_ms(), 0);
+  EXPECT_TRUE(latency.measured(10));
+  EXPECT_NEAR(latency.reported_ms(), 10.5, 1e-9);
+}
+
+TEST(ProcessingLatency, KeepsTheToldValueWhereTimesOnlyJitter) {
+  ProcessingLatency latency;
+  latency.measured(10);
+  latency.measured(10);
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(latency.measured(i % 2 == 0 ? 8 : 12)) << i;
+}
+
+TEST(ProcessingLatency, FollowsALastingChange) {
+  ProcessingLatency latency;
+  latency.measured(10);
+  latency.measured(10);
+  bool told = false;
+  for (int i = 0; i < 50; ++i) told = latency.measured(40) || told;
+  EXPECT_TRUE(told);
+  EXPECT_NEAR(latency.reported_ms(), 42, 0.25 * 42);
+}
+
+}  // namespace
+}  // namespace mtstereo::plugin

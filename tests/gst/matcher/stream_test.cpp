@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Events, flags, metas and the ends of streams.
+#include <gtest/gtest.h>
+
+#include "support/stereo_harness.hpp"
+
+namespace mtstereo::test {
+namespace {
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+class Stream : public testing::Test {
+ protected:
+  Stream() { harness.caps(raw_caps("GRAY8", kWidth, kHeight)); }
+  void left(GstClockTime time) { harness.push(Side::kLeft, frame_buffer(pair.left, time, kFrame)); }
+  void right(GstClockTime time) {
+    harness.push(Side::kRight, frame_buffer(pair.right, time, kFrame));
+  }
+  void flush(Side side, std::uint32_t seqnum) {
+    GstEvent* begin = gst_event_new_flush_start();
+    gst_event_set_seqnum(begin, seqnum);
+    harness.event(side, begin);
+  }
+  void end_flush(Side side, std::uint32_t seqnum) {
+    GstEvent* end = gst_event_new_flush_stop(TRUE);
+    gst_event_set_seqnum(end, seqnum);
+    harness.event(side, end);
+    GstSegment segment;
+    gst_segment_init(&segment, GST_FORMAT_TIME);
+    harness.event(side, gst_event_new_segment(&segment));
+  }
+
+  Pair pair = noise_pair(kWidth, kHeight, 5, 2);
+  StereoHarness harness;
+};
+
+TEST_F(Stream, EndsWhereTheRightStreamEndsFirst) {
+  harness.push_pair(pair, 0);
+  harness.end(Side::kRight);
+  left(kFrame);
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
+  EXPECT_TRUE(harness.pull(1)) << "the pair before the end is lost";
+  EXPECT_TRUE(harness.wait_for_stats(1, 1, 0));
+  EXPECT_EQ(harness.push(Side::kLeft, frame_buffer(pair.left, 2 * kFrame, kFrame)), GST_FLOW_EOS)
+      << "the other stream is not told to end";
+}
+
+TEST_F(Stream, EndsWhereTheLeftStreamEndsFirst) {
+  harness.push_pair(pair, 0);
+  right(kFrame);
+  harness.end(Side::kLeft);
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
+  EXPECT_TRUE(harness.wait_for_stats(1, 0, 1));
+  EXPECT_EQ(harness.push(Side::kRight, frame_buffer(pair.right, 2 * kFrame, kFrame)), GST_FLOW_EOS);
+}
+
+TEST_F(Stream, MatchesThePairThatIsWaitingWhenAStreamEnds) {
+  left(0);
+  harness.end(Side::kLeft);
+  EXPECT_TRUE(harness.silent());
+  right(0);
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
+  EXPECT_TRUE(harness.pull(1));
+}
+
+TEST_F(Stream, EndsAtOnceWhereTheOtherStreamGoesSilent) {
+  harness.push_pair(pair, 0);
+  ASSERT_TRUE(harness.pull());
+  harness.end(Side::kLeft);
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
+  EXPECT_EQ(harness.further_errors(), 0);
+}
+
+TEST_F(Stream, EndsOnlyOnce) {
+  harness.push_pair(pair, 0);
+  ASSERT_TRUE(harness.pull());
+  harness.end(Side::kLeft);
+  harness.end(Side::kRight);
+  ASSERT_TRUE(harness.pull_event(GST_EVENT_EOS));
+  EXPECT_FALSE(harness.pull_event(GST_EVENT_EOS, 0.2));
+}
+
+TEST_F(Stream, EndsWithoutAnyFrame) {
+  harness.end(Side::kLeft);
+  harness.end(Side::kRight);
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
+  EXPECT_EQ(harness.further_errors(), 0);
+}
+
+TEST_F(Stream, SendsStreamStartCapsAndSegmentBeforeTheFirstMap) {
+  harness.push_pair(pair, 0);
+  ASSERT_TRUE(harness.pull());
+  for (const GstEventType type : {GST_EVENT_STREAM_START, GST_EVENT_CAPS, GST_EVENT_SEGMENT}) {
+    const EventPointer event(gst_harness_pull_event(harness.output()));
+    ASSERT_TRUE(event);
+    EXPECT_EQ(GST_EVENT_TYPE(event.get()), type) << GST_EVENT_TYPE_NAME(event.get());
+  }
+}
+
+TEST_F(Stream, KeepsTheLeftStreamsSegment) {
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.start = 3 * GST_SECOND;
+  segment.time = 7 * GST_SECOND;
+  segment.base = GST_SECOND;
+  harness.event(Side::kLeft, gst_event_new_segment(&segment));
+  segment.time = 9 * GST_SECOND;
+  harness.event(Side::kRight, gst_event_new_segment(&segment));
+  harness.push_pair(pair, 3 * GST_SECOND);
+  ASSERT_TRUE(harness.pull());
+  const EventPointer event = harness.pull_event(GST_EVENT_SEGMENT);
+  ASSERT_TRUE(event);
+  const GstSegment* out = nullptr;
+  gst_event_parse_segment(event.get(), &out);
+  EXPECT_EQ(out->start, 3 * GST_SECOND);
+  EXPECT_EQ(out->time, 7 * GST_SECOND);
+  EXPECT_EQ(out->base, GST_SECOND);
+}
+
+TEST_F(Stream, ASegmentInBytesIsAnErrorThatNamesThePad) {
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_BYTES);
+  harness.event(Side::kRight, gst_event_new_segment(&segment));
+  const Report error = harness.error();
+  EXPECT_NE(error.text.find("sink_right"), std::string::npos) << error.text;
+  EXPECT_NE(error.text.find("bytes"), std::string::npos) << error.text;
+  EXPECT_EQ(harness.further_errors(), 0);
+}
+
+TEST_F(Stream, TimesFlagsAndOffsetsAreTheLeftFrames) {
+  GstBuffer* left = frame_buffer(pair.left, 4 * kFrame, kFrame);
+  GST_BUFFER_DTS(left) = 3 * kFrame;
+  GST_BUFFER_OFFSET(left) = 41;
+  GST_BUFFER_OFFSET_END(left) = 42;
+  GST_BUFFER_FLAG_SET(left, GST_BUFFER_FLAG_DISCONT);
+  GstBuffer* right = frame_buffer(pair.right, 4 * kFrame + 1, kFrame / 2);
+  GST_BUFFER_FLAG_SET(right, GST_BUFFER_FLAG_MARKER);
+  GST_BUFFER_FLAG_SET(right, GST_BUFFER_FLAG_CORRUPTED);
+  harness.push(Side::kLeft, left);
+  harness.push(Side::kRight, right);
+  const BufferPointer map = harness.pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 4 * kFrame);
+  EXPECT_EQ(GST_BUFFER_DTS(map.get()), GST_CLOCK_TIME_NONE);
+  EXPECT_EQ(GST_BUFFER_DURATION(map.get()), kFrame);
+  EXPECT_EQ(GST_BUFFER_OFFSET(map.get()), 41u);
+  EXPECT_EQ(GST_BUFFER_OFFSET_END(map.get()), 42u);
+  EXPECT_TRUE(GST_BUFFER_FLAG_IS_SET(map.get(), GST_BUFFER_FLAG_DISCONT));
+  EXPECT_FALSE(GST_BUFFER_FLAG_IS_SET(map.get(), GST_BUFFER_FLAG_MARKER));
+  EXPECT_TRUE(GST_BUFFER_FLAG_IS_SET(map.get(), GST_BUFFER_FLAG_CORRUPTED))
+      << "a map that is made of a broken right frame is broken";
+  harness.push_pair(pair, 5 * kFrame);
+  const BufferPointer next = harness.pull();
+  ASSERT_TRUE(next);
+  EXPECT_FALSE(GST_BUFFER_FLAG_IS_SET(next.get(), GST_BUFFER_FLAG_DISCONT));
+  EXPECT_FALSE(GST_BUFFER_FLAG_IS_SET(next.get(), GST_BUFFER_FLAG_CORRUPTED));
+}
+
+TEST_F(Stream, CopiesTheLeftFramesMetasButNotItsLayout) {
+  const CapsPointer reference(gst_caps_from_string("timestamp/x-ntp"));
+  GstBuffer* left = frame_buffer(pair.left, 0, kFrame, {.padding = 16});
+  gst_buffer_add_reference_timestamp_meta(left, reference.get(), 77, GST_CLOCK_TIME_NONE);
+  GstBuffer* right = frame_buffer(pair.right, 0, kFrame);
+  gst_buffer_add_reference_timestamp_meta(right, reference.get(), 88, GST_CLOCK_TIME_NONE);
+  harness.push(Side::kLeft, left);
+  harness.push(Side::kRight, right);
+  const BufferPointer map = harness.pull();
+  ASSERT_TRUE(map);
+  const auto* meta = gst_buffer_get_reference_timestamp_meta(map.get(), reference.get());
+  ASSERT_NE(meta, nullptr);
+  EXPECT_EQ(meta->timestamp, 77u);
+  EXPECT_EQ(gst_buffer_get_n_meta(map.get(), GST_REFERENCE_TIMESTAMP_META_API_TYPE), 1u);
+  const GstVideoMeta* video = gst_buffer_get_video_meta(map.get());
+  EXPECT_TRUE(video == nullptr || video->format == GST_VIDEO_FORMAT_GRAY16_LE);
+}
+
+TEST_F(Stream, AGapOfTheLeftStreamGoesOn) {
+  harness.push_pair(pair, 0);
+  ASSERT_TRUE(harness.pull());
+  harness.event(Side::kLeft, gst_event_new_gap(kFrame, 2 * kFrame));
+  right(kFrame);
+  const EventPointer gap = harness.pull_event(GST_EVENT_GAP);
+  ASSERT_TRUE(gap);
+  GstClockTime time = 0;
+  GstClockTime duration = 0;
+  gst_event_parse_gap(gap.get(), &time, &duration);
+  EXPECT_EQ(time, kFrame);
+  EXPECT_EQ(duration, 2 * kFrame);
+  left(3 * kFrame);
+  right(3 * kFrame);
+  const BufferPointer map = harness.pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 3 * kFrame);
+  EXPECT_TRUE(harness.wait_for_stats(2, 0, 1));
+}
+
+TEST_F(Stream, AGapThatComesFirstFollowsTheSegment) {
+  harness.event(Side::kLeft, gst_event_new_gap(0, kFrame));
+  right(0);
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_SEGMENT));
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap came ahead of the segment";
+}
+
+TEST_F(Stream, AGapThatComesFirstAfterAFlushFollowsTheSegment) {
+  harness.push_pair(pair, 0);
+  ASSERT_TRUE(harness.pull());
+  for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 7);
+  for (const Side side : {Side::kLeft, Side::kRight}) end_flush(side, 7);
+  ASSERT_TRUE(harness.pull_event(GST_EVENT_FLUSH_STOP));
+  harness.event(Side::kLeft, gst_event_new_gap(0, kFrame));
+  right(0);
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_SEGMENT));
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap came ahead of the segment";
+}
+
+TEST_F(Stream, AGapOfTheRightStreamCostsTheLeftFramesInIt) {
+  harness.push_pair(pair, 0);
+  ASSERT_TRUE(harness.pull());
+  harness.event(Side::kRight, gst_event_new_gap(kFrame, kFrame));
+  left(kFrame);
+  right(2 * kFrame);
+  left(2 * kFrame);
+  const BufferPointer map = harness.pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 2 * kFrame);
+  EXPECT_TRUE(harness.wait_for_stats(2, 1, 0));
+}
+
+TEST_F(Stream, AFlushForgetsTheFramesThatWait) {
+  harness.push_pair(pair, 0);
+  ASSERT_TRUE(harness.pull());
+  left(kFrame);
+  for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 7);
+  for (const Side side : {Side::kLeft, Side::kRight}) end_flush(side, 7);
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_FLUSH_STOP));
+  harness.push_pair(pair, 0);
+  const BufferPointer map = harness.pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 0u);
+  EXPECT_TRUE(harness.wait_for_stats(2, 0, 0));
+}
+
+TEST_F(Stream, AFlushAfterTheEndStartsAnew) {
+  harness.push_pair(pair, 0);
+  harness.end(Side::kLeft);
+  harness.end(Side::kRight);
+  ASSERT_TRUE(harness.pull_event(GST_EVENT_EOS));
+  ASSERT_TRUE(harness.pull());
+  for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 9);
+  for (const Side side : {Side::kLeft, Side::kRight}) end_flush(side, 9);
+  harness.push_pair(pair, 0);
+  EXPECT_TRUE(harness.pull());
+}
+
+TEST_F(Stream, InputFramesAreGivenBack) {
+  GstBuffer* left = frame_buffer(pair.left, 0, kFrame);
+  GstBuffer* right = frame_buffer(pair.right, 0, kFrame);
+  const BufferPointer left_keeper(gst_buffer_ref(left));
+  const BufferPointer right_keeper(gst_buffer_ref(right));
+  harness.push(Side::kLeft, left);
+  harness.push(Side::kRight, right);
+  ASSERT_TRUE(harness.pull());
+  harness.push_pair(pair, kFrame);  // the step before is over when this one comes out
+  ASSERT_TRUE(harness.pull());
+  EXPECT_EQ(GST_MINI_OBJECT_REFCOUNT_VALUE(left_keeper.get()), 1);
+  EXPECT_EQ(GST_MINI_OBJECT_REFCOUNT_VALUE(right_keeper.get()), 1);
+}
+
+}  // namespace
+}  // namespace mtstereo::test

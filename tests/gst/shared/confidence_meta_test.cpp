@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The meta by itself: what becomes of it when a buffer is copied or another one is made of it.
+#include "shared/confidence_meta.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "shared/confidence_pool.hpp"
+#include "support/stereo_harness.hpp"
+
+namespace mtstereo::test {
+namespace {
+
+constexpr gsize kBytes = 8 * 6 * 2;
+
+GstVideoInfo disparity_info(guint width, guint height) {
+  GstVideoInfo info;
+  gst_video_info_set_format(&info, GST_VIDEO_FORMAT_GRAY16_LE, width, height);
+  return info;
+}
+
+class ConfidenceMeta : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(plugin::register_confidence_meta());
+    ASSERT_TRUE(pool.fit(disparity_info(8, 6)));
+    buffer = disparity(3);
+  }
+
+  /// A disparity map whose confidence is this value everywhere.
+  BufferPointer disparity(int value) {
+    BufferPointer map(gst_buffer_new_allocate(nullptr, kBytes, nullptr));
+    plugin::BufferPointer confidence = pool.acquire();
+    gst_buffer_memset(confidence.get(), 0, static_cast<guint8>(value), pool.info().size);
+    const plugin::SamplePointer sample = pool.finish(std::move(confidence), map.get());
+    plugin::set_confidence(map.get(), sample.get());
+    return map;
+  }
+
+  /// What the meta's transform function makes of it in another buffer.
+  BufferPointer transformed(const char* type, gpointer data) {
+    BufferPointer to(gst_buffer_new_allocate(nullptr, kBytes, nullptr));
+    GstMeta* meta = reinterpret_cast<GstMeta*>(
+        gst_buffer_get_custom_meta(buffer.get(), plugin::kConfidenceMeta));
+    meta->info->transform_func(to.get(), meta, buffer.get(), g_quark_from_string(type), data);
+    return to;
+  }
+
+  plugin::ConfidencePool pool;
+  BufferPointer buffer;
+};
+
+TEST_F(ConfidenceMeta, IsRegisteredOnceByWhoeverComesFirst) {
+  std::vector<std::thread> threads;
+  std::vector<int> results(8, 0);
+  for (int& result : results) {
+    threads.emplace_back([&result] { result = plugin::register_confidence_meta() ? 1 : 0; });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(results, std::vector<int>(8, 1));
+  // The plugin, which has a registration of its own, takes the one that is there.
+  GstElement* element = make_element("");
+  ASSERT_NE(element, nullptr);
+  gst_object_unref(element);
+}
+
+TEST_F(ConfidenceMeta, IsNotThereUnlessGiven) {
+  const BufferPointer other(gst_buffer_new());
+  EXPECT_EQ(plugin::confidence_of(other.get()), nullptr);
+  EXPECT_TRUE(confidence_of(other.get()).empty());
+}
+
+TEST_F(ConfidenceMeta, TheLastOneGivenCounts) {
+  const BufferPointer other = disparity(7);
+  plugin::set_confidence(buffer.get(), plugin::confidence_of(other.get()));
+  EXPECT_EQ(gst_buffer_get_n_meta(buffer.get(), g_type_from_name("MtStereoConfidenceMeta-api")),
+            1u);
+  EXPECT_EQ(confidence_of(buffer.get()), std::vector<std::uint8_t>(48, 7));
+}
+
+TEST_F(ConfidenceMeta, ACopySharesTheMap) {
+  const BufferPointer copy(gst_buffer_copy(buffer.get()));
+  const BufferPointer deep(gst_buffer_copy_deep(buffer.get()));
+  EXPECT_EQ(plugin::confidence_of(copy.get()), plugin::confidence_of(buffer.get()));
+  EXPECT_EQ(confidence_of(deep.get()), std::vector<std::uint8_t>(48, 3));
+}
+
+TEST_F(ConfidenceMeta, ACopyKeepsTheMapWhenTheFirstOneIsGone) {
+  const BufferPointer copy(gst_buffer_copy(buffer.get()));
+  buffer.reset();
+  const BufferPointer next = disparity(9);
+  EXPECT_EQ(confidence_of(copy.get()), std::vector<std::uint8_t>(48, 3));
+}
+
+TEST_F(ConfidenceMeta, APartOfTheBufferHasNone) {
+  const BufferPointer part(
+      gst_buffer_copy_region(buffer.get(), GST_BUFFER_COPY_ALL, 16, kBytes - 16));
+  EXPECT_TRUE(confidence_of(part.get()).empty());
+}
+
+TEST_F(ConfidenceMeta, StaysWhereOnlyTheFormatChanges) {
+  GstVideoInfo from = disparity_info(8, 6);
+  GstVideoInfo to = disparity_info(8, 6);
+  GstVideoMetaTransform same = {&from, &to};
+  EXPECT_FALSE(confidence_of(transformed("gst-video-scale", &same).get()).empty());
+}
+
+TEST_F(ConfidenceMeta, DoesNotFollowAnotherSizeNorAnUnknownChange) {
+  GstVideoInfo from = disparity_info(8, 6);
+  for (const auto& [width, height] : {std::pair(16u, 6u), {8u, 12u}, {4u, 3u}}) {
+    GstVideoInfo to = disparity_info(width, height);
+    GstVideoMetaTransform scale = {&from, &to};
+    EXPECT_TRUE(confidence_of(transformed("gst-video-scale", &scale).get()).empty());
+  }
+  EXPECT_TRUE(confidence_of(transformed("some-other-change", nullptr).get()).empty());
+}
+
+TEST_F(ConfidenceMeta, WithoutItsFieldItIsNoneAndIsNotCopied) {
+  GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer.get(), plugin::kConfidenceMeta);
+  GstStructure* structure = gst_custom_meta_get_structure(meta);
+  gst_structure_remove_field(structure, "confidence");
+  EXPECT_EQ(plugin::confidence_of(buffer.get()), nullptr);
+  const BufferPointer copy(gst_buffer_copy(buffer.get()));
+  EXPECT_EQ(gst_buffer_get_custom_meta(copy.get(), plugin::kConfidenceMeta), nullptr);
+  gst_structure_set(structure, "confidence", G_TYPE_STRING, "high", nullptr);
+  EXPECT_EQ(plugin::confidence_of(buffer.get()), nullptr);
+}
+
+TEST_F(ConfidenceMeta, AReaderCannotWriteIntoTheMap) {
+  const plugin::SamplePointer held(gst_sample_ref(plugin::confidence_of(buffer.get())));
+  EXPECT_FALSE(gst_buffer_is_writable(gst_sample_get_buffer(held.get())));
+}
+
+class ConfidenceMemory : public ConfidenceMeta {
+ protected:
+  static const void* memory(GstBuffer* disparity) {
+    return gst_buffer_peek_memory(gst_sample_get_buffer(plugin::confidence_of(disparity)), 0);
+  }
+};
+
+TEST_F(ConfidenceMemory, IsUsedAgainWhenNobodyHoldsIt) {
+  buffer.reset();
+  std::set<const void*> places;
+  for (int i = 0; i < 50; ++i) places.insert(memory(disparity(i).get()));
+  EXPECT_EQ(places.size(), 1u);
+}
+
+TEST_F(ConfidenceMemory, IsNotUsedAgainWhileACopyHoldsIt) {
+  const BufferPointer copy(gst_buffer_copy(buffer.get()));
+  const void* held = memory(buffer.get());
+  buffer.reset();
+  for (int i = 0; i < 5; ++i) EXPECT_NE(memory(disparity(i).get()), held);
+}
+
+TEST_F(ConfidenceMemory, OutlivesThePool) {
+  pool.clear();
+  EXPECT_EQ(confidence_of(buffer.get()), std::vector<std::uint8_t>(48, 3));
+}
+
+TEST_F(ConfidenceMemory, IsKeptAsLongAsTheStreamStaysAsItIs) {
+  const void* before = memory(buffer.get());
+  buffer.reset();
+  ASSERT_TRUE(pool.fit(disparity_info(8, 6)));
+  EXPECT_EQ(memory(disparity(1).get()), before);
+  ASSERT_TRUE(pool.fit(disparity_info(9, 6)));
+  EXPECT_EQ(pool.info().width, 9);
+}
+
+}  // namespace
+}  // namespace mtstereo::test
