@@ -4,23 +4,35 @@
 #include "filters/mtcolor.hpp"
 #include "filters/mtconfidence.hpp"
 #include "matcher/mtstereo_element.hpp"
-#include "mtstereo/mtstereo.hpp"
 #include "shared/confidence_meta.hpp"
 
+namespace mtstereo::plugin {
 namespace {
 
-gboolean plugin_init(GstPlugin* plugin) {
-  return mtstereo::plugin::register_confidence_meta() &&
-         gst_element_register(plugin, "mtstereo", GST_RANK_NONE, mtstereo_element_get_type()) &&
-         gst_element_register(plugin, "mtcolor", GST_RANK_NONE, mtcolor_element_get_type()) &&
-         gst_element_register(plugin, "mtconfidence", GST_RANK_NONE,
-                              mtconfidence_element_get_type());
+struct Element {
+  const char* name;
+  GType (*type)();
+};
+
+/// The elements of the plugin. A new one needs its row here and its header above.
+constexpr Element kElements[] = {
+    {"mtstereo", gst_mtstereo_get_type},
+    {"mtcolor", gst_mtstereo_color_get_type},
+    {"mtconfidence", gst_mtstereo_confidence_get_type},
+};
+
+gboolean plugin_init(GstPlugin* plugin) noexcept {
+  if (!register_confidence_meta()) return FALSE;
+  for (const Element& element : kElements) {
+    if (!gst_element_register(plugin, element.name, GST_RANK_NONE, element.type())) return FALSE;
+  }
+  return TRUE;
 }
 
 }  // namespace
+}  // namespace mtstereo::plugin
 
 #define PACKAGE "mtstereo"
-GST_PLUGIN_DEFINE(
-    GST_VERSION_MAJOR, GST_VERSION_MINOR, mtstereo,
-    "Disparity of two rectified cameras (MTStereo 2.0), its confidence and pictures of it",
-    plugin_init, MTSTEREO_VERSION, "LGPL", "mtstereo", "mtstereo")
+GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, mtstereo,
+                  "Stereo matching (MTStereo 2.0): disparity, its confidence and color images",
+                  mtstereo::plugin::plugin_init, MTSTEREO_VERSION, "LGPL", "mtstereo", "mtstereo")

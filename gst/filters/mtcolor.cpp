@@ -7,11 +7,12 @@
 
 #include "filters/color_table.hpp"
 #include "filters/disparity_filter.hpp"
-#include "matcher/element_state.hpp"
 #include "mtstereo/parameters.hpp"
+#include "shared/caps.hpp"
+#include "shared/exception_guard.hpp"
 #include "shared/frame_views.hpp"
 
-using namespace mtstereo::plugin;
+namespace mtstereo::plugin {
 
 GST_DEBUG_CATEGORY_STATIC(mtcolor_debug);
 #define GST_CAT_DEFAULT mtcolor_debug
@@ -21,31 +22,32 @@ namespace {
 constexpr int kFallbackMaxDisparity = 64;
 constexpr int kFallbackScale = 256;
 
-/// Which table is in use, and what it was made for.
+/// The input range of a color table.
 struct Range {
   int max_disparity = 0;  ///< [px]
-  int scale = 0;          ///< steps per px
+  int scale = 0;          ///< [steps per px]
   bool operator==(const Range&) const = default;
 };
 
+/// All data of one mtcolor element. Created in its init, deleted in its finalize.
 struct ColorState {
   // Guarded by the element's object lock.
-  int max_disparity = 0;       ///< property; 0: as the caps say [px]
-  int scale = kFallbackScale;  ///< property: where the caps say nothing
+  int max_disparity = 0;       ///< property; 0: from the caps [px]
+  int scale = kFallbackScale;  ///< property; used if the caps have no scale [steps per px]
 
-  // Only of the streaming thread.
-  int caps_max_disparity = 0;  ///< 0: the caps say nothing
-  int caps_scale = 0;          ///< 0: the caps say nothing
-  Range range;
+  // Used by the streaming thread only.
+  int caps_max_disparity = 0;  ///< 0: not in the caps [px]
+  int caps_scale = 0;          ///< 0: not in the caps [steps per px]
+  Range range;                 ///< of `table`
   std::vector<Rgb> table;
 };
 
-struct GstMtColor {
+struct GstMtStereoColor {
   GstVideoFilter parent;
   ColorState* state;
 };
 
-struct GstMtColorClass {
+struct GstMtStereoColorClass {
   GstVideoFilterClass parent_class;
 };
 
@@ -56,11 +58,13 @@ constexpr const char* kPictures =
 
 }  // namespace
 
-G_DEFINE_TYPE(GstMtColor, mtcolor_element, GST_TYPE_VIDEO_FILTER)
+G_DEFINE_TYPE(GstMtStereoColor, gst_mtstereo_color, GST_TYPE_VIDEO_FILTER)
 
 namespace {
 
-ColorState& state_of(gpointer element) { return *reinterpret_cast<GstMtColor*>(element)->state; }
+ColorState& state_of(gpointer element) {
+  return *reinterpret_cast<GstMtStereoColor*>(element)->state;
+}
 
 void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
   const ObjectLock lock(object);
@@ -109,8 +113,8 @@ gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCa
       (has_range && state.caps_max_disparity < 1)) {
     GST_ELEMENT_ERROR(filter, STREAM, FORMAT,
                       ("The caps of the disparity map have disparity-scale=%d and "
-                       "max-disparity=%d. The scale has to be 1 to 65535 steps per px and the "
-                       "range at least 1 px: correct them where the caps are set.",
+                       "max-disparity=%d. The scale must be 1 to 65535 steps per px and the "
+                       "range at least 1 px: correct them in the element that sets the caps.",
                        state.caps_scale, state.caps_max_disparity),
                       ("caps: %s", caps_text(in_caps).c_str()));
     return FALSE;
@@ -118,9 +122,10 @@ gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCa
   return TRUE;
 }
 
-Range range_in_force(GstMtColor* self) {
-  const ColorState& state = *self->state;
-  const ObjectLock lock(self);
+/// The property or the caps, whichever applies.
+Range effective_range(GstVideoFilter* filter) {
+  const ColorState& state = state_of(filter);
+  const ObjectLock lock(filter);
   Range range;
   range.scale = state.caps_scale != 0 ? state.caps_scale : state.scale;
   range.max_disparity = state.max_disparity != 0        ? state.max_disparity
@@ -129,13 +134,13 @@ Range range_in_force(GstMtColor* self) {
   return range;
 }
 
-/// Where the parts of a pixel are [bytes].
+/// The offsets of the components within a pixel [bytes].
 struct PixelLayout {
-  int step = 0;
+  int step = 0;  ///< size of a pixel
   int red = 0;
   int green = 0;
   int blue = 0;
-  int rest = -1;  ///< the fourth byte, alpha or unused; -1: none
+  int rest = -1;  ///< the fourth byte, alpha or padding; -1: none
 };
 
 PixelLayout layout_of(const GstVideoFrame* frame) {
@@ -164,9 +169,8 @@ void paint(const GstVideoFrame* in, const GstVideoFrame* out, const std::vector<
 }
 
 GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVideoFrame* out) {
-  auto* self = reinterpret_cast<GstMtColor*>(filter);
-  ColorState& state = *self->state;
-  const Range range = range_in_force(self);
+  ColorState& state = state_of(filter);
+  const Range range = effective_range(filter);
   if (range != state.range) {
     state.table = color_table(range.max_disparity, range.scale);
     state.range = range;
@@ -175,47 +179,58 @@ GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVide
   return GST_FLOW_OK;
 }
 
-void finalize(GObject* object) {
-  delete reinterpret_cast<GstMtColor*>(object)->state;
-  G_OBJECT_CLASS(mtcolor_element_parent_class)->finalize(object);
+void finalize(GObject* object) noexcept {
+  delete &state_of(object);
+  G_OBJECT_CLASS(gst_mtstereo_color_parent_class)->finalize(object);
+}
+
+void install_properties(GObjectClass* object_class) {
+  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
+                                                   GST_PARAM_MUTABLE_PLAYING);
+  g_object_class_install_property(
+      object_class, kMaxDisparity,
+      g_param_spec_int("max-disparity", "max-disparity",
+                       "Disparity of the last color, in px; the range is the same in every frame "
+                       "(0: max-disparity of the caps, which mtstereo sets, or 64 if the caps have "
+                       "none)",
+                       0, kLargestMaxDisparity, 0, kFlags));
+  g_object_class_install_property(
+      object_class, kDisparityScale,
+      g_param_spec_int("disparity-scale", "disparity-scale",
+                       "Steps per px of the input if its caps have no disparity-scale, for example "
+                       "downstream of a decoder; the caps take precedence",
+                       1, 65535, kFallbackScale, kFlags));
 }
 
 }  // namespace
 
-static void mtcolor_element_class_init(GstMtColorClass* klass) {
-  GST_DEBUG_CATEGORY_INIT(mtcolor_debug, "mtcolor", 0, "color pictures of disparity maps");
-  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
-                                                   GST_PARAM_MUTABLE_PLAYING);
+static void gst_mtstereo_color_class_init(GstMtStereoColorClass* klass) {
+  GST_DEBUG_CATEGORY_INIT(mtcolor_debug, "mtcolor", 0, "color images of disparity maps");
   auto* object_class = G_OBJECT_CLASS(klass);
-  object_class->set_property = set_property;
-  object_class->get_property = get_property;
+  object_class->set_property = guarded<set_property>;
+  object_class->get_property = guarded<get_property>;
   object_class->finalize = finalize;
-  g_object_class_install_property(
-      object_class, kMaxDisparity,
-      g_param_spec_int("max-disparity", "max-disparity",
-                       "The disparity that gets the last color, in px; the range is the same in "
-                       "every frame (0: the max-disparity that mtstereo puts into the caps, 64 "
-                       "where they tell none)",
-                       0, mtstereo::kLargestMaxDisparity, 0, kFlags));
-  g_object_class_install_property(
-      object_class, kDisparityScale,
-      g_param_spec_int("disparity-scale", "disparity-scale",
-                       "Steps per px of the input where its caps have no disparity-scale, as "
-                       "behind a decoder; the caps come first",
-                       1, 65535, kFallbackScale, kFlags));
+  install_properties(object_class);
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);
   add_pad_template(element_class, "src", GST_PAD_SRC, kPictures);
   gst_element_class_set_static_metadata(
-      element_class, "Disparity in colors", "Filter/Converter/Video",
-      "Color picture of a disparity map: a fixed range, blue is far, red is near, black is unknown",
+      element_class, "Disparity colorizer", "Filter/Converter/Video",
+      "Color image of a disparity map with a fixed range: blue is far, red is near, black is "
+      "unknown",
       "the mtstereo authors");
 
-  GST_BASE_TRANSFORM_CLASS(klass)->transform_caps = transform_caps;
-  GST_BASE_TRANSFORM_CLASS(klass)->transform = transform_checked;
-  GST_VIDEO_FILTER_CLASS(klass)->set_info = set_info;
-  GST_VIDEO_FILTER_CLASS(klass)->transform_frame = transform_frame;
+  auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
+  transform_class->transform_caps = guarded<transform_caps>;
+  transform_class->transform = guarded<transform_checked, GST_FLOW_ERROR>;
+  auto* filter_class = GST_VIDEO_FILTER_CLASS(klass);
+  filter_class->set_info = guarded<set_info, FALSE>;
+  filter_class->transform_frame = guarded<transform_frame, GST_FLOW_ERROR>;
 }
 
-static void mtcolor_element_init(GstMtColor* self) { self->state = new ColorState; }
+static void gst_mtstereo_color_init(GstMtStereoColor* self) {
+  self->state = new_state<ColorState>();
+}
+
+}  // namespace mtstereo::plugin

@@ -3,5 +3,9 @@
 
 #include <gst/gst.h>
 
-/// The element `mtcolor`: a disparity map in, a color picture of it out.
-GType mtcolor_element_get_type();
+namespace mtstereo::plugin {
+
+/// The type of the element `mtcolor`, which turns a disparity map into a color image.
+GType gst_mtstereo_color_get_type();
+
+}  // namespace mtstereo::plugin

@@ -4,11 +4,13 @@
 #include <string>
 
 #include "filters/disparity_filter.hpp"
+#include "shared/caps.hpp"
 #include "shared/confidence_meta.hpp"
 #include "shared/confidence_pool.hpp"
+#include "shared/exception_guard.hpp"
 #include "shared/frame_views.hpp"
 
-using namespace mtstereo::plugin;
+namespace mtstereo::plugin {
 
 GST_DEBUG_CATEGORY_STATIC(mtconfidence_debug);
 #define GST_CAT_DEFAULT mtconfidence_debug
@@ -17,21 +19,22 @@ namespace {
 
 enum Output : gint { kDisparity, kConfidence };
 
+/// All data of one mtconfidence element. Created in its init, deleted in its finalize.
 struct ConfidenceState {
   // Guarded by the element's object lock.
   gint min_confidence = 0;
   gint output = kDisparity;
 
-  // Only of the streaming thread, and of stop, which runs when that does not.
+  // Used by the streaming thread, and by stop() while that thread does not run.
   ConfidencePool pool;
 };
 
-struct GstMtConfidence {
+struct GstMtStereoConfidence {
   GstVideoFilter parent;
   ConfidenceState* state;
 };
 
-struct GstMtConfidenceClass {
+struct GstMtStereoConfidenceClass {
   GstVideoFilterClass parent_class;
 };
 
@@ -42,21 +45,21 @@ constexpr const char* kOutputs = MTSTEREO_PICTURE_CAPS("{ GRAY16_LE, GRAY8 }");
 
 GType output_type() {
   static const GEnumValue values[] = {
-      {kDisparity, "The disparities that are sure enough (GRAY16_LE)", "disparity"},
-      {kConfidence, "How sure they are (GRAY8)", "confidence"},
+      {kDisparity, "disparities of sufficient confidence (GRAY16_LE)", "disparity"},
+      {kConfidence, "the confidence as an image (GRAY8)", "confidence"},
       {0, nullptr, nullptr}};
-  static const GType type = g_enum_register_static("MtConfidenceOutput", values);
+  static const GType type = g_enum_register_static("GstMtStereoConfidenceOutput", values);
   return type;
 }
 
 }  // namespace
 
-G_DEFINE_TYPE(GstMtConfidence, mtconfidence_element, GST_TYPE_VIDEO_FILTER)
+G_DEFINE_TYPE(GstMtStereoConfidence, gst_mtstereo_confidence, GST_TYPE_VIDEO_FILTER)
 
 namespace {
 
 ConfidenceState& state_of(gpointer element) {
-  return *reinterpret_cast<GstMtConfidence*>(element)->state;
+  return *reinterpret_cast<GstMtStereoConfidence*>(element)->state;
 }
 
 void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
@@ -71,7 +74,7 @@ void set_property(GObject* object, guint id, const GValue* value, GParamSpec* sp
         const ObjectLock lock(object);
         state_of(object).output = g_value_get_enum(value);
       }
-      // The other output has other caps.
+      // The caps of the two outputs differ.
       gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
       return;
     }
@@ -109,16 +112,17 @@ GstCaps* transform_caps(GstBaseTransform* transform, GstPadDirection direction, 
   return filtered_caps(std::move(mine), filter).release();
 }
 
-/// Size and place of every pixel stay, so what is told of the frame stays true.
+/// Size and position of every pixel are kept, so the metas of the frame stay valid.
 gboolean transform_meta(GstBaseTransform*, GstBuffer*, GstMeta* meta, GstBuffer*) {
   return !belongs_to_pixels(*meta->info);
 }
 
 // --- frames ---
 
-/// What comes out of a pair of maps, where only what has at least this confidence is kept.
+/// The lowest confidence of a pixel that is kept.
 struct Threshold {
   std::uint8_t least = 0;
+  /// `value`, or 0 if it is lower.
   std::uint8_t confidence(std::uint8_t value) const {
     return value >= least ? value : std::uint8_t{0};
   }
@@ -136,10 +140,10 @@ void filter_disparity(const GstVideoFrame& from, const GstVideoFrame& confidence
                       Threshold threshold) {
   for (int y = 0; y < GST_VIDEO_FRAME_HEIGHT(&from); ++y) {
     const std::uint8_t* in = plane_row(from, y);
-    const std::uint8_t* sure = plane_row(confidence, y);
+    const std::uint8_t* certainty = plane_row(confidence, y);
     std::uint8_t* out = plane_row(to, y);
     for (int x = 0; x < GST_VIDEO_FRAME_WIDTH(&from); ++x) {
-      const bool keep = sure[x] >= threshold.least;
+      const bool keep = certainty[x] >= threshold.least;
       out[2 * x] = keep ? in[2 * x] : std::uint8_t{0};
       out[2 * x + 1] = keep ? in[2 * x + 1] : std::uint8_t{0};
     }
@@ -148,8 +152,9 @@ void filter_disparity(const GstVideoFrame& from, const GstVideoFrame& confidence
 
 GstFlowReturn refuse_confidence(GstVideoFilter* filter, const std::string& problem) {
   GST_ELEMENT_ERROR(filter, STREAM, WRONG_TYPE,
-                    ("A disparity map has a confidence map that does not belong to it: %s. What is "
-                     "between mtstereo and mtconfidence is at fault, or what attached it.",
+                    ("The confidence map of a disparity map is invalid: %s. The fault is in an "
+                     "element between mtstereo and mtconfidence, or in the application that "
+                     "attached the map.",
                      problem.c_str()),
                     ("meta %s", kConfidenceMeta));
   return GST_FLOW_ERROR;
@@ -158,14 +163,14 @@ GstFlowReturn refuse_confidence(GstVideoFilter* filter, const std::string& probl
 GstFlowReturn refuse_missing(GstVideoFilter* filter) {
   GST_ELEMENT_ERROR(
       filter, STREAM, WRONG_TYPE,
-      ("A disparity map came without its confidence map. Put an mtstereo with confidence-map=true "
-       "ahead, and nothing between it and mtconfidence that makes other frames of its maps, as "
-       "videoscale, an encoder, a file or a network do."),
+      ("A disparity map has no confidence map. Put an mtstereo with confidence-map=true upstream, "
+       "and nothing between it and mtconfidence that changes the maps into other frames, such as "
+       "videoscale, an encoder, a file or a network."),
       ("no sample \"%s\" in a meta %s", kConfidenceField, kConfidenceMeta));
   return GST_FLOW_ERROR;
 }
 
-/// What does not fit the disparity map of this size; "" where all does.
+/// Why the confidence does not match the disparity map; "" if it does.
 std::string confidence_problem(GstSample* sample, const GstVideoInfo& disparity,
                                GstVideoInfo& info) {
   GstCaps* caps = gst_sample_get_caps(sample);
@@ -176,11 +181,11 @@ std::string confidence_problem(GstSample* sample, const GstVideoInfo& disparity,
   }
   if (info.width == disparity.width && info.height == disparity.height) return {};
   return "it has " + std::to_string(info.width) + "x" + std::to_string(info.height) +
-         " px, the disparity map " + std::to_string(disparity.width) + "x" +
-         std::to_string(disparity.height);
+         " px, the disparity map has " + std::to_string(disparity.width) + "x" +
+         std::to_string(disparity.height) + " px";
 }
 
-/// What is left of the confidence, in a buffer of its own; NULL where there is no memory for it.
+/// The filtered confidence in a new buffer; NULL if there is no memory for it.
 BufferPointer filtered_map(ConfidencePool& pool, const GstVideoInfo& disparity,
                            const GstVideoFrame& confidence, Threshold threshold) {
   if (!pool.fit(disparity)) return nullptr;
@@ -198,7 +203,7 @@ GstFlowReturn attach_filtered(GstVideoFilter* filter, const GstVideoFrame& confi
   BufferPointer map = filtered_map(pool, filter->in_info, confidence, threshold);
   if (!map) {
     GST_ELEMENT_ERROR(filter, RESOURCE, NO_SPACE_LEFT,
-                      ("There is no memory for a confidence map of %dx%d px.",
+                      ("There is not enough memory for a confidence map of %dx%d px.",
                        filter->in_info.width, filter->in_info.height),
                       (nullptr));
     return GST_FLOW_ERROR;
@@ -222,7 +227,7 @@ GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVide
   MappedFrame confidence(info, gst_sample_get_buffer(sample), GST_MAP_READ);
   if (!confidence.mapped()) return refuse_confidence(filter, confidence.problem());
 
-  // As negotiated: the property may have changed since.
+  // The negotiated format decides: the property may have changed since then.
   if (GST_VIDEO_FRAME_FORMAT(out) == GST_VIDEO_FORMAT_GRAY8) {
     filter_confidence(*confidence.frame(), *out, threshold);
     return GST_FLOW_OK;
@@ -242,9 +247,9 @@ gboolean stop(GstBaseTransform* transform) {
   return TRUE;
 }
 
-void finalize(GObject* object) {
-  delete reinterpret_cast<GstMtConfidence*>(object)->state;
-  G_OBJECT_CLASS(mtconfidence_element_parent_class)->finalize(object);
+void finalize(GObject* object) noexcept {
+  delete &state_of(object);
+  G_OBJECT_CLASS(gst_mtstereo_confidence_parent_class)->finalize(object);
 }
 
 void install_properties(GObjectClass* object_class) {
@@ -253,23 +258,23 @@ void install_properties(GObjectClass* object_class) {
   g_object_class_install_property(
       object_class, kMinConfidence,
       g_param_spec_int("min-confidence", "min-confidence",
-                       "Disparities of less confidence become 0, none, and their confidence too "
-                       "(0: all stay, 255: only the surest stay)",
+                       "Disparities of lower confidence are set to 0 (none), and so is their "
+                       "confidence (0: all are kept, 255: only those of highest confidence)",
                        0, 255, 0, kFlags));
   g_object_class_install_property(
       object_class, kOutput,
-      g_param_spec_enum("output", "output", "What comes out of the pad src", output_type(),
+      g_param_spec_enum("output", "output", "Content of the output frames", output_type(),
                         kDisparity, kFlags));
   gst_type_mark_as_plugin_api(output_type(), static_cast<GstPluginAPIFlags>(0));
 }
 
 }  // namespace
 
-static void mtconfidence_element_class_init(GstMtConfidenceClass* klass) {
+static void gst_mtstereo_confidence_class_init(GstMtStereoConfidenceClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtconfidence_debug, "mtconfidence", 0, "confidence of disparity maps");
   auto* object_class = G_OBJECT_CLASS(klass);
-  object_class->set_property = set_property;
-  object_class->get_property = get_property;
+  object_class->set_property = guarded<set_property>;
+  object_class->get_property = guarded<get_property>;
   object_class->finalize = finalize;
   install_properties(object_class);
 
@@ -277,16 +282,20 @@ static void mtconfidence_element_class_init(GstMtConfidenceClass* klass) {
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);
   add_pad_template(element_class, "src", GST_PAD_SRC, kOutputs);
   gst_element_class_set_static_metadata(
-      element_class, "Disparity by confidence", "Filter/Video",
-      "Drops the disparities of mtstereo that are not sure enough, or shows how sure they are",
+      element_class, "Disparity confidence filter", "Filter/Video",
+      "Removes disparities of low confidence from the maps of mtstereo, or outputs the confidence",
       "the mtstereo authors");
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
-  transform_class->stop = stop;
-  transform_class->transform_caps = transform_caps;
-  transform_class->transform_meta = transform_meta;
-  transform_class->transform = transform_checked;
-  GST_VIDEO_FILTER_CLASS(klass)->transform_frame = transform_frame;
+  transform_class->stop = guarded<stop, FALSE>;
+  transform_class->transform_caps = guarded<transform_caps>;
+  transform_class->transform_meta = guarded<transform_meta, FALSE>;
+  transform_class->transform = guarded<transform_checked, GST_FLOW_ERROR>;
+  GST_VIDEO_FILTER_CLASS(klass)->transform_frame = guarded<transform_frame, GST_FLOW_ERROR>;
 }
 
-static void mtconfidence_element_init(GstMtConfidence* self) { self->state = new ConfidenceState; }
+static void gst_mtstereo_confidence_init(GstMtStereoConfidence* self) {
+  self->state = new_state<ConfidenceState>();
+}
+
+}  // namespace mtstereo::plugin

@@ -3,6 +3,10 @@
 
 #include <gst/gst.h>
 
-/// The element `mtconfidence`: disparity maps with their confidence in; the disparities that are
-/// sure enough out, or the confidence as a picture.
-GType mtconfidence_element_get_type();
+namespace mtstereo::plugin {
+
+/// The type of the element `mtconfidence`, which removes disparities of low confidence from a map
+/// or outputs the confidence.
+GType gst_mtstereo_confidence_get_type();
+
+}  // namespace mtstereo::plugin

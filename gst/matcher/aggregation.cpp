@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/aggregation.hpp"
+
 #include <cstdio>
 
-#include "matcher/element_state.hpp"
-#include "matcher/mtstereo_element.hpp"
+#include "matcher/matching.hpp"
+#include "matcher/output_events.hpp"
+#include "shared/ownership.hpp"
 
 #define GST_CAT_DEFAULT mtstereo_debug
 
@@ -15,8 +18,8 @@ BufferPointer peek(const Input& input) {
 
 bool is_gap(GstBuffer* buffer) { return GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP); }
 
-/// When a frame is to be shown, with its pad's segment; std::nullopt without a time stamp. Frames
-/// that begin before their segment have a negative time.
+/// The running time of a frame in the segment of its pad; std::nullopt without a time stamp. It is
+/// negative for a frame that begins before the segment.
 std::optional<Nanoseconds> running_time(const Input& input, GstBuffer* buffer) {
   if (!GST_BUFFER_PTS_IS_VALID(buffer)) return std::nullopt;
   const ObjectLock lock(input.pad);
@@ -33,8 +36,8 @@ std::optional<Nanoseconds> duration_of(GstBuffer* buffer) {
   return static_cast<Nanoseconds>(GST_BUFFER_DURATION(buffer));
 }
 
-/// The pipeline's running time; std::nullopt where there is no clock, or where its base time means
-/// nothing, as before PLAYING.
+/// The running time of the pipeline; std::nullopt if there is no clock or its base time is not
+/// valid yet, which is the case before PLAYING.
 std::optional<Nanoseconds> running_time_now(const ElementState& state) {
   const ObjectLock lock(state.element);
   GstClock* clock = GST_ELEMENT_CLOCK(state.element);
@@ -48,7 +51,7 @@ std::string milliseconds(Nanoseconds time) {
   return text;
 }
 
-/// Where no left frame comes, the source pad's segment still goes on with the right stream.
+/// Advances the output by the right stream if no left frame arrives.
 void send_gap_for_right(ElementState& state, GstBuffer* right) {
   const auto time = running_time(state.input(Side::kRight), right);
   if (!time || *time < 0) return;
@@ -64,51 +67,53 @@ void send_gap_for_right(ElementState& state, GstBuffer* right) {
   send_gap(state, position, GST_BUFFER_DURATION(right));
 }
 
-/// Takes the head of a pad away because no partner comes for it.
+/// Drops the head of a pad because it has no partner.
 void drop(ElementState& state, Side side, GstBuffer* buffer) {
   const Input& input = state.input(side);
-  GST_DEBUG_OBJECT(input.pad, "no partner: dropping %" GST_PTR_FORMAT, static_cast<void*>(buffer));
+  GST_DEBUG_OBJECT(input.pad, "no partner, dropping %" GST_PTR_FORMAT, static_cast<void*>(buffer));
   gst_aggregator_pad_drop_buffer(input.pad);
   const ObjectLock lock(state.element);
   ++state.statistics.dropped[static_cast<std::size_t>(side)];
 }
 
-void alarm_of_difference(ElementState& state, const PairingDecision& decision,
-                         Nanoseconds tolerance) {
-  if (!state.alarm.dropped(g_get_monotonic_time() * 1000)) return;
+void warn_of_difference(ElementState& state, const PairingDecision& decision,
+                        Nanoseconds tolerance) {
+  if (!state.unpaired_warning.dropped(g_get_monotonic_time() * 1000)) return;
   post_warning(
       state,
-      "The last " + std::to_string(state.alarm.run()) +
+      "The last " + std::to_string(state.unpaired_warning.run()) +
           " frames had no partner within the tolerance of " + milliseconds(tolerance) +
-          ". If the cameras are not triggered together, raise sync-tolerance; if one stream is "
-          "behind by a fixed time, set the property offset of its pad (sink_right::offset).",
+          ". If the cameras are not triggered together, increase sync-tolerance; if the skew "
+          "between the streams is constant, set the property offset of a pad "
+          "(sink_right::offset).",
       "the right frame is " + milliseconds(decision.difference) +
-          " after the left one (negative: before), tolerance " + milliseconds(tolerance) + "; " +
+          " after the left frame (negative: before), tolerance " + milliseconds(tolerance) + "; " +
           state.streams_text());
 }
 
-void alarm_of_silence(ElementState& state, Side silent) {
-  if (!state.alarm.dropped(g_get_monotonic_time() * 1000)) return;
+void warn_of_silence(ElementState& state, Side silent) {
+  if (!state.unpaired_warning.dropped(g_get_monotonic_time() * 1000)) return;
   post_warning(state,
-               "The last " + std::to_string(state.alarm.run()) +
-                   " frames had no partner, as nothing came to " + pad_name(silent) +
-                   " in time. If that stream is only late, raise the property latency.",
+               "The last " + std::to_string(state.unpaired_warning.run()) +
+                   " frames had no partner, because no frame arrived in time on " +
+                   pad_name(silent) +
+                   ". If that stream is only delayed, increase the property latency.",
                state.streams_text());
 }
 
-/// A frame waits alone and its time is over: live streams do not wait.
+/// Drops a frame whose partner has not arrived by the deadline of a live stream.
 void drop_at_deadline(ElementState& state, Side side, GstBuffer* buffer) {
   drop(state, side, buffer);
   if (side == Side::kLeft) {
     send_gap(state, GST_BUFFER_PTS(buffer), GST_BUFFER_DURATION(buffer));
-    alarm_of_silence(state, Side::kRight);
+    warn_of_silence(state, Side::kRight);
   } else {
     send_gap_for_right(state, buffer);
-    alarm_of_silence(state, Side::kLeft);
+    warn_of_silence(state, Side::kLeft);
   }
 }
 
-/// A gap of either stream has no picture. False where there was none.
+/// Drops gap buffers, which have no image. False if neither head is one.
 bool take_gaps(ElementState& state, GstBuffer* left, GstBuffer* right) {
   bool taken = false;
   if (left != nullptr && is_gap(left)) {
@@ -123,26 +128,11 @@ bool take_gaps(ElementState& state, GstBuffer* left, GstBuffer* right) {
   return taken;
 }
 
-/// Sends a segment that waits. False where there is none: then nothing may be sent.
-bool send_segment(ElementState& state) {
-  if (state.segment == OutputSegment::kWaiting) {
-    GstEvent* event = nullptr;
-    {
-      const ObjectLock lock(state.element);
-      event = gst_event_new_segment(&GST_AGGREGATOR_PAD(state.source_pad())->segment);
-    }
-    gst_event_set_seqnum(event, state.segment_seqnum);
-    gst_pad_push_event(state.source_pad(), event);
-    state.segment = OutputSegment::kSent;
-  }
-  return state.segment == OutputSegment::kSent;
-}
-
 bool ended(const Input& input, GstBuffer* head) {
   return head == nullptr && gst_aggregator_pad_is_eos(input.pad);
 }
 
-/// One stream is over. The frame that waits on the other side has no partner.
+/// One stream has ended: the frame at the head of the other one has no partner.
 GstFlowReturn end(ElementState& state, GstBuffer* left, GstBuffer* right) {
   if (left != nullptr) drop(state, Side::kLeft, left);
   if (right != nullptr) drop(state, Side::kRight, right);
@@ -153,8 +143,8 @@ GstFlowReturn refuse_mixed_stamping(ElementState& state, bool left_has_time) {
   post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
              std::string("The frames of ") + (left_has_time ? "sink_left" : "sink_right") +
                  " have time stamps and those of " + (left_has_time ? "sink_right" : "sink_left") +
-                 " have none, so they cannot be paired. Give both streams time stamps (such as "
-                 "appsrc do-timestamp=true), or none to either.",
+                 " have none, so they cannot be paired. Provide time stamps on both streams (for "
+                 "example by appsrc do-timestamp=true) or on neither.",
              state.streams_text());
   return GST_FLOW_ERROR;
 }
@@ -165,8 +155,8 @@ GstFlowReturn pair_heads(ElementState& state, GstBuffer* left, GstBuffer* right)
   Nanoseconds tolerance = 0;
   {
     const ObjectLock lock(state.element);
-    tolerance = tolerance_in_force(state.settings.sync_tolerance, state.caps_durations,
-                                   {duration_of(left), duration_of(right)});
+    tolerance = effective_tolerance(state.settings.sync_tolerance, state.caps_durations,
+                                    {duration_of(left), duration_of(right)});
   }
   const PairingDecision decision = decide_pairing(left_time, right_time, tolerance);
   switch (decision.action) {
@@ -174,16 +164,16 @@ GstFlowReturn pair_heads(ElementState& state, GstBuffer* left, GstBuffer* right)
       return refuse_mixed_stamping(state, left_time.has_value());
     case PairingAction::kDropLeft:
       drop(state, Side::kLeft, left);
-      alarm_of_difference(state, decision, tolerance);
+      warn_of_difference(state, decision, tolerance);
       return GST_AGGREGATOR_FLOW_NEED_DATA;
     case PairingAction::kDropRight:
       drop(state, Side::kRight, right);
-      alarm_of_difference(state, decision, tolerance);
+      warn_of_difference(state, decision, tolerance);
       return GST_AGGREGATOR_FLOW_NEED_DATA;
     case PairingAction::kPair:
       break;
   }
-  state.alarm.paired();
+  state.unpaired_warning.paired();
   const GstFlowReturn flow = match_pair(state, left, right);
   gst_aggregator_pad_drop_buffer(state.input(Side::kLeft).pad);
   gst_aggregator_pad_drop_buffer(state.input(Side::kRight).pad);
@@ -220,27 +210,9 @@ GstClockTime next_deadline(ElementState& state) {
   const auto time = running_time(input, left ? left.get() : right.get());
   const auto now = running_time_now(state);
   if (!time || !now) return GST_CLOCK_TIME_NONE;
-  const Nanoseconds deadline = state.lonely.deadline(left != nullptr, *time, *now,
-                                                     static_cast<Nanoseconds>(state.known_latency));
+  const Nanoseconds deadline = state.waiting_frame.deadline(
+      left != nullptr, *time, *now, static_cast<Nanoseconds>(state.known_latency));
   return deadline > 0 ? static_cast<GstClockTime>(deadline) : 0;
-}
-
-void end_output(ElementState& state, guint32 seqnum) {
-  GstPad* pad = state.source_pad();
-  const CapsPointer caps(gst_pad_get_current_caps(pad));
-  // Where nothing can have come out the base class ends it, when both streams are over.
-  if (!caps || !send_segment(state)) return;
-  GstEvent* end = gst_event_new_eos();
-  gst_event_set_seqnum(end, seqnum);
-  gst_pad_push_event(pad, end);
-}
-
-void send_gap(ElementState& state, GstClockTime pts, GstClockTime duration) {
-  GstPad* pad = state.source_pad();
-  const CapsPointer caps(gst_pad_get_current_caps(pad));
-  // Without caps the stream has not begun, and without a time there is nothing to tell.
-  if (!caps || !GST_CLOCK_TIME_IS_VALID(pts) || !send_segment(state)) return;
-  gst_pad_push_event(pad, gst_event_new_gap(pts, duration));
 }
 
 }  // namespace mtstereo::plugin

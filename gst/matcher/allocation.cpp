@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "matcher/element_state.hpp"
+#include "matcher/allocation.hpp"
+
 #include "shared/confidence_meta.hpp"
 
 namespace mtstereo::plugin {
@@ -7,7 +8,8 @@ namespace {
 
 constexpr guint kMinimumBuffers = 2;
 
-gboolean copy_meta(GstBuffer* left, GstMeta** meta, gpointer user_data) {
+/// GStreamer calls it; it calls C functions only, so that it throws nothing.
+gboolean copy_meta(GstBuffer* left, GstMeta** meta, gpointer user_data) noexcept {
   const GstMetaInfo* info = (*meta)->info;
   if (info->transform_func == nullptr || belongs_to_pixels(*info)) return TRUE;
   GstMetaTransformCopy whole = {FALSE, 0, static_cast<gsize>(-1)};
@@ -44,7 +46,7 @@ gboolean decide_allocation(GstAggregator*, GstQuery* query) {
   }
   bool usable = gst_buffer_pool_set_config(pool, config);
   if (!usable) {
-    // The pool may have changed the values to what it can do: those are to be taken.
+    // The pool may have adjusted the values to what it supports: accept them.
     config = gst_buffer_pool_get_config(pool);
     usable = gst_buffer_pool_config_validate_params(config, caps, size, minimum, maximum)
                  ? gst_buffer_pool_set_config(pool, config)
@@ -73,8 +75,8 @@ gboolean propose_allocation(GstAggregator*, GstAggregatorPad*, GstQuery*, GstQue
   gst_query_parse_allocation(query, &caps, nullptr);
   GstVideoInfo info;
   if (caps == nullptr || !gst_video_info_from_caps(&info, caps)) return FALSE;
-  // Any stride and any offset can be read, so the frames need not be copied for us. A live pad
-  // holds two of them while a third one is being matched.
+  // Every stride and offset is accepted, so upstream need not copy frames. The pad of a live stream
+  // holds two frames while a third one is being matched.
   gst_query_add_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr);
   gst_query_add_allocation_pool(query, nullptr, static_cast<guint>(info.size), 3, 0);
   return TRUE;
@@ -104,7 +106,7 @@ void copy_frame_properties(GstBuffer* left, GstBuffer* right, GstBuffer* output)
                                 GST_BUFFER_FLAG_DROPPABLE | GST_BUFFER_FLAG_NON_DROPPABLE;
   GST_BUFFER_FLAGS(output) = (GST_BUFFER_FLAGS(output) & ~kOfTheFrame) |
                              (GST_BUFFER_FLAGS(left) & kOfTheFrame) |
-                             // a map that is made of a broken frame is broken
+                             // a map of a corrupted frame is corrupted
                              (GST_BUFFER_FLAGS(right) & GST_BUFFER_FLAG_CORRUPTED);
   GST_BUFFER_PTS(output) = GST_BUFFER_PTS(left);
   GST_BUFFER_DTS(output) = GST_CLOCK_TIME_NONE;

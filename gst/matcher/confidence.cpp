@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/confidence.hpp"
+
 #include <cstring>
 
-#include "matcher/element_state.hpp"
 #include "shared/confidence_meta.hpp"
 #include "shared/frame_views.hpp"
 
 namespace mtstereo::plugin {
 namespace {
 
-/// The confidence of the last pair in a buffer of its own; NULL where there is no memory for it.
+/// The confidence of the last pair in a new buffer; NULL if there is no memory for it.
 BufferPointer copy_confidence(ElementState& state) {
   if (!state.confidence_pool.fit(state.output)) return nullptr;
   BufferPointer map = state.confidence_pool.acquire();
@@ -29,9 +30,9 @@ bool attach_confidence(ElementState& state, GstBuffer* output) {
   BufferPointer map = copy_confidence(state);
   if (!map) {
     post_error(state, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_NO_SPACE_LEFT,
-               "There is no memory for a confidence map of " + std::to_string(state.output.width) +
-                   "x" + std::to_string(state.output.height) +
-                   " px. confidence-map=false does without.",
+               "There is not enough memory for a confidence map of " +
+                   std::to_string(state.output.width) + "x" + std::to_string(state.output.height) +
+                   " px. Set confidence-map=false if it is not needed.",
                state.streams_text());
     return false;
   }

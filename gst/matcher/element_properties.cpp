@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/element_properties.hpp"
 
+#include "matcher/negotiation.hpp"
 #include "matcher/parameter_properties.hpp"
+#include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
 namespace {
@@ -14,8 +16,8 @@ void set_parameter(ElementState& state, const ParameterInfo& info, const GValue&
   const Status status = set_parameter_from_value(settings.parameters, info, value);
   ++settings.revision;
   if (!status) {
-    // There may be no bus yet to tell it on: it is told when the element starts, or at the next
-    // pair where it runs.
+    // There may be no bus yet: the error is posted when the element starts, or at the next pair if
+    // it is running.
     settings.problem = status.error().message;
     settings.problem_parameter = &info;
   } else if (settings.problem_parameter == &info) {
@@ -36,7 +38,7 @@ GstStructure* statistics_structure(const Statistics& statistics) {
 
 }  // namespace
 
-void install_properties(GObjectClass* object_class) {
+void install_properties(GObjectClass* object_class) noexcept {
   constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
                                                    GST_PARAM_MUTABLE_PLAYING);
   install_parameter_properties(object_class);
@@ -44,35 +46,36 @@ void install_properties(GObjectClass* object_class) {
       object_class, kDisparityScale,
       g_param_spec_int("disparity-scale", "disparity-scale",
                        "Steps per px of the output: disparity in px = value / disparity-scale, "
-                       "0 = none; max-disparity times this has to fit 16 bits (256: KITTI, "
+                       "0 = none; max-disparity times this value must fit in 16 bits (256: KITTI, "
                        "16: OpenCV)",
                        1, 65535, 256, kFlags));
   g_object_class_install_property(
       object_class, kSyncTolerance,
       g_param_spec_int64("sync-tolerance", "sync-tolerance",
-                         "How far the running times of a left and a right frame may be apart for "
-                         "them to be a pair, in nanoseconds (-1: half a frame, of the faster "
+                         "Largest difference of the running times of a left and a right frame that "
+                         "are a pair, in nanoseconds (-1: half the frame duration of the faster "
                          "stream)",
                          -1, G_MAXINT64, -1, kFlags));
   g_object_class_install_property(
       object_class, kConfidenceMap,
       g_param_spec_boolean("confidence-map", "confidence-map",
-                           "Attach to every disparity map how sure each of its values is: the "
-                           "field \"confidence\" of the meta MtStereoConfidenceMeta, a GRAY8 "
-                           "sample with 1 (hardly) to 255 (sure), 0 = no disparity",
+                           "Attach the confidence of every value to the disparity map: field "
+                           "\"confidence\" of the meta MtStereoConfidenceMeta, a GRAY8 sample with "
+                           "values from 1 (lowest) to 255 (highest), 0 = no disparity",
                            TRUE, kFlags));
   g_object_class_install_property(
       object_class, kQos,
       g_param_spec_boolean("qos", "qos",
-                           "Skip pairs that downstream reports as too late; sinks with sync=false "
-                           "report none",
+                           "Skip pairs that would be too late according to downstream; sinks with "
+                           "sync=false report no lateness",
                            TRUE, kFlags));
   g_object_class_install_property(
       object_class, kStats,
       g_param_spec_boxed("stats", "stats",
-                         "pairs, dropped-left, dropped-right (frames without partner), skipped "
-                         "(pairs that came too late), last-ms and mean-ms (time to match a pair), "
-                         "density (share of pixels with a disparity in the last pair)",
+                         "Statistics since the start: pairs (matched pairs), dropped-left and "
+                         "dropped-right (frames without a partner), skipped (pairs that were too "
+                         "late), last-ms and mean-ms (matching time of a pair), density (share of "
+                         "the last map's pixels with a disparity)",
                          GST_TYPE_STRUCTURE,
                          static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));
 }
@@ -104,7 +107,8 @@ void set_element_property(ElementState& state, guint id, const GValue* value, GP
         return;
     }
   }
-  update_pairing_latency(state);  // takes the aggregator's lock, which comes before the object's
+  update_pairing_latency(
+      state);  // takes the lock of the aggregator, which comes before the object lock
 }
 
 void get_element_property(ElementState& state, guint id, GValue* value, GParamSpec* spec) {

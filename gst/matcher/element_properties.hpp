@@ -5,10 +5,11 @@
 
 namespace mtstereo::plugin {
 
-/// Adds the element's properties: those of the parameter table and its own.
-void install_properties(GObjectClass* object_class);
+/// Installs all properties of the element: those of the parameter table and its own.
+void install_properties(GObjectClass* object_class) noexcept;
 
-/// Sets a property. A value that the core refuses is kept in Settings::problem. Any thread.
+/// Sets a property. If the core rejects the value, the reason is stored in Settings::problem. Any
+/// thread.
 void set_element_property(ElementState& state, guint id, const GValue* value, GParamSpec* spec);
 
 /// Reads a property. Any thread.

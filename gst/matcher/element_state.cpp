@@ -2,21 +2,19 @@
 #include "matcher/element_state.hpp"
 
 namespace mtstereo::plugin {
+
+GST_DEBUG_CATEGORY(mtstereo_debug);
+
 namespace {
 
 void post(const ElementState& state, GstMessageType type, GQuark domain, gint code,
           const std::string& text, const std::string& details) {
-  // Takes both texts.
+  // gst_element_message_full() frees both texts.
   gst_element_message_full(GST_ELEMENT_CAST(state.element), type, domain, code,
                            g_strdup(text.c_str()), g_strdup(details.c_str()), "mtstereo", "", 0);
 }
 
 }  // namespace
-
-std::string caps_text(const GstCaps* caps) {
-  if (caps == nullptr) return "nothing yet";
-  return TextPointer(gst_caps_to_string(caps)).get();
-}
 
 const char* pad_name(Side side) { return side == Side::kLeft ? "sink_left" : "sink_right"; }
 

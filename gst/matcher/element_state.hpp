@@ -13,162 +13,108 @@
 #include "mtstereo/matcher.hpp"
 #include "mtstereo/parameters.hpp"
 #include "shared/confidence_pool.hpp"
-#include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
 
-/// Caps as text for a message.
-std::string caps_text(const GstCaps* caps);
+/// The debug category of the element.
+GST_DEBUG_CATEGORY_EXTERN(mtstereo_debug);
 
 inline constexpr std::array<Side, 2> kSides = {Side::kLeft, Side::kRight};
 
-/// "sink_left", "sink_right".
+/// "sink_left" or "sink_right".
 const char* pad_name(Side side);
 
-/// What the user set. A pair is matched with one copy of it from its beginning to its end.
+/// The values of the properties. Each pair is matched with one copy of them.
 struct Settings {
   Parameters parameters;
-  int disparity_scale = 256;   ///< steps per px
-  gint64 sync_tolerance = -1;  ///< [ns]; -1: see tolerance_in_force()
-  bool confidence_map = true;  ///< every disparity map carries one
-  bool qos = true;             ///< pairs that come too late are skipped
-  std::string problem;         ///< a value that was refused, told when it matters; "" if none
-  const ParameterInfo* problem_parameter = nullptr;  ///< whose value that was
-  guint64 revision = 0;                              ///< another one after every change
+  int disparity_scale = 256;   ///< [steps per px]
+  gint64 sync_tolerance = -1;  ///< [ns]; -1: see effective_tolerance()
+  bool confidence_map = true;  ///< attach a confidence map to every disparity map
+  bool qos = true;             ///< skip pairs that are too late
+  std::string
+      problem;  ///< why a value was rejected, reported at the next use of the settings; "" if none
+  const ParameterInfo* problem_parameter = nullptr;  ///< the parameter of `problem`
+  guint64 revision = 0;                              ///< incremented by every change
 };
 
-/// The numbers of the property `stats`.
+/// The fields of the property `stats`.
 struct Statistics {
   guint64 pairs = 0;
-  std::array<guint64, 2> dropped{};  ///< frames without partner, by side
+  std::array<guint64, 2> dropped{};  ///< frames without a partner, by side
   guint64 skipped = 0;               ///< pairs that were too late to be matched (QoS)
-  double last_ms = 0;                ///< of the last pair
-  double total_ms = 0;               ///< of all pairs
+  double last_ms = 0;                ///< matching time of the last pair
+  double total_ms = 0;               ///< matching time of all pairs
   double density = 0;                ///< of the last pair
 };
 
-/// One sink pad and what is known of its stream.
+/// A sink pad and its stream.
 struct Input {
   GstAggregatorPad* pad = nullptr;  ///< owned by the element
   bool has_caps = false;
-  GstVideoInfo info{};  ///< of the frame at the head of the pad's queue; only where has_caps
+  GstVideoInfo info{};  ///< of the frame at the head of the pad's queue; valid if has_caps
 };
 
-/// Where the left stream's segment is on its way downstream. The base class sends one only ahead of
-/// buffers: ahead of anything else it is sent here.
+/// How far the segment of the left stream has been sent downstream. The base class sends a segment
+/// only before buffers: before other events the element sends it itself.
 enum class OutputSegment {
-  kNone,     ///< the left stream has none, since the start or the last flush
-  kWaiting,  ///< to be sent ahead of what comes next
+  kNone,     ///< the left stream has had none since the start or the last flush
+  kWaiting,  ///< to be sent before the next event
   kSent,
 };
 
-/// Everything that one mtstereo element knows. Made in its init, deleted in its finalize.
+/// All data of one mtstereo element. Created in its init, deleted in its finalize.
 struct ElementState {
-  explicit ElementState(GstAggregator* aggregator) : element(aggregator) {}
+  ElementState(GstAggregator* aggregator, GstAggregatorClass* base)
+      : element(aggregator), base_class(base) {}
 
-  /// The element; it owns this.
-  GstAggregator* const element;
+  GstAggregator* const element;          ///< owns this state
+  GstAggregatorClass* const base_class;  ///< to chain up to
 
   // Guarded by the element's object lock.
   Settings settings;
   Statistics statistics;
-  FrameDurations caps_durations;                    ///< what the framerates say
+  FrameDurations caps_durations;                    ///< from the framerates of the caps
   GstClockTime qos_earliest = GST_CLOCK_TIME_NONE;  ///< frames before this are late [running time]
   double qos_proportion = 1;
   ProcessingLatency processing;
-  bool playing = false;  ///< the clock's base time is valid
-  bool failed = false;   ///< an error was posted: another one would only hide it
+  bool playing = false;  ///< the base time of the clock is valid
+  bool failed = false;   ///< an error was posted; a second one would hide it
 
-  // Only of the source pad's task, and of start, stop and flush, which run when the task does not.
+  // Used by the task of the source pad, and by start, stop and flush while the task does not run.
   std::array<Input, 2> inputs;
-  Settings active;               ///< the copy that is in use
-  guint64 matcher_revision = 0;  ///< Settings::revision that the matcher has; 0: none
-  int checked_width = 0;         ///< the frame size that `active` was checked with [px]
+  Settings active;               ///< the copy in use
+  guint64 matcher_revision = 0;  ///< Settings::revision of the matcher's parameters; 0: none
+  int checked_width = 0;         ///< the frame size for which `active` was checked [px]
   int checked_height = 0;
   std::optional<Matcher> matcher;
-  GstVideoInfo output{};  ///< of the disparity map; valid where the source pad has caps
+  GstVideoInfo output{};  ///< of the disparity map; valid if the source pad has caps
   ConfidencePool confidence_pool;
   OutputSegment segment = OutputSegment::kNone;
   guint32 segment_seqnum = GST_SEQNUM_INVALID;  ///< of the left stream's segment
-  UnpairedAlarm alarm;
-  LonelyFrame lonely;              ///< the frame that waits alone for its partner
-  GstClockTime known_latency = 0;  ///< that the base class adds to deadlines; 0: not known yet
+  UnpairedWarning unpaired_warning;
+  WaitingFrame waiting_frame;      ///< the frame whose partner has not arrived
+  GstClockTime known_latency = 0;  ///< added to deadlines by the base class; 0: not known yet
 
   Input& input(Side side) { return inputs[static_cast<std::size_t>(side)]; }
   const Input& input(Side side) const { return inputs[static_cast<std::size_t>(side)]; }
+  Side side_of(const GstAggregatorPad* pad) const {
+    return pad == input(Side::kLeft).pad ? Side::kLeft : Side::kRight;
+  }
   GstPad* source_pad() const { return GST_AGGREGATOR_SRC_PAD(element); }
 
-  /// A copy of what the user set. Takes the object lock.
+  /// A copy of the property values. Takes the object lock.
   Settings snapshot() const;
-  /// What a message says of both streams: "sink_left: GRAY8 640x480 30/1 fps; sink_right: ...".
+  /// A description of both streams for messages: "sink_left: GRAY8 640x480 at 30/1 fps;
+  /// sink_right: ...".
   std::string streams_text() const;
 };
 
-/// Posts an error message, unless the element has already posted one since it was started or
-/// flushed. `text` is for the user: what is wrong and what to do; `details` holds the facts.
+/// Posts an error message, unless the element has already posted one since it was started. `text`
+/// is for the user: what is wrong and how to correct it; `details` contains the facts.
 void post_error(ElementState& state, GQuark domain, gint code, const std::string& text,
                 const std::string& details);
 
 /// Posts a warning message.
 void post_warning(ElementState& state, const std::string& text, const std::string& details);
-
-// negotiation.cpp: all of it runs in the source pad's task, but for sink_caps().
-
-/// The answer to a caps query on a sink pad: what can be taken here, best first. Any thread.
-CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter);
-/// A stream's caps have changed. False where they cannot be taken; an error was posted then.
-bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps);
-/// The caps of the disparity map, from the left stream and the active settings.
-CapsPointer output_caps(const ElementState& state);
-/// Takes the settings of this moment and fits the matcher to them and to the left stream. False
-/// where they do not fit; an error was posted then.
-bool apply_settings(ElementState& state);
-/// Tells the base class how long a frame may have to wait for its partner. Any thread, no locks.
-void update_pairing_latency(ElementState& state);
-
-// allocation.cpp: runs in the source pad's task.
-
-gboolean decide_allocation(GstAggregator* aggregator, GstQuery* query);
-gboolean propose_allocation(GstAggregator* aggregator, GstAggregatorPad* pad,
-                            GstQuery* decide_query, GstQuery* query);
-/// A buffer for one disparity map, or the reason why there is none.
-GstFlowReturn acquire_output(ElementState& state, BufferPointer& buffer);
-/// Copies what belongs to a left frame beside its pixels: time stamps, flags and metas.
-void copy_frame_properties(GstBuffer* left, GstBuffer* right, GstBuffer* output);
-
-// confidence.cpp: runs in the source pad's task.
-
-/// Gives a disparity map that was computed and has its times the confidence of its pixels. False
-/// where there is no memory for it; an error was posted then.
-bool attach_confidence(ElementState& state, GstBuffer* output);
-
-// aggregation.cpp: runs in the source pad's task.
-
-/// One step: pairs the heads of the two streams, or drops one of them.
-GstFlowReturn aggregate(ElementState& state, bool timeout);
-/// Until when to wait for the partner of a frame that waits alone [running time]; the base class
-/// adds the latency to it and holds its own lock meanwhile.
-GstClockTime next_deadline(ElementState& state);
-/// One stream is over and all its frames are matched or dropped: no pair can follow. The base class
-/// would wait for a frame or the end of the other stream, which may never come.
-void end_output(ElementState& state, guint32 seqnum);
-/// Tells downstream that there is no disparity for a span of time. Only where nothing may follow
-/// for a while: a sink waits for the time of a gap.
-void send_gap(ElementState& state, GstClockTime pts, GstClockTime duration);
-
-// matching.cpp: runs in the source pad's task.
-
-/// Matches a pair and pushes its disparity map. The buffers stay the caller's.
-GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right);
-
-// queries.cpp: any thread.
-
-/// Answers queries on the source pad; std::nullopt: the base class is to answer.
-std::optional<bool> answer_source_query(ElementState& state, GstQuery* query);
-/// Adds the time that matching takes to the answer of the base class.
-void add_processing_latency(ElementState& state, GstQuery* query);
-/// Remembers what downstream tells about frames that come too late. True where the event is to go
-/// on to the sources: not if every pair is wanted, as they would drop frames of one side.
-bool take_qos_event(ElementState& state, GstEvent* event);
 
 }  // namespace mtstereo::plugin

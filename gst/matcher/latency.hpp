@@ -3,20 +3,20 @@
 
 namespace mtstereo::plugin {
 
-/// The time that matching takes, as told to the pipeline. It follows the measured times slowly and
-/// the told value changes only when it is clearly wrong, as every change makes the whole pipeline
-/// compute its latency anew.
+/// The matching time that the element reports as latency. It is an average of the measured times.
+/// The reported value changes only if it is clearly wrong, because the pipeline recomputes its
+/// latency after every change.
 class ProcessingLatency {
  public:
-  /// One pair took this long [ms]. True: reported_ms() has changed.
+  /// Adds the matching time of a pair [ms]. True if reported_ms() has changed.
   bool measured(double milliseconds);
-  /// What to tell [ms]; 0 until there is a measurement.
+  /// The time to report [ms]; 0 before the first measurement.
   double reported_ms() const { return reported_; }
   void reset() { *this = ProcessingLatency(); }
 
  private:
-  bool first_ = true;    // the first pair also sizes the buffers: it does not count
-  double average_ = 0;   // [ms], exponential
+  bool first_ = true;    // the first pair also allocates buffers and is not counted
+  double average_ = 0;   // [ms], exponential moving average
   double reported_ = 0;  // [ms]
 };
 

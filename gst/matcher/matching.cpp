@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/matching.hpp"
+
 #include <bit>
 
-#include "matcher/element_state.hpp"
-#include "matcher/mtstereo_element.hpp"
+#include "matcher/allocation.hpp"
+#include "matcher/confidence.hpp"
+#include "matcher/negotiation.hpp"
 #include "shared/frame_views.hpp"
 
 #define GST_CAT_DEFAULT mtstereo_debug
@@ -10,7 +13,7 @@
 namespace mtstereo::plugin {
 namespace {
 
-/// Where a left frame lies on the source pad's time line.
+/// The times of a left frame in the segment of the source pad.
 struct OutputTimes {
   GstClockTime running = GST_CLOCK_TIME_NONE;
   GstClockTime stream = GST_CLOCK_TIME_NONE;
@@ -32,9 +35,9 @@ bool check_streams(ElementState& state) {
   const Input& right = state.input(Side::kRight);
   if (!left.has_caps || !right.has_caps) {
     post_error(state, GST_CORE_ERROR, GST_CORE_ERROR_NEGOTIATION,
-               std::string("Frames came to ") +
+               std::string("Frames arrived on ") +
                    pad_name(left.has_caps ? Side::kRight : Side::kLeft) +
-                   " without caps before them. Put a capsfilter ahead of it.",
+                   " before any caps. Put a capsfilter upstream of it.",
                state.streams_text());
     return false;
   }
@@ -45,13 +48,13 @@ bool check_streams(ElementState& state) {
   post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_WRONG_TYPE,
              "The two streams have different sizes: left " + size(left.info) + ", right " +
                  size(right.info) +
-                 ". A rectified pair has one size: set both cameras to the same one, or put "
-                 "videoscale and a capsfilter ahead of one pad.",
+                 ". The frames of a rectified pair have the same size: set both cameras to it, or "
+                 "put videoscale and a capsfilter upstream of one pad.",
              state.streams_text());
   return false;
 }
 
-/// Takes settings that have changed since the last pair; the caps tell some of them.
+/// Applies settings that have changed since the last pair. Some of them are part of the caps.
 bool refresh_settings(ElementState& state) {
   const Settings now = state.snapshot();
   const Input& left = state.input(Side::kLeft);
@@ -67,12 +70,12 @@ bool refresh_settings(ElementState& state) {
   return gst_aggregator_negotiate(state.element);
 }
 
-/// What matching takes [ns]. Call with the object lock.
+/// The matching time [ns]. Call it with the object lock held.
 GstClockTimeDiff matching_time(const ElementState& state) {
   return static_cast<GstClockTimeDiff>(state.processing.reported_ms() * GST_MSECOND);
 }
 
-/// True where downstream would throw the disparity map away because it comes too late.
+/// True if the disparity map would be too late downstream; the pair is then counted as skipped.
 bool is_late(ElementState& state, GstBuffer* left, const OutputTimes& times) {
   if (!GST_CLOCK_TIME_IS_VALID(times.running)) return false;
   GstClockTimeDiff lateness = 0;
@@ -81,7 +84,8 @@ bool is_late(ElementState& state, GstBuffer* left, const OutputTimes& times) {
   {
     const ObjectLock lock(state.element);
     if (!state.settings.qos || !GST_CLOCK_TIME_IS_VALID(state.qos_earliest)) return false;
-    // What downstream told is when a map had to be there; this one would be there a matching later.
+    // Downstream reported the earliest running time that is not late now. This map would arrive one
+    // matching time from now.
     lateness = GST_CLOCK_DIFF(times.running, state.qos_earliest) + matching_time(state);
     if (lateness <= 0) return false;
     ++state.statistics.skipped;
@@ -98,10 +102,10 @@ bool is_late(ElementState& state, GstBuffer* left, const OutputTimes& times) {
   return true;
 }
 
-GstFlowReturn refuse_frame(ElementState& state, const char* what, const std::string& problem) {
+GstFlowReturn refuse_frame(ElementState& state, const char* source, const std::string& problem) {
   post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
-             std::string("A frame of ") + what + " is not what its caps say: " + problem +
-                 ". The element ahead of it is at fault.",
+             std::string("A frame from ") + source + " does not match its caps: " + problem +
+                 ". The fault is in the element that allocated the frame.",
              state.streams_text());
   return GST_FLOW_ERROR;
 }
@@ -115,14 +119,14 @@ void to_little_endian(ImageView<std::uint16_t> map) {
   }
 }
 
-/// Fills the output from the two frames; no message is posted where it returns GST_FLOW_OK.
+/// Computes the output from the two frames. Posts an error if it does not return GST_FLOW_OK.
 GstFlowReturn compute(ElementState& state, GstBuffer* left, GstBuffer* right, GstBuffer* output) {
   const MappedFrame left_frame(state.input(Side::kLeft).info, left, GST_MAP_READ);
   if (!left_frame.mapped()) return refuse_frame(state, "sink_left", left_frame.problem());
   const MappedFrame right_frame(state.input(Side::kRight).info, right, GST_MAP_READ);
   if (!right_frame.mapped()) return refuse_frame(state, "sink_right", right_frame.problem());
   const MappedFrame map(state.output, output, GST_MAP_WRITE);
-  if (!map.mapped()) return refuse_frame(state, "downstream's buffer pool", map.problem());
+  if (!map.mapped()) return refuse_frame(state, "the buffer pool of downstream", map.problem());
 
   const Result<DisparityView> disparity =
       state.matcher->compute(left_frame.luma(), right_frame.luma());
@@ -178,10 +182,10 @@ GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right)
   }
   if (!check_streams(state)) return GST_FLOW_ERROR;
   if (!refresh_settings(state)) {
-    // A flush that comes in between is no failure, and the base class knows about it.
+    // A flush in the meantime is not a failure; the base class handles it.
     return GST_PAD_IS_FLUSHING(state.source_pad()) ? GST_FLOW_FLUSHING : GST_FLOW_ERROR;
   }
-  // No gap is sent for it: a sink waits for the time of a gap, and more pairs would come too late.
+  // No gap is sent: a sink would wait until the time of the gap, and more pairs would be late.
   if (is_late(state, left, times)) return GST_FLOW_OK;
   gst_aggregator_selected_samples(state.element, GST_BUFFER_PTS(left), GST_CLOCK_TIME_NONE,
                                   GST_BUFFER_DURATION(left), nullptr);
@@ -190,8 +194,8 @@ GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right)
   GstFlowReturn flow = acquire_output(state, output);
   if (flow == GST_FLOW_ERROR) {
     post_error(state, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_NO_SPACE_LEFT,
-               "There is no memory for a disparity map of " + std::to_string(state.output.size) +
-                   " bytes.",
+               "There is not enough memory for a disparity map of " +
+                   std::to_string(state.output.size) + " bytes.",
                state.streams_text());
   }
   if (flow != GST_FLOW_OK) return flow;
@@ -201,7 +205,7 @@ GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right)
   if (state.active.confidence_map && !attach_confidence(state, output.get())) return GST_FLOW_ERROR;
   count_pair(state);
   advance_position(state, left);
-  state.segment = OutputSegment::kSent;  // by the base class, ahead of the buffer
+  state.segment = OutputSegment::kSent;  // by the base class, before the buffer
   GST_LOG_OBJECT(state.element, "matched %" GST_PTR_FORMAT, static_cast<void*>(output.get()));
   return gst_aggregator_finish_buffer(state.element, output.release());
 }

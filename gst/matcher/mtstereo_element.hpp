@@ -3,7 +3,9 @@
 
 #include <gst/gst.h>
 
-/// The element `mtstereo`: two rectified streams in, disparity out.
-GType mtstereo_element_get_type();
+namespace mtstereo::plugin {
 
-GST_DEBUG_CATEGORY_EXTERN(mtstereo_debug);
+/// The type of the element `mtstereo`, which computes the disparity of two rectified streams.
+GType gst_mtstereo_get_type();
+
+}  // namespace mtstereo::plugin

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/negotiation.hpp"
+
 #include <algorithm>
 #include <initializer_list>
 
-#include "matcher/element_state.hpp"
+#include "shared/caps.hpp"
 #include "shared/frame_views.hpp"
 
 namespace mtstereo::plugin {
@@ -10,7 +12,7 @@ namespace {
 
 CapsPointer template_caps(GstPad* pad) { return CapsPointer(gst_pad_get_pad_template_caps(pad)); }
 
-/// Every structure of `base` with the fields of every structure of `wish` that are named.
+/// Every structure of `base`, with the named fields of every structure of `wish`.
 CapsPointer with_fields(const GstCaps* base, const GstCaps* wish,
                         std::initializer_list<const char*> fields) {
   CapsPointer result(gst_caps_new_empty());
@@ -30,32 +32,33 @@ CapsPointer intersection(GstCaps* first, GstCaps* second) {
   return CapsPointer(gst_caps_intersect_full(first, second, GST_CAPS_INTERSECT_FIRST));
 }
 
-/// Why a stream cannot be taken, and what to do; "" where it can.
+/// Why a stream is not supported, and how to correct it; "" if it is supported.
 std::string refusal(const GstCaps* caps) {
   const GstStructure* structure = gst_caps_get_structure(caps, 0);
   if (!gst_structure_has_name(structure, "video/x-raw")) {
     return std::string("it is ") + gst_structure_get_name(structure) +
-           ", raw video is needed: put a decoder (such as decodebin) ahead of it";
+           ", but raw video is required: put a decoder (such as decodebin) upstream of it";
   }
   const gchar* interlacing = gst_structure_get_string(structure, "interlace-mode");
   if (interlacing != nullptr && std::string(interlacing) != "progressive") {
     return std::string("it is interlaced (interlace-mode=") + interlacing +
-           "), and rows of two moments cannot be matched: put deinterlace ahead of it";
+           "), and its two fields are from different times: put deinterlace upstream of it";
   }
   const GstCapsFeatures* features = gst_caps_get_features(caps, 0);
   if (features != nullptr &&
       !gst_caps_features_is_equal(features, GST_CAPS_FEATURES_MEMORY_SYSTEM_MEMORY)) {
     const TextPointer text(gst_caps_features_to_string(features));
     return std::string("its frames are in ") + text.get() +
-           ", system memory is needed: put a download element (such as gldownload) ahead of it";
+           ", but system memory is required: put a download element (such as gldownload) upstream "
+           "of it";
   }
   GstVideoInfo info;
   if (!gst_video_info_from_caps(&info, caps)) {
-    return "its caps do not describe a picture: a known format, width and height are needed";
+    return "its caps are incomplete: a known format, width and height are required";
   }
   if (!has_luma_plane(GST_VIDEO_INFO_FORMAT(&info))) {
     return std::string("its format ") + gst_video_format_to_string(GST_VIDEO_INFO_FORMAT(&info)) +
-           " has no plane of 8-bit luma: put videoconvert ahead of it";
+           " has no 8-bit luma plane: put videoconvert upstream of it";
   }
   return {};
 }
@@ -74,7 +77,7 @@ void refuse_settings(ElementState& state, const std::string& message) {
   post_error(state, GST_LIBRARY_ERROR, GST_LIBRARY_ERROR_SETTINGS, message, details);
 }
 
-/// Makes the matcher, or gives it other parameters.
+/// Creates the matcher, or sets its parameters.
 Status fit_matcher(ElementState& state) {
   if (state.matcher_revision == state.active.revision && state.matcher) return {};
   if (state.matcher) {
@@ -93,16 +96,17 @@ Status fit_matcher(ElementState& state) {
 
 CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
   const CapsPointer base = template_caps(GST_PAD_CAST(state.input(side).pad));
-  // An interlaced stream is to come as far as its caps event: there it gets an error that says what
-  // to do, where a source that finds no common caps would only say "not negotiated".
+  // Interlaced caps are accepted here, so that the caps event is sent: the error that it causes
+  // says how to correct the pipeline. A source without common caps would only report "not
+  // negotiated".
   GstCaps* open = gst_caps_copy(base.get());
   for (guint i = 0; i < gst_caps_get_size(open); ++i) {
     gst_structure_remove_field(gst_caps_get_structure(open, i), "interlace-mode");
   }
-  const CapsPointer keep_open(open);  // used below, when result is another one
+  const CapsPointer keep_open(open);  // used below, when result has changed
   CapsPointer result(gst_caps_ref(open));
 
-  // What downstream asks of the disparity map's frame, it asks of the left stream's.
+  // Downstream's restrictions of the disparity map apply to the left stream, its size to both.
   const CapsPointer source_template = template_caps(state.source_pad());
   const CapsPointer downstream(gst_pad_peer_query_caps(state.source_pad(), source_template.get()));
   if (!gst_caps_is_any(downstream.get()) && !gst_caps_is_empty(downstream.get())) {
@@ -112,8 +116,8 @@ CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
                  : with_fields(result.get(), downstream.get(), {"width", "height"});
   }
 
-  // The other stream's size comes first, so that a source that is free to choose takes it; other
-  // sizes stay possible, as both streams may be about to change theirs.
+  // The size of the other stream is preferred, so that a source that supports several sizes selects
+  // it. Other sizes remain possible, since both streams may be about to change theirs.
   const Side other = side == Side::kLeft ? Side::kRight : Side::kLeft;
   const CapsPointer current(gst_pad_get_current_caps(GST_PAD_CAST(state.input(other).pad)));
   if (current && gst_caps_get_size(current.get()) > 0) {
@@ -121,7 +125,7 @@ CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
     CapsPointer preferred = intersection(wish.get(), result.get());
     result.reset(gst_caps_merge(preferred.release(), result.release()));
   }
-  // In the order of this element: gray and the other stream's size first.
+  // The order of preference is that of this element: GRAY8 and the size of the other stream first.
   return filter != nullptr ? intersection(result.get(), filter) : std::move(result);
 }
 
@@ -133,8 +137,8 @@ bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps) {
     const CapsPointer takes = template_caps(GST_PAD_CAST(input.pad));
     post_error(
         state, GST_STREAM_ERROR, GST_STREAM_ERROR_FORMAT,
-        std::string("The stream of ") + pad_name(side) + " cannot be matched: " + reason + ".",
-        std::string(pad_name(side)) + " got " + caps_text(caps) + "; it takes " +
+        std::string("The stream on ") + pad_name(side) + " cannot be matched: " + reason + ".",
+        std::string(pad_name(side)) + " received " + caps_text(caps) + "; it accepts " +
             caps_text(takes.get()) + "; " + state.streams_text());
     return false;
   }
@@ -159,6 +163,25 @@ CapsPointer output_caps(const ElementState& state) {
       G_TYPE_STRING, "progressive", "disparity-scale", G_TYPE_INT, state.active.disparity_scale,
       "max-disparity", G_TYPE_INT, state.active.parameters.integer(Parameter::kMaxDisparity),
       nullptr));
+}
+
+bool negotiate_output(ElementState& state) {
+  {
+    const ObjectLock lock(state.element);
+    if (state.failed) return false;
+  }
+  if (!state.input(Side::kLeft).has_caps) return true;  // called again when they arrive
+  if (!apply_settings(state)) return false;
+  if (state.base_class->negotiate(state.element)) return true;
+  if (GST_PAD_IS_FLUSHING(state.source_pad())) return false;
+  const CapsPointer downstream(gst_pad_peer_query_caps(state.source_pad(), nullptr));
+  post_error(state, GST_CORE_ERROR, GST_CORE_ERROR_NEGOTIATION,
+             "Downstream does not accept the disparity map. Its size and framerate are those of "
+             "the left stream, its scale is the property disparity-scale, its format is GRAY16_LE: "
+             "change these, or put a converter (mtcolor, videoconvert) downstream.",
+             "offered: " + caps_text(output_caps(state).get()) +
+                 "; accepted: " + caps_text(downstream.get()) + "; " + state.streams_text());
+  return false;
 }
 
 bool apply_settings(ElementState& state) {
@@ -186,12 +209,12 @@ void update_pairing_latency(ElementState& state) {
   {
     const ObjectLock lock(state.element);
     frame = state.caps_durations.shorter().value_or(0);
-    // A frame's partner may be as old as the tolerance says, and cameras do not deliver to the
-    // moment: waiting for a whole frame costs nothing where the partner is there.
-    wait = std::max(frame, tolerance_in_force(state.settings.sync_tolerance, state.caps_durations,
-                                              FrameDurations{}));
+    // A partner may arrive as late as the tolerance allows, and cameras do not deliver frames at
+    // exact times: waiting for a whole frame has no cost if the partner is there.
+    wait = std::max(frame, effective_tolerance(state.settings.sync_tolerance, state.caps_durations,
+                                               FrameDurations{}));
   }
-  // A pad of a live stream holds two frames: that much can be waited for.
+  // The pad of a live stream holds two frames, which limits the wait.
   const Nanoseconds room = std::max(wait, 2 * frame);
   gst_aggregator_set_latency(state.element, static_cast<GstClockTime>(wait),
                              static_cast<GstClockTime>(room));

@@ -20,16 +20,16 @@ std::optional<Nanoseconds> FrameDurations::shorter() const {
   return left ? left : right;
 }
 
-Nanoseconds tolerance_in_force(Nanoseconds set, const FrameDurations& caps,
-                               const FrameDurations& buffers) {
+Nanoseconds effective_tolerance(Nanoseconds set, const FrameDurations& caps,
+                                const FrameDurations& buffers) {
   if (set >= 0) return set;
   if (const auto duration = caps.shorter()) return *duration / 2;
   if (const auto duration = buffers.shorter()) return *duration / 2;
   return kFallbackTolerance;
 }
 
-Nanoseconds LonelyFrame::deadline(bool left, Nanoseconds time, Nanoseconds now,
-                                  Nanoseconds latency) {
+Nanoseconds WaitingFrame::deadline(bool left, Nanoseconds time, Nanoseconds now,
+                                   Nanoseconds latency) {
   if (time_ != time || left_ != left) {
     left_ = left;
     time_ = time;
@@ -38,7 +38,7 @@ Nanoseconds LonelyFrame::deadline(bool left, Nanoseconds time, Nanoseconds now,
   return std::max(time, since_ + kGrace - latency);
 }
 
-bool UnpairedAlarm::dropped(Nanoseconds now) {
+bool UnpairedWarning::dropped(Nanoseconds now) {
   ++run_;
   if (run_ < kRun) return false;
   if (last_ && now - *last_ < kInterval) return false;

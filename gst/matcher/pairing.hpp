@@ -6,56 +6,57 @@
 
 namespace mtstereo::plugin {
 
-/// A running time or a span of it [ns]. Signed: a frame may begin before its segment does.
+/// A running time or a difference of two [ns]. Signed: a frame may begin before its segment.
 using Nanoseconds = std::int64_t;
 
-/// The tolerance where neither the caps nor the buffers tell how long a frame lasts [ns].
+/// The tolerance if the frame duration is known neither from the caps nor from the buffers [ns].
 inline constexpr Nanoseconds kFallbackTolerance = 20'000'000;
 
-/// What to do with the frames at the head of the two streams.
+/// The action for the frames at the heads of the two streams.
 enum class PairingAction {
-  kPair,           ///< they were taken at the same time: match them
-  kDropLeft,       ///< the right stream is past the left frame: no partner can come for it
-  kDropRight,      ///< the left stream is past the right frame
-  kMixedStamping,  ///< one frame has a time stamp and the other has none: an error
+  kPair,           ///< both were taken at the same time: match them
+  kDropLeft,       ///< the right stream is past the left frame, which has no partner
+  kDropRight,      ///< the left stream is past the right frame, which has no partner
+  kMixedStamping,  ///< only one of the frames has a time stamp: an error
 };
 
-/// What decided, for the statistics and the messages.
+/// An action and its reason, for the statistics and the messages.
 struct PairingDecision {
   PairingAction action = PairingAction::kPair;
-  Nanoseconds difference = 0;  ///< right minus left; 0 where there are no time stamps
+  Nanoseconds difference = 0;  ///< right minus left; 0 without time stamps
 };
 
-/// Decides about two frames from their running times; std::nullopt is a frame without a time stamp.
-/// Two frames without one pair in order. Frames at most `tolerance` apart pair; of others the older
-/// one is dropped, as both streams only go forward.
+/// Decides on two frames by their running times; std::nullopt stands for a frame without a time
+/// stamp. Two frames without time stamps are a pair. Frames at most `tolerance` apart are a pair;
+/// otherwise the older frame is dropped, since the times of both streams increase.
 PairingDecision decide_pairing(std::optional<Nanoseconds> left, std::optional<Nanoseconds> right,
                                Nanoseconds tolerance);
 
-/// How long a frame of each side lasts [ns], as far as it is known.
+/// The frame duration of each side [ns], if known.
 struct FrameDurations {
   std::optional<Nanoseconds> left;
   std::optional<Nanoseconds> right;
 
-  /// The shorter one of those that are known.
+  /// The shorter of the known durations.
   std::optional<Nanoseconds> shorter() const;
 };
 
-/// The tolerance in force: `set` if it is not negative, else half of the shorter frame duration of
-/// the caps, else of the buffers, else kFallbackTolerance. The shorter one, so that a slow stream
-/// is never paired with the neighbor of its partner in a fast one.
-Nanoseconds tolerance_in_force(Nanoseconds set, const FrameDurations& caps,
-                               const FrameDurations& buffers);
+/// The tolerance that applies: `set` if it is not negative, otherwise half of the shorter frame
+/// duration of the caps, otherwise of the buffers, otherwise kFallbackTolerance. The shorter
+/// duration ensures that a frame of a slow stream is not paired with a neighbor of its partner in a
+/// fast stream.
+Nanoseconds effective_tolerance(Nanoseconds set, const FrameDurations& caps,
+                                const FrameDurations& buffers);
 
-/// The frame that waits alone at the head of its stream, and since when. A frame that is late
-/// because the matcher was busy is not to be dropped in the moment in which its partner is about to
-/// be handed over by another thread: it gets kGrace from when it was first seen alone.
-class LonelyFrame {
+/// The frame that waits for its partner at the head of its stream, and since when. If a frame is
+/// late because the matcher was busy, another thread may be about to deliver its partner: the frame
+/// is kept for at least kGrace from the time at which it was first seen without a partner.
+class WaitingFrame {
  public:
   static constexpr Nanoseconds kGrace = 15'000'000;  ///< [ns]
 
-  /// A frame of the running time `time` is alone at the moment `now`. Gives the time until which
-  /// its partner is waited for, less `latency`, which the caller adds.
+  /// A frame with the running time `time` has no partner at the time `now`. Returns its deadline
+  /// minus `latency`, which the caller adds.
   Nanoseconds deadline(bool left, Nanoseconds time, Nanoseconds now, Nanoseconds latency);
 
  private:
@@ -64,20 +65,20 @@ class LonelyFrame {
   Nanoseconds since_ = 0;
 };
 
-/// Finds out when the user has to be told that the streams do not meet: at the first time that
-/// `kRun` frames in a row had no partner, and at most once every `kInterval` after that.
-class UnpairedAlarm {
+/// Decides when to warn that frames have no partners: once `kRun` consecutive frames had none, and
+/// after that at most once per `kInterval`.
+class UnpairedWarning {
  public:
   static constexpr int kRun = 30;                           ///< [frames]
-  static constexpr Nanoseconds kInterval = 10'000'000'000;  ///< [ns] of the wall clock
+  static constexpr Nanoseconds kInterval = 10'000'000'000;  ///< [ns], wall clock
 
-  /// A frame was dropped for want of a partner at wall clock time `now`. True: tell the user.
+  /// A frame without a partner was dropped at the wall clock time `now`. True: warn now.
   bool dropped(Nanoseconds now);
   /// Two frames were paired.
   void paired() { run_ = 0; }
-  /// How many frames in a row had no partner.
+  /// Number of consecutive frames without a partner.
   int run() const { return run_; }
-  void reset() { *this = UnpairedAlarm(); }
+  void reset() { *this = UnpairedWarning(); }
 
  private:
   int run_ = 0;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/queries.hpp"
+
 #include <algorithm>
 
-#include "matcher/element_state.hpp"
+#include "matcher/negotiation.hpp"
+#include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
 namespace {
@@ -24,25 +27,25 @@ Seekable ask_seekable(GstPad* sink, GstFormat format) {
   return answer;
 }
 
-/// A seek goes to both streams, so both have to be able to do it.
-bool answer_seeking(const ElementState& state, GstQuery* query) {
+/// A seek is sent to both streams, so both must be seekable.
+void answer_seeking(const ElementState& state, GstQuery* query) {
   GstFormat format = GST_FORMAT_UNDEFINED;
   gst_query_parse_seeking(query, &format, nullptr, nullptr, nullptr);
   const Seekable left = ask_seekable(GST_PAD_CAST(state.input(Side::kLeft).pad), format);
   const Seekable right = ask_seekable(GST_PAD_CAST(state.input(Side::kRight).pad), format);
   if (format != GST_FORMAT_TIME || !left.known || !right.known) {
     gst_query_set_seeking(query, format, FALSE, 0, -1);
-    return true;
+    return;
   }
   const gint64 stop = left.stop < 0    ? right.stop
                       : right.stop < 0 ? left.stop
                                        : std::min(left.stop, right.stop);
   gst_query_set_seeking(query, format, left.seekable && right.seekable,
                         std::max(left.start, right.start), stop);
-  return true;
 }
 
-std::optional<bool> answer_position(const ElementState& state, GstQuery* query) {
+/// The position of the last map; without one, that of the left stream.
+bool answer_position(const ElementState& state, GstQuery* query) {
   GstFormat format = GST_FORMAT_UNDEFINED;
   gst_query_parse_position(query, &format, nullptr);
   if (format == GST_FORMAT_TIME) {
@@ -59,21 +62,7 @@ std::optional<bool> answer_position(const ElementState& state, GstQuery* query) 
   return gst_pad_peer_query(GST_PAD_CAST(state.input(Side::kLeft).pad), query) != FALSE;
 }
 
-}  // namespace
-
-std::optional<bool> answer_source_query(ElementState& state, GstQuery* query) {
-  switch (GST_QUERY_TYPE(query)) {
-    case GST_QUERY_SEEKING:
-      return answer_seeking(state, query);
-    case GST_QUERY_POSITION:
-      return answer_position(state, query);
-    case GST_QUERY_DURATION:
-      return gst_pad_peer_query(GST_PAD_CAST(state.input(Side::kLeft).pad), query) != FALSE;
-    default:
-      return std::nullopt;
-  }
-}
-
+/// Adds the matching time to the latency that the base class reports.
 void add_processing_latency(ElementState& state, GstQuery* query) {
   gboolean live = FALSE;
   GstClockTime minimum = 0;
@@ -90,20 +79,41 @@ void add_processing_latency(ElementState& state, GstQuery* query) {
   gst_query_set_latency(query, live, minimum, maximum);
 }
 
-bool take_qos_event(ElementState& state, GstEvent* event) {
-  gdouble proportion = 1;
-  GstClockTimeDiff late = 0;
-  GstClockTime time = GST_CLOCK_TIME_NONE;
-  gst_event_parse_qos(event, nullptr, &proportion, &late, &time);
-  const ObjectLock lock(state.element);
-  state.qos_proportion = proportion;
-  if (!GST_CLOCK_TIME_IS_VALID(time)) {
-    state.qos_earliest = GST_CLOCK_TIME_NONE;
-    return state.settings.qos;
+}  // namespace
+
+bool answer_sink_query(ElementState& state, GstAggregatorPad* pad, GstQuery* query) {
+  switch (GST_QUERY_TYPE(query)) {
+    case GST_QUERY_CAPS: {
+      GstCaps* filter = nullptr;
+      gst_query_parse_caps(query, &filter);
+      gst_query_set_caps_result(query, sink_caps(state, state.side_of(pad), filter).get());
+      return true;
+    }
+    case GST_QUERY_ACCEPT_CAPS:
+      // Unsupported caps are rejected by the caps event, with an error that explains why: a
+      // negative answer here would only make the source report that it is not negotiated.
+      gst_query_set_accept_caps_result(query, TRUE);
+      return true;
+    default:
+      return state.base_class->sink_query(state.element, pad, query) != FALSE;
   }
-  const auto earliest = static_cast<GstClockTimeDiff>(time) + late;
-  state.qos_earliest = earliest > 0 ? static_cast<GstClockTime>(earliest) : 0;
-  return state.settings.qos;
+}
+
+bool answer_source_query(ElementState& state, GstQuery* query) {
+  switch (GST_QUERY_TYPE(query)) {
+    case GST_QUERY_SEEKING:
+      answer_seeking(state, query);
+      return true;
+    case GST_QUERY_POSITION:
+      return answer_position(state, query);
+    case GST_QUERY_DURATION:
+      return gst_pad_peer_query(GST_PAD_CAST(state.input(Side::kLeft).pad), query) != FALSE;
+    default:
+      break;
+  }
+  if (!state.base_class->src_query(state.element, query)) return false;
+  if (GST_QUERY_TYPE(query) == GST_QUERY_LATENCY) add_processing_latency(state, query);
+  return true;
 }
 
 }  // namespace mtstereo::plugin

@@ -15,8 +15,8 @@ bool same_size(const GstVideoMetaTransform& scale) {
          scale.in_info->height == scale.out_info->height;
 }
 
-/// Whether each pixel of the confidence map still belongs to the same pixel of the buffer.
-bool stays_true(GQuark type, gpointer data) {
+/// True if each pixel of the confidence map still belongs to the same pixel of the new buffer.
+bool stays_valid(GQuark type, gpointer data) {
   if (GST_META_TRANSFORM_IS_COPY(type)) return !static_cast<GstMetaTransformCopy*>(data)->region;
   if (GST_VIDEO_META_TRANSFORM_IS_SCALE(type)) {
     return same_size(*static_cast<GstVideoMetaTransform*>(data));
@@ -24,22 +24,23 @@ bool stays_true(GQuark type, gpointer data) {
   return false;
 }
 
+/// GStreamer calls it; it calls C functions only, so that it throws nothing.
 gboolean transform_meta(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark type, gpointer data,
-                        gpointer) {
+                        gpointer) noexcept {
   GstSample* confidence = sample_in(*meta);
-  if (confidence == nullptr || !stays_true(type, data)) return FALSE;
+  if (confidence == nullptr || !stays_valid(type, data)) return FALSE;
   set_confidence(to, confidence);  // shared, not copied
   return TRUE;
 }
 
 const GstMetaInfo* registered() {
-  // Once in a process, by whoever comes first.
+  // Once per process, by the first caller.
   static const GstMetaInfo* const info = []() -> const GstMetaInfo* {
-    // A program may have made it known first, to give maps of its own a confidence.
+    // An application may have registered it already, for the confidence of its own maps.
     if (const GstMetaInfo* known = gst_meta_get_info(kConfidenceMeta)) {
       return gst_meta_info_is_custom(known) ? known : nullptr;
     }
-    // What moves, turns or scales pixels asks for these tags and leaves the meta behind.
+    // Elements that move, rotate or scale pixels check these tags and do not copy the meta.
     const gchar* tags[] = {GST_META_TAG_VIDEO_STR, GST_META_TAG_VIDEO_SIZE_STR,
                            GST_META_TAG_VIDEO_ORIENTATION_STR, nullptr};
     return gst_meta_register_custom(kConfidenceMeta, tags, transform_meta, nullptr, nullptr);

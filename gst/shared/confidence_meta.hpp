@@ -5,27 +5,28 @@
 
 #include "shared/ownership.hpp"
 
-// The confidence map that a disparity map carries: a custom meta, so that a program reads it with
-// GStreamer alone.
+// The confidence map of a disparity map. It is a custom meta of the buffer, so that applications
+// read it with GStreamer alone.
 
 namespace mtstereo::plugin {
 
-/// The meta's name for gst_buffer_get_custom_meta().
+/// The name of the meta for gst_buffer_get_custom_meta(). It is part of the public interface.
 inline constexpr const char* kConfidenceMeta = "MtStereoConfidenceMeta";
-/// The field of its structure: a GstSample, a GRAY8 frame with its caps.
+/// The field of its structure: a GstSample with a GRAY8 frame and its caps.
 inline constexpr const char* kConfidenceField = "confidence";
 
-/// Makes the meta known to GStreamer; more calls do nothing. False where it cannot be. Any thread.
+/// Registers the meta with GStreamer; further calls have no effect. False if another type of meta
+/// has the name. Any thread.
 bool register_confidence_meta();
 
-/// True for a meta that tells of a frame's memory or of what its pixels mean: colors, confidence.
-/// It is not true of another frame that is made of this one.
+/// True for a meta that describes the memory of a frame or the meaning of its pixels (colors,
+/// confidence). Such a meta is invalid for another frame that is computed from this one.
 bool belongs_to_pixels(const GstMetaInfo& info);
 
-/// Gives a writable disparity map its confidence map, in place of one that it may have.
+/// Attaches a confidence map to a writable disparity map; replaces an existing one.
 void set_confidence(GstBuffer* disparity, GstSample* confidence);
 
-/// The confidence map of a disparity map, NULL where it has none. It stays the buffer's.
+/// The confidence map of a disparity map, or NULL if it has none. The buffer owns it.
 GstSample* confidence_of(GstBuffer* disparity);
 
 }  // namespace mtstereo::plugin

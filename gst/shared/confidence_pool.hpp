@@ -7,8 +7,9 @@
 
 namespace mtstereo::plugin {
 
-/// The memory of one element's confidence maps. A map's memory is used again when the last
-/// disparity map that carries it is freed, so a stream allocates as many as are held at one time.
+/// The buffer pool of one element's confidence maps. A buffer returns to the pool when the last
+/// disparity map that refers to it is freed, so the number of buffers is the largest number of maps
+/// that were in use at the same time.
 class ConfidencePool {
  public:
   ConfidencePool() = default;
@@ -16,18 +17,19 @@ class ConfidencePool {
   ConfidencePool(const ConfidencePool&) = delete;
   ConfidencePool& operator=(const ConfidencePool&) = delete;
 
-  /// Gets ready for maps of this stream of disparity maps: its size, framerate and pixel aspect
-  /// ratio. False where the memory cannot be had.
+  /// Configures the pool for this stream of disparity maps: size, framerate and pixel aspect ratio.
+  /// Does nothing if they are unchanged. False if the pool cannot be activated.
   bool fit(const GstVideoInfo& disparity);
-  /// Gives the memory up; maps that are still held stay as they are.
+  /// Frees the pool. Maps that are in use remain valid.
   void clear();
 
-  /// A map to be written, or NULL where there is no memory. Only after fit().
+  /// A writable buffer for a map, or NULL if there is no memory. Call fit() first.
   BufferPointer acquire();
-  /// The map as a program gets it: with its caps, and the times of the disparity map it belongs to.
+  /// The sample for the meta: the map with its caps, and the time stamp, duration and offsets of
+  /// the disparity map it belongs to.
   SamplePointer finish(BufferPointer map, const GstBuffer* disparity) const;
 
-  /// Of the maps.
+  /// The video info of the maps.
   const GstVideoInfo& info() const { return info_; }
 
  private:

@@ -8,7 +8,8 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-/// The map function believes a meta that contradicts the caps, or calls it a programming error.
+/// gst_video_frame_map() trusts a meta that contradicts the caps, or reports it as a programming
+/// error.
 std::string meta_problem(GstBuffer* buffer, const GstVideoInfo& expected) {
   const GstVideoMeta* meta = gst_buffer_get_video_meta(buffer);
   if (meta == nullptr) return {};
@@ -18,13 +19,13 @@ std::string meta_problem(GstBuffer* buffer, const GstVideoInfo& expected) {
       height == expected.height) {
     return {};
   }
-  return std::string("the frame's meta says ") + gst_video_format_to_string(meta->format) + " " +
-         size_text(width, height) + ", its caps say " +
+  return std::string("its video meta says ") + gst_video_format_to_string(meta->format) + " " +
+         size_text(width, height) + ", the caps say " +
          gst_video_format_to_string(GST_VIDEO_INFO_FORMAT(&expected)) + " " +
          size_text(expected.width, expected.height);
 }
 
-/// A meta tells where the rows are; nobody has checked yet that they are inside the memory.
+/// The offset and the stride of a meta are unchecked so far: the rows may lie outside the memory.
 std::string bounds_problem(const GstVideoFrame& frame) {
   const int width = GST_VIDEO_FRAME_WIDTH(&frame);
   const int height = GST_VIDEO_FRAME_HEIGHT(&frame);
@@ -32,15 +33,15 @@ std::string bounds_problem(const GstVideoFrame& frame) {
   const std::ptrdiff_t row =
       static_cast<std::ptrdiff_t>(width) * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, 0);
   if (stride < row) {
-    return "its rows are " + std::to_string(stride) + " bytes apart, " + std::to_string(row) +
-           " are needed";
+    return "its stride is " + std::to_string(stride) + " bytes, a row needs " +
+           std::to_string(row) + " bytes";
   }
   const auto* begin = static_cast<const guint8*>(frame.map[0].data);
   const auto* plane = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
   const std::ptrdiff_t needed = (plane - begin) + stride * (height - 1) + row;
   if (needed > static_cast<std::ptrdiff_t>(frame.map[0].size)) {
-    return "its buffer has " + std::to_string(frame.map[0].size) + " bytes, " +
-           std::to_string(needed) + " are needed";
+    return "its buffer has " + std::to_string(frame.map[0].size) + " bytes, the frame needs " +
+           std::to_string(needed) + " bytes";
   }
   return {};
 }
@@ -50,7 +51,7 @@ std::string bounds_problem(const GstVideoFrame& frame) {
 MappedFrame::MappedFrame(const GstVideoInfo& info, GstBuffer* buffer, GstMapFlags flags) {
   problem_ = meta_problem(buffer, info);
   if (!problem_.empty()) return;
-  // The map function takes the info without const but only copies it.
+  // gst_video_frame_map() takes a non-const info but only copies it.
   GstVideoInfo copy = info;
   const auto no_reference =
       static_cast<GstMapFlags>(flags | static_cast<int>(GST_VIDEO_FRAME_MAP_FLAG_NO_REF));
@@ -58,7 +59,7 @@ MappedFrame::MappedFrame(const GstVideoInfo& info, GstBuffer* buffer, GstMapFlag
   if (!mapped_) {
     problem_ = "its buffer of " + std::to_string(gst_buffer_get_size(buffer)) +
                " bytes cannot be mapped as " + size_text(info.width, info.height) +
-               ", which takes " + std::to_string(info.size) + " bytes";
+               ", which needs " + std::to_string(info.size) + " bytes";
     return;
   }
   problem_ = bounds_problem(frame_);
@@ -94,7 +95,7 @@ bool has_luma_plane(GstVideoFormat format) {
 }
 
 std::string luma_formats() {
-  std::string list = "{ GRAY8";  // first: what a source takes that is free to choose
+  std::string list = "{ GRAY8";  // first: the preferred format
   guint count = 0;
   const GstVideoFormat* formats = gst_video_formats_raw(&count);
   for (guint i = 0; i < count; ++i) {

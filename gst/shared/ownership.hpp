@@ -7,7 +7,7 @@
 
 namespace mtstereo::plugin {
 
-/// What gst_buffer_unref and the like free, for every way out of a function.
+/// The deleter of the owning pointers below.
 struct Unref {
   void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
   void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
@@ -21,8 +21,8 @@ using QueryPointer = std::unique_ptr<GstQuery, Unref>;
 using SamplePointer = std::unique_ptr<GstSample, Unref>;
 using TextPointer = std::unique_ptr<gchar, Unref>;
 
-/// An object's lock, held as long as this lives. No message may be posted and no other lock of the
-/// element taken meanwhile.
+/// Holds the lock of a GstObject for its lifetime. While it lives, post no message and take no
+/// other lock of the element.
 class ObjectLock {
  public:
   explicit ObjectLock(gpointer object) : object_(GST_OBJECT_CAST(object)) {

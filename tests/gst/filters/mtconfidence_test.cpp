@@ -250,7 +250,7 @@ TEST(MtConfidence, AMetaWithoutItsFieldIsAnError) {
       gst_structure_set(gst_custom_meta_get_structure(meta), "confidence", G_TYPE_INT, 3, nullptr);
     }
     const std::string text = filter.refusal(map);
-    EXPECT_NE(text.find("without its confidence map"), std::string::npos) << text;
+    EXPECT_NE(text.find("has no confidence map"), std::string::npos) << text;
   }
 }
 
@@ -265,7 +265,7 @@ std::string refused(GstBuffer* confidence, const std::string& caps) {
 TEST(MtConfidence, AConfidenceOfAnotherSizeIsAnErrorThatNamesBoth) {
   const std::string text =
       refused(gst_buffer_new_allocate(nullptr, 4096, nullptr), raw_caps("GRAY8", 8, 4));
-  EXPECT_NE(text.find("8x4 px, the disparity map 5x3"), std::string::npos) << text;
+  EXPECT_NE(text.find("8x4 px, the disparity map has 5x3 px"), std::string::npos) << text;
 }
 
 TEST(MtConfidence, AConfidenceThatIsNoGrayFrameIsAnError) {

@@ -152,7 +152,7 @@ TEST_F(Refusal, DownstreamThatWantsSomethingElseIsNamed) {
   gst_harness_set_sink_caps_str(harness.output(), "video/x-raw,format=GRAY16_LE,width=640");
   harness.caps(raw_caps("GRAY8", 64, 48));
   push();
-  expect_one_error({"does not take", "GRAY16_LE"}, {"width=(int)64", "width=(int)640"});
+  expect_one_error({"does not accept", "GRAY16_LE"}, {"width=(int)64", "width=(int)640"});
 }
 
 class RefusedAtStart : public testing::Test {

@@ -236,7 +236,7 @@ TEST_F(PairOrder, WarnsOnceWhereTheStreamsNeverMeet) {
   const Report warning = harness->warning();
   EXPECT_NE(warning.text.find("sync-tolerance"), std::string::npos) << warning.text;
   EXPECT_NE(warning.text.find("1.000 ms"), std::string::npos) << warning.text;
-  EXPECT_NE(warning.details.find("ms after the left one"), std::string::npos) << warning.details;
+  EXPECT_NE(warning.details.find("ms after the left frame"), std::string::npos) << warning.details;
   EXPECT_EQ(harness->warning(0.1).text, "");
 }
 

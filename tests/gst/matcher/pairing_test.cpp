@@ -48,31 +48,31 @@ TEST(Pairing, RefusesTimesOnOneSideOnly) {
 }
 
 TEST(Tolerance, IsWhatTheUserSet) {
-  EXPECT_EQ(tolerance_in_force(7, {40 * kMs, 40 * kMs}, {20 * kMs, 20 * kMs}), 7);
-  EXPECT_EQ(tolerance_in_force(0, {40 * kMs, 40 * kMs}, {}), 0);
+  EXPECT_EQ(effective_tolerance(7, {40 * kMs, 40 * kMs}, {20 * kMs, 20 * kMs}), 7);
+  EXPECT_EQ(effective_tolerance(0, {40 * kMs, 40 * kMs}, {}), 0);
 }
 
 TEST(Tolerance, IsHalfAFrameOfTheFasterStream) {
-  EXPECT_EQ(tolerance_in_force(-1, {40 * kMs, 20 * kMs}, {2 * kMs, 2 * kMs}), 10 * kMs);
-  EXPECT_EQ(tolerance_in_force(-1, {20 * kMs, 40 * kMs}, {}), 10 * kMs);
-  EXPECT_EQ(tolerance_in_force(-1, {std::nullopt, 40 * kMs}, {2 * kMs, 2 * kMs}), 20 * kMs);
+  EXPECT_EQ(effective_tolerance(-1, {40 * kMs, 20 * kMs}, {2 * kMs, 2 * kMs}), 10 * kMs);
+  EXPECT_EQ(effective_tolerance(-1, {20 * kMs, 40 * kMs}, {}), 10 * kMs);
+  EXPECT_EQ(effective_tolerance(-1, {std::nullopt, 40 * kMs}, {2 * kMs, 2 * kMs}), 20 * kMs);
 }
 
 TEST(Tolerance, FallsBackToTheBuffersAndThenToTwentyMilliseconds) {
-  EXPECT_EQ(tolerance_in_force(-1, {}, {60 * kMs, std::nullopt}), 30 * kMs);
-  EXPECT_EQ(tolerance_in_force(-1, {}, {}), 20 * kMs);
+  EXPECT_EQ(effective_tolerance(-1, {}, {60 * kMs, std::nullopt}), 30 * kMs);
+  EXPECT_EQ(effective_tolerance(-1, {}, {}), 20 * kMs);
 }
 
-TEST(LonelyFrame, OnTimeHasTheDeadlineOfItsTime) {
-  LonelyFrame frame;
+TEST(WaitingFrame, OnTimeHasTheDeadlineOfItsTime) {
+  WaitingFrame frame;
   EXPECT_EQ(frame.deadline(true, 100 * kMs, 110 * kMs, 50 * kMs), 100 * kMs);
   EXPECT_EQ(frame.deadline(true, 100 * kMs, 140 * kMs, 50 * kMs), 100 * kMs) << "seen again";
 }
 
-TEST(LonelyFrame, LateOnesGetAGraceOnce) {
-  LonelyFrame frame;
+TEST(WaitingFrame, LateOnesGetAGraceOnce) {
+  WaitingFrame frame;
   constexpr Nanoseconds kNow = 400 * kMs;
-  const Nanoseconds expected = kNow + LonelyFrame::kGrace - 50 * kMs;
+  const Nanoseconds expected = kNow + WaitingFrame::kGrace - 50 * kMs;
   EXPECT_EQ(frame.deadline(true, 100 * kMs, kNow, 50 * kMs), expected);
   EXPECT_EQ(frame.deadline(true, 100 * kMs, kNow + 10 * kMs, 50 * kMs), expected)
       << "the grace must not begin anew";
@@ -80,26 +80,26 @@ TEST(LonelyFrame, LateOnesGetAGraceOnce) {
       << "a frame of the other side is another frame";
 }
 
-TEST(UnpairedAlarm, RingsAfterARunOfDroppedFrames) {
-  UnpairedAlarm alarm;
-  for (int i = 1; i < UnpairedAlarm::kRun; ++i) EXPECT_FALSE(alarm.dropped(i)) << i;
-  EXPECT_TRUE(alarm.dropped(UnpairedAlarm::kRun));
+TEST(UnpairedWarning, RingsAfterARunOfDroppedFrames) {
+  UnpairedWarning warning;
+  for (int i = 1; i < UnpairedWarning::kRun; ++i) EXPECT_FALSE(warning.dropped(i)) << i;
+  EXPECT_TRUE(warning.dropped(UnpairedWarning::kRun));
 }
 
-TEST(UnpairedAlarm, KeepsQuietWhereEverySecondFrameFindsAPartner) {
-  UnpairedAlarm alarm;
-  for (int i = 0; i < 10 * UnpairedAlarm::kRun; ++i) {
-    EXPECT_FALSE(alarm.dropped(i * UnpairedAlarm::kInterval)) << i;
-    alarm.paired();
+TEST(UnpairedWarning, KeepsQuietWhereEverySecondFrameFindsAPartner) {
+  UnpairedWarning warning;
+  for (int i = 0; i < 10 * UnpairedWarning::kRun; ++i) {
+    EXPECT_FALSE(warning.dropped(i * UnpairedWarning::kInterval)) << i;
+    warning.paired();
   }
 }
 
-TEST(UnpairedAlarm, RingsAgainOnlyAfterTheInterval) {
-  UnpairedAlarm alarm;
-  for (int i = 1; i < UnpairedAlarm::kRun; ++i) alarm.dropped(0);
-  EXPECT_TRUE(alarm.dropped(0));
-  EXPECT_FALSE(alarm.dropped(UnpairedAlarm::kInterval - 1));
-  EXPECT_TRUE(alarm.dropped(UnpairedAlarm::kInterval));
+TEST(UnpairedWarning, RingsAgainOnlyAfterTheInterval) {
+  UnpairedWarning warning;
+  for (int i = 1; i < UnpairedWarning::kRun; ++i) warning.dropped(0);
+  EXPECT_TRUE(warning.dropped(0));
+  EXPECT_FALSE(warning.dropped(UnpairedWarning::kInterval - 1));
+  EXPECT_TRUE(warning.dropped(UnpairedWarning::kInterval));
 }
 
 TEST(ProcessingLatency, LeavesOutTheFirstPair) {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "matcher/element_state.hpp"
+
+namespace mtstereo::plugin {
+
+/// Pairs the heads of the two streams, or drops one of them. Runs in the task of the source pad.
+GstFlowReturn aggregate(ElementState& state, bool timeout);
+
+/// The time until which a frame without a partner waits [running time]. The base class calls it
+/// with its own lock held and adds the latency. Runs in the task of the source pad.
+GstClockTime next_deadline(ElementState& state);
+
+}  // namespace mtstereo::plugin

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/events.hpp"
+
+#include "matcher/negotiation.hpp"
+#include "matcher/output_events.hpp"
+#include "shared/ownership.hpp"
+
+namespace mtstereo::plugin {
+namespace {
+
+bool take_caps(ElementState& state, Side side, GstEvent* event) {
+  GstCaps* caps = nullptr;
+  gst_event_parse_caps(event, &caps);
+  const bool taken = take_sink_caps(state, side, caps);
+  gst_event_unref(event);
+  return taken;
+}
+
+bool refuse_segment(ElementState& state, Side side, GstEvent* event, GstFormat format) {
+  post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FORMAT,
+             std::string("The segment of ") + pad_name(side) + " is in " +
+                 gst_format_get_name(format) +
+                 ", but frames are paired by time: put a parser (such as rawvideoparse) upstream "
+                 "of it, or set format=time if the source is an appsrc.",
+             state.streams_text());
+  gst_event_unref(event);
+  return false;
+}
+
+bool take_segment(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
+  const Side side = state.side_of(pad);
+  const GstSegment* segment = nullptr;
+  gst_event_parse_segment(event, &segment);
+  if (segment->format != GST_FORMAT_TIME) {
+    return refuse_segment(state, side, event, segment->format);
+  }
+  const GstSegment copy = *segment;
+  const guint32 seqnum = gst_event_get_seqnum(event);
+  if (!state.base_class->sink_event(state.element, pad, event)) return false;
+  if (side == Side::kRight) return true;
+  gst_aggregator_update_segment(state.element, &copy);
+  state.segment = OutputSegment::kWaiting;
+  state.segment_seqnum = seqnum;
+  const ObjectLock lock(state.element);
+  state.qos_earliest = GST_CLOCK_TIME_NONE;
+  return true;
+}
+
+bool take_end(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
+  const guint32 seqnum = gst_event_get_seqnum(event);
+  const bool taken = state.base_class->sink_event(state.element, pad, event) != FALSE;
+  end_output(state, seqnum);
+  return taken;
+}
+
+/// Stores the lateness that downstream reports. True if the event is to be passed upstream.
+bool take_qos_event(ElementState& state, GstEvent* event) {
+  gdouble proportion = 1;
+  GstClockTimeDiff late = 0;
+  GstClockTime time = GST_CLOCK_TIME_NONE;
+  gst_event_parse_qos(event, nullptr, &proportion, &late, &time);
+  const ObjectLock lock(state.element);
+  state.qos_proportion = proportion;
+  if (!GST_CLOCK_TIME_IS_VALID(time)) {
+    state.qos_earliest = GST_CLOCK_TIME_NONE;
+    return state.settings.qos;
+  }
+  const auto earliest = static_cast<GstClockTimeDiff>(time) + late;
+  state.qos_earliest = earliest > 0 ? static_cast<GstClockTime>(earliest) : 0;
+  return state.settings.qos;
+}
+
+}  // namespace
+
+bool handle_sink_event(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
+  switch (GST_EVENT_TYPE(event)) {
+    case GST_EVENT_CAPS:
+      return take_caps(state, state.side_of(pad), event);
+    case GST_EVENT_SEGMENT:
+      return take_segment(state, pad, event);
+    case GST_EVENT_EOS:
+      return take_end(state, pad, event);
+    case GST_EVENT_SEGMENT_DONE:
+      // The output follows the left stream: only the end of its segment is passed on.
+      if (state.side_of(pad) == Side::kLeft) break;
+      gst_event_unref(event);
+      return true;
+    default:
+      break;
+  }
+  return state.base_class->sink_event(state.element, pad, event) != FALSE;
+}
+
+bool handle_source_event(ElementState& state, GstEvent* event) {
+  if (GST_EVENT_TYPE(event) == GST_EVENT_QOS && !take_qos_event(state, event)) {
+    gst_event_unref(event);
+    return true;
+  }
+  return state.base_class->src_event(state.element, event) != FALSE;
+}
+
+}  // namespace mtstereo::plugin

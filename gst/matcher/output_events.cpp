@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/output_events.hpp"
+
+#include "shared/ownership.hpp"
+
+namespace mtstereo::plugin {
+namespace {
+
+/// Sends the segment if it is due. False if there is none: then no other event may be sent.
+bool send_segment(ElementState& state) {
+  if (state.segment == OutputSegment::kWaiting) {
+    GstEvent* event = nullptr;
+    {
+      const ObjectLock lock(state.element);
+      event = gst_event_new_segment(&GST_AGGREGATOR_PAD(state.source_pad())->segment);
+    }
+    gst_event_set_seqnum(event, state.segment_seqnum);
+    gst_pad_push_event(state.source_pad(), event);
+    state.segment = OutputSegment::kSent;
+  }
+  return state.segment == OutputSegment::kSent;
+}
+
+}  // namespace
+
+void end_output(ElementState& state, guint32 seqnum) {
+  GstPad* pad = state.source_pad();
+  const CapsPointer caps(gst_pad_get_current_caps(pad));
+  // If there was no output, the base class sends the event when both streams have ended.
+  if (!caps || !send_segment(state)) return;
+  GstEvent* end = gst_event_new_eos();
+  gst_event_set_seqnum(end, seqnum);
+  gst_pad_push_event(pad, end);
+}
+
+void send_gap(ElementState& state, GstClockTime pts, GstClockTime duration) {
+  GstPad* pad = state.source_pad();
+  const CapsPointer caps(gst_pad_get_current_caps(pad));
+  // Without caps the stream has not started, and a gap needs a time.
+  if (!caps || !GST_CLOCK_TIME_IS_VALID(pts) || !send_segment(state)) return;
+  gst_pad_push_event(pad, gst_event_new_gap(pts, duration));
+}
+
+}  // namespace mtstereo::plugin
