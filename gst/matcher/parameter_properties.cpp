@@ -12,12 +12,11 @@
 namespace mtstereo::plugin {
 namespace {
 
-/// What the type system keeps pointers to for as long as the program runs.
+/// The strings and values to which the type system keeps pointers until the program ends.
 struct EnumType {
   std::string type_name;
   std::deque<std::string> words;
-  std::vector<GEnumValue> values;  // ends with zeros
-  GType type = 0;
+  std::vector<GEnumValue> values;  // terminated by an entry of zeros
 };
 
 // "cost-volume" -> "GstMtStereoCostVolume"
@@ -35,8 +34,10 @@ std::string enum_type_name(std::string_view parameter) {
   return name;
 }
 
+/// Registers the enumeration of a parameter: the nick of a value is its word, the name its
+/// description.
 GType choice_type(const ParameterInfo& info) {
-  // Never freed, as types live until the very end of the program.
+  // Never freed, because types exist until the program ends.
   static auto* const types = new std::deque<EnumType>;
   EnumType* made = &types->emplace_back();
   made->type_name = enum_type_name(info.name);
@@ -47,13 +48,12 @@ GType choice_type(const ParameterInfo& info) {
     rest = bar == std::string_view::npos ? std::string_view() : rest.substr(bar + 1);
   }
   for (std::size_t i = 0; i < made->words.size(); ++i) {
-    const char* word = made->words[i].c_str();
-    made->values.push_back({static_cast<gint>(i), word, word});
+    made->values.push_back({static_cast<gint>(i), info.choice_help[i], made->words[i].c_str()});
   }
   made->values.push_back({0, nullptr, nullptr});
-  made->type = g_enum_register_static(made->type_name.c_str(), made->values.data());
-  gst_type_mark_as_plugin_api(made->type, static_cast<GstPluginAPIFlags>(0));
-  return made->type;
+  const GType type = g_enum_register_static(made->type_name.c_str(), made->values.data());
+  gst_type_mark_as_plugin_api(type, static_cast<GstPluginAPIFlags>(0));
+  return type;
 }
 
 std::string blurb_of(const ParameterInfo& info) {
@@ -64,9 +64,9 @@ std::string blurb_of(const ParameterInfo& info) {
     notes += words;
   };
   if (*info.unit != '\0') note(std::string("unit: ") + info.unit);
-  if (*info.symbol != '\0') note(std::string("in the paper: ") + info.symbol);
+  if (*info.symbol != '\0') note(std::string("symbol in the paper: ") + info.symbol);
   const std::string defaults = parameter_defaults_text(info.id);
-  if (defaults != Parameters().text(info.id)) note("unless set: " + defaults);
+  if (defaults != Parameters().text(info.id)) note("default: " + defaults);
   return notes.empty() ? text : text + " (" + notes + ")";
 }
 
@@ -75,18 +75,18 @@ GParamSpec* make_property(const ParameterInfo& info) {
   const std::string blurb = blurb_of(info);
   const auto flags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_NAME |
                                               G_PARAM_STATIC_NICK | GST_PARAM_MUTABLE_PLAYING);
-  const auto steered = static_cast<GParamFlags>(flags | GST_PARAM_CONTROLLABLE);
+  const auto controllable = static_cast<GParamFlags>(flags | GST_PARAM_CONTROLLABLE);
   switch (info.type) {
     case ParameterType::kInteger:
       return g_param_spec_int(info.name, info.name, blurb.c_str(), static_cast<gint>(info.minimum),
                               static_cast<gint>(info.maximum),
-                              static_cast<gint>(defaults.get(info.id)), steered);
+                              static_cast<gint>(defaults.get(info.id)), controllable);
     case ParameterType::kNumber:
       return g_param_spec_double(info.name, info.name, blurb.c_str(), info.minimum, info.maximum,
-                                 defaults.get(info.id), steered);
+                                 defaults.get(info.id), controllable);
     case ParameterType::kBoolean:
       return g_param_spec_boolean(info.name, info.name, blurb.c_str(), defaults.get(info.id) != 0,
-                                  steered);
+                                  controllable);
     case ParameterType::kChoice:
       return g_param_spec_enum(info.name, info.name, blurb.c_str(), choice_type(info),
                                static_cast<gint>(defaults.get(info.id)), flags);

@@ -7,22 +7,23 @@
 
 namespace mtstereo::plugin {
 
-/// The id of the first property that is made from the parameter table; the others follow in the
-/// order of the table. Smaller ids are the element's own.
+/// The id of the first property of the parameter table; the others follow in the order of the
+/// table. Smaller ids are those of the element's own properties.
 inline constexpr guint kFirstParameterProperty = 100;
 
-/// Adds a property for every row of the parameter table to an element's class: type, range, default
-/// (of the mode semi-dense) and help come from the row.
+/// Installs a property for every row of the parameter table. Type, range, default (of preset
+/// default and mode semi-dense), blurb and the descriptions of enumeration values are those of the
+/// row.
 void install_parameter_properties(GObjectClass* object_class);
 
-/// The parameter of a property id, or nullptr where the id is none of these.
+/// The parameter of a property id, or nullptr for the other properties.
 const ParameterInfo* parameter_of_property(guint property_id);
 
-/// Sets a parameter from a property's value. The message of a failure is the core's.
+/// Sets a parameter to the value of its property. A failure has the message of the core.
 Status set_parameter_from_value(Parameters& parameters, const ParameterInfo& info,
                                 const GValue& value);
 
-/// Writes the value in force into a property's value.
+/// Copies the effective value of a parameter to the value of its property.
 void parameter_to_value(const Parameters& parameters, const ParameterInfo& info, GValue& value);
 
 }  // namespace mtstereo::plugin
