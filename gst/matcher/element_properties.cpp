@@ -107,8 +107,8 @@ void set_element_property(ElementState& state, guint id, const GValue* value, GP
         return;
     }
   }
-  update_pairing_latency(
-      state);  // takes the lock of the aggregator, which comes before the object lock
+  // Takes the lock of the aggregator, which comes before the object lock.
+  update_pairing_latency(state);
 }
 
 void get_element_property(ElementState& state, guint id, GValue* value, GParamSpec* spec) {

@@ -90,7 +90,7 @@ bool answer_sink_query(ElementState& state, GstAggregatorPad* pad, GstQuery* que
       return true;
     }
     case GST_QUERY_ACCEPT_CAPS:
-      // Unsupported caps are rejected by the caps event, with an error that explains why: a
+      // Unsupported caps are rejected when their event arrives, with an error that explains why: a
       // negative answer here would only make the source report that it is not negotiated.
       gst_query_set_accept_caps_result(query, TRUE);
       return true;

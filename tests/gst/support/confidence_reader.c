@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* The function that docs/element.md shows to those who write in C. */
+/* The C function in docs/element.md. */
 #include "support/confidence_reader.h"
 
-/* Maps the confidence that a disparity map carries; FALSE where it carries none. To be unmapped
- * with gst_video_frame_unmap(). */
+/* Maps the confidence map of a disparity map; FALSE if it has none. Unmap it with
+ * gst_video_frame_unmap(). */
 gboolean map_confidence(GstBuffer* disparity, GstVideoFrame* frame) {
   GstCustomMeta* meta = gst_buffer_get_custom_meta(disparity, "MtStereoConfidenceMeta");
   GstSample* sample = NULL;
@@ -16,6 +16,6 @@ gboolean map_confidence(GstBuffer* disparity, GstVideoFrame* frame) {
   if (sample == NULL) return FALSE;
   mapped = gst_video_info_from_caps(&info, gst_sample_get_caps(sample)) &&
            gst_video_frame_map(frame, &info, gst_sample_get_buffer(sample), GST_MAP_READ);
-  gst_sample_unref(sample); /* the mapped frame keeps what it needs */
+  gst_sample_unref(sample); /* the mapped frame holds its own reference */
   return mapped;
 }
