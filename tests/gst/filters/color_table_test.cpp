@@ -10,7 +10,7 @@ namespace {
 
 std::tuple<int, int, int> parts(const Rgb& color) { return {color.red, color.green, color.blue}; }
 
-TEST(ColorTable, NoDisparityIsBlackAndNothingElseIs) {
+TEST(ColorTable, OnlyNoDisparityIsBlack) {
   const auto table = color_table(64, 256);
   ASSERT_EQ(table.size(), 65536u);
   EXPECT_EQ(parts(table[0]), std::tuple(0, 0, 0));
@@ -19,13 +19,13 @@ TEST(ColorTable, NoDisparityIsBlackAndNothingElseIs) {
   }
 }
 
-TEST(ColorTable, ReachesFromTheFirstToTheLastColorOfTurbo) {
+TEST(ColorTable, UsesTheWholeColorMap) {
   const auto table = color_table(64, 256);
   EXPECT_EQ(parts(table[1]), std::tuple(48, 18, 59));
-  EXPECT_EQ(parts(table[64 * 256]), std::tuple(122, 4, 3)) << "the color map's last color";
+  EXPECT_EQ(parts(table[64 * 256]), std::tuple(122, 4, 3)) << "last color of the color map";
 }
 
-TEST(ColorTable, IsBlueInTheDistanceAndRedNearby) {
+TEST(ColorTable, FarIsBlueAndNearIsRed) {
   const auto table = color_table(64, 256);
   const Rgb far = table[6 * 256];
   const Rgb near = table[58 * 256];
@@ -33,14 +33,14 @@ TEST(ColorTable, IsBlueInTheDistanceAndRedNearby) {
   EXPECT_GT(near.red, near.blue);
 }
 
-TEST(ColorTable, StaysAtTheLastColorAboveTheRange) {
+TEST(ColorTable, ValuesAboveTheRangeHaveTheLastColor) {
   const auto table = color_table(16, 256);
   for (std::size_t value = 16 * 256; value < table.size(); ++value) {
     ASSERT_EQ(parts(table[value]), parts(table[65535])) << value;
   }
 }
 
-TEST(ColorTable, SameDisparityHasTheSameColorAtEveryScale) {
+TEST(ColorTable, ColorDependsOnDisparityNotOnScale) {
   const auto fine = color_table(64, 256);
   const auto coarse = color_table(64, 16);
   for (int px = 1; px <= 64; ++px) {
@@ -50,10 +50,10 @@ TEST(ColorTable, SameDisparityHasTheSameColorAtEveryScale) {
   }
 }
 
-TEST(ColorTable, TakesTheSmallestAndTheLargestRange) {
+TEST(ColorTable, SupportsTheSmallestAndTheLargestRange) {
   EXPECT_EQ(parts(color_table(1, 1)[1]), parts(color_table(1, 1)[65535]));
   EXPECT_EQ(parts(color_table(1024, 65535)[65535]), parts(color_table(1024, 65535)[60000]))
-      << "all of it is at the far end";
+      << "both values have the color of small disparities";
 }
 
 }  // namespace

@@ -11,9 +11,9 @@ namespace {
 
 using Color = std::array<int, 3>;
 constexpr Color kBlack = {0, 0, 0};
-constexpr Color kLast = {122, 4, 3};  // of the color map Turbo
+constexpr Color kLast = {122, 4, 3};  // last color of Turbo
 
-/// A row of disparities through mtcolor.
+/// Colors rows of disparities by an mtcolor.
 class ColorRow {
  public:
   ColorRow(const std::string& properties, const std::string& more_caps,
@@ -31,7 +31,7 @@ class ColorRow {
 
   GstElement* element() const { return element_; }
 
-  /// The colors of these 16-bit values, and what the fourth byte is (-1: there is none).
+  /// The colors of these 16-bit values. Also sets fourth().
   std::vector<Color> colors(const std::vector<std::uint16_t>& values, int padding = 0) {
     const int width = static_cast<int>(values.size());
     gst_harness_set_src_caps_str(harness_, (raw_caps("GRAY16_LE", width, 2) + more_caps_).c_str());
@@ -54,6 +54,7 @@ class ColorRow {
     const BufferPointer out(gst_harness_push_and_pull(harness_, buffer));
     return read(out.get(), width);
   }
+  /// The fourth byte of every pixel; empty for 3-byte formats.
   const std::vector<int>& fourth() const { return fourth_; }
 
  private:
@@ -63,7 +64,7 @@ class ColorRow {
     gst_video_info_set_format(&info, format_, static_cast<guint>(width), 2);
     GstVideoFrame frame;
     if (buffer == nullptr || !gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ)) {
-      ADD_FAILURE() << "no picture";
+      ADD_FAILURE() << "no image";
       return result;
     }
     fourth_.clear();
@@ -92,7 +93,7 @@ class ColorRow {
   std::vector<int> fourth_;
 };
 
-TEST(Color, NoneIsBlackAndTheEndOfTheRangeIsRed) {
+TEST(Color, NoDisparityIsBlackAndTheEndOfTheRangeIsRed) {
   ColorRow row("max-disparity=32", ",disparity-scale=256");
   const auto colors = row.colors({0, 1, 32 * 256, 65535});
   EXPECT_EQ(colors[0], kBlack);
@@ -101,14 +102,14 @@ TEST(Color, NoneIsBlackAndTheEndOfTheRangeIsRed) {
   EXPECT_EQ(colors[3], kLast);
 }
 
-TEST(Color, TheScaleComesFromTheCaps) {
+TEST(Color, CapsOverrideTheScaleProperty) {
   ColorRow row("max-disparity=32 disparity-scale=256", ",disparity-scale=16");
   const auto colors = row.colors({31 * 16 / 2, 32 * 16});
   EXPECT_NE(colors[0], kLast);
   EXPECT_EQ(colors[1], kLast);
 }
 
-TEST(Color, ThePropertyHoldsWhereTheCapsHaveNoScale) {
+TEST(Color, ScalePropertyAppliesIfTheCapsHaveNoScale) {
   ColorRow row("max-disparity=32 disparity-scale=16", "");
   EXPECT_EQ(row.colors({32 * 16, 1})[0], kLast);
   ColorRow standard("max-disparity=32", "");
@@ -116,7 +117,7 @@ TEST(Color, ThePropertyHoldsWhereTheCapsHaveNoScale) {
   EXPECT_EQ(standard.colors({32 * 256, 1})[0], kLast);
 }
 
-TEST(Color, TheRangeIsTheOneOfMtstereoUnlessSet) {
+TEST(Color, RangeComesFromTheCapsUnlessSet) {
   ColorRow automatic("", ",disparity-scale=256,max-disparity=20");
   EXPECT_EQ(automatic.colors({20 * 256, 1})[0], kLast);
   EXPECT_NE(automatic.colors({15 * 256, 1})[0], kLast);
@@ -127,21 +128,21 @@ TEST(Color, TheRangeIsTheOneOfMtstereoUnlessSet) {
   EXPECT_NE(unknown.colors({50 * 256, 1})[0], kLast);
 }
 
-TEST(Color, TheRangeIsTheSameInEveryFrame) {
+TEST(Color, RangeDoesNotDependOnTheFrame) {
   ColorRow row("max-disparity=64", ",disparity-scale=256");
   const auto alone = row.colors({10 * 256, 10 * 256, 10 * 256});
   const auto beside = row.colors({10 * 256, 1, 65535});
   EXPECT_EQ(alone[0], beside[0]);
 }
 
-TEST(Color, TheRangeCanBeChangedWhilePlaying) {
+TEST(Color, RangeCanBeChangedWhilePlaying) {
   ColorRow row("max-disparity=64", ",disparity-scale=256");
   EXPECT_NE(row.colors({32 * 256, 1})[0], kLast);
   g_object_set(row.element(), "max-disparity", 32, nullptr);
   EXPECT_EQ(row.colors({32 * 256, 1})[0], kLast);
 }
 
-TEST(Color, PaddingIsNotPicture) {
+TEST(Color, PaddingIsIgnored) {
   ColorRow row("max-disparity=32", ",disparity-scale=256");
   for (const int padding : {0, 4, 32}) {
     const auto colors = row.colors({0, 32 * 256, 0, 32 * 256, 0}, padding);
@@ -164,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(All, ColorFormat,
                                          "BGRA", "ARGB", "ABGR"),
                          [](const auto& info) { return std::string(info.param); });
 
-TEST(Color, WrongCapsAreAnErrorThatNamesThem) {
+TEST(Color, ReportsInvalidCaps) {
   Pipeline pipeline(
       "videotestsrc num-buffers=1 ! video/x-raw,format=GRAY8 ! videoconvert ! "
       "video/x-raw,format=GRAY16_LE ! capssetter caps=video/x-raw,disparity-scale=0 ! "
@@ -173,7 +174,7 @@ TEST(Color, WrongCapsAreAnErrorThatNamesThem) {
   EXPECT_NE(error.find("disparity-scale=0"), std::string::npos) << error;
 }
 
-/// What mtcolor says to a frame of 64x48 whose meta tells this of it.
+/// The error of mtcolor for a 64x48 frame whose video meta has these values.
 std::string error_of_frame(GstVideoFormat format, guint width, gint stride, gsize bytes) {
   Pipeline pipeline("appsrc name=in is-live=false format=time caps=" +
                     raw_caps("GRAY16_LE", 64, 48) + " ! mtcolor ! fakesink");
@@ -191,7 +192,7 @@ std::string error_of_frame(GstVideoFormat format, guint width, gint stride, gsiz
   return pipeline.wait_for_end();
 }
 
-TEST(Color, AFrameThatIsNotWhatItsCapsSayIsAnError) {
+TEST(Color, ReportsFramesThatContradictTheirCaps) {
   constexpr auto kGray16 = GST_VIDEO_FORMAT_GRAY16_LE;
   EXPECT_EQ(error_of_frame(kGray16, 64, 128, 128 * 48), "");
   const std::string rows = error_of_frame(kGray16, 64, 256, 128 * 48);
@@ -202,7 +203,7 @@ TEST(Color, AFrameThatIsNotWhatItsCapsSayIsAnError) {
   EXPECT_NE(format.find("GRAY8 64x48"), std::string::npos) << format;
 }
 
-TEST(Color, FollowsMtstereoInAPipeline) {
+TEST(Color, AcceptsTheOutputOfMtstereo) {
   Pipeline pipeline(
       "videotestsrc num-buffers=3 pattern=smpte ! "
       "video/x-raw,format=GRAY8,width=160,height=120 ! tee name=t "

@@ -17,7 +17,7 @@ const Disparity kMap = {0,   256, 512, 1,   65535, 770, 0,     771,  //
                         772, 773, 774, 775, 776,   777, 0x0100};
 const Confidence kSure = {0, 1, 2, 99, 100, 101, 0, 200, 254, 255, 50, 60, 70, 80, 255};
 
-/// A GRAY16_LE or GRAY8 frame of kWidth x kHeight; what is beside the picture is 0xAB.
+/// A GRAY16_LE or GRAY8 frame of kWidth x kHeight; all bytes outside the image are 0xAB.
 template <typename T>
 GstBuffer* frame_of(const std::vector<T>& values, int padding, int offset) {
   constexpr int kStep = sizeof(T);
@@ -40,7 +40,7 @@ GstBuffer* frame_of(const std::vector<T>& values, int padding, int offset) {
   return buffer;
 }
 
-/// Attaches it as a program would. Takes the confidence; caps "": none.
+/// Attaches a confidence map as an application does. Takes `confidence`; no caps if `caps` is "".
 void attach(GstBuffer* map, GstBuffer* confidence, const std::string& caps) {
   CapsPointer parsed(caps.empty() ? nullptr : gst_caps_from_string(caps.c_str()));
   GstSample* sample = gst_sample_new(confidence, parsed.get(), nullptr, nullptr);
@@ -51,7 +51,7 @@ void attach(GstBuffer* map, GstBuffer* confidence, const std::string& caps) {
   if (confidence != nullptr) gst_buffer_unref(confidence);
 }
 
-/// mtconfidence between two pads.
+/// An mtconfidence in a harness.
 class Filter {
  public:
   explicit Filter(const std::string& properties) {
@@ -73,7 +73,7 @@ class Filter {
 
   GstElement* element() const { return element_; }
 
-  /// A map with the confidence kSure; both may lie in their buffers in another way.
+  /// A disparity map with the confidence kSure, each with its own padding and offset.
   static GstBuffer* map(int padding = 0, int offset = 0, int sure_padding = 0,
                         int sure_offset = 0) {
     GstBuffer* map = frame_of(kMap, padding, offset);
@@ -85,7 +85,7 @@ class Filter {
     EXPECT_EQ(flow, GST_FLOW_OK);
     return BufferPointer(flow == GST_FLOW_OK ? gst_harness_pull(harness_) : nullptr);
   }
-  /// What it says to a map that it does not take.
+  /// The error for a map that is rejected.
   std::string refusal(GstBuffer* map) {
     EXPECT_EQ(gst_harness_push(harness_, map), GST_FLOW_ERROR);
     const MessagePointer message(gst_bus_pop_filtered(bus_, GST_MESSAGE_ERROR));
@@ -134,7 +134,7 @@ Confidence bytes_of(GstBuffer* buffer) {
   gst_video_info_set_format(&info, GST_VIDEO_FORMAT_GRAY8, kWidth, kHeight);
   GstVideoFrame frame;
   if (buffer == nullptr || !gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ)) {
-    ADD_FAILURE() << "no picture";
+    ADD_FAILURE() << "no image";
     return result;
   }
   for (int y = 0; y < kHeight; ++y) {
@@ -148,7 +148,7 @@ Confidence bytes_of(GstBuffer* buffer) {
 
 class MinConfidence : public testing::TestWithParam<int> {};
 
-TEST_P(MinConfidence, KeepsWhatIsAtLeastAsSure) {
+TEST_P(MinConfidence, KeepsDisparitiesOfAtLeastThisConfidence) {
   Filter filter("min-confidence=" + std::to_string(GetParam()));
   const BufferPointer out = filter.pass(Filter::map());
   ASSERT_TRUE(out);
@@ -156,7 +156,7 @@ TEST_P(MinConfidence, KeepsWhatIsAtLeastAsSure) {
   EXPECT_EQ(confidence_of(out.get()), kept_confidence(GetParam()));
 }
 
-TEST_P(MinConfidence, CutsThePictureOfTheConfidenceToo) {
+TEST_P(MinConfidence, AppliesToTheConfidenceOutput) {
   Filter filter("output=confidence min-confidence=" + std::to_string(GetParam()));
   const BufferPointer out = filter.pass(Filter::map());
   EXPECT_EQ(bytes_of(out.get()), kept_confidence(GetParam()));
@@ -166,12 +166,12 @@ TEST_P(MinConfidence, CutsThePictureOfTheConfidenceToo) {
 INSTANTIATE_TEST_SUITE_P(Values, MinConfidence, testing::Values(0, 1, 2, 100, 101, 254, 255),
                          [](const auto& info) { return std::to_string(info.param); });
 
-TEST(MtConfidence, KeepsAllUnlessTold) {
+TEST(MtConfidence, KeepsEverythingByDefault) {
   Filter filter("");
   EXPECT_EQ(map_of(filter.pass(Filter::map()).get(), kWidth, kHeight), kMap);
 }
 
-TEST(MtConfidence, ReadsPaddedAndShiftedRows) {
+TEST(MtConfidence, ReadsRowsWithPaddingAndOffset) {
   for (const int padding : {0, 4, 9}) {
     for (const int offset : {0, 1, 7}) {
       Filter disparity("min-confidence=80");
@@ -184,7 +184,7 @@ TEST(MtConfidence, ReadsPaddedAndShiftedRows) {
   }
 }
 
-TEST(MtConfidence, LeavesItsInputAsItIs) {
+TEST(MtConfidence, DoesNotModifyItsInput) {
   Filter filter("min-confidence=255");
   const BufferPointer in(Filter::map());
   const BufferPointer out = filter.pass(gst_buffer_ref(in.get()));
@@ -192,7 +192,7 @@ TEST(MtConfidence, LeavesItsInputAsItIs) {
   EXPECT_EQ(confidence_of(in.get()), kSure);
 }
 
-TEST(MtConfidence, HeldMapsAreNotOverwritten) {
+TEST(MtConfidence, DoesNotOverwriteMapsInUse) {
   Filter filter("");
   std::vector<BufferPointer> held;
   const std::vector<int> values = {50, 100, 200, 255, 1};
@@ -206,7 +206,7 @@ TEST(MtConfidence, HeldMapsAreNotOverwritten) {
   }
 }
 
-TEST(MtConfidence, TheOutputCanBeChangedWhilePlaying) {
+TEST(MtConfidence, OutputCanBeChangedWhilePlaying) {
   Filter filter("");
   EXPECT_EQ(map_of(filter.pass(Filter::map()).get(), kWidth, kHeight), kMap);
   EXPECT_NE(filter.output_caps().find("disparity-scale=(int)256"), std::string::npos);
@@ -219,7 +219,7 @@ TEST(MtConfidence, TheOutputCanBeChangedWhilePlaying) {
   EXPECT_NE(filter.output_caps().find("disparity-scale=(int)256"), std::string::npos);
 }
 
-TEST(MtConfidence, KeepsOtherMetasOfTheFrame) {
+TEST(MtConfidence, KeepsOtherMetas) {
   Filter filter("min-confidence=10");
   const CapsPointer clock(gst_caps_from_string("timestamp/x-ntp"));
   GstBuffer* map = Filter::map();
@@ -231,9 +231,9 @@ TEST(MtConfidence, KeepsOtherMetasOfTheFrame) {
   EXPECT_NE(gst_buffer_get_video_region_of_interest_meta(out.get()), nullptr);
 }
 
-// --- what it does not take ---
+// --- rejected input ---
 
-TEST(MtConfidence, AMapWithoutConfidenceIsAnErrorThatSaysWhatIsMissing) {
+TEST(MtConfidence, ReportsAMapWithoutConfidence) {
   for (const char* properties : {"", "min-confidence=9", "output=confidence"}) {
     Filter filter(properties);
     const std::string text = filter.refusal(frame_of(kMap, 0, 0));
@@ -241,7 +241,7 @@ TEST(MtConfidence, AMapWithoutConfidenceIsAnErrorThatSaysWhatIsMissing) {
   }
 }
 
-TEST(MtConfidence, AMetaWithoutItsFieldIsAnError) {
+TEST(MtConfidence, ReportsAMetaWithoutItsField) {
   for (const bool wrong_type : {false, true}) {
     Filter filter("");
     GstBuffer* map = frame_of(kMap, 0, 0);
@@ -254,7 +254,7 @@ TEST(MtConfidence, AMetaWithoutItsFieldIsAnError) {
   }
 }
 
-/// What it says to the map kMap with this as its confidence.
+/// The error for the map kMap with this confidence.
 std::string refused(GstBuffer* confidence, const std::string& caps) {
   Filter filter("min-confidence=1");
   GstBuffer* map = frame_of(kMap, 0, 0);
@@ -262,13 +262,13 @@ std::string refused(GstBuffer* confidence, const std::string& caps) {
   return filter.refusal(map);
 }
 
-TEST(MtConfidence, AConfidenceOfAnotherSizeIsAnErrorThatNamesBoth) {
+TEST(MtConfidence, ReportsBothSizesIfTheyDiffer) {
   const std::string text =
       refused(gst_buffer_new_allocate(nullptr, 4096, nullptr), raw_caps("GRAY8", 8, 4));
   EXPECT_NE(text.find("8x4 px, the disparity map has 5x3 px"), std::string::npos) << text;
 }
 
-TEST(MtConfidence, AConfidenceThatIsNoGrayFrameIsAnError) {
+TEST(MtConfidence, ReportsAConfidenceThatIsNoGray8Frame) {
   const std::string gray = raw_caps("GRAY8", kWidth, kHeight);
   EXPECT_NE(refused(frame_of(kSure, 0, 0), "").find("GRAY8"), std::string::npos);
   EXPECT_NE(refused(frame_of(kSure, 0, 0), raw_caps("I420", 5, 3)).find("GRAY8"),
@@ -277,13 +277,13 @@ TEST(MtConfidence, AConfidenceThatIsNoGrayFrameIsAnError) {
   EXPECT_NE(refused(nullptr, gray).find("GRAY8"), std::string::npos);
 }
 
-TEST(MtConfidence, AConfidenceWithoutItsBytesIsAnError) {
+TEST(MtConfidence, ReportsAConfidenceWithTooFewBytes) {
   const std::string text =
       refused(gst_buffer_new_allocate(nullptr, 20, nullptr), raw_caps("GRAY8", kWidth, kHeight));
   EXPECT_NE(text.find("20 bytes"), std::string::npos) << text;
 }
 
-TEST(MtConfidence, AMapThatIsNotWhatItsCapsSayIsAnError) {
+TEST(MtConfidence, ReportsAMapThatContradictsItsCaps) {
   Filter filter("");
   GstBuffer* map = Filter::map(64, 0);
   gst_buffer_set_size(map, 60);
@@ -291,7 +291,7 @@ TEST(MtConfidence, AMapThatIsNotWhatItsCapsSayIsAnError) {
   EXPECT_NE(text.find("60 bytes"), std::string::npos) << text;
 }
 
-TEST(MtConfidence, OtherFormatsAreNotTaken) {
+TEST(MtConfidence, RejectsOtherFormats) {
   for (const char* format : {"GRAY8", "GRAY16_BE", "RGB"}) {
     GstElement* filter = make_element("", "mtconfidence");
     GstPad* pad = gst_element_get_static_pad(filter, "sink");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The confidence map that comes with every disparity map of mtstereo.
+// The confidence map of the disparity maps of mtstereo.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ void expect_library_confidence(GstBuffer* map, const Pair& pair) {
   EXPECT_EQ(library_confidence(pair, parameters()), confidence_of(map));
 }
 
-/// The sample in the meta; the buffer's.
+/// The sample in the meta; the buffer owns it.
 GstSample* sample_of(GstBuffer* map) {
   GstCustomMeta* meta = gst_buffer_get_custom_meta(map, kMeta);
   if (meta == nullptr) return nullptr;
@@ -32,7 +32,7 @@ GstSample* sample_of(GstBuffer* map) {
 
 class ConfidenceSize : public testing::TestWithParam<std::pair<int, int>> {};
 
-TEST_P(ConfidenceSize, IsTheLibrarys) {
+TEST_P(ConfidenceSize, EqualsThatOfTheLibrary) {
   const auto [width, height] = GetParam();
   const Pair pair = noise_pair(width, height, 4, 1);
   StereoHarness harness;
@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, ConfidenceSize,
                                   std::to_string(info.param.second);
                          });
 
-TEST(Confidence, IsTheLibrarysForPaddedFramesToo) {
+TEST(Confidence, EqualsThatOfTheLibraryForPaddedFrames) {
   const Pair pair = noise_pair(67, 49, 4, 2);
   StereoHarness harness;
   harness.caps(raw_caps("GRAY8", 67, 49), raw_caps("I420", 67, 49));
@@ -60,7 +60,7 @@ TEST(Confidence, IsTheLibrarysForPaddedFramesToo) {
   expect_library_confidence(map.get(), pair);
 }
 
-TEST(Confidence, IsZeroExactlyWhereThereIsNoDisparity) {
+TEST(Confidence, IsZeroExactlyWithoutADisparity) {
   const Pair pair = noise_pair(97, 61, 4, 3);
   StereoHarness harness;
   harness.caps(raw_caps("GRAY8", 97, 61));
@@ -76,7 +76,7 @@ TEST(Confidence, IsZeroExactlyWhereThereIsNoDisparity) {
   EXPECT_TRUE(std::ranges::any_of(confidence, [](int value) { return value > 0; }));
 }
 
-TEST(Confidence, HasTheCapsAndTimesOfItsMap) {
+TEST(Confidence, HasTheCapsAndTimesOfItsDisparityMap) {
   StereoHarness harness;
   const std::string caps =
       raw_caps("GRAY8", 66, 48, "25/2") + ",pixel-aspect-ratio=4/3";  // 66: rows are padded
@@ -91,10 +91,10 @@ TEST(Confidence, HasTheCapsAndTimesOfItsMap) {
   GstBuffer* confidence = gst_sample_get_buffer(sample);
   EXPECT_EQ(GST_BUFFER_PTS(confidence), 7 * kFrame);
   EXPECT_EQ(GST_BUFFER_DURATION(confidence), kFrame);
-  EXPECT_EQ(gst_buffer_get_size(confidence), 68u * 48) << "rows are as the caps say";
+  EXPECT_EQ(gst_buffer_get_size(confidence), 68u * 48) << "the stride is that of the caps";
 }
 
-TEST(Confidence, IsNotThereWhereItIsSwitchedOff) {
+TEST(Confidence, IsNotAttachedIfDisabled) {
   StereoHarness harness("max-disparity=16 confidence-map=false");
   harness.caps(raw_caps("GRAY8", 64, 48));
   harness.push_pair(noise_pair(64, 48, 4, 5), 0);
@@ -104,7 +104,7 @@ TEST(Confidence, IsNotThereWhereItIsSwitchedOff) {
   EXPECT_TRUE(confidence_of(map.get()).empty());
 }
 
-TEST(Confidence, CanBeSwitchedWhilePlaying) {
+TEST(Confidence, CanBeEnabledAndDisabledWhilePlaying) {
   const Pair pair = noise_pair(64, 48, 4, 6);
   StereoHarness harness;
   harness.caps(raw_caps("GRAY8", 64, 48));
@@ -120,7 +120,7 @@ TEST(Confidence, CanBeSwitchedWhilePlaying) {
   }
 }
 
-TEST(Confidence, OfMapsThatAreHeldStaysTheirs) {
+TEST(Confidence, OfMapsInUseIsNotOverwritten) {
   StereoHarness harness;
   harness.caps(raw_caps("GRAY8", 65, 47));
   std::vector<Pair> pairs;
@@ -134,7 +134,7 @@ TEST(Confidence, OfMapsThatAreHeldStaysTheirs) {
   for (std::size_t i = 0; i < pairs.size(); ++i) expect_library_confidence(held[i].get(), pairs[i]);
 }
 
-TEST(Confidence, FollowsAnotherSizeAndLeavesOldMapsAsTheyAre) {
+TEST(Confidence, FollowsSizeChangesAndKeepsEarlierMaps) {
   StereoHarness harness;
   std::vector<Pair> pairs;
   std::vector<BufferPointer> held;
@@ -162,7 +162,7 @@ TEST(Confidence, OutlivesTheElement) {
   expect_library_confidence(map.get(), pair);
 }
 
-TEST(Confidence, OfALeftFrameIsNotThatOfTheMap) {
+TEST(Confidence, OfALeftFrameIsNotCopiedToTheMap) {
   const Pair pair = noise_pair(64, 48, 4, 8);
   for (const bool on : {false, true}) {
     StereoHarness harness(on ? "max-disparity=16" : "max-disparity=16 confidence-map=false");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Wrong input: one error of the element, which names what is wrong on which side and what to do.
+// Invalid input: exactly one error, with the cause, the pad and how to correct it.
 #include <gtest/gtest.h>
 
 #include "support/stereo_harness.hpp"
@@ -13,7 +13,7 @@ bool has(const std::string& text, const std::string& part) {
 
 class Refusal : public testing::Test {
  protected:
-  /// Pushes a pair of frames that the caps may be wrong about.
+  /// Pushes a pair of frames, which the caps may contradict.
   void push(int width = 64, int height = 48) {
     const Pair pair = noise_pair(width, height, 4, 1);
     harness.push(Side::kLeft, frame_buffer(pair.left, 0, kFrame));
@@ -34,7 +34,7 @@ class Refusal : public testing::Test {
   StereoHarness harness;
 };
 
-TEST_F(Refusal, DifferentSizesAreNamed) {
+TEST_F(Refusal, ReportsDifferentSizes) {
   harness.caps(raw_caps("GRAY8", 64, 48), raw_caps("GRAY8", 32, 24));
   const Pair left = noise_pair(64, 48, 4, 1);
   const Pair right = noise_pair(32, 24, 4, 1);
@@ -44,7 +44,7 @@ TEST_F(Refusal, DifferentSizesAreNamed) {
                    {"sink_left: GRAY8 64x48", "sink_right: GRAY8 32x24"});
 }
 
-TEST_F(Refusal, AfterAnErrorTheStreamsEnd) {
+TEST_F(Refusal, EndsTheStreamsAfterAnError) {
   harness.caps(raw_caps("GRAY8", 64, 48), raw_caps("GRAY8", 32, 24));
   push();
   ASSERT_NE(harness.error().text, "");
@@ -55,7 +55,7 @@ TEST_F(Refusal, AfterAnErrorTheStreamsEnd) {
             GST_FLOW_ERROR);
 }
 
-TEST_F(Refusal, InterlacedVideoIsNamed) {
+TEST_F(Refusal, ReportsInterlacedVideo) {
   harness.caps(raw_caps("GRAY8", 64, 48),
                raw_caps("GRAY8", 64, 48) + ",interlace-mode=interleaved");
   push();
@@ -63,35 +63,35 @@ TEST_F(Refusal, InterlacedVideoIsNamed) {
                    {"interlace-mode=(string)interleaved", "sink_left: GRAY8 64x48"});
 }
 
-TEST_F(Refusal, VideoThatMayBeInterlacedIsNamed) {
+TEST_F(Refusal, ReportsVideoThatMayBeInterlaced) {
   harness.caps(raw_caps("NV12", 64, 48) + ",interlace-mode=mixed", raw_caps("GRAY8", 64, 48));
   expect_one_error({"sink_left", "mixed", "deinterlace"}, {"NV12"});
 }
 
-class WrongFormat : public Refusal, public testing::WithParamInterface<const char*> {};
+class UnsupportedFormat : public Refusal, public testing::WithParamInterface<const char*> {};
 
-TEST_P(WrongFormat, IsNamed) {
+TEST_P(UnsupportedFormat, IsReported) {
   harness.caps(raw_caps(GetParam(), 64, 48), raw_caps("GRAY8", 64, 48));
   expect_one_error({"sink_left", GetParam(), "videoconvert"}, {GetParam(), "GRAY8"});
 }
 
-INSTANTIATE_TEST_SUITE_P(Some, WrongFormat,
+INSTANTIATE_TEST_SUITE_P(Some, UnsupportedFormat,
                          testing::Values("RGB", "BGRx", "YUY2", "UYVY", "GRAY16_LE", "I420_10LE",
                                          "P010_10LE", "v210"),
                          [](const auto& info) { return std::string(info.param); });
 
-TEST_F(Refusal, CodedVideoIsNamed) {
+TEST_F(Refusal, ReportsEncodedVideo) {
   harness.caps("video/x-h264,width=64,height=48", raw_caps("GRAY8", 64, 48));
   expect_one_error({"sink_left", "video/x-h264", "decode"}, {"video/x-h264"});
 }
 
-TEST_F(Refusal, MemoryOfAGraphicsCardIsNamed) {
+TEST_F(Refusal, ReportsGpuMemory) {
   harness.caps(raw_caps("GRAY8", 64, 48),
                "video/x-raw(memory:GLMemory),format=GRAY8,width=64,height=48");
   expect_one_error({"sink_right", "memory:GLMemory", "gldownload"}, {"GLMemory"});
 }
 
-TEST_F(Refusal, FieldsOfAlternatingVideoAreNamed) {
+TEST_F(Refusal, ReportsVideoOfAlternatingFields) {
   harness.caps(
       "video/x-raw(format:Interlaced),format=GRAY8,width=64,height=48,"
       "interlace-mode=alternate",
@@ -99,25 +99,25 @@ TEST_F(Refusal, FieldsOfAlternatingVideoAreNamed) {
   expect_one_error({"sink_left", "alternate", "deinterlace"}, {"alternate"});
 }
 
-TEST_F(Refusal, CapsWithoutASizeAreNamed) {
+TEST_F(Refusal, ReportsCapsWithoutASize) {
   harness.caps("video/x-raw,format=GRAY8", raw_caps("GRAY8", 64, 48));
   expect_one_error({"sink_left", "width and height"}, {"GRAY8"});
 }
 
-TEST_F(Refusal, TwoWrongStreamsGiveOneError) {
+TEST_F(Refusal, ReportsTwoInvalidStreamsOnce) {
   harness.caps(raw_caps("RGB", 64, 48), raw_caps("BGR", 64, 48));
   push();
   expect_one_error({"videoconvert"}, {});
 }
 
-TEST_F(Refusal, ABufferThatIsTooSmallIsNamed) {
+TEST_F(Refusal, ReportsABufferThatIsTooSmall) {
   harness.caps(raw_caps("GRAY8", 64, 48));
   harness.push(Side::kLeft, frame_buffer(noise_pair(64, 48, 4, 1).left, 0, kFrame));
   harness.push(Side::kRight, frame_buffer(noise_pair(64, 20, 4, 1).left, 0, kFrame));
   expect_one_error({"sink_right", "1280 bytes", "3072 bytes"}, {"64x48"});
 }
 
-TEST_F(Refusal, AMetaThatPointsBehindTheBufferIsNamed) {
+TEST_F(Refusal, ReportsAMetaThatExceedsTheBuffer) {
   harness.caps(raw_caps("GRAY8", 64, 48));
   GstBuffer* left = frame_buffer(noise_pair(64, 48, 4, 1).left, 0, kFrame);
   gsize offset[GST_VIDEO_MAX_PLANES] = {0};
@@ -129,7 +129,7 @@ TEST_F(Refusal, AMetaThatPointsBehindTheBufferIsNamed) {
   expect_one_error({"sink_left", "3072 bytes"}, {"64x48"});
 }
 
-TEST_F(Refusal, AMetaOfAnotherSizeIsNamed) {
+TEST_F(Refusal, ReportsAMetaOfAnotherSize) {
   harness.caps(raw_caps("GRAY8", 64, 48));
   GstBuffer* left = frame_buffer(noise_pair(64, 48, 4, 1).left, 0, kFrame);
   gsize offset[GST_VIDEO_MAX_PLANES] = {0};
@@ -141,23 +141,23 @@ TEST_F(Refusal, AMetaOfAnotherSizeIsNamed) {
   expect_one_error({"sink_left", "48x64", "64x48"}, {});
 }
 
-TEST_F(Refusal, ARangeThatIsWiderThanTheFrameIsNamed) {
+TEST_F(Refusal, ReportsASearchRangeWiderThanTheFrame) {
   g_object_set(harness.element(), "max-disparity", 100, nullptr);
   harness.caps(raw_caps("GRAY8", 64, 48));
   push();
   expect_one_error({"max-disparity", "100", "64"}, {"max-disparity=100", "64x48"});
 }
 
-TEST_F(Refusal, DownstreamThatWantsSomethingElseIsNamed) {
+TEST_F(Refusal, ReportsCapsThatDownstreamDoesNotAccept) {
   gst_harness_set_sink_caps_str(harness.output(), "video/x-raw,format=GRAY16_LE,width=640");
   harness.caps(raw_caps("GRAY8", 64, 48));
   push();
   expect_one_error({"does not accept", "GRAY16_LE"}, {"width=(int)64", "width=(int)640"});
 }
 
-class RefusedAtStart : public testing::Test {
+class StartFails : public testing::Test {
  protected:
-  /// The error that an element with these properties gives when it is started.
+  /// The error that an element with these properties posts when it is started.
   Report start(const std::string& properties) {
     GstElement* element = make_element(properties);
     GstBus* bus = gst_bus_new();
@@ -184,7 +184,7 @@ class RefusedAtStart : public testing::Test {
   }
 };
 
-TEST_F(RefusedAtStart, AScaleThatDoesNotFitSixteenBits) {
+TEST_F(StartFails, IfDisparitiesExceedSixteenBits) {
   const Report error = start("max-disparity=300 disparity-scale=256");
   EXPECT_TRUE(has(error.text, "max-disparity")) << error.text;
   EXPECT_TRUE(has(error.text, "256")) << error.text;
@@ -194,20 +194,20 @@ TEST_F(RefusedAtStart, AScaleThatDoesNotFitSixteenBits) {
   EXPECT_EQ(error.code, GST_LIBRARY_ERROR_SETTINGS);
 }
 
-TEST_F(RefusedAtStart, LevelsThatAreNoLevels) {
+TEST_F(StartFails, IfNodeLevelsAreInvalid) {
   for (const char* levels : {"0,1", "2", "a", "1,,0", ""}) {
     const Report error = start(std::string("node-levels=") + levels);
     EXPECT_TRUE(has(error.text, "node-levels")) << error.text;
   }
 }
 
-TEST_F(RefusedAtStart, AKernelOfEvenSize) {
+TEST_F(StartFails, IfAKernelSizeIsEven) {
   const Report error = start("cost-kernel-size=4");
   EXPECT_TRUE(has(error.text, "cost-kernel-size")) << error.text;
   EXPECT_TRUE(has(error.text, "odd")) << error.text;
 }
 
-TEST_F(RefusedAtStart, ButNotAfterTheValueWasCorrected) {
+TEST_F(StartFails, ButNotAfterTheValueWasCorrected) {
   GstElement* element = make_element("cost-kernel-size=4 cost-kernel-size=5");
   EXPECT_NE(gst_element_set_state(element, GST_STATE_PAUSED), GST_STATE_CHANGE_FAILURE);
   gst_element_set_state(element, GST_STATE_NULL);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The frames that go in and the map that comes out.
+// Input frames and output maps: formats, layouts and caps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ Parameters small_range() {
   return parameters;
 }
 
-/// One pair through the element, as pixels of the map.
+/// The disparity map of one pair, computed by the element.
 std::vector<std::uint16_t> through_element(const Pair& pair, const Layout& left,
                                            const Layout& right,
                                            const std::string& properties = "max-disparity=16") {
@@ -32,18 +32,18 @@ std::vector<std::uint16_t> through_element(const Pair& pair, const Layout& left,
   return map_of(map.get(), width, height);
 }
 
-TEST(Output, IsTheDisparityOfThePair) {
+TEST(Output, HasTheDisparityOfThePair) {
   const Pair pair = noise_pair(128, 96, 6, 4);
   const auto map = through_element(pair, {}, {});
   std::vector<std::uint16_t> known;
   std::copy_if(map.begin(), map.end(), std::back_inserter(known), [](auto v) { return v != 0; });
-  ASSERT_GT(known.size(), map.size() / 10) << "next to nothing was found";
+  ASSERT_GT(known.size(), map.size() / 10) << "too few disparities";
   std::nth_element(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2),
                    known.end());
   EXPECT_NEAR(known[known.size() / 2] / 256.0, 6.0, 0.5);
 }
 
-TEST(Output, IsTheLibrarysToTheByte) {
+TEST(Output, EqualsThatOfTheLibrary) {
   const Pair pair = noise_pair(128, 96, 6, 5);
   const auto expected = library_map(pair, small_range(), 256);
   EXPECT_GT(std::count_if(expected.begin(), expected.end(), [](auto v) { return v != 0; }), 0);
@@ -54,7 +54,7 @@ TEST(Output, IsTheLibrarysToTheByte) {
   }
 }
 
-TEST(Output, FollowsTheScale) {
+TEST(Output, UsesTheScale) {
   const Pair pair = noise_pair(128, 96, 6, 6);
   for (const int scale : {1, 16, 1000}) {
     const auto map =
@@ -64,7 +64,7 @@ TEST(Output, FollowsTheScale) {
   }
 }
 
-TEST(Output, CapsTellSizeRateAndScale) {
+TEST(Output, CapsHaveSizeFramerateAndScale) {
   StereoHarness harness("max-disparity=16 disparity-scale=64");
   harness.caps(
       "video/x-raw,format=GRAY8,width=64,height=48,framerate=25/2,"
@@ -82,10 +82,10 @@ TEST(Output, CapsTellSizeRateAndScale) {
 
 class LumaFormat : public testing::TestWithParam<const char*> {};
 
-TEST_P(LumaFormat, GivesTheSameMapAsGray) {
+TEST_P(LumaFormat, HasTheSameMapAsGray8) {
   const Pair pair = noise_pair(96, 64, 5, 8);
   const auto expected = through_element(pair, {}, {});
-  // The chroma bytes are noise to the matcher: another value must change nothing.
+  // The matcher ignores chroma: its value must not change the result.
   for (const std::uint8_t chroma : {0, 255}) {
     const Layout layout{.format = GetParam(), .poison = chroma};
     EXPECT_EQ(first_difference(expected, through_element(pair, layout, layout), 96), "")
@@ -109,7 +109,7 @@ struct OddCase {
 
 class FrameLayout : public testing::TestWithParam<OddCase> {};
 
-TEST_P(FrameLayout, IsReadInPlaceAndPaddingIsLeftAlone) {
+TEST_P(FrameLayout, IsReadInPlaceAndNotModified) {
   const auto [width, height, padding, offset] = GetParam();
   const Pair pair = noise_pair(width, height, 3, 9);
   const auto expected = library_map(pair, small_range(), 256);
@@ -134,7 +134,7 @@ TEST_P(FrameLayout, IsReadInPlaceAndPaddingIsLeftAlone) {
                                            std::pair(right_keeper.get(), untouched_right.get())}) {
         GstMapInfo bytes;
         ASSERT_TRUE(gst_buffer_map(original, &bytes, GST_MAP_READ));
-        EXPECT_EQ(gst_buffer_memcmp(used, 0, bytes.data, bytes.size), 0) << "an input was altered";
+        EXPECT_EQ(gst_buffer_memcmp(used, 0, bytes.data, bytes.size), 0) << "an input was modified";
         gst_buffer_unmap(original, &bytes);
       }
     }
@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, FrameLayout,
                                          OddCase{64, 48, 0, 37}, OddCase{61, 47, 3, 5},
                                          OddCase{33, 17, 1, 1}, OddCase{17, 1, 7, 0}));
 
-/// Downstream's answer to an allocation query: a pool whose rows have padding.
+/// Answers an allocation query with a pool whose rows have padding.
 GstPadProbeReturn offer_padded_pool(GstPad*, GstPadProbeInfo* probe, gpointer) {
   GstQuery* query = GST_PAD_PROBE_INFO_QUERY(probe);
   if (GST_QUERY_TYPE(query) != GST_QUERY_ALLOCATION) return GST_PAD_PROBE_OK;
@@ -171,7 +171,7 @@ GstPadProbeReturn offer_padded_pool(GstPad*, GstPadProbeInfo* probe, gpointer) {
   return GST_PAD_PROBE_HANDLED;
 }
 
-TEST(Output, IsWrittenWithDownstreamsStride) {
+TEST(Output, UsesTheStrideOfDownstream) {
   const Pair pair = noise_pair(61, 47, 3, 10);
   StereoHarness harness;
   gst_pad_add_probe(harness.output()->sinkpad, GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM,
@@ -188,7 +188,7 @@ TEST(Output, IsWrittenWithDownstreamsStride) {
             "");
 }
 
-TEST(Input, AsksForVideoMetaSoThatNoFrameIsCopied) {
+TEST(Input, ProposesVideoMetaSoThatNoFrameIsCopied) {
   StereoHarness harness;
   harness.caps(raw_caps("GRAY8", 64, 48));
   harness.push_pair(noise_pair(64, 48, 3, 11), 0);
@@ -204,7 +204,7 @@ TEST(Input, AsksForVideoMetaSoThatNoFrameIsCopied) {
   }
 }
 
-TEST(Input, ASourceThatMayChooseTakesTheOtherSidesSize) {
+TEST(Input, CapsPreferTheSizeOfTheOtherStream) {
   StereoHarness harness;
   harness.caps(Side::kLeft, raw_caps("NV12", 200, 100));
   GstPad* pad = gst_element_get_static_pad(harness.element(), "sink_right");
@@ -218,7 +218,7 @@ TEST(Input, ASourceThatMayChooseTakesTheOtherSidesSize) {
   EXPECT_EQ(GST_VIDEO_INFO_FORMAT(&info), GST_VIDEO_FORMAT_GRAY8);
 }
 
-TEST(Input, DownstreamsSizeReachesTheSources) {
+TEST(Input, CapsRestrictTheSizeToThatOfDownstream) {
   StereoHarness harness;
   gst_harness_set_sink_caps_str(harness.output(), "video/x-raw,width=320,height=200");
   for (const char* name : {"sink_left", "sink_right"}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Live streams: deadlines, latency and quality of service. Time is a test clock's.
+// Live streams: deadlines, latency and quality of service, by a test clock.
 #include <gtest/gtest.h>
 
 #include "support/stereo_harness.hpp"
@@ -22,7 +22,7 @@ class Live : public testing::Test {
   GstFlowReturn right(GstClockTime time) {
     return harness->push(Side::kRight, frame_buffer(pair.right, time, kFrame));
   }
-  /// Lets the element's one wait for the clock end.
+  /// Advances the clock to the end of the only wait of the element.
   bool pass_deadline() { return gst_harness_crank_single_clock_wait(harness->output()); }
   GstClockTime latency() { return gst_harness_query_latency(harness->output()); }
 
@@ -30,7 +30,7 @@ class Live : public testing::Test {
   std::unique_ptr<StereoHarness> harness;
 };
 
-TEST_F(Live, PairsFramesThatComeInTime) {
+TEST_F(Live, PairsFramesThatArriveInTime) {
   start(true);
   for (GstClockTime i = 0; i < 3; ++i) {
     harness->push_pair(pair, i * kFrame);
@@ -38,12 +38,12 @@ TEST_F(Live, PairsFramesThatComeInTime) {
   }
 }
 
-TEST_F(Live, DropsALoneLeftFrameAtTheDeadlineAndSendsAGap) {
+TEST_F(Live, DropsAnUnpairedLeftFrameAtTheDeadlineAndSendsAGap) {
   start(true);
   harness->push_pair(pair, 0);
   ASSERT_TRUE(harness->pull());
   left(kFrame);
-  EXPECT_TRUE(harness->silent()) << "the deadline is not there yet";
+  EXPECT_TRUE(harness->silent()) << "before the deadline";
   ASSERT_TRUE(pass_deadline());
   EXPECT_TRUE(harness->wait_for_stats(1, 1, 0));
   const EventPointer gap = harness->pull_event(GST_EVENT_GAP);
@@ -53,7 +53,7 @@ TEST_F(Live, DropsALoneLeftFrameAtTheDeadlineAndSendsAGap) {
   EXPECT_EQ(time, kFrame);
 }
 
-TEST_F(Live, DropsALoneRightFrameAtTheDeadlineAndSendsAGap) {
+TEST_F(Live, DropsAnUnpairedRightFrameAtTheDeadlineAndSendsAGap) {
   start(true);
   harness->push_pair(pair, 0);
   ASSERT_TRUE(harness->pull());
@@ -63,7 +63,7 @@ TEST_F(Live, DropsALoneRightFrameAtTheDeadlineAndSendsAGap) {
   EXPECT_TRUE(harness->pull_event(GST_EVENT_GAP));
 }
 
-TEST_F(Live, GoesOnWhenACameraDiesAndComesBack) {
+TEST_F(Live, ContinuesAfterTheOutageOfACamera) {
   start(true);
   harness->push_pair(pair, 0);
   ASSERT_TRUE(harness->pull());
@@ -78,7 +78,7 @@ TEST_F(Live, GoesOnWhenACameraDiesAndComesBack) {
   EXPECT_EQ(GST_BUFFER_PTS(map.get()), 6 * kFrame);
 }
 
-TEST_F(Live, WarnsWhenACameraHasDied) {
+TEST_F(Live, WarnsIfACameraStopsSending) {
   start(true);
   harness->push_pair(pair, 0);
   ASSERT_TRUE(harness->pull());
@@ -92,7 +92,7 @@ TEST_F(Live, WarnsWhenACameraHasDied) {
   EXPECT_NE(warning.text.find("latency"), std::string::npos) << warning.text;
 }
 
-TEST_F(Live, AFrameWithoutTimeStampWaitsForItsPartner) {
+TEST_F(Live, FramesWithoutTimeStampsWaitForTheirPartners) {
   start(true);
   left(GST_CLOCK_TIME_NONE);
   EXPECT_TRUE(harness->silent());
@@ -100,7 +100,7 @@ TEST_F(Live, AFrameWithoutTimeStampWaitsForItsPartner) {
   EXPECT_TRUE(harness->pull());
 }
 
-TEST_F(Live, FilesAreNeverDroppedOnTime) {
+TEST_F(Live, StreamsThatAreNotLiveHaveNoDeadline) {
   start(false);
   left(0);
   gst_harness_set_time(harness->output(), 1000 * GST_SECOND);
@@ -110,7 +110,7 @@ TEST_F(Live, FilesAreNeverDroppedOnTime) {
   EXPECT_TRUE(harness->wait_for_stats(1, 0, 0));
 }
 
-TEST_F(Live, LatencyHoldsTheWaitForAPartner) {
+TEST_F(Live, LatencyIncludesTheWaitForAPartner) {
   start(true);
   gst_harness_set_upstream_latency(harness->side(Side::kLeft), 10 * GST_MSECOND);
   gst_harness_set_upstream_latency(harness->side(Side::kRight), 10 * GST_MSECOND);
@@ -119,25 +119,25 @@ TEST_F(Live, LatencyHoldsTheWaitForAPartner) {
   EXPECT_NEAR(static_cast<double>(latency()), static_cast<double>(10 * GST_MSECOND + kFrame), 10.0);
 }
 
-TEST_F(Live, LatencyFollowsAWideTolerance) {
+TEST_F(Live, LatencyIncludesALargeTolerance) {
   start(true, "max-disparity=16 sync-tolerance=100000000");
   harness->push_pair(pair, 0);
   ASSERT_TRUE(harness->pull());
   EXPECT_EQ(latency(), 100 * GST_MSECOND);
 }
 
-TEST_F(Live, LatencyHoldsTheTimeThatMatchingTakes) {
+TEST_F(Live, LatencyIncludesTheMatchingTime) {
   start(true);
   for (GstClockTime i = 0; i < 4; ++i) {
     harness->push_pair(pair, i * kFrame);
     ASSERT_TRUE(harness->pull());
   }
-  EXPECT_GT(latency(), kFrame + 1000) << "nothing for the matching";
+  EXPECT_GT(latency(), kFrame + 1000) << "the matching time is missing";
   EXPECT_LT(latency(), kFrame + 10 * GST_SECOND);
   EXPECT_GT(harness->stats().mean_ms, 0.0);
 }
 
-TEST_F(Live, SkipsPairsThatDownstreamCallsLate) {
+TEST_F(Live, SkipsPairsThatDownstreamReportsAsLate) {
   start(true);
   harness->push_pair(pair, 0);
   ASSERT_TRUE(harness->pull());
@@ -160,7 +160,7 @@ TEST_F(Live, SkipsPairsThatDownstreamCallsLate) {
   EXPECT_EQ(dropped, 1u);
 }
 
-TEST_F(Live, MatchesLatePairsWhereQosIsOff) {
+TEST_F(Live, MatchesLatePairsIfQosIsDisabled) {
   start(true, "max-disparity=16 qos=false");
   harness->push_pair(pair, 0);
   ASSERT_TRUE(harness->pull());
@@ -171,13 +171,13 @@ TEST_F(Live, MatchesLatePairsWhereQosIsOff) {
   EXPECT_EQ(harness->stats().skipped, 0u);
 }
 
-TEST_F(Live, TheTimeThatMatchingTakesCountsAsLateness) {
+TEST_F(Live, AddsTheMatchingTimeToTheLateness) {
   start(true);
   for (GstClockTime i = 0; i < 3; ++i) {
     harness->push_pair(pair, i * kFrame);
     ASSERT_TRUE(harness->pull());
   }
-  // A map at 10 s would be just in time now, so one that still has to be matched is not.
+  // A map of 10 s would be in time now, but not after the time to match it.
   gst_harness_push_upstream_event(
       harness->output(), gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 1.0, 0, 10 * GST_SECOND));
   harness->push_pair(pair, 10 * GST_SECOND + 1000);
@@ -188,22 +188,22 @@ TEST_F(Live, TheTimeThatMatchingTakesCountsAsLateness) {
   EXPECT_EQ(harness->stats().skipped, 1u);
 }
 
-TEST_F(Live, ALateFrameWaitsAMomentForItsPartner) {
+TEST_F(Live, ALateFrameHasAGracePeriod) {
   start(true);
   harness->push_pair(pair, 0);
   ASSERT_TRUE(harness->pull());
   gst_harness_set_time(harness->output(), 10 * GST_SECOND);
-  left(kFrame);  // far behind the clock, as after a long match
+  left(kFrame);  // late by seconds, as after a long matching time
   EXPECT_TRUE(harness->silent());
   EXPECT_EQ(harness->stats().dropped_left, 0u);
   right(kFrame);
   EXPECT_TRUE(harness->pull());
   left(2 * kFrame);
   ASSERT_TRUE(pass_deadline());
-  EXPECT_TRUE(harness->wait_for_stats(2, 1, 0)) << "the moment has to end";
+  EXPECT_TRUE(harness->wait_for_stats(2, 1, 0)) << "the grace period must end";
 }
 
-TEST_F(Live, KeepsQosEventsFromTheSourcesWhereEveryPairIsWanted) {
+TEST_F(Live, DoesNotForwardQosEventsIfQosIsDisabled) {
   start(true, "max-disparity=16 qos=false");
   harness->push_pair(pair, 0);
   ASSERT_TRUE(harness->pull());
@@ -216,7 +216,7 @@ TEST_F(Live, KeepsQosEventsFromTheSourcesWhereEveryPairIsWanted) {
   }
 }
 
-TEST_F(Live, PassesQosEventsOnToBothSources) {
+TEST_F(Live, ForwardsQosEventsToBothSources) {
   start(true);
   harness->push_pair(pair, 0);
   ASSERT_TRUE(harness->pull());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Which frames the element pairs, which it drops, and what it counts.
+// The frames that the element pairs and drops, and its statistics.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class PairOrder : public testing::Test {
   void right(GstClockTime time) {
     harness->push(Side::kRight, frame_buffer(pair.right, time, kFrame));
   }
-  /// The time stamps of everything that comes out until the end of the stream.
+  /// The time stamps of all maps until the end of the stream.
   std::vector<GstClockTime> times_until_end() {
     EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS)) << "no end of stream";
     std::vector<GstClockTime> times;
@@ -37,7 +37,7 @@ class PairOrder : public testing::Test {
   std::unique_ptr<StereoHarness> harness;
 };
 
-TEST_F(PairOrder, EveryPairComesOutOnceInOrder) {
+TEST_F(PairOrder, OutputsEveryPairOnceInOrder) {
   start();
   for (GstClockTime i = 0; i < 10; ++i) {
     harness->push_pair(pair, i * kFrame);
@@ -49,7 +49,7 @@ TEST_F(PairOrder, EveryPairComesOutOnceInOrder) {
   EXPECT_EQ(harness->stats().pairs, 10u);
 }
 
-TEST_F(PairOrder, NothingComesOutBeforeBothFramesAreThere) {
+TEST_F(PairOrder, WaitsForBothFrames) {
   start();
   left(0);
   EXPECT_TRUE(harness->silent());
@@ -57,7 +57,7 @@ TEST_F(PairOrder, NothingComesOutBeforeBothFramesAreThere) {
   EXPECT_TRUE(harness->pull());
 }
 
-TEST_F(PairOrder, DropsLeftFrameWithoutPartnerAndCountsIt) {
+TEST_F(PairOrder, DropsAndCountsLeftFramesWithoutPartners) {
   start();
   left(0);
   right(kFrame);
@@ -68,7 +68,7 @@ TEST_F(PairOrder, DropsLeftFrameWithoutPartnerAndCountsIt) {
   EXPECT_TRUE(harness->wait_for_stats(1, 1, 0));
 }
 
-TEST_F(PairOrder, DropsRightFrameWithoutPartnerAndCountsIt) {
+TEST_F(PairOrder, DropsAndCountsRightFramesWithoutPartners) {
   start();
   right(0);
   left(kFrame);
@@ -79,7 +79,7 @@ TEST_F(PairOrder, DropsRightFrameWithoutPartnerAndCountsIt) {
   EXPECT_TRUE(harness->wait_for_stats(1, 0, 1));
 }
 
-TEST_F(PairOrder, PairsFramesLessThanHalfAFrameApart) {
+TEST_F(PairOrder, PairsFramesLessThanHalfAFrameDurationApart) {
   start();
   left(0);
   right(kFrame / 2 - 1);
@@ -88,10 +88,10 @@ TEST_F(PairOrder, PairsFramesLessThanHalfAFrameApart) {
   right(10 * kFrame - kFrame / 2 + 1);
   const BufferPointer map = harness->pull();
   ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 10 * kFrame) << "the time is the left frame's";
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 10 * kFrame) << "the time stamp of the left frame";
 }
 
-TEST_F(PairOrder, KeepsToTheToleranceThatIsSet) {
+TEST_F(PairOrder, UsesTheToleranceThatIsSet) {
   start("max-disparity=16 sync-tolerance=1000000");
   left(0);
   right(1'000'001);
@@ -110,7 +110,7 @@ TEST_F(PairOrder, ToleranceCanBeChangedWhilePlaying) {
   EXPECT_TRUE(harness->pull());
 }
 
-TEST_F(PairOrder, PairsADelayedStreamOnceItIsThere) {
+TEST_F(PairOrder, PairsADelayedStreamFromItsStart) {
   start();
   std::vector<GstClockTime> early;
   std::vector<GstClockTime> late;
@@ -123,7 +123,7 @@ TEST_F(PairOrder, PairsADelayedStreamOnceItIsThere) {
   EXPECT_EQ(harness->stats().dropped_right, 0u);
 }
 
-TEST_F(PairOrder, LostFramesCostOnlyTheirOwnPairs) {
+TEST_F(PairOrder, LosesOnlyThePairsOfLostFrames) {
   start();
   std::vector<GstClockTime> lefts;
   std::vector<GstClockTime> rights;
@@ -143,12 +143,12 @@ TEST_F(PairOrder, LostFramesCostOnlyTheirOwnPairs) {
   EXPECT_EQ(harness->stats().dropped_right, rights.size() - both.size());
 }
 
-TEST_F(PairOrder, StreamsOfDifferentRatesPairAtTheSlowerOne) {
+TEST_F(PairOrder, PairsStreamsOfDifferentFrameratesAtTheLowerOne) {
   start();
   harness->caps(Side::kLeft, raw_caps("GRAY8", kWidth, kHeight, "15/1"));
   std::vector<GstClockTime> slow;
   std::vector<GstClockTime> fast;
-  for (GstClockTime i = 0; i < 19; ++i) {  // the last one has a partner
+  for (GstClockTime i = 0; i < 19; ++i) {  // the last frame has a partner
     const GstClockTime time = gst_util_uint64_scale_int(GST_SECOND, static_cast<gint>(i), 30);
     fast.push_back(time);
     if (i % 2 == 0) slow.push_back(time);
@@ -160,7 +160,7 @@ TEST_F(PairOrder, StreamsOfDifferentRatesPairAtTheSlowerOne) {
   EXPECT_EQ(harness->stats().dropped_right, 9u);
 }
 
-TEST_F(PairOrder, PairsInOrderWithoutTimeStamps) {
+TEST_F(PairOrder, PairsFramesWithoutTimeStampsInOrder) {
   start();
   for (int i = 0; i < 3; ++i) {
     harness->push_pair(pair, GST_CLOCK_TIME_NONE);
@@ -170,7 +170,7 @@ TEST_F(PairOrder, PairsInOrderWithoutTimeStamps) {
   }
 }
 
-TEST_F(PairOrder, TimeStampsOnOneSideOnlyAreAnErrorThatNamesBoth) {
+TEST_F(PairOrder, ReportsTimeStampsOnOneSideOnly) {
   start();
   left(0);
   right(GST_CLOCK_TIME_NONE);
@@ -180,7 +180,7 @@ TEST_F(PairOrder, TimeStampsOnOneSideOnlyAreAnErrorThatNamesBoth) {
   EXPECT_EQ(harness->further_errors(), 0);
 }
 
-TEST_F(PairOrder, ThePadsOffsetShiftsAStream) {
+TEST_F(PairOrder, PadOffsetDelaysAStream) {
   harness = std::make_unique<StereoHarness>("max-disparity=16");
   // As on the command line: mtstereo sink_right::offset=1000000000
   gst_child_proxy_set(GST_CHILD_PROXY(harness->element()), "sink_right::offset",
@@ -192,7 +192,7 @@ TEST_F(PairOrder, ThePadsOffsetShiftsAStream) {
   EXPECT_TRUE(harness->wait_for_stats(1, 0, 0));
 }
 
-TEST_F(PairOrder, ComparesRunningTimesAndNotTimeStamps) {
+TEST_F(PairOrder, ComparesRunningTimes) {
   harness = std::make_unique<StereoHarness>("max-disparity=16");
   harness->caps(raw_caps("GRAY8", kWidth, kHeight));
   GstSegment segment;
@@ -205,7 +205,7 @@ TEST_F(PairOrder, ComparesRunningTimesAndNotTimeStamps) {
   EXPECT_TRUE(harness->pull());
 }
 
-TEST_F(PairOrder, DropsFramesOutsideOfTheirSegment) {
+TEST_F(PairOrder, DropsFramesOutsideTheirSegment) {
   harness = std::make_unique<StereoHarness>("max-disparity=16");
   harness->caps(raw_caps("GRAY8", kWidth, kHeight));
   GstSegment segment;
@@ -222,7 +222,7 @@ TEST_F(PairOrder, DropsFramesOutsideOfTheirSegment) {
   EXPECT_TRUE(harness->wait_for_stats(1, 0, 0));
 }
 
-TEST_F(PairOrder, WarnsOnceWhereTheStreamsNeverMeet) {
+TEST_F(PairOrder, WarnsOnceIfNoFramesPair) {
   start("max-disparity=16 sync-tolerance=1000000");
   std::vector<GstClockTime> lefts;
   std::vector<GstClockTime> rights;
@@ -240,7 +240,7 @@ TEST_F(PairOrder, WarnsOnceWhereTheStreamsNeverMeet) {
   EXPECT_EQ(harness->warning(0.1).text, "");
 }
 
-TEST_F(PairOrder, TheOrderOfPushingDoesNotMatter) {
+TEST_F(PairOrder, DoesNotDependOnTheOrderOfArrival) {
   std::vector<Pair> pairs;
   for (unsigned i = 0; i < 8; ++i) pairs.push_back(noise_pair(kWidth, kHeight, 4, i));
   std::vector<std::vector<std::uint16_t>> expected;
@@ -250,7 +250,7 @@ TEST_F(PairOrder, TheOrderOfPushingDoesNotMatter) {
     std::size_t next[2] = {0, 0};
     std::vector<std::vector<std::uint16_t>> maps;
     while (maps.size() < pairs.size()) {
-      // One frame fits into a pad: a side may be at most one frame ahead of the other.
+      // A pad holds one frame, so one side can be at most one frame ahead of the other.
       const std::size_t side = next[0] > next[1] ? 1 : next[1] > next[0] ? 0 : random() % 2;
       const Pair& current = pairs[next[side]];
       const GstClockTime time = next[side]++ * kFrame;

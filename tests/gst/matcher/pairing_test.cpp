@@ -10,83 +10,83 @@ namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
 
-TEST(Pairing, PairsFramesOfTheSameTime) {
+TEST(Pairing, PairsFramesWithEqualTimes) {
   const PairingDecision decision = decide_pairing(40 * kMs, 40 * kMs, 0);
   EXPECT_EQ(decision.action, PairingAction::kPair);
   EXPECT_EQ(decision.difference, 0);
 }
 
-TEST(Pairing, PairsFramesThatAreExactlyTheToleranceApart) {
+TEST(Pairing, IncludesTheToleranceItself) {
   EXPECT_EQ(decide_pairing(40 * kMs, 50 * kMs, 10 * kMs).action, PairingAction::kPair);
   EXPECT_EQ(decide_pairing(50 * kMs, 40 * kMs, 10 * kMs).action, PairingAction::kPair);
 }
 
-TEST(Pairing, DropsLeftFrameWithoutPartner) {
+TEST(Pairing, DropsALeftFrameWithoutAPartner) {
   const PairingDecision decision = decide_pairing(40 * kMs, 50 * kMs + 1, 10 * kMs);
   EXPECT_EQ(decision.action, PairingAction::kDropLeft);
   EXPECT_EQ(decision.difference, 10 * kMs + 1);
 }
 
-TEST(Pairing, DropsRightFrameWithoutPartner) {
+TEST(Pairing, DropsARightFrameWithoutAPartner) {
   const PairingDecision decision = decide_pairing(50 * kMs + 1, 40 * kMs, 10 * kMs);
   EXPECT_EQ(decision.action, PairingAction::kDropRight);
   EXPECT_EQ(decision.difference, -10 * kMs - 1);
 }
 
-TEST(Pairing, ComparesTimesBeforeTheSegment) {
+TEST(Pairing, SupportsTimesBeforeTheSegment) {
   EXPECT_EQ(decide_pairing(-3 * kMs, 4 * kMs, 10 * kMs).action, PairingAction::kPair);
   EXPECT_EQ(decide_pairing(-30 * kMs, 4 * kMs, 10 * kMs).action, PairingAction::kDropLeft);
 }
 
-TEST(Pairing, PairsInOrderWhereNeitherFrameHasATime) {
+TEST(Pairing, PairsFramesWithoutTimes) {
   EXPECT_EQ(decide_pairing(std::nullopt, std::nullopt, 0).action, PairingAction::kPair);
 }
 
-TEST(Pairing, RefusesTimesOnOneSideOnly) {
+TEST(Pairing, RejectsATimeOnOneSideOnly) {
   EXPECT_EQ(decide_pairing(0, std::nullopt, kMs).action, PairingAction::kMixedStamping);
   EXPECT_EQ(decide_pairing(std::nullopt, 0, kMs).action, PairingAction::kMixedStamping);
 }
 
-TEST(Tolerance, IsWhatTheUserSet) {
+TEST(Tolerance, IsTheValueThatIsSet) {
   EXPECT_EQ(effective_tolerance(7, {40 * kMs, 40 * kMs}, {20 * kMs, 20 * kMs}), 7);
   EXPECT_EQ(effective_tolerance(0, {40 * kMs, 40 * kMs}, {}), 0);
 }
 
-TEST(Tolerance, IsHalfAFrameOfTheFasterStream) {
+TEST(Tolerance, IsHalfTheFrameDurationOfTheFasterStream) {
   EXPECT_EQ(effective_tolerance(-1, {40 * kMs, 20 * kMs}, {2 * kMs, 2 * kMs}), 10 * kMs);
   EXPECT_EQ(effective_tolerance(-1, {20 * kMs, 40 * kMs}, {}), 10 * kMs);
   EXPECT_EQ(effective_tolerance(-1, {std::nullopt, 40 * kMs}, {2 * kMs, 2 * kMs}), 20 * kMs);
 }
 
-TEST(Tolerance, FallsBackToTheBuffersAndThenToTwentyMilliseconds) {
+TEST(Tolerance, FallsBackToTheBuffersThenToTwentyMilliseconds) {
   EXPECT_EQ(effective_tolerance(-1, {}, {60 * kMs, std::nullopt}), 30 * kMs);
   EXPECT_EQ(effective_tolerance(-1, {}, {}), 20 * kMs);
 }
 
-TEST(WaitingFrame, OnTimeHasTheDeadlineOfItsTime) {
+TEST(WaitingFrame, HasItsTimeAsDeadlineIfInTime) {
   WaitingFrame frame;
   EXPECT_EQ(frame.deadline(true, 100 * kMs, 110 * kMs, 50 * kMs), 100 * kMs);
   EXPECT_EQ(frame.deadline(true, 100 * kMs, 140 * kMs, 50 * kMs), 100 * kMs) << "seen again";
 }
 
-TEST(WaitingFrame, LateOnesGetAGraceOnce) {
+TEST(WaitingFrame, HasOneGracePeriodIfLate) {
   WaitingFrame frame;
   constexpr Nanoseconds kNow = 400 * kMs;
   const Nanoseconds expected = kNow + WaitingFrame::kGrace - 50 * kMs;
   EXPECT_EQ(frame.deadline(true, 100 * kMs, kNow, 50 * kMs), expected);
   EXPECT_EQ(frame.deadline(true, 100 * kMs, kNow + 10 * kMs, 50 * kMs), expected)
-      << "the grace must not begin anew";
+      << "the grace period must not restart";
   EXPECT_EQ(frame.deadline(false, 100 * kMs, kNow + 10 * kMs, 50 * kMs), expected + 10 * kMs)
-      << "a frame of the other side is another frame";
+      << "a frame of the other side has its own grace period";
 }
 
-TEST(UnpairedWarning, RingsAfterARunOfDroppedFrames) {
+TEST(UnpairedWarning, IsDueAfterARunOfDroppedFrames) {
   UnpairedWarning warning;
   for (int i = 1; i < UnpairedWarning::kRun; ++i) EXPECT_FALSE(warning.dropped(i)) << i;
   EXPECT_TRUE(warning.dropped(UnpairedWarning::kRun));
 }
 
-TEST(UnpairedWarning, KeepsQuietWhereEverySecondFrameFindsAPartner) {
+TEST(UnpairedWarning, IsNotDueIfEverySecondFrameHasAPartner) {
   UnpairedWarning warning;
   for (int i = 0; i < 10 * UnpairedWarning::kRun; ++i) {
     EXPECT_FALSE(warning.dropped(i * UnpairedWarning::kInterval)) << i;
@@ -94,7 +94,7 @@ TEST(UnpairedWarning, KeepsQuietWhereEverySecondFrameFindsAPartner) {
   }
 }
 
-TEST(UnpairedWarning, RingsAgainOnlyAfterTheInterval) {
+TEST(UnpairedWarning, IsDueAgainOnlyAfterTheInterval) {
   UnpairedWarning warning;
   for (int i = 1; i < UnpairedWarning::kRun; ++i) warning.dropped(0);
   EXPECT_TRUE(warning.dropped(0));
@@ -102,7 +102,7 @@ TEST(UnpairedWarning, RingsAgainOnlyAfterTheInterval) {
   EXPECT_TRUE(warning.dropped(UnpairedWarning::kInterval));
 }
 
-TEST(ProcessingLatency, LeavesOutTheFirstPair) {
+TEST(ProcessingLatency, IgnoresTheFirstPair) {
   ProcessingLatency latency;
   EXPECT_FALSE(latency.measured(900));
   EXPECT_EQ(latency.reported_ms(), 0);
@@ -110,7 +110,7 @@ TEST(ProcessingLatency, LeavesOutTheFirstPair) {
   EXPECT_NEAR(latency.reported_ms(), 10.5, 1e-9);
 }
 
-TEST(ProcessingLatency, KeepsTheToldValueWhereTimesOnlyJitter) {
+TEST(ProcessingLatency, KeepsTheReportedValueDespiteJitter) {
   ProcessingLatency latency;
   latency.measured(10);
   latency.measured(10);
@@ -121,9 +121,9 @@ TEST(ProcessingLatency, FollowsALastingChange) {
   ProcessingLatency latency;
   latency.measured(10);
   latency.measured(10);
-  bool told = false;
-  for (int i = 0; i < 50; ++i) told = latency.measured(40) || told;
-  EXPECT_TRUE(told);
+  bool changed = false;
+  for (int i = 0; i < 50; ++i) changed = latency.measured(40) || changed;
+  EXPECT_TRUE(changed);
   EXPECT_NEAR(latency.reported_ms(), 42, 0.25 * 42);
 }
 

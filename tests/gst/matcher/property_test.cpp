@@ -31,7 +31,7 @@ class Properties : public testing::Test {
   GstElement* element = nullptr;
 };
 
-TEST_F(Properties, EveryParameterOfTheTableIsOne) {
+TEST_F(Properties, IncludeEveryRowOfTheParameterTable) {
   for (const ParameterInfo& info : parameter_table()) {
     GParamSpec* spec = find(info.name);
     ASSERT_NE(spec, nullptr) << info.name;
@@ -62,7 +62,7 @@ TEST_F(Properties, EveryParameterOfTheTableIsOne) {
   }
 }
 
-TEST_F(Properties, DefaultsAreTheLibrarys) {
+TEST_F(Properties, HaveTheDefaultsOfTheLibrary) {
   const Parameters defaults;
   for (const ParameterInfo& info : parameter_table()) {
     if (info.type == ParameterType::kNumber || info.type == ParameterType::kBoolean) continue;
@@ -74,7 +74,7 @@ TEST_F(Properties, DefaultsAreTheLibrarys) {
   EXPECT_EQ(text("confidence-map"), "true");
 }
 
-TEST_F(Properties, UnsetOnesFollowPresetAndMode) {
+TEST_F(Properties, FollowPresetAndModeUnlessSet) {
   for (const char* const preset : {"paper", "fast", "default"}) {
     for (const char* const mode : {"sparse", "dense", "semi-dense"}) {
       Parameters expected;
@@ -83,7 +83,7 @@ TEST_F(Properties, UnsetOnesFollowPresetAndMode) {
       gst_util_set_object_arg(G_OBJECT(element), "preset", preset);
       gst_util_set_object_arg(G_OBJECT(element), "mode", mode);
       for (const ParameterInfo& info : parameter_table()) {
-        if (info.type == ParameterType::kNumber) continue;  // their text is another one
+        if (info.type == ParameterType::kNumber) continue;  // formatted differently
         EXPECT_EQ(text(info.name), expected.text(info.id)) << info.name;
       }
       double confidence = 0;
@@ -93,34 +93,34 @@ TEST_F(Properties, UnsetOnesFollowPresetAndMode) {
   }
 }
 
-TEST_F(Properties, SetOnesDoNotFollowTheMode) {
+TEST_F(Properties, DoNotFollowTheModeIfSet) {
   g_object_set(element, "gray-levels", 11, nullptr);
   gst_util_set_object_arg(G_OBJECT(element), "mode", "sparse");
   EXPECT_EQ(text("gray-levels"), "11");
 }
 
-TEST_F(Properties, ChoicesHaveShortNames) {
+TEST_F(Properties, TakeChoicesByWord) {
   for (const char* word : {"sparse", "semi-dense", "dense"}) {
     gst_util_set_object_arg(G_OBJECT(element), "mode", word);
     EXPECT_EQ(text("mode"), word);
   }
 }
 
-TEST_F(Properties, LevelsAreText) {
+TEST_F(Properties, TakeNodeLevelsAsText) {
   g_object_set(element, "node-levels", "3,1,0", nullptr);
   EXPECT_EQ(text("node-levels"), "3,1,0");
   g_object_set(element, "node-levels", "no levels", nullptr);
-  EXPECT_EQ(text("node-levels"), "3,1,0") << "a refused value changes nothing";
+  EXPECT_EQ(text("node-levels"), "3,1,0") << "a rejected value must not change the property";
 }
 
-TEST_F(Properties, StatsBeginAtZeroAndCannotBeWritten) {
+TEST_F(Properties, HaveReadOnlyStatisticsThatStartAtZero) {
   const Stats stats = stats_of(element);
   EXPECT_EQ(stats.pairs + stats.dropped_left + stats.dropped_right + stats.skipped, 0u);
   EXPECT_EQ(stats.mean_ms, 0.0);
   EXPECT_FALSE(find("stats")->flags & G_PARAM_WRITABLE);
 }
 
-TEST_F(Properties, ThePadsAreChildren) {
+TEST_F(Properties, OfThePadsAreAvailableByChildProxy) {
   for (const char* name : {"sink_left", "sink_right", "src"}) {
     GObject* child = gst_child_proxy_get_child_by_name(GST_CHILD_PROXY(element), name);
     ASSERT_NE(child, nullptr) << name;
@@ -140,7 +140,7 @@ struct Change {
 
 class ChangeWhilePlaying : public testing::TestWithParam<Change> {};
 
-TEST_P(ChangeWhilePlaying, HoldsFromTheNextPair) {
+TEST_P(ChangeWhilePlaying, AppliesFromTheNextPair) {
   const auto [property, value] = GetParam();
   const Pair pair = noise_pair(128, 96, 5, 3);
   Parameters before;
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-TEST(WhilePlaying, AWrongCombinationIsOneErrorAtTheNextPair) {
+TEST(WhilePlaying, AnInvalidCombinationIsOneErrorAtTheNextPair) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 4);
   harness.caps(raw_caps("GRAY8", 64, 48));
@@ -190,7 +190,7 @@ TEST(WhilePlaying, AWrongCombinationIsOneErrorAtTheNextPair) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
-TEST(WhilePlaying, ARefusedTextIsOneErrorAtTheNextPair) {
+TEST(WhilePlaying, ARejectedValueIsOneErrorAtTheNextPair) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 4);
   harness.caps(raw_caps("GRAY8", 64, 48));
@@ -203,7 +203,7 @@ TEST(WhilePlaying, ARefusedTextIsOneErrorAtTheNextPair) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
-TEST(WhilePlaying, ManyChangesFromAnotherThreadLoseNoPair) {
+TEST(WhilePlaying, ChangesFromAnotherThreadLoseNoPair) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 5);
   harness.caps(raw_caps("GRAY8", 64, 48));
@@ -224,7 +224,7 @@ TEST(WhilePlaying, ManyChangesFromAnotherThreadLoseNoPair) {
   EXPECT_EQ(harness.stats().pairs, 40u);
 }
 
-TEST(WhilePlaying, StatsCountPairsTimeAndDensity) {
+TEST(WhilePlaying, StatisticsHavePairsTimeAndDensity) {
   StereoHarness harness("max-disparity=16 mode=semi-dense");
   const Pair pair = noise_pair(128, 96, 5, 6);
   harness.caps(raw_caps("GRAY8", 128, 96));

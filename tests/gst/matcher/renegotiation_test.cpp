@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Caps that come late and caps that change.
+// Caps that arrive late and caps that change.
 #include <gtest/gtest.h>
 
 #include "support/stereo_harness.hpp"
@@ -17,7 +17,7 @@ void expect_library_map(StereoHarness& harness, const Pair& pair) {
             "");
 }
 
-TEST(Renegotiation, CapsOfTheRightSideMayComeAfterLeftFrames) {
+TEST(Renegotiation, RightCapsMayArriveAfterLeftFrames) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 1);
   harness.caps(Side::kLeft, raw_caps("GRAY8", 64, 48));
@@ -28,7 +28,7 @@ TEST(Renegotiation, CapsOfTheRightSideMayComeAfterLeftFrames) {
   expect_library_map(harness, pair);
 }
 
-TEST(Renegotiation, CapsOfTheLeftSideMayComeAfterRightFrames) {
+TEST(Renegotiation, LeftCapsMayArriveAfterRightFrames) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 1);
   harness.caps(Side::kRight, raw_caps("GRAY8", 64, 48));
@@ -38,7 +38,7 @@ TEST(Renegotiation, CapsOfTheLeftSideMayComeAfterRightFrames) {
   expect_library_map(harness, pair);
 }
 
-TEST(Renegotiation, BothSidesTakeAnotherSize) {
+TEST(Renegotiation, TheSizeMayChangeOnBothSides) {
   StereoHarness harness;
   GstClockTime time = 0;
   for (const auto& [width, height] : {std::pair(64, 48), {97, 31}, {128, 96}, {64, 48}}) {
@@ -56,14 +56,14 @@ TEST(Renegotiation, BothSidesTakeAnotherSize) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
-TEST(Renegotiation, AnOldFrameOfOneSideDoesNotMeetANewOneOfTheOther) {
+TEST(Renegotiation, FramesOfTheOldAndTheNewSizeAreNotPaired) {
   StereoHarness harness;
   const Pair old_pair = noise_pair(64, 48, 4, 3);
   const Pair new_pair = noise_pair(96, 64, 4, 3);
   harness.caps(raw_caps("GRAY8", 64, 48));
   harness.push_pair(old_pair, 0);
   ASSERT_TRUE(harness.pull());
-  // The left camera loses its last frame of the old size.
+  // The last left frame of the old size is lost.
   harness.push(Side::kRight, frame_buffer(old_pair.right, kFrame, kFrame));
   harness.caps(Side::kLeft, raw_caps("GRAY8", 96, 64));
   harness.push(Side::kLeft, frame_buffer(new_pair.left, 2 * kFrame, kFrame));
@@ -74,7 +74,7 @@ TEST(Renegotiation, AnOldFrameOfOneSideDoesNotMeetANewOneOfTheOther) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
-TEST(Renegotiation, FormatsMayChangeOnOneSide) {
+TEST(Renegotiation, TheFormatMayChangeOnOneSide) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 4);
   harness.caps(raw_caps("GRAY8", 64, 48));
@@ -85,7 +85,7 @@ TEST(Renegotiation, FormatsMayChangeOnOneSide) {
   expect_library_map(harness, pair);
 }
 
-TEST(Renegotiation, ASizeThatChangesOnOneSideOnlyIsAnError) {
+TEST(Renegotiation, ReportsASizeThatChangesOnOneSideOnly) {
   StereoHarness harness;
   harness.caps(raw_caps("GRAY8", 64, 48));
   harness.push_pair(noise_pair(64, 48, 4, 5), 0);
@@ -98,7 +98,7 @@ TEST(Renegotiation, ASizeThatChangesOnOneSideOnlyIsAnError) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
-TEST(Renegotiation, TheOutputsCapsFollowTheScale) {
+TEST(Renegotiation, OutputCapsFollowTheScale) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 6);
   harness.caps(raw_caps("GRAY8", 64, 48));

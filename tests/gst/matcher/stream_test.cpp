@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Events, flags, metas and the ends of streams.
+// Events, flags, metas and the end of streams.
 #include <gtest/gtest.h>
 
 #include "support/stereo_harness.hpp"
@@ -35,7 +35,7 @@ class Stream : public testing::Test {
   StereoHarness harness;
 };
 
-TEST_F(Stream, EndsWhereTheRightStreamEndsFirst) {
+TEST_F(Stream, EndsAfterTheRightStream) {
   harness.push_pair(pair, 0);
   harness.end(Side::kRight);
   left(kFrame);
@@ -43,10 +43,10 @@ TEST_F(Stream, EndsWhereTheRightStreamEndsFirst) {
   EXPECT_TRUE(harness.pull(1)) << "the pair before the end is lost";
   EXPECT_TRUE(harness.wait_for_stats(1, 1, 0));
   EXPECT_EQ(harness.push(Side::kLeft, frame_buffer(pair.left, 2 * kFrame, kFrame)), GST_FLOW_EOS)
-      << "the other stream is not told to end";
+      << "the source of the other stream must stop";
 }
 
-TEST_F(Stream, EndsWhereTheLeftStreamEndsFirst) {
+TEST_F(Stream, EndsAfterTheLeftStream) {
   harness.push_pair(pair, 0);
   right(kFrame);
   harness.end(Side::kLeft);
@@ -55,7 +55,7 @@ TEST_F(Stream, EndsWhereTheLeftStreamEndsFirst) {
   EXPECT_EQ(harness.push(Side::kRight, frame_buffer(pair.right, 2 * kFrame, kFrame)), GST_FLOW_EOS);
 }
 
-TEST_F(Stream, MatchesThePairThatIsWaitingWhenAStreamEnds) {
+TEST_F(Stream, MatchesTheWaitingPairBeforeItEnds) {
   left(0);
   harness.end(Side::kLeft);
   EXPECT_TRUE(harness.silent());
@@ -64,7 +64,7 @@ TEST_F(Stream, MatchesThePairThatIsWaitingWhenAStreamEnds) {
   EXPECT_TRUE(harness.pull(1));
 }
 
-TEST_F(Stream, EndsAtOnceWhereTheOtherStreamGoesSilent) {
+TEST_F(Stream, EndsImmediatelyIfTheOtherStreamIsSilent) {
   harness.push_pair(pair, 0);
   ASSERT_TRUE(harness.pull());
   harness.end(Side::kLeft);
@@ -72,7 +72,7 @@ TEST_F(Stream, EndsAtOnceWhereTheOtherStreamGoesSilent) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
-TEST_F(Stream, EndsOnlyOnce) {
+TEST_F(Stream, SendsEndOfStreamOnce) {
   harness.push_pair(pair, 0);
   ASSERT_TRUE(harness.pull());
   harness.end(Side::kLeft);
@@ -81,7 +81,7 @@ TEST_F(Stream, EndsOnlyOnce) {
   EXPECT_FALSE(harness.pull_event(GST_EVENT_EOS, 0.2));
 }
 
-TEST_F(Stream, EndsWithoutAnyFrame) {
+TEST_F(Stream, EndsWithoutFrames) {
   harness.end(Side::kLeft);
   harness.end(Side::kRight);
   EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
@@ -98,7 +98,7 @@ TEST_F(Stream, SendsStreamStartCapsAndSegmentBeforeTheFirstMap) {
   }
 }
 
-TEST_F(Stream, KeepsTheLeftStreamsSegment) {
+TEST_F(Stream, KeepsTheSegmentOfTheLeftStream) {
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_TIME);
   segment.start = 3 * GST_SECOND;
@@ -118,7 +118,7 @@ TEST_F(Stream, KeepsTheLeftStreamsSegment) {
   EXPECT_EQ(out->base, GST_SECOND);
 }
 
-TEST_F(Stream, ASegmentInBytesIsAnErrorThatNamesThePad) {
+TEST_F(Stream, ReportsASegmentInBytes) {
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_BYTES);
   harness.event(Side::kRight, gst_event_new_segment(&segment));
@@ -128,7 +128,7 @@ TEST_F(Stream, ASegmentInBytesIsAnErrorThatNamesThePad) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
-TEST_F(Stream, TimesFlagsAndOffsetsAreTheLeftFrames) {
+TEST_F(Stream, KeepsTimesFlagsAndOffsetsOfTheLeftFrame) {
   GstBuffer* left = frame_buffer(pair.left, 4 * kFrame, kFrame);
   GST_BUFFER_DTS(left) = 3 * kFrame;
   GST_BUFFER_OFFSET(left) = 41;
@@ -149,7 +149,7 @@ TEST_F(Stream, TimesFlagsAndOffsetsAreTheLeftFrames) {
   EXPECT_TRUE(GST_BUFFER_FLAG_IS_SET(map.get(), GST_BUFFER_FLAG_DISCONT));
   EXPECT_FALSE(GST_BUFFER_FLAG_IS_SET(map.get(), GST_BUFFER_FLAG_MARKER));
   EXPECT_TRUE(GST_BUFFER_FLAG_IS_SET(map.get(), GST_BUFFER_FLAG_CORRUPTED))
-      << "a map that is made of a broken right frame is broken";
+      << "a map of a corrupted right frame is corrupted";
   harness.push_pair(pair, 5 * kFrame);
   const BufferPointer next = harness.pull();
   ASSERT_TRUE(next);
@@ -157,7 +157,7 @@ TEST_F(Stream, TimesFlagsAndOffsetsAreTheLeftFrames) {
   EXPECT_FALSE(GST_BUFFER_FLAG_IS_SET(next.get(), GST_BUFFER_FLAG_CORRUPTED));
 }
 
-TEST_F(Stream, CopiesTheLeftFramesMetasButNotItsLayout) {
+TEST_F(Stream, CopiesTheMetasOfTheLeftFrameExceptItsLayout) {
   const CapsPointer reference(gst_caps_from_string("timestamp/x-ntp"));
   GstBuffer* left = frame_buffer(pair.left, 0, kFrame, {.padding = 16});
   gst_buffer_add_reference_timestamp_meta(left, reference.get(), 77, GST_CLOCK_TIME_NONE);
@@ -175,7 +175,7 @@ TEST_F(Stream, CopiesTheLeftFramesMetasButNotItsLayout) {
   EXPECT_TRUE(video == nullptr || video->format == GST_VIDEO_FORMAT_GRAY16_LE);
 }
 
-TEST_F(Stream, AGapOfTheLeftStreamGoesOn) {
+TEST_F(Stream, ForwardsAGapOfTheLeftStream) {
   harness.push_pair(pair, 0);
   ASSERT_TRUE(harness.pull());
   harness.event(Side::kLeft, gst_event_new_gap(kFrame, 2 * kFrame));
@@ -195,14 +195,14 @@ TEST_F(Stream, AGapOfTheLeftStreamGoesOn) {
   EXPECT_TRUE(harness.wait_for_stats(2, 0, 1));
 }
 
-TEST_F(Stream, AGapThatComesFirstFollowsTheSegment) {
+TEST_F(Stream, SendsTheSegmentBeforeAFirstGap) {
   harness.event(Side::kLeft, gst_event_new_gap(0, kFrame));
   right(0);
   EXPECT_TRUE(harness.pull_event(GST_EVENT_SEGMENT));
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap came ahead of the segment";
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap was sent before the segment";
 }
 
-TEST_F(Stream, AGapThatComesFirstAfterAFlushFollowsTheSegment) {
+TEST_F(Stream, SendsTheSegmentBeforeAGapAfterAFlush) {
   harness.push_pair(pair, 0);
   ASSERT_TRUE(harness.pull());
   for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 7);
@@ -211,10 +211,10 @@ TEST_F(Stream, AGapThatComesFirstAfterAFlushFollowsTheSegment) {
   harness.event(Side::kLeft, gst_event_new_gap(0, kFrame));
   right(0);
   EXPECT_TRUE(harness.pull_event(GST_EVENT_SEGMENT));
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap came ahead of the segment";
+  EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap was sent before the segment";
 }
 
-TEST_F(Stream, AGapOfTheRightStreamCostsTheLeftFramesInIt) {
+TEST_F(Stream, DropsLeftFramesInAGapOfTheRightStream) {
   harness.push_pair(pair, 0);
   ASSERT_TRUE(harness.pull());
   harness.event(Side::kRight, gst_event_new_gap(kFrame, kFrame));
@@ -227,7 +227,7 @@ TEST_F(Stream, AGapOfTheRightStreamCostsTheLeftFramesInIt) {
   EXPECT_TRUE(harness.wait_for_stats(2, 1, 0));
 }
 
-TEST_F(Stream, AFlushForgetsTheFramesThatWait) {
+TEST_F(Stream, AFlushDiscardsWaitingFrames) {
   harness.push_pair(pair, 0);
   ASSERT_TRUE(harness.pull());
   left(kFrame);
@@ -241,7 +241,7 @@ TEST_F(Stream, AFlushForgetsTheFramesThatWait) {
   EXPECT_TRUE(harness.wait_for_stats(2, 0, 0));
 }
 
-TEST_F(Stream, AFlushAfterTheEndStartsAnew) {
+TEST_F(Stream, AFlushAfterTheEndRestartsTheStream) {
   harness.push_pair(pair, 0);
   harness.end(Side::kLeft);
   harness.end(Side::kRight);
@@ -253,7 +253,7 @@ TEST_F(Stream, AFlushAfterTheEndStartsAnew) {
   EXPECT_TRUE(harness.pull());
 }
 
-TEST_F(Stream, InputFramesAreGivenBack) {
+TEST_F(Stream, ReleasesInputFrames) {
   GstBuffer* left = frame_buffer(pair.left, 0, kFrame);
   GstBuffer* right = frame_buffer(pair.right, 0, kFrame);
   const BufferPointer left_keeper(gst_buffer_ref(left));
@@ -261,7 +261,7 @@ TEST_F(Stream, InputFramesAreGivenBack) {
   harness.push(Side::kLeft, left);
   harness.push(Side::kRight, right);
   ASSERT_TRUE(harness.pull());
-  harness.push_pair(pair, kFrame);  // the step before is over when this one comes out
+  harness.push_pair(pair, kFrame);  // when its map is there, the previous step is complete
   ASSERT_TRUE(harness.pull());
   EXPECT_EQ(GST_MINI_OBJECT_REFCOUNT_VALUE(left_keeper.get()), 1);
   EXPECT_EQ(GST_MINI_OBJECT_REFCOUNT_VALUE(right_keeper.get()), 1);

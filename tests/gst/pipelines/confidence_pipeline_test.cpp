@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The confidence maps of mtstereo on their way through a pipeline, and mtconfidence at work on
-// them.
+// Confidence maps of mtstereo in pipelines, and mtconfidence in pipelines.
 #include <gtest/gtest.h>
 
 #include "support/pipeline.hpp"
@@ -8,22 +7,22 @@
 namespace mtstereo::test {
 namespace {
 
-/// noise_launch() with these elements ahead of the sink.
-std::string launch_with(const std::string& stereo, const std::string& behind) {
+/// noise_launch() with these properties of mtstereo, and these elements upstream of the sink.
+std::string launch_with(const std::string& stereo, const std::string& downstream) {
   std::string launch = noise_launch(3, "max-disparity=16 " + stereo);
-  return launch.insert(launch.find("! appsink name=out"), "! " + behind + " ");
+  return launch.insert(launch.find("! appsink name=out"), "! " + downstream + " ");
 }
 
-/// What mtstereo gives with nothing behind it.
+/// The output of mtstereo without further elements.
 std::vector<Sample> direct_samples() {
   Pipeline direct(noise_launch(3, "max-disparity=16"));
   EXPECT_EQ(direct.run(), "");
   return direct.samples();
 }
 
-class ConfidenceStays : public testing::TestWithParam<const char*> {};
+class ConfidenceIsKept : public testing::TestWithParam<const char*> {};
 
-TEST_P(ConfidenceStays, BehindAnElementThatKeepsThePixels) {
+TEST_P(ConfidenceIsKept, ByAnElementThatKeepsThePixels) {
   Pipeline through(launch_with("", GetParam()));
   ASSERT_EQ(through.run(), "");
   const auto expected = direct_samples();
@@ -35,7 +34,7 @@ TEST_P(ConfidenceStays, BehindAnElementThatKeepsThePixels) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, ConfidenceStays,
+INSTANTIATE_TEST_SUITE_P(Elements, ConfidenceIsKept,
                          testing::Values("queue", "identity", "identity drop-allocation=true",
                                          "tee name=x ! queue",
                                          "tee name=x x. ! queue ! fakesink sync=false x. ! queue",
@@ -44,9 +43,9 @@ INSTANTIATE_TEST_SUITE_P(Elements, ConfidenceStays,
                                          "capsfilter caps=video/x-raw"),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
-class ConfidenceGoes : public testing::TestWithParam<const char*> {};
+class ConfidenceIsRemoved : public testing::TestWithParam<const char*> {};
 
-TEST_P(ConfidenceGoes, WhereAnElementMovesThePixels) {
+TEST_P(ConfidenceIsRemoved, ByAnElementThatMovesThePixels) {
   Pipeline through(launch_with("", GetParam()));
   ASSERT_EQ(through.run(), "");
   const auto samples = through.samples();
@@ -54,14 +53,14 @@ TEST_P(ConfidenceGoes, WhereAnElementMovesThePixels) {
   for (const Sample& sample : samples) EXPECT_TRUE(sample.confidence.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, ConfidenceGoes,
+INSTANTIATE_TEST_SUITE_P(Elements, ConfidenceIsRemoved,
                          testing::Values("videoscale ! video/x-raw,width=80,height=60",
                                          "videoscale ! video/x-raw,width=320,height=240",
                                          "videocrop left=8", "videobox left=8 right=-8",
                                          "videobox left=8", "mtcolor"),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
-TEST(MtConfidence, FiltersWhatMtstereoGives) {
+TEST(MtConfidence, FiltersTheOutputOfMtstereo) {
   Pipeline pipeline(launch_with("", "queue ! mtconfidence min-confidence=240"));
   ASSERT_EQ(pipeline.run(), "");
   const auto before = direct_samples();
@@ -80,7 +79,7 @@ TEST(MtConfidence, FiltersWhatMtstereoGives) {
   }
 }
 
-TEST(MtConfidence, ShowsWhatMtstereoGives) {
+TEST(MtConfidence, OutputsTheConfidenceOfMtstereo) {
   Pipeline pipeline(launch_with("", "mtconfidence output=confidence"));
   ASSERT_EQ(pipeline.run(), "");
   const auto before = direct_samples();
@@ -89,19 +88,19 @@ TEST(MtConfidence, ShowsWhatMtstereoGives) {
   for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].bytes, before[i].confidence);
 }
 
-TEST(MtConfidence, SaysWhatIsMissingBehindAnMtstereoWithoutConfidence) {
+TEST(MtConfidence, ReportsADisabledConfidenceMap) {
   Pipeline pipeline(launch_with("confidence-map=false", "mtconfidence"));
   const std::string error = pipeline.run();
   EXPECT_NE(error.find("confidence-map=true"), std::string::npos) << error;
 }
 
-TEST(MtConfidence, SaysWhatIsMissingBehindAScaler) {
+TEST(MtConfidence, ReportsAScalerUpstream) {
   Pipeline pipeline(launch_with("", "videoscale ! video/x-raw,width=80,height=60 ! mtconfidence"));
   const std::string error = pipeline.run();
   EXPECT_NE(error.find("videoscale"), std::string::npos) << error;
 }
 
-TEST(MtConfidence, WorksOnOneBranchOfATee) {
+TEST(MtConfidence, DoesNotAffectOtherBranchesOfATee) {
   Pipeline pipeline(launch_with(
       "",
       "tee name=s s. ! queue ! mtconfidence min-confidence=255 ! fakesink sync=false s. ! "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Objects of GStreamer that are left over at the end of a program, as its own tracer "leaks" tells.
-// Each scenario runs in a program of its own: this one, started again.
+// GStreamer objects that are alive at the end of a program, as reported by the tracer "leaks".
+// Each scenario runs in its own process of this program.
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ constexpr const char* kScenarioVariable = "MTSTEREO_LEAKS_SCENARIO";
 
 void leave_a_buffer() { gst_buffer_new(); }
 
-/// The tracer does not see elements that are made from GstAggregator: this does.
+/// Checks that an element was freed. The tracer does not track elements derived from GstAggregator.
 class Watch {
  public:
   explicit Watch(GstElement* element) : element_(element) {
@@ -87,13 +87,13 @@ void make_colors() {
   EXPECT_EQ(pipeline.run(), "");
 }
 
-/// Maps that are held, and copied with another confidence, to the end and beyond the elements'.
+/// Keeps maps, also with changed confidence, until after their elements are freed.
 void make_confidence() {
   std::vector<BufferPointer> held;
-  for (const char* behind : {"identity", "mtconfidence min-confidence=100",
-                             "mtconfidence output=confidence", "tee ! queue ! mtconfidence"}) {
+  for (const char* downstream : {"identity", "mtconfidence min-confidence=100",
+                                 "mtconfidence output=confidence", "tee ! queue ! mtconfidence"}) {
     std::string launch = noise_launch(4, "max-disparity=16");
-    launch.insert(launch.find("! appsink"), std::string("! ") + behind + " ");
+    launch.insert(launch.find("! appsink"), std::string("! ") + downstream + " ");
     Pipeline pipeline(launch);
     EXPECT_EQ(pipeline.run(), "");
     GstSample* sample = nullptr;
@@ -128,7 +128,8 @@ constexpr std::array kScenarios = {Scenario{"LeaveABuffer", leave_a_buffer},
 struct Outcome {
   int status = 0;
   std::string output;
-  /// Whether the tracer names an object. It also describes its own lines, with "%s" for the name.
+  /// True if the tracer reports an object. It also prints the format of its lines, with "%s" as
+  /// name.
   bool leaks() const {
     return output.find("object-alive, type-name=(string)Gst") != std::string::npos;
   }
@@ -165,7 +166,7 @@ int run_scenario(const char* name) {
   return found && !testing::Test::HasFailure() ? 0 : 1;
 }
 
-TEST(Leaks, AreSeenWhereABufferIsLeft) {
+TEST(Leaks, AreDetectedIfABufferIsNotFreed) {
   const Outcome outcome = run_alone("LeaveABuffer");
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   EXPECT_TRUE(outcome.leaks()) << outcome.output;
@@ -173,7 +174,7 @@ TEST(Leaks, AreSeenWhereABufferIsLeft) {
 
 class NoLeaks : public testing::TestWithParam<const char*> {};
 
-TEST_P(NoLeaks, WhereAProgram) {
+TEST_P(NoLeaks, InScenario) {
   const Outcome outcome = run_alone(GetParam());
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   EXPECT_FALSE(outcome.leaks()) << outcome.output;

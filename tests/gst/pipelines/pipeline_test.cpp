@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Whole pipelines: determinism, seeking, playing again, several at once.
+// Complete pipelines: determinism, seeking, restarts, several pipelines at once.
 #include "support/pipeline.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ void expect_same(const std::vector<Sample>& expected, const std::vector<Sample>&
   }
 }
 
-TEST(Pipelines, EveryRunAndEveryNumberOfThreadsGivesTheSameBytes) {
+TEST(Pipelines, AreDeterministicForAnyNumberOfThreads) {
   const auto expected = play(noise_launch(20, "max-disparity=16 threads=1"));
   EXPECT_EQ(expected.size(), 20u);
   for (const char* threads : {"1", "2", "4"}) {
@@ -36,7 +36,7 @@ TEST(Pipelines, EveryRunAndEveryNumberOfThreadsGivesTheSameBytes) {
   }
 }
 
-TEST(Pipelines, PlayAgainAfterNull) {
+TEST(Pipelines, CanBeRestartedAfterNull) {
   Pipeline pipeline(noise_launch(10, "max-disparity=16"));
   ASSERT_EQ(pipeline.run(), "");
   const auto first = pipeline.samples();
@@ -45,11 +45,11 @@ TEST(Pipelines, PlayAgainAfterNull) {
     pipeline.set_state(GST_STATE_NULL);
     ASSERT_EQ(pipeline.run(), "");
     expect_same(first, pipeline.samples(), "run " + std::to_string(i + 2));
-    EXPECT_EQ(stats_of(pipeline.named("m")).pairs, 10u) << "the statistics begin anew";
+    EXPECT_EQ(stats_of(pipeline.named("m")).pairs, 10u) << "the statistics must restart at zero";
   }
 }
 
-TEST(Pipelines, TwoInOneProcessGiveWhatTheyGiveAlone) {
+TEST(Pipelines, DoNotAffectEachOtherInOneProcess) {
   const std::string one = noise_launch(15, "max-disparity=16 mode=sparse threads=2", 3);
   const std::string two = noise_launch(15, "max-disparity=32 mode=semi-dense gray-levels=12", 7);
   const auto one_alone = play(one);
@@ -64,7 +64,7 @@ TEST(Pipelines, TwoInOneProcessGiveWhatTheyGiveAlone) {
   expect_same(two_alone, second.samples(), "second");
 }
 
-TEST(Pipelines, FlushingSeeksWorkAgainAndAgain) {
+TEST(Pipelines, SupportRepeatedFlushingSeeks) {
   Pipeline pipeline(noise_launch(-1, "max-disparity=16"));
   pipeline.set_state(GST_STATE_PAUSED);
   ASSERT_TRUE(pipeline.wait_until_settled());
@@ -80,7 +80,7 @@ TEST(Pipelines, FlushingSeeksWorkAgainAndAgain) {
   }
 }
 
-TEST(Pipelines, SeeksWhilePlayingWork) {
+TEST(Pipelines, SupportSeeksWhilePlaying) {
   Pipeline pipeline(noise_launch(300, "max-disparity=16"));
   pipeline.set_state(GST_STATE_PLAYING);
   ASSERT_TRUE(pipeline.wait_until_settled());
@@ -92,7 +92,7 @@ TEST(Pipelines, SeeksWhilePlayingWork) {
   EXPECT_EQ(pipeline.wait_for_end(), "");
 }
 
-TEST(Pipelines, ReversePlaybackGoesToTheStart) {
+TEST(Pipelines, SupportReversePlayback) {
   Pipeline pipeline(noise_launch(-1, "max-disparity=16"));
   pipeline.set_state(GST_STATE_PAUSED);
   ASSERT_TRUE(pipeline.wait_until_settled());
@@ -104,7 +104,7 @@ TEST(Pipelines, ReversePlaybackGoesToTheStart) {
   EXPECT_LT(samples.back().pts, kFrame);
 }
 
-TEST(Pipelines, SeekingDurationAndPositionAreAnswered) {
+TEST(Pipelines, AnswerSeekingDurationAndPositionQueries) {
   Pipeline pipeline(noise_launch(90, "max-disparity=16"));
   pipeline.set_state(GST_STATE_PAUSED);
   ASSERT_TRUE(pipeline.wait_until_settled());
@@ -125,7 +125,7 @@ TEST(Pipelines, SeekingDurationAndPositionAreAnswered) {
   gst_object_unref(pad);
 }
 
-TEST(Pipelines, AreNotSeekableWhereOneSourceIsNot) {
+TEST(Pipelines, AreSeekableOnlyIfBothSourcesAre) {
   Pipeline pipeline(
       "videotestsrc ! video/x-raw,width=64,height=48 ! mtstereo name=m max-disparity=16 ! "
       "fakesink appsrc name=a format=time caps=video/x-raw,format=GRAY8,width=64,height=48 ! "
@@ -141,19 +141,19 @@ TEST(Pipelines, AreNotSeekableWhereOneSourceIsNot) {
   gst_object_unref(pad);
 }
 
-TEST(Pipelines, LiveSourcesPlay) {
+TEST(Pipelines, PlayLiveSources) {
   Pipeline pipeline(
       "mtstereo name=m max-disparity=16 ! appsink name=out wait-on-eos=false "
       "videotestsrc is-live=true num-buffers=15 ! video/x-raw,width=64,height=48 ! m.sink_left "
       "videotestsrc is-live=true num-buffers=15 ! video/x-raw,width=64,height=48 ! m.sink_right");
   ASSERT_EQ(pipeline.run(), "");
   const Stats stats = stats_of(pipeline.named("m"));
-  // On a machine that is busy with other things some frames may miss each other.
+  // On a busy machine some frames may miss their partners.
   EXPECT_GE(stats.pairs, 5u);
   EXPECT_EQ(pipeline.samples().size(), stats.pairs);
 }
 
-TEST(Pipelines, TheFirstErrorOnTheBusIsTheElements) {
+TEST(Pipelines, PostTheErrorOfTheElementFirst) {
   Pipeline pipeline(
       "mtstereo name=m max-disparity=16 ! fakesink "
       "videotestsrc ! video/x-raw,width=64,height=48 ! m.sink_left "
@@ -163,7 +163,7 @@ TEST(Pipelines, TheFirstErrorOnTheBusIsTheElements) {
   EXPECT_NE(error.find("left 64x48, right 32x48"), std::string::npos) << error;
 }
 
-TEST(Pipelines, InterlacedVideoGetsTheElementsError) {
+TEST(Pipelines, ReportInterlacedVideo) {
   Pipeline pipeline(
       "mtstereo name=m max-disparity=16 ! fakesink "
       "videotestsrc ! video/x-raw,width=64,height=48,framerate=30/1 ! interlace ! m.sink_left "
@@ -173,7 +173,7 @@ TEST(Pipelines, InterlacedVideoGetsTheElementsError) {
   EXPECT_NE(error.find("deinterlace"), std::string::npos) << error;
 }
 
-TEST(Pipelines, DeinterlacedVideoIsTaken) {
+TEST(Pipelines, AcceptDeinterlacedVideo) {
   Pipeline pipeline(
       "mtstereo name=m max-disparity=16 ! appsink name=out wait-on-eos=false sync=false "
       "videotestsrc num-buffers=10 ! video/x-raw,width=64,height=48,framerate=30/1 ! tee name=t "
@@ -183,7 +183,7 @@ TEST(Pipelines, DeinterlacedVideoIsTaken) {
   EXPECT_FALSE(pipeline.samples().empty());
 }
 
-TEST(Pipelines, SideBySideVideoIsSplitByVideocrop) {
+TEST(Pipelines, SupportSideBySideVideoByVideocrop) {
   Pipeline pipeline(
       "videotestsrc num-buffers=5 pattern=ball ! video/x-raw,format=GRAY8,width=256,height=96 ! "
       "tee name=t mtstereo name=m max-disparity=16 ! appsink name=out wait-on-eos=false sync=false "
@@ -193,7 +193,7 @@ TEST(Pipelines, SideBySideVideoIsSplitByVideocrop) {
   EXPECT_EQ(pipeline.samples().size(), 5u);
 }
 
-TEST(Pipelines, StoppingInTheMiddleDoesNotHang) {
+TEST(Pipelines, StopBeforeTheEnd) {
   for (int i = 0; i < 10; ++i) {
     Pipeline pipeline(noise_launch(10000, "max-disparity=16"));
     pipeline.set_state(GST_STATE_PLAYING);

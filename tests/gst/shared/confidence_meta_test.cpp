@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The meta by itself: what becomes of it when a buffer is copied or another one is made of it.
+// The meta alone: what happens to it when a buffer is copied or transformed.
 #include "shared/confidence_meta.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ class ConfidenceMeta : public testing::Test {
     buffer = disparity(3);
   }
 
-  /// A disparity map whose confidence is this value everywhere.
+  /// A disparity map with this confidence at every pixel.
   BufferPointer disparity(int value) {
     BufferPointer map(gst_buffer_new_allocate(nullptr, kBytes, nullptr));
     plugin::BufferPointer confidence = pool.acquire();
@@ -40,7 +40,7 @@ class ConfidenceMeta : public testing::Test {
     return map;
   }
 
-  /// What the meta's transform function makes of it in another buffer.
+  /// A buffer to which the transform function of the meta has been applied.
   BufferPointer transformed(const char* type, gpointer data) {
     BufferPointer to(gst_buffer_new_allocate(nullptr, kBytes, nullptr));
     GstMeta* meta = reinterpret_cast<GstMeta*>(
@@ -53,7 +53,7 @@ class ConfidenceMeta : public testing::Test {
   BufferPointer buffer;
 };
 
-TEST_F(ConfidenceMeta, IsRegisteredOnceByWhoeverComesFirst) {
+TEST_F(ConfidenceMeta, IsRegisteredOnceByTheFirstCaller) {
   std::vector<std::thread> threads;
   std::vector<int> results(8, 0);
   for (int& result : results) {
@@ -61,19 +61,19 @@ TEST_F(ConfidenceMeta, IsRegisteredOnceByWhoeverComesFirst) {
   }
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(results, std::vector<int>(8, 1));
-  // The plugin, which has a registration of its own, takes the one that is there.
+  // The plugin, which has its own registration code, uses the existing registration.
   GstElement* element = make_element("");
   ASSERT_NE(element, nullptr);
   gst_object_unref(element);
 }
 
-TEST_F(ConfidenceMeta, IsNotThereUnlessGiven) {
+TEST_F(ConfidenceMeta, IsNotAttachedByDefault) {
   const BufferPointer other(gst_buffer_new());
   EXPECT_EQ(plugin::confidence_of(other.get()), nullptr);
   EXPECT_TRUE(confidence_of(other.get()).empty());
 }
 
-TEST_F(ConfidenceMeta, TheLastOneGivenCounts) {
+TEST_F(ConfidenceMeta, TheLastOneReplacesTheOthers) {
   const BufferPointer other = disparity(7);
   plugin::set_confidence(buffer.get(), plugin::confidence_of(other.get()));
   EXPECT_EQ(gst_buffer_get_n_meta(buffer.get(), g_type_from_name("MtStereoConfidenceMeta-api")),
@@ -81,34 +81,34 @@ TEST_F(ConfidenceMeta, TheLastOneGivenCounts) {
   EXPECT_EQ(confidence_of(buffer.get()), std::vector<std::uint8_t>(48, 7));
 }
 
-TEST_F(ConfidenceMeta, ACopySharesTheMap) {
+TEST_F(ConfidenceMeta, CopiesShareTheMap) {
   const BufferPointer copy(gst_buffer_copy(buffer.get()));
   const BufferPointer deep(gst_buffer_copy_deep(buffer.get()));
   EXPECT_EQ(plugin::confidence_of(copy.get()), plugin::confidence_of(buffer.get()));
   EXPECT_EQ(confidence_of(deep.get()), std::vector<std::uint8_t>(48, 3));
 }
 
-TEST_F(ConfidenceMeta, ACopyKeepsTheMapWhenTheFirstOneIsGone) {
+TEST_F(ConfidenceMeta, CopiesKeepTheMapAfterTheOriginalIsFreed) {
   const BufferPointer copy(gst_buffer_copy(buffer.get()));
   buffer.reset();
   const BufferPointer next = disparity(9);
   EXPECT_EQ(confidence_of(copy.get()), std::vector<std::uint8_t>(48, 3));
 }
 
-TEST_F(ConfidenceMeta, APartOfTheBufferHasNone) {
+TEST_F(ConfidenceMeta, IsNotCopiedToAPartOfTheBuffer) {
   const BufferPointer part(
       gst_buffer_copy_region(buffer.get(), GST_BUFFER_COPY_ALL, 16, kBytes - 16));
   EXPECT_TRUE(confidence_of(part.get()).empty());
 }
 
-TEST_F(ConfidenceMeta, StaysWhereOnlyTheFormatChanges) {
+TEST_F(ConfidenceMeta, IsKeptIfOnlyTheFormatChanges) {
   GstVideoInfo from = disparity_info(8, 6);
   GstVideoInfo to = disparity_info(8, 6);
   GstVideoMetaTransform same = {&from, &to};
   EXPECT_FALSE(confidence_of(transformed("gst-video-scale", &same).get()).empty());
 }
 
-TEST_F(ConfidenceMeta, DoesNotFollowAnotherSizeNorAnUnknownChange) {
+TEST_F(ConfidenceMeta, IsRemovedByASizeChangeOrAnUnknownChange) {
   GstVideoInfo from = disparity_info(8, 6);
   for (const auto& [width, height] : {std::pair(16u, 6u), {8u, 12u}, {4u, 3u}}) {
     GstVideoInfo to = disparity_info(width, height);
@@ -118,7 +118,7 @@ TEST_F(ConfidenceMeta, DoesNotFollowAnotherSizeNorAnUnknownChange) {
   EXPECT_TRUE(confidence_of(transformed("some-other-change", nullptr).get()).empty());
 }
 
-TEST_F(ConfidenceMeta, WithoutItsFieldItIsNoneAndIsNotCopied) {
+TEST_F(ConfidenceMeta, IsIgnoredAndNotCopiedWithoutItsField) {
   GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer.get(), plugin::kConfidenceMeta);
   GstStructure* structure = gst_custom_meta_get_structure(meta);
   gst_structure_remove_field(structure, "confidence");
@@ -129,7 +129,7 @@ TEST_F(ConfidenceMeta, WithoutItsFieldItIsNoneAndIsNotCopied) {
   EXPECT_EQ(plugin::confidence_of(buffer.get()), nullptr);
 }
 
-TEST_F(ConfidenceMeta, AReaderCannotWriteIntoTheMap) {
+TEST_F(ConfidenceMeta, IsReadOnly) {
   const plugin::SamplePointer held(gst_sample_ref(plugin::confidence_of(buffer.get())));
   EXPECT_FALSE(gst_buffer_is_writable(gst_sample_get_buffer(held.get())));
 }
@@ -141,14 +141,14 @@ class ConfidenceMemory : public ConfidenceMeta {
   }
 };
 
-TEST_F(ConfidenceMemory, IsUsedAgainWhenNobodyHoldsIt) {
+TEST_F(ConfidenceMemory, IsReusedAfterTheLastReference) {
   buffer.reset();
   std::set<const void*> places;
   for (int i = 0; i < 50; ++i) places.insert(memory(disparity(i).get()));
   EXPECT_EQ(places.size(), 1u);
 }
 
-TEST_F(ConfidenceMemory, IsNotUsedAgainWhileACopyHoldsIt) {
+TEST_F(ConfidenceMemory, IsNotReusedWhileACopyRefersToIt) {
   const BufferPointer copy(gst_buffer_copy(buffer.get()));
   const void* held = memory(buffer.get());
   buffer.reset();
@@ -160,7 +160,7 @@ TEST_F(ConfidenceMemory, OutlivesThePool) {
   EXPECT_EQ(confidence_of(buffer.get()), std::vector<std::uint8_t>(48, 3));
 }
 
-TEST_F(ConfidenceMemory, IsKeptAsLongAsTheStreamStaysAsItIs) {
+TEST_F(ConfidenceMemory, IsKeptWhileTheStreamIsUnchanged) {
   const void* before = memory(buffer.get());
   buffer.reset();
   ASSERT_TRUE(pool.fit(disparity_info(8, 6)));

@@ -21,7 +21,7 @@ Pair noise_pair(int width, int height, int disparity, unsigned seed) {
   pair.right = {width, height, {}};
   for (int y = 0; y < height; ++y) {
     for (int& value : noise) value = static_cast<int>(random() % 256);
-    // Smooth over 5 px, so that a scan-line has hills with slopes.
+    // Smoothed over 5 px, so that a scan-line has gradual slopes.
     const auto at = [&](int x) {
       int sum = 0;
       for (int i = 0; i < 5; ++i) sum += noise[static_cast<std::size_t>(std::min(x + i, wide - 1))];
@@ -77,7 +77,7 @@ GstBuffer* frame_buffer(const Picture& picture, GstClockTime pts, GstClockTime d
 
 namespace {
 
-/// A matcher that has matched the pair, and its result.
+/// A matcher and its result for a pair.
 struct Matched {
   std::optional<Matcher> matcher;
   DisparityView disparity;

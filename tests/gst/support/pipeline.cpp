@@ -75,7 +75,7 @@ std::string Pipeline::wait_for_end(double seconds) {
       gst_bus_timed_pop_filtered(bus, static_cast<GstClockTime>(seconds * GST_SECOND),
                                  static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR));
   gst_object_unref(bus);
-  if (message == nullptr) return "neither an end nor an error";
+  if (message == nullptr) return "timeout: neither end of stream nor error";
   const std::string text =
       GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR ? text_of(message) : std::string();
   gst_message_unref(message);

@@ -9,15 +9,15 @@
 
 namespace mtstereo::test {
 
-/// What came out of one appsink.
+/// A sample of an appsink.
 struct Sample {
   GstClockTime pts = GST_CLOCK_TIME_NONE;
   std::string caps;
   std::vector<std::uint8_t> bytes;
-  std::vector<std::uint8_t> confidence;  ///< that came with it; empty: none did
+  std::vector<std::uint8_t> confidence;  ///< of the attached map; empty: none
 };
 
-/// A whole pipeline from a launch line. It ends with this object.
+/// A pipeline from a launch line. The destructor stops it.
 class Pipeline {
  public:
   explicit Pipeline(const std::string& launch);
@@ -26,26 +26,25 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   GstElement* element() const { return pipeline_; }
-  /// The element of this name; it stays the pipeline's.
+  /// The element of this name; the pipeline owns it.
   GstElement* named(const char* name) const;
   void set_state(GstState state);
-  /// PLAYING until the end of the stream or an error; "" or the text of the error.
+  /// Plays until the end of the stream or an error. Returns "" or the text of the error.
   std::string run();
-  /// Waits for the end of the stream or an error.
+  /// Waits for the end of the stream or an error. Returns "" or the text of the error.
   std::string wait_for_end(double seconds = 60);
-  /// Waits until a state change or a seek is done; false if it fails or never ends.
+  /// Waits until a state change or a seek has completed; false if it fails or times out.
   bool wait_until_settled(double seconds = 20);
   bool seek(GstClockTime to, GstSeekFlags flags, double rate = 1.0);
-  /// Everything that is in the appsink of this name, until it has no more for now.
+  /// All samples that are in the appsink of this name now.
   std::vector<Sample> samples(const char* sink = "out");
 
  private:
   GstElement* pipeline_ = nullptr;
 };
 
-/// A launch line with two noise streams that are made with nothing but videotestsrc: the same
-/// picture on both sides, the right one shifted by `shift` px. `mtstereo` is named m, its output
-/// goes to the appsink out.
+/// A launch line with two streams of a videotestsrc: the same image on both sides, the right one
+/// shifted by `shift` px. The mtstereo is named m; its sink is the appsink out.
 std::string noise_launch(int frames, const std::string& properties, int shift = 4);
 
 }  // namespace mtstereo::test

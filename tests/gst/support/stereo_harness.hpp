@@ -15,6 +15,7 @@
 
 namespace mtstereo::test {
 
+/// The deleter of the owning pointers below.
 struct Unref {
   void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
   void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
@@ -28,7 +29,7 @@ using EventPointer = std::unique_ptr<GstEvent, Unref>;
 using StructurePointer = std::unique_ptr<GstStructure, Unref>;
 using MessagePointer = std::unique_ptr<GstMessage, Unref>;
 
-/// What an error or warning message says.
+/// The content of an error or warning message.
 struct Report {
   std::string text;
   std::string details;
@@ -48,8 +49,8 @@ struct Stats {
 };
 Stats stats_of(GstElement* element);
 
-/// An mtstereo between two pads that push and one that receives. The clock is a test clock at 0;
-/// the streams are not live unless told.
+/// An mtstereo with a harness on each side: two pads push frames, one receives maps. The clock is a
+/// test clock at 0; the streams are not live by default.
 class StereoHarness {
  public:
   /// `properties` as on a command line: "max-disparity=16 mode=sparse".
@@ -63,12 +64,12 @@ class StereoHarness {
   /// The harness that receives.
   GstHarness* output() const { return left_; }
 
-  /// Both sides the same caps, or each its own.
+  /// Sets the same caps on both sides, or caps of each side.
   void caps(const std::string& both) { caps(both, both); }
   void caps(const std::string& left, const std::string& right);
   void caps(Side side, const std::string& text);
 
-  /// Pushes a frame; waits as long as the pad is full.
+  /// Pushes a frame; blocks while the pad is full.
   GstFlowReturn push(Side side, GstBuffer* buffer);
   /// Pushes both frames of a pair with the same time stamp, `duration` 1/30 s.
   void push_pair(const Pair& pair, GstClockTime pts, const Layout& left = {},
@@ -78,20 +79,20 @@ class StereoHarness {
 
   /// The next disparity map; nullptr after `seconds` without one.
   BufferPointer pull(double seconds = 20);
-  /// The next event of this type that came out, others are thrown away; nullptr if none comes.
+  /// The next output event of this type; other events are discarded. nullptr if none arrives.
   EventPointer pull_event(GstEventType type, double seconds = 20);
-  /// True where nothing comes out for a while.
+  /// True if there is no output for a while.
   bool silent(double seconds = 0.2);
 
-  /// The first message of the type that the element has posted; text is "" if none comes.
+  /// The first message of this type from the element; the text is "" if none arrives.
   Report report(GstMessageType type, double seconds = 20);
   Report error(double seconds = 20) { return report(GST_MESSAGE_ERROR, seconds); }
   Report warning(double seconds = 20) { return report(GST_MESSAGE_WARNING, seconds); }
-  /// How many errors the element has posted since the last call, after giving it time for more.
+  /// Number of errors that the element has posted since the last call, after a delay.
   int further_errors(double seconds = 0.2);
 
   Stats stats() const { return stats_of(element_); }
-  /// Waits until the statistics say so; false if they never do.
+  /// Waits until the statistics have these values; false on timeout.
   bool wait_for_stats(std::uint64_t pairs, std::uint64_t dropped_left,
                       std::uint64_t dropped_right) const;
   CapsPointer output_caps() const;
@@ -109,8 +110,8 @@ GstElement* make_element(const std::string& properties, const char* factory = "m
 /// 1/30 s.
 inline constexpr GstClockTime kFrame = 33'333'333;
 
-/// Frames with these time stamps and the picture of `pair`'s side, pushed by a thread of its own;
-/// then the end of the stream.
+/// Pushes frames with these time stamps and the image of one side of `pair` in a thread of its own,
+/// followed by the end of the stream.
 class Feeder {
  public:
   Feeder(StereoHarness& harness, Side side, const Pair& pair, std::vector<GstClockTime> times);

@@ -26,12 +26,12 @@ void unset_all() {
   }
 }
 
-/// Names the test that hangs, and ends the program at once.
+/// Prints the name of a test that exceeds its timeout, and terminates the program.
 class Watchdog : public testing::EmptyTestEventListener {
  public:
   Watchdog() { std::signal(SIGALRM, bark); }
   void OnTestStart(const testing::TestInfo& info) override {
-    std::snprintf(name_, sizeof name_, "\n%s.%s hangs: ended after %u s\n", info.test_suite_name(),
+    std::snprintf(name_, sizeof name_, "\n%s.%s timed out after %u s\n", info.test_suite_name(),
                   info.name(), kTestTimeout);
     alarm(kTestTimeout);
   }
@@ -51,7 +51,7 @@ class Watchdog : public testing::EmptyTestEventListener {
 TestEnvironment::TestEnvironment() {
   std::string pattern = (std::filesystem::temp_directory_path() / "mtstereo-test-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) {
-    std::perror("no folder for the tests");
+    std::perror("cannot create a temporary folder");
     std::exit(1);
   }
   folder_ = pattern;
@@ -66,7 +66,7 @@ TestEnvironment::TestEnvironment() {
   setenv("GST_PLUGIN_SYSTEM_PATH_1_0", plugins.c_str(), 1);
   setenv("GST_PLUGIN_PATH_1_0", MTSTEREO_PLUGIN, 1);
   setenv("GST_REGISTRY_1_0", (folder_ + "/registry.bin").c_str(), 1);
-  // The scanner is a program of its own, into which a plugin with sanitizers cannot be loaded.
+  // The plugin scanner is a separate program that cannot load a plugin built with sanitizers.
   setenv("GST_REGISTRY_FORK", "no", 1);
 }
 
@@ -79,7 +79,7 @@ int run_tests(int argc, char** argv) {
   const TestEnvironment environment;
   testing::InitGoogleTest(&argc, argv);
   gst_init(&argc, &argv);
-  // What GStreamer calls critical is a bug of the element that it is about.
+  // A critical message of GStreamer means a bug in the element.
   g_log_set_always_fatal(static_cast<GLogLevelFlags>(G_LOG_FATAL_MASK | G_LOG_LEVEL_CRITICAL));
   testing::UnitTest::GetInstance()->listeners().Append(new Watchdog);
   const int result = RUN_ALL_TESTS();

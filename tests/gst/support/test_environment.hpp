@@ -5,8 +5,8 @@
 
 namespace mtstereo::test {
 
-/// A GStreamer that knows the plugin of this build and the few others that the tests name, and
-/// nothing else: neither the user's plugins nor the user's registry. Made before gst_init().
+/// Restricts GStreamer to the plugin of this build and the few others that the tests use: the
+/// user's plugins and registry are not used. Create it before gst_init().
 class TestEnvironment {
  public:
   TestEnvironment();
@@ -14,17 +14,17 @@ class TestEnvironment {
   TestEnvironment(const TestEnvironment&) = delete;
   TestEnvironment& operator=(const TestEnvironment&) = delete;
 
-  /// A folder that is removed with this object.
+  /// A temporary folder, removed by the destructor.
   const std::string& folder() const { return folder_; }
 
  private:
   std::string folder_;
 };
 
-/// A program that hangs is ended after this long in one test [s].
+/// Timeout of a test [s]; then the program is terminated.
 inline constexpr unsigned kTestTimeout = 120;
 
-/// Runs the tests of a program: argc and argv as main() has them.
+/// Runs the tests of a program. argc and argv are those of main().
 int run_tests(int argc, char** argv);
 
 }  // namespace mtstereo::test
