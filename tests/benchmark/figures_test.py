@@ -49,7 +49,7 @@ OTHERS = (one("stage/street-640x480-64/semi-dense/census/manual_time", 1500, "us
           + one("stage/street-640x480-64/semi-dense/max-trees/manual_time", 500, "us",
                 **{"ns/px": 2})
           + one("target/street-640x480-64/AVX2/real_time", 40)
-          + one("target/street-640x480-64/SSE2/real_time", 60)
+          + one("target/street-640x480-64/EMU128/real_time", 60)
           + one("memory/first-frame-640x480x64/iterations:1/repeats:3/manual_time", 46,
                 peak_MiB=31.5)
           + one("memory/first-frame-640x480x64/preset=paper/cost-volume=full/iterations:1"
@@ -137,7 +137,7 @@ class Page(Figures):
         text = self.figures_of(OTHERS, ELEMENT)
         self.assertIn("| `census` | `semi-dense` | 5.00 | 1.50 | 1.0 |", text)
         self.assertIn("| all of `semi-dense` |  | 7.00 | 2.00 |  |", text)
-        self.assertIn("| SSE2 | 60.0 | 1.0 | 1.50 | 1.50 |", text)
+        self.assertIn("| EMU128 | 60.0 | 1.0 | 1.50 | 1.50 |", text)
         self.assertIn("| 640x480x64 | defaults | 31.5 | 46.0 |", text)
         self.assertIn("| 640x480x64 | `preset=paper cost-volume=full` | 65.0 | 94.0 |", text)
         self.assertIn("| street-1242x375-100 | 2 | 40.00 | 41.20 | 3.00 |", text)

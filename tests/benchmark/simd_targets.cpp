@@ -14,13 +14,6 @@
 namespace mtstereo::bench {
 namespace {
 
-std::string name_of(std::int64_t target) {
-#if HWY_ARCH_X86_64
-  if (target == HWY_STATIC_TARGET && target > HWY_SSSE3) return "SSE2";
-#endif
-  return hwy::TargetName(target);
-}
-
 std::string benchmark_name(const Frame& frame, const SimdTarget& target) {
   return "target/" + frame.name() + "/" + target.name;
 }
@@ -37,9 +30,8 @@ void time_target(benchmark::State& state, const SimdTarget& target, const SimdTa
   if (expected.disparity.empty()) expected = outcome_on(best, frame);
   const ForcedTarget forced(target);
   const Outcome outcome = time_matcher(state, parameters_of(kDefaultVariant, frame, 1), frame);
-  require_same(best.highway + " and " + target.highway, expected, outcome);
+  require_same(best.name + " and " + target.name, expected, outcome);
   count_frame(state, frame, density_of(outcome.disparity));
-  state.SetLabel(target.highway);
 }
 
 }  // namespace
@@ -47,7 +39,7 @@ void time_target(benchmark::State& state, const SimdTarget& target, const SimdTa
 std::vector<SimdTarget> simd_targets() {
   std::vector<SimdTarget> targets;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    targets.push_back({target, name_of(target), hwy::TargetName(target)});
+    targets.push_back({target, hwy::TargetName(target)});
   }
   return targets;
 }
@@ -87,12 +79,12 @@ std::vector<eval::TableRow> target_table(const Frame& frame, const Summary& summ
   const double of_avx2 = avx2 == targets.end() ? NAN : seconds_of(*avx2);
   const double of_best = seconds_of(targets.front());
   std::vector<eval::TableRow> rows = {
-      {"target", "Highway's", "ms", "time / AVX2", "time / " + targets.front().name}};
+      {"target", "ms", "time / AVX2", "time / " + targets.front().name}};
   for (const SimdTarget& target : targets) {
     const double seconds = seconds_of(target);
     if (std::isnan(seconds)) continue;
-    rows.push_back({target.name, target.highway, fixed(seconds * 1e3, 1),
-                    fixed(seconds / of_avx2, 2), fixed(seconds / of_best, 2)});
+    rows.push_back({target.name, fixed(seconds * 1e3, 1), fixed(seconds / of_avx2, 2),
+                    fixed(seconds / of_best, 2)});
   }
   if (rows.size() == 1) rows.clear();
   return rows;

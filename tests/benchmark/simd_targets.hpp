@@ -13,16 +13,15 @@ namespace mtstereo::bench {
 
 /// An instruction set that the library's kernels are compiled for and that this processor has.
 struct SimdTarget {
-  std::int64_t id;      ///< of Highway
-  std::string name;     ///< as in "AVX2"
-  std::string highway;  ///< what Highway calls it
+  std::int64_t id;   ///< Highway's bit
+  std::string name;  ///< Highway's name, as in "AVX2"
 };
 
-/// All of them, the best one first: those of Highway, where what an x86-64 processor without any
-/// extension runs is named "SSE2", whatever Highway compiles for that.
+/// All of them, the fastest one first. The last one on x86 is EMU128, which emulates vectors for
+/// processors without SSSE3.
 std::vector<SimdTarget> simd_targets();
 
-/// The library's kernels are those of one target until this is gone.
+/// Restricts the library's kernels to one target for its lifetime.
 class ForcedTarget {
  public:
   explicit ForcedTarget(const SimdTarget& target);
@@ -31,12 +30,12 @@ class ForcedTarget {
   ForcedTarget& operator=(const ForcedTarget&) = delete;
 };
 
-/// Registers the frame, matched by the defaults with one thread, on every target. Each has to give
-/// what the best one gives.
+/// Registers the frame, matched with the default parameters and one thread, on every target. Each
+/// target has to return what the fastest one returns.
 void register_targets(const FramePointer& frame);
 
-/// The targets that were timed on the frame, with the time as a multiple of AVX2's and of the best
-/// one's, "-" where that was not timed. Empty where none was.
+/// The targets that were timed on the frame, with their times as multiples of AVX2's and of the
+/// fastest target's ("-" where that one was not timed). Empty if no target was timed.
 std::vector<eval::TableRow> target_table(const Frame& frame, const Summary& summary);
 
 }  // namespace mtstereo::bench

@@ -5,8 +5,6 @@
 #include <cstring>
 #include <utility>
 
-#include "base/limits.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/pixels/census_cost.cpp"
 #include <hwy/foreach_target.h>
@@ -32,9 +30,6 @@ struct CensusWindow {
   std::uint8_t* kept;  ///< costs of the row that leaves it, in whose place come those of the other
   std::uint8_t* sums;
 };
-
-/// Of the largest number of disparities.
-constexpr int kMostLanes = (kLargestMaxDisparity + kCostStep - 1) / kCostStep * kCostStep;
 
 /// See CensusCostScratch::tables.
 struct CensusTables {
@@ -95,52 +90,6 @@ class Difference {
   const std::uint8_t* right2_;
 };
 
-#if HWY_TARGET == HWY_SCALAR
-/// The differing bits of a left pixel and the right ones of all disparities, eight of these in a
-/// word. This and the loops below are such that compilers turn them into vectors of what every
-/// processor has.
-void count_plainly(const CensusRow& row, int width, int x, int lanes,
-                   std::uint8_t* __restrict__ counts) {
-  constexpr std::uint64_t kEach = 0x0101010101010101;
-  const std::uint64_t bits[3] = {kEach * row.left[0][x], kEach * row.left[1][x],
-                                 kEach * row.left[2][x]};
-  const std::uint8_t* right[3] = {row.right[0] + (width - 1 - x), row.right[1] + (width - 1 - x),
-                                  row.right[2] + (width - 1 - x)};
-  const auto pairs = [](std::uint64_t v) { return v - ((v >> 1) & (kEach * 0x55)); };
-  const auto nibbles = [](std::uint64_t v) {
-    return (v & (kEach * 0x33)) + ((v >> 2) & (kEach * 0x33));
-  };
-  for (int d = 0; d < lanes; d += 8) {
-    std::uint64_t words[3];
-    for (int i = 0; i < 3; ++i) {
-      std::memcpy(&words[i], right[i] + d, 8);
-      words[i] ^= bits[i];
-    }
-    // The three bits of each place as one number.
-    const std::uint64_t half = words[0] ^ words[1];
-    const std::uint64_t ones = half ^ words[2];
-    const std::uint64_t twos = (words[0] & words[1]) | (half & words[2]);
-    const std::uint64_t sum = nibbles(pairs(ones)) + 2 * nibbles(pairs(twos));
-    const std::uint64_t count = (sum & (kEach * 0x0F)) + ((sum >> 4) & (kEach * 0x0F));
-    std::memcpy(counts + d, &count, 8);
-  }
-}
-
-/// Moves the sums of column x on by one row.
-template <class D8>
-void move_sums(const CensusWindow& window, int x) {
-  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
-  std::uint8_t counts[kMostLanes];
-  count_plainly(window.in, window.width, x, window.lanes, counts);
-  std::uint8_t* __restrict__ sums = window.sums + first;
-  std::uint8_t* __restrict__ kept = window.kept + first;
-  const int lanes = window.lanes;
-  for (int d = 0; d < lanes; ++d) {
-    sums[d] = static_cast<std::uint8_t>(sums[d] - kept[d] + counts[d]);
-    kept[d] = counts[d];
-  }
-}
-#else
 /// Moves the sums of column x on by one row.
 template <class D8>
 HWY_INLINE void move_sums(const CensusWindow& window, int x) {
@@ -165,7 +114,6 @@ HWY_INLINE void move_sums(const CensusWindow& window, int x) {
     hn::Store(count, d8, kept + d);
   }
 }
-#endif
 
 /// The sums without any row: those of the rows that come are all that there is.
 void clear_sums(const CensusWindow& window, int rows) {
@@ -178,13 +126,6 @@ void clear_sums(const CensusWindow& window, int rows) {
 void add_row(const CensusWindow& window) {
   for (int x = 0; x < window.width; ++x) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
-#if HWY_TARGET == HWY_SCALAR
-    std::uint8_t* __restrict__ sums = window.sums + first;
-    std::uint8_t* __restrict__ kept = window.kept + first;
-    count_plainly(window.in, window.width, x, window.lanes, kept);
-    const int lanes = window.lanes;
-    for (int d = 0; d < lanes; ++d) sums[d] = static_cast<std::uint8_t>(sums[d] + kept[d]);
-#else
     const Narrow d8;
     const Difference<Narrow> in(window.in, window.width, x);
     for (int d = 0; d < window.lanes; d += static_cast<int>(hn::Lanes(d8))) {
@@ -193,47 +134,9 @@ void add_row(const CensusWindow& window) {
       hn::Store(hn::Add(hn::Load(d8, sums), count), d8, sums);
       if (!kCountTwice) hn::Store(count, d8, window.kept + first + d);
     }
-#endif
   }
 }
 
-#if HWY_TARGET == HWY_SCALAR
-/// Writes the costs of column x, of which the disparities low .. high are expected.
-template <int kSize, class D8>
-void write_costs(const CensusWindow& window, int disparities, int x, int low, int high,
-                 const CensusTables& tables, std::uint8_t* costs) {
-  const int last = window.width - 1;
-  const int lanes = window.lanes;
-  const auto column = [&](int at) {
-    return window.sums + static_cast<std::ptrdiff_t>(std::clamp(at, 0, last)) * lanes;
-  };
-  const std::uint8_t* far0 = column(x - 2);
-  const std::uint8_t* near0 = column(x - 1);
-  const std::uint8_t* middle = column(x);
-  const std::uint8_t* near1 = column(x + 1);
-  const std::uint8_t* far1 = column(x + 2);
-  const std::uint8_t* never = tables.never;
-  std::uint8_t* __restrict__ out = costs + static_cast<std::ptrdiff_t>(x) * lanes;
-  const auto mean = [](std::uint8_t a, std::uint8_t b) {
-    return static_cast<std::uint8_t>((a + b + 1) >> 1);
-  };
-  for (int d = 0; d < lanes; ++d) {
-    const std::uint8_t near = mean(near0[d], near1[d]);
-    const std::uint8_t far = mean(far0[d], far1[d]);
-    const std::uint8_t all = mean(near, mean(middle[d], mean(far, middle[d])));
-    const std::uint8_t three = mean(near, middle[d]);
-    out[d] = std::max(kSize == 5 ? all : kSize == 3 ? three : middle[d], never[d]);
-  }
-  if (low > high || (low == 0 && high == disparities - 1)) return;
-  const std::uint8_t* below = tables.below + lanes - low;
-  const std::uint8_t* above = tables.above + lanes - 1 - high;
-  for (int d = 0; d < lanes; ++d) {
-    const std::uint8_t penalty = std::max(below[d], above[d]);
-    const auto room = static_cast<std::uint8_t>(255 - penalty);
-    out[d] = static_cast<std::uint8_t>(std::min(out[d], room) + penalty);
-  }
-}
-#else
 /// The binomial mean along the row of 1, 3 or 5 cells that lie at `offsets` from the middle one.
 template <int kSize, class D8>
 HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const std::uint8_t* sums,
@@ -279,7 +182,6 @@ HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, 
     hn::Store(hn::Max(cost, hn::Load(d8, tables.never + d)), d8, out + d);
   }
 }
-#endif
 
 /// Moves the sums on by one row and writes its costs, column after column, since those beside it
 /// are still at hand.

@@ -38,114 +38,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::int16_t kNone = SelectionScratch::kNone;
 constexpr int kGroup = SelectionScratch::kGroup;
 
-#if HWY_TARGET == HWY_SCALAR
-
-// With one lane there is nothing to gain from Highway's vectors. These are plain loops without
-// branches, from which the compiler makes the vectors that every processor has.
-
-/// By value: std::min() chooses between addresses, which no vector loop can.
-HWY_INLINE std::int16_t lesser(std::int16_t a, std::int16_t b) { return a < b ? a : b; }
-
-/// The least word of `cells` costs, which it leaves in `words`. On the way the words compete for
-/// the right pixels that they could show.
-HWY_INLINE std::int16_t compete(const std::uint16_t* __restrict__ costs,
-                                const std::int16_t* __restrict__ index, int cells,
-                                std::int16_t* __restrict__ words,
-                                std::int16_t* __restrict__ right) {
-  std::int16_t least = kNone;
-  for (int d = 0; d < cells; ++d) {
-    const auto word = static_cast<std::int16_t>((costs[d] << kDisparityBits) + index[d]);
-    words[d] = word;
-    right[d] = std::min(word, right[d]);
-    least = std::min(word, least);
-  }
-  return least;
-}
-
-/// The least of `cells` words.
-HWY_INLINE std::int16_t least_of(const std::int16_t* words, int cells) {
-  std::int16_t least = kNone;
-  for (int d = 0; d < cells; ++d) least = std::min(words[d], least);
-  return least;
-}
-
-/// The cost of a word; kNone of kNone.
-HWY_INLINE std::int16_t cost_of(std::int16_t word) {
-  return word == kNone ? kNone : static_cast<std::int16_t>((word - kLowest) >> kDisparityBits);
-}
-
-/// A pixel's words, that of disparity d at d + 1: those beside the best are there always.
-using PixelWords = std::int16_t[kMostGroups * kGroup + 2];
-
-/// Lets the first `cells` costs of column x compete, then takes the best and those beside it out.
-HWY_INLINE void offer_pixel(const std::uint16_t* costs, int x, int cells, std::int16_t* right,
-                            SelectionScratch& scratch, PixelWords& words) {
-  int least = kNone;  // cost
-  int best = 0;
-  for (int d0 = 0; d0 < cells; d0 += kGroup, right += scratch.right_stride) {
-    const std::int16_t word = compete(costs + d0, scratch.index.data() + d0,
-                                      std::min(kGroup, cells - d0), words + 1 + d0, right + d0);
-    const int cost = cost_of(word);
-    if (cost < least) best = d0 + (word & (kGroup - 1));
-    least = std::min(cost, least);
-  }
-  scratch.best[x] = static_cast<std::int16_t>(best);
-  scratch.least[x] = static_cast<std::int16_t>(least);
-  std::fill_n(words + best, 3, kNone);
-}
-
-void offer(const std::uint16_t* costs, int begin, int end, int width, int disparities,
-           SelectionScratch& scratch) {
-  const int lanes = cost_lanes(disparities);
-  const std::ptrdiff_t turn = scratch.right_stride * ((lanes + kGroup - 1) / kGroup);
-  // Whole vectors, but where those disparities are missing that lie outside of the right image.
-  const auto cells_of = [&](int x) { return x + 1 < disparities ? x + 1 : lanes; };
-  // A batch: vectors that are read right after a part of them was written have to wait for it.
-  PixelWords words[SelectionScratch::kTurns];
-  for (int x0 = begin; x0 < end; x0 += SelectionScratch::kTurns) {
-    const int x1 = std::min(x0 + SelectionScratch::kTurns, end);
-    for (int x = x0; x < x1; ++x, costs += lanes) {
-      std::int16_t* right =
-          scratch.right.data() + (x % SelectionScratch::kTurns) * turn + (width - 1 - x);
-      offer_pixel(costs, x, cells_of(x), right, scratch, words[x - x0]);
-    }
-    for (int x = x0; x < x1; ++x) {
-      scratch.second[x] = cost_of(least_of(words[x - x0] + 1, cells_of(x)));
-    }
-  }
-}
-
-/// Writes the disparity of each right pixel's least word to where the words of its first
-/// competition are.
-void decide_right(int width, int groups, SelectionScratch& scratch) {
-  constexpr int kBlock = 32;  // what there is room for behind the last pixel
-  static_assert(SelectionScratch::kTurns == 4);
-  const std::ptrdiff_t turn = scratch.right_stride * groups;
-  for (int x = 0; x < width; x += kBlock) {
-    std::int16_t* first = scratch.right.data() + x;
-    std::int16_t least[kBlock];  // costs
-    std::int16_t best[kBlock] = {};
-    std::fill_n(least, kBlock, std::int16_t{kCostLimit});
-    for (int g = 0; g < groups; ++g) {
-      const std::int16_t* turn0 = first + g * scratch.right_stride;
-      const std::int16_t* turn1 = turn0 + turn;
-      const std::int16_t* turn2 = turn1 + turn;
-      const std::int16_t* turn3 = turn2 + turn;
-      for (int i = 0; i < kBlock; ++i) {
-        const std::int16_t word = lesser(lesser(turn0[i], turn1[i]), lesser(turn2[i], turn3[i]));
-        const auto cost = static_cast<std::int16_t>((word - kLowest) >> kDisparityBits);
-        const auto disparity = static_cast<std::int16_t>((word & (kGroup - 1)) + g * kGroup);
-        const std::int16_t before = best[i];
-        best[i] = cost < least[i] ? disparity : before;
-        least[i] = lesser(cost, least[i]);
-      }
-    }
-    std::copy_n(best, kBlock, first);
-  }
-}
-
-#else
-
 using Words = hn::CappedTag<std::int16_t, kCostStep>;
 using WordsVector = hn::Vec<Words>;
 
@@ -363,8 +255,6 @@ void decide_right(int width, int groups, SelectionScratch& scratch) {
     hn::StoreU(best, d16, first + x);
   }
 }
-
-#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace mtstereo

@@ -41,10 +41,7 @@ using Bytes = hn::CappedTag<std::uint8_t, 32>;
 /// The least of all lanes in every lane.
 template <class V>
 V least_of_lanes(Bytes d8, V v) {
-#if HWY_TARGET == HWY_SCALAR
-  (void)d8;
-  return v;
-#elif HWY_TARGET == HWY_SSSE3
+#if HWY_TARGET == HWY_SSSE3
   // Has no minimum of unsigned words.
   v = hn::Min(v, hn::ShiftRightBytes<8>(d8, v));
   v = hn::Min(v, hn::ShiftRightBytes<4>(d8, v));
@@ -63,31 +60,21 @@ V least_of_lanes(Bytes d8, V v) {
 /// The lanes one before those of `v`, whose first is the last of `before`.
 template <class V>
 HWY_INLINE V lanes_before(Bytes d8, V v, V before) {
-#if HWY_TARGET == HWY_SCALAR
-  (void)d8, (void)v;
-  return before;
-#else
   if constexpr (hn::MaxLanes(d8) <= 16) {
     return hn::CombineShiftRightBytes<15>(d8, v, before);
   } else {
     return hn::CombineShiftRightBytes<15>(d8, v, hn::ConcatLowerUpper(d8, v, before));
   }
-#endif
 }
 
 /// The lanes one behind those of `v`, whose last is the first of `behind`.
 template <class V>
 HWY_INLINE V lanes_behind(Bytes d8, V v, V behind) {
-#if HWY_TARGET == HWY_SCALAR
-  (void)d8, (void)v;
-  return behind;
-#else
   if constexpr (hn::MaxLanes(d8) <= 16) {
     return hn::CombineShiftRightBytes<1>(d8, behind, v);
   } else {
     return hn::CombineShiftRightBytes<1>(d8, hn::ConcatLowerUpper(d8, behind, v), v);
   }
-#endif
 }
 
 /// A path on its way along the row: the costs of its last pixel and what they begin with.
@@ -112,9 +99,6 @@ class Path {
 
   /// Goes on to column x, which comes next; `first` where it is the path's first.
   HWY_INLINE void step(int x, bool first) {
-#if HWY_TARGET == HWY_SCALAR
-    step_plainly(x, first);
-#else
     const Bytes d8;
     const int step = static_cast<int>(hn::Lanes(d8));
     const int change = first ? 0 : std::abs(gray_[x] - gray_[x + back_]);
@@ -136,32 +120,20 @@ class Path {
     }
     least_ = least_of_lanes(d8, least);
     std::swap(newest_, other_);
-#endif
   }
 
   /// Keeps the last pixel's costs for the other path to find.
   HWY_INLINE void keep(std::uint8_t* paths, int x) const {
     std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
-#if HWY_TARGET == HWY_SCALAR
-    std::memcpy(kept, newest_, lanes_);
-#else
     const Bytes d8;
     for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(d8))) {
       hn::Store(hn::Load(d8, newest_ + d), d8, kept + d);
     }
-#endif
   }
 
   /// Adds to the last pixel's costs those that the other path has kept there.
   HWY_INLINE void add(const std::uint8_t* paths, int x, std::uint16_t* sums) const {
     const std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
-#if HWY_TARGET == HWY_SCALAR
-    const std::uint8_t* __restrict__ one = newest_;
-    const std::uint8_t* __restrict__ other = kept;
-    std::uint16_t* __restrict__ out = sums;
-    const int lanes = lanes_;
-    for (int d = 0; d < lanes; ++d) out[d] = static_cast<std::uint16_t>(one[d] + other[d]);
-#else
     const hn::CappedTag<std::uint16_t, kCostStep> d16;
     const hn::Rebind<std::uint8_t, decltype(d16)> d8;
     for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(d16))) {
@@ -169,7 +141,6 @@ class Path {
       const auto other = hn::PromoteTo(d16, hn::Load(d8, kept + d));
       hn::Store(hn::Add(one, other), d16, sums + d);
     }
-#endif
   }
 
   /// Puts back what the next block begins with.
@@ -179,34 +150,6 @@ class Path {
   }
 
  private:
-#if HWY_TARGET == HWY_SCALAR
-  /// The same in a loop that compilers turn into vectors of what every such processor has.
-  void step_plainly(int x, bool first) {
-    const int change = first ? 0 : std::abs(gray_[x] - gray_[x + back_]);
-    const int least_before = hn::GetLane(least_);
-    const int small_step = hn::GetLane(small_step_);
-    const auto most = static_cast<std::uint8_t>(255 - small_step);
-    const auto any = static_cast<std::uint8_t>(std::min(least_before + large_step_[change], 255));
-    const std::uint8_t* __restrict__ costs = costs_ + static_cast<std::ptrdiff_t>(x) * lanes_;
-    const std::uint8_t* __restrict__ last = newest_;
-    std::uint8_t* __restrict__ next = other_;
-    const int lanes = lanes_;
-    const auto lesser = [](std::uint8_t a, std::uint8_t b) { return a < b ? a : b; };
-    std::uint8_t least = 255;
-    for (int d = 0; d < lanes; ++d) {
-      const std::uint8_t beside = lesser(lesser(last[d - 1], last[d + 1]), most);
-      const auto stepped = static_cast<std::uint8_t>(beside + small_step);
-      const std::uint8_t best = lesser(lesser(last[d], stepped), any);
-      const auto rise = static_cast<std::uint8_t>(best - least_before);
-      const auto room = static_cast<std::uint8_t>(255 - rise);
-      next[d] = static_cast<std::uint8_t>(lesser(costs[d], room) + rise);
-    }
-    for (int d = 0; d < lanes; ++d) least = lesser(least, next[d]);
-    least_ = hn::Set(Bytes(), least);
-    std::swap(newest_, other_);
-  }
-#endif
-
   const std::uint8_t* costs_;
   const std::uint8_t* gray_;
   const std::uint8_t* large_step_;

@@ -21,68 +21,6 @@ constexpr int kSide = 5;
 /// The place of a bit's pixel: the window's in a row, without the one in the middle.
 constexpr int neighbor_of(int bit) { return bit < kCensusBits / 2 ? bit : bit + 1; }
 
-#if HWY_TARGET == HWY_SCALAR
-// A single lane in Highway, which may have nothing for SSE2. Loops that are plain enough become
-// vectors of whatever processor the compiler compiles for.
-
-/// Sets the bits `mask` of the pixels whose neighbor is darker. The gray values are signed numbers.
-void mark_darker(const std::uint8_t* __restrict__ neighbors,
-                 const std::uint8_t* __restrict__ centers, std::uint8_t mask,
-                 std::uint8_t* __restrict__ bytes) {
-  for (std::size_t i = 0; i < kAlignment; ++i) {
-    const bool darker =
-        static_cast<std::int8_t>(neighbors[i]) < static_cast<std::int8_t>(centers[i]);
-    bytes[i] |= static_cast<std::uint8_t>(-darker & mask);  // a choice would become a branch
-  }
-}
-
-/// The census transform of kAlignment pixels from column x on.
-void transform_block(const std::uint8_t* const* lines, int x, std::uint32_t* __restrict__ words) {
-  std::uint8_t bytes[kCensusBytes][kAlignment] = {};
-  for (int bit = 0; bit < kCensusBits; ++bit) {
-    const int neighbor = neighbor_of(bit);
-    mark_darker(lines[neighbor / kSide] + x + neighbor % kSide, lines[kSide / 2] + x + kSide / 2,
-                static_cast<std::uint8_t>(1 << bit % 8), bytes[bit / 8]);
-  }
-  for (std::size_t i = 0; i < kAlignment; ++i) {
-    words[i] = static_cast<std::uint32_t>(bytes[0][i] | bytes[1][i] << 8 | bytes[2][i] << 16);
-  }
-}
-
-void transform_row(const std::uint8_t* const* lines, int width, std::uint32_t* words) {
-  constexpr int kStep = kAlignment;
-  int x = 0;
-  for (; x + kStep <= width; x += kStep) transform_block(lines, x, words + x);
-  if (x < width) {
-    std::uint32_t last[kStep];
-    transform_block(lines, x, last);
-    std::memcpy(words + x, last, (width - x) * sizeof(std::uint32_t));
-  }
-}
-
-void split_forward(const std::uint32_t* words, int count, std::uint8_t* const* planes, int to) {
-  const auto split = [=](const std::uint32_t* __restrict__ from, std::uint8_t* __restrict__ plane,
-                         int shift) {
-    for (int x = 0; x < count; ++x) plane[x] = static_cast<std::uint8_t>(from[x] >> shift);
-  };
-  for (int i = 0; i < kCensusBytes; ++i) split(words, planes[i] + to, 8 * i);
-}
-
-void split_row(const std::uint32_t* words, int width, RowOrder order, std::uint8_t* const* planes) {
-  if (order == RowOrder::kForward) {
-    split_forward(words, width, planes, 0);
-    return;
-  }
-  // Turned round in a loop of its own: compilers do not vectorize the two at once.
-  constexpr int kStep = kAlignment;
-  for (int x = 0; x < width; x += kStep) {
-    const int count = std::min(kStep, width - x);
-    std::uint32_t mirrored[kStep];
-    std::reverse_copy(words + width - x - count, words + width - x, mirrored);
-    split_forward(mirrored, count, planes, x);
-  }
-}
-#else
 using Bytes = hn::CappedTag<std::uint8_t, kAlignment>;
 
 /// Byte kByte of the census transform of the pixels from column x on. `lines` are the window's
@@ -148,7 +86,6 @@ void split_row(const std::uint32_t* words, int width, RowOrder order, std::uint8
     }
   }
 }
-#endif  // HWY_TARGET
 
 }  // namespace HWY_NAMESPACE
 }  // namespace mtstereo

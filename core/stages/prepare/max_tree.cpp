@@ -23,23 +23,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 void find_changes(const std::uint8_t* level, int width, std::uint8_t* bits) {
   const hn::CappedTag<std::uint8_t, 64> d8;
   const int lanes = static_cast<int>(hn::Lanes(d8));
-  constexpr int kBits = 8;
   for (int x = 0; x < width; x += 64) {
-    if (lanes < kBits) {  // less than a byte of bits at once
-      for (int byte = 0; byte < 64; byte += kBits) {
-        int found = 0;
-        for (int i = 0; i < kBits; ++i) {
-          const std::uint8_t* at = level + x + byte + i;
-          found |= (at[0] != at[1]) << i;
-        }
-        bits[(x + byte) / kBits] = static_cast<std::uint8_t>(found);
-      }
-      continue;
-    }
     for (int part = 0; part < 64; part += lanes) {
       const auto here = hn::LoadU(d8, level + x + part);
       const auto next = hn::LoadU(d8, level + x + part + 1);
-      hn::StoreMaskBits(d8, hn::Ne(here, next), bits + (x + part) / kBits);
+      hn::StoreMaskBits(d8, hn::Ne(here, next), bits + (x + part) / 8);
     }
   }
 }

@@ -17,29 +17,6 @@ namespace mtstereo {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-#if HWY_TARGET == HWY_SCALAR
-// A single lane in Highway, which may have nothing for SSE2. The compiler's own vectors become
-// instructions of whatever processor it compiles for.
-using Vector = std::uint8_t __attribute__((vector_size(16)));
-
-HWY_INLINE int lanes() { return sizeof(Vector); }
-
-HWY_INLINE Vector load(const std::uint8_t* from) {
-  Vector vector;
-  std::memcpy(&vector, from, sizeof(vector));
-  return vector;
-}
-
-HWY_INLINE void store(const Vector& vector, std::uint8_t* to) {
-  std::memcpy(to, &vector, sizeof(vector));
-}
-
-HWY_INLINE void exchange(Vector& smaller, Vector& larger) {
-  const Vector least = smaller < larger ? smaller : larger;
-  larger = smaller < larger ? larger : smaller;
-  smaller = least;
-}
-#else
 using Bytes = hn::CappedTag<std::uint8_t, kAlignment>;
 using Vector = hn::Vec<Bytes>;
 
@@ -54,7 +31,6 @@ HWY_INLINE void exchange(Vector& smaller, Vector& larger) {
   larger = hn::Max(smaller, larger);
   smaller = least;
 }
-#endif
 
 /// A pair of places: the smaller value goes to the first one.
 struct Exchange {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <utility>
 
 #include "mtstereo/image.hpp"
 #include "stages/nodes/outlier_removal.hpp"
@@ -57,106 +55,6 @@ void copy_row(const std::int32_t* map, const std::uint8_t* map_ratio, int width,
     hn::StoreU(hn::IfThenZeroElse(missing, ratios), d16, ratio + x);
   }
 }
-
-#if HWY_TARGET == HWY_SCALAR
-
-// With one lane there is nothing to gain from Highway's vectors. These are plain loops without
-// branches, from which the compiler makes the vectors that every processor has.
-
-/// Pixels that are summed up together; the rows are padded for them.
-constexpr int kBlock = 32;
-static_assert(kBlock <= static_cast<int>(kAlignment / 2));
-
-using BlockWords = std::uint16_t[kBlock];
-
-/// The ratio of a pixel in one column of a window if it supports the middle, otherwise 0.
-template <int kAway, int kColumn>
-HWY_INLINE int support_of(int middle, const std::uint16_t* disparities,
-                          const std::uint16_t* ratios) {
-  constexpr int kColumns = std::max(kColumn - kSupportRadius, kSupportRadius - kColumn);
-  constexpr int kTolerance = kSupportTolerance + std::max(kColumns, kAway) * kSupportSlope;
-  // All less 2^15: signed words are compared in one instruction.
-  constexpr int kLowest = std::numeric_limits<std::int16_t>::min();
-  const auto distance =
-      static_cast<std::int16_t>(middle + kTolerance + kLowest - disparities[kColumn]);
-  // A mask: its pixel is loaded in any case.
-  const std::uint16_t supports = distance <= 2 * kTolerance + kLowest ? 0xFFFF : 0;
-  return ratios[kColumn] & supports;
-}
-
-/// Adds what supports a block of disparities in one row of their windows, kAway rows away.
-template <int kAway, int... kColumn>
-HWY_INLINE void add_line(const SupportMap& support, int y, int x, const std::uint16_t* middle,
-                         BlockWords& count, BlockWords& ratio,
-                         std::integer_sequence<int, kColumn...>) {
-  const std::uint16_t* disparities = support.disparity.row(y) + x;
-  const std::uint16_t* ratios = support.ratio.row(y) + x;
-  for (int i = 0; i < kBlock; ++i) {
-    const auto sum = static_cast<std::uint16_t>(
-        (... + support_of<kAway, kColumn>(middle[i], disparities + i, ratios + i)));
-    count[i] = static_cast<std::uint16_t>(count[i] + (sum >> 12));
-    ratio[i] = static_cast<std::uint16_t>(ratio[i] + (sum & (kSupportOne - 1)));
-  }
-}
-
-/// Adds the rows of the windows on both sides of row y, kAway rows away, that are in the image.
-template <int kAway>
-HWY_INLINE void add_lines(const SupportMap& support, int y, int x, const std::uint16_t* middle,
-                          BlockWords& count, BlockWords& ratio) {
-  constexpr std::make_integer_sequence<int, kSide> kColumns;
-  const int last = support.disparity.height() - 1;
-  if (y >= kAway) add_line<kAway>(support, y - kAway, x, middle, count, ratio, kColumns);
-  if (kAway > 0 && y + kAway <= last) {
-    add_line<kAway>(support, y + kAway, x, middle, count, ratio, kColumns);
-  }
-}
-
-/// Sums up the support of each pixel of a row; the count is 0 where there is no disparity, or
-/// `asked` is 0.
-void sum_row(const SupportMap& support, const std::uint8_t* asked, int y, SupportScratch& scratch) {
-  static_assert(kSupportRadius == 4);
-  const int width = support.disparity.width() - 2 * kSupportRadius;
-  for (int x = 0; x < width; x += kBlock) {
-    const std::uint16_t* middle = support.disparity.row(y) + kSupportRadius + x;
-    BlockWords wanted;  // all bits or none
-    BlockWords count = {};
-    BlockWords ratio = {};
-    unsigned any = 0;
-    for (int i = 0; i < kBlock; ++i) {
-      wanted[i] = (asked[x + i] != 0) & (middle[i] != kSupportNone) ? 0xFFFF : 0;
-      any |= wanted[i];
-    }
-    if (any != 0) {
-      add_lines<0>(support, y, x, middle, count, ratio);
-      add_lines<1>(support, y, x, middle, count, ratio);
-      add_lines<2>(support, y, x, middle, count, ratio);
-      add_lines<3>(support, y, x, middle, count, ratio);
-      add_lines<4>(support, y, x, middle, count, ratio);
-    }
-    for (int i = 0; i < kBlock; ++i) count[i] &= wanted[i];
-    std::copy_n(count, kBlock, scratch.count.data() + x);
-    std::copy_n(ratio, kBlock, scratch.ratio.data() + x);
-  }
-}
-
-/// The steps of count * count * ratio / (255 * pixels^3) for windows of so many pixels, and 1; 0
-/// where nothing was counted.
-void find_steps(int pixels, int width, SupportScratch& scratch) {
-  const std::uint16_t* __restrict__ counts = scratch.count.data();
-  const std::uint16_t* __restrict__ ratios = scratch.ratio.data();
-  std::uint16_t* __restrict__ out = scratch.steps.data();
-  const double scale = 1 / (255.0 * pixels * pixels * pixels);
-  for (int x = 0; x < width; ++x) {
-    // At most kSide^4, which words can multiply.
-    const auto square = static_cast<std::uint16_t>(counts[x] * counts[x]);
-    const auto product = static_cast<std::int32_t>(square * ratios[x]);
-    // One half: as below.
-    const auto steps = static_cast<std::int32_t>((product * double{kRootSteps} + 0.5) * scale);
-    out[x] = static_cast<std::uint16_t>(steps + (counts[x] != 0));
-  }
-}
-
-#else
 
 /// Adds what supports a vector of disparities in one row of their windows, kAway rows away.
 /// `middle` is the disparities less 2^15, so that signed numbers compare like unsigned ones.
@@ -243,8 +141,6 @@ void find_steps(int pixels, int width, SupportScratch& scratch) {
     hn::StoreU(hn::DemoteTo(d16, hn::Add(steps, some)), d16, scratch.steps.data() + x);
   }
 }
-
-#endif
 
 using Map = hn::CappedTag<std::int32_t, kAlignment / 4>;
 using MapConfidence = hn::Rebind<std::uint8_t, Map>;
