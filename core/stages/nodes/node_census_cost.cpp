@@ -5,16 +5,11 @@
 #include <bit>
 #include <cstdint>
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/nodes/node_census_cost.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor: for some of them
-// the compiler has an instruction that counts bits.
-#include <hwy/highway.h>
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
+namespace mtstereo::HWY_NAMESPACE {
 
 inline int count_bits(std::uint32_t bits) {
 #if HWY_ARCH_X86 && HWY_TARGET >= HWY_SSSE3
@@ -45,8 +40,7 @@ float mean_cost(const std::uint32_t* left, const std::uint32_t* right, int width
   return static_cast<float>(bits * kBitCost) / static_cast<float>(count);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -5,45 +5,13 @@
 #include <cstring>
 #include <utility>
 
-#undef HWY_TARGET_INCLUDE
+#include "stages/pixels/census_window.hpp"
+
 #define HWY_TARGET_INCLUDE "stages/pixels/census_cost.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
-
-namespace mtstereo {
-#ifndef MTSTEREO_CENSUS_WINDOW
-#define MTSTEREO_CENSUS_WINDOW
-/// One row of both views, taken apart. The right one is mirrored and goes on for cost_lanes()
-/// columns beyond.
-struct CensusRow {
-  std::uint8_t* left[kCensusBytes];
-  std::uint8_t* right[kCensusBytes];
-};
-
-/// The sums over the window's rows, on their way from row to row.
-struct CensusWindow {
-  int width;
-  int lanes;
-  CensusRow in;        ///< the row that comes into the window
-  CensusRow out;       ///< the row that leaves it
-  std::uint8_t* kept;  ///< costs of the row that leaves it, in whose place come those of the other
-  std::uint8_t* sums;
-};
-
-/// See CensusCostScratch::tables.
-struct CensusTables {
-  const std::uint8_t* below;
-  const std::uint8_t* above;
-  const std::uint8_t* never;
-};
-#endif
-}  // namespace mtstereo
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
 using Narrow = hn::CappedTag<std::uint8_t, kCostStep>;
 using Wide = hn::CappedTag<std::uint8_t, 2 * kCostStep>;
@@ -212,8 +180,7 @@ void write_row(const CensusWindow& window, const CensusCostOptions& options,
   write(window, options.disparities, low, high, tables, costs);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -4,36 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
-#include "base/limits.hpp"
 #include "mtstereo/image.hpp"
 #include "stages/pixels/census_cost.hpp"
+#include "stages/pixels/selection_words.hpp"
 #include "stages/pixels/subpixel.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/pixels/disparity_selection.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
-
-namespace mtstereo {
-#ifndef MTSTEREO_SELECTION_WORDS
-#define MTSTEREO_SELECTION_WORDS
-constexpr int kDisparityBits = 7;
-constexpr int kMostGroups =
-    (kLargestMaxDisparity + SelectionScratch::kGroup - 1) / SelectionScratch::kGroup;
-static_assert(SelectionScratch::kGroup == 1 << kDisparityBits);
-constexpr int kLowest = std::numeric_limits<std::int16_t>::min();
-constexpr int kMostCost = (kCostLimit - 1) << kDisparityBits;
-static_assert(kLowest + kMostCost + SelectionScratch::kGroup - 1 < SelectionScratch::kNone);
-#endif
-}  // namespace mtstereo
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
 constexpr std::int16_t kNone = SelectionScratch::kNone;
 constexpr int kGroup = SelectionScratch::kGroup;
@@ -256,8 +237,7 @@ void decide_right(int width, int groups, SelectionScratch& scratch) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -297,7 +277,7 @@ void SelectionScratch::resize(int width, int disparities) {
   index.resize(lanes);
   for (int d = 0; d < lanes; ++d) {
     // Behind the last disparity the cells cost the most, which makes kNone of them.
-    const int word = d < disparities ? kLowest + d % kGroup : kNone - kMostCost;
+    const int word = d < disparities ? kLowestWord + d % kGroup : kNone - kMostCost;
     index[d] = static_cast<std::int16_t>(word);
   }
   // Pixels offer all their lanes, also those that lie behind the image.

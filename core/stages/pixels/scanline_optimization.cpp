@@ -7,33 +7,13 @@
 #include <utility>
 
 #include "stages/pixels/census_cost.hpp"
+#include "stages/pixels/scanline_ends.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/pixels/scanline_optimization.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
-
-namespace mtstereo {
-#ifndef MTSTEREO_SCANLINE_ENDS
-#define MTSTEREO_SCANLINE_ENDS
-/// What surrounds a pixel's path costs in ScanlineScratch::ends: cells that no step comes from.
-constexpr int kMargin = 64;
-
-constexpr int kFromLeft = 0;
-constexpr int kFromRight = 1;
-
-/// Where a pixel's path costs stand in ScanlineScratch::ends.
-inline std::uint8_t* path_end(ScanlineScratch& scratch, int lanes, int path, int which) {
-  return scratch.ends.data() + kMargin + (2 * path + which) * (lanes + kMargin);
-}
-#endif
-}  // namespace mtstereo
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
 // Not wider: neighboring lanes of wider vectors are farther from each other than a shift.
 using Bytes = hn::CappedTag<std::uint8_t, 32>;
@@ -213,8 +193,7 @@ void walk_block(const ScanlineRow& row, int left_begin, int left_end, int right_
   from_right.leave(kFromRight, scratch);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -236,7 +215,7 @@ void ScanlineScratch::resize(int width, int disparities) {
   const std::size_t lanes = cost_lanes(disparities);
   paths.resize(width * lanes);
   sums.resize(2 * kScanlineBlock * lanes);
-  ends.resize(4 * (lanes + kMargin) + kMargin);
+  ends.resize(4 * (lanes + kEndMargin) + kEndMargin);
   // The margins stay as they are; no step comes from there.
   std::memset(ends.data(), 255, ends.size());
 }

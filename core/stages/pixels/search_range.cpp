@@ -5,41 +5,15 @@
 #include <cstring>
 
 #include "mtstereo/image.hpp"
+#include "stages/pixels/range_block.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/pixels/search_range.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
-
-// Included once for each processor, but common to all.
-#ifndef MTSTEREO_SEARCH_RANGE_BLOCK
-#define MTSTEREO_SEARCH_RANGE_BLOCK
-namespace mtstereo {
-
-/// Pixels that are looked at together.
-constexpr int kBlock = 8;
-
-struct SearchRange {
-  std::uint16_t low, high;
-};
-
-inline bool has_node(const std::int32_t* nodes) {
-  static_assert(kNoDisparity == 0);
-  std::uint64_t pairs[kBlock / 2];
-  std::memcpy(pairs, nodes, sizeof(pairs));
-  return (pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0;
-}
-
-}  // namespace mtstereo
-#endif  // MTSTEREO_SEARCH_RANGE_BLOCK
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
-using Doubles = hn::CappedTag<double, kBlock>;
+using Doubles = hn::CappedTag<double, kRangeBlock>;
 using Disparities = hn::Rebind<std::int32_t, Doubles>;
 using Ends = hn::Rebind<std::uint16_t, Doubles>;
 
@@ -69,10 +43,10 @@ void write_vector(const std::int32_t* nodes, const SearchRangeOptions& options, 
   hn::StoreU(hn::IfThenElse(missing, hn::Set(d16, none.high), highs), d16, high);
 }
 
-/// Writes the ranges of kBlock pixels that are not all without a node.
+/// Writes the ranges of kRangeBlock pixels that are not all without a node.
 void write_block(const std::int32_t* nodes, const SearchRangeOptions& options, SearchRange none,
                  std::uint16_t* low, std::uint16_t* high) {
-  for (int i = 0; i < kBlock; i += static_cast<int>(hn::Lanes(Doubles()))) {
+  for (int i = 0; i < kRangeBlock; i += static_cast<int>(hn::Lanes(Doubles()))) {
     write_vector(nodes + i, options, none, low + i, high + i);
   }
 }
@@ -80,17 +54,17 @@ void write_block(const std::int32_t* nodes, const SearchRangeOptions& options, S
 void write_row(const std::int32_t* nodes, int width, const SearchRangeOptions& options,
                SearchRange none, std::uint16_t* low, std::uint16_t* high) {
   int x = 0;
-  for (; x + kBlock <= width; x += kBlock) {
+  for (; x + kRangeBlock <= width; x += kRangeBlock) {
     if (has_node(nodes + x)) {
       write_block(nodes + x, options, none, low + x, high + x);
     } else {
-      std::fill_n(low + x, kBlock, none.low);
-      std::fill_n(high + x, kBlock, none.high);
+      std::fill_n(low + x, kRangeBlock, none.low);
+      std::fill_n(high + x, kRangeBlock, none.high);
     }
   }
   if (x < width) {
-    std::int32_t last_nodes[kBlock] = {};
-    std::uint16_t last_low[kBlock], last_high[kBlock];
+    std::int32_t last_nodes[kRangeBlock] = {};
+    std::uint16_t last_low[kRangeBlock], last_high[kRangeBlock];
     std::memcpy(last_nodes, nodes + x, (width - x) * sizeof(*nodes));
     write_block(last_nodes, options, none, last_low, last_high);
     std::copy_n(last_low, width - x, low + x);
@@ -98,8 +72,7 @@ void write_row(const std::int32_t* nodes, int width, const SearchRangeOptions& o
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

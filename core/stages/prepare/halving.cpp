@@ -3,15 +3,11 @@
 
 #include <algorithm>
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/prepare/halving.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
+namespace mtstereo::HWY_NAMESPACE {
 
 /// The rounded means of 2x2 pixels. Plain arithmetic, which compilers turn into vectors.
 void halve_row(const std::uint8_t* __restrict__ upper, const std::uint8_t* __restrict__ lower,
@@ -22,8 +18,7 @@ void halve_row(const std::uint8_t* __restrict__ upper, const std::uint8_t* __res
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -7,16 +7,11 @@
 
 #include "mtstereo/parameters.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/prepare/max_tree.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
 /// Sets bit x of `bits` where level[x + 1] differs from level[x], for all x of `width` rounded up
 /// to 64: what is read behind the row is the padding of an Image.
@@ -32,8 +27,7 @@ void find_changes(const std::uint8_t* level, int width, std::uint8_t* bits) {
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -4,38 +4,13 @@
 #include <algorithm>
 #include <cstring>
 
-#undef HWY_TARGET_INCLUDE
+#include "stages/prepare/sobel_rows.hpp"
+
 #define HWY_TARGET_INCLUDE "stages/prepare/preprocess.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
-
-// Included once for each processor, but common to all.
-#ifndef MTSTEREO_PREPROCESS_ROWS
-#define MTSTEREO_PREPROCESS_ROWS
-namespace mtstereo {
-
-/// The rows that a Sobel is made of. They can be the same one.
-struct SobelRows {
-  const std::uint8_t* above;
-  const std::uint8_t* here;
-  const std::uint8_t* below;
-};
-
-/// Two rows of sums along the columns, with one element before and one behind for the mirrored
-/// border. A vector behind that can be read and written.
-struct SobelSums {
-  std::int16_t* smooth;      ///< vertical 1 2 1
-  std::int16_t* difference;  ///< vertical -1 0 1
-};
-
-}  // namespace mtstereo
-#endif  // MTSTEREO_PREPROCESS_ROWS
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
 using Words = hn::CappedTag<std::int16_t, kAlignment / 2>;
 using Bytes = hn::Rebind<std::uint8_t, Words>;
@@ -130,8 +105,7 @@ void write_costs(const std::uint8_t* here, SobelSums sums, int width, std::int16
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

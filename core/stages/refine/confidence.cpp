@@ -7,29 +7,11 @@
 #include "mtstereo/image.hpp"
 #include "stages/nodes/outlier_removal.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/refine/confidence.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
-
-// Included once for each processor, but common to all.
-#ifndef MTSTEREO_CONFIDENCE_WINDOW
-#define MTSTEREO_CONFIDENCE_WINDOW
-namespace mtstereo {
-
-constexpr int kSide = 2 * kSupportRadius + 1;
-
-/// Steps that the product of the shares is cut to.
-constexpr int kRootSteps = 4096;
-
-}  // namespace mtstereo
-#endif  // MTSTEREO_CONFIDENCE_WINDOW
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
 using Words = hn::CappedTag<std::uint16_t, kAlignment / 2>;
 using Signed = hn::RebindToSigned<Words>;
@@ -66,7 +48,7 @@ HWY_INLINE void add_line(const SupportMap& support, int y, int x, hn::Vec<Signed
   const std::uint16_t* disparities = support.disparity.row(y) + x;
   const std::uint16_t* ratios = support.ratio.row(y) + x;
   V sum = hn::Zero(d16);
-  for (int i = 0; i < kSide; ++i) {
+  for (int i = 0; i < kSupportSide; ++i) {
     const int columns = i < kSupportRadius ? kSupportRadius - i : i - kSupportRadius;
     const int away = columns > kAway ? columns : kAway;
     const int tolerance = kSupportTolerance + away * kSupportSlope;
@@ -135,7 +117,7 @@ void find_steps(int pixels, int width, SupportScratch& scratch) {
     const auto count = hn::PromoteTo(d32, hn::LoadU(d16, scratch.count.data() + x));
     const auto ratio = hn::PromoteTo(d32, hn::LoadU(d16, scratch.ratio.data() + x));
     const auto product = hn::PromoteTo(df64, hn::Mul(hn::Mul(count, count), ratio));
-    const auto numerator = hn::Add(hn::Mul(product, hn::Set(df64, kRootSteps)), half);
+    const auto numerator = hn::Add(hn::Mul(product, hn::Set(df64, kSupportSteps)), half);
     const auto steps = hn::DemoteTo(d32, hn::Mul(numerator, scale));
     const auto some = hn::Min(count, hn::Set(d32, 1));
     hn::StoreU(hn::DemoteTo(d16, hn::Add(steps, some)), d16, scratch.steps.data() + x);
@@ -157,8 +139,7 @@ void remove_below(int least, int width, std::int32_t* map, std::uint8_t* confide
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -171,22 +152,22 @@ HWY_EXPORT(remove_below);
 
 namespace {
 
-/// Of i + 1: 255 times the cube root of i / kRootSteps, rounded half up, 1 at least. Of 0: 0. In
+/// Of i + 1: 255 times the cube root of i / kSupportSteps, rounded half up, 1 at least. Of 0: 0. In
 /// whole numbers: the cube root of 1/8 is half a step, and what std::cbrt() makes of it differs
 /// from library to library.
-constexpr std::array<std::uint8_t, kRootSteps + 2> kCubeRoots = [] {
-  std::array<std::uint8_t, kRootSteps + 2> roots{};
+constexpr std::array<std::uint8_t, kSupportSteps + 2> kCubeRoots = [] {
+  std::array<std::uint8_t, kSupportSteps + 2> roots{};
   std::int64_t root = 0;
-  for (std::int64_t i = 0; i <= kRootSteps; ++i) {
+  for (std::int64_t i = 0; i <= kSupportSteps; ++i) {
     // Up where root + 1/2 is not above the exact one.
     const std::int64_t cube = std::int64_t{255} * 255 * 255 * i;
-    while ((2 * root + 1) * (2 * root + 1) * (2 * root + 1) * kRootSteps <= 8 * cube) ++root;
+    while ((2 * root + 1) * (2 * root + 1) * (2 * root + 1) * kSupportSteps <= 8 * cube) ++root;
     roots[i + 1] = static_cast<std::uint8_t>(std::max<std::int64_t>(root, 1));
   }
   return roots;
 }();
 
-/// The part of a window's `kSide` rows or columns that is inside of the image.
+/// The part of a window's `kSupportSide` rows or columns that is inside of the image.
 int inside(int middle, int size) {
   return std::min(middle + kSupportRadius, size - 1) - std::max(middle - kSupportRadius, 0) + 1;
 }
@@ -201,7 +182,7 @@ void find_border_steps(int rows, int width, SupportScratch& scratch) {
     if (count == 0) continue;
     const std::uint64_t product = count * count * scratch.ratio[x];
     scratch.steps[x] =
-        static_cast<std::uint16_t>(product * kRootSteps / (255 * pixels * pixels * pixels) + 1);
+        static_cast<std::uint16_t>(product * kSupportSteps / (255 * pixels * pixels * pixels) + 1);
   }
 }
 
@@ -246,7 +227,7 @@ void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, i
   for (int y = y0; y < y1; ++y) {
     const int rows = inside(y, confidence.height());
     HWY_DYNAMIC_DISPATCH(sum_row)(support, asked.row(y), y, scratch);
-    find_support_steps(rows * kSide, width, scratch);
+    find_support_steps(rows * kSupportSide, width, scratch);
     find_border_steps(rows, width, scratch);
     std::uint8_t* out = confidence.row(y);
     const std::uint16_t* steps = scratch.steps.data();

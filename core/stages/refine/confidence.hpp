@@ -14,6 +14,9 @@ namespace mtstereo {
 /// Half the side of the window, without its middle [px].
 inline constexpr int kSupportRadius = 4;
 
+/// Side of the window [px].
+inline constexpr int kSupportSide = 2 * kSupportRadius + 1;
+
 /// A disparity supports one that is n px away (the larger of columns and rows) where the two differ
 /// by at most kSupportTolerance + n * kSupportSlope: surfaces may be slanted.
 inline constexpr int kSupportTolerance = 32;  ///< [1 / kVoteOne px]
@@ -24,6 +27,9 @@ inline constexpr std::uint16_t kSupportNone = 0xC000;
 
 /// What each disparity adds to a sum of ratios: the upper bits count. A row of the window fits.
 inline constexpr std::uint16_t kSupportOne = 1 << 12;
+
+/// Steps to which a share is cut before its cube root is taken.
+inline constexpr int kSupportSteps = 4096;
 
 /// Copies of a disparity map and its peak ratios in the form that the sums are made of, with a
 /// border of kSupportRadius columns on both sides.

@@ -6,16 +6,11 @@
 
 #include "mtstereo/image.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/refine/disparity_refinement.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
 using Scratch = RefinementScratch;
 using Ints = hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)>;
@@ -250,8 +245,7 @@ void refine_band(const CensusImage& left, const CensusImage& right, const Image<
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

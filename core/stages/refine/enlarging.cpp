@@ -3,29 +3,13 @@
 
 #include <algorithm>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "stages/refine/enlarging.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
+#include "stages/refine/enlarged_row.hpp"
 
-namespace mtstereo {
-#ifndef MTSTEREO_ENLARGED_ROW
-#define MTSTEREO_ENLARGED_ROW
-/// The rows of half pixels that a row of pixels lies between, and what its disparities are limited
-/// to.
-struct EnlargedRow {
-  const std::int32_t* nearest;
-  const std::int32_t* next;
-  std::int32_t limit;
-};
-#endif
-}  // namespace mtstereo
+#define HWY_TARGET_INCLUDE "stages/refine/enlarging.cpp"
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
 using Ints = hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)>;
 using One = hn::CappedTag<std::int32_t, 1>;
@@ -91,8 +75,7 @@ void enlarge_row(const EnlargedRow& row, int half_width, int width, std::int32_t
   if (2 * last + 1 < width) enlarge_at(row, 2 * last + 1, last, out);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

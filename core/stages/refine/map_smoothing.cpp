@@ -5,16 +5,11 @@
 
 #include "mtstereo/image.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/refine/map_smoothing.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
 using Ints = hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)>;
 using Vec = hn::Vec<Ints>;
@@ -55,8 +50,7 @@ void smooth_row(const std::int32_t* const* lines, int radius, int width, std::in
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

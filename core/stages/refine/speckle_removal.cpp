@@ -9,16 +9,11 @@
 #include "mtstereo/image.hpp"
 #include "mtstereo/parameters.hpp"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "stages/refine/speckle_removal.cpp"
-#include <hwy/foreach_target.h>
-// After foreach_target.h, which includes this file once more for each processor.
-#include <hwy/highway.h>
+#include "base/simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mtstereo {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+namespace mtstereo::HWY_NAMESPACE {
 
 using Disparities = hn::CappedTag<std::int32_t, kAlignment / 4>;
 
@@ -78,8 +73,7 @@ int find_row_runs(const std::int32_t* row, int width, std::int32_t tolerance, st
   return static_cast<int>(begin - first_run);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mtstereo
+}  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
