@@ -7,8 +7,8 @@
 namespace mtstereo {
 
 void draw_node(int begin, int end, std::int32_t at_begin, std::int32_t at_end, std::int32_t* row) {
-  // From column to column the disparity goes on by a whole step, and by one more wherever the
-  // parts that are left over make one.
+  // The disparity rises by a whole step from column to column, and by one more wherever the
+  // accumulated remainder reaches a step.
   const int length = std::max(end - begin, 1);
   const int step = (at_end - at_begin) / length;
   const int part = std::abs((at_end - at_begin) % length);

@@ -13,7 +13,7 @@ namespace mtstereo {
 /// Largest number of values that a node and its neighbors above and below can have.
 inline constexpr int kMaxChain = 2 * kLargestNeighbors + 1;
 
-/// Values of a node and its neighbors, of which the median is wanted.
+/// Collects the values of a node and its neighbors and finds their median.
 class ChainValues {
  public:
   void add(std::int32_t value, bool counts) {
@@ -21,14 +21,16 @@ class ChainValues {
     count_ += counts;
   }
 
-  /// The median, of an even number the lower of the middle two; `none` of nothing.
+  /// The median; the lower of the middle two if their number is even, `none` if there are no
+  /// values.
   std::int32_t lower_median(std::int32_t none) {
     if (count_ == 0) return none;
-    // Whole blocks are compared at once; what fills the last one is above all values.
+    // Whole blocks are compared at once; the last one is padded with a number above all values.
     const int blocks = (count_ + kBlock - 1) / kBlock;
     std::fill_n(values_ + count_, kBlock, std::numeric_limits<std::int32_t>::max());
     const int wanted = (count_ - 1) / 2;
-    // The median is between these. Most values of a chain are alike, so few get counted.
+    // The median lies between these bounds. Most values of a chain are similar, so that few values
+    // have to be ranked.
     std::int32_t below = std::numeric_limits<std::int32_t>::min();
     std::int32_t above = std::numeric_limits<std::int32_t>::max();
     for (int i = 0;; ++i) {
@@ -58,16 +60,16 @@ class ChainValues {
   int count_ = 0;
 };
 
-/// Two medians, of values at the begins and at the ends of nodes.
+/// Two medians: of the values at the first and at the last columns of nodes.
 struct EndMedians {
   std::int32_t begin;
   std::int32_t end;
 };
 
-/// The medians of the values of node i of row y and of its up to `max_neighbors` neighbors above
-/// and as many below; values that are `none` do not count, and a median of nothing is `none`.
-/// `begins` and `ends` are laid out as the level's columns are. No value is the smallest or the
-/// largest 32-bit one.
+/// The medians of the values of node i of row y, of up to `max_neighbors` neighbors above it and of
+/// as many below it. Values equal to `none` are ignored; the median of no values is `none`.
+/// `begins` and `ends` have the layout of the level's per-node arrays. No value is the smallest or
+/// the largest 32-bit integer.
 template <typename T>
 EndMedians medians_over_neighbors(const NodeLevel& level, int y, int i, int max_neighbors,
                                   const T* begins, const T* ends, T none) {

@@ -13,7 +13,8 @@ namespace mtstereo::HWY_NAMESPACE {
 
 inline int count_bits(std::uint32_t bits) {
 #if HWY_ARCH_X86 && HWY_TARGET >= HWY_SSSE3
-  // No instruction counts them: std::popcount would be a call. Pairs, groups of four, bytes, all.
+  // Without an instruction that counts bits, std::popcount would be a function call. Counts the
+  // bits of pairs, groups of four and bytes, then sums up the bytes.
   bits -= bits >> 1 & 0x55555555;
   bits = (bits & 0x33333333) + (bits >> 2 & 0x33333333);
   bits = (bits + (bits >> 4)) & 0x0F0F0F0F;

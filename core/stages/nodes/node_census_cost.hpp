@@ -7,20 +7,21 @@
 namespace mtstereo {
 
 /// Part of step 5 (paper, "Matching cost aggregation"): the intensity cost of two nodes without a
-/// cost volume. What the volume's wide kernel gathers around a node comes here from the rows above
-/// and below, with which nodes are matched together, and from the columns beside the node. Nothing
-/// is computed for pairs of pixels that no pair of nodes asks for.
+/// cost volume. The volume's wide kernel supports a node by its surroundings; here this support
+/// comes from the neighbors in the rows above and below, with which nodes are matched together, and
+/// from the columns beside the node. Costs are computed only for pixel pairs that a pair of nodes
+/// needs.
 
-/// Columns on both sides of the left node that count as well.
+/// Additional columns on both sides of the left node.
 inline constexpr int kNodeMargin = 5;
 
-/// Gray values that one differing bit stands for.
+/// Cost of one differing bit [gray values].
 inline constexpr int kBitCost = 4;
 
-/// Mean number of bits that differ, times kBitCost, over every second column of the left node of
-/// row y from kNodeMargin columns before it on. The disparity goes linearly from the pair's begin
-/// disparity to its end disparity, both at least 0, and stays what it is there on the node's sides.
-/// Columns that the one or the other view does not have do not count.
+/// Mean number of differing bits, times kBitCost, over every second column of the left node of row
+/// y and of kNodeMargin columns on both sides, beginning with the first of these. The disparity
+/// changes linearly from the pair's begin disparity to its end disparity, both at least 0, and is
+/// constant on either side of the node. Columns outside of either view are skipped.
 float census_intensity_cost(const CensusImage& left, const CensusImage& right, int y,
                             const NodePair& pair);
 

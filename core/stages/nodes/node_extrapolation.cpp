@@ -45,7 +45,7 @@ void take_match_ends(const NodeLevel& leaves, const NodeMatches& matches, int y0
 
 namespace {
 
-/// The disparities that a leaf takes at its ends; known where both are.
+/// The disparities that a leaf takes at its ends. It takes none unless both are known.
 struct LeafLine {
   std::int32_t at_begin;
   std::int32_t at_end;
@@ -59,7 +59,7 @@ LeafLine line_of(const NodeLevel& leaves, const LeafDisparities& ends, int max_n
   return {median.begin, median.end};
 }
 
-/// How far inside a leaf its ends are taken [px].
+/// Distance from a leaf's first or last pixel to the middle of the pixels kept there [px].
 int inset(int begin, int end) {
   constexpr int kNarrow = 4;
   constexpr int kInside = 2;

@@ -10,38 +10,39 @@
 
 namespace mtstereo {
 
-/// Step 8 (paper, "Disparity map", reliable node extrapolation): gives each leaf the disparities of
-/// its surroundings.
+/// Step 8 (paper, "Disparity map", reliable node extrapolation): assigns to each leaf the
+/// disparities of its surroundings.
 
-/// Disparities at the ends of the leaves in 1 / kDisparityOne px, kNoDisparity where there is none;
-/// laid out as the columns of NodeLevel.
+/// Disparities at the ends of the leaves in 1 / kDisparityOne px, or kNoDisparity. The arrays have
+/// the layout of NodeLevel's per-node arrays.
 struct LeafDisparities {
   Buffer<std::int32_t> begin;
   Buffer<std::int32_t> end;
-  Buffer<std::uint8_t> given;  ///< 1 where extrapolate_leaves() has given the leaf disparities
+  Buffer<std::uint8_t> given;  ///< 1 if extrapolate_leaves() has assigned disparities to the leaf
 
   void resize(const NodeLevel& leaves);
 };
 
-/// Reads what the map holds at the ends of the leaves of the rows y0 .. y1 - 1.
+/// Reads the map at the ends of the leaves of the rows y0 .. y1 - 1.
 void read_leaf_ends(const NodeLevel& leaves, const Image<std::int32_t>& map, int y0, int y1,
                     LeafDisparities& ends);
 
-/// The same, where the map is what draw_matches() makes of the matches of the leaves.
+/// Same result as read_leaf_ends() for the map that draw_matches() draws of the leaves' matches.
 void take_match_ends(const NodeLevel& leaves, const NodeMatches& matches, int y0, int y1,
                      LeafDisparities& ends);
 
-/// Writes the rows y0 .. y1 - 1 of the map: each leaf takes the median begin and the median end
-/// disparity of itself and its neighbors, linearly in between; kNoDisparity elsewhere.
-/// `end_width` 0: along the whole leaf. Otherwise on that many pixels around each of its ends, see
-/// keep_leaf_ends().
+/// Writes the rows y0 .. y1 - 1 of the map. Each leaf takes the median begin disparity and the
+/// median end disparity of itself and its neighbors, linearly interpolated; other pixels become
+/// kNoDisparity. With `end_width` 0 the whole leaf is drawn, otherwise that many pixels around each
+/// of its ends, see keep_leaf_ends().
 void extrapolate_leaves(const NodeLevel& leaves, int max_neighbors, int end_width, int y0, int y1,
                         LeafDisparities& ends, Image<std::int32_t>& map);
 
 /// Sets all but `end_width` pixels (an odd number) around the ends of the leaves to kNoDisparity in
-/// the rows y0 .. y1 - 1 of the map, and to 0 in those of `values`. The middle one of these
-/// pixels is the leaf's first or last one, or 2 px inside where the leaf is wider than 4 px.
-/// Only leaves that extrapolate_leaves() gives disparities to count. `marks` is one row.
+/// the rows y0 .. y1 - 1 of the map, and to 0 in those rows of `values`. The middle one of these
+/// pixels is the leaf's first or last pixel; if the leaf is wider than 4 px, it lies 2 px further
+/// inside. Only leaves to which extrapolate_leaves() assigns disparities are kept. `marks` is
+/// scratch memory of one row.
 void keep_leaf_ends(const NodeLevel& leaves, const LeafDisparities& ends, int end_width, int y0,
                     int y1, Buffer<std::uint8_t>& marks, Image<std::int32_t>& map,
                     Image<std::uint8_t>& values);

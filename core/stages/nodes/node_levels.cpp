@@ -7,7 +7,7 @@
 namespace mtstereo {
 namespace {
 
-/// The widths of a WidthRange as whole numbers, both included.
+/// A WidthRange as whole numbers, both inclusive.
 struct WholeWidths {
   explicit WholeWidths(WidthRange range)
       : least(static_cast<int>(std::clamp(std::floor(range.above) + 1, 0.0, kBeyond))),
@@ -36,14 +36,14 @@ struct Tree {
   int leaves;
 };
 
-/// Where the nodes of one row of a level go.
+/// The output of one row of a level.
 struct LevelRow {
   std::uint16_t* node;
   std::uint16_t* begin;
   std::uint16_t* end;
 };
 
-/// Selects the leaves themselves, which never nest. Returns how many.
+/// Selects the leaves themselves, which never nest. Returns their number.
 int select_leaves(const Tree& tree, WholeWidths widths, LevelRow row) {
   int kept = 0;
   for (int i = 0; i < tree.leaves; ++i) {
@@ -58,7 +58,7 @@ int select_leaves(const Tree& tree, WholeWidths widths, LevelRow row) {
   return kept;
 }
 
-/// Selects the ancestors of the fine top nodes. Returns how many.
+/// Selects the ancestors of the fine top nodes. Returns their number.
 int select_ancestors(const Tree& tree, int ancestor, WholeWidths widths, LevelRow row) {
   int kept = 0;
   for (int i = 0; i < tree.leaves; ++i) {
@@ -66,8 +66,9 @@ int select_ancestors(const Tree& tree, int ancestor, WholeWidths widths, LevelRo
     if (!widths.hold(tree.end[node] - tree.begin[node] + 1)) continue;
     for (int step = 0; step < ancestor && node != kNoNode; ++step) node = tree.parent[node];
     if (node == kNoNode) continue;
-    // Leaves come from left to right and nodes nest. So of the nodes so far only the last one can
-    // have this one in it, and where this one has any in it or is one of them, then the last one.
+    // Leaves are visited from left to right and nodes nest. So only the last selected node can
+    // contain this one; and if this one contains or equals any selected node, it contains or equals
+    // the last one.
     const std::uint16_t begin = tree.begin[node];
     const std::uint16_t end = tree.end[node];
     if (kept > 0 && begin <= row.begin[kept - 1] && end >= row.end[kept - 1]) continue;
@@ -85,7 +86,7 @@ int select_ancestors(const Tree& tree, int ancestor, WholeWidths widths, LevelRo
 void NodeLevel::resize(int view_width, int view_height) {
   width = view_width;
   height = view_height;
-  // A level has at most one node a leaf.
+  // A level has at most one node per leaf.
   const std::size_t nodes = static_cast<std::size_t>(most_leaves(view_width)) * view_height;
   first.resize(view_height);
   count.resize(view_height);

@@ -25,14 +25,14 @@ bool confident(const Best& best, float confidence) {
   return best.second > best.cost * (1 + confidence);
 }
 
-/// Sum and number of the costs of pairs that follow each other across the rows.
+/// Sum and number of the costs along a chain of pairs in adjacent rows.
 struct ChainSum {
   float sum = 0;
   int pairs = 0;
 };
 
-/// Adds up to `max_neighbors` neighbors in one direction; ends where one of the chains does. Pairs
-/// whose disparities are not possible tell nothing and are passed over.
+/// Adds up to `max_neighbors` neighbors in one direction, until one of the two chains ends. Pairs
+/// with impossible disparities are skipped.
 void add_chain(const PairCostInput& input, const Buffer<std::uint16_t>& left_link,
                const Buffer<std::uint16_t>& right_link, int direction, int max_neighbors, int y,
                int i, int j, PairCosts& costs, ChainSum& chain) {
@@ -59,7 +59,7 @@ float aggregated_cost(const PairCostInput& input, int max_neighbors, int y, int 
   return chain.sum / static_cast<float>(chain.pairs);
 }
 
-/// Whether a node of row y touches the left or right border of the view.
+/// Whether a node touches the left or right border of the view.
 bool at_border(const NodeLevel& level, std::ptrdiff_t node) {
   return level.begin[node] == 0 || level.end[node] == level.width - 1;
 }
@@ -117,7 +117,7 @@ void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeM
     CoveringNode ancestor(before, y);
     for (int i = 0; i < left.count[y]; ++i) {
       const std::ptrdiff_t node = left.first[y] + i;
-      // A node of the level before that covers the center is an ancestor: the trees nest.
+      // Nodes nest, so the coarser level's node that covers the center is an ancestor.
       const std::uint16_t p = ancestor.at((left.begin[node] + left.end[node]) / 2);
       intervals.first[node] = p == kNoNode ? 1 : first[p];
       intervals.last[node] = p == kNoNode ? 0 : last[p];

@@ -11,11 +11,11 @@ namespace mtstereo {
 
 /// Step 5 (paper, "Matching cost aggregation"): matches the nodes of one level.
 
-/// No disparity, where a node's disparity is expected.
+/// The disparity of a node without a match.
 inline constexpr std::int16_t kNodeUnmatched = -1;
 
-/// The matches of one level's left nodes, laid out as the columns of NodeLevel. Both disparities of
-/// a node are there, or both are kNodeUnmatched.
+/// The matches of one level's left nodes, in the layout of NodeLevel's per-node arrays. Either both
+/// disparities of a node are known or both are kNodeUnmatched.
 struct NodeMatches {
   Buffer<std::int16_t> begin_disparity;  ///< at the node's first column [px]
   Buffer<std::int16_t> end_disparity;    ///< at the node's last column [px]
@@ -23,8 +23,9 @@ struct NodeMatches {
   void resize(const NodeLevel& left);
 };
 
-/// Where each left node's partner may lie in the right view: within columns first .. last; none
-/// where first > last. Laid out as the columns of NodeLevel.
+/// The columns first .. last of the right view within which each left node's partner has to lie;
+/// first > last if there is no candidate. The arrays have the layout of NodeLevel's per-node
+/// arrays.
 struct SearchIntervals {
   Buffer<std::int32_t> first;
   Buffer<std::int32_t> last;
@@ -45,16 +46,17 @@ struct IntervalScratch {
 };
 
 /// The intervals of a finer level, for the rows y0 .. y1 - 1: [p - nL, p' - nR], where [p, p'] is
-/// the node's ancestor in the level before, and nL and nR are the medians of the begin and of the
-/// end disparities over the ancestor and its neighbors. Without these there is none.
-/// `scratch` is resized where it is too small.
+/// the node's ancestor in the next coarser level `before`, and nL and nR are the medians of the
+/// begin and of the end disparities over the ancestor and its neighbors. The interval is empty if
+/// the node has no ancestor there or none of these nodes has a match. `scratch` is resized where
+/// it is too small.
 void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeMatches& matches,
                      int max_neighbors, int y0, int y1, IntervalScratch& scratch,
                      SearchIntervals& intervals);
 
 /// Scratch memory of one thread for match_nodes().
 struct MatchScratch {
-  /// The best pair that a node has been part of, and the cost of the second-best.
+  /// A node's best partner so far, its cost, and the cost of the second-best one.
   struct Best {
     float cost;
     float second;
@@ -67,10 +69,10 @@ struct MatchScratch {
   void resize(int width, int disparities, int max_neighbors);
 };
 
-/// Matches the nodes of the rows y0 .. y1 - 1. The cost of a pair is the mean over it and its
-/// neighbors, the chains of the left and of the right node walked side by side. A pair is accepted
-/// where each is the other's best, the second-best of both costs more than `confidence` (a share)
-/// above, and neither node touches the left or right border.
+/// Matches the nodes of the rows y0 .. y1 - 1. The cost of a pair is the mean cost of it and its
+/// neighbors: the chains of the left and of the right node are followed side by side. A pair is
+/// accepted if each node is the other's best partner, the second-best cost of both exceeds the best
+/// by more than `confidence` (a share), and neither node touches the left or right border.
 void match_nodes(const PairCostInput& input, const SearchIntervals& intervals, int max_neighbors,
                  float confidence, int y0, int y1, MatchScratch& scratch, NodeMatches& matches);
 

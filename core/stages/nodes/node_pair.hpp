@@ -12,11 +12,11 @@ struct NodePair {
   int end_disparity() const { return left_end - right_end; }
 };
 
-/// Bits behind the point of the disparities between the ends of a pair.
+/// Fractional bits of the interpolated disparities between the ends of a pair.
 inline constexpr int kSlopeBits = 16;
 
-/// By how much the disparity rises from column to column of the left node, in 1 / 2^kSlopeBits px,
-/// towards zero. Of a node of one column it does not.
+/// Increase of the disparity from column to column of the left node, in 1 / 2^kSlopeBits px,
+/// rounded towards zero. 0 for a node of one column.
 inline int disparity_slope(const NodePair& pair) {
   const int length = pair.left_end - pair.left_begin;
   const long long rise = pair.end_disparity() - pair.begin_disparity();

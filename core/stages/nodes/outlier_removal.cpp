@@ -16,8 +16,8 @@ namespace mtstereo::HWY_NAMESPACE {
 constexpr int kMaxColumns = 64;
 static_assert(2 * kLargestOutlierRadius <= kMaxColumns);
 
-/// Number of pixels of the window that begins at `first` whose disparity is within the column's
-/// tolerance of `disparity`. Stops early at `enough`.
+/// Number of pixels, in the window that begins at `first`, whose disparity is within their column's
+/// tolerance of `disparity`. May stop once it reaches `enough`.
 template <class D>
 int count_inliers(D du, const std::uint16_t* first, std::ptrdiff_t stride, int rows, int columns,
                   const std::uint16_t* tolerance, std::uint16_t disparity, int enough) {
@@ -33,7 +33,7 @@ int count_inliers(D du, const std::uint16_t* first, std::ptrdiff_t stride, int r
       const std::uint16_t* line = first + y * stride;
       for (int x = 0; x < columns; x += lanes) {
         const auto value = hn::LoadU(du, line + x);
-        // One of the two saturating differences is 0, the other one is the distance.
+        // One of the two saturated differences is 0, the other one is the distance.
         const auto distance =
             hn::Or(hn::SaturatedSub(value, center), hn::SaturatedSub(center, value));
         const auto beyond = hn::SaturatedSub(hn::Load(du, tolerance + x), distance);
@@ -49,7 +49,7 @@ int count_inliers(D du, const std::uint16_t* first, std::ptrdiff_t stride, int r
 void remove_rows(const VoteMap& votes, int y0, int y1, Image<std::int32_t>& map) {
   const hn::CappedTag<std::uint16_t, kAlignment / 2> du;
   const int radius = votes.radius;
-  // One more than the largest difference that agrees, so that 0 behind the window never does.
+  // One more than the largest difference of an inlier, so that 0, right of the window, admits none.
   alignas(kAlignment) std::uint16_t tolerance[kMaxColumns] = {};
   for (int i = 0; i < 2 * radius; ++i) {
     tolerance[i] = static_cast<std::uint16_t>(std::abs(i - radius) * kVoteOne + 1);

@@ -10,8 +10,8 @@
 namespace mtstereo {
 namespace {
 
-constexpr float kUnknown = -1;     // not computed so far
-constexpr float kImpossible = -2;  // what the caller gets for a pair that cannot match
+constexpr float kUnknown = -1;     // not computed yet
+constexpr float kImpossible = -2;  // returned for a pair with impossible disparities
 
 NodePair node_pair(const NodeLevel& left, const NodeLevel& right, int y, int i, int j) {
   const std::ptrdiff_t l = left.first[y] + i;
@@ -71,7 +71,7 @@ void PairCosts::resize(int width, int disparities, int max_neighbors) {
   row_count_ = rows;
   max_neighbors_ = max_neighbors;
   disparities_ = disparities;
-  // Nodes of a row have a pixel between them, so at most every second column begins one.
+  // At least one pixel separates the nodes of a row, so at most every second column begins one.
   const std::size_t nodes = (width + 1) / 2;
   const std::size_t partners = std::min<std::size_t>(nodes, disparities / 2 + 1);
   for (int i = 0; i < rows; ++i) {
@@ -100,7 +100,7 @@ void PairCosts::prepare(int y) {
   Row& row = this->row(y);
   const int right_count = right.count[y];
   std::size_t size = 0;
-  // Nodes stand from left to right, so the candidates of one left node after the other do too.
+  // Nodes are sorted from left to right, so the candidate ranges of successive left nodes are too.
   int first = 0;
   int last = 0;
   for (int i = 0; i < left.count[y]; ++i) {
