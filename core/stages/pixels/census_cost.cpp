@@ -16,25 +16,25 @@ namespace mtstereo::HWY_NAMESPACE {
 using Narrow = hn::CappedTag<std::uint8_t, kCostStep>;
 using Wide = hn::CappedTag<std::uint8_t, 2 * kCostStep>;
 
-/// Whether pixels are whole wide vectors.
+/// Whether each pixel's costs fill whole wide vectors.
 bool is_wide(int lanes) {
   const int wide = static_cast<int>(hn::MaxLanes(Wide()));
   return wide > static_cast<int>(hn::MaxLanes(Narrow())) && lanes % wide == 0;
 }
 
-/// Whether the bits of the row that leaves the window are counted once more rather than kept: that
-/// is cheaper where counting is one instruction, and leaves the cache to others.
+/// Whether the bits of the row that leaves the window are counted again instead of being stored.
+/// This is cheaper where counting is one instruction, and needs less of the cache.
 #if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_NEON
 constexpr bool kCountTwice = true;
 #else
 constexpr bool kCountTwice = false;
 #endif
 
-/// Counts the bits in which one left pixel differs from the right ones of all disparities.
+/// Counts the differing bits of one left pixel and its right pixels at all disparities.
 template <class D8>
 class Difference {
  public:
-  /// Disparity d of column x is the mirrored right pixel width - 1 - x + d.
+  /// In the mirrored row, the right pixel of column x at disparity d is width - 1 - x + d.
   Difference(const CensusRow& row, int width, int x)
       : bits0_(hn::Set(D8(), row.left[0][x])),
         bits1_(hn::Set(D8(), row.left[1][x])),
@@ -58,7 +58,7 @@ class Difference {
   const std::uint8_t* right2_;
 };
 
-/// Moves the sums of column x on by one row.
+/// Advances the sums of column x by one row.
 template <class D8>
 HWY_INLINE void move_sums(const CensusWindow& window, int x) {
   const D8 d8;
@@ -83,14 +83,14 @@ HWY_INLINE void move_sums(const CensusWindow& window, int x) {
   }
 }
 
-/// The sums without any row: those of the rows that come are all that there is.
+/// Resets the sums to those of a window without rows.
 void clear_sums(const CensusWindow& window, int rows) {
   const std::size_t cells = static_cast<std::size_t>(window.width) * window.lanes;
   std::memset(window.sums, 0, cells);
   if (!kCountTwice) std::memset(window.kept, 0, cells * rows);
 }
 
-/// Takes in the window's first rows, with which nothing leaves it.
+/// Adds one of the window's first rows; no row leaves the window yet.
 void add_row(const CensusWindow& window) {
   for (int x = 0; x < window.width; ++x) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
@@ -105,7 +105,8 @@ void add_row(const CensusWindow& window) {
   }
 }
 
-/// The binomial mean along the row of 1, 3 or 5 cells that lie at `offsets` from the middle one.
+/// The binomially weighted mean of 1, 3 or 5 cells along the row; `offsets` are those of the outer
+/// cells from the middle one.
 template <int kSize, class D8>
 HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const std::uint8_t* sums,
                                       const std::ptrdiff_t* offsets) {
@@ -114,14 +115,14 @@ HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const std::uint8_t* sums,
   const auto near =
       hn::AverageRound(hn::Load(d8, sums + offsets[1]), hn::Load(d8, sums + offsets[2]));
   if (kSize == 3) return hn::AverageRound(near, middle);
-  // 1 4 6 4 1 in sixteenths.
+  // Weights 1 4 6 4 1, in sixteenths.
   const auto far =
       hn::AverageRound(hn::Load(d8, sums + offsets[0]), hn::Load(d8, sums + offsets[3]));
   const auto rest = hn::AverageRound(middle, hn::AverageRound(far, middle));
   return hn::AverageRound(near, rest);
 }
 
-/// Writes the costs of column x, of which the disparities low .. high are expected.
+/// Writes the costs of column x, where the disparities low .. high are expected.
 template <int kSize, class D8>
 HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, int low, int high,
                             const CensusTables& tables, std::uint8_t* costs) {
@@ -141,7 +142,8 @@ HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, 
     }
     return;
   }
-  // Windows into tables of two halves: the penalty lies left of `low` and right of `high`.
+  // Views into tables of two halves, shifted such that disparities below `low` and above `high` get
+  // the penalty.
   const std::uint8_t* below = tables.below + lanes - low;
   const std::uint8_t* above = tables.above + lanes - 1 - high;
   for (int d = 0; d < lanes; d += step) {
@@ -151,12 +153,12 @@ HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, 
   }
 }
 
-/// Moves the sums on by one row and writes its costs, column after column, since those beside it
-/// are still at hand.
+/// Advances the sums by one row and writes its costs, column by column, while the sums of the
+/// adjacent columns are in the cache.
 template <int kSize, class D8>
 void write_row_of(const CensusWindow& of_window, int disparities, const std::uint16_t* low,
                   const std::uint16_t* high, const CensusTables& of_tables, std::uint8_t* costs) {
-  // Copies, which no byte that is written can be a part of.
+  // Copies: the compiler knows that no store of bytes changes them.
   const CensusWindow window = of_window;
   const CensusTables tables = of_tables;
   constexpr int kReach = kSize / 2;
@@ -192,12 +194,12 @@ HWY_EXPORT(write_row);
 
 namespace {
 
-/// The rows that are held apart: those of the window, and the one that comes.
+/// The number of rows whose planes are stored: those of the window, and the one that enters it.
 int rows_apart(const CensusCostOptions& options) { return options.kernel_size + 1; }
 
 int wrapped(int i, int count) { return (i % count + count) % count; }
 
-/// Where the bytes of row y, which may be outside of the image, are.
+/// The planes of row y, which may be outside of the image.
 CensusRow place_of(int y, int width, const CensusCostOptions& options, CensusCostScratch& scratch) {
   const int right_width = width + cost_lanes(options.disparities);
   std::uint8_t* bytes =
@@ -209,7 +211,7 @@ CensusRow place_of(int y, int width, const CensusCostOptions& options, CensusCos
   return row;
 }
 
-/// Makes row y ready to come into the window; beyond the border it is the border's row.
+/// Prepares row y to enter the window. Rows outside of the image repeat the border's row.
 CensusWindow window_with(const CensusImage& left, const CensusImage& right,
                          const CensusCostOptions& options, int y, CensusCostScratch& scratch) {
   const int width = left.bits.width();
@@ -256,7 +258,8 @@ void start_census_costs(const CensusImage& left, const CensusImage& right,
   const int lanes = cost_lanes(options.disparities);
   HWY_DYNAMIC_DISPATCH(clear_sums)
   ({width, lanes, {}, {}, scratch.kept.data(), scratch.sums.data()}, options.kernel_size);
-  // The row that leaves the window first is one of none, whose costs are to be 0: both views alike.
+  // The first row that leaves the window precedes all others. Its planes are equal in both views,
+  // so that its costs are 0.
   const CensusRow none = place_of(y - reach - 1, width, options, scratch);
   std::memset(none.left[0], 0, kCensusBytes * (2 * width + lanes));
   for (int i = -reach; i < reach; ++i) {

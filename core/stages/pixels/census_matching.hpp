@@ -13,9 +13,8 @@
 
 namespace mtstereo {
 
-/// Guided pixel matching by the census cost: the steps of search_range, census_cost,
-/// scanline_optimization and disparity_selection, one row after the other, the last two block by
-/// block.
+/// Guided pixel matching by the census cost: runs search_range, census_cost, scanline_optimization
+/// and disparity_selection row by row, the last two of them block by block.
 
 struct CensusMatchingOptions {
   SearchRangeOptions range;
@@ -36,8 +35,8 @@ struct CensusMatchingScratch {
   void resize(int width, const CensusMatchingOptions& options);
 };
 
-/// Replaces the disparities of the rows y0 .. y1 - 1, which are the nodes', by the pixels' own, and
-/// writes their peak ratios. The result does not depend on how the image is cut into such bands.
+/// Replaces the nodes' disparities in the rows y0 .. y1 - 1 by the pixels' own and writes their
+/// peak ratios. The result does not depend on how the image is divided into such bands.
 void match_pixels_by_census(GrayView left_image, const CensusImage& left, const CensusImage& right,
                             const CensusMatchingOptions& options, int y0, int y1,
                             CensusMatchingScratch& scratch, Image<std::int32_t>& map,

@@ -22,7 +22,7 @@ constexpr int kGroup = SelectionScratch::kGroup;
 using Words = hn::CappedTag<std::int16_t, kCostStep>;
 using WordsVector = hn::Vec<Words>;
 
-/// The costs d, d + 1, ... of a pixel with their disparities; kNone from `count` on.
+/// The words of the disparities d, d + 1 ... of a pixel; kNone from `count` on.
 template <bool kAtBorder>
 HWY_INLINE WordsVector load_words(const std::uint16_t* costs, const std::int16_t* index, int d,
                                   int count) {
@@ -36,15 +36,15 @@ HWY_INLINE WordsVector load_words(const std::uint16_t* costs, const std::int16_t
   return hn::IfThenElse(exists, words, hn::Set(d16, kNone));
 }
 
-/// The least words of the disparities lane, lane + lanes, lane + 2 lanes ... of a group, and the
-/// second-least ones.
+/// Per lane the least and the second-least word of the disparities lane, lane + lanes, lane + 2
+/// lanes ... of a group.
 struct Leasts {
   WordsVector least;
   WordsVector second;
 };
 
-/// Finds these for the disparities d0 .. d1 - 1. On the way the words compete for the right pixels
-/// that they could show, at right[d - d0].
+/// Finds the least words of the disparities d0 .. d1 - 1. Each word also replaces the least word of
+/// its right pixel, at right[d - d0], if it is less.
 template <bool kAtBorder>
 HWY_INLINE Leasts compete(const std::uint16_t* costs, const std::int16_t* index, int d0, int d1,
                           int count, std::int16_t* right) {
@@ -60,7 +60,7 @@ HWY_INLINE Leasts compete(const std::uint16_t* costs, const std::int16_t* index,
   return leasts;
 }
 
-/// The cost of each word; kNone of kNone.
+/// The cost in each word; kNone for kNone.
 template <class D16>
 HWY_INLINE hn::Vec<D16> costs_of(D16 d16, hn::Vec<D16> words) {
   const hn::RebindToUnsigned<D16> du16;
@@ -72,13 +72,13 @@ HWY_INLINE hn::Vec<D16> costs_of(D16 d16, hn::Vec<D16> words) {
 
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(Words()));
 
-/// Pixels whose lanes are compared together.
+/// Pixels whose words are reduced together.
 constexpr int kBatch = 8;
 
-/// The words of a batch, for each pixel those of its lanes.
+/// The words of a batch: one per lane for each pixel.
 using BatchWords = std::int16_t[kBatch][kLanes];
 
-/// The least of eight of a pixel's lanes each.
+/// Reduces the words of one pixel to eight.
 using Eight = hn::CappedTag<std::int16_t, kBatch>;
 HWY_INLINE hn::Vec<Eight> least_eight(const std::int16_t* words) {
   const Eight d8;
@@ -87,14 +87,15 @@ HWY_INLINE hn::Vec<Eight> least_eight(const std::int16_t* words) {
   return least;
 }
 
-/// Pixel by pixel the lesser of lanes that come from `a` and from `b` in turn.
+/// Halves the number of words per pixel: interleaves the lanes of `a` and `b`, and takes the lesser
+/// of the lower and upper halves.
 template <class V>
 HWY_INLINE V fold(V a, V b) {
   const Eight d8;
   return hn::Min(hn::InterleaveLower(d8, a, b), hn::InterleaveUpper(d8, a, b));
 }
 
-/// The least word of each pixel of a batch, in the pixels' order.
+/// The least word of each pixel of a batch, in the order of the pixels.
 HWY_INLINE hn::Vec<Eight> least_words(const BatchWords& words) {
   const auto even = fold(fold(least_eight(words[0]), least_eight(words[4])),
                          fold(least_eight(words[2]), least_eight(words[6])));
@@ -103,13 +104,14 @@ HWY_INLINE hn::Vec<Eight> least_words(const BatchWords& words) {
   return fold(even, odd);
 }
 
-/// The competitions of a batch's lanes in one group of disparities.
+/// The least and the second-least words of a batch in one group of disparities, per lane.
 struct BatchGroup {
   BatchWords least;
   BatchWords second;
 };
 
-/// The costs of a batch of pixels from column x on, or of fewer at the end.
+/// The costs of a batch of pixels from column x on. The last batch of a range may have fewer
+/// pixels.
 struct Batch {
   const std::uint16_t* costs;
   int x;
@@ -126,7 +128,7 @@ HWY_INLINE void compete_in_group(const Batch& batch, int group, SelectionScratch
   const int d0 = group * kGroup;
   const int d1 = std::min(d0 + kGroup, batch.lanes);
   const int groups = (batch.lanes + kGroup - 1) / kGroup;
-  // Copies, which no word that is written can be a part of.
+  // Copies: the compiler knows that no store of words changes them.
   const std::ptrdiff_t stride = scratch.right_stride;
   std::int16_t* const first = scratch.right.data();
   const std::int16_t* const index = scratch.index.data();
@@ -142,9 +144,9 @@ HWY_INLINE void compete_in_group(const Batch& batch, int group, SelectionScratch
   }
 }
 
-/// The least costs that are not within 1 of the batch's best disparities, which count from the
-/// group's first one. Lanes that are beside each other hold disparities that are: of each lane one
-/// word at most drops out, and then its second-least counts.
+/// The least costs of disparities that differ from the batch's best ones by more than 1. `best` is
+/// relative to the group's first disparity. Adjacent lanes hold adjacent disparities, so at most
+/// one word of each lane is excluded, and then the lane's second-least word takes its place.
 HWY_INLINE hn::Vec<Eight> runners_up(const std::int16_t* best, BatchGroup& group) {
   const Words d16;
   for (int i = 0; i < kBatch; ++i) {
@@ -159,7 +161,7 @@ HWY_INLINE hn::Vec<Eight> runners_up(const std::int16_t* best, BatchGroup& group
   return costs_of(Eight(), least_words(group.least));
 }
 
-/// Writes a value of each pixel of a batch; what follows it may be there already.
+/// Writes one value for each pixel of a batch and leaves the elements after the batch unchanged.
 template <class V>
 HWY_INLINE void write_batch(V values, const Batch& batch, Buffer<std::int16_t>& row) {
   const Eight d8;
@@ -212,8 +214,8 @@ void offer(const std::uint16_t* costs, int begin, int end, int width, int dispar
   }
 }
 
-/// Writes the disparity of each right pixel's least word to where the words of its first
-/// competition are.
+/// Finds the disparity of each right pixel's least word. Overwrites the words of the first turn and
+/// group with it.
 void decide_right(int width, int groups, SelectionScratch& scratch) {
   const Words d16;
   const std::ptrdiff_t turn = scratch.right_stride * groups;
@@ -276,11 +278,11 @@ void SelectionScratch::resize(int width, int disparities) {
   const int lanes = cost_lanes(disparities);
   index.resize(lanes);
   for (int d = 0; d < lanes; ++d) {
-    // Behind the last disparity the cells cost the most, which makes kNone of them.
+    // Cells from D on have the highest cost, which this turns into kNone.
     const int word = d < disparities ? kLowestWord + d % kGroup : kNone - kMostCost;
     index[d] = static_cast<std::int16_t>(word);
   }
-  // Pixels offer all their lanes, also those that lie behind the image.
+  // Pixels offer all their lanes, including those past the end of the row.
   right_stride = (width + lanes + 2 * kVector - 1) / kVector * kVector;
   right.resize(right_stride * groups_of(disparities) * kTurns);
   for (Buffer<std::int16_t>* row : {&best, &least, &second, &before, &after}) row->resize(width);

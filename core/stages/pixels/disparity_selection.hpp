@@ -8,62 +8,63 @@
 
 namespace mtstereo {
 
-/// The last part of guided pixel matching: each pixel's disparity of least cost, and whether it can
-/// be trusted. A row is begun, its pixels' costs are offered in any order, and then it is finished.
+/// The last part of guided pixel matching: selects each pixel's disparity of least cost and checks
+/// it. For each row: call start_selection(), then offer_costs() for its pixels in any order, then
+/// finish_selection().
 
 struct SelectionOptions {
   int disparities;           ///< D
-  double confidence;         ///< omega_Pi: the runner-up has to cost more than this share above
-  bool runner_up_in_range;   ///< the runner-up is looked for in the expected range only
+  double confidence;         ///< omega_Pi: the runner-up has to exceed the best by more, as a share
+  bool runner_up_in_range;   ///< only disparities of the expected range can be runner-up
   int left_right_tolerance;  ///< largest difference to the right pixel's disparity [px], -1 = any
   bool subpixel;             ///< refine by the V of equal slopes through the best and its neighbors
 };
 
-/// Costs that are compared are below this.
+/// All valid costs are below this.
 inline constexpr int kCostLimit = 511;
 
-/// Of each cost of the best the least one that its runner-up has to have.
+/// Maps the best cost to the least cost that is sufficient for its runner-up.
 using RunnerUpTable = std::array<std::uint16_t, kCostLimit>;
 RunnerUpTable runner_up_table(double confidence);
 
 /// Scratch memory of one thread.
 ///
-/// Costs compete together with their disparities, in one word: the cost in the upper nine bits, the
-/// disparity in the lower seven, so that of equal costs the smallest disparity is less; all of it
-/// less 2^15, since signed words are compared everywhere in one instruction. More disparities than
-/// seven bits hold are cut into groups with competitions of their own.
+/// A cost and its disparity are compared as one 16-bit word: the cost in the upper nine bits, the
+/// disparity in the lower seven, so that the smaller disparity wins among equal costs. 2^15 is
+/// subtracted, since every processor compares signed words in one instruction. Seven bits hold
+/// kGroup disparities; more disparities are divided into groups, whose words are compared
+/// separately.
 struct SelectionScratch {
   static constexpr int kGroup = 128;             ///< disparities of a group
   static constexpr std::int16_t kNone = 0x7FFF;  ///< no word, and no cost
-  /// Competitions for the same right pixel: the pixels of a row take turns, since each would wait
-  /// for what its neighbor has written.
+  /// Copies of the right pixels' least words. Successive pixels of a row update them in turn: with
+  /// one copy, each pixel's loads would wait for its neighbor's stores.
   static constexpr int kTurns = 4;
 
-  Buffer<std::int16_t> index;       ///< of each disparity what makes a word of its cost
-  Buffer<std::int16_t> right;       ///< [turn][group] the least words of the right pixels, mirrored
+  Buffer<std::int16_t> index;       ///< per disparity: the sum with the shifted cost is the word
+  Buffer<std::int16_t> right;       ///< [turn][group]: the right pixels' least words, mirrored
   std::ptrdiff_t right_stride = 0;  ///< from group to group [elements]
-  /// Of each left pixel: its disparity of least cost, that cost, the runner-up's, and the costs of
-  /// the disparities before and after.
+  /// Per left pixel: its disparity of least cost, that cost, the runner-up's cost, and the costs of
+  /// the disparities before and after the best one.
   Buffer<std::int16_t> best, least, second, before, after;
 
   void resize(int width, int disparities);
 };
 
-/// Begins a row.
+/// Starts a row.
 void start_selection(SelectionScratch& scratch);
 
-/// Offers the costs of the columns begin .. end - 1, that of column x and disparity d at
-/// (x - begin) * cost_lanes() + d, all of them below kCostLimit, and those of the cells d >= D just
-/// below it. Pixels with low > high have no
-/// expected range.
+/// Passes the costs of the columns begin .. end - 1: that of column x and disparity d is at
+/// (x - begin) * cost_lanes() + d. Costs are below kCostLimit; those of the cells d >= D are
+/// kCostLimit - 1. Pixels with low > high have no expected range.
 void offer_costs(const std::uint16_t* costs, int begin, int end, int width,
                  const SelectionOptions& options, const std::uint16_t* low,
                  const std::uint16_t* high, SelectionScratch& scratch);
 
-/// Writes the row of the disparity map [1 / kDisparityOne px] and of the peak ratios (0 where there
-/// is no disparity). The best of equal costs is the smallest disparity. The runner-up is the least
-/// cost of the disparities that are not next to the best; a pixel without one has no disparity, nor
-/// has one with low > high.
+/// Writes the row of the disparity map [1 / kDisparityOne px] and of the peak ratios (0 for pixels
+/// without a disparity). Of equal costs the smallest disparity is the best. The runner-up is the
+/// least cost of the disparities that differ from the best by more than 1. A pixel without a
+/// runner-up or with low > high gets no disparity.
 void finish_selection(int width, const SelectionOptions& options, const std::uint16_t* low,
                       const std::uint16_t* high, const RunnerUpTable& runner_up,
                       SelectionScratch& scratch, std::int32_t* disparity, std::uint8_t* ratio);

@@ -19,7 +19,7 @@ struct PixelCosts {
   int operator[](int d) const { return first[d * stride]; }
 };
 
-/// The disparity of least cost of the right pixel `x`; the smallest of equal ones.
+/// The right pixel's disparity of least cost; the smallest one of equal costs.
 int best_of_right(const CostVolume& volume, int x, int y, int width) {
   const int count = std::min(volume.disparities, width - x);
   int best = 0;
@@ -29,7 +29,7 @@ int best_of_right(const CostVolume& volume, int x, int y, int width) {
   return best;
 }
 
-/// The least cost of the disparities first .. last that are not within 1 of `best`.
+/// The least cost of the disparities first .. last that differ from `best` by more than 1.
 int runner_up_cost(const PixelCosts& costs, int best, int first, int last) {
   int least = std::numeric_limits<int>::max();
   for (int d = first; d <= last; ++d) {

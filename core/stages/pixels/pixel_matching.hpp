@@ -10,8 +10,8 @@
 
 namespace mtstereo {
 
-/// Step 9 (paper, "guided pixel matching" and "Confidence check") on the smoothed cost
-/// volume: each pixel's own best disparity among those that the nodes expect.
+/// Step 9 (paper, "guided pixel matching" and "Confidence check") on the smoothed cost volume:
+/// selects each pixel's best disparity among those that the nodes expect.
 
 struct PixelMatchingOptions {
   SearchRangeOptions range;
@@ -26,10 +26,10 @@ struct PixelMatchingScratch {
   void resize(int width);
 };
 
-/// Replaces the disparities of the rows y0 .. y1 - 1, which are the nodes', by the expected one of
-/// least cost, and writes their peak ratios (0 where there is no disparity). A disparity is kept
-/// only where the best of the others, those next to it left out, costs more than `confidence` above
-/// it, and where the right pixel's best disparity agrees.
+/// Replaces the nodes' disparities in the rows y0 .. y1 - 1 by the expected disparity of least cost
+/// and writes its peak ratio (0 for pixels without a disparity). A disparity is kept only if the
+/// best of the others, except those next to it, costs more by a share above `confidence`, and if
+/// the right pixel's best disparity agrees.
 void match_pixels(const CostVolume& volume, const PixelMatchingOptions& options, int y0, int y1,
                   PixelMatchingScratch& scratch, Image<std::int32_t>& map,
                   Image<std::uint8_t>& ratio);

@@ -15,14 +15,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
-// Not wider: neighboring lanes of wider vectors are farther from each other than a shift.
+// Byte shifts work within blocks of 16 bytes. In vectors of two blocks one operation fetches the
+// neighboring block; wider ones have none for that.
 using Bytes = hn::CappedTag<std::uint8_t, 32>;
 
-/// The least of all lanes in every lane.
+/// The least of all lanes, in every lane.
 template <class V>
 V least_of_lanes(Bytes d8, V v) {
 #if HWY_TARGET == HWY_SSSE3
-  // Has no minimum of unsigned words.
+  // SSSE3 has no minimum of unsigned words.
   v = hn::Min(v, hn::ShiftRightBytes<8>(d8, v));
   v = hn::Min(v, hn::ShiftRightBytes<4>(d8, v));
   v = hn::Min(v, hn::ShiftRightBytes<2>(d8, v));
@@ -37,7 +38,7 @@ V least_of_lanes(Bytes d8, V v) {
 #endif
 }
 
-/// The lanes one before those of `v`, whose first is the last of `before`.
+/// The lanes of `v` moved up by one; the first is the last lane of `before`.
 template <class V>
 HWY_INLINE V lanes_before(Bytes d8, V v, V before) {
   if constexpr (hn::MaxLanes(d8) <= 16) {
@@ -47,7 +48,7 @@ HWY_INLINE V lanes_before(Bytes d8, V v, V before) {
   }
 }
 
-/// The lanes one behind those of `v`, whose last is the first of `behind`.
+/// The lanes of `v` moved down by one; the last is the first lane of `behind`.
 template <class V>
 HWY_INLINE V lanes_behind(Bytes d8, V v, V behind) {
   if constexpr (hn::MaxLanes(d8) <= 16) {
@@ -57,7 +58,8 @@ HWY_INLINE V lanes_behind(Bytes d8, V v, V behind) {
   }
 }
 
-/// A path on its way along the row: the costs of its last pixel and what they begin with.
+/// The state of one path along the row: the costs of its last pixel and the inputs of the next
+/// step.
 class Path {
  public:
   Path(const ScanlineRow& row, int lanes, int path, ScanlineScratch& scratch)
@@ -71,13 +73,13 @@ class Path {
         newest_(path_end(scratch, lanes, path, scratch.newest[path])),
         other_(path_end(scratch, lanes, path, 1 - scratch.newest[path])) {}
 
-  /// The first pixel: no path leads there.
+  /// Starts at the path's first pixel, which has no predecessor.
   void begin() {
     std::memset(newest_, 0, lanes_);
     least_ = hn::Zero(Bytes());
   }
 
-  /// Goes on to column x, which comes next; `first` where it is the path's first.
+  /// Advances to column x, the next one; `first` for the path's first pixel.
   HWY_INLINE void step(int x, bool first) {
     const Bytes d8;
     const int step = static_cast<int>(hn::Lanes(d8));
@@ -85,7 +87,7 @@ class Path {
     const auto any = hn::SaturatedAdd(least_, hn::Set(d8, large_step_[change]));
     const std::uint8_t* costs = costs_ + static_cast<std::ptrdiff_t>(x) * lanes_;
     auto least = hn::Set(d8, 255);
-    // Whole vectors only: loads across what has just been stored would wait for it.
+    // Loads whole vectors only: a load that spans two recent stores would wait for both.
     auto before = hn::Load(d8, newest_ - step);
     auto same = hn::Load(d8, newest_);
     for (int d = 0; d < lanes_; d += step) {
@@ -102,7 +104,7 @@ class Path {
     std::swap(newest_, other_);
   }
 
-  /// Keeps the last pixel's costs for the other path to find.
+  /// Stores the last pixel's costs for the other path.
   HWY_INLINE void keep(std::uint8_t* paths, int x) const {
     std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
     const Bytes d8;
@@ -111,7 +113,7 @@ class Path {
     }
   }
 
-  /// Adds to the last pixel's costs those that the other path has kept there.
+  /// Writes the sums of the last pixel's costs and of those that the other path has stored for it.
   HWY_INLINE void add(const std::uint8_t* paths, int x, std::uint16_t* sums) const {
     const std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
     const hn::CappedTag<std::uint16_t, kCostStep> d16;
@@ -123,7 +125,7 @@ class Path {
     }
   }
 
-  /// Puts back what the next block begins with.
+  /// Saves the state for the next block.
   void leave(int path, ScanlineScratch& scratch) const {
     scratch.least[path] = hn::GetLane(least_);
     scratch.newest[path] = newest_ == path_end(scratch, lanes_, path, 0) ? 0 : 1;
@@ -134,14 +136,15 @@ class Path {
   const std::uint8_t* gray_;
   const std::uint8_t* large_step_;
   int lanes_;
-  int back_;  // from a column to the one before
+  int back_;  // offset from a column to the path's previous one
   hn::Vec<Bytes> small_step_;
   hn::Vec<Bytes> least_;  // of the last pixel's costs, in every lane
   std::uint8_t* newest_;
   std::uint8_t* other_;
 };
 
-/// Neighboring steps wait for each other; those of the two paths do not, so they take turns.
+/// Each step of a path depends on the previous one, but the two paths are independent. So their
+/// steps alternate.
 void walk_to_middle(const ScanlineRow& row, ScanlineScratch& scratch) {
   const int lanes = cost_lanes(row.disparities);
   const int middle = row.width / 2;
@@ -165,8 +168,8 @@ void walk_to_middle(const ScanlineRow& row, ScanlineScratch& scratch) {
   from_right.leave(kFromRight, scratch);
 }
 
-/// Both paths over their blocks; that from the left goes begin .. end - 1, that from the right back
-/// from right_end - 1.
+/// Advances both paths over their blocks: the left one over left_begin .. left_end - 1, the right
+/// one backwards from right_end - 1 to right_begin.
 void walk_block(const ScanlineRow& row, int left_begin, int left_end, int right_begin,
                 int right_end, ScanlineScratch& scratch) {
   const int lanes = cost_lanes(row.disparities);
@@ -216,7 +219,7 @@ void ScanlineScratch::resize(int width, int disparities) {
   paths.resize(width * lanes);
   sums.resize(2 * kScanlineBlock * lanes);
   ends.resize(4 * (lanes + kEndMargin) + kEndMargin);
-  // The margins stay as they are; no step comes from there.
+  // The margins keep this value, so that no step comes from there.
   std::memset(ends.data(), 255, ends.size());
 }
 

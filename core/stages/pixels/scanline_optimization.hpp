@@ -8,23 +8,24 @@
 
 namespace mtstereo {
 
-/// The part of guided pixel matching that lets the pixels of a row agree: two paths per row of
+/// The part of guided pixel matching that smooths the disparities along the row: two paths of
 /// semi-global matching, from the left and from the right.
 ///
-/// Both paths begin at once, each at its end, and meet in the middle. Until there their costs are
-/// kept; from there on each finds the other's costs of the same pixel, so that the sums come out
-/// in blocks of pixels that are still in the cache, and no row of sums is ever written.
+/// Both paths start at the same time, each at its end of the row, and meet in the middle. Up to the
+/// middle they store their costs. From there on each path reads the other's costs of the same
+/// pixel, so that the sums are available in blocks of pixels that are still in the cache, and no
+/// row of sums has to be stored.
 
 struct SmoothnessOptions {
   int small_step;  ///< P1: cost of a step of one disparity from pixel to pixel
-  int large_step;  ///< P2: cost of any larger step where the gray value stays; 0 = no optimization
+  int large_step;  ///< P2: cost of a larger step between equal gray values; 0 = no optimization
 };
 
-/// P2 by the change of the gray value: large_step * 8 / (8 + change), not below small_step.
+/// P2 by the change of the gray value: large_step * 8 / (8 + change), at least small_step.
 using LargeStepTable = std::array<std::uint8_t, 256>;
 LargeStepTable large_step_table(const SmoothnessOptions& options);
 
-/// One row to be optimized.
+/// The input of one row.
 struct ScanlineRow {
   const std::uint8_t* costs;  ///< cell [x][d] at x * cost_lanes(disparities) + d
   const std::uint8_t* gray;   ///< of the left view
@@ -44,27 +45,27 @@ struct ScanlineSums {
   const std::uint16_t* sums;
 };
 
-/// Scratch memory of one thread, and what is carried from block to block.
+/// Scratch memory of one thread, and its state between blocks.
 struct ScanlineScratch {
-  Buffer<std::uint8_t> paths;   ///< of each pixel the costs of the path that came there first
+  Buffer<std::uint8_t> paths;   ///< per pixel: the costs of the path that reached it first
   Buffer<std::uint8_t> ends;    ///< the costs of each path's last two pixels, with margins
   Buffer<std::uint16_t> sums;   ///< of two blocks
-  std::array<int, 2> least{};   ///< of each path the least cost of its last pixel
-  std::array<int, 2> newest{};  ///< of each path which of the two pixels in `ends` is its last
+  std::array<int, 2> least{};   ///< per path: the least cost of its last pixel
+  std::array<int, 2> newest{};  ///< per path: which of the two pixels in `ends` is its last one
 
   void resize(int width, int disparities);
 };
 
-/// Blocks that scanline_block() has to be called for: 0 .. count - 1, in this order.
+/// Number of blocks. scanline_block() has to be called for 0 .. count - 1, in this order.
 int scanline_blocks(int width);
 
-/// Both paths from their ends to the middle. The path cost of a cell is its cost plus the least of
-/// the path's costs of the pixel before, with the steps' costs, less the least of all of them; it
-/// ends at 255.
+/// Follows both paths from their ends to the middle. The path cost of a cell is its cost, plus the
+/// least sum of a path cost of the previous pixel and the cost of the step from there, minus the
+/// least path cost of the previous pixel; it saturates at 255.
 void start_scanline(const ScanlineRow& row, ScanlineScratch& scratch);
 
-/// The sums of the next columns of both paths: those that the path from the left has come to, and
-/// those that the path from the right has. Either may be none. Valid until the next call.
+/// The sums of the next columns of both paths: first those of the path from the left, then those of
+/// the path from the right. Either may have no columns. Valid until the next call.
 std::array<ScanlineSums, 2> scanline_block(const ScanlineRow& row, int block,
                                            ScanlineScratch& scratch);
 

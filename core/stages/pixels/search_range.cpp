@@ -17,8 +17,8 @@ using Doubles = hn::CappedTag<double, kRangeBlock>;
 using Disparities = hn::Rebind<std::int32_t, Doubles>;
 using Ends = hn::Rebind<std::uint16_t, Doubles>;
 
-/// The ranges around a vector of nodes; `none` where there is none. A disparity in px is exact, so
-/// that it makes no difference whether compilers fuse its product and the sums.
+/// The ranges of a vector of pixels; `none` for pixels without a node. A disparity in px is exact,
+/// so that the result does not depend on whether compilers fuse its product and the sums.
 void write_vector(const std::int32_t* nodes, const SearchRangeOptions& options, SearchRange none,
                   std::uint16_t* low, std::uint16_t* high) {
   const Doubles df64;
@@ -29,21 +29,21 @@ void write_vector(const std::int32_t* nodes, const SearchRangeOptions& options, 
   const auto reach =
       hn::Max(hn::Mul(disparity, hn::Set(df64, options.range)), hn::Set(df64, kMinSearch));
   const auto first = hn::Max(hn::Sub(disparity, reach), hn::Zero(df64));
-  // Numbers from 2^52 on are whole: rounded to the nearest one, and up where that is below.
+  // Adding 2^52 rounds to the nearest whole number; a result below the operand is raised by 1.
   const auto whole = hn::Set(df64, 4503599627370496.0);
   const auto rounded = hn::Sub(hn::Add(first, whole), whole);
   const auto up = hn::IfThenElseZero(hn::Lt(rounded, first), hn::Set(df64, 1.0));
   const auto lows = hn::DemoteTo(d16, hn::DemoteTo(d32, hn::Add(rounded, up)));
   const auto last = hn::DemoteTo(d32, hn::Add(disparity, reach));
   const auto highs = hn::DemoteTo(d16, hn::Min(last, hn::Set(d32, options.disparities - 1)));
-  // 1 where there is a node: disparities are positive.
+  // 1 for a node, since disparities are positive, else 0.
   const auto known = hn::DemoteTo(d16, hn::Min(node, hn::Set(d32, 1)));
   const auto missing = hn::Eq(known, hn::Zero(d16));
   hn::StoreU(hn::IfThenElse(missing, hn::Set(d16, none.low), lows), d16, low);
   hn::StoreU(hn::IfThenElse(missing, hn::Set(d16, none.high), highs), d16, high);
 }
 
-/// Writes the ranges of kRangeBlock pixels that are not all without a node.
+/// Writes the ranges of kRangeBlock pixels, at least one of which has a node.
 void write_block(const std::int32_t* nodes, const SearchRangeOptions& options, SearchRange none,
                  std::uint16_t* low, std::uint16_t* high) {
   for (int i = 0; i < kRangeBlock; i += static_cast<int>(hn::Lanes(Doubles()))) {
@@ -82,7 +82,8 @@ HWY_EXPORT(write_row);
 
 namespace {
 
-/// Between two nodes: from the low end of the smaller one to the high end of the larger one.
+/// Between two nodes: from the low end of the smaller disparity's range to the high end of the
+/// larger one's.
 void span_gaps(const std::int32_t* nodes, int width, std::uint16_t* low, std::uint16_t* high) {
   int last = -1;  // the last column with a node
   for (int x = 0; x < width; ++x) {

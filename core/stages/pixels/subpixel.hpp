@@ -5,8 +5,8 @@
 
 namespace mtstereo {
 
-/// Where the parabola through three costs has its minimum, from the middle one, which is the
-/// smallest: -1/2 .. 1/2 px in 1 / kDisparityOne px.
+/// Offset of the minimum of the parabola through three costs from the middle one, which is the
+/// smallest: -1/2 .. 1/2 px, in 1 / kDisparityOne px.
 inline int parabola_offset(int before, int best, int after) {
   const int curvature = before - 2 * best + after;
   if (curvature <= 0) return 0;
@@ -21,7 +21,8 @@ inline int symmetric_v_offset(int before, int best, int after) {
   return (before - after) * (kDisparityOne / 2) / slope;
 }
 
-/// By how much the runner-up costs more than the best, as a share of it: 0 .. 255 for 0 .. 1.
+/// The excess of the runner-up's cost over the best cost, as a share of the runner-up's: 0 .. 255
+/// for 0 .. 1.
 inline int peak_ratio(int best, int runner_up) {
   return runner_up > best ? (runner_up - best) * 255 / runner_up : 0;
 }
