@@ -10,16 +10,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
-/// Side of the window.
+/// Side of the window [px].
 constexpr int kSide = 5;
 
-/// The place of a bit's pixel: the window's in a row, without the one in the middle.
+/// Index of a bit's pixel in the window, row by row. The bits skip the center.
 constexpr int neighbor_of(int bit) { return bit < kCensusBits / 2 ? bit : bit + 1; }
 
 using Bytes = hn::CappedTag<std::uint8_t, kAlignment>;
 
 /// Byte kByte of the census transform of the pixels from column x on. `lines` are the window's
-/// rows, padded, with the gray values as signed numbers: few processors compare unsigned bytes.
+/// rows, padded, with gray values as signed numbers, since few processors compare unsigned bytes.
 template <int kByte>
 hn::Vec<Bytes> census_byte(const std::uint8_t* const* lines, int x) {
   const Bytes d8;
@@ -40,7 +40,7 @@ void transform_row(const std::uint8_t* const* lines, int width, std::uint32_t* w
   const Bytes d8;
   const int step = static_cast<int>(hn::Lanes(d8));
   const auto write = [&](int x, std::uint32_t* out) {
-    // A word's first byte in memory is its lowest: the supported processors are little-endian.
+    // The lowest byte of a word comes first in memory: all supported processors are little-endian.
     hn::StoreInterleaved4(census_byte<0>(lines, x), census_byte<1>(lines, x),
                           census_byte<2>(lines, x), hn::Zero(d8), d8,
                           reinterpret_cast<std::uint8_t*>(out));
@@ -54,7 +54,7 @@ void transform_row(const std::uint8_t* const* lines, int width, std::uint32_t* w
   }
 }
 
-/// The lanes in the opposite order. Highway has no such function for bytes.
+/// Reverses the lanes. Highway has no such function for bytes.
 hn::Vec<Bytes> reverse(hn::Vec<Bytes> bytes) {
   const hn::RepartitionToWide<Bytes> d16;
   const auto pairs = hn::Reverse(d16, hn::BitCast(d16, bytes));
@@ -95,7 +95,7 @@ namespace {
 
 constexpr int kRadius = 2;
 
-/// Copies a row and repeats its ends. The gray values are shifted to -128 .. 127.
+/// Copies a row, repeats its end pixels, and shifts the gray values to -128 .. 127.
 void pad_row(const std::uint8_t* row, int width, std::uint8_t* padded) {
   std::uint8_t* inside = padded + kRadius;
   for (int x = 0; x < width; ++x) inside[x] = row[x] ^ 0x80;

@@ -8,9 +8,9 @@
 
 namespace mtstereo {
 
-/// Step 4, which all census costs are made of: which pixels of the 5x5 window are darker than its
-/// center. Gain and offset of a camera, and any other monotonic change of the gray values, do not
-/// change it.
+/// Step 4, the input of all census costs: which pixels of the 5x5 window are darker than its
+/// center. The result is invariant to a camera's gain and offset and to any other monotonic change
+/// of the gray values.
 
 /// Bits of a pixel's census transform: the window without its center.
 inline constexpr int kCensusBits = 24;
@@ -18,8 +18,8 @@ inline constexpr int kCensusBits = 24;
 /// Bytes of a pixel's census transform.
 inline constexpr int kCensusBytes = kCensusBits / 8;
 
-/// The census transform of a view: of each pixel the bits 0 .. 23 of a word, one for each neighbor,
-/// row by row from the top left.
+/// The census transform of a view: per pixel a word whose bits 0 .. 23 are those of the window's
+/// pixels, row by row from the top left.
 struct CensusImage {
   Image<std::uint32_t> bits;
 
@@ -34,17 +34,17 @@ struct CensusScratch {
   void resize(int width, int rows);
 };
 
-/// Writes the rows y0 .. y1 - 1. Beyond the border the border's pixels are repeated. `scratch` is
-/// resized where it is too small.
+/// Writes the rows y0 .. y1 - 1. The border's pixels are repeated outside of the image. `scratch` is
+/// resized if it is too small for the band.
 void census_rows(GrayView image, int y0, int y1, CensusScratch& scratch, CensusImage& census);
 
-/// Whether element x of a row is column x of the view, or counts from the right end: then a rising
-/// disparity runs to the right.
+/// Whether element x of a row is column x of the view, or the x-th column from the right end. In a
+/// mirrored right view a larger disparity is further to the right.
 enum class RowOrder { kForward, kMirrored };
 
-/// Takes a row of `width` census words apart into rows of bytes: bits 0 .. 7 into the first plane
-/// and so on. Behind each come `beyond` elements more that repeat the last one: in a mirrored right
-/// view they stand for what is left of the image.
+/// Splits a row of `width` census words into byte planes: bits 0 .. 7 into the first plane and so
+/// on. Appends `beyond` elements to each plane that repeat the last one; in a mirrored right view
+/// they are the columns left of the image.
 void split_census_row(const std::uint32_t* bits, int width, RowOrder order, int beyond,
                       std::uint8_t* const (&planes)[kCensusBytes]);
 

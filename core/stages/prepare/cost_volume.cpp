@@ -10,7 +10,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
-/// One pixel row of both views as the cost needs it.
+/// The cost's input of one pixel row of both views.
 struct RowPair {
   const std::int16_t* left[3];
   const std::int16_t* right[3];
@@ -65,7 +65,7 @@ void reduced_row(const PreprocessedView& left, const PreprocessedView& right, in
   }
 }
 
-/// Weighted sum along the row: `in` has kernel_size - 1 cells on each side of the row.
+/// Weighted sums along the row. `in` has kernel.size() - 1 cells on each side of the row.
 void smooth_row(const std::int16_t* in, int columns, const SmoothingKernel& kernel,
                 std::int16_t* out) {
   const hn::CappedTag<std::int16_t, kAlignment / 2> di;
@@ -82,7 +82,7 @@ void smooth_row(const std::int16_t* in, int columns, const SmoothingKernel& kern
   }
 }
 
-/// Weighted sum of 2 radius + 1 rows, rows[radius] being the center, written to the volume.
+/// Writes the weighted sums of 2 radius + 1 rows to the volume; rows[radius] is the center.
 void smooth_column(const std::int16_t* const* rows, int columns, const SmoothingKernel& kernel,
                    std::uint16_t* out) {
   const hn::CappedTag<std::int16_t, kAlignment / 2> di;
@@ -154,7 +154,7 @@ void CostVolume::resize(int width, int height, int disparity_count, int resoluti
 
 SmoothingKernel smoothing_kernel(int size, int shift) {
   const double sigma = 0.3 * ((size - 1) * 0.5 - 1) + 0.8;
-  // A mean over 2 px has a variance of 1/4 px^2; what it leaves is the kernel's, in cells.
+  // A mean over 2 px has a variance of 1/4 px^2; the kernel contributes the rest, in cells.
   const double variance = shift == 0 ? sigma * sigma : (sigma * sigma - 0.25) / 4;
   const int radius = (size / 2 + shift) >> shift;
   std::vector<double> weights(radius + 1, 1.0);

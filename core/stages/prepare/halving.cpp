@@ -9,7 +9,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
-/// The rounded means of 2x2 pixels. Plain arithmetic, which compilers turn into vectors.
+/// The rounded means of 2x2 pixels. Compilers vectorize this plain loop.
 void halve_row(const std::uint8_t* __restrict__ upper, const std::uint8_t* __restrict__ lower,
                int pairs, std::uint8_t* __restrict__ out) {
   for (int x = 0; x < pairs; ++x) {

@@ -8,10 +8,10 @@
 
 namespace mtstereo {
 
-/// Halves the views where they are matched at half resolution. The half pixel (X, Y) stands for the
-/// pixels 2X, 2X + 1 of the rows 2Y, 2Y + 1. The counterpart for maps is enlarging.hpp.
+/// Halves the views if they are matched at half resolution. The half pixel (X, Y) covers the pixels
+/// 2X, 2X + 1 of the rows 2Y, 2Y + 1. The counterpart for maps is enlarging.hpp.
 
-/// Number of half pixels that cover a side of this many pixels.
+/// Number of half pixels that cover a side of `side` pixels.
 constexpr int half_of(int side) { return (side + 1) / 2; }
 
 /// Writes the rows y0 .. y1 - 1 of `half`, whose sides are half_of() those of the view: the rounded

@@ -13,8 +13,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
-/// Sets bit x of `bits` where level[x + 1] differs from level[x], for all x of `width` rounded up
-/// to 64: what is read behind the row is the padding of an Image.
+/// Sets bit x of `bits` if level[x + 1] differs from level[x], and clears it otherwise, for all x
+/// below `width` rounded up to 64. The reads past the end of the row are in the padding of an
+/// Image.
 void find_changes(const std::uint8_t* level, int width, std::uint8_t* bits) {
   const hn::CappedTag<std::uint8_t, 64> d8;
   const int lanes = static_cast<int>(hn::Lanes(d8));
@@ -39,16 +40,16 @@ namespace {
 
 constexpr int kWord = 64;  // [bits]
 
-/// Places for the leaves of a row: one more than there can be, for a node that turns out not to be
-/// one.
-constexpr int leaf_places(int width) { return most_leaves(width) + 1; }
+/// Capacity for the leaves of a row: one more than there can be, since build_row() writes a
+/// candidate before it knows whether that is a leaf.
+constexpr int leaf_capacity(int width) { return most_leaves(width) + 1; }
 
 /// The columns at which the level of a row changes.
 class Changes {
  public:
   Changes(const std::uint8_t* level, int width) : words_((width + kWord - 1) / kWord) {
     HWY_DYNAMIC_DISPATCH(find_changes)(level, width, bits_);
-    // What the padding is has no meaning, nor has the change from the last pixel to it.
+    // Clears the bits of the padding and that of the change from the last pixel to it.
     const int last = (width - 1) % kWord;
     const std::uint64_t kept = (std::uint64_t{1} << last) - 1;
     for (int byte = 0; byte < 8; ++byte) {
@@ -56,7 +57,7 @@ class Changes {
     }
   }
 
-  /// Calls body(x) for the columns x whose level is not that of x - 1, from left to right.
+  /// Calls body(x) for each column x whose level differs from that of x - 1, from left to right.
   template <typename Body>
   void for_each(Body&& body) const {
     for (int i = 0; i < words_; ++i) {
@@ -75,11 +76,11 @@ class Changes {
   }
 
   int words_;
-  // One vector more than the words.
+  // One word more than the row needs.
   alignas(kAlignment) std::uint8_t bits_[(kLargestImageSide + kWord) / 8];
 };
 
-/// Where the nodes of one row go.
+/// The output of one row.
 struct RowNodes {
   std::uint16_t* begin;
   std::uint16_t* end;
@@ -90,19 +91,20 @@ struct RowNodes {
 };
 
 /// Builds one row's tree from left to right. The open nodes, whose end is not known yet, form a
-/// stack of rising levels, the last of which is that of the current pixel; a fall of the level
-/// closes nodes. Those that a fall closes right after a rise are the leaves.
+/// stack of rising levels; the top has the level of the current pixel. A fall of the level closes
+/// nodes. A node that a fall closes right after a rise is a leaf.
 ///
-/// Whether the level rises or falls cannot be predicted, so both go the same way: as if the last
-/// node were closed. Where it stays open, what was written of it is written anew once it is not.
+/// Whether the level rises or falls cannot be predicted, so both cases run the same code without a
+/// branch, as if the last node were closed. If it stays open, its entries are overwritten when it
+/// is closed.
 void build_row(const std::uint8_t* level, int width, RowNodes& nodes) {
   struct Open {
     std::int16_t level;
     std::uint16_t node;
     std::uint16_t begin;
   };
-  // Levels are 8-bit, so no more than 256 nodes are open. Below them lies what no level falls to,
-  // above them one that was written and not opened.
+  // Levels have 8 bits, so at most 256 nodes are open. The entry below them has a level that no
+  // pixel falls to; the one above them may be written without being opened.
   Open stack[1 + 256 + 1];
   stack[0] = {-1, kNoNode, 0};
   stack[1] = {level[0], 0, 0};
@@ -117,7 +119,7 @@ void build_row(const std::uint8_t* level, int width, RowNodes& nodes) {
     const int falls = now < level[x - 1];
     const auto last = static_cast<std::uint16_t>(x - 1);
     std::uint16_t closed = top->node;
-    // Of a new node: where the closed one does after a fall, else here.
+    // The first column of a new node: after a fall that of the closed node, else x.
     std::uint16_t begin = static_cast<std::uint16_t>(x ^ ((x ^ top->begin) & -falls));
     nodes.end[closed] = last;
     nodes.leaf[leaves] = closed;
@@ -130,8 +132,8 @@ void build_row(const std::uint8_t* level, int width, RowNodes& nodes) {
       begin = top->begin;
       nodes.end[closed] = last;
     }
-    // After a fall the component goes on at the new level: as the next open node, or as one not
-    // seen so far.
+    // After a fall the component continues at the new level: as the next open node, or as a new
+    // one.
     const int opens = top->level < now;
     top[1] = {static_cast<std::int16_t>(now), static_cast<std::uint16_t>(count), begin};
     nodes.begin[count] = begin;
@@ -154,17 +156,17 @@ void build_row(const std::uint8_t* level, int width, RowNodes& nodes) {
 void MaxTrees::resize(int view_width, int view_height) {
   width = view_width;
   height = view_height;
-  // Every node begins at a change of level of its own.
+  // Every node begins at a change of level of its own, so a row has at most one node per pixel.
   const std::size_t nodes = static_cast<std::size_t>(view_width) * view_height;
   for (Buffer<std::uint32_t>* row : {&first, &first_leaf}) row->resize(view_height);
   for (Buffer<int>* row : {&count, &leaf_count}) row->resize(view_height);
   for (Buffer<std::uint16_t>* column : {&begin, &end, &parent}) column->resize(nodes);
-  leaf.resize(static_cast<std::size_t>(leaf_places(view_width)) * view_height);
+  leaf.resize(static_cast<std::size_t>(leaf_capacity(view_width)) * view_height);
 }
 
 void build_max_trees(const Image<std::uint8_t>& level, int y0, int y1, MaxTrees& trees) {
   std::uint32_t first = static_cast<std::uint32_t>(y0) * trees.width;
-  std::uint32_t first_leaf = static_cast<std::uint32_t>(y0) * leaf_places(trees.width);
+  std::uint32_t first_leaf = static_cast<std::uint32_t>(y0) * leaf_capacity(trees.width);
   for (int y = y0; y < y1; ++y) {
     RowNodes nodes = {trees.begin.data() + first, trees.end.data() + first,
                       trees.parent.data() + first, trees.leaf.data() + first_leaf};

@@ -10,24 +10,25 @@ namespace mtstereo {
 
 /// Step 2 (paper, "Max-Tree construction"): the Max-tree of every row.
 
-/// "No such node", wherever a node's index is expected.
+/// "No such node", for any index of a node.
 inline constexpr std::uint16_t kNoNode = 0xFFFF;
 
 /// The Max-trees of the rows of one view. A node is a maximal run of pixels whose level is at least
-/// the node's; nodes nest, and a node without children is a leaf. The nodes of row y stand at
-/// first[y] .. first[y] + count[y] - 1; an index of a node counts from the row's first. The rows of
-/// a band, which is what one call of build_max_trees() makes, are packed from the place on that
-/// they would have if every node there can be were there: pages without a node are never touched.
+/// the node's; nodes nest, and a node without children is a leaf. The nodes of row y have the
+/// positions first[y] .. first[y] + count[y] - 1; a node's index is relative to first[y]. One call
+/// of build_max_trees() fills a band of rows, whose nodes are packed. The first one has the
+/// position that it would have if every row above had the largest possible number of nodes, so that
+/// memory pages without a node are never accessed.
 struct MaxTrees {
   int width = 0;                 ///< of the view [px]
   int height = 0;                ///< of the view [px]
-  Buffer<std::uint32_t> first;   ///< of each row, where its nodes begin
-  Buffer<int> count;             ///< nodes of each row
+  Buffer<std::uint32_t> first;   ///< per row: position of its first node
+  Buffer<int> count;             ///< per row: number of its nodes
   Buffer<std::uint16_t> begin;   ///< first column [px]
   Buffer<std::uint16_t> end;     ///< last column [px]
   Buffer<std::uint16_t> parent;  ///< index of the parent, kNoNode for the root
 
-  /// The leaves of each row from left to right, packed as the nodes are.
+  /// The leaves of each row from left to right, packed like the nodes.
   Buffer<std::uint32_t> first_leaf;
   Buffer<int> leaf_count;
   Buffer<std::uint16_t> leaf;  ///< index of the node
@@ -35,11 +36,11 @@ struct MaxTrees {
   void resize(int view_width, int view_height);
 };
 
-/// Most leaves that a row can have: between two there is at least one pixel.
+/// Largest number of leaves of a row: at least one pixel separates two leaves.
 constexpr int most_leaves(int width) { return (width + 1) / 2; }
 
-/// Makes the trees of the rows y0 .. y1 - 1 of `level` (PreprocessedView::level). No two calls for
-/// one view may have only a part of their rows in common.
+/// Builds the trees of the rows y0 .. y1 - 1 of `level` (PreprocessedView::level). The row ranges
+/// of two calls for one view are either equal or disjoint.
 void build_max_trees(const Image<std::uint8_t>& level, int y0, int y1, MaxTrees& trees);
 
 }  // namespace mtstereo

@@ -27,7 +27,7 @@ HWY_INLINE void exchange(Vector& smaller, Vector& larger) {
   smaller = least;
 }
 
-/// A pair of places: the smaller value goes to the first one.
+/// A compare-exchange of two elements: the first one gets the smaller value.
 struct Exchange {
   std::uint8_t smaller, larger;
 };
@@ -36,10 +36,10 @@ struct Exchange {
 constexpr Exchange kSortColumn[] = {{0, 3}, {1, 4}, {0, 2}, {1, 3}, {0, 1},
                                     {2, 4}, {1, 2}, {3, 4}, {2, 3}};
 
-/// Brings the median of 5x5 values, of which each column is sorted, to the middle. Place 5 i + k is
-/// the i-th of column k. Found by a computer's search for few exchanges: half of them are needed
-/// for one of their values alone, the other one is never computed. Such a network is right for all
-/// values if it is for all columns of zeros and ones.
+/// Moves the median of 5x5 values with sorted columns to the middle. Element 5 i + k is the i-th of
+/// column k. The network is the result of a computer search for few exchanges; only one output of
+/// half of them is used, and compilers drop the other one. Such a network is correct for all values
+/// if it is correct for all sorted columns of zeros and ones.
 constexpr Exchange kFindMedian[] = {
     {21, 23}, {9, 8},   {0, 2},   {6, 7},   {20, 22}, {1, 4},   {12, 14}, {2, 4},   {1, 2},
     {11, 14}, {12, 13}, {3, 4},   {16, 19}, {5, 8},   {15, 17}, {21, 24}, {5, 6},   {7, 9},
@@ -49,7 +49,8 @@ constexpr Exchange kFindMedian[] = {
     {20, 13}, {12, 13}, {8, 12},  {12, 17}, {15, 8},  {8, 21},  {9, 13},  {15, 4},  {8, 12},
     {4, 20},  {8, 9},   {12, 20}, {8, 12}};
 
-/// Exchanges along a network. `values` are references: some processors have no arrays of vectors.
+/// Runs a network. `values` is a tuple of references, since vectors of some targets cannot be array
+/// elements.
 template <const auto& kNetwork, class Values>
 HWY_INLINE void exchange_all(const Values& values) {
   [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) HWY_ATTR {
@@ -71,7 +72,8 @@ void sort_vector(const std::uint8_t* const* rows, int from, std::uint8_t* const*
   store(v4, sorted[4] + to);
 }
 
-/// Sorts the columns of five rows. Reads nothing behind them: they may be the caller's.
+/// Sorts the columns of five rows. Reads nothing past the end of the rows, which may be in the
+/// caller's image.
 void sort_columns(const std::uint8_t* const* rows, int width, std::uint8_t* const* sorted) {
   const int step = lanes();
   int x = 0;
@@ -87,7 +89,7 @@ void sort_columns(const std::uint8_t* const* rows, int width, std::uint8_t* cons
   }
 }
 
-/// The medians of a row from its sorted columns, of which two more stand on both sides.
+/// The medians of a row from its sorted columns and two further columns on both sides.
 void write_medians(const std::uint8_t* const* sorted, int width, std::uint8_t* medians) {
   for (int x = 0; x < width; x += lanes()) {
     const auto place = [&](int i, int k)
@@ -116,7 +118,7 @@ namespace {
 
 constexpr int kRadius = kMedianSide / 2;
 
-/// Repeats the ends of a row.
+/// Repeats the end elements of a row.
 void repeat_ends(std::uint8_t* row, int width) {
   std::memset(row - kRadius, row[0], kRadius);
   std::memset(row + width, row[width - 1], kRadius);
@@ -125,7 +127,7 @@ void repeat_ends(std::uint8_t* row, int width) {
 }  // namespace
 
 void MedianScratch::resize(int width) {
-  // As far as the last vector reaches.
+  // The last vector may extend past the end of the row.
   for (Buffer<std::uint8_t>& row : sorted) row.resize(width + 2 * kRadius + kAlignment);
 }
 

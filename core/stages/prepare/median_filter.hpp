@@ -21,8 +21,8 @@ struct MedianScratch {
   void resize(int width);
 };
 
-/// Writes the rows y0 .. y1 - 1: the median of the 5x5 pixels around. Beyond the border the
-/// border's pixels are repeated. `scratch` is resized where it is too small.
+/// Writes the rows y0 .. y1 - 1: the median of the 5x5 window around each pixel. The border's
+/// pixels are repeated outside of the image. `scratch` is resized if it is too small.
 void median_rows(GrayView image, int y0, int y1, MedianScratch& scratch,
                  Image<std::uint8_t>& median);
 

@@ -30,7 +30,8 @@ void sum_vector(SobelRows rows, int x, SobelSums sums) {
   hn::StoreU(hn::Sub(below, above), d16, sums.difference + x);
 }
 
-/// Sums up the columns of a row. Reads nothing behind it: it may be the caller's.
+/// Computes the column sums of a row. Reads nothing past the end of the rows, which may be in the
+/// caller's image.
 void sum_columns(SobelRows rows, int width, SobelSums sums) {
   const int step = static_cast<int>(hn::Lanes(Words()));
   int x = 0;
@@ -66,7 +67,8 @@ void write_levels(SobelSums sums, int width, int gray_levels, std::uint8_t* leve
   const Words d16;
   const hn::RebindToUnsigned<Words> du16;
   constexpr int kFlat = 260;
-  // Below 4096, times this and 2^-16, cut, is the 13th, cut. 51 * 260 * 256 / 1024 is below that.
+  // For numbers below 4096, multiplying by this and truncating 16 bits is a division by 13. The
+  // numbers are at most 51 * 260 * 256 / 1024.
   constexpr int kThirteenth = (1 << 16) / 13 + 1;
   const auto slope = hn::Set(du16, static_cast<std::uint16_t>(51 * gray_levels));
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
@@ -81,13 +83,14 @@ void write_levels(SobelSums sums, int width, int gray_levels, std::uint8_t* leve
 /// value * weight / 256, rounded half up.
 Vector weighted(Vector value, int weight) {
   const Words d16;
-  // (a * b + 2^14) / 2^15 is what the processors have. Sobels are at most 1020: both factors fit.
+  // Processors have an instruction for (a * b + 2^14) / 2^15. Sobel values are at most 1020, so
+  // both factors fit into 16 bits.
   static_assert(1020 << 4 < 1 << 15 && kCostWeights[1] << 3 < 1 << 15);
   const Vector factor = hn::Set(d16, static_cast<std::int16_t>(weight << 3));
   return hn::MulFixedPoint15(hn::ShiftLeft<4>(value), factor);
 }
 
-/// Reads nothing behind the row of gray values: it may be the caller's.
+/// Reads nothing past the end of the row of gray values, which may be in the caller's image.
 void write_costs(const std::uint8_t* here, SobelSums sums, int width, std::int16_t* gray,
                  std::int16_t* x_costs, std::int16_t* y_costs) {
   const Words d16;

@@ -9,35 +9,35 @@
 
 namespace mtstereo {
 
-/// Step 1 (paper, "Pre-processing"): what the Max-trees and the cost volume are made of.
+/// Step 1 (paper, "Pre-processing"): the input of the Max-trees and of the cost volume.
 
 /// One view after pre-processing. All images have the view's size.
 struct PreprocessedView {
   /// The median-filtered gray values (median_filter.hpp).
   Image<std::uint8_t> median;
-  /// The quantized, inverted edge strength: 0 .. q - 1, high = little contrast.
+  /// The quantized, inverted edge strength: 0 .. q - 1; high levels mean little contrast.
   Image<std::uint8_t> level;
-  /// Gray value, horizontal and vertical Sobel of the image that costs are made of, each times its
-  /// weight in the cost (kCostWeights) and kCostScale, so that a cost is three absolute
-  /// differences.
+  /// Gray value, horizontal and vertical Sobel of the image from which costs are computed, each
+  /// multiplied by its weight in the cost (kCostWeights) and by kCostScale, so that a cost is the
+  /// sum of three absolute differences.
   Image<std::int16_t> gray;
   Image<std::int16_t> sobel_x;
   Image<std::int16_t> sobel_y;
 
-  /// Median and level.
+  /// Resizes `median` and `level`.
   void resize(int width, int height);
-  /// The other three, which only a cost volume is made of.
+  /// Resizes the other three, which only a cost volume needs.
   void resize_costs(int width, int height);
 };
 
 /// Steps of the fixed-point costs per gray value.
 inline constexpr int kCostScale = 16;
 
-/// Weights of gray value, horizontal and vertical Sobel in the cost, times kCostScale and 256.
-/// They are 0.30, 0.59 and 0.11.
+/// Weights of gray value, horizontal and vertical Sobel in the cost: 0.30, 0.59 and 0.11, times
+/// kCostScale and 256.
 inline constexpr std::array<int, 3> kCostWeights = {1229, 2417, 451};
 
-/// Scratch memory of one thread: sums of a row's columns.
+/// Scratch memory of one thread: column sums of a row.
 struct SobelScratch {
   Buffer<std::int16_t> smooth;
   Buffer<std::int16_t> difference;
@@ -45,16 +45,16 @@ struct SobelScratch {
   void resize(int width);
 };
 
-/// Both functions take the Sobel 3x3 (the image is mirrored at its border, without repeating the
-/// border) in the rows y0 .. y1 - 1 and read one row above and below. `scratch` is resized where it
-/// is too small.
+/// Both functions apply the 3x3 Sobel operators in the rows y0 .. y1 - 1 and read one row above and
+/// below. At its border the image is mirrored without repeating the border. `scratch` is resized if
+/// it is too small.
 
 /// Writes the levels of the median: the mean of |Sobel x| and |Sobel y|, inverted, stretched such
-/// that 125 becomes 0 and 255 stays, and quantized to q = `gray_levels` (2 .. 256) of equal width.
+/// that 125 becomes 0 and 255 stays, and quantized to q = `gray_levels` levels (2 .. 256) of equal
+/// width.
 void level_rows(int gray_levels, int y0, int y1, SobelScratch& scratch, PreprocessedView& view);
 
-/// Writes what the costs are made of from `image`, which is the median (the paper) or the view
-/// itself.
+/// Writes the cost's input, computed from `image`: the median (the paper) or the view itself.
 void cost_rows(GrayView image, int y0, int y1, SobelScratch& scratch, PreprocessedView& view);
 
 }  // namespace mtstereo
