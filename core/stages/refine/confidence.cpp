@@ -29,7 +29,7 @@ void copy_row(const std::int32_t* map, const std::uint8_t* map_ratio, int width,
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
     const auto value = hn::LoadU(d32, map + x);
     const auto rounded = hn::ShiftRight<kShift>(hn::Add(value, hn::Set(d32, kSteps / 2)));
-    // Known disparities are never rounded to 0 and nothing else is: but then the mask is exact.
+    // The mask is taken from the unrounded disparity, since the smallest ones round to 0.
     const auto known = hn::DemoteTo(d16, hn::Min(value, hn::Set(d32, 1)));
     const auto missing = hn::Eq(known, hn::Zero(d16));
     const auto ratios = hn::Or(hn::PromoteTo(d16, hn::LoadU(d8, map_ratio + x)), one);
@@ -38,8 +38,8 @@ void copy_row(const std::int32_t* map, const std::uint8_t* map_ratio, int width,
   }
 }
 
-/// Adds what supports a vector of disparities in one row of their windows, kAway rows away.
-/// `middle` is the disparities less 2^15, so that signed numbers compare like unsigned ones.
+/// Adds the support of a vector of disparities from one row of their windows, kAway rows away.
+/// `middle` holds the disparities minus 2^15, so that signed comparisons order unsigned numbers.
 template <int kAway, class V>
 HWY_INLINE void add_line(const SupportMap& support, int y, int x, hn::Vec<Signed> middle, V& count,
                          V& ratio) {
@@ -52,7 +52,7 @@ HWY_INLINE void add_line(const SupportMap& support, int y, int x, hn::Vec<Signed
     const int columns = i < kSupportRadius ? kSupportRadius - i : i - kSupportRadius;
     const int away = columns > kAway ? columns : kAway;
     const int tolerance = kSupportTolerance + away * kSupportSlope;
-    // middle + tolerance - other has to be 0 .. 2 * tolerance.
+    // A pixel supports the middle if middle + tolerance - disparity is 0 .. 2 * tolerance.
     const auto largest = hn::Add(middle, hn::Set(di16, static_cast<std::int16_t>(tolerance)));
     const auto distance = hn::Sub(largest, hn::BitCast(di16, hn::LoadU(d16, disparities + i)));
     const auto end = hn::Set(di16, static_cast<std::int16_t>(2 * tolerance + 1 - (1 << 15)));
@@ -63,7 +63,7 @@ HWY_INLINE void add_line(const SupportMap& support, int y, int x, hn::Vec<Signed
   ratio = hn::Add(ratio, hn::And(sum, hn::Set(d16, kSupportOne - 1)));
 }
 
-/// Adds the rows of the windows on both sides of row y, kAway rows away, that are in the image.
+/// Adds the two rows of the windows kAway rows above and below row y, if they are in the image.
 template <int kAway, class V>
 HWY_INLINE void add_lines(const SupportMap& support, int y, int x, hn::Vec<Signed> middle, V& count,
                           V& ratio) {
@@ -72,8 +72,8 @@ HWY_INLINE void add_lines(const SupportMap& support, int y, int x, hn::Vec<Signe
   if (y + kAway <= last) add_line<kAway>(support, y + kAway, x, middle, count, ratio);
 }
 
-/// Sums up the support of each pixel of a row; the count is 0 where there is no disparity, or
-/// `asked` is 0.
+/// Sums up the support of each pixel of a row. The count is 0 for pixels without a disparity and
+/// where `asked` is 0.
 void sum_row(const SupportMap& support, const std::uint8_t* asked, int y, SupportScratch& scratch) {
   static_assert(kSupportRadius == 4);
   const Words d16;
@@ -102,14 +102,14 @@ void sum_row(const SupportMap& support, const std::uint8_t* asked, int y, Suppor
   }
 }
 
-/// The steps of count * count * ratio / (255 * pixels^3) for windows of so many pixels, and 1; 0
-/// where nothing was counted.
+/// count * count * ratio / (255 * pixels^3) for windows of `pixels` pixels, in steps of
+/// 1 / kSupportSteps, plus 1; 0 if the count is 0.
 void find_steps(int pixels, int width, SupportScratch& scratch) {
   const hn::CappedTag<double, kAlignment / 8> df64;
   const hn::Rebind<std::int32_t, decltype(df64)> d32;
   const hn::Rebind<std::uint16_t, decltype(df64)> d16;
-  // One half keeps what is whole above the whole number by more than any rounding: the numerator
-  // is a whole number below 2^40, `all` is below 2^28.
+  // Adding one half keeps exact whole quotients above the whole number by more than any rounding
+  // error: the numerator is a whole number below 2^40, `all` is below 2^28.
   const double all = 255.0 * pixels * pixels * pixels;
   const auto scale = hn::Set(df64, 1 / all);
   const auto half = hn::Set(df64, 0.5);
@@ -127,7 +127,7 @@ void find_steps(int pixels, int width, SupportScratch& scratch) {
 using Map = hn::CappedTag<std::int32_t, kAlignment / 4>;
 using MapConfidence = hn::Rebind<std::uint8_t, Map>;
 
-/// Both reach into the padding of the rows.
+/// This function and the next one access the padding of the rows.
 void remove_below(int least, int width, std::int32_t* map, std::uint8_t* confidence) {
   const Map d32;
   const MapConfidence d8;
@@ -152,14 +152,14 @@ HWY_EXPORT(remove_below);
 
 namespace {
 
-/// Of i + 1: 255 times the cube root of i / kSupportSteps, rounded half up, 1 at least. Of 0: 0. In
-/// whole numbers: the cube root of 1/8 is half a step, and what std::cbrt() makes of it differs
-/// from library to library.
+/// Entry i + 1: 255 times the cube root of i / kSupportSteps, rounded half up, at least 1. Entry 0:
+/// 0. Computed in whole numbers, since 255 times the cube root of 1/8 is halfway between two whole
+/// numbers, and the result of std::cbrt() differs between libraries.
 constexpr std::array<std::uint8_t, kSupportSteps + 2> kCubeRoots = [] {
   std::array<std::uint8_t, kSupportSteps + 2> roots{};
   std::int64_t root = 0;
   for (std::int64_t i = 0; i <= kSupportSteps; ++i) {
-    // Up where root + 1/2 is not above the exact one.
+    // Rounds up if root + 1/2 is not above the exact root.
     const std::int64_t cube = std::int64_t{255} * 255 * 255 * i;
     while ((2 * root + 1) * (2 * root + 1) * (2 * root + 1) * kSupportSteps <= 8 * cube) ++root;
     roots[i + 1] = static_cast<std::uint8_t>(std::max<std::int64_t>(root, 1));
@@ -167,12 +167,12 @@ constexpr std::array<std::uint8_t, kSupportSteps + 2> kCubeRoots = [] {
   return roots;
 }();
 
-/// The part of a window's `kSupportSide` rows or columns that is inside of the image.
+/// Number of a window's kSupportSide rows or columns that are inside of the image.
 int inside(int middle, int size) {
   return std::min(middle + kSupportRadius, size - 1) - std::max(middle - kSupportRadius, 0) + 1;
 }
 
-/// Corrects the steps of the columns whose windows end at the image's border.
+/// Corrects the steps of the columns whose windows the image's border cuts off.
 void find_border_steps(int rows, int width, SupportScratch& scratch) {
   for (int x = 0; x < width; ++x) {
     if (x == kSupportRadius) x = std::max(x, width - kSupportRadius);
@@ -189,7 +189,7 @@ void find_border_steps(int rows, int width, SupportScratch& scratch) {
 }  // namespace
 
 void SupportMap::resize(int width, int height) {
-  // As wide as the vectors that begin inside reach.
+  // The padding of the rows is wide enough for the vectors that begin inside.
   disparity.resize(width + 2 * kSupportRadius, height);
   ratio.resize(width + 2 * kSupportRadius, height);
 }

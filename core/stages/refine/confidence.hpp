@@ -7,35 +7,36 @@
 
 namespace mtstereo {
 
-/// The confidence of each disparity: how many pixels around it have one that fits, and how clearly
-/// they were told from their runners-up. A continuous form of the paper's votes ("Confidence check
-/// and map refinement") that also falls towards the rim of what is known.
+/// The confidence of each disparity: how many pixels around it have a disparity that fits, and how
+/// clearly those differ from their runners-up. A continuous form of the paper's votes ("Confidence
+/// check and map refinement") that also decreases towards the border of a known region.
 
-/// Half the side of the window, without its middle [px].
+/// Radius of the window, without its middle pixel [px].
 inline constexpr int kSupportRadius = 4;
 
 /// Side of the window [px].
 inline constexpr int kSupportSide = 2 * kSupportRadius + 1;
 
-/// A disparity supports one that is n px away (the larger of columns and rows) where the two differ
-/// by at most kSupportTolerance + n * kSupportSlope: surfaces may be slanted.
+/// A disparity supports another one at a distance of n px (the larger of columns and rows) if the
+/// two differ by at most kSupportTolerance + n * kSupportSlope, since surfaces may be slanted.
 inline constexpr int kSupportTolerance = 32;  ///< [1 / kVoteOne px]
 inline constexpr int kSupportSlope = 13;      ///< [1 / kVoteOne px per px]
 
-/// Further from every disparity than any tolerance, the distance taken modulo 2^16.
+/// No disparity. Its distance from every disparity, modulo 2^16, is larger than any tolerance.
 inline constexpr std::uint16_t kSupportNone = 0xC000;
 
-/// What each disparity adds to a sum of ratios: the upper bits count. A row of the window fits.
+/// Added to the ratio of each disparity, so that the upper bits of a sum of ratios count them. The
+/// sum of a row of the window fits into 16 bits.
 inline constexpr std::uint16_t kSupportOne = 1 << 12;
 
-/// Steps to which a share is cut before its cube root is taken.
+/// Steps per 1 of the product whose cube root is the confidence.
 inline constexpr int kSupportSteps = 4096;
 
-/// Copies of a disparity map and its peak ratios in the form that the sums are made of, with a
-/// border of kSupportRadius columns on both sides.
+/// Copies of a disparity map and its peak ratios in the form that the sums need, with a border of
+/// kSupportRadius columns on both sides.
 struct SupportMap {
-  Image<std::uint16_t> disparity;  ///< [1 / kVoteOne px], kSupportNone where there is none
-  Image<std::uint16_t> ratio;      ///< kSupportOne and 0 .. 255, 0 where there is no disparity
+  Image<std::uint16_t> disparity;  ///< [1 / kVoteOne px], or kSupportNone
+  Image<std::uint16_t> ratio;      ///< kSupportOne plus 0 .. 255; 0 without a disparity
 
   void resize(int width, int height);
 };
@@ -46,27 +47,26 @@ void copy_support(const Image<std::int32_t>& map, const Image<std::uint8_t>& rat
 
 /// Scratch memory of one thread.
 struct SupportScratch {
-  Buffer<std::uint16_t> count;  ///< pixels that support
+  Buffer<std::uint16_t> count;  ///< number of supporting pixels
   Buffer<std::uint16_t> ratio;  ///< sum of their peak ratios
-  Buffer<std::uint16_t> steps;  ///< what the confidence is the cube root of, and 1; 0 for none
+  Buffer<std::uint16_t> steps;  ///< the product in 1 / kSupportSteps, plus 1; 0 without support
 
   void resize(int width);
 };
 
-/// Writes the rows y0 .. y1 - 1: 255 times the cube root of c * c * r, where c is the share of the
-/// window's pixels that support the middle one, itself included, and r the sum of their peak ratios
-/// (0 .. 1) divided by the window's pixels. The product is cut to whole 1/4096. 1 at least; 0 where
-/// there is no disparity, and where `asked` is 0: a pixel can support others without being rated.
-/// The window ends at the image's border.
+/// Writes the rows y0 .. y1 - 1: 255 times the cube root of c * c * r, at least 1. c is the share
+/// of the window's pixels that support the middle one, including itself; r is the sum of their peak
+/// ratios (0 .. 1) divided by the number of the window's pixels. The product is truncated to whole
+/// steps of 1 / kSupportSteps. The confidence is 0 for pixels without a disparity and where `asked`
+/// is 0; such a pixel can still support others. The window is cut off at the image's border.
 void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, int y0, int y1,
                   SupportScratch& scratch, Image<std::uint8_t>& confidence);
 
-/// The step of rate_support() by itself that is not obviously exact: the 1/4096 that the product is
-/// cut to, and 1, from count and ratio, for windows of `pixels` pixels (up to 81); 0 where nothing
-/// was counted.
+/// The part of rate_support() whose exactness is not obvious, available for tests: computes
+/// SupportScratch::steps from `count` and `ratio`, for windows of `pixels` pixels (up to 81).
 void find_support_steps(int pixels, int width, SupportScratch& scratch);
 
-/// Takes the disparities of the rows y0 .. y1 - 1 away whose confidence is below `least`.
+/// Removes the disparities of the rows y0 .. y1 - 1 whose confidence is below `least`.
 void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,
                      Image<std::uint8_t>& confidence);
 

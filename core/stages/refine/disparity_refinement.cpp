@@ -17,10 +17,10 @@ using Ints = hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)>;
 
 constexpr int kRadius = kRefinementRadius;
 constexpr int kSide = 2 * kRadius + 1;
-constexpr int kReach = Scratch::kShifts / 2;  // of the shifts [px]
+constexpr int kReach = Scratch::kShifts / 2;  // the largest shift [px]
 static_assert(kSide * kCensusBits < 256, "a column's costs are summed in bytes");
 
-/// The rows of one image row in the ring of the scratch memory.
+/// The ring buffers' rows of one image row.
 struct RingRow {
   std::uint8_t* costs[Scratch::kShifts];
   std::int8_t* rounded;
@@ -28,7 +28,7 @@ struct RingRow {
 };
 
 RingRow ring_row(int y, Scratch& scratch) {
-  // The first rows that are asked for are above the image.
+  // The first rows lie above the image.
   const std::ptrdiff_t row = (y + 2 * Scratch::kRows) % Scratch::kRows;
   RingRow ring;
   for (int i = 0; i < Scratch::kShifts; ++i) {
@@ -39,7 +39,7 @@ RingRow ring_row(int y, Scratch& scratch) {
   return ring;
 }
 
-/// Takes the disparities of a row apart: whole pixels and what is rounded off.
+/// Splits the disparities of a row into whole pixels and rounding errors.
 void round_row(const std::int32_t* __restrict__ disparity, int width,
                std::int32_t* __restrict__ places, std::int8_t* __restrict__ rounded,
                std::uint8_t* __restrict__ known) {
@@ -54,7 +54,8 @@ void round_row(const std::int32_t* __restrict__ disparity, int width,
 using Vec = hn::Vec<Ints>;
 using Bits = hn::Vec<hn::RebindToUnsigned<Ints>>;
 
-/// The costs of the pixels from column x on at all shifts; partner(i) gives the right view's bits.
+/// The costs of the pixels from column x on at all shifts; partner(i) returns the right view's
+/// bits.
 template <typename Partner>
 HWY_INLINE void store_costs(Bits bits, Bits known, int x, const RingRow& ring, Partner&& partner) {
   const Ints di32;
@@ -65,8 +66,8 @@ HWY_INLINE void store_costs(Bits bits, Bits known, int x, const RingRow& ring, P
   }
 }
 
-/// The costs of a row at all shifts; none where there is no disparity. `right` begins kReach before
-/// the row's first pixel, and a vector more before it can be read.
+/// The costs of a row at all shifts; 0 for pixels without a disparity. `right` begins kReach before
+/// the row's first pixel, and one vector before that can be read.
 void cost_row(const std::uint32_t* left, const std::uint32_t* right, const std::int32_t* places,
               int width, const RingRow& ring) {
   const Ints di32;
@@ -82,7 +83,7 @@ void cost_row(const std::uint32_t* left, const std::uint32_t* right, const std::
     }
     const auto bits = hn::LoadU(du32, left + x);
     const auto place = hn::LoadU(di32, places + x);
-    // Where the pixels' partners begin, would all of them have one disparity.
+    // The column of the first pixel's partner if all pixels had the disparity of this one.
     const auto first = hn::Sub(place, hn::Iota(di32, 0));
     const auto nearest = hn::IfThenElse(unknown, hn::Set(di32, kNever), first);
     const auto farthest = hn::IfThenElse(unknown, hn::Set(di32, -kNever), first);
@@ -93,7 +94,7 @@ void cost_row(const std::uint32_t* left, const std::uint32_t* right, const std::
                   [&](int i) { return hn::GatherIndex(du32, right + 2 * kReach - i, place); });
       continue;
     }
-    // On most surfaces the partners are neighbors too: no need to gather them one by one.
+    // On most surfaces the partners are neighbors too, and two loads replace a gather.
     const std::uint32_t* partners = right + 2 * kReach + least;
     const auto is_least = hn::RebindMask(du32, hn::Eq(first, hn::Set(di32, least)));
     auto next = hn::LoadU(du32, partners + 1);
@@ -124,7 +125,7 @@ void fill_ring_row(const CensusImage& left, const CensusImage& right,
   cost_row(left.bits.row(y), line, scratch.places.data(), width, ring);
 }
 
-/// Moves the sums of columns on by a row.
+/// Advances the sums of columns by one row.
 template <typename Value, typename Sum>
 void move_sums(const Value* __restrict__ added, const Value* __restrict__ removed, int width,
                Sum* __restrict__ sums) {
@@ -142,7 +143,8 @@ void move_columns(int y, int width, Scratch& scratch) {
   move_sums(added.known, removed.known, width, scratch.known_columns.data() + kRadius);
 }
 
-/// The sums over the window from those over its columns, which begin at the window's first one.
+/// The sums over the window from those over its columns. `columns` begins at the first window's
+/// first column.
 template <typename Sum>
 void sum_window(const Sum* __restrict__ columns, int width, std::int16_t* __restrict__ sums) {
   static_assert(kSide == 7);
@@ -153,7 +155,8 @@ void sum_window(const Sum* __restrict__ columns, int width, std::int16_t* __rest
   }
 }
 
-/// Sums over windows, a row of each: the costs of the shifts, what is rounded off, what is known.
+/// The rows of RefinementScratch::sums: the costs of the shifts, then the rounding errors, then the
+/// number of known disparities.
 constexpr int kRounded = Scratch::kShifts;
 constexpr int kKnown = Scratch::kShifts + 1;
 
@@ -166,13 +169,13 @@ void sum_windows(int width, Scratch& scratch) {
   sum_window(scratch.known_columns.data(), width, sums(kKnown));
 }
 
-/// Three costs around the smallest one of the shifts -1 .. 1 px, and that shift.
+/// The smallest cost of the shifts -1 .. 1 px, the costs before and after it, and that shift.
 struct Minimum {
   Vec before, best, after, shift;
 };
 
-/// The costs are in 1/128 bits: a shift by 1 px away from the given disparities costs 2 bits for
-/// each pixel of the window.
+/// Costs are in 1/128 bits. A shift by 1 px away from the given disparities costs 2 bits for each
+/// pixel of the window.
 HWY_INLINE Minimum find_minimum(const std::int16_t* sums, std::ptrdiff_t stride, Vec rounded,
                                 Vec known) {
   const Ints di32;
@@ -189,7 +192,7 @@ HWY_INLINE Minimum find_minimum(const std::int16_t* sums, std::ptrdiff_t stride,
   const auto two_more = cost(4, hn::Sub(two, rounded));
   const auto best = hn::Min(hn::Min(one_less, same), one_more);
   const auto less = hn::Eq(one_less, best);
-  const auto more = hn::Eq(one_more, best);  // where it is not less
+  const auto more = hn::Eq(one_more, best);  // `less` takes precedence
   const auto select = [&](Vec if_less, Vec if_same, Vec if_more) {
     return hn::IfThenElse(less, if_less, hn::IfThenElse(more, if_more, if_same));
   };
@@ -223,10 +226,10 @@ void refine_row(const std::int32_t* map, int width, int limit, const Scratch& sc
     const auto refined = hn::Add(given, hn::Add(at.shift, change));
     const auto column = hn::ShiftLeft<8>(hn::Iota(di32, x));
     const auto possible = hn::Max(hn::Min(refined, hn::Min(column, hn::Set(di32, limit))), unit);
-    // A minimum is below one side at least and above none.
-    const auto told =
+    // A minimum is below at least one neighbor and above none.
+    const auto is_minimum =
         hn::AndNot(hn::Lt(hn::Min(at.before, at.after), at.best), hn::Gt(slope, zero));
-    const auto kept = hn::IfThenElse(told, possible, given);
+    const auto kept = hn::IfThenElse(is_minimum, possible, given);
     hn::StoreU(hn::IfThenElse(hn::Eq(given, zero), zero, kept), di32, out + x);
   }
 }
@@ -254,7 +257,7 @@ namespace mtstereo {
 HWY_EXPORT(refine_band);
 
 void RefinementScratch::resize(int width) {
-  // Whole vectors are read and written behind the last pixel of a row.
+  // A whole vector after the last pixel of a row is read and written.
   constexpr int kVector = static_cast<int>(kAlignment);
   stride = (width + 2 * kRefinementRadius + kVector) / kVector * kVector;
   right.resize(kBefore + stride);
@@ -272,7 +275,7 @@ void RefinementScratch::resize(int width) {
 void refine_disparities(const CensusImage& left, const CensusImage& right,
                         const Image<std::int32_t>& map, int max_disparity, int y0, int y1,
                         RefinementScratch& scratch, Image<std::int32_t>& refined) {
-  // Nothing is known above the first window and beyond the ends of rows.
+  // No disparity is known above the first window and outside of the rows.
   const auto clear = [](auto& buffer) {
     std::memset(buffer.data(), 0, buffer.size() * sizeof(buffer[0]));
   };

@@ -9,45 +9,45 @@
 
 namespace mtstereo {
 
-/// Refines disparities that are right to about one pixel, as those of halved views are, by the
-/// census costs of the full views.
+/// Refines disparities with an error of about one pixel, like those of halved views, by the census
+/// costs of the full views.
 ///
-/// All pixels of a window are shifted by the same amount -1 .. 1 px against their own disparities,
-/// so that the window follows slants and edges. The shift with the least sum of costs, refined
-/// between whole pixels, is what the window's disparities are off on average; what they were
-/// rounded by for the costs is taken out of it. A shift away from the given disparities costs a
-/// little, so that they are not lost where the costs tell little. The disparity stays where no
-/// shift is a minimum.
+/// All pixels of a window are shifted by the same amount -1 .. 1 px from their own disparities, so
+/// that the window follows slants and edges. The shift with the least sum of costs, interpolated
+/// between whole pixels, is the mean error of the window's disparities; the mean rounding error of
+/// the disparities for which costs were computed is subtracted from it. A shift away from the given
+/// disparities has a small cost, so that these are kept where the image has little texture. A
+/// disparity is not changed if no shift is a minimum.
 
-/// Half the side of the window [px].
+/// Radius of the window, without its middle pixel [px].
 inline constexpr int kRefinementRadius = 3;
 
 /// Scratch memory of one thread: the rows that the window covers, and their sums.
 struct RefinementScratch {
   static constexpr int kShifts = 5;                        ///< -2 .. 2 px
   static constexpr int kRows = 2 * kRefinementRadius + 2;  ///< those of the window and one more
-  /// So many numbers in front of the row in `right`: a vector that may be read.
+  /// Number of readable elements before the row in `right`: one vector.
   static constexpr int kBefore = kAlignment / sizeof(std::uint32_t);
 
-  std::ptrdiff_t stride = 0;           ///< from row to row of all that have several [elements]
+  std::ptrdiff_t stride = 0;           ///< from row to row of all buffers with rows [elements]
   Buffer<std::uint32_t> right;         ///< a row of the right view with its ends repeated
-  Buffer<std::int32_t> places;         ///< of each pixel where its partner stands there
+  Buffer<std::int32_t> places;         ///< per pixel: its partner's column in that row
   Buffer<std::uint8_t> costs;          ///< kRows x kShifts rows [bits]
-  Buffer<std::int8_t> rounded;         ///< kRows rows: what was rounded off [1/256 px]
-  Buffer<std::uint8_t> known;          ///< kRows rows: 1 where there is a disparity
+  Buffer<std::int8_t> rounded;         ///< kRows rows: rounding errors [1/256 px]
+  Buffer<std::uint8_t> known;          ///< kRows rows: 1 for a pixel with a disparity
   Buffer<std::uint8_t> cost_columns;   ///< kShifts rows: sums over the window's rows
   Buffer<std::int16_t> round_columns;  ///< the same of `rounded`
   Buffer<std::uint8_t> known_columns;  ///< the same of `known`
   Buffer<std::int16_t> sums;           ///< kShifts + 2 rows: sums over the window
 
-  /// The only one that allocates.
+  /// The only function that allocates.
   void resize(int width);
 };
 
-/// Writes the rows y0 .. y1 - 1 of `refined`, an image as large as the map; reads kRefinementRadius
-/// rows more of the others on both sides. In the map as in `refined` no disparity is above its
-/// column; in `refined` all are below max_disparity [px]. The result does not depend on how the
-/// image is cut into bands.
+/// Writes the rows y0 .. y1 - 1 of `refined`, which has the size of the map; reads
+/// kRefinementRadius further rows of the other images on both sides. In the map and in `refined` no
+/// disparity exceeds its column; in `refined` all are below max_disparity [px]. The result does not
+/// depend on how the image is divided into bands.
 void refine_disparities(const CensusImage& left, const CensusImage& right,
                         const Image<std::int32_t>& map, int max_disparity, int y0, int y1,
                         RefinementScratch& scratch, Image<std::int32_t>& refined);

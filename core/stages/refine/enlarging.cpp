@@ -14,14 +14,14 @@ namespace mtstereo::HWY_NAMESPACE {
 using Ints = hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)>;
 using One = hn::CappedTag<std::int32_t, 1>;
 
-/// The disparities of the pixels in the half pixels from `column` on, on their sides to the columns
-/// from `beside` on; `columns` are the pixels' own. A pixel's center is a quarter of a half pixel
-/// off in both directions.
+/// The disparities of one pixel in each of the half pixels from `column` on: the pixel on the side
+/// of the half pixel's horizontal neighbor, from `beside` on. `columns` are the pixels' columns. A
+/// pixel's center is a quarter of a half pixel away from the half pixel's, in both directions.
 template <class D, class Vec = hn::Vec<D>>
 HWY_INLINE Vec enlarged(D di32, const EnlargedRow& row, int column, int beside, Vec columns) {
   const auto zero = hn::Zero(di32), near = hn::Set(di32, kDisparityOne);
   const auto disparity = hn::LoadU(di32, row.nearest + column);
-  // The neighbors' disparities where they continue this one, else this one.
+  // The neighbors' disparities if they belong to the same surface, else the pixel's own.
   const auto continued = [&](const std::int32_t* neighbors) {
     const auto neighbor = hn::LoadU(di32, neighbors);
     const auto apart = hn::Gt(hn::Abs(hn::Sub(neighbor, disparity)), near);
@@ -31,13 +31,13 @@ HWY_INLINE Vec enlarged(D di32, const EnlargedRow& row, int column, int beside, 
   const auto nine = hn::Add(hn::ShiftLeft<3>(disparity), disparity);
   const auto sum =
       hn::Add(hn::Add(nine, continued(row.next + beside)), hn::Add(hn::ShiftLeft<1>(three), three));
-  // Sixteenths of half pixels are eighths of pixels.
+  // Sixteenths of a half pixel's disparity are eighths of a pixel's.
   const auto rounded = hn::ShiftRight<3>(hn::Add(sum, hn::Set(di32, 4)));
   const auto most = hn::Min(hn::ShiftLeft<8>(columns), hn::Set(di32, row.limit));
   return hn::IfThenElse(hn::Eq(disparity, zero), zero, hn::Min(rounded, most));
 }
 
-/// Both pixels of each half pixel from `column` on, a vector of them, none in the border.
+/// Both pixels of each of a vector of half pixels from `column` on, none of them in the border.
 template <class D>
 HWY_INLINE void enlarge_inside(D di32, const EnlargedRow& row, int column, std::int32_t* out) {
   static_assert(kNoDisparity == 0);
@@ -65,7 +65,7 @@ void enlarge_row(const EnlargedRow& row, int half_width, int width, std::int32_t
   enlarge_at(row, 0, 0, out);
   if (width > 1) enlarge_at(row, 1, std::min(1, last), out);
   if (last > step) {
-    // The last vector takes some once more, instead of pixels behind the row's end.
+    // The last vector overlaps the one before instead of extending past the end of the row.
     for (int x = 1; x < last; x += step) enlarge_inside(di32, row, std::min(x, last - step), out);
   } else {
     for (int x = 1; x < last; ++x) enlarge_inside(One(), row, x, out);

@@ -10,15 +10,15 @@ namespace mtstereo {
 namespace {
 
 /// Fills the pixels 1 .. steps - 1 after `first`, which is pixel 0; pixel `steps` is the gap's
-/// other end. The strides are those from pixel to pixel [elements].
+/// other end. The strides are from pixel to pixel [elements].
 void fill_gap(int steps, std::ptrdiff_t map_stride, std::int32_t* first,
               std::ptrdiff_t confidence_stride, std::uint8_t* first_confidence) {
   const std::uint8_t weaker =
       std::min(*first_confidence, first_confidence[steps * confidence_stride]);
   const std::uint8_t confidence = std::max<std::uint8_t>(weaker / 2, 1);
-  // Pixel k has first + k * rise / steps, with the half that rounds added: a whole part and a rest
-  // of 2 * steps parts that go up by the same amount each time, so that one division does for all.
-  // It lies between the ends and so is at least 1.
+  // Pixel k gets first + k * rise / steps plus one half, truncated. The whole part and the
+  // remainder, in 1 / (2 * steps), grow by the same amounts from pixel to pixel, so that one
+  // division is enough. The result lies between the ends and so is at least 1.
   const std::int32_t rise = first[steps * map_stride] - *first;
   const bool falls = rise % steps < 0;
   const std::int32_t whole = rise / steps - falls;
@@ -63,7 +63,7 @@ void fill_gaps_along_columns(int max_gap, std::int32_t tolerance, int x0, int x1
   constexpr std::int32_t kNoneYet = -1;
   const int columns = x1 - x0;
   scratch.resize(columns);
-  std::int32_t* last = scratch.data();  // of each column the last row with a disparity
+  std::int32_t* last = scratch.data();  // per column: the last row with a disparity
   std::fill_n(last, columns, kNoneYet);
   for (int y = 0; y < map.height(); ++y) {
     const std::int32_t* row = map.row(y) + x0;

@@ -20,8 +20,8 @@ Vec means_at(const std::int32_t* const* lines, int radius, int x, Vec middle) {
   const hn::Rebind<float, Ints> df32;
   const auto zero = hn::Zero(di32), near = hn::Set(di32, kDisparityOne);
   const auto two = hn::Set(di32, 2);
-  auto rises = zero;              // how much the pairs are above the pixel
-  auto count = hn::Set(di32, 1);  // pixels that are taken, itself included
+  auto rises = zero;              // sum of the pairs' differences from the pixel
+  auto count = hn::Set(di32, 1);  // number of averaged pixels, including itself
   for (int distance = 1; distance <= radius; ++distance) {
     const auto one = hn::LoadU(di32, lines[radius - distance] + x);
     const auto other = hn::LoadU(di32, lines[radius + distance] + x);
@@ -31,14 +31,14 @@ Vec means_at(const std::int32_t* const* lines, int radius, int x, Vec middle) {
     rises = hn::Add(rises, hn::IfThenElseZero(taken, hn::Add(rise, fall)));
     count = hn::Add(count, hn::IfThenElseZero(taken, two));
   }
-  // Towards zero, which keeps to the pixel's own.
+  // Rounds towards zero, and so towards the pixel's own disparity.
   const auto mean = hn::Div(hn::ConvertTo(df32, rises), hn::ConvertTo(df32, count));
   const auto known = hn::Gt(middle, zero);
   return hn::IfThenElseZero(known, hn::Add(middle, hn::ConvertTo(di32, mean)));
 }
 
-/// Smooths the row in the middle of `lines`: lines[radius - i][x] and lines[radius + i][x] are the
-/// pair at the distance i from its pixel x.
+/// Smooths the middle row of `lines`: lines[radius - i][x] and lines[radius + i][x] are the pair at
+/// distance i from its pixel x.
 void smooth_row(const std::int32_t* const* lines, int radius, int width, std::int32_t* out) {
   const Ints di32;
   const auto none = hn::Zero(di32);

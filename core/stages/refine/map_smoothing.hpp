@@ -7,30 +7,31 @@
 
 namespace mtstereo {
 
-/// Smooths the disparities of each surface, first along the rows, then along the columns: costs of
-/// whole disparities draw them towards whole pixels, and noise is on all of them.
+/// Smooths the disparities of each surface, first along the rows, then along the columns. This
+/// reduces noise and the bias towards whole pixels that costs at whole disparities cause.
 ///
-/// A pixel takes the mean of itself and of those pairs of pixels that lie opposite to each other,
-/// equally far on both sides, and are both within 1 px of it: so a slanted surface stays where it
-/// is, and the rim of one too, which has neighbors on one side only. A disparity stays possible at
-/// its column. With a radius of 0 nothing changes.
+/// A pixel takes the mean of itself and of pairs of pixels at the same distance on both sides of
+/// it. A pair counts only if the disparities of both differ from the pixel's by at most 1 px. So a
+/// slanted surface does not move, nor does its border, which has neighbors on one side only. No
+/// disparity exceeds its column afterwards. A radius of 0 changes nothing.
 ///
-/// smooth_along_rows() on bands of rows, then, when all are done, smooth_along_columns() on bands.
+/// Call smooth_along_rows() for all bands of rows, then smooth_along_columns() for all bands.
 
 /// Scratch memory of one thread.
 struct SmoothingScratch {
   Buffer<std::int32_t> line;          ///< a row with zeros on both sides
-  Buffer<const std::int32_t*> lines;  ///< where the neighbors of a row's pixels begin
+  Buffer<const std::int32_t*> lines;  ///< the begins of the shifted rows or of the neighboring rows
 
-  /// The only one that allocates, for maps of this width and this radius or a smaller one.
+  /// The only function that allocates. Sufficient for maps of this width and for radii up to this.
   void resize(int width, int radius);
 };
 
-/// Writes the rows y0 .. y1 - 1 of `smoothed`, an image as large as the map.
+/// Writes the rows y0 .. y1 - 1 of `smoothed`, which has the size of the map.
 void smooth_along_rows(const Image<std::int32_t>& map, int radius, int y0, int y1,
                        SmoothingScratch& scratch, Image<std::int32_t>& smoothed);
 
-/// Writes the rows y0 .. y1 - 1 of the map; reads `radius` rows more of `smoothed` on both sides.
+/// Writes the rows y0 .. y1 - 1 of the map; reads `radius` further rows of `smoothed` on both
+/// sides.
 void smooth_along_columns(const Image<std::int32_t>& smoothed, int radius, int y0, int y1,
                           SmoothingScratch& scratch, Image<std::int32_t>& map);
 

@@ -17,10 +17,10 @@ namespace mtstereo::HWY_NAMESPACE {
 
 using Disparities = hn::CappedTag<std::int32_t, kAlignment / 4>;
 
-/// Columns that are looked at together.
+/// Columns that are processed together.
 constexpr int kWord = 64;
 
-/// Bit i of both stands for column i.
+/// Bit i of both words belongs to column i.
 struct ColumnBits {
   std::uint64_t known = 0;   ///< has a disparity
   std::uint64_t joined = 0;  ///< is connected to the next column
@@ -29,11 +29,11 @@ struct ColumnBits {
 std::uint64_t bits_of(hn::Mask<Disparities> mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(Disparities(), mask, bytes);
-  // Only the bytes that were just written: processors would wait for a longer load.
+  // Reads only the bytes just written: a longer load would wait for the store.
   return hn::Lanes(Disparities()) > 8 ? bytes[0] | bytes[1] << 8 : bytes[0];
 }
 
-/// Looks at the first `columns` of a row, kWord at most, and at the one behind.
+/// The bits of the first `columns` columns of a row, at most kWord. Reads one column more.
 ColumnBits column_bits(const std::int32_t* row, int columns, std::int32_t tolerance) {
   const Disparities d32;
   const auto none = hn::Set(d32, kNoDisparity);
@@ -51,14 +51,16 @@ ColumnBits column_bits(const std::int32_t* row, int columns, std::int32_t tolera
   return bits;
 }
 
-/// Writes the columns of the bits from `first` on; `to` is behind the last one then.
+/// Writes the columns of the set bits, bit 0 being column `first`, and advances `to` past the last
+/// one.
 void write_columns(std::uint64_t bits, int first, std::uint16_t*& to) {
   for (; bits != 0; bits &= bits - 1) {
     *to++ = static_cast<std::uint16_t>(first + std::countr_zero(bits));
   }
 }
 
-/// Writes first and last columns of a row's runs and returns their number. Reads the row's padding.
+/// Writes the first and last columns of a row's runs and returns the number of runs. Reads the
+/// row's padding.
 int find_row_runs(const std::int32_t* row, int width, std::int32_t tolerance, std::uint16_t* begin,
                   std::uint16_t* last) {
   const std::uint16_t* const first_run = begin;
@@ -89,7 +91,7 @@ static_assert(1LL * kLargestImageSide * kLargestImageSide < kRootRun,
 
 bool is_root(std::uint32_t link) { return (link & kRootRun) != 0; }
 
-/// The root of the run's component; halves the way there for the next time.
+/// The root of the run's component. Halves the path to it.
 std::uint32_t find_root(std::uint32_t* link, std::uint32_t run) {
   while (!is_root(link[run])) {
     const std::uint32_t above = link[run];
@@ -100,8 +102,8 @@ std::uint32_t find_root(std::uint32_t* link, std::uint32_t run) {
   return run;
 }
 
-/// Makes one component of the two runs' components. The smaller one is put below the larger one, so
-/// that no way to a root has more steps than the logarithm of the component's size.
+/// Unites the components of the two runs. The smaller one is attached to the larger one, so that no
+/// path to a root is longer than the logarithm of the component's size.
 void unite(std::uint32_t* link, std::uint32_t a, std::uint32_t b) {
   a = find_root(link, a);
   b = find_root(link, b);
@@ -119,13 +121,13 @@ std::uint32_t write_row_runs(const std::int32_t* row, std::int32_t tolerance, st
   std::uint32_t* link = runs.link.data() + run;
   const int count = HWY_DYNAMIC_DISPATCH(find_row_runs)(row, runs.width, tolerance, begin, end);
   for (int i = 0; i < count; ++i) {
-    ++end[i];  // behind the last column
+    ++end[i];  // one past the last column
     link[i] = kRootRun + static_cast<std::uint32_t>(end[i] - begin[i]);
   }
   return run + static_cast<std::uint32_t>(count);
 }
 
-/// True where a column of begin .. end - 1, all known in both rows, connects them.
+/// Whether one of the columns begin .. end - 1, all known in both rows, connects them.
 bool columns_connect(const std::int32_t* above, const std::int32_t* row, std::int32_t tolerance,
                      int begin, int end) {
   for (int x = begin; x < end; ++x) {
@@ -146,7 +148,7 @@ void join_rows(const Image<std::int32_t>& map, std::int32_t tolerance, int y, Sp
     if (columns_connect(map.row(y - 1), map.row(y), tolerance, begin, end)) {
       unite(runs.link.data(), above, run);
     }
-    // Whichever ends first cannot overlap anything that follows the other one.
+    // The run that ends first cannot overlap any run after the other one.
     if (runs.end[above] == end) {
       ++above;
     } else {
@@ -191,7 +193,7 @@ void remove_small(const SpeckleRuns& runs, int size, int y0, int y1, Image<std::
   for (int y = y0; y < y1; ++y) {
     std::int32_t* row = map.row(y);
     for (std::uint32_t i = runs.first[y]; i < runs.last[y]; ++i) {
-      std::uint32_t root = i;  // without shorter ways for the next time: other bands read them
+      std::uint32_t root = i;  // no path halving here, since other bands read the links
       while (!is_root(link[root])) root = link[root];
       if (link[root] < enough) std::fill(row + runs.begin[i], row + runs.end[i], kNoDisparity);
     }
