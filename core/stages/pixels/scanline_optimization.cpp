@@ -48,13 +48,13 @@ HWY_INLINE V lanes_before(Bytes d8, V v, V before) {
   }
 }
 
-/// The lanes of `v` moved down by one; the last is the first lane of `behind`.
+/// The lanes of `v` moved down by one; the last is the first lane of `after`.
 template <class V>
-HWY_INLINE V lanes_behind(Bytes d8, V v, V behind) {
+HWY_INLINE V lanes_after(Bytes d8, V v, V after) {
   if constexpr (hn::MaxLanes(d8) <= 16) {
-    return hn::CombineShiftRightBytes<1>(d8, behind, v);
+    return hn::CombineShiftRightBytes<1>(d8, after, v);
   } else {
-    return hn::CombineShiftRightBytes<1>(d8, hn::ConcatLowerUpper(d8, behind, v), v);
+    return hn::CombineShiftRightBytes<1>(d8, hn::ConcatLowerUpper(d8, after, v), v);
   }
 }
 
@@ -91,14 +91,14 @@ class Path {
     auto before = hn::Load(d8, newest_ - step);
     auto same = hn::Load(d8, newest_);
     for (int d = 0; d < lanes_; d += step) {
-      const auto behind = hn::Load(d8, newest_ + d + step);
-      const auto beside = hn::Min(lanes_before(d8, same, before), lanes_behind(d8, same, behind));
-      const auto best = hn::Min(hn::Min(same, hn::SaturatedAdd(beside, small_step_)), any);
+      const auto after = hn::Load(d8, newest_ + d + step);
+      const auto adjacent = hn::Min(lanes_before(d8, same, before), lanes_after(d8, same, after));
+      const auto best = hn::Min(hn::Min(same, hn::SaturatedAdd(adjacent, small_step_)), any);
       const auto path = hn::SaturatedAdd(hn::Load(d8, costs + d), hn::SaturatedSub(best, least_));
       hn::Store(path, d8, other_ + d);
       least = hn::Min(least, path);
       before = same;
-      same = behind;
+      same = after;
     }
     least_ = least_of_lanes(d8, least);
     std::swap(newest_, other_);

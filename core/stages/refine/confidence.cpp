@@ -204,7 +204,7 @@ void SupportScratch::resize(int width) {
 void copy_support(const Image<std::int32_t>& map, const Image<std::uint8_t>& ratio, int y0, int y1,
                   SupportMap& support) {
   const int width = map.width();
-  const std::ptrdiff_t behind = support.disparity.stride() - kSupportRadius - width;
+  const std::ptrdiff_t padding = support.disparity.stride() - kSupportRadius - width;
   for (int y = y0; y < y1; ++y) {
     std::uint16_t* out = support.disparity.row(y);
     std::uint16_t* out_ratio = support.ratio.row(y);
@@ -212,8 +212,8 @@ void copy_support(const Image<std::int32_t>& map, const Image<std::uint8_t>& rat
     (map.row(y), ratio.row(y), width, out + kSupportRadius, out_ratio + kSupportRadius);
     std::fill_n(out, kSupportRadius, kSupportNone);
     std::fill_n(out_ratio, kSupportRadius, std::uint16_t{0});
-    std::fill_n(out + kSupportRadius + width, behind, kSupportNone);
-    std::fill_n(out_ratio + kSupportRadius + width, behind, std::uint16_t{0});
+    std::fill_n(out + kSupportRadius + width, padding, kSupportNone);
+    std::fill_n(out_ratio + kSupportRadius + width, padding, std::uint16_t{0});
   }
 }
 
