@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "element_pipeline.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "element_pipeline.hpp"
 #include "outcome.hpp"
 
 namespace mtstereo::bench {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "frames.hpp"
+
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "eval/input_error.hpp"
-#include "frames.hpp"
 
 namespace mtstereo::bench {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "outcome.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -6,7 +8,6 @@
 #include <string>
 
 #include "guarded.hpp"
-#include "outcome.hpp"
 
 namespace mtstereo::bench {
 namespace {

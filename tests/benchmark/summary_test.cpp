@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "summary.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "summary.hpp"
 
 namespace mtstereo::bench {
 namespace {

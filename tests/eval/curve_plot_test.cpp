@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/curve_plot.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "eval/curve_plot.hpp"
 #include "eval/plot_panel.hpp"
 
 namespace mtstereo::eval {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/curve_report.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "eval/curve_report.hpp"
 #include "eval/rival_sweep.hpp"
 
 namespace mtstereo::eval {

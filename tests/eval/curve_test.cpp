@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/curve.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "eval/curve.hpp"
 #include "expect_error.hpp"
 
 namespace mtstereo::eval {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/ground_truth.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "eval/ground_truth.hpp"
 #include "eval/pictures.hpp"
 #include "expect_error.hpp"
 #include "support.hpp"

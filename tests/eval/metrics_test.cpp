@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/metrics.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "eval/metrics.hpp"
 #include "expect_error.hpp"
 
 namespace mtstereo::eval {

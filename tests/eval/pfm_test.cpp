@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/pfm.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "eval/pfm.hpp"
 #include "expect_error.hpp"
 #include "support.hpp"
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/pictures.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
 #include "eval/pfm.hpp"
-#include "eval/pictures.hpp"
 #include "expect_error.hpp"
 #include "support.hpp"
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/rival_filters.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,8 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-
-#include "eval/rival_filters.hpp"
 
 namespace mtstereo::eval {
 namespace {

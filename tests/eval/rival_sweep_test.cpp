@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/rival_sweep.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "eval/rival_sweep.hpp"
 #include "eval/runner.hpp"
 #include "expect_error.hpp"
 #include "support.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "eval/runner.hpp"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -6,7 +8,6 @@
 #include <thread>
 
 #include "eval/pfm.hpp"
-#include "eval/runner.hpp"
 #include "expect_error.hpp"
 #include "support.hpp"
 

@@ -34,8 +34,8 @@ struct CensusScratch {
   void resize(int width, int rows);
 };
 
-/// Writes the rows y0 .. y1 - 1. The border's pixels are repeated outside of the image. `scratch` is
-/// resized if it is too small for the band.
+/// Writes the rows y0 .. y1 - 1. The border's pixels are repeated outside of the image. `scratch`
+/// is resized if it is too small for the band.
 void census_rows(GrayView image, int y0, int y1, CensusScratch& scratch, CensusImage& census);
 
 /// Whether element x of a row is column x of the view, or the x-th column from the right end. In a
