@@ -65,23 +65,22 @@ echo "the program says: $output"
 [ "${output%% *}" = "$version" ] || fail "the program tells another version: $output"
 [ "${output##* }" -gt 500 ] || fail "the program found too few pixels: $output"
 
-# What a program could link to: the library's own names, templates of the standard library that the
-# compiler has to share (weak, W and V, or unique, u), and the marks that the linker sets.
-nm -D --defined-only "$library_path/libmtstereo.so" >"$root/names.txt" || fail "nm"
-foreign=$(c++filt <"$root/names.txt" | awk '
-  { kind = $2; name = $0; sub(/^[^ ]+ [^ ]+ /, "", name) }
-  name ~ /^mtstereo::/ { next }
-  name ~ /^(__bss_start|_edata|_end|_init|_fini)$/ { next }
-  name ~ /^(vtable|typeinfo|typeinfo name|VTT|guard variable) for (mtstereo|std)::/ { next }
-  kind ~ /^[WVu]$/ && name ~ /std::|operator (new|delete)/ { next }
-  { print }')
-[ -z "$foreign" ] || fail "the library shows names that are not its own:
+# A program that was linked to x.y.z runs with every later x.y.z and with no other x.y.
+library=$library_path/libmtstereo.so
+soname=libmtstereo.so.${version%.*}
+[ "$(readlink "$library_path/$soname")" = "libmtstereo.so.$version" ] ||
+  fail "$soname is no link to libmtstereo.so.$version"
+readelf -d "$library" | grep -q "SONAME.*\[$soname\]" || fail "the soname is not $soname"
+readelf -d "$root/program" | grep -q "NEEDED.*\[$soname\]" || fail "the program does not need $soname"
+
+# What a program could link to: the library's public names and nothing else.
+nm -D --defined-only "$library" | awk '{ print $NF }' >"$root/names.txt"
+grep -q '^_ZNK*8mtstereo' "$root/names.txt" || fail "the library exports nothing"
+foreign=$(grep -v '^_ZNK*8mtstereo' "$root/names.txt" | c++filt || true)
+[ -z "$foreign" ] || fail "the library exports names that are not its own:
 $foreign"
-grep -q ' T ' "$root/names.txt" || fail "the library shows nothing"
 public='(Matcher|Parameters)::~?[A-Za-z0-9_=]+(\[abi:cxx11\])?|parameter_table|parameter_info|parameter_default|parameter_defaults_text(\[abi:cxx11\])?|find_parameter|write_disparity16|version'
-inner=$(c++filt <"$root/names.txt" | grep -E ' [A-Za-z] mtstereo::' |
-  grep -vE " mtstereo::($public)\\(" || true)
-[ -z "$inner" ] || fail "the library shows names of its inside:
-$inner"
-echo "names shown: $(wc -l <"$root/names.txt"), of which shared templates of the standard library: $(
-  c++filt <"$root/names.txt" | grep -c ' [WVu] ' || true)"
+internal=$(c++filt <"$root/names.txt" | grep -vE "^mtstereo::($public)\\(" || true)
+[ -z "$internal" ] || fail "the library exports internal names:
+$internal"
+echo "exported names: $(wc -l <"$root/names.txt")"
