@@ -71,7 +71,7 @@ class MTSTEREO_API Matcher {
 MTSTEREO_API Status write_disparity16(DisparityView disparity, int scale,
                                       ImageView<std::uint16_t> out) noexcept;
 
-/// The version of the library, as in "0.1.0".
+/// The version of the library, as in "0.2.0".
 MTSTEREO_API const char* version() noexcept;
 
 }  // namespace mtstereo
