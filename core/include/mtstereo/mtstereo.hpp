@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-/// Everything of the library: include this one.
+/// @mainpage
+/// The library finds the disparity of the left image of a rectified pair by MTStereo 2.0, matching
+/// on the Max-trees of the scan-lines. mtstereo::Matcher does that, mtstereo::Parameters configures
+/// it, and mtstereo::parameter_table() describes every parameter. Include <mtstereo/mtstereo.hpp>,
+/// and compile and link with the flags of `pkg-config --cflags --libs mtstereo`.
+///
+/// A complete program:
+/// @include installed_program.cpp
+
+/// @namespace mtstereo
+/// The whole library.
+
 #include "mtstereo/image.hpp"
 #include "mtstereo/matcher.hpp"
 #include "mtstereo/parameters.hpp"
