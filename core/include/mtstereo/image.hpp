@@ -7,9 +7,9 @@
 
 namespace mtstereo {
 
-/// A view of an image that somebody else owns: it neither allocates nor frees. Row y begins
-/// `stride` bytes after row y - 1; the bytes between the end of a row and the next one are never
-/// read and never written.
+/// A view of an image. It does not own the pixels: the caller keeps them alive while the view is in
+/// use. Row y starts `stride` bytes after row y - 1. Padding bytes between the end of a row and the
+/// start of the next one are never read or written.
 template <typename T>
 struct ImageView {
   T* data = nullptr;          ///< first pixel of the first row
@@ -24,19 +24,19 @@ struct ImageView {
   }
 };
 
-/// 8-bit gray values (luma), as a camera gives them.
+/// An image of 8-bit gray values (luma).
 using GrayView = ImageView<const std::uint8_t>;
 
-/// Disparity of the left view in fixed point: px = value / kDisparityOne. The left pixel (x, y) and
-/// the right pixel (x - disparity, y) show the same point. kNoDisparity where nothing is known; the
-/// smallest disparity that is told is 1 / kDisparityOne px, so that a point at infinity differs
-/// from none.
+/// A disparity map of the left view in fixed point: disparity [px] = value / kDisparityOne. The
+/// left pixel (x, y) and the right pixel (x - disparity, y) show the same point of the scene. A
+/// pixel without a disparity has the value kNoDisparity. The smallest reported disparity is 1 /
+/// kDisparityOne px, so that a point at infinity differs from an unknown one.
 using DisparityView = ImageView<const std::int32_t>;
 
-/// One px of disparity in a DisparityView.
+/// The value of 1 px of disparity in a DisparityView.
 inline constexpr std::int32_t kDisparityOne = 256;
 
-/// The value of a DisparityView's pixel without a disparity.
+/// The value of a pixel without a disparity in a DisparityView.
 inline constexpr std::int32_t kNoDisparity = 0;
 
 }  // namespace mtstereo
