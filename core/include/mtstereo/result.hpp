@@ -8,28 +8,28 @@
 
 namespace mtstereo {
 
-/// What kind of thing went wrong. The sentence for the user is in Error::message.
+/// The kind of an error. Error::message is the sentence for the user.
 enum class ErrorCode {
-  /// A parameter's name is unknown, or its value is outside its range or of the wrong type.
+  /// The name of a parameter is unknown, or its value has the wrong type or is out of range.
   kInvalidParameter,
-  /// Parameters that are fine one by one do not fit each other.
+  /// Each parameter is valid, but their combination is not.
   kInvalidCombination,
-  /// An image has no pixels, no data, or a stride that is shorter than its rows.
+  /// An image has no pixels, no data, or a stride shorter than a row.
   kInvalidImage,
   /// The left image, the right image and the output do not have the same size.
   kSizeMismatch,
-  /// The parameters do not fit the size of the images.
+  /// The parameters and the size of the images do not fit.
   kFrameDoesNotFit,
-  /// The memory that the frame size and the search range need is not to be had.
+  /// There is not enough memory for this image size and search range.
   kOutOfMemory,
-  /// The system refused something else that was needed, such as a thread.
+  /// The operating system refused another resource, such as a thread.
   kSystem,
 };
 
-/// Why a call failed: a kind for programs and one sentence for people, which names what is wrong
-/// (the parameter, the value, the range, the sizes) and what to do.
+/// Why a call failed.
 struct Error {
-  ErrorCode code;
+  ErrorCode code;  ///< the kind, for programs
+  /// One sentence for the user: what is wrong (parameter, value, range, sizes) and what to do.
   std::string message;
 };
 
@@ -43,38 +43,47 @@ template <typename T>
 class [[nodiscard]] Result {
  public:
   // Implicit, so that a function can return either a value or an Error.
-  Result(T value) : state_(std::move(value)) {}      // NOLINT(google-explicit-constructor)
+  /// Success with a value.
+  Result(T value) : state_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
+  /// Failure.
   Result(Error error) : state_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
 
-  /// True where there is a value.
+  /// True if there is a value.
   bool ok() const { return std::holds_alternative<T>(state_); }
+  /// The same as ok().
   explicit operator bool() const { return ok(); }
 
-  /// The value; only where ok().
+  ///@{
+  /// The value. Requires ok().
   T& value() { return std::get<T>(state_); }
   const T& value() const { return std::get<T>(state_); }
   T& operator*() { return value(); }
   const T& operator*() const { return value(); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
+  ///@}
 
-  /// The reason; only where not ok().
+  /// The reason of the failure. Requires !ok().
   const Error& error() const { return std::get<Error>(state_); }
 
  private:
   std::variant<T, Error> state_;
 };
 
-/// Success, or the reason why not.
+/// Success, or the reason of a failure.
 class [[nodiscard]] Status {
  public:
+  /// Success.
   Status() = default;
+  /// Failure. Implicit, so that a function can return an Error.
   Status(Error error) : error_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
 
+  /// True on success.
   bool ok() const { return !error_.has_value(); }
+  /// The same as ok().
   explicit operator bool() const { return ok(); }
 
-  /// The reason; only where not ok().
+  /// The reason of the failure. Requires !ok().
   const Error& error() const { return *error_; }
 
  private:
