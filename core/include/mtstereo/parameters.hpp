@@ -12,29 +12,32 @@
 
 namespace mtstereo {
 
-/// How many pixels get a disparity (paper, section II-A "Disparity map"; dense goes beyond it).
+/// How many pixels get a disparity (paper, section II-A "Disparity map"; kDense is an extension).
 enum class Mode {
-  kSparse,     ///< only at the ends of the finest nodes: few pixels, few errors
-  kSemiDense,  ///< wherever a disparity can be trusted
-  kDense,      ///< also where it is less sure, and in gaps whose sides agree
+  kSparse,     ///< only pixels at the ends of the finest nodes: few pixels, few errors
+  kSemiDense,  ///< all pixels with a reliable disparity
+  kDense,      ///< also less reliable disparities, and gaps whose two sides agree
 };
+/// Number of modes.
 inline constexpr int kModes = 3;
 
 /// A set of defaults for all parameters.
 enum class Preset {
-  kDefault,  ///< the most accurate that is known
-  kFast,     ///< the most accurate that is known in a third of the time
-  kPaper,    ///< the method as it is published
+  kDefault,  ///< the most accurate known settings
+  kFast,     ///< the most accurate known settings that take a third of the time
+  kPaper,    ///< the published method
 };
+/// Number of presets.
 inline constexpr int kPresets = 3;
 
 /// Largest value of Parameter::kMaxDisparity [px].
 inline constexpr int kLargestMaxDisparity = 1024;
 
-/// Largest width and height of an image [px].
+/// Largest width and largest height of an image [px].
 inline constexpr int kLargestImageSide = 16384;
 
-/// One value of the parameter table. The order is that of parameter_table().
+/// The parameters, in the order of parameter_table(). Each one is described by its row there
+/// (parameter_info()) and in docs/parameters.md.
 enum class Parameter {
   kPreset,
   kMode,
@@ -76,93 +79,102 @@ inline constexpr int kMostChoices = 3;
 /// Number of parameters.
 inline constexpr int kParameters = static_cast<int>(Parameter::kSmoothingRadius) + 1;
 
-/// What a parameter's value looks like.
+/// The type of a parameter's value.
 enum class ParameterType {
-  kInteger,  ///< a whole number
-  kNumber,   ///< a number with a fraction
-  kBoolean,  ///< 0 or 1 (in text also false, true)
+  kInteger,  ///< an integer
+  kNumber,   ///< a real number
+  kBoolean,  ///< 0 or 1; as text also false or true
   kChoice,   ///< one of ParameterInfo::choices
-  kLevels,   ///< falling whole numbers that end with 0, separated by commas, as in "1,0"
+  kLevels,   ///< decreasing integers that end with 0, separated by commas, as in "1,0"
 };
 
-/// One row of the parameter table: the only place where a parameter is described. The checks, the
-/// element's properties, the command line options and the table in docs/ are made from it.
+/// One row of the parameter table, the only description of a parameter. The range checks, the
+/// properties of the element, the command-line options and docs/parameters.md are made from it. All
+/// strings are static.
 struct ParameterInfo {
-  Parameter id;
-  const char* name;    ///< lower case, words joined by '-'; also the property's and option's name
-  const char* symbol;  ///< the paper's symbol in plain letters, "" where the paper has none
-  const char* unit;    ///< "px", "%", ... or "" for a bare number
-  ParameterType type;
+  Parameter id;         ///< the parameter
+  const char* name;     ///< lower case, words joined by '-'; also the name of property and option
+  const char* symbol;   ///< the paper's symbol in plain letters, "" if the paper has none
+  const char* unit;     ///< "px", "%", ... or "" if it has no unit
+  ParameterType type;   ///< type of the value
   double minimum;       ///< smallest value (kInteger, kNumber)
   double maximum;       ///< largest value (kInteger, kNumber)
   const char* choices;  ///< the words of a kChoice separated by '|', else ""
-  /// Defaults as text, by Preset and Mode.
+  /// Defaults as text, indexed by Preset, then by Mode.
   std::array<std::array<const char*, kModes>, kPresets> defaults;
-  const char* help;  ///< one line
+  const char* help;  ///< description in one line
   /// A kChoice: one line on each choice, in the order of `choices`; nullptr after the last one.
   std::array<const char*, kMostChoices> choice_help{};
 };
 
-/// All parameters, in the order of Parameter. Never fails; the rows live as long as the program.
+/// All parameters, in the order of Parameter. The rows are static and constant, so any thread may
+/// read them at any time.
 MTSTEREO_API std::span<const ParameterInfo> parameter_table() noexcept;
 
-/// The row of one parameter; the id has to be one of Parameter.
+/// The row of one parameter. `id` must be an enumerator of Parameter.
 MTSTEREO_API const ParameterInfo& parameter_info(Parameter id) noexcept;
 
-/// The default of one parameter as text.
+/// The default of one parameter as text. The string is static.
 MTSTEREO_API const char* parameter_default(Parameter id, Preset preset, Mode mode) noexcept;
 
-/// All defaults of one parameter in words for people, as in "6, 2 dense; preset paper: 4, 12
-/// sparse": what stands first holds in every mode that is not named.
+/// All defaults of one parameter for people to read, as in "6, 2 dense; preset paper: 4, 12
+/// sparse". The first value is that of all modes that are not named.
 MTSTEREO_API std::string parameter_defaults_text(Parameter id);
 
-/// The row of the parameter with this name, or nullptr.
+/// The row of the parameter with this name, or nullptr if there is none.
 MTSTEREO_API const ParameterInfo* find_parameter(std::string_view name) noexcept;
 
-/// A set of parameters. What was not set takes the default of the preset and the mode. A plain
-/// value: copy it freely; not meant to be shared between threads while one of them sets something.
+/// A set of parameters. A parameter that was not set has the default of the preset and the mode.
+/// Sets can be copied. Several threads may read one set at a time, but not while another one
+/// changes it. set() refuses an `id` that is not an enumerator of Parameter; all other functions
+/// require one.
 class MTSTEREO_API Parameters {
  public:
-  /// All at their defaults, Preset::kDefault and Mode::kSemiDense.
+  /// All parameters at their defaults, with Preset::kDefault and Mode::kSemiDense.
   Parameters() = default;
 
-  /// Sets one parameter from a number. A kBoolean takes 0 and 1, a kChoice the index of the word
-  /// among its choices. Fails with kInvalidParameter, the message naming the parameter, the value
-  /// and the range; the set is then as it was. A kLevels takes text only.
+  /// Sets one parameter from a number: 0 or 1 for a kBoolean, the index of the word among its
+  /// choices for a kChoice. A kLevels accepts text only. Fails with kInvalidParameter; the message
+  /// names the parameter, the value and the range, and the set is unchanged.
   Status set(Parameter id, double value) noexcept;
-  /// Sets one parameter from text: a number, a word, or levels. Fails as above.
+  /// Sets one parameter from text: a number, a word, or levels. Fails with kInvalidParameter; the
+  /// set is unchanged then.
   Status set(Parameter id, std::string_view text) noexcept;
-  /// The same by name; an unknown name fails with kInvalidParameter.
+  /// Sets the parameter of this name from text. Fails with kInvalidParameter, also if there is no
+  /// parameter of this name; the set is unchanged then.
   Status set(std::string_view name, std::string_view text) noexcept;
-  /// Back to the default of preset and mode.
+  /// Resets one parameter to the default of the preset and the mode.
   void unset(Parameter id) noexcept;
-  /// True where a value was set, false where a default holds.
+  /// True if a value was set, false if the default is in effect.
   bool is_set(Parameter id) const noexcept;
 
-  /// The value in force: what was set, or the default of preset and mode. For a kBoolean 0 or 1,
-  /// for a kChoice the index of the word, for kLevels the number of levels.
+  /// The value in effect: the one that was set, or the default of the preset and the mode. For a
+  /// kBoolean 0 or 1, for a kChoice the index of the word, for a kLevels the number of levels.
   double get(Parameter id) const noexcept;
-  /// The value in force as text, such that set() takes it back.
+  /// The value in effect as text that set() accepts.
   std::string text(Parameter id) const;
 
-  /// The preset and the mode in force.
+  /// The preset in effect.
   Preset preset() const noexcept;
+  /// The mode in effect.
   Mode mode() const noexcept;
-  /// get() of a whole number.
+  /// get() as an integer.
   int integer(Parameter id) const noexcept;
-  /// The levels of S in force, coarse to fine (Parameter::kNodeLevels); `count` of them are used.
+  /// Node levels S, coarse to fine (Parameter::kNodeLevels).
   struct Levels {
-    std::array<int, 8> level{};
-    int count = 0;
+    std::array<int, 8> level{};  ///< the levels; the first `count` are used
+    int count = 0;               ///< number of levels
   };
+  /// The node levels in effect.
   Levels node_levels() const noexcept;
 
-  /// Whether the parameters fit each other and images of this size. Fails with kFrameDoesNotFit or
-  /// kInvalidCombination, the message naming the parameter, its value, the size and what would fit.
+  /// Checks that the parameters fit each other and images of this size [px]. Fails with
+  /// kFrameDoesNotFit or kInvalidCombination; the message names the parameter, its value, the size
+  /// and a value that would fit.
   Status check_frame(int width, int height) const noexcept;
 
-  /// Whether disparities below max-disparity fit into 16 bits at `scale` steps per px. Fails with
-  /// kInvalidCombination and a message that says what to set.
+  /// Checks that all disparities below max-disparity fit into 16 bits at `scale` steps per px.
+  /// Fails with kInvalidCombination; the message says what to set.
   Status check_scale16(int scale) const noexcept;
 
  private:
