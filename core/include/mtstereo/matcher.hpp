@@ -14,48 +14,51 @@ namespace mtstereo {
 /// One of the two views of a pair.
 enum class Side { kLeft, kRight };
 
-/// What one frame took and gave.
+/// Figures of one frame.
 struct FrameStatistics {
-  double milliseconds = 0;  ///< wall time of compute() [ms]
-  double density = 0;       ///< share of pixels with a disparity, 0 .. 1
+  double milliseconds = 0;  ///< wall-clock time of compute() [ms]
+  double density = 0;       ///< fraction of pixels with a disparity, 0 .. 1
 };
 
-/// MTStereo 2.0 and what goes beyond it: finds the disparity of the left image of a rectified pair
-/// (Parameter::kPreset tells which).
+/// Finds the disparity of the left image of a rectified pair, by MTStereo 2.0 as published
+/// (Preset::kPaper) or with extensions (all other presets).
 ///
-/// A matcher is made once and used for frame after frame. The first frame of a size, and the first
-/// after set_parameters(), sizes the buffers, which only grow; all other frames allocate nothing.
-/// Matchers share nothing: several may work at once, each on its own thread. One matcher is used by
-/// one thread at a time; inside, it uses Parameter::kThreads threads of its own. The result does
-/// not depend on their number.
+/// Create a matcher once and use it for all frames. The first frame, and the first one after a
+/// change of the image size or of parameters, sizes the buffers, which only grow; other frames do
+/// not allocate memory. One matcher may be used by one thread at a time; different matchers
+/// share nothing and may be used at the same time. A matcher runs Parameter::kThreads threads of
+/// its own. The result does not depend on their number.
 class MTSTEREO_API Matcher {
  public:
-  /// A matcher with these parameters; it sizes its buffers when the first frame comes. Fails with
-  /// kOutOfMemory.
+  /// Creates a matcher with these parameters. Fails with kOutOfMemory.
   static Result<Matcher> create(const Parameters& parameters) noexcept;
 
-  /// One that was moved from can only be assigned to and destroyed.
+  /// Moves a matcher. The source can only be assigned to or destroyed afterwards.
   Matcher(Matcher&&) noexcept;
+  /// Moves a matcher. The source can only be assigned to or destroyed afterwards.
   Matcher& operator=(Matcher&&) noexcept;
   ~Matcher();
 
-  /// Takes other parameters from the next frame on. Fails with kOutOfMemory.
+  /// Sets the parameters for the next frames. Fails with kOutOfMemory; the parameters are unchanged
+  /// then.
   Status set_parameters(const Parameters& parameters) noexcept;
+  /// The parameters for the next frame. The reference is valid as long as the matcher.
   const Parameters& parameters() const noexcept;
 
-  /// Matches one pair. Both images have the same size and are only read; they may be freed when
-  /// the call returns. The result belongs to the matcher and holds until its next compute().
+  /// Matches one pair of images of the same size. They are only read, and only during the call. The
+  /// returned map has their size; the matcher owns it, and it is valid until the next compute().
   /// Fails with kInvalidImage, kSizeMismatch, kFrameDoesNotFit, kInvalidCombination, kOutOfMemory
   /// or kSystem; the matcher can be used again afterwards.
   Result<DisparityView> compute(GrayView left, GrayView right) noexcept;
 
-  /// The confidence of each disparity of the last frame: 1 .. 255, higher = more trustworthy, and 0
-  /// where there is no disparity. An empty view before the first frame. It tells how many pixels
-  /// around have a disparity that fits, and how clearly these were told from their runners-up.
-  /// Belongs to the matcher and holds until its next compute().
+  /// The confidence of each disparity of the last frame: 1 .. 255, higher is more reliable, and 0
+  /// for pixels without a disparity. It combines how many neighboring pixels have a consistent
+  /// disparity with how much worse their second-best disparities were. The view has the size of the
+  /// images; it is empty before the first frame, and after one that failed with kOutOfMemory or
+  /// kSystem. The matcher owns it, and it is valid until the next compute().
   GrayView confidence() const noexcept;
 
-  /// Of the last frame.
+  /// Figures of the last frame.
   FrameStatistics statistics() const noexcept;
 
  private:
@@ -64,14 +67,15 @@ class MTSTEREO_API Matcher {
   std::unique_ptr<State> state_;
 };
 
-/// Writes a disparity map as 16-bit fixed point, px = value / scale, 0 = none; a disparity that
-/// would round to 0 becomes 1, and one over 65535 (see Parameters::check_scale16) becomes 65535.
-/// `scale` is 1 .. 65535; with 256 and big-endian storage this is KITTI's convention. Fails with
-/// kSizeMismatch or kInvalidImage.
+/// Converts a disparity map to 16-bit fixed point: disparity [px] = value / scale, 0 = no
+/// disparity. A disparity that would round to 0 becomes 1, and one above 65535 becomes 65535
+/// (Parameters::check_scale16()). `scale` is 1 .. 65535; 256 with big-endian storage is KITTI's
+/// format. `out` has the size of the map and is written only during the call. Fails with
+/// kSizeMismatch, kInvalidParameter or kInvalidImage. Any thread may call it.
 MTSTEREO_API Status write_disparity16(DisparityView disparity, int scale,
                                       ImageView<std::uint16_t> out) noexcept;
 
-/// The version of the library, as in "0.2.0".
+/// The version of the library, as in "0.2.0". The string is static.
 MTSTEREO_API const char* version() noexcept;
 
 }  // namespace mtstereo
