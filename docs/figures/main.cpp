@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// mtstereo-figures: the pictures of docs/algorithm.md, the table of docs/parameters.md, and the
-// plots of docs/benchmark.md.
+// mtstereo-figures: the pictures of docs/algorithm.md and the table of docs/parameters.md.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -13,13 +12,11 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "drawings.hpp"
 #include "eval/metrics.hpp"
 #include "eval/pictures.hpp"
 #include "frame_matcher.hpp"
-#include "growth.hpp"
 #include "mtstereo/mtstereo.hpp"
 #include "render/render.hpp"
 #include "stages/nodes/disparity_drawing.hpp"
@@ -214,26 +211,18 @@ void print_table() {
 int main(int argc, char** argv) {
   CLI::App app("Pictures and tables of docs/");
   std::string folder;
-  std::vector<std::string> growth;
   bool table = false;
   app.add_option("--pictures", folder, "write the pictures of every stage into this folder");
   app.add_flag("--parameters", table, "print the parameter table in Markdown");
-  app.add_option("--growth", growth,
-                 "draw what a file of JSON describes, see growth.hpp, to a picture")
-      ->type_name("PLOT.json PICTURE.png")
-      ->expected(2);
   CLI11_PARSE(app, argc, argv);
   try {
-    if (!growth.empty()) {
-      eval::write_picture(growth[1], figures::draw_growth(figures::read_growth(growth[0])));
-    }
     if (table) print_table();
     if (!folder.empty()) draw_pictures(folder);
   } catch (const std::exception& exception) {
     std::fprintf(stderr, "mtstereo-figures: %s\n", exception.what());
     return 1;
   }
-  if (!table && folder.empty() && growth.empty()) {
+  if (!table && folder.empty()) {
     std::fputs(app.help().c_str(), stdout);
     return 2;
   }

@@ -61,13 +61,15 @@ json point_json(const CurvePoint& point) {
   return result;
 }
 
-// An envelope has no points of its own: it is given at every whole percent that it reaches.
+// An envelope has no points of its own: it is sampled at both ends and at every whole percent
+// between them.
 json envelope_points(const Sweep& sweep) {
   json points = json::array();
   const DensityRange range = density_range(sweep);
-  for (double density = std::ceil(range.least); density <= range.most; ++density) {
+  for (double density = range.least; density < range.most; density = std::floor(density) + 1) {
     points.push_back(errors_at(sweep, density));
   }
+  if (std::isfinite(range.most)) points.push_back(errors_at(sweep, range.most));
   return points;
 }
 
@@ -125,9 +127,8 @@ void print_curves(std::ostream& out, const CurveReport& report) {
 }
 
 json curves_json(const CurveReport& report) {
-  json result{{"region", "all"},
-              {"pairs", report.pairs},
-              {"left_out", json::array()},
+  json result{{"dataset", report.dataset}, {"mode", report.mode},   {"filters", report.filters},
+              {"region", "all"},           {"pairs", report.pairs}, {"left_out", json::array()},
               {"curves", json::array()}};
   for (const Problem& problem : report.left_out) {
     result["left_out"].push_back({{"pair", problem.pair}, {"reason", problem.reason}});
@@ -136,6 +137,7 @@ json curves_json(const CurveReport& report) {
     json entry{
         {"name", curve.name},
         {"settings", curve.settings},
+        {"method", curve.method},
         {"envelope", curve.envelope},
         {"at_density", json::array()},
         {"points", curve.envelope ? envelope_points(curve.sweep) : line_points(curve.sweep)}};

@@ -125,6 +125,7 @@ int run(const Options& options) {
   }
   if (options.list) return list_pairs(set);
   check_outputs(options, all);
+  const bool can_plot = check_plotting(options);
   Report report = start_report(options, set);
   run_all(options, set, report);
 
@@ -138,7 +139,7 @@ int run(const Options& options) {
     std::cerr << "mtstereo-eval: " << report.failures.size()
               << " failures, named above; the mean is over the rest\n";
   }
-  const bool written = write_outputs(options, report);
+  const bool written = write_outputs(options, can_plot, report);
   return written && report.failures.empty() ? kAllFine : kSomeFailed;
 }
 

@@ -107,8 +107,9 @@ void add_outputs(CLI::App& app, Texts& texts) {
       ->type_name("FILE")
       ->group(group);
   app.add_option("--curve", texts.curve,
-                 "sweep the confidence, print the errors at equal density and draw them to this "
-                 "PNG; with --compare those matchers' uniquenessRatio too")
+                 "sweep the confidence, print the errors at equal density and plot them to this "
+                 "PNG (needs python3-matplotlib); with --compare, sweep the uniquenessRatio of "
+                 "those matchers too")
       ->type_name("FILE")
       ->check(is_png)
       ->group(group);

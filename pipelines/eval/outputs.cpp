@@ -6,10 +6,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "eval/curve_plot.hpp"
 #include "eval/files.hpp"
 #include "eval/input_error.hpp"
-#include "eval/pictures.hpp"
+#include "eval/plot.hpp"
 
 namespace mtstereo::eval {
 namespace fs = std::filesystem;
@@ -50,7 +49,7 @@ void write_curve(const fs::path& file, const CurveReport& report) {
   if (report.pairs == 0) {
     throw InputError(file, "is not written: there is no pair that all methods could do");
   }
-  write_picture(file, draw_curves(report));
+  plot_curves(file, {{"curve", curves_json(report)}});
 }
 
 }  // namespace
@@ -63,7 +62,16 @@ void check_outputs(const Options& options, const DataSet& set) {
   }
 }
 
-bool write_outputs(const Options& options, const Report& report) {
+bool check_plotting(const Options& options) {
+  if (!options.curve) return true;
+  const std::optional<std::string> obstacle = plot_obstacle();
+  if (!obstacle) return true;
+  std::cerr << "mtstereo-eval: " << options.curve->string()
+            << ": no picture is drawn: " << *obstacle << '\n';
+  return false;
+}
+
+bool write_outputs(const Options& options, bool can_plot, const Report& report) {
   bool fine = true;
   if (options.json) {
     // Names of files need not be UTF-8; what is not becomes a replacement character.
@@ -72,10 +80,10 @@ bool write_outputs(const Options& options, const Report& report) {
     fine &= attempt([&] { write_bytes(*options.json, text); });
   }
   if (options.csv) fine &= attempt([&] { write_bytes(*options.csv, to_csv(report)); });
-  if (options.curve && report.curve) {
+  if (options.curve && report.curve && can_plot) {
     fine &= attempt([&] { write_curve(*options.curve, *report.curve); });
   }
-  return fine;
+  return fine && can_plot;
 }
 
 }  // namespace mtstereo::eval

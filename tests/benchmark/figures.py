@@ -21,6 +21,7 @@ from results import Result
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 PICTURE = "benchmark-growth.png"
+PLOTTER = SOURCE / "pipelines/eval/plot.py"
 
 
 class RunError(Exception):
@@ -46,7 +47,7 @@ def measure(build, result, element_result):
         run(element, f"--benchmark_out={element_result}", GST_PLUGIN_PATH=plugins)
 
 
-def draw_growth(build, result, picture):
+def draw_growth(result, picture):
     panels = tables.growth_panels(result)
     if not panels:
         return
@@ -54,7 +55,7 @@ def draw_growth(build, result, picture):
         plot = pathlib.Path(folder) / "plot.json"
         plot.write_text(json.dumps({"title": tables.GROWTH_TITLE, "panels": panels}),
                         encoding="utf-8")
-        run(build / "docs/figures/mtstereo-figures", "--growth", plot, picture)
+        run(PLOTTER, "growth", plot, picture)
 
 
 def section(result, element_result, picture):
@@ -93,7 +94,7 @@ def update(options):
     except (ValueError, KeyError, IndexError, TypeError, ArithmeticError) as error:
         raise InputError(f"{result_file} or {element_file}: has not what the programs of today "
                          f"tell: {error!r}") from error
-    draw_growth(options.build, result, picture)
+    draw_growth(result, picture)
     options.page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{behind}", encoding="utf-8")
     for panel in tables.growth_panels(result):
         print(f"time over {panel['x']}: {panel['caption']}")

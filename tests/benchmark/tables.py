@@ -127,7 +127,7 @@ def fixed_of(result, what, other):
 
 
 def growth_panels(result):
-    """What mtstereo-figures draws."""
+    """The panels that plot.py draws."""
     panels = []
     for what, label in (("pixels", "pixels [MP]"), ("disparities", "disparities")):
         points = growth_points(result, what)

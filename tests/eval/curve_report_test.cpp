@@ -128,6 +128,30 @@ TEST(CurvesJson, HasThePointsWithTheirSettings) {
   EXPECT_FALSE(rival[1].contains("threshold"));
 }
 
+TEST(CurvesJson, HasWhatTheTitleAndTheCaptionsOfAPlotNeed) {
+  const json result = curves_json(small_report());
+  EXPECT_EQ(result["dataset"], "eth3d");
+  EXPECT_EQ(result["mode"], "sparse");
+  EXPECT_THAT(result["filters"].get<std::string>(), HasSubstr("170 px"));
+  EXPECT_EQ(result["curves"][0]["method"], 0);
+  EXPECT_EQ(result["curves"][1]["method"], 1);
+  EXPECT_EQ(result["curves"][2]["method"], 1);
+}
+
+TEST(CurvesJson, SamplesAnEnvelopeAtBothEndsAndAtEveryPercent) {
+  CurveMeans means = small_means();
+  means.methods[1].sweep.points = {
+      {80.5, 4, 9, 30}, {70, 3, 8, 20}, {40, 3, 8, 25}, {30.25, 0.5, 2, 5}};
+  const json points = curves_json(make_curves("eth3d", {}, {}, means))["curves"][2]["points"];
+  ASSERT_EQ(points.size(), 52U);
+  EXPECT_EQ(points[0]["density"], 30.25);
+  EXPECT_EQ(points[0]["avgerr"], 0.5);
+  EXPECT_EQ(points[1]["density"], 31);
+  EXPECT_EQ(points[50]["density"], 80);
+  EXPECT_EQ(points[51]["density"], 80.5);
+  EXPECT_EQ(points[51]["avgerr"], 4);
+}
+
 TEST(CurvesJson, GivesAnEnvelopeAtEveryPercentThatItReaches) {
   const json points = curves_json(small_report())["curves"][2]["points"];
   ASSERT_EQ(points.size(), 51U);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -93,17 +94,56 @@ void write_kitti_truth(const fs::path& file, const cv::Mat& truth) {
   write_image(file, stored);
 }
 
-Outcome run_eval(const std::vector<std::string>& arguments) {
-  const char* program = getenv("MTSTEREO_EVAL");
-  if (program == nullptr) throw std::runtime_error("MTSTEREO_EVAL does not name the program");
+namespace {
+
+// Pointers to the texts, ended by a null pointer.
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+std::string name_of(const std::string& variable) { return variable.substr(0, variable.find('=')); }
+
+// The environment of this process with these variables added or replaced.
+std::vector<std::string> environment_with(const std::vector<std::string>& variables) {
+  std::vector<std::string> result = variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const auto replaces = [&](const std::string& own) {
+      return name_of(own) == name_of(*variable);
+    };
+    if (std::none_of(variables.begin(), variables.end(), replaces)) result.emplace_back(*variable);
+  }
+  return result;
+}
+
+std::string program_of(const char* variable) {
+  const char* program = getenv(variable);
+  if (program == nullptr) throw std::runtime_error(std::string(variable) + " names no program");
+  return program;
+}
+
+}  // namespace
+
+Outcome run_eval(const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& environment) {
+  return run_program(program_of("MTSTEREO_EVAL"), arguments, environment);
+}
+
+Outcome run_plot(const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& environment) {
+  return run_program(program_of("MTSTEREO_PLOT"), arguments, environment);
+}
+
+Outcome run_program(const std::string& program, const std::vector<std::string>& arguments,
+                    const std::vector<std::string>& environment) {
   const TempFolder folder;
   const std::string out = folder / "out", err = folder / "err";
 
   std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+  std::vector<std::string> variables = environment_with(environment);
 
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -112,13 +152,20 @@ Outcome run_eval(const std::vector<std::string>& arguments) {
   posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), kNew, 0600);
   posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), kNew, 0600);
   pid_t pid = 0;
-  const int failed = posix_spawn(&pid, program, &actions, nullptr, argv.data(), environ);
+  const int failed = posix_spawn(&pid, program.c_str(), &actions, nullptr,
+                                 pointers_to(words).data(), pointers_to(variables).data());
   posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) throw std::runtime_error(std::string("cannot start ") + program);
+  if (failed != 0) throw std::runtime_error("cannot start " + program);
 
   int status = 0;
   waitpid(pid, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+}
+
+std::string without_matplotlib(const fs::path& folder) {
+  write_file(folder / "matplotlib.py",
+             "raise ModuleNotFoundError(\"No module named 'matplotlib'\")\n");
+  return "PYTHONPATH=" + folder.string();
 }
 
 }  // namespace mtstereo::eval::testing

@@ -48,13 +48,26 @@ void write_pair_folder(const std::filesystem::path& folder, const TestPair& pair
 /// CV_32FC1 truth as KITTI's 16-bit PNG; what is not finite becomes 0.
 void write_kitti_truth(const std::filesystem::path& file, const cv::Mat& truth);
 
-/// What a program that ran to its end has left.
+/// The result of a program that ended.
 struct Outcome {
-  int status = -1;  ///< exit status; -1 where a signal ended it
+  int status = -1;  ///< exit status; -1 if a signal ended the program
   std::string out, err;
 };
 
-/// Runs mtstereo-eval (its path is in the environment, MTSTEREO_EVAL) with these arguments.
-Outcome run_eval(const std::vector<std::string>& arguments);
+/// Runs a program in the environment of the test, with these variables, "NAME=VALUE", added.
+Outcome run_program(const std::string& program, const std::vector<std::string>& arguments,
+                    const std::vector<std::string>& environment = {});
+
+/// Runs mtstereo-eval, whose path is in the environment variable MTSTEREO_EVAL.
+Outcome run_eval(const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& environment = {});
+
+/// Runs plot.py, whose path is in the environment variable MTSTEREO_PLOT.
+Outcome run_plot(const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& environment = {});
+
+/// The environment variable that hides matplotlib from Python. Makes a module in this folder that
+/// fails like a missing one.
+std::string without_matplotlib(const std::filesystem::path& folder);
 
 }  // namespace mtstereo::eval::testing

@@ -1,0 +1,290 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Plots the figures that mtstereo's programs write as JSON.
+
+  plot.py curve REPORT.json PICTURE.png   error against density; REPORT.json comes from
+                                          'mtstereo-eval --curve ... --json REPORT.json'
+  plot.py growth PLOT.json PICTURE.png    frame time against problem size; PLOT.json is
+                                          {"title": TEXT, "panels": [PANEL] or [PANEL, PANEL]}
+                                          with PANEL = {"x": LABEL, "y": LABEL, "caption": TEXT,
+                                          "points": [[X, Y], ...]}, x ascending
+  plot.py check                           only check that matplotlib is installed
+
+'-' instead of the JSON file reads standard input. The exit status is 1 if matplotlib is missing or
+the picture cannot be written, and 2 if the command or the JSON file is invalid.
+"""
+import argparse
+import io
+import json
+import logging
+import math
+import pathlib
+import sys
+
+COLORS = ("#d22828", "#1464be", "#1e8c46", "#8232aa", "#e68c00")  # of the methods; mtstereo: red
+PROPORTIONAL = "#969696"
+INK, GRID = "#282828", "#e1e1e1"
+DPI = 100
+MOST_DOTS = 20  # longer lines are drawn without a dot for each point
+LARGE, SMALL = 11, 8.5  # font sizes [pt]
+MEASURES = (("avgerr", "avgerr [px]"), ("d_all", "D-all [%]"))
+
+
+class InputError(Exception):
+    """JSON that is not what the plot needs; the message states why."""
+
+
+class PlotError(Exception):
+    """The picture cannot be made; the message states why."""
+
+
+def matplotlib_modules():
+    """What draws into memory, without a display and without the user's own style."""
+    # Notes about caches and fonts do not concern the caller.
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+    try:
+        # pylint: disable=import-outside-toplevel
+        import matplotlib
+        from matplotlib import ticker
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise PlotError(f"matplotlib cannot be imported ({error}): install the Debian package "
+                        "python3-matplotlib") from error
+    matplotlib.rcdefaults()
+    return Figure, FigureCanvasAgg, ticker
+
+
+class Canvas:
+    """A picture of this size [px], written as PNG."""
+
+    def __init__(self, width, height):
+        figure, canvas, self.ticker = matplotlib_modules()
+        self.size = width, height
+        self.figure = figure(figsize=(width / DPI, height / DPI), dpi=DPI, facecolor="white")
+        self.canvas = canvas(self.figure)
+
+    def text(self, x, y, text, size):
+        """A line of text whose left end is at this point, from the top left corner [px]."""
+        self.figure.text(x / self.size[0], 1 - y / self.size[1], text, fontsize=size, color=INK,
+                         parse_math=False)
+
+    def axes(self, box, labels, largest):
+        """Axes from 0; the box is (left, top, width, height) [px] from the top left corner."""
+        left, top, width, height = box
+        axes = self.figure.add_axes((left / self.size[0], 1 - (top + height) / self.size[1],
+                                     width / self.size[0], height / self.size[1]))
+        x_ticks, y_ticks = self.ticks(largest[0], 10), self.ticks(largest[1], 7)
+        axes.set(xticks=x_ticks, yticks=y_ticks, xlim=(0, x_ticks[-1]), ylim=(0, y_ticks[-1]))
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(self.ticker.FormatStrFormatter("%g"))
+        axes.set_xlabel(labels[0], loc="right", color=INK, fontsize=LARGE, parse_math=False)
+        axes.set_title(labels[1], loc="left", color=INK, fontsize=LARGE, parse_math=False)
+        axes.grid(color=GRID)
+        axes.set_axisbelow(True)
+        axes.tick_params(color=INK, labelcolor=INK)
+        return axes
+
+    def ticks(self, most, steps):
+        """Round steps from 0, the last one not below `most`."""
+        most = most if most > 0 else 1
+        locator = self.ticker.MaxNLocator(nbins=steps, steps=[1, 2, 5, 10])
+        return [tick for tick in locator.tick_values(0, most) if tick >= 0]
+
+    def legend(self, handles, y, columns):
+        self.figure.legend(handles=handles, loc="upper left", ncol=columns, frameon=False,
+                           bbox_to_anchor=(50 / self.size[0], 1 - y / self.size[1]),
+                           fontsize=LARGE, labelcolor=INK, borderaxespad=0, columnspacing=1.5)
+
+    def write(self, picture):
+        data = io.BytesIO()
+        self.figure.savefig(data, format="png", dpi=DPI, metadata={"Software": None})
+        try:
+            pathlib.Path(picture).write_bytes(data.getvalue())
+        except OSError as error:
+            raise PlotError(f"{picture}: cannot be written: {error.strerror}") from error
+
+
+def number(value):
+    """A finite number."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise InputError(f"{value!r} is not a number")
+    return float(value)
+
+
+def number_or_gap(value):
+    """A number, or NaN for null, at which a line is interrupted."""
+    return math.nan if value is None else number(value)
+
+
+def text(value):
+    if not isinstance(value, str):
+        raise InputError(f"{value!r} is not a text")
+    return value
+
+
+class Line:
+    """One line of a curve plot."""
+
+    def __init__(self, curve):
+        self.name = text(curve["name"])
+        self.method, self.envelope = int(number(curve["method"])), bool(curve["envelope"])
+        self.color = COLORS[self.method % len(COLORS)]
+        self.density = [number_or_gap(point["density"]) for point in curve["points"]]
+        self.errors = {key: [number_or_gap(point[key]) for point in curve["points"]]
+                       for key, _ in MEASURES}
+        self.ratios = [number(point["uniqueness_ratio"]) for point in curve["points"]
+                       if "uniqueness_ratio" in point]
+        self.thresholds = [number(point["threshold"]) for point in curve["points"]
+                           if "threshold" in point]
+
+    def style(self):
+        dots = not self.envelope and len(self.density) <= MOST_DOTS
+        width = 2.6 if self.method == 0 else 1.7 if self.envelope else 0.9
+        return {"color": self.color, "linewidth": width, "marker": "o" if dots else None,
+                "markersize": 4.5, "label": self.name,
+                "zorder": 4 if self.method == 0 else 3}  # mtstereo's line on top
+
+
+def curve_captions(curve, lines):
+    """What was swept, as the lines below a curve plot."""
+    def span(values):
+        return f"{min(values):g} .. {max(values):g}"
+
+    thresholds = [value for line in lines for value in line.thresholds]
+    ratios = [value for line in lines for value in line.ratios]
+    captions = []
+    if thresholds:
+        captions.append(f"{lines[0].name}: threshold on its confidence, {span(thresholds)}.")
+    if ratios:
+        captions.append(f"Dots: uniquenessRatio {span(ratios)}.")
+    if any(line.envelope for line in lines):
+        return [" ".join(captions) + " + filters: least error over all ratios and thresholds with "
+                "these filters:", text(curve["filters"])]
+    return [" ".join(captions)]
+
+
+def draw_curve(report, title):
+    """Error against density, from the report of mtstereo-eval: avgerr on the left, D-all right."""
+    if "curve" not in report:
+        raise InputError("it has no curve: run mtstereo-eval with --curve")
+    curve = report["curve"]
+    lines = [Line(entry) for entry in curve["curves"]]
+    if not lines:
+        raise InputError("the curve has no lines")
+    own_title = (f"{text(curve['dataset'])}, mean of {int(number(curve['pairs']))} pairs, all "
+                 f"pixels with ground truth, mode {text(curve['mode'])}")
+    captions = curve_captions(curve, lines)
+    canvas = Canvas(1200, 600)
+    canvas.text(60, 26, title or own_title, LARGE + 1)
+    handles = []
+    for (key, label), left in zip(MEASURES, (60, 665)):
+        errors = [value for line in lines for value in line.errors[key] if math.isfinite(value)]
+        axes = canvas.axes((left, 120, 510, 375), ("density [%]", label),
+                           (100, max(errors, default=1)))
+        handles = [axes.plot(line.density, line.errors[key], **line.style())[0] for line in lines]
+    canvas.legend(handles, 40, 5)
+    for y, caption in zip((569, 589), captions):
+        canvas.text(60, y, caption, SMALL)
+    return canvas
+
+
+class Panel:
+    """One panel of a growth plot."""
+
+    def __init__(self, panel):
+        self.labels = text(panel["x"]), text(panel["y"])
+        self.caption = text(panel["caption"])
+        self.points = [(number(x), number(y)) for x, y in panel["points"]]
+        xs = [0.0] + [x for x, _ in self.points]
+        if len(self.points) < 2:
+            raise InputError("a panel needs at least 2 points")
+        if any(b <= a for a, b in zip(xs, xs[1:])) or any(y <= 0 for _, y in self.points):
+            raise InputError("all coordinates must be above 0, with x ascending")
+
+    def proportional(self):
+        """Where the last point would be if y were proportional to x."""
+        (x, y), (last, _) = self.points[0], self.points[-1]
+        return last, y / x * last
+
+
+def draw_growth(plot, title):
+    """Measured times, and the line that proportional growth from the first point would follow."""
+    panels = [Panel(panel) for panel in plot["panels"]]
+    if not 1 <= len(panels) <= 2:
+        raise InputError("a growth plot has 1 or 2 panels")
+    own_title = text(plot["title"])
+    canvas = Canvas(600 * len(panels), 420)
+    canvas.text(65, 28, title or own_title, LARGE + 1)
+    handles = []
+    for index, panel in enumerate(panels):
+        end = panel.proportional()
+        largest = max(y for _, y in [*panel.points, end])
+        axes = canvas.axes((65 + 600 * index, 110, 500, 250), panel.labels, (end[0], largest))
+        axes.set_title(panel.caption, loc="right", color=INK, fontsize=LARGE, parse_math=False)
+        measured, = axes.plot(*zip(*panel.points), color=COLORS[0], linewidth=1.7, marker="o",
+                              markersize=4.5, label="measured", zorder=4)
+        straight, = axes.plot((0, end[0]), (0, end[1]), color=PROPORTIONAL, linewidth=0.9,
+                              label="proportional to the first point")
+        handles = [measured, straight]
+    canvas.legend(handles, 42, 2)
+    return canvas
+
+
+def read_json(file):
+    try:
+        data = sys.stdin.buffer.read() if file == "-" else pathlib.Path(file).read_bytes()
+        result = json.loads(data)
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}") from error
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"is not JSON: {error}") from error
+    if not isinstance(result, dict):
+        raise InputError("is not a JSON object")
+    return result
+
+
+def plot(options):
+    draw = {"curve": draw_curve, "growth": draw_growth}[options.command]
+    name = "standard input" if options.json == "-" else options.json
+    try:
+        canvas = draw(read_json(options.json), options.title)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from error
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise InputError(f"{name}: is not a {options.command} plot: {error!r}") from error
+    canvas.write(options.picture)
+
+
+def parse_options():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, what in (("curve", "plot error against density"),
+                       ("growth", "plot frame time against problem size")):
+        command = commands.add_parser(name, help=what)
+        command.add_argument("json", metavar="FILE.json", help="'-' reads standard input")
+        command.add_argument("picture", metavar="PICTURE.png")
+        command.add_argument("--title", metavar="TEXT", help="replaces the title")
+    commands.add_parser("check", help="check that matplotlib is installed")
+    return parser.parse_args()
+
+
+def main():
+    options = parse_options()
+    try:
+        if options.command == "check":
+            matplotlib_modules()
+        else:
+            plot(options)
+    except InputError as error:
+        print(f"plot.py: {error}", file=sys.stderr)
+        return 2
+    except PlotError as error:
+        print(f"plot.py: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
