@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -222,12 +221,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << '\n';
-  } catch (...) {
-    std::cerr << "error: something unknown was thrown\n";
-  }
-  return EXIT_FAILURE;
+  return mtstereo::bench::guarded_main([&] { return run(argc, argv); });
 }

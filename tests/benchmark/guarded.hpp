@@ -3,12 +3,28 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <opencv2/core.hpp>
 
 namespace mtstereo::bench {
 
-/// Runs the body of a benchmark; what it throws becomes the benchmark's error, which fails the run.
+/// Runs the body of a benchmark program and returns its exit status; an exception is printed on the
+/// standard error and makes it EXIT_FAILURE.
+template <typename Body>
+int guarded_main(Body&& body) {
+  try {
+    return body();
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+  } catch (...) {
+    std::cerr << "error: an unknown exception was thrown\n";
+  }
+  return EXIT_FAILURE;
+}
+
+/// Runs the body of a benchmark; an exception becomes the benchmark's error, which fails the run.
 template <typename Body>
 void guarded(benchmark::State& state, Body&& body) {
   try {
@@ -16,11 +32,11 @@ void guarded(benchmark::State& state, Body&& body) {
   } catch (const std::exception& error) {
     state.SkipWithError(error.what());
   } catch (...) {
-    state.SkipWithError("something unknown was thrown");
+    state.SkipWithError("an unknown exception was thrown");
   }
 }
 
-/// OpenCV works with so many threads until this is gone.
+/// Sets the number of OpenCV's threads for its own lifetime.
 class OpenCvThreads {
  public:
   explicit OpenCvThreads(int threads) : before_(cv::getNumThreads()) { cv::setNumThreads(threads); }

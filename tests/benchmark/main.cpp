@@ -4,11 +4,11 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <iostream>
 #include <vector>
 
 #include "frames.hpp"
+#include "guarded.hpp"
 #include "memory.hpp"
 #include "options.hpp"
 #include "scaling.hpp"
@@ -74,12 +74,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << '\n';
-  } catch (...) {
-    std::cerr << "error: something unknown was thrown\n";
-  }
-  return EXIT_FAILURE;
+  return mtstereo::bench::guarded_main([&] { return run(argc, argv); });
 }
