@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # shellcheck shell=bash
-# What the ready pipelines share: options, the plugin's path, and the run itself. Sourced, not run.
+# Common parts of the pipeline scripts: options, the plugin path, and the run itself. Sourced only.
 
 # shellcheck disable=SC2034  # the variables are read by the scripts that source this file
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -19,24 +19,24 @@ fail() {
 }
 
 wrong_usage() {
-  echo "$(basename "$0"): $* (--help tells more)" >&2
+  echo "$(basename "$0"): $* (see --help)" >&2
   exit 2
 }
 
-# The comment at the top of the calling script is its help.
+# Prints the comment at the top of the calling script as its help.
 show_help() {
   sed -n -e '1,2d' -e '/^#/!q' -e 's/^# \{0,1\}//p' "$0"
   cat <<'END'
 
-Options of every ready pipeline:
-  --out FILE.mkv      record the disparity, lossless, instead of showing it
+Options of every pipeline script:
+  --out FILE.mkv      record the disparity losslessly instead of showing it
   --mode MODE         sparse, semi-dense or dense
   --max-disparity N   search range [px]
   --set NAME=VALUE    any other property of mtstereo (gst-inspect-1.0 mtstereo lists them)
-  --sink ELEMENT      where to show the colors, instead of autovideosink
-  --seconds N         stop after so long
-  --build DIR         where mtstereo was built (default: build/, or $BUILD)
-  --dry-run           print the gst-launch-1.0 line and do nothing
+  --sink ELEMENT      sink for the color picture instead of autovideosink
+  --seconds N         stop after N seconds
+  --build DIR         build folder of mtstereo (default: build/, or $BUILD)
+  --dry-run           print the gst-launch-1.0 command without running it
 END
   exit 0
 }
@@ -49,9 +49,9 @@ is_number() {
   [[ $1 =~ ^[0-9]{1,9}$ ]]
 }
 
-# Takes the common options out of the command line. What is left is in `arguments`; an option that
-# only the calling script knows goes through its own function own_option OPTION VALUE, which
-# says with its status whether the option exists (each of them takes a value).
+# Parses the command line. Arguments other than options go to `arguments`. Options that only the
+# calling script has are passed to its function own_option OPTION VALUE, whose status states whether
+# the option exists (each of them takes a value).
 parse_options() {
   while [ $# -gt 0 ]; do
     case $1 in
@@ -63,9 +63,9 @@ parse_options() {
         shift
         ;;
       --*)
-        declare -F own_option >/dev/null || wrong_usage "there is no option $1"
+        declare -F own_option >/dev/null || wrong_usage "unknown option $1"
         require_value "$@"
-        own_option "$1" "$2" || wrong_usage "there is no option $1"
+        own_option "$1" "$2" || wrong_usage "unknown option $1"
         shift
         ;;
       *) arguments+=("$1") ;;
@@ -74,7 +74,7 @@ parse_options() {
   done
   local input
   for input in "${arguments[@]}"; do
-    [[ -z $out || ! $out -ef $input ]] || fail "--out $out is the input itself: name another file"
+    [[ -z $out || ! $out -ef $input ]] || fail "--out $out is the input itself: choose another file"
   done
 }
 
@@ -83,22 +83,22 @@ common_option() {
     --out) out=$2 ;;
     --mode)
       [[ $2 == sparse || $2 == semi-dense || $2 == dense ]] ||
-        wrong_usage "--mode is '$2', it has to be sparse, semi-dense or dense"
+        wrong_usage "--mode is '$2'; it must be sparse, semi-dense or dense"
       matcher+=("mode=$2")
       ;;
     --max-disparity)
       { is_number "$2" && [ "$2" -ge 1 ] && [ "$2" -le 1024 ]; } ||
-        wrong_usage "--max-disparity is '$2', it has to be a whole number of px from 1 to 1024"
+        wrong_usage "--max-disparity is '$2'; it must be an integer from 1 to 1024 [px]"
       matcher+=("max-disparity=$2")
       color+=("max-disparity=$2")
       ;;
     --set)
-      [[ $2 == ?*=* ]] || wrong_usage "--set is '$2', it has to look like threads=2"
+      [[ $2 == ?*=* ]] || wrong_usage "--set is '$2'; expected NAME=VALUE, such as threads=2"
       matcher+=("$2")
       ;;
     --sink) sink=$2 ;;
     --seconds)
-      is_number "$2" || wrong_usage "--seconds is '$2', it has to be a whole number"
+      is_number "$2" || wrong_usage "--seconds is '$2'; it must be an integer"
       seconds=$2
       ;;
     --build) build=$2 ;;
@@ -106,9 +106,9 @@ common_option() {
 }
 
 require_file() {
-  [ -e "$1" ] || fail "there is no file $1"
+  [ -e "$1" ] || fail "no such file: $1"
   [ -r "$1" ] || fail "the file $1 cannot be read"
-  [ ! -d "$1" ] || fail "$1 is a folder, a video file is needed"
+  [ ! -d "$1" ] || fail "$1 is a folder, not a video file"
 }
 
 # The element that reads a camera or a file.
@@ -119,7 +119,7 @@ source_of() {
   esac
 }
 
-# What follows mtstereo: a color picture on the screen, or a lossless file.
+# The elements downstream of mtstereo: a color picture on the screen, or a lossless file.
 output_of() {
   if [ -n "$out" ]; then
     printf '%s\n' '!' queue '!' avenc_ffv1 '!' matroskamux '!' filesink "location=$out"
@@ -133,13 +133,13 @@ output_of() {
 use_plugin() {
   local plugin=$build/gst/libgstmtstereo.so
   if [ ! -e "$plugin" ]; then
-    fail "the plugin is not built ($plugin is not there); build it with" \
-      "'meson setup $build && ninja -C $build', or name the folder with --build"
+    fail "the plugin is not built ($plugin does not exist); build it with" \
+      "'meson setup $build && ninja -C $build', or set the build folder with --build"
   fi
   export GST_PLUGIN_PATH=$build/gst${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
 }
 
-# A word as the shell takes it back; as it is where it has nothing special.
+# A word in shell syntax, quoted if it has special characters.
 quoted() {
   if [[ $1 =~ ^[A-Za-z0-9_./:=,%@+!-]+$ ]]; then
     printf ' %s' "$1"
@@ -148,7 +148,7 @@ quoted() {
   fi
 }
 
-# Runs gst-launch-1.0, or prints it. -e: an interrupt ends files properly.
+# Runs gst-launch-1.0, or prints the command. With -e an interrupt finishes the files properly.
 launch() {
   local line=(gst-launch-1.0 -e "$@")
   if [ "$dry_run" = yes ]; then
@@ -163,7 +163,7 @@ launch() {
     "${line[@]}"
     return
   fi
-  # An interrupt at the end of the time is no failure.
+  # The interrupt after --seconds is not a failure.
   local status=0
   timeout --signal=INT --kill-after=10 "$seconds" "${line[@]}" || status=$?
   [ "$status" -eq 124 ] || return "$status"

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# demo.sh: everything from nothing. Installs what is missing, builds, renders a stereo clip, encodes
-# it to two H.264 files, runs these through mtstereo, and tells how good and how fast that was.
+# demo.sh: the complete demo. Installs missing packages, builds, renders a stereo clip, encodes it to
+# two H.264 files, runs mtstereo on them, and prints accuracy and speed.
 # demo.sh LEFT RIGHT: the same with two rectified video files of your own (without ground truth).
 #
 # Options:
-#   --out DIR           where everything is written (default out/)
-#   --mode MODE         of the main result: sparse, semi-dense (default) or dense
+#   --out DIR           output folder (default out/)
+#   --mode MODE         mode of the main result: sparse, semi-dense (default) or dense
 #   --max-disparity N   search range [px] (default: the clip's; the element's for your own files)
-#   --frames N          of the rendered clip (default 48)
-#   --size WxH          of the rendered clip (default 640x360)
+#   --frames N          number of frames of the rendered clip (default 48)
+#   --size WxH          size of the rendered clip (default 640x360)
 #   --scene NAME        street (default), garden or room
 #   --build DIR         build folder (default: build/, or $BUILD)
-#   --no-build          take what is in the build folder, install and build nothing
+#   --no-build          use the build folder as it is; install and build nothing
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -26,7 +26,7 @@ size=640x360
 scene=street
 rate=24
 build_first=yes
-limit=900 # no pipeline runs longer [s]
+limit=900 # longest time of a pipeline [s]
 files=()
 
 fail() {
@@ -35,12 +35,12 @@ fail() {
 }
 
 wrong_usage() {
-  echo "demo.sh: $* (--help tells more)" >&2
+  echo "demo.sh: $* (see --help)" >&2
   exit 2
 }
 
 whole_number() {
-  [[ $2 =~ ^[1-9][0-9]{0,5}$ ]] || wrong_usage "$1 is '$2', it has to be a whole number above 0"
+  [[ $2 =~ ^[1-9][0-9]{0,5}$ ]] || wrong_usage "$1 is '$2'; it must be an integer above 0"
 }
 
 take_option() {
@@ -48,26 +48,26 @@ take_option() {
     --out) out=$2 ;;
     --mode)
       [[ $2 == sparse || $2 == semi-dense || $2 == dense ]] ||
-        wrong_usage "--mode is '$2', it has to be sparse, semi-dense or dense"
+        wrong_usage "--mode is '$2'; it must be sparse, semi-dense or dense"
       mode=$2
       ;;
     --max-disparity)
       whole_number "$@"
-      [ "$2" -le 1024 ] || wrong_usage "--max-disparity is '$2', it has to be 1 to 1024 px"
+      [ "$2" -le 1024 ] || wrong_usage "--max-disparity is '$2'; it must be 1 to 1024 [px]"
       max_disparity=$2
       ;;
     --frames) whole_number "$@" && frames=$2 ;;
     --size)
       [[ $2 =~ ^([1-9][0-9]{1,4})x([1-9][0-9]{1,4})$ ]] ||
-        wrong_usage "--size is '$2', it has to look like 640x360"
+        wrong_usage "--size is '$2'; expected WIDTHxHEIGHT, such as 640x360"
       if [ $((BASH_REMATCH[1] % 2 + BASH_REMATCH[2] % 2)) -ne 0 ]; then
-        wrong_usage "--size is '$2', H.264 wants an even width and height"
+        wrong_usage "--size is '$2'; H.264 needs an even width and height"
       fi
       size=$2
       ;;
     --scene) scene=$2 ;;
     --build) build=$2 ;;
-    *) wrong_usage "there is no option $1" ;;
+    *) wrong_usage "unknown option $1" ;;
   esac
 }
 
@@ -79,7 +79,7 @@ while [ $# -gt 0 ]; do
       ;;
     --no-build) build_first=no ;;
     --*)
-      [ $# -ge 2 ] || wrong_usage "$1 needs a value, or is no option"
+      [ $# -ge 2 ] || wrong_usage "$1 needs a value or is unknown"
       take_option "$1" "$2"
       shift
       ;;
@@ -91,29 +91,29 @@ case ${#files[@]} in
   0) ;;
   2)
     for file in "${files[@]}"; do
-      [ -f "$file" ] || fail "there is no file $file"
+      [ -f "$file" ] || fail "no such file: $file"
       [ -r "$file" ] || fail "the file $file cannot be read"
     done
     ;;
-  *) wrong_usage "two video files are needed, LEFT and RIGHT, or none" ;;
+  *) wrong_usage "two video files are required, LEFT and RIGHT, or none" ;;
 esac
 
 step() {
   echo "== $*"
 }
 
-# Runs a pipeline quietly; when it fails, what it said comes out, and the demo ends.
+# Runs a pipeline quietly; if it fails, prints its messages and exits.
 log=
 play() {
   local status=0
   timeout --kill-after=10 "$limit" gst-launch-1.0 "$@" >"$log" 2>&1 || status=$?
   [ "$status" -ne 0 ] || return 0
   grep -E -A3 '^ERROR|WARNING: erroneous|erroneous pipeline' "$log" >&2 || cat "$log" >&2
-  [ "$status" -ne 124 ] || fail "the pipeline was ended after $limit s"
+  [ "$status" -ne 124 ] || fail "the pipeline was stopped after $limit s"
   fail "the pipeline failed"
 }
 
-# The seconds that the last pipeline played, as gst-launch-1.0 tells them.
+# The running time of the last pipeline [s], as printed by gst-launch-1.0.
 played_seconds() {
   sed -n 's/^Execution ended after \([0-9]*\):\([0-9]*\):\([0-9.]*\)$/\1 \2 \3/p' "$log" |
     awk '{ print $1 * 3600 + $2 * 60 + $3 }'
@@ -132,7 +132,7 @@ build_all() {
 render_clip() {
   step "Rendering $frames frames of the $scene, $size"
   "$build/pipelines/render/mtstereo-render" "$out/clip" --overwrite --scene "$scene" \
-    --frames "$frames" --size "$size" --rate "$rate" || fail "the clip was not rendered"
+    --frames "$frames" --size "$size" --rate "$rate" || fail "the clip could not be rendered"
   local side
   for side in left right; do
     step "Encoding $out/$side.mp4 (H.264)"
@@ -147,8 +147,8 @@ render_clip() {
   fi
 }
 
-# Two video files -> lossless disparity. mtstereo's messages about wrong input come out here. The
-# watchdog ends a pipeline from which nothing came for a minute.
+# Two video files -> lossless disparity. Prints mtstereo's messages about invalid input. The watchdog
+# stops a pipeline without output for a minute.
 match() {
   local matcher=(mtstereo name=m "mode=$1")
   [ -z "$max_disparity" ] || matcher+=("max-disparity=$max_disparity")
@@ -160,7 +160,7 @@ match() {
   odd_width=$(odd width) odd_height=$(odd height)
 }
 
-# 1 where the width (height) of the disparity is odd, else 0; gst-launch-1.0 -v tells it.
+# 1 if the width (height) of the disparity in the output of gst-launch-1.0 -v is odd, else 0.
 odd() {
   local value
   value=$(sed -n "s/.*GstMtStereo:m.GstAggregatorPad:src: caps = .* $1=(int)\\([0-9]*\\).*/\\1/p" "$log" |
@@ -168,8 +168,8 @@ odd() {
   echo $((${value:-0} % 2))
 }
 
-# Lossless disparity -> 16-bit pictures, px = value / 256. The second argument is an element that
-# may end early.
+# Lossless disparity -> 16-bit PNG images, px = value / 256. Further arguments are properties of
+# pngenc, such as snapshot=true for the first frame only.
 to_pictures() {
   rm -rf "$out/disparity-$1"
   mkdir -p "$out/disparity-$1"
@@ -178,7 +178,7 @@ to_pictures() {
     multifilesink "location=$out/disparity-$1/%06d.png"
 }
 
-# H.264 with its usual 4:2:0 wants even sizes, so an odd picture loses its last column or row.
+# H.264 in the usual 4:2:0 needs even sizes, so an odd picture loses its last column or row.
 to_color() {
   local color=(mtcolor)
   [ -z "$max_disparity" ] || color+=("max-disparity=$max_disparity")
@@ -209,7 +209,7 @@ demo_of_clip() {
   compare --disparity "$out/disparity-$mode" --truth "$out/clip/truth" --left "$out/clip/left" \
     --picture "$out/demo.png" --width 1200 --frame $((frames / 2)) --max-disparity "$max_disparity" >/dev/null
   echo
-  echo "Accuracy against the ground truth, mean over the clip; seen = pixels that both cameras see."
+  echo "Accuracy against the ground truth, mean over the clip; seen = pixels visible in both views."
   echo "fps = frames per second from the two H.264 files to the disparity file, $(nproc) processors."
   printf '%-12s %6s %10s %9s %10s %14s %13s %8s\n' mode frames 'avgerr px' 'D-all %' 'density %' \
     'seen avgerr px' 'seen D-all %' fps
@@ -229,20 +229,20 @@ demo_of_files() {
     --width 1600 --max-disparity "${max_disparity:-64}"
 }
 
-mkdir -p "$out" 2>/dev/null || fail "the folder $out cannot be made"
-log=$(mktemp) || fail "there is no room for a temporary file"
+mkdir -p "$out" 2>/dev/null || fail "the folder $out cannot be created"
+log=$(mktemp) || fail "a temporary file cannot be created"
 trap 'rm -f "$log"' EXIT
 out=$(cd "$out" && pwd)
 for file in "${files[@]}"; do
   for name in "disparity-$mode.mkv" color.mp4 left.png demo.png; do
-    [[ ! $out/$name -ef $file ]] || fail "$file would be overwritten: name another folder with --out"
+    [[ ! $out/$name -ef $file ]] || fail "$file would be overwritten: choose another folder with --out"
   done
 done
 
 if [ "$build_first" = yes ]; then
   build_all
 elif [ ! -e "$build/gst/libgstmtstereo.so" ]; then
-  fail "there is no plugin in $build; leave --no-build away, or name the folder with --build"
+  fail "there is no plugin in $build; omit --no-build, or set the build folder with --build"
 fi
 export GST_PLUGIN_PATH=$build/gst
 

@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# from-cameras.sh LEFT RIGHT: disparity of two video4linux cameras.
+# from-cameras.sh LEFT RIGHT: computes the disparity of two video4linux cameras.
 #
 #   ./pipelines/from-cameras.sh /dev/video0 /dev/video2
 #   ./pipelines/from-cameras.sh /dev/video0 /dev/video2 --size 640x480 --rate 30
 #
-# The cameras have to be mounted and rectified such that a point lies on the same row in both
-# pictures, and to take their pictures at the same moment (an external trigger): mtstereo pairs
-# frames whose time stamps differ by less than half a frame, and drops others.
+# The cameras must be mounted and rectified such that a point is on the same row in both images, and
+# must expose at the same time (external trigger): mtstereo pairs frames whose time stamps differ by
+# less than half a frame period and drops the others.
 #
 # Options:
-#   --size WxH          what to ask the cameras for (default 640x480)
-#   --rate N            frames per second to ask for (default 30)
+#   --size WxH          requested image size (default 640x480)
+#   --rate N            requested frames per second (default 30)
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -26,18 +26,18 @@ own_option() {
   esac
 }
 parse_options "$@"
-[ ${#arguments[@]} -eq 2 ] || wrong_usage "two cameras are needed, such as /dev/video0 /dev/video2"
-[[ $size =~ ^([0-9]+)x([0-9]+)$ ]] || wrong_usage "--size is '$size', it has to look like 640x480"
+[ ${#arguments[@]} -eq 2 ] || wrong_usage "two cameras are required, such as /dev/video0 /dev/video2"
+[[ $size =~ ^([0-9]+)x([0-9]+)$ ]] || wrong_usage "--size is '$size'; expected WIDTHxHEIGHT, such as 640x480"
 wanted="width=${BASH_REMATCH[1]},height=${BASH_REMATCH[2]}"
-is_number "$rate" || wrong_usage "--rate is '$rate', it has to be a whole number"
+is_number "$rate" || wrong_usage "--rate is '$rate'; it must be an integer"
 wanted+=",framerate=$rate/1"
 if [ "$dry_run" = no ]; then
   for camera in "${arguments[@]}"; do
-    [ -c "$camera" ] || fail "there is no camera $camera"
+    [ -c "$camera" ] || fail "no such camera: $camera"
   done
 fi
 
-# Raw or MJPEG, whatever the camera has at this size; decodebin lets raw pass.
+# Raw video or MJPEG, whichever the camera has at this size; decodebin passes raw video through.
 caps="video/x-raw,$wanted;image/jpeg,$wanted"
 mapfile -t output < <(output_of)
 launch \

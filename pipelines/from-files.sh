@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# from-files.sh LEFT RIGHT: disparity of two video files.
+# from-files.sh LEFT RIGHT: computes the disparity of two video files.
 #
 #   ./pipelines/from-files.sh left.mp4 right.mp4
 #   ./pipelines/from-files.sh left.mp4 right.mp4 --out disparity.mkv
 #
-# Both have the same size and are rectified. Frames are paired by their time stamps, so the files
-# have to start at the same moment.
+# Both videos must be rectified and have the same size. Frames are paired by their time stamps, so
+# both files must start at the same time.
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 parse_options "$@"
-[ ${#arguments[@]} -eq 2 ] || wrong_usage "two files are needed, LEFT and RIGHT"
+[ ${#arguments[@]} -eq 2 ] || wrong_usage "two files are required, LEFT and RIGHT"
 for file in "${arguments[@]}"; do require_file "$file"; done
 
 mapfile -t output < <(output_of)

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# from-network.sh LEFT RIGHT: disparity of two H.264 streams from the network.
+# from-network.sh LEFT RIGHT: computes the disparity of two H.264 streams from the network.
 #
 #   ./pipelines/from-network.sh 5000 5002                  (RTP on two UDP ports)
 #   ./pipelines/from-network.sh rtsp://a/left rtsp://b/right
 #
 # To try it on one machine, start network-sender.sh in another terminal. RTP over UDP loses packets
-# on a bad network; a frame without partner is dropped and counted. The default tolerance of the
-# time stamps is 20 ms here, as the network makes them unsteady; it has to stay under half the time
-# between frames, or neighboring frames may be taken for a pair.
+# on a bad network; a frame without a partner is dropped and counted. The default tolerance of the
+# time stamps is 20 ms here, because of network jitter. It must be less than half the frame period;
+# otherwise neighboring frames may be paired.
 #
 # Options:
-#   --latency MS        how long to wait for late packets (default 200)
-#   --tolerance MS      how far the time stamps of a pair may lie apart (default 20)
+#   --latency MS        waiting time for late packets (default 200)
+#   --tolerance MS      largest difference of the time stamps of a pair (default 20)
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -27,14 +27,14 @@ own_option() {
   esac
 }
 parse_options "$@"
-[ ${#arguments[@]} -eq 2 ] || wrong_usage "two UDP ports or two rtsp:// addresses are needed"
-is_number "$latency" || wrong_usage "--latency is '$latency', it has to be whole milliseconds"
-is_number "$tolerance" || wrong_usage "--tolerance is '$tolerance', it has to be whole milliseconds"
+[ ${#arguments[@]} -eq 2 ] || wrong_usage "two UDP ports or two rtsp:// addresses are required"
+is_number "$latency" || wrong_usage "--latency is '$latency'; it must be an integer [ms]"
+is_number "$tolerance" || wrong_usage "--tolerance is '$tolerance'; it must be an integer [ms]"
 matcher+=("sync-tolerance=$((tolerance * 1000000))")
 
 receiver_of() {
   if is_number "$1"; then
-    if [ "$1" -lt 1 ] || [ "$1" -gt 65535 ]; then fail "a UDP port is 1 to 65535, not $1"; fi
+    if [ "$1" -lt 1 ] || [ "$1" -gt 65535 ]; then fail "a UDP port must be 1 to 65535, not $1"; fi
     printf '%s\n' udpsrc "port=$1" \
       "caps=application/x-rtp,media=video,clock-rate=90000,encoding-name=H264" \
       '!' rtpjitterbuffer "latency=$latency" '!' rtph264depay '!' h264parse

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# from-png.sh LEFT RIGHT DISPARITY: disparity of two numbered sequences of PNG pictures.
+# from-png.sh LEFT RIGHT DISPARITY: computes the disparity of two numbered sequences of PNG images.
 #
 #   ./pipelines/from-png.sh left/%06d.png right/%06d.png disparity/%06d.png
 #
-# What comes out are 16-bit PNG pictures as KITTI has them: px = value / 256, 0 = no disparity. The
-# folder of the disparities is made where it is not there. Without DISPARITY the colors are shown.
+# The output is 16-bit PNG images in KITTI's format: px = value / 256, 0 = no disparity. The folder
+# of the disparities is created if missing. Without DISPARITY, the color pictures are shown.
 #
 # Options:
-#   --first N           number of the first picture (default 0)
-#   --rate N            frames per second that they stand for (default 24)
+#   --first N           number of the first image (default 0)
+#   --rate N            frames per second of the sequences (default 24)
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -26,13 +26,13 @@ own_option() {
 parse_options "$@"
 case ${#arguments[@]} in
   2 | 3) ;;
-  *) wrong_usage "two patterns such as left/%06d.png right/%06d.png are needed, a third for the result" ;;
+  *) wrong_usage "two patterns such as left/%06d.png right/%06d.png are required; a third for the result is optional" ;;
 esac
-is_number "$first" || wrong_usage "--first is '$first', it has to be a whole number"
-is_number "$rate" || wrong_usage "--rate is '$rate', it has to be a whole number"
+is_number "$first" || wrong_usage "--first is '$first'; it must be an integer"
+is_number "$rate" || wrong_usage "--rate is '$rate'; it must be an integer"
 for pattern in "${arguments[@]}"; do
   [[ $pattern =~ ^[^%]*%(0[0-9]+)?d[^%]*$ ]] ||
-    wrong_usage "'$pattern' has no place for the number; it has to look like left/%06d.png"
+    wrong_usage "'$pattern' has no placeholder for the number; expected a pattern such as left/%06d.png"
 done
 if [ "$dry_run" = no ]; then
   for pattern in "${arguments[@]:0:2}"; do
@@ -42,7 +42,7 @@ if [ "$dry_run" = no ]; then
 fi
 
 if [ ${#arguments[@]} -eq 3 ]; then
-  # Without the format, pngenc would be given 8 bits.
+  # Without the format, pngenc would get 8 bits.
   output=('!' videoconvert '!' video/x-raw,format=GRAY16_BE '!' pngenc '!'
     multifilesink "location=${arguments[2]}" "index=$first")
   [ "$dry_run" = yes ] || mkdir -p "$(dirname "${arguments[2]}")"

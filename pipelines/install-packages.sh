@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Installs the Debian packages of packages.txt that are missing; does nothing where none is.
+# Installs the missing Debian packages of packages.txt; does nothing if none is missing.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
@@ -15,7 +15,7 @@ echo "Installing Debian packages: ${missing[*]}"
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
   if ! command -v sudo >/dev/null; then
-    echo "These packages are missing and this user cannot install them: as root, run" >&2
+    echo "These packages are missing, and this user cannot install them. As root, run" >&2
     echo "  apt-get install ${missing[*]}" >&2
     exit 1
   fi

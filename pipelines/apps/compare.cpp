@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// mtstereo-compare: how far recorded disparity pictures are from the ground truth of their clip,
-// and one frame of them as a picture.
+// mtstereo-compare: compares recorded disparity pictures with the ground truth of their clip, and
+// makes a picture of one frame.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -38,31 +38,32 @@ void define(CLI::App& app, Options& o) {
                  "folder of 16-bit PNG pictures: px = value / 256, 0 = none")
       ->required();
   app.add_option("--truth", o.truth, "folder of PFM files with the same names: the ground truth");
-  app.add_option("--mask", o.mask, "folder of masks: 255 = seen by both cameras, 128 = occluded");
-  app.add_option("--label", o.label, "the name in the first column")->capture_default_str();
+  app.add_option("--mask", o.mask, "folder of masks: 255 = visible in both views, 128 = occluded");
+  app.add_option("--label", o.label, "text of the first column")->capture_default_str();
   app.add_option("--picture", o.picture, "PNG to write: left image, disparity, ground truth");
   app.add_option("--left", o.left, "folder of left images, or one image, for the picture");
-  app.add_option("--frame", o.frame, "which frame the picture shows, counted from 0")
+  app.add_option("--frame", o.frame, "frame that the picture shows, counted from 0")
       ->check(CLI::Range(0, 999999))
       ->capture_default_str();
-  app.add_option("--width", o.width, "shrink the picture to this width [px]; 0 = as it is")
+  app.add_option("--width", o.width, "scale the picture down to this width [px]; 0 = original size")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  app.add_option("--max-disparity", o.max_disparity, "end of the picture's color range [px]")
+  app.add_option("--max-disparity", o.max_disparity,
+                 "upper end of the color range of the picture [px]")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
 }
 
 std::map<std::string, fs::path> by_name(const fs::path& folder, const std::string& extension) {
   if (!fs::is_directory(folder)) {
-    throw std::runtime_error(folder.string() + ": there is no such folder");
+    throw std::runtime_error(folder.string() + ": no such folder");
   }
   std::map<std::string, fs::path> files;
   for (const auto& file : files_in(folder)) {
     if (extension_of(file) == extension) files[file.stem().string()] = file;
   }
   if (files.empty()) {
-    throw std::runtime_error(folder.string() + ": there is no " + extension + " file in it");
+    throw std::runtime_error(folder.string() + ": contains no " + extension + " file");
   }
   return files;
 }
@@ -71,7 +72,7 @@ const fs::path& partner(const std::map<std::string, fs::path>& files, const fs::
                         const std::string& name) {
   const auto found = files.find(name);
   if (found == files.end()) {
-    throw std::runtime_error(folder.string() + ": frame " + name + " is missing in it");
+    throw std::runtime_error(folder.string() + ": frame " + name + " is missing");
   }
   return found->second;
 }
@@ -86,7 +87,7 @@ ClipEvaluation evaluate_clip(const Options& o) {
   const auto truths = by_name(o.truth, ".pfm");
   std::map<std::string, fs::path> masks;
   if (!o.mask.empty()) masks = by_name(o.mask, ".png");
-  // A frame that got lost would shift all that follow, so it is an error and not left out.
+  // A lost frame would shift all later frames, so it is an error.
   for (const auto& [name, file] : truths) partner(disparities, o.disparity, name);
 
   std::vector<Evaluation> frames;
@@ -117,7 +118,7 @@ void print(const std::string& label, const ClipEvaluation& evaluated) {
 
 cv::Mat labeled(const cv::Mat& picture, const std::string& text) {
   cv::Mat out = picture.clone();
-  // Dark below, bright above: readable on any ground.
+  // Bright text over a dark outline: readable on any background.
   const double size = std::max(0.35, picture.rows / 500.0);
   const cv::Point at(picture.cols / 60 + 2, picture.rows - picture.rows / 30 - 2);
   cv::putText(out, text, at, cv::FONT_HERSHEY_SIMPLEX, size, {0, 0, 0}, 3, cv::LINE_AA);
@@ -128,7 +129,7 @@ cv::Mat labeled(const cv::Mat& picture, const std::string& text) {
 const fs::path& nth(const std::map<std::string, fs::path>& files, const fs::path& folder, int n) {
   if (n >= static_cast<int>(files.size())) {
     throw std::runtime_error(folder.string() + ": frame " + std::to_string(n) +
-                             " was asked for, there are " + std::to_string(files.size()));
+                             " was requested, but there are only " + std::to_string(files.size()));
   }
   return std::next(files.begin(), n)->second;
 }
@@ -141,7 +142,7 @@ void write_montage(const Options& o) {
     const fs::path file =
         fs::is_directory(o.left) ? nth(by_name(o.left, ".png"), o.left, o.frame) : o.left;
     const cv::Mat left = cv::imread(file.string(), cv::IMREAD_COLOR);
-    if (left.empty()) throw std::runtime_error(file.string() + ": not an image that can be read");
+    if (left.empty()) throw std::runtime_error(file.string() + ": cannot be read as an image");
     require_size(file, left, disparity.size());
     row.push_back(labeled(left, "left"));
   }
@@ -163,7 +164,7 @@ void write_montage(const Options& o) {
 
 int run(const Options& o) {
   if (o.truth.empty() && o.picture.empty()) {
-    std::cerr << "mtstereo-compare: nothing to do; give --truth, --picture or both\n";
+    std::cerr << "mtstereo-compare: nothing to do: add --truth, --picture or both\n";
     return 2;
   }
   if (!o.truth.empty()) print(o.label, evaluate_clip(o));
@@ -178,7 +179,7 @@ int main(int argc, char** argv) {
     CLI::App app("Compares recorded disparity with ground truth.", "mtstereo-compare");
     app.footer(
         "Columns: label, frames, then over all pixels avgerr [px], D-all [%], density [%],\n"
-        "then, with --mask, avgerr and D-all over pixels that both cameras see.");
+        "then, with --mask, avgerr and D-all over the pixels that are visible in both views.");
     Options options;
     define(app, options);
     try {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// depth-of-center: how an application reads the disparity. It takes two files or two cameras, gets
-// each disparity frame from an appsink, and prints what lies in the middle of the left image.
+// depth-of-center: a sample application that reads the disparity. It takes two files or two
+// cameras, gets each disparity frame from an appsink, and prints the distance at the center of the
+// left image.
 #include <gst/app/gstappsink.h>
 #include <gst/gst.h>
 #include <gst/video/video.h>
@@ -34,7 +35,7 @@ struct Unref {
 template <typename T>
 using Owned = std::unique_ptr<T, Unref>;
 
-// Stops the pipeline before it is given up, on every way out.
+// Stops the pipeline before it is released, on every path.
 class Pipeline {
  public:
   explicit Pipeline(const std::string& description) {
@@ -43,7 +44,7 @@ class Pipeline {
     if (error != nullptr) {
       const std::string reason = error->message;
       g_error_free(error);
-      throw std::runtime_error("cannot make the pipeline: " + reason);
+      throw std::runtime_error("cannot create the pipeline: " + reason);
     }
   }
   ~Pipeline() { gst_element_set_state(pipeline_.get(), GST_STATE_NULL); }
@@ -56,7 +57,7 @@ class Pipeline {
 
   void play() const { gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING); }
 
-  // The first error that was posted, with its details; "" without one.
+  // The first posted error with its details; "" if there is none.
   std::string error() const {
     const Owned<GstBus> bus(gst_element_get_bus(pipeline_.get()));
     const Owned<GstMessage> message(gst_bus_pop_filtered(bus.get(), GST_MESSAGE_ERROR));
@@ -75,7 +76,7 @@ class Pipeline {
   Owned<GstElement> pipeline_;
 };
 
-// A video frame, mapped for reading as long as it lives.
+// A video frame that is mapped for reading during its lifetime.
 class MappedFrame {
  public:
   explicit MappedFrame(GstSample* sample) {
@@ -107,14 +108,14 @@ std::string source(const std::string& name, const std::string& place) {
          " ! decodebin ! videoconvert ! queue ! m.sink_" + name + "  ";
 }
 
-// Set as a property, so that no character of a file's name means anything to the parser.
+// Set as a property, so that the parser does not interpret the characters of a file name.
 void set_place(const Pipeline& pipeline, const char* name, const std::string& place) {
   const Owned<GstElement> element = pipeline.element(name);
   const bool camera = place.rfind("/dev/", 0) == 0;
   g_object_set(element.get(), camera ? "device" : "location", place.c_str(), nullptr);
 }
 
-// The median of the disparities around the middle [px]; 0 where none is known.
+// The median of the disparities around the center [px]; 0 if there is none.
 double center_disparity(const MappedFrame& frame, int window, int scale) {
   std::vector<int> known;
   const int x0 = frame.width() / 2, y0 = frame.height() / 2, half = window / 2;
@@ -139,7 +140,7 @@ void print(GstSample* sample, const Options& o) {
     std::printf("%8.3f s  ", static_cast<double>(GST_BUFFER_PTS(buffer)) / GST_SECOND);
   }
   if (disparity == 0) {
-    std::printf("no disparity in the middle\n");
+    std::printf("no disparity at the center\n");
   } else if (o.focal > 0 && o.baseline > 0) {
     std::printf("disparity %7.2f px  distance %7.3f m\n", disparity,
                 o.focal * o.baseline / disparity);
@@ -173,27 +174,28 @@ int run(const Options& o) {
     if (gst_app_sink_is_eos(GST_APP_SINK(sink.get()))) return 0;
     waited += kStep;
   }
-  throw std::runtime_error("no disparity frame came for " + std::to_string(o.timeout) +
-                           " s; do both inputs run, and at the same time?");
+  throw std::runtime_error("no disparity frame for " + std::to_string(o.timeout) +
+                           " s; check that both inputs run and have equal time stamps");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    CLI::App app("Prints the disparity and the distance in the middle of the left image.",
+    CLI::App app("Prints the disparity and the distance at the center of the left image.",
                  "depth-of-center");
     Options o;
     app.add_option("left", o.left, "video file, or a camera such as /dev/video0")->required();
     app.add_option("right", o.right, "video file, or a camera such as /dev/video2")->required();
     app.add_option("--focal", o.focal, "focal length [px]")->check(CLI::PositiveNumber);
-    app.add_option("--baseline", o.baseline, "between the cameras [m]")->check(CLI::PositiveNumber);
+    app.add_option("--baseline", o.baseline, "distance between the cameras [m]")
+        ->check(CLI::PositiveNumber);
     app.add_option("--max-disparity", o.max_disparity, "search range [px]")
         ->check(CLI::Range(1, 1024));
-    app.add_option("--window", o.window, "side of the square that counts as the middle [px]")
+    app.add_option("--window", o.window, "side of the square around the center [px]")
         ->check(CLI::Range(1, 1001))
         ->capture_default_str();
-    app.add_option("--timeout", o.timeout, "give up after so long without a frame [s]")
+    app.add_option("--timeout", o.timeout, "exit with an error after this time without a frame [s]")
         ->check(CLI::Range(1, 3600))
         ->capture_default_str();
     try {

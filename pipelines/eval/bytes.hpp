@@ -7,7 +7,7 @@
 
 namespace mtstereo::eval {
 
-/// The 32-bit float stored at `bytes`, in the order of bytes told.
+/// The 32-bit float stored at `bytes` in this byte order.
 inline float load_float(const char* bytes, std::endian order) {
   std::uint32_t bits = 0;
   std::memcpy(&bits, bytes, sizeof bits);
@@ -15,7 +15,7 @@ inline float load_float(const char* bytes, std::endian order) {
   return std::bit_cast<float>(bits);
 }
 
-/// Stores a 32-bit float at `bytes`, in the order of bytes told.
+/// Stores a 32-bit float at `bytes` in this byte order.
 inline void store_float(float value, char* bytes, std::endian order) {
   auto bits = std::bit_cast<std::uint32_t>(value);
   if (order != std::endian::native) bits = __builtin_bswap32(bits);

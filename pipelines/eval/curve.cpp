@@ -11,7 +11,7 @@
 namespace mtstereo::eval {
 namespace {
 
-// Sums over the pixels of one confidence, or of all from one confidence on.
+// Sums over the pixels with one confidence, or with at least one confidence.
 struct Bin {
   std::int64_t predicted = 0;
   std::int64_t compared = 0;
@@ -66,7 +66,8 @@ CurvePoint point_of(const Bin& sum, std::size_t pixels) {
   return point;
 }
 
-// Linear between two points; NaN where they do not enclose the density or one has no error.
+// Interpolates linearly between two points; NaN if they do not enclose the density or one has no
+// error.
 double between(const CurvePoint& a, const CurvePoint& b, double density,
                const CurveMeasure& measure) {
   const double low = a.*measure.value, high = b.*measure.value;
@@ -90,7 +91,7 @@ CurvePoint point_of(const Evaluation& evaluation) {
 std::vector<CurvePoint> threshold_points(const cv::Mat& estimate, const cv::Mat& confidence,
                                          const cv::Mat& truth) {
   if (estimate.size() != confidence.size() || estimate.size() != truth.size()) {
-    throw InputError("disparity map, confidence and ground truth are of different sizes");
+    throw InputError("disparity map, confidence and ground truth have different sizes");
   }
   const Bins bins = bins_of(estimate, confidence, truth);
   std::vector<CurvePoint> points(kMostConfidence);
@@ -123,7 +124,7 @@ Sweep at_threshold(const Sweep& sweep, std::size_t threshold) {
 
 double error_at(const Sweep& sweep, double density, const CurveMeasure& measure) {
   double least = kNone;
-  // fmin() takes no notice of NaN.
+  // fmin() ignores NaN.
   const auto consider = [&](const CurvePoint& a, const CurvePoint& b) {
     least = std::fmin(least, between(a, b, density, measure));
   };

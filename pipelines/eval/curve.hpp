@@ -11,8 +11,8 @@
 
 namespace mtstereo::eval {
 
-/// What is left of a disparity map at one setting of a sweep, over all pixels with ground truth.
-/// The errors are NaN where nothing could be compared.
+/// Density and errors of a disparity map at one setting of a sweep, over all pixels with ground
+/// truth. The errors are NaN if no pixel could be compared.
 struct CurvePoint {
   double density = kNone;  ///< pixels with an estimate / all pixels of the image [%]
   double avgerr = kNone;   ///< [px]
@@ -20,7 +20,7 @@ struct CurvePoint {
   double bad1 = kNone;     ///< [%]
 };
 
-/// An error that is told against density.
+/// An error measure that is reported against density.
 struct CurveMeasure {
   const char* name;
   const char* unit;
@@ -34,46 +34,45 @@ inline constexpr std::array<CurveMeasure, 3> kCurveMeasures{{{"avgerr", "px", &C
 /// The densities at which methods are compared [%].
 inline constexpr std::array<double, 9> kCurveDensities{10, 20, 30, 40, 50, 60, 70, 75, 80};
 
-/// The largest threshold on a confidence; the smallest is 1, which every disparity reaches.
+/// The largest confidence threshold. The smallest is 1, which every disparity passes.
 inline constexpr int kMostConfidence = 255;
 
-/// The figures over a grid of settings: one row for each uniqueness ratio, one column for each
-/// threshold on the confidence.
+/// The figures over a grid of settings: one row per uniqueness ratio, one column per confidence
+/// threshold.
 struct Sweep {
-  /// StereoSGBM's or StereoBM's uniquenessRatio [%]; a single 0 where the matcher has none
+  /// uniquenessRatio of StereoSGBM or StereoBM [%]; a single 0 for a matcher without one
   std::vector<int> ratios;
-  /// A pixel counts where its confidence reaches this; 0 = the map as the matcher gives it, without
-  /// filters
+  /// A pixel counts if its confidence is at least this; 0 = the unfiltered map of the matcher
   std::vector<int> thresholds;
-  std::vector<CurvePoint> points;  ///< row after row, ratios.size() * thresholds.size()
+  std::vector<CurvePoint> points;  ///< row-major, ratios.size() * thresholds.size()
 
   const CurvePoint& at(std::size_t ratio, std::size_t threshold) const {
     return points[ratio * thresholds.size() + threshold];
   }
 };
 
-/// The point of a whole map.
+/// The point of an unthresholded map.
 CurvePoint point_of(const Evaluation& evaluation);
 
-/// The points at the thresholds 1 .. kMostConfidence: at each those pixels of the estimate
-/// (CV_32FC1 [px], NaN = none) count whose confidence (CV_8UC1) reaches it. Throws InputError where
-/// the sizes differ.
+/// The points at the thresholds 1 .. kMostConfidence. At each threshold, the pixels of the estimate
+/// (CV_32FC1 [px], NaN = none) count whose confidence (CV_8UC1) is at least the threshold. Throws
+/// InputError if the sizes differ.
 std::vector<CurvePoint> threshold_points(const cv::Mat& estimate, const cv::Mat& confidence,
                                          const cv::Mat& truth);
 
-/// The sweep of a matcher that tells its own confidence: one row of the thresholds above.
+/// The sweep of a matcher that reports its own confidence: one row of the thresholds above.
 Sweep confidence_sweep(const cv::Mat& estimate, const cv::Mat& confidence, const cv::Mat& truth);
 
-/// The rows of a sweep at one of its thresholds.
+/// The column of a sweep at one of its thresholds.
 Sweep at_threshold(const Sweep& sweep, std::size_t threshold);
 
-/// The error at a density [%]: linear between neighboring settings, and where several pairs of them
-/// enclose the density, the least. Neighbors differ by one step in one setting, the ratio or the
-/// threshold. So it is the curve itself where there is one row or one column, and else the lower
-/// envelope. NaN where the density is not reached.
+/// The error at a density [%], interpolated linearly between neighboring settings; the smallest one
+/// if several pairs of neighbors enclose the density. Neighbors differ by one step in one setting,
+/// the ratio or the threshold. A sweep with one row or one column thus gives the curve itself, any
+/// other the lower envelope. NaN if the density is not reached.
 double error_at(const Sweep& sweep, double density, const CurveMeasure& measure);
 
-/// The densities that a sweep reaches, at points with errors [%]; NaN where it has none.
+/// The range of densities of the points that have errors [%]; NaN if there is none.
 struct DensityRange {
   double least = kNone;
   double most = kNone;

@@ -8,7 +8,7 @@
 namespace mtstereo::eval {
 namespace {
 
-// Calls `change` with each figure of `target` and the same one of `other`.
+// Calls `change` with each figure of `target` and the corresponding one of `other`.
 template <typename Change>
 void for_figures(CurvePoint& target, const CurvePoint& other, Change change) {
   change(target.density, other.density);
@@ -31,7 +31,7 @@ void SweepMean::add(const Sweep& sweep) {
     return;
   }
   for (std::size_t i = 0; i < sum_.points.size(); ++i) {
-    // A NaN stays in the sum: that point is not there for all pairs.
+    // A NaN makes the sum NaN: not all pairs have that point.
     for_figures(sum_.points[i], sweep.points[i], [](double& sum, double value) { sum += value; });
   }
 }

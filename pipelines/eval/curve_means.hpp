@@ -9,20 +9,20 @@
 
 namespace mtstereo::eval {
 
-/// What a method reached over a sweep of its settings.
+/// The sweep of one method.
 struct MethodSweep {
   std::string method;
   Sweep sweep;
 };
 
-/// The mean of sweeps, point by point: first each pair's own figure, then the plain mean over the
-/// pairs, at the same settings for all. The errors are there only where every pair has them, or the
-/// curve would change its pairs on the way.
+/// The pointwise mean of sweeps: the unweighted mean, over the pairs, of the figures of each pair
+/// at the same setting. A point has errors only if every pair has them; otherwise different parts
+/// of the curve would be means over different pairs.
 class SweepMean {
  public:
-  /// All sweeps have the settings of the first.
+  /// All sweeps must have the settings of the first.
   void add(const Sweep& sweep);
-  /// Empty before the first.
+  /// Empty if nothing was added.
   Sweep mean() const;
 
  private:
@@ -37,13 +37,14 @@ struct CurveMeans {
   std::vector<MethodSweep> methods;
 };
 
-/// Gathers the sweeps of pair after pair. It keeps sums only, so that a data set may be large.
+/// Accumulates the sweeps of all pairs. It keeps only sums, so memory does not grow with the data
+/// set.
 class CurveCollector {
  public:
   explicit CurveCollector(std::vector<std::string> methods);
 
-  /// Takes a pair in where every method has a sweep with something to compare; else none of its
-  /// sweeps, and it is listed as left out: all curves are to be over the same pairs.
+  /// Adds a pair if every method has a sweep with errors. Otherwise ignores the pair and lists it
+  /// as left out, because all curves must be means over the same pairs.
   void add(const std::string& pair, const std::vector<MethodSweep>& sweeps);
   CurveMeans means() const;
 

@@ -35,8 +35,8 @@ void add_rival(const MethodSweep& rival, std::size_t method, CurveReport& report
       "OpenCV, " + rival_settings(*find_rival(rival.method), uniqueness_ratios_text());
   report.curves.push_back({rival.method, settings, method, false, at_threshold(rival.sweep, 0)});
   report.curves.push_back({rival.method + " + filters",
-                           "the least error of " + rival.method +
-                               " as above, without and with the filters: " + report.filters +
+                           "the smallest error of " + rival.method +
+                               " as above, with and without the filters: " + report.filters +
                                ", >= " + kThresholds,
                            method, true, rival.sweep});
 }
@@ -105,7 +105,7 @@ CurveReport make_curves(const std::string& dataset, const ParameterTexts& parame
 }
 
 void print_curves(std::ostream& out, const CurveReport& report) {
-  out << "errors at equal density, " << report.dataset << ", plain mean of " << report.pairs
+  out << "errors at equal density, " << report.dataset << ", unweighted mean of " << report.pairs
       << " pairs, all pixels with ground truth\n";
   std::vector<TableRow> rows{{"density %", ""}};
   for (const double density : kCurveDensities) rows[0].push_back(fixed(density, 0));

@@ -15,34 +15,34 @@ namespace mtstereo::eval {
 /// One line of the picture and the table.
 struct Curve {
   std::string name;
-  std::string settings;    ///< what was swept, and all that was held
-  std::size_t method = 0;  ///< lines of the same matcher have the same number
-  bool envelope = false;   ///< the best of a sweep in two settings, not one sweep's own line
+  std::string settings;    ///< the swept setting and the fixed ones
+  std::size_t method = 0;  ///< the same number for all lines of a matcher
+  bool envelope = false;   ///< the lower envelope of a sweep of two settings, not of one
   Sweep sweep;
 };
 
-/// What --curve has to tell.
+/// The results of --curve.
 struct CurveReport {
   std::string dataset;
   std::string mode;     ///< of the library
-  std::string filters;  ///< the settings of those that the rivals' maps go through
+  std::string filters;  ///< the settings of the filters that are applied to the rivals' maps
   int pairs = 0;
   std::vector<Problem> left_out;
   std::vector<Curve> curves;
 };
 
-/// The library's parameters, name and value.
+/// The library's parameters as name and value.
 using ParameterTexts = std::vector<std::pair<std::string, std::string>>;
 
-/// The curves of these means, for which the library's comes first: one for it; two for each rival,
-/// of its uniquenessRatio alone, and the best with the library's filters too.
+/// The curves of these means, the library's first. The library has one curve. Each rival has two:
+/// one over its uniquenessRatio, and the lower envelope with the library's filters.
 CurveReport make_curves(const std::string& dataset, const ParameterTexts& parameters,
                         const FilterSettings& filters, const CurveMeans& means);
 
-/// The errors at equal density as a table for people, and what was run.
+/// Prints the errors at equal density as a table, and the settings.
 void print_curves(std::ostream& out, const CurveReport& report);
 
-/// The same for programs, with the points of all lines; what is not reached is null.
+/// The same as JSON, with the points of all lines; densities that are not reached have null.
 nlohmann::json curves_json(const CurveReport& report);
 
 }  // namespace mtstereo::eval

@@ -34,14 +34,14 @@ cv::Mat read_truth(const StereoPair& pair, cv::Size size, DmapMeaning meaning) {
   if (meaning == DmapMeaning::kAuto && !has_cameras) return map;
   if (!has_cameras) {
     throw InputError(pair.truth,
-                     "is to be read as depth, but the *_cam.txt of the two cameras, "
-                     "which that needs, are not beside the images");
+                     "cannot be read as depth: that needs the *_cam.txt of both cameras beside "
+                     "the images");
   }
   try {
     return depth_to_disparity(map, read_camera(pair.cameras.first),
                               read_camera(pair.cameras.second));
   } catch (const InputError& error) {
-    throw InputError(pair.truth, std::string("cannot become disparity: ") + error.what());
+    throw InputError(pair.truth, std::string("cannot be converted to disparity: ") + error.what());
   }
 }
 
@@ -82,8 +82,8 @@ Layout detect_layout(const fs::path& root) {
   }
   if (looks_like_trimbot(folders)) return trimbot_kind(root, folders);
   throw InputError(root,
-                   "has the layout of no data set that is known; docs/evaluation.md shows them, "
-                   "and --dataset names the one to look for");
+                   "has no known layout; docs/evaluation.md describes the layouts, and --dataset "
+                   "selects one");
 }
 
 DataSet find_pairs(const fs::path& root, Layout layout) {
@@ -132,7 +132,7 @@ LoadedPair load_pair(const StereoPair& pair, DmapMeaning meaning) {
   } else if (!pair.visible_truth.empty()) {
     const cv::Mat visible = read_png_disparity(pair.visible_truth);
     require_size(pair.visible_truth, visible, size);
-    loaded.truth.visible = visible == visible;  // NaN, the unknown, does not equal itself
+    loaded.truth.visible = visible == visible;  // NaN (unknown) does not equal itself
   }
   return loaded;
 }

@@ -13,7 +13,7 @@
 
 namespace mtstereo::eval {
 
-/// How a folder is laid out, that is which data set it holds; docs/evaluation.md shows each.
+/// The layout of a folder, that is, which data set it holds; docs/evaluation.md describes each.
 enum class Layout {
   kMiddlebury,
   kKitti2015,
@@ -25,30 +25,30 @@ enum class Layout {
   kEth3d,
 };
 
-/// The name of a layout, as the option --dataset takes it.
+/// The name of a layout for the option --dataset.
 std::string_view layout_name(Layout layout);
 
-/// The layout with this name, if there is one.
+/// The layout with this name; none if there is no such layout.
 std::optional<Layout> find_layout(std::string_view name);
 
 /// All names, in the order of Layout.
 std::vector<std::string> layout_names();
 
-/// The files of one pair and what the data set says about it. Nothing is read yet.
+/// The files of one pair and its properties in the data set. The files have not been read yet.
 struct StereoPair {
-  std::string name;  ///< path from the data set's folder, without extension; unique in it
+  std::string name;  ///< path relative to the data set's folder, without extension; unique
   std::filesystem::path left;
   std::filesystem::path right;
   std::filesystem::path truth;  ///< .pfm, .png or _dmap.bin
-  /// 255 where both views see the pixel, all else is not (Middlebury, ETH3D); may be empty
+  /// 255 = visible in both views, other values = not (Middlebury, ETH3D); may be empty
   std::filesystem::path visible_mask;
-  /// ground truth of the pixels that both views see alone (KITTI); may be empty
+  /// ground truth of only the pixels that are visible in both views (KITTI); may be empty
   std::filesystem::path visible_truth;
   /// *_cam.txt of left and right, for a depth map; may be empty
   std::pair<std::filesystem::path, std::filesystem::path> cameras;
-  /// number of disparities to search [px]; none where the data set should tell and does not
+  /// number of disparities to search [px]; none if the data set should state it and does not
   std::optional<int> max_disparity;
-  double weight = 1;  ///< in the mean of the errors
+  double weight = 1;  ///< weight in the mean of the errors
 };
 
 /// A pair that cannot be used.
@@ -57,20 +57,20 @@ struct Problem {
   std::string reason;  ///< one sentence that names the file
 };
 
-/// What a folder holds.
+/// The contents of a folder.
 struct DataSet {
   Layout layout = Layout::kMiddlebury;
   std::filesystem::path root;
   std::vector<StereoPair> pairs;   ///< sorted by name
-  std::vector<Problem> problems;   ///< pairs of which a file is missing
-  std::vector<std::string> notes;  ///< what the reader of the figures should know
+  std::vector<Problem> problems;   ///< pairs with a missing file
+  std::vector<std::string> notes;  ///< remarks that matter for reading the figures
 };
 
-/// Finds out which layout a folder has. Throws InputError where it has none that is known.
+/// Detects the layout of a folder. Throws InputError if it is no known layout.
 Layout detect_layout(const std::filesystem::path& root);
 
-/// Lists the pairs of a folder. Throws InputError where the folder cannot be read, and where it has
-/// nothing of that layout.
+/// Lists the pairs of a folder. Throws InputError if the folder cannot be read or holds no pair of
+/// that layout.
 DataSet find_pairs(const std::filesystem::path& root, Layout layout);
 
 /// A pair in memory.
@@ -80,12 +80,12 @@ struct LoadedPair {
   GroundTruth truth;
 };
 
-/// Reads a pair. Throws InputError, naming the file, where one is missing, broken or of another
+/// Reads a pair. Throws InputError, naming the file, if a file is missing or corrupt or has another
 /// size.
 LoadedPair load_pair(const StereoPair& pair, DmapMeaning meaning = DmapMeaning::kAuto);
 
-/// The weight of a Middlebury training pair in the official mean (evaluation version 3), by the
-/// name of its folder.
+/// The weight of a Middlebury training pair in the official mean (evaluation version 3), looked up
+/// by the name of its folder.
 double middlebury_weight(std::string_view name);
 
 }  // namespace mtstereo::eval

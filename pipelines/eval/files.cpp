@@ -34,7 +34,7 @@ void make_parent_folder(const fs::path& file) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   if (error) {
-    throw InputError(file.parent_path(), "the folder cannot be made: " + error.message());
+    throw InputError(file.parent_path(), "the folder cannot be created: " + error.message());
   }
 }
 

@@ -7,27 +7,27 @@
 
 namespace mtstereo::eval {
 
-/// The bytes of a file. Throws InputError where it is missing, no file, or cannot be read.
+/// The bytes of a file. Throws InputError if it is missing, not a file, or unreadable.
 std::string read_bytes(const std::filesystem::path& file);
 
-/// Writes a file, making its folder where there is none. Throws InputError.
+/// Writes a file and creates its folder if needed. Throws InputError.
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);
 
-/// Makes the folder that this file is to be written to. Throws InputError.
+/// Creates the folder of a file that is about to be written. Throws InputError.
 void make_parent_folder(const std::filesystem::path& file);
 
-/// The files right in a folder (not those in folders below), sorted by name; none where the folder
-/// does not exist.
+/// The files of a folder, without those of its subfolders, sorted by name; none if the folder does
+/// not exist.
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 
-/// A folder and all folders below it, sorted by path. Links to folders are followed once: a folder
-/// that was already listed is not entered again. Throws InputError where one cannot be read.
+/// A folder and all its subfolders, sorted by path. Links to folders are followed once: a folder
+/// that was already listed is not entered again. Throws InputError if one cannot be read.
 std::vector<std::filesystem::path> folders_below(const std::filesystem::path& root);
 
-/// The file's extension in lower case, with its dot.
+/// The extension of a file in lower case, with the dot.
 std::string extension_of(const std::filesystem::path& file);
 
-/// True for the extensions of the images that the data sets ship.
+/// True for the image extensions that occur in the data sets.
 bool is_image(const std::filesystem::path& file);
 
 }  // namespace mtstereo::eval

@@ -25,8 +25,8 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// The picture as it is stored. Its bytes are read first, because OpenCV tells a missing file, a
-// folder and a broken picture apart by nothing.
+// The picture as stored. The bytes are read first, because OpenCV does not distinguish a missing
+// file, a folder and a corrupt picture.
 cv::Mat read_stored(const fs::path& file) {
   const std::string bytes = read_bytes(file);
   if (bytes.empty()) throw InputError(file, "is empty");
@@ -38,7 +38,7 @@ cv::Mat read_stored(const fs::path& file) {
   } catch (const cv::Exception& error) {
     throw InputError(file, "cannot be decoded: " + error.err);
   }
-  if (image.empty()) throw InputError(file, "is broken, or not a picture in a known format");
+  if (image.empty()) throw InputError(file, "is corrupt or not a picture in a known format");
   return image;
 }
 
@@ -72,7 +72,7 @@ cv::Mat read_png_disparity(const fs::path& file) {
     scale = 256;
   } else if (stored.type() != CV_8UC1) {
     throw InputError(file, "is not a disparity map: it has " + std::to_string(stored.channels()) +
-                               " channels, where one of 8 or 16 bit is wanted");
+                               " channels instead of one with 8 or 16 bit");
   }
   cv::Mat map;
   stored.convertTo(map, CV_32F, 1 / scale);
@@ -107,7 +107,7 @@ Camera read_camera(const fs::path& file) {
   std::array<double, 11> numbers{};
   for (double& number : numbers) {
     if (!(stream >> number)) {
-      throw InputError(file, "does not hold the 11 numbers fx fy cx cy qw qx qy qz tx ty tz");
+      throw InputError(file, "does not contain the 11 numbers fx fy cx cy qw qx qy qz tx ty tz");
     }
   }
   if (!(numbers[0] > 0)) throw InputError(file, "the focal length is not above 0");
@@ -119,7 +119,7 @@ Camera read_camera(const fs::path& file) {
 
 cv::Mat depth_to_disparity(const cv::Mat& depth, const Camera& left, const Camera& right) {
   const double baseline = cv::norm(left.center - right.center);
-  if (!(baseline > 0)) throw InputError("the two cameras stand in the same place");
+  if (!(baseline > 0)) throw InputError("the two cameras have the same position");
   const double shift = left.principal_x - right.principal_x;
   cv::Mat disparity = depth.clone();
   for (float& value : cv::Mat_<float>(disparity)) {
@@ -134,7 +134,7 @@ cv::Mat read_gray(const fs::path& file) {
   if (image.depth() == CV_16U) {
     image.convertTo(image, CV_8U, 1.0 / 257);
   } else if (image.depth() != CV_8U) {
-    throw InputError(file, "has neither 8 nor 16 bit per value");
+    throw InputError(file, "has neither 8 nor 16 bits per value");
   }
   switch (image.channels()) {
     case 1:

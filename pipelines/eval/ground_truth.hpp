@@ -9,28 +9,28 @@ namespace mtstereo::eval {
 /// The true disparity of the left image.
 struct GroundTruth {
   cv::Mat disparity;  ///< CV_32FC1 [px], NaN = unknown
-  cv::Mat visible;    ///< CV_8UC1, not 0 = both views see the pixel; empty where nobody says
+  cv::Mat visible;    ///< CV_8UC1, nonzero = visible in both views; empty if unknown
 };
 
-/// A camera of the TrimBot2020 garden: what its *_cam.txt holds.
+/// A camera of the TrimBot2020 gardens, read from its *_cam.txt.
 struct Camera {
   double focal_length = 0;  ///< horizontal [px]
   double principal_x = 0;   ///< column of the principal point [px]
-  cv::Vec3d center;         ///< where it stands, in the unit of the depth map
+  cv::Vec3d center;         ///< optical center, in the unit of the depth map
 };
 
-/// What the values of a *_dmap.bin mean.
+/// The meaning of the values in a *_dmap.bin.
 enum class DmapMeaning {
-  kAuto,       ///< depth where both cameras' *_cam.txt are there, else disparity
+  kAuto,       ///< depth if the *_cam.txt of both cameras exist, else disparity
   kDepth,      ///< distance along the optical axis, in the unit of the cameras' positions
   kDisparity,  ///< disparity [px]
 };
 
-/// Values of this size or more in a *_dmap.bin mean that nothing was hit (the sky).
+/// Values from this on in a *_dmap.bin mean that the ray hit nothing (the sky).
 inline constexpr float kDmapNothingHit = 100000;
 
-/// Disparity from a PFM: what is not finite is unknown. Negative values are unknown too, unless no
-/// value is positive: then the map is written with the other sign, and is turned around.
+/// Disparity from a PFM. Values that are not finite are unknown. Negative values are unknown too,
+/// unless no value is positive: then the map has the opposite sign and is negated.
 cv::Mat read_pfm_disparity(const std::filesystem::path& file);
 
 /// Disparity from a PNG, 0 = unknown: px = value / 256 in 16 bit (as KITTI stores it), px = value
@@ -38,26 +38,26 @@ cv::Mat read_pfm_disparity(const std::filesystem::path& file);
 cv::Mat read_png_disparity(const std::filesystem::path& file);
 
 /// The values of a *_dmap.bin, which has no header: big-endian 32-bit floats, column by column.
-/// What is not finite, not positive or at least kDmapNothingHit is unknown (NaN).
+/// Values that are not finite, not positive or at least kDmapNothingHit are unknown (NaN).
 cv::Mat read_dmap(const std::filesystem::path& file, cv::Size size);
 
 /// A camera from the numbers fx fy cx cy qw qx qy qz tx ty tz, world to camera.
 Camera read_camera(const std::filesystem::path& file);
 
-/// disparity = f * baseline / depth + (left - right principal point); what comes out negative is
-/// unknown. Throws InputError where the cameras stand in the same place.
+/// disparity = f * baseline / depth + (left - right principal point); negative results are unknown.
+/// Throws InputError if the cameras have the same optical center.
 cv::Mat depth_to_disparity(const cv::Mat& depth, const Camera& left, const Camera& right);
 
 /// Reads a picture of any depth and number of channels as 8-bit gray (BT.601 luma; alpha ignored,
 /// 16 bit scaled to 8).
 cv::Mat read_gray(const std::filesystem::path& file);
 
-/// A mask as of Middlebury: 255 where both views see the pixel, becomes 255, all else 0.
+/// A mask as in Middlebury: 255 (visible in both views) stays 255, all other values become 0.
 cv::Mat read_visible_mask(const std::filesystem::path& file);
 
 /// Throws InputError, naming the file, unless its map has the size of the image.
 void require_size(const std::filesystem::path& file, const cv::Mat& map, cv::Size image);
 
-// All of these throw InputError, which names the file, where it cannot be used.
+// All of these throw InputError, naming the file, if the file cannot be used.
 
 }  // namespace mtstereo::eval

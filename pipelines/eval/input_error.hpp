@@ -7,8 +7,8 @@
 
 namespace mtstereo::eval {
 
-/// A file or folder that cannot be used: the message names it and says what is wrong with it. The
-/// program reports it, leaves the pair out and goes on with the next.
+/// A file or folder that cannot be used. The message names it and states the reason. The program
+/// reports the error, skips the pair and continues with the next one.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& what) : std::runtime_error(what) {}

@@ -6,7 +6,7 @@
 
 namespace mtstereo::eval {
 
-/// A figure; null where it could not be measured, as JSON has no NaN.
+/// A figure; null if it could not be measured, because JSON has no NaN.
 inline nlohmann::json json_number(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }

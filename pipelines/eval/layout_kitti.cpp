@@ -22,7 +22,7 @@ bool is_folder(const fs::path& path) {
 
 struct Folders {
   fs::path left, right;
-  fs::path occ, noc;  // empty where the folder is not there
+  fs::path occ, noc;  // empty if the folder does not exist
 };
 
 fs::path first_folder(const fs::path& base, std::initializer_list<const char*> names) {
@@ -48,7 +48,7 @@ std::optional<Folders> folders_of(const fs::path& base) {
   return folders;
 }
 
-// The data set's folder may be named itself, or its folder `training`.
+// The given folder may be the data set's own or its folder `training`.
 std::optional<Folders> find_folders(const fs::path& root) {
   if (const std::optional<Folders> inside = folders_of(root / "training")) return inside;
   return folders_of(root);
@@ -86,10 +86,10 @@ void find_kitti(DataSet& set) {
   if (!folders) return;
   if (folders->occ.empty()) {
     set.notes.push_back(
-        "there is no disp_occ_0: 'all' stands for the pixels of disp_noc_0, which both views see");
+        "there is no disp_occ_0: 'all' means the pixels of disp_noc_0, visible in both views");
   }
   for (const fs::path& file : files_in(folders->left)) {
-    // Frame 10 of a sequence has ground truth, frame 11 is there for optical flow.
+    // Frame 10 of a sequence has ground truth; frame 11 is for optical flow.
     if (extension_of(file) == ".png" && file.stem().string().ends_with("_10")) {
       add_frame(set, *folders, file);
     }

@@ -20,7 +20,7 @@ bool holds_pair(const fs::path& folder) {
   return is_file(folder / "im0.png") || is_file(folder / "im1.png");
 }
 
-// A whole number of calib.txt, as in "ndisp=290"; none where the line is not there.
+// An integer of calib.txt, as in "ndisp=290"; none if the line is missing.
 std::optional<int> calibration_value(const fs::path& file, const std::string& key) {
   if (!is_file(file)) return std::nullopt;
   std::istringstream stream(read_bytes(file));
@@ -32,7 +32,7 @@ std::optional<int> calibration_value(const fs::path& file, const std::string& ke
     const char* end = line.data() + line.size();
     const auto [stop, error] = std::from_chars(begin, end, value);
     if (error != std::errc() || stop != end || value < 1) {
-      throw InputError(file, "'" + line + "' is not a whole number above 0");
+      throw InputError(file, "'" + line + "' is not an integer above 0");
     }
     return value;
   }
@@ -42,12 +42,12 @@ std::optional<int> calibration_value(const fs::path& file, const std::string& ke
 std::optional<int> search_range(Layout layout, const fs::path& calibration) {
   const std::optional<int> stated = calibration_value(calibration, "ndisp");
   if (layout == Layout::kMiddlebury) return stated;
-  // ETH3D states the width of the image, which bounds nothing; only a smaller number is a range.
+  // ETH3D states the width of the image, which is no limit; only a smaller number is a range.
   const std::optional<int> width = calibration_value(calibration, "width");
   return stated && width && *stated < *width ? *stated : kEth3dRange;
 }
 
-// The first of these files that is there, or the first name where none is.
+// The first of these files that exists, or the first name if none does.
 fs::path first_file(const fs::path& folder, std::initializer_list<const char*> names) {
   for (const char* name : names) {
     if (is_file(folder / name)) return folder / name;
@@ -81,7 +81,7 @@ void add_folder(DataSet& set, const fs::path& folder) {
   set.pairs.push_back(std::move(pair));
 }
 
-// As ETH3D names its pairs: "playground_1l", "forest_2s".
+// Names of ETH3D pairs, such as "playground_1l" and "forest_2s".
 bool has_eth3d_name(const std::string& name) {
   if (name.size() < 4) return false;
   const std::string end = name.substr(name.size() - 3);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Scene Flow (Driving, Monkaa, FlyingThings3D): frames_cleanpass/.../left/*.png, .../right/*.png
-// and disparity/.../left/*.pfm, with the same folders between.
+// and disparity/.../left/*.pfm, with the same folders in between.
 
 #include <algorithm>
 #include <set>
@@ -21,8 +21,8 @@ bool is_frames_folder(const fs::path& folder) {
   return name == "frames_cleanpass" || name == "image_clean";
 }
 
-// The frames that FlyingThings3D's authors took back: lines like "TEST/A/0005/left/0006.png" (or
-// "TEST/A/0005/0006") in the list that comes with the data set.
+// The frames that the authors of FlyingThings3D withdrew: lines such as "TEST/A/0005/left/0006.png"
+// or "TEST/A/0005/0006" in the list that is part of the data set.
 std::set<std::string> unused_frames(const fs::path& root) {
   std::set<std::string> unused;
   const fs::path list = root / "all_unused_files.txt";
@@ -42,7 +42,7 @@ class Finder {
         truths_(frames_.parent_path() / "disparity"),
         unused_(unused_frames(set.root)) {
     const fs::path above = frames_.parent_path().lexically_relative(set.root);
-    if (*above.begin() != "..") above_ = above;  // where the pass itself was given
+    if (*above.begin() != "..") above_ = above;  // if the given folder is the pass itself
   }
 
   void add_folder(const fs::path& left_folder) {
@@ -75,7 +75,7 @@ class Finder {
   DataSet& set_;
   fs::path frames_;
   fs::path truths_;
-  fs::path above_;  // from the data set's folder to the one that holds the pass
+  fs::path above_;  // from the data set's folder to the parent of the pass
   std::set<std::string> unused_;
 };
 
@@ -108,7 +108,7 @@ Layout scene_flow_kind(const fs::path& root, const std::vector<fs::path>& folder
       scene_folders |= folder.filename() != "left" && folder.filename() != "right";
     }
   }
-  // Monkaa has one folder a scene; frames right below the pass are a part of FlyingThings3D.
+  // Monkaa has one folder per scene; frames directly below the pass are a part of FlyingThings3D.
   return scene_folders ? Layout::kMonkaa : Layout::kFlyingThings;
 }
 

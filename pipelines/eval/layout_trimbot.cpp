@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // The TrimBot2020 gardens: two folders of images, vcam_0 and vcam_1 (rendered), cam_0 and cam_1
-// (real) or left and right, and ground truth beside the left images or in a folder of its own. What
-// belongs together has the same frame number, the last digits in the name.
+// (real) or left and right, and ground truth beside the left images or in its own folder. Files of
+// one frame have the same frame number, the last digits in the name.
 
 #include <algorithm>
 #include <cctype>
@@ -17,7 +17,7 @@ namespace mtstereo::eval {
 namespace fs = std::filesystem;
 namespace {
 
-// The folders of one stereo camera.
+// The folders of one stereo rig.
 struct Rig {
   fs::path left, right;
 };
@@ -27,8 +27,8 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, error);
 }
 
-// The right camera's folder where this is a left one's. A rig of several pairs has the left cameras
-// at even numbers: vcam_0 with vcam_1, vcam_2 with vcam_3.
+// The folder of the right camera, if this is the folder of a left one. In rigs with several pairs,
+// left cameras have even numbers: vcam_0 with vcam_1, vcam_2 with vcam_3.
 std::optional<Rig> rig_of(const fs::path& left) {
   const std::string name = left.filename().string();
   fs::path right;
@@ -47,7 +47,7 @@ std::optional<Rig> rig_of(const fs::path& left) {
   return Rig{left, right};
 }
 
-// The last digits of a name without leading zeros, or all of the name where it has none.
+// The last digits of a name without leading zeros, or the whole name if it has no digits.
 std::string frame_of(const fs::path& file) {
   const std::string stem = file.stem().string();
   const std::size_t end = stem.find_last_of("0123456789");
@@ -58,7 +58,7 @@ std::string frame_of(const fs::path& file) {
   return digits;
 }
 
-// Label images, overlays and pictures of depth lie beside the images.
+// Label images, overlays and depth pictures are stored beside the images.
 bool is_view(const fs::path& file) {
   if (!is_image(file)) return false;
   const std::string stem = file.stem().string();
@@ -85,7 +85,8 @@ Frames frames_in(const fs::path& folder, Accept accept) {
   return frames;
 }
 
-// The truth's own folder is looked into first: for one of several cameras below by its name.
+// The separate ground truth folder is searched first; with several cameras, its subfolder named
+// after the camera.
 Frames truths_of(const Rig& rig) {
   const fs::path up = rig.left.parent_path();
   for (const char* name : {"ground_truth_disparity", "ground_truth", "disparity", "disp", "gt"}) {
@@ -97,7 +98,7 @@ Frames truths_of(const Rig& rig) {
   return frames_in(rig.left, [](const fs::path& f) { return is_truth(f, true); });
 }
 
-// "vcam_0_f00001_undist.png" has its camera in "vcam_0_f00001_cam.txt".
+// The camera of "vcam_0_f00001_undist.png" is in "vcam_0_f00001_cam.txt".
 fs::path camera_file(const fs::path& image) {
   const std::string stem = image.stem().string();
   for (const std::string& base : {stem.substr(0, stem.rfind('_')), stem}) {
@@ -117,7 +118,7 @@ class RigFinder {
   }
 
  private:
-  // The one file of a frame. None or several are a problem, which is noted.
+  // The only file of a frame. No file or several are recorded as a problem.
   const fs::path* one_of(const Frames& frames, const std::string& frame, const std::string& pair,
                          const std::string& what) {
     const auto found = frames.find(frame);

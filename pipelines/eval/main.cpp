@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// mtstereo-eval: the matcher's errors, density and time on a folder of pairs with ground truth.
+// mtstereo-eval: measures the matcher's errors, density and time on pairs with ground truth.
 
 #include <unistd.h>
 
@@ -18,7 +18,7 @@
 namespace mtstereo::eval {
 namespace {
 
-// One line on a terminal that is written over and over; nothing where stderr goes to a file.
+// One line that is rewritten on a terminal; prints nothing if stderr is redirected.
 class Progress {
  public:
   explicit Progress(std::size_t total) : total_(total), on_(isatty(STDERR_FILENO) == 1) {}
@@ -42,11 +42,11 @@ class Progress {
   bool on_;
 };
 
-void complain(const Problem& failure) {
+void print_failure(const Problem& failure) {
   std::cerr << "mtstereo-eval: " << failure.pair << ": " << failure.reason << '\n';
 }
 
-// What a run is to do, after --only and --limit.
+// The pairs to run, after --only and --limit.
 DataSet select_pairs(const Options& options, DataSet set) {
   const auto unwanted = [&](const std::string& name) {
     return name.find(options.only) == std::string::npos;
@@ -68,7 +68,7 @@ Report start_report(const Options& options, const DataSet& set) {
     const bool from_data = info.id == Parameter::kMaxDisparity &&
                            !options.run.parameters.is_set(Parameter::kMaxDisparity);
     report.parameters.emplace_back(
-        info.name, from_data ? "as the data set has it" : options.run.parameters.text(info.id));
+        info.name, from_data ? "from the data set" : options.run.parameters.text(info.id));
   }
   report.methods.emplace_back(kOwnMethod);
   for (const Rival rival : options.run.rivals) {
@@ -81,8 +81,8 @@ Report start_report(const Options& options, const DataSet& set) {
 
 void run_all(const Options& options, const DataSet& set, Report& report) {
   const int threads = options.run.parameters.integer(Parameter::kThreads);
-  cv::setNumThreads(threads > 0 ? threads : -1);  // -1: one for each processor
-  for (const Problem& problem : set.problems) complain(problem);
+  cv::setNumThreads(threads > 0 ? threads : -1);  // -1: one per processor
+  for (const Problem& problem : set.problems) print_failure(problem);
   for (const std::string& note : set.notes) std::cerr << "mtstereo-eval: note: " << note << '\n';
   Runner runner(options.run);
   CurveCollector curve(report.methods);
@@ -94,7 +94,7 @@ void run_all(const Options& options, const DataSet& set, Report& report) {
     for (const std::string& note : pair.notes) std::cerr << "mtstereo-eval: note: " << note << '\n';
     for (const std::string& reason : pair.failures) {
       report.failures.push_back({pair.pair.name, reason});
-      complain(report.failures.back());
+      print_failure(report.failures.back());
     }
     if (options.curve) curve.add(pair.pair.name, std::exchange(pair.sweeps, {}));
     report.pairs.push_back(std::move(pair));
@@ -108,10 +108,10 @@ int list_pairs(const DataSet& set) {
   for (const StereoPair& pair : set.pairs) {
     std::cout << pair.name << "\n  left   " << pair.left.string() << "\n  right  "
               << pair.right.string() << "\n  truth  " << pair.truth.string() << "\n  range  "
-              << (pair.max_disparity ? std::to_string(*pair.max_disparity) + " px" : "not told")
+              << (pair.max_disparity ? std::to_string(*pair.max_disparity) + " px" : "unknown")
               << '\n';
   }
-  for (const Problem& problem : set.problems) complain(problem);
+  for (const Problem& problem : set.problems) print_failure(problem);
   std::cout << set.pairs.size() << " pairs of " << layout_name(set.layout) << '\n';
   return set.problems.empty() ? kAllFine : kSomeFailed;
 }
@@ -137,7 +137,7 @@ int run(const Options& options) {
   std::cout << std::flush;
   if (!report.failures.empty()) {
     std::cerr << "mtstereo-eval: " << report.failures.size()
-              << " failures, named above; the mean is over the rest\n";
+              << " failures (listed above); the mean is over the other pairs\n";
   }
   const bool written = write_outputs(options, can_plot, report);
   return written && report.failures.empty() ? kAllFine : kSomeFailed;
@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
     std::cerr << "mtstereo-eval: " << error.what() << '\n';
     return kWrongUsage;
   } catch (...) {
-    std::cerr << "mtstereo-eval: an unknown error\n";
+    std::cerr << "mtstereo-eval: unknown error\n";
     return kWrongUsage;
   }
 }

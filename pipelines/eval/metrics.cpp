@@ -21,7 +21,7 @@ void require_same_size(const cv::Mat& estimate, const cv::Mat& truth) {
                    std::to_string(estimate.cols) + "x" + std::to_string(estimate.rows));
 }
 
-// Sums over pixels; turned into Metrics at the end.
+// Sums over pixels, from which Metrics are computed.
 struct Sums {
   std::int64_t known = 0;
   std::int64_t compared = 0;
@@ -65,7 +65,7 @@ double density_of(const cv::Mat& estimate) {
   return percent(predicted, static_cast<std::int64_t>(estimate.total()));
 }
 
-// A running weighted mean that takes no notice of NaN.
+// A running weighted mean that ignores NaN.
 class Mean {
  public:
   void add(double value, double weight) {

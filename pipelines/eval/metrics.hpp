@@ -24,8 +24,8 @@ inline bool is_outlier(double error, double truth) {
   return error >= 3 && 20 * error >= truth;
 }
 
-/// How wrong an estimate is, over the pixels where there are both ground truth and an estimate.
-/// NaN where there is no such pixel.
+/// The errors of an estimate over the pixels that have both ground truth and an estimate. NaN if
+/// there is no such pixel.
 struct Metrics {
   std::int64_t known = 0;     ///< pixels with ground truth
   std::int64_t compared = 0;  ///< pixels with ground truth and an estimate
@@ -36,34 +36,35 @@ struct Metrics {
   double known_density = kNone;  ///< compared / known [%]
 };
 
-/// What a disparity map is worth.
+/// Density and errors of a disparity map.
 struct Evaluation {
   double density = kNone;      ///< pixels with an estimate / all pixels of the image [%]
   Metrics all;                 ///< over all pixels with ground truth
-  std::optional<Metrics> noc;  ///< over those of them that both views see, where that is known
+  std::optional<Metrics> noc;  ///< over those of them that are visible in both views, if known
 };
 
-/// Compares an estimate with the truth (both CV_32FC1 [px], NaN = none), where `visible` (CV_8UC1)
-/// is not 0; everywhere where it is empty. The sizes must be equal (else InputError).
+/// Compares an estimate with the truth (both CV_32FC1 [px], NaN = none) at the pixels where
+/// `visible` (CV_8UC1) is not 0, or at all pixels if it is empty. Throws InputError if the sizes
+/// differ.
 Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& visible = {});
 
-/// The same with the density, for all pixels and, where the truth tells, for those both views see.
+/// The same with the density, for all pixels and, if known, for those visible in both views.
 Evaluation evaluate(const cv::Mat& estimate, const GroundTruth& truth);
 
 /// The same for a disparity map of the library.
 Evaluation evaluate(DisparityView estimate, const GroundTruth& truth);
 
-/// A disparity map of the library as CV_32FC1 [px], NaN where there is none.
+/// A disparity map of the library as CV_32FC1 [px], NaN = none.
 cv::Mat to_float(DisparityView disparity);
 
-/// A pair's part in the mean.
+/// The evaluation of one pair and its weight in the mean.
 struct WeightedEvaluation {
   const Evaluation* evaluation = nullptr;
   double weight = 1;
 };
 
-/// The mean over pairs: errors weighted, densities not. A pair without a pixel to compare is left
-/// out of the mean error. `noc` is there where any pair has it, and then the mean over those.
+/// The mean over pairs: errors are weighted, densities are not. A pair without a compared pixel is
+/// left out of the mean error. `noc` is the mean over the pairs that have it, none if no pair has.
 Evaluation mean(const std::vector<WeightedEvaluation>& pairs);
 
 }  // namespace mtstereo::eval

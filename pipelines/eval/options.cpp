@@ -11,7 +11,7 @@
 namespace mtstereo::eval {
 namespace {
 
-// The text of the options before they are checked.
+// The option texts before validation.
 struct Texts {
   std::string folder;
   std::string dataset = "auto";
@@ -24,7 +24,7 @@ struct Texts {
 
 std::string parameter_help(const ParameterInfo& info) {
   if (info.id == Parameter::kMaxDisparity) {
-    return std::string(info.help) + " [default: as the data set has it]";
+    return std::string(info.help) + " [default: from the data set]";
   }
   return std::string(info.help) + " [default: " + parameter_defaults_text(info.id) + "]";
 }
@@ -53,41 +53,43 @@ void add_parameters(CLI::App& app, Texts& texts) {
            },
            parameter_help(info))
         ->type_name(value_name(info))
-        ->group("The matcher's parameters");
+        ->group("Matcher parameters");
   }
 }
 
 void add_options(CLI::App& app, Texts& texts, Options& options) {
   std::vector<std::string> layouts = layout_names();
   layouts.insert(layouts.begin(), "auto");
-  app.add_option("FOLDER", texts.folder, "the data set's folder")->required()->type_name("");
-  app.add_option("--dataset", texts.dataset, "how FOLDER is laid out")
+  app.add_option("FOLDER", texts.folder, "folder of the data set")->required()->type_name("");
+  app.add_option("--dataset", texts.dataset, "layout of FOLDER")
       ->check(CLI::IsMember(layouts))
       ->capture_default_str();
-  app.add_option("--only", options.only, "only the pairs whose name contains TEXT")
+  app.add_option("--only", options.only, "run only pairs whose name contains TEXT")
       ->type_name("TEXT");
-  app.add_option("--limit", options.limit, "the first N of these pairs; 0 = all of them")
+  app.add_option("--limit", options.limit, "run at most the first N of these pairs; 0 = all")
       ->type_name("N")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
-  app.add_flag("--list", options.list, "print the pairs that were found, and run nothing");
+  app.add_flag("--list", options.list, "list the pairs that were found and exit");
   app.add_option(
          "--dmap", texts.dmap,
-         "what the values of a *_dmap.bin are; auto = depth where both *_cam.txt are there, "
-         "else disparity")
+         "meaning of the values in a *_dmap.bin; auto = depth if both *_cam.txt exist, else "
+         "disparity")
       ->check(CLI::IsMember({"auto", "depth", "disparity"}))
       ->capture_default_str();
-  app.add_option("--warm-up", options.run.warm_up, "frames of each pair before the clock runs")
+  app.add_option("--warm-up", options.run.warm_up,
+                 "untimed frames of each pair before the timed ones")
       ->type_name("N")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   app.add_option("--repeat", options.run.repeat,
-                 "timed frames of each pair; their median is the time")
+                 "timed frames of each pair; the reported time is their median")
       ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   app.add_option("--compare", texts.compare,
-                 "matchers of OpenCV to run on the same pairs: sgbm, sgbm-3way, sgbm-hh, bm")
+                 "also run these matchers of OpenCV on the same pairs: sgbm, sgbm-3way, sgbm-hh, "
+                 "bm")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->check(CLI::IsMember(rival_names()));
@@ -95,15 +97,15 @@ void add_options(CLI::App& app, Texts& texts, Options& options) {
 
 std::string is_png(const std::string& file) {
   if (extension_of(std::filesystem::path(file)) == ".png") return {};
-  return "the picture is a PNG: '" + file + "' has to end in .png";
+  return "the picture is a PNG file: the name '" + file + "' must end in .png";
 }
 
 void add_outputs(CLI::App& app, Texts& texts) {
   const std::string group = "Output";
-  app.add_option("--json", texts.json, "write all figures to this file")
+  app.add_option("--json", texts.json, "write all figures to this file as JSON")
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--csv", texts.csv, "write all figures to this file")
+  app.add_option("--csv", texts.csv, "write all figures to this file as CSV")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--curve", texts.curve,
@@ -113,17 +115,20 @@ void add_outputs(CLI::App& app, Texts& texts) {
       ->type_name("FILE")
       ->check(is_png)
       ->group(group);
-  app.add_option("--write-disparity", texts.disparity_folder, "write the disparity maps there")
+  app.add_option("--write-disparity", texts.disparity_folder,
+                 "write the disparity maps to this folder")
       ->type_name("DIR")
       ->group(group);
-  app.add_option("--format", texts.format,
-                 "of these maps: pfm = 32-bit float, infinity = none; kitti = 16-bit PNG, px = "
-                 "value / 256, 0 = none")
+  app.add_option(
+         "--format", texts.format,
+         "format of these maps: pfm = 32-bit float, infinity = none; kitti = 16-bit PNG, px = "
+         "value / 256, 0 = none")
       ->check(CLI::IsMember({"pfm", "kitti"}))
       ->capture_default_str()
       ->group(group);
   app.add_option("--write-pictures", texts.picture_folder,
-                 "write a picture of each pair there: left image, truth, disparity and error")
+                 "write a picture of each pair to this folder: left image, ground truth, disparity "
+                 "and error")
       ->type_name("DIR")
       ->group(group);
 }
@@ -133,7 +138,7 @@ std::optional<std::filesystem::path> path_of(const std::string& text) {
   return std::filesystem::path(text);
 }
 
-// The parameters are checked by the library, whose messages name value and range.
+// The library checks the parameters; its messages state value and range.
 void apply_parameters(const Texts& texts, Parameters& parameters) {
   for (const ParameterInfo& info : parameter_table()) {
     const auto found = texts.parameters.find(info.name);
@@ -168,14 +173,15 @@ void apply(const Texts& texts, Options& options) {
 
 ParsedOptions parse_options(int argc, const char* const* argv) {
   CLI::App app{
-      "Runs MTStereo on a folder of stereo pairs with ground truth, and measures its errors, its "
-      "density and its time.",
+      "Runs MTStereo on a folder of stereo pairs with ground truth and measures errors, density "
+      "and "
+      "time.",
       "mtstereo-eval"};
   app.set_version_flag("--version", version());
   app.footer(
-      "Exit status: 0 all pairs were evaluated, 1 some could not be (they are named), 2 the "
-      "command "
-      "is wrong or there is nothing to evaluate.");
+      "Exit status: 0 = all pairs were evaluated, 1 = some could not be evaluated or a file could "
+      "not be written (each is named), 2 = the command is invalid or there is nothing to "
+      "evaluate.");
   app.get_formatter()->column_width(36);
   Texts texts;
   Options options;

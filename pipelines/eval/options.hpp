@@ -9,21 +9,21 @@
 
 namespace mtstereo::eval {
 
-/// What the command line asks for.
+/// The parsed command line.
 struct Options {
   std::filesystem::path folder;
-  std::optional<Layout> layout;  ///< none: find out
+  std::optional<Layout> layout;  ///< none: detect it
   std::string only;              ///< part of a pair's name; empty: all
-  int limit = 0;                 ///< pairs at most; 0: all
-  bool list = false;             ///< only say what there is
+  int limit = 0;                 ///< maximum number of pairs; 0: all
+  bool list = false;             ///< only list the pairs
   std::optional<std::filesystem::path> json;
   std::optional<std::filesystem::path> csv;
   std::optional<std::filesystem::path> curve;  ///< the picture
   RunSettings run;
 };
 
-/// Reads the command line. Where there is nothing to run, because help was asked for or the command
-/// is wrong, the exit status is given instead, and the text has been printed.
+/// Parses the command line. If there is nothing to run, because help was requested or the command
+/// is invalid, the text has been printed and the result has the exit status instead of options.
 struct ParsedOptions {
   std::optional<Options> options;
   int exit_status = 0;

@@ -20,13 +20,13 @@ void refuse_inputs(const fs::path& file, const DataSet& set) {
                                   pair.visible_truth, pair.cameras.first, pair.cameras.second}) {
       std::error_code not_there;
       if (!input.empty() && fs::equivalent(file, input, not_there)) {
-        throw InputError(file, "belongs to the data set: name another file to write to");
+        throw InputError(file, "belongs to the data set: choose another output file");
       }
     }
   }
 }
 
-// The file is not left behind: the work may come to nothing.
+// Leaves no new file, because the evaluation may still fail.
 void require_writable(const fs::path& file) {
   make_parent_folder(file);
   const bool was_there = fs::exists(file);
@@ -47,7 +47,7 @@ bool attempt(const std::function<void()>& write) {
 
 void write_curve(const fs::path& file, const CurveReport& report) {
   if (report.pairs == 0) {
-    throw InputError(file, "is not written: there is no pair that all methods could do");
+    throw InputError(file, "is not written: no pair was completed by all methods");
   }
   plot_curves(file, {{"curve", curves_json(report)}});
 }
@@ -74,7 +74,7 @@ bool check_plotting(const Options& options) {
 bool write_outputs(const Options& options, bool can_plot, const Report& report) {
   bool fine = true;
   if (options.json) {
-    // Names of files need not be UTF-8; what is not becomes a replacement character.
+    // File names need not be UTF-8; invalid bytes become replacement characters.
     constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
     const std::string text = to_json(report).dump(2, ' ', false, kReplace) + "\n";
     fine &= attempt([&] { write_bytes(*options.json, text); });

@@ -24,8 +24,8 @@ struct Header {
   std::size_t length = 0;  // [bytes]
 };
 
-// The first four words of the header. The values begin after the line that the fourth stands on,
-// whatever white space or comment ends that line.
+// The first four words of the header. The values begin after the line with the fourth word,
+// regardless of white space or a comment at the end of that line.
 std::vector<std::string> header_words(const std::filesystem::path& file, std::string_view bytes,
                                       std::size_t& length) {
   constexpr std::size_t kLongestHeader = 4096;
@@ -33,7 +33,7 @@ std::vector<std::string> header_words(const std::filesystem::path& file, std::st
   std::size_t at = 0;
   while (words.size() < 4) {
     const std::size_t end = bytes.substr(0, kLongestHeader).find('\n', at);
-    if (end == std::string_view::npos) throw InputError(file, "the PFM header is not complete");
+    if (end == std::string_view::npos) throw InputError(file, "the PFM header is incomplete");
     std::string line(bytes.substr(at, end - at));
     line = line.substr(0, line.find('#'));
     std::istringstream stream(line);
@@ -50,8 +50,7 @@ int parse_side(const std::filesystem::path& file, const std::string& word, const
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (error != std::errc() || stop != end || value < 1 || value > kLargestImageSide) {
     throw InputError(file, std::string("the ") + which + " in the PFM header is '" + word +
-                               "', not a whole number of 1 .. " +
-                               std::to_string(kLargestImageSide));
+                               "', not an integer of 1 .. " + std::to_string(kLargestImageSide));
   }
   return value;
 }
@@ -59,7 +58,7 @@ int parse_side(const std::filesystem::path& file, const std::string& word, const
 Header parse_header(const std::filesystem::path& file, std::string_view bytes) {
   const std::string_view magic = bytes.substr(0, 2);
   if (magic == "PF") {
-    throw InputError(file, "is a PFM of three channels (PF); a disparity map has one (Pf)");
+    throw InputError(file, "is a PFM with three channels (PF); a disparity map has one (Pf)");
   }
   if (magic != "Pf") throw InputError(file, "is not a PFM file: it does not begin with 'Pf'");
 

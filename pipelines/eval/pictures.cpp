@@ -21,7 +21,7 @@ namespace {
 const cv::Vec3b kBlack(0, 0, 0);
 const cv::Vec3b kGray(96, 96, 96);
 
-// Colors for 0 .. range; a NaN gets that of 0, and is painted over by the caller.
+// Colors for 0 .. range; NaN gets the color of 0, which the caller overwrites.
 cv::Mat color_of(const cv::Mat& values, double range) {
   cv::Mat scaled(values.size(), CV_8UC1);
   for (int y = 0; y < values.rows; ++y) {
@@ -60,8 +60,8 @@ cv::Mat to_kitti(const fs::path& file, const cv::Mat& disparity) {
       const double value = std::round(source[x] * kScale);
       if (value > std::numeric_limits<std::uint16_t>::max()) {
         throw InputError(file, "a disparity of " + std::to_string(source[x]) +
-                                   " px does not fit into a KITTI PNG, which ends at 255.99 px; "
-                                   "write --format pfm");
+                                   " px is above 255.99 px, the largest of a KITTI PNG; use "
+                                   "--format pfm");
       }
       target[x] = static_cast<std::uint16_t>(std::max(value, 1.0));
     }

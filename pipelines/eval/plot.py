@@ -39,8 +39,8 @@ class PlotError(Exception):
 
 
 def matplotlib_modules():
-    """What draws into memory, without a display and without the user's own style."""
-    # Notes about caches and fonts do not concern the caller.
+    """The modules that render into memory, without a display and with the default style."""
+    # Messages about caches and fonts do not concern the caller.
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
     try:
         # pylint: disable=import-outside-toplevel
@@ -159,7 +159,7 @@ def curve_captions(curve, lines):
     if ratios:
         captions.append(f"Dots: uniquenessRatio {span(ratios)}.")
     if any(line.envelope for line in lines):
-        return [" ".join(captions) + " + filters: least error over all ratios and thresholds with "
+        return [" ".join(captions) + " + filters: smallest error over all ratios and thresholds with "
                 "these filters:", text(curve["filters"])]
     return [" ".join(captions)]
 

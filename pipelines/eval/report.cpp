@@ -142,7 +142,7 @@ std::string csv_number(double value) {
   return std::isfinite(value) ? json(value).dump() : std::string();
 }
 
-// What the lines of one pair and method have in common.
+// The fields that the lines of one pair and method share.
 struct CsvLine {
   std::string pair, method, width, height, max_disparity, weight;
   const Evaluation* evaluation;

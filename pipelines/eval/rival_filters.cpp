@@ -20,7 +20,7 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr int kOnePixel = cv::StereoMatcher::DISP_SCALE;
 constexpr std::int16_t kRemoved = -kOnePixel;
 
-// OpenCV's fixed point, which filterSpeckles() works on.
+// OpenCV's fixed-point disparities, the input of filterSpeckles().
 cv::Mat to_fixed_point(const cv::Mat& disparity) {
   cv::Mat result(disparity.size(), CV_16SC1);
   std::transform(disparity.begin<float>(), disparity.end<float>(), result.begin<std::int16_t>(),
@@ -31,12 +31,13 @@ cv::Mat to_fixed_point(const cv::Mat& disparity) {
   return result;
 }
 
-// Pixels of the window around `at` that lie within 0 .. size - 1.
+// The number of rows or columns of the window around `at` inside 0 .. size - 1.
 int window_side(int at, int size, int radius) {
   return std::min(at + radius, size - 1) - std::max(at - radius, 0) + 1;
 }
 
-// How many pixels of the window agree with those of row y; `padded` has `radius` NaN all around.
+// For each pixel of row y, the number of window pixels that agree with it; `padded` has a border of
+// `radius` NaNs.
 void count_agreeing(const cv::Mat& padded, int y, const FilterSettings& settings,
                     std::vector<std::int32_t>& counts) {
   const int radius = settings.support_radius;
@@ -73,13 +74,13 @@ std::string text_of(const FilterSettings& settings) {
        << " px removed (4 neighbors, " << settings.speckle_tolerance
        << " px), confidence = share of agreeing pixels in " << side << "x" << side << " ("
        << settings.support_tolerance << " px + " << settings.support_slope
-       << " px for each px between)";
+       << " px per px of distance)";
   return text.str();
 }
 
 cv::Mat remove_speckles(const cv::Mat& disparity, const FilterSettings& settings) {
   cv::Mat fixed_point = to_fixed_point(disparity);
-  // OpenCV's own size still goes.
+  // filterSpeckles() also removes components of exactly the given size.
   cv::filterSpeckles(fixed_point, kRemoved, settings.speckle_size - 1,
                      settings.speckle_tolerance * kOnePixel);
   cv::Mat result = disparity.clone();

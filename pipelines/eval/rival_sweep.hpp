@@ -11,16 +11,16 @@
 
 namespace mtstereo::eval {
 
-/// The values of uniquenessRatio that a rival's curve is made of [%].
+/// The values of uniquenessRatio in a rival's sweep [%].
 inline constexpr std::array<int, 20> kUniquenessRatios{0,  5,  10, 15, 20, 25, 30, 35, 40, 45,
                                                        50, 55, 60, 65, 70, 75, 80, 85, 90, 95};
 
 /// The values in one line, for the report.
 std::string uniqueness_ratios_text();
 
-/// Runs a rival once for each uniqueness ratio, all else as rival_settings() has it. The first
-/// column is what it gives, those behind it what the filters leave of that at the
-/// thresholds 1 .. kMostConfidence. Throws InputError where OpenCV refuses the images.
+/// Runs a rival once per uniqueness ratio, with the other settings of rival_settings(). The first
+/// column has the unfiltered results, the others the filtered ones at the thresholds 1 ..
+/// kMostConfidence. Throws InputError if OpenCV rejects the images.
 Sweep sweep_rival(Rival rival, int max_disparity, const LoadedPair& images,
                   const FilterSettings& filters);
 

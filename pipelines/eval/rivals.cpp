@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kNames{"sgbm", "sgbm-3way", "sgbm-hh", "bm"};
 
-// The settings that OpenCV's own samples and most users take.
+// The settings of OpenCV's own samples and of most users.
 constexpr int kSgbmBlock = 5;
 constexpr int kP1 = 8 * kSgbmBlock * kSgbmBlock;
 constexpr int kP2 = 32 * kSgbmBlock * kSgbmBlock;
@@ -85,7 +85,7 @@ void RivalMatcher::compute(const cv::Mat& left, const cv::Mat& right) {
   try {
     state_->matcher->compute(left, right, state_->fixed_point);
   } catch (const cv::Exception& error) {
-    throw InputError("OpenCV refuses the pair: " + error.err);
+    throw InputError("OpenCV rejects the pair: " + error.err);
   }
 }
 

@@ -10,7 +10,7 @@
 
 namespace mtstereo::eval {
 
-/// OpenCV's matchers that the option --compare runs on the same pairs.
+/// The matchers of OpenCV that the option --compare runs on the same pairs.
 enum class Rival {
   kSgbm,      ///< StereoSGBM, 5 directions
   kSgbm3Way,  ///< StereoSGBM, 3 directions, in parallel
@@ -22,17 +22,18 @@ std::string_view rival_name(Rival rival);
 std::optional<Rival> find_rival(std::string_view name);
 std::vector<std::string> rival_names();
 
-/// Number of disparities that OpenCV searches for a range: rounded up to a multiple of 16.
+/// The number of disparities that OpenCV searches for a search range: rounded up to a multiple
+/// of 16.
 int rival_disparities(int max_disparity);
 
-/// The value of uniquenessRatio that the comparison runs with [%].
+/// The value of uniquenessRatio in the comparison [%].
 inline constexpr int kUniquenessRatio = 10;
 
-/// The settings in one line, for the report, with this text for uniquenessRatio.
+/// The settings in one line, for the report, with this text as uniquenessRatio.
 std::string rival_settings(Rival rival,
                            const std::string& uniqueness_ratio = std::to_string(kUniquenessRatio));
 
-/// Runs a matcher on two 8-bit gray images and gives CV_32FC1 [px], NaN where it found nothing.
+/// Runs a matcher on two 8-bit gray images. The result is CV_32FC1 [px], NaN = none.
 class RivalMatcher {
  public:
   RivalMatcher(Rival rival, int max_disparity, int uniqueness_ratio = kUniquenessRatio);
@@ -40,7 +41,7 @@ class RivalMatcher {
   RivalMatcher(const RivalMatcher&) = delete;
   RivalMatcher& operator=(const RivalMatcher&) = delete;
 
-  /// The part that is timed. Throws InputError where OpenCV refuses the images.
+  /// The timed part. Throws InputError if OpenCV rejects the images.
   void compute(const cv::Mat& left, const cv::Mat& right);
   /// The last result.
   cv::Mat disparity() const;

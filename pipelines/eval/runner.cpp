@@ -19,7 +19,7 @@ GrayView view_of(const cv::Mat& image) {
                   static_cast<std::ptrdiff_t>(image.step)};
 }
 
-// Without a copy; holds as long as the view.
+// No copy; valid as long as the view.
 cv::Mat mat_of(GrayView view) {
   return {view.height, view.width, CV_8UC1, const_cast<std::uint8_t*>(view.data),
           static_cast<std::size_t>(view.stride)};
@@ -29,7 +29,7 @@ void require(const Status& status) {
   if (!status) throw InputError(status.error().message);
 }
 
-// Runs `step`; what it throws becomes a failure that begins with `who`.
+// Runs `step`; an exception becomes a failure whose text begins with `who`.
 template <typename Step>
 bool attempt(PairReport& report, const std::string& who, Step step) {
   const std::string prefix = who.empty() ? "" : who + ": ";
@@ -37,7 +37,7 @@ bool attempt(PairReport& report, const std::string& who, Step step) {
     step();
     return true;
   } catch (const std::bad_alloc&) {
-    report.failures.push_back(prefix + "the memory does not suffice");
+    report.failures.push_back(prefix + "out of memory");
   } catch (const std::exception& error) {
     report.failures.push_back(prefix + error.what());
   }
@@ -46,7 +46,7 @@ bool attempt(PairReport& report, const std::string& who, Step step) {
 
 fs::path output_file(const fs::path& folder, const std::string& method, const std::string& name,
                      const char* extension) {
-  // The library's own files lie right in the folder, as the benchmarks' servers want them.
+  // The library's own files go directly into the folder, as the benchmark servers require.
   const fs::path base = method == kOwnMethod ? folder : folder / method;
   return base / (name + extension);
 }
@@ -58,7 +58,7 @@ int search_range(const StereoPair& pair, const Parameters& parameters, int width
   const bool asked = parameters.is_set(Parameter::kMaxDisparity);
   if (!asked && !pair.max_disparity) {
     throw InputError(pair.left.parent_path() / "calib.txt",
-                     "does not tell the search range (ndisp=...); give it with --max-disparity");
+                     "does not state the search range (ndisp=...); set it with --max-disparity");
   }
   const int wanted = asked ? parameters.integer(Parameter::kMaxDisparity) : *pair.max_disparity;
   const ParameterInfo& info = parameter_info(Parameter::kMaxDisparity);
@@ -69,8 +69,8 @@ int search_range(const StereoPair& pair, const Parameters& parameters, int width
     notes.push_back(pair.name + ": the search range is " + std::to_string(range) + " px, not " +
                     std::to_string(wanted) + " px: " +
                     (wanted > width   ? "the image is " + std::to_string(width) + " px wide"
-                     : wanted > range ? "the library searches up to that"
-                                      : "the library searches at least that"));
+                     : wanted > range ? "the maximum of the library"
+                                      : "the minimum of the library"));
   }
   return range;
 }

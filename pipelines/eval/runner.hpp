@@ -19,12 +19,12 @@ namespace mtstereo::eval {
 /// The library's name among the methods of a report.
 inline constexpr const char* kOwnMethod = "mtstereo";
 
-/// How pairs are run.
+/// The settings of a run.
 struct RunSettings {
-  Parameters parameters;  ///< where max-disparity is set, it holds for all pairs
+  Parameters parameters;  ///< max-disparity applies to all pairs if it is set
   std::vector<Rival> rivals;
-  int warm_up = 1;  ///< frames before the clock runs
-  int repeat = 1;   ///< timed frames, of which the median counts
+  int warm_up = 1;  ///< untimed frames before the timed ones
+  int repeat = 1;   ///< timed frames; the result is their median
   DmapMeaning dmap = DmapMeaning::kAuto;
   std::optional<std::filesystem::path> disparity_folder;
   DisparityFormat disparity_format = DisparityFormat::kPfm;
@@ -32,40 +32,40 @@ struct RunSettings {
   bool curve = false;  ///< sweep the confidence of every method
 };
 
-/// What one method reached on one pair.
+/// The result of one method on one pair.
 struct MethodResult {
   std::string method;
   Evaluation evaluation;
   double seconds = 0;                ///< wall time of one frame, median [s]
-  double seconds_per_megapixel = 0;  ///< the same by the size of the left image [s/MP]
+  double seconds_per_megapixel = 0;  ///< the same divided by the size of the left image [s/MP]
 };
 
-/// What came of one pair.
+/// The results of one pair.
 struct PairReport {
   StereoPair pair;
   cv::Size size;
-  int max_disparity = 0;              ///< searched [px]
-  std::vector<MethodResult> results;  ///< the library's own first; methods that failed are not here
-  std::vector<MethodSweep> sweeps;    ///< where a curve is asked for, one for each method
+  int max_disparity = 0;              ///< search range [px]
+  std::vector<MethodResult> results;  ///< the library's first; without methods that failed
+  std::vector<MethodSweep> sweeps;    ///< with --curve, one per method
   std::vector<std::string> failures;  ///< one sentence each
   std::vector<std::string> notes;
 };
 
-/// The search range of a pair: what was asked for, or else what the data set says, within the width
-/// of the image and what the library takes. A note is added where that is less. Throws InputError
-/// where nobody says.
+/// The search range of a pair: the requested one, or else the one of the data set, limited to the
+/// width of the image and to the library's range. Adds a note if a limit applies. Throws InputError
+/// if neither the request nor the data set states one.
 int search_range(const StereoPair& pair, const Parameters& parameters, int width,
                  std::vector<std::string>& notes);
 
-/// Calls `frame` warm_up times, then `repeat` times against the clock; the median [s].
+/// Calls `frame` warm_up times, then times `repeat` calls and returns their median [s].
 double median_seconds(int warm_up, int repeat, const std::function<void()>& frame);
 
-/// Runs the library, and the rivals, on pair after pair.
+/// Runs the library and the rivals on each pair.
 class Runner {
  public:
   explicit Runner(RunSettings settings);
 
-  /// Never throws for what is wrong with a pair: that is in `failures`.
+  /// Does not throw for a pair that cannot be used: `failures` has the reason.
   PairReport run(const StereoPair& pair);
 
  private:

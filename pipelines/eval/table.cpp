@@ -33,7 +33,7 @@ const Metrics* region_of(const Evaluation& evaluation, bool noc) {
   return evaluation.noc ? &*evaluation.noc : nullptr;
 }
 
-// The lines of one region below the header; that alone where no pair has it.
+// The header and the lines of one region; only the header if no pair has the region.
 std::vector<Row> rows_of(const Report& report, const std::vector<Summary>& means, bool noc) {
   std::vector<Row> rows{header()};
   for (const PairReport& pair : report.pairs) {
@@ -61,7 +61,8 @@ void print_table(std::ostream& out, const Report& report) {
   for (const auto& [name, text] : report.parameters) {
     if (name == "mode") out << text;
   }
-  out << "; time: median of " << report.repeat << " after " << report.warm_up << " to warm up\n";
+  out << "; time: median of " << report.repeat << " frames after " << report.warm_up
+      << " warm-up frames\n";
   out << "range px, avgerr px, D-all %, bad %, rms px, density % of all pixels, s per "
          "megapixel\n\n";
   const std::vector<Row> all = rows_of(report, means, false);
@@ -72,7 +73,7 @@ void print_table(std::ostream& out, const Report& report) {
   out << "all pixels with ground truth\n";
   print_rows(out, all);
   if (const std::vector<Row> noc = rows_of(report, means, true); noc.size() > 1) {
-    out << "\npixels with ground truth that both views see\n";
+    out << "\npixels with ground truth that are visible in both views\n";
     print_rows(out, noc);
   }
   for (const auto& [method, settings] : report.rival_settings) {

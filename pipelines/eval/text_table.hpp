@@ -10,11 +10,11 @@ namespace mtstereo::eval {
 /// One line of a table.
 using TableRow = std::vector<std::string>;
 
-/// A number with so many digits behind the point, "-" where it is not finite.
+/// A number with this many digits after the decimal point; "-" if it is not finite.
 std::string fixed(double value, int digits);
 
-/// Prints rows in columns as wide as their widest field: the first two to the left, the others to
-/// the right. All rows have as many fields as the first.
+/// Prints rows in columns as wide as their widest field, the first two aligned left, the others
+/// right. All rows must have as many fields as the first.
 void print_rows(std::ostream& out, const std::vector<TableRow>& rows);
 
 }  // namespace mtstereo::eval

@@ -34,7 +34,7 @@ std::string reason_of(int error) { return std::generic_category().message(error)
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) cannot("make the folder", folder, error.message());
+  if (error) cannot("create the folder", folder, error.message());
 }
 
 void write_bytes(const fs::path& file, const char* data, std::size_t size) {
@@ -46,10 +46,10 @@ void write_bytes(const fs::path& file, const char* data, std::size_t size) {
 }
 
 void write_png(const fs::path& file, const cv::Mat& image) {
-  // Encoded in memory, so that a full disk is noticed: OpenCV's own writing does not say.
+  // Encoded in memory, so that a full disk is detected: OpenCV's own writer does not report it.
   std::vector<std::uint8_t> bytes;
   if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-    cannot("encode", file, "OpenCV's PNG encoder refused it");
+    cannot("encode", file, "OpenCV's PNG encoder failed");
   }
   write_bytes(file, reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
@@ -77,7 +77,7 @@ double largest_disparity(const cv::Mat& truth) {
   return largest;
 }
 
-// Up to the next multiple of 16, with room for a disparity that is a little too large.
+// Rounds up to a multiple of 16, with a margin for disparities that are slightly too large.
 int range_for(double largest) { return (static_cast<int>(std::ceil(largest)) + 1 + 15) / 16 * 16; }
 
 bool all_digits(const std::string& name) {
@@ -85,7 +85,7 @@ bool all_digits(const std::string& name) {
                                       [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// Only what a clip consists of: a folder that was named by mistake loses nothing else.
+// Removes only the files of a clip, so that a wrong folder name does no other damage.
 void remove_clip(const fs::path& folder) {
   for (const char* name : {"left", "right", "truth", "mask", "calib.txt"}) {
     fs::remove_all(folder / name);
@@ -102,9 +102,9 @@ void remove_clip(const fs::path& folder) {
 }  // namespace
 
 void write_pfm(const fs::path& file, const cv::Mat& image) {
-  if (image.type() != CV_32FC1) throw std::runtime_error("a PFM holds one float a pixel");
+  if (image.type() != CV_32FC1) throw std::runtime_error("a PFM holds one float per pixel");
   std::string data = "Pf\n" + std::to_string(image.cols) + " " + std::to_string(image.rows) +
-                     "\n-1.0\n";               // a negative scale says little-endian
+                     "\n-1.0\n";               // a negative scale means little-endian
   for (int y = image.rows - 1; y >= 0; --y) {  // the bottom row comes first
     const auto* row = image.ptr<float>(y);
     for (int x = 0; x < image.cols; ++x) {
@@ -128,7 +128,7 @@ ClipWriter::ClipWriter(fs::path folder, Layout layout, bool overwrite)
     if (overwrite) {
       remove_clip(folder_);
     } else if (!fs::is_empty(folder_)) {
-      cannot("write into", folder_, "it is not empty; name another folder or add --overwrite");
+      cannot("write into", folder_, "it is not empty; choose another folder or add --overwrite");
     }
   } catch (const fs::filesystem_error& e) {
     cannot("write into", folder_, e.code().message());
@@ -159,7 +159,7 @@ void ClipWriter::write(int number, const StereoFrame& frame, const Settings& set
 }
 
 void ClipWriter::finish(const Settings& settings) {
-  if (layout_ != Layout::kClip) return;  // each frame has its own
+  if (layout_ != Layout::kClip) return;  // each frame has its own calib.txt
   const std::string text = calibration_text(settings, disparities());
   write_bytes(folder_ / "calib.txt", text.data(), text.size());
 }

@@ -31,7 +31,7 @@ struct Options {
 };
 
 void define(CLI::App& app, Options& o) {
-  app.add_option("folder", o.folder, "output folder; made if it is not there")->required();
+  app.add_option("folder", o.folder, "output folder; created if missing")->required();
   app.add_option("--scene", o.scene, "street, garden or room")->capture_default_str();
   app.add_option("--size", o.size, "width and height of a view [px]")->capture_default_str();
   app.add_option("--frames", o.frames, "number of frames")
@@ -43,27 +43,32 @@ void define(CLI::App& app, Options& o) {
   app.add_option("--start", o.start, "scene time of the first frame [s]")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
-  app.add_option("--seed", o.settings.seed, "varies the noise, the textures and small things")
+  app.add_option("--seed", o.settings.seed,
+                 "seed of the noise, the textures and the positions of small objects")
       ->capture_default_str();
-  app.add_option("--baseline", o.settings.baseline, "between the cameras [m]; 0 = the scene's")
+  app.add_option("--baseline", o.settings.baseline,
+                 "distance between the cameras [m]; 0 = the scene's default")
       ->capture_default_str();
-  app.add_option("--focal", o.settings.focal, "focal length [px]; 0 = 0.85 widths")
+  app.add_option("--focal", o.settings.focal, "focal length [px]; 0 = 0.85 times the width")
       ->capture_default_str();
-  app.add_option("--noise", o.settings.noise, "deviation of the sensor's noise [gray values]")
+  app.add_option("--noise", o.settings.noise,
+                 "standard deviation of the sensor noise [gray values]")
       ->capture_default_str();
-  app.add_option("--exposure", o.settings.exposure, "brightness of the right view over the left's")
+  app.add_option("--exposure", o.settings.exposure,
+                 "brightness of the right view relative to the left")
       ->capture_default_str();
-  app.add_option("--samples", o.settings.samples, "samples x samples rays a pixel")
+  app.add_option("--samples", o.settings.samples, "samples x samples rays per pixel")
       ->capture_default_str();
-  app.add_option("--threads", o.settings.threads, "0 = one a processor")->capture_default_str();
+  app.add_option("--threads", o.settings.threads, "number of threads; 0 = one per processor")
+      ->capture_default_str();
   const std::map<std::string, Layout> layouts = {{"clip", Layout::kClip},
                                                  {"middlebury", Layout::kMiddlebury}};
   app.add_option("--layout", o.layout,
-                 "clip: left/ right/ truth/ mask/ calib.txt; middlebury: a folder a frame")
+                 "clip: left/ right/ truth/ mask/ calib.txt; middlebury: one folder per frame")
       ->transform(CLI::CheckedTransformer(layouts, CLI::ignore_case))
       ->default_str("clip");
-  app.add_flag("--overwrite", o.overwrite, "replace the clip that is in the folder");
-  app.add_flag("--gray", o.gray, "gray pictures instead of color");
+  app.add_flag("--overwrite", o.overwrite, "replace an existing clip in the folder");
+  app.add_flag("--gray", o.gray, "gray images instead of color");
 }
 
 void parse_size(const std::string& text, Settings& settings) {
@@ -71,7 +76,7 @@ void parse_size(const std::string& text, Settings& settings) {
   const int found =
       std::sscanf(text.c_str(), "%5dx%5d%n", &settings.width, &settings.height, &used);
   if (found != 2 || used != static_cast<int>(text.size())) {
-    throw std::invalid_argument("--size is '" + text + "', it has to look like 640x360");
+    throw std::invalid_argument("--size is '" + text + "'; expected WIDTHxHEIGHT, such as 640x360");
   }
 }
 
@@ -114,7 +119,7 @@ int main(int argc, char** argv) {
     std::cerr << "mtstereo-render: " << error.what() << '\n';
     return 2;
   } catch (const std::bad_alloc&) {
-    std::cerr << "mtstereo-render: not enough memory for this size\n";
+    std::cerr << "mtstereo-render: out of memory for this size\n";
   } catch (const std::exception& error) {
     std::cerr << "mtstereo-render: " << error.what() << '\n';
   } catch (...) {

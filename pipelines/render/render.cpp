@@ -18,7 +18,8 @@
 namespace mtstereo::render {
 namespace {
 
-// Runs work(row) for every row, on several threads that take the next row as they get free.
+// Runs work(row) for every row on several threads, each of which takes the next row when it is
+// idle.
 void for_rows(int height, int threads, const std::function<void(int)>& work) {
   int count = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
   count = std::clamp(count, 1, height);
@@ -31,7 +32,8 @@ void for_rows(int height, int threads, const std::function<void(int)>& work) {
   run();
 }
 
-// A normally distributed number of mean 0 and deviation 1 that depends on the arguments alone.
+// A normally distributed number with mean 0 and standard deviation 1 that depends only on the
+// arguments.
 float normal(std::uint32_t frame, std::uint32_t channel, std::uint32_t x, std::uint32_t y) {
   const std::uint32_t place = hash(x, y, channel);
   const double a = 1 - hash_unit(frame, place, 1), b = hash_unit(frame, place, 2);
@@ -50,7 +52,7 @@ class Painter {
       if (settings_.color) {
         for (int c = 0; c < 3; ++c) *out++ = sensor(color[c], x, y, c);
       } else {
-        // ITU-R BT.601, as the luma of a video is made
+        // ITU-R BT.601 luma
         *out++ = sensor(0.114f * color[0] + 0.587f * color[1] + 0.299f * color[2], x, y, 0);
       }
     }
@@ -95,7 +97,7 @@ bool hidden(const View& right, double x, double y, double depth, const Settings&
   const double x_right = x - settings.focal * settings.baseline / depth;
   if (x_right < -0.5 || x_right >= settings.width - 0.5) return true;
   const auto other = right.depth(x_right, y);
-  // Its own surface comes back with the rounding error of the two ways to it.
+  // The ray hits the point's own surface at a depth that differs by rounding errors.
   return other && *other < depth * (1 - 1e-6);
 }
 
@@ -113,7 +115,7 @@ void truth_row(int y, const View& left, const View& right, const Settings& setti
 
 std::string out_of_range(const char* what, double value, const char* range) {
   std::ostringstream text;
-  text << what << " is " << value << ", it has to be " << range;
+  text << what << " is " << value << "; it must be " << range;
   return text.str();
 }
 
@@ -122,7 +124,7 @@ std::string out_of_range(const char* what, double value, const char* range) {
 std::string check(const Settings& s) {
   if (s.width < 1 || s.width > 16384) return out_of_range("width", s.width, "1 to 16384 px");
   if (s.height < 1 || s.height > 16384) return out_of_range("height", s.height, "1 to 16384 px");
-  // Written such that a NaN fails too.
+  // These comparisons are false for NaN too.
   if (!(s.focal >= 0 && s.focal <= 1e6)) return out_of_range("focal", s.focal, "0 to 1e6 px");
   if (!(s.baseline >= 0 && s.baseline <= 100)) {
     return out_of_range("baseline", s.baseline, "0 to 100 m");
@@ -173,7 +175,7 @@ std::string calibration_text(const Settings& s, int disparities) {
     text << camera << "=[" << s.focal << " 0 " << (s.width - 1) / 2.0 << "; 0 " << s.focal << ' '
          << (s.height - 1) / 2.0 << "; 0 0 1]\n";
   }
-  // Middlebury gives the baseline in millimeters.
+  // Middlebury states the baseline in millimeters.
   text << "doffs=0\nbaseline=" << 1000 * s.baseline << "\nwidth=" << s.width
        << "\nheight=" << s.height << "\nndisp=" << disparities << "\n";
   return text.str();

@@ -31,7 +31,7 @@ Scene make_scene(std::string_view name, std::uint32_t seed) {
   if (name == "room") return make_room(seed);
   std::string known;
   for (const auto& n : scene_names()) known += (known.empty() ? "" : ", ") + n;
-  throw std::invalid_argument("there is no scene '" + std::string(name) + "'; choose one of " +
+  throw std::invalid_argument("there is no scene '" + std::string(name) + "'; the scenes are " +
                               known);
 }
 
@@ -88,7 +88,7 @@ Object& SceneBuilder::ground(double y, double half_width, double from, double to
 void SceneBuilder::foliage(const Vector3d& center, double radius, int leaves, double leaf_size,
                            const Texture& texture) {
   for (int i = 0; i < leaves; ++i) {
-    // Even over the ball: height and angle on the sphere, cube root along the radius.
+    // Uniform in the ball: height and angle on the sphere, cube root along the radius.
     const double height = random(-1, 1), around = random(0, 2 * std::numbers::pi);
     const double ring = std::sqrt(1 - height * height), out = radius * std::cbrt(random(0.2, 1));
     const Vector3d at =

@@ -58,7 +58,7 @@ Texture flower(Eigen::Vector3f color) {
   return t;
 }
 
-// A clipped bush: a dark core, with leaves that stand out of it.
+// A trimmed bush: a dark core with protruding leaves.
 void bush(SceneBuilder& b, const Vector3d& center, double radius) {
   b.sphere(center, 0.86 * radius, hedge());
   Texture leaf = hedge();
@@ -73,7 +73,7 @@ void pot(SceneBuilder& b, const Vector3d& foot, double height) {
   bush(b, foot - Vector3d(0, 1.5 * height, 0), 0.75 * height);
 }
 
-// Thin stems with a blossom each, moving in the wind.
+// Thin stems with one blossom each, moving in the wind.
 void flowers(SceneBuilder& b, const Vector3d& foot, int count, Eigen::Vector3f color) {
   for (int i = 0; i < count; ++i) {
     const Vector3d at = foot + Vector3d(b.random(-0.25, 0.25), 0, b.random(-0.25, 0.25));

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 constexpr double kFloor = 1.1;  // the camera's height above the floor [m]
 constexpr double kQuarter = std::numbers::pi / 2;
 
-// Painted plaster: next to nothing for a matcher to hold on to, as real walls are.
+// Painted plaster: almost no texture, like real walls.
 Texture plaster(double mean) {
   Texture t;
   t.mean = mean, t.noise_contrast = 0.025, t.noise_size = 0.8, t.octaves = 7, t.persistence = 0.85;
@@ -109,7 +109,7 @@ Scene make_room(std::uint32_t seed) {
   b.sphere({0.4, kFloor - 0.83, 2.3}, 0.07, fabric(0.55, {0.4f, 0.6f, 1.0f}));
   shelf(b, {-0.95, kFloor, 4.2}, 0.6);
 
-  // A sofa, a board that leans against it, a fire guard of wire and a lamp on a thin stand.
+  // A sofa, a board leaning against it, a wire fire guard and a lamp on a thin stand.
   b.box({-1.55, kFloor - 0.25, 2.6}, {0.35, 0.25, 0.6}, fabric(0.4, {1.0f, 0.7f, 0.6f}), 0.2);
   b.box({-1.85, kFloor - 0.6, 2.6}, {0.1, 0.35, 0.6}, fabric(0.4, {1.0f, 0.7f, 0.6f}), 0.2);
   b.rectangle({-0.75, kFloor - 0.4, 2.2}, 0.2, 0.42, chequers(), -0.4, 0.35);

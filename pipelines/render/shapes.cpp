@@ -39,8 +39,8 @@ std::optional<Hit> hit_rectangle(const Object& o, const Eigen::Vector3d& origin,
   return Hit{t, Eigen::Vector3d::UnitZ(), u, v};
 }
 
-// Texture coordinates of a point on a side whose normal is along `axis`. The offset keeps the
-// texture of one side from being that of the opposite one.
+// Texture coordinates of a point on a side whose normal is along `axis`. The offset gives opposite
+// sides different textures.
 std::pair<double, double> side_coordinates(const Eigen::Vector3d& p, int axis) {
   const double offset = 7.3 * (axis + 1) + (p[axis] < 0 ? 31.7 : 0.0);
   switch (axis) {
@@ -82,7 +82,7 @@ std::optional<Hit> hit_box(const Object& o, const Eigen::Vector3d& origin, const
   return Hit{t, normal, u, v};
 }
 
-// The smaller root over `near` of a t^2 + 2 b t + c = 0.
+// The smallest root above `near` of a t^2 + 2 b t + c = 0.
 std::optional<double> first_root(double a, double b, double c, double near) {
   const double discriminant = b * b - a * c;
   if (a == 0 || discriminant < 0) return std::nullopt;

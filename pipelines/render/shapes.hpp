@@ -9,50 +9,51 @@
 
 namespace mtstereo::render {
 
-/// The shapes, each in its own coordinates around the origin.
+/// The shapes, each centered at the origin of its own coordinates.
 enum class Shape {
   kRectangle,  ///< in the plane z = 0: |x| <= size.x, |y| <= size.y
   kBox,        ///< |x| <= size.x, |y| <= size.y, |z| <= size.z
-  kSphere,     ///< of radius size.x
-  kCylinder,   ///< around the y axis: radius size.x, |y| <= size.y, without lids
+  kSphere,     ///< radius size.x
+  kCylinder,   ///< around the y axis: radius size.x, |y| <= size.y, open at both ends
 };
 
-/// Holes in a rectangle: where there are any, a ray goes through.
+/// The pattern of holes in a rectangle; rays pass through the holes.
 enum class Cutout {
   kNone,
   kBars,  ///< upright bars with a rail at the top and one at the bottom
   kMesh,  ///< wires along x and y
-  kLeaf,  ///< what is inside a pointed oval stays
+  kLeaf,  ///< a pointed oval; everything outside is a hole
 };
 
-/// How an object moves; all zero stands still.
+/// The motion of an object; all zeros = at rest.
 struct Motion {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
   Eigen::Vector3d swing = Eigen::Vector3d::Zero();     ///< amplitude of a sine [m]
   double swing_rate = 0;                               ///< [1/s]
   double swing_phase = 0;                              ///< [periods]
-  double spin = 0;                                     ///< around its own y axis [rad/s]
+  double spin = 0;                                     ///< about its own y axis [rad/s]
 };
 
-/// Something solid in the scene.
+/// A solid object of the scene.
 struct Object {
   Shape shape = Shape::kBox;
-  Eigen::Vector3d size = Eigen::Vector3d::Ones();          ///< half extents [m], see Shape
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< world from object at time 0
+  Eigen::Vector3d size = Eigen::Vector3d::Ones();  ///< half extents [m], see Shape
+  Eigen::Isometry3d pose =
+      Eigen::Isometry3d::Identity();  ///< transform from object to world at time 0
   Motion motion;
   Texture texture;
   Cutout cutout = Cutout::kNone;
   double cutout_period = 0.1;  ///< from bar to bar [m]
-  double cutout_solid = 0.3;   ///< share of a period that is solid
+  double cutout_solid = 0.3;   ///< solid fraction of a period
 
-  /// World from object at a time [s].
+  /// The transform from object to world at a time [s].
   Eigen::Isometry3d pose_at(double time) const;
 };
 
-/// Where a ray meets an object, in the object's coordinates.
+/// The intersection of a ray and an object, in the object's coordinates.
 struct Hit {
   double t = 0;            ///< ray parameter
-  Eigen::Vector3d normal;  ///< of length 1
+  Eigen::Vector3d normal;  ///< unit length
   double u = 0, v = 0;     ///< texture coordinates [m]
 };
 
@@ -60,7 +61,7 @@ struct Hit {
 std::optional<Hit> intersect(const Object& object, const Eigen::Vector3d& origin,
                              const Eigen::Vector3d& direction, double near);
 
-/// Half extents of the box around the object, in its coordinates.
+/// Half extents of the bounding box of the object, in its coordinates.
 Eigen::Vector3d bounding_box(const Object& object);
 
 }  // namespace mtstereo::render

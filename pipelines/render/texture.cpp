@@ -12,7 +12,7 @@ double smooth(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-// One of eight directions times the offset: the gradient of a lattice point.
+// The gradient of a lattice point: the dot product of one of eight directions and the offset.
 double gradient(std::uint32_t h, double x, double y) {
   switch (h & 7) {
     case 0:
@@ -36,7 +36,7 @@ double gradient(std::uint32_t h, double x, double y) {
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
-// Perlin's gradient noise, about -1 .. 1, with a lattice of 1.
+// Perlin's gradient noise, about -1 .. 1, on the unit lattice.
 double gradient_noise(double u, double v, std::uint32_t seed) {
   const double fu = std::floor(u), fv = std::floor(v);
   const double x = u - fu, y = v - fv;
@@ -51,8 +51,9 @@ double gradient_noise(double u, double v, std::uint32_t seed) {
   return top + t * (bottom - top);
 }
 
-// The share of [x - w/2, x + w/2] that a train of pulses, 1 on [0, duty) of each period of 1,
-// covers. Exact, so that edges are as soft as the filter is wide and far patterns turn gray.
+// The fraction of [x - w/2, x + w/2] that is covered by a pulse train, 1 on [0, duty) of each
+// period of 1. It is exact, so that edges are as soft as the filter is wide and distant patterns
+// become gray.
 double pulse_train(double x, double duty, double w) {
   w = std::max(w, 1e-6);
   const auto integral = [duty](double p) {
@@ -62,7 +63,7 @@ double pulse_train(double x, double duty, double w) {
   return (integral(x + w / 2) - integral(x - w / 2)) / w;
 }
 
-// How much of a pattern's cell-to-cell variation survives the filter.
+// The fraction of a pattern's cell-to-cell variation that remains after the filter.
 double cell_visibility(double period, double footprint) {
   return smooth(1.0, 3.0, period / std::max(footprint, 1e-9));
 }
@@ -95,7 +96,7 @@ double tiles(const Texture& t, double u, double v, double footprint) {
 }
 
 double lines(const Texture& t, double u, double v, double footprint) {
-  // The line is broken every other period of v, as in the middle of a road.
+  // The line is interrupted in every other period of v, like the center line of a road.
   return pulse_train(u / t.period_u, 0.04, footprint / t.period_u) *
          pulse_train(v / t.period_v, 0.5, footprint / t.period_v);
 }
@@ -137,7 +138,7 @@ double gray_value(const Texture& texture, double u, double v, double footprint) 
   double value = texture.mean;
   double size = texture.noise_size, amplitude = texture.noise_contrast;
   for (int octave = 0; octave < texture.octaves; ++octave) {
-    // A lattice under 1.5 footprints is beyond what the pixel grid can carry.
+    // The pixel grid cannot represent a lattice finer than 1.5 footprints.
     const double visible = smooth(1.5, 3.0, size / footprint);
     if (visible <= 0) break;
     const std::uint32_t seed = texture.seed + 0x9e37u * static_cast<std::uint32_t>(octave);

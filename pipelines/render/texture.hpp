@@ -6,39 +6,39 @@
 
 namespace mtstereo::render {
 
-/// What lies on top of a texture's noise.
+/// The pattern on top of a texture's noise.
 enum class Pattern {
-  kPlain,   ///< nothing: noise alone
+  kPlain,   ///< noise only
   kBricks,  ///< rows of bricks, every other row shifted, with mortar between them
-  kPlanks,  ///< boards along v, each with a gray value of its own, with dark gaps
+  kPlanks,  ///< boards along v, each with its own gray value, separated by dark gaps
   kTiles,   ///< a grid of tiles in two gray values
-  kLines,   ///< one bright line along v in each period of u, as road markings
+  kLines,   ///< one bright line along v per period of u, like road markings
 };
 
-/// How a surface looks: band-limited noise plus a pattern. Lengths are in meters on the surface, so
-/// that the texture sticks to it. Gray values are 0 (black) .. 1 (white).
+/// The appearance of a surface: band-limited noise plus a pattern. Lengths are in meters on the
+/// surface, so that the texture moves with it. Gray values are 0 (black) .. 1 (white).
 struct Texture {
   Pattern pattern = Pattern::kPlain;
-  double mean = 0.5;                  ///< gray value around which everything varies
+  double mean = 0.5;                  ///< mean gray value
   double noise_contrast = 0.2;        ///< amplitude of the coarsest octave
   double noise_size = 0.5;            ///< grain of the coarsest octave [m]
-  int octaves = 6;                    ///< each with half the grain of the one before
-  double persistence = 0.75;          ///< amplitude of an octave relative to the one before
+  int octaves = 6;                    ///< each with half the grain of the previous one
+  double persistence = 0.75;          ///< amplitude of an octave relative to the previous one
   double pattern_contrast = 0;        ///< amplitude of the pattern
-  double period_u = 1;                ///< of the pattern [m]
-  double period_v = 1;                ///< of the pattern [m]
+  double period_u = 1;                ///< period of the pattern [m]
+  double period_v = 1;                ///< period of the pattern [m]
   Eigen::Vector3f color = {1, 1, 1};  ///< tint (blue, green, red)
   std::uint32_t seed = 0;
 };
 
-/// A well mixed function of three numbers; the source of every random choice of the renderer.
+/// A hash of three numbers; the source of all random choices of the renderer.
 std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
 /// The same as a number 0 <= h < 1.
 double hash_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
-/// Gray value of the texture at the surface point (u, v) [m], as seen through a filter that is
-/// `footprint` [m] wide: what is finer than that fades to its mean instead of aliasing.
+/// The gray value of the texture at the surface point (u, v) [m] under a filter that is `footprint`
+/// [m] wide: finer detail fades to its mean instead of aliasing.
 double gray_value(const Texture& texture, double u, double v, double footprint);
 
 }  // namespace mtstereo::render

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kNear = 0.02;  // nothing nearer to the camera is seen [m]
+constexpr double kNear = 0.02;  // near clipping distance [m]
 constexpr int kTile = 16;       // [px]
 
 }  // namespace
@@ -29,7 +29,7 @@ View::View(const Scene& scene, double time, const Settings& settings, double off
   for (const Object& object : scene.objects) {
     place(object, camera_from_world, time, eye, scene.to_light.normalized());
   }
-  // Nearest first: once something is hit, what lies behind it need not be tried.
+  // Nearest first, so that objects farther than a hit can be skipped.
   for (auto& tile : tiles_) {
     std::stable_sort(tile.begin(), tile.end(), [this](std::uint32_t a, std::uint32_t b) {
       return placed_[a].nearest < placed_[b].nearest;
@@ -72,14 +72,14 @@ void View::sort_into_tiles(const Eigen::Isometry3d& eye_from_object, std::uint32
   if (farthest <= kNear) return;
   placed_[index].nearest = nearest;
   if (nearest <= kNear) {
-    // Reaches behind the camera, where the projection of its corners says nothing.
+    // Extends behind the camera, where the projection of its corners is meaningless.
     left = top = -kFar;
     right = bottom = kFar;
   }
   const auto tile_of = [](double v, int count) {
     return static_cast<int>(std::clamp(std::floor(v / kTile), -1.0, static_cast<double>(count)));
   };
-  // A pixel of margin: rays start up to half a pixel from the centers.
+  // A margin of one pixel: rays pass up to half a pixel from the centers.
   const int x0 = std::max(0, tile_of(left - 1, tiles_x_));
   const int x1 = std::min(tiles_x_ - 1, tile_of(right + 1, tiles_x_));
   const int y0 = std::max(0, tile_of(top - 1, tiles_y_));
@@ -117,7 +117,7 @@ View::Nearest View::nearest(const Vector3d& direction, double x, double y) const
 std::optional<double> View::depth(double x, double y) const {
   const Nearest found = nearest(direction(x, y), x, y);
   if (found.placed == nullptr) return std::nullopt;
-  return found.hit.t;  // the direction's z is 1, so t is the depth
+  return found.hit.t;  // the z of the direction is 1, so t is the depth
 }
 
 std::optional<Seen> View::look(double x, double y) const {
@@ -127,7 +127,7 @@ std::optional<Seen> View::look(double x, double y) const {
   const Placed& placed = *found.placed;
   const Hit& hit = found.hit;
   const double facing = std::abs(hit.normal.dot(placed.object_from_camera * ray)) / ray.norm();
-  // A pixel covers more of a slanted surface, in one direction: the mean of both.
+  // A pixel covers more of a slanted surface in one direction; this is the mean of both directions.
   const double footprint = hit.t / focal_ / std::sqrt(std::max(facing, 0.02));
   const double lit = std::abs(hit.normal.dot(placed.to_light));
   const double shade = scene_.ambient + (1 - scene_.ambient) * lit;

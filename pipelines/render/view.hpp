@@ -10,25 +10,26 @@
 
 namespace mtstereo::render {
 
-/// What a ray of the camera meets.
+/// The result of a camera ray.
 struct Seen {
   double depth = 0;  ///< along the optical axis [m]
   float gray = 0;    ///< shaded, 0 .. 1
   const Object* object = nullptr;
 };
 
-/// A scene at one time as one of the two cameras sees it. Objects are sorted into tiles of the
-/// image, so that a ray is tested against few of them.
+/// A scene at one time from one of the two cameras. Objects are sorted into tiles of the image, so
+/// that each ray is tested against only a few of them.
 class View {
  public:
-  /// `offset_x` is the camera's place on the left camera's x axis [m]. The scene has to outlive
-  /// the view; the settings are complete()d ones.
+  /// `offset_x` is the camera's position on the left camera's x axis [m]. The scene must outlive
+  /// the view; the settings are those of complete().
   View(const Scene& scene, double time, const Settings& settings, double offset_x);
 
-  /// Shoots a ray through the point (x, y) of the image [px], pixel centers being whole numbers.
+  /// Traces a ray through the point (x, y) of the image [px]; pixel centers have integer
+  /// coordinates.
   std::optional<Seen> look(double x, double y) const;
 
-  /// The depth alone, without shading [m].
+  /// Only the depth, without shading [m].
   std::optional<double> depth(double x, double y) const;
 
   /// Brightness of the sky at the row y, 0 .. 1.
@@ -38,8 +39,8 @@ class View {
   struct Placed {
     const Object* object;
     Eigen::Matrix3d object_from_camera;
-    Eigen::Vector3d origin;    // of the rays
-    Eigen::Vector3d to_light;  // of length 1
+    Eigen::Vector3d origin;    // origin of the rays
+    Eigen::Vector3d to_light;  // unit length
     double nearest;            // depth of its nearest corner [m]
   };
   struct Nearest {

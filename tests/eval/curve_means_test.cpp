@@ -18,7 +18,7 @@ Sweep sweep_of(const CurvePoint& first, const CurvePoint& second) {
 
 const CurvePoint kNothing{0, kNone, kNone, kNone};
 
-TEST(SweepMean, IsThePlainMeanOfThePairsFigures) {
+TEST(SweepMean, IsTheUnweightedMeanOverThePairs) {
   SweepMean mean;
   mean.add(sweep_of({60, 1, 10, 20}, {30, 0.5, 5, 10}));
   mean.add(sweep_of({40, 3, 30, 40}, {10, 1.5, 7, 12}));
@@ -33,7 +33,7 @@ TEST(SweepMean, IsThePlainMeanOfThePairsFigures) {
   EXPECT_DOUBLE_EQ(result.points[1].avgerr, 1);
 }
 
-TEST(SweepMean, HasNoErrorWhereOneOfThePairsHasNone) {
+TEST(SweepMean, HasNoErrorIfOnePairHasNone) {
   for (const bool first : {true, false}) {
     SweepMean mean;
     mean.add(sweep_of({60, 1, 10, 20}, first ? kNothing : CurvePoint{30, 0.5, 5, 10}));
@@ -41,13 +41,13 @@ TEST(SweepMean, HasNoErrorWhereOneOfThePairsHasNone) {
     EXPECT_DOUBLE_EQ(mean.mean().points[0].avgerr, 2);
     EXPECT_TRUE(std::isnan(mean.mean().points[1].avgerr));
     EXPECT_TRUE(std::isnan(mean.mean().points[1].bad1));
-    EXPECT_DOUBLE_EQ(mean.mean().points[1].density, 15) << "nothing has a density: 0 %";
+    EXPECT_DOUBLE_EQ(mean.mean().points[1].density, 15) << "an empty map has the density 0 %";
   }
 }
 
-TEST(SweepMean, IsEmptyBeforeTheFirstPair) { EXPECT_TRUE(SweepMean().mean().points.empty()); }
+TEST(SweepMean, IsEmptyWithoutPairs) { EXPECT_TRUE(SweepMean().mean().points.empty()); }
 
-TEST(CurveCollector, TakesThePairsThatAllMethodsCouldDo) {
+TEST(CurveCollector, AcceptsPairsThatAllMethodsCompleted) {
   const Sweep good = sweep_of({60, 1, 10, 20}, kNothing);
   const Sweep other = sweep_of({40, 3, 30, 40}, kNothing);
   CurveCollector collector({"mtstereo", "sgbm"});
@@ -69,7 +69,7 @@ TEST(CurveCollector, TakesThePairsThatAllMethodsCouldDo) {
   EXPECT_THAT(means.left_out[1].reason, HasSubstr("mtstereo has no disparity"));
 }
 
-TEST(CurveCollector, HasNoCurvesWithoutAPair) {
+TEST(CurveCollector, HasNoCurvesWithoutPairs) {
   CurveCollector collector({"mtstereo"});
   EXPECT_EQ(collector.means().pairs, 0);
   collector.add("A", {});

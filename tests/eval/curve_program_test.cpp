@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// The program with --curve as a process.
+// mtstereo-eval --curve as a process.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,8 @@ TEST_F(CurveProgram, PlotsPrintsAndReportsTheCurveOfTheLibrary) {
   const Outcome run = run_eval({set(), "--curve", picture(), "--json", folder_ / "r.json"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");
-  EXPECT_THAT(run.out, HasSubstr("errors at equal density, middlebury, plain mean of 2 pairs"));
+  EXPECT_THAT(run.out,
+              HasSubstr("errors at equal density, middlebury, unweighted mean of 2 pairs"));
   const cv::Mat drawn = cv::imread(picture());
   ASSERT_EQ(drawn.size(), cv::Size(1200, 600));
   cv::Mat red;
@@ -51,7 +52,7 @@ TEST_F(CurveProgram, PlotsPrintsAndReportsTheCurveOfTheLibrary) {
   ASSERT_EQ(curve["curves"].size(), 1U);
   const json& points = curve["curves"][0]["points"];
   ASSERT_EQ(points.size(), 255U);
-  // At threshold 1 everything counts: the plain mean of the pairs' own figures.
+  // At threshold 1 all pixels count: the unweighted mean of the pairs' figures.
   const json pairs = report()["pairs"];
   const auto figure = [&](int pair) {
     return pairs[pair]["results"]["mtstereo"]["all"]["avgerr"].get<double>();
@@ -60,8 +61,8 @@ TEST_F(CurveProgram, PlotsPrintsAndReportsTheCurveOfTheLibrary) {
   EXPECT_NEAR(points[0]["density"], report()["mean"]["mtstereo"]["density"], 1e-9);
 }
 
-TEST_F(CurveProgram, SweepsTheRivalsThatAreNamed) {
-  // With noise the second best cost comes close to the best.
+TEST_F(CurveProgram, SweepsTheRequestedRivals) {
+  // Noise reduces the difference between the best and the second-best cost.
   cv::RNG random(5);
   for (const char* pair : {"A", "B"}) {
     const std::string file = folder_ / "set" / pair / "im1.png";
@@ -82,7 +83,7 @@ TEST_F(CurveProgram, SweepsTheRivalsThatAreNamed) {
   ASSERT_EQ(curves.size(), 7U);
   EXPECT_EQ(curves[1]["points"].size(), 20U);
   EXPECT_GT(curves[2]["points"].size(), 30U);
-  // The rival's best is nowhere above its own line.
+  // The envelope of a rival is nowhere above its own line.
   int compared = 0;
   for (std::size_t i = 0; i < curves[1]["at_density"].size(); ++i) {
     const json alone = curves[1]["at_density"][i]["avgerr"];
@@ -93,14 +94,14 @@ TEST_F(CurveProgram, SweepsTheRivalsThatAreNamed) {
   EXPECT_GE(compared, 3);
 }
 
-TEST_F(CurveProgram, LeavesOutAPairThatOneMethodCouldNotDo) {
+TEST_F(CurveProgram, LeavesOutAPairThatOneMethodDidNotComplete) {
   testing::TestPair flat = testing::make_pair(240, 120, 9);
   flat.left.setTo(80);
   flat.right.setTo(80);
   testing::write_pair_folder(folder_ / "set/F", flat, 32);
   const Outcome run = run_eval({set(), "--curve", picture(), "--json", folder_ / "r.json"});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("plain mean of 2 pairs"));
+  EXPECT_THAT(run.out, HasSubstr("unweighted mean of 2 pairs"));
   EXPECT_THAT(run.out, HasSubstr("left out: F: mtstereo has no disparity"));
   EXPECT_EQ(report()["curve"]["left_out"][0]["pair"], "F");
 }
@@ -117,11 +118,11 @@ TEST_F(CurveProgram, WritesNoPictureWithoutAPairWithGroundTruth) {
   }
   const Outcome broken = run_eval({set(), "--curve", picture()});
   EXPECT_EQ(broken.status, 1);
-  EXPECT_THAT(broken.err, HasSubstr("curve.png: is not written: there is no pair"));
+  EXPECT_THAT(broken.err, HasSubstr("curve.png: is not written: no pair"));
   EXPECT_FALSE(fs::exists(picture()));
 }
 
-TEST_F(CurveProgram, RefusesAPictureThatCannotBeWrittenBeforeTheWork) {
+TEST_F(CurveProgram, RejectsAnUnwritablePictureBeforeTheEvaluation) {
   testing::write_file(folder_ / "file", "");
   const Outcome run = run_eval({set(), "--curve", folder_ / "file/curve.png"});
   EXPECT_EQ(run.status, 2);
@@ -147,7 +148,7 @@ TEST_F(CurveProgram, WritesTheFiguresWithoutAPictureIfMatplotlibIsMissing) {
   EXPECT_FALSE(fs::exists(picture()));
 }
 
-TEST_F(CurveProgram, WritesAReportFromWhichTheSamePictureIsPlottedAgain) {
+TEST_F(CurveProgram, WritesAReportThatReproducesThePicture) {
   const Outcome run = run_eval({set(), "--curve", picture(), "--json", folder_ / "r.json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const Outcome again = testing::run_plot({"curve", folder_ / "r.json", folder_ / "again.png"});
@@ -189,7 +190,7 @@ TEST_F(InstalledCurveProgram, NamesTheScriptIfItIsMissing) {
   EXPECT_THAT(done.out, HasSubstr("errors at equal density"));
 }
 
-TEST_F(CurveProgram, RefusesAPictureThatIsNoPng) {
+TEST_F(CurveProgram, RejectsAPictureThatIsNotPng) {
   for (const char* name : {"curve.jpg", "curve", ""}) {
     const Outcome run = run_eval({set(), "--curve", name});
     EXPECT_EQ(run.status, 2) << name;
@@ -209,13 +210,13 @@ TEST_F(CurveProgram, NeverOverwritesAnInput) {
 }
 
 TEST_F(CurveProgram, ReplacesAnEarlierPicture) {
-  testing::write_file(picture(), "an earlier one");
+  testing::write_file(picture(), "an earlier picture");
   const Outcome run = run_eval({set(), "--only", "B", "--curve", picture()});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_FALSE(cv::imread(picture()).empty());
 }
 
-TEST_F(CurveProgram, HasNoCurveUnlessAskedFor) {
+TEST_F(CurveProgram, HasNoCurveByDefault) {
   const Outcome run = run_eval({set(), "--only", "B", "--json", folder_ / "r.json"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, Not(HasSubstr("equal density")));

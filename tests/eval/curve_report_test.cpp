@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// The library at 60 and 20 %; a rival whose second ratio is better with filters.
+// The library at 60 and 20 %, and a rival whose second ratio is better with filters.
 CurveMeans small_means() {
   CurveMeans means;
   means.pairs = 2;
@@ -41,7 +41,7 @@ std::string table_of(const CurveReport& report) {
   return out.str();
 }
 
-// The fields of the table's line that begins like this.
+// The fields of the line of the table with this prefix.
 std::vector<std::string> fields_of(const std::string& table, const std::string& begin) {
   std::istringstream lines(table);
   for (std::string line; std::getline(lines, line);) {
@@ -59,20 +59,20 @@ const json& at_density(const json& curve, double density) {
   throw std::runtime_error("no such density");
 }
 
-TEST(MakeCurves, GivesTheLibraryOneLineAndEachRivalTwo) {
+TEST(MakeCurves, HasOneLineForTheLibraryAndTwoForEachRival) {
   const CurveReport report = small_report();
   ASSERT_EQ(report.curves.size(), 3U);
   EXPECT_EQ(report.mode, "sparse");
   EXPECT_EQ(report.curves[0].name, "mtstereo");
   EXPECT_EQ(report.curves[1].name, "sgbm");
   EXPECT_EQ(report.curves[2].name, "sgbm + filters");
-  EXPECT_EQ(report.curves[1].sweep.thresholds, std::vector<int>{0}) << "as it is, unfiltered";
+  EXPECT_EQ(report.curves[1].sweep.thresholds, std::vector<int>{0}) << "unfiltered";
   EXPECT_EQ(report.curves[1].method, report.curves[2].method);
   EXPECT_FALSE(report.curves[1].envelope);
   EXPECT_TRUE(report.curves[2].envelope);
 }
 
-TEST(MakeCurves, NamesAllSettings) {
+TEST(MakeCurves, ListsAllSettings) {
   const CurveReport report = small_report();
   EXPECT_THAT(report.curves[0].settings,
               AllOf(HasSubstr("1 .. 255"), HasSubstr("mode sparse, threads 2")));
@@ -83,7 +83,7 @@ TEST(MakeCurves, NamesAllSettings) {
 
 TEST(PrintCurves, ShowsTheErrorsAtEqualDensity) {
   const std::string table = table_of(small_report());
-  EXPECT_THAT(table, HasSubstr("eth3d, plain mean of 2 pairs"));
+  EXPECT_THAT(table, HasSubstr("eth3d, unweighted mean of 2 pairs"));
   EXPECT_THAT(
       fields_of(table, "avgerr px  mtstereo"),
       ::testing::ElementsAre("-", "1.000", "1.250", "1.500", "1.750", "2.000", "-", "-", "-"));
@@ -96,7 +96,7 @@ TEST(PrintCurves, ShowsTheErrorsAtEqualDensity) {
   EXPECT_THAT(table, HasSubstr("left out: F: sgbm has no result"));
 }
 
-TEST(PrintCurves, SaysThatThereIsNoPair) {
+TEST(PrintCurves, ReportsThatThereIsNoPair) {
   CurveReport report = make_curves("eth3d", {}, {}, {0, {{"F", "it is broken"}}, {}});
   EXPECT_THAT(table_of(report),
               AllOf(HasSubstr("0 pairs"), HasSubstr("F: it is broken"), Not(HasSubstr("avgerr"))));
@@ -128,7 +128,7 @@ TEST(CurvesJson, HasThePointsWithTheirSettings) {
   EXPECT_FALSE(rival[1].contains("threshold"));
 }
 
-TEST(CurvesJson, HasWhatTheTitleAndTheCaptionsOfAPlotNeed) {
+TEST(CurvesJson, HasTheDataForTitleAndCaptionsOfAPlot) {
   const json result = curves_json(small_report());
   EXPECT_EQ(result["dataset"], "eth3d");
   EXPECT_EQ(result["mode"], "sparse");
@@ -152,7 +152,7 @@ TEST(CurvesJson, SamplesAnEnvelopeAtBothEndsAndAtEveryPercent) {
   EXPECT_EQ(points[51]["avgerr"], 4);
 }
 
-TEST(CurvesJson, GivesAnEnvelopeAtEveryPercentThatItReaches) {
+TEST(CurvesJson, SamplesAnEnvelopeAtIntegerDensities) {
   const json points = curves_json(small_report())["curves"][2]["points"];
   ASSERT_EQ(points.size(), 51U);
   EXPECT_EQ(points[0]["density"], 30);

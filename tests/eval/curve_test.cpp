@@ -16,7 +16,7 @@ const CurveMeasure kAvgerr = kCurveMeasures[0];
 
 CurvePoint point(double density, double avgerr) { return {density, avgerr, 2 * avgerr, avgerr}; }
 
-// One line: the points at the thresholds 1, 2, ...
+// A sweep with one row: the points at the thresholds 1, 2, ...
 Sweep line(std::vector<CurvePoint> points) {
   Sweep sweep;
   sweep.ratios = {0};
@@ -27,7 +27,7 @@ Sweep line(std::vector<CurvePoint> points) {
   return sweep;
 }
 
-TEST(ThresholdPoints, CountThePixelsWhoseConfidenceReachesThem) {
+TEST(ThresholdPoints, CountPixelsWithAtLeastThatConfidence) {
   // Errors 0, 2 and 10 px; the third has no estimate, the fourth no truth.
   const cv::Mat estimate = (cv::Mat_<float>(1, 5) << 10, 10, kNoValue, 20, 30);
   const cv::Mat truth = (cv::Mat_<float>(1, 5) << 10, 12, 5, kNoValue, 20);
@@ -58,7 +58,7 @@ TEST(ThresholdPoints, CountThePixelsWhoseConfidenceReachesThem) {
   }
 }
 
-TEST(ThresholdPoints, AreTheEvaluationOfTheMapWithoutTheRest) {
+TEST(ThresholdPoints, EqualTheEvaluationOfTheThresholdedMap) {
   cv::RNG random(7);
   cv::Mat estimate(37, 53, CV_32FC1), confidence(37, 53, CV_8UC1);
   GroundTruth truth{cv::Mat(37, 53, CV_32FC1), {}};
@@ -82,22 +82,22 @@ TEST(ThresholdPoints, AreTheEvaluationOfTheMapWithoutTheRest) {
   }
 }
 
-TEST(ThresholdPoints, RefuseMapsOfDifferentSizes) {
+TEST(ThresholdPoints, RejectMapsOfDifferentSizes) {
   const cv::Mat map(4, 5, CV_32FC1, cv::Scalar(1)), other(4, 6, CV_32FC1, cv::Scalar(1));
   const cv::Mat confidence(4, 5, CV_8UC1, cv::Scalar(1)), small(3, 5, CV_8UC1, cv::Scalar(1));
   EXPECT_INPUT_ERROR(threshold_points(map, confidence, other), "different sizes");
   EXPECT_INPUT_ERROR(threshold_points(map, small, map), "different sizes");
 }
 
-TEST(ErrorAt, IsLinearBetweenNeighboringSettings) {
+TEST(ErrorAt, IsInterpolatedLinearlyBetweenNeighbors) {
   const Sweep sweep = line({point(60, 3), point(40, 2), point(10, 0.5)});
   EXPECT_DOUBLE_EQ(error_at(sweep, 50, kAvgerr), 2.5);
   EXPECT_DOUBLE_EQ(error_at(sweep, 45, kAvgerr), 2.25);
   EXPECT_DOUBLE_EQ(error_at(sweep, 20, kAvgerr), 1);
-  EXPECT_DOUBLE_EQ(error_at(sweep, 20, kCurveMeasures[1]), 2) << "D-all has its own figures";
+  EXPECT_DOUBLE_EQ(error_at(sweep, 20, kCurveMeasures[1]), 2) << "D-all has its own values";
 }
 
-TEST(ErrorAt, IsASettingsOwnErrorAtItsDensity) {
+TEST(ErrorAt, EqualsTheErrorOfASettingAtItsDensity) {
   const Sweep sweep = line({point(60, 3), point(40, 2), point(10, 0.5)});
   EXPECT_DOUBLE_EQ(error_at(sweep, 60, kAvgerr), 3);
   EXPECT_DOUBLE_EQ(error_at(sweep, 40, kAvgerr), 2);
@@ -105,28 +105,28 @@ TEST(ErrorAt, IsASettingsOwnErrorAtItsDensity) {
   EXPECT_DOUBLE_EQ(error_at(line({point(30, 7)}), 30, kAvgerr), 7) << "a single point";
 }
 
-TEST(ErrorAt, IsNotThereWhereTheDensityIsNotReached) {
+TEST(ErrorAt, IsNanOutsideTheReachedDensities) {
   const Sweep sweep = line({point(60, 3), point(40, 2), point(10, 0.5)});
   EXPECT_TRUE(std::isnan(error_at(sweep, 60.1, kAvgerr)));
   EXPECT_TRUE(std::isnan(error_at(sweep, 9.9, kAvgerr)));
   EXPECT_TRUE(std::isnan(error_at(Sweep(), 50, kAvgerr)));
 }
 
-TEST(ErrorAt, DoesNotBridgeAPointWithoutErrors) {
+TEST(ErrorAt, DoesNotInterpolateAcrossAPointWithoutErrors) {
   const Sweep sweep = line({point(60, 3), point(40, kNone), point(10, 0.5)});
   EXPECT_TRUE(std::isnan(error_at(sweep, 50, kAvgerr)));
   EXPECT_TRUE(std::isnan(error_at(sweep, 40, kAvgerr)));
   EXPECT_DOUBLE_EQ(error_at(sweep, 60, kAvgerr), 3);
 }
 
-TEST(ErrorAt, IsTheLeastWhereTheDensityIsReachedMoreThanOnce) {
-  // Up and down again, and two settings with the same density.
+TEST(ErrorAt, IsTheMinimumIfTheDensityIsReachedRepeatedly) {
+  // The density rises and falls, and two settings have the same density.
   const Sweep sweep = line({point(20, 5), point(40, 1), point(20, 2), point(20, 1.5)});
   EXPECT_DOUBLE_EQ(error_at(sweep, 30, kAvgerr), 1.5);
   EXPECT_DOUBLE_EQ(error_at(sweep, 20, kAvgerr), 1.5);
 }
 
-// Two ratios, three thresholds; the rows cross near 40 %.
+// Two ratios and three thresholds; the rows intersect near 40 %.
 Sweep crossing() {
   Sweep sweep;
   sweep.ratios = {0, 50};
@@ -136,13 +136,13 @@ Sweep crossing() {
   return sweep;
 }
 
-TEST(Envelope, IsTheLeastOfAllRowsAndColumns) {
+TEST(Envelope, IsTheMinimumOverRowsAndColumns) {
   const Sweep sweep = crossing();
-  // At 45 % the first row has 1.375 between 50 and 30 %, the second a setting with 1.9; the first
-  // column has that too, the second column runs from 50 to 30 % with 1.25.
+  // At 45 % the first row has 1.375 between 50 and 30 %, and the second row and the first column
+  // have a setting with 1.9; the second column has 1.25 between 50 and 30 %.
   EXPECT_DOUBLE_EQ(error_at(sweep, 45, kAvgerr), 1.25);
   EXPECT_DOUBLE_EQ(error_at(sweep, 30, kAvgerr), 0.5);
-  EXPECT_DOUBLE_EQ(error_at(sweep, 20, kAvgerr), 0.35) << "the second row alone";
+  EXPECT_DOUBLE_EQ(error_at(sweep, 20, kAvgerr), 0.35) << "only the second row";
   EXPECT_DOUBLE_EQ(error_at(sweep, 60, kAvgerr), 2.0);
   EXPECT_TRUE(std::isnan(error_at(sweep, 5, kAvgerr)));
 }
@@ -159,7 +159,7 @@ TEST(Envelope, IsNeverAboveALineOfTheSweep) {
   }
 }
 
-TEST(Envelope, TakesTheLeastOfEachMeasureByItself) {
+TEST(Envelope, IsComputedForEachMeasureSeparately) {
   Sweep sweep = line({{30, 1, 9, 9}});
   sweep.ratios = {0, 50};
   sweep.points.push_back({30, 2, 3, 4});
@@ -177,7 +177,7 @@ TEST(AtThreshold, IsTheColumn) {
   EXPECT_EQ(column.points[1].avgerr, 0.5);
 }
 
-TEST(DensityRange, LeavesOutPointsWithoutErrors) {
+TEST(DensityRange, IgnoresPointsWithoutErrors) {
   const DensityRange range = density_range(line({point(80, kNone), point(60, 3), point(0, kNone)}));
   EXPECT_EQ(range.least, 60);
   EXPECT_EQ(range.most, 60);

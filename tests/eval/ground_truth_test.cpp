@@ -20,7 +20,7 @@ using testing::write_image;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-// NaN equals NaN here.
+// Compares maps; NaN equals NaN.
 void expect_row(const cv::Mat& map, int y, const std::vector<float>& wanted) {
   ASSERT_EQ(map.cols, static_cast<int>(wanted.size()));
   for (int x = 0; x < map.cols; ++x) {
@@ -39,34 +39,34 @@ class GroundTruthFiles : public ::testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(GroundTruthFiles, PfmTakesWhatIsNotFiniteOrNegativeAsUnknown) {
+TEST_F(GroundTruthFiles, PfmHasNonFiniteAndNegativeValuesAsUnknown) {
   write_file(folder_ / "a.pfm",
              "Pf\n6 1\n-1\n" + float_bytes({1, 0, -3, kInf, -kInf, kNan}, false));
   expect_row(read_pfm_disparity(folder_ / "a.pfm"), 0, {1, 0, kNan, kNan, kNan, kNan});
 }
 
-TEST_F(GroundTruthFiles, PfmWithoutPositiveValueIsTurnedAround) {
+TEST_F(GroundTruthFiles, PfmWithoutPositiveValuesIsNegated) {
   write_file(folder_ / "a.pfm", "Pf\n4 1\n-1\n" + float_bytes({-1, -2.5F, 0, kInf}, false));
   // +infinity is not finite, hence not a positive disparity.
   expect_row(read_pfm_disparity(folder_ / "a.pfm"), 0, {1, 2.5F, 0, kNan});
 }
 
-TEST_F(GroundTruthFiles, PngOf16BitIsIn256thsAndZeroIsUnknown) {
+TEST_F(GroundTruthFiles, PngWith16BitsIsIn256thsAndZeroIsUnknown) {
   write_image(folder_ / "a.png", (cv::Mat_<std::uint16_t>(1, 4) << 0, 256, 384, 65535));
   expect_row(read_png_disparity(folder_ / "a.png"), 0, {kNan, 1, 1.5F, 65535 / 256.0F});
 }
 
-TEST_F(GroundTruthFiles, PngOf8BitIsInPixels) {
+TEST_F(GroundTruthFiles, PngWith8BitsIsInPixels) {
   write_image(folder_ / "a.png", (cv::Mat_<std::uint8_t>(1, 3) << 0, 1, 200));
   expect_row(read_png_disparity(folder_ / "a.png"), 0, {kNan, 1, 200});
 }
 
-TEST_F(GroundTruthFiles, PngInColorIsRefused) {
+TEST_F(GroundTruthFiles, PngInColorIsRejected) {
   write_image(folder_ / "a.png", cv::Mat(2, 2, CV_8UC3, cv::Scalar(1, 2, 3)));
   EXPECT_INPUT_ERROR(read_png_disparity(folder_ / "a.png"), "3 channels");
 }
 
-TEST_F(GroundTruthFiles, KittiPngKeepsDisparitiesThroughWritingAndReading) {
+TEST_F(GroundTruthFiles, KittiPngRoundTripKeepsDisparities) {
   const cv::Mat map = (cv::Mat_<float>(2, 3) << 1, kNan, 0.001F, 255.5F, 12.25F, 100);
   write_disparity(folder_ / "a.png", map, DisparityFormat::kKitti);
   const cv::Mat again = read_png_disparity(folder_ / "a.png");
@@ -84,20 +84,20 @@ TEST_F(GroundTruthFiles, DmapIsBigEndianColumnByColumn) {
   expect_row(map, 2, {3, 6});
 }
 
-TEST_F(GroundTruthFiles, DmapTakesZeroNegativeSkyAndNanAsUnknown) {
+TEST_F(GroundTruthFiles, DmapHasZeroNegativeSkyAndNanAsUnknown) {
   write_file(folder_ / "a_dmap.bin", float_bytes({0, -1, 1e10F, kNan, kInf, 7}, true));
   expect_row(read_dmap(folder_ / "a_dmap.bin", cv::Size(6, 1)), 0,
              {kNan, kNan, kNan, kNan, kNan, 7});
 }
 
-TEST_F(GroundTruthFiles, DmapOfAnotherSizeIsRefused) {
+TEST_F(GroundTruthFiles, DmapOfAnotherSizeIsRejected) {
   write_file(folder_ / "a_dmap.bin", float_bytes({1, 2, 3}, true));
   EXPECT_INPUT_ERROR(read_dmap(folder_ / "a_dmap.bin", cv::Size(2, 2)),
                      "a_dmap.bin: has 12 bytes; an image of 2x2 needs 16");
 }
 
-TEST_F(GroundTruthFiles, CameraStandsWhereItsPoseSays) {
-  // Turned by 90 degrees about y: world to camera x_c = R x_w + t, so the center is -R^T t.
+TEST_F(GroundTruthFiles, CameraCenterFollowsFromItsPose) {
+  // Rotated by 90 degrees about y: world to camera x_c = R x_w + t, so the center is -R^T t.
   const double half = std::sqrt(0.5);
   write_file(folder_ / "cam.txt", "300 310 160 120 " + std::to_string(half) + " 0 " +
                                       std::to_string(half) + " 0 1 2 3\n");
@@ -110,7 +110,7 @@ TEST_F(GroundTruthFiles, CameraStandsWhereItsPoseSays) {
   EXPECT_NEAR(camera.center[2], -1, 1e-5);
 }
 
-TEST_F(GroundTruthFiles, CameraWithTooFewOrUselessNumbersIsRefused) {
+TEST_F(GroundTruthFiles, CameraWithMissingOrInvalidNumbersIsRejected) {
   write_file(folder_ / "cam.txt", "300 300 160 120 1 0 0 0 0 0");
   EXPECT_INPUT_ERROR(read_camera(folder_ / "cam.txt"), "11 numbers");
   write_file(folder_ / "cam.txt", "0 300 160 120 1 0 0 0 0 0 0");
@@ -119,7 +119,7 @@ TEST_F(GroundTruthFiles, CameraWithTooFewOrUselessNumbersIsRefused) {
   EXPECT_INPUT_ERROR(read_camera(folder_ / "cam.txt"), "quaternion");
 }
 
-TEST(Depth, BecomesDisparityByFocalLengthAndBaseline) {
+TEST(Depth, IsConvertedByFocalLengthAndBaseline) {
   Camera left{400, 320, {0, 0, 0}};
   Camera right{400, 320, {0.5, 0, 0}};
   const cv::Mat depth = (cv::Mat_<float>(1, 4) << 10, 40, kNan, 200);
@@ -128,9 +128,10 @@ TEST(Depth, BecomesDisparityByFocalLengthAndBaseline) {
   expect_row(depth_to_disparity(depth, left, right), 0, {18, 3, kNan, kNan});
 }
 
-TEST(Depth, OfTwoCamerasInOnePlaceIsRefused) {
+TEST(Depth, OfTwoCamerasAtOnePositionIsRejected) {
   const Camera camera{400, 320, {1, 2, 3}};
-  EXPECT_INPUT_ERROR(depth_to_disparity(cv::Mat::ones(1, 1, CV_32F), camera, camera), "same place");
+  EXPECT_INPUT_ERROR(depth_to_disparity(cv::Mat::ones(1, 1, CV_32F), camera, camera),
+                     "same position");
 }
 
 TEST_F(GroundTruthFiles, ImageInColorBecomesLuma) {
@@ -149,7 +150,7 @@ TEST_F(GroundTruthFiles, ImageIgnoresAlpha) {
   EXPECT_EQ(read_gray(folder_ / "a.png").at<std::uint8_t>(1, 1), 100);
 }
 
-TEST_F(GroundTruthFiles, ImageOf16BitIsScaled) {
+TEST_F(GroundTruthFiles, ImageWith16BitsIsScaled) {
   write_image(folder_ / "a.png", (cv::Mat_<std::uint16_t>(1, 3) << 0, 32896, 65535));
   const cv::Mat gray = read_gray(folder_ / "a.png");
   EXPECT_EQ(gray.at<std::uint8_t>(0, 0), 0);
@@ -157,19 +158,19 @@ TEST_F(GroundTruthFiles, ImageOf16BitIsScaled) {
   EXPECT_EQ(gray.at<std::uint8_t>(0, 2), 255);
 }
 
-TEST_F(GroundTruthFiles, ImageThatIsBrokenEmptyOrMissingIsNamed) {
+TEST_F(GroundTruthFiles, CorruptEmptyOrMissingImageIsNamed) {
   write_image(folder_ / "good.png", cv::Mat(64, 64, CV_8UC1, cv::Scalar(7)));
   const std::string bytes = testing::read_file(folder_ / "good.png");
   write_file(folder_ / "cut.png", bytes.substr(0, bytes.size() / 2));
   write_file(folder_ / "text.png", "this is not a picture");
   write_file(folder_ / "empty.png", "");
   EXPECT_INPUT_ERROR(read_gray(folder_ / "cut.png"), "cut.png: ");
-  EXPECT_INPUT_ERROR(read_gray(folder_ / "text.png"), "text.png: is broken");
+  EXPECT_INPUT_ERROR(read_gray(folder_ / "text.png"), "text.png: is corrupt");
   EXPECT_INPUT_ERROR(read_gray(folder_ / "empty.png"), "empty.png: is empty");
   EXPECT_INPUT_ERROR(read_gray(folder_ / "none.png"), "none.png: no such file");
 }
 
-TEST_F(GroundTruthFiles, MaskHoldsOnlyWhatBothViewsSee) {
+TEST_F(GroundTruthFiles, MaskHasOnlyPixelsVisibleInBothViews) {
   write_image(folder_ / "mask.png", (cv::Mat_<std::uint8_t>(1, 3) << 0, 128, 255));
   const cv::Mat mask = read_visible_mask(folder_ / "mask.png");
   EXPECT_EQ(mask.at<std::uint8_t>(0, 0), 0);

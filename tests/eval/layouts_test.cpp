@@ -32,7 +32,7 @@ const TestPair& small_pair() {
 
 class Layouts : public ::testing::Test {
  protected:
-  // Finds the layout, checks that it is this one, and lists the pairs.
+  // Checks that this layout is detected, and lists the pairs.
   DataSet detect(Layout layout) {
     EXPECT_EQ(layout_name(detect_layout(folder_.path())), layout_name(layout));
     return find_pairs(folder_.path(), layout);
@@ -42,7 +42,7 @@ class Layouts : public ::testing::Test {
 
 // --- Middlebury and ETH3D
 
-TEST_F(Layouts, MiddleburyTakesRangeWeightAndMask) {
+TEST_F(Layouts, MiddleburyReadsRangeWeightAndMask) {
   write_pair_folder(folder_ / "Piano", small_pair(), 30);
   write_pair_folder(folder_ / "Vintage", small_pair(), 40);
   cv::Mat mask(24, 48, CV_8UC1, cv::Scalar(255));
@@ -65,7 +65,7 @@ TEST_F(Layouts, MiddleburyTakesRangeWeightAndMask) {
   EXPECT_EQ(cv::countNonZero(pair.truth.visible), 38 * 24);
 }
 
-TEST_F(Layouts, MiddleburyTakesAPairsOwnFolder) {
+TEST_F(Layouts, MiddleburyAcceptsTheFolderOfOnePair) {
   write_pair_folder(folder_ / "Teddy", small_pair(), 30);
   const std::filesystem::path own = folder_ / "Teddy/";
   EXPECT_EQ(detect_layout(own), Layout::kMiddlebury);
@@ -77,7 +77,7 @@ TEST_F(Layouts, MiddleburyHasNoRangeWithoutCalibration) {
   EXPECT_FALSE(detect(Layout::kMiddlebury).pairs.at(0).max_disparity.has_value());
 }
 
-TEST_F(Layouts, MiddleburyNamesWhatIsMissingAndKeepsTheRest) {
+TEST_F(Layouts, MiddleburyNamesMissingFilesAndKeepsOtherPairs) {
   write_pair_folder(folder_ / "A", small_pair(), 30);
   write_pair_folder(folder_ / "B", small_pair(), 30);
   write_pair_folder(folder_ / "C", small_pair(), 30);
@@ -106,7 +106,7 @@ TEST(MiddleburyWeights, HalveTheFiveDifficultTrainingPairs) {
   }
 }
 
-TEST_F(Layouts, Eth3dIsKnownByItsNamesAndDoesNotSearchTheWholeWidth) {
+TEST_F(Layouts, Eth3dIsDetectedByItsNamesAndHasASmallerRange) {
   write_pair_folder(folder_ / "forest_2s", small_pair(), 0);
   write_pair_folder(folder_ / "playground_1l", small_pair(), 0);
   write_file(folder_ / "playground_1l/calib.txt", "width=48\nndisp=48 \n");
@@ -131,7 +131,7 @@ void write_kitti_frame(const TempFolder& folder, const std::string& name, bool o
   write_kitti_truth(folder / ("training/disp_noc_0/" + name), visible);
 }
 
-TEST_F(Layouts, KittiTakesFrame10AndBothTruths) {
+TEST_F(Layouts, KittiReadsFrame10AndBothGroundTruths) {
   write_kitti_frame(folder_, "000003_10.png", true, true);
   write_image(folder_ / "training/image_2/000003_11.png", small_pair().left);
   write_image(folder_ / "training/image_2/000003_00.png", small_pair().left);
@@ -146,7 +146,7 @@ TEST_F(Layouts, KittiTakesFrame10AndBothTruths) {
   EXPECT_EQ(cv::countNonZero(pair.truth.visible), 44 * 12);
 }
 
-TEST_F(Layouts, KittiTakesGrayCamerasAndTheTrainingFolderItself) {
+TEST_F(Layouts, KittiAcceptsGrayCamerasAndTheTrainingFolder) {
   write_image(folder_ / "image_0/000000_10.png", small_pair().left);
   write_image(folder_ / "image_1/000000_10.png", small_pair().right);
   write_kitti_truth(folder_ / "disp_occ_0/000000_10.png", small_pair().truth);
@@ -155,7 +155,7 @@ TEST_F(Layouts, KittiTakesGrayCamerasAndTheTrainingFolderItself) {
   EXPECT_TRUE(load_pair(set.pairs[0]).truth.visible.empty());
 }
 
-TEST_F(Layouts, KittiSaysSoWhereOnlyNonOccludedTruthIsThere) {
+TEST_F(Layouts, KittiNotesThatOnlyNonOccludedTruthExists) {
   write_kitti_frame(folder_, "000000_10.png", false, true);
   const DataSet set = detect(Layout::kKitti2015);
   ASSERT_EQ(set.pairs.size(), 1U);
@@ -188,7 +188,7 @@ void write_scene_flow(const TempFolder& folder, const std::string& between,
              "Pf \n48 24 \n-1.0 \n" + testing::float_bytes(std::vector<float>(48 * 24, 7), false));
 }
 
-TEST_F(Layouts, DrivingIsFoundThroughItsFolders) {
+TEST_F(Layouts, DrivingIsDetectedByItsFolders) {
   write_scene_flow(folder_, "35mm_focallength/scene_forwards/fast/", "0001");
   write_scene_flow(folder_, "15mm_focallength/scene_backwards/slow/", "0002");
   const DataSet set = detect(Layout::kDriving);
@@ -200,13 +200,13 @@ TEST_F(Layouts, DrivingIsFoundThroughItsFolders) {
   EXPECT_EQ(pair.truth.disparity.at<float>(3, 3), 7);
 }
 
-TEST_F(Layouts, MonkaaHasAFolderForEachScene) {
+TEST_F(Layouts, MonkaaHasOneFolderPerScene) {
   write_scene_flow(folder_, "a_rain_of_stones_x2/", "0000");
   EXPECT_EQ(names_of(detect(Layout::kMonkaa)),
             std::vector<std::string>{"a_rain_of_stones_x2/0000"});
 }
 
-TEST_F(Layouts, FlyingThingsLeavesOutTheFramesThatWereTakenBack) {
+TEST_F(Layouts, FlyingThingsSkipsWithdrawnFrames) {
   write_scene_flow(folder_, "TEST/A/0000/", "0006");
   write_scene_flow(folder_, "TEST/A/0000/", "0007");
   write_scene_flow(folder_, "TEST/B/0001/", "0006");
@@ -214,7 +214,7 @@ TEST_F(Layouts, FlyingThingsLeavesOutTheFramesThatWereTakenBack) {
   EXPECT_EQ(names_of(detect(Layout::kFlyingThings)), std::vector<std::string>{"TEST/A/0000/0007"});
 }
 
-TEST_F(Layouts, SceneFlowTakesFramesRightBelowThePass) {
+TEST_F(Layouts, SceneFlowReadsFramesDirectlyBelowThePass) {
   write_scene_flow(folder_, "", "0000");
   EXPECT_EQ(names_of(detect(Layout::kFlyingThings)), std::vector<std::string>{"0000"});
   EXPECT_EQ(names_of(find_pairs(folder_ / "frames_cleanpass", Layout::kFlyingThings)),
@@ -234,9 +234,9 @@ TEST_F(Layouts, SceneFlowNamesFramesWithoutPartner) {
   EXPECT_THAT(set.problems[1].reason, ::testing::HasSubstr("one/left/0001.pfm: no such file"));
 }
 
-// --- nothing of that kind
+// --- folders without a layout
 
-TEST_F(Layouts, RefuseFoldersThatAreNone) {
+TEST_F(Layouts, RejectFoldersWithoutALayout) {
   write_file(folder_ / "file", "");
   EXPECT_INPUT_ERROR(detect_layout(folder_ / "none"), "none: no such folder");
   EXPECT_INPUT_ERROR(detect_layout(folder_ / "file"), "file: is not a folder");
@@ -246,7 +246,7 @@ TEST_F(Layouts, RefuseFoldersThatAreNone) {
   }
 }
 
-TEST_F(Layouts, FollowFolderLinksWithoutEnd) {
+TEST_F(Layouts, FollowFolderLinksWithoutLooping) {
   write_pair_folder(folder_ / "A", small_pair(), 30);
   std::filesystem::create_directory_symlink(folder_.path(), folder_ / "A/loop");
   EXPECT_EQ(detect(Layout::kMiddlebury).pairs.size(), 1U);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-TEST(Metrics, AreThoseComputedByHand) {
+TEST(Metrics, MatchValuesComputedByHand) {
   // errors: 0, 0.5, 1, 4, no estimate, no truth, 3 (of 100: under 5 %), 5 (of 100: 5 %)
   const cv::Mat truth = (cv::Mat_<float>(2, 4) << 10, 10, 10, 10, 10, kNan, 100, 100);
   const cv::Mat found = (cv::Mat_<float>(2, 4) << 10, 10.5F, 9, 14, kNan, 3, 103, 95);
@@ -29,11 +29,11 @@ TEST(Metrics, AreThoseComputedByHand) {
   EXPECT_DOUBLE_EQ(m.known_density, 100.0 * 6 / 7);
 }
 
-TEST(Metrics, CountBothBordersOfDAllAsOutliers) {
+TEST(Metrics, CountBothThresholdsOfDAllAsOutliers) {
   const auto d_all = [](float truth, float found) {
     return measure(cv::Mat_<float>(1, 1, found), cv::Mat_<float>(1, 1, truth)).d_all;
   };
-  EXPECT_EQ(d_all(60, 63), 100);      // 3 px and 5 %, both just so
+  EXPECT_EQ(d_all(60, 63), 100);      // exactly 3 px and 5 %
   EXPECT_EQ(d_all(60, 62.99F), 0);    // under 3 px
   EXPECT_EQ(d_all(60.1F, 63.1F), 0);  // 3 px, under 5 %
   EXPECT_EQ(d_all(20, 17), 100);      // 3 px, 15 %
@@ -41,7 +41,7 @@ TEST(Metrics, CountBothBordersOfDAllAsOutliers) {
   EXPECT_EQ(d_all(0, 3), 100);        // a truth of 0 has no 5 %
 }
 
-TEST(Metrics, AreNoneWithoutAPixelToCompare) {
+TEST(Metrics, AreNanWithoutComparedPixels) {
   const cv::Mat truth = (cv::Mat_<float>(1, 2) << 1, kNan);
   const cv::Mat found = (cv::Mat_<float>(1, 2) << kNan, 1);
   const Metrics m = measure(found, truth);
@@ -54,7 +54,7 @@ TEST(Metrics, AreNoneWithoutAPixelToCompare) {
   EXPECT_EQ(m.known_density, 0);
 }
 
-TEST(Metrics, TakeOnlyVisiblePixelsWhereAMaskIsGiven) {
+TEST(Metrics, CountOnlyVisiblePixelsWithAMask) {
   const cv::Mat truth = (cv::Mat_<float>(1, 4) << 10, 10, 10, 10);
   const cv::Mat found = (cv::Mat_<float>(1, 4) << 11, 12, 13, kNan);
   const cv::Mat mask = (cv::Mat_<std::uint8_t>(1, 4) << 255, 0, 255, 255);
@@ -64,7 +64,7 @@ TEST(Metrics, TakeOnlyVisiblePixelsWhereAMaskIsGiven) {
   EXPECT_DOUBLE_EQ(m.avgerr, 2);
 }
 
-TEST(Metrics, RefuseMapsOfDifferentSizes) {
+TEST(Metrics, RejectMapsOfDifferentSizes) {
   EXPECT_INPUT_ERROR(measure(cv::Mat_<float>(2, 3, 1.F), cv::Mat_<float>(2, 4, 1.F)), "4x2");
   EXPECT_INPUT_ERROR(
       measure(cv::Mat_<float>(2, 3, 1.F), cv::Mat_<float>(2, 3, 1.F), cv::Mat_<std::uint8_t>(1, 3)),
@@ -81,7 +81,7 @@ TEST(Evaluate, MeasuresDensityOverAllPixelsOfTheImage) {
   EXPECT_FALSE(e.noc.has_value());
 }
 
-TEST(Evaluate, GivesNonOccludedPixelsWhereTheTruthHasAMask) {
+TEST(Evaluate, HasNonOccludedFiguresIfTheTruthHasAMask) {
   GroundTruth truth;
   truth.disparity = (cv::Mat_<float>(1, 2) << 10, 10);
   truth.visible = (cv::Mat_<std::uint8_t>(1, 2) << 255, 0);
@@ -92,7 +92,7 @@ TEST(Evaluate, GivesNonOccludedPixelsWhereTheTruthHasAMask) {
 }
 
 TEST(Evaluate, ReadsTheLibrarysFixedPointWithItsStride) {
-  // One more value at the end of each row, which is not part of the map.
+  // Each row has one padding value, which is not part of the map.
   const std::vector<std::int32_t> values{256, 0, 99, 1, 640, 99};
   const DisparityView view{values.data(), 2, 2, 3 * sizeof(std::int32_t)};
   const cv::Mat map = to_float(view);
@@ -119,7 +119,7 @@ Evaluation evaluation_of(double avgerr, double density) {
   return e;
 }
 
-TEST(Mean, WeighsErrorsButNotDensities) {
+TEST(Mean, WeightsErrorsButNotDensities) {
   const Evaluation a = evaluation_of(1, 10), b = evaluation_of(4, 30);
   const Evaluation m = mean({{&a, 1}, {&b, 0.5}});
   EXPECT_DOUBLE_EQ(m.all.avgerr, (1 * 1 + 4 * 0.5) / 1.5);
@@ -130,21 +130,21 @@ TEST(Mean, WeighsErrorsButNotDensities) {
   EXPECT_EQ(m.all.compared, 10);
 }
 
-TEST(Mean, LeavesPairsWithoutComparisonOutOfTheError) {
+TEST(Mean, IgnoresPairsWithoutComparedPixelsInTheError) {
   const Evaluation a = evaluation_of(1, 10), b = evaluation_of(kNone, 0);
   const Evaluation m = mean({{&a, 1}, {&b, 1}});
   EXPECT_DOUBLE_EQ(m.all.avgerr, 1);
   EXPECT_DOUBLE_EQ(m.density, 5);
 }
 
-TEST(Mean, OfNothingIsNone) {
+TEST(Mean, OfNothingIsNan) {
   const Evaluation m = mean({});
   EXPECT_TRUE(std::isnan(m.all.avgerr));
   EXPECT_TRUE(std::isnan(m.density));
   EXPECT_FALSE(m.noc.has_value());
 }
 
-TEST(Mean, TakesNonOccludedPixelsFromThePairsThatHaveThem) {
+TEST(Mean, HasNonOccludedFiguresOfThePairsThatHaveThem) {
   const Evaluation a = evaluation_of(1, 10);
   Evaluation b = evaluation_of(4, 30);
   b.noc = b.all;

@@ -16,7 +16,7 @@ using testing::float_bytes;
 using testing::TempFolder;
 using testing::write_file;
 
-// Two columns, three rows; the file begins with the last row.
+// Two columns and three rows; the file starts with the last row.
 const std::vector<float> kStored{5, 6, 3, 4, 1, 2};
 
 void expect_counts_up(const cv::Mat& map) {
@@ -65,7 +65,7 @@ TEST_F(Pfm, ReadsHeaderWithSizeOnTwoLinesOrOne) {
   expect_counts_up(read("Pf 2 3\n-1.0\n" + float_bytes(kStored, false)));
 }
 
-TEST_F(Pfm, DoesNotApplyTheMagnitudeOfTheScale) {
+TEST_F(Pfm, IgnoresTheMagnitudeOfTheScale) {
   expect_counts_up(read("Pf\n2 3\n-0.003922\n" + float_bytes(kStored, false)));
 }
 
@@ -91,40 +91,40 @@ TEST_F(Pfm, ReadsWhatItWrote) {
   EXPECT_EQ(cv::countNonZero(again != map), 0);
 }
 
-TEST_F(Pfm, RefusesMissingFile) {
+TEST_F(Pfm, RejectsMissingFile) {
   EXPECT_INPUT_ERROR(read_pfm(folder_ / "none.pfm"), "none.pfm: no such file");
 }
 
-TEST_F(Pfm, RefusesFolder) { EXPECT_INPUT_ERROR(read_pfm(folder_.path()), "is not a file"); }
+TEST_F(Pfm, RejectsFolder) { EXPECT_INPUT_ERROR(read_pfm(folder_.path()), "is not a file"); }
 
-TEST_F(Pfm, RefusesTruncatedFileAndNamesBothSizes) {
+TEST_F(Pfm, RejectsTruncatedFileAndNamesBothSizes) {
   const std::string bytes = "Pf\n2 3\n-1.0\n" + float_bytes(kStored, false);
   EXPECT_INPUT_ERROR(read(bytes.substr(0, bytes.size() - 1)),
                      "map.pfm: ends too early: 2x3 values need 24 bytes, 23 are there");
 }
 
-TEST_F(Pfm, RefusesFileOfAnotherKind) {
+TEST_F(Pfm, RejectsFileOfAnotherType) {
   EXPECT_INPUT_ERROR(read("P5\n2 3\n255\nabcdef"), "is not a PFM file");
   EXPECT_INPUT_ERROR(read(""), "is not a PFM file");
   EXPECT_INPUT_ERROR(read("Pfx\n2 3\n-1\n" + float_bytes(kStored, false)), "the PFM header");
 }
 
-TEST_F(Pfm, RefusesThreeChannels) {
+TEST_F(Pfm, RejectsThreeChannels) {
   EXPECT_INPUT_ERROR(read("PF\n1 1\n-1.0\n" + float_bytes({1, 2, 3}, false)), "three channels");
 }
 
-TEST_F(Pfm, RefusesHeaderThatEnds) {
-  EXPECT_INPUT_ERROR(read("Pf\n2 3"), "header is not complete");
-  EXPECT_INPUT_ERROR(read("Pf\n" + std::string(10000, ' ')), "header is not complete");
+TEST_F(Pfm, RejectsIncompleteHeader) {
+  EXPECT_INPUT_ERROR(read("Pf\n2 3"), "header is incomplete");
+  EXPECT_INPUT_ERROR(read("Pf\n" + std::string(10000, ' ')), "header is incomplete");
 }
 
-TEST_F(Pfm, RefusesSizesThatAreNone) {
+TEST_F(Pfm, RejectsInvalidSizes) {
   for (const char* size : {"0 3", "-2 3", "2 x", "2.5 3", "2 99999999999", "20000 1"}) {
     EXPECT_INPUT_ERROR(read(std::string("Pf\n") + size + "\n-1.0\n"), "in the PFM header is '");
   }
 }
 
-TEST_F(Pfm, RefusesScaleThatIsNone) {
+TEST_F(Pfm, RejectsInvalidScale) {
   for (const char* scale : {"0", "abc", "nan", "-inf", "1.0x"}) {
     EXPECT_INPUT_ERROR(read(std::string("Pf\n2 3\n") + scale + "\n" + float_bytes(kStored, false)),
                        "the scale in the PFM header");

@@ -18,23 +18,23 @@ using testing::TempFolder;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 const cv::Vec3b kBlack(0, 0, 0);
 
-TEST(Pictures, DisparityIsBlackWhereThereIsNoneAndOnlyThere) {
+TEST(Pictures, DisparityIsBlackOnlyWhereThereIsNone) {
   const cv::Mat map = (cv::Mat_<float>(1, 4) << kNan, 0, 32, 64);
   const cv::Mat color = color_disparity(map, 64);
   EXPECT_EQ(color.at<cv::Vec3b>(0, 0), kBlack);
   for (int x = 1; x < 4; ++x) EXPECT_NE(color.at<cv::Vec3b>(0, x), kBlack) << "at " << x;
-  // Turbo goes from blue over green to red.
+  // Turbo runs from blue through green to red.
   EXPECT_GT(color.at<cv::Vec3b>(0, 3)[2], color.at<cv::Vec3b>(0, 3)[0]);
   EXPECT_GT(color.at<cv::Vec3b>(0, 1)[0], color.at<cv::Vec3b>(0, 3)[0]);
 }
 
-TEST(Pictures, DisparityHasTheSameColorInEveryPictureOfARange) {
+TEST(Pictures, DisparityColorDependsOnlyOnTheRange) {
   const cv::Mat one = color_disparity(cv::Mat((cv::Mat_<float>(1, 2) << 20, 64)), 64);
   const cv::Mat other = color_disparity(cv::Mat((cv::Mat_<float>(1, 2) << 20, 21)), 64);
   EXPECT_EQ(one.at<cv::Vec3b>(0, 0), other.at<cv::Vec3b>(0, 0));
 }
 
-TEST(Pictures, ErrorTellsNoTruthFromNoEstimate) {
+TEST(Pictures, ErrorDistinguishesNoTruthFromNoEstimate) {
   const cv::Mat truth = (cv::Mat_<float>(1, 4) << kNan, 10, 10, 10);
   const cv::Mat found = (cv::Mat_<float>(1, 4) << 10, kNan, 10, 90);
   const cv::Mat color = color_error(found, truth);
@@ -56,7 +56,7 @@ TEST(Pictures, OverviewShowsTheLeftImageInItsCorner) {
   EXPECT_EQ(picture.at<cv::Vec3b>(0, 9), picture.at<cv::Vec3b>(5, 0)) << "truth, estimate";
 }
 
-TEST(Pictures, AreWrittenIntoFoldersThatAreMade) {
+TEST(Pictures, AreWrittenIntoCreatedFolders) {
   const TempFolder folder;
   write_picture(folder / "a/b.c/0001.png", cv::Mat(2, 2, CV_8UC3, cv::Scalar(9, 8, 7)));
   const cv::Mat again = cv::imread((folder / "a/b.c/0001.png").string());
@@ -64,7 +64,7 @@ TEST(Pictures, AreWrittenIntoFoldersThatAreMade) {
   EXPECT_EQ(again.at<cv::Vec3b>(0, 0), cv::Vec3b(9, 8, 7));
 }
 
-TEST(Pictures, ThatCannotBeWrittenAreNamed) {
+TEST(Pictures, UnwritableOnesAreNamed) {
   const TempFolder folder;
   testing::write_file(folder / "file", "");
   EXPECT_INPUT_ERROR(write_picture(folder / "file/a.png", cv::Mat(2, 2, CV_8UC3)), "file");
@@ -79,7 +79,7 @@ TEST(DisparityFiles, PfmHasInfinityForNone) {
   EXPECT_EQ(again.at<float>(0, 1), 3.25F);
 }
 
-TEST(DisparityFiles, KittiRefusesWhatDoesNotFit) {
+TEST(DisparityFiles, KittiRejectsDisparitiesOutOfRange) {
   const TempFolder folder;
   EXPECT_INPUT_ERROR(
       write_disparity(folder / "a.png", cv::Mat_<float>(1, 1, 256.F), DisparityFormat::kKitti),

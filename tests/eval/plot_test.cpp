@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// plot.py as a process: the picture of the curves, and what it refuses. The growth plot is tested
-// with the benchmark, which makes it.
+// plot.py as a process: the picture of the curves, and invalid input. The tests of the benchmark
+// cover the growth plot.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ json report_of(const List& curves) {
             {"curves", curves}}}};
 }
 
-// Whether the color is found within 2 px of a density and a share of the height of an axis.
+// Whether the color occurs within 2 px of a density and a fraction of the height of an axis.
 bool has_color(const cv::Mat& picture, int panel, double density, double height,
                const cv::Scalar& color) {
   const cv::Rect area(panel == 0 ? 60 : 665, 120, 510, 375);
@@ -71,7 +71,7 @@ class Plot : public ::testing::Test {
   }
   std::string picture() const { return folder_ / "curve.png"; }
 
-  // The picture of a report that is expected to be good.
+  // The picture of a valid report.
   cv::Mat plotted(const json& report) const {
     const Outcome run = run_plot({"curve", file(report), picture()});
     EXPECT_EQ(run.status, 0) << run.err;
@@ -81,7 +81,7 @@ class Plot : public ::testing::Test {
     return result;
   }
 
-  void expect_refusal(const std::string& text, const std::string& words) const {
+  void expect_rejection(const std::string& text, const std::string& words) const {
     const Outcome run = run_plot({"curve", file_of(text), picture()});
     EXPECT_EQ(run.status, 2) << text;
     EXPECT_THAT(run.err,
@@ -93,7 +93,7 @@ class Plot : public ::testing::Test {
   testing::TempFolder folder_;
 };
 
-TEST_F(Plot, PutsPointsWhereTheAxesSay) {
+TEST_F(Plot, DrawsPointsAtTheirCoordinates) {
   // 1 px is the top of the left axis, and 1 % of the right one; the line at 0.5 is 1 px wide.
   const cv::Mat picture = plotted(report_of(
       {curve_of(0, {point(60, 1), point(20, 1)}), curve_of(1, {point(90, 0.5), point(10, 0.5)})}));
@@ -109,7 +109,7 @@ TEST_F(Plot, PutsPointsWhereTheAxesSay) {
   }
 }
 
-TEST_F(Plot, InterruptsALineWhereThereIsNoError) {
+TEST_F(Plot, InterruptsALineAtMissingErrors) {
   json gap = point(50, 1);
   gap["avgerr"] = nullptr;
   const cv::Mat picture = plotted(
@@ -117,7 +117,7 @@ TEST_F(Plot, InterruptsALineWhereThereIsNoError) {
   EXPECT_TRUE(has_color(picture, 0, 80, 1, kColors[0]));
   EXPECT_TRUE(has_color(picture, 0, 20, 1, kColors[0]));
   EXPECT_FALSE(has_color(picture, 0, 50, 1, kColors[0]));
-  EXPECT_TRUE(has_color(picture, 1, 50, 1, kColors[0])) << "D-all is there";
+  EXPECT_TRUE(has_color(picture, 1, 50, 1, kColors[0])) << "D-all is not missing";
 }
 
 TEST_F(Plot, DrawsDotsOnlyForFewPointsOfASweep) {
@@ -138,7 +138,7 @@ TEST_F(Plot, DrawsDotsOnlyForFewPointsOfASweep) {
   EXPECT_GT(pixels(few, true), 300) << "an envelope is a thick line";
 }
 
-TEST_F(Plot, GivesEachMethodItsColorAndALegend) {
+TEST_F(Plot, HasAColorAndALegendForEachMethod) {
   List curves;
   for (int i = 0; i < 5; ++i) curves.push_back(curve_of(i, {}));
   const cv::Mat picture = plotted(report_of(curves));
@@ -150,43 +150,43 @@ TEST_F(Plot, GivesEachMethodItsColorAndALegend) {
   }
 }
 
-TEST_F(Plot, ReadsTheReportFromStandardInputToo) {
+TEST_F(Plot, ReadsTheReportFromStandardInput) {
   // The tests start programs with an empty standard input.
   const Outcome run = run_plot({"curve", "-", picture()});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr("plot.py: standard input: is not JSON"));
 }
 
-TEST_F(Plot, RefusesWhatIsNoReport) {
-  for (const char* text : {"", "{", "[]", "7", "{\"curve\": "}) expect_refusal(text, "JSON");
-  expect_refusal("{}", "it has no curve");
+TEST_F(Plot, RejectsFilesThatAreNoReports) {
+  for (const char* text : {"", "{", "[]", "7", "{\"curve\": "}) expect_rejection(text, "JSON");
+  expect_rejection("{}", "it has no curve");
   for (const char* text : {"{\"curve\": 1}", "{\"curve\": {}}", "{\"curve\": {\"curves\": [1]}}"}) {
-    expect_refusal(text, "is not a curve plot");
+    expect_rejection(text, "is not a curve plot");
   }
-  expect_refusal(report_of({}).dump(), "the curve has no lines");
+  expect_rejection(report_of({}).dump(), "the curve has no lines");
 }
 
-TEST_F(Plot, RefusesReportsWithWrongOrMissingValues) {
+TEST_F(Plot, RejectsReportsWithWrongOrMissingValues) {
   const json good = report_of({curve_of(0, {point(60, 1), point(20, 1)})});
   for (const char* key : {"dataset", "mode", "pairs", "curves"}) {
     json report = good;
     report["curve"].erase(key);
-    expect_refusal(report.dump(), key);
+    expect_rejection(report.dump(), key);
   }
   for (const char* key : {"name", "method", "envelope", "points"}) {
     json report = good;
     report["curve"]["curves"][0].erase(key);
-    expect_refusal(report.dump(), key);
+    expect_rejection(report.dump(), key);
   }
   for (const json& value : {json("1"), json(true), json::array()}) {
     json report = good;
     report["curve"]["curves"][0]["points"][1]["avgerr"] = value;
-    expect_refusal(report.dump(), "is not a number");
+    expect_rejection(report.dump(), "is not a number");
   }
-  expect_refusal("{\"curve\": {\"curves\": [{\"name\": 3}]}}", "3 is not a text");
+  expect_rejection("{\"curve\": {\"curves\": [{\"name\": 3}]}}", "3 is not a text");
 }
 
-TEST_F(Plot, NamesFilesThatCannotBeReadOrWritten) {
+TEST_F(Plot, NamesUnreadableAndUnwritableFiles) {
   const Outcome unread = run_plot({"curve", folder_ / "none.json", picture()});
   EXPECT_EQ(unread.status, 2);
   EXPECT_THAT(unread.err, HasSubstr("none.json: cannot be read"));
@@ -196,7 +196,7 @@ TEST_F(Plot, NamesFilesThatCannotBeReadOrWritten) {
   EXPECT_THAT(unwritten.err, HasSubstr("none/c.png: cannot be written"));
 }
 
-TEST_F(Plot, RefusesAWrongCommand) {
+TEST_F(Plot, RejectsAnInvalidCommand) {
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{}, {"curve"}, {"curve", "a"}, {"pie", "a", "b"}}) {
     const Outcome run = run_plot(arguments);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// The program as a process: exit status, messages, files.
+// mtstereo-eval as a process: exit status, messages, files.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,11 +36,11 @@ class Program : public ::testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(Program, EvaluatesAllPairsAndEndsWith0) {
+TEST_F(Program, EvaluatesAllPairsAndExitsWith0) {
   const Outcome run =
       run_eval({set(), "--json", folder_ / "out/r.json", "--csv", folder_ / "r.csv"});
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(run.err, "") << "no progress bar where stderr is no terminal";
+  EXPECT_EQ(run.err, "") << "no progress bar if stderr is no terminal";
   EXPECT_THAT(run.out, HasSubstr("mean of 2"));
   const json report = json::parse(read_file(folder_ / "out/r.json"));
   EXPECT_EQ(report["dataset"], "middlebury");
@@ -52,7 +52,7 @@ TEST_F(Program, EvaluatesAllPairsAndEndsWith0) {
   EXPECT_THAT(read_file(folder_ / "r.csv"), HasSubstr("\nmean,mtstereo,all,"));
 }
 
-TEST_F(Program, NamesBrokenFilesRunsTheRestAndEndsWith1) {
+TEST_F(Program, NamesCorruptFilesRunsOtherPairsAndExitsWith1) {
   const std::string pfm = read_file(folder_ / "set/A/disp0GT.pfm");
   write_file(folder_ / "set/A/disp0GT.pfm", pfm.substr(0, pfm.size() - 100));
   write_pair_folder(folder_ / "set/C", make_pair(200, 100, 5), 16);
@@ -67,7 +67,7 @@ TEST_F(Program, NamesBrokenFilesRunsTheRestAndEndsWith1) {
   EXPECT_EQ(report["failures"].size(), 2U);
 }
 
-TEST_F(Program, EndsWith2WhereThereIsNothingToDo) {
+TEST_F(Program, ExitsWith2IfThereIsNothingToDo) {
   EXPECT_EQ(run_eval({folder_ / "none"}).status, 2);
   EXPECT_THAT(run_eval({folder_ / "none"}).err, HasSubstr("none: no such folder"));
   std::filesystem::create_directory(folder_ / "empty");
@@ -78,7 +78,7 @@ TEST_F(Program, EndsWith2WhereThereIsNothingToDo) {
   EXPECT_THAT(run.err, HasSubstr("nothing-like-this"));
 }
 
-TEST_F(Program, EndsWith2AndNamesTheOptionWhereTheCommandIsWrong) {
+TEST_F(Program, ExitsWith2AndNamesTheInvalidOption) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
       {{}, "FOLDER"},
       {{set(), "--no-such-option"}, "--no-such-option"},
@@ -97,7 +97,7 @@ TEST_F(Program, EndsWith2AndNamesTheOptionWhereTheCommandIsWrong) {
   }
 }
 
-TEST_F(Program, NamesValueAndRangeOfAWrongParameter) {
+TEST_F(Program, NamesValueAndRangeOfAnInvalidParameter) {
   const Outcome run = run_eval({set(), "--max-disparity", "99999"});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr("max-disparity"));
@@ -111,7 +111,7 @@ TEST_F(Program, HasAnOptionForEveryParameter) {
   EXPECT_EQ(help.status, 0);
   for (const ParameterInfo& info : parameter_table()) {
     EXPECT_THAT(help.out, HasSubstr(std::string("--") + info.name + " "));
-    // Each is passed on: its default is taken and shows in the report.
+    // Each is passed to the matcher: its default is accepted and is in the report.
     const std::string value = parameter_default(info.id, Preset::kDefault, Mode::kSparse);
     const Outcome run = run_eval({set(), "--only", "B", "--mode", "sparse", "--json",
                                   folder_ / "r.json", std::string("--") + info.name, value});
@@ -121,13 +121,13 @@ TEST_F(Program, HasAnOptionForEveryParameter) {
   }
 }
 
-TEST_F(Program, TellsItsVersion) {
+TEST_F(Program, PrintsItsVersion) {
   const Outcome run = run_eval({"--version"});
   EXPECT_EQ(run.status, 0);
   EXPECT_THAT(run.out, HasSubstr("."));
 }
 
-TEST_F(Program, SearchesWhatIsAskedForWithinTheWidth) {
+TEST_F(Program, LimitsTheRequestedRangeToTheWidth) {
   const Outcome run = run_eval({set(), "--only", "B", "--max-disparity", "1000"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("B: the search range is 200 px, not 1000 px"));
@@ -160,7 +160,7 @@ TEST_F(Program, WritesDisparityMapsAndPictures) {
   EXPECT_GT(cv::countNonZero(map), 240 * 120 / 20);
 }
 
-TEST_F(Program, RefusesAFileThatCannotBeWrittenBeforeTheWork) {
+TEST_F(Program, RejectsAnUnwritableFileBeforeTheEvaluation) {
   write_file(folder_ / "file", "");
   const Outcome run = run_eval({set(), "--json", folder_ / "file/r.json"});
   EXPECT_EQ(run.status, 2);
@@ -171,7 +171,7 @@ TEST_F(Program, RefusesAFileThatCannotBeWrittenBeforeTheWork) {
 TEST_F(Program, NeverOverwritesAnInput) {
   const std::string before = read_file(folder_ / "set/A/disp0GT.pfm");
   for (const char* option : {"--json", "--csv"}) {
-    // Also one of a pair that is not asked for.
+    // The file may belong to a pair that is not requested.
     const Outcome run = run_eval({set(), "--only", "B", option, folder_ / "set/A/disp0GT.pfm"});
     EXPECT_EQ(run.status, 2) << option;
     EXPECT_THAT(run.err, HasSubstr("belongs to the data set")) << option;
@@ -187,13 +187,13 @@ TEST_F(Program, ListsWithoutRunning) {
   EXPECT_THAT(run.out, Not(HasSubstr("mean")));
 }
 
-TEST_F(Program, TakesNoMorePairsThanTheLimit) {
+TEST_F(Program, RunsAtMostTheLimitOfPairs) {
   const Outcome run = run_eval({set(), "--limit", "1", "--list"});
   EXPECT_THAT(run.out, HasSubstr("1 pairs of middlebury"));
 }
 
-TEST_F(Program, KeepsGoodFiguresWhereTheWholeMapHasNoEstimate) {
-  // Two flat images: no leaf ends anywhere, so nothing can be matched.
+TEST_F(Program, KeepsTheMeanIfOneMapHasNoEstimate) {
+  // Two flat images have no nodes that end inside the image, so nothing can be matched.
   testing::TestPair flat = make_pair(240, 120, 9);
   flat.left.setTo(80);
   flat.right.setTo(80);

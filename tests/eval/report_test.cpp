@@ -32,7 +32,7 @@ MethodResult result_of(const std::string& method, double avgerr, double seconds)
   return result;
 }
 
-// Two pairs, the second with a mask and without an estimate by the rival.
+// Two pairs; the second has a mask and no result of the rival.
 Report small_report() {
   Report report;
   report.dataset = "middlebury";
@@ -56,7 +56,7 @@ Report small_report() {
   return report;
 }
 
-// The fields of a line of RFC 4180.
+// The fields of a CSV line (RFC 4180).
 std::vector<std::string> split_csv(const std::string& line) {
   std::vector<std::string> fields(1);
   bool quoted = false;
@@ -85,7 +85,7 @@ TEST(Summary, IsWeightedAndComparesTimesOfTheSamePairs) {
   EXPECT_DOUBLE_EQ(means[1].time_ratio, 0.5);
 }
 
-TEST(Summary, LeavesPairsThatTheLibraryCouldNotDoOutOfTheRatio) {
+TEST(Summary, ComputesTheRatioOnlyOverPairsOfBoth) {
   Report report = small_report();
   PairReport rival_only = report.pairs[0];
   rival_only.results = {result_of("bm", 3, 100)};
@@ -114,7 +114,7 @@ TEST(Json, ParsesBackToTheFigures) {
   EXPECT_EQ(parsed["failures"][0]["reason"], "C/im0.png: no such file");
 }
 
-TEST(Json, HasNullForWhatCouldNotBeMeasured) {
+TEST(Json, HasNullForMissingFigures) {
   Report report = small_report();
   report.pairs[0].results[0].evaluation.all.avgerr = kNone;
   const json parsed = json::parse(to_json(report).dump());
@@ -136,7 +136,7 @@ TEST(Csv, ParsesBackToTheFigures) {
     rows.push_back(split_csv(line));
     EXPECT_EQ(rows.back().size(), header.size()) << line;
   }
-  // A by two methods, B in two regions, the mean of both methods, one of them in two regions.
+  // A with two methods, B with two regions, the mean of both methods, one of them with two regions.
   ASSERT_EQ(rows.size(), 7U);
   EXPECT_EQ(rows[0][column("pair")], "A, \"the first\"");
   EXPECT_EQ(std::stod(rows[0][column("avgerr")]), 1);
@@ -155,7 +155,7 @@ TEST(Table, ShowsPairsMeansRegionsAndRatio) {
   print_table(out, small_report());
   EXPECT_THAT(out.str(), HasSubstr("middlebury in some/folder, mode sparse"));
   EXPECT_THAT(out.str(), HasSubstr("mean of 2"));
-  EXPECT_THAT(out.str(), HasSubstr("both views see"));
+  EXPECT_THAT(out.str(), HasSubstr("visible in both views"));
   EXPECT_THAT(out.str(), HasSubstr("bm: OpenCV, block 15; takes 0.50 times as long as mtstereo"));
   EXPECT_THAT(out.str(), Not(HasSubstr("nan")));
 }
@@ -163,13 +163,13 @@ TEST(Table, ShowsPairsMeansRegionsAndRatio) {
 TEST(Table, ShowsOnlyPairsWithAMaskInTheSecondPart) {
   std::ostringstream out;
   print_table(out, small_report());
-  const std::string second = out.str().substr(out.str().find("both views see"));
+  const std::string second = out.str().substr(out.str().find("visible in both views"));
   EXPECT_THAT(second, Not(HasSubstr("the first")));
   EXPECT_THAT(second, HasSubstr("B     "));
   EXPECT_THAT(second, HasSubstr("2.000"));
 }
 
-TEST(Table, ShowsADashForWhatCouldNotBeMeasured) {
+TEST(Table, ShowsADashForMissingFigures) {
   Report report = small_report();
   for (PairReport& pair : report.pairs) pair.results.resize(1);
   report.pairs[0].results[0].evaluation.all = Metrics{};
@@ -179,7 +179,7 @@ TEST(Table, ShowsADashForWhatCouldNotBeMeasured) {
   EXPECT_THAT(out.str(), Not(HasSubstr("nan")));
 }
 
-TEST(Table, SaysSoWhenNothingCouldBeEvaluated) {
+TEST(Table, ReportsThatNothingCouldBeEvaluated) {
   Report report = small_report();
   report.pairs.clear();
   std::ostringstream out;

@@ -29,7 +29,7 @@ int known_pixels(const cv::Mat& map) {
                                         [](float value) { return !std::isnan(value); }));
 }
 
-// Steps of 1/16 px with gaps; neighbors are often close, so that there are components.
+// Steps of 1/16 px with gaps; neighbors are often similar, so that there are components.
 cv::Mat random_map(cv::RNG& random, int width, int height) {
   cv::Mat map(height, width, CV_32FC1);
   const int levels = random.uniform(1, 80);
@@ -41,7 +41,7 @@ cv::Mat random_map(cv::RNG& random, int width, int height) {
   return map;
 }
 
-// The plain version: walks over the component of a pixel.
+// The scalar reference: a flood fill from each pixel.
 cv::Mat flood_fill_speckles(const cv::Mat& map, const FilterSettings& settings) {
   cv::Mat result = map.clone();
   cv::Mat seen = cv::Mat::zeros(map.size(), CV_8UC1);
@@ -65,7 +65,7 @@ cv::Mat flood_fill_speckles(const cv::Mat& map, const FilterSettings& settings) 
   return result;
 }
 
-// The plain version: looks at the window of each pixel.
+// The scalar reference: counts in the window of each pixel.
 int brute_force_confidence(const cv::Mat& map, cv::Point at, const FilterSettings& settings) {
   if (std::isnan(map.at<float>(at))) return 0;
   const int radius = settings.support_radius;
@@ -88,7 +88,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
                     [](float u, float v) { return u == v || (std::isnan(u) && std::isnan(v)); });
 }
 
-TEST(RemoveSpeckles, KeepsComponentsFromTheSizeOn) {
+TEST(RemoveSpeckles, KeepsComponentsOfAtLeastTheSize) {
   cv::Mat map = unknown(60, 40);
   map(cv::Rect(1, 1, 20, 10)).setTo(7);   // 200
   map(cv::Rect(30, 1, 20, 10)).setTo(9);  // 199
@@ -99,14 +99,14 @@ TEST(RemoveSpeckles, KeepsComponentsFromTheSizeOn) {
   EXPECT_TRUE(std::isnan(result.at<float>(5, 40)));
 }
 
-TEST(RemoveSpeckles, LeavesItsInputAlone) {
+TEST(RemoveSpeckles, DoesNotChangeItsInput) {
   cv::Mat map = unknown(10, 10);
   map.at<float>(5, 5) = 3;
   EXPECT_EQ(known_pixels(remove_speckles(map, size_of(200))), 0);
   EXPECT_EQ(known_pixels(map), 1);
 }
 
-TEST(RemoveSpeckles, ConnectsWhatDiffersByTheToleranceAtMost) {
+TEST(RemoveSpeckles, ConnectsDisparitiesWithinTheTolerance) {
   const FilterSettings settings = size_of(4);
   for (const float step : {1.0F, 1.0625F}) {
     const cv::Mat map = (cv::Mat_<float>(1, 4) << 5, 5 + step, 5 + 2 * step, 5 + 3 * step);
@@ -128,7 +128,7 @@ TEST(RemoveSpeckles, RemovesNothingAtSizesUpTo1) {
   }
 }
 
-TEST(RemoveSpeckles, IsTheFloodFill) {
+TEST(RemoveSpeckles, MatchesAFloodFill) {
   cv::RNG random(3);
   for (int i = 0; i < 200; ++i) {
     const cv::Mat map = random_map(random, random.uniform(1, 40), random.uniform(1, 30));
@@ -138,22 +138,22 @@ TEST(RemoveSpeckles, IsTheFloodFill) {
   }
 }
 
-TEST(SupportConfidence, IsFullOnAPlaneAndWithinTheImage) {
+TEST(SupportConfidence, IsFullOnAPlaneUpToTheImageBorder) {
   const cv::Mat map(12, 15, CV_32FC1, cv::Scalar(7));
   EXPECT_EQ(cv::countNonZero(support_confidence(map, {}) != 255), 0) << "corners too";
 }
 
-TEST(SupportConfidence, IsTheShareOfTheWindow) {
+TEST(SupportConfidence, IsTheFractionOfTheWindow) {
   cv::Mat map = unknown(21, 21);
-  map.at<float>(10, 10) = 7;  // alone among 81
-  map.at<float>(0, 0) = 7;    // alone among the 25 within the image
+  map.at<float>(10, 10) = 7;  // the only one of 81
+  map.at<float>(0, 0) = 7;    // the only one of the 25 inside the image
   const cv::Mat confidence = support_confidence(map, {});
   EXPECT_EQ(confidence.at<std::uint8_t>(10, 10), 3);
   EXPECT_EQ(confidence.at<std::uint8_t>(0, 0), 10);
   EXPECT_EQ(cv::countNonZero(confidence), 2);
 }
 
-TEST(SupportConfidence, AllowsMoreDifferenceFurtherAway) {
+TEST(SupportConfidence, AllowsLargerDifferencesAtLargerDistances) {
   FilterSettings settings;
   settings.support_radius = 2;
   const auto agree = [&](int distance, float difference) {
@@ -168,7 +168,7 @@ TEST(SupportConfidence, AllowsMoreDifferenceFurtherAway) {
   EXPECT_FALSE(agree(2, -1.875F));
 }
 
-TEST(SupportConfidence, IsThatOfEveryWindow) {
+TEST(SupportConfidence, MatchesTheReferenceForEveryWindow) {
   cv::RNG random(4);
   for (int i = 0; i < 100; ++i) {
     const cv::Mat map = random_map(random, random.uniform(1, 30), random.uniform(1, 30));
@@ -186,7 +186,7 @@ TEST(SupportConfidence, IsThatOfEveryWindow) {
   }
 }
 
-TEST(SupportConfidence, IsAtLeast1WhereThereIsADisparity) {
+TEST(SupportConfidence, IsAtLeast1ForEveryDisparity) {
   FilterSettings settings;
   settings.support_radius = 20;
   cv::Mat map = unknown(41, 41);
@@ -201,7 +201,7 @@ TEST(FilterSettings, AreThoseOfTheLibrary) {
   EXPECT_EQ(filter_settings(parameters).speckle_size, 77);
 }
 
-TEST(FilterSettings, AreToldInFull) {
+TEST(FilterSettings, AreReportedCompletely) {
   const std::string text = text_of(size_of(12345));
   for (const char* part : {"12345 px", "1 px", "9x9", "0.41 px"}) {
     EXPECT_THAT(text, ::testing::HasSubstr(part));

@@ -28,7 +28,7 @@ FilterSettings filters(int speckle_size) {
   return settings;
 }
 
-TEST(RivalSweep, HasTheMatcherAsItIsAndWhatTheFiltersLeave) {
+TEST(RivalSweep, HasTheUnfilteredAndTheFilteredMaps) {
   const LoadedPair images = test_images();
   const Sweep sweep = sweep_rival(Rival::kSgbm3Way, 32, images, filters(20));
   ASSERT_EQ(sweep.ratios.size(), kUniquenessRatios.size());
@@ -54,7 +54,7 @@ TEST(RivalSweep, GetsSparserWithEveryThreshold) {
 }
 
 TEST(RivalSweep, GetsSparserWithTheUniquenessRatio) {
-  // Noise makes the second best cost come close to the best.
+  // Noise reduces the difference between the best and the second-best cost.
   LoadedPair images = test_images();
   cv::Mat noise(images.right.size(), CV_8UC1);
   cv::RNG random(5);
@@ -74,13 +74,13 @@ TEST(RivalSweep, RemovesComponentsBelowTheSize) {
   EXPECT_EQ(none.at(0, 1).density, 0);
 }
 
-TEST(RivalSweep, PassesOnWhatOpenCvRefuses) {
+TEST(RivalSweep, ReportsThatOpenCvRejectsTheImages) {
   LoadedPair images = test_images();
   images.right = images.right.colRange(0, 200);
-  EXPECT_INPUT_ERROR(sweep_rival(Rival::kSgbm, 32, images, filters(20)), "OpenCV refuses");
+  EXPECT_INPUT_ERROR(sweep_rival(Rival::kSgbm, 32, images, filters(20)), "OpenCV rejects");
 }
 
-TEST(RivalSweep, IsToldWithItsRatios) {
+TEST(RivalSweep, ReportsItsRatios) {
   const std::string text = rival_settings(Rival::kSgbm, uniqueness_ratios_text());
   EXPECT_THAT(text, HasSubstr("uniquenessRatio 0 5 10 "));
   EXPECT_THAT(text, HasSubstr("90 95,"));
@@ -99,7 +99,7 @@ class RunningWithACurve : public ::testing::Test {
   RunSettings settings_;
 };
 
-TEST_F(RunningWithACurve, BeginsWithTheResultItself) {
+TEST_F(RunningWithACurve, StartsWithTheUnthresholdedResult) {
   settings_.curve = true;
   const PairReport report = Runner(settings_).run(pairs_[0]);
   ASSERT_TRUE(report.failures.empty()) << report.failures[0];
@@ -114,7 +114,7 @@ TEST_F(RunningWithACurve, BeginsWithTheResultItself) {
   EXPECT_LT(report.sweeps[0].sweep.points.at(254).density, own.density);
 }
 
-TEST_F(RunningWithACurve, IsNotRunUnlessAskedFor) {
+TEST_F(RunningWithACurve, IsNotRunByDefault) {
   const PairReport report = Runner(settings_).run(pairs_[0]);
   EXPECT_EQ(report.results.size(), 2U);
   EXPECT_TRUE(report.sweeps.empty());

@@ -26,7 +26,7 @@ StereoPair pair_with_range(std::optional<int> range) {
   return pair;
 }
 
-TEST(SearchRange, IsTheDataSetsUnlessAskedFor) {
+TEST(SearchRange, IsThatOfTheDataSetByDefault) {
   Parameters parameters;
   std::vector<std::string> notes;
   EXPECT_EQ(search_range(pair_with_range(30), parameters, 200, notes), 30);
@@ -36,29 +36,29 @@ TEST(SearchRange, IsTheDataSetsUnlessAskedFor) {
   EXPECT_TRUE(notes.empty());
 }
 
-TEST(SearchRange, EndsAtTheImagesWidthAndSaysSo) {
+TEST(SearchRange, IsLimitedToTheImageWidthWithANote) {
   std::vector<std::string> notes;
   EXPECT_EQ(search_range(pair_with_range(300), Parameters(), 200, notes), 200);
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_THAT(notes[0], ::testing::AllOf(::testing::HasSubstr("200"), ::testing::HasSubstr("300")));
 }
 
-TEST(SearchRange, EndsAtWhatTheLibraryTakesAndSaysSo) {
+TEST(SearchRange, IsLimitedToTheRangeOfTheLibraryWithANote) {
   std::vector<std::string> notes;
   EXPECT_EQ(search_range(pair_with_range(5000), Parameters(), 9000, notes), kLargestMaxDisparity);
   EXPECT_EQ(notes.size(), 1U);
 }
 
-TEST(SearchRange, NobodyTellsIsAnErrorThatSaysWhatToDo) {
+TEST(SearchRange, ThatIsUnknownIsAnErrorWithASolution) {
   std::vector<std::string> notes;
   EXPECT_INPUT_ERROR(search_range(pair_with_range(std::nullopt), Parameters(), 200, notes),
                      "--max-disparity");
 }
 
-TEST(MedianSeconds, LeavesTheWarmUpOutAndTakesTheMiddle) {
+TEST(MedianSeconds, IgnoresTheWarmUp) {
   using namespace std::chrono_literals;
   int frames = 0;
-  // Slow: the two frames to warm up, and one of the three that are timed.
+  // The two warm-up frames and one of the three timed frames are slow.
   const double seconds = median_seconds(2, 3, [&] {
     ++frames;
     if (frames <= 3) std::this_thread::sleep_for(200ms);
@@ -67,7 +67,7 @@ TEST(MedianSeconds, LeavesTheWarmUpOutAndTakesTheMiddle) {
   EXPECT_LT(seconds, 0.15);
 }
 
-TEST(MedianSeconds, IsTheTimeOfAFrame) {
+TEST(MedianSeconds, IsTheTimeOfOneFrame) {
   using namespace std::chrono_literals;
   EXPECT_GE(median_seconds(0, 2, [] { std::this_thread::sleep_for(20ms); }), 0.02);
 }
@@ -97,7 +97,7 @@ TEST_F(Running, FindsTheShiftOfARenderedPair) {
   EXPECT_NEAR(own.seconds_per_megapixel, own.seconds * 1e6 / (240 * 120), 1e-9);
 }
 
-TEST_F(Running, FindsTheShiftByTheRivals) {
+TEST_F(Running, FindsTheShiftWithTheRivals) {
   RunSettings settings;
   settings.rivals = {Rival::kSgbm, Rival::kSgbm3Way, Rival::kSgbmHh, Rival::kBm};
   Runner runner(settings);
@@ -110,7 +110,7 @@ TEST_F(Running, FindsTheShiftByTheRivals) {
   }
 }
 
-TEST_F(Running, TakesPairsOfDifferentSizesOneAfterTheOther) {
+TEST_F(Running, RunsPairsOfDifferentSizesInTurn) {
   Runner runner({});
   for (const StereoPair& pair : {pairs_[0], pairs_[1], pairs_[0]}) {
     const PairReport report = runner.run(pair);
@@ -119,7 +119,7 @@ TEST_F(Running, TakesPairsOfDifferentSizesOneAfterTheOther) {
   }
 }
 
-TEST_F(Running, ReportsABrokenPairAndGoesOn) {
+TEST_F(Running, ReportsACorruptPairAndContinues) {
   Runner runner({});
   testing::write_file(folder_ / "A/im1.png", "broken");
   const PairReport broken = runner.run(pairs_[0]);
@@ -138,7 +138,7 @@ TEST_F(Running, ReportsParametersThatDoNotFitTheImages) {
   const PairReport report = runner.run(pairs_[0]);
   ASSERT_EQ(report.failures.size(), 1U);
   EXPECT_THAT(report.failures[0], ::testing::HasSubstr("min-node-width"));
-  EXPECT_EQ(report.results.size(), 1U) << "the rival does not mind";
+  EXPECT_EQ(report.results.size(), 1U) << "the rival accepts the images";
 }
 
 TEST_F(Running, WritesMapsAndPicturesOfEveryMethod) {
@@ -160,10 +160,10 @@ TEST(Rivals, SearchAMultipleOf16) {
   EXPECT_EQ(rival_disparities(70), 80);
 }
 
-TEST(Rivals, RefuseImagesOfDifferentSizes) {
+TEST(Rivals, RejectImagesOfDifferentSizes) {
   RivalMatcher matcher(Rival::kBm, 16);
   EXPECT_INPUT_ERROR(matcher.compute(cv::Mat::zeros(60, 80, CV_8U), cv::Mat::zeros(60, 81, CV_8U)),
-                     "OpenCV refuses");
+                     "OpenCV rejects");
 }
 
 TEST(Rivals, AreFoundByTheirNames) {

@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 
 TempFolder::TempFolder() {
   std::string name = (fs::temp_directory_path() / "mtstereo-eval-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+  if (mkdtemp(name.data()) == nullptr)
+    throw std::runtime_error("cannot create the temporary folder " + name);
   path_ = name;
 }
 
@@ -96,7 +97,7 @@ void write_kitti_truth(const fs::path& file, const cv::Mat& truth) {
 
 namespace {
 
-// Pointers to the texts, ended by a null pointer.
+// Pointers to the texts and a final null pointer.
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
   for (std::string& text : texts) pointers.push_back(text.data());

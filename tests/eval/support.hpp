@@ -8,7 +8,7 @@
 
 namespace mtstereo::eval::testing {
 
-/// A folder of its own for a test, removed with all that is in it when the test ends.
+/// A temporary folder, removed with its contents by the destructor.
 class TempFolder {
  public:
   TempFolder();
@@ -23,29 +23,29 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-/// Writes text or bytes, making the folders above.
+/// Writes text or bytes and creates the folders of the path.
 void write_file(const std::filesystem::path& file, const std::string& bytes);
 std::string read_file(const std::filesystem::path& file);
 
-/// Writes an image in the format of its extension, making the folders above.
+/// Writes an image in the format of its extension and creates the folders of the path.
 void write_image(const std::filesystem::path& file, const cv::Mat& image);
 
-/// The values as the bytes of 32-bit floats, one after the other.
+/// The values as the bytes of consecutive 32-bit floats.
 std::string float_bytes(const std::vector<float>& values, bool big_endian);
 
-/// A rendered pair: a texture of random patches, shifted by a constant disparity.
+/// A synthetic pair: a texture of random patches, shifted by a constant disparity.
 struct TestPair {
   cv::Mat left;   ///< CV_8UC1
   cv::Mat right;  ///< CV_8UC1
-  cv::Mat truth;  ///< CV_32FC1 [px], infinity where the right image does not show the point
+  cv::Mat truth;  ///< CV_32FC1 [px], infinity where the point is outside the right image
 };
 TestPair make_pair(int width, int height, int disparity);
 
-/// Writes a pair as a Middlebury folder with im0.png, im1.png, disp0GT.pfm and, unless `ndisp` is
+/// Writes a pair as a Middlebury folder with im0.png, im1.png, disp0GT.pfm and, if `ndisp` is not
 /// 0, calib.txt.
 void write_pair_folder(const std::filesystem::path& folder, const TestPair& pair, int ndisp);
 
-/// CV_32FC1 truth as KITTI's 16-bit PNG; what is not finite becomes 0.
+/// Writes CV_32FC1 ground truth as KITTI's 16-bit PNG; values that are not finite become 0.
 void write_kitti_truth(const std::filesystem::path& file, const cv::Mat& truth);
 
 /// The result of a program that ended.
@@ -66,8 +66,8 @@ Outcome run_eval(const std::vector<std::string>& arguments,
 Outcome run_plot(const std::vector<std::string>& arguments,
                  const std::vector<std::string>& environment = {});
 
-/// The environment variable that hides matplotlib from Python. Makes a module in this folder that
-/// fails like a missing one.
+/// The environment variable that hides matplotlib from Python. Writes a module to this folder whose
+/// import fails like that of a missing one.
 std::string without_matplotlib(const std::filesystem::path& folder);
 
 }  // namespace mtstereo::eval::testing

@@ -48,7 +48,7 @@ TEST_F(TrimBot, SyntheticGardenPairsTheFramesOfTheTwoCameras) {
   rendered_frame("clear_0288", "00001");
   rendered_frame("clear_0288", "00012");
   rendered_frame("sunset_0288", "00001");
-  // What lies beside the images in the data set is no image of the pair.
+  // Other pictures beside the images in the data set do not belong to the pair.
   image("clear_0288/vcam_0/vcam_0_f00001_over.png");
   image("clear_0288/vcam_0/vcam_0_f00001_dmap.png");
   image("clear_0288/vcam_0/vcam_0_f00001_gtr.png");
@@ -61,7 +61,7 @@ TEST_F(TrimBot, SyntheticGardenPairsTheFramesOfTheTwoCameras) {
   EXPECT_EQ(set.pairs[1].max_disparity, 100);
 }
 
-TEST_F(TrimBot, SyntheticGardenTakesOtherNamesWithTheSameFrameNumber) {
+TEST_F(TrimBot, SyntheticGardenAcceptsOtherNamesWithTheSameFrameNumber) {
   image("vcam_0/vcam_0_f00007_left.png");
   image("vcam_1/7.png");
   dmap("vcam_0/f0007_dmap.bin");
@@ -90,7 +90,7 @@ TEST_F(TrimBot, DmapWithCamerasIsDepth) {
   EXPECT_EQ(load_pair(pair, DmapMeaning::kDisparity).truth.disparity.at<float>(0, 1), 5);
 }
 
-TEST_F(TrimBot, BrokenCameraIsNamed) {
+TEST_F(TrimBot, CorruptCameraFileIsNamed) {
   rendered_frame("a", "00001");
   cameras("a", "00001");
   write_file(folder_ / "a/vcam_1/vcam_1_f00001_cam.txt", "100 100");
@@ -98,7 +98,7 @@ TEST_F(TrimBot, BrokenCameraIsNamed) {
   EXPECT_INPUT_ERROR(load_pair(pair), "vcam_1_f00001_cam.txt");
 }
 
-TEST_F(TrimBot, TakesAllCameraPairsOfTheRigAndNoOtherNeighbors) {
+TEST_F(TrimBot, FindsAllCameraPairsOfTheRigAndNoOthers) {
   for (const char* camera : {"0", "1", "2", "3", "8", "9"}) {
     const std::string name = std::string("vcam_") + camera + "/vcam_" + camera + "_f1";
     image(name + "_undist.png");
@@ -106,12 +106,12 @@ TEST_F(TrimBot, TakesAllCameraPairsOfTheRigAndNoOtherNeighbors) {
   }
   const DataSet set = detect(Layout::kTrimbotSynthetic);
   EXPECT_TRUE(set.problems.empty());
-  ASSERT_EQ(set.pairs.size(), 3U) << "1 and 2 look apart";
+  ASSERT_EQ(set.pairs.size(), 3U) << "1 and 2 are no pair";
   EXPECT_EQ(set.pairs[1].left, folder_ / "vcam_2/vcam_2_f1_undist.png");
   EXPECT_EQ(set.pairs[1].right, folder_ / "vcam_3/vcam_3_f1_undist.png");
 }
 
-TEST_F(TrimBot, RealGardenTakesLeftRightAndATruthFolder) {
+TEST_F(TrimBot, RealGardenReadsLeftRightAndATruthFolder) {
   image("TEST/left/9.jpg");
   image("TEST/right/9.jpg");
   write_image(folder_ / "TEST/ground_truth_disparity/9.png",
@@ -127,7 +127,7 @@ TEST_F(TrimBot, RealGardenTakesLeftRightAndATruthFolder) {
   EXPECT_EQ(load_pair(set.pairs[1]).truth.disparity.at<float>(0, 0), 12);
 }
 
-TEST_F(TrimBot, RealGardenTakesCameraFoldersWithPfmBesideTheImages) {
+TEST_F(TrimBot, RealGardenReadsCameraFoldersWithPfmBesideTheImages) {
   image("uvc_camera_cam_0/uvc_camera_cam_0_f00140_undist.png");
   image("uvc_camera_cam_1/uvc_camera_cam_1_f00140_undist.png");
   write_file(folder_ / "uvc_camera_cam_0/uvc_camera_cam_0_f00140.pfm",
@@ -137,7 +137,7 @@ TEST_F(TrimBot, RealGardenTakesCameraFoldersWithPfmBesideTheImages) {
   EXPECT_EQ(load_pair(set.pairs[0]).truth.disparity.at<float>(2, 2), 3);
 }
 
-TEST_F(TrimBot, NamesFramesThatAreNotComplete) {
+TEST_F(TrimBot, NamesIncompleteFrames) {
   rendered_frame("a", "00001");
   rendered_frame("a", "00002");
   rendered_frame("a", "00003");

@@ -46,7 +46,7 @@ std::string error_of(Call call) {
   return "";
 }
 
-TEST(ClipWriter, WritesWhatWasRendered) {
+TEST(ClipWriter, WritesTheRenderedFrames) {
   TemporaryFolder folder;
   const Rendered r;
   ClipWriter writer(folder / "clip", Layout::kClip, false);
@@ -97,7 +97,7 @@ TEST(ClipWriter, CalibrationCoversEveryDisparity) {
   }
 }
 
-TEST(ClipWriter, MiddleburyLayoutHasAFolderAFrame) {
+TEST(ClipWriter, MiddleburyLayoutHasOneFolderPerFrame) {
   TemporaryFolder folder;
   const Rendered r;
   ClipWriter writer(folder / "set", Layout::kMiddlebury, false);
@@ -113,7 +113,7 @@ TEST(ClipWriter, MiddleburyLayoutHasAFolderAFrame) {
   EXPECT_FALSE(fs::exists(folder / "set/calib.txt"));
 }
 
-TEST(ClipWriter, RefusesAFolderThatHoldsSomething) {
+TEST(ClipWriter, RejectsAFolderThatIsNotEmpty) {
   TemporaryFolder folder;
   write_text(folder / "diary.txt", "dear diary");
   const std::string error = error_of([&] { ClipWriter(folder.path(), Layout::kClip, false); });
@@ -121,26 +121,26 @@ TEST(ClipWriter, RefusesAFolderThatHoldsSomething) {
   EXPECT_NE(error.find("not empty"), std::string::npos) << error;
 }
 
-TEST(ClipWriter, OverwriteRemovesTheClipAndNothingElse) {
+TEST(ClipWriter, OverwriteRemovesOnlyTheClip) {
   TemporaryFolder folder;
   const Rendered r;
   ClipWriter(folder.path(), Layout::kClip, false).write(5, r.frame, r.settings);
   ClipWriter(folder.path(), Layout::kMiddlebury, true).write(3, r.frame, r.settings);
   EXPECT_FALSE(fs::exists(folder / "left"));
   write_text(folder / "diary.txt", "dear diary");
-  fs::create_directory(folder / "000009");  // a number, but no frame of a clip
+  fs::create_directory(folder / "000009");  // a number, but not a frame of a clip
   ClipWriter(folder.path(), Layout::kClip, true).write(0, r.frame, r.settings);
   EXPECT_FALSE(fs::exists(folder / "000003"));
   EXPECT_TRUE(fs::exists(folder / "000009"));
   EXPECT_EQ(read_text(folder / "diary.txt"), "dear diary");
 }
 
-TEST(ClipWriter, NamesAFolderThatCannotBeMade) {
+TEST(ClipWriter, NamesAFolderThatCannotBeCreated) {
   const std::string error = error_of([] { ClipWriter("/dev/null/clip", Layout::kClip, false); });
   EXPECT_NE(error.find("/dev/null/clip"), std::string::npos) << error;
 }
 
-TEST(ClipWriter, RefusesAFileAsFolder) {
+TEST(ClipWriter, RejectsAFileAsFolder) {
   TemporaryFolder folder;
   write_text(folder / "file", "");
   const std::string error = error_of([&] { ClipWriter(folder / "file", Layout::kClip, true); });
@@ -151,13 +151,13 @@ TEST(ClipWriter, NamesTheFileThatCannotBeWritten) {
   TemporaryFolder folder;
   const Rendered r;
   ClipWriter writer(folder / "clip", Layout::kClip, false);
-  fs::create_directory(folder / "clip/truth/000000.pfm");  // in the way
+  fs::create_directory(folder / "clip/truth/000000.pfm");  // blocks the file
   const std::string error = error_of([&] { writer.write(0, r.frame, r.settings); });
   EXPECT_NE(error.find("truth/000000.pfm"), std::string::npos) << error;
 }
 
-TEST(ClipWriter, NoticesAFullDisk) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+TEST(ClipWriter, DetectsAFullDisk) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   const Rendered r;
   const std::string error = error_of([&] { write_pfm("/dev/full", r.frame.truth); });
   EXPECT_NE(error.find("/dev/full"), std::string::npos) << error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The ready scenes: images, ground truth and masks have to fit each other.
+// The built-in scenes: images, ground truth and masks must be consistent.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ Settings clean(int width = 240, int height = 136) {
   return s;
 }
 
-// Away from edges in depth, where a pixel is a mix of two surfaces.
+// Away from depth discontinuities, where a pixel is a mix of two surfaces.
 bool smooth_around(const cv::Mat& truth, int x, int y) {
   if (x < 1 || y < 1 || x + 1 >= truth.cols || y + 1 >= truth.rows) return false;
   const float d = truth.at<float>(y, x);
@@ -56,27 +56,28 @@ WarpError warp_error(const StereoFrame& f, float error_in_truth) {
   return e;
 }
 
-class ReadyScene : public testing::TestWithParam<const char*> {};
+class BuiltInScene : public testing::TestWithParam<const char*> {};
 
-TEST_P(ReadyScene, RightImageWarpedByTheTruthIsTheLeftOne) {
+TEST_P(BuiltInScene, RightImageWarpedByTheTruthMatchesTheLeftOne) {
   const Scene scene = make_scene(GetParam(), 1);
   for (const double time : {0.0, 1.25}) {
     const StereoFrame f = render(scene, time, clean());
     const WarpError right = warp_error(f, 0), shifted = warp_error(f, 1);
     EXPECT_GT(right.visible_count, 240 * 136 / 3) << "time " << time;
     EXPECT_LT(right.visible, 2.0) << "time " << time;
-    EXPECT_GT(shifted.visible, 1.5 * right.visible) << "a wrong truth has to show, time " << time;
+    EXPECT_GT(shifted.visible, 1.5 * right.visible)
+        << "a wrong ground truth must be detectable, time " << time;
   }
 }
 
-TEST_P(ReadyScene, OccludedPixelsDoNotFitTheRightImage) {
+TEST_P(BuiltInScene, OccludedPixelsDoNotMatchTheRightImage) {
   const StereoFrame f = render(make_scene(GetParam(), 1), 0.5, clean());
   const WarpError e = warp_error(f, 0);
   EXPECT_GT(e.occluded_count, 50);
   EXPECT_GT(e.occluded, 4 * e.visible);
 }
 
-TEST_P(ReadyScene, DisparitiesArePositiveAndWithinAQuarterOfTheWidth) {
+TEST_P(BuiltInScene, DisparitiesArePositiveAndWithinAQuarterOfTheWidth) {
   const Scene scene = make_scene(GetParam(), 3);
   for (const double time : {0.0, 1.0, 2.0}) {
     const StereoFrame f = render(scene, time, clean());
@@ -94,7 +95,7 @@ TEST_P(ReadyScene, DisparitiesArePositiveAndWithinAQuarterOfTheWidth) {
   }
 }
 
-TEST_P(ReadyScene, PictureHasContrastAndIsNotClipped) {
+TEST_P(BuiltInScene, PictureHasContrastAndIsNotClipped) {
   const StereoFrame f = render(make_scene(GetParam(), 2), 0, clean());
   cv::Scalar mean, deviation;
   cv::meanStdDev(f.left, mean, deviation);
@@ -103,23 +104,23 @@ TEST_P(ReadyScene, PictureHasContrastAndIsNotClipped) {
   EXPECT_LT(cv::countNonZero(f.left == 0), f.left.rows * f.left.cols / 20);
 }
 
-TEST_P(ReadyScene, MovesOverTime) {
+TEST_P(BuiltInScene, MovesOverTime) {
   const Scene scene = make_scene(GetParam(), 1);
   const StereoFrame a = render(scene, 0, clean()), b = render(scene, 0.5, clean());
   EXPECT_GT(cv::norm(a.left, b.left, cv::NORM_L1) / static_cast<double>(a.left.total()), 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ReadyScene, testing::Values("street", "garden", "room"),
+INSTANTIATE_TEST_SUITE_P(All, BuiltInScene, testing::Values("street", "garden", "room"),
                          [](const auto& info) { return std::string(info.param); });
 
-TEST(Scenes, EveryNameIsMade) {
+TEST(Scenes, EveryNameIsAScene) {
   for (const auto& name : scene_names()) EXPECT_EQ(make_scene(name, 1).name, name);
 }
 
-TEST(Scenes, UnknownNameIsRefusedWithTheNamesThereAre) {
+TEST(Scenes, UnknownNameIsRejectedWithAListOfNames) {
   try {
     make_scene("moon", 1);
-    FAIL() << "made a scene that does not exist";
+    FAIL() << "an unknown scene was created";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("'moon'"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("street, garden, room"), std::string::npos);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Ground truth and occlusion of scenes that are simple enough to be computed by hand.
+// Ground truth and occlusion of simple scenes, compared with analytical values.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ Scene facing_wall(double depth, double half_size = 50) {
   return b.scene();
 }
 
-TEST(Geometry, WallThatFacesTheCameraHasOneDisparity) {
+TEST(Geometry, FrontoParallelWallHasOneDisparity) {
   const StereoFrame f = render(facing_wall(2.5), 0, camera(41, 31));
   for (int y = 0; y < 31; ++y) {
     for (int x = 0; x < 41; ++x) {
@@ -31,8 +31,8 @@ TEST(Geometry, WallThatFacesTheCameraHasOneDisparity) {
   }
 }
 
-TEST(Geometry, SlantedPlaneHasADisparityThatIsLinearInTheImage) {
-  // The plane z = 4 + x, met at x_c = (column - cx) / f: 1/z = (1 - x_c) / 4, d = 10 / z.
+TEST(Geometry, SlantedPlaneHasLinearDisparity) {
+  // The plane z = 4 + x, hit at x_c = (column - cx) / f: 1/z = (1 - x_c) / 4, d = 10 / z.
   SceneBuilder b("slant", 1);
   b.rectangle({0, 0, 4}, 50, 50, Texture(), -std::atan(1.0));
   const StereoFrame f = render(b.scene(), 0, camera(61, 21));
@@ -41,12 +41,12 @@ TEST(Geometry, SlantedPlaneHasADisparityThatIsLinearInTheImage) {
   }
 }
 
-TEST(Geometry, SphereIsNearestInItsMiddle) {
+TEST(Geometry, SphereIsNearestAtItsCenter) {
   SceneBuilder b("ball", 1);
   b.sphere({0, 0, 3}, 1, Texture());
   const StereoFrame f = render(b.scene(), 0, camera(101, 101));
   EXPECT_NEAR(f.truth.at<float>(50, 50), 10 / 2.0, 1e-5);
-  // The outline is where the sine of the angle from the axis is 1/3: 35.4 px from the middle.
+  // On the outline the sine of the angle to the axis is 1/3: 35.4 px from the center.
   EXPECT_TRUE(std::isfinite(f.truth.at<float>(50, 50 + 35)));
   EXPECT_TRUE(std::isinf(f.truth.at<float>(50, 50 + 36)));
 }
@@ -56,11 +56,11 @@ TEST(Geometry, BoxShowsItsFrontFace) {
   b.box({0, 0, 3}, {0.5, 0.5, 0.5}, Texture());
   const StereoFrame f = render(b.scene(), 0, camera(101, 101));
   EXPECT_NEAR(f.truth.at<float>(50, 50), 10 / 2.5, 1e-5);
-  EXPECT_NEAR(f.truth.at<float>(50 + 19, 50 - 19), 10 / 2.5, 1e-5);  // its edge is 20 px away
+  EXPECT_NEAR(f.truth.at<float>(50 + 19, 50 - 19), 10 / 2.5, 1e-5);  // its edge is at 20 px
   EXPECT_TRUE(std::isinf(f.truth.at<float>(50, 50 + 21)));
 }
 
-TEST(Geometry, PoleHasItsWidthAndItsEnds) {
+TEST(Geometry, PoleHasItsWidthAndLength) {
   SceneBuilder b("pole", 1);
   b.pole({0, 0.5, 2}, 1.0, 0.1, Texture());
   const StereoFrame f = render(b.scene(), 0, camera(101, 101));
@@ -71,13 +71,13 @@ TEST(Geometry, PoleHasItsWidthAndItsEnds) {
   EXPECT_TRUE(std::isinf(f.truth.at<float>(50 + 28, 50)));
 }
 
-TEST(Geometry, RayThroughAHoleMeetsWhatIsBehind) {
+TEST(Geometry, RayThroughAHoleHitsTheObjectBehindIt) {
   SceneBuilder b("fence", 1);
   Object& fence = b.rectangle({0, 0, 2}, 1, 1, Texture());
   fence.cutout = Cutout::kBars, fence.cutout_period = 0.2, fence.cutout_solid = 0.5;
   b.rectangle({0, 0, 5}, 50, 50, Texture());
   const StereoFrame f = render(b.scene(), 0, camera(101, 41));
-  // A bar covers 0 to 0.1 m of each 0.2 m, at 50 px a meter: 5 px solid, 5 px open.
+  // A bar covers 0 to 0.1 m of each 0.2 m, at 50 px per meter: 5 px solid, 5 px open.
   EXPECT_FLOAT_EQ(f.truth.at<float>(20, 52), 5.0f);
   EXPECT_FLOAT_EQ(f.truth.at<float>(20, 57), 2.0f);
   EXPECT_FLOAT_EQ(f.truth.at<float>(20, 62), 5.0f);
@@ -90,8 +90,8 @@ TEST(Geometry, OccludedBandIsAsWideAsTheStepInDisparity) {
   const StereoFrame f = render(b.scene(), 0, camera(101, 5));
   const auto* hidden = f.occluded.ptr<std::uint8_t>(2);
   for (int x = 0; x < 101; ++x) {
-    // Left of the front, 8 px of the wall are behind it for the right camera; at the left border
-    // the right image has no place for a disparity of 2.
+    // Left of the front, 8 px of the wall are hidden from the right camera; at the left border, a
+    // disparity of 2 is outside the right image.
     const bool expected = x < 2 || (x >= 22 && x < 30);
     ASSERT_EQ(hidden[x] != 0, expected) << "column " << x;
   }
@@ -103,7 +103,7 @@ TEST(Geometry, SkyHasNoTruthAndIsNotOccluded) {
   EXPECT_EQ(f.occluded.at<std::uint8_t>(0, 0), 0);
 }
 
-TEST(Geometry, NothingBehindTheCameraIsSeen) {
+TEST(Geometry, ObjectsBehindTheCameraAreInvisible) {
   const StereoFrame f = render(facing_wall(-2), 0, camera(9, 9));
   EXPECT_TRUE(std::isinf(f.truth.at<float>(4, 4)));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// mtstereo-render as a process: its files, its exit status and its messages.
+// mtstereo-render as a process: files, exit status and messages.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -24,7 +24,7 @@ class Program : public testing::Test {
  protected:
   void SetUp() override {
     program_ = std::getenv("MTSTEREO_RENDER");
-    ASSERT_NE(program_, nullptr) << "MTSTEREO_RENDER has to name the program";
+    ASSERT_NE(program_, nullptr) << "MTSTEREO_RENDER must name the program";
   }
 
   Outcome run(const std::string& arguments) const {
@@ -40,7 +40,7 @@ class Program : public testing::Test {
     return outcome;
   }
 
-  // The clip's folder, quoted for the shell as the stream operator of a path does.
+  // The folder of the clip, quoted for the shell by the stream operator of a path.
   std::string out() const {
     std::ostringstream text;
     text << folder_ / "clip" << ' ';
@@ -69,7 +69,7 @@ TEST_F(Program, WritesTheSameBytesInEveryRun) {
   EXPECT_EQ(first, read_text(folder_ / "clip/right/000001.png"));
 }
 
-TEST_F(Program, WritesMiddleburysLayout) {
+TEST_F(Program, WritesTheMiddleburyLayout) {
   const Outcome r = run(out() + "--size 48x27 --frames 1 --layout middlebury");
   EXPECT_EQ(r.status, 0) << r.errors;
   EXPECT_TRUE(fs::is_regular_file(folder_ / "clip/000000/disp0GT.pfm"));
@@ -80,7 +80,7 @@ struct Bad {
   const char* says;
 };
 
-TEST_F(Program, RefusesWrongOptionsWithTheirNames) {
+TEST_F(Program, RejectsInvalidOptionsByName) {
   const Bad cases[] = {
       {"--size 640", "--size"},      {"--size 640x360x3", "--size"},
       {"--size axb", "--size"},      {"--size 0x10", "width"},
@@ -99,7 +99,7 @@ TEST_F(Program, RefusesWrongOptionsWithTheirNames) {
   }
 }
 
-TEST_F(Program, AsksForAFolder) {
+TEST_F(Program, RequiresAFolder) {
   const Outcome r = run("--frames 1");
   EXPECT_EQ(r.status, 2);
   EXPECT_NE(r.errors.find("folder"), std::string::npos) << r.errors;
@@ -111,7 +111,7 @@ TEST_F(Program, NamesAFolderThatCannotBeWritten) {
   EXPECT_NE(r.errors.find("/dev/null/clip"), std::string::npos) << r.errors;
 }
 
-TEST_F(Program, KeepsAnEarlierClipUnlessToldOtherwise) {
+TEST_F(Program, KeepsAnEarlierClipWithoutOverwrite) {
   ASSERT_EQ(run(out() + "--size 8x8 --frames 2").status, 0);
   const Outcome refused = run(out() + "--size 8x8 --frames 1");
   EXPECT_EQ(refused.status, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Noise, exposure, determinism, odd sizes, and settings that are refused.
+// Noise, exposure, determinism, odd sizes and invalid settings.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,8 +45,8 @@ TEST(Sensor, ResultDoesNotDependOnTheNumberOfThreads) {
   }
 }
 
-TEST(Sensor, NoiseHasTheDeviationThatWasAsked) {
-  // A plain gray wall: what varies is the noise.
+TEST(Sensor, NoiseHasTheRequestedDeviation) {
+  // A uniform gray wall: only the noise varies.
   SceneBuilder b("gray", 1);
   Texture flat;
   flat.noise_contrast = 0;
@@ -81,7 +81,7 @@ TEST(Sensor, NoiseDiffersBetweenViewsFramesAndSeeds) {
   EXPECT_TRUE(different(render(b.scene(), 0, s).left));
 }
 
-TEST(Sensor, NoiseAndExposureLeaveTheTruthAlone) {
+TEST(Sensor, NoiseAndExposureDoNotChangeTheTruth) {
   const Scene scene = make_scene("room", 1);
   Settings s = small();
   s.noise = 0;
@@ -92,7 +92,7 @@ TEST(Sensor, NoiseAndExposureLeaveTheTruthAlone) {
   EXPECT_EQ(cv::norm(clean.occluded, noisy.occluded, cv::NORM_INF), 0);
 }
 
-TEST(Sensor, ExposureBrightensTheRightViewAlone) {
+TEST(Sensor, ExposureBrightensOnlyTheRightView) {
   const Scene scene = make_scene("room", 1);
   Settings s = small();
   s.noise = 0;
@@ -118,7 +118,7 @@ TEST(Sensor, OddSizesAreRendered) {
   }
 }
 
-TEST(Sensor, ColorAndGrayShowTheSame) {
+TEST(Sensor, ColorAndGrayAgree) {
   const Scene scene = make_scene("garden", 1);
   Settings s = small();
   s.noise = 0;
@@ -139,9 +139,9 @@ struct Wrong {
   void (*spoil)(Settings&);
 };
 
-class WrongSettings : public testing::TestWithParam<Wrong> {};
+class InvalidSettings : public testing::TestWithParam<Wrong> {};
 
-TEST_P(WrongSettings, AreRefusedByName) {
+TEST_P(InvalidSettings, AreRejectedByName) {
   Settings s = small();
   GetParam().spoil(s);
   EXPECT_NE(check(s).find(GetParam().name), std::string::npos) << "message: " << check(s);
@@ -151,7 +151,7 @@ TEST_P(WrongSettings, AreRefusedByName) {
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 INSTANTIATE_TEST_SUITE_P(
-    All, WrongSettings,
+    All, InvalidSettings,
     testing::Values(Wrong{"width", [](Settings& s) { s.width = 0; }},
                     Wrong{"width", [](Settings& s) { s.width = 16385; }},
                     Wrong{"height", [](Settings& s) { s.height = -3; }},
@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"threads", [](Settings& s) { s.threads = -1; }}),
     [](const auto& info) { return info.param.name + std::to_string(info.index); });
 
-TEST(Settings, DefaultsAreFine) { EXPECT_EQ(check(Settings()), ""); }
+TEST(Settings, DefaultsAreValid) { EXPECT_EQ(check(Settings()), ""); }
 
 }  // namespace
 }  // namespace mtstereo::render
