@@ -159,8 +159,9 @@ def curve_captions(curve, lines):
     if ratios:
         captions.append(f"Dots: uniquenessRatio {span(ratios)}.")
     if any(line.envelope for line in lines):
-        return [" ".join(captions) + " + filters: smallest error over all ratios and thresholds with "
-                "these filters:", text(curve["filters"])]
+        captions.append("+ filters: smallest error over all ratios and thresholds with these "
+                        "filters:")
+        return [" ".join(captions), text(curve["filters"])]
     return [" ".join(captions)]
 
 
@@ -225,7 +226,7 @@ def draw_growth(plot, title):
         measured, = axes.plot(*zip(*panel.points), color=COLORS[0], linewidth=1.7, marker="o",
                               markersize=4.5, label="measured", zorder=4)
         straight, = axes.plot((0, end[0]), (0, end[1]), color=PROPORTIONAL, linewidth=0.9,
-                              label="proportional to the first point")
+                              label="proportional growth from the first point")
         handles = [measured, straight]
     canvas.legend(handles, 42, 2)
     return canvas

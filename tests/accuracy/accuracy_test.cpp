@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The accuracy that was reached, kept: on rendered scenes everywhere, and on real pairs with ground
-// truth where MTSTEREO_TEST_DATA names a folder that has them. Everything goes through the element.
+// Regression tests of the accuracy: on rendered scenes, and on real pairs with ground truth if
+// MTSTEREO_TEST_DATA names a folder with them. All pairs are matched by the element.
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Means over pairs, and what they have to keep.
+/// Means over pairs, or limits for them.
 struct Figures {
   double avgerr;   ///< [px]
   double d_all;    ///< [%]
@@ -45,14 +45,14 @@ eval::Evaluation mean_of(const std::vector<eval::Evaluation>& evaluations) {
   return eval::mean(weighted);
 }
 
-/// What is run, and what it has to keep.
+/// The properties of a test and the limits for its means.
 struct Gate {
   const char* name;
   const char* properties;
   Figures limit;
 };
 
-/// What is done to the right view before it is matched.
+/// A change of the right view before matching.
 using Change = void (*)(cv::Mat& right);
 
 eval::Evaluation evaluate_pair(const cv::Mat& left, const cv::Mat& right,
@@ -60,7 +60,7 @@ eval::Evaluation evaluate_pair(const cv::Mat& left, const cv::Mat& right,
                                int max_disparity) {
   const cv::Mat disparity = match_with_element(
       left, right, properties + " max-disparity=" + std::to_string(max_disparity));
-  EXPECT_FALSE(disparity.empty()) << "the element gave nothing";
+  EXPECT_FALSE(disparity.empty()) << "the element gave no result";
   return disparity.empty() ? eval::Evaluation{} : eval::evaluate(disparity, truth);
 }
 
@@ -87,7 +87,7 @@ TEST_P(RenderedScenes, KeepTheirAccuracy) {
   expect_kept(mean_of(evaluations), GetParam().limit);
 }
 
-// Reached: 0.162 px, 0.02 %, 21.0 %; 0.242, 0.75, 63.5; 0.51, 4.2, 83.6; with preset fast
+// Measured: 0.162 px, 0.02 %, 21.0 %; 0.242, 0.75, 63.5; 0.51, 4.2, 83.6; with preset fast
 // 0.198, 0.08, 11.2; 0.259, 1.25, 66.5; 0.494, 4.66, 84.4; with the paper's parameters
 // 0.641, 6.06, 12.2 and 1.09, 10.9, 44.8.
 INSTANTIATE_TEST_SUITE_P(
@@ -102,12 +102,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Gate{"PaperSemiDense", "preset=paper mode=semi-dense", {1.12, 11.2, 44.0}}),
     gate_name);
 
-/// The ten pairs with ground truth; empty where there are none.
+/// The ten pairs with ground truth; empty if they are not available.
 std::vector<eval::StereoPair> real_pairs(const char* folder) {
   struct Collection {
     const char* folder;
     eval::Layout layout;
-    int max_disparity;  ///< where the data set does not tell [px]
+    int max_disparity;  ///< if the data set does not state it [px]
   };
   const Collection collections[] = {{"middlebury", eval::Layout::kMiddlebury, 0},
                                     {"kitti2015", eval::Layout::kKitti2015, 100},
@@ -130,7 +130,7 @@ class RealPairs : public testing::TestWithParam<Gate> {
   void SetUp() override {
     const char* folder = std::getenv("MTSTEREO_TEST_DATA");
     if (folder == nullptr || !fs::is_directory(folder)) {
-      GTEST_SKIP() << "no pairs with ground truth here: MTSTEREO_TEST_DATA names none";
+      GTEST_SKIP() << "no pairs with ground truth: MTSTEREO_TEST_DATA names no folder with them";
     }
     pairs_ = real_pairs(folder);
     ASSERT_EQ(pairs_.size(), 10u);
@@ -162,7 +162,7 @@ void raise_gamma(cv::Mat& image) {
 
 TEST_P(RealPairs, KeepTheirAccuracy) { expect_kept(evaluate_all(keep_as_it_is), GetParam().limit); }
 
-// Reached: 0.238 px, 0.07 %, 16.1 %; 0.318, 0.46, 65.4; 0.62, 2.1, 80.1; with
+// Measured: 0.238 px, 0.07 %, 16.1 %; 0.318, 0.46, 65.4; 0.62, 2.1, 80.1; with
 // preset fast 0.247, 0.09, 13.9; 0.345, 0.65, 65.1; 0.662, 2.54, 80.4; with the paper's parameters
 // 0.834, 4.18, 10.3 and 1.78, 10.5, 45.9.
 INSTANTIATE_TEST_SUITE_P(
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Gate{"PaperSemiDense", "preset=paper mode=semi-dense", {1.83, 10.8, 45.2}}),
     gate_name);
 
-/// Cameras differ in exposure and in response.
+/// Cameras with different exposure and response.
 class Exposure : public RealPairs {};
 
 TEST_P(Exposure, OfOneCameraChangesLittle) {
@@ -199,7 +199,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, Exposure,
                                          Gate{"Dense", "mode=dense", {}}),
                          gate_name);
 
-/// Untextured road and car: the weak spot of the paper's method.
+/// An untextured road and a car: the weakness of the paper's method.
 class Road : public RealPairs {};
 
 TEST_P(Road, KeepsItsAccuracy) {
@@ -211,10 +211,10 @@ TEST_P(Road, KeepsItsAccuracy) {
                 GetParam().limit);
     return;
   }
-  FAIL() << "the pair is not there";
+  FAIL() << "the pair is missing";
 }
 
-// Reached: 0.532 px, 0.18 %, 54.2 %.
+// Measured: 0.532 px, 0.18 %, 54.2 %.
 INSTANTIATE_TEST_SUITE_P(Modes, Road,
                          testing::Values(Gate{"SemiDense", "mode=semi-dense", {0.56, 0.3, 52.0}}),
                          gate_name);

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Compares two results of mtstereo-benchmark: medians of the time [ms] and peaks of memory [MiB].
 
-The results are the files of --benchmark_out. The exit status is 1 where something became worse than
-the threshold allows, failed, or is missing afterwards, and 2 where the files cannot be compared.
+The results are the files of --benchmark_out. The exit status is 1 if a ratio exceeds the threshold,
+or if a benchmark failed or is missing in the second file, and 2 if the files cannot be compared.
 """
 import argparse
 import json
@@ -16,11 +16,11 @@ MEMORY = "peak_MiB"
 
 
 class InputError(Exception):
-    """A file that is no result; the message names it."""
+    """A file that is not a result; the message names it."""
 
 
 def figures_of(entry):
-    """Name and value of what an entry tells."""
+    """Name and value of each figure of an entry."""
     name = entry["run_name"]
     yield f"{name} [ms]", entry["real_time"] * MILLISECONDS[entry["time_unit"]]
     if MEMORY in entry:
@@ -43,7 +43,7 @@ def read_result(file):
     except OSError as error:
         raise InputError(f"{file}: cannot be read: {error.strerror}") from error
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(f"{file}: is no result of mtstereo-benchmark with "
+        raise InputError(f"{file}: is not a result of mtstereo-benchmark with "
                          f"--benchmark_out={file}: {error!r}") from error
     figures = {name: statistics.median(values) for name, values in repetitions.items()}
     return {**figures, **medians}, errors
@@ -58,18 +58,18 @@ def print_table(rows):
 
 
 def compare(before, after, threshold):
-    """Prints the table and gives what is wrong, one sentence each."""
+    """Prints the table and returns one sentence per regression."""
     rows, wrong = [("name", "before", "after", "ratio")], []
     for name, old in before.items():
         if name not in after:
             rows.append((name, f"{old:.3f}", "-", "-"))
-            wrong.append(f"{name}: is missing afterwards")
+            wrong.append(f"{name}: is missing in the second file")
             continue
         new = after[name]
         ratio = new / old if old > 0 else float("inf") if new > 0 else 1.0
         rows.append((name, f"{old:.3f}", f"{new:.3f}", f"{ratio:.3f}"))
         if ratio > threshold:
-            wrong.append(f"{name}: {ratio:.3f} times as much, allowed are {threshold:g}")
+            wrong.append(f"{name}: {ratio:.3f} times as much, above the threshold {threshold:g}")
     rows += [(name, "-", f"{new:.3f}", "-") for name, new in after.items() if name not in before]
     print_table(rows)
     return wrong
@@ -78,7 +78,7 @@ def compare(before, after, threshold):
 def positive(text):
     value = float(text)
     if not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} is no ratio above 0")
+        raise argparse.ArgumentTypeError(f"{text} is not a ratio above 0")
     return value
 
 
@@ -87,7 +87,7 @@ def main():
     parser.add_argument("before", help="result of the older build")
     parser.add_argument("after", help="result of the newer build")
     parser.add_argument("--threshold", type=positive, default=1.1, metavar="RATIO",
-                        help="largest ratio after / before that is fine (default: %(default)s)")
+                        help="largest accepted ratio after / before (default: %(default)s)")
     options = parser.parse_args()
     try:
         before, errors_before = read_result(options.before)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""compare.py tells what became slower, and refuses what is no result."""
+"""compare.py reports regressions and rejects files that are not results."""
 import json
 import pathlib
 import subprocess
@@ -41,7 +41,7 @@ class Compare(unittest.TestCase):
         return subprocess.run([sys.executable, COMPARE, *map(str, arguments)], check=False,
                               capture_output=True, text=True, timeout=60)
 
-    def test_equal_results_are_fine(self):
+    def test_equal_results_pass(self):
         done = self.compare([repetition("a", 5)], [repetition("a", 5)])
         self.assertEqual(0, done.returncode, done.stderr)
         self.assertRegex(done.stdout, r"(?m)^a \[ms\] +5\.000 +5\.000 +1\.000$")
@@ -55,17 +55,17 @@ class Compare(unittest.TestCase):
         self.assertNotIn("b [ms]", done.stderr)
         self.assertEqual(0, self.compare(before, after, "--threshold", "1.3").returncode)
 
-    def test_faster_is_fine(self):
+    def test_faster_passes(self):
         self.assertEqual(0, self.compare([repetition("a", 10)], [repetition("a", 1)]).returncode)
 
-    def test_median_counts_not_the_mean(self):
+    def test_compares_medians_not_means(self):
         before = [aggregate("mean", "a", 100), aggregate("median", "a", 10)]
         after = [aggregate("mean", "a", 10), aggregate("median", "a", 20)]
         done = self.compare(before, after)
         self.assertEqual(1, done.returncode)
         self.assertRegex(done.stdout, r"10\.000 +20\.000 +2\.000")
 
-    def test_median_is_taken_of_repetitions(self):
+    def test_computes_the_median_of_repetitions(self):
         before = [repetition("a", 10), repetition("a", 10), repetition("a", 90)]
         done = self.compare(before, [repetition("a", 10)])
         self.assertRegex(done.stdout, r"10\.000 +10\.000 +1\.000")
@@ -80,36 +80,36 @@ class Compare(unittest.TestCase):
         self.assertEqual(1, done.returncode)
         self.assertIn("m [MiB]: 1.500 times", done.stderr)
 
-    def test_what_is_missing_afterwards_fails(self):
+    def test_missing_benchmark_fails(self):
         both = [repetition("a", 1), repetition("b", 1)]
         done = self.compare(both, both[:1])
         self.assertEqual(1, done.returncode)
-        self.assertIn("b [ms]: is missing afterwards", done.stderr)
+        self.assertIn("b [ms]: is missing in the second file", done.stderr)
         self.assertEqual(0, self.compare(both[:1], both).returncode)
 
-    def test_a_benchmark_that_failed_fails(self):
+    def test_failed_benchmark_fails(self):
         failed = {"name": "b", "run_name": "b", "run_type": "iteration", "error_occurred": True,
                   "error_message": "no disparity"}
         done = self.compare([repetition("a", 1)], [repetition("a", 1), failed])
         self.assertEqual(1, done.returncode)
         self.assertIn("after: b: no disparity", done.stderr)
 
-    def test_results_without_anything_in_common_are_refused(self):
+    def test_results_without_common_benchmarks_are_rejected(self):
         done = self.compare([repetition("a", 1)], [repetition("b", 1)])
         self.assertEqual(2, done.returncode)
         self.assertIn("no benchmark in common", done.stderr)
 
-    def test_files_that_are_no_results_are_refused_by_name(self):
+    def test_files_that_are_not_results_are_rejected_by_name(self):
         good = [repetition("a", 1)]
         for broken in ("", "{", "[]", "{}", '{"benchmarks": 3}', '{"benchmarks": [{}]}',
                        '{"benchmarks": [7]}'):
             with self.subTest(broken):
                 done = self.compare(good, broken)
                 self.assertEqual(2, done.returncode)
-                self.assertIn("after.json: is no result", done.stderr)
+                self.assertIn("after.json: is not a result", done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
 
-    def test_bytes_that_are_no_text_are_refused(self):
+    def test_bytes_that_are_not_text_are_rejected(self):
         good = self.write("good.json", [repetition("a", 1)])
         binary = self.folder / "binary.json"
         binary.write_bytes(b"\xff\xfe\x00")
@@ -120,7 +120,7 @@ class Compare(unittest.TestCase):
         self.assertEqual(2, done.returncode)
         self.assertIn("none.json: cannot be read", done.stderr)
 
-    def test_thresholds_that_are_no_ratio_are_refused(self):
+    def test_thresholds_that_are_not_ratios_are_rejected(self):
         for wrong in ("0", "-1", "inf", "nan", "much"):
             with self.subTest(wrong):
                 done = self.compare([repetition("a", 1)], [repetition("a", 1)],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// mtstereo-benchmark-element: what the element `mtstereo` adds to the library's time of a frame.
+// mtstereo-benchmark-element: the time per frame that the element `mtstereo` adds to the library.
 #include <benchmark/benchmark.h>
 #include <gst/gst.h>
 
@@ -30,21 +30,21 @@ constexpr const char* kOverhead = "overhead_percent";
 constexpr const char* kLibrary = "library_ms";
 constexpr int kThreadNumbers[] = {1, 2};
 constexpr int kScale = 256;  // the element's default of disparity-scale
-constexpr int kMoments = 4;  // of the street
-constexpr int kWarmUp = 1;   // frames of each block that do not count
+constexpr int kMoments = 4;  // frames of the street
+constexpr int kWarmUp = 1;   // untimed frames of each block
 
 void print_help() {
   std::cout << "mtstereo-benchmark-element [--quick]\n"
-               "          a small frame and 2 short repetitions, to see that all still runs\n"
-               "  GST_PLUGIN_PATH has to name the folder of the plugin, as in build/gst.\n"
-               "  These are Google Benchmark's own, which go before what this program sets:\n";
+               "          a small frame and 2 short repetitions, to check that everything runs\n"
+               "  GST_PLUGIN_PATH must name the folder of the plugin, such as build/gst.\n"
+               "  Options of Google Benchmark, which override the settings of this program:\n";
   benchmark::PrintDefaultHelp();
 }
 
 struct Size {
   int width, height, disparities;
-  int rounds;  ///< of each repetition: a block of frames by the one, a block by the other
-  int frames;  ///< of each block that count
+  int rounds;  ///< rounds per repetition: one block of frames by each of the two
+  int frames;  ///< timed frames per block
 };
 
 double median(std::vector<double> values) {
@@ -53,7 +53,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The library and the element on the same frames, with as many threads.
+/// Compares the library and the element on the same frames with the same number of threads.
 class Race {
  public:
   Race(const Size& size, int threads, const bench::PairList& pairs)
@@ -72,7 +72,7 @@ class Race {
     double library, element;
   };
 
-  /// Short blocks in turn, so that whatever else the machine does meets both.
+  /// Short alternating blocks, so that other load on the machine affects both.
   Times run() {
     std::vector<double> library, element;
     for (int round = 0; round < size_.rounds; ++round) {
@@ -104,7 +104,7 @@ class Race {
     append_frames(pipeline_.match(pairs_, kWarmUp + size_.frames), seconds);
   }
 
-  /// What passed from each frame's end to the next one's.
+  /// Appends the time from the end of each frame to the end of the next.
   static void append_frames(const std::vector<ElementPipeline::Clock::time_point>& done,
                             std::vector<double>& seconds) {
     for (std::size_t i = kWarmUp; i < done.size(); ++i) {
@@ -135,7 +135,7 @@ class Race {
   ElementPipeline pipeline_;
 };
 
-/// Made when the first benchmark runs.
+/// The pairs, rendered when the first benchmark runs.
 const bench::PairList& pairs_of(const Size& size, bench::PairList& pairs) {
   constexpr double kStep = 0.5;  // [s]
   for (int i = static_cast<int>(pairs.size()); i < kMoments; ++i) {
@@ -154,7 +154,7 @@ std::string benchmark_name(const Size& size, int threads) {
   return "element/" + frame_name(size) + "/threads:" + std::to_string(threads);
 }
 
-/// The pairs and the races live as long as the benchmarks are registered.
+/// The pairs and the races exist as long as the benchmarks are registered.
 void register_races(const Size& size) {
   const auto pairs = std::make_shared<bench::PairList>();
   for (const int threads : kThreadNumbers) {
@@ -193,7 +193,8 @@ int report(const Size& size, const bench::Summary& summary) {
                     fixed(summary.counter_of(name, kLibrary), 2), fixed(seconds * 1e3, 2),
                     fixed(summary.counter_of(name, kOverhead), 2)});
   }
-  std::cout << "\nMedians; the overhead is that of each repetition, not of the medians.\n";
+  std::cout << "\nMedians; the overhead is the median over the repetitions, not the ratio of the "
+               "medians.\n";
   eval::print_rows(std::cout, rows);
   for (const std::string& error : summary.errors()) std::cerr << "error: " << error << '\n';
   return summary.errors().empty() ? EXIT_SUCCESS : EXIT_FAILURE;
@@ -212,9 +213,9 @@ int run(int argc, char** argv) {
   bench::Summary summary;
   bench::SummarizingReporter reporter(summary);
   const std::size_t count = benchmark::RunSpecifiedBenchmarks(&reporter);
-  benchmark::ClearRegisteredBenchmarks();  // ends the pipelines
+  benchmark::ClearRegisteredBenchmarks();  // stops the pipelines
   if (count > 0) return report(size, summary);
-  std::cerr << "error: no benchmark was run; --benchmark_list_tests tells their names\n";
+  std::cerr << "error: no benchmark was run; --benchmark_list_tests lists their names\n";
   return EXIT_FAILURE;
 }
 

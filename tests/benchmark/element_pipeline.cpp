@@ -14,13 +14,13 @@ namespace {
 
 constexpr GstClockTime kFrameTime = GST_SECOND / 30;
 constexpr std::chrono::seconds kPatience(60);          // for one disparity map
-constexpr std::chrono::milliseconds kErrorCheck(100);  // how often errors are looked for
+constexpr std::chrono::milliseconds kErrorCheck(100);  // period of the check for errors
 
 GstVideoInfo gray_info(cv::Size size) {
   GstVideoInfo info;
   if (!gst_video_info_set_format(&info, GST_VIDEO_FORMAT_GRAY8, size.width, size.height)) {
-    throw std::runtime_error("GStreamer has no images of " + std::to_string(size.width) + "x" +
-                             std::to_string(size.height));
+    throw std::runtime_error("GStreamer does not support images of " + std::to_string(size.width) +
+                             "x" + std::to_string(size.height));
   }
   info.fps_n = static_cast<int>(GST_SECOND / kFrameTime);
   info.fps_d = 1;
@@ -34,7 +34,7 @@ GstElement* parsed(const std::string& launch) {
   if (pipeline != nullptr) return pipeline;
   std::string message = error->message;
   if (g_error_matches(error, GST_PARSE_ERROR, GST_PARSE_ERROR_NO_SUCH_ELEMENT)) {
-    message += ": GST_PLUGIN_PATH has to name the folder of the plugin, as in build/gst";
+    message += ": GST_PLUGIN_PATH must name the folder of the plugin, such as build/gst";
   }
   throw std::runtime_error(message);
 }
@@ -43,7 +43,7 @@ GstElement* named(GstElement* pipeline, const char* name) {
   return gst_bin_get_by_name(GST_BIN(pipeline), name);
 }
 
-/// Sources hold as much as they are given; nothing waits for a clock.
+/// The queues of the sources are unlimited; nothing waits for a clock.
 std::string launch_line(const std::string& properties) {
   const std::string source = "appsrc format=time block=false max-bytes=0 name=";
   return "mtstereo name=m " + properties +
@@ -57,7 +57,7 @@ GrayBuffer::GrayBuffer(const cv::Mat& image) {
   const GstVideoInfo info = gray_info(image.size());
   buffer_.reset(gst_buffer_new_allocate(nullptr, info.size, nullptr));
   if (buffer_ == nullptr || !gst_buffer_map(buffer_.get(), &map_, GST_MAP_READWRITE)) {
-    throw std::runtime_error("there is no memory for a frame");
+    throw std::runtime_error("no memory for a frame");
   }
   const int stride = info.stride[0];
   for (int y = 0; y < image.rows; ++y) {
@@ -128,7 +128,7 @@ void ElementPipeline::push(const PairList& pairs, int count) {
       BufferPointer buffer = image->stamped(next_time_, kFrameTime);
       if (gst_app_src_push_buffer(GST_APP_SRC(source), buffer.release()) != GST_FLOW_OK) {
         require_no_error();
-        throw std::runtime_error("the pipeline takes no frames");
+        throw std::runtime_error("the pipeline accepts no frames");
       }
     }
     next_time_ += kFrameTime;
@@ -147,7 +147,7 @@ void ElementPipeline::wait_for(std::size_t count) {
       seen = times_.size();
       last = Clock::now();
     } else if (Clock::now() - last > kPatience) {
-      throw std::runtime_error("no disparity map came out of the element within " +
+      throw std::runtime_error("the element produced no disparity map within " +
                                std::to_string(kPatience.count()) + " s");
     }
   }
@@ -181,7 +181,7 @@ void ElementPipeline::take(GstElement*, GstBuffer* buffer, GstPad*, gpointer sel
       pipeline.maps_.push_back(map);
     }
   } catch (const std::exception& error) {
-    // No exception may leave through GStreamer; the thread that waits throws it again.
+    // No exception may propagate into GStreamer; the waiting thread rethrows it.
     pipeline.problem_ = error.what();
   }
   pipeline.came_.notify_one();

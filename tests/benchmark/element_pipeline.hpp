@@ -20,10 +20,10 @@ struct UnrefBuffer {
 };
 using BufferPointer = std::unique_ptr<GstBuffer, UnrefBuffer>;
 
-/// An image as GStreamer has it, GRAY8 in a buffer of its own, which the library can read too.
+/// An image in its own GStreamer buffer, GRAY8, which the library can read too.
 class GrayBuffer {
  public:
-  /// Copies the image. Throws std::runtime_error where there is no memory.
+  /// Copies the image. Throws std::runtime_error if memory is exhausted.
   explicit GrayBuffer(const cv::Mat& image);
   ~GrayBuffer();
   GrayBuffer(const GrayBuffer&) = delete;
@@ -47,22 +47,22 @@ struct PairBuffers {
 };
 using PairList = std::vector<std::unique_ptr<PairBuffers>>;
 
-/// The element `mtstereo` between two sources in memory and a sink that throws away at once.
+/// The element `mtstereo` between two sources in memory and a sink that discards its input.
 class ElementPipeline {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `properties` as in "threads=2 max-disparity=64". Throws std::runtime_error, as all others here
-  /// do, with what the element or GStreamer says.
+  /// `properties` has the form "threads=2 max-disparity=64". Throws std::runtime_error, like all
+  /// other methods, with the message of the element or of GStreamer.
   ElementPipeline(const std::string& properties, int width, int height);
   ~ElementPipeline();
   ElementPipeline(const ElementPipeline&) = delete;
   ElementPipeline& operator=(const ElementPipeline&) = delete;
 
-  /// Sends so many pairs, the first after the last, as fast as they are taken, and gives when each
-  /// disparity map came.
+  /// Sends `count` pairs in a cycle as fast as the element accepts them, and returns the time at
+  /// which each disparity map arrived.
   std::vector<Clock::time_point> match(const PairList& pairs, int count);
-  /// The same, once through the pairs, and gives the maps (CV_16UC1) as they came.
+  /// Sends each pair once and returns the maps (CV_16UC1) in the order of arrival.
   std::vector<cv::Mat> maps(const PairList& pairs);
 
  private:
@@ -90,7 +90,7 @@ class ElementPipeline {
   Pointer<GstBus> bus_;
   GstClockTime next_time_ = 0;
 
-  std::mutex mutex_;  // guards what follows, which the sink's thread writes
+  std::mutex mutex_;  // guards the following members, which the sink's thread writes
   std::condition_variable came_;
   std::vector<Clock::time_point> times_;
   std::vector<cv::Mat> maps_;

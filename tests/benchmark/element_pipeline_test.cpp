@@ -34,7 +34,7 @@ cv::Mat expected_map(Matcher& matcher, const PairBuffers& pair) {
   return map;
 }
 
-/// What an exception says, "" where there is none.
+/// The message of the exception that a call throws, "" if it throws none.
 template <typename Body>
 std::string problem_of(Body&& body) {
   try {
@@ -45,7 +45,7 @@ std::string problem_of(Body&& body) {
   return "";
 }
 
-TEST(GrayBuffer, HoldsTheImageInPaddedRows) {
+TEST(GrayBuffer, HasTheImageInPaddedRows) {
   const Pair pair = render_street(kWidth, kHeight);
   const GrayBuffer buffer(pair.left);
   const GrayView view = buffer.view();
@@ -57,7 +57,7 @@ TEST(GrayBuffer, HoldsTheImageInPaddedRows) {
   }
 }
 
-TEST(GrayBuffer, StampedOnesShareItsMemory) {
+TEST(GrayBuffer, StampedBuffersShareItsMemory) {
   const GrayBuffer buffer(render_street(kWidth, kHeight).left);
   const BufferPointer stamped = buffer.stamped(3 * GST_SECOND, GST_SECOND);
   EXPECT_EQ(3 * GST_SECOND, GST_BUFFER_PTS(stamped.get()));
@@ -67,7 +67,7 @@ TEST(GrayBuffer, StampedOnesShareItsMemory) {
   gst_buffer_unmap(stamped.get(), &map);
 }
 
-TEST(ElementPipeline, GivesTheLibrarysMapsInTheOrderOfThePairs) {
+TEST(ElementPipeline, ReturnsTheLibrarysMapsInTheOrderOfThePairs) {
   const PairList pairs = moments(3);
   ElementPipeline pipeline(kProperties, kWidth, kHeight);
   const std::vector<cv::Mat> maps = pipeline.maps(pairs);
@@ -79,7 +79,7 @@ TEST(ElementPipeline, GivesTheLibrarysMapsInTheOrderOfThePairs) {
   EXPECT_GT(cv::countNonZero(maps[0] != maps[1]), 0);
 }
 
-TEST(ElementPipeline, TellsWhenEachMapCameAgainAndAgain) {
+TEST(ElementPipeline, ReturnsTheTimesOfAllMapsRepeatedly) {
   const PairList pairs = moments(2);
   ElementPipeline pipeline(kProperties, kWidth, kHeight);
   for (const int count : {5, 1, 3}) {
@@ -89,7 +89,7 @@ TEST(ElementPipeline, TellsWhenEachMapCameAgainAndAgain) {
   }
 }
 
-TEST(ElementPipeline, FrameThatTheElementRefusesIsAnErrorAndDoesNotHang) {
+TEST(ElementPipeline, FrameThatTheElementRejectsIsAnErrorAndDoesNotHang) {
   const PairList pairs = moments(1);
   const std::string problem = problem_of([&] {
     ElementPipeline pipeline("max-disparity=500", kWidth, kHeight);
@@ -106,7 +106,7 @@ TEST(ElementPipeline, FrameOfAnotherSizeIsAnError) {
             }));
 }
 
-TEST(ElementPipeline, WrongPropertiesAreErrorsThatNameThem) {
+TEST(ElementPipeline, InvalidPropertiesAreErrorsThatNameThem) {
   for (const std::string property : {"speed=1", "mode=fair", "max-disparity=much"}) {
     const std::string name = property.substr(0, property.find('='));
     const std::string problem = problem_of([&] { ElementPipeline(property, kWidth, kHeight); });

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The benchmark of the element still runs, and refuses what it does not know. No time is judged."""
+"""The benchmark of the element runs and rejects invalid options. No time is judged."""
 import json
 import os
 import pathlib
@@ -25,7 +25,7 @@ class Element(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def test_quick_run_tells_library_element_and_overhead(self):
+    def test_quick_run_reports_library_element_and_overhead(self):
         file = self.folder / "result.json"
         done = run("--quick", f"--benchmark_out={file}")
         self.assertEqual(0, done.returncode, done.stdout + done.stderr)
@@ -41,12 +41,12 @@ class Element(unittest.TestCase):
                     entry["overhead_percent"], places=3)
         self.assertEqual(2, done.stdout.count("\nstreet-320x240-32 "), done.stdout)
 
-    def test_filter_chooses(self):
+    def test_filter_selects(self):
         done = run("--quick", "--benchmark_filter=threads:2")
         self.assertEqual(0, done.returncode, done.stdout + done.stderr)
         self.assertEqual(1, done.stdout.count("\nstreet-320x240-32 "), done.stdout)
 
-    def test_plugin_that_is_missing_is_told_with_what_to_do(self):
+    def test_missing_plugin_is_reported_with_a_solution(self):
         done = run("--quick", GST_PLUGIN_PATH=str(self.folder),
                    GST_PLUGIN_SYSTEM_PATH_1_0=str(self.folder),
                    GST_REGISTRY=str(self.folder / "registry.bin"))
@@ -54,7 +54,7 @@ class Element(unittest.TestCase):
         self.assertIn("mtstereo", done.stderr)
         self.assertIn("GST_PLUGIN_PATH", done.stderr)
 
-    def test_unknown_options_and_filters_that_fit_nothing_fail(self):
+    def test_unknown_options_and_filters_without_a_match_fail(self):
         for words, arguments in (("--speed", ["--quick", "--speed"]), ("element", ["element"]),
                                  ("no benchmark was run", ["--benchmark_filter=bicycle"])):
             with self.subTest(words):
@@ -62,7 +62,7 @@ class Element(unittest.TestCase):
                 self.assertEqual(1, done.returncode)
                 self.assertIn(words, done.stderr)
 
-    def test_help_tells_both_kinds_of_options(self):
+    def test_help_lists_both_kinds_of_options(self):
         done = run("--help")
         self.assertEqual(0, done.returncode)
         self.assertIn("--quick", done.stdout)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Measures, and writes the figures into docs/benchmark.md and the plot of the growth beside it.
+"""Measures, and writes the figures and the growth plot of docs/benchmark.md.
 
-Runs the benchmarks of a build, or takes the results of a run before (--no-run). What stands between
-the two marks of the page is replaced. The exit status is 1 where a program fails and 2 where a
-result or the page cannot be used; the page is then as it was.
+Runs the benchmarks of a build, or uses the results of an earlier run (--no-run). Replaces the text
+between the two marks of the page. The exit status is 1 if a program fails and 2 if a result or the
+page cannot be used; the page is not changed then.
 """
 import argparse
 import json
@@ -25,7 +25,7 @@ PLOTTER = SOURCE / "pipelines/eval/plot.py"
 
 
 class RunError(Exception):
-    """A program that failed; the message names it."""
+    """A failed program; the message names it."""
 
 
 def run(program, *arguments, **environment):
@@ -37,7 +37,7 @@ def run(program, *arguments, **environment):
 
 
 def measure(build, result, element_result):
-    """Runs both programs of the build; without the plugin there is no second one."""
+    """Runs both programs of the build; the second one exists only with the plugin."""
     programs = build / "tests/benchmark"
     run(programs / "mtstereo-benchmark", f"--benchmark_out={result}")
     element = programs / "mtstereo-benchmark-element"
@@ -67,22 +67,22 @@ def section(result, element_result, picture):
 
 
 def read_page(page):
-    """What stands before and behind the figures."""
+    """The texts before and after the figures."""
     try:
         text = page.read_text(encoding="utf-8")
     except (OSError, ValueError) as error:
         raise InputError(f"{page}: cannot be read: {error}") from error
     if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(END) < text.index(BEGIN):
-        raise InputError(f"{page}: has to have the line {BEGIN} once, and the line {END} behind it")
+        raise InputError(f"{page}: must contain the line {BEGIN} once, and after it the line {END}")
     return text[:text.index(BEGIN)], text[text.index(END) + len(END):]
 
 
 def update(options):
-    before, behind = read_page(options.page)
+    before, after = read_page(options.page)
     result_file = options.result or options.build / "benchmark.json"
     element_file = options.element_result or options.build / "benchmark-element.json"
     if not options.no_run:
-        element_file.unlink(missing_ok=True)  # not an older one, where there is no plugin now
+        element_file.unlink(missing_ok=True)  # do not use an older one if there is no plugin now
         measure(options.build, result_file, element_file)
     result = Result(result_file)
     has_element = options.element_result or element_file.exists()
@@ -92,14 +92,14 @@ def update(options):
         text = section(result, element_result, f"images/{PICTURE}")
         doubts = tables.doubts(result)
     except (ValueError, KeyError, IndexError, TypeError, ArithmeticError) as error:
-        raise InputError(f"{result_file} or {element_file}: has not what the programs of today "
-                         f"tell: {error!r}") from error
+        raise InputError(f"{result_file} or {element_file}: lacks figures that the current "
+                         f"programs write: {error!r}") from error
     draw_growth(result, picture)
-    options.page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{behind}", encoding="utf-8")
+    options.page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{after}", encoding="utf-8")
     for panel in tables.growth_panels(result):
         print(f"time over {panel['x']}: {panel['caption']}")
     for doubt in doubts:
-        print(f"figures.py: take again on a quiet machine: {doubt}", file=sys.stderr)
+        print(f"figures.py: repeat on a quiet machine: {doubt}", file=sys.stderr)
 
 
 def main():
@@ -107,14 +107,14 @@ def main():
     parser.add_argument("build", nargs="?", type=pathlib.Path, default=SOURCE / "build",
                         help="folder of the build (default: %(default)s)")
     parser.add_argument("--no-run", action="store_true",
-                        help="measure nothing, take the results that are there")
+                        help="measure nothing; use the existing results")
     parser.add_argument("--result", type=pathlib.Path,
                         help="result of mtstereo-benchmark (default: BUILD/benchmark.json)")
     parser.add_argument("--element-result", type=pathlib.Path,
-                        help="that of mtstereo-benchmark-element, where there is one "
+                        help="result of mtstereo-benchmark-element, if any "
                              "(default: BUILD/benchmark-element.json)")
     parser.add_argument("--page", type=pathlib.Path, default=SOURCE / "docs/benchmark.md",
-                        help="page to be written (default: %(default)s)")
+                        help="page to update (default: %(default)s)")
     options = parser.parse_args()
     try:
         update(options)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""figures.py writes what a result says, between its marks, and leaves the page where it cannot."""
+"""figures.py writes the figures of a result between its marks, and keeps the page on errors."""
 import json
 import os
 import pathlib
@@ -14,7 +14,7 @@ import unittest.mock
 FIGURES = pathlib.Path(__file__).resolve().parent / "figures.py"
 PLOTTER = FIGURES.parents[2] / "pipelines/eval/plot.py"
 PAGE = ("# Benchmark\n\nText before.\n\n<!-- figures: begin -->\nold figures\n"
-        "<!-- figures: end -->\n\nText behind.\n")
+        "<!-- figures: end -->\n\nText after.\n")
 CONTEXT = {"date": "2030-01-02T03:04:05+00:00", "host_name": "secret-host", "num_cpus": 2,
            "mhz_per_cpu": 2500, "processor": "Some CPU", "mtstereo": "9.8.7", "opencv": "4.6.0",
            "executable": "/secret/folder/program",
@@ -23,7 +23,7 @@ CONTEXT = {"date": "2030-01-02T03:04:05+00:00", "host_name": "secret-host", "num
 
 
 def one(name, time, unit="ms", cpu=None, spread=0.01, **counters):
-    """A benchmark as its median and spread, behind a repetition that does not count."""
+    """A benchmark as its median and spread, after a repetition that does not count."""
     entry = {"run_name": name, "time_unit": unit, "real_time": time,
              "cpu_time": time if cpu is None else cpu, **counters}
     return [{**entry, "name": name, "run_type": "iteration", "real_time": 10 * time},
@@ -84,7 +84,7 @@ class Figures(unittest.TestCase):
                               check=False, capture_output=True, text=True, timeout=120)
 
     def figures_of(self, entries, element=None):
-        """The page after a run that is expected to work."""
+        """The page after a successful run."""
         self.write("benchmark.json", entries)
         if element:
             self.write("benchmark-element.json", element,
@@ -94,7 +94,7 @@ class Figures(unittest.TestCase):
         self.said = done
         return self.page.read_text(encoding="utf-8")
 
-    def expect_refusal(self, status, words, *arguments):
+    def expect_rejection(self, status, words, *arguments):
         done = self.run_script(*arguments)
         self.assertEqual(status, done.returncode, done.stdout + done.stderr)
         self.assertIn(words, done.stderr)
@@ -106,10 +106,10 @@ class Figures(unittest.TestCase):
 
 
 class Page(Figures):
-    def test_only_what_stands_between_the_marks_changes(self):
+    def test_only_text_between_the_marks_changes(self):
         text = self.figures_of(FRAMES)
         self.assertTrue(text.startswith(PAGE.split("old figures")[0]))
-        self.assertTrue(text.endswith("<!-- figures: end -->\n\nText behind.\n"))
+        self.assertTrue(text.endswith("<!-- figures: end -->\n\nText after.\n"))
         self.assertNotIn("old figures", text)
 
     def test_the_same_result_gives_the_same_page(self):
@@ -117,7 +117,7 @@ class Page(Figures):
         self.assertEqual(self.figures_of(everything, ELEMENT),
                          self.figures_of(everything, ELEMENT))
 
-    def test_machine_is_told_without_its_name_and_folders(self):
+    def test_machine_is_described_without_host_name_and_folders(self):
         text = self.figures_of(FRAMES, ELEMENT)
         for words in ("Some CPU, 2 CPUs of 2500 MHz", "L1 data 48 KiB,",
                       "L3 unified 1024 KiB (for 2 CPUs)", "2030-01-02", "mtstereo 9.8.7",
@@ -143,18 +143,18 @@ class Page(Figures):
         self.assertIn("| 640x480x64 | `preset=paper cost-volume=full` | 65.0 | 94.0 |", text)
         self.assertIn("| street-1242x375-100 | 2 | 40.00 | 41.20 | 3.00 |", text)
 
-    def test_what_was_not_measured_has_no_heading(self):
+    def test_missing_measurements_have_no_heading(self):
         text = self.figures_of(FRAMES)
         for heading in ("Stages", "SIMD", "Growth", "Memory", "Element"):
             self.assertNotIn(f"### {heading}", text)
         self.assertFalse(self.picture.exists())
 
-    def test_repetitions_alone_give_their_median(self):
+    def test_repetitions_without_aggregates_give_their_median(self):
         name = "target/street-640x480-64/AVX2/real_time"
         text = self.figures_of([entry for time in (1, 2, 9) for entry in one(name, time / 10)[:1]])
         self.assertIn("| AVX2 | 2.0 | - | 1.00 | 1.00 |", text)
 
-    def test_noise_is_told_by_name(self):
+    def test_noisy_benchmarks_are_named(self):
         self.figures_of(FRAMES)
         self.assertEqual("", self.said.stderr)
         self.figures_of(frame("bm", 1, 10, spread=0.07) + frame("bm", 2, 10, cpu=5))
@@ -185,22 +185,22 @@ class Growth(Figures):
         self.assertGreater(measured, 300)
         self.assertGreater(proportional, 20)
 
-    def test_without_matplotlib_the_package_is_named_and_the_page_is_left(self):
+    def test_missing_matplotlib_names_the_package_and_keeps_the_page(self):
         (self.build / "matplotlib.py").write_text("raise ModuleNotFoundError('matplotlib')\n")
         self.write("benchmark.json", GROWTH)
         with unittest.mock.patch.dict(os.environ, PYTHONPATH=str(self.build)):
-            self.expect_refusal(1, "python3-matplotlib", "--no-run")
+            self.expect_rejection(1, "python3-matplotlib", "--no-run")
         self.assertEqual(PAGE, self.page.read_text(encoding="utf-8"))
         self.assertFalse(self.picture.exists())
 
-    def test_one_point_is_no_growth(self):
+    def test_one_point_is_not_a_growth_plot(self):
         self.assertNotIn("Growth", self.figures_of(GROWTH[:3]))
 
-    def test_one_way_to_grow_is_one_panel(self):
+    def test_one_variable_is_one_panel(self):
         self.figures_of(GROWTH[:6])
         self.assertEqual((600, 420), struct.unpack(">II", self.picture.read_bytes()[16:24]))
 
-    def test_plots_that_are_none_are_refused_by_name(self):
+    def test_invalid_plots_are_rejected_by_name(self):
         panel = {"x": "x", "y": "y", "caption": "c", "points": [[1, 1], [2, 2]]}
         broken = ["", "[]", "{}", {"title": "t"}, {"title": "t", "panels": []},
                   {"title": "t", "panels": [panel] * 3}, {"title": 3, "panels": [panel]},
@@ -220,7 +220,7 @@ class Growth(Figures):
                 self.assertFalse(self.picture.exists())
 
 
-class Refusals(Figures):
+class Rejections(Figures):
     def tearDown(self):
         self.assertEqual(self.expected, self.page.read_text(encoding="utf-8"))
 
@@ -228,34 +228,34 @@ class Refusals(Figures):
         super().setUp()
         self.expected = PAGE
 
-    def test_files_that_are_no_results_are_named(self):
+    def test_files_that_are_not_results_are_named(self):
         for broken in ("", "{", "[]", "{}", '{"benchmarks": []}',
                        '{"context": {}, "benchmarks": [{}]}', '{"context": 1, "benchmarks": 1}'):
             with self.subTest(broken):
                 self.write("benchmark.json", broken)
-                self.expect_refusal(2, "benchmark.json: is no result", "--no-run")
+                self.expect_rejection(2, "benchmark.json: is not a result", "--no-run")
 
-    def test_figures_that_are_not_there_are_told(self):
+    def test_missing_figures_are_reported(self):
         no_density = [{key: value for key, value in entry.items() if key != "density"}
                       for entry in FRAMES]
         for entries, context in ((no_density, CONTEXT), (FRAMES, {}),
                                  (one("frame", 1), CONTEXT), (one("scaling/pixels/a", 1), CONTEXT)):
             self.write("benchmark.json", entries, context)
-            self.expect_refusal(2, "benchmark.json", "--no-run")
+            self.expect_rejection(2, "benchmark.json", "--no-run")
 
-    def test_benchmarks_that_failed_are_named(self):
+    def test_failed_benchmarks_are_named(self):
         self.write("benchmark.json", FRAMES + [
             {"name": "frame/f/bm", "run_name": "frame/f/bm", "run_type": "iteration",
              "error_occurred": True, "error_message": "no disparity"}])
-        self.expect_refusal(2, "frame/f/bm failed: no disparity", "--no-run")
+        self.expect_rejection(2, "frame/f/bm failed: no disparity", "--no-run")
 
     def test_missing_files_are_named(self):
-        self.expect_refusal(2, "benchmark.json: cannot be read", "--no-run")
+        self.expect_rejection(2, "benchmark.json: cannot be read", "--no-run")
         self.write("benchmark.json", FRAMES)
-        self.expect_refusal(2, "none.json: cannot be read", "--no-run", "--element-result",
+        self.expect_rejection(2, "none.json: cannot be read", "--no-run", "--element-result",
                             self.build / "none.json")
 
-    def test_page_without_its_marks_is_refused(self):
+    def test_page_without_its_marks_is_rejected(self):
         self.write("benchmark.json", FRAMES)
         begin, end = "<!-- figures: begin -->", "<!-- figures: end -->"
         for page in ("# Benchmark\n", f"# Benchmark\n{begin}\n", f"# Benchmark\n{end}{begin}",
@@ -263,10 +263,10 @@ class Refusals(Figures):
             with self.subTest(page):
                 self.expected = page
                 self.page.write_text(page, encoding="utf-8")
-                self.expect_refusal(2, "benchmark.md: has to have", "--no-run")
+                self.expect_rejection(2, "benchmark.md: must contain", "--no-run")
 
     def test_build_without_the_programs_is_named(self):
-        self.expect_refusal(1, "mtstereo-benchmark")
+        self.expect_rejection(1, "mtstereo-benchmark")
 
 
 class Runs(Figures):
@@ -293,17 +293,17 @@ class Runs(Figures):
         self.assertIn("`fast`", text)
         self.assertIn(str(self.build / "gst"), done.stdout)
 
-    def test_without_the_plugin_no_older_figures_of_it_are_taken(self):
+    def test_without_the_plugin_its_older_figures_are_not_used(self):
         self.writer("mtstereo-benchmark", FRAMES)
         self.write("benchmark-element.json", ELEMENT, {**CONTEXT, "gstreamer": "GStreamer"})
         done = self.run_script()
         self.assertEqual(0, done.returncode, done.stderr)
         self.assertNotIn("### Element", self.page.read_text(encoding="utf-8"))
 
-    def test_program_that_fails_leaves_the_page(self):
+    def test_failed_program_keeps_the_page(self):
         self.writer("mtstereo-benchmark", FRAMES)
         self.program("mtstereo-benchmark-element", "sys.exit(1)")
-        self.expect_refusal(1, "mtstereo-benchmark-element")
+        self.expect_rejection(1, "mtstereo-benchmark-element")
         self.assertEqual(PAGE, self.page.read_text(encoding="utf-8"))
 
 

@@ -28,7 +28,7 @@ Parameters parameters_of(const Variant& variant, const Frame& frame, int threads
 Outcome time_matcher(benchmark::State& state, const Parameters& parameters, const Frame& frame) {
   const OpenCvThreads opencv_threads(parameters.integer(Parameter::kThreads));
   Matcher matcher = make_matcher(parameters);
-  DisparityView disparity = match(matcher, frame.images());  // sizes the buffers
+  DisparityView disparity = match(matcher, frame.images());  // allocates the buffers
   for ([[maybe_unused]] auto _ : state) disparity = match(matcher, frame.images());
   const Outcome outcome = outcome_of(disparity, matcher.confidence());
   require_density(outcome.disparity);

@@ -9,14 +9,14 @@
 
 namespace mtstereo::bench {
 
-/// A set of defaults that is timed.
+/// A set of defaults that is timed as a method.
 struct Variant {
   const char* name;
   const char* preset;
   const char* mode;
 };
 
-/// What everything else is compared with.
+/// The method that all others are compared with.
 inline constexpr Variant kDefaultVariant = {kDefaultMethod, "default", "semi-dense"};
 
 /// Whether the library has a preset with this name.
@@ -24,16 +24,16 @@ bool has_preset(const char* preset);
 
 Parameters parameters_of(const Variant& variant, const Frame& frame, int threads);
 
-/// Matches the frame until the state has enough of it; what sizes the buffers does not count.
-/// Throws std::runtime_error where nothing is found.
+/// Matches the frame until the state has enough iterations; the first frame, which allocates the
+/// buffers, is not timed. Throws std::runtime_error if no disparity is found.
 Outcome time_matcher(benchmark::State& state, const Parameters& parameters, const Frame& frame);
 
-/// The same with as many threads, and requires the outcome of the other number of threads, 1 or 2.
-/// `other` is that outcome once it was needed.
+/// The same with this number of threads, 1 or 2. Requires that the other number gives the same
+/// outcome, which `other` caches.
 void time_library(benchmark::State& state, const Variant& variant, const Frame& frame, int threads,
                   Outcome& other);
 
-/// Tells s/MP, frames/s and density of what was timed.
+/// Sets the counters s/MP, frames/s and density.
 void count_frame(benchmark::State& state, const Frame& frame, double density);
 
 }  // namespace mtstereo::bench

@@ -70,7 +70,7 @@ std::vector<FramePointer> frames(bool quick, const char* data) {
       std::make_shared<Frame>(1920, 1080, 128),
   };
   if (data == nullptr || *data == '\0') {
-    std::cerr << "MTSTEREO_TEST_DATA names no folder: rendered pairs only\n";
+    std::cerr << "MTSTEREO_TEST_DATA is not set: rendered pairs only\n";
     return all;
   }
   try {

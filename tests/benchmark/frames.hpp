@@ -16,21 +16,22 @@ struct Pair {
   cv::Mat right;
 };
 
-/// A street at a time [s] into the scene, rendered: the same bytes in every run.
+/// The rendered street at a time [s] of the scene: the same bytes in every run.
 Pair render_street(int width, int height, double time = 1);
 
 GrayView view_of(const cv::Mat& image);
 
-/// A pair to be matched. Its images are made when they are first asked for, so that those that a
-/// filter leaves out cost nothing.
+/// A pair to be matched. Its images are created on first use, so that frames excluded by a filter
+/// cost nothing.
 class Frame {
  public:
-  /// A rendered one.
+  /// A rendered frame.
   Frame(int width, int height, int disparities);
-  /// The pair of KITTI 2015 with this name below a folder. Throws eval::InputError where it is not.
+  /// The pair of KITTI 2015 with this name below a folder. Throws eval::InputError if it is
+  /// missing.
   static Frame kitti(const std::string& folder, const std::string& name, int disparities);
 
-  const std::string& name() const { return name_; }  ///< as in "street-640x480-64"
+  const std::string& name() const { return name_; }  ///< such as "street-640x480-64"
   int disparities() const { return disparities_; }
   const Pair& images() const;
   double megapixels() const { return images().left.total() * 1e-6; }
@@ -46,11 +47,11 @@ class Frame {
 
 using FramePointer = std::shared_ptr<const Frame>;
 
-/// The frames of a run: one for `quick`, else the sizes of docs/benchmark.md, and the real pair
-/// where `data` names a folder that has it (a note on the standard error tells where it has not).
+/// The frames of a run: one for `quick`, else the sizes of docs/benchmark.md and the real pair if
+/// `data` names a folder that contains it; if not, a note is printed on the standard error.
 std::vector<FramePointer> frames(bool quick, const char* data);
 
-/// The frame that the paper's and the other modes, and the single stages, are timed on.
+/// The frame for the measurements that are made on one frame only.
 FramePointer main_frame(const std::vector<FramePointer>& all);
 
 }  // namespace mtstereo::bench

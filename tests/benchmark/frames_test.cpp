@@ -18,7 +18,7 @@ TEST(Frames, QuickRunHasOneSize) {
   EXPECT_EQ(quick.front(), main_frame(quick));
 }
 
-TEST(Frames, FullRunBeginsWithTheMainSizeAndHasNoNameTwice) {
+TEST(Frames, FullRunStartsWithTheMainSizeAndHasUniqueNames) {
   const auto all = frames(false, nullptr);
   std::set<std::string> names;
   for (const FramePointer& frame : all) names.insert(frame->name());
@@ -27,7 +27,7 @@ TEST(Frames, FullRunBeginsWithTheMainSizeAndHasNoNameTwice) {
   EXPECT_EQ("street-1242x375-100", main_frame(all)->name());
 }
 
-TEST(Frames, FolderWithoutTheRealPairLeavesTheRenderedOnes) {
+TEST(Frames, FolderWithoutTheRealPairGivesOnlyRenderedOnes) {
   const std::string empty = testing::TempDir() + "no-such-folder";
   EXPECT_EQ(5U, frames(false, empty.c_str()).size());
   EXPECT_EQ(5U, frames(false, "").size());
@@ -46,7 +46,7 @@ TEST(Frames, RenderedPairHasItsSizeAndTwoDifferentViews) {
   EXPECT_EQ(CV_8UC1, pair.left.type());
   EXPECT_GT(cv::countNonZero(pair.left != pair.right), 0);
   EXPECT_DOUBLE_EQ(64 * 48 * 1e-6, frame.megapixels());
-  EXPECT_EQ(pair.left.data, frame.images().left.data) << "it is rendered once";
+  EXPECT_EQ(pair.left.data, frame.images().left.data) << "it is rendered only once";
 }
 
 }  // namespace

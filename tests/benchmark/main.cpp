@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// mtstereo-benchmark: how long whole frames and single stages take, beside OpenCV's matchers.
+// mtstereo-benchmark: times whole frames and single stages, and OpenCV's matchers for comparison.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -23,16 +23,16 @@ using namespace mtstereo;
 
 void print_help() {
   std::cout << "mtstereo-benchmark [--quick]\n"
-               "          one frame size and 2 short repetitions, to see that all still runs\n"
-               "  The environment's MTSTEREO_TEST_DATA names the folder that has kitti2015/.\n"
-               "  These are Google Benchmark's own, which go before what this program sets:\n";
+               "          one frame size and 2 short repetitions, to check that everything runs\n"
+               "  The environment variable MTSTEREO_TEST_DATA names the folder of kitti2015/.\n"
+               "  Options of Google Benchmark, which override the settings of this program:\n";
   benchmark::PrintDefaultHelp();
 }
 
 int report(const bench::Summary& summary, const bench::Frame& main_frame) {
   const std::vector<bench::FrameTiming> timings = summary.timings();
   if (!timings.empty()) {
-    std::cout << "\nMedians; how much of the frame is found differs, see docs/benchmark.md.\n";
+    std::cout << "\nMedians; the methods differ in density, see docs/benchmark.md.\n";
     eval::print_rows(std::cout, bench::frame_table(timings));
   }
   const std::vector<eval::TableRow> targets = bench::target_table(main_frame, summary);
@@ -65,7 +65,7 @@ int run(int argc, char** argv) {
   bench::register_memory(options.quick());
   bench::SummarizingReporter reporter(summary);
   if (benchmark::RunSpecifiedBenchmarks(&reporter) == 0) {
-    std::cerr << "error: no benchmark was run; --benchmark_list_tests tells their names\n";
+    std::cerr << "error: no benchmark was run; --benchmark_list_tests lists their names\n";
     return EXIT_FAILURE;
   }
   return report(summary, *bench::main_frame(frames));

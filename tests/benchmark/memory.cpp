@@ -34,11 +34,11 @@ struct Size {
   int width, height, disparities;
 };
 
-/// What is measured, besides the defaults of each size: what stands behind the size.
+/// The measured settings besides the defaults of each size, as the text after the size.
 struct Case {
   const char* settings;
-  const char* preset;  ///< that the settings need
-  bool at_all_sizes;   ///< else at the last one only
+  const char* preset;  ///< preset of the settings
+  bool at_all_sizes;   ///< false: only at the last size
 };
 constexpr Case kCases[] = {
     {"", "default", true},
@@ -56,7 +56,7 @@ struct MemoryUse {
   double first_frame = 0;  ///< [s]
 };
 
-/// A figure of /proc/self/status [KiB], 0 where it is not there.
+/// A value of /proc/self/status [KiB], 0 if it is missing.
 double status_figure(const std::string& name) {
   std::ifstream status("/proc/self/status");
   std::string line;
@@ -66,14 +66,14 @@ double status_figure(const std::string& name) {
   return 0;
 }
 
-/// Lets the peak (VmHWM) begin anew at what is resident now. False where the system does not.
+/// Resets the peak (VmHWM) to the current resident set. False if the system does not allow it.
 bool reset_peak() {
   std::ofstream file("/proc/self/clear_refs");
   file << "5" << std::flush;
   return file.good() && status_figure("VmHWM") > 0;
 }
 
-/// Runs a command and gives what it prints. Throws std::runtime_error where it fails.
+/// Runs a command and returns its output. Throws std::runtime_error if it fails.
 std::string output_of(const std::string& program, const std::string& argument) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
@@ -109,10 +109,10 @@ MemoryUse use_of(const std::string& what) {
   std::istringstream figures(output_of(program, kMemoryOption + what));
   MemoryUse use;
   if (figures >> use.peak >> use.first_frame) return use;
-  throw std::runtime_error("the process that measures memory told no figures");
+  throw std::runtime_error("the process that measures memory printed no figures");
 }
 
-/// Sets what stands behind slashes, as in "/mode=dense/threads=2".
+/// Sets the parameters of a text such as "/mode=dense/threads=2".
 Parameters parameters_with(Parameters parameters, std::string_view settings) {
   while (!settings.empty()) {
     const std::string_view setting = settings.substr(1, settings.find('/', 1) - 1);
@@ -153,7 +153,7 @@ void measure_memory(const char* what) {
   if (std::sscanf(what, "%dx%dx%d%n", &of.width, &of.height, &of.disparities, &length) != 3 ||
       (what[length] != '\0' && what[length] != '/')) {
     throw std::runtime_error(std::string(kMemoryOption) + what +
-                             ": wanted is WIDTHxHEIGHTxDISPARITIES[/PARAMETER=VALUE]..., as in "
+                             ": expected WIDTHxHEIGHTxDISPARITIES[/PARAMETER=VALUE]..., such as "
                              "640x480x64/mode=dense");
   }
   const Parameters parameters =

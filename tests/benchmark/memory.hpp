@@ -3,18 +3,18 @@
 
 namespace mtstereo::bench {
 
-/// The option with which the program is started again to measure memory: a process of its own for
-/// each measurement, so that nothing of what ran before counts.
+/// The option with which the program starts itself to measure memory. Each measurement has its own
+/// process, so that earlier benchmarks do not affect it.
 inline constexpr const char* kMemoryOption = "--measure-memory=";
 
-/// Registers the measurements, of the defaults and of settings that take more or less: peak
-/// resident set of the first frames over that before them, and the time of the first frame, which
-/// sizes the buffers. Where the system does not tell the peak, a note on the standard error says so
-/// and nothing is registered.
+/// Registers the measurements of the defaults and of settings that need more or less memory: the
+/// increase of the peak resident set by the first frames, and the time of the first frame, which
+/// allocates the buffers. If the system does not report the peak, prints a note on the standard
+/// error and registers nothing.
 void register_memory(bool quick);
 
-/// What the process of its own does, given what stands behind the option, the size and parameters
-/// as in "640x480x64/mode=dense": prints the two figures. Throws std::runtime_error.
+/// The work of that process: prints the two figures. `what` is the value of the option, size and
+/// parameters, such as "640x480x64/mode=dense". Throws std::runtime_error.
 void measure_memory(const char* what);
 
 }  // namespace mtstereo::bench

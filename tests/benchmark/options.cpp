@@ -42,11 +42,11 @@ Options::Options(int argc, char** argv, RunDefaults full, void (*print_help)()) 
     }
   }
   const RunDefaults& defaults = quick_ ? kQuick : full;
-  // Before the user's own options, so that these win.
+  // Before the user's own options, so that those take precedence.
   std::string set[] = {"--benchmark_repetitions=" + std::to_string(defaults.repetitions),
                        "--benchmark_min_time=" + number(defaults.min_time),
                        "--benchmark_display_aggregates_only=true"};
-  std::vector<char*> arguments = {argv[0]};  // whose text is not copied, and told in the result
+  std::vector<char*> arguments = {argv[0]};  // not copied; it is part of the result
   for (std::string& argument : set) arguments.push_back(argument.data());
   arguments.insert(arguments.end(), own.begin(), own.end());
   int count = static_cast<int>(arguments.size());
@@ -64,7 +64,7 @@ void add_context() {
 }
 
 std::string processor_name(const std::string& cpuinfo) {
-  // x86 has "model name"; on ARM, systems that tell a name have it as "Model" or "Hardware".
+  // x86 has "model name"; ARM systems have "Model" or "Hardware", if any.
   for (const char* key : {"model name", "Model", "Hardware"}) {
     std::istringstream lines(cpuinfo);
     std::string line;

@@ -5,20 +5,20 @@
 
 namespace mtstereo::bench {
 
-/// Google Benchmark's own settings of a run, which the user's options override.
+/// Defaults of Google Benchmark's options, which the user's options override.
 struct RunDefaults {
   int repetitions;
-  double min_time;  ///< of each repetition [s]
+  double min_time;  ///< minimum time of each repetition [s]
 };
 
-/// The command line: --quick, and Google Benchmark's options, which are set.
+/// The command line: --quick and Google Benchmark's options, which are passed on.
 class Options {
  public:
-  /// `print_help` is what --help runs.
+  /// --help calls `print_help`.
   Options(int argc, char** argv, RunDefaults full, void (*print_help)());
 
   bool quick() const { return quick_; }
-  /// False where there was an option that is not known; the standard error names it.
+  /// False if there was an unknown option; the standard error names it.
   bool good() const { return good_; }
 
  private:
@@ -26,10 +26,10 @@ class Options {
   bool good_ = true;
 };
 
-/// Tells, in the head of a result, the versions that were timed and the processor's name.
+/// Adds the timed versions and the processor's name to the context of a result.
 void add_context();
 
-/// The processor's name as in this text of /proc/cpuinfo, "unknown" where it has none.
+/// The processor's name in this text of /proc/cpuinfo, "unknown" if it has none.
 std::string processor_name(const std::string& cpuinfo);
 
 }  // namespace mtstereo::bench

@@ -12,13 +12,13 @@ TEST(ProcessorName, IsTheModelNameOfTheFirstProcessor) {
                                                  "processor\t: 1\nmodel name\t: Other\n"));
 }
 
-TEST(ProcessorName, IsTheBoardsWhereTheProcessorsHaveNone) {
+TEST(ProcessorName, IsThatOfTheBoardIfProcessorsHaveNone) {
   EXPECT_EQ("Board 4 Model B", processor_name("processor\t: 0\nCPU part\t: 0xd08\n\n"
                                               "Hardware\t: Chip\nModel\t\t: Board 4 Model B\n"));
   EXPECT_EQ("Chip", processor_name("Hardware\t: Chip"));
 }
 
-TEST(ProcessorName, IsUnknownWhereNothingTellsIt) {
+TEST(ProcessorName, IsUnknownWithoutAnyEntry) {
   for (const char* text : {"", "model name", "model name :", "model name\t: \t\n", ": x\n",
                            "modelname : x", "model name x : y"}) {
     EXPECT_EQ("unknown", processor_name(text)) << text;

@@ -44,7 +44,7 @@ Outcome outcome_of(DisparityView disparity, GrayView confidence) {
 
 double density_of(const cv::Mat& disparity) {
   if (disparity.empty()) return 0;
-  // NaN equals nothing, itself included.
+  // NaN does not equal itself.
   const cv::Mat known =
       disparity.type() == CV_32FC1 ? disparity == disparity : disparity != kNoDisparity;
   return static_cast<double>(cv::countNonZero(known)) / static_cast<double>(known.total());
@@ -52,7 +52,7 @@ double density_of(const cv::Mat& disparity) {
 
 void require_density(const cv::Mat& disparity) {
   if (density_of(disparity) > 0) return;
-  throw std::runtime_error("the result has no disparity at all");
+  throw std::runtime_error("the result has no disparity");
 }
 
 void require_same(const std::string& what, const Outcome& expected, const Outcome& actual) {

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The benchmark still runs, to the end and over everything, and refuses what it does not know.
+"""All benchmarks run to the end, and invalid options are rejected.
 
-No time is ever judged here.
+No time is judged here.
 """
 import json
 import os
@@ -32,7 +32,7 @@ def run(*arguments, **environment):
 
 
 class QuickRun(unittest.TestCase):
-    """One run of everything, whose outputs all tests here look at."""
+    """One run of all benchmarks, whose outputs all tests of this class check."""
 
     @classmethod
     def setUpClass(cls):
@@ -67,7 +67,7 @@ class QuickRun(unittest.TestCase):
         for entry in self.medians("stage/").values():
             self.assertGreater(entry["ns/px"], 0)
 
-    def test_has_the_memory_or_says_why_not(self):
+    def test_has_the_memory_or_reports_why_not(self):
         found = [entry for entry in self.result["benchmarks"]
                  if entry["run_name"].startswith("memory/")]
         if not found:
@@ -75,8 +75,8 @@ class QuickRun(unittest.TestCase):
             return
         peaks = {entry["run_name"].split("/iterations")[0].split("first-frame-")[1]:
                  entry["peak_MiB"] for entry in found}
-        # The census words of two views at 640x480 alone have 2.3 MiB; half a cost volume of 64
-        # disparities has 9.4 MiB, a full one 37.5 MiB.
+        # The census words of two views at 640x480 alone take 2.3 MiB; half a cost volume with 64
+        # disparities takes 9.4 MiB, a full one 37.5 MiB.
         self.assertGreater(peaks["640x480x64"], 2)
         self.assertGreater(peaks["640x480x64/preset=paper"], 9)
         self.assertGreater(peaks["640x480x64/preset=paper/cost-volume=full"], 37)
@@ -91,7 +91,7 @@ class QuickRun(unittest.TestCase):
         rows = self.done.stdout.split("time / AVX2")[1].splitlines()[1:]
         self.assertEqual(names, [row.split()[0] for row in rows if row])
 
-    def test_has_points_of_both_ways_to_grow(self):
+    def test_has_points_of_both_scaling_variables(self):
         pixels = self.medians("scaling/pixels/").values()
         self.assertEqual([320 * 240, 640 * 480], [entry["pixels"] for entry in pixels])
         self.assertEqual({64}, {entry["disparities"] for entry in pixels})
@@ -102,7 +102,7 @@ class QuickRun(unittest.TestCase):
     def test_context_names_the_processor(self):
         self.assertTrue(self.result["context"]["processor"])
 
-    def test_ends_with_a_table_that_compares_with_opencv(self):
+    def test_ends_with_a_comparison_table(self):
         table = self.done.stdout.split("time / bm\n")[1].split("\n\n")[0].splitlines()
         self.assertEqual(2 * len(METHODS), len(table), self.done.stdout)
         for line in table:
@@ -115,7 +115,7 @@ class QuickRun(unittest.TestCase):
         self.assertIn("frame/street-640x480-64/semi-dense/threads:1", done.stdout)
 
 
-class Refusals(unittest.TestCase):
+class Rejections(unittest.TestCase):
     def expect_failure(self, words, *arguments, **environment):
         done = run(*arguments, **environment)
         self.assertEqual(1, done.returncode, done.stdout + done.stderr)
@@ -125,14 +125,14 @@ class Refusals(unittest.TestCase):
         self.expect_failure("--speed", "--quick", "--speed")
         self.expect_failure("frame", "frame")
 
-    def test_filter_that_fits_nothing_fails(self):
+    def test_filter_without_a_match_fails(self):
         self.expect_failure("no benchmark was run", "--quick", "--benchmark_filter=bicycle")
 
     def test_output_that_cannot_be_written_fails(self):
         self.expect_failure("/no/such/folder/file", "--quick",
                             "--benchmark_out=/no/such/folder/file")
 
-    def test_sizes_that_are_none_are_refused(self):
+    def test_invalid_sizes_are_rejected(self):
         for size in ("", "640", "640x480", "640x480x64x", "axbxc"):
             with self.subTest(size):
                 self.expect_failure("WIDTHxHEIGHTxDISPARITIES", f"--measure-memory={size}")
@@ -140,14 +140,14 @@ class Refusals(unittest.TestCase):
             with self.subTest(size):
                 self.expect_failure("error: ", f"--measure-memory={size}")
 
-    def test_settings_that_are_none_are_refused_by_name(self):
+    def test_invalid_settings_are_rejected_by_name(self):
         for setting in ("speed=1", "mode", "mode=", "mode=fair", "threads=-1", "", "="):
             with self.subTest(setting):
                 name = setting.split("=")[0] or 'no parameter ""'
                 self.expect_failure(name, f"--measure-memory=64x48x16/{setting}")
                 self.expect_failure(name, f"--measure-memory=64x48x16/mode=dense/{setting}")
 
-    def test_folder_without_the_real_pair_is_told(self):
+    def test_folder_without_the_real_pair_is_reported(self):
         done = run("--benchmark_list_tests", MTSTEREO_TEST_DATA="/no/such/folder")
         self.assertEqual(0, done.returncode, done.stderr)
         self.assertIn("/no/such/folder", done.stderr)
@@ -169,7 +169,7 @@ def write_png(file, rows, bits):
 
 
 class PairFromFolder(unittest.TestCase):
-    """A pair in place of the real one, of which the benchmark judges what comes out."""
+    """A synthetic pair in place of the real one, for the benchmark's check of its result."""
 
     WIDTH, HEIGHT, SHIFT = 160, 48, 7
 
@@ -187,14 +187,14 @@ class PairFromFolder(unittest.TestCase):
                    "--benchmark_repetitions=1", "--benchmark_min_time=0.001",
                    MTSTEREO_TEST_DATA=folder.name)
 
-    def test_is_timed_where_something_is_found(self):
+    def test_is_timed_if_disparities_are_found(self):
         numbers = random.Random(1)
         done = self.run_on([[numbers.randrange(256) for _ in range(self.WIDTH + self.SHIFT)]
                             for _ in range(self.HEIGHT)])
         self.assertEqual(0, done.returncode, done.stdout + done.stderr)
         self.assertEqual(2, done.stdout.count("\nkitti-160x48-100  semi-dense"), done.stdout)
 
-    def test_fails_where_nothing_is_found(self):
+    def test_fails_if_no_disparity_is_found(self):
         done = self.run_on([[100] * (self.WIDTH + self.SHIFT)] * self.HEIGHT)
         self.assertEqual(1, done.returncode, done.stdout + done.stderr)
         for threads in (1, 2):
@@ -204,7 +204,7 @@ class PairFromFolder(unittest.TestCase):
 
 
 class Help(unittest.TestCase):
-    def test_tells_both_kinds_of_options(self):
+    def test_lists_both_kinds_of_options(self):
         done = run("--help")
         self.assertEqual(0, done.returncode)
         self.assertIn("--quick", done.stdout)

@@ -8,7 +8,7 @@ from compare import MILLISECONDS, InputError
 
 
 class Measurement:
-    """The median of a benchmark: its time, its counters and how much its repetitions differ."""
+    """The median of a benchmark: its time, its counters and the spread of its repetitions."""
 
     def __init__(self, entries, spread):
         self.name = entries[0]["run_name"]
@@ -17,7 +17,7 @@ class Measurement:
         self.milliseconds = self.value("real_time") * unit
         self.processor_milliseconds = self.value("cpu_time") * unit
         if self.milliseconds <= 0:
-            raise ValueError(f"{self.name} took no time")
+            raise ValueError(f"{self.name} has no time")
 
     def value(self, counter):
         return statistics.median(float(entry[counter]) for entry in self.entries)
@@ -26,17 +26,17 @@ class Measurement:
         return counter in self.entries[0]
 
     def part(self, index):
-        """A part of the name, which '/' divides."""
+        """A part of the name; '/' separates the parts."""
         return self.name.split("/")[index]
 
     def settings(self):
-        """The parts of the name that are neither its kind and size nor options of the run."""
+        """The parts of the name other than kind, size and options of the run."""
         own = ("iterations:", "repeats:", "manual_time", "real_time", "process_time")
         return "/".join(part for part in self.name.split("/")[2:] if not part.startswith(own))
 
 
 class Result:
-    """A whole file: its context, and the measurements in their order."""
+    """A file: its context and its measurements in order."""
 
     def __init__(self, file):
         try:
@@ -46,12 +46,13 @@ class Result:
         except OSError as error:
             raise InputError(f"{file}: cannot be read: {error.strerror}") from error
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise InputError(f"{file}: is no result of --benchmark_out={file}: {error!r}") from error
+            raise InputError(f"{file}: is not a result of --benchmark_out={file}: "
+                             f"{error!r}") from error
         except RuntimeError as error:
             raise InputError(f"{file}: {error}") from error
 
     def of(self, kind):
-        """The measurements whose name begins with this part."""
+        """The measurements whose name starts with this part."""
         return [one for one in self.measurements if one.part(0) == kind]
 
 

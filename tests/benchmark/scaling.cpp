@@ -16,8 +16,8 @@ namespace {
 struct Size {
   int width, height;
 };
-constexpr Size kSize = {640, 480};  // of the frames whose disparities grow
-constexpr int kDisparities = 64;    // of the frames whose size grows
+constexpr Size kSize = {640, 480};  // size for growing numbers of disparities
+constexpr int kDisparities = 64;    // disparities for growing sizes
 
 void add(const std::string& name, const FramePointer& frame) {
   benchmark::RegisterBenchmark(

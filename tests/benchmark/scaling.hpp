@@ -3,8 +3,8 @@
 
 namespace mtstereo::bench {
 
-/// Registers rendered streets of growing size, and of growing numbers of disparities, matched by
-/// the defaults with one thread: what it takes to see how the time grows with either.
+/// Registers rendered streets of growing size and with growing numbers of disparities, matched with
+/// the defaults and one thread, to show how the time grows with either.
 void register_scaling(bool quick);
 
 }  // namespace mtstereo::bench

@@ -11,7 +11,7 @@
 
 namespace mtstereo::bench {
 
-/// An instruction set that the library's kernels are compiled for and that this processor has.
+/// An instruction set that the kernels are compiled for and that this processor supports.
 struct SimdTarget {
   std::int64_t id;   ///< Highway's bit
   std::string name;  ///< Highway's name, as in "AVX2"

@@ -71,7 +71,7 @@ TEST(TargetTable, IsEmptyIfNothingOrAnotherFrameWasTimed) {
 
 TEST(TargetTable, HasNoRatioToATargetThatWasNotTimed) {
   const std::vector<SimdTarget> targets = simd_targets();
-  if (targets.size() < 2) GTEST_SKIP() << "this build has one target only";
+  if (targets.size() < 2) GTEST_SKIP() << "this build has only one target";
   Summary summary;
   const Frame frame(64, 48, 16);
   take(summary, "target/street-64x48-16/" + targets.back().name, 10);

@@ -15,7 +15,7 @@ double counter(const benchmark::BenchmarkReporter::Run& run, const char* name) {
   return found == run.counters.end() ? 0.0 : static_cast<double>(found->second);
 }
 
-/// The time of the same frame with another method or number of threads, NaN where it was not timed.
+/// The time of the same frame with another method or number of threads, NaN if it was not timed.
 double seconds_of(const std::vector<FrameTiming>& timings, const std::string& frame,
                   std::string_view method, int threads) {
   for (const FrameTiming& timing : timings) {
@@ -57,7 +57,7 @@ void Summary::take(const benchmark::BenchmarkReporter::Run& run) {
     errors_.push_back(run.benchmark_name() + ": " + run.error_message);
     return;
   }
-  // Single repetitions come before their median, which then replaces them.
+  // Single repetitions precede their median, which replaces them.
   const bool median = run.aggregate_name == "median";
   if (run.run_type == benchmark::BenchmarkReporter::Run::RT_Aggregate && !median) return;
   counters_[run.run_name.function_name] = run.counters;

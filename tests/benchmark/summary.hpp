@@ -11,35 +11,34 @@
 
 namespace mtstereo::bench {
 
-/// The counter of every whole frame that tells the share of pixels with a disparity.
+/// The counter of the fraction of pixels with a disparity, which every whole frame has.
 inline constexpr const char* kDensityCounter = "density";
 
-/// The method that the library's defaults are.
+/// The name of the library's defaults as a method.
 inline constexpr const char* kDefaultMethod = "semi-dense";
 
-/// What the benchmark of a whole frame is about.
+/// The subject of a benchmark of a whole frame.
 struct FrameCase {
   std::string frame;
   std::string method;
   int threads = 1;
 };
 
-/// What was measured of it.
+/// Its measurements.
 struct FrameTiming {
   FrameCase of;
-  double seconds = 0;                ///< of one frame [s]
+  double seconds = 0;                ///< time of one frame [s]
   double seconds_per_megapixel = 0;  ///< [s/MP]
   double density = 0;                ///< 0 .. 1
-  double processors = 0;             ///< at work at once, on average
+  double processors = 0;             ///< average number of busy processors
 };
 
-/// The table of whole frames: time, how many processors were at work at once, how many times as
-/// fast it is as with one thread, and the time as a multiple of what the defaults, StereoSGBM with
-/// 3 directions and StereoBM take for the same frame with as many threads; "-" where the other was
-/// not timed.
+/// The table of whole frames: time, average number of busy processors, speedup over one thread, and
+/// the ratios of the time to those of the defaults, of StereoSGBM with 3 directions and of StereoBM
+/// for the same frame with the same number of threads; "-" if the other was not timed.
 std::vector<eval::TableRow> frame_table(const std::vector<FrameTiming>& timings);
 
-/// Collects what is reported: of each benchmark the median, or its only repetition.
+/// Collects the median of each benchmark, or its only repetition.
 class Summary {
  public:
   /// Announces the benchmark of a whole frame.
@@ -47,13 +46,13 @@ class Summary {
 
   void take(const benchmark::BenchmarkReporter::Run& run);
 
-  /// The whole frames that were timed, in the order they were announced.
+  /// The timed whole frames in the order of their announcement.
   std::vector<FrameTiming> timings() const;
-  /// The median of any benchmark [s], by its name without options; NaN where it was not timed.
+  /// The median of any benchmark [s], by its name without options; NaN if it was not timed.
   double seconds_of(const std::string& name) const;
   /// The same of one of its counters.
   double counter_of(const std::string& name, const std::string& counter) const;
-  /// One sentence for each benchmark that failed, in the order they did.
+  /// One sentence per failed benchmark, in order.
   const std::vector<std::string>& errors() const { return errors_; }
 
  private:
@@ -67,7 +66,7 @@ class Summary {
   std::vector<std::string> errors_;
 };
 
-/// Reports to a summary, and medians and their spread (cv) on the console.
+/// Reports to a summary, and prints medians and their spread (cv) on the console.
 class SummarizingReporter : public benchmark::ConsoleReporter {
  public:
   explicit SummarizingReporter(Summary& summary) : ConsoleReporter(OO_None), summary_(summary) {}

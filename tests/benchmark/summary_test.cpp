@@ -33,7 +33,7 @@ Run aggregate(const std::string& name, const std::string& kind, double milliseco
   return run;
 }
 
-TEST(Summary, TakesTheOnlyRepetition) {
+TEST(Summary, UsesTheOnlyRepetition) {
   Summary summary;
   summary.expect_frame("a", {"street", "semi-dense", 2});
   summary.take(repetition("a", 20));
@@ -48,7 +48,7 @@ TEST(Summary, TakesTheOnlyRepetition) {
   EXPECT_DOUBLE_EQ(1.5, timing.processors);
 }
 
-TEST(Summary, TakesTheMedianOfSeveralRepetitionsAndNoOtherAggregate) {
+TEST(Summary, UsesTheMedianOfSeveralRepetitionsAndNoOtherAggregate) {
   Summary summary;
   summary.expect_frame("a", {"street", "bm", 1});
   summary.take(repetition("a", 20));
@@ -60,7 +60,7 @@ TEST(Summary, TakesTheMedianOfSeveralRepetitionsAndNoOtherAggregate) {
   EXPECT_DOUBLE_EQ(0.030, summary.timings().front().seconds);
 }
 
-TEST(Summary, LeavesOutWhatWasNotAnnouncedOrNotRun) {
+TEST(Summary, ExcludesFramesThatWereNotAnnouncedOrNotRun) {
   Summary summary;
   summary.expect_frame("a", {"street", "bm", 1});
   summary.take(repetition("stage", 20));
@@ -68,7 +68,7 @@ TEST(Summary, LeavesOutWhatWasNotAnnouncedOrNotRun) {
   EXPECT_TRUE(summary.errors().empty());
 }
 
-TEST(Summary, NamesWhatFailedAndHasNoTimeOfIt) {
+TEST(Summary, NamesFailedBenchmarksAndHasNoTimesOfThem) {
   Summary summary;
   summary.expect_frame("a", {"street", "bm", 1});
   benchmark::BenchmarkReporter::Run run = repetition("a", 20);
@@ -83,7 +83,7 @@ TEST(Summary, NamesWhatFailedAndHasNoTimeOfIt) {
 // Columns of the table.
 constexpr std::size_t kSpeedup = 8, kToDefault = 9, kToSgbm = 10, kToBm = 11;
 
-TEST(FrameTable, DividesByTheRivalsOfTheSameFrameAndThreads) {
+TEST(FrameTable, DividesByRivalsWithTheSameFrameAndThreads) {
   const auto rows = frame_table({{{"f", "semi-dense", 1}, 0.100, 0.2, 0.5, 0.9},
                                  {{"f", "sgbm-3way", 1}, 0.050, 0.1, 0.7, 1},
                                  {{"f", "bm", 1}, 0.025, 0.05, 0.6, 1},
@@ -98,7 +98,7 @@ TEST(FrameTable, DividesByTheRivalsOfTheSameFrameAndThreads) {
   EXPECT_EQ("0.50", rows[3][kToSgbm]);
 }
 
-TEST(FrameTable, DividesByTheDefaultsOfTheSameFrameAndThreads) {
+TEST(FrameTable, DividesByDefaultsWithTheSameFrameAndThreads) {
   const auto rows = frame_table({{{"f", "semi-dense", 1}, 0.100, 0.2, 0.5, 1},
                                  {{"f", "semi-dense", 2}, 0.060, 0.2, 0.5, 2},
                                  {{"f", "fast", 1}, 0.025, 0.1, 0.5, 1},
@@ -110,7 +110,7 @@ TEST(FrameTable, DividesByTheDefaultsOfTheSameFrameAndThreads) {
   EXPECT_EQ("-", rows[5][kToDefault]);
 }
 
-TEST(FrameTable, SpeedupIsOverOneThreadOfTheSameFrameAndMethod) {
+TEST(FrameTable, SpeedupIsRelativeToOneThreadOfTheSameFrameAndMethod) {
   const auto rows = frame_table({{{"f", "semi-dense", 1}, 0.100, 0.2, 0.5, 1},
                                  {{"f", "bm", 1}, 0.300, 0.2, 0.5, 1},
                                  {{"g", "semi-dense", 1}, 0.300, 0.2, 0.5, 1},
@@ -122,7 +122,7 @@ TEST(FrameTable, SpeedupIsOverOneThreadOfTheSameFrameAndMethod) {
   EXPECT_EQ("-", rows[5][kSpeedup]);
 }
 
-TEST(FrameTable, HasNoRatioWhereTheRivalDidNotRun) {
+TEST(FrameTable, HasNoRatioIfTheRivalDidNotRun) {
   const auto rows = frame_table(
       {{{"f", "semi-dense", 1}, 0.100, 0.2, 0.5, 1}, {{"f", "bm", 2}, 0.010, 0.2, 0.5, 1}});
   ASSERT_EQ(3U, rows.size());
@@ -130,7 +130,7 @@ TEST(FrameTable, HasNoRatioWhereTheRivalDidNotRun) {
   EXPECT_EQ("-", rows[1][kToBm]);
 }
 
-TEST(Summary, TellsTheTimeOfWhatWasNotAnnouncedToo) {
+TEST(Summary, HasTimesOfBenchmarksThatWereNotAnnounced) {
   Summary summary;
   summary.take(repetition("target/SSSE3", 20));
   EXPECT_DOUBLE_EQ(0.020, summary.seconds_of("target/SSSE3"));

@@ -5,12 +5,12 @@ import math
 DEFAULT = "semi-dense"
 RIVALS = ("sgbm-3way", "bm")
 MOST_SPREAD = 0.05
-LEAST_PROCESSORS = 0.95  # of one frame after the other, with any number of threads
+LEAST_PROCESSORS = 0.95  # of consecutive frames, with any number of threads
 GROWTH_TITLE = "Time of a frame: rendered street, defaults (semi-dense), 1 thread"
 
 
 def table(head, rows, texts=1):
-    """A table whose first columns are text and whose others are figures."""
+    """A table; the first columns are text and the others are figures."""
     lines = [head, ["---"] * texts + ["---:"] * (len(head) - texts), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
@@ -33,8 +33,8 @@ def machine(result, element_result):
              f"Measured on {context['date'][:10]} with mtstereo {context['mtstereo']}, OpenCV "
              f"{context['opencv']}"
              + (f", {element_result.context['gstreamer']}" if element_result else "") + ".",
-             "All figures are medians of the repetitions, `spread` is their standard deviation as "
-             "a share of the mean."]
+             "All figures are medians of the repetitions; `spread` is their standard deviation "
+             "divided by their mean."]
     return "\n".join(lines)
 
 
@@ -74,7 +74,8 @@ def frames(result):
     if not times.by_key:
         return ""
     parts = ["### Whole frames",
-             "`speedup` is over one thread; the ratios are to the same frame with as many threads."]
+             "`speedup` is relative to one thread; the ratios compare the same frame with the same "
+             "number of threads."]
     parts += [f"`{frame}`:\n\n{times.table(frame)}" for frame in times.frames()]
     return "\n\n".join(parts)
 
@@ -107,7 +108,7 @@ def targets(result):
 
 
 def exponent(points):
-    """The slope of a line through the logarithms: 1 = in proportion."""
+    """The slope of a line fitted to the logarithms: 1 = proportional."""
     logs = [(math.log(x), math.log(y)) for x, y in points]
     middle = [sum(values) / len(logs) for values in zip(*logs)]
     above = sum((x - middle[0]) * (y - middle[1]) for x, y in logs)
@@ -115,14 +116,14 @@ def exponent(points):
 
 
 def growth_points(result, what):
-    """Of pixels in MP, of disparities as they are; and milliseconds."""
+    """Pairs of pixels [MP] or disparities, and milliseconds."""
     scale = 1e-6 if what == "pixels" else 1
     return sorted((one.value(what) * scale, one.milliseconds)
                   for one in result.of("scaling") if one.part(1) == what)
 
 
 def fixed_of(result, what, other):
-    """What is held while the other grows."""
+    """The value of `other`, which is constant while `what` grows."""
     return next(one.value(other) for one in result.of("scaling") if one.part(1) == what)
 
 
@@ -145,8 +146,8 @@ def growth(result, picture):
         return ""
     parts = ["### Growth with pixels and disparities",
              f"![Time over pixels and over disparities]({picture})",
-             "Rendered street, `semi-dense`, 1 thread. The exponent is the slope of a line through "
-             "the logarithms: 1 is in proportion, less is better."]
+             "Rendered street, `semi-dense`, 1 thread. The exponent is the slope of a line fitted "
+             "to the logarithms: 1 is proportional growth, less is better."]
     for what, head in (("pixels", "frame"), ("disparities", "disparities")):
         measured = [one for one in result.of("scaling") if one.part(1) == what]
         if len(growth_points(result, what)) < 2:
@@ -169,7 +170,7 @@ def memory(result):
         size = one.part(1).removeprefix("first-frame-")
         rows.append([size, f"`{one.settings().replace('/', ' ')}`" if one.settings() else
                      "defaults", f"{one.value('peak_MiB'):.1f}", f"{one.milliseconds:.1f}"])
-    return ("### Memory\n\nPreset default, mode semi-dense and 1 thread where nothing else is said; "
+    return ("### Memory\n\nPreset default, mode semi-dense and 1 thread unless stated otherwise; "
             "`cost-volume=full` is the exact cost volume.\n\n"
             + table(["frame", "settings", "peak MiB", "first frame ms"], rows, texts=2))
 
@@ -181,13 +182,13 @@ def element(result):
     rows = [[one.part(1), one.part(2).removeprefix("threads:"), f"{one.value('library_ms'):.2f}",
              f"{one.milliseconds:.2f}", f"{one.value('overhead_percent'):.2f}"]
             for one in measured]
-    return ("### Element\n\nTime of a frame in a pipeline from memory to a fakesink, beside "
+    return ("### Element\n\nTime of a frame in a pipeline from memory to a fakesink, and of "
             "`Matcher::compute` on the same frames.\n\n"
             + table(["frame", "threads", "library ms", "element ms", "overhead %"], rows))
 
 
 def doubts(result):
-    """Why a result may be not worth publishing: what else ran on the machine shows in it."""
+    """The signs of other load on the machine, which makes a result unfit for publication."""
     doubtful = []
     for one in result.measurements:
         if one.spread is not None and one.spread > MOST_SPREAD:
@@ -195,5 +196,5 @@ def doubts(result):
     for one in FrameTimes(result).by_key.values():
         processors = one.processor_milliseconds / one.milliseconds
         if processors < LEAST_PROCESSORS:
-            doubtful.append(f"{one.name}: {processors:.2f} CPUs, something else had them")
+            doubtful.append(f"{one.name}: {processors:.2f} CPUs, other programs used the rest")
     return doubtful

@@ -40,7 +40,7 @@ void time_rival(benchmark::State& state, eval::Rival rival, const Frame& frame, 
   count_frame(state, frame, density_of(disparity));
 }
 
-/// Names a benchmark and registers it. Wall time counts; the processors' is told beside it.
+/// Names and registers a benchmark. It measures wall time and reports processor time too.
 template <typename Body>
 void add(const FramePointer& frame, const std::string& method, int threads, Summary& summary,
          Body body) {

@@ -9,7 +9,7 @@
 namespace mtstereo::bench {
 
 /// Registers the matching of whole frames, by the library and by OpenCV's matchers, with 1 and 2
-/// threads, and tells the summary what is what.
+/// threads, and announces them to the summary.
 void register_whole_frames(const std::vector<FramePointer>& all, Summary& summary);
 
 }  // namespace mtstereo::bench

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The element gives the library's bytes: frames from PNG files and from H.264 files, 1, 2, 4 threads.
 
-Runs on a clip that is rendered here, and on a recorded one where MTSTEREO_TEST_DATA has it.
+Runs on a rendered clip, and on a recorded one if MTSTEREO_TEST_DATA has it.
 """
 import argparse
 import os
@@ -33,7 +33,7 @@ def png_size(file):
 
 
 class Clip:
-    """Frames as PNG files: a pattern for each side, and how many there are."""
+    """Frames as PNG files: a file name pattern for each side, and their number."""
 
     def __init__(self, left, right, max_disparity, first, count):
         self.left, self.right = left, right
@@ -116,7 +116,7 @@ def main():
             (folder / "recorded").mkdir()
             check_clip("recorded", clip, arguments.match_raw, folder / "recorded")
         else:
-            print("skip the recorded clip: MTSTEREO_TEST_DATA names no folder that has one")
+            print("skip the recorded clip: MTSTEREO_TEST_DATA names no folder with one")
     print(f"{len(PASSED)} passed, {len(FAILED)} failed")
     return 1 if FAILED else 0
 

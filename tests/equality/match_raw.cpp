@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Runs the library over raw frames in files and writes what the element has to give: 16-bit
+// Runs the library on raw frames in files and writes the expected output of the element: 16-bit
 // disparities with rows padded to 4 bytes.
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   const std::size_t frame_bytes = left.size() / frames;
   if (left.size() != right.size() || left.size() % frames != 0 ||
       frame_bytes < static_cast<std::size_t>(stride) * height) {
-    return fail("the files do not hold " + std::to_string(frames) + " frames each");
+    return fail("the files do not contain " + std::to_string(frames) + " frames each");
   }
   const int out_stride = (2 * width + 3) / 4 * 4;
   std::ofstream out(out_file, std::ios::binary);

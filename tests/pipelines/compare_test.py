@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""mtstereo-compare: its figures on maps that were made for it, its picture, and wrong input."""
+"""mtstereo-compare: its figures on synthetic maps, its picture, and invalid input."""
 import pathlib
 import struct
 import tempfile
@@ -13,7 +13,7 @@ WIDTH, HEIGHT = 8, 4
 
 
 def write_png(file, values, depth):
-    """Gray picture of 8 or 16 bit."""
+    """A gray PNG image with 8 or 16 bits."""
     def chunk(name, data):
         body = name + data
         return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
@@ -48,7 +48,7 @@ class Compare(unittest.TestCase):
                   [[14 * 256] * WIDTH] * half + [[0] * WIDTH] * half, 16)
         for name in ("000000", "000001"):
             write_pfm(self.folder / f"t/{name}.pfm", everywhere(10.0))
-            # Of the upper half, the left is seen by both cameras.
+            # The left part of the upper half is visible in both views.
             seen = [[255] * 4 + [128] * 4] * half + [[255] * WIDTH] * half
             write_png(self.folder / f"m/{name}.png", seen, 8)
 
@@ -60,21 +60,21 @@ class Compare(unittest.TestCase):
         self.assertEqual(done.status, 0, str(done))
         return done.output.split()
 
-    def assert_refuses(self, done, says, status=1):
+    def assert_rejects(self, done, says, status=1):
         self.assertEqual(done.status, status, str(done))
         self.assertIn(says, done.errors, str(done))
 
-    def test_means_are_those_of_the_frames(self):
+    def test_computes_means_over_frames(self):
         # avgerr (1 + 4) / 2, D-all (0 + 100) / 2, density (100 + 50) / 2
         self.assertEqual(self.figures("--label", "two"), ["two", "2", "2.500", "50.00", "75.00"])
 
-    def test_mask_adds_what_both_cameras_see(self):
+    def test_mask_adds_pixels_visible_in_both_views(self):
         write_png(self.folder / "d/000001.png",
                   [[10 * 256] * 4 + [14 * 256] * 4] * 2 + [[0] * WIDTH] * 2, 16)
         self.assertEqual(self.figures("--mask", "m"),
                          ["clip", "2", "1.500", "25.00", "75.00", "0.500", "0.00"])
 
-    def test_infinite_truth_is_left_out(self):
+    def test_infinite_truth_is_ignored(self):
         infinite = float("inf")
         for name in ("000000", "000001"):
             write_pfm(self.folder / f"t/{name}.pfm", [[10.0] * 7 + [infinite]] * HEIGHT)
@@ -87,7 +87,7 @@ class Compare(unittest.TestCase):
         data = (self.folder / "new/p.png").read_bytes()
         self.assertEqual(struct.unpack(">II", data[16:24]), (3 * WIDTH, HEIGHT))
 
-    def test_picture_can_be_shrunk(self):
+    def test_picture_can_be_scaled_down(self):
         done = self.compare("--disparity", "d", "--picture", "p.png", "--width", "4")
         self.assertEqual(done.status, 0, str(done))
         data = (self.folder / "p.png").read_bytes()
@@ -95,49 +95,49 @@ class Compare(unittest.TestCase):
 
     def test_lost_frame_is_an_error(self):
         (self.folder / "d/000001.png").unlink()
-        self.assert_refuses(self.compare("--disparity", "d", "--truth", "t"), "000001")
+        self.assert_rejects(self.compare("--disparity", "d", "--truth", "t"), "000001")
 
     def test_frame_without_truth_is_an_error(self):
         (self.folder / "t/000000.pfm").unlink()
-        self.assert_refuses(self.compare("--disparity", "d", "--truth", "t"), "000000")
+        self.assert_rejects(self.compare("--disparity", "d", "--truth", "t"), "000000")
 
     def test_frame_without_mask_is_an_error(self):
         (self.folder / "m/000000.png").unlink()
         done = self.compare("--disparity", "d", "--truth", "t", "--mask", "m")
-        self.assert_refuses(done, "000000")
+        self.assert_rejects(done, "000000")
 
     def test_different_sizes_are_an_error(self):
         write_pfm(self.folder / "t/000001.pfm", [[10.0] * 3] * 3)
-        self.assert_refuses(self.compare("--disparity", "d", "--truth", "t"), "000001.pfm")
+        self.assert_rejects(self.compare("--disparity", "d", "--truth", "t"), "000001.pfm")
 
-    def test_broken_picture_is_named(self):
+    def test_corrupt_picture_is_named(self):
         (self.folder / "d/000001.png").write_bytes(b"no picture")
-        self.assert_refuses(self.compare("--disparity", "d", "--truth", "t"), "000001.png")
+        self.assert_rejects(self.compare("--disparity", "d", "--truth", "t"), "000001.png")
 
-    def test_broken_truth_is_named(self):
+    def test_corrupt_truth_is_named(self):
         truth = self.folder / "t/000001.pfm"
         truth.write_bytes(truth.read_bytes()[:-5])
-        self.assert_refuses(self.compare("--disparity", "d", "--truth", "t"), "000001.pfm")
+        self.assert_rejects(self.compare("--disparity", "d", "--truth", "t"), "000001.pfm")
 
     def test_missing_folder_is_named(self):
-        self.assert_refuses(self.compare("--disparity", "none", "--truth", "t"), "none")
+        self.assert_rejects(self.compare("--disparity", "none", "--truth", "t"), "none")
 
     def test_empty_folder_is_named(self):
         (self.folder / "empty").mkdir()
-        self.assert_refuses(self.compare("--disparity", "empty", "--truth", "t"), "empty")
+        self.assert_rejects(self.compare("--disparity", "empty", "--truth", "t"), "empty")
 
-    def test_frame_that_is_not_there_is_an_error(self):
+    def test_missing_frame_is_an_error(self):
         done = self.compare("--disparity", "d", "--picture", "p.png", "--frame", "2")
-        self.assert_refuses(done, "frame 2")
+        self.assert_rejects(done, "frame 2")
 
-    def test_picture_that_cannot_be_written_is_named(self):
+    def test_unwritable_picture_is_named(self):
         done = self.compare("--disparity", "d", "--picture", "/dev/null/p.png")
-        self.assert_refuses(done, "/dev/null")
+        self.assert_rejects(done, "/dev/null")
 
-    def test_wrong_options_are_refused(self):
-        self.assert_refuses(self.compare("--truth", "t"), "--disparity", 2)
-        self.assert_refuses(self.compare("--disparity", "d"), "nothing to do", 2)
-        self.assert_refuses(self.compare("--disparity", "d", "--max-disparity", "0"),
+    def test_invalid_options_are_rejected(self):
+        self.assert_rejects(self.compare("--truth", "t"), "--disparity", 2)
+        self.assert_rejects(self.compare("--disparity", "d"), "nothing to do", 2)
+        self.assert_rejects(self.compare("--disparity", "d", "--max-disparity", "0"),
                             "--max-disparity", 2)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""demo.sh from end to end on a tiny clip, with video files, and with wrong input."""
+"""demo.sh end to end on a tiny clip, with video files, and with invalid input."""
 import re
 import shutil
 import unittest
@@ -12,7 +12,7 @@ class Demo(ClipTest):
     def demo(self, *words):
         return self.run_script("demo.sh", "--no-build", "--build", BUILD, *words, seconds=120)
 
-    def test_makes_everything_from_nothing(self):
+    def test_creates_all_outputs(self):
         done = self.demo("--out", "all of it", "--frames", "4", "--size", "160x120")
         self.assert_succeeds(done)
         out = self.folder / "all of it"
@@ -37,7 +37,7 @@ class Demo(ClipTest):
         self.assertGreater(float(rows["semi-dense"][3]), float(rows["sparse"][3]), "density")
         self.assertGreater(float(rows["dense"][3]), float(rows["semi-dense"][3]), "density")
 
-    def test_takes_own_files(self):
+    def test_accepts_own_files(self):
         done = self.demo("left.mp4", "right.mkv", "--out", "own", "--mode", "sparse",
                          "--max-disparity", "32")
         self.assert_succeeds(done)
@@ -45,20 +45,20 @@ class Demo(ClipTest):
         for name in ("color.mp4", "demo.png"):
             self.assertGreater((self.folder / "own" / name).stat().st_size, 0, name)
 
-    def test_shows_the_elements_message_where_sizes_differ(self):
+    def test_shows_the_elements_message_if_sizes_differ(self):
         other = self.demo("--out", "other", "--frames", "2", "--size", "128x96")
         self.assert_succeeds(other)
         done = self.demo("left.mp4", "other/right.mp4", "--out", "differ")
-        self.assert_refuses(done, "160x120", 1)
+        self.assert_rejects(done, "160x120", 1)
         self.assertIn("128x96", done.errors)
 
     def test_names_a_missing_file(self):
-        self.assert_refuses(self.demo("left.mp4", "nothing.mp4"), "nothing.mp4", 1)
+        self.assert_rejects(self.demo("left.mp4", "nothing.mp4"), "nothing.mp4", 1)
 
-    def test_refuses_a_file_that_is_no_video(self):
+    def test_rejects_a_file_that_is_not_a_video(self):
         (self.folder / "text.mp4").write_text("this is not a video\n" * 50)
         done = self.demo("left.mp4", "text.mp4", "--out", "text")
-        self.assert_refuses(done, "the pipeline failed", 1)
+        self.assert_rejects(done, "the pipeline failed", 1)
         self.assertIn("ERROR", done.errors)
 
     def test_never_overwrites_its_input(self):
@@ -67,13 +67,13 @@ class Demo(ClipTest):
         shutil.copy(self.folder / "left.mp4", own / "color.mp4")
         before = (own / "color.mp4").read_bytes()
         done = self.demo("same/color.mp4", "right.mkv", "--out", "same")
-        self.assert_refuses(done, "would be overwritten", 1)
+        self.assert_rejects(done, "would be overwritten", 1)
         self.assertEqual((own / "color.mp4").read_bytes(), before)
 
-    def test_names_a_folder_that_cannot_be_made(self):
-        self.assert_refuses(self.demo("--out", "/dev/null/out"), "/dev/null/out", 1)
+    def test_names_a_folder_that_cannot_be_created(self):
+        self.assert_rejects(self.demo("--out", "/dev/null/out"), "/dev/null/out", 1)
 
-    def test_refuses_wrong_options(self):
+    def test_rejects_invalid_options(self):
         for words, says in ((["left.mp4"], "two video files"),
                             (["a", "b", "c"], "two video files"),
                             (["--mode", "denser"], "--mode"),
@@ -84,17 +84,17 @@ class Demo(ClipTest):
                             (["--size", "161x120"], "even"),
                             (["--out"], "--out"),
                             (["--colour", "red"], "--colour")):
-            self.assert_refuses(self.demo(*words), says, 2)
+            self.assert_rejects(self.demo(*words), says, 2)
 
-    def test_refuses_an_unknown_scene(self):
+    def test_rejects_an_unknown_scene(self):
         done = self.demo("--out", "moon", "--scene", "moon")
-        self.assert_refuses(done, "street, garden, room", 1)
+        self.assert_rejects(done, "street, garden, room", 1)
 
-    def test_tells_that_nothing_is_built(self):
+    def test_reports_a_missing_build(self):
         done = self.run_script("demo.sh", "--no-build", "--build", "nowhere", "--out", "nobuild")
-        self.assert_refuses(done, "nowhere", 1)
+        self.assert_rejects(done, "nowhere", 1)
 
-    def test_help_tells_the_options(self):
+    def test_help_lists_the_options(self):
         done = self.demo("--help")
         self.assert_succeeds(done)
         self.assertIn("--max-disparity", done.output)

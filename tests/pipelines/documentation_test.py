@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs every command of README.md and docs/*.md, headless and on a small clip.
 
-Taken are the lines of ```sh blocks, each document in a folder of its own where the files are that
-its examples name. Only what a test machine lacks is replaced: the screen by a fakesink, cameras by
-test pictures, and behind "# needs a sender" a sender is started on the loopback network.
+The commands are the lines of ```sh blocks. Each document runs in its own folder, which contains the
+files that its examples name. Only hardware that a test machine lacks is replaced: the screen by a
+fakesink and cameras by test pictures. For commands after "# needs a sender", a sender is started on
+the loopback network.
 """
 import pathlib
 import re
@@ -18,7 +19,7 @@ from support import start, stop
 
 DOCUMENTS = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
 
-# What installs, builds or runs the tests is run by them already.
+# Commands that install, build or test; running the tests covers them.
 NOT_RUN = re.compile(r"(sudo |apt|git |cd |meson |ninja |\./tests/|\./\.ci/|docs/update\.sh"
                      r"|\./docs/update\.sh|\./pipelines/install-packages\.sh)")
 RUN = re.compile(r"([A-Z_]+=\S+ +)*(gst-launch-1\.0|gst-inspect-1\.0|\./pipelines/|mtstereo-"
@@ -48,14 +49,14 @@ def commands_of(document):
         if joined.endswith("\\"):
             joined = joined[:-1]
             continue
-        text = re.sub(r"\s#\s.*$", "", joined.strip())  # a remark behind the command
+        text = re.sub(r"\s#\s.*$", "", joined.strip())  # a remark after the command
         commands.append(Command(document, first, text.strip(), needs + joined))
         joined = ""
     return commands
 
 
 def make_data_sets(folder):
-    """Small trees that lie like the public data sets, under the names of docs/evaluation.md."""
+    """Small data sets in the public layouts, under the names of docs/evaluation.md."""
     render = BUILD / "pipelines/render/mtstereo-render"
     require(run([render, "trainingF", "--layout", "middlebury", "--size", "160x120", "--frames", "2",
                  "--scene", "room"], folder))
@@ -64,7 +65,7 @@ def make_data_sets(folder):
         (kitti / name).mkdir(parents=True)
         for n in range(2):
             shutil.copy(folder / side / f"{n:06d}.png", kitti / name / f"{n:06d}_10.png")
-    # What the matcher itself says stands for the truth: this is about running, not about figures.
+    # The matcher's own result is the ground truth: the test runs commands and checks no figures.
     (kitti / "disp_occ_0").mkdir()
     require(run([SOURCE / "pipelines/from-png.sh", "left/%06d.png", "right/%06d.png",
                  "estimate/%06d.png"], folder))
@@ -83,7 +84,7 @@ def make_data_sets(folder):
 
 
 def prepare(folder):
-    """Everything that the examples name."""
+    """Creates all files that the examples name."""
     make_clip(folder)
     make_videos(folder)
     for name in ("pipelines", "tests", "docs"):
@@ -93,7 +94,7 @@ def prepare(folder):
 
 
 def headless(text):
-    """The command as a machine without screen, cameras and time runs it."""
+    """The command for a machine without a screen and with little time."""
     if text.startswith("./pipelines/demo.sh"):
         short = "" if " left" in text else " --frames 4 --size 160x120"
         return text + " --no-build" + short
@@ -104,7 +105,7 @@ def headless(text):
 
 
 def without_camera(text):
-    """Test pictures instead of cameras, as JPEG where the camera is asked for it."""
+    """Test pictures instead of cameras, as JPEG if the camera is asked for it."""
     text = re.sub(r"v4l2src device=\S+( ! |\s+!\s+)image/jpeg",
                   r"videotestsrc is-live=true num-buffers=20 ! jpegenc\1image/jpeg", text)
     text = re.sub(r"v4l2src( device=\S+)?", "videotestsrc is-live=true num-buffers=20", text)
@@ -147,7 +148,7 @@ class Documentation(unittest.TestCase):
             self.assertNotRegex(done.text, "CRITICAL|erroneous", f"{command.where}: {done}")
 
     def check_receiver(self, command, text):
-        """Succeeds when disparity frames come out, made of what a sender sends meanwhile."""
+        """Succeeds if the command outputs disparity frames while a sender runs."""
         ports = free_ports(2)
         for old, new in zip(re.findall(r"port=(\d+)", text), ports):
             text = text.replace(f"port={old}", f"port={new}")
@@ -158,13 +159,13 @@ class Documentation(unittest.TestCase):
             while receiver.poll() is None and time.monotonic() < deadline:
                 require(run([SOURCE / "pipelines/network-sender.sh", "left.mp4", "right.mp4",
                              "--ports", "{},{}".format(*ports)], self.folder))
-            self.assertEqual(receiver.poll(), 0, f"{command.where}: nothing came out of\n{text}")
+            self.assertEqual(receiver.poll(), 0, f"{command.where}: no output of\n{text}")
         finally:
             stop(receiver)
             receiver.communicate()
 
     def check_parses(self, command, text):
-        """Nobody answers at the address; but the line has to be one."""
+        """No server answers at the address, but the pipeline must be valid."""
         text = re.sub(r"rtsps?://[^ /]+", "rtsp://127.0.0.1:9", text)
         done = run(["bash", "-c", text], self.folder)
         self.assertIsNotNone(done.status, f"{command.where}: {done}")
@@ -182,15 +183,15 @@ for each in DOCUMENTS:
 
 
 def blocks_of(document, language):
-    """The texts of a document's blocks in this language."""
+    """The texts of the blocks of a document in this language."""
     return re.findall(rf"^```{language}\n(.*?)^```$", document.read_text(), re.MULTILINE | re.DOTALL)
 
 
 class Programs(unittest.TestCase):
-    """What the documents show of programs is compiled or run too."""
+    """The programs in the documents are compiled or run too."""
     element = SOURCE / "docs/element.md"
 
-    def test_c_is_what_the_tests_are_compiled_with(self):
+    def test_c_code_is_compiled_by_the_tests(self):
         shown = blocks_of(self.element, "c")
         self.assertEqual(len(shown), 1)
         compiled = (SOURCE / "tests/gst/support/confidence_reader.c").read_text()
@@ -214,7 +215,7 @@ class Programs(unittest.TestCase):
 
 
 class Extraction(unittest.TestCase):
-    """A command that is not found would never be run."""
+    """The extraction of commands: a command that is not found would never run."""
 
     def commands(self, text):
         with tempfile.TemporaryDirectory() as folder:
@@ -227,15 +228,15 @@ class Extraction(unittest.TestCase):
         self.assertEqual([c.text for c in found], ["one   two", "three"])
         self.assertEqual([c.where for c in found], ["page.md:3", "page.md:5"])
 
-    def test_other_blocks_are_left_alone(self):
+    def test_other_blocks_are_ignored(self):
         self.assertEqual(self.commands("```cpp\nint a;\n```\n```\nprint\n```\n"), [])
 
-    def test_needs_are_those_of_the_block(self):
+    def test_requirements_apply_to_their_block(self):
         found = self.commands("```sh\n# needs two cameras\none\n```\n```sh\ntwo\n```\n")
         self.assertIn("needs two cameras", found[0].needs)
         self.assertNotIn("needs", found[1].needs)
 
-    def test_the_readme_is_read(self):
+    def test_commands_of_the_readme_are_found(self):
         texts = [c.text for c in commands_of(SOURCE / "README.md")]
         self.assertGreater(sum(text.startswith("gst-launch-1.0") for text in texts), 4)
         self.assertIn("./pipelines/demo.sh", texts)

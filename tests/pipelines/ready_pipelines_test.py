@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The ready pipelines, with files, over the loopback network, and with wrong input."""
+"""The pipeline scripts with files, over the loopback network, and with invalid input."""
 import re
 import shlex
 import time
@@ -21,7 +21,7 @@ class ReadyPipelines(ClipTest):
                            self.folder))
         return [float(word) for word in done.output.split()[2:5]]
 
-    def test_files_are_recorded_without_loss_of_a_frame(self):
+    def test_files_are_recorded_without_lost_frames(self):
         done = self.run_script("from-files.sh", "left.mp4", "right.mp4", "--out", "files.mkv",
                                "--max-disparity", "32", "--set", "threads=1")
         self.assert_succeeds(done)
@@ -30,7 +30,7 @@ class ReadyPipelines(ClipTest):
     def test_files_are_shown(self):
         self.assert_succeeds(self.run_script("from-files.sh", "left.mkv", "right.mp4", *HEADLESS))
 
-    def test_side_by_side_gives_what_two_files_give(self):
+    def test_side_by_side_gives_the_result_of_two_files(self):
         done = self.run_script("from-side-by-side.sh", "side-by-side.mp4", "--out", "sbs.mkv")
         self.assert_succeeds(done)
         self.assertEqual(count_frames("sbs.mkv", self.folder), 8)
@@ -38,11 +38,11 @@ class ReadyPipelines(ClipTest):
                      "matroskademux ! avdec_ffv1 ! videoconvert ! video/x-raw,format=GRAY16_BE ! "
                      "pngenc ! multifilesink location=sbs/%06d.png"], self.folder))
         error, _, density = self.compare("sbs")
-        # With the halves swapped, or not cut in the middle, hardly anything would match.
+        # With swapped halves, or not cropped at the center, almost nothing would match.
         self.assertLess(error, 3)
         self.assertGreater(density, 15)
 
-    def test_png_pictures_become_kitti_pictures(self):
+    def test_png_images_become_kitti_images(self):
         done = self.run_script("from-png.sh", "left/%06d.png", "right/%06d.png",
                                "new/folder/%06d.png")
         self.assert_succeeds(done)
@@ -53,7 +53,7 @@ class ReadyPipelines(ClipTest):
         self.assertLess(error, 3)
         self.assertGreater(density, 15)
 
-    def test_first_picture_can_be_chosen(self):
+    def test_first_image_can_be_selected(self):
         done = self.run_script("from-png.sh", "left/%06d.png", "right/%06d.png", "late/%06d.png",
                                "--first", "5")
         self.assert_succeeds(done)
@@ -66,8 +66,8 @@ class ReadyPipelines(ClipTest):
                                 "--dry-run")
         receiver = start(shlex.split("env " + shown.output), self.folder)
         try:
-            # The clip is short, so it is sent again and again; the receiver ends on its own after
-            # the third disparity frame.
+            # The clip is short, so it is sent repeatedly; the receiver exits after the third
+            # disparity frame.
             deadline = time.monotonic() + 60 * SLOW
             while receiver.poll() is None and time.monotonic() < deadline:
                 self.assert_succeeds(self.run_script(
@@ -77,8 +77,8 @@ class ReadyPipelines(ClipTest):
             stop(receiver)
             receiver.communicate()
 
-    def test_time_limit_is_no_failure(self):
-        left, right = free_ports(2)  # nobody sends
+    def test_time_limit_is_not_a_failure(self):
+        left, right = free_ports(2)  # without a sender
         done = self.run_script("from-network.sh", left, right, *HEADLESS, "--seconds", "2")
         self.assert_succeeds(done)
 
@@ -93,7 +93,7 @@ class ReadyPipelines(ClipTest):
         self.assertEqual(count_frames(name, self.folder), 8 - len(lost))
         return name
 
-    def test_lost_frames_cost_their_pairs_and_nothing_else(self):
+    def test_lost_frames_drop_only_their_pairs(self):
         left, right = self.lossy("left", [2]), self.lossy("right", [4, 5])
         done = run(["gst-launch-1.0", "-v", *f"filesrc location={left} ! decodebin ! videoconvert ! "
                     f"m.sink_left filesrc location={right} ! decodebin ! videoconvert ! m.sink_right "
@@ -110,7 +110,7 @@ class ReadyPipelines(ClipTest):
         self.assert_succeeds(done)
         self.assertEqual(count_frames("short.mkv", self.folder), 5)
 
-    def test_cameras_are_asked_for_what_was_wanted(self):
+    def test_cameras_get_the_requested_caps(self):
         done = self.run_script("from-cameras.sh", "/dev/video0", "/dev/video2", "--size", "320x240",
                                "--rate", "15", "--dry-run")
         self.assert_succeeds(done)
@@ -126,7 +126,7 @@ class ReadyPipelines(ClipTest):
             line = re.sub(r"v4l2src device=\S+", "videotestsrc is-live=true", done.output)
             self.assert_succeeds(run(["bash", "-c", line], self.folder))
 
-    def test_dry_run_prints_a_line_that_runs(self):
+    def test_dry_run_prints_a_working_command(self):
         spaced = self.folder / "it's left.mp4"
         spaced.write_bytes((self.folder / "left.mp4").read_bytes())
         done = self.run_script("from-files.sh", spaced, "right.mp4", "--out", "dry run.mkv",
@@ -152,15 +152,15 @@ class WrongUse(ClipTest):
                 (["from-png.sh", "left/%06d.png", "nowhere/%06d.png", "o/%06d.png"], "nowhere"),
                 (["from-png.sh", "left/%06d.png", "right/%06d.png", "o/%06d.png", "--first", "99"],
                  "000099.png")):
-            self.assert_refuses(self.run_script(*words), says, 1)
+            self.assert_rejects(self.run_script(*words), says, 1)
 
     def test_input_is_never_overwritten(self):
         before = (self.folder / "left.mp4").read_bytes()
         done = self.run_script("from-files.sh", "left.mp4", "right.mkv", "--out", "./left.mp4")
-        self.assert_refuses(done, "the input itself", 1)
+        self.assert_rejects(done, "the input itself", 1)
         self.assertEqual((self.folder / "left.mp4").read_bytes(), before)
 
-    def test_wrong_options_are_named(self):
+    def test_invalid_options_are_named(self):
         files = ["left.mp4", "right.mp4"]
         for words, says in (
                 (["from-files.sh", "left.mp4"], "LEFT and RIGHT"),
@@ -182,17 +182,17 @@ class WrongUse(ClipTest):
                 (["from-png.sh", "left", "right"], "left/%06d.png"),
                 (["from-png.sh", "l%d.png", "r%d.png", "--first", "x"], "--first"),
                 (["from-png.sh", "l%s%n.png", "r%d.png"], "l%s%n.png")):
-            self.assert_refuses(self.run_script(*words), says, 2)
+            self.assert_rejects(self.run_script(*words), says, 2)
 
-    def test_property_that_does_not_exist_is_named(self):
+    def test_unknown_property_is_named(self):
         done = self.run_script("from-files.sh", "left.mp4", "right.mp4", *HEADLESS, "--set",
                                "speed=11")
         self.assertNotEqual(done.status, 0, str(done))
         self.assertIn("speed", done.errors)
 
-    def test_missing_build_is_told(self):
+    def test_missing_build_is_reported(self):
         done = self.run_script("from-files.sh", "left.mp4", "right.mp4", "--build", "nowhere")
-        self.assert_refuses(done, "nowhere", 1)
+        self.assert_rejects(done, "nowhere", 1)
 
     def test_every_script_has_its_help(self):
         for script in sorted(PIPELINES.glob("*.sh")):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""depth-of-center: the application that reads disparity from an appsink."""
+"""depth-of-center: the sample application that reads disparity from an appsink."""
 import re
 import unittest
 
@@ -11,8 +11,8 @@ class DepthOfCenter(ClipTest):
     def center(self, *words):
         return run([CENTER, *words], self.folder)
 
-    def test_tells_the_distance_of_every_frame(self):
-        # The room at 160 px: f = 136 px, B = 0.1 m; what is in the middle is 1 to 5 m away.
+    def test_prints_the_distance_of_every_frame(self):
+        # The room at 160 px: f = 136 px, B = 0.1 m; the distance at the center is 1 to 5 m.
         done = self.center("left.mp4", "right.mp4", "--focal", "136", "--baseline", "0.1",
                            "--window", "41")
         self.assert_succeeds(done)
@@ -25,31 +25,31 @@ class DepthOfCenter(ClipTest):
             self.assertTrue(1 < distance < 5, str(done))
             self.assertAlmostEqual(disparity * distance, 13.6, delta=0.1)
 
-    def test_tells_disparity_alone_without_calibration(self):
+    def test_prints_only_disparity_without_calibration(self):
         done = self.center("left.mp4", "right.mp4", "--window", "41")
         self.assert_succeeds(done)
         self.assertIn("disparity", done.output)
         self.assertNotIn("distance", done.output)
 
     def test_missing_file_is_named(self):
-        self.assert_refuses(self.center("left.mp4", "no.mp4"), "no.mp4", 1)
+        self.assert_rejects(self.center("left.mp4", "no.mp4"), "no.mp4", 1)
 
     def test_missing_camera_is_named(self):
-        self.assert_refuses(self.center("/dev/video97", "/dev/video98"), "/dev/video9", 1)
+        self.assert_rejects(self.center("/dev/video97", "/dev/video98"), "/dev/video9", 1)
 
-    def test_different_sizes_are_told(self):
+    def test_different_sizes_are_reported(self):
         other = self.folder / "other"
         other.mkdir()
         make_clip(other, frames=2, size="128x96")
         make_videos(other)
-        self.assert_refuses(self.center("left.mp4", "other/right.mp4"), "128x96", 1)
+        self.assert_rejects(self.center("left.mp4", "other/right.mp4"), "128x96", 1)
 
-    def test_wrong_options_are_named(self):
+    def test_invalid_options_are_named(self):
         for words, says in ((["left.mp4"], "right"),
                             (["left.mp4", "right.mp4", "--focal", "-1"], "--focal"),
                             (["left.mp4", "right.mp4", "--max-disparity", "0"], "--max-disparity"),
                             (["left.mp4", "right.mp4", "--window", "0"], "--window")):
-            self.assert_refuses(self.center(*words), says, 2)
+            self.assert_rejects(self.center(*words), says, 2)
 
 
 if __name__ == "__main__":

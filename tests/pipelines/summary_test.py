@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""tests/run.sh adds up the results of several runs of 'meson test', and fails when it has to."""
+"""tests/run.sh adds up the results of several runs of 'meson test' and fails if one failed."""
 import pathlib
 import tempfile
 import unittest
@@ -52,7 +52,7 @@ class Summary(unittest.TestCase):
     def test_output_without_results_is_a_failure(self):
         self.assert_says(self.summarize("ninja: error\n"), "0 passed, 1 failed, 0 skipped", 1)
 
-    def test_wrong_use_is_told(self):
+    def test_wrong_usage_is_reported(self):
         for words, says in ((["--summarize"], "needs a file"),
                             (["--summarize", "/nowhere/log"], "/nowhere/log"),
                             (["--slow"], "--slow")):

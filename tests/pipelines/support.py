@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the tests of the scripts and programs share: small clips, and commands with a time limit."""
+"""Common parts of the tests of scripts and programs: small clips, and commands with time limits."""
 import os
 import pathlib
 import signal
@@ -10,7 +10,7 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ["MTSTEREO_SOURCE"])
 BUILD = pathlib.Path(os.environ["MTSTEREO_BUILD"])
-SLOW = float(os.environ.get("MTSTEREO_SLOW", "1"))  # how much slower a sanitized build may be
+SLOW = float(os.environ.get("MTSTEREO_SLOW", "1"))  # slowdown factor of a sanitized build
 PIPELINES = SOURCE / "pipelines"
 RENDER = BUILD / "pipelines/render/mtstereo-render"
 COMPARE = BUILD / "pipelines/apps/mtstereo-compare"
@@ -18,7 +18,7 @@ CENTER = BUILD / "pipelines/apps/depth-of-center"
 
 
 class Outcome:
-    """How a command ended and what it said."""
+    """The exit status and the outputs of a command."""
 
     def __init__(self, command, status, output, errors):
         self.command, self.status, self.output, self.errors = command, status, output, errors
@@ -44,7 +44,7 @@ def environment(folder):
 
 
 def start(command, folder):
-    """Starts a command in a session of its own, so that all of it can be ended."""
+    """Starts a command in its own session, so that all its processes can be stopped."""
     return subprocess.Popen([str(word) for word in command], cwd=folder, env=environment(folder),
                             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, text=True, start_new_session=True)
@@ -58,7 +58,7 @@ def stop(process, how=signal.SIGKILL):
 
 
 def run(command, folder, seconds=60):
-    """Runs a command to its end; one that takes too long is ended, and has the status None."""
+    """Runs a command; one that exceeds the time limit is stopped and has the status None."""
     process = start(command, folder)
     try:
         output, errors = process.communicate(timeout=seconds * SLOW)
@@ -74,7 +74,7 @@ def launch(words, folder, seconds=60):
 
 
 def free_ports(count):
-    """UDP ports that nobody uses now."""
+    """Unused UDP ports."""
     sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(count)]
     for s in sockets:
         s.bind(("127.0.0.1", 0))
@@ -94,7 +94,7 @@ H264 = "video/x-raw,format=I420 ! x264enc pass=quant quantizer=10 ! h264parse"
 
 
 def make_clip(folder, frames=8, size="160x120", scene="room"):
-    """Renders clip/ into the folder, and links left/ and right/ to its pictures."""
+    """Renders clip/ into the folder, and links left/ and right/ to its images."""
     require(run([RENDER, "clip", "--frames", str(frames), "--size", size, "--scene", scene], folder))
     for side in ("left", "right"):
         (folder / side).symlink_to(folder / "clip" / side)
@@ -121,7 +121,7 @@ def count_frames(file, folder):
 
 
 class ClipTest(unittest.TestCase):
-    """Tests that work in a folder with a small clip in it, made once for all of them."""
+    """Tests in a folder with a small clip, which is created once for all of them."""
 
     @classmethod
     def setUpClass(cls):
@@ -140,6 +140,6 @@ class ClipTest(unittest.TestCase):
     def assert_succeeds(self, outcome):
         self.assertEqual(outcome.status, 0, str(outcome))
 
-    def assert_refuses(self, outcome, says, status):
+    def assert_rejects(self, outcome, says, status):
         self.assertEqual(outcome.status, status, str(outcome))
         self.assertIn(says, outcome.errors, str(outcome))
