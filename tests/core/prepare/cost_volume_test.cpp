@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
-#include <opencv2/imgproc.hpp>
 
 #include "reference/prepare/cost_volume.hpp"
 #include "support/compare.hpp"
 #include "support/simd_targets.hpp"
 #include "support/stages.hpp"
+
+#ifdef MTSTEREO_TEST_OPENCV
+#include <opencv2/imgproc.hpp>
+#endif
 
 namespace mtstereo {
 namespace {
@@ -129,6 +132,8 @@ TEST(CostVolume, DoesNotDependOnBlocks) {
   }
 }
 
+#ifdef MTSTEREO_TEST_OPENCV
+
 /// A slice of the paper's definition in floating point: the weighted mean of three absolute
 /// differences, smoothed by OpenCV's Gaussian; columns without a partner repeat the first that has
 /// one.
@@ -203,6 +208,8 @@ TEST(CostVolume, IsCloseToTheGaussianAtHalfResolution) {
     EXPECT_LT(distance.largest, 0.5 * distance.mean_cost) << "kernel " << size;
   }
 }
+
+#endif
 
 TEST(SmoothingKernel, SumsToOneAndFallsFromTheCenter) {
   for (const int shift : {0, 1}) {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,10 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 #include "support/stages.hpp"
+
+#ifdef MTSTEREO_TEST_OPENCV
+#include <opencv2/imgproc.hpp>
+#endif
 
 namespace mtstereo {
 namespace {
@@ -29,17 +32,6 @@ GrayPlane median_of(GrayView image, int band = 1 << 20) {
     median_rows(image, y, std::min(y + band, image.height), scratch, median);
   }
   return test::copy_of(median);
-}
-
-GrayPlane median_by_opencv(GrayPlane image) {
-  const cv::Mat in(image.height, image.width, CV_8UC1, image.pixels.data());
-  cv::Mat out;
-  cv::medianBlur(in, out, kMedianSide);
-  GrayPlane median(image.width, image.height);
-  for (int y = 0; y < image.height; ++y) {
-    std::copy_n(out.ptr<std::uint8_t>(y), image.width, &median(0, y));
-  }
-  return median;
 }
 
 /// Squares of 5x5 black and white pixels in a row. The first column of each is any there is, the
@@ -95,6 +87,19 @@ TEST(MedianFilter, EqualsReferenceAtEverySizeOnEveryInstructionSet) {
   });
 }
 
+#ifdef MTSTEREO_TEST_OPENCV
+
+GrayPlane median_by_opencv(GrayPlane image) {
+  const cv::Mat in(image.height, image.width, CV_8UC1, image.pixels.data());
+  cv::Mat out;
+  cv::medianBlur(in, out, kMedianSide);
+  GrayPlane median(image.width, image.height);
+  for (int y = 0; y < image.height; ++y) {
+    std::copy_n(out.ptr<std::uint8_t>(y), image.width, &median(0, y));
+  }
+  return median;
+}
+
 TEST(MedianFilter, EqualsOpenCv) {
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 2}, {4, 5}, {400, 90}}) {
     for (const int largest : {1, 3, 30, 255}) {
@@ -104,6 +109,8 @@ TEST(MedianFilter, EqualsOpenCv) {
     }
   }
 }
+
+#endif
 
 TEST(MedianFilter, DoesNotDependOnBands) {
   const GrayPlane image = test::texture(61, 40, 2);

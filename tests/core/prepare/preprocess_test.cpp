@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <opencv2/imgproc.hpp>
 
 #include "reference/prepare/preprocess.hpp"
 #include "support/compare.hpp"
@@ -13,6 +12,10 @@
 #include "support/simd_targets.hpp"
 #include "support/stages.hpp"
 
+#ifdef MTSTEREO_TEST_OPENCV
+#include <opencv2/imgproc.hpp>
+#endif
+
 namespace mtstereo {
 namespace {
 
@@ -20,21 +23,6 @@ using test::copy_of;
 using test::GrayPlane;
 using test::Plane;
 using test::same_image;
-
-cv::Mat mat_of(const GrayPlane& plane) {
-  cv::Mat mat(plane.height, plane.width, CV_8UC1);
-  for (int y = 0; y < plane.height; ++y) {
-    std::copy_n(&plane(0, y), plane.width, mat.ptr<std::uint8_t>(y));
-  }
-  return mat;
-}
-
-template <typename T>
-Plane<T> plane_of(const cv::Mat& mat) {
-  Plane<T> plane(mat.cols, mat.rows);
-  for (int y = 0; y < mat.rows; ++y) std::copy_n(mat.ptr<T>(y), mat.cols, &plane(0, y));
-  return plane;
-}
 
 /// Compares everything that the step makes of an image with the references.
 void expect_reference(const GrayPlane& image, const PreprocessedView& view, int gray_levels) {
@@ -90,6 +78,23 @@ TEST(Preprocess, ReadsOnlyThePixelsOfAPaddedImage) {
   }
 }
 
+#ifdef MTSTEREO_TEST_OPENCV
+
+cv::Mat mat_of(const GrayPlane& plane) {
+  cv::Mat mat(plane.height, plane.width, CV_8UC1);
+  for (int y = 0; y < plane.height; ++y) {
+    std::copy_n(&plane(0, y), plane.width, mat.ptr<std::uint8_t>(y));
+  }
+  return mat;
+}
+
+template <typename T>
+Plane<T> plane_of(const cv::Mat& mat) {
+  Plane<T> plane(mat.cols, mat.rows);
+  for (int y = 0; y < mat.rows; ++y) std::copy_n(mat.ptr<T>(y), mat.cols, &plane(0, y));
+  return plane;
+}
+
 TEST(Preprocess, WeightedSobelEqualsOpenCv) {
   for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 2}, {4, 5}, {129, 40}}) {
     const PreprocessedView view = test::preprocess(test::noise(width, height, 4).view(), 16, 7);
@@ -106,6 +111,8 @@ TEST(Preprocess, WeightedSobelEqualsOpenCv) {
     EXPECT_TRUE(same_image(expected_y, view.sobel_y)) << width << "x" << height;
   }
 }
+
+#endif
 
 /// Writes the levels of an image that is taken for a median.
 GrayPlane levels_of(const GrayPlane& median, int gray_levels) {
