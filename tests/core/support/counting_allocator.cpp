@@ -35,7 +35,7 @@ void fail_allocation_after(long successes) {
 }
 bool allocation_has_failed() { return failed; }
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !defined(MTSTEREO_TEST_SANITIZED)
 
 bool allocations_are_counted() { return true; }
 
