@@ -43,7 +43,7 @@ fi
 
 if [ ${#arguments[@]} -eq 3 ]; then
   # Without the format, pngenc would get 8 bits.
-  output=('!' videoconvert '!' video/x-raw,format=GRAY16_BE '!' pngenc '!'
+  output=('!' videoconvert '!' 'video/x-raw,format=GRAY16_BE' '!' pngenc '!'
     multifilesink "location=${arguments[2]}" "index=$first")
   [ "$dry_run" = yes ] || mkdir -p "$(dirname "${arguments[2]}")"
 else

@@ -30,7 +30,7 @@ for file in "${arguments[@]}"; do require_file "$file"; done
 
 # Key frames and parameter sets are sent about once a second, so that a receiver can start at any
 # time.
-encode=('!' decodebin '!' videoconvert '!' video/x-raw,format=I420 '!'
+encode=('!' decodebin '!' videoconvert '!' 'video/x-raw,format=I420' '!'
   x264enc tune=zerolatency speed-preset=superfast bitrate=8000 key-int-max=30 '!'
   rtph264pay config-interval=1 '!' queue)
 launch \
