@@ -1,13 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Installs the missing Debian packages of packages.txt; does nothing if none is missing.
+# install-packages.sh [MARK...]: installs the missing Debian packages of packages.txt; does nothing if
+# none is missing. A package with a mark after its name is only installed if that mark is given.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+marks=" $* "
 
-missing=()
-while read -r package; do
-  dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' ||
-    missing+=("$package")
+missing=() architectures=()
+while read -r package mark; do
+  [ -z "$mark" ] || [[ $marks == *" $mark "* ]] || continue
+  ! dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || continue
+  missing+=("$package")
+  case $package in
+    *:*) architectures+=("${package##*:}") ;;
+  esac
 done < <(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$here/packages.txt")
 [ ${#missing[@]} -eq 0 ] && exit 0
 
@@ -21,5 +27,8 @@ if [ "$(id -u)" -ne 0 ]; then
   fi
   as_root=(sudo)
 fi
+for architecture in "${architectures[@]}"; do
+  "${as_root[@]}" dpkg --add-architecture "$architecture"
+done
 "${as_root[@]}" apt-get update -q
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
