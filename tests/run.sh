@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# run.sh: installs what is missing, builds, and runs all tests: the release build, then the same
-# tests under AddressSanitizer and UndefinedBehaviorSanitizer, then the tests with threads under
-# ThreadSanitizer. The last line tells how many passed, failed and were skipped over all runs.
+# run.sh: installs what is missing, checks the style, builds, and runs all tests: the release build by
+# gcc, then the same tests built by clang with AddressSanitizer and UndefinedBehaviorSanitizer, then the
+# tests with threads under ThreadSanitizer. The last line reports how many tests and checks passed,
+# failed and were skipped in all runs.
 #
 # Options:
-#   --quick             the release build alone
+#   --quick             only the release build
 #   --summarize FILE... only add up the results in saved outputs of 'meson test'
 #
-# Builds into build/, build-asan/ and build-tsan/. With CI=true warnings are errors.
+# Builds into build/, build-clang-asan/ and build-tsan/. With CI=true warnings are errors, and the tests
+# of the core also run on 64-bit ARM, emulated by QEMU, in build-aarch64/.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 repository=$PWD
@@ -54,7 +56,7 @@ case ${1:-} in
     ;;
   '') ;;
   *)
-    echo "run.sh: there is no option $1 (--help tells more)" >&2
+    echo "run.sh: there is no option $1 (--help lists them)" >&2
     exit 2
     ;;
 esac
@@ -62,16 +64,18 @@ esac
 log=$(mktemp) || exit 1
 trap 'rm -f "$log"' EXIT
 
-# build FOLDER OPTION...: configures and builds. A build that fails counts as a failed test.
+# build FOLDER TARGETS OPTION...: configures and builds. A build that fails counts as a failed test.
+# TARGETS is a list of words, 'all' for everything.
 build() {
-  local folder=$1 again=()
-  shift
+  local folder=$1 targets again=()
+  read -ra targets <<<"$2"
+  shift 2
   echo "== Building $folder"
   [ ! -e "$folder/build.ninja" ] || again=(--reconfigure)
   local werror=false
   [ "${CI:-}" != true ] || werror=true
   if meson setup "${again[@]}" "$folder" "$repository" -Dwerror="$werror" "$@" >"$log" 2>&1 &&
-    ninja -C "$folder" >"$log" 2>&1; then
+    ninja -C "$folder" "${targets[@]}" >"$log" 2>&1; then
     return 0
   fi
   cat "$log"
@@ -92,31 +96,64 @@ run_tests() {
   fi
 }
 
-# gst-launch-1.0 and other programs without a sanitizer load libraries with one: the sanitizer's own
-# library has to be there first. Leaks are looked for in the test programs, not in those.
-test_scripts_with_asan() {
-  LD_PRELOAD=$(g++ -print-file-name=libasan.so) \
-    ASAN_OPTIONS=detect_leaks=0 run_tests build-asan --suite pipelines -t 5
+# check NAME: runs one check of tests/checks.sh, which counts as one test.
+check() {
+  echo "== Checking $1"
+  if ./tests/checks.sh "$1" >"$log" 2>&1; then
+    passed=$((passed + 1))
+  else
+    cat "$log"
+    echo "== The check $1 failed"
+    failed=$((failed + 1))
+  fi
 }
 
-./pipelines/install-packages.sh || { echo "packages are missing" >&2 && exit 1; }
+# Programs without a sanitizer, such as gst-launch-1.0, load libraries with one, so they have to load the
+# sanitizer's own library first. The test programs are checked for leaks; those programs are not.
+test_scripts_with_asan() {
+  LD_PRELOAD=$asan_library ASAN_OPTIONS=detect_leaks=0 run_tests build-clang-asan --suite pipelines -t 5
+}
 
-if build build -Dbuildtype=release; then
+marks=()
+[ "$quick" = yes ] || marks+=(checks)
+[ "$quick" = yes ] || [ "${CI:-}" != true ] || marks+=(arm)
+./pipelines/install-packages.sh "${marks[@]}" || { echo "packages are missing" >&2 && exit 1; }
+
+if [ "$quick" = no ]; then
+  check format
+  check shell
+  check python
+fi
+
+if build build all -Dbuildtype=release; then
   run_tests build
 fi
 
 if [ "$quick" = no ]; then
   export LSAN_OPTIONS=suppressions=$repository/tests/lsan.supp:print_suppressions=0
   export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
-  # GStreamer's helper that looks into plugins has no sanitizer in it, and would refuse them.
+  # GStreamer's helper that reads plugins is built without a sanitizer and would reject them.
   export GST_REGISTRY_FORK=no
-  if build build-asan -Dbuildtype=debugoptimized -Db_sanitize=address,undefined -Db_lundef=false; then
-    run_tests build-asan --no-suite pipelines -t 5
+
+  # The sanitizer's library is shared, as the programs above need it.
+  asan_library=$(clang++ -print-file-name=libclang_rt.asan-x86_64.so)
+  shared_asan="-shared-libasan -Wl,-rpath,${asan_library%/*}"
+  if CC=clang CXX=clang++ build build-clang-asan all -Dbuildtype=debugoptimized \
+    -Db_sanitize=address,undefined -Db_lundef=false \
+    -Dc_link_args="$shared_asan" -Dcpp_link_args="$shared_asan"; then
+    run_tests build-clang-asan --no-suite pipelines -t 5
     test_scripts_with_asan
+    check tidy
   fi
-  if build build-tsan -Dbuildtype=debugoptimized -Db_sanitize=thread -Db_lundef=false \
+
+  if build build-tsan threads-tests -Dbuildtype=debugoptimized -Db_sanitize=thread -Db_lundef=false \
     -Dgst=disabled -Dtools=disabled; then
     run_tests build-tsan --suite threads -t 5
+  fi
+
+  if [ "${CI:-}" = true ] && build build-aarch64 all --cross-file tests/cross/aarch64.txt \
+    -Dbuildtype=release -Dgst=disabled -Dtools=disabled; then
+    run_tests build-aarch64 -t 10
   fi
 fi
 
