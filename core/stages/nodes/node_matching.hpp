@@ -37,7 +37,7 @@ struct SearchIntervals {
 void first_intervals(const NodeLevel& left, int disparities, int y0, int y1,
                      SearchIntervals& intervals);
 
-/// Scratch memory of one thread for finer_intervals(): the intervals of a row of the level before.
+/// Scratch memory of one thread for finer_intervals(): the intervals of a row of the coarser level.
 struct IntervalScratch {
   Buffer<std::int32_t> first;
   Buffer<std::int32_t> last;
@@ -48,8 +48,8 @@ struct IntervalScratch {
 /// The intervals of a finer level, for the rows y0 .. y1 - 1: [p - nL, p' - nR], where [p, p'] is
 /// the node's ancestor in the next coarser level `before`, and nL and nR are the medians of the
 /// begin and of the end disparities over the ancestor and its neighbors. The interval is empty if
-/// the node has no ancestor there or none of these nodes has a match. `scratch` is resized where
-/// it is too small.
+/// the node has no ancestor there or none of these nodes has a match. `scratch` is resized if it is
+/// too small.
 void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeMatches& matches,
                      int max_neighbors, int y0, int y1, IntervalScratch& scratch,
                      SearchIntervals& intervals);

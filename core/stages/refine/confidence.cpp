@@ -127,7 +127,7 @@ void find_steps(int pixels, int width, SupportScratch& scratch) {
 using Map = hn::CappedTag<std::int32_t, kAlignment / 4>;
 using MapConfidence = hn::Rebind<std::uint8_t, Map>;
 
-/// This function and the next one access the padding of the rows.
+/// Removes disparities with a confidence below `least`. Accesses the padding of the rows.
 void remove_below(int least, int width, std::int32_t* map, std::uint8_t* confidence) {
   const Map d32;
   const MapConfidence d8;
