@@ -11,7 +11,7 @@
 
 namespace mtstereo {
 
-/// Step 6 (paper, "Disparity map"): the disparity map of the matched leaves.
+/// The step node-drawing (paper, "Disparity map"): the disparity map of the matched leaves.
 
 /// The value that column x of a map stores for a disparity, both in 1 / kDisparityOne px. A point
 /// at infinity is stored as the smallest step above kNoDisparity. A disparity larger than x has no

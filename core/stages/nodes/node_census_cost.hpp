@@ -6,11 +6,11 @@
 
 namespace mtstereo {
 
-/// Part of step 5 (paper, "Matching cost aggregation"): the intensity cost of two nodes without a
-/// cost volume. The volume's wide kernel supports a node by its surroundings; here this support
-/// comes from the neighbors in the rows above and below, with which nodes are matched together, and
-/// from the columns beside the node. Costs are computed only for pixel pairs that a pair of nodes
-/// needs.
+/// Part of the step node-matching (paper, "Matching cost aggregation"): the intensity cost of two
+/// nodes without a cost volume. The volume's wide kernel supports a node by its surroundings; here
+/// this support comes from the neighbors in the rows above and below, with which nodes are matched
+/// together, and from the columns beside the node. Costs are computed only for pixel pairs that a
+/// pair of nodes needs.
 
 /// Additional columns on both sides of the left node.
 inline constexpr int kNodeMargin = 5;

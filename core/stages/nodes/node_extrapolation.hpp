@@ -10,8 +10,8 @@
 
 namespace mtstereo {
 
-/// Step 8 (paper, "Disparity map", reliable node extrapolation): assigns to each leaf the
-/// disparities of its surroundings.
+/// The step node-extrapolation (paper, "Disparity map", reliable node extrapolation): assigns to
+/// each leaf the disparities of its surroundings.
 
 /// Disparities at the ends of the leaves in 1 / kDisparityOne px, or kNoDisparity. The arrays have
 /// the layout of NodeLevel's per-node arrays.

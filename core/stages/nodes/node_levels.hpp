@@ -8,8 +8,8 @@
 
 namespace mtstereo {
 
-/// Step 3 (paper, "Matching cost aggregation"): the nodes of one coarseness level, and their
-/// neighbors in adjacent rows.
+/// Part of the steps max-trees and node-matching (paper, "Matching cost aggregation"): the nodes of
+/// one coarseness level, and their neighbors in adjacent rows.
 
 /// The nodes of one level of one view. The nodes of a row never nest and are sorted from left to
 /// right. Those of row y have the positions first[y] .. first[y] + count[y] - 1 in the per-node

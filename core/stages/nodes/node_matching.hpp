@@ -9,7 +9,7 @@
 
 namespace mtstereo {
 
-/// Step 5 (paper, "Matching cost aggregation"): matches the nodes of one level.
+/// The step node-matching (paper, "Matching cost aggregation"): matches the nodes of one level.
 
 /// The disparity of a node without a match.
 inline constexpr std::int16_t kNodeUnmatched = -1;

@@ -8,8 +8,8 @@
 
 namespace mtstereo {
 
-/// Steps 7 and 10 (paper, "Disparity map" and "Confidence check and map refinement"): removes
-/// disparities that disagree with most of their surroundings.
+/// The steps node-outliers and pixel-outliers (paper, "Disparity map" and "Confidence check and map
+/// refinement"): removes disparities that disagree with most of their surroundings.
 
 /// A copy of a disparity map in the form that the vote reads, with a border of `radius` pixels.
 struct VoteMap {

@@ -12,7 +12,8 @@
 
 namespace mtstereo {
 
-/// Part of step 5 (paper, "Matching cost aggregation"): the cost of a left and a right node.
+/// Part of the step node-matching (paper, "Matching cost aggregation"): the cost of a left and a
+/// right node.
 
 /// The input of the costs of one level's node pairs.
 struct PairCostInput {

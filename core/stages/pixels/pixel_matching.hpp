@@ -10,8 +10,8 @@
 
 namespace mtstereo {
 
-/// Step 9 (paper, "guided pixel matching" and "Confidence check") on the smoothed cost volume:
-/// selects each pixel's best disparity among those that the nodes expect.
+/// The step gradient-matching (paper, "guided pixel matching" and "Confidence check") on the
+/// smoothed cost volume: selects each pixel's best disparity among those that the nodes expect.
 
 struct PixelMatchingOptions {
   SearchRangeOptions range;

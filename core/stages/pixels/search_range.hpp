@@ -7,8 +7,8 @@
 
 namespace mtstereo {
 
-/// The first half of step 9 (paper, "guided pixel matching"): the disparities that the nodes expect
-/// at each pixel of a row.
+/// The first part of guided pixel matching (paper, "guided pixel matching"): the disparities that
+/// the nodes expect at each pixel of a row.
 
 struct SearchRangeOptions {
   double range;  ///< omega_omega: share of the disparity that is expected on both sides

@@ -8,9 +8,9 @@
 
 namespace mtstereo {
 
-/// Step 4, the input of all census costs: which pixels of the 5x5 window are darker than its
-/// center. The result is invariant to a camera's gain and offset and to any other monotonic change
-/// of the gray values.
+/// The step census, the input of all census costs: which pixels of the 5x5 window are darker than
+/// its center. The result is invariant to a camera's gain and offset and to any other monotonic
+/// change of the gray values.
 
 /// Bits of a pixel's census transform: the window without its center.
 inline constexpr int kCensusBits = 24;

@@ -9,8 +9,8 @@
 
 namespace mtstereo {
 
-/// Step 4b (paper, "Cost volume"): the smoothed matching cost of every left pixel at every
-/// disparity. It is computed only if nodes or pixels are compared by it.
+/// The step cost-volume (paper, "Cost volume"): the smoothed matching cost of every left pixel at
+/// every disparity.
 
 /// The smoothed costs, in kCostScale steps per gray value. With shift 1 each cell covers 2 x 2
 /// pixels: smoothing removes all finer detail. Cells without a right pixel (x < d) repeat the cost

@@ -8,7 +8,7 @@
 
 namespace mtstereo {
 
-/// Step 2 (paper, "Max-Tree construction"): the Max-tree of every row.
+/// The step max-trees (paper, "Max-Tree construction"): the Max-tree of every row.
 
 /// "No such node", for any index of a node.
 inline constexpr std::uint16_t kNoNode = 0xFFFF;

@@ -9,7 +9,7 @@
 
 namespace mtstereo {
 
-/// The median filter of step 1 (paper, "Pre-processing").
+/// The median filter of the step preprocessing (paper, "Pre-processing").
 
 /// Side of the median's window [px].
 inline constexpr int kMedianSide = 5;

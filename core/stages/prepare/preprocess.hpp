@@ -9,11 +9,12 @@
 
 namespace mtstereo {
 
-/// Step 1 (paper, "Pre-processing"): the input of the Max-trees and of the cost volume.
+/// The step preprocessing (paper, "Pre-processing"): the input of the Max-trees and of the cost
+/// volume.
 
 /// One view after pre-processing. All images have the view's size.
 struct PreprocessedView {
-  /// The median-filtered gray values (median_filter.hpp).
+  /// The gray values after the median filter (median_filter.hpp).
   Image<std::uint8_t> median;
   /// The quantized, inverted edge strength: 0 .. q - 1; high levels mean little contrast.
   Image<std::uint8_t> level;

@@ -19,7 +19,7 @@ using test::Random;
 constexpr int kWhole = 0;  // the width of the ends: all of the leaf
 constexpr int kOnePixel = 1;
 
-/// Step 8 on a whole map, in bands of `band` rows.
+/// The step node-extrapolation on a whole map, in bands of `band` rows.
 DisparityPlane extrapolated(const NodeLevel& leaves, const DisparityPlane& map, int neighbors,
                             int end_width, int band = 1 << 20) {
   Image<std::int32_t> image = image_of(map);

@@ -15,7 +15,7 @@ using test::copy_of;
 using test::DisparityPlane;
 using test::Random;
 
-/// Steps 7 and 10 on a whole map, in bands of `band` rows.
+/// The outlier removal on a whole map, in bands of `band` rows.
 DisparityPlane filtered(const DisparityPlane& map, int radius, int band = 1 << 20) {
   Image<std::int32_t> image = image_of(map);
   VoteMap votes;

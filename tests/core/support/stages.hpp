@@ -19,7 +19,7 @@ void poison(Image<T>& image) {
               image.stride() * image.height() * sizeof(T), std::uint8_t{0xA5});
 }
 
-/// Step 1 on a whole view, in bands of `band` rows.
+/// The preprocessing of a whole view, in bands of `band` rows.
 inline PreprocessedView preprocess(GrayView image, int gray_levels, int band = 1 << 20) {
   PreprocessedView view;
   view.resize(image.width, image.height);
@@ -39,7 +39,7 @@ inline PreprocessedView preprocess(GrayView image, int gray_levels, int band = 1
   return view;
 }
 
-/// Step 2 on the levels of a whole view, in bands of `band` rows.
+/// The Max-trees of the levels of a whole view, in bands of `band` rows.
 inline MaxTrees trees_of(const GrayPlane& levels, int band = 1 << 20) {
   MaxTrees trees;
   trees.resize(levels.width, levels.height);
@@ -50,7 +50,7 @@ inline MaxTrees trees_of(const GrayPlane& levels, int band = 1 << 20) {
   return trees;
 }
 
-/// Step 3 on a whole view, in bands of `band` rows.
+/// A node level of a whole view, in bands of `band` rows.
 inline NodeLevel level_of(const MaxTrees& trees, int ancestor, WidthRange widths,
                           int band = 1 << 20) {
   NodeLevel level;
