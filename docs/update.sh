@@ -1,24 +1,42 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Makes the generated parts of docs/ anew: the pictures of every stage and the parameter table.
-# Usage: docs/update.sh [BUILD]; with --check it only tells whether the table is up to date.
+# Writes the generated parts of docs/ anew: the pictures of the stages and of the architecture, the
+# table of parameters and the table of steps.
+# Usage: docs/update.sh [BUILD]; with --check it only reports whether the tables are up to date.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 check=
 [ "${1:-}" = --check ] && { check=yes; shift; }
 build=${1:-$here/../build}
+figures=$build/docs/figures/mtstereo-figures
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-"$build/docs/figures/mtstereo-figures" --parameters > "$work/table"
-# The table stands between two marks.
-sed -e '/<!-- parameters begin -->/,/<!-- parameters end -->/{//!d}' \
-  -e "/<!-- parameters begin -->/r $work/table" "$here/parameters.md" > "$work/parameters.md"
+status=0
 
-if [ -n "$check" ]; then
-  diff -u "$here/parameters.md" "$work/parameters.md" ||
-    { echo "docs/parameters.md is not what the parameter table says: run docs/update.sh" >&2; exit 1; }
-  exit 0
+# update PAGE NAME: puts the table $work/NAME between the two marks of docs/PAGE, or compares it.
+update() {
+  local page=$1 name=$2
+  for mark in "<!-- $name begin -->" "<!-- $name end -->"; do
+    grep -qxF -e "$mark" "$here/$page" || { echo "docs/$page has no line $mark" >&2; exit 1; }
+  done
+  sed -e "/<!-- $name begin -->/,/<!-- $name end -->/{//!d}" \
+    -e "/<!-- $name begin -->/r $work/$name" "$here/$page" > "$work/page"
+  if [ -z "$check" ]; then
+    cp "$work/page" "$here/$page"
+  elif ! diff -u "$here/$page" "$work/page"; then
+    echo "docs/$page is out of date: run docs/update.sh" >&2
+    status=1
+  fi
+}
+
+"$figures" --parameters > "$work/parameters"
+"$figures" --steps > "$work/list"
+"$here/figures/architecture.py" table < "$work/list" > "$work/steps"
+update parameters.md parameters
+update architecture.md steps
+if [ -z "$check" ]; then
+  "$figures" --pictures "$here/images/stages"
+  "$here/figures/architecture.py" picture "$here/images/architecture.png" < "$work/list"
 fi
-cp "$work/parameters.md" "$here/parameters.md"
-"$build/docs/figures/mtstereo-figures" --pictures "$here/images/stages"
+exit "$status"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// mtstereo-figures: the pictures of docs/algorithm.md and the table of docs/parameters.md.
+// mtstereo-figures: the pictures of docs/algorithm.md, the table of docs/parameters.md, and the
+// steps for docs/architecture.md.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -46,7 +47,7 @@ GrayView view_of(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
 }
 
-FrameMatcher matcher_of(const char* preset, const char* mode) {
+FrameMatcher matcher_of(std::string_view preset, std::string_view mode) {
   Parameters parameters;
   for (const Status& status : {parameters.set("preset", preset), parameters.set("mode", mode),
                                parameters.set(Parameter::kMaxDisparity, kDisparities)}) {
@@ -206,23 +207,41 @@ void print_table() {
   }
 }
 
+/// Prints a line for each step: its name, then PRESET/MODE for all presets and modes that run it.
+void print_steps() {
+  for (const Step& step : steps()) {
+    std::printf("%s", std::string(step.name).c_str());
+    for (const std::string_view preset : ChoiceOf<Preset>::kWords) {
+      for (const std::string_view mode : ChoiceOf<Mode>::kWords) {
+        const FrameMatcher matcher = matcher_of(preset, mode);
+        if (!step.runs(matcher.settings())) continue;
+        std::printf(" %s/%s", std::string(preset).c_str(), std::string(mode).c_str());
+      }
+    }
+    std::puts("");
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Pictures and tables of docs/");
   std::string folder;
   bool table = false;
+  bool steps = false;
   app.add_option("--pictures", folder, "write the pictures of every stage into this folder");
   app.add_flag("--parameters", table, "print the parameter table in Markdown");
+  app.add_flag("--steps", steps, "print all steps, each with the presets and modes that run it");
   CLI11_PARSE(app, argc, argv);
   try {
     if (table) print_table();
+    if (steps) print_steps();
     if (!folder.empty()) draw_pictures(folder);
   } catch (const std::exception& exception) {
     std::fprintf(stderr, "mtstereo-figures: %s\n", exception.what());
     return 1;
   }
-  if (!table && folder.empty()) {
+  if (!table && !steps && folder.empty()) {
     std::fputs(app.help().c_str(), stdout);
     return 2;
   }

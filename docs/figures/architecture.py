@@ -1,0 +1,270 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The generated parts of docs/architecture.md: the table of steps and the picture.
+
+  mtstereo-figures --steps | architecture.py table
+  mtstereo-figures --steps | architecture.py picture PICTURE.png
+
+The program prints the steps and the presets that run them. The memory that each step is given and
+the stages that it calls are read from core/steps.cpp. The exit status is 1 if the two do not fit
+together or a stage has no test, and if the picture cannot be made.
+"""
+import pathlib
+import re
+import sys
+from dataclasses import dataclass
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+GROUPS = ("Views", "Nodes", "Costs", "Maps", "EnlargedMaps")
+INK, FAINT, GIVEN, EDGE = "#282828", "#767676", "#1464be", "#b4b4b4"
+GST, CORE, ROOM = "#fdf0dc", "#e4eefa", "#f4f4f4"
+
+
+class Mismatch(Exception):
+    """The sources do not fit together; the message states where."""
+
+
+@dataclass
+class Step:
+    name: str
+    room: str
+    reads: list   # groups of the memory that it only reads
+    writes: list  # groups that it reads and writes
+    stages: list  # "room/stage" of each stage that it calls
+    runs: dict    # preset -> modes that run it, as printed by the program
+
+
+def printed_steps(text):
+    """{name: {preset: [mode, ...]}} from the lines of mtstereo-figures --steps."""
+    steps = {}
+    for line in text.splitlines():
+        name, *runs = line.split()
+        steps[name] = {}
+        for run in runs:
+            preset, mode = run.split("/")
+            steps[name].setdefault(preset, []).append(mode)
+    return steps
+
+
+def declared_functions():
+    """{function: "room/stage"} of the headers that core/steps.cpp includes."""
+    functions = {}
+    source = (SOURCE / "core/steps.cpp").read_text()
+    for stage in re.findall(r'^#include "stages/(\w+/\w+)\.hpp"', source, re.MULTILINE):
+        header = (SOURCE / f"core/stages/{stage}.hpp").read_text()
+        for name in re.findall(r"^[a-z][\w:<>&*, ]* (\w+)\(", header, re.MULTILINE):
+            functions[name] = stage
+    return functions
+
+
+def stages_of(function, bodies, declared, seen=()):
+    """The stages that a function of core/steps.cpp calls, itself or by another one of that file."""
+    stages = []
+    for name in re.findall(r"\b(\w+)\(", bodies[function]):
+        found = [declared[name]] if name in declared else []
+        if name in bodies and name != function and name not in seen:
+            found += stages_of(name, bodies, declared, (*seen, function))
+        stages += found
+    return list(dict.fromkeys(stages))
+
+
+def read_steps(text):
+    """The list of core/steps.cpp, with the presets that the program has printed."""
+    printed, declared = printed_steps(text), declared_functions()
+    source = (SOURCE / "core/steps.cpp").read_text()
+    bodies = dict(re.findall(r"^void (\w+)\((const StepContext.*?)^}", source,
+                             re.MULTILINE | re.DOTALL))
+    rows = re.search(r"^constexpr Step kSteps\[\] = \{\n(.*?)^\};", source,
+                     re.MULTILINE | re.DOTALL).group(1)
+    steps, room = [], None
+    for row in rows.splitlines():
+        comment = re.fullmatch(r"\s*// (\w+)", row)
+        if comment:
+            room = comment.group(1)
+        entry = re.fullmatch(r'\s*\{"([\w-]+)",\s*\w+,\s*on<(\w+), (.*)>\},', row)
+        if not entry:
+            continue
+        name, function, groups = entry.groups()
+        groups = groups.split(", ")
+        steps.append(Step(name, room, [group[6:] for group in groups if group.startswith("const ")],
+                          [group for group in groups if not group.startswith("const ")],
+                          stages_of(function, bodies, declared), printed.get(name)))
+    check(steps, printed)
+    return steps
+
+
+def check(steps, printed):
+    if [step.name for step in steps] != list(printed):
+        raise Mismatch("the steps of core/steps.cpp are not those that the program prints: "
+                       f"{[step.name for step in steps]} and {list(printed)}")
+    for step in steps:
+        for group in step.reads + step.writes:
+            if group not in GROUPS:
+                raise Mismatch(f"{step.name}: {group} is no group of the memory")
+        if not step.stages:
+            raise Mismatch(f"{step.name} calls no stage")
+        for path in [f"core/stages/{step.room}"] + \
+                [f"tests/core/{stage}_test.cpp" for stage in step.stages]:
+            if not (SOURCE / path).exists():
+                raise Mismatch(f"{step.name}: there is no {path}")
+
+
+def presets_of(step, steps):
+    """Which presets run a step, in few words: "always", "default, fast", "mode dense"."""
+    everything = steps[[step.name for step in steps].index("preprocessing")].runs
+    if step.runs == everything:
+        return "always"
+    if step.runs and all(modes == ["dense"] for modes in step.runs.values()):
+        return "mode dense"
+    return ", ".join(preset if modes == everything[preset] else f"{preset} {'/'.join(modes)}"
+                     for preset, modes in step.runs.items()) or "by parameters"
+
+
+def table(steps):
+    lines = ["| room | step | presets | only reads | reads and writes | stages |",
+             "| --- | --- | --- | --- | --- | --- |"]
+    for step in steps:
+        stages = ", ".join(f"`{stage}`" for stage in step.stages)
+        lines.append(f"| {step.room} | `{step.name}` | {presets_of(step, steps)} "
+                     f"| {', '.join(step.reads)} | {', '.join(step.writes)} | {stages} |")
+    return "\n".join(lines)
+
+
+# The way of a frame before and after the steps: color, place, what it does.
+BEFORE = [
+    (GST, "gst/matcher: the element mtstereo", ["aggregation, pairing: two frames of the same time",
+                                                "matching: one pair from start to end"]),
+    (GST, "gst/shared/frame_views: MappedFrame", ["maps a GstBuffer as a GrayView"]),
+    (CORE, "core/matcher: the public class Matcher", ["makes Settings of the Parameters; checks the views",
+                                                      "base/guard: turns exceptions into errors"]),
+    (CORE, "core/frame_matcher: FrameMatcher", ["owns the memory (frame_memory) and the threads",
+                                                "sizes them if needed, then runs the list"]),
+]
+AFTER = [
+    (CORE, "core/matcher: write_disparity16()", ["converts a DisparityView to the 16-bit output"]),
+    (GST, "gst/matcher: confidence, allocation", ["attach the confidence map and the left frame's times"]),
+    (GST, "gst/filters: mtconfidence, mtcolor", ["elements downstream"]),
+]
+
+
+class Drawing:
+    """A picture in pixels, y downwards."""
+    WIDTH, HEIGHT, DPI = 1180, 760, 100
+
+    def __init__(self):
+        # pylint: disable=import-outside-toplevel
+        import matplotlib
+        from matplotlib import patches
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+        matplotlib.rcdefaults()
+        self.patches = patches
+        figure = Figure(figsize=(self.WIDTH / self.DPI, self.HEIGHT / self.DPI), dpi=self.DPI)
+        self.canvas = FigureCanvasAgg(figure)
+        self.axes = figure.add_axes((0, 0, 1, 1))
+        self.axes.set(xlim=(0, self.WIDTH), ylim=(self.HEIGHT, 0))
+        self.axes.axis("off")
+
+    def box(self, x, y, width, height, color):
+        self.axes.add_patch(self.patches.FancyBboxPatch(
+            (x, y), width, height, boxstyle="round,pad=0,rounding_size=6", facecolor=color,
+            edgecolor=EDGE, linewidth=1))
+
+    def text(self, x, y, text, size=9.0, color=INK, **options):
+        self.axes.text(x, y, text, fontsize=size, color=color, va="center", **options)
+
+    def arrow(self, *points):
+        for (x0, y0), (x1, y1) in zip(points[:-2], points[1:-1]):
+            self.axes.plot([x0, x1], [y0, y1], color=INK, linewidth=1.4, solid_capstyle="butt")
+        self.axes.annotate("", points[-1], points[-2], arrowprops={
+            "arrowstyle": "-|>", "color": INK, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0})
+
+    def dot(self, x, y, filled):
+        self.axes.add_patch(self.patches.Circle((x, y), 5.5, edgecolor=GIVEN, linewidth=1.4,
+                                                facecolor=GIVEN if filled else "white"))
+
+    def write(self, path):
+        self.canvas.print_png(path, metadata={"Software": None})
+
+
+def draw_way(drawing, boxes, top):
+    """Boxes from top to bottom with arrows between them. Returns the middle heights of the first
+    and of the last one."""
+    x, width, y, middles = 20, 385, top, []
+    for color, title, lines in boxes:
+        height = 34 + 19 * len(lines)
+        drawing.box(x, y, width, height, color)
+        drawing.text(x + 12, y + 17, title, 9.5, weight="bold")
+        for i, line in enumerate(lines):
+            drawing.text(x + 12, y + 38 + 19 * i, line)
+        if middles:
+            drawing.arrow((x + width / 2, y - 22), (x + width / 2, y))
+        middles.append(y + height / 2)
+        y += height + 22
+    return middles[0], middles[-1]
+
+
+def draw_steps(drawing, steps, top):
+    """The rooms with their steps and the memory of each. Returns the heights of the first and of
+    the last room's middle."""
+    x, right, row, columns = 470, 1160, 25, 905
+    spacing = (right - columns) / len(GROUPS)
+    drawing.text(x, top, "core/steps: the list", 9.5, weight="bold")
+    drawing.text(x + 205, top, "presets that run it")
+    for i, group in enumerate(GROUPS):
+        drawing.text(columns + spacing * (i + 0.5), top, group.replace("dMaps", "d-\nMaps"), 9,
+                     ha="center", linespacing=0.95)
+    y, middles = top + 20, []
+    rooms = list(dict.fromkeys(step.room for step in steps))
+    for room in rooms:
+        inside = [step for step in steps if step.room == room]
+        height = 12 + row * (len(inside) + 1)
+        drawing.box(x, y, right - x, height, ROOM)
+        drawing.text(x + 12, y + 18, f"core/stages/{room}/", 9.5, weight="bold")
+        for i, step in enumerate(inside):
+            at = y + 18 + row * (i + 1)
+            default = "default" in step.runs and presets_of(step, steps) != "mode dense"
+            drawing.text(x + 28, at, step.name, 9.5, INK if default else FAINT)
+            drawing.text(x + 205, at, presets_of(step, steps), 9, INK if default else FAINT)
+            for k, group in enumerate(GROUPS):
+                if group in step.reads + step.writes:
+                    drawing.dot(columns + spacing * (k + 0.5), at, group in step.writes)
+        middles.append(y + height / 2)
+        y += height + 10
+    legend = y + 10
+    drawing.dot(x + 8, legend, True)
+    drawing.text(x + 20, legend, "reads and writes the group")
+    drawing.dot(x + 218, legend, False)
+    drawing.text(x + 230, legend, "only reads it")
+    drawing.text(x + 345, legend, "gray: not with the defaults", color=FAINT)
+    return middles[0], middles[-1]
+
+
+def picture(steps, path):
+    drawing = Drawing()
+    first_room, last_room = draw_steps(drawing, steps, 28)
+    drawing.text(20, 28, "The way of a frame", 9.5, weight="bold")
+    _, last = draw_way(drawing, BEFORE, 48)
+    drawing.arrow((405, last), (438, last), (438, first_room), (470, first_room))
+    first, _ = draw_way(drawing, AFTER, 540)
+    drawing.arrow((470, last_room), (438, last_room), (438, first), (405, first))
+    drawing.write(path)
+
+
+def main(arguments):
+    if arguments[:1] == ["table"] and len(arguments) == 1:
+        print(table(read_steps(sys.stdin.read())))
+    elif arguments[:1] == ["picture"] and len(arguments) == 2:
+        picture(read_steps(sys.stdin.read()), arguments[1])
+    else:
+        print(__doc__, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except (Mismatch, ImportError, OSError) as error:
+        print(f"architecture.py: {error}", file=sys.stderr)
+        sys.exit(1)
