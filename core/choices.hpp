@@ -8,26 +8,26 @@
 
 namespace mtstereo {
 
-/// One enum for each parameter that is a choice of words. Its values are the indices of the words,
-/// and ChoiceOf binds it to the parameter and the words; the parameter table is checked against
-/// ChoiceOf at compile time. Preset and Mode are public.
+/// One enum for each parameter whose value is one of several words. The enum values are the indices
+/// of the words. ChoiceOf binds the enum to the parameter and the words; the parameter table is
+/// checked against ChoiceOf at compile time. Preset and Mode are public.
 
-/// At what resolution the views are matched.
+/// Resolution at which the views are matched.
 enum class Resolution { kFull, kHalfRefined, kHalf };
 
-/// What nodes and pixels are compared by.
+/// Matching cost of nodes and pixels.
 enum class Cost { kCensus, kGradient };
 
 /// Resolution of the smoothed cost volume.
 enum class CostVolumeResolution { kHalf, kFull };
 
-/// Where outliers are removed.
+/// Stages after which outliers are removed.
 enum class OutlierRemoval { kNodes, kNodesAndPixels };
 
-/// What is expected of a pixel between two nodes.
+/// Disparities expected of a pixel between two nodes.
 enum class BetweenNodes { kNone, kSpan, kAll };
 
-/// Where the second-best disparity is searched.
+/// Disparities among which the second-best one is searched.
 enum class RunnerUp { kAny, kExpected };
 
 template <typename Enum>
@@ -81,7 +81,7 @@ struct ChoiceOf<RunnerUp> {
   static constexpr std::array<std::string_view, 2> kWords = {"any", "expected"};
 };
 
-/// The value of a choice in force.
+/// The effective value of a choice.
 template <typename Enum>
 Enum choice(const Parameters& parameters) {
   return static_cast<Enum>(parameters.integer(ChoiceOf<Enum>::kParameter));

@@ -15,7 +15,7 @@ int thread_count(const Settings& settings) {
   return std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
 }
 
-/// Counts in 32 bits, as wide as the disparities: vectors of both fit.
+/// The counter is as wide as the disparities, 32 bits, so that compilers vectorize the loop.
 int known_pixels(const std::int32_t* row, int width) {
   int known = 0;
   for (int x = 0; x < width; ++x) known += row[x] != kNoDisparity;

@@ -12,31 +12,31 @@
 
 namespace mtstereo {
 
-/// Runs the list of steps on one pair after the other: what a Matcher is made of, and what tests,
-/// benchmark and pictures look into. Throws; a Matcher turns exceptions into errors.
+/// Runs the list of steps on one pair after another. A Matcher owns one; tests, the benchmark and
+/// the pictures of docs/ use it directly to observe the steps. Throws; a Matcher turns exceptions
+/// into errors.
 class FrameMatcher {
  public:
-  /// Called after each step that ran, on the thread that called compute(). Watching does not change
-  /// which steps run, nor their results.
+  /// Called after each step that ran, on the thread that called compute(). An observer changes
+  /// neither which steps run nor their results.
   using Observer = std::function<void(const Step& step, const FrameMemory& memory)>;
 
   explicit FrameMatcher(const Settings& settings) : settings_(settings) {}
 
-  /// Takes other settings from the next pair on.
+  /// Applies other settings from the next pair on.
   void set(const Settings& settings);
   const Settings& settings() const { return settings_; }
 
-  /// Matches a pair of views of the same size, which fits the settings. The memory is sized for the
-  /// first pair and after a change of settings or size; otherwise nothing is allocated. Throws
-  /// std::bad_alloc, and std::system_error where a thread cannot start; the matcher can be used
-  /// again after that.
+  /// Matches a pair of views of equal size, which must fit the settings. Allocates memory for the
+  /// first pair and after a change of settings or size only. Throws std::bad_alloc, and
+  /// std::system_error if a thread cannot start; the matcher can be used again after that.
   void compute(GrayView left, GrayView right, const Observer& observer = {});
 
-  /// The result of the last pair; empty before the first one and where compute() threw.
+  /// The result of the last pair; empty before the first one and after compute() threw.
   DisparityView disparity() const { return disparity_; }
   GrayView confidence() const { return confidence_; }
 
-  /// Share of pixels with a disparity in the last result, 0 .. 1.
+  /// Fraction of pixels with a disparity in the last result, 0 .. 1.
   double density();
 
  private:
@@ -46,7 +46,7 @@ class FrameMatcher {
   std::optional<ThreadPool> pool_;
   FrameMemory memory_;
   FrameSize size_;
-  bool sized_ = false;  ///< the memory fits the settings and size_
+  bool sized_ = false;  ///< the memory has the size for settings_ and size_
   DisparityView disparity_;
   GrayView confidence_;
 };

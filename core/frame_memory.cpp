@@ -9,7 +9,7 @@
 namespace mtstereo {
 namespace {
 
-/// Rows of a band, where the image has that many.
+/// Rows of a full band, or of the image if it has fewer.
 int band_rows(const ImageSize& size) { return std::min(Bands::kRows, size.height); }
 
 }  // namespace

@@ -27,9 +27,9 @@
 namespace mtstereo {
 
 /// The memory of one matcher, in groups. A group holds the results of its stages, which later
-/// stages read, and the scratch memory of each thread. It is sized by its own resize(), the only
-/// place that allocates, which must be called after every change of settings or size. Buffers only
-/// grow, so that resize() is cheap where nothing larger is needed.
+/// stages read, and the scratch memory of each thread. Its resize() is the only place that
+/// allocates; call it after every change of settings or size. Buffers only grow, so resize() is
+/// cheap if nothing larger is needed.
 
 /// A width and a height [px].
 struct ImageSize {
@@ -38,22 +38,22 @@ struct ImageSize {
   bool operator==(const ImageSize&) const = default;
 };
 
-/// What the groups are sized by.
+/// What determines the sizes of the groups.
 struct FrameSize {
   ImageSize frame;    ///< of the given views and the result
-  ImageSize matched;  ///< of what is matched: the frame's size, or half of it
+  ImageSize matched;  ///< of the matched views: the frame's size or half of it
   int threads = 1;
 };
 
-/// The two views and what the stages in prepare/ make of each. All arrays are indexed by Side.
+/// The two views and what the stages in prepare/ compute from them. All arrays are indexed by Side.
 struct Views {
   std::array<GrayView, 2> given;    ///< the views of this frame; they belong to the caller
-  std::array<GrayView, 2> matched;  ///< what is matched: the given views or their halves
+  std::array<GrayView, 2> matched;  ///< the views to match: the given ones or their halves
   std::array<Image<std::uint8_t>, 2> halves;
   std::array<PreprocessedView, 2> preprocessed;
   std::array<MaxTrees, 2> trees;
   std::array<CensusImage, 2> census;        ///< of the matched views
-  std::array<CensusImage, 2> given_census;  ///< of the given views, for the refinement of halves
+  std::array<CensusImage, 2> given_census;  ///< of the given views, for the refinement
 
   struct Scratch {
     MedianScratch median;
@@ -76,7 +76,7 @@ struct NodeLevelMatches {
 /// The nodes and their matches: the stages in nodes/.
 struct Nodes {
   std::array<NodeLevelMatches, kMostNodeLevels> levels;  ///< coarse to fine
-  int level_count = 0;                                   ///< number of levels that are used
+  int level_count = 0;                                   ///< number of levels in use
   LeafDisparities ends;                                  ///< of the leaves, the finest level
 
   struct Scratch {
@@ -89,8 +89,8 @@ struct Nodes {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
-/// The costs of pixels: the cost volume (gradient), or a few rows of census costs in each thread's
-/// scratch memory.
+/// The costs of pixels: the cost volume (gradient cost), or a few rows of census costs in the
+/// scratch memory of each thread.
 struct Costs {
   SmoothingKernel kernel;
   int kernel_size = 0;  ///< the size [px] that the kernel was made for
@@ -106,7 +106,7 @@ struct Costs {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
-/// The disparity map of the matched views and what the stages in refine/ need beside it.
+/// The disparity map of the matched views and the buffers of the stages that change it.
 struct Maps {
   Image<std::int32_t> disparity;
   Image<std::uint8_t> ratio;       ///< peak ratios
@@ -127,7 +127,7 @@ struct Maps {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
-/// The map at the size of the given views, where their halves are matched.
+/// The map at the size of the given views, for matching at half resolution.
 struct EnlargedMaps {
   Image<std::int32_t> disparity;
   Image<std::uint8_t> confidence;

@@ -21,25 +21,25 @@ Status check_view(const char* name, GrayView view) {
     return {};
   }
   return Error{ErrorCode::kInvalidImage,
-               std::string("the ") + name + " image cannot be read: " + std::to_string(view.width) +
+               std::string("the ") + name + " image is invalid: " + std::to_string(view.width) +
                    "x" + std::to_string(view.height) + " px with a stride of " +
                    std::to_string(view.stride) + " bytes" +
                    (view.data == nullptr ? " and no data" : "") +
-                   "; it needs data, at least 1x1 px and a stride of at least the width"};
+                   "; an image needs data, at least 1x1 px and a stride of at least its width"};
 }
 
-/// Two views that are readable and of the same size.
+/// Checks that both views are readable and have the same size.
 Status check_pair(GrayView left, GrayView right) {
   if (Status status = check_view("left", left); !status) return status;
   if (Status status = check_view("right", right); !status) return status;
   if (left.width == right.width && left.height == right.height) return {};
   return Error{ErrorCode::kSizeMismatch,
-               "the left image has " + size_text(left.width, left.height) + " px, the right one " +
+               "the left image is " + size_text(left.width, left.height) + " px, the right image " +
                    size_text(right.width, right.height) +
                    " px: both views of a rectified pair must have the same size"};
 }
 
-/// What reduces the memory that these settings need, without what they already do.
+/// Ways to reduce the memory, without those that the settings already use.
 std::string ways_to_save(const Settings& settings) {
   std::string ways = "use smaller images, lower max-disparity";
   if (settings.threads != 1) ways += " or threads";
@@ -52,7 +52,7 @@ std::string ways_to_save(const Settings& settings) {
   return ways;
 }
 
-/// Writes a row in steps of 1 / scale px; a disparity never becomes "none".
+/// Converts a row to units of 1 / scale px. A known disparity never becomes 0, which means unknown.
 void scale_row16(const std::int32_t* in, int width, int scale, std::uint16_t* row) {
   for (int x = 0; x < width; ++x) {
     const std::int64_t value =
@@ -63,7 +63,7 @@ void scale_row16(const std::int32_t* in, int width, int scale, std::uint16_t* ro
   }
 }
 
-/// The same for a scale of kDisparityOne: a loop that compilers vectorize.
+/// The same for a scale of kDisparityOne, as a loop that compilers vectorize.
 void copy_row16(const std::int32_t* __restrict__ in, int width, std::uint16_t* __restrict__ row) {
   for (int x = 0; x < width; ++x) {
     const std::int32_t value = std::min(std::max(in[x], 1), 65535);
@@ -73,7 +73,8 @@ void copy_row16(const std::int32_t* __restrict__ in, int width, std::uint16_t* _
 
 }  // namespace
 
-/// What the public class holds. Hidden, since it would be exported with the class it belongs to.
+/// The state of the public class. Hidden, since it would otherwise be exported together with that
+/// class.
 struct __attribute__((visibility("hidden"))) Matcher::State {
   explicit State(const Parameters& p) : parameters(p), matcher(Settings(p)) {}
 
@@ -92,7 +93,7 @@ Result<Matcher> Matcher::create(const Parameters& parameters) noexcept {
     try {
       return Matcher(std::make_unique<State>(parameters));
     } catch (const std::bad_alloc&) {
-      return Error{ErrorCode::kOutOfMemory, "there is not enough memory for a matcher"};
+      return Error{ErrorCode::kOutOfMemory, "not enough memory for a matcher"};
     }
   });
 }
@@ -123,7 +124,7 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) noexcept {
     } catch (const std::bad_alloc&) {
       return Error{
           ErrorCode::kOutOfMemory,
-          "there is not enough memory for images of " + size_text(left.width, left.height) +
+          "not enough memory for images of " + size_text(left.width, left.height) +
               " px with max-disparity = " + std::to_string(state.matcher.settings().max_disparity) +
               ": " + ways_to_save(state.matcher.settings())};
     } catch (const std::exception& exception) {
@@ -143,19 +144,20 @@ Status write_disparity16(DisparityView disparity, int scale,
   return guarded([&]() -> Status {
     if (out.width != disparity.width || out.height != disparity.height) {
       return Error{ErrorCode::kSizeMismatch,
-                   "the disparity map has " + size_text(disparity.width, disparity.height) +
-                       " px, the output image " + size_text(out.width, out.height) + " px"};
+                   "the disparity map is " + size_text(disparity.width, disparity.height) +
+                       " px, the output image " + size_text(out.width, out.height) +
+                       " px: both must have the same size"};
     }
     if (scale < 1 || scale > 65535) {
       return Error{ErrorCode::kInvalidParameter, "disparity-scale = " + std::to_string(scale) +
-                                                     " is not possible: it takes 1 to 65535"};
+                                                     " is invalid: the range is 1 to 65535"};
     }
     if (disparity.data == nullptr || out.data == nullptr ||
         disparity.stride < static_cast<std::ptrdiff_t>(disparity.width * sizeof(std::int32_t)) ||
         out.stride < static_cast<std::ptrdiff_t>(out.width * sizeof(std::uint16_t))) {
-      return Error{ErrorCode::kInvalidImage,
-                   "the disparity map or the output image has no data, or a stride that is shorter "
-                   "than a row"};
+      return Error{
+          ErrorCode::kInvalidImage,
+          "the disparity map or the output image has no data or a stride shorter than a row"};
     }
     for (int y = 0; y < out.height; ++y) {
       if (scale == kDisparityOne) {

@@ -123,9 +123,9 @@ constexpr bool table_is_in_order() {
   }
   return true;
 }
-static_assert(table_is_in_order(), "the table has the order of Parameter");
+static_assert(table_is_in_order(), "the table must have the order of Parameter");
 
-/// Whether the table's row of a choice has exactly the words that the enum is bound to.
+/// Whether the table lists exactly the words that the enum is bound to.
 template <typename Enum>
 constexpr bool is_bound() {
   const ParameterInfo& info = kTable[static_cast<int>(ChoiceOf<Enum>::kParameter)];

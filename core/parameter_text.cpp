@@ -26,8 +26,8 @@ std::string range_text(const ParameterInfo& info) {
       return words;
     }
     case ParameterType::kLevels:
-      return "up to 8 whole numbers, strictly falling from at most " + number_text(info.maximum) +
-             ", the last one 0, as in \"1,0\"";
+      return "up to 8 integers in strictly descending order, the first at most " +
+             number_text(info.maximum) + " and the last 0, as in \"1,0\"";
     case ParameterType::kInteger:
     case ParameterType::kNumber:
       break;
@@ -82,7 +82,8 @@ std::string size_text(int width, int height) {
 
 namespace {
 
-/// The defaults of one preset: that of mode semi-dense, and what differs in the others.
+/// The defaults of one preset: that of mode semi-dense, then those of the modes that differ from
+/// it.
 std::string preset_defaults_text(Parameter id, Preset preset) {
   const std::string main = parameter_default(id, preset, Mode::kSemiDense);
   std::string text = main;

@@ -15,7 +15,7 @@ using T = ParameterType;
 
 Error refuse(const ParameterInfo& info, std::string_view value) {
   return {ErrorCode::kInvalidParameter, std::string(info.name) + " = " + std::string(value) +
-                                            " is not possible: it takes " + range_text(info)};
+                                            " is invalid: allowed are " + range_text(info)};
 }
 
 bool in_table(Parameter id) {
@@ -23,9 +23,9 @@ bool in_table(Parameter id) {
 }
 
 Error refuse_id(Parameter id) {
-  return {ErrorCode::kInvalidParameter,
-          "there is no parameter number " + std::to_string(static_cast<int>(id)) +
-              ": the numbers are 0 to " + std::to_string(kParameters - 1)};
+  return {ErrorCode::kInvalidParameter, "parameter number " + std::to_string(static_cast<int>(id)) +
+                                            " does not exist: the numbers are 0 to " +
+                                            std::to_string(kParameters - 1)};
 }
 
 }  // namespace
@@ -65,12 +65,14 @@ Status Parameters::set(std::string_view name, std::string_view text) noexcept {
     for (const ParameterInfo& row : parameter_table()) {
       known += std::string(known.empty() ? "" : ", ") + row.name;
     }
-    return Error{ErrorCode::kInvalidParameter,
-                 "there is no parameter \"" + std::string(name) + "\": there are " + known};
+    return Error{
+        ErrorCode::kInvalidParameter,
+        "parameter \"" + std::string(name) + "\" does not exist: the parameters are " + known};
   });
 }
 
-/// Reads a value from text by its type, whatever its range. std::nullopt where it is none.
+/// Parses a value of the parameter's type without checking its range. Returns std::nullopt if the
+/// text does not have the form of that type.
 std::optional<Parameters::Value> Parameters::parse(const ParameterInfo& info,
                                                    std::string_view text) noexcept {
   Value value;
@@ -105,10 +107,10 @@ bool Parameters::is_set(Parameter id) const noexcept {
 
 Parameters::Value Parameters::effective(Parameter id) const noexcept {
   if (is_set(id)) return *values_[static_cast<int>(id)];
-  // Neither the preset's nor the mode's default may ask for itself.
+  // The defaults of preset and mode must not depend on the preset and mode in force.
   const Preset of_preset = id == P::kPreset ? Preset::kDefault : preset();
   const Mode of_mode = id == P::kPreset || id == P::kMode ? Mode::kSemiDense : mode();
-  // The table's own defaults are valid: a test sets every one of them.
+  // The defaults in the table are valid: a test sets every one of them.
   return parse(parameter_info(id), parameter_default(id, of_preset, of_mode)).value_or(Value{});
 }
 
@@ -151,29 +153,29 @@ Status Parameters::check_frame(int width, int height) const noexcept {
     const std::string size = size_text(width, height);
     if (width < 1 || height < 1 || width > kLargestImageSide || height > kLargestImageSide) {
       return Error{ErrorCode::kFrameDoesNotFit,
-                   "images of " + size + " px cannot be matched: each side has to be 1 to " +
+                   "images of " + size + " px cannot be matched: each side must be 1 to " +
                        std::to_string(kLargestImageSide) + " px"};
     }
     const int disparities = integer(P::kMaxDisparity);
     if (disparities > width) {
       return Error{ErrorCode::kFrameDoesNotFit, "max-disparity = " + std::to_string(disparities) +
-                                                    " does not fit images of " + size +
+                                                    " px exceeds the width of images of " + size +
                                                     " px: set it to 1 to " + std::to_string(width) +
-                                                    " px, the image's width"};
+                                                    " px"};
     }
     const bool half = choice<Resolution>(*this) != Resolution::kFull;
     const int matched = half ? (width + 1) / 2 : width;
     const double widest = get(P::kMaxNodeWidth) * matched;
     const int narrowest = integer(P::kMinNodeWidth);
-    // The defaults may leave an image without nodes; what was set has to make sense.
+    // Defaults may leave a small image without nodes; values that were set must allow some nodes.
     const bool chosen = is_set(P::kMinNodeWidth) || is_set(P::kMaxNodeWidth);
     if (chosen && narrowest + 1 >= widest && narrowest > 0) {
       return Error{ErrorCode::kInvalidCombination,
                    "min-node-width = " + std::to_string(narrowest) +
-                       " px leaves no node below max-node-width = " + text(P::kMaxNodeWidth) +
-                       " image widths, which is " + number_text(widest) + " px in images of " +
-                       size + " px" + (half ? " at half resolution" : "") +
-                       ": lower the first or raise the second"};
+                       " px excludes every node narrower than max-node-width = " +
+                       text(P::kMaxNodeWidth) + " image widths, which is " + number_text(widest) +
+                       " px in images of " + size + " px" + (half ? " at half resolution" : "") +
+                       ": lower min-node-width or raise max-node-width"};
     }
     return {};
   });

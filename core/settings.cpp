@@ -6,7 +6,7 @@ namespace {
 
 using P = Parameter;
 
-/// A percentage as a share.
+/// Converts a percentage to a fraction.
 double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
 
 int matched_disparities(const Parameters& p) {

@@ -11,7 +11,7 @@
 
 namespace mtstereo {
 
-/// The parameters of one frame as typed numbers: made from Parameters once, before the frame
+/// The parameters of one frame as typed values, derived from Parameters once, before the frame
 /// starts. The parameter table states the meaning of each field. Lengths in px count pixels of the
 /// matched resolution unless stated otherwise.
 struct Settings {
@@ -20,20 +20,20 @@ struct Settings {
   Mode mode;
   Resolution resolution;
   Cost cost;
-  int threads;        ///< 0: one for each processor
+  int threads;        ///< 0: one per processor
   int max_disparity;  ///< D [px of the views]
   int disparities;    ///< D [px]
 
   // nodes
   int gray_levels;                 ///< q
   int min_node_width;              ///< omega_alpha [px]
-  double max_node_width;           ///< omega_beta, share of the image's width
+  double max_node_width;           ///< omega_beta, fraction of the image's width
   Parameters::Levels node_levels;  ///< S
   int max_neighbors;               ///< omega_gamma [rows]
   int cost_kernel_size;            ///< omega_cv [px]
   CostVolumeResolution cost_volume;
   float intensity_weight;  ///< alpha, 0 .. 1
-  float node_confidence;   ///< omega_Pi of the nodes, as a share
+  float node_confidence;   ///< omega_Pi of the nodes, as a fraction
   int outlier_radius;      ///< [px], 0 = no outlier removal
   OutlierRemoval outlier_removal;
 
@@ -52,7 +52,7 @@ struct Settings {
 
   /// Whether the views are matched at half resolution.
   bool half() const { return resolution != Resolution::kFull; }
-  /// Whether the disparities are refined at full resolution after that.
+  /// Whether the disparities are then refined at full resolution.
   bool refined() const { return resolution == Resolution::kHalfRefined; }
   bool census() const { return cost == Cost::kCensus; }
   CensusMatchingOptions census_matching() const {
@@ -61,8 +61,8 @@ struct Settings {
   /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost
   /// the nodes themselves are drawn at their ends only, see drawn_end_width().
   bool keeps_only_ends() const { return mode == Mode::kSparse && census(); }
-  /// Pixels around each end of a leaf that guided pixel matching starts from; 0: the whole leaf,
-  /// since the census cost is only guided by the nodes.
+  /// Number of pixels around each end of a leaf that start guided pixel matching; 0: the whole
+  /// leaf. With the census cost it is always 0, since there the nodes only guide the search.
   int drawn_end_width() const { return mode == Mode::kSparse && !census() ? node_end_width : 0; }
 };
 

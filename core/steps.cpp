@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The steps of the method and their order. To add one: a stage in stages/ with its test, a function
-// here that calls it, and a line in the list at the end. The build compiles the stages whose
-// headers are included here.
+// The steps of the method and their order. To add a step, add a stage with its test to stages/, a
+// function here that calls it, and a line to the list at the end. The build compiles the stages
+// whose headers are included here.
 #include "steps.hpp"
 
 #include <algorithm>
@@ -108,7 +108,8 @@ void match_levels(const StepContext& step, const Views& views, const Costs& cost
                                  settings.census() ? nullptr : &costs.volume,
                                  &views.census,
                                  settings.intensity_weight};
-    // Nodes may be crowded in one part of the view: the work is the number of possible pairs.
+    // Nodes may concentrate in one part of the view: a row costs as much time as it has possible
+    // pairs.
     const auto work = [&](int y) {
       return 1 + std::int64_t{level.left.count[y]} * level.right.count[y];
     };
@@ -136,7 +137,8 @@ void remove_outliers(const StepContext& step, Maps& maps) {
       [&](int y0, int y1, int) { mtstereo::remove_outliers(maps.votes, y0, y1, maps.disparity); });
 }
 
-/// Removes outliers from the map of the nodes and takes what remains at their ends.
+/// Removes outliers from the map of the drawn nodes, then reads the remaining disparities at the
+/// nodes' ends.
 void remove_node_outliers(const StepContext& step, Nodes& nodes, Maps& maps) {
   remove_outliers(step, maps);
   step.bands.rows([&](int y0, int y1, int) {
@@ -186,7 +188,7 @@ void rate_confidence(const StepContext& step, const Nodes& nodes, Maps& maps) {
   const Settings& settings = step.settings;
   step.bands.rows([&](int y0, int y1, int worker) {
     copy_support(maps.disparity, maps.ratio, y0, y1, maps.support);
-    // Pixels that lose their disparity here support others, but need no rating.
+    // Pixels that lose their disparity here still support others, but need no confidence.
     if (settings.keeps_only_ends()) {
       keep_leaf_ends(nodes.leaves().left, nodes.ends, settings.node_end_width, y0, y1,
                      maps.scratch[worker].marks, maps.disparity, maps.ratio);
@@ -244,7 +246,7 @@ void refine(const StepContext& step, const Views& views, EnlargedMaps& enlarged)
   });
 }
 
-// The groups of the memory by their type.
+// The group of the memory that has this type.
 template <typename Group>
 Group& group(FrameMemory& memory) {
   using Plain = std::remove_const_t<Group>;

@@ -10,11 +10,11 @@
 
 namespace mtstereo {
 
-/// What every step reads besides the memory that it runs on.
+/// What every step reads besides its groups of the memory.
 struct StepContext {
   const Settings& settings;
-  const Bands& bands;        ///< of the matched size
-  const Bands& given_bands;  ///< of the size of the given views
+  const Bands& bands;        ///< of the matched views
+  const Bands& given_bands;  ///< of the given views
 };
 
 /// One step of the method: an entry of the list that a matcher runs for each frame.
@@ -22,11 +22,11 @@ struct Step {
   std::string_view name;
   /// Whether the step runs with these settings.
   bool (*runs)(const Settings& settings);
-  /// Runs it on the groups of the memory that its entry names.
+  /// Runs the step on the groups of the memory that its entry names.
   void (*run)(const StepContext& context, FrameMemory& memory);
 };
 
-/// All steps in the order in which they run. The order is fixed; the settings only leave out steps.
+/// All steps in the order in which they run. The order is fixed; settings can only disable steps.
 /// Everything that depends on the order of the method reads this list: the matcher, the benchmark,
 /// the pictures of docs/ and the tests.
 std::span<const Step> steps();

@@ -8,16 +8,16 @@
 
 namespace mtstereo {
 
-/// The parallel loops of the steps: cuts the rows or the columns of an image into bands and runs
+/// The parallel loops of the steps: splits the rows or the columns of an image into bands and runs
 /// them on a thread pool. Each loop returns when all its bands are done. `worker` is the number of
-/// the thread, 0 .. threads() - 1, so that each can use scratch memory of its own.
+/// the thread, 0 .. threads() - 1, so that each thread can use its own scratch memory.
 ///
-/// Stages give the same result for any bands, so the result does not depend on the number of
-/// threads.
+/// Stages give the same result for any division into bands, so the result does not depend on the
+/// number of threads.
 class Bands {
  public:
   static constexpr int kRows = 32;     ///< rows of a band
-  static constexpr int kColumns = 64;  ///< columns of a block, which shares no cache line
+  static constexpr int kColumns = 64;  ///< columns of a block; blocks share no cache line
 
   /// For images with this many rows. The pool must outlive the object.
   Bands(ThreadPool& pool, int height) : pool_(pool), height_(height) {}
@@ -56,8 +56,8 @@ class Bands {
     });
   }
 
-  /// As rows_per_thread(), where rows differ in work: work(y) estimates that of a row. Each of
-  /// several threads gets two bands, all of about the same work.
+  /// Like rows_per_thread(), for rows that differ in work: work(y) estimates the work of row y.
+  /// Several threads get two bands each, all of about equal work.
   template <typename Work, typename Body>
   void rows_by_work(Work&& work, Body&& body) const {
     const int bands = pool_.threads() == 1 ? 1 : std::min(2 * pool_.threads(), height_);

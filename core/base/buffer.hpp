@@ -12,12 +12,12 @@
 
 namespace mtstereo {
 
-/// Bytes to which buffers and the rows of an Image are aligned, and that may be read beyond the
-/// last element: the widest vector of the supported processors.
+/// Alignment of buffers and of the rows of an Image, and the number of readable bytes after the
+/// last element [bytes]: the widest vector of the supported processors.
 inline constexpr std::size_t kAlignment = 64;
 
-/// Owner of an array of plain values that only grows: asking for a size that was had before does
-/// not allocate. The contents are not initialized. Throws std::bad_alloc.
+/// Owner of an array of trivially copyable values. The memory only grows: resize() allocates
+/// nothing up to the largest size so far. The contents are not initialized. Throws std::bad_alloc.
 template <typename T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -52,14 +52,14 @@ class Buffer {
   std::size_t capacity_ = 0;
 };
 
-/// Owner of an image. Rows are aligned, and a whole vector behind the end of each row can be read
-/// and written (it belongs to the row's padding).
+/// Owner of an image. Rows are aligned, and one whole vector after the end of each row can be read
+/// and written (it belongs to the padding of the row).
 template <typename T>
 class Image {
  public:
   void resize(int width, int height) {
     const std::size_t row = (width * sizeof(T) + 2 * kAlignment - 1) / kAlignment * kAlignment;
-    width_ = height_ = 0;  // what there is where the next line throws
+    width_ = height_ = 0;  // the size if the next line throws
     buffer_.resize(row / sizeof(T) * height);
     width_ = width;
     height_ = height;

@@ -7,9 +7,9 @@
 
 namespace mtstereo {
 
-/// Calls body(), which returns a Status or a Result, at the border of the library: no exception
-/// passes. An exception becomes an Error without a message, since there may be no memory for one:
-/// kOutOfMemory for std::bad_alloc, kSystem for every other.
+/// Calls body(), which returns a Status or a Result, at the boundary of the library. No exception
+/// leaves it: an exception becomes an Error without a message, since there may be no memory for
+/// one. The code is kOutOfMemory for std::bad_alloc and kSystem for every other exception.
 template <typename Body>
 auto guarded(Body&& body) noexcept -> decltype(body()) {
   try {

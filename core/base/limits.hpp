@@ -7,14 +7,14 @@
 
 namespace mtstereo {
 
-/// The largest values of parameters that fixed-size arrays and narrow integers depend on. The
-/// parameter table takes its maxima from here, and the stages size their arrays by them, so that
+/// The largest values of parameters that determine the size of arrays and the width of integers.
+/// The maxima of the parameter table and the array sizes of the stages both use them, so that
 /// neither can change without the other. kLargestMaxDisparity and kLargestImageSide are public.
 
 /// Largest Parameter::kGrayLevels (q): levels fit 8 bits.
 inline constexpr int kLargestGrayLevels = 256;
 
-/// Largest level of Parameter::kNodeLevels (S), and the largest number of them.
+/// Largest level of Parameter::kNodeLevels (S), and the largest number of levels.
 inline constexpr int kLargestNodeLevel = 63;
 inline constexpr int kMostNodeLevels =
     static_cast<int>(std::tuple_size_v<decltype(Parameters::Levels::level)>);

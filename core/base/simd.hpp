@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// No include guard: every SIMD target includes this header once more.
+// No include guard: every SIMD target includes this header again.
 
 /// Compiles the including source file once for each SIMD target (SSSE3, AVX2, NEON ...). The source
 /// file has this form:
@@ -24,8 +24,8 @@
 ///
 /// Types and constants that all targets share belong in a header.
 
-// foreach_target.h includes the source file again for every target but one. In each of these runs
-// highway.h has to come after it.
+// foreach_target.h includes the source file again for every target but one. In each of these passes
+// highway.h must come after it.
 // clang-format off
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>

@@ -8,11 +8,11 @@
 namespace mtstereo {
 namespace {
 
-/// How long a thread looks again and again before it sleeps: a sleeping one is back only after that
-/// long, and from one loop of a frame to the next it is rarely longer.
+/// Time that a thread spins before it sleeps. Waking it up takes about as long, and the next loop
+/// of a frame rarely starts later.
 constexpr std::chrono::microseconds kSpinTime{50};
 
-/// Waits for `done` to be true; gives up in the end, and the processor in between.
+/// Waits until done() is true, at most for kSpinTime; yields the processor between the checks.
 template <typename Done>
 void spin_until(Done&& done) {
   const auto limit = std::chrono::steady_clock::now() + kSpinTime;
@@ -91,7 +91,7 @@ void ThreadPool::work(int worker) {
       wake_.wait(lock, [&] { return stop_ || generation_ != seen; });
       if (stop_) return;
       seen = generation_;
-      if (!open_) continue;  // the others were faster
+      if (!open_) continue;  // the other threads have finished the loop
       ++busy_;
       loop = loop_;
     }

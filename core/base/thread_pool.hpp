@@ -10,12 +10,13 @@
 
 namespace mtstereo {
 
-/// A fixed number of threads that share the items of one loop after the other. The thread that
-/// calls run() is one of them. One thread at a time may call run(). For some ten microseconds after
-/// a loop the threads stay awake for the next one, unless they are more than the processors.
+/// A fixed number of threads that share the items of one loop at a time. The thread that calls
+/// run() is one of them. Only one thread at a time may call run(). After a loop the threads spin
+/// for some tens of microseconds to start the next loop without delay, unless there are more
+/// threads than processors.
 class ThreadPool {
  public:
-  /// `threads` >= 1, the caller's included. Throws std::system_error where a thread cannot start.
+  /// `threads` >= 1, including the caller's. Throws std::system_error if a thread cannot start.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -24,8 +25,8 @@ class ThreadPool {
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
   /// Calls body(item, worker) once for each item in 0 .. items - 1, in any order and on any thread;
-  /// `worker` in 0 .. threads() - 1 tells which, so that each can have scratch memory of its own.
-  /// Returns when all are done. An exception of a body is thrown again here.
+  /// `worker` in 0 .. threads() - 1 is the number of the thread, so that each can use its own
+  /// scratch memory. Returns when all items are done. Rethrows an exception of body().
   template <typename Body>
   void run(int items, Body&& body) {
     using Plain = std::remove_reference_t<Body>;
@@ -51,14 +52,14 @@ class ThreadPool {
   std::condition_variable wake_;
   std::condition_variable done_;
   Loop loop_;                     // guarded by mutex_
-  bool open_ = false;             // guarded by mutex_: the loop can still be joined
+  bool open_ = false;             // guarded by mutex_: workers can still join the loop
   bool stop_ = false;             // guarded by mutex_
   std::exception_ptr exception_;  // guarded by mutex_: the first one of the loop
   std::atomic<int> next_item_{0};
-  // Written under mutex_, read without it while a thread has not given up and gone to sleep.
+  // Written under mutex_; also read without it by threads that spin.
   std::atomic<long> generation_{0};  // counts the loops
-  std::atomic<int> busy_{0};         // workers that have joined the loop and are not done
-  const bool spins_;                 // a thread that waits takes no processor from one that works
+  std::atomic<int> busy_{0};         // workers that have joined the loop and still run
+  const bool spins_;                 // a spinning thread takes no processor from a working one
 };
 
 }  // namespace mtstereo

@@ -74,10 +74,10 @@ TEST(ParameterErrors, RefuseTextThatIsNoNumber) {
     if (info.type == ParameterType::kLevels) continue;
     for (const char* const text : {"", " ", "abc", "1x", "0x1", " 1", "1 ", "+1", "--1", "1,5",
                                    "1.2.3", "1e", "true1", "0|1", "\n1", "one"}) {
-      expect_refused(info, std::string_view(text), text, {"it takes"});
+      expect_refused(info, std::string_view(text), text, {"allowed are"});
     }
     // A text with a zero byte in it is not the number before it.
-    expect_refused(info, std::string_view("1\0", 2), "", {"it takes"});
+    expect_refused(info, std::string_view("1\0", 2), "", {"allowed are"});
   }
 }
 
@@ -151,14 +151,14 @@ TEST(ParameterErrors, RefuseLevelsThatAreWrongInAnyWay) {
                                  "+1,0",
                                  "0x1,0"}) {
     expect_refused(info, std::string_view(text), "\"" + std::string(text) + "\"",
-                   {"strictly falling", "8", "63", "1,0"});
+                   {"strictly descending", "8", "63", "1,0"});
   }
 }
 
 TEST(ParameterErrors, RefuseANumberForLevels) {
   const ParameterInfo& info = parameter_info(Parameter::kNodeLevels);
   for (const double value : {0.0, 1.0, 2.0}) {
-    expect_refused(info, value, number(value), {"strictly falling"});
+    expect_refused(info, value, number(value), {"strictly descending"});
   }
 }
 
