@@ -16,7 +16,7 @@ class Visits {
   Visits(int items, int threads) : counts_(items), threads_(threads) {}
 
   void visit(int first, int end, int worker) {
-    EXPECT_LT(first, end) << "no band is empty";
+    EXPECT_LT(first, end) << "empty band";
     EXPECT_TRUE(worker >= 0 && worker < threads_) << worker;
     for (int i = first; i < end; ++i) ++counts_[i];
   }
@@ -80,11 +80,11 @@ TEST(Bands, GiveEachThreadOneBandOfAboutTheSameHeight) {
   }
 }
 
-TEST(Bands, CutRowsByTheirWork) {
+TEST(Bands, CoverEachRowOnceInBandsOfAboutEqualWork) {
   for (const int threads : kThreads) {
     ThreadPool pool(threads);
     for (const int height : kHeights) {
-      // All work in the last tenth of the rows; then none at all.
+      // All work in the last tenth of the rows; then no work at all.
       for (const int busy : {1, 0}) {
         const auto work = [&](int y) { return y >= height - height / 10 - 1 ? 1000 * busy : 0; };
         Visits visits(height, threads);
@@ -97,7 +97,7 @@ TEST(Bands, CutRowsByTheirWork) {
   }
 }
 
-TEST(Bands, ShareTheWorkOfCrowdedRows) {
+TEST(Bands, SplitRowsWithMoreWorkAmongThreads) {
   ThreadPool pool(2);
   std::atomic<int> largest{0};
   const auto work = [](int y) { return y >= 80 ? 100 : 1; };
@@ -108,7 +108,7 @@ TEST(Bands, ShareTheWorkOfCrowdedRows) {
     while (sum > before && !largest.compare_exchange_weak(before, sum)) {
     }
   });
-  EXPECT_LE(largest, (80 + 20 * 100) / 4 + 100) << "a quarter of the work and at most a row more";
+  EXPECT_LE(largest, (80 + 20 * 100) / 4 + 100) << "more than a quarter of the work plus one row";
 }
 
 TEST(Bands, CoverEachColumnOnceInBlocksThatShareNoCacheLine) {

@@ -29,7 +29,7 @@ TEST(Buffer, KeepsItsMemoryWhenItShrinksAndGrowsBack) {
   }
 }
 
-TEST(Buffer, RefusesMoreThanThereCanBe) {
+TEST(Buffer, ThrowsBadAllocForImpossibleSizes) {
   Buffer<std::int64_t> buffer;
   buffer.resize(5);
   for (const std::size_t count :
@@ -42,7 +42,7 @@ TEST(Buffer, RefusesMoreThanThereCanBe) {
   EXPECT_EQ(6u, buffer.size());
 }
 
-TEST(Image, HasAWholeVectorBehindEachRow) {
+TEST(Image, PadsEachRowByAWholeVector) {
   for (int width = 1; width <= 130; ++width) {
     Image<std::int16_t> image;
     image.resize(width, 3);
@@ -51,7 +51,7 @@ TEST(Image, HasAWholeVectorBehindEachRow) {
   }
 }
 
-TEST(Image, ShowsItsPixels) {
+TEST(Image, ViewHasItsSizeAndPixels) {
   Image<std::int32_t> image;
   image.resize(7, 5);
   for (int y = 0; y < 5; ++y) {

@@ -9,7 +9,7 @@
 namespace mtstereo {
 namespace {
 
-TEST(Guard, PassesOnWhatTheBodyReturns) {
+TEST(Guard, ReturnsTheResultOfTheBody) {
   const Result<int> value = guarded([]() -> Result<int> { return 7; });
   ASSERT_TRUE(value.ok());
   EXPECT_EQ(7, *value);
@@ -22,13 +22,13 @@ TEST(Guard, PassesOnWhatTheBodyReturns) {
   EXPECT_EQ("sizes differ", failed.error().message);
 }
 
-TEST(Guard, TurnsMissingMemoryIntoAnError) {
+TEST(Guard, TurnsBadAllocIntoAnOutOfMemoryError) {
   const Status status = guarded([]() -> Status { throw std::bad_alloc(); });
   ASSERT_FALSE(status.ok());
   EXPECT_EQ(ErrorCode::kOutOfMemory, status.error().code);
 }
 
-TEST(Guard, TurnsEveryOtherExceptionIntoAnError) {
+TEST(Guard, TurnsEveryOtherExceptionIntoASystemError) {
   for (const bool standard : {true, false}) {
     const Result<int> result = guarded([&]() -> Result<int> {
       if (standard) throw std::runtime_error("broken");

@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kThreadCounts[] = {1, 2, 3, 4, 7};
 
-/// Runs one loop and counts the calls of each item; fails where a worker's number is out of range.
+/// Runs one loop and counts the calls for each item; fails if the number of a worker is out of
+/// range.
 std::vector<int> calls_of_a_loop(ThreadPool& pool, int items) {
   std::vector<std::atomic<int>> calls(items);
   std::atomic<int> wrong_workers{0};
@@ -28,7 +29,7 @@ std::vector<int> calls_of_a_loop(ThreadPool& pool, int items) {
   return {calls.begin(), calls.end()};
 }
 
-TEST(ThreadPool, HasTheThreadsAskedFor) {
+TEST(ThreadPool, HasTheRequestedNumberOfThreads) {
   for (const int threads : kThreadCounts) EXPECT_EQ(threads, ThreadPool(threads).threads());
 }
 
@@ -41,7 +42,7 @@ TEST(ThreadPool, CallsEveryItemOnce) {
   }
 }
 
-TEST(ThreadPool, IsReadyForManyShortLoops) {
+TEST(ThreadPool, RunsManyShortLoops) {
   ThreadPool pool(4);
   for (int loop = 0; loop < 3000; ++loop) {
     const int items = loop % 6;
@@ -49,7 +50,7 @@ TEST(ThreadPool, IsReadyForManyShortLoops) {
   }
 }
 
-TEST(ThreadPool, WakesUpAfterAPause) {
+TEST(ThreadPool, RunsLoopsAfterPauses) {
   for (const int threads : kThreadCounts) {
     ThreadPool pool(threads);
     for (int loop = 0; loop < 20; ++loop) {
@@ -59,34 +60,35 @@ TEST(ThreadPool, WakesUpAfterAPause) {
   }
 }
 
-TEST(ThreadPool, SharesItemsThatLast) {
-  // Two items that wait for one another: with only one thread at them this would never end.
+TEST(ThreadPool, RunsLongItemsInParallel) {
+  // Two items that wait for each other: a single thread would never finish them.
   ThreadPool pool(2);
   for (int loop = 0; loop < 50; ++loop) {
     if (loop % 10 == 9) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    std::atomic<int> there{0};
+    std::atomic<int> started{0};
     std::atomic<int> alone{0};
     pool.run(2, [&](int, int) {
-      ++there;
+      ++started;
       const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-      while (there < 2 && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
-      if (there < 2) ++alone;
+      while (started < 2 && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
+      if (started < 2) ++alone;
     });
     ASSERT_EQ(0, alone) << "loop " << loop;
   }
 }
 
-TEST(ThreadPool, LeavesTheProcessorAloneWhileIdle) {
+TEST(ThreadPool, UsesNoProcessorTimeWhileIdle) {
   ThreadPool pool(std::max(static_cast<int>(std::thread::hardware_concurrency()), 2));
   calls_of_a_loop(pool, 100);
   const std::clock_t before = std::clock();  // of all threads
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const double used = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
-  EXPECT_LT(used, 0.1) << "seconds of 0.3";
+  EXPECT_LT(used, 0.1) << "s of processor time in 0.3 s";
 }
 
-TEST(ThreadPool, GivesEachWorkerScratchOfItsOwn) {
-  // Plain numbers: two threads with one worker's number would lose counts and race.
+TEST(ThreadPool, GivesConcurrentThreadsDifferentWorkerNumbers) {
+  // The counters are not atomic: two threads with the same worker number would race and lose
+  // counts.
   ThreadPool pool(4);
   std::vector<long> scratch(4);
   for (int loop = 0; loop < 50; ++loop) {
@@ -95,7 +97,7 @@ TEST(ThreadPool, GivesEachWorkerScratchOfItsOwn) {
   EXPECT_EQ(50 * 200, scratch[0] + scratch[1] + scratch[2] + scratch[3]);
 }
 
-TEST(ThreadPool, ShowsTheCallerWhatTheItemsWrote) {
+TEST(ThreadPool, MakesTheWritesOfTheItemsVisibleToTheCaller) {
   ThreadPool pool(3);
   std::vector<int> values(500);
   for (int loop = 1; loop <= 20; ++loop) {
@@ -104,7 +106,7 @@ TEST(ThreadPool, ShowsTheCallerWhatTheItemsWrote) {
   }
 }
 
-TEST(ThreadPool, WorksOnTheCallersThreadToo) {
+TEST(ThreadPool, RunsItemsOnTheCallersThread) {
   ThreadPool pool(1);
   const std::thread::id caller = std::this_thread::get_id();
   pool.run(5, [&](int, int worker) {
@@ -113,7 +115,7 @@ TEST(ThreadPool, WorksOnTheCallersThreadToo) {
   });
 }
 
-TEST(ThreadPool, PassesAnExceptionOnAndStaysUsable) {
+TEST(ThreadPool, RethrowsAnExceptionAndStaysUsable) {
   for (const int threads : kThreadCounts) {
     ThreadPool pool(threads);
     for (const int items : {1, 2, 100}) {
@@ -132,7 +134,7 @@ TEST(ThreadPool, PassesAnExceptionOnAndStaysUsable) {
   }
 }
 
-TEST(ThreadPool, PassesOneOfManyExceptionsOn) {
+TEST(ThreadPool, RethrowsOneOfManyExceptions) {
   ThreadPool pool(4);
   for (int loop = 0; loop < 100; ++loop) {
     EXPECT_THROW(pool.run(100, [](int, int) { throw std::runtime_error("all"); }),
@@ -141,11 +143,11 @@ TEST(ThreadPool, PassesOneOfManyExceptionsOn) {
   EXPECT_EQ(std::vector<int>(50, 1), calls_of_a_loop(pool, 50));
 }
 
-TEST(ThreadPool, EndsWithoutHavingWorked) {
+TEST(ThreadPool, CanBeDestroyedBeforeItRanALoop) {
   for (int n = 0; n < 200; ++n) ThreadPool pool(1 + n % 8);
 }
 
-TEST(ThreadPool, TakesABodyThatCannotBeChanged) {
+TEST(ThreadPool, RunsAConstBody) {
   ThreadPool pool(2);
   std::atomic<int> sum{0};
   const auto body = [&sum](int item, int) { sum += item; };
