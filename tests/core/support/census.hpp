@@ -9,8 +9,8 @@
 
 namespace mtstereo::test {
 
-/// The census transform of a whole view, in bands of `band` rows that are taken from the last to
-/// the first, in memory that held something else.
+/// The census transform of a whole view, computed in bands of `band` rows from the last band to the
+/// first, in poisoned memory.
 inline CensusImage census_of(GrayView image, int band = 1 << 20) {
   CensusImage census;
   census.resize(image.width, image.height);
@@ -24,15 +24,15 @@ inline CensusImage census_of(GrayView image, int band = 1 << 20) {
   return census;
 }
 
-/// Both views as guided pixel matching takes them.
+/// The census transforms of both views, the input of guided pixel matching.
 struct CensusPair {
   CensusPair(GrayView left_view, GrayView right_view)
       : left(census_of(left_view)), right(census_of(right_view)) {}
   CensusImage left, right;
 };
 
-/// The gray values through a random map that keeps their order: nothing that was darker than
-/// something else is not any more. The values have to be 0 .. 100.
+/// Maps the gray values by a random strictly increasing function: the order of gray values stays.
+/// The values must be 0 .. 100.
 inline GrayPlane exposed_otherwise(const GrayPlane& image, Random& random) {
   std::vector<std::uint8_t> exposed(101);
   int value = random.below(10);

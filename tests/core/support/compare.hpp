@@ -9,8 +9,8 @@
 
 namespace mtstereo::test {
 
-/// Compares expected(x, y) with actual(x, y) at every pixel; a failure names the first bad place,
-/// what stood there and how many places are bad.
+/// Compares expected(x, y) with actual(x, y) at every pixel. A failure states the number of
+/// different pixels and the position and both values of the first one.
 template <typename Expected, typename Actual>
 ::testing::AssertionResult same_pixels(int width, int height, Expected&& expected,
                                        Actual&& actual) {

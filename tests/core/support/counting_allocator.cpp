@@ -15,7 +15,7 @@ std::atomic<long> counter{0};
 std::atomic<long> until_failure{-1};
 std::atomic<bool> failed{false};
 
-/// Counts one allocation; false where it is to fail.
+/// Counts one allocation; returns false if it must fail.
 [[maybe_unused]] bool allow() {
   counter.fetch_add(1, std::memory_order_relaxed);
   if (until_failure.load(std::memory_order_relaxed) < 0) return true;
@@ -42,7 +42,7 @@ bool allocations_are_counted() { return true; }
 }  // namespace mtstereo::test
 
 extern "C" {
-// The allocator's own entrances under the names that GNU's C library keeps for this.
+// The functions of the allocator itself, under the names that glibc provides for replacements.
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);

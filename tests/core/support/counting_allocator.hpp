@@ -3,21 +3,21 @@
 
 namespace mtstereo::test {
 
-/// The allocator of this program counts, and fails when told so. It stands in the way of everything
-/// that the program and its libraries allocate, from any thread: new, malloc, calloc, realloc,
-/// aligned_alloc, memalign and posix_memalign.
+/// The allocator of this program counts allocations and can let one fail. It replaces all
+/// allocation functions for the program and its libraries, on every thread: new, malloc, calloc,
+/// realloc, aligned_alloc, memalign and posix_memalign.
 
-/// True where the allocator was put in place (GNU's C library, no sanitizer).
+/// True if the allocator is replaced (glibc without a sanitizer).
 bool allocations_are_counted();
 
-/// Counts from 0 again.
+/// Resets the count to 0.
 void count_allocations();
 /// Allocations since count_allocations().
 long allocations();
 
-/// The allocation after the next `successes` ones fails, once; a negative number fails none.
+/// The allocation after the next `successes` ones fails, once; with a negative number none fails.
 void fail_allocation_after(long successes);
-/// True where an allocation has failed since fail_allocation_after().
+/// True if an allocation has failed since fail_allocation_after().
 bool allocation_has_failed();
 
 }  // namespace mtstereo::test

@@ -33,12 +33,12 @@ inline const char* name_of(ErrorCode code) {
   return "an unknown code";
 }
 
-/// How a failed expectation prints a code.
+/// Prints a code in a failed expectation.
 inline void PrintTo(ErrorCode code, std::ostream* out) { *out << name_of(code); }
 
 namespace test {
 
-/// Sets values by name; a value that is refused is a failure of the test.
+/// Sets values by name; a rejected value is a test failure.
 inline void set_all(Parameters& parameters,
                     std::initializer_list<std::pair<const char*, std::string>> values) {
   for (const auto& [name, text] : values) {
@@ -57,7 +57,7 @@ inline Matcher matcher(std::initializer_list<std::pair<const char*, std::string>
   return std::move(Matcher::create(parameters(values)).value());
 }
 
-/// The disparities of one pair; an empty plane and a failure of the test where there are none.
+/// The disparities of one pair; on an error an empty plane and a test failure.
 inline DisparityPlane compute(Matcher& matcher, const GrayPlane& left, const GrayPlane& right) {
   const Result<DisparityView> result = matcher.compute(left.view(), right.view());
   EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
@@ -70,7 +70,7 @@ inline long known(const DisparityPlane& map) {
          std::count(map.pixels.begin(), map.pixels.end(), kNoDisparity);
 }
 
-/// Succeeds where a call failed with this code and its message holds all of these words.
+/// Succeeds if a call failed with this code and its message contains all of these words.
 template <typename Outcome>
 ::testing::AssertionResult fails_with(const Outcome& outcome, ErrorCode code,
                                       std::initializer_list<std::string> words) {

@@ -7,13 +7,13 @@
 
 namespace mtstereo::test {
 
-/// An image in a larger block of memory, as a caller of the library may have it: bytes before the
-/// first row, between the rows and behind the last one. They hold a pattern that shows a write.
+/// An image in a larger block of memory, as a caller of the library may have it: with bytes before
+/// the first row, between the rows and after the last one. They hold a pattern that reveals writes.
 template <typename T>
 class PaddedImage {
  public:
-  /// `padding` bytes behind each row (a multiple of the pixel's size); the first pixel stands
-  /// `offset` bytes behind a 64-byte boundary.
+  /// `padding` bytes follow each row (a multiple of the pixel size); the first pixel lies `offset`
+  /// bytes after a 64-byte boundary.
   PaddedImage(const Plane<T>& plane, int padding, int offset = 0)
       : width_(plane.width),
         height_(plane.height),
@@ -33,15 +33,15 @@ class PaddedImage {
   ImageView<T> writable() {
     return {reinterpret_cast<T*>(block_.data() + first_), width_, height_, stride_};
   }
-  /// The same image upside down: the first row last, the stride negative.
+  /// The image upside down: starts at the last row, with a negative stride.
   ImageView<const T> upside_down() const {
     return {reinterpret_cast<const T*>(block_.data() + first_ + (height_ - 1) * stride_), width_,
             height_, -stride_};
   }
 
-  /// True where not one byte has changed since the image was made.
+  /// True if no byte has changed since the image was constructed.
   bool unchanged() const { return copy() == before_; }
-  /// True where at most pixels have changed: everything around them is as it was.
+  /// True if only pixels have changed and no byte around them.
   bool padding_unchanged() const {
     std::vector<std::uint8_t> now = copy();
     for (int y = 0; y < height_; ++y) {

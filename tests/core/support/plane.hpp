@@ -11,7 +11,7 @@
 
 namespace mtstereo::test {
 
-/// An image without any padding, for the references and for what is expected.
+/// An image without padding, for the references and for expected results.
 template <typename T>
 struct Plane {
   Plane() = default;
@@ -24,7 +24,7 @@ struct Plane {
   const T& operator()(int x, int y) const {
     return pixels[static_cast<std::size_t>(y) * width + x];
   }
-  /// The pixel, or the border's nearest one for a place outside.
+  /// The pixel, or for a position outside of the image the nearest pixel of the border.
   const T& clamped(int x, int y) const {
     return (*this)(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1));
   }
@@ -41,7 +41,7 @@ struct Plane {
 using GrayPlane = Plane<std::uint8_t>;
 using DisparityPlane = Plane<std::int32_t>;
 
-/// A copy of what a view shows, without its padding.
+/// A copy of the pixels of a view, without its padding.
 template <typename T>
 Plane<std::remove_const_t<T>> copy_of(ImageView<T> view) {
   Plane<std::remove_const_t<T>> copy(view.width, view.height);
@@ -54,7 +54,7 @@ Plane<T> copy_of(const Image<T>& image) {
   return copy_of(image.view());
 }
 
-/// The library's own kind of image with the same pixels; its padding holds 0xA5.
+/// An Image of the library with the same pixels; its padding holds 0xA5.
 template <typename T>
 Image<T> image_of(const Plane<T>& plane) {
   Image<T> image;

@@ -8,7 +8,7 @@
 
 namespace mtstereo::test {
 
-/// The same numbers on every machine (SplitMix64).
+/// Random numbers that are equal on every machine (SplitMix64).
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -19,18 +19,18 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
     return z ^ (z >> 31);
   }
-  /// 0 .. count - 1.
+  /// A random integer 0 .. count - 1.
   int below(int count) { return static_cast<int>((next() >> 11) % count); }
-  /// first .. last.
+  /// A random integer first .. last.
   int between(int first, int last) { return first + below(last - first + 1); }
-  /// 0 .. 1.
+  /// A random number 0 .. 1.
   double share() { return static_cast<double>(next() >> 11) / (std::uint64_t{1} << 53); }
 
  private:
   std::uint64_t state_;
 };
 
-/// Every pixel on its own, 0 .. largest.
+/// Independent random pixels, 0 .. largest.
 inline GrayPlane noise(int width, int height, std::uint64_t seed, int largest = 255) {
   Random random(seed);
   GrayPlane image(width, height);
@@ -40,14 +40,14 @@ inline GrayPlane noise(int width, int height, std::uint64_t seed, int largest = 
   return image;
 }
 
-/// Only the extremes, 0 and 255.
+/// Random pixels of 0 and 255 only.
 inline GrayPlane black_and_white(int width, int height, std::uint64_t seed) {
   GrayPlane image = noise(width, height, seed, 1);
   for (std::uint8_t& pixel : image.pixels) pixel = pixel == 0 ? 0 : 255;
   return image;
 }
 
-/// Rows of runs of random length and value 0 .. largest: what the levels of a view look like.
+/// Rows of runs of random length and value 0 .. largest, similar to the levels of a view.
 inline GrayPlane runs(int width, int height, std::uint64_t seed, int largest, int longest = 6) {
   Random random(seed);
   GrayPlane image(width, height);
@@ -60,8 +60,7 @@ inline GrayPlane runs(int width, int height, std::uint64_t seed, int largest, in
   return image;
 }
 
-/// Rectangles over one another with a little noise: edges and flat places, and no place that looks
-/// like another one.
+/// Overlapping rectangles with a little noise: edges and flat areas, and no two similar places.
 inline GrayPlane texture(int width, int height, std::uint64_t seed) {
   Random random(seed);
   GrayPlane image(width, height, 128);
@@ -82,7 +81,7 @@ inline GrayPlane texture(int width, int height, std::uint64_t seed) {
   return image;
 }
 
-/// Two views of one frontal plane.
+/// The two views of a scene.
 struct Pair {
   GrayPlane left;
   GrayPlane right;
@@ -101,8 +100,8 @@ inline Pair shifted_pair(int width, int height, int disparity, std::uint64_t see
   return pair;
 }
 
-/// A pair whose disparity rises from row to row and steps in the middle, with noise of its own in
-/// each view: nothing fits perfectly, as with cameras.
+/// A pair whose disparity increases from row to row and has a step in the middle. Each view has its
+/// own noise, as with cameras, so that no match is perfect.
 inline Pair slanted_pair(int width, int height, int largest, std::uint64_t seed) {
   const GrayPlane scene = texture(width + largest, height, seed);
   Random random(seed + 1);

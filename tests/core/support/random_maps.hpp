@@ -5,11 +5,11 @@
 
 namespace mtstereo::test {
 
-/// Largest disparity a map can hold [1/256 px].
+/// Largest disparity of a map [1/256 px].
 inline constexpr int kLargestDisparity = 1023 * 256 + 255;
 
-/// A disparity map as a matcher leaves it: patches of different size over one another, slanted a
-/// little, some of them unknown, and of_ten in ten of all pixels unknown for themselves.
+/// A disparity map similar to that of a matcher: overlapping patches of different size with a
+/// slight slant, some of them unknown. In addition, of_ten in ten of all pixels are unknown.
 inline DisparityPlane patches(int width, int height, int of_ten, std::uint64_t seed) {
   Random random(seed);
   DisparityPlane map(width, height);
@@ -34,7 +34,7 @@ inline DisparityPlane patches(int width, int height, int of_ten, std::uint64_t s
   return map;
 }
 
-/// Every pixel on its own: unknown in of_ten of ten cases, else 1 .. largest.
+/// Independent random pixels: unknown in of_ten of ten cases, otherwise 1 .. largest.
 inline DisparityPlane disparity_noise(int width, int height, int of_ten, int largest,
                                       std::uint64_t seed) {
   Random random(seed);
@@ -45,7 +45,7 @@ inline DisparityPlane disparity_noise(int width, int height, int of_ten, int lar
   return map;
 }
 
-/// True where every pixel of `less` is unknown or as in `map`.
+/// True if every pixel of `less` is unknown or equal to that of `map`.
 inline bool only_removes(const DisparityPlane& map, const DisparityPlane& less) {
   return std::equal(map.pixels.begin(), map.pixels.end(), less.pixels.begin(), less.pixels.end(),
                     [](std::int32_t before, std::int32_t d) { return d == 0 || d == before; });

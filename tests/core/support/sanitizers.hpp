@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-/// Defined where a sanitizer replaces the allocator: gcc defines a macro, clang has a feature.
+/// Defined if a sanitizer replaces the allocator: gcc defines a macro, clang has a feature.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define MTSTEREO_TEST_SANITIZED
 #elif defined(__has_feature)
@@ -12,7 +12,7 @@
 
 namespace mtstereo::test {
 
-/// True where a sanitizer replaces the allocator.
+/// True if a sanitizer replaces the allocator.
 #ifdef MTSTEREO_TEST_SANITIZED
 inline constexpr bool kSanitized = true;
 #else

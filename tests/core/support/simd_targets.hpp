@@ -6,8 +6,8 @@
 
 namespace mtstereo::test {
 
-/// Calls body() once for every instruction set that was compiled in and that this processor has,
-/// with the library's kernels bound to it.
+/// Calls body() once for every compiled SIMD target that this processor supports, with dynamic
+/// dispatch restricted to that target.
 template <typename Body>
 void for_each_simd_target(Body&& body) {
   struct Restore {

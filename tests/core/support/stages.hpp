@@ -12,14 +12,14 @@
 
 namespace mtstereo::test {
 
-/// Fills all memory of an image, the padding too, so that what depends on it shows.
+/// Fills all memory of an image including its padding, so that reads of it change results.
 template <typename T>
 void poison(Image<T>& image) {
   std::fill_n(reinterpret_cast<std::uint8_t*>(image.row(0)),
               image.stride() * image.height() * sizeof(T), std::uint8_t{0xA5});
 }
 
-/// The preprocessing of a whole view, in bands of `band` rows.
+/// Pre-processes a whole view in bands of `band` rows.
 inline PreprocessedView preprocess(GrayView image, int gray_levels, int band = 1 << 20) {
   PreprocessedView view;
   view.resize(image.width, image.height);
@@ -39,7 +39,7 @@ inline PreprocessedView preprocess(GrayView image, int gray_levels, int band = 1
   return view;
 }
 
-/// The Max-trees of the levels of a whole view, in bands of `band` rows.
+/// Builds the Max-trees of the levels of a whole view in bands of `band` rows.
 inline MaxTrees trees_of(const GrayPlane& levels, int band = 1 << 20) {
   MaxTrees trees;
   trees.resize(levels.width, levels.height);
@@ -50,7 +50,7 @@ inline MaxTrees trees_of(const GrayPlane& levels, int band = 1 << 20) {
   return trees;
 }
 
-/// A node level of a whole view, in bands of `band` rows.
+/// Selects and links the nodes of one level of a whole view in bands of `band` rows.
 inline NodeLevel level_of(const MaxTrees& trees, int ancestor, WidthRange widths,
                           int band = 1 << 20) {
   NodeLevel level;
@@ -64,10 +64,10 @@ inline NodeLevel level_of(const MaxTrees& trees, int ancestor, WidthRange widths
   return level;
 }
 
-/// Every leaf, whatever its width.
+/// Selects every leaf, whatever its width.
 inline constexpr WidthRange kAnyWidth = {0, 1e9};
 
-/// A volume of random costs 0 .. largest, in the library's form and in the reference's.
+/// A volume of random costs 0 .. largest, in the formats of the library and of the reference.
 struct RandomVolume {
   CostVolume fast;
   reference::Volume plain;
@@ -94,7 +94,7 @@ inline RandomVolume random_volume(int width, int height, int disparities, int sh
   return volume;
 }
 
-/// Both sides of one level of a random pair of views, in both forms.
+/// One level of both views of a random pair, in the formats of the library and of the reference.
 struct RandomLevels {
   RandomLevels(int width, int height, int ancestor, std::uint64_t seed)
       : RandomLevels(runs(width, height, seed, 5), runs(width, height, seed + 1, 5), ancestor) {}

@@ -12,7 +12,7 @@
 
 namespace mtstereo::test {
 
-/// The disparity map as it is after a step; empty where no step has written one yet.
+/// The disparity map after a step; empty if no step has written one yet.
 inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
   static constexpr std::string_view kBefore[] = {"halving", "preprocessing", "max-trees",
                                                  "census",  "cost-volume",   "node-matching"};
@@ -24,7 +24,7 @@ inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
   return memory.maps.disparity.view();
 }
 
-/// The map after each step that ran, where there is one.
+/// The map after each step that ran, if there is one.
 using StepMaps = std::vector<std::pair<std::string, DisparityPlane>>;
 
 inline StepMaps maps_after_steps(FrameMatcher& matcher, const GrayPlane& left,
