@@ -20,21 +20,21 @@
 
 namespace mtstereo::reference {
 
-/// What the scalar versions of the steps keep of one frame.
+/// The data that the scalar versions of the steps keep for one frame.
 struct Frame {
   Frame(const GrayPlane& left, const GrayPlane& right, const Settings& s)
       : settings(s), given{left, right}, views{left, right} {}
 
   const Settings settings;
   std::array<GrayPlane, 2> given;
-  std::array<GrayPlane, 2> views;  ///< what is matched
+  std::array<GrayPlane, 2> views;  ///< the matched views
   std::array<GrayPlane, 2> medians;
   std::array<GrayPlane, 2> levels;
   std::array<Trees, 2> trees;
   Volume volume;
   Level leaves;
   Matches matches;
-  DisparityPlane nodes;  ///< the drawn leaves, without outliers once these were removed
+  DisparityPlane nodes;  ///< the drawn leaves; without outliers after their removal
   DisparityPlane map;
   GrayPlane ratio;
   GrayPlane confidence;
@@ -147,9 +147,9 @@ inline void refine(Frame& f) {
   f.map = refine(census(f.given[0]), census(f.given[1]), f.map, f.settings.max_disparity);
 }
 
-inline void nothing(Frame&) {}  // reference::census() is computed where it is needed
+inline void nothing(Frame&) {}  // other steps call reference::census() themselves
 
-/// The scalar version of each step of the matcher's list, by its name.
+/// The scalar version of each step of the matcher, by the name of the step.
 inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = {
     {"halving", halve},
     {"preprocessing", preprocess},
@@ -172,7 +172,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"refinement", refine},
 };
 
-/// Runs the scalar version of a step. A step without one leaves the frame as it is: where the step
+/// Runs the scalar version of a step. A step without one leaves the frame unchanged: if the step
 /// changes a map, the comparison after it fails.
 inline void run(std::string_view step, Frame& frame) {
   const auto* found = std::find_if(std::begin(kScalarSteps), std::end(kScalarSteps),

@@ -7,8 +7,8 @@ namespace mtstereo::reference {
 
 using test::DisparityPlane;
 
-/// Draws from (begin, at_begin) to (end, at_end), in 1/256 px, rounded towards at_begin; a
-/// disparity is at least 1/256 px, and a pixel left of its disparity gets none.
+/// Draws linearly from (begin, at_begin) to (end, at_end), in 1/256 px, rounded towards at_begin. A
+/// disparity is at least 1/256 px. A pixel whose column is smaller than its disparity is left out.
 inline void draw_node(int begin, int end, int at_begin, int at_end, int y, DisparityPlane& map) {
   for (int x = begin; x <= end; ++x) {
     const long rise = end == begin ? 0L : 1L * (at_end - at_begin) * (x - begin) / (end - begin);

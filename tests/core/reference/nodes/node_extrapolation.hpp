@@ -12,8 +12,8 @@ struct Line {
   int at_begin, at_end;
 };
 
-/// The medians, over a leaf and its neighbors, of what the map holds at the leaves' begins and at
-/// their ends; nothing unless both are known.
+/// The medians of the map over a leaf and its neighbors, at the begins and at the ends of these
+/// leaves; nothing unless both are known.
 inline std::optional<Line> line_of(const Level& leaves, const DisparityPlane& map, Place place,
                                    int most) {
   std::vector<int> begins, ends;
@@ -26,11 +26,11 @@ inline std::optional<Line> line_of(const Level& leaves, const DisparityPlane& ma
   return Line{lower_median(begins, 0), lower_median(ends, 0)};
 }
 
-/// How far inside a leaf its ends are taken: 2 px where it is wider than 4 px.
+/// Distance of the ends from the border of a leaf: 2 px if it is wider than 4 px.
 inline int inset(const LevelNode& leaf) { return leaf.end - leaf.begin + 1 > 4 ? 2 : 0; }
 
-/// Each leaf takes its line: drawn along the leaf with `end_width` 0, else put on that many pixels
-/// at its ends.
+/// Writes the line of each leaf: along the whole leaf with `end_width` 0, otherwise to that many
+/// pixels around each of its ends.
 inline DisparityPlane extrapolate(const Level& leaves, const DisparityPlane& map, int most,
                                   int end_width) {
   DisparityPlane out(map.width, map.height);
@@ -55,7 +55,7 @@ inline DisparityPlane extrapolate(const Level& leaves, const DisparityPlane& map
   return out;
 }
 
-/// Where leaves end that take a line from `nodes`: 1 on `end_width` pixels around each end, else 0.
+/// 1 on `end_width` pixels around both ends of each leaf that has a line in `nodes`, otherwise 0.
 inline Plane<int> leaf_ends(const Level& leaves, const DisparityPlane& nodes, int most,
                             int end_width) {
   Plane<int> ends(nodes.width, nodes.height);
@@ -73,7 +73,7 @@ inline Plane<int> leaf_ends(const Level& leaves, const DisparityPlane& nodes, in
   return ends;
 }
 
-/// The map, or its confidence, where leaves end.
+/// Keeps the map, or its confidence, around the ends of the leaves only.
 template <typename T>
 Plane<T> keep_leaf_ends(const Plane<int>& ends, Plane<T> kept) {
   for (std::size_t i = 0; i < kept.pixels.size(); ++i) {

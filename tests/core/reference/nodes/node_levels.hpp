@@ -7,7 +7,7 @@
 
 namespace mtstereo::reference {
 
-/// A node that is matched: its columns and which node of its row's tree it is.
+/// A node of a level: its columns and its index in the tree of its row.
 struct LevelNode {
   int begin, end, tree_node;
 
@@ -30,7 +30,7 @@ inline bool is_ancestor(const std::vector<TreeNode>& tree, int ancestor, int nod
 }
 
 /// The n-th ancestors of the leaves that are wider than `above` px and narrower than `below` px,
-/// each once, and without the ancestors of others among them.
+/// each once, and without nodes that are ancestors of other ones.
 inline std::vector<LevelNode> select_row(const std::vector<TreeNode>& tree, int n, double above,
                                          double below) {
   std::set<int> chosen;
@@ -68,7 +68,7 @@ inline int covering(const Level& level, int y, int x) {
   return -1;
 }
 
-/// A node of a level by its row and its place in the row.
+/// A node of a level by its row and its index in the row.
 struct Place {
   int y, i;
 };
@@ -96,7 +96,7 @@ inline std::vector<Place> surroundings(const Level& level, Place of, int most) {
   return all;
 }
 
-/// The middle one; of an even number the lower of the middle two. `none` of nothing.
+/// The median; of an even number the lower of the two middle values. `none` if there are no values.
 inline int lower_median(std::vector<int> values, int none) {
   if (values.empty()) return none;
   std::sort(values.begin(), values.end());

@@ -7,7 +7,7 @@
 
 namespace mtstereo::reference {
 
-/// A left node's disparities at its two ends; -1 both where it has none.
+/// The disparities of a left node at its two ends; both -1 if it is unmatched.
 struct Match {
   int begin = -1;
   int end = -1;
@@ -16,7 +16,7 @@ struct Match {
 };
 using Matches = std::vector<std::vector<Match>>;
 
-/// The columns in which a node's partner may lie; none where first > last.
+/// The columns in which the partner of a node may lie; none if first > last.
 struct Interval {
   int first, last;
 };
@@ -58,8 +58,8 @@ inline Intervals finer_intervals(const Level& left, const Level& before, const M
   return intervals;
 }
 
-/// Mean cost of a pair and of the neighbors of both that lie side by side; pairs whose disparities
-/// are not possible do not count. Sums as the library does: the pair, upwards, downwards.
+/// Mean cost of a pair and of the pairs of their neighbors at equal distance; pairs with impossible
+/// disparities do not count. Adds in the order of the library: the pair, upwards, downwards.
 inline float aggregated_cost(const PairInput& input, int most, int disparities, int y, int i,
                              int j) {
   float sum = pair_cost<float>(input, y, i, j);
@@ -78,7 +78,7 @@ inline float aggregated_cost(const PairInput& input, int most, int disparities, 
   return sum / static_cast<float>(count);
 }
 
-/// Which partner costs least, and whether every other one costs more than `confidence` above it.
+/// The partner of least cost, and whether all others cost more than (1 + confidence) times as much.
 struct Choice {
   int partner = -1;
   bool clear = false;
@@ -96,7 +96,7 @@ inline Choice choose(const std::vector<float>& costs, float confidence) {
   return choice;
 }
 
-/// Costs of all pairs of one row; infinite where they cannot match.
+/// Costs of all pairs of one row; infinite for pairs that cannot match.
 inline std::vector<std::vector<float>> cost_table(const PairInput& input,
                                                   const Intervals& intervals, int most,
                                                   int disparities, int y) {

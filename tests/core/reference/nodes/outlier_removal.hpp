@@ -10,8 +10,9 @@ namespace mtstereo::reference {
 using test::DisparityPlane;
 
 /// Removes each disparity that more pixels of the window contradict than support: a pixel dx
-/// columns away supports where the two differ by at most |dx| px. The window has 2 radius columns
-/// and rows, the pixel being number `radius` of them. Disparities are compared in 1/32 px.
+/// columns away supports it if the two differ by at most |dx| px. The window has 2 radius columns
+/// and rows; its pixel number `radius` is the one that is tested. Disparities are compared in 1/32
+/// px.
 inline DisparityPlane remove_outliers(const DisparityPlane& map, int radius) {
   if (radius == 0) return map;
   const auto vote = [](int disparity) { return (disparity + 4) / 8; };

@@ -9,18 +9,18 @@
 
 namespace mtstereo::reference {
 
-/// All that the costs of one level are made from.
+/// The inputs of the costs of one level.
 struct PairInput {
   const Trees& left_trees;
   const Trees& right_trees;
   const Level& left;
   const Level& right;
-  const Volume* volume;      ///< what intensity costs are taken from,
-  const CensusPair* census;  ///< or, without a volume, both views' census
+  const Volume* volume;      ///< source of the intensity costs,
+  const CensusPair* census;  ///< or, without a volume, the census of both views
   float alpha;
 };
 
-/// The two whole disparities of a pair.
+/// The two integer disparities of a pair.
 struct Ends {
   int begin, end;
 
@@ -33,8 +33,8 @@ inline Ends ends(const LevelNode& left, const LevelNode& right) {
   return {left.begin - right.begin, left.end - right.end};
 }
 
-/// The disparity at `offset` px behind the begin of a node that is `length` px long to its last
-/// column, rounded half up to whole px; the slope has 16 bits behind the point.
+/// The disparity at `offset` px from the begin of a node whose last column is at `length` px,
+/// rounded half up to whole px; the slope has 16 fractional bits.
 inline int disparity_along(const Ends& ends, int length, int offset) {
   const long long slope =
       length == 0 ? 0 : (static_cast<long long>(ends.end) - ends.begin) * 65536 / length;
@@ -55,8 +55,8 @@ Real intensity_cost(const Volume& volume, int y, const LevelNode& left, const Le
   return static_cast<Real>(sum) / static_cast<Real>(count * 16);
 }
 
-/// Mean number of differing bits, times 4, over every second column from 5 px before the left node
-/// to 5 px behind it that both views have.
+/// Mean number of different bits, times 4, over every second column from 5 px before to 5 px after
+/// the left node, as far as both views have these columns.
 template <typename Real>
 Real census_intensity_cost(const CensusPair& census, int y, const LevelNode& left,
                            const LevelNode& right) {

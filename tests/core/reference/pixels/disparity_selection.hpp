@@ -8,32 +8,32 @@
 
 namespace mtstereo::reference {
 
-/// A disparity in 1/256 px and its peak ratio; both 0 where there is none.
+/// A disparity in 1/256 px and its peak ratio; both 0 for an unknown disparity.
 struct Selected {
   int disparity = 0;
   int ratio = 0;
 };
 
-/// The curve through the best cost and its two neighbors whose least place refines the disparity.
+/// The curve through the best cost and its two neighbors whose minimum refines the disparity.
 enum class Refinement {
-  kParabola,    ///< what the gradient cost takes
-  kSymmetricV,  ///< two lines of equal slopes: what the census cost takes
+  kParabola,    ///< for the gradient cost
+  kSymmetricV,  ///< two lines of equal slopes, for the census cost
 };
 
-/// Where the curve is least, in 1/256 px from the best cost; the two rise from there by `before`
-/// and `after`, none of them below 0.
+/// The minimum of the curve, in 1/256 px from the best cost. The two neighbors cost `before` and
+/// `after` more than the best, neither less than 0.
 inline int refined(Refinement curve, int before, int after) {
   const int scale = curve == Refinement::kParabola ? before + after : std::max(before, after);
   return scale > 0 ? 128 * (before - after) / scale : 0;
 }
 
-/// Where the first of the least values stands.
+/// The index of the first least value.
 inline int first_least(const std::vector<int>& values) {
   return static_cast<int>(std::min_element(values.begin(), values.end()) - values.begin());
 }
 
-/// The disparity `best` of a pixel as far as its own costs tell: all of them are those of the
-/// disparities that have a right pixel, low .. high are those that are expected.
+/// Accepts or rejects the disparity `best` of a pixel by its own costs, which are those of all
+/// disparities that have a right pixel; low .. high are the expected ones.
 inline Selected judge(const std::vector<int>& costs, int best, int low, int high,
                       const SelectionOptions& options, Refinement curve) {
   const int cost = costs[best];
@@ -56,7 +56,7 @@ inline Selected judge(const std::vector<int>& costs, int best, int low, int high
   return {std::max(disparity, 1), std::max(ratio, 1)};
 }
 
-/// The best disparity of a right pixel, given cost(x, d) of the left ones.
+/// The best disparity of a right pixel, given cost(x, d) of the left pixels.
 template <typename Cost>
 int best_of_right(int right_x, int width, int disparities, Cost&& cost) {
   std::vector<int> costs;
@@ -65,7 +65,7 @@ int best_of_right(int right_x, int width, int disparities, Cost&& cost) {
   return first_least(costs);
 }
 
-/// True where the right pixel agrees that left pixel x has the disparity `best`.
+/// True if the right pixel agrees that left pixel x has the disparity `best`.
 template <typename Cost>
 bool right_agrees(int x, int best, int width, const SelectionOptions& options, Cost&& cost) {
   if (options.left_right_tolerance < 0) return true;
@@ -73,7 +73,7 @@ bool right_agrees(int x, int best, int width, const SelectionOptions& options, C
   return std::abs(other - best) <= options.left_right_tolerance;
 }
 
-/// One row from its costs; low[x] > high[x] where nothing is expected.
+/// Selects the disparities of one row from its costs; low[x] > high[x] if none are expected.
 template <typename Range>
 std::vector<Selected> select_disparities(const RowCosts& sums, const SelectionOptions& options,
                                          const Range& low, const Range& high) {

@@ -27,7 +27,7 @@ inline std::vector<std::int32_t> row_of(const DisparityPlane& map, int y) {
   return {&map(0, y), &map(0, y) + map.width};
 }
 
-/// The best of the disparities that the nodes expect at one pixel, from the cost volume.
+/// The best of the disparities that are expected at one pixel, from the cost volume.
 inline Selected match_pixel(const Volume& volume, const PixelMatchingOptions& options, int x, int y,
                             const std::vector<std::int32_t>& nodes) {
   std::vector<int> costs, candidates;
@@ -57,7 +57,8 @@ inline RatedMap match_pixels(const Volume& volume, const PixelMatchingOptions& o
   return out;
 }
 
-/// The same by the census cost, which is one bit of one of the window's rows.
+/// The same with the census cost. The step penalties are scaled by the rows of the window, as the
+/// costs are sums over these rows.
 inline RatedMap match_pixels_by_census(const GrayPlane& left, const GrayPlane& right,
                                        const CensusMatchingOptions& options,
                                        const DisparityPlane& map) {

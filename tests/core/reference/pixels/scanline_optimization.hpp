@@ -8,13 +8,13 @@
 
 namespace mtstereo::reference {
 
-/// P2 where the gray value changes by this much; 0 switches the optimization off.
+/// P2 at a change of the gray value by `change`; 0 disables the optimization.
 inline int large_step(const SmoothnessOptions& options, int change) {
   if (options.large_step == 0) return 0;
   return std::min(std::max(options.large_step * 8 / (8 + change), options.small_step), 255);
 }
 
-/// The costs of the path that comes from the left (direction 1) or from the right (-1).
+/// The costs along the path from the left (direction 1) or from the right (-1).
 inline RowCosts path_costs(const RowCosts& costs, const std::uint8_t* gray,
                            const SmoothnessOptions& options, int direction) {
   const int width = static_cast<int>(costs.size());
@@ -35,7 +35,7 @@ inline RowCosts path_costs(const RowCosts& costs, const std::uint8_t* gray,
   return path;
 }
 
-/// The sums of both paths' costs.
+/// The sums of the costs of both paths.
 inline RowCosts optimize_scanline(const RowCosts& costs, const std::uint8_t* gray,
                                   const SmoothnessOptions& options) {
   RowCosts sums = path_costs(costs, gray, options, 1);

@@ -8,26 +8,26 @@
 
 namespace mtstereo::reference {
 
-/// The nodes' disparities that a pixel lies between or on, in px.
+/// The range of the disparities of the nodes that a pixel lies on or between, in px.
 struct Surfaces {
   double smallest, largest;
 };
 
-/// What surrounds a pixel of a row: its own node, or the next ones on both sides.
+/// The surfaces at a pixel of a row: those of its own node or of the nearest nodes on both sides.
 inline std::optional<Surfaces> surfaces_at(const std::vector<std::int32_t>& nodes, int x,
                                            BetweenNodes between) {
   if (nodes[x] != 0) return Surfaces{nodes[x] / 256.0, nodes[x] / 256.0};
   if (between != BetweenNodes::kSpan) return {};
-  int before = x, behind = x;
+  int before = x, after = x;
   const int width = static_cast<int>(nodes.size());
   while (before >= 0 && nodes[before] == 0) --before;
-  while (behind < width && nodes[behind] == 0) ++behind;
-  if (before < 0 || behind == width) return {};
-  const auto [least, most] = std::minmax(nodes[before], nodes[behind]);
+  while (after < width && nodes[after] == 0) ++after;
+  if (before < 0 || after == width) return {};
+  const auto [least, most] = std::minmax(nodes[before], nodes[after]);
   return Surfaces{least / 256.0, most / 256.0};
 }
 
-/// The disparities that are expected at one pixel of a row, rising; none where nothing is.
+/// The expected disparities of one pixel of a row in increasing order; empty if none are expected.
 inline std::vector<int> expected_disparities(const std::vector<std::int32_t>& nodes, int x,
                                              const SearchRangeOptions& options) {
   const std::optional<Surfaces> surfaces = surfaces_at(nodes, x, options.between_nodes);

@@ -11,8 +11,8 @@ namespace mtstereo::reference {
 using test::GrayPlane;
 using test::Plane;
 
-/// Of each pixel one bit for each other pixel of the 5x5 around it, row by row from the top left:
-/// 1 where that one is darker. Beyond the border the border's pixel counts.
+/// For each pixel one bit per other pixel of the 5x5 window around it, row by row from the top
+/// left: 1 if that pixel is darker. The pixels of the border are repeated.
 inline Plane<std::uint32_t> census(const GrayPlane& image) {
   Plane<std::uint32_t> out(image.width, image.height);
   for (int y = 0; y < image.height; ++y) {
@@ -43,11 +43,11 @@ struct CensusCosts {
   Plane<std::uint32_t> left, right;
   CensusCostOptions options;
 
-  /// Bits that differ; where no right pixel is, the row's first stands in.
+  /// Number of different bits; without a right pixel, the first pixel of the row is used.
   int bits(int x, int y, int d) const {
     return std::popcount(left.clamped(x, y) ^ right.clamped(std::max(x - d, 0), y));
   }
-  /// Summed over the window's rows. Beyond the border the border's pixel counts.
+  /// The sum over the rows of the window. The pixels of the border are repeated.
   int column(int x, int y, int d) const {
     const int reach = options.kernel_size / 2;
     const int inside = std::clamp(x, 0, left.width - 1);
@@ -55,7 +55,8 @@ struct CensusCosts {
     for (int k = -reach; k <= reach; ++k) sum += bits(inside, y + k, d);
     return sum;
   }
-  /// Averaged over the window's columns by binomial weights, as means of two that round half up.
+  /// The average over the columns of the window with binomial weights, computed by means of two
+  /// values that round half up.
   int window(int x, int y, int d) const {
     const auto mean = [](int a, int b) { return (a + b + 1) / 2; };
     const int middle = column(x, y, d);
@@ -65,7 +66,7 @@ struct CensusCosts {
     const int far = mean(column(x - 2, y, d), column(x + 2, y, d));
     return mean(near, mean(middle, mean(far, middle)));
   }
-  /// The disparities low .. high are expected; all are where low > high.
+  /// The disparities low .. high are expected; all are if low > high.
   int cost(int x, int y, int d, int low, int high) const {
     const bool expected = low > high || (low <= d && d <= high);
     const int penalty = expected ? 0 : options.range_penalty * options.kernel_size;

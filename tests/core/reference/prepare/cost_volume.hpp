@@ -9,8 +9,8 @@
 
 namespace mtstereo::reference {
 
-/// The smoothed costs in 1/16 of a gray value, one plane of cells per disparity. A cell stands for
-/// one pixel, or with shift 1 for 2 x 2 pixels.
+/// The smoothed costs in 1/16 of a gray value, one plane of cells per disparity. A cell covers one
+/// pixel, or 2 x 2 pixels with shift 1.
 struct Volume {
   int shift = 0;
   std::vector<Plane<int>> slices;
@@ -19,8 +19,8 @@ struct Volume {
   int at(int x, int y, int d) const { return slices[d](x >> shift, y >> shift); }
 };
 
-/// Costs of every pixel at disparity d; where no right pixel is there, the first one's that has
-/// one.
+/// Costs of every pixel at disparity d; a pixel without a right pixel has the cost of the first
+/// pixel that has one.
 inline Plane<int> raw_costs(const CostInput& left, const CostInput& right, int d) {
   Plane<int> costs(left.gray.width, left.gray.height);
   for (int y = 0; y < costs.height; ++y) {
@@ -35,7 +35,7 @@ inline Plane<int> raw_costs(const CostInput& left, const CostInput& right, int d
 }
 
 /// Means of 2 x 2 pixels, first of two rows and then of two columns, each rounded half up. A last
-/// odd row or column stands for two.
+/// odd row or column is repeated.
 inline Plane<int> halved(const Plane<int>& in) {
   Plane<int> out((in.width + 1) / 2, (in.height + 1) / 2);
   const auto column_mean = [&](int x, int y) {
@@ -52,8 +52,9 @@ inline Plane<int> halved(const Plane<int>& in) {
 /// Standard deviation of a Gaussian kernel of this size [px].
 inline double kernel_sigma(int size) { return 0.3 * ((size - 1) * 0.5 - 1) + 0.8; }
 
-/// Weights in 1/32768, the center in the middle. Half a resolution needs half the size and, since a
-/// mean of two pixels has a variance of a quarter already, what is left of the variance.
+/// Weights in 1/32768, the center in the middle. Half the resolution needs half the kernel size.
+/// The mean of two pixels already has a variance of 1/4, which is subtracted from that of the
+/// kernel.
 inline std::vector<int> kernel(int size, int shift) {
   const double sigma = kernel_sigma(size);
   const double variance = shift == 0 ? sigma * sigma : (sigma * sigma - 0.25) / 4;
@@ -67,13 +68,13 @@ inline std::vector<int> kernel(int size, int shift) {
   for (const double value : shape) {
     weights.push_back(static_cast<int>(std::lround(value / sum * 32768)));
   }
-  // What rounding has lost or won is the center's; a weight of 1 is not to be had in 15 bits.
+  // The center compensates the rounding errors of all weights; 15 bits cannot hold a weight of 1.
   weights[radius] += 32768 - std::accumulate(weights.begin(), weights.end(), 0);
   weights[radius] = std::min(weights[radius], 32767);
   return weights;
 }
 
-/// Weighted sums along x or y, each product rounded half up; the border's cells are repeated.
+/// Weighted sums along x or y, each product rounded half up; the cells of the border are repeated.
 inline Plane<int> smoothed(const Plane<int>& in, const std::vector<int>& weights, int dx, int dy) {
   const int radius = static_cast<int>(weights.size()) / 2;
   Plane<int> out(in.width, in.height);

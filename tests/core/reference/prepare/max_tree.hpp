@@ -18,7 +18,7 @@ struct TreeNode {
 };
 
 /// Thresholds the row at every value that occurs in it and lists the maximal runs that contain the
-/// value itself; a run's parent is the narrowest other one that covers it.
+/// value itself; the parent of a run is the narrowest other run that covers it.
 inline std::vector<TreeNode> max_tree(const std::uint8_t* row, int width) {
   std::vector<TreeNode> nodes;
   for (const int level : std::set<int>(row, row + width)) {

@@ -12,7 +12,7 @@ namespace mtstereo::reference {
 using test::GrayPlane;
 using test::Plane;
 
-/// The middle one of the 25 pixels around; beyond the border the border's pixel counts.
+/// The median of the 5x5 pixels around each pixel; the pixels of the border are repeated.
 inline GrayPlane median5(const GrayPlane& in) {
   GrayPlane out(in.width, in.height);
   for (int y = 0; y < in.height; ++y) {
@@ -29,7 +29,7 @@ inline GrayPlane median5(const GrayPlane& in) {
   return out;
 }
 
-/// The pixel of an image that is mirrored at its outermost pixels.
+/// The pixel of an image that is mirrored at its border pixels.
 inline int mirrored(const GrayPlane& in, int x, int y) {
   const auto mirror = [](int i, int size) {
     if (size == 1) return 0;
@@ -61,8 +61,9 @@ inline Plane<int> sobel(const GrayPlane& in, Direction direction) {
   return out;
 }
 
-/// One of `gray_levels` equal steps of the inverted mean edge strength after 125 .. 255 was
-/// stretched to 0 .. 255. Whole numbers only: strength / 2, then * 255 / 130, then * q / 256.
+/// The inverted mean edge strength, of which the range 125 .. 255 is stretched to 0 .. 255,
+/// quantized to `gray_levels` equal steps.
+/// Integers only: strength / 2, then * 255 / 130, then * q / 256.
 inline int level(int strength, int gray_levels) {
   const long above_125 = std::max(2L * (255 - 125) - strength, 0L);  // in half gray values
   return static_cast<int>(above_125 * 255 * gray_levels / (2L * 130 * 256));
@@ -81,13 +82,14 @@ inline GrayPlane levels(const GrayPlane& median, int gray_levels) {
   return out;
 }
 
-/// A value times its share of the cost, in 1/16 of a gray value. The share is a multiple of 1/4096.
+/// A value times its weight in the cost, in 1/16 of a gray value. The weight is rounded to a
+/// multiple of 1/4096.
 inline int weighted(int value, double share) {
   const double weight = std::round(share * 16 * 256) / 256;
   return static_cast<int>(std::floor(value * weight + 0.5));
 }
 
-/// What the cost of a pixel is made of.
+/// The inputs of the cost of a pixel.
 struct CostInput {
   Plane<int> gray, sobel_x, sobel_y;
 };

@@ -10,10 +10,10 @@ namespace mtstereo::reference {
 using test::DisparityPlane;
 using test::GrayPlane;
 
-/// What supports a disparity within 4 px of it.
+/// The support of a disparity by the pixels within 4 px of it.
 struct Support {
-  long pixels = 0;  ///< of the window that are inside of the image
-  long count = 0;   ///< of these, the ones whose disparity fits
+  long pixels = 0;  ///< pixels of the window inside the image
+  long count = 0;   ///< of these, the ones with a supporting disparity
   long ratios = 0;  ///< sum of their peak ratios
 
   /// c * c * r, 0 .. 1.
@@ -27,8 +27,8 @@ struct Support {
   }
 };
 
-/// A disparity n px away (the larger of columns and rows) supports where it differs by at most
-/// (32 + 13 n) / 32 px; disparities are compared in 1/32 px.
+/// A disparity n px away (the larger of the distances in columns and rows) supports if it differs
+/// by at most (32 + 13 n) / 32 px; disparities are compared in 1/32 px.
 inline Support support_of(const DisparityPlane& map, const GrayPlane& ratio, int x, int y) {
   const auto steps = [](int disparity) { return (disparity + 4) / 8; };
   Support support;
@@ -46,8 +46,8 @@ inline Support support_of(const DisparityPlane& map, const GrayPlane& ratio, int
   return support;
 }
 
-/// 255 times the cube root of steps / 4096, rounded half up: the largest value that, less one half,
-/// is not above it.
+/// 255 times the cube root of steps / 4096, rounded half up: the largest integer that exceeds it by
+/// at most 1/2.
 inline int cube_root(long steps) {
   long root = 255;
   while ((2 * root - 1) * (2 * root - 1) * (2 * root - 1) * 4096 > 8L * 255 * 255 * 255 * steps) {
@@ -56,7 +56,7 @@ inline int cube_root(long steps) {
   return static_cast<int>(root);
 }
 
-/// The cube root of each share of support, 1 at least; 0 where there is no disparity.
+/// The cube root of each fraction of support, at least 1; 0 for an unknown disparity.
 inline GrayPlane rate_support(const DisparityPlane& map, const GrayPlane& ratio) {
   GrayPlane out(map.width, map.height);
   for (int y = 0; y < map.height; ++y) {

@@ -13,7 +13,7 @@ namespace mtstereo::reference {
 using test::DisparityPlane;
 using test::Plane;
 
-/// The disparity of a known pixel after the refinement by the window of 7x7 around it.
+/// The refined disparity of a known pixel, from the 7x7 window around it.
 inline int refined_disparity(const Plane<std::uint32_t>& left, const Plane<std::uint32_t>& right,
                              const DisparityPlane& map, int max_disparity, int x, int y) {
   int known = 0, rounded = 0;

@@ -10,7 +10,8 @@ namespace mtstereo::reference {
 using test::DisparityPlane;
 using test::GrayPlane;
 
-/// Linear in both directions between the centers of half pixels, as far as they belong together.
+/// Bilinear interpolation between the centers of half-resolution pixels, which leaves out pixels of
+/// another surface than the nearest one.
 inline DisparityPlane enlarge(const DisparityPlane& half, int width, int height,
                               int max_disparity) {
   DisparityPlane map(width, height);
@@ -36,7 +37,7 @@ inline DisparityPlane enlarge(const DisparityPlane& half, int width, int height,
   return map;
 }
 
-/// To each pixel that of its half pixel.
+/// Each pixel has the confidence of its half-resolution pixel.
 inline GrayPlane enlarge_confidence(const GrayPlane& half, int width, int height) {
   GrayPlane confidence(width, height);
   for (int y = 0; y < height; ++y) {

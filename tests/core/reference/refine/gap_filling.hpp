@@ -18,7 +18,7 @@ struct ConfidentMap {
   friend bool operator==(const ConfidentMap&, const ConfidentMap&) = default;
 };
 
-/// How many steps of (dx, dy) it takes from (x, y) to a known pixel; 0 where there is none.
+/// Number of steps (dx, dy) from (x, y) to the first known pixel; 0 if there is none.
 inline int steps_to_known(const DisparityPlane& map, int x, int y, int dx, int dy) {
   for (int steps = 1;; ++steps) {
     const int u = x + steps * dx;
@@ -28,7 +28,7 @@ inline int steps_to_known(const DisparityPlane& map, int x, int y, int dx, int d
   }
 }
 
-/// Looks from each unknown pixel in both directions of (dx, dy), one of which is 0 and the other 1.
+/// Searches from each unknown pixel in both directions of (dx, dy): one of them is 0, the other 1.
 inline ConfidentMap fill_gaps(const ConfidentMap& in, int max_gap, int tolerance, int dx, int dy) {
   ConfidentMap out = in;
   for (int y = 0; y < in.map.height; ++y) {

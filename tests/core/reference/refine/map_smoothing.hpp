@@ -9,7 +9,8 @@ namespace mtstereo::reference {
 
 using test::DisparityPlane;
 
-/// The mean of each pixel and of the pairs on both sides of it, (dx, dy) apart, that continue it.
+/// The mean of each pixel and of the pairs of pixels at equal distance on both sides along (dx,
+/// dy), if both belong to the same surface.
 inline DisparityPlane smooth_along(const DisparityPlane& map, int radius, int dx, int dy) {
   const auto at = [&](int x, int y) {
     return x >= 0 && x < map.width && y >= 0 && y < map.height ? map(x, y) : 0;

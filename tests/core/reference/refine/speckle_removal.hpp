@@ -12,8 +12,8 @@ namespace mtstereo::reference {
 using test::DisparityPlane;
 using test::GrayPlane;
 
-/// Floods the pixels that are connected to a known one, over edges across which the disparity
-/// changes by at most `tolerance`, and marks them as seen.
+/// Finds the connected component of a known pixel by flood fill over neighbors whose disparities
+/// differ by at most `tolerance`, and marks it as seen.
 inline std::vector<std::pair<int, int>> flood(const DisparityPlane& map, int tolerance,
                                               std::pair<int, int> start, GrayPlane& seen) {
   std::vector<std::pair<int, int>> component = {start};
