@@ -34,7 +34,7 @@ TEST(DrawNode, IsLinearFromEndToEnd) {
   }
 }
 
-TEST(DrawNode, EqualsReferenceOfAnyLengthAndSlope) {
+TEST(DrawNode, EqualsReferenceForAnyLengthAndSlope) {
   Random random(2);
   for (int n = 0; n < 3000; ++n) {
     const int width = random.between(1, n % 50 == 0 ? 16384 : 400);
@@ -50,23 +50,23 @@ TEST(DrawNode, EqualsReferenceOfAnyLengthAndSlope) {
   }
 }
 
-TEST(DrawNode, LeavesPixelsLeftOfTheirDisparity) {
+TEST(DrawNode, SkipsPixelsWithoutARightPixel) {
   std::vector<std::int32_t> row(20, -1);
   draw_node(2, 15, 6 * 256, 6 * 256, row.data());
   for (int x = 0; x < 20; ++x)
     EXPECT_EQ(x >= 6 && x <= 15 ? 6 * 256 : -1, row[x]) << "column " << x;
 }
 
-TEST(DrawNode, TellsInfinityFromNothing) {
+TEST(DrawNode, DrawsDisparityZeroAsTheSmallestKnownValue) {
   std::vector<std::int32_t> row(8, 0);
   draw_node(1, 6, 0, 0, row.data());
   EXPECT_EQ((std::vector<std::int32_t>{0, 1, 1, 1, 1, 1, 1, 0}), row);
 }
 
-TEST(DrawNode, GivesColumnZeroNothing) {
+TEST(DrawNode, SkipsColumnZero) {
   std::vector<std::int32_t> row(3, -1);
   draw_node(0, 2, 0, 0, row.data());
-  EXPECT_EQ(-1, row[0]) << "1/256 px left of column 0 there is no right pixel";
+  EXPECT_EQ(-1, row[0]) << "there is no right pixel 1/256 px left of column 0";
 }
 
 TEST(DrawMatches, EqualsReferenceAtEveryWidth) {

@@ -12,7 +12,7 @@ using test::Random;
 
 constexpr int kNone = -7;
 
-/// Random values for the nodes of a level, some of them none.
+/// Random values for the nodes of a level, with some nodes without a value.
 template <typename T>
 Buffer<T> random_values(const NodeLevel& level, Random& random, int of_ten_none) {
   Buffer<T> values;
@@ -23,7 +23,7 @@ Buffer<T> random_values(const NodeLevel& level, Random& random, int of_ten_none)
   return values;
 }
 
-/// Compares the medians of all nodes with those of a sorted list.
+/// Compares the medians of all nodes with those of sorted lists.
 template <typename T>
 void expect_reference(int width, int height, int most, int of_ten_none, std::uint64_t seed) {
   SCOPED_TRACE(testing::Message() << width << "x" << height << ", " << most << " neighbors, "
@@ -61,12 +61,13 @@ TEST(MediansOverNeighbors, EqualsReference) {
   }
 }
 
-TEST(MediansOverNeighbors, IsNoneWhereNothingIsKnown) {
+TEST(MediansOverNeighbors, IsNoneWithoutKnownValues) {
   expect_reference<std::int32_t>(30, 12, 5, 10, 3);
 }
 
-TEST(MediansOverNeighbors, TakesTheLongestChains) {
-  // One leaf of three columns in each row: every node has a hundred neighbors on both sides.
+TEST(MediansOverNeighbors, IncludesTheLongestChains) {
+  // One leaf of three columns in each row: each node in the middle has a hundred neighbors on both
+  // sides.
   test::GrayPlane rows(9, 301);
   for (int y = 0; y < 301; ++y) {
     for (int x = 3; x < 6; ++x) rows(x, y) = 1;

@@ -29,7 +29,7 @@ test::Plane<std::uint32_t> random_words(int width, int height, Random& random) {
   return words;
 }
 
-/// The census of a random pair of views, in both forms.
+/// The census of a random pair of views, in the formats of the library and of the reference.
 struct RandomCensus {
   RandomCensus(int width, int height, Random& random)
       : plain{random_words(width, height, random), random_words(width, height, random)},
@@ -48,7 +48,7 @@ struct RandomCensus {
   CensusImage left, right;
 };
 
-/// Any node of the left view and any of the right one that is not right of it.
+/// Any node of the left view, and any node of the right view that is not to the right of it.
 NodePair random_pair(int width, Random& random) {
   NodePair pair{};
   pair.left_begin = random.below(width);
@@ -74,7 +74,7 @@ TEST(NodeCensusCost, EqualsReferenceOnEveryInstructionSet) {
   });
 }
 
-TEST(NodeCensusCost, StaysInTheViewsOnTheLongestAndSteepestNodes) {
+TEST(NodeCensusCost, StaysInTheViewsForTheLongestAndSteepestNodes) {
   Random random(2);
   constexpr int kWidth = 16384;
   const RandomCensus census(kWidth, 1, random);
@@ -86,7 +86,7 @@ TEST(NodeCensusCost, StaysInTheViewsOnTheLongestAndSteepestNodes) {
   }
 }
 
-TEST(NodeCensusCost, OfTheSamePixelsIsNothingAndOfOppositeOnesAllBits) {
+TEST(NodeCensusCost, IsZeroForEqualPixelsAndAllBitsForInvertedOnes) {
   test::Plane<std::uint32_t> words(40, 1, 0x123456), opposite(40, 1, 0x123456 ^ 0xFFFFFF);
   const CensusImage left = image_of_words(words);
   const NodePair pair{20, 30, 12, 22};
@@ -94,7 +94,7 @@ TEST(NodeCensusCost, OfTheSamePixelsIsNothingAndOfOppositeOnesAllBits) {
   EXPECT_EQ(24 * kBitCost, census_intensity_cost(left, image_of_words(opposite), 0, pair));
 }
 
-TEST(NodeCensusCost, LooksBesideTheNodeAsWell) {
+TEST(NodeCensusCost, IncludesColumnsBesideTheNode) {
   test::Plane<std::uint32_t> words(60, 1), other(60, 1);
   for (int x = 0; x < 60; ++x) {
     words(x, 0) = 0;
@@ -102,7 +102,7 @@ TEST(NodeCensusCost, LooksBesideTheNodeAsWell) {
   }
   const NodePair pair{20, 30, 20, 30};
   const float cost = census_intensity_cost(image_of_words(words), image_of_words(other), 0, pair);
-  // 15, 17, 19 and 31, 33, 35 of 15 .. 35 differ in all bits.
+  // Columns 15, 17, 19 and 31, 33, 35 of 15 .. 35 differ in all bits.
   EXPECT_FLOAT_EQ(24.0F * kBitCost * 6 / 11, cost);
 }
 

@@ -16,10 +16,10 @@ using test::DisparityPlane;
 using test::GrayPlane;
 using test::Random;
 
-constexpr int kWhole = 0;  // the width of the ends: all of the leaf
+constexpr int kWhole = 0;  // width of the ends: the whole leaf
 constexpr int kOnePixel = 1;
 
-/// The step node-extrapolation on a whole map, in bands of `band` rows.
+/// Extrapolates the leaves of a whole map in bands of `band` rows.
 DisparityPlane extrapolated(const NodeLevel& leaves, const DisparityPlane& map, int neighbors,
                             int end_width, int band = 1 << 20) {
   Image<std::int32_t> image = image_of(map);
@@ -46,7 +46,7 @@ DisparityPlane random_map(int width, int height, std::uint64_t seed) {
   return map;
 }
 
-TEST(NodeExtrapolation, TakesTheEndsThatADrawnMapWouldHave) {
+TEST(NodeExtrapolation, TakeMatchEndsEqualsReadingADrawnMap) {
   long known = 0;
   for (int width = 1; width <= 70; ++width) {
     const NodeLevel leaves = test::RandomLevels(width, 12, 0, 300 + width).left;
@@ -77,10 +77,10 @@ TEST(NodeExtrapolation, TakesTheEndsThatADrawnMapWouldHave) {
       }
     }
   }
-  EXPECT_GT(known, 500) << "the comparison means something";
+  EXPECT_GT(known, 500) << "too few results to compare";
 }
 
-/// A map and its confidence around the ends of the leaves, in bands of `band` rows.
+/// Keeps a map and its confidence around the ends of the leaves only, in bands of `band` rows.
 struct Kept {
   DisparityPlane map;
   GrayPlane confidence;
@@ -119,7 +119,7 @@ TEST(NodeExtrapolation, EqualsReferenceAtEveryWidthInBothModes) {
   }
 }
 
-TEST(NodeExtrapolation, KeepsTheSameEndsAsTheReference) {
+TEST(NodeExtrapolation, KeepLeafEndsEqualsReference) {
   long kept_pixels = 0;
   for (int width = 1; width <= 70; ++width) {
     const test::RandomLevels levels(width, 14, 0, 900 + width);
@@ -138,10 +138,10 @@ TEST(NodeExtrapolation, KeepsTheSameEndsAsTheReference) {
       }
     }
   }
-  EXPECT_GT(kept_pixels, 10000) << "the comparison means something";
+  EXPECT_GT(kept_pixels, 10000) << "too few results to compare";
 }
 
-/// Three rows with one leaf [10, 17] each, of which the outer ones have disparities.
+/// Three rows with one leaf [10, 17] each; the first and the last one have disparities.
 struct Column {
   Column() : rows(40, 3), map(40, 3) {
     for (int y = 0; y < 3; ++y) {
@@ -158,7 +158,7 @@ struct Column {
   NodeLevel leaves;
 };
 
-TEST(NodeExtrapolation, GivesALeafItsNeighborsDisparities) {
+TEST(NodeExtrapolation, AssignsTheMediansOfTheNeighborsToALeaf) {
   const Column column;
   const DisparityPlane out = extrapolated(column.leaves, column.map, 1, kWhole);
   for (int x = 10; x <= 17; ++x) {
@@ -168,14 +168,14 @@ TEST(NodeExtrapolation, GivesALeafItsNeighborsDisparities) {
   EXPECT_EQ(0, out(18, 1));
 }
 
-TEST(NodeExtrapolation, AsksNobodyWithoutNeighbors) {
+TEST(NodeExtrapolation, IgnoresOtherLeavesWithZeroNeighbors) {
   const Column column;
   const DisparityPlane out = extrapolated(column.leaves, column.map, 0, kWhole);
   for (int x = 0; x < 40; ++x) EXPECT_EQ(0, out(x, 1)) << "column " << x;
   EXPECT_EQ(3 * 256, out(10, 0));
 }
 
-TEST(NodeExtrapolation, PutsSparseDisparitiesInsideTheEnds) {
+TEST(NodeExtrapolation, DrawsSparseDisparitiesInsideTheEnds) {
   const Column column;
   const DisparityPlane out = extrapolated(column.leaves, column.map, 1, kOnePixel);
   for (int x = 0; x < 40; ++x) {
@@ -183,7 +183,7 @@ TEST(NodeExtrapolation, PutsSparseDisparitiesInsideTheEnds) {
   }
 }
 
-TEST(NodeExtrapolation, PutsSparseDisparitiesAtTheEndsOfNarrowLeaves) {
+TEST(NodeExtrapolation, DrawsSparseDisparitiesAtTheEndsOfNarrowLeaves) {
   for (int width = 1; width <= 6; ++width) {
     GrayPlane rows(40, 1);
     DisparityPlane map(40, 1);
@@ -199,7 +199,7 @@ TEST(NodeExtrapolation, PutsSparseDisparitiesAtTheEndsOfNarrowLeaves) {
   }
 }
 
-TEST(NodeExtrapolation, KeepsNothingAroundLeavesWithoutALine) {
+TEST(NodeExtrapolation, KeepLeafEndsRemovesLeavesWithoutALine) {
   const Column column;
   const Kept of = {DisparityPlane(40, 3, 512), GrayPlane(40, 3, 99)};
   const Kept alone = kept(column.leaves, column.map, 0, 3, of, 3);

@@ -112,7 +112,7 @@ TEST(NodeLevels, DoNotDependOnBands) {
   for (const int band : {1, 3, 32, 39}) expect_reference(levels, 1, {0, 45}, band);
 }
 
-TEST(NodeLevels, TakeLeavesStrictlyBetweenTheWidths) {
+TEST(NodeLevels, ContainLeavesStrictlyBetweenTheWidths) {
   GrayPlane levels(40, 1);
   for (int x = 2; x < 5; ++x) levels(x, 0) = 1;    // 3 px
   for (int x = 10; x < 14; ++x) levels(x, 0) = 1;  // 4 px
@@ -124,8 +124,8 @@ TEST(NodeLevels, TakeLeavesStrictlyBetweenTheWidths) {
   EXPECT_EQ(Columns{}, columns(test::level_of(trees, 0, {5, 40}), 0));
 }
 
-TEST(NodeLevels, HoldEveryNodeOnce) {
-  // Leaves of one ancestor with leaves of another, higher one in between.
+TEST(NodeLevels, ContainEachNodeOnce) {
+  // Leaves of one ancestor and between them leaves of another, higher one.
   GrayPlane levels(21, 1);
   const std::vector<int> row = {0, 1, 2, 3, 2, 1, 2, 1, 2, 3, 2, 1, 2, 1, 2, 3, 2, 1, 0, 1, 0};
   std::copy(row.begin(), row.end(), levels.pixels.begin());
@@ -154,7 +154,7 @@ TEST(NodeLevels, NeverNest) {
   }
 }
 
-TEST(NodeLevels, OfNoLeafAreEmpty) {
+TEST(NodeLevels, AreEmptyWithoutAncestors) {
   const NodeLevel none = test::level_of(test::trees_of(GrayPlane(30, 3, 4)), 1, test::kAnyWidth);
   for (int y = 0; y < 3; ++y) EXPECT_EQ(0, none.count[y]) << "the root has no parent";
 }

@@ -14,7 +14,7 @@ using test::Random;
 using test::RandomLevels;
 using test::RandomVolume;
 
-/// How one level is matched.
+/// The options of matching one level.
 struct Options {
   int disparities;
   int neighbors;
@@ -53,7 +53,7 @@ void expect_intervals(const reference::Intervals& expected, const NodeLevel& lef
   }
 }
 
-/// Number of matched nodes; fails where a node is matched otherwise than in the reference.
+/// Returns the number of matched nodes; fails if a match differs from that of the reference.
 int expect_matches(const reference::Matches& expected, const NodeLevel& left,
                    const NodeMatches& matches) {
   int matched = 0;
@@ -96,7 +96,7 @@ TEST(NodeMatching, EqualsReferenceAtEveryWidth) {
     const Options options{1 + width / 2, width % 4, width % 2, 0.8f, 0.02f};
     matched += expect_first_level(RandomLevels(width, 9, width % 3, 100 + width), options, width);
   }
-  EXPECT_GT(matched, 300) << "the comparison means something";
+  EXPECT_GT(matched, 300) << "too few results to compare";
 }
 
 TEST(NodeMatching, EqualsReferenceForEveryOption) {
@@ -154,7 +154,7 @@ TEST(NodeMatching, EqualsReferenceAtAFinerLevel) {
                                               options.neighbors, 50, options.confidence, 100),
                        fine.left, matches_of(fine.input(volume, 0.8f), intervals, options));
   }
-  EXPECT_GT(matched, 50) << "the comparison means something";
+  EXPECT_GT(matched, 50) << "too few results to compare";
 }
 
 /// Rows of 60 px with one leaf [begin, end] each.
@@ -166,7 +166,7 @@ GrayPlane one_leaf(int begin, int end, int height = 1) {
   return rows;
 }
 
-/// The disparities that the first node of row 0 gets, all costs of the volume being 10 gray values.
+/// The disparities of the first node of row 0 with a volume whose costs are all 10 gray values.
 reference::Match first_match(const GrayPlane& left, const GrayPlane& right, int disparities) {
   const RandomLevels levels(left, right, 0);
   Random random(1);
@@ -184,24 +184,24 @@ TEST(NodeMatching, MatchesTheOnlyPair) {
   EXPECT_EQ((reference::Match{7, 5}), first_match(one_leaf(20, 30), one_leaf(13, 25), 20));
 }
 
-TEST(NodeMatching, MatchesTheFirstColumnsToo) {
+TEST(NodeMatching, MatchesNodesInTheFirstColumns) {
   EXPECT_EQ((reference::Match{2, 2}), first_match(one_leaf(3, 8), one_leaf(1, 6), 40));
 }
 
-TEST(NodeMatching, RefusesNodesAtTheBorder) {
+TEST(NodeMatching, RejectsNodesAtTheBorder) {
   EXPECT_EQ(reference::Match{}, first_match(one_leaf(0, 8), one_leaf(0, 6), 20)) << "left view";
   EXPECT_EQ(reference::Match{}, first_match(one_leaf(4, 8), one_leaf(0, 6), 20)) << "right view";
   EXPECT_EQ(reference::Match{}, first_match(one_leaf(50, 59), one_leaf(45, 55), 20));
 }
 
-TEST(NodeMatching, RefusesDisparitiesOutsideTheRange) {
+TEST(NodeMatching, RejectsDisparitiesOutsideTheRange) {
   EXPECT_EQ((reference::Match{9, 9}), first_match(one_leaf(30, 40), one_leaf(21, 31), 10));
-  EXPECT_EQ(reference::Match{}, first_match(one_leaf(30, 40), one_leaf(20, 30), 10)) << "too near";
+  EXPECT_EQ(reference::Match{}, first_match(one_leaf(30, 40), one_leaf(20, 30), 10)) << "too large";
   EXPECT_EQ((reference::Match{0, 0}), first_match(one_leaf(30, 40), one_leaf(30, 40), 10));
   EXPECT_EQ(reference::Match{}, first_match(one_leaf(30, 40), one_leaf(31, 40), 10)) << "negative";
 }
 
-TEST(NodeMatching, RefusesWhatFitsTwice) {
+TEST(NodeMatching, RejectsAmbiguousMatches) {
   GrayPlane two = one_leaf(10, 15);
   for (int x = 20; x <= 25; ++x) two(x, 0) = 1;
   EXPECT_EQ(reference::Match{}, first_match(one_leaf(30, 35), two, 40)) << "two right nodes";

@@ -15,7 +15,7 @@ using test::copy_of;
 using test::DisparityPlane;
 using test::Random;
 
-/// The outlier removal on a whole map, in bands of `band` rows.
+/// Removes the outliers of a whole map in bands of `band` rows.
 DisparityPlane filtered(const DisparityPlane& map, int radius, int band = 1 << 20) {
   Image<std::int32_t> image = image_of(map);
   VoteMap votes;
@@ -32,8 +32,7 @@ DisparityPlane filtered(const DisparityPlane& map, int radius, int band = 1 << 2
   return copy_of(image);
 }
 
-/// A map of which `of_ten` in ten pixels have a disparity, most of them near a plane, some
-/// anywhere.
+/// A map in which `of_ten` of ten pixels have a disparity, mostly near a plane, sometimes anywhere.
 DisparityPlane random_map(int width, int height, int of_ten, std::uint64_t seed) {
   Random random(seed);
   DisparityPlane map(width, height);
@@ -94,14 +93,14 @@ TEST(OutlierRemoval, DoesNotDependOnBands) {
   }
 }
 
-TEST(OutlierRemoval, KeepsALonelyDisparity) {
+TEST(OutlierRemoval, KeepsAnIsolatedDisparity) {
   DisparityPlane map(50, 50);
   map(25, 25) = 30 * 256;
   EXPECT_TRUE(same_image(map, filtered(map, 21)));
 }
 
 TEST(OutlierRemoval, KeepsASlantedPlane) {
-  // One px of disparity per px of column is as much as a voter allows.
+  // A slope of 1 px of disparity per column is the largest that a supporting pixel allows.
   DisparityPlane map(120, 40);
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 120; ++x) map(x, y) = 256 * (1 + x);
@@ -109,7 +108,7 @@ TEST(OutlierRemoval, KeepsASlantedPlane) {
   EXPECT_TRUE(same_image(map, filtered(map, 21)));
 }
 
-TEST(OutlierRemoval, RemovesWhatItsSurroundingsContradict) {
+TEST(OutlierRemoval, RemovesDisparitiesThatTheirSurroundingsContradict) {
   DisparityPlane map(60, 60, 10 * 256);
   map(30, 30) = 200 * 256;
   const DisparityPlane kept = filtered(map, 21);
@@ -117,10 +116,10 @@ TEST(OutlierRemoval, RemovesWhatItsSurroundingsContradict) {
   EXPECT_EQ(1, std::count(kept.pixels.begin(), kept.pixels.end(), 0));
 }
 
-TEST(OutlierRemoval, KeepsADrawAndRemovesAMajority) {
+TEST(OutlierRemoval, KeepsTiesAndRemovesAMajority) {
   DisparityPlane map(20, 20);
   map(10, 10) = 50 * 256;
-  map(10, 11) = 90 * 256;  // one supports (itself), one contradicts
+  map(10, 11) = 90 * 256;  // one supporter (the pixel itself), one contradiction
   EXPECT_EQ(50 * 256, filtered(map, 5)(10, 10));
   map(10, 9) = 90 * 256;
   EXPECT_EQ(0, filtered(map, 5)(10, 10));

@@ -44,8 +44,8 @@ TEST(IntensityCost, EqualsReference) {
   }
 }
 
-/// Bounds of the mean cost on the true line: where it passes between two disparities to within what
-/// 16 bits behind the point resolve, either of them will do.
+/// Bounds of the mean cost along the exact line: where it passes between two disparities closer
+/// than 16 fractional bits resolve, either of them is accepted.
 std::pair<double, double> bounds_on_the_line(const reference::Volume& volume, int y,
                                              const NodePair& pair) {
   const double length = std::max(pair.left_end - pair.left_begin, 1);
@@ -79,7 +79,7 @@ TEST(IntensityCost, FollowsTheLineBetweenTheEnds) {
   }
 }
 
-TEST(IntensityCost, OfOnePixelIsItsCost) {
+TEST(IntensityCost, EqualsThePixelCostForOnePixel) {
   Random random(3);
   const RandomVolume volume = test::random_volume(50, 1, 20, 0, random);
   const NodePair pair{30, 30, 17, 17};
@@ -87,7 +87,7 @@ TEST(IntensityCost, OfOnePixelIsItsCost) {
                   intensity_cost(volume.fast, 0, pair));
 }
 
-TEST(IntensityCost, StaysInTheVolumeOnTheLongestAndSteepestNodes) {
+TEST(IntensityCost, StaysInTheVolumeForTheLongestAndSteepestNodes) {
   Random random(4);
   for (const int shift : {0, 1}) {
     const RandomVolume volume = test::random_volume(8192, 1, 16, shift, random);
@@ -127,7 +127,7 @@ TEST(ContextCost, EqualsReference) {
   }
 }
 
-TEST(ContextCost, OfEqualTreesIsZero) {
+TEST(ContextCost, IsZeroForEqualTrees) {
   const test::GrayPlane rows = test::runs(100, 5, 20, 7);
   const RandomLevels levels(rows, rows, 0);
   for (int y = 0; y < 5; ++y) {
@@ -150,7 +150,7 @@ TEST(ContextCost, IsTheMeanRelativeDifferenceOfAreas) {
               1e-4);
 }
 
-/// Asks for the cost of every pair of every row, in the order of matching.
+/// Compares the cost of every pair of every row with the reference, in the order of matching.
 void expect_pair_costs(const RandomLevels& levels, int disparities, int neighbors, int shift,
                        float alpha) {
   SCOPED_TRACE(testing::Message() << levels.left.width << " px, " << disparities << " disparities, "
@@ -204,8 +204,8 @@ TEST(PairCosts, EqualReferenceForEveryWeight) {
   }
 }
 
-TEST(PairCosts, HoldTheDensestRows) {
-  // A leaf in every second column, which is as many as there can be.
+TEST(PairCosts, EqualReferenceForTheDensestRows) {
+  // A leaf in every second column, the largest possible number.
   test::GrayPlane rows(201, 5);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 201; x += 2) rows(x, y) = 1;
