@@ -16,7 +16,7 @@ using test::GrayPlane;
 using test::Pair;
 using test::Random;
 
-/// What is expected of each pixel of a row.
+/// The expected disparities of each pixel of a row.
 struct Ranges {
   std::vector<std::uint16_t> low, high;
 };
@@ -38,7 +38,7 @@ Ranges nothing_known(int width) {
   return {std::vector<std::uint16_t>(width, 1), std::vector<std::uint16_t>(width, 0)};
 }
 
-/// The costs of the rows y0 .. y1 - 1, one row of cells after the other.
+/// The costs of the rows y0 .. y1 - 1, one row of cells after another.
 std::vector<std::uint8_t> costs_of(const CensusPair& pair, const CensusCostOptions& options, int y0,
                                    int y1, const Ranges& ranges, CensusCostScratch& scratch) {
   const int width = pair.left.bits.width();
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> costs_of(const CensusPair& pair, const CensusCostOptio
   return costs;
 }
 
-/// Compares every cell of the rows y0 .. y1 - 1; those behind D are never the least.
+/// Compares every cell of the rows y0 .. y1 - 1; the padding cells after D must never be the least.
 void expect_reference(const Pair& views, const CensusCostOptions& options, int y0, int y1,
                       const Ranges& ranges, CensusCostScratch& scratch) {
   const CensusPair pair(views.left.view(), views.right.view());
@@ -128,7 +128,7 @@ TEST(CensusCost, EqualsReferenceWithEveryPenalty) {
   }
 }
 
-TEST(CensusCost, IsTheSameFromWhateverRowItBegins) {
+TEST(CensusCost, DoesNotDependOnTheFirstRow) {
   constexpr int kHeight = 11;
   const Pair views = noise_pair(35, kHeight, 1);
   Random random(2);
@@ -141,7 +141,7 @@ TEST(CensusCost, IsTheSameFromWhateverRowItBegins) {
   }
 }
 
-TEST(CensusCost, OfAnIdenticalPairIsNothingAtInfinity) {
+TEST(CensusCost, IsZeroAtDisparityZeroForAnIdenticalPair) {
   const GrayPlane image = test::noise(50, 5, 3);
   const CensusPair pair(image.view(), image.view());
   CensusCostScratch scratch;
@@ -151,11 +151,12 @@ TEST(CensusCost, OfAnIdenticalPairIsNothingAtInfinity) {
     EXPECT_EQ(0, costs[static_cast<std::size_t>(pixel) * 32]) << "pixel " << pixel;
     more += costs[static_cast<std::size_t>(pixel) * 32 + 7] > 0;
   }
-  EXPECT_GT(more, 200) << "other disparities cost something";
+  EXPECT_GT(more, 200) << "other disparities must have a cost";
 }
 
-TEST(CensusCost, OfOpposedViewsIsAllBitsOfAllRows) {
-  // Words that no image has: left all pixels of a window are darker than its center, right none.
+TEST(CensusCost, CountsAllBitsOfAllRowsForInvertedViews) {
+  // Words that occur in no image: in the left view all pixels of a window are darker than its
+  // center, in the right view none.
   for (const int size : {1, 3, 5}) {
     CensusImage left, right;
     left.resize(20, 6);

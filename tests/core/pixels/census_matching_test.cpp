@@ -18,7 +18,7 @@ using test::GrayPlane;
 using test::Pair;
 using test::Random;
 
-/// The disparities and peak ratios of a pair, in bands of `band` rows that are taken from the last
+/// The disparities and peak ratios of a pair, computed in bands of `band` rows from the last band
 /// to the first.
 RatedMap matched(const Pair& pair, const CensusMatchingOptions& options,
                  const DisparityPlane& nodes, int band, CensusMatchingScratch& scratch) {
@@ -38,7 +38,7 @@ RatedMap matched(const Pair& pair, const CensusMatchingOptions& options,
   return out;
 }
 
-/// Nodes over a part of the map, near the disparity `around`.
+/// Random nodes on a part of the map, with disparities near `around`.
 DisparityPlane random_nodes(int width, int height, int disparities, int around, Random& random) {
   DisparityPlane nodes(width, height);
   for (int y = 0; y < height; ++y) {
@@ -80,10 +80,10 @@ TEST(CensusMatching, EqualsReferenceAtEveryWidthAndInBands) {
     }
     known += test::known(expected.map);
   }
-  EXPECT_GT(known, 3000) << "the comparison means something";
+  EXPECT_GT(known, 3000) << "too few results to compare";
 }
 
-TEST(CensusMatching, HasARatioWhereItHasADisparity) {
+TEST(CensusMatching, HasARatioExactlyAtPixelsWithADisparity) {
   Random random(1);
   CensusMatchingScratch scratch;
   const Pair pair = test::slanted_pair(90, 30, 20, 1);
@@ -95,7 +95,7 @@ TEST(CensusMatching, HasARatioWhereItHasADisparity) {
 }
 
 TEST(CensusMatching, DoesNotDependOnTheExposureOfEitherView) {
-  // The left gray values also tell how much a step costs: without steps only the census counts.
+  // The left gray values also determine the step penalties: without these only the census counts.
   Random random(2);
   CensusMatchingScratch scratch;
   for (int seed = 0; seed < 10; ++seed) {
@@ -119,7 +119,7 @@ TEST(CensusMatching, DoesNotDependOnTheExposureOfEitherView) {
   }
 }
 
-TEST(CensusMatching, FindsADisparityThatTheNodesDoNotExpect) {
+TEST(CensusMatching, FindsADisparityOutsideTheExpectedRange) {
   const Pair pair = test::shifted_pair(120, 20, 30, 3);
   CensusMatchingScratch scratch;
   CensusMatchingOptions options = {
@@ -133,7 +133,7 @@ TEST(CensusMatching, FindsADisparityThatTheNodesDoNotExpect) {
   };
   EXPECT_GT(share_right(), 0.9);
   options.cost.range_penalty = 24;
-  EXPECT_LT(share_right(), 0.2) << "unless that costs too much";
+  EXPECT_LT(share_right(), 0.2) << "the range penalty must prevent it";
 }
 
 }  // namespace

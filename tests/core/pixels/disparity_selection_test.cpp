@@ -15,7 +15,7 @@ using reference::RowCosts;
 using reference::Selected;
 using test::Random;
 
-/// What is expected of each pixel of a row; none where low > high.
+/// The expected disparities of each pixel of a row; none if low > high.
 struct Ranges {
   std::vector<std::uint16_t> low, high;
 };
@@ -38,8 +38,8 @@ Ranges random_ranges(int width, int disparities, Random& random) {
   return ranges;
 }
 
-/// Costs with many equal ones, and with a best disparity that goes on from pixel to pixel, so that
-/// the right view agrees now and then.
+/// Costs with many equal ones, and with a best disparity that often continues from pixel to pixel,
+/// so that the right view sometimes agrees.
 RowCosts random_sums(int width, int disparities, int largest, Random& random) {
   RowCosts sums(width, std::vector<int>(disparities));
   int best = random.below(disparities);
@@ -52,7 +52,7 @@ RowCosts random_sums(int width, int disparities, int largest, Random& random) {
   return sums;
 }
 
-/// One row, in `scratch` that may hold another one.
+/// Selects one row, with `scratch` from an earlier row.
 std::vector<Selected> selected(const RowCosts& sums, const SelectionOptions& options,
                                const Ranges& ranges, SelectionScratch& scratch) {
   constexpr int kNever = 510;
@@ -68,7 +68,7 @@ std::vector<Selected> selected(const RowCosts& sums, const SelectionOptions& opt
   std::vector<std::uint8_t> ratio(width, 77);
   scratch.resize(width, options.disparities);
   start_selection(scratch);
-  // In parts that come in any order.
+  // In parts, in arbitrary order.
   const auto offer = [&](int begin, int end) {
     offer_costs(cells.data() + static_cast<std::ptrdiff_t>(begin) * lanes, begin, end, width,
                 options, ranges.low.data(), ranges.high.data(), scratch);
@@ -84,7 +84,7 @@ std::vector<Selected> selected(const RowCosts& sums, const SelectionOptions& opt
   return row;
 }
 
-/// Compares disparities and peak ratios; returns how many disparities there are.
+/// Compares disparities and peak ratios; returns the number of disparities.
 long expect_reference(const RowCosts& sums, const SelectionOptions& options, const Ranges& ranges,
                       SelectionScratch& scratch) {
   const std::vector<Selected> expected =
@@ -101,7 +101,7 @@ long expect_reference(const RowCosts& sums, const SelectionOptions& options, con
                        [](const Selected& pixel) { return pixel.disparity != 0; });
 }
 
-/// Every kind of options on random rows of this size.
+/// All combinations of options on random rows of this size.
 long expect_reference_with_all_options(int width, int disparities, Random& random,
                                        SelectionScratch& scratch) {
   long known = 0;
@@ -132,7 +132,7 @@ TEST(DisparitySelection, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstru
       Random random(disparities);
       known += expect_reference_with_all_options(disparities + 5, disparities, random, scratch);
     }
-    EXPECT_GT(known, 10000) << "the comparison means something";
+    EXPECT_GT(known, 10000) << "too few results to compare";
   });
 }
 
@@ -144,19 +144,19 @@ TEST(DisparitySelection, EqualsReferenceAtEveryWidth) {
   }
 }
 
-TEST(DisparitySelection, EqualsReferenceWhereAllCostsAreTheSame) {
+TEST(DisparitySelection, EqualsReferenceForEqualCosts) {
   SelectionScratch scratch;
   for (const int cost : {0, 1, 510}) {
     const RowCosts sums(60, std::vector<int>(40, cost));
     for (const int tolerance : {-1, 0}) {
       EXPECT_EQ(
           0, expect_reference(sums, {40, 0, false, tolerance, true}, all_expected(60, 40), scratch))
-          << "nothing costs more than another";
+          << "equal costs have no best disparity";
     }
   }
 }
 
-/// A row of 60 px in which pixel 50 has these costs, and all others the same ones.
+/// A row of 60 px in which pixel 50 has these costs and all other pixels have equal ones.
 struct OnePixel {
   explicit OnePixel(const std::vector<int>& costs)
       : disparities(static_cast<int>(costs.size())), sums(60, std::vector<int>(disparities, 500)) {
@@ -175,13 +175,13 @@ struct OnePixel {
   RowCosts sums;
 };
 
-TEST(DisparitySelection, TakesTheSmallestOfEqualCosts) {
+TEST(DisparitySelection, SelectsTheSmallestDisparityOfEqualCosts) {
   std::vector<int> costs(40, 400);
   costs[20] = costs[21] = 100;
   EXPECT_EQ(20 * 256, OnePixel(costs).select(0.5).disparity);
 }
 
-TEST(DisparitySelection, DropsWhatHasACloseRunnerUp) {
+TEST(DisparitySelection, RejectsADisparityWithACloseRunnerUp) {
   std::vector<int> costs(40, 400);
   costs[20] = 100;
   for (const int runner_up : {0, 18, 22, 39}) {
@@ -195,17 +195,19 @@ TEST(DisparitySelection, DropsWhatHasACloseRunnerUp) {
   }
 }
 
-TEST(DisparitySelection, LooksForTheRunnerUpWhereItIsTold) {
+TEST(DisparitySelection, SearchesTheRunnerUpInTheGivenRange) {
   std::vector<int> costs(40, 400);
   costs[20] = 100;
   costs[30] = 101;
   EXPECT_EQ(0, OnePixel(costs).select(0.12, false, 15, 25).disparity);
   EXPECT_EQ(20 * 256, OnePixel(costs).select(0.12, true, 15, 25).disparity);
-  EXPECT_EQ(0, OnePixel(costs).select(0.12, true, 15, 30).disparity) << "both ends are included";
-  EXPECT_EQ(0, OnePixel(costs).select(0.12, true, 19, 21).disparity) << "no runner-up there";
+  EXPECT_EQ(0, OnePixel(costs).select(0.12, true, 15, 30).disparity)
+      << "the range must include both ends";
+  EXPECT_EQ(0, OnePixel(costs).select(0.12, true, 19, 21).disparity)
+      << "the range has no runner-up";
 }
 
-TEST(DisparitySelection, GivesNothingWhereNothingIsExpected) {
+TEST(DisparitySelection, RejectsPixelsWithoutExpectedDisparities) {
   std::vector<int> costs(40, 400);
   costs[20] = 0;
   EXPECT_EQ(255, OnePixel(costs).select(0.12).ratio);
@@ -213,8 +215,8 @@ TEST(DisparitySelection, GivesNothingWhereNothingIsExpected) {
   EXPECT_EQ(0, OnePixel(costs).select(0.12, false, 1, 0).ratio);
 }
 
-TEST(DisparitySelection, DropsWhatTheRightPixelDoesNotConfirm) {
-  // The right pixel 30 is shown by the left pixels 50 at 20 px and 50 + n at 20 + n px.
+TEST(DisparitySelection, RejectsADisparityThatTheRightPixelContradicts) {
+  // Right pixel 30 corresponds to left pixel 50 at 20 px and to left pixel 50 + n at 20 + n px.
   std::vector<int> costs(40, 400);
   costs[20] = 100;
   for (const int away : {1, 2}) {
@@ -227,17 +229,18 @@ TEST(DisparitySelection, DropsWhatTheRightPixelDoesNotConfirm) {
     }
     EXPECT_EQ(20 * 256, pixel.select(0.12, false, 0, 39, -1).disparity) << "no check";
     pixel.sums[50 + away][20 + away] = 100;
-    EXPECT_EQ(20 * 256, pixel.select(0.12, false, 0, 39, 0).disparity) << "the first of equals";
+    EXPECT_EQ(20 * 256, pixel.select(0.12, false, 0, 39, 0).disparity)
+        << "the first of equal costs must win";
   }
 }
 
-TEST(DisparitySelection, RefinesByTheVOfEqualSlopesThroughThreeCosts) {
+TEST(DisparitySelection, RefinesByTwoLinesOfEqualSlopeThroughThreeCosts) {
   for (const auto& [before, after] : {std::pair{300, 300}, {200, 400}, {101, 399}, {400, 100}}) {
     std::vector<int> costs(40, 500);
     costs[19] = before;
     costs[20] = 100;
     costs[21] = after;
-    // The steeper side tells the slope, the other side lies on the line that goes up with it.
+    // The steeper side determines the slope; the other side lies on a line of the opposite slope.
     const double slope = std::max(before, after) - 100;
     EXPECT_NEAR(256 * (20 + (before - after) / (2 * slope)),
                 OnePixel(costs).select(0.12, false, 0, 39, -1, true).disparity, 1)
@@ -245,8 +248,8 @@ TEST(DisparitySelection, RefinesByTheVOfEqualSlopesThroughThreeCosts) {
   }
 }
 
-TEST(DisparitySelection, GivesAPixelAtTheBorderOnlyDisparitiesThatItCanHave) {
-  // Behind the left border all would be cheaper.
+TEST(DisparitySelection, SelectsOnlyPossibleDisparitiesAtTheBorder) {
+  // Disparities beyond the left border would all cost less.
   RowCosts sums(40, std::vector<int>(40));
   for (int x = 0; x < 40; ++x) {
     for (int d = 0; d < 40; ++d) sums[x][d] = d > x ? 0 : 400 - d;
@@ -254,7 +257,8 @@ TEST(DisparitySelection, GivesAPixelAtTheBorderOnlyDisparitiesThatItCanHave) {
   SelectionScratch scratch;
   const auto row = selected(sums, {40, 0, false, -1, true}, all_expected(40, 40), scratch);
   for (int x = 0; x < 40; ++x) {
-    EXPECT_EQ(x < 2 ? 0 : 256 * x, row[x].disparity) << "too few to compare where x is below 2";
+    EXPECT_EQ(x < 2 ? 0 : 256 * x, row[x].disparity)
+        << "columns 0 and 1 have too few disparities to compare";
   }
 }
 

@@ -15,12 +15,12 @@ using test::DisparityPlane;
 using test::Random;
 using test::RandomVolume;
 
-/// Options of the paper's method, as shares.
+/// The options of the paper's method; range and confidence are fractions.
 PixelMatchingOptions paper(double range, double confidence, bool subpixel) {
   return {{range, BetweenNodes::kNone, 0}, {0, confidence, true, -1, subpixel}};
 }
 
-/// The options with as many disparities as the volume has.
+/// The options with the number of disparities of the volume.
 PixelMatchingOptions fitting(const CostVolume& volume, PixelMatchingOptions options) {
   options.range.disparities = options.selection.disparities = volume.disparities;
   return options;
@@ -55,7 +55,7 @@ DisparityPlane matched(const CostVolume& volume, const PixelMatchingOptions& opt
   return rated(volume, options, map).map;
 }
 
-/// Compares disparities and peak ratios; returns how many disparities there are.
+/// Compares disparities and peak ratios; returns the number of disparities.
 long expect_reference(const RandomVolume& volume, const PixelMatchingOptions& options,
                       const DisparityPlane& map) {
   const reference::RatedMap expected =
@@ -74,7 +74,7 @@ long expect_reference(const RandomVolume& volume, const PixelMatchingOptions& op
          std::count(expected.map.pixels.begin(), expected.map.pixels.end(), 0);
 }
 
-/// Random guesses that are possible.
+/// Random guesses, all of them possible.
 DisparityPlane random_guesses(int width, int height, int disparities, Random& random) {
   DisparityPlane map(width, height);
   for (int y = 0; y < height; ++y) {
@@ -101,7 +101,7 @@ TEST(PixelMatching, EqualsReferenceAtEveryWidth) {
       }
     }
   }
-  EXPECT_GT(known, 10000) << "the comparison means something";
+  EXPECT_GT(known, 10000) << "too few results to compare";
 }
 
 TEST(PixelMatching, EqualsReferenceWithEveryChoice) {
@@ -109,7 +109,7 @@ TEST(PixelMatching, EqualsReferenceWithEveryChoice) {
   for (int width = 1; width <= 70; ++width) {
     Random random(1000 + width);
     const int disparities = random.between(1, width);
-    // Few costs, many of them equal, or many.
+    // Few different costs, so that many are equal, or many.
     const int largest = width % 3 == 0 ? 5 : 4000;
     const RandomVolume volume =
         test::random_volume(width, 5, disparities, width % 2, random, largest);
@@ -125,7 +125,7 @@ TEST(PixelMatching, EqualsReferenceWithEveryChoice) {
       }
     }
   }
-  EXPECT_GT(known, 10000) << "the comparison means something";
+  EXPECT_GT(known, 10000) << "too few results to compare";
 }
 
 /// A volume of one row of 100 px whose costs at column 90 are `costs`.
@@ -137,7 +137,7 @@ struct OnePixel {
       volume.fast.cells[d * volume.fast.stride + kColumn] = static_cast<std::uint16_t>(costs[d]);
     }
   }
-  /// What a guess becomes [1/256 px].
+  /// The disparity that matching finds from a guess [1/256 px].
   int match(int guess, const PixelMatchingOptions& options) const {
     DisparityPlane map(100, 1);
     map(kColumn, 0) = guess;
@@ -161,7 +161,7 @@ TEST(PixelMatching, SearchesBothEndsOfTheRange) {
     EXPECT_EQ(best * 256, OnePixel(costs).match(20 * 256, paper(0.15, 0.12, false)))
         << "20 +- 3 px";
     EXPECT_EQ(0, OnePixel(costs).match(20 * 256 + (best < 20 ? 1 : -1), paper(0.15, 0.12, false)))
-        << "just out of reach, all else costs the same";
+        << "just outside of the range; all other costs are equal";
   }
 }
 
@@ -171,7 +171,7 @@ TEST(PixelMatching, SearchesAFewPixelsAroundSmallDisparities) {
   EXPECT_EQ(5 * 256, OnePixel(costs).match(2 * 256, paper(0.15, 0.12, false)));
 }
 
-TEST(PixelMatching, DropsWhatHasACloseRunnerUp) {
+TEST(PixelMatching, RejectsADisparityWithACloseRunnerUp) {
   std::vector<int> costs(60, 1000);
   costs[20] = 100;
   for (const int runner_up : {18, 22}) {
@@ -184,20 +184,21 @@ TEST(PixelMatching, DropsWhatHasACloseRunnerUp) {
   }
 }
 
-TEST(PixelMatching, DoesNotCountTheNeighborsOfTheBestAsRunnersUp) {
+TEST(PixelMatching, IgnoresTheNeighborsOfTheBestAsRunnersUp) {
   std::vector<int> costs(60, 1000);
   costs[19] = costs[21] = 101;
   costs[20] = 100;
   EXPECT_EQ(20 * 256, OnePixel(costs).match(20 * 256, paper(0.15, 0.12, false)));
 }
 
-TEST(PixelMatching, DropsWhatCannotBeCompared) {
+TEST(PixelMatching, RejectsADisparityWithoutARunnerUp) {
   EXPECT_EQ(0, OnePixel({5}).match(1, paper(0.15, 0.0, true))) << "one disparity";
   EXPECT_EQ(0, OnePixel({5, 900}).match(1, paper(0.15, 0.0, true))) << "two disparities";
-  EXPECT_EQ(1, OnePixel({5, 900, 900}).match(1, paper(0.15, 0.0, true))) << "infinity is 1/256 px";
+  EXPECT_EQ(1, OnePixel({5, 900, 900}).match(1, paper(0.15, 0.0, true)))
+      << "disparity 0 is written as 1/256 px";
 }
 
-TEST(PixelMatching, LooksForTheRunnerUpWhereItIsTold) {
+TEST(PixelMatching, SearchesTheRunnerUpInTheGivenRange) {
   std::vector<int> costs(60, 1000);
   costs[20] = 100;
   costs[50] = 101;
@@ -207,8 +208,8 @@ TEST(PixelMatching, LooksForTheRunnerUpWhereItIsTold) {
   EXPECT_EQ(0, OnePixel(costs).match(20 * 256, options));
 }
 
-TEST(PixelMatching, DropsWhatTheRightPixelDoesNotConfirm) {
-  // The right pixel 70 is shown by the left pixels 90 at 20 px and 92 at 22 px.
+TEST(PixelMatching, RejectsADisparityThatTheRightPixelContradicts) {
+  // Right pixel 70 corresponds to left pixel 90 at 20 px and to left pixel 92 at 22 px.
   std::vector<int> costs(60, 1000);
   costs[20] = 100;
   OnePixel pixel(costs);
@@ -227,7 +228,7 @@ TEST(PixelMatching, DropsWhatTheRightPixelDoesNotConfirm) {
   }
 }
 
-TEST(PixelMatching, SearchesBetweenNodesWhereItIsTold) {
+TEST(PixelMatching, SearchesBetweenNodesAsSet) {
   std::vector<int> costs(60, 1000);
   costs[30] = 100;
   const OnePixel pixel(costs);
@@ -242,7 +243,7 @@ TEST(PixelMatching, SearchesBetweenNodesWhereItIsTold) {
   EXPECT_EQ(0, between(BetweenNodes::kNone, 20, 40));
   EXPECT_EQ(30 * 256, between(BetweenNodes::kSpan, 20, 40));
   EXPECT_EQ(30 * 256, between(BetweenNodes::kSpan, 40, 20));
-  EXPECT_EQ(0, between(BetweenNodes::kSpan, 10, 20)) << "out of what they span";
+  EXPECT_EQ(0, between(BetweenNodes::kSpan, 10, 20)) << "outside of the span";
   EXPECT_EQ(0, between(BetweenNodes::kSpan, 0, 40)) << "one node only";
   EXPECT_EQ(30 * 256, between(BetweenNodes::kAll, 0, 0));
 }

@@ -15,7 +15,7 @@ namespace {
 using reference::RowCosts;
 using test::Random;
 
-/// A row of costs; `largest` 255 brings cells at the end of the scale, and 0 is drawn often.
+/// A row of random costs in which 0 and `largest` occur often; 255 is the end of the scale.
 RowCosts random_costs(int width, int disparities, int largest, Random& random) {
   RowCosts costs(width, std::vector<int>(disparities));
   for (std::vector<int>& pixel : costs) {
@@ -27,7 +27,7 @@ RowCosts random_costs(int width, int disparities, int largest, Random& random) {
   return costs;
 }
 
-/// Gray values with flat places, small steps and the largest one.
+/// Gray values with flat areas, small steps and the largest step.
 std::vector<std::uint8_t> random_gray(int width, Random& random) {
   std::vector<std::uint8_t> gray(width);
   int value = random.below(256);
@@ -41,7 +41,7 @@ std::vector<std::uint8_t> random_gray(int width, Random& random) {
   return gray;
 }
 
-/// The sums of a row, in `scratch` that may hold another one.
+/// The sums of a row, with `scratch` from an earlier row.
 RowCosts optimized(const RowCosts& costs, const std::vector<std::uint8_t>& gray,
                    const SmoothnessOptions& options, ScanlineScratch& scratch) {
   const int width = static_cast<int>(costs.size());
@@ -62,14 +62,14 @@ RowCosts optimized(const RowCosts& costs, const std::vector<std::uint8_t>& gray,
   for (int block = 0; block < scanline_blocks(width); ++block) {
     for (const ScanlineSums& part : scanline_block(row, block, scratch)) {
       for (int x = part.begin; x < part.end; ++x) {
-        EXPECT_TRUE(out[x].empty()) << "column " << x << " comes once";
+        EXPECT_TRUE(out[x].empty()) << "column " << x << " occurs twice";
         const std::uint16_t* first =
             part.sums + static_cast<std::ptrdiff_t>(x - part.begin) * lanes;
         out[x].assign(first, first + disparities);
       }
     }
   }
-  for (const std::vector<int>& pixel : out) EXPECT_FALSE(pixel.empty()) << "every column comes";
+  for (const std::vector<int>& pixel : out) EXPECT_FALSE(pixel.empty()) << "a column is missing";
   return out;
 }
 
@@ -120,7 +120,7 @@ TEST(ScanlineOptimization, EqualsReferenceAtEveryWidth) {
   }
 }
 
-TEST(ScanlineOptimization, EqualsReferenceWhereAllCostsSaturate) {
+TEST(ScanlineOptimization, IsTwiceTheCostsForEqualCosts) {
   ScanlineScratch scratch;
   for (const int cost : {0, 254, 255}) {
     for (const SmoothnessOptions& steps : kSteps) {
@@ -128,12 +128,12 @@ TEST(ScanlineOptimization, EqualsReferenceWhereAllCostsSaturate) {
       const std::vector<std::uint8_t> gray(20, 90);
       EXPECT_TRUE(same_costs(RowCosts(20, std::vector<int>(40, 2 * cost)),
                              optimized(costs, gray, steps, scratch)))
-          << "no disparity is better than another";
+          << "equal costs must stay equal";
     }
   }
 }
 
-TEST(ScanlineOptimization, OfNoStepCostsIsTheCostsTwice) {
+TEST(ScanlineOptimization, IsTwiceTheCostsWithoutStepPenalties) {
   ScanlineScratch scratch;
   Random random(1);
   const RowCosts costs = random_costs(50, 45, 255, random);
@@ -142,7 +142,7 @@ TEST(ScanlineOptimization, OfNoStepCostsIsTheCostsTwice) {
     for (int& cost : pixel) cost *= 2;
   }
   for (const SmoothnessOptions& off : {SmoothnessOptions{0, 0}, {4, 0}, {0, 1}}) {
-    // A large step of 1 is none where the gray value changes.
+    // A large step penalty of 1 becomes 0 at changes of the gray value.
     const std::vector<std::uint8_t> gray = [&] {
       std::vector<std::uint8_t> stripes(50);
       for (int x = 0; x < 50; ++x) stripes[x] = static_cast<std::uint8_t>(x % 2 * 9);
@@ -152,8 +152,8 @@ TEST(ScanlineOptimization, OfNoStepCostsIsTheCostsTwice) {
   }
 }
 
-TEST(ScanlineOptimization, DrawsAPixelToItsNeighborsDisparity) {
-  // Everybody has disparity 10 but the middle pixel, which would be a little cheaper elsewhere.
+TEST(ScanlineOptimization, PrefersTheDisparityOfTheNeighbors) {
+  // All pixels have disparity 10; the middle pixel costs slightly less at another one.
   RowCosts costs(21, std::vector<int>(30, 50));
   for (std::vector<int>& pixel : costs) pixel[10] = 0;
   costs[10][10] = 20;
@@ -165,12 +165,13 @@ TEST(ScanlineOptimization, DrawsAPixelToItsNeighborsDisparity) {
   };
   std::vector<std::uint8_t> gray(21, 100);
   EXPECT_EQ(10, best(gray, 30));
-  EXPECT_EQ(25, best(gray, 0)) << "not without the optimization";
+  EXPECT_EQ(25, best(gray, 0)) << "the optimization is disabled";
   gray[10] = 250;
-  EXPECT_EQ(25, best(gray, 30)) << "the less so the more the gray value changes";
+  EXPECT_EQ(25, best(gray, 30))
+      << "the large penalty must decrease with the change of the gray value";
 }
 
-TEST(ScanlineOptimization, TheLargeStepFallsWithTheChangeOfGrayDownToTheSmallOne) {
+TEST(ScanlineOptimization, LargeStepDecreasesWithTheGrayChangeDownToTheSmallStep) {
   for (const SmoothnessOptions& steps : kSteps) {
     const LargeStepTable table = large_step_table(steps);
     for (int change = 0; change < 256; ++change) {

@@ -74,7 +74,7 @@ TEST(SearchRange, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
   });
 }
 
-TEST(SearchRange, OfEveryDisparityIsWhatRoundedEndsAre) {
+TEST(SearchRange, RoundsTheEndsInwardsForEveryDisparity) {
   constexpr int kDisparities = 1024;
   Row nodes;
   for (int disparity = 1; disparity < 256 * kDisparities; ++disparity) nodes.push_back(disparity);
@@ -93,7 +93,7 @@ TEST(SearchRange, OfEveryDisparityIsWhatRoundedEndsAre) {
   });
 }
 
-TEST(SearchRange, WritesNothingBehindTheRow) {
+TEST(SearchRange, WritesNothingAfterTheRow) {
   test::for_each_simd_target([] {
     for (int width = 1; width <= 20; ++width) {
       const Row nodes(width, 2560);
@@ -106,7 +106,7 @@ TEST(SearchRange, WritesNothingBehindTheRow) {
   });
 }
 
-TEST(SearchRange, EqualsReferenceWithTheMostDisparities) {
+TEST(SearchRange, EqualsReferenceWithTheLargestNumberOfDisparities) {
   Random random(1);
   for (const BetweenNodes between : kAllWays) {
     for (const double range : {0.0, 0.15, 1.0}) {
@@ -129,13 +129,13 @@ TEST(SearchRange, ReachesAFewPixelsAroundSmallDisparities) {
   }
 }
 
-TEST(SearchRange, EndsWithTheDisparities) {
+TEST(SearchRange, EndsAtTheLargestDisparity) {
   const Range range = ranges_of({256 * 39}, {1.0, BetweenNodes::kNone, 40})[0];
   EXPECT_EQ(0, range.low);
   EXPECT_EQ(39, range.high);
 }
 
-TEST(SearchRange, ExpectsNothingWithoutNodesUnlessAllIsExpected) {
+TEST(SearchRange, IsEmptyWithoutNodesUnlessAllDisparitiesAreExpected) {
   const Row none(30);
   for (const Range& range : ranges_of(none, {0.15, BetweenNodes::kNone, 40})) {
     EXPECT_TRUE(range.none());
