@@ -65,8 +65,8 @@ TEST(Census, EqualsReferenceAtEveryStride) {
   }
 }
 
-TEST(Census, HasABitForEachNeighborThatIsDarker) {
-  // One dark pixel is in the window of 24 others, each of which has another bit for it.
+TEST(Census, HasABitForEachDarkerNeighbor) {
+  // One dark pixel lies in the windows of 24 other pixels; each of them has another bit set.
   GrayPlane image(9, 9, 200);
   image(4, 4) = 199;
   const test::Plane<std::uint32_t> bits = bits_of(image);
@@ -82,7 +82,7 @@ TEST(Census, HasABitForEachNeighborThatIsDarker) {
   EXPECT_EQ((1u << kCensusBits) - 1, seen);
 }
 
-TEST(Census, OfAFlatImageIsNothing) {
+TEST(Census, IsZeroForAFlatImage) {
   for (const int gray : {0, 1, 254, 255}) {
     const GrayPlane flat(33, 7, static_cast<std::uint8_t>(gray));
     EXPECT_TRUE(same_image(test::Plane<std::uint32_t>(33, 7), bits_of(flat)));
@@ -99,7 +99,7 @@ TEST(Census, DoesNotChangeWithTheExposure) {
   }
 }
 
-TEST(Census, ChangesWhereTheOrderOfGrayValuesDoes) {
+TEST(Census, ChangesWithTheOrderOfGrayValues) {
   const GrayPlane image = test::noise(40, 9, 3, 100);
   GrayPlane inverted = image;
   for (std::uint8_t& gray : inverted.pixels) gray = static_cast<std::uint8_t>(255 - gray);
@@ -114,11 +114,11 @@ std::vector<std::uint32_t> random_words(int count, Random& random) {
   return words;
 }
 
-/// Splits the words and compares each plane, and that nothing behind it was written.
+/// Splits the words, compares each plane, and checks that nothing is written after it.
 void expect_split(const std::vector<std::uint32_t>& words, RowOrder order, int beyond) {
   const int width = static_cast<int>(words.size());
   constexpr std::uint8_t kUntouched = 0xA5;
-  // No more memory than the function is allowed to touch, and a byte that it is not.
+  // The memory that the function may write, and one more byte.
   std::vector<std::vector<std::uint8_t>> planes(
       kCensusBytes, std::vector<std::uint8_t>(width + beyond + 1, kUntouched));
   std::uint8_t* const rows[] = {planes[0].data(), planes[1].data(), planes[2].data()};
@@ -137,7 +137,7 @@ void expect_split(const std::vector<std::uint32_t>& words, RowOrder order, int b
   }
 }
 
-TEST(SplitCensusRow, TakesTheBytesApartAtEveryWidthOnEveryInstructionSet) {
+TEST(SplitCensusRow, SplitsAtEveryWidthOnEveryInstructionSet) {
   test::for_each_simd_target([] {
     for (int width = 1; width <= 200; ++width) {
       Random random(width);

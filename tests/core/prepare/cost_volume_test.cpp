@@ -20,14 +20,14 @@ namespace {
 using test::copy_of;
 using test::GrayPlane;
 
-/// What a volume is made with.
+/// The options of a volume.
 struct Options {
   int disparities;
   int kernel_size;
   int shift;
 };
 
-/// The whole volume in blocks of `block` slices, 0 for as many as are best.
+/// The whole volume in blocks of `block` slices; 0: the number that the library uses.
 CostVolume volume_of(const PreprocessedView& left, const PreprocessedView& right,
                      const Options& options, int block = 0) {
   const SmoothingKernel kernel = smoothing_kernel(options.kernel_size, options.shift);
@@ -43,7 +43,7 @@ CostVolume volume_of(const PreprocessedView& left, const PreprocessedView& right
   return volume;
 }
 
-/// Compares a pair's volume, made by every instruction set, with the reference at every pixel.
+/// Compares the volume of a pair with the reference at every pixel, on every SIMD target.
 void expect_reference(const GrayPlane& left, const GrayPlane& right, const Options& options) {
   SCOPED_TRACE(testing::Message() << left.width << "x" << left.height << ", " << options.disparities
                                   << " disparities, kernel " << options.kernel_size << ", shift "
@@ -134,9 +134,9 @@ TEST(CostVolume, DoesNotDependOnBlocks) {
 
 #ifdef MTSTEREO_TEST_OPENCV
 
-/// A slice of the paper's definition in floating point: the weighted mean of three absolute
-/// differences, smoothed by OpenCV's Gaussian; columns without a partner repeat the first that has
-/// one.
+/// A slice by the paper's definition in floating point: the weighted mean of three absolute
+/// differences, smoothed by OpenCV's Gaussian. Columns without a right pixel repeat the first
+/// column that has one.
 cv::Mat smoothed_slice(const GrayPlane& left, const GrayPlane& right, int d, int kernel_size) {
   const auto horizontal = reference::Direction::kHorizontal;
   const auto vertical = reference::Direction::kVertical;
@@ -158,7 +158,7 @@ cv::Mat smoothed_slice(const GrayPlane& left, const GrayPlane& right, int d, int
   return slice;
 }
 
-/// Largest and mean distance of a volume from the definition, averaged over each cell [gray
+/// Largest and mean difference between a volume and the definition, averaged over each cell [gray
 /// values].
 struct Distance {
   double largest = 0;
@@ -193,7 +193,8 @@ Distance distance_from_gaussian(const Options& options) {
 }
 
 TEST(CostVolume, IsAGaussianOfTheCostsAtFullResolution) {
-  // What rounding to 1/16 gray value and weights of 1/32768 take: more with more weights.
+  // The errors of rounding to 1/16 gray value and to weights of 1/32768; they grow with the number
+  // of weights.
   for (const int size : {3, 7, 21, 41}) {
     const Distance distance = distance_from_gaussian({12, size, 0});
     EXPECT_LT(distance.largest, 0.75) << "kernel " << size;
@@ -211,7 +212,7 @@ TEST(CostVolume, IsCloseToTheGaussianAtHalfResolution) {
 
 #endif
 
-TEST(SmoothingKernel, SumsToOneAndFallsFromTheCenter) {
+TEST(SmoothingKernel, SumsToOneAndDecreasesFromTheCenter) {
   for (const int shift : {0, 1}) {
     for (int size = 1; size <= 41; size += 2) {
       const SmoothingKernel kernel = smoothing_kernel(size, shift);

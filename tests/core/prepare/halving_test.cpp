@@ -26,7 +26,7 @@ void in_bands(int height, int band, Body&& body) {
   for (int i = (height - 1) / band; i >= 0; --i) body(i * band, std::min(i * band + band, height));
 }
 
-/// An image of this size in memory that held something else.
+/// An image of this size whose pixels all have a value, to be overwritten.
 template <typename T>
 Image<T> used_image(int width, int height, T value) {
   return test::image_of(test::Plane<T>(width, height, value));
@@ -55,7 +55,7 @@ TEST(Halving, EqualsReferenceAtEverySizeAndStrideOnEveryInstructionSet) {
   });
 }
 
-TEST(Halving, TakesRowsFromTheLastToTheFirst) {
+TEST(Halving, AcceptsNegativeStrides) {
   const GrayPlane view = test::noise(67, 33, 1);
   GrayPlane upside_down = view;
   for (int y = 0; y < 33; ++y) std::copy_n(&view(0, 32 - y), 67, &upside_down(0, y));
@@ -72,7 +72,7 @@ TEST(Halving, RoundsTheMeanAtFullContrast) {
   EXPECT_TRUE(same_image(GrayPlane(40, 20, 255), halved(GrayPlane(80, 40, 255).view())));
 }
 
-TEST(Halving, LetsTheLastPixelOfAnOddSideStandForItself) {
+TEST(Halving, RepeatsTheLastRowAndColumnOfOddSizes) {
   GrayPlane view(3, 3, 10);
   view(2, 0) = 100;
   view(2, 1) = 201;

@@ -15,7 +15,7 @@ namespace {
 
 using test::GrayPlane;
 
-/// A node by its columns and its parent's; (-1, -1) for the root's parent.
+/// A node by its columns and those of its parent; (-1, -1) for the parent of the root.
 using Outline = std::tuple<int, int, int, int>;
 
 std::vector<Outline> outlines(const MaxTrees& trees, int y) {
@@ -87,7 +87,7 @@ TEST(MaxTree, EqualsReferenceForEveryShortRow) {
   }
 }
 
-TEST(MaxTree, EqualsReferenceAtEveryWidthOnEveryTarget) {
+TEST(MaxTree, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
   test::for_each_simd_target([] {
     for (int width = 1; width <= 140; ++width) {
       expect_reference(test::noise(width, 5, width, 15));
@@ -100,8 +100,8 @@ TEST(MaxTree, DoesNotDependOnBands) {
   for (const int band : {1, 3, 32, 39}) expect_reference(test::runs(90, 40, 2, 5), band);
 }
 
-TEST(MaxTree, HoldsBandsFullOfNodes) {
-  // The most leaves that there can be, with nothing left between one band's and the next one's.
+TEST(MaxTree, HandlesBandsFullOfNodes) {
+  // The largest possible number of leaves, with no free memory between two bands.
   for (int width = 1; width <= 66; ++width) {
     for (const int first : {0, 1}) {
       GrayPlane levels(width, 6);
@@ -130,18 +130,18 @@ TEST(MaxTree, EqualsReferenceWithAllLevels) {
 
 TEST(MaxTree, EqualsReferenceOnWideRows) { expect_reference(test::runs(8192, 1, 3, 15)); }
 
-TEST(MaxTree, HoldsTheDeepestRows) {
+TEST(MaxTree, HandlesTheDeepestTrees) {
   GrayPlane levels(512, 3);
   for (int x = 0; x < 512; ++x) {
-    levels(x, 0) = static_cast<std::uint8_t>(x / 2);                  // rises all the way
-    levels(x, 1) = static_cast<std::uint8_t>(255 - x / 2);            // falls
-    levels(x, 2) = static_cast<std::uint8_t>(x < 256 ? x : 511 - x);  // a mountain
+    levels(x, 0) = static_cast<std::uint8_t>(x / 2);                  // increases
+    levels(x, 1) = static_cast<std::uint8_t>(255 - x / 2);            // decreases
+    levels(x, 2) = static_cast<std::uint8_t>(x < 256 ? x : 511 - x);  // increases, then decreases
   }
   expect_reference(levels);
   EXPECT_EQ(256, test::trees_of(levels).count[0]);
 }
 
-TEST(MaxTree, OfAFlatRowIsOneNode) {
+TEST(MaxTree, HasOneNodeForAFlatRow) {
   const MaxTrees trees = test::trees_of(GrayPlane(40, 2, 7));
   for (int y = 0; y < 2; ++y) {
     EXPECT_EQ((std::vector<Outline>{{0, 39, -1, -1}}), outlines(trees, y));
@@ -153,7 +153,7 @@ int node_level(const GrayPlane& levels, int y, int begin, int end) {
   return *std::min_element(&levels(begin, y), &levels(end, y) + 1);
 }
 
-TEST(MaxTree, NodesNestAndRiseFromParentToChild) {
+TEST(MaxTree, NodesNestAndLevelsIncreaseFromParentToChild) {
   const GrayPlane levels = test::runs(500, 40, 4, 15);
   const MaxTrees trees = test::trees_of(levels);
   for (int y = 0; y < levels.height; ++y) {
@@ -179,7 +179,7 @@ TEST(MaxTree, NodesNestAndRiseFromParentToChild) {
 }
 
 TEST(MaxTree, AreasAddUp) {
-  // A node's area is what its children cover and the pixels that are its own: those of its level.
+  // The area of a node is the sum of the areas of its children and of the pixels at its own level.
   const GrayPlane levels = test::runs(333, 30, 5, 9);
   const MaxTrees trees = test::trees_of(levels);
   for (int y = 0; y < levels.height; ++y) {
@@ -197,7 +197,7 @@ TEST(MaxTree, AreasAddUp) {
   }
 }
 
-TEST(MaxTree, WritesOnlyTheRowsThatItIsGiven) {
+TEST(MaxTree, WritesOnlyTheGivenRows) {
   const GrayPlane levels = test::runs(50, 12, 6, 7);
   MaxTrees trees = test::trees_of(levels, 4);
   const GrayPlane other = test::noise(50, 12, 7, 15);  // more nodes

@@ -34,8 +34,8 @@ GrayPlane median_of(GrayView image, int band = 1 << 20) {
   return test::copy_of(median);
 }
 
-/// Squares of 5x5 black and white pixels in a row. The first column of each is any there is, the
-/// others are sorted ones: they differ by the number of white pixels.
+/// Squares of 5x5 black and white pixels, side by side. The first column of each has any pattern.
+/// The other columns are sorted and differ by the number of white pixels.
 struct Squares {
   static constexpr int kSorted = kMedianSide + 1;
   static constexpr int kCount = 32 * kSorted * kSorted * kSorted * kSorted;
@@ -64,8 +64,8 @@ struct Squares {
   int white = 0;
 };
 
-TEST(MedianFilter, IsRightForAllSquaresOfBlackAndWhiteAndThusForAllValues) {
-  // Exchanges that put all zeros and ones in order do so with all values.
+TEST(MedianFilter, IsRightForAllBlackAndWhiteSquaresAndThusForAllValues) {
+  // The 0-1 principle: a network of exchanges that sorts all zeros and ones sorts all values.
   const Squares squares;
   test::for_each_simd_target([&] {
     const GrayPlane median = median_of(squares.image.view());

@@ -24,7 +24,7 @@ using test::GrayPlane;
 using test::Plane;
 using test::same_image;
 
-/// Compares everything that the step makes of an image with the references.
+/// Compares all results of pre-processing an image with the references.
 void expect_reference(const GrayPlane& image, const PreprocessedView& view, int gray_levels) {
   const GrayPlane median = reference::median5(image);
   EXPECT_TRUE(same_image(median, view.median));
@@ -114,7 +114,7 @@ TEST(Preprocess, WeightedSobelEqualsOpenCv) {
 
 #endif
 
-/// Writes the levels of an image that is taken for a median.
+/// The levels of an image, which is used as the median.
 GrayPlane levels_of(const GrayPlane& median, int gray_levels) {
   PreprocessedView view;
   view.resize(median.width, median.height);
@@ -125,13 +125,14 @@ GrayPlane levels_of(const GrayPlane& median, int gray_levels) {
   return copy_of(view.level);
 }
 
-/// Squares of 3x3 pixels in a row whose middle ones have all edge strengths that there are: even
-/// ones, since both Sobels have the corners in common, up to two sides at right angles.
+/// Squares of 3x3 pixels, side by side, whose middle pixels have all possible edge strengths. These
+/// are even, since the corners count in both Sobel filters; the strongest are those of two bright
+/// sides at a right angle.
 GrayPlane all_strengths() {
   constexpr int kStrongest = 6 * 255;
   GrayPlane image(3 * (kStrongest / 2 + 1), 3);
   for (int half = 0; 2 * half <= kStrongest; ++half) {
-    // Twice the right and lower sides' brightness, each pixel of which adds 2 to the strength.
+    // The strength is twice the sum of these three pixels, which is `half`.
     const int x = 3 * half;
     const auto third = [&](int i) { return static_cast<std::uint8_t>((half + i) / 3); };
     image(x + 2, 1) = third(0);
@@ -156,7 +157,7 @@ TEST(Levels, EqualReferenceForEveryStrengthAndNumberOfLevels) {
   });
 }
 
-TEST(Levels, OfFlatPlacesAreTheHighestAndOfStrongEdgesTheLowest) {
+TEST(Levels, AreHighestInFlatAreasAndLowestAtStrongEdges) {
   const GrayPlane image = all_strengths();
   for (const int gray_levels : {2, 8, 16, 256}) {
     const GrayPlane levels = levels_of(image, gray_levels);
@@ -167,12 +168,12 @@ TEST(Levels, OfFlatPlacesAreTheHighestAndOfStrongEdgesTheLowest) {
   }
 }
 
-TEST(Levels, NeedNoMemoryForCosts) {
+TEST(Levels, NeedNoCostBuffers) {
   const GrayPlane image = test::texture(50, 9, 6);
   EXPECT_TRUE(same_image(reference::levels(image, 16), levels_of(image, 16)));
 }
 
-TEST(CostRows, OfTheViewItselfReadOnlyItsPixels) {
+TEST(CostRows, ReadOnlyThePixelsOfAPaddedImage) {
   for (const int padding : {0, 1, 3, 31, 64, 100}) {
     const GrayPlane image = test::texture(45 + padding, 17, padding);
     const test::PaddedImage<std::uint8_t> padded(image, padding, padding % 7);
