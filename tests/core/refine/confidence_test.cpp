@@ -21,7 +21,7 @@ using test::GrayPlane;
 using test::patches;
 using test::Random;
 
-/// Peak ratios of a map: none where there is no disparity.
+/// Random peak ratios of a map: 0 at unknown disparities.
 GrayPlane random_ratios(const DisparityPlane& map, Random& random) {
   GrayPlane ratio(map.width, map.height);
   for (std::size_t i = 0; i < map.pixels.size(); ++i) {
@@ -32,7 +32,7 @@ GrayPlane random_ratios(const DisparityPlane& map, Random& random) {
   return ratio;
 }
 
-/// Rates the pixels that have a ratio, or those that `asked` has.
+/// The confidence of the pixels that have a ratio in `asked`, or in `ratio` without `asked`.
 GrayPlane rated(const DisparityPlane& map, const GrayPlane& ratio, int band = 1 << 20,
                 const GrayPlane* asked = nullptr) {
   SupportMap support;
@@ -63,7 +63,7 @@ void expect_reference(const DisparityPlane& map, Random& random, int band) {
     if (random.below(4) == 0) continue;
     asked.pixels[i] = expected.pixels[i] = 0;
   }
-  EXPECT_TRUE(same_image(expected, rated(map, ratio, band, &asked))) << "where it is asked for";
+  EXPECT_TRUE(same_image(expected, rated(map, ratio, band, &asked))) << "at selected pixels";
 }
 
 TEST(Confidence, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
@@ -88,7 +88,7 @@ TEST(Confidence, EqualsReferenceAtEveryHeight) {
 }
 
 TEST(Confidence, EqualsReferenceAtBothEndsOfTheDisparities) {
-  // What is close modulo 2^16 does not support, nor does what has no disparity.
+  // Disparities that are close modulo 2^16 only, and unknown ones, must not support.
   test::for_each_simd_target([] {
     for (int seed = 0; seed < 6; ++seed) {
       Random random(seed);
@@ -102,7 +102,8 @@ TEST(Confidence, EqualsReferenceAtBothEndsOfTheDisparities) {
 }
 
 TEST(Confidence, EqualsReferenceOverAllDisparities) {
-  // The tolerance is 1 px and more: disparities of a few px, and the least and the largest at once.
+  // The tolerance is at least 1 px: disparities of a few px, and the smallest and the largest
+  // together.
   for (int seed = 0; seed < 10; ++seed) {
     Random random(seed);
     DisparityPlane map = disparity_noise(60, 30, seed, 1500, 100 + seed);
@@ -113,8 +114,8 @@ TEST(Confidence, EqualsReferenceOverAllDisparities) {
   }
 }
 
-TEST(Confidence, IsTheCubeRootOfTheShareOfSupport) {
-  // The share is cut to whole 1/4096, which shows where hardly anything supports.
+TEST(Confidence, IsTheCubeRootOfTheFractionOfSupport) {
+  // The fraction is truncated to 1/4096, which is visible at pixels with little support.
   Random random(1);
   for (int seed = 0; seed < 20; ++seed) {
     const DisparityPlane map = patches(50, 40, seed / 2, 200 + seed);
@@ -135,7 +136,7 @@ TEST(Confidence, IsTheCubeRootOfTheShareOfSupport) {
   }
 }
 
-TEST(Confidence, CutsEveryShareAsWholeNumbersDo) {
+TEST(Confidence, TruncatesEveryFractionLikeIntegerArithmetic) {
   test::for_each_simd_target([] {
     SupportScratch scratch;
     scratch.resize(255 * 81 + 1);
@@ -158,8 +159,8 @@ TEST(Confidence, CutsEveryShareAsWholeNumbersDo) {
   });
 }
 
-TEST(Confidence, RoundsTheHalfOfAnExactCubeRootUp) {
-  // Half of the window supports, everything in it as well as can be: the root of 1/8 is 127.5.
+TEST(Confidence, RoundsAnExactCubeRootHalfUp) {
+  // Half of the window supports with the largest ratio: 255 times the cube root of 1/8 is 127.5.
   DisparityPlane map(9, 8);
   GrayPlane ratio(9, 8);
   for (int x = 0; x < 9; ++x) {
@@ -172,14 +173,14 @@ TEST(Confidence, RoundsTheHalfOfAnExactCubeRootUp) {
   EXPECT_EQ(128, rated(map, ratio)(4, 3));
 }
 
-TEST(Confidence, IsFullWhereAllAgreesAndNothingCompares) {
+TEST(Confidence, IsLargestInAUniformMapAndZeroInAnUnknownOne) {
   const DisparityPlane map(30, 20, 2560);
   EXPECT_TRUE(same_image(GrayPlane(30, 20, 255), rated(map, GrayPlane(30, 20, 255))))
-      << "at the border too";
+      << "also at the border";
   EXPECT_TRUE(same_image(GrayPlane(30, 20), rated(DisparityPlane(30, 20), GrayPlane(30, 20))));
 }
 
-TEST(Confidence, OfALonelyDisparityIsLeast) {
+TEST(Confidence, IsLeastForAnIsolatedDisparity) {
   DisparityPlane map(30, 20);
   map(15, 10) = 2560;
   GrayPlane ratio(30, 20), expected(30, 20);
@@ -188,7 +189,7 @@ TEST(Confidence, OfALonelyDisparityIsLeast) {
   EXPECT_TRUE(same_image(expected, rated(map, ratio)));
 }
 
-TEST(Confidence, FallsTowardsTheRimOfWhatIsKnown) {
+TEST(Confidence, DecreasesTowardsTheBorderOfAKnownArea) {
   DisparityPlane map(40, 20);
   GrayPlane ratio(40, 20);
   for (int y = 0; y < 20; ++y) {
@@ -202,7 +203,7 @@ TEST(Confidence, FallsTowardsTheRimOfWhatIsKnown) {
   EXPECT_EQ(0, confidence(20, 10));
 }
 
-TEST(Confidence, CountsSlantedSurfacesAndNotSteps) {
+TEST(Confidence, SupportsSlantedSurfacesButNotSteps) {
   const auto middle_of = [](int rise) {
     DisparityPlane map(9, 9);
     for (int y = 0; y < 9; ++y) {
@@ -211,14 +212,14 @@ TEST(Confidence, CountsSlantedSurfacesAndNotSteps) {
     return rated(map, GrayPlane(9, 9, 255))(4, 4);
   };
   EXPECT_EQ(255, middle_of(0));
-  // (32 + 4 * 13) / 32 px in 4 px are 168 / 256 px a px.
+  // (32 + 4 * 13) / 32 px over 4 px are 168 / 256 px per px.
   EXPECT_EQ(255, middle_of(168));
   EXPECT_EQ(255, middle_of(-168));
   EXPECT_LT(middle_of(171), 250);
   EXPECT_LT(middle_of(1000), 60);
 }
 
-TEST(Confidence, RemovesDoubtfulDisparitiesOnEveryInstructionSet) {
+TEST(Confidence, RemovesDisparitiesBelowTheThresholdOnEveryInstructionSet) {
   test::for_each_simd_target([] {
     for (int width = 1; width <= 70; ++width) {
       const DisparityPlane map = disparity_noise(width, 2, width % 10, 900, width);
@@ -239,7 +240,7 @@ TEST(Confidence, RemovesDoubtfulDisparitiesOnEveryInstructionSet) {
   });
 }
 
-TEST(Confidence, TakesTheDoubtfulAwayAndNothingElse) {
+TEST(Confidence, RemovesOnlyDisparitiesBelowTheThreshold) {
   Random random(2);
   const DisparityPlane map = patches(45, 37, 1, 300);
   const GrayPlane confidence = rated(map, random_ratios(map, random));
@@ -258,7 +259,7 @@ TEST(Confidence, TakesTheDoubtfulAwayAndNothingElse) {
   }
 }
 
-TEST(Confidence, TakesOnlyFromTheRowsItIsTold) {
+TEST(Confidence, ChangesOnlyTheGivenRows) {
   const DisparityPlane map(20, 9, 500);
   Image<std::int32_t> image = image_of(map);
   Image<std::uint8_t> values = image_of(GrayPlane(20, 9, 10));

@@ -22,8 +22,8 @@ using test::same_image;
 constexpr int kWhole = 1 << 20;
 constexpr int kFar = 1024;
 
-/// The refined map, in bands of `band` rows that are taken from the last to the first, in memory
-/// that held something else.
+/// The refined map, computed in bands of `band` rows from the last band to the first, in poisoned
+/// memory.
 DisparityPlane refined(const Pair& pair, const DisparityPlane& map, int max_disparity = kFar,
                        int band = kWhole) {
   const test::CensusPair census(pair.left.view(), pair.right.view());
@@ -38,7 +38,7 @@ DisparityPlane refined(const Pair& pair, const DisparityPlane& map, int max_disp
   return copy_of(out);
 }
 
-/// No disparity above its column, as in every map of a matcher.
+/// Limits each disparity to its column, as in every map of a matcher.
 DisparityPlane possible(DisparityPlane map) {
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) map(x, y) = std::min(map(x, y), 256 * x);
@@ -74,7 +74,7 @@ TEST(DisparityRefinement, EqualsReferenceOnNoiseOfEveryDensity) {
   }
 }
 
-TEST(DisparityRefinement, EqualsReferenceWithEveryInstructionSet) {
+TEST(DisparityRefinement, EqualsReferenceOnEveryInstructionSet) {
   const Pair pair = test::slanted_pair(123, 31, 30, 5);
   const DisparityPlane map = possible(test::patches(123, 31, 1, 6));
   test::for_each_simd_target([&] { expect_reference(pair, map); });
@@ -94,14 +94,14 @@ DisparityPlane surface(int width, int height, int disparity, int slant, Random& 
   return possible(map);
 }
 
-TEST(DisparityRefinement, EqualsReferenceOnEverySlantWithEveryInstructionSet) {
+TEST(DisparityRefinement, EqualsReferenceForEverySlantOnEveryInstructionSet) {
   const Pair pair = test::slanted_pair(131, 23, 30, 7);
   test::for_each_simd_target([&] {
     Random random(8);
-    // Up to 256, where all points of a row have one partner.
+    // Up to 256, where all points of a row correspond to one right pixel.
     for (const int slant : {-200, -40, -7, 0, 7, 16, 40, 120, 256}) {
       SCOPED_TRACE("slant " + std::to_string(slant));
-      // At infinity, near, and so near that only the first column of the right view is left.
+      // At infinity, near, and so near that all points correspond to the first right column.
       for (const int disparity : {0, 5000, test::kLargestDisparity}) {
         expect_reference(pair, surface(131, 23, disparity, slant, random));
       }
@@ -109,7 +109,7 @@ TEST(DisparityRefinement, EqualsReferenceOnEverySlantWithEveryInstructionSet) {
   });
 }
 
-/// Share of the known pixels right of column `first` that are within `most` px of a disparity.
+/// Fraction of the known pixels from column `first` on that are within `most` px of a disparity.
 double share_within(const DisparityPlane& map, int first, double disparity, double most) {
   long near = 0, known = 0;
   for (int y = 0; y < map.height; ++y) {
@@ -122,7 +122,7 @@ double share_within(const DisparityPlane& map, int first, double disparity, doub
   return static_cast<double>(near) / static_cast<double>(std::max(known, 1L));
 }
 
-TEST(DisparityRefinement, FindsAShiftThatIsOffByUpToAPixel) {
+TEST(DisparityRefinement, CorrectsErrorsOfUpToOnePixel) {
   constexpr int kShift = 12;
   const Pair pair = test::shifted_pair(160, 60, kShift, 1);
   for (const int off : {-256, -180, -90, 0, 70, 190, 256}) {
@@ -130,13 +130,13 @@ TEST(DisparityRefinement, FindsAShiftThatIsOffByUpToAPixel) {
     for (int y = 0; y < 60; ++y) {
       for (int x = 20; x < 160; ++x) map(x, y) = 256 * kShift + off;
     }
-    // The penalty holds on to what was given, a quarter of it at most.
+    // The penalty keeps at most a quarter of the error.
     const double most = 0.05 + std::abs(off) / 1024.0;
     EXPECT_GT(share_within(refined(pair, map), 24, kShift, most), 0.95) << "off by " << off;
   }
 }
 
-TEST(DisparityRefinement, LeavesWhatIsFarOffAsItIsOrNearIt) {
+TEST(DisparityRefinement, ChangesLargeErrorsByAtMostTwoPixels) {
   const Pair pair = test::shifted_pair(160, 60, 12, 2);
   DisparityPlane map(160, 60);
   for (int y = 0; y < 60; ++y) {
@@ -150,11 +150,11 @@ TEST(DisparityRefinement, KeepsTheDisparitiesOfFlatViews) {
   const DisparityPlane map = possible(test::disparity_noise(60, 30, 3, 5000, 3));
   DisparityPlane whole = map;
   for (std::int32_t& d : whole.pixels) d = d / 256 * 256;
-  // Without any texture only the penalty is left: it holds on to what is given.
+  // Without texture only the penalty is left, which keeps the given disparity.
   EXPECT_TRUE(same_image(whole, refined({flat, flat}, whole)));
 }
 
-TEST(DisparityRefinement, LeavesExactlyTheUnknownUnknown) {
+TEST(DisparityRefinement, KeepsTheSetOfKnownPixels) {
   const Pair pair = test::slanted_pair(100, 40, 20, 4);
   const DisparityPlane map = possible(test::disparity_noise(100, 40, 6, 5000, 4));
   const DisparityPlane out = refined(pair, map);
@@ -163,7 +163,7 @@ TEST(DisparityRefinement, LeavesExactlyTheUnknownUnknown) {
       [&](int x, int y) { return out(x, y) != 0; }));
 }
 
-TEST(DisparityRefinement, NeverPassesTheColumnOrTheLargestDisparity) {
+TEST(DisparityRefinement, NeverExceedsTheColumnOrTheLargestDisparity) {
   for (int seed = 0; seed < 10; ++seed) {
     const Pair pair = {test::noise(70, 20, seed), test::noise(70, 20, 30 + seed)};
     DisparityPlane map(70, 20);

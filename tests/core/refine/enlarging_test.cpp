@@ -31,7 +31,7 @@ void in_bands(int height, int band, Body&& body) {
   for (int i = (height - 1) / band; i >= 0; --i) body(i * band, std::min(i * band + band, height));
 }
 
-/// An image of this size in memory that held something else.
+/// An image of this size whose pixels all have a value, to be overwritten.
 template <typename T>
 Image<T> used_image(int width, int height, T value) {
   return test::image_of(test::Plane<T>(width, height, value));
@@ -52,7 +52,7 @@ GrayPlane enlarged_confidence(const GrayPlane& half, int width, int height, int 
   return copy_of(confidence);
 }
 
-/// No disparity above its column, as in every map of a matcher.
+/// Limits each disparity to its column, as in every map of a matcher.
 DisparityPlane possible(DisparityPlane map) {
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) map(x, y) = std::min(map(x, y), 256 * x);
@@ -80,7 +80,7 @@ TEST(Enlarging, EqualsReferenceAtEverySizeOnEveryInstructionSet) {
   });
 }
 
-TEST(Enlarging, EqualsReferenceWhereWholeVectorsAreUnknown) {
+TEST(Enlarging, EqualsReferenceWithWholeVectorsOfUnknownPixels) {
   test::for_each_simd_target([] {
     DisparityPlane half = test::patches(150, 40, 0, 7);
     for (int y = 0; y < 40; ++y) {
@@ -92,7 +92,8 @@ TEST(Enlarging, EqualsReferenceWhereWholeVectorsAreUnknown) {
 
 TEST(Enlarging, EqualsReferenceOnNoiseOfEveryDensity) {
   for (int of_ten = 0; of_ten <= 10; ++of_ten) {
-    // Small ones, so that most neighbors belong together, and the largest that there are.
+    // Small disparities, so that most neighbors belong to the same surface, and the largest
+    // possible ones.
     for (const int largest : {300, 700, test::kLargestDisparity}) {
       const DisparityPlane half = test::disparity_noise(61, 23, of_ten, largest, of_ten + largest);
       expect_reference(half, 122, 46, 1 << 13);
@@ -107,7 +108,7 @@ TEST(Enlarging, ContinuesASlantedPlane) {
     for (int x = 20; x < 60; ++x) half(x, y) = 1000 + 16 * x + 32 * y;
   }
   const DisparityPlane map = enlarged(half, 120, 80);
-  // Off the borders, where there is a neighbor on each side: the plane at the pixels' centers.
+  // Away from the borders, with a neighbor on each side: the plane at the centers of the pixels.
   for (int y = 1; y < 79; ++y) {
     for (int x = 42; x < 118; ++x) {
       ASSERT_EQ(2 * (1000 + 16 * (2 * x - 1) / 4.0 + 32 * (2 * y - 1) / 4.0), map(x, y));
@@ -115,7 +116,7 @@ TEST(Enlarging, ContinuesASlantedPlane) {
   }
 }
 
-TEST(Enlarging, KeepsTheEdgesOfObjects) {
+TEST(Enlarging, KeepsDepthEdges) {
   constexpr int kHalf = 128 * 256;
   for (const int step : {257, 5000, -257, -5000}) {
     DisparityPlane half(kHalf / 128, 10, kHalf / 4);
@@ -131,7 +132,7 @@ TEST(Enlarging, KeepsTheEdgesOfObjects) {
   }
 }
 
-TEST(Enlarging, JoinsStepsOfOnePixelOfDisparity) {
+TEST(Enlarging, InterpolatesStepsOfOnePixelOfDisparity) {
   DisparityPlane half(100, 1, 2560);
   for (int x = 50; x < 100; ++x) half(x, 0) = 2560 + 256;
   const DisparityPlane map = enlarged(half, 200, 2);
@@ -143,7 +144,7 @@ TEST(Enlarging, JoinsStepsOfOnePixelOfDisparity) {
   }
 }
 
-TEST(Enlarging, LeavesExactlyTheUnknownUnknown) {
+TEST(Enlarging, KeepsTheSetOfKnownPixels) {
   const DisparityPlane half = possible(test::disparity_noise(50, 30, 5, 4000, 3));
   const DisparityPlane map = enlarged(half, 99, 59);
   EXPECT_TRUE(test::same_pixels(
@@ -160,8 +161,9 @@ TEST(Enlarging, KeepsAPointAtInfinity) {
   }
 }
 
-TEST(Enlarging, NeverPassesTheColumnOrTheLargestDisparity) {
-  // As far as a half pixel can be, next to one that is farther right and so may be nearer.
+TEST(Enlarging, NeverExceedsTheColumnOrTheLargestDisparity) {
+  // The largest disparity that a half-resolution pixel can have; its neighbor to the right may have
+  // a larger one.
   DisparityPlane half(64, 4);
   for (int y = 0; y < 4; ++y) {
     for (int x = 1; x < 64; ++x) half(x, y) = 256 * x;
@@ -178,7 +180,7 @@ TEST(Enlarging, NeverPassesTheColumnOrTheLargestDisparity) {
   }
 }
 
-TEST(Enlarging, GivesEachPixelTheConfidenceOfItsHalfPixel) {
+TEST(Enlarging, CopiesTheConfidenceOfTheHalfResolutionPixel) {
   for (int width = 1; width <= 140; ++width) {
     for (const int height : {1, 2, 3, 37}) {
       const GrayPlane half = test::noise(half_of(width), half_of(height), width + height);

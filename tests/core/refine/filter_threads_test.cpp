@@ -21,17 +21,17 @@ using test::GrayPlane;
 constexpr int kThreadCounts[] = {1, 2, 3, 5};
 constexpr int kBand = 32;
 
-/// Calls body(first, last, worker) for parts of `length` that have `part` rows or columns.
+/// Calls body(first, last, worker) for parts of `part` rows or columns of `length`.
 template <typename Body>
 void for_parts(ThreadPool& pool, int length, int part, Body&& body) {
   pool.run((length + part - 1) / part,
            [&](int i, int worker) { body(i * part, std::min((i + 1) * part, length), worker); });
 }
 
-/// A map of many bands whose patches reach from band to band.
+/// A map of many bands with patches across the borders of bands.
 DisparityPlane tall_map(std::uint64_t seed) { return test::patches(150, 330, 1, seed); }
 
-TEST(FilterThreads, RemoveTheSameSpeckles) {
+TEST(FilterThreads, RemoveTheSameSpecklesForAnyNumber) {
   SpeckleRuns runs;
   for (const int threads : kThreadCounts) {
     ThreadPool pool(threads);
@@ -50,7 +50,7 @@ TEST(FilterThreads, RemoveTheSameSpeckles) {
   }
 }
 
-TEST(FilterThreads, FillTheSameGaps) {
+TEST(FilterThreads, FillTheSameGapsForAnyNumber) {
   for (const int threads : kThreadCounts) {
     ThreadPool pool(threads);
     std::vector<Buffer<std::int32_t>> scratch(threads);
@@ -65,7 +65,7 @@ TEST(FilterThreads, FillTheSameGaps) {
       for_parts(pool, map.height, kBand, [&](int y0, int y1, int) {
         fill_gaps_along_rows(9, 500, y0, y1, image, image_confidence);
       });
-      // Blocks that share cache lines and words: the harder case.
+      // Blocks that share cache lines and words, the harder case.
       for_parts(pool, map.width, 7, [&](int x0, int x1, int worker) {
         fill_gaps_along_columns(9, 500, x0, x1, scratch[worker], image, image_confidence);
       });

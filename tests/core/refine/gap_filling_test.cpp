@@ -22,7 +22,7 @@ using test::patches;
 constexpr int kMost = std::numeric_limits<std::int32_t>::max();
 constexpr int kWhole = 1 << 20;
 
-/// A map with some confidence at each of its known pixels.
+/// A map with a random confidence at each of its known pixels.
 ConfidentMap confident(const DisparityPlane& map, std::uint64_t seed = 1) {
   test::Random random(seed);
   ConfidentMap made{map, GrayPlane(map.width, map.height)};
@@ -34,7 +34,7 @@ ConfidentMap confident(const DisparityPlane& map, std::uint64_t seed = 1) {
   return made;
 }
 
-/// Along rows, in bands of `band` rows.
+/// Fills gaps along rows, in bands of `band` rows.
 ConfidentMap filled_along_rows(const ConfidentMap& in, int max_gap, int tolerance,
                                int band = kWhole) {
   Image<std::int32_t> map = image_of(in.map);
@@ -45,7 +45,7 @@ ConfidentMap filled_along_rows(const ConfidentMap& in, int max_gap, int toleranc
   return {copy_of(map), copy_of(confidence)};
 }
 
-/// Along columns, in blocks of `block` columns.
+/// Fills gaps along columns, in blocks of `block` columns.
 ConfidentMap filled_along_columns(const ConfidentMap& in, int max_gap, int tolerance,
                                   int block = kWhole) {
   Image<std::int32_t> map = image_of(in.map);
@@ -113,9 +113,10 @@ TEST(GapFilling, EqualsReferenceAtExtremes) {
   }
 }
 
-TEST(GapFilling, RoundsEveryRiseOverEveryLengthAsTheReferenceDoes) {
+TEST(GapFilling, RoundsLikeTheReferenceForEverySlopeAndLength) {
   for (int length = 1; length <= 40; ++length) {
-    // Each row a gap of this length with another rise, falling as well.
+    // Each row has a gap of this length with another difference between its ends, positive or
+    // negative.
     DisparityPlane map(length + 2, 161);
     for (int y = 0; y <= 160; ++y) {
       map(0, y) = 100;
@@ -157,7 +158,7 @@ TEST(GapFilling, IsLinearBetweenTheEnds) {
   EXPECT_EQ((std::vector<std::uint8_t>{200, 45, 45, 45, 91}), out.confidence.pixels);
 }
 
-TEST(GapFilling, LeavesALongerGapAndASteeperOne) {
+TEST(GapFilling, KeepsLongerAndSteeperGaps) {
   DisparityPlane map(6, 6);
   map(0, 2) = map(2, 0) = 1000;
   map(5, 2) = map(2, 5) = 1064;
@@ -170,7 +171,7 @@ TEST(GapFilling, LeavesALongerGapAndASteeperOne) {
   EXPECT_NE(in, filled_along_columns(in, 4, 64));
 }
 
-TEST(GapFilling, LeavesGapsAtTheBorder) {
+TEST(GapFilling, KeepsGapsAtTheBorder) {
   DisparityPlane map(9, 9);
   for (int i = 2; i < 7; ++i) map(i, i) = 1000;
   const ConfidentMap in = confident(map);
@@ -178,7 +179,7 @@ TEST(GapFilling, LeavesGapsAtTheBorder) {
   EXPECT_TRUE(same(in, filled_along_columns(in, kMost, kMost)));
 }
 
-TEST(GapFilling, LeavesUnknownAndKnownMaps) {
+TEST(GapFilling, KeepsCompletelyUnknownAndCompletelyKnownMaps) {
   for (const int disparity : {0, 700}) {
     const ConfidentMap in = confident(DisparityPlane(35, 41, disparity));
     EXPECT_TRUE(same(in, filled_along_rows(in, kMost, kMost)));
@@ -186,7 +187,7 @@ TEST(GapFilling, LeavesUnknownAndKnownMaps) {
   }
 }
 
-TEST(GapFilling, GivesAtLeastTheSmallestDisparityAndConfidence) {
+TEST(GapFilling, WritesAtLeastTheSmallestDisparityAndConfidence) {
   DisparityPlane map(5, 5);
   map(0, 2) = map(4, 2) = map(2, 0) = map(2, 4) = 1;
   ConfidentMap in{map, GrayPlane(5, 5)};
@@ -197,12 +198,12 @@ TEST(GapFilling, GivesAtLeastTheSmallestDisparityAndConfidence) {
   }
 }
 
-TEST(GapFilling, OnlyAddsAndASecondTimeNothing) {
+TEST(GapFilling, OnlyAddsDisparitiesAndNothingTheSecondTime) {
   for (int seed = 0; seed < 40; ++seed) {
     const ConfidentMap in = confident(patches(60, 50, seed % 8, 400 + seed), seed);
     for (const ConfidentMap& once :
          {filled_along_rows(in, 6, 300), filled_along_columns(in, 6, 300)}) {
-      EXPECT_TRUE(only_removes(once.map, in.map)) << "what was known is as it was";
+      EXPECT_TRUE(only_removes(once.map, in.map)) << "known disparities must not change";
       for (std::size_t i = 0; i < once.map.pixels.size(); ++i) {
         if (in.map.pixels[i] != 0) {
           EXPECT_EQ(in.confidence.pixels[i], once.confidence.pixels[i]);
@@ -217,8 +218,8 @@ TEST(GapFilling, OnlyAddsAndASecondTimeNothing) {
   }
 }
 
-TEST(GapFilling, StaysInsideTheRightViewWhereItsEndsDo) {
-  // No disparity larger than its column: the right view's pixel would lie left of the view.
+TEST(GapFilling, StaysInsideTheRightViewIfTheEndsDo) {
+  // No disparity exceeds its column: the right pixel would lie left of the view.
   test::Random random(500);
   DisparityPlane map(80, 60);
   for (int y = 0; y < 60; ++y) {
@@ -236,10 +237,10 @@ TEST(GapFilling, StaysInsideTheRightViewWhereItsEndsDo) {
       added += out.map(x, y) != 0 && map(x, y) == 0;
     }
   }
-  EXPECT_GT(added, 2000) << "the comparison means something";
+  EXPECT_GT(added, 2000) << "too few results to compare";
 }
 
-TEST(GapFilling, DoesTheSameUpsideDownAndMirrored) {
+TEST(GapFilling, DoesNotDependOnTheDirection) {
   const ConfidentMap in = confident(disparity_noise(70, 71, 7, 4000, 600));
   const auto turned = [](const ConfidentMap& map) {
     ConfidentMap copy = map;

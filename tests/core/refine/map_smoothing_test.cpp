@@ -19,7 +19,7 @@ using test::same_image;
 
 constexpr int kWhole = 1 << 20;
 
-/// The smoothed map, in bands of `band` rows that are taken from the last to the first.
+/// The smoothed map, computed in bands of `band` rows from the last band to the first.
 DisparityPlane smoothed(const DisparityPlane& map, int radius, int band = kWhole) {
   Image<std::int32_t> image = image_of(map);
   Image<std::int32_t> rows = image_of(DisparityPlane(map.width, map.height, 1 << 30));
@@ -54,7 +54,7 @@ TEST(MapSmoothing, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
   });
 }
 
-TEST(MapSmoothing, EqualsReferenceWhereWholeVectorsAreUnknown) {
+TEST(MapSmoothing, EqualsReferenceWithWholeVectorsOfUnknownPixels) {
   test::for_each_simd_target([] {
     DisparityPlane map = patches(150, 40, 0, 7);
     for (int y = 0; y < 40; ++y) {
@@ -88,7 +88,7 @@ TEST(MapSmoothing, EqualsReferenceOnNoiseOfEveryDensity) {
   }
 }
 
-TEST(MapSmoothing, LeavesPlanesAsTheyAreUpToTheirRims) {
+TEST(MapSmoothing, KeepsPlanesUpToTheirBorders) {
   DisparityPlane map(80, 50);
   for (int y = 5; y < 44; ++y) {
     for (int x = 20; x < 80; ++x) map(x, y) = 2000 + 40 * x - 25 * y;
@@ -96,7 +96,7 @@ TEST(MapSmoothing, LeavesPlanesAsTheyAreUpToTheirRims) {
   for (const int radius : {1, 3, 6}) EXPECT_TRUE(same_image(map, smoothed(map, radius)));
 }
 
-TEST(MapSmoothing, KeepsSurfacesApart) {
+TEST(MapSmoothing, DoesNotMixSurfaces) {
   DisparityPlane map(60, 40, 4000);
   for (int y = 0; y < 40; ++y) {
     for (int x = 30; x < 60; ++x) map(x, y) = 4000 + 257;
@@ -104,7 +104,7 @@ TEST(MapSmoothing, KeepsSurfacesApart) {
   EXPECT_TRUE(same_image(map, smoothed(map, 5)));
 }
 
-TEST(MapSmoothing, TakesNoiseAwayAndNotMore) {
+TEST(MapSmoothing, ReducesNoise) {
   const DisparityPlane noise = disparity_noise(90, 70, 0, 200, 1);
   DisparityPlane map = noise;
   for (std::int32_t& d : map.pixels) d += 5000;
@@ -117,7 +117,7 @@ TEST(MapSmoothing, TakesNoiseAwayAndNotMore) {
   EXPECT_LT(error(smooth), error(map) / 3);
 }
 
-TEST(MapSmoothing, KeepsWhatIsUnknownUnknownAndTheRestPossible) {
+TEST(MapSmoothing, KeepsTheSetOfKnownPixelsAndPossibleDisparities) {
   for (int seed = 0; seed < 20; ++seed) {
     DisparityPlane map = disparity_noise(40, 30, 3, 9 * 256, seed);
     for (int y = 0; y < 30; ++y) {

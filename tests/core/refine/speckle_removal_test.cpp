@@ -21,7 +21,7 @@ using test::patches;
 
 constexpr int kWhole = 1 << 20;
 
-/// The map without its speckles, in bands of `band` rows that are taken from the last to the first.
+/// The map without its speckles, computed in bands of `band` rows from the last band to the first.
 DisparityPlane filtered(const DisparityPlane& map, int tolerance, int size, int band,
                         SpeckleRuns& runs) {
   Image<std::int32_t> image = image_of(map);
@@ -63,7 +63,7 @@ TEST(SpeckleRemoval, EqualsReferenceInRowsOfEveryWidthOnEveryInstructionSet) {
   test::for_each_simd_target([] {
     for (int width = 1; width <= 200; ++width) {
       expect_reference(disparity_noise(width, 3, width % 4, 700, width), 256, 1 + width % 9);
-      // Long runs, which go on from one word of columns to the next.
+      // Long runs, which continue from one word of columns to the next.
       expect_reference(patches(width, 3, 0, 500 + width), 1 << 20, width + 1);
     }
   });
@@ -72,7 +72,8 @@ TEST(SpeckleRemoval, EqualsReferenceInRowsOfEveryWidthOnEveryInstructionSet) {
 TEST(SpeckleRemoval, FindsTheRunsOfARow) {
   constexpr int kWidth = 150;
   DisparityPlane map(kWidth, 1);
-  // A run that ends with the first 64 columns, one that begins with the next, a step, the last one.
+  // A run that ends with the first 64 columns, one that begins with the next 64, one after a step,
+  // and one in the last column.
   for (int x = 3; x < 64; ++x) map(x, 0) = 1000;
   for (int x = 64; x < 130; ++x) map(x, 0) = 3000;
   for (int x = 130; x < 140; ++x) map(x, 0) = 3257;
@@ -111,7 +112,7 @@ TEST(SpeckleRemoval, EqualsReferenceForEveryTolerance) {
 }
 
 TEST(SpeckleRemoval, EqualsReferenceOnNoiseOfEveryDensity) {
-  // Around the density at which the components of noise begin to reach across the map.
+  // Includes the density at which components of noise begin to span the map.
   for (int of_ten = 0; of_ten <= 10; ++of_ten) {
     for (int seed = 0; seed < 10; ++seed) {
       expect_reference(disparity_noise(64, 65, of_ten, 2, 300 + seed), seed % 2, 20 + 40 * seed);
@@ -132,8 +133,8 @@ TEST(SpeckleRemoval, EqualsReferenceAtExtremes) {
   }
 }
 
-TEST(SpeckleRemoval, EqualsReferenceOnAChessboard) {
-  // As many runs as there are pixels, and half as many.
+TEST(SpeckleRemoval, EqualsReferenceOnACheckerboard) {
+  // One run per pixel, and half as many.
   DisparityPlane full(64, 64, 512);
   DisparityPlane half(64, 64);
   for (int y = 0; y < 64; ++y) {
@@ -147,7 +148,7 @@ TEST(SpeckleRemoval, EqualsReferenceOnAChessboard) {
   }
 }
 
-/// A band one pixel wide from the center to the border, in squares.
+/// A line one pixel wide that runs from the center to the border as a square spiral.
 DisparityPlane spiral(int side) {
   DisparityPlane map(side, side);
   int x = side / 2;
@@ -178,7 +179,7 @@ TEST(SpeckleRemoval, FollowsAComponentAcrossManyBands) {
 }
 
 TEST(SpeckleRemoval, FollowsAComb) {
-  // Teeth that are runs of their own in all rows but the last, from the left and from the right.
+  // The teeth are separate runs in all rows but the last; comb from the left and from the right.
   for (const bool mirrored : {false, true}) {
     DisparityPlane map(99, 70);
     for (int y = 0; y < 70; ++y) {
@@ -193,14 +194,14 @@ TEST(SpeckleRemoval, FollowsAComb) {
   }
 }
 
-TEST(SpeckleRemoval, RemovesBelowTheSizeAndKeepsTheSize) {
+TEST(SpeckleRemoval, RemovesComponentsSmallerThanTheSizeOnly) {
   DisparityPlane map(20, 70);
   for (int y = 30; y < 35; ++y) map(7, y) = 1000;
   EXPECT_TRUE(same_image(map, filtered(map, 10, 5, 32)));
   EXPECT_TRUE(same_image(DisparityPlane(20, 70), filtered(map, 10, 6, 32)));
 }
 
-TEST(SpeckleRemoval, ConnectsAtTheToleranceAndNotBeyondIt) {
+TEST(SpeckleRemoval, ConnectsPixelsUpToTheTolerance) {
   DisparityPlane map(2, 2);
   map(0, 0) = 500;
   map(1, 0) = 564;
@@ -209,19 +210,19 @@ TEST(SpeckleRemoval, ConnectsAtTheToleranceAndNotBeyondIt) {
   EXPECT_TRUE(same_image(DisparityPlane(2, 2), filtered(map, 63, 3)));
 }
 
-TEST(SpeckleRemoval, DoesNotConnectCorners) {
+TEST(SpeckleRemoval, DoesNotConnectDiagonalNeighbors) {
   DisparityPlane map(2, 2);
   map(0, 0) = map(1, 1) = 500;
   EXPECT_TRUE(same_image(DisparityPlane(2, 2), filtered(map, 1000, 2)));
 }
 
-TEST(SpeckleRemoval, DoesNotConnectTheEndOfARowToTheBeginOfTheNext) {
+TEST(SpeckleRemoval, DoesNotConnectTheEndOfARowToTheStartOfTheNext) {
   DisparityPlane map(5, 2);
   map(4, 0) = map(0, 1) = 500;
   EXPECT_TRUE(same_image(DisparityPlane(5, 2), filtered(map, 1000, 2)));
 }
 
-TEST(SpeckleRemoval, RemovesNothingFromAnUnknownMapAndNothingWithSizesUpToOne) {
+TEST(SpeckleRemoval, RemovesNothingFromAnUnknownMapOrWithSizesUpToOne) {
   EXPECT_TRUE(same_image(DisparityPlane(33, 40), filtered(DisparityPlane(33, 40), 64, 100)));
   const DisparityPlane map = disparity_noise(33, 40, 8, 5000, 500);
   for (const int size : {std::numeric_limits<int>::min(), -1, 0, 1}) {
@@ -229,24 +230,24 @@ TEST(SpeckleRemoval, RemovesNothingFromAnUnknownMapAndNothingWithSizesUpToOne) {
   }
 }
 
-TEST(SpeckleRemoval, KeepsAKnownMapUpToItsSize) {
+TEST(SpeckleRemoval, KeepsACompletelyKnownMapUpToItsSize) {
   const DisparityPlane map(40, 67, 300);
   EXPECT_TRUE(same_image(map, filtered(map, 0, 40 * 67, 32)));
   EXPECT_TRUE(same_image(DisparityPlane(40, 67), filtered(map, 0, 40 * 67 + 1, 32)));
 }
 
-TEST(SpeckleRemoval, OnlyRemovesAndASecondTimeNothing) {
+TEST(SpeckleRemoval, OnlyRemovesDisparitiesAndNothingTheSecondTime) {
   for (int seed = 0; seed < 40; ++seed) {
     const DisparityPlane map = patches(50, 70, 1 + seed % 4, 600 + seed);
     const DisparityPlane once = filtered(map, 40, 10 + seed, 32);
     EXPECT_TRUE(only_removes(map, once));
     EXPECT_TRUE(same_image(once, filtered(once, 40, 10 + seed, 32)));
-    // What a larger size keeps, a smaller one keeps as well.
+    // Components that a larger size keeps are also kept by a smaller one.
     EXPECT_TRUE(only_removes(once, filtered(map, 40, 20 + seed, 32)));
   }
 }
 
-TEST(SpeckleRemoval, WorksInMemoryThatHeldOtherMaps) {
+TEST(SpeckleRemoval, CanReuseTheMemoryOfOtherMaps) {
   SpeckleRuns runs;
   for (int seed = 0; seed < 30; ++seed) {
     const DisparityPlane map = patches(10 + 31 * seed % 60, 5 + 17 * seed % 70, 2, 700 + seed);
