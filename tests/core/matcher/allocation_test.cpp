@@ -21,15 +21,15 @@ class Allocation : public testing::Test {
  protected:
   void SetUp() override {
     if (!test::allocations_are_counted()) {
-      GTEST_SKIP() << (test::kSanitized ? "the sanitizer has an allocator of its own"
-                                        : "the C library lets nobody count its allocations");
+      GTEST_SKIP() << (test::kSanitized ? "the sanitizer replaces the allocator"
+                                        : "the C library does not allow to replace the allocator");
     }
   }
   void TearDown() override { test::fail_allocation_after(-1); }
 };
 
-TEST_F(Allocation, IsCounted) {
-  // Behind a volatile pointer, so that the compiler cannot leave the pair of calls out.
+TEST_F(Allocation, IsCountedAndFailsOnRequest) {
+  // The volatile pointer keeps the compiler from removing pairs of calls.
   void* volatile memory = nullptr;
   test::count_allocations();
   memory = std::malloc(8);
@@ -45,10 +45,10 @@ TEST_F(Allocation, IsCounted) {
   std::unique_ptr<int> first, second;
   EXPECT_NO_THROW(first = std::make_unique<int>(1));
   EXPECT_THROW(second = std::make_unique<int>(1), std::bad_alloc);
-  EXPECT_NO_THROW(second = std::make_unique<int>(1)) << "only one fails";
+  EXPECT_NO_THROW(second = std::make_unique<int>(1)) << "only one allocation must fail";
 }
 
-/// Allocations of each frame from the third on, the frames coming from memory that is there.
+/// Expects no allocations from the third frame on, with input frames that exist already.
 void expect_no_allocations(std::initializer_list<std::pair<const char*, std::string>> values) {
   const test::Pair pair = test::slanted_pair(333, 201, 40, 1);
   const test::Pair other = test::slanted_pair(333, 201, 40, 2);
@@ -65,14 +65,14 @@ void expect_no_allocations(std::initializer_list<std::pair<const char*, std::str
   EXPECT_GT(matcher.statistics().density, 0.05);
 }
 
-TEST_F(Allocation, NeverHappensInALaterFrameOnOneThread) {
+TEST_F(Allocation, NeverHappensInLaterFramesOnOneThread) {
   expect_no_allocations({{"threads", "1"}});
   expect_no_allocations({{"threads", "1"}, {"mode", "sparse"}});
   expect_no_allocations(
       {{"threads", "1"}, {"cost", "gradient"}, {"cost-volume", "full"}, {"node-levels", "3,1,0"}});
 }
 
-TEST_F(Allocation, NeverHappensInALaterFrameInAnyModeOfAnyPreset) {
+TEST_F(Allocation, NeverHappensInLaterFramesInAnyModeOfAnyPreset) {
   for (const char* const threads : {"1", "2"}) {
     for (const char* const mode : {"sparse", "semi-dense", "dense"}) {
       SCOPED_TRACE(testing::Message() << mode << ", threads " << threads);
@@ -84,8 +84,8 @@ TEST_F(Allocation, NeverHappensInALaterFrameInAnyModeOfAnyPreset) {
   }
 }
 
-/// Alternates between two sets of parameters, frame by frame; from the third frame on that takes no
-/// memory, whichever parameters differ.
+/// Alternates between two sets of parameters, frame by frame. From the third frame on no memory may
+/// be allocated, whichever parameters differ.
 void expect_free_change(std::initializer_list<std::pair<const char*, std::string>> one,
                         std::initializer_list<std::pair<const char*, std::string>> other) {
   const test::Pair pair = test::slanted_pair(333, 201, 40, 1);
@@ -111,16 +111,16 @@ TEST_F(Allocation, NeverHappensAfterAChangeThatNeedsNoMoreMemory) {
                      {{"threads", "2"}, {"max-disparity", "33"}, {"max-neighbors", "3"}});
 }
 
-TEST_F(Allocation, NeverHappensInALaterFrameOnTwoThreads) {
+TEST_F(Allocation, NeverHappensInLaterFramesOnTwoThreads) {
   expect_no_allocations({{"threads", "2"}});
   expect_no_allocations({{"threads", "2"}, {"mode", "sparse"}});
 }
 
-TEST_F(Allocation, NeverHappensInALaterFrameOnMoreThreadsThanBands) {
+TEST_F(Allocation, NeverHappensInLaterFramesOnMoreThreadsThanBands) {
   expect_no_allocations({{"threads", "9"}});
 }
 
-TEST_F(Allocation, NeverHappensInASmallerFrame) {
+TEST_F(Allocation, NeverHappensInSmallerFrames) {
   Matcher matcher = test::matcher({{"threads", "1"}, {"max-disparity", "32"}});
   for (int frame = 0; frame < 3; ++frame) {
     for (const auto& [width, height] : {std::pair{300, 150}, {200, 100}, {299, 40}}) {
@@ -135,9 +135,9 @@ TEST_F(Allocation, NeverHappensInASmallerFrame) {
   }
 }
 
-/// Lets the first, the second, the third ... allocation of a frame that is larger than the one
-/// before fail, until none is left to. Each time the frame has to fail in order, and the next to be
-/// as ever.
+/// Lets the first, the second, the third ... allocation of a frame that is larger than the previous
+/// one fail, until none is left. Each time the frame must fail with an error, and the next one must
+/// have the correct result.
 void expect_recovery(const char* threads, const char* cost, const char* resolution = "full") {
   const test::Pair pair = test::slanted_pair(90, 70, 16, 4);
   const test::Pair small = test::slanted_pair(40, 20, 8, 5);
@@ -157,20 +157,20 @@ void expect_recovery(const char* threads, const char* cost, const char* resoluti
     if (!result.ok()) {
       EXPECT_TRUE(test::fails_with(result, ErrorCode::kOutOfMemory, {}));
       EXPECT_FALSE(result.error().message.empty());
-      EXPECT_EQ(0, matcher.confidence().width) << "neither that of this frame nor of one before";
+      EXPECT_EQ(0, matcher.confidence().width) << "the confidence must be empty after an error";
     }
     EXPECT_TRUE(same_image(expected, test::compute(matcher, pair.left, pair.right)));
   }
-  EXPECT_GT(failures, 50) << "the comparison means something";
+  EXPECT_GT(failures, 50) << "too few results to compare";
 }
 
-TEST_F(Allocation, FailingAnywhereIsAnErrorAndNotTheEnd) {
+TEST_F(Allocation, FailingAnywhereIsAnErrorAndTheMatcherStaysUsable) {
   expect_recovery("1", "gradient");
   expect_recovery("2", "census");
   expect_recovery("1", "gradient", "half-refined");
 }
 
-/// The message of a frame for which the memory does not suffice.
+/// The error message of a frame whose memory cannot be allocated.
 std::string message_without_memory(
     std::initializer_list<std::pair<const char*, std::string>> values) {
   const test::Pair pair = test::slanted_pair(90, 70, 16, 5);
@@ -187,30 +187,30 @@ std::string message_without_memory(
 void expect_advice(std::initializer_list<std::pair<const char*, std::string>> values,
                    const char* advice) {
   const std::string message = message_without_memory(values);
-  EXPECT_TRUE(message.ends_with(advice)) << message << "\nhas to end with\n" << advice;
+  EXPECT_TRUE(message.ends_with(advice)) << message << "\ndoes not end with\n" << advice;
 }
 
-TEST_F(Allocation, FailingSaysWhatToDo) {
+TEST_F(Allocation, FailingReportsWhatToDo) {
   expect_advice({{"threads", "2"}},
                 "max-disparity = 20: use smaller images, lower max-disparity or threads, or set "
                 "resolution = half or preset = fast");
   expect_advice({{"preset", "paper"}}, ", or set cost = census, which needs no cost volume");
 }
 
-TEST_F(Allocation, FailingDoesNotProposeWhatIsSetAlready) {
+TEST_F(Allocation, FailingDoesNotSuggestWhatIsAlreadySet) {
   expect_advice({{"preset", "fast"}}, "lower max-disparity or threads, or set resolution = half");
   expect_advice({{"threads", "1"}, {"resolution", "half"}},
                 "max-disparity = 20: use smaller images, lower max-disparity");
 }
 
-TEST_F(Allocation, FailingToMakeAMatcherIsAnError) {
+TEST_F(Allocation, FailingInCreateIsAnError) {
   test::fail_allocation_after(0);
   const Result<Matcher> none = Matcher::create(Parameters());
   test::fail_allocation_after(-1);
   EXPECT_TRUE(test::fails_with(none, ErrorCode::kOutOfMemory, {"memory"}));
 }
 
-TEST_F(Allocation, NeverHappensWhileParametersAreSetAndTaken) {
+TEST_F(Allocation, NeverHappensWhileParametersAreSet) {
   Matcher matcher = test::matcher({});
   Parameters parameters;
   test::count_allocations();
@@ -224,8 +224,8 @@ TEST_F(Allocation, NeverHappensWhileParametersAreSetAndTaken) {
   EXPECT_EQ(0, count);
 }
 
-/// Lets the first, the second ... allocation of a call that fails fail too. It has to return an
-/// error each time and never to throw.
+/// Lets the first, the second ... allocation of a call fail that returns an error anyway. It must
+/// return an error each time and never throw.
 template <typename Call>
 void expect_error_without_memory(ErrorCode code, Call&& call) {
   long failures = 0;
@@ -238,10 +238,10 @@ void expect_error_without_memory(ErrorCode code, Call&& call) {
     EXPECT_EQ(failed ? ErrorCode::kOutOfMemory : code, outcome.error().code);
     EXPECT_EQ(failed, outcome.error().message.empty());
   }
-  EXPECT_GT(failures, 0) << "the message needs memory";
+  EXPECT_GT(failures, 0) << "the message must need memory";
 }
 
-TEST_F(Allocation, FailingWhileAMessageIsMadeIsAnErrorWithoutOne) {
+TEST_F(Allocation, FailingInAnErrorMessageIsAnErrorWithoutMessage) {
   Parameters parameters;
   expect_error_without_memory(ErrorCode::kInvalidParameter,
                               [&] { return parameters.set(Parameter::kMaxDisparity, -1); });

@@ -16,7 +16,7 @@ using test::fails_with;
 using test::PaddedImage;
 using test::Plane;
 
-/// What one disparity [1/256 px] is written as.
+/// The value that is written for one disparity [1/256 px].
 int written(std::int32_t disparity, int scale) {
   const DisparityPlane in(1, 1, disparity);
   std::uint16_t out = 0xA5A5;
@@ -35,11 +35,11 @@ TEST(WriteDisparity16, RoundsToTheNearestStep) {
   }
 }
 
-TEST(WriteDisparity16, IsTheConventionOfKittiAtScale256) {
+TEST(WriteDisparity16, EqualsTheKittiFormatAtScale256) {
   EXPECT_EQ(37 * 256 + 128, written(37 * 256 + 128, 256));
 }
 
-TEST(WriteDisparity16, TellsAPointAtInfinityFromNothing) {
+TEST(WriteDisparity16, WritesAtLeastOneForAKnownDisparity) {
   for (const int scale : {1, 16, 127, 256}) {
     EXPECT_EQ(0, written(kNoDisparity, scale));
     EXPECT_EQ(1, written(1, scale)) << "scale " << scale;
@@ -47,7 +47,7 @@ TEST(WriteDisparity16, TellsAPointAtInfinityFromNothing) {
   EXPECT_EQ(0, written(kNoDisparity, 65535));
 }
 
-TEST(WriteDisparity16, StopsAtTheLargestValue) {
+TEST(WriteDisparity16, SaturatesAtTheLargestValue) {
   EXPECT_EQ(65535, written(1023 * 256, 256));
   EXPECT_EQ(65535, written(1024 * 256 - 1, 65535));
   EXPECT_EQ(65535, written(256, 65535));
@@ -73,7 +73,7 @@ TEST(WriteDisparity16, WritesOnlyThePixelsOfAPaddedImage) {
   }
 }
 
-/// Both images of a call that may fail; the output must stay as it was.
+/// Both images of a call that may fail; after an error the output must be unchanged.
 struct Call {
   DisparityPlane in = DisparityPlane(8, 4, 300);
   Plane<std::uint16_t> out = Plane<std::uint16_t>(8, 4, 7);
@@ -83,13 +83,13 @@ struct Call {
   Status operator()(int scale = 256) {
     const Status status = write_disparity16(in_view, scale, out_view);
     if (!status) {
-      EXPECT_TRUE(same_image(Plane<std::uint16_t>(8, 4, 7), out)) << "nothing is written";
+      EXPECT_TRUE(same_image(Plane<std::uint16_t>(8, 4, 7), out)) << "the output was written to";
     }
     return status;
   }
 };
 
-TEST(WriteDisparity16, RefusesOtherSizes) {
+TEST(WriteDisparity16, RejectsDifferentSizes) {
   for (const auto& [width, height] : {std::pair{7, 4}, {9, 4}, {8, 3}, {8, 5}, {4, 8}, {0, 0}}) {
     Call call;
     call.out_view.width = width;
@@ -99,7 +99,7 @@ TEST(WriteDisparity16, RefusesOtherSizes) {
   }
 }
 
-TEST(WriteDisparity16, RefusesMissingData) {
+TEST(WriteDisparity16, RejectsMissingData) {
   Call no_in, no_out;
   no_in.in_view.data = nullptr;
   no_out.out_view.data = nullptr;
@@ -111,7 +111,7 @@ TEST(WriteDisparity16, RefusesMissingData) {
   EXPECT_TRUE(fails_with(empty(), ErrorCode::kInvalidImage, {"no data"}));
 }
 
-TEST(WriteDisparity16, RefusesShortStrides) {
+TEST(WriteDisparity16, RejectsShortStrides) {
   for (const int stride : {15, 8, 0, -16}) {
     Call call;
     call.out_view.stride = stride;
@@ -124,7 +124,7 @@ TEST(WriteDisparity16, RefusesShortStrides) {
   }
 }
 
-TEST(WriteDisparity16, RefusesImpossibleScales) {
+TEST(WriteDisparity16, RejectsScalesOutsideTheRange) {
   for (const int scale : {0, -1, 65536, 1 << 30, -(1 << 30)}) {
     Call call;
     EXPECT_TRUE(fails_with(call(scale), ErrorCode::kInvalidParameter,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The results themselves: hashes of the disparity map and the confidence of every preset and mode
-// on synthetic pairs. They are equal on every processor, for every compiler and number of threads.
-// A change that is not meant to change results must leave them alone; one that is meant to prints
-// the new table, see CONTRIBUTING.md.
+// The results as hashes of the disparity map and the confidence of every preset and mode on
+// synthetic pairs. They are equal on every processor, for every compiler and number of threads. A
+// change that should not change results must not change them; for a change that should, the test
+// prints the new table, see CONTRIBUTING.md.
 #include <gtest/gtest.h>
 
 #include <cinttypes>
@@ -68,7 +68,7 @@ TEST(GoldenMaps, AreEqualBitForBit) {
     char row[96];
     std::snprintf(row, sizeof row, "{\"%s\", \"%s\", 0x%016" PRIx64 "},", golden.preset,
                   golden.mode, hash);
-    EXPECT_EQ(golden.hash, hash) << "the table's row is now\n    " << row;
+    EXPECT_EQ(golden.hash, hash) << "the row of the table is now\n    " << row;
   }
 }
 

@@ -20,7 +20,7 @@ using test::Pair;
 constexpr const char* kPresetNames[] = {"default", "fast", "paper"};
 constexpr const char* kModes[] = {"sparse", "semi-dense", "dense"};
 
-/// Fails where a disparity points beyond the left border or reaches max-disparity.
+/// Fails if a disparity points beyond the left border or reaches max-disparity.
 void expect_possible(const DisparityPlane& map, int max_disparity) {
   EXPECT_TRUE(test::same_pixels(
       map.width, map.height, [](int, int) { return true; },
@@ -32,7 +32,7 @@ void expect_possible(const DisparityPlane& map, int max_disparity) {
       << "max-disparity " << max_disparity;
 }
 
-/// The same for the map after each step, which counts px of the matched resolution.
+/// The same for the map after each step, in px of the matched resolution.
 void expect_all_possible(const Parameters& parameters, const Pair& pair) {
   const Settings settings(parameters);
   for (const auto& [step, map] : test::maps_after_steps(parameters, pair.left, pair.right)) {
@@ -42,7 +42,7 @@ void expect_all_possible(const Parameters& parameters, const Pair& pair) {
   }
 }
 
-/// Share of the disparities that are within one px of this one.
+/// Fraction of the disparities that are within one px of `disparity`.
 double share_near(const DisparityPlane& map, double disparity) {
   long near = 0;
   for (const std::int32_t d : map.pixels) {
@@ -51,7 +51,7 @@ double share_near(const DisparityPlane& map, double disparity) {
   return static_cast<double>(near) / static_cast<double>(std::max(test::known(map), 1L));
 }
 
-TEST(Invariants, AShiftedPairHasThatDisparityInAllModes) {
+TEST(Invariants, AShiftedPairHasItsShiftAsDisparityInAllModes) {
   for (const char* const mode : kModes) {
     for (const int shift : {3, 17, 40}) {
       for (const char* const volume : {"half", "full"}) {
@@ -67,7 +67,7 @@ TEST(Invariants, AShiftedPairHasThatDisparityInAllModes) {
   }
 }
 
-TEST(Invariants, AShiftedPairHasThatDisparityAtHalfResolution) {
+TEST(Invariants, AShiftedPairHasItsShiftAsDisparityAtHalfResolution) {
   for (const char* const mode : kModes) {
     for (const int shift : {4, 17, 40}) {
       SCOPED_TRACE(testing::Message() << mode << ", " << shift << " px");
@@ -75,14 +75,14 @@ TEST(Invariants, AShiftedPairHasThatDisparityAtHalfResolution) {
       Matcher matcher = test::matcher({{"preset", "fast"}, {"mode", mode}});
       const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
       EXPECT_GT(matcher.statistics().density, std::string(mode) == "sparse" ? 0.005 : 0.15);
-      // An odd shift is none of whole half pixels.
+      // An odd shift is not an integer at half resolution.
       EXPECT_GT(share_near(map, shift), shift % 2 == 0 ? 0.98 : 0.9);
       expect_possible(map, 64);
     }
   }
 }
 
-TEST(Invariants, AnIdenticalPairIsAtInfinity) {
+TEST(Invariants, AnIdenticalPairHasDisparityZero) {
   const GrayPlane image = test::texture(200, 80, 1);
   for (const char* const mode : kModes) {
     Matcher matcher = test::matcher({{"mode", mode}});
@@ -92,7 +92,7 @@ TEST(Invariants, AnIdenticalPairIsAtInfinity) {
   }
 }
 
-TEST(Invariants, SwappedViewsGiveLittle) {
+TEST(Invariants, SwappedViewsHaveFewDisparities) {
   for (const char* const mode : kModes) {
     const Pair pair = test::shifted_pair(320, 120, 17, 2);
     Matcher matcher = test::matcher({{"mode", mode}});
@@ -103,7 +103,7 @@ TEST(Invariants, SwappedViewsGiveLittle) {
   }
 }
 
-TEST(Invariants, UnrelatedViewsGiveLittle) {
+TEST(Invariants, UnrelatedViewsHaveFewDisparities) {
   for (const char* const mode : kModes) {
     Matcher matcher = test::matcher({{"mode", mode}});
     const DisparityPlane map =
@@ -113,7 +113,7 @@ TEST(Invariants, UnrelatedViewsGiveLittle) {
   }
 }
 
-TEST(Invariants, FlatImagesGiveNothing) {
+TEST(Invariants, FlatImagesHaveNoDisparities) {
   const GrayPlane textured = test::texture(120, 40, 5);
   for (const char* const mode : kModes) {
     Matcher matcher = test::matcher({{"mode", mode}});
@@ -128,7 +128,7 @@ TEST(Invariants, FlatImagesGiveNothing) {
   }
 }
 
-TEST(Invariants, EveryStageIsInRangeAtExtremeSearchRanges) {
+TEST(Invariants, EveryStepIsInRangeForExtremeSearchRanges) {
   for (const char* const mode : kModes) {
     for (const auto& [width, disparities] : {std::pair{1, 1},
                                              {2, 2},
@@ -183,7 +183,7 @@ TEST(Invariants, NoiseAtFullContrastIsInRange) {
   }
 }
 
-TEST(Invariants, TheInputIsOnlyRead) {
+TEST(Invariants, TheInputIsNotWrittenTo) {
   const Pair pair = test::slanted_pair(150, 70, 20, 7);
   for (const int padding : {0, 1, 42, 64}) {
     const test::PaddedImage<std::uint8_t> left(pair.left, padding, 5), right(pair.right, padding);
@@ -193,7 +193,7 @@ TEST(Invariants, TheInputIsOnlyRead) {
   }
 }
 
-TEST(Invariants, EverySmallSizeIsMatched) {
+TEST(Invariants, EverySmallSizeCanBeMatched) {
   Matcher matcher = test::matcher({{"max-disparity", "1"}});
   for (int width = 1; width <= 12; ++width) {
     for (int height = 1; height <= 12; ++height) {
@@ -224,7 +224,7 @@ TEST(Invariants, AnImageOfOnePixelHasNoDisparity) {
   }
 }
 
-TEST(Invariants, AWideImageIsSearchedFarAndWide) {
+TEST(Invariants, AWideImageHasItsLargeDisparities) {
   constexpr int kShift = 900;
   const Pair pair = test::shifted_pair(8192, 64, kShift, 8);
   Matcher matcher = test::matcher({{"max-disparity", "1024"}});
@@ -234,8 +234,9 @@ TEST(Invariants, AWideImageIsSearchedFarAndWide) {
   EXPECT_GT(share_near(map, kShift), 0.95);
 }
 
-TEST(Invariants, ADisparityDoesNotDependOnWhereAnImageIsCut) {
-  // Rows far from the cut see the same surroundings: neighbors, smoothing and votes end before it.
+TEST(Invariants, DisparitiesDoNotDependOnDistantRows) {
+  // The image is cut after kRows rows. Rows farther away from the cut than kReach, the reach of
+  // neighbors, smoothing and votes, must not change.
   const Pair whole = test::slanted_pair(160, 200, 24, 9);
   constexpr int kRows = 140, kReach = 5 + 2 * 21 + 2 * 10 * 2 + 4;
   const auto top = [](const GrayPlane& image) {
@@ -251,7 +252,7 @@ TEST(Invariants, ADisparityDoesNotDependOnWhereAnImageIsCut) {
       [&](int x, int y) { return map(x, y); }));
 }
 
-TEST(Invariants, ThereIsConfidenceExactlyWhereADisparityIs) {
+TEST(Invariants, ExactlyKnownPixelsHaveAConfidence) {
   const Pair pair = test::slanted_pair(200, 90, 30, 10);
   for (const char* const preset : kPresetNames) {
     for (const char* const mode : kModes) {
@@ -267,7 +268,7 @@ TEST(Invariants, ThereIsConfidenceExactlyWhereADisparityIs) {
   }
 }
 
-TEST(Invariants, NoDisparityHasLessConfidenceThanAsked) {
+TEST(Invariants, NoDisparityHasLessThanTheMinimumConfidence) {
   const Pair pair = test::slanted_pair(200, 90, 30, 11);
   Matcher matcher = test::matcher({{"min-confidence", "0"}, {"max-gap", "0"}});
   long before = test::known(test::compute(matcher, pair.left, pair.right));

@@ -12,7 +12,8 @@ namespace {
 using test::fails_with;
 using test::same_image;
 
-/// A matcher that has matched one frame, and the two views of the next, to be made wrong.
+/// A matcher that has matched one frame, and the two views of the next frame, which tests make
+/// invalid.
 class MatcherErrors : public testing::Test {
  protected:
   MatcherErrors()
@@ -22,8 +23,8 @@ class MatcherErrors : public testing::Test {
         left_(pair_.left.view()),
         right_(pair_.right.view()) {}
 
-  /// Matches left_ and right_, which has to fail; then a good pair, which has to be as ever.
-  void expect_refused(ErrorCode code, std::initializer_list<std::string> words) {
+  /// Matches left_ and right_, which must fail; then a valid pair, whose result must be correct.
+  void expect_rejected(ErrorCode code, std::initializer_list<std::string> words) {
     EXPECT_TRUE(fails_with(matcher_.compute(left_, right_), code, words));
     EXPECT_TRUE(same_image(expected_, test::compute(matcher_, pair_.left, pair_.right)))
         << "after the error";
@@ -38,55 +39,55 @@ class MatcherErrors : public testing::Test {
   GrayView right_;
 };
 
-TEST_F(MatcherErrors, RefuseViewsWithoutData) {
+TEST_F(MatcherErrors, RejectViewsWithoutData) {
   left_.data = nullptr;
-  expect_refused(ErrorCode::kInvalidImage, {"left", "no data"});
+  expect_rejected(ErrorCode::kInvalidImage, {"left", "no data"});
   right_.data = nullptr;
-  expect_refused(ErrorCode::kInvalidImage, {"right", "no data"});
+  expect_rejected(ErrorCode::kInvalidImage, {"right", "no data"});
   left_ = right_ = {};
-  expect_refused(ErrorCode::kInvalidImage, {"left", "0x0"});
+  expect_rejected(ErrorCode::kInvalidImage, {"left", "0x0"});
 }
 
-TEST_F(MatcherErrors, RefuseViewsWithoutPixels) {
+TEST_F(MatcherErrors, RejectViewsWithoutPixels) {
   for (const int size : {0, -1, -1000000}) {
     left_.width = size;
-    expect_refused(ErrorCode::kInvalidImage, {"left", std::to_string(size) + "x40"});
+    expect_rejected(ErrorCode::kInvalidImage, {"left", std::to_string(size) + "x40"});
     right_.height = size;
-    expect_refused(ErrorCode::kInvalidImage, {"right", "96x" + std::to_string(size)});
+    expect_rejected(ErrorCode::kInvalidImage, {"right", "96x" + std::to_string(size)});
   }
 }
 
-TEST_F(MatcherErrors, RefuseShortAndNegativeStrides) {
+TEST_F(MatcherErrors, RejectShortAndNegativeStrides) {
   for (const int stride : {95, 1, 0, -96, -200}) {
     left_.stride = stride;
-    expect_refused(ErrorCode::kInvalidImage, {"left", "stride", std::to_string(stride)});
+    expect_rejected(ErrorCode::kInvalidImage, {"left", "stride", std::to_string(stride)});
     right_.stride = stride;
-    expect_refused(ErrorCode::kInvalidImage, {"right", "stride", std::to_string(stride)});
+    expect_rejected(ErrorCode::kInvalidImage, {"right", "stride", std::to_string(stride)});
   }
 }
 
-TEST_F(MatcherErrors, RefuseViewsOfDifferentSize) {
+TEST_F(MatcherErrors, RejectViewsOfDifferentSize) {
   right_.width = 95;
-  expect_refused(ErrorCode::kSizeMismatch, {"96x40", "95x40", "same size"});
+  expect_rejected(ErrorCode::kSizeMismatch, {"96x40", "95x40", "same size"});
   left_.height = 39;
-  expect_refused(ErrorCode::kSizeMismatch, {"96x39", "96x40"});
+  expect_rejected(ErrorCode::kSizeMismatch, {"96x39", "96x40"});
 }
 
-TEST_F(MatcherErrors, RefuseFramesNarrowerThanTheSearch) {
+TEST_F(MatcherErrors, RejectFramesNarrowerThanMaxDisparity) {
   left_.width = right_.width = 31;
-  expect_refused(ErrorCode::kFrameDoesNotFit, {"max-disparity = 32", "31x40"});
+  expect_rejected(ErrorCode::kFrameDoesNotFit, {"max-disparity = 32", "31x40"});
 }
 
-TEST_F(MatcherErrors, RefuseFramesThatAreTooLarge) {
+TEST_F(MatcherErrors, RejectFramesThatAreTooLarge) {
   const std::vector<std::uint8_t> row(kLargestImageSide + 1);
   const int largest = kLargestImageSide;
   left_ = right_ = {row.data(), largest + 1, 1, largest + 1};
-  expect_refused(ErrorCode::kFrameDoesNotFit, {"16385x1", "16384"});
+  expect_rejected(ErrorCode::kFrameDoesNotFit, {"16385x1", "16384"});
   left_ = right_ = {row.data(), 32, largest + 1, 32};
-  expect_refused(ErrorCode::kFrameDoesNotFit, {"32x16385", "16384"});
+  expect_rejected(ErrorCode::kFrameDoesNotFit, {"32x16385", "16384"});
 }
 
-TEST_F(MatcherErrors, RefuseNodeWidthsThatDoNotFitTheFrame) {
+TEST_F(MatcherErrors, RejectNodeWidthsThatDoNotFitTheFrame) {
   Parameters parameters = matcher_.parameters();
   test::set_all(parameters, {{"min-node-width", "60"}, {"max-node-width", "0.5"}});
   ASSERT_TRUE(matcher_.set_parameters(parameters).ok());
@@ -98,7 +99,7 @@ TEST_F(MatcherErrors, RefuseNodeWidthsThatDoNotFitTheFrame) {
   EXPECT_TRUE(same_image(expected_, test::compute(matcher_, pair_.left, pair_.right)));
 }
 
-TEST_F(MatcherErrors, KeepTheLastFrame) {
+TEST_F(MatcherErrors, KeepTheLastResult) {
   const Result<DisparityView> result = matcher_.compute(left_, right_);
   ASSERT_TRUE(result.ok());
   const FrameStatistics before = matcher_.statistics();
@@ -111,7 +112,7 @@ TEST_F(MatcherErrors, KeepTheLastFrame) {
   EXPECT_TRUE(same_image(confidence, matcher_.confidence()));
 }
 
-TEST_F(MatcherErrors, StartFromTheFirstFrameToo) {
+TEST_F(MatcherErrors, LeaveANewMatcherUsable) {
   Matcher fresh = test::matcher({{"max-disparity", "32"}, {"cost", "gradient"}});
   EXPECT_FALSE(fresh.compute({}, {}).ok());
   right_.height = 20;
@@ -119,7 +120,7 @@ TEST_F(MatcherErrors, StartFromTheFirstFrameToo) {
   EXPECT_TRUE(same_image(expected_, test::compute(fresh, pair_.left, pair_.right)));
 }
 
-TEST(MatcherInput, MayHaveAnyStrideWhereThereIsOneRow) {
+TEST(MatcherInput, MayHaveAnyStrideWithOneRow) {
   const test::Pair pair = test::slanted_pair(64, 1, 10, 2);
   Matcher matcher = test::matcher({{"max-disparity", "16"}});
   const test::DisparityPlane expected = test::compute(matcher, pair.left, pair.right);
@@ -132,7 +133,7 @@ TEST(MatcherInput, MayHaveAnyStrideWhereThereIsOneRow) {
   }
 }
 
-TEST(MatcherInput, MayHaveTwoStrides) {
+TEST(MatcherInput, MayHaveDifferentStrides) {
   const test::Pair pair = test::slanted_pair(64, 30, 10, 3);
   Matcher matcher = test::matcher({{"max-disparity", "16"}});
   const test::DisparityPlane expected = test::compute(matcher, pair.left, pair.right);
@@ -143,7 +144,7 @@ TEST(MatcherInput, MayHaveTwoStrides) {
   EXPECT_TRUE(left.unchanged() && right.unchanged());
 }
 
-TEST(MatcherInput, UpsideDownIsRefused) {
+TEST(MatcherInput, MustNotHaveANegativeStride) {
   const test::Pair pair = test::slanted_pair(64, 30, 10, 4);
   Matcher matcher = test::matcher({{"max-disparity", "16"}});
   const test::PaddedImage<std::uint8_t> left(pair.left, 0);

@@ -22,20 +22,20 @@ using test::DisparityPlane;
 using test::Pair;
 using test::same_image;
 
-/// What a matcher of its own says to a pair.
-DisparityPlane alone(const Parameters& parameters, const Pair& pair) {
+/// The result of a new matcher for a pair.
+DisparityPlane matched_once(const Parameters& parameters, const Pair& pair) {
   Result<Matcher> matcher = Matcher::create(parameters);
   EXPECT_TRUE(matcher.ok());
   return test::compute(*matcher, pair.left, pair.right);
 }
 
-TEST(Matcher, KeepsTheParametersThatItIsMadeWith) {
+TEST(Matcher, HasTheParametersItIsCreatedWith) {
   const Matcher matcher = test::matcher({{"max-disparity", "77"}, {"mode", "sparse"}});
   EXPECT_EQ(77, matcher.parameters().integer(Parameter::kMaxDisparity));
   EXPECT_EQ(Mode::kSparse, matcher.parameters().mode());
 }
 
-TEST(Matcher, ShowsNothingBeforeTheFirstFrame) {
+TEST(Matcher, HasNoResultBeforeTheFirstFrame) {
   const Matcher matcher = test::matcher({});
   EXPECT_EQ(0, matcher.confidence().width);
   EXPECT_EQ(0, matcher.confidence().height);
@@ -43,7 +43,7 @@ TEST(Matcher, ShowsNothingBeforeTheFirstFrame) {
   EXPECT_EQ(0, matcher.statistics().milliseconds);
 }
 
-TEST(Matcher, AtHalfResolutionHasAResultOfTheSizeOfTheViews) {
+TEST(Matcher, ReturnsFullSizeMapsAtHalfResolution) {
   const Pair pair = test::slanted_pair(201, 91, 40, 3);
   Matcher matcher = test::matcher({{"preset", "fast"}, {"max-disparity", "61"}});
   const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
@@ -55,7 +55,7 @@ TEST(Matcher, AtHalfResolutionHasAResultOfTheSizeOfTheViews) {
   EXPECT_DOUBLE_EQ(test::known(map) / (201.0 * 91), matcher.statistics().density);
 }
 
-TEST(Matcher, HoldsTheLastResultWhileTheResolutionChanges) {
+TEST(Matcher, KeepsTheLastResultWhenTheResolutionChanges) {
   const Pair pair = test::slanted_pair(120, 50, 20, 4);
   Matcher matcher = test::matcher({});
   for (const char* const next : {"half", "full", "half-refined", "half", "full"}) {
@@ -69,7 +69,7 @@ TEST(Matcher, HoldsTheLastResultWhileTheResolutionChanges) {
   }
 }
 
-/// A set of parameters, and another value of one of them whose change shows in it.
+/// A set of parameters, and another value of one of them that changes the result.
 struct Change {
   std::vector<std::pair<const char*, std::string>> base;
   const char* value;
@@ -137,7 +137,7 @@ Change change_of(Parameter id) {
   }
 }
 
-TEST(Matcher, TakesParametersAtTheNextFrame) {
+TEST(Matcher, AppliesParametersAtTheNextFrame) {
   const Pair pair = test::slanted_pair(160, 50, 20, 3);
   for (const ParameterInfo& info : parameter_table()) {
     const Change change = change_of(info.id);
@@ -152,20 +152,22 @@ TEST(Matcher, TakesParametersAtTheNextFrame) {
     ASSERT_TRUE(view.ok());
     const DisparityPlane before = copy_of(*view);
     ASSERT_TRUE(matcher.set_parameters(changed).ok());
-    EXPECT_TRUE(same_image(before, *view)) << "the last result holds until the next frame";
+    EXPECT_TRUE(same_image(before, *view))
+        << "the last result must stay valid until the next frame";
     EXPECT_EQ(changed.text(info.id), matcher.parameters().text(info.id));
 
     const DisparityPlane after = test::compute(matcher, pair.left, pair.right);
-    EXPECT_TRUE(same_image(alone(changed, pair), after));
+    EXPECT_TRUE(same_image(matched_once(changed, pair), after));
     if (info.id != Parameter::kThreads) {
-      EXPECT_FALSE(same_image(before, after)) << "the change is seen";
+      EXPECT_FALSE(same_image(before, after)) << "the change must change the result";
     }
     ASSERT_TRUE(matcher.set_parameters(base).ok());
-    EXPECT_TRUE(same_image(before, test::compute(matcher, pair.left, pair.right))) << "and back";
+    EXPECT_TRUE(same_image(before, test::compute(matcher, pair.left, pair.right)))
+        << "after the change back";
   }
 }
 
-TEST(Matcher, GivesTheSameForTheSameFrame) {
+TEST(Matcher, DoesNotDependOnEarlierFrames) {
   const Pair pair = test::slanted_pair(130, 60, 20, 4);
   const Pair other = test::slanted_pair(130, 60, 20, 5);
   Matcher matcher = test::matcher({});
@@ -173,7 +175,7 @@ TEST(Matcher, GivesTheSameForTheSameFrame) {
   EXPECT_TRUE(same_image(first, test::compute(matcher, pair.left, pair.right)));
   test::compute(matcher, other.left, other.right);
   EXPECT_TRUE(same_image(first, test::compute(matcher, pair.left, pair.right)))
-      << "nothing is left of the frame before";
+      << "after another frame";
 }
 
 TEST(Matcher, TakesFramesOfChangingSize) {
@@ -192,7 +194,7 @@ TEST(Matcher, TakesFramesOfChangingSize) {
                                       {100, 40}}) {
     SCOPED_TRACE(testing::Message() << width << "x" << height);
     const Pair pair = test::slanted_pair(width, height, 18, width + height);
-    EXPECT_TRUE(same_image(alone(matcher.parameters(), pair),
+    EXPECT_TRUE(same_image(matched_once(matcher.parameters(), pair),
                            test::compute(matcher, pair.left, pair.right)));
   }
 }
@@ -200,24 +202,25 @@ TEST(Matcher, TakesFramesOfChangingSize) {
 TEST(Matcher, DoesNotNeedTheInputAfterTheCall) {
   const Pair pair = test::slanted_pair(100, 40, 20, 6);
   Matcher matcher = test::matcher({{"cost", "gradient"}});
-  auto gone = std::make_unique<Pair>(pair);
-  const Result<DisparityView> view = matcher.compute(gone->left.view(), gone->right.view());
-  gone.reset();
+  auto temporary = std::make_unique<Pair>(pair);
+  const Result<DisparityView> view =
+      matcher.compute(temporary->left.view(), temporary->right.view());
+  temporary.reset();
   ASSERT_TRUE(view.ok());
-  EXPECT_TRUE(same_image(alone(matcher.parameters(), pair), *view));
+  EXPECT_TRUE(same_image(matched_once(matcher.parameters(), pair), *view));
 }
 
-TEST(Matcher, TakesTheSameImageForBothViews) {
+TEST(Matcher, AcceptsTheSameImageForBothViews) {
   const Pair pair = test::slanted_pair(100, 40, 20, 7);
   Matcher matcher = test::matcher({});
   const Result<DisparityView> view = matcher.compute(pair.left.view(), pair.left.view());
   ASSERT_TRUE(view.ok());
   const DisparityPlane map = copy_of(*view);
   EXPECT_GT(test::known(map), 0);
-  EXPECT_TRUE(same_image(map, alone(Parameters(), {pair.left, pair.left})));
+  EXPECT_TRUE(same_image(map, matched_once(Parameters(), {pair.left, pair.left})));
 }
 
-TEST(Matcher, CountsItsFrame) {
+TEST(Matcher, HasStatisticsOfTheLastFrame) {
   const Pair pair = test::slanted_pair(150, 50, 20, 8);
   Matcher matcher = test::matcher({});
   const DisparityPlane map = test::compute(matcher, pair.left, pair.right);

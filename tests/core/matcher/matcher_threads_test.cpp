@@ -16,7 +16,7 @@ using test::DisparityPlane;
 using test::Pair;
 using test::same_image;
 
-/// Matches with this many threads and with one; every stage has to be the same.
+/// Matches with this many threads and with one; the results of every step must be equal.
 void expect_same_as_one_thread(const Pair& pair, Parameters parameters, int threads) {
   SCOPED_TRACE(testing::Message() << pair.left.width << "x" << pair.left.height << ", " << threads
                                   << " threads");
@@ -36,7 +36,7 @@ void expect_same_as_one_thread(const Pair& pair, Parameters parameters, int thre
   }
 }
 
-TEST(MatcherThreads, GiveTheSameForAnyNumber) {
+TEST(MatcherThreads, HaveTheSameResultForAnyNumber) {
   const Pair pair = test::slanted_pair(211, 139, 40, 1);
   for (const int threads : {0, 2, 3, 4, 7}) {
     expect_same_as_one_thread(pair, test::parameters({}), threads);
@@ -52,7 +52,7 @@ TEST(MatcherThreads, GiveTheSameForAnyNumber) {
   }
 }
 
-TEST(MatcherThreads, GiveTheSameAtTheSeamsOfBands) {
+TEST(MatcherThreads, HaveTheSameResultAtTheBordersOfBands) {
   for (const int height : {31, 32, 33, 63, 64, 65, 97}) {
     expect_same_as_one_thread(test::slanted_pair(120, height, 20, height), test::parameters({}), 3);
   }
@@ -73,7 +73,7 @@ TEST(MatcherThreads, MayChangeFromFrameToFrame) {
   }
 }
 
-TEST(MatcherThreads, TwoMatchersAtOnceGiveWhatTheyGiveAlone) {
+TEST(MatcherThreads, ConcurrentMatchersDoNotAffectEachOther) {
   struct Worker {
     Pair pair;
     Parameters parameters;
@@ -105,7 +105,7 @@ TEST(MatcherThreads, TwoMatchersAtOnceGiveWhatTheyGiveAlone) {
   for (const Worker& worker : workers) EXPECT_EQ(0, worker.wrong);
 }
 
-TEST(MatcherThreads, AMatcherMayMoveFromThreadToThread) {
+TEST(MatcherThreads, AMatcherCanBeUsedFromDifferentThreads) {
   const Pair pair = test::slanted_pair(120, 60, 20, 8);
   Matcher matcher = test::matcher({{"threads", "2"}});
   const DisparityPlane expected = test::compute(matcher, pair.left, pair.right);

@@ -15,11 +15,11 @@ using test::fails_with;
 
 constexpr auto kInvalid = ErrorCode::kInvalidParameter;
 
-/// Tries a wrong value; the message has to hold the name, the value and `range`, and the value in
-/// force has to stay.
+/// Sets an invalid value. The message must contain the name, the value and `range`, and the value
+/// in force must not change.
 template <typename Value>
-void expect_refused(const ParameterInfo& info, const Value& value, const std::string& shown,
-                    std::initializer_list<std::string> range) {
+void expect_rejected(const ParameterInfo& info, const Value& value, const std::string& shown,
+                     std::initializer_list<std::string> range) {
   SCOPED_TRACE(testing::Message() << info.name << " = " << shown);
   Parameters untouched;
   EXPECT_TRUE(fails_with(untouched.set(info.id, value), kInvalid, {info.name, shown}));
@@ -32,7 +32,7 @@ void expect_refused(const ParameterInfo& info, const Value& value, const std::st
   ASSERT_TRUE(set.set(info.id, std::string_view(other)).ok());
   EXPECT_TRUE(fails_with(set.set(info.id, value), kInvalid, range));
   EXPECT_TRUE(set.is_set(info.id));
-  EXPECT_EQ(other, set.text(info.id)) << "the value before it stays";
+  EXPECT_EQ(other, set.text(info.id)) << "the earlier value must stay";
 }
 
 std::string number(double value) {
@@ -41,7 +41,7 @@ std::string number(double value) {
   return (value < 0 ? "-" : "") + any.text(Parameter::kPixelConfidence);
 }
 
-TEST(ParameterErrors, RefuseNumbersOutsideTheRange) {
+TEST(ParameterErrors, RejectNumbersOutsideTheRange) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const ParameterInfo& info : parameter_table()) {
     if (info.type != ParameterType::kInteger && info.type != ParameterType::kNumber) continue;
@@ -50,76 +50,76 @@ TEST(ParameterErrors, RefuseNumbersOutsideTheRange) {
     const double step = info.type == ParameterType::kInteger ? 1 : 1e-6;
     for (const double value :
          {info.minimum - step, info.maximum + step, -1e300, 1e300, -kInfinity, kInfinity}) {
-      expect_refused(info, value, "", {low, "to " + high, info.unit});
+      expect_rejected(info, value, "", {low, "to " + high, info.unit});
     }
-    expect_refused(info, std::nan(""), "nan", {low, "to " + high});
-    expect_refused(info, info.maximum + 1, std::to_string(static_cast<int>(info.maximum) + 1),
-                   {"to " + high});
+    expect_rejected(info, std::nan(""), "nan", {low, "to " + high});
+    expect_rejected(info, info.maximum + 1, std::to_string(static_cast<int>(info.maximum) + 1),
+                    {"to " + high});
   }
 }
 
-TEST(ParameterErrors, RefuseTextOutsideTheRange) {
+TEST(ParameterErrors, RejectTextOutsideTheRange) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.type != ParameterType::kInteger && info.type != ParameterType::kNumber) continue;
     for (const std::string& text :
          {std::to_string(static_cast<int>(info.maximum) + 1), std::string("-2"),
           std::string("1e30"), std::string("inf"), std::string("-inf"), std::string("nan")}) {
-      expect_refused(info, std::string_view(text), "", {" to "});
+      expect_rejected(info, std::string_view(text), "", {" to "});
     }
   }
 }
 
-TEST(ParameterErrors, RefuseTextThatIsNoNumber) {
+TEST(ParameterErrors, RejectTextThatIsNotANumber) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.type == ParameterType::kLevels) continue;
     for (const char* const text : {"", " ", "abc", "1x", "0x1", " 1", "1 ", "+1", "--1", "1,5",
                                    "1.2.3", "1e", "true1", "0|1", "\n1", "one"}) {
-      expect_refused(info, std::string_view(text), text, {"allowed are"});
+      expect_rejected(info, std::string_view(text), text, {"allowed are"});
     }
-    // A text with a zero byte in it is not the number before it.
-    expect_refused(info, std::string_view("1\0", 2), "", {"allowed are"});
+    // A text that contains a zero byte is not parsed up to that byte.
+    expect_rejected(info, std::string_view("1\0", 2), "", {"allowed are"});
   }
 }
 
-TEST(ParameterErrors, RefuseFractionsOfWholeNumbers) {
+TEST(ParameterErrors, RejectFractionsForIntegers) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.type == ParameterType::kNumber || info.type == ParameterType::kLevels) continue;
     const double value = info.minimum + 0.5;
-    expect_refused(info, value, number(value), {});
+    expect_rejected(info, value, number(value), {});
     if (info.type == ParameterType::kChoice) continue;
-    expect_refused(info, std::string_view("0.5"), "0.5", {});
+    expect_rejected(info, std::string_view("0.5"), "0.5", {});
   }
 }
 
-TEST(ParameterErrors, RefuseOtherWordsThanTheChoices) {
+TEST(ParameterErrors, RejectWordsThatAreNotChoices) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.type != ParameterType::kChoice) continue;
     const std::string word =
         std::string(info.choices).substr(0, std::string(info.choices).find('|'));
     for (const std::string& text : {std::string(info.choices), word + "|", "|" + word, word + " ",
                                     word.substr(1), word + word, std::string("0")}) {
-      expect_refused(info, std::string_view(text), text, {word + " or "});
+      expect_rejected(info, std::string_view(text), text, {word + " or "});
     }
     std::string upper = word;
     upper[0] = static_cast<char>(std::toupper(upper[0]));
-    expect_refused(info, std::string_view(upper), upper, {word});
+    expect_rejected(info, std::string_view(upper), upper, {word});
     const auto words = std::count(info.choices, info.choices + std::strlen(info.choices), '|') + 1;
     for (const double index : {-1.0, 1.0 * words, 0.5})
-      expect_refused(info, index, number(index), {word});
+      expect_rejected(info, index, number(index), {word});
   }
 }
 
-TEST(ParameterErrors, RefuseOtherWordsThanTrueAndFalse) {
+TEST(ParameterErrors, RejectWordsOtherThanTrueAndFalse) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.type != ParameterType::kBoolean) continue;
     for (const char* const text : {"yes", "no", "on", "True", "FALSE", "2", "-1", "t", "falsee"}) {
-      expect_refused(info, std::string_view(text), text, {"false or true"});
+      expect_rejected(info, std::string_view(text), text, {"false or true"});
     }
-    for (const double value : {-1.0, 2.0, 0.1}) expect_refused(info, value, number(value), {});
+    for (const double value : {-1.0, 2.0, 0.1}) expect_rejected(info, value, number(value), {});
   }
 }
 
-TEST(ParameterErrors, RefuseLevelsThatAreWrongInAnyWay) {
+TEST(ParameterErrors, RejectInvalidLevels) {
   const ParameterInfo& info = parameter_info(Parameter::kNodeLevels);
   for (const char* const text : {"",
                                  ",",
@@ -150,28 +150,28 @@ TEST(ParameterErrors, RefuseLevelsThatAreWrongInAnyWay) {
                                  "1,0\n",
                                  "+1,0",
                                  "0x1,0"}) {
-    expect_refused(info, std::string_view(text), "\"" + std::string(text) + "\"",
-                   {"strictly descending", "8", "63", "1,0"});
+    expect_rejected(info, std::string_view(text), "\"" + std::string(text) + "\"",
+                    {"strictly descending", "8", "63", "1,0"});
   }
 }
 
-TEST(ParameterErrors, RefuseANumberForLevels) {
+TEST(ParameterErrors, RejectANumberForLevels) {
   const ParameterInfo& info = parameter_info(Parameter::kNodeLevels);
   for (const double value : {0.0, 1.0, 2.0}) {
-    expect_refused(info, value, number(value), {"strictly descending"});
+    expect_rejected(info, value, number(value), {"strictly descending"});
   }
 }
 
-TEST(ParameterErrors, RefuseEvenKernels) {
+TEST(ParameterErrors, RejectEvenKernels) {
   const ParameterInfo& info = parameter_info(Parameter::kCostKernelSize);
   for (int size = 2; size <= 40; size += 2) {
-    expect_refused(info, static_cast<double>(size), std::to_string(size), {"1 to 41", "odd"});
+    expect_rejected(info, static_cast<double>(size), std::to_string(size), {"1 to 41", "odd"});
     const std::string text = std::to_string(size);
-    expect_refused(info, std::string_view(text), text, {"odd"});
+    expect_rejected(info, std::string_view(text), text, {"odd"});
   }
 }
 
-TEST(ParameterErrors, NameTheKnownParametersForAnUnknownOne) {
+TEST(ParameterErrors, ListTheParametersForAnUnknownName) {
   Parameters parameters;
   for (const char* const name : {"", "max_disparity", "Mode", "mode\n", "no-such-thing"}) {
     EXPECT_TRUE(fails_with(parameters.set(std::string_view(name), "1"), kInvalid,
@@ -179,7 +179,7 @@ TEST(ParameterErrors, NameTheKnownParametersForAnUnknownOne) {
   }
 }
 
-TEST(ParameterErrors, RefuseFramesThatCannotBeMatched) {
+TEST(ParameterErrors, RejectFramesThatCannotBeMatched) {
   const Parameters parameters = test::parameters({{"max-disparity", "1"}});
   for (const auto& [width, height] : {std::pair{0, 1},
                                       {1, 0},
@@ -194,7 +194,7 @@ TEST(ParameterErrors, RefuseFramesThatCannotBeMatched) {
   }
 }
 
-TEST(ParameterErrors, RefuseAMaxDisparityOverTheWidth) {
+TEST(ParameterErrors, RejectAMaxDisparityAboveTheWidth) {
   const Parameters parameters = test::parameters({{"max-disparity", "128"}});
   EXPECT_TRUE(fails_with(parameters.check_frame(127, 400), ErrorCode::kFrameDoesNotFit,
                          {"max-disparity = 128", "127x400", "1 to 127"}));
@@ -203,7 +203,7 @@ TEST(ParameterErrors, RefuseAMaxDisparityOverTheWidth) {
                          {"max-disparity = 64", "1 to 1 px"}));
 }
 
-TEST(ParameterErrors, RefuseNodeWidthsThatLeaveNoNode) {
+TEST(ParameterErrors, RejectNodeWidthsThatExcludeAllNodes) {
   const auto check = [](const char* narrowest, const char* widest) {
     return test::parameters({{"min-node-width", narrowest}, {"max-node-width", widest}})
         .check_frame(100, 50);
@@ -213,11 +213,11 @@ TEST(ParameterErrors, RefuseNodeWidthsThatLeaveNoNode) {
                  {"min-node-width = 50", "max-node-width = 0.5", "100x50", "lower", "raise"}));
   EXPECT_TRUE(fails_with(check("49", "0.5"), ErrorCode::kInvalidCombination, {"min-node-width"}))
       << "a node would have to be wider than 49 px and narrower than 50 px";
-  EXPECT_TRUE(check("48", "0.5").ok()) << "49 px will do";
+  EXPECT_TRUE(check("48", "0.5").ok()) << "49 px is allowed";
   EXPECT_TRUE(fails_with(check("16384", "1"), ErrorCode::kInvalidCombination, {"16384"}));
 }
 
-TEST(ParameterErrors, RefuseNodeWidthsThatLeaveNoNodeAtHalfResolution) {
+TEST(ParameterErrors, RejectNodeWidthsThatExcludeAllNodesAtHalfResolution) {
   const auto check = [](const char* narrowest, int width) {
     return test::parameters({{"min-node-width", narrowest}, {"resolution", "half"}})
         .check_frame(width, 50);
@@ -225,11 +225,11 @@ TEST(ParameterErrors, RefuseNodeWidthsThatLeaveNoNodeAtHalfResolution) {
   EXPECT_TRUE(fails_with(check("60", 100), ErrorCode::kInvalidCombination,
                          {"min-node-width = 60", "is 50 px", "100x50", "half resolution"}));
   EXPECT_TRUE(fails_with(check("49", 100), ErrorCode::kInvalidCombination, {"min-node-width"}));
-  EXPECT_TRUE(check("48", 100).ok()) << "49 of 50 px will do";
+  EXPECT_TRUE(check("48", 100).ok()) << "49 of 50 px is allowed";
   EXPECT_TRUE(check("49", 101).ok()) << "an odd width has half a pixel more";
 }
 
-TEST(ParameterErrors, RefuseScalesThatDoNotFitSixteenBits) {
+TEST(ParameterErrors, RejectScalesThatDoNotFitSixteenBits) {
   constexpr auto kCombination = ErrorCode::kInvalidCombination;
   const Parameters parameters = test::parameters({{"max-disparity", "256"}});
   EXPECT_TRUE(
@@ -243,11 +243,11 @@ TEST(ParameterErrors, RefuseScalesThatDoNotFitSixteenBits) {
     const Status status = test::parameters({{"max-disparity", "1"}}).check_scale16(scale);
     EXPECT_TRUE(fails_with(status, kCombination, {"1 to 65535"}));
     EXPECT_EQ(std::string::npos, status.error().message.find("at most 0"))
-        << "no max-disparity would fit: " << status.error().message;
+        << "the message suggests an impossible max-disparity: " << status.error().message;
   }
 }
 
-TEST(ParameterErrors, AnIdThatIsNotInTheTableIsRefused) {
+TEST(ParameterErrors, RejectIdsThatAreNotInTheTable) {
   Parameters parameters;
   for (const int id : {-1, static_cast<int>(parameter_table().size())}) {
     const Status number = parameters.set(static_cast<Parameter>(id), 1.0);

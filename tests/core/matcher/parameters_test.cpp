@@ -21,7 +21,7 @@ std::vector<std::string> choice_words(const ParameterInfo& info) {
   return words;
 }
 
-/// Values that a parameter has to take, as text.
+/// Valid values of a parameter, as text.
 std::vector<std::string> valid_texts(const ParameterInfo& info) {
   std::vector<std::string> texts;
   for (const auto& of_modes : info.defaults)
@@ -54,7 +54,7 @@ std::vector<std::string> valid_texts(const ParameterInfo& info) {
   return texts;
 }
 
-TEST(ParameterTable, HasTheOrderOfParameterAndUniqueNames) {
+TEST(ParameterTable, IsInTheOrderOfParameterAndHasUniqueNames) {
   std::set<std::string> names;
   int index = 0;
   for (const ParameterInfo& info : parameter_table()) {
@@ -96,7 +96,7 @@ TEST(ParameterTable, HasNoRowForOtherNames) {
   }
 }
 
-TEST(Parameters, TakeEveryDefaultOfTheTable) {
+TEST(Parameters, AcceptEveryDefaultOfTheTable) {
   for (const ParameterInfo& info : parameter_table()) {
     for (const auto& of_modes : info.defaults) {
       for (const char* const text : of_modes) {
@@ -110,7 +110,7 @@ TEST(Parameters, TakeEveryDefaultOfTheTable) {
   }
 }
 
-TEST(Parameters, FollowPresetAndModeWhereNothingIsSet) {
+TEST(Parameters, HaveTheDefaultsOfPresetAndModeIfUnset) {
   const char* const presets[] = {"default", "fast", "paper"};
   const char* const modes[] = {"sparse", "semi-dense", "dense"};
   for (int preset = 0; preset < kPresets; ++preset) {
@@ -128,7 +128,7 @@ TEST(Parameters, FollowPresetAndModeWhereNothingIsSet) {
   }
 }
 
-TEST(Parameters, BeginWithTheDefaultPresetInSemiDenseMode) {
+TEST(Parameters, StartWithTheDefaultPresetInModeSemiDense) {
   for (const ParameterInfo& info : parameter_table()) {
     EXPECT_EQ(parameter_default(info.id, Preset::kDefault, Mode::kSemiDense),
               Parameters().text(info.id))
@@ -137,7 +137,7 @@ TEST(Parameters, BeginWithTheDefaultPresetInSemiDenseMode) {
   }
 }
 
-TEST(Parameters, OverrideAPresetOneByOne) {
+TEST(Parameters, OverrideSingleDefaultsOfAPreset) {
   const Parameters parameters =
       test::parameters({{"speckle-size", "7"}, {"preset", "paper"}, {"cost", "census"}});
   EXPECT_EQ(7, parameters.integer(Parameter::kSpeckleSize));
@@ -146,7 +146,7 @@ TEST(Parameters, OverrideAPresetOneByOne) {
   EXPECT_EQ("nodes-and-pixels", parameters.text(Parameter::kOutlierRemoval));
 }
 
-TEST(ParameterTable, TellsDefaultsInWords) {
+TEST(ParameterTable, HasTheDefaultsAsText) {
   EXPECT_EQ("64", parameter_defaults_text(Parameter::kMaxDisparity));
   EXPECT_EQ("default", parameter_defaults_text(Parameter::kPreset));
   EXPECT_EQ("semi-dense", parameter_defaults_text(Parameter::kMode));
@@ -155,7 +155,7 @@ TEST(ParameterTable, TellsDefaultsInWords) {
   EXPECT_EQ("census; preset paper: gradient", parameter_defaults_text(Parameter::kCost));
 }
 
-TEST(Parameters, KeepWhatIsSetWhenTheModeChanges) {
+TEST(Parameters, KeepSetValuesWhenTheModeChanges) {
   Parameters parameters = test::parameters({{"preset", "paper"}, {"gray-levels", "37"}});
   for (const char* const mode : {"sparse", "semi-dense"}) {
     test::set_all(parameters, {{"mode", mode}});
@@ -168,7 +168,7 @@ TEST(Parameters, KeepWhatIsSetWhenTheModeChanges) {
   EXPECT_EQ(16, parameters.integer(Parameter::kGrayLevels));
 }
 
-TEST(Parameters, TakeBackTheirOwnText) {
+TEST(Parameters, ParseTheirOwnText) {
   for (const ParameterInfo& info : parameter_table()) {
     for (const std::string& text : valid_texts(info)) {
       Parameters first, second;
@@ -183,7 +183,7 @@ TEST(Parameters, TakeBackTheirOwnText) {
   }
 }
 
-TEST(Parameters, TakeNumbersAsTheyTakeText) {
+TEST(Parameters, AcceptTheSameValuesAsNumberAndText) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.type == ParameterType::kLevels) continue;
     for (const std::string& text : valid_texts(info)) {
@@ -196,7 +196,7 @@ TEST(Parameters, TakeNumbersAsTheyTakeText) {
   }
 }
 
-TEST(Parameters, ReadLevelsFromCoarseToFine) {
+TEST(Parameters, ParseLevelsFromCoarseToFine) {
   const Parameters parameters = test::parameters({{"node-levels", "12,3,0"}});
   const Parameters::Levels levels = parameters.node_levels();
   ASSERT_EQ(3, levels.count);
@@ -207,7 +207,7 @@ TEST(Parameters, ReadLevelsFromCoarseToFine) {
   EXPECT_EQ("12,3,0", parameters.text(Parameter::kNodeLevels));
 }
 
-TEST(Parameters, TellTheMode) {
+TEST(Parameters, ReturnTheMode) {
   EXPECT_EQ(Mode::kSemiDense, Parameters().mode());
   EXPECT_EQ(Mode::kSparse, test::parameters({{"mode", "sparse"}}).mode());
   Parameters by_index;

@@ -22,7 +22,7 @@ std::string one_of(Random& random, const char* const (&choices)[N]) {
   return choices[random.below(static_cast<int>(N))];
 }
 
-/// Parameters that fit images of this width, every one of them drawn.
+/// Random values of all parameters, chosen to fit images of this width.
 Parameters random_parameters(int width, Random& random) {
   const std::string disparities = std::to_string(random.between(1, width));
   return test::parameters({
@@ -81,7 +81,7 @@ void expect_ends(const reference::Frame& expected, const Nodes& nodes) {
   }
 }
 
-/// Compares what a step leaves with what its scalar version leaves.
+/// Compares the results of a step with those of its scalar version.
 void expect_step(const reference::Frame& expected, const Step& step, const FrameMemory& memory) {
   SCOPED_TRACE(testing::Message() << "after " << step.name);
   for (int side = 0; side < 2; ++side) {
@@ -123,7 +123,7 @@ test::DisparityPlane expect_reference(FrameMatcher& matcher, const test::Pair& p
   return expected.map;
 }
 
-/// A pair that has something to match, or now and then none at all.
+/// A random pair, sometimes of unrelated views.
 test::Pair random_pair(int width, int height, Random& random) {
   switch (random.below(6)) {
     case 0:
@@ -135,8 +135,8 @@ test::Pair random_pair(int width, int height, Random& random) {
   }
 }
 
-/// One matcher for frame after frame of changing size and parameters, compared with the reference.
-/// Returns the number of disparities found.
+/// Compares one matcher with the reference over frames of changing size and parameters. Returns the
+/// number of disparities found.
 long expect_reference_frames(int frames, std::uint64_t seed) {
   Random random(seed);
   FrameMatcher matcher{Settings(Parameters())};
@@ -161,7 +161,7 @@ long expect_reference_frames(int frames, std::uint64_t seed) {
 TEST(WholeFrame, EqualsReferenceWithAnyParametersAndSizes) {
   long found = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) found += expect_reference_frames(60, seed);
-  EXPECT_GT(found, 10000) << "the comparison means something";
+  EXPECT_GT(found, 10000) << "too few results to compare";
 }
 
 constexpr const char* kPresetNames[] = {"default", "fast", "paper"};
@@ -182,7 +182,7 @@ TEST(WholeFrame, EqualsReferenceWithTheDefaultsOfAllModes) {
   }
 }
 
-/// Compares a matcher with these parameters on every instruction set with the first one.
+/// Compares the results of a matcher with these parameters on every SIMD target.
 void expect_same_on_every_target(const Parameters& parameters) {
   SCOPED_TRACE(text_of(parameters));
   const test::Pair pair = test::slanted_pair(211, 101, 40, 10);
@@ -201,7 +201,7 @@ void expect_same_on_every_target(const Parameters& parameters) {
   EXPECT_GT(test::known(expected), 1000);
 }
 
-TEST(WholeFrame, IsTheSameWithEveryInstructionSet) {
+TEST(WholeFrame, HasTheSameResultOnEveryInstructionSet) {
   for (const char* const preset : kPresetNames) {
     for (const char* const volume : {"half", "full"}) {
       expect_same_on_every_target(test::parameters({{"preset", preset}, {"cost-volume", volume}}));
