@@ -21,7 +21,7 @@ const test::Pair& pair() {
 
 constexpr const char* kPresetNames[] = {"default", "fast", "paper"};
 
-TEST(FrameMatcher, ShowsEachStepOnceInTheOrderOfTheList) {
+TEST(FrameMatcher, ReportsEachStepOnceInTheOrderOfTheList) {
   for (const char* const preset : kPresetNames) {
     const Parameters parameters = test::parameters({{"preset", preset}});
     FrameMatcher matcher{Settings(parameters)};
@@ -32,20 +32,20 @@ TEST(FrameMatcher, ShowsEachStepOnceInTheOrderOfTheList) {
   }
 }
 
-TEST(FrameMatcher, GivesTheSameWhetherItIsWatchedOrNot) {
+TEST(FrameMatcher, GivesTheSameResultWithAndWithoutAnObserver) {
   for (const char* const preset : kPresetNames) {
     const Settings settings(test::parameters({{"preset", preset}}));
-    FrameMatcher watched(settings), alone(settings);
+    FrameMatcher observed(settings), plain(settings);
     for (int frame = 0; frame < 2; ++frame) {
-      test::maps_after_steps(watched, pair().left, pair().right);
-      alone.compute(pair().left.view(), pair().right.view());
-      EXPECT_TRUE(same_image(test::copy_of(alone.disparity()), watched.disparity())) << preset;
-      EXPECT_TRUE(same_image(test::copy_of(alone.confidence()), watched.confidence())) << preset;
+      test::maps_after_steps(observed, pair().left, pair().right);
+      plain.compute(pair().left.view(), pair().right.view());
+      EXPECT_TRUE(same_image(test::copy_of(plain.disparity()), observed.disparity())) << preset;
+      EXPECT_TRUE(same_image(test::copy_of(plain.confidence()), observed.confidence())) << preset;
     }
   }
 }
 
-TEST(FrameMatcher, ShowsTheResultAfterTheLastStep) {
+TEST(FrameMatcher, ReturnsTheMapOfTheLastStep) {
   for (const char* const resolution : {"full", "half", "half-refined"}) {
     FrameMatcher matcher{Settings(test::parameters({{"resolution", resolution}}))};
     const test::StepMaps maps = test::maps_after_steps(matcher, pair().left, pair().right);
@@ -55,7 +55,7 @@ TEST(FrameMatcher, ShowsTheResultAfterTheLastStep) {
   }
 }
 
-TEST(FrameMatcher, ShowsNothingBeforeTheFirstPairNorAfterAFailedOne) {
+TEST(FrameMatcher, HasNoResultBeforeTheFirstPairNorAfterAFailure) {
   FrameMatcher matcher{Settings(Parameters())};
   EXPECT_EQ(0, matcher.disparity().width);
   EXPECT_EQ(0, matcher.confidence().width);
@@ -70,10 +70,10 @@ TEST(FrameMatcher, ShowsNothingBeforeTheFirstPairNorAfterAFailedOne) {
   EXPECT_EQ(0, matcher.disparity().width);
   EXPECT_EQ(0, matcher.confidence().width);
   matcher.compute(pair().left.view(), pair().right.view());
-  EXPECT_TRUE(same_image(expected, matcher.disparity())) << "it can be used again";
+  EXPECT_TRUE(same_image(expected, matcher.disparity())) << "not usable after a failure";
 }
 
-TEST(FrameMatcher, CountsThePixelsWithADisparity) {
+TEST(FrameMatcher, DensityIsTheFractionOfPixelsWithADisparity) {
   FrameMatcher matcher{Settings(Parameters())};
   matcher.compute(pair().left.view(), pair().right.view());
   const test::DisparityPlane map = test::copy_of(matcher.disparity());

@@ -15,15 +15,14 @@ Settings settings_of(std::initializer_list<std::pair<const char*, std::string>> 
 constexpr FrameSize kFull = {{101, 51}, {101, 51}, 2};
 constexpr FrameSize kHalf = {{101, 51}, {51, 26}, 3};
 
-TEST(FrameMemory, HasWhatTheStepsOfTheDefaultNeed) {
+TEST(FrameMemory, HasTheBuffersOfTheDefaultSteps) {
   FrameMemory memory;
   memory.resize(settings_of({}), kFull);
   for (int side = 0; side < 2; ++side) {
     EXPECT_EQ(101, memory.views.preprocessed[side].level.width());
     EXPECT_EQ(51, memory.views.census[side].bits.height());
     EXPECT_EQ(0, memory.views.halves[side].width());
-    EXPECT_EQ(0, memory.views.preprocessed[side].gray.width())
-        << "only a cost volume is made of it";
+    EXPECT_EQ(0, memory.views.preprocessed[side].gray.width()) << "only a cost volume needs it";
   }
   EXPECT_EQ(1, memory.nodes.level_count);
   EXPECT_EQ(0u, memory.costs.volume.cells.size());
@@ -36,7 +35,7 @@ TEST(FrameMemory, HasWhatTheStepsOfTheDefaultNeed) {
   EXPECT_EQ(2u, memory.maps.scratch.size());
 }
 
-TEST(FrameMemory, HasACostVolumeForTheGradientCostAlone) {
+TEST(FrameMemory, HasACostVolumeForTheGradientCostOnly) {
   FrameMemory memory;
   memory.resize(settings_of({{"preset", "paper"}}), kFull);
   EXPECT_GT(memory.costs.volume.cells.size(), 0u);
@@ -45,7 +44,7 @@ TEST(FrameMemory, HasACostVolumeForTheGradientCostAlone) {
   EXPECT_GT(memory.maps.votes.disparity.width(), 101);
 }
 
-TEST(FrameMemory, HasMapsOfBothSizesForHalvedViews) {
+TEST(FrameMemory, HasMapsOfBothSizesAtHalfResolution) {
   FrameMemory memory;
   memory.resize(settings_of({{"preset", "fast"}}), kHalf);
   EXPECT_EQ(51, memory.views.halves[1].width());
@@ -56,7 +55,7 @@ TEST(FrameMemory, HasMapsOfBothSizesForHalvedViews) {
   EXPECT_EQ(3u, memory.enlarged.scratch.size());
 }
 
-TEST(FrameMemory, KeepsItsBuffersWhereNothingLargerIsNeeded) {
+TEST(FrameMemory, KeepsItsBuffersIfNothingLargerIsNeeded) {
   FrameMemory memory;
   memory.resize(settings_of({}), kFull);
   const std::int32_t* map = memory.maps.disparity.row(0);

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# Installs the build to a folder of its own, builds a program against what is there with nothing but
-# pkg-config, runs it, and looks at the names that the library shows.
+# Installs the build to a temporary folder, builds a program against that folder with pkg-config
+# alone, runs it, and checks the exported names of the library.
 #
 # usage: install_test.sh BUILD PROGRAM.cpp VERSION PREFIX LIBDIR SANITIZE MESON... -- COMPILER...
 set -eu
@@ -17,7 +17,7 @@ done
 shift
 
 if [ "$sanitize" != none ]; then
-  echo "skipped: built with -Db_sanitize=$sanitize, whose runtime a plain program does not have"
+  echo "skipped: built with -Db_sanitize=$sanitize, whose runtime the test program does not link"
   exit 77
 fi
 
@@ -31,27 +31,27 @@ fail() {
 $meson install --no-rebuild --quiet -C "$build" --destdir "$root" >"$root/install.log" 2>&1 ||
   { cat "$root/install.log"; fail "meson install"; }
 
-# Only what was installed: the headers are those of the sysroot, and its library comes first.
+# Only the installed files: the headers are those of the sysroot, and its library has precedence.
 library_path="$root$prefix/$libdir"
 export PKG_CONFIG_PATH="$library_path/pkgconfig"
 export PKG_CONFIG_SYSROOT_DIR="$root"
-flags=$(pkg-config --cflags --libs mtstereo) || fail "pkg-config does not know mtstereo"
-[ "$(pkg-config --modversion mtstereo)" = "$version" ] || fail "pkg-config tells another version"
+flags=$(pkg-config --cflags --libs mtstereo) || fail "pkg-config does not find mtstereo"
+[ "$(pkg-config --modversion mtstereo)" = "$version" ] || fail "pkg-config reports another version"
 case $flags in
   *"$root$prefix"*) ;;
-  *) fail "the flags lead somewhere else: $flags" ;;
+  *) fail "the flags do not refer to the installed files: $flags" ;;
 esac
 for word in opencv hwy; do
   case $flags in
-    *$word*) fail "a user of the library is asked for $word: $flags" ;;
+    *$word*) fail "the flags require $word: $flags" ;;
   esac
 done
 
-# The flags are words on purpose.
+# The flags are split into words on purpose.
 # shellcheck disable=SC2086
 "$@" -Wall -Wextra -Wpedantic -Werror "$program" -o "$root/program" $flags ||
-  fail "the program was not built with: $flags"
-# Every header stands for itself.
+  fail "the program does not build with: $flags"
+# Every header can be included alone.
 for header in "$root$prefix"/include/mtstereo/*.hpp; do
   # shellcheck disable=SC2086
   printf '#include <mtstereo/%s>\n' "$(basename "$header")" |
@@ -60,20 +60,20 @@ for header in "$root$prefix"/include/mtstereo/*.hpp; do
 done
 
 output=$(LD_LIBRARY_PATH="$library_path${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$root/program") ||
-  fail "the program ended with $?"
-echo "the program says: $output"
-[ "${output%% *}" = "$version" ] || fail "the program tells another version: $output"
+  fail "the program exited with status $?"
+echo "the program printed: $output"
+[ "${output%% *}" = "$version" ] || fail "the program prints another version: $output"
 [ "${output##* }" -gt 500 ] || fail "the program found too few pixels: $output"
 
-# A program that was linked to x.y.z runs with every later x.y.z and with no other x.y.
+# A program that was linked against x.y.z runs with every later x.y.* and with no other x.y.
 library=$library_path/libmtstereo.so
 soname=libmtstereo.so.${version%.*}
 [ "$(readlink "$library_path/$soname")" = "libmtstereo.so.$version" ] ||
-  fail "$soname is no link to libmtstereo.so.$version"
+  fail "$soname is not a link to libmtstereo.so.$version"
 readelf -d "$library" | grep -q "SONAME.*\[$soname\]" || fail "the soname is not $soname"
 readelf -d "$root/program" | grep -q "NEEDED.*\[$soname\]" || fail "the program does not need $soname"
 
-# What a program could link to: the library's public names and nothing else.
+# The exported names are the public names of the library and nothing else.
 nm -D --defined-only "$library" | awk '{ print $NF }' >"$root/names.txt"
 grep -q '^_ZNK*8mtstereo' "$root/names.txt" || fail "the library exports nothing"
 foreign=$(grep -v '^_ZNK*8mtstereo' "$root/names.txt" | c++filt || true)

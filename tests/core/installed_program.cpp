@@ -2,7 +2,8 @@
 #include <cstdio>
 #include <mtstereo/mtstereo.hpp>
 
-// Prints how many pixels of a pair with a square of 5 px disparity are seen at that disparity.
+// Matches a pair with a textured square at 5 px disparity and prints the number of pixels found at
+// that disparity.
 int main() {
   static unsigned char left[60][160], right[60][160];
   for (int i = 0; i < 60 * 155; ++i) {

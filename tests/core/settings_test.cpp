@@ -12,7 +12,7 @@
 namespace mtstereo {
 namespace {
 
-/// What a setting is for a value of a parameter.
+/// The expected value of a setting for a value of a parameter.
 struct Mapping {
   const char* name;
   const char* text;
@@ -69,7 +69,7 @@ const Mapping kMappings[] = {
     {"smoothing-radius", "3", 3, [](const Settings& s) { return s.smoothing_radius; }},
 };
 
-TEST(Settings, TakeEachParameterInItsUnit) {
+TEST(Settings, ConvertEachParameterToItsUnit) {
   for (const Mapping& mapping : kMappings) {
     const Settings settings(test::parameters({{mapping.name, mapping.text}}));
     EXPECT_FLOAT_EQ(static_cast<float>(mapping.expected),
@@ -78,9 +78,9 @@ TEST(Settings, TakeEachParameterInItsUnit) {
   }
 }
 
-TEST(Settings, AreTestedForEveryParameter) {
+TEST(Settings, MappingsCoverEveryParameter) {
   for (const ParameterInfo& info : parameter_table()) {
-    if (info.id == Parameter::kPreset) continue;  // only the source of defaults
+    if (info.id == Parameter::kPreset) continue;  // it only selects defaults
     const bool tested = std::any_of(
         std::begin(kMappings), std::end(kMappings),
         [&](const Mapping& mapping) { return std::string_view(mapping.name) == info.name; });
@@ -88,7 +88,7 @@ TEST(Settings, AreTestedForEveryParameter) {
   }
 }
 
-TEST(Settings, HalveTheDisparitiesOfHalvedViewsAndRoundUp) {
+TEST(Settings, HalveTheDisparitiesAtHalfResolutionAndRoundUp) {
   for (const auto& [given, matched] : {std::pair{1, 1}, {2, 1}, {3, 2}, {64, 32}, {101, 51}}) {
     const Settings settings(
         test::parameters({{"resolution", "half"}, {"max-disparity", std::to_string(given)}}));
@@ -98,7 +98,7 @@ TEST(Settings, HalveTheDisparitiesOfHalvedViewsAndRoundUp) {
   }
 }
 
-TEST(Settings, DrawOnlyTheEndsOfNodesForSparseGradientMatching) {
+TEST(Settings, DrawOnlyTheEndsOfNodesInModeSparseWithTheGradientCost) {
   const auto settings = [](const char* mode, const char* cost) {
     return Settings(test::parameters({{"mode", mode}, {"cost", cost}, {"node-end-width", "7"}}));
   };
@@ -110,7 +110,7 @@ TEST(Settings, DrawOnlyTheEndsOfNodesForSparseGradientMatching) {
   EXPECT_FALSE(settings("dense", "census").keeps_only_ends());
 }
 
-/// Sets each word of a choice and compares the enum's value with the word's index.
+/// Sets each word of a choice and compares the enum value with the index of the word.
 template <typename Enum>
 void expect_choice() {
   using Choice = ChoiceOf<Enum>;
@@ -124,7 +124,7 @@ void expect_choice() {
   }
 }
 
-TEST(Choices, AreTheWordsOfTheTable) {
+TEST(Choices, EnumValuesAreTheIndicesOfTheWordsInTheTable) {
   expect_choice<Preset>();
   expect_choice<Mode>();
   expect_choice<Resolution>();

@@ -13,19 +13,19 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-TEST(Steps, HaveDifferentNames) {
+TEST(Steps, HaveUniqueNames) {
   std::set<std::string_view> names;
   for (const Step& step : steps()) EXPECT_TRUE(names.insert(step.name).second) << step.name;
 }
 
-/// Expects that all of these steps run, in this order; others may run between them.
+/// Expects all of these steps to run in this order; others may run between them.
 void expect_order(const Parameters& parameters, const Names& expected) {
   const Names names = test::names_of_steps(parameters);
   auto at = names.begin();
   for (const std::string& name : expected) {
     const auto found = std::find(at, names.end(), name);
     if (found == names.end()) {
-      ADD_FAILURE() << name << " does not run, or runs too early";
+      ADD_FAILURE() << name << " does not run or runs too early";
     } else {
       at = found + 1;
     }
@@ -38,7 +38,7 @@ void expect_none_of(const Parameters& parameters, const Names& absent) {
   }
 }
 
-TEST(Steps, OfTheDefaultRunInThisOrder) {
+TEST(Steps, RunInOrderWithTheDefaults) {
   expect_order({}, {"preprocessing", "max-trees", "census", "node-matching", "node-extrapolation",
                     "census-matching", "speckle-removal", "confidence"});
   expect_none_of({}, {"halving", "cost-volume", "node-drawing", "node-outliers",
@@ -46,19 +46,19 @@ TEST(Steps, OfTheDefaultRunInThisOrder) {
                       "enlarging", "given-census", "refinement"});
 }
 
-TEST(Steps, OfModeDenseFillGapsAfterTheConfidence) {
+TEST(Steps, FillGapsAfterConfidenceInModeDense) {
   expect_order(test::parameters({{"mode", "dense"}}),
                {"census-matching", "speckle-removal", "confidence", "gap-filling"});
 }
 
-TEST(Steps, OfPresetFastWorkOnHalvedViews) {
+TEST(Steps, MatchHalvedViewsInPresetFast) {
   expect_order(test::parameters({{"preset", "fast"}}),
                {"halving", "preprocessing", "max-trees", "census", "node-matching",
                 "node-extrapolation", "census-matching", "speckle-removal", "confidence",
                 "smoothing", "enlarging", "given-census", "refinement"});
 }
 
-TEST(Steps, OfPresetPaperAreThoseOfThePaper) {
+TEST(Steps, AreThoseOfThePaperInPresetPaper) {
   const Parameters paper = test::parameters({{"preset", "paper"}});
   expect_order(paper, {"preprocessing", "max-trees", "cost-volume", "node-matching", "node-drawing",
                        "node-outliers", "node-extrapolation", "gradient-matching", "pixel-outliers",
@@ -67,7 +67,7 @@ TEST(Steps, OfPresetPaperAreThoseOfThePaper) {
                          "smoothing", "enlarging", "given-census", "refinement"});
 }
 
-TEST(Steps, AreLeftOutBySettings) {
+TEST(Steps, AreEnabledBySettings) {
   const auto runs = [](const char* step, const char* parameter, const char* value) {
     const Names names = test::names_of_steps(test::parameters({{parameter, value}}));
     return std::count(names.begin(), names.end(), step) > 0;
