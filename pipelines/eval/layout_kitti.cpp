@@ -85,7 +85,7 @@ void find_kitti(DataSet& set) {
   const std::optional<Folders> folders = find_folders(set.root);
   if (!folders) return;
   if (folders->occ.empty()) {
-    set.notes.push_back(
+    set.notes.emplace_back(
         "there is no disp_occ_0: 'all' means the pixels of disp_noc_0, visible in both views");
   }
   for (const fs::path& file : files_in(folders->left)) {
