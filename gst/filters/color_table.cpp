@@ -2,6 +2,7 @@
 #include "filters/color_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <opencv2/imgproc.hpp>
 
@@ -18,7 +19,7 @@ std::vector<Rgb> color_table(int max_disparity, int disparity_scale) {
   const double step = (kColors - 1) / (static_cast<double>(max_disparity) * disparity_scale);
   for (std::size_t value = 1; value < table.size(); ++value) {
     const int color =
-        std::min(kColors - 1, static_cast<int>(static_cast<double>(value) * step + 0.5));
+        std::min(kColors - 1, static_cast<int>(std::lround(static_cast<double>(value) * step)));
     const auto& bgr = turbo.at<cv::Vec3b>(0, color);
     table[value] = {bgr[2], bgr[1], bgr[0]};
   }
