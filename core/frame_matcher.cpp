@@ -48,17 +48,18 @@ void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observ
   confidence_ = {};
   resize({left.width, left.height});
   Views& views = memory_.views;
-  views.given = {left, right};
-  views.matched = views.given;
+  views.input = {left, right};
+  views.matched = views.input;
   if (settings_.half()) views.matched = {views.halves[0].view(), views.halves[1].view()};
   const Bands bands(*pool_, size_.matched.height);
-  const Bands given_bands(*pool_, size_.frame.height);
-  const StepContext context = {settings_, bands, given_bands};
+  const Bands input_bands(*pool_, size_.frame.height);
+  const StepContext context = {settings_, bands, input_bands};
   for (const Step& step : steps()) {
     if (!step.runs(settings_)) continue;
     step.run(context, memory_);
     if (observer) observer(step, memory_);
   }
+  views.input = views.matched = {};  // the input belongs to the caller
   const bool half = settings_.half();
   const Image<std::int32_t>& map = settings_.refined() ? memory_.enlarged.refined
                                    : half              ? memory_.enlarged.disparity

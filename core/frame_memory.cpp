@@ -22,7 +22,7 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
     if (!settings.census()) preprocessed[side].resize_costs(width, height);
     trees[side].resize(width, height);
     if (settings.census()) census[side].resize(width, height);
-    if (settings.refined()) given_census[side].resize(size.frame.width, size.frame.height);
+    if (settings.refined()) input_census[side].resize(size.frame.width, size.frame.height);
   }
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
@@ -58,9 +58,10 @@ void Costs::resize(const Settings& settings, const FrameSize& size) {
     return;
   }
   const int shift = settings.cost_volume == CostVolumeResolution::kHalf ? 1 : 0;
-  if (kernel.empty() || kernel_size != settings.cost_kernel_size || volume.shift != shift) {
+  if (kernel.empty() || kernel_size != settings.cost_kernel_size || kernel_shift != shift) {
     kernel = smoothing_kernel(settings.cost_kernel_size, shift);
     kernel_size = settings.cost_kernel_size;
+    kernel_shift = shift;
   }
   volume.resize(width, height, settings.disparities, shift);
   for (Scratch& worker : scratch) {

@@ -40,20 +40,20 @@ struct ImageSize {
 
 /// What determines the sizes of the groups.
 struct FrameSize {
-  ImageSize frame;    ///< of the given views and the result
+  ImageSize frame;    ///< of the input views and the result
   ImageSize matched;  ///< of the matched views: the frame's size or half of it
   int threads = 1;
 };
 
 /// The two views and what the stages in prepare/ compute from them. All arrays are indexed by Side.
 struct Views {
-  std::array<GrayView, 2> given;    ///< the views of this frame; they belong to the caller
-  std::array<GrayView, 2> matched;  ///< the views to match: the given ones or their halves
+  std::array<GrayView, 2> input;    ///< the views of this frame; they belong to the caller
+  std::array<GrayView, 2> matched;  ///< the views to match: the input or its halves
   std::array<Image<std::uint8_t>, 2> halves;
   std::array<PreprocessedView, 2> preprocessed;
   std::array<MaxTrees, 2> trees;
   std::array<CensusImage, 2> census;        ///< of the matched views
-  std::array<CensusImage, 2> given_census;  ///< of the given views, for the refinement
+  std::array<CensusImage, 2> input_census;  ///< of the input views, for the refinement
 
   struct Scratch {
     MedianScratch median;
@@ -93,7 +93,8 @@ struct Nodes {
 /// scratch memory of each thread.
 struct Costs {
   SmoothingKernel kernel;
-  int kernel_size = 0;  ///< the size [px] that the kernel was made for
+  int kernel_size = 0;   ///< the size [px] that the kernel was made for
+  int kernel_shift = 0;  ///< the volume's shift that it was made for
   CostVolume volume;
 
   struct Scratch {
@@ -127,7 +128,7 @@ struct Maps {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
-/// The map at the size of the given views, for matching at half resolution.
+/// The map at the size of the input views, for matching at half resolution.
 struct EnlargedMaps {
   Image<std::int32_t> disparity;
   Image<std::uint8_t> confidence;

@@ -115,6 +115,7 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) noexcept {
     if (Status status = state.parameters.check_frame(left.width, left.height); !status) {
       return status.error();
     }
+    state.statistics = {};
     try {
       const auto start = std::chrono::steady_clock::now();
       state.matcher.compute(left, right);

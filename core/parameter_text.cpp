@@ -26,7 +26,8 @@ std::string range_text(const ParameterInfo& info) {
       return words;
     }
     case ParameterType::kLevels:
-      return "up to 8 integers in strictly descending order, the first at most " +
+      return "up to " + std::to_string(kMostNodeLevels) +
+             " integers in strictly descending order, the first at most " +
              number_text(info.maximum) + " and the last 0, as in \"1,0\"";
     case ParameterType::kInteger:
     case ParameterType::kNumber:

@@ -186,14 +186,18 @@ Status Parameters::check_scale16(int scale) const noexcept {
     const int disparities = integer(P::kMaxDisparity);
     if (scale >= 1 && static_cast<long long>(disparities) * scale <= 65535) return {};
     const int fitting = 65535 / disparities;
-    return Error{ErrorCode::kInvalidCombination,
-                 "max-disparity = " + std::to_string(disparities) +
-                     " px times disparity-scale = " + std::to_string(scale) +
-                     " does not fit 16 bits (65535): set disparity-scale to 1 to " +
-                     std::to_string(fitting) +
-                     (scale >= 1 && scale <= 65535
-                          ? ", or max-disparity to at most " + std::to_string(65535 / scale)
-                          : "")};
+    if (scale < 1) {
+      return Error{ErrorCode::kInvalidCombination, "disparity-scale = " + std::to_string(scale) +
+                                                       " is invalid: set it to 1 to " +
+                                                       std::to_string(fitting)};
+    }
+    return Error{
+        ErrorCode::kInvalidCombination,
+        "max-disparity = " + std::to_string(disparities) + " px times disparity-scale = " +
+            std::to_string(scale) + " does not fit 16 bits (65535): set disparity-scale to 1 to " +
+            std::to_string(fitting) +
+            (scale <= 65535 ? ", or max-disparity to at most " + std::to_string(65535 / scale)
+                            : "")};
   });
 }
 

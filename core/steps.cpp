@@ -5,6 +5,7 @@
 #include "steps.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "stages/nodes/disparity_drawing.hpp"
 #include "stages/nodes/node_extrapolation.hpp"
@@ -33,7 +34,7 @@ namespace {
 
 void halve(const StepContext& step, Views& views) {
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int) {
-    halve_rows(views.given[side], y0, y1, views.halves[side]);
+    halve_rows(views.input[side], y0, y1, views.halves[side]);
   });
 }
 
@@ -226,21 +227,21 @@ void smooth(const StepContext& step, Maps& maps) {
 }
 
 void enlarge(const StepContext& step, const Maps& maps, EnlargedMaps& enlarged) {
-  step.given_bands.rows([&](int y0, int y1, int) {
+  step.input_bands.rows([&](int y0, int y1, int) {
     enlarge_rows(maps.disparity, step.settings.max_disparity, y0, y1, enlarged.disparity);
     enlarge_confidence(maps.confidence, y0, y1, enlarged.confidence);
   });
 }
 
-void transform_given(const StepContext& step, Views& views) {
-  step.given_bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
-    census_rows(views.given[side], y0, y1, views.scratch[worker].census, views.given_census[side]);
+void transform_input(const StepContext& step, Views& views) {
+  step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
+    census_rows(views.input[side], y0, y1, views.scratch[worker].census, views.input_census[side]);
   });
 }
 
 void refine(const StepContext& step, const Views& views, EnlargedMaps& enlarged) {
-  step.given_bands.rows_per_thread([&](int y0, int y1, int worker) {
-    refine_disparities(views.given_census[0], views.given_census[1], enlarged.disparity,
+  step.input_bands.rows_per_thread([&](int y0, int y1, int worker) {
+    refine_disparities(views.input_census[0], views.input_census[1], enlarged.disparity,
                        step.settings.max_disparity, y0, y1, enlarged.scratch[worker],
                        enlarged.refined);
   });
@@ -250,11 +251,18 @@ void refine(const StepContext& step, const Views& views, EnlargedMaps& enlarged)
 template <typename Group>
 Group& group(FrameMemory& memory) {
   using Plain = std::remove_const_t<Group>;
-  if constexpr (std::is_same_v<Plain, Views>) return memory.views;
-  if constexpr (std::is_same_v<Plain, Nodes>) return memory.nodes;
-  if constexpr (std::is_same_v<Plain, Costs>) return memory.costs;
-  if constexpr (std::is_same_v<Plain, Maps>) return memory.maps;
-  if constexpr (std::is_same_v<Plain, EnlargedMaps>) return memory.enlarged;
+  if constexpr (std::is_same_v<Plain, Views>) {
+    return memory.views;
+  } else if constexpr (std::is_same_v<Plain, Nodes>) {
+    return memory.nodes;
+  } else if constexpr (std::is_same_v<Plain, Costs>) {
+    return memory.costs;
+  } else if constexpr (std::is_same_v<Plain, Maps>) {
+    return memory.maps;
+  } else {
+    static_assert(std::is_same_v<Plain, EnlargedMaps>, "FrameMemory has no such group");
+    return memory.enlarged;
+  }
 }
 
 /// A step's function, called with the groups that it reads (const) and writes.
@@ -300,7 +308,7 @@ constexpr Step kSteps[] = {
     {"gap-filling",         if_gaps,           on<fill_gaps, Maps>},
     {"smoothing",           if_smoothing,      on<smooth, Maps>},
     {"enlarging",           if_half,           on<enlarge, const Maps, EnlargedMaps>},
-    {"given-census",        if_refined,        on<transform_given, Views>},
+    {"input-census",        if_refined,        on<transform_input, Views>},
     {"refinement",          if_refined,        on<refine, const Views, EnlargedMaps>},
 };
 // clang-format on

@@ -14,7 +14,7 @@ namespace mtstereo {
 struct StepContext {
   const Settings& settings;
   const Bands& bands;        ///< of the matched views
-  const Bands& given_bands;  ///< of the given views
+  const Bands& input_bands;  ///< of the input views
 };
 
 /// One step of the method: an entry of the list that a matcher runs for each frame.

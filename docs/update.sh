@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Writes the generated parts of docs/ anew: the pictures of the stages and of the architecture, the
 # table of parameters and the table of steps.
-# Usage: docs/update.sh [BUILD]; with --check it only reports whether the tables are up to date.
+# Usage: docs/update.sh [BUILD]; with --check it only reports whether the table of parameters is up to
+# date.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 check=
@@ -31,11 +32,11 @@ update() {
 }
 
 "$figures" --parameters > "$work/parameters"
-"$figures" --steps > "$work/list"
-"$here/figures/architecture.py" table < "$work/list" > "$work/steps"
 update parameters.md parameters
-update architecture.md steps
 if [ -z "$check" ]; then
+  "$figures" --steps > "$work/list"
+  "$here/figures/architecture.py" table < "$work/list" > "$work/steps"
+  update architecture.md steps
   "$figures" --pictures "$here/images/stages"
   "$here/figures/architecture.py" picture "$here/images/architecture.png" < "$work/list"
 fi

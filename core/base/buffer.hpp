@@ -26,7 +26,7 @@ class Buffer {
   void resize(std::size_t count) {
     if (count > capacity_) {
       data_.reset();
-      capacity_ = 0;
+      capacity_ = size_ = 0;
       if (count > (std::numeric_limits<std::size_t>::max() - 4 * kAlignment) / sizeof(T)) {
         throw std::bad_alloc();
       }

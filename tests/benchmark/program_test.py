@@ -21,7 +21,7 @@ METHODS = ("semi-dense", "fast", "sparse", "dense", "paper", "sgbm", "sgbm-3way"
 STAGES = ("preprocessing", "max-trees", "cost-volume", "node-matching",
           "node-drawing", "node-extrapolation", "census", "census-matching", "speckle-removal",
           "confidence", "gap-filling", "node-outliers", "gradient-matching",
-          "halving", "smoothing", "enlarging", "given-census", "refinement")
+          "halving", "smoothing", "enlarging", "input-census", "refinement")
 
 
 def run(*arguments, **environment):

@@ -51,7 +51,7 @@ TEST(FrameMemory, HasMapsOfBothSizesAtHalfResolution) {
   EXPECT_EQ(51, memory.maps.disparity.width());
   EXPECT_EQ(101, memory.enlarged.disparity.width());
   EXPECT_EQ(101, memory.enlarged.refined.width());
-  EXPECT_EQ(101, memory.views.given_census[0].bits.width());
+  EXPECT_EQ(101, memory.views.input_census[0].bits.width());
   EXPECT_EQ(3u, memory.enlarged.scratch.size());
 }
 

@@ -43,7 +43,7 @@ TEST(Steps, RunInOrderWithTheDefaults) {
                     "census-matching", "speckle-removal", "confidence"});
   expect_none_of({}, {"halving", "cost-volume", "node-drawing", "node-outliers",
                       "gradient-matching", "pixel-outliers", "gap-filling", "smoothing",
-                      "enlarging", "given-census", "refinement"});
+                      "enlarging", "input-census", "refinement"});
 }
 
 TEST(Steps, FillGapsAfterConfidenceInModeDense) {
@@ -55,7 +55,7 @@ TEST(Steps, MatchHalvedViewsInPresetFast) {
   expect_order(test::parameters({{"preset", "fast"}}),
                {"halving", "preprocessing", "max-trees", "census", "node-matching",
                 "node-extrapolation", "census-matching", "speckle-removal", "confidence",
-                "smoothing", "enlarging", "given-census", "refinement"});
+                "smoothing", "enlarging", "input-census", "refinement"});
 }
 
 TEST(Steps, AreThoseOfThePaperInPresetPaper) {
@@ -64,7 +64,7 @@ TEST(Steps, AreThoseOfThePaperInPresetPaper) {
                        "node-outliers", "node-extrapolation", "gradient-matching", "pixel-outliers",
                        "confidence"});
   expect_none_of(paper, {"halving", "census", "census-matching", "speckle-removal", "gap-filling",
-                         "smoothing", "enlarging", "given-census", "refinement"});
+                         "smoothing", "enlarging", "input-census", "refinement"});
 }
 
 TEST(Steps, AreEnabledBySettings) {

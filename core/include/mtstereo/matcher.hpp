@@ -16,7 +16,7 @@ enum class Side { kLeft, kRight };
 
 /// Figures of one frame.
 struct FrameStatistics {
-  double milliseconds = 0;  ///< wall-clock time of compute() [ms]
+  double milliseconds = 0;  ///< wall-clock time of the matching in compute() [ms]
   double density = 0;       ///< fraction of pixels with a disparity, 0 .. 1
 };
 
@@ -58,7 +58,8 @@ class MTSTEREO_API Matcher {
   /// kSystem. The matcher owns it, and it is valid until the next compute().
   GrayView confidence() const noexcept;
 
-  /// Figures of the last frame.
+  /// Figures of the last frame; zeros before the first one, and after one that failed with
+  /// kOutOfMemory or kSystem.
   FrameStatistics statistics() const noexcept;
 
  private:

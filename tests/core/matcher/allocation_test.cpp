@@ -157,6 +157,7 @@ void expect_recovery(const char* threads, const char* cost, const char* resoluti
     if (!result.ok()) {
       EXPECT_TRUE(test::fails_with(result, ErrorCode::kOutOfMemory, {}));
       EXPECT_FALSE(result.error().message.empty());
+      EXPECT_EQ(0, matcher.statistics().milliseconds);
       EXPECT_EQ(0, matcher.confidence().width) << "the confidence must be empty after an error";
     }
     EXPECT_TRUE(same_image(expected, test::compute(matcher, pair.left, pair.right)));

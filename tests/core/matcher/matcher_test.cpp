@@ -85,8 +85,6 @@ Change change_of(Parameter id) {
       return {{}, "15"};
     case Parameter::kResolution:
       return {{}, "half"};
-    case Parameter::kThreads:
-      return {{}, "3"};
     case Parameter::kMaxNodeWidth:
       return {{{"preset", "paper"}}, "0.05"};
     case Parameter::kIntensityWeight:
@@ -131,6 +129,7 @@ Change change_of(Parameter id) {
     case Parameter::kLargeStepPenalty:
     case Parameter::kMinConfidence:
     case Parameter::kSmoothingRadius:
+    case Parameter::kThreads:
       return {{}, "3"};
     default:
       return {{{"preset", "paper"}}, "3"};

@@ -23,10 +23,10 @@ namespace mtstereo::reference {
 /// The data that the scalar versions of the steps keep for one frame.
 struct Frame {
   Frame(const GrayPlane& left, const GrayPlane& right, const Settings& s)
-      : settings(s), given{left, right}, views{left, right} {}
+      : settings(s), input{left, right}, views{left, right} {}
 
   const Settings settings;
-  std::array<GrayPlane, 2> given;
+  std::array<GrayPlane, 2> input;
   std::array<GrayPlane, 2> views;  ///< the matched views
   std::array<GrayPlane, 2> medians;
   std::array<GrayPlane, 2> levels;
@@ -41,7 +41,7 @@ struct Frame {
 };
 
 inline void halve(Frame& f) {
-  for (int side = 0; side < 2; ++side) f.views[side] = halve(f.given[side]);
+  for (int side = 0; side < 2; ++side) f.views[side] = halve(f.input[side]);
 }
 
 inline void preprocess(Frame& f) {
@@ -138,13 +138,13 @@ inline void fill_gaps(Frame& f) {
 inline void smooth(Frame& f) { f.map = smooth(f.map, f.settings.smoothing_radius); }
 
 inline void enlarge(Frame& f) {
-  const int width = f.given[0].width, height = f.given[0].height;
+  const int width = f.input[0].width, height = f.input[0].height;
   f.map = enlarge(f.map, width, height, f.settings.max_disparity);
   f.confidence = enlarge_confidence(f.confidence, width, height);
 }
 
 inline void refine(Frame& f) {
-  f.map = refine(census(f.given[0]), census(f.given[1]), f.map, f.settings.max_disparity);
+  f.map = refine(census(f.input[0]), census(f.input[1]), f.map, f.settings.max_disparity);
 }
 
 inline void nothing(Frame&) {}  // other steps call reference::census() themselves
@@ -168,7 +168,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"gap-filling", fill_gaps},
     {"smoothing", smooth},
     {"enlarging", enlarge},
-    {"given-census", nothing},
+    {"input-census", nothing},
     {"refinement", refine},
 };
 

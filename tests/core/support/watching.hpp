@@ -18,7 +18,7 @@ inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
                                                  "census",  "cost-volume",   "node-matching"};
   if (std::count(std::begin(kBefore), std::end(kBefore), step.name) > 0) return {};
   if (step.name == "refinement") return memory.enlarged.refined.view();
-  if (step.name == "enlarging" || step.name == "given-census") {
+  if (step.name == "enlarging" || step.name == "input-census") {
     return memory.enlarged.disparity.view();
   }
   return memory.maps.disparity.view();
