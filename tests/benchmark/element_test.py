@@ -10,13 +10,14 @@ import tempfile
 import unittest
 
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+SLOW = float(os.environ.get("MTSTEREO_SLOW", "1"))  # how much slower a sanitized build may be
 
 
 def run(*arguments, **environment):
     known = {name: value for name, value in os.environ.items()
              if not name.startswith("BENCHMARK_")}
     return subprocess.run([PROGRAM, *map(str, arguments)], check=False, capture_output=True,
-                          text=True, timeout=200, env={**known, **environment})
+                          text=True, timeout=200 * SLOW, env={**known, **environment})
 
 
 class Element(unittest.TestCase):

@@ -16,6 +16,7 @@ import unittest
 import zlib
 
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+SLOW = float(os.environ.get("MTSTEREO_SLOW", "1"))  # how much slower a sanitized build may be
 COMPARE = pathlib.Path(__file__).resolve().parent / "compare.py"
 METHODS = ("semi-dense", "fast", "sparse", "dense", "paper", "sgbm", "sgbm-3way", "bm")
 STAGES = ("preprocessing", "max-trees", "cost-volume", "node-matching",
@@ -28,7 +29,7 @@ def run(*arguments, **environment):
     known = {name: value for name, value in os.environ.items()
              if not name.startswith(("BENCHMARK_", "MTSTEREO_"))}
     return subprocess.run([PROGRAM, *map(str, arguments)], check=False, capture_output=True,
-                          text=True, timeout=280, env={**known, **environment})
+                          text=True, timeout=280 * SLOW, env={**known, **environment})
 
 
 class QuickRun(unittest.TestCase):
