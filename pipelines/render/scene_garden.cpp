@@ -74,7 +74,7 @@ void pot(SceneBuilder& b, const Vector3d& foot, double height) {
 }
 
 // Thin stems with one blossom each, moving in the wind.
-void flowers(SceneBuilder& b, const Vector3d& foot, int count, Eigen::Vector3f color) {
+void flowers(SceneBuilder& b, const Vector3d& foot, int count, const Eigen::Vector3f& color) {
   for (int i = 0; i < count; ++i) {
     const Vector3d at = foot + Vector3d(b.random(-0.25, 0.25), 0, b.random(-0.25, 0.25));
     const double height = b.random(0.2, 0.42);

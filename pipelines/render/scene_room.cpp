@@ -29,7 +29,7 @@ Texture parquet() {
   return t;
 }
 
-Texture fabric(double mean, Eigen::Vector3f color) {
+Texture fabric(double mean, const Eigen::Vector3f& color) {
   Texture t;
   t.mean = mean, t.noise_contrast = 0.15, t.noise_size = 0.1, t.octaves = 6, t.persistence = 0.9;
   t.color = color;

@@ -40,7 +40,7 @@ Texture facade(SceneBuilder& b) {
   return t;
 }
 
-Texture paint(double mean, Eigen::Vector3f color) {
+Texture paint(double mean, const Eigen::Vector3f& color) {
   Texture t;
   t.mean = mean, t.noise_contrast = 0.12, t.noise_size = 0.4, t.octaves = 6, t.persistence = 0.8;
   t.color = color;
@@ -71,7 +71,8 @@ void houses(SceneBuilder& b, double side) {
   }
 }
 
-void car(SceneBuilder& b, const Vector3d& at, Eigen::Vector3f color, const Vector3d& velocity) {
+void car(SceneBuilder& b, const Vector3d& at, const Eigen::Vector3f& color,
+         const Vector3d& velocity) {
   const auto moving = [&velocity](Object& o) { o.motion.velocity = velocity; };
   moving(b.box(at + Vector3d(0, -0.65, 0), {0.85, 0.32, 2.0}, paint(0.6, color)));
   moving(b.box(at + Vector3d(0, -1.2, 0.2), {0.72, 0.27, 1.1}, paint(0.3, {1, 1, 1})));
@@ -89,7 +90,8 @@ void tree(SceneBuilder& b, const Vector3d& foot) {
   b.foliage(foot + Vector3d(0, -3.0, 0), 1.2, 260, 0.16, leaves());
 }
 
-void walker(SceneBuilder& b, const Vector3d& foot, const Vector3d& velocity, Eigen::Vector3f coat) {
+void walker(SceneBuilder& b, const Vector3d& foot, const Vector3d& velocity,
+            const Eigen::Vector3f& coat) {
   Object& body = b.box(foot + Vector3d(0, -1.05, 0), {0.22, 0.42, 0.14}, paint(0.5, coat));
   Object& head = b.sphere(foot + Vector3d(0, -1.62, 0), 0.13, paint(0.6, {0.7f, 0.82f, 1.0f}));
   body.motion.velocity = head.motion.velocity = velocity;
