@@ -130,7 +130,7 @@ def table(steps):
     return "\n".join(lines)
 
 
-# The way of a frame before and after the steps: color, place, what it does.
+# The path of a frame before and after the steps: color, place, what it does.
 BEFORE = [
     (GST, "gst/matcher: the element mtstereo", ["aggregation, pairing: two frames of the same time",
                                                 "matching: one pair from start to end"]),
@@ -243,7 +243,7 @@ def draw_steps(drawing, steps, top):
 def picture(steps, path):
     drawing = Drawing()
     first_room, last_room = draw_steps(drawing, steps, 28)
-    drawing.text(20, 28, "The way of a frame", 9.5, weight="bold")
+    drawing.text(20, 28, "The path of a frame", 9.5, weight="bold")
     _, last = draw_way(drawing, BEFORE, 48)
     drawing.arrow((405, last), (438, last), (438, first_room), (470, first_room))
     first, _ = draw_way(drawing, AFTER, 540)
