@@ -31,30 +31,30 @@ constexpr ParameterInfo kTable[] = {
     {P::kMode, "mode", "", "", T::kChoice, 0, 2, "sparse|semi-dense|dense", BY_MODE(MODES("sparse", "semi-dense", "dense"), MODES("sparse", "semi-dense", "dense"), MODES("sparse", "semi-dense", "semi-dense")),
      "which pixels get a disparity: few and reliable ones at the ends of the finest nodes, all reliable ones, "
      "or most pixels, with gaps filled",
-     {"few pixels with few errors, at the ends of the finest nodes", "all disparities that can be trusted", "most pixels: less certain disparities too, and gaps filled"}},
+     {"few pixels with few errors, at the ends of the finest nodes", "all reliable disparities", "most pixels: less certain disparities too, and gaps filled"}},
     {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", ALL("64"),
      "the disparities 0 .. max-disparity - 1 are searched; the nearest measurable point is at "
      "focal length * baseline / max-disparity"},
     {P::kResolution, "resolution", "", "", T::kChoice, 0, 2, "full|half-refined|half", EACH("full", "half-refined", "full"),
      "resolution at which the views are matched: half is several times as fast, and half-refined refines its "
-     "disparities at full resolution; the disparity map always has the size and the px of the views, all "
-     "parameters below count px of the matched resolution",
+     "disparities at full resolution; the disparity map always has the size of the views and counts their px; "
+     "all parameters below count px of the matched resolution",
      {"matched at full resolution", "matched at half resolution, refined at full resolution", "matched at half resolution only"}},
     {P::kThreads, "threads", "", "", T::kInteger, 0, 256, "", ALL("0"),
      "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
     {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, kLargestGrayLevels, "", BY_MODE(MODES("16", "16", "16"), MODES("16", "16", "16"), MODES("16", "8", "8")),
-     "levels that the pre-processed image is quantized to: more levels, deeper trees, smaller leaves"},
+     "levels that the pre-processed image is quantized to: more levels result in deeper trees with smaller leaves"},
     {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", EACH("5", "3", "0"),
      "finest nodes must be wider than this"},
     {P::kMaxNodeWidth, "max-node-width", "omega_beta", "image widths", T::kNumber, 0.001, 1, "", EACH("1", "1", "0.5"),
      "finest nodes must be narrower than this share of the image's width"},
     {P::kNodeLevels, "node-levels", "S", "", T::kLevels, 0, kLargestNodeLevel, "", EACH("0", "0", "1,0"),
      "matched node levels, coarse to fine: level n holds the n-th ancestors of the finest nodes; "
-     "strictly falling, the last one is 0"},
+     "strictly descending, the last one is 0"},
     {P::kMaxNeighbors, "max-neighbors", "omega_gamma", "rows", T::kInteger, 0, kLargestNeighbors, "", ALL("10"),
      "neighbors above and below that a node is matched together with"},
     {P::kCost, "cost", "", "", T::kChoice, 0, 1, "census|gradient", EACH("census", "census", "gradient"),
-     "matching cost of nodes and pixels: the census transform, which no change of exposure alters, optimized "
+     "matching cost of nodes and pixels: the census transform, which is invariant to exposure, optimized "
      "along the scan-lines, or the paper's smoothed cost volume of gray values and gradients",
      {"census transform, optimized along the scan-lines", "smoothed cost volume of gray values and gradients, as in the paper"}},
     {P::kCostKernelSize, "cost-kernel-size", "omega_cv", "px", T::kInteger, 1, kLargestCostKernel, "", ALL("21"),
@@ -66,7 +66,7 @@ constexpr ParameterInfo kTable[] = {
      "share of the intensity cost in the cost of a node pair; the rest is the context cost, which compares the "
      "widths of the nodes' ancestors"},
     {P::kNodeConfidence, "node-confidence", "omega_Pi, coarse to fine", "%", T::kNumber, 0, 1000, "", EACH("3", "3", "12"),
-     "a node pair is accepted where the second-best pair costs more than this above the best"},
+     "a node pair is accepted if the cost of the second-best pair exceeds that of the best by more than this"},
     {P::kOutlierRadius, "outlier-radius", "", "px", T::kInteger, 0, kLargestOutlierRadius, "", EACH("0", "0", "21"),
      "half the side of the window in which a disparity must agree with most others; 0 = no outlier removal"},
     {P::kOutlierRemoval, "outlier-removal", "", "", T::kChoice, 0, 1, "nodes|nodes-and-pixels", EACH("nodes", "nodes", "nodes-and-pixels"),
@@ -75,7 +75,7 @@ constexpr ParameterInfo kTable[] = {
     {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, kLargestCensusKernel, "", EACH("5", "3", "5"),
      "side of the window that census costs are summed over: 1, 3 or 5"},
     {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", ALL("15"),
-     "guided pixel matching expects disparities this much below and above the node's"},
+     "guided pixel matching expects disparities up to this much below and above the node's"},
     {P::kBetweenNodes, "between-nodes", "", "", T::kChoice, 0, 2, "none|span|all", EACH("all", "all", "none"),
      "what is expected of a pixel between two nodes: no disparity, the disparities that both nodes span, or any",
      {"no disparity is expected", "the disparities that the two nodes span are expected", "every disparity is expected"}},
@@ -88,9 +88,9 @@ constexpr ParameterInfo kTable[] = {
      "cost of a larger step where the gray value is constant, less where it changes (census); "
      "0 = no optimization along the scan-line"},
     {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", BY_MODE(MODES("6", "6", "2"), MODES("6", "6", "2"), MODES("12", "4", "4")),
-     "a pixel keeps its disparity where the second-best one costs more than this above the best"},
+     "a pixel keeps its disparity if the cost of the second-best one exceeds that of the best by more than this"},
     {P::kRunnerUp, "runner-up", "", "", T::kChoice, 0, 1, "any|expected", EACH("any", "any", "expected"),
-     "where the second-best disparity is searched: among all, or among those that the nodes expect",
+     "disparities from which the second-best one is selected: all, or only those that the nodes expect",
      {"among all disparities", "among the disparities that the nodes expect"}},
     {P::kLeftRightTolerance, "left-right-tolerance", "", "px", T::kInteger, -1, kLargestMaxDisparity, "", EACH("1", "1", "-1"),
      "largest difference between the disparity of a left pixel and that of its right one; -1 = no check"},
@@ -104,7 +104,7 @@ constexpr ParameterInfo kTable[] = {
     {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, kLargestNodeEnd, "", EACH("9", "9", "1"),
      "mode sparse: pixels that keep their disparity at each end of a finest node, an odd number"},
     {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "0", "30"), MODES("0", "0", "15"), MODES("0", "0", "0")),
-     "gaps up to this width are filled where both sides agree to 1 px; 0 = none"},
+     "gaps up to this width are filled if both sides differ by at most 1 px; 0 = none"},
     {P::kSmoothingRadius, "smoothing-radius", "", "px", T::kInteger, 0, kLargestSmoothingRadius, "", EACH("0", "3", "0"),
      "disparities are smoothed along each surface over this many pixels on both sides, in rows and in columns; "
      "0 = no smoothing"},

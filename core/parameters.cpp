@@ -193,8 +193,9 @@ Status Parameters::check_scale16(int scale) const noexcept {
     }
     return Error{
         ErrorCode::kInvalidCombination,
-        "max-disparity = " + std::to_string(disparities) + " px times disparity-scale = " +
-            std::to_string(scale) + " does not fit 16 bits (65535): set disparity-scale to 1 to " +
+        "max-disparity = " + std::to_string(disparities) +
+            " px times disparity-scale = " + std::to_string(scale) +
+            " does not fit in 16 bits (65535): set disparity-scale to 1 to " +
             std::to_string(fitting) +
             (scale <= 65535 ? ", or max-disparity to at most " + std::to_string(65535 / scale)
                             : "")};

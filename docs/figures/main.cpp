@@ -187,7 +187,7 @@ std::string range(const ParameterInfo& info) {
     case ParameterType::kChoice:
       return cell(info.choices);
     case ParameterType::kLevels:
-      return "falling, ends with 0";
+      return "descending, ends with 0";
     case ParameterType::kInteger:
     case ParameterType::kNumber:
       break;

@@ -48,8 +48,8 @@ bool check_streams(ElementState& state) {
   post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_WRONG_TYPE,
              "The two streams have different sizes: left " + size(left.info) + ", right " +
                  size(right.info) +
-                 ". The frames of a rectified pair have the same size: set both cameras to it, or "
-                 "put videoscale and a capsfilter upstream of one pad.",
+                 ". Both frames of a rectified pair must have the same size: set both cameras to "
+                 "the same size, or put videoscale and a capsfilter upstream of one pad.",
              state.streams_text());
   return false;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-/// Exports a class or a function from the shared library. Everything else in it is hidden.
+/// Exports a class or a function from the shared library. Everything else in the library is hidden.
 #if defined(_WIN32)
 #define MTSTEREO_API
 #else

@@ -85,7 +85,7 @@ enum class ParameterType {
   kNumber,   ///< a real number
   kBoolean,  ///< 0 or 1; as text also false or true
   kChoice,   ///< one of ParameterInfo::choices
-  kLevels,   ///< decreasing integers that end with 0, separated by commas, as in "1,0"
+  kLevels,   ///< descending integers that end with 0, separated by commas, as in "1,0"
 };
 
 /// One row of the parameter table, the only description of a parameter. The range checks, the
@@ -174,7 +174,7 @@ class MTSTEREO_API Parameters {
   Status check_frame(int width, int height) const noexcept;
 
   /// Checks that all disparities below max-disparity fit into 16 bits at `scale` steps per px.
-  /// Fails with kInvalidCombination; the message says what to set.
+  /// Fails with kInvalidCombination; the message states what to set.
   Status check_scale16(int scale) const noexcept;
 
  private:
