@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Writes the generated parts of docs/ anew: the pictures of the stages and of the architecture, the
+# Updates the generated parts of docs/: the pictures of the stages and of the architecture, the
 # table of parameters and the table of steps.
 # Usage: docs/update.sh [BUILD]; with --check it only reports whether the table of parameters is up to
 # date.
