@@ -132,7 +132,8 @@ LoadedPair load_pair(const StereoPair& pair, DmapMeaning meaning) {
   } else if (!pair.visible_truth.empty()) {
     const cv::Mat visible = read_png_disparity(pair.visible_truth);
     require_size(pair.visible_truth, visible, size);
-    loaded.truth.visible = visible == visible;  // NaN (unknown) does not equal itself
+    // NaN (unknown) does not equal itself. NOLINTNEXTLINE(misc-redundant-expression)
+    loaded.truth.visible = visible == visible;
   }
   return loaded;
 }

@@ -51,7 +51,7 @@ Texture stone() {
   return t;
 }
 
-Texture flower(Eigen::Vector3f color) {
+Texture flower(const Eigen::Vector3f& color) {
   Texture t;
   t.mean = 0.7, t.noise_contrast = 0.2, t.noise_size = 0.03, t.octaves = 3;
   t.color = color;
