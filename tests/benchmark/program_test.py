@@ -144,7 +144,7 @@ class Rejections(unittest.TestCase):
     def test_invalid_settings_are_rejected_by_name(self):
         for setting in ("speed=1", "mode", "mode=", "mode=fair", "threads=-1", "", "="):
             with self.subTest(setting):
-                name = setting.split("=")[0] or 'no parameter ""'
+                name = setting.split("=")[0] or 'parameter "" does not exist'
                 self.expect_failure(name, f"--measure-memory=64x48x16/{setting}")
                 self.expect_failure(name, f"--measure-memory=64x48x16/mode=dense/{setting}")
 
