@@ -9,7 +9,7 @@
 #   --quick             only the release build
 #   --summarize FILE... only add up the results in saved outputs of 'meson test'
 #
-# Builds into build/, build-clang-asan/ and build-tsan/. With CI=true warnings are errors, and the tests
+# Builds into build/, build-clang-asan/ and build-clang-tsan/. With CI=true warnings are errors, and the tests
 # of the core also run on 64-bit ARM, emulated by QEMU, in build-aarch64/.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
@@ -146,9 +146,10 @@ if [ "$quick" = no ]; then
     check tidy
   fi
 
-  if build build-tsan threads-tests -Dbuildtype=debugoptimized -Db_sanitize=thread -Db_lundef=false \
+  if CC=clang CXX=clang++ build build-clang-tsan threads-tests -Dbuildtype=debugoptimized \
+    -Db_sanitize=thread -Db_lundef=false \
     -Dgst=disabled -Dtools=disabled; then
-    run_tests build-tsan --suite threads -t 5
+    run_tests build-clang-tsan --suite threads -t 5
   fi
 
   if [ "${CI:-}" = true ] && build build-aarch64 all --cross-file tests/cross/aarch64.txt \
