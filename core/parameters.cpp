@@ -6,6 +6,7 @@
 #include "base/guard.hpp"
 #include "choices.hpp"
 #include "parameter_text.hpp"
+#include "stages/prepare/halving.hpp"
 
 namespace mtstereo {
 namespace {
@@ -164,7 +165,7 @@ Status Parameters::check_frame(int width, int height) const noexcept {
                                                     " px"};
     }
     const bool half = choice<Resolution>(*this) != Resolution::kFull;
-    const int matched = half ? (width + 1) / 2 : width;
+    const int matched = half ? half_of(width) : width;
     const double widest = get(P::kMaxNodeWidth) * matched;
     const int narrowest = integer(P::kMinNodeWidth);
     // Defaults may leave a small image without nodes; values that were set must allow some nodes.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "settings.hpp"
 
+#include "stages/prepare/halving.hpp"
+
 namespace mtstereo {
 namespace {
 
@@ -11,7 +13,7 @@ double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
 
 int matched_disparities(const Parameters& p) {
   const int disparities = p.integer(P::kMaxDisparity);
-  return choice<Resolution>(p) == Resolution::kFull ? disparities : (disparities + 1) / 2;
+  return choice<Resolution>(p) == Resolution::kFull ? disparities : half_of(disparities);
 }
 
 }  // namespace

@@ -83,8 +83,8 @@ void IntervalScratch::resize(int width) {
 
 void MatchScratch::resize(int width, int disparities, int max_neighbors) {
   costs.resize(width, disparities, max_neighbors);
-  left.resize((width + 1) / 2);
-  right.resize((width + 1) / 2);
+  left.resize(most_leaves(width));
+  right.resize(most_leaves(width));
 }
 
 void first_intervals(const NodeLevel& left, int disparities, int y0, int y1,
