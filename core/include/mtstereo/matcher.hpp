@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "mtstereo/alignment.hpp"
 #include "mtstereo/export.hpp"
 #include "mtstereo/image.hpp"
 #include "mtstereo/parameters.hpp"
@@ -44,6 +45,14 @@ class MTSTEREO_API Matcher {
   Status set_parameters(const Parameters& parameters) noexcept;
   /// The parameters for the next frame. The reference is valid as long as the matcher.
   const Parameters& parameters() const noexcept;
+
+  /// Sets what is done to the views of the next frames before they are matched; see
+  /// AlignmentTracker::correction(). A correction that does nothing costs nothing. set_parameters()
+  /// keeps it. Fails with kInvalidParameter if a term of the field exceeds kLargestFieldTerm or a
+  /// blur is not in 0 .. kLargestBlur; the correction is unchanged then.
+  Status set_correction(const ViewCorrection& correction) noexcept;
+  /// The correction for the next frame. The reference is valid as long as the matcher.
+  const ViewCorrection& correction() const noexcept;
 
   /// Matches one pair of images of the same size. They are only read, and only during the call. The
   /// returned map has their size; the matcher owns it, and it is valid until the next compute().

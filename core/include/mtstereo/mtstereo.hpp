@@ -4,7 +4,8 @@
 /// @mainpage
 /// The library finds the disparity of the left image of a rectified pair by MTStereo 2.0, matching
 /// on the Max-trees of the scan-lines. mtstereo::Matcher does that, mtstereo::Parameters configures
-/// it, and mtstereo::parameter_table() describes every parameter. Include <mtstereo/mtstereo.hpp>,
+/// it, and mtstereo::parameter_table() describes every parameter. mtstereo::AlignmentTracker finds
+/// what is wrong with the rows and the sharpness of the views. Include <mtstereo/mtstereo.hpp>,
 /// and compile and link with the flags of `pkg-config --cflags --libs mtstereo`.
 ///
 /// A complete program:
@@ -13,6 +14,7 @@
 /// @namespace mtstereo
 /// The whole library.
 
+#include "mtstereo/alignment.hpp"
 #include "mtstereo/image.hpp"
 #include "mtstereo/matcher.hpp"
 #include "mtstereo/parameters.hpp"
