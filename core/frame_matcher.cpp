@@ -59,7 +59,7 @@ void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observ
     step.run(context, memory_);
     if (observer) observer(step, memory_);
   }
-  views.input = views.matched = {};  // the input belongs to the caller
+  views.input = views.matched = {};  // the caller may free the input
   const bool half = settings_.half();
   const Image<std::int32_t>& map = settings_.refined() ? memory_.enlarged.refined
                                    : half              ? memory_.enlarged.disparity

@@ -16,7 +16,10 @@ int band_rows(const ImageSize& size) { return std::min(Bands::kRows, size.height
 
 void Views::resize(const Settings& settings, const FrameSize& size) {
   const auto [width, height] = size.matched;
+  if (settings.aligned()) aligned.resize(size.frame.width, size.frame.height);
+  const float blurs[] = {settings.correction.left_blur, settings.correction.right_blur};
   for (int side = 0; side < 2; ++side) {
+    if (blurs[side] > 0) blurred[side].resize(size.frame.width, size.frame.height);
     if (settings.half()) halves[side].resize(width, height);
     preprocessed[side].resize(width, height);
     if (!settings.census()) preprocessed[side].resize_costs(width, height);
@@ -26,6 +29,8 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
   }
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
+    if (settings.aligned()) worker.alignment.resize(size.frame.width);
+    if (settings.blurred()) worker.blur.resize(size.frame.width);
     worker.median.resize(width);
     worker.sobel.resize(width);
     const ImageSize& largest = settings.refined() ? size.frame : size.matched;

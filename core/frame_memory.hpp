@@ -19,6 +19,8 @@
 #include "stages/prepare/max_tree.hpp"
 #include "stages/prepare/median_filter.hpp"
 #include "stages/prepare/preprocess.hpp"
+#include "stages/prepare/row_alignment.hpp"
+#include "stages/prepare/view_blur.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/disparity_refinement.hpp"
 #include "stages/refine/map_smoothing.hpp"
@@ -47,8 +49,10 @@ struct FrameSize {
 
 /// The two views and what the stages in prepare/ compute from them. All arrays are indexed by Side.
 struct Views {
-  std::array<GrayView, 2> input;    ///< the views of this frame; they belong to the caller
+  std::array<GrayView, 2> input;    ///< the views of this frame: the caller's or corrected ones
   std::array<GrayView, 2> matched;  ///< the views to match: the input or its halves
+  Image<std::uint8_t> aligned;      ///< the right view with its rows aligned
+  std::array<Image<std::uint8_t>, 2> blurred;
   std::array<Image<std::uint8_t>, 2> halves;
   std::array<PreprocessedView, 2> preprocessed;
   std::array<MaxTrees, 2> trees;
@@ -56,12 +60,19 @@ struct Views {
   std::array<CensusImage, 2> input_census;  ///< of the input views, for the refinement
 
   struct Scratch {
+    AlignmentScratch alignment;
+    BlurScratch blur;
     MedianScratch median;
     SobelScratch sobel;
     CensusScratch census;
   };
   std::vector<Scratch> scratch;  ///< one for each thread
 
+  /// Makes a corrected view the input of the later steps.
+  void replace_input(int side, GrayView corrected) {
+    if (matched[side].data == input[side].data) matched[side] = corrected;
+    input[side] = corrected;
+  }
   void resize(const Settings& settings, const FrameSize& size);
 };
 

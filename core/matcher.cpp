@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 
+#include "alignment/row_field.hpp"
 #include "base/guard.hpp"
 #include "frame_matcher.hpp"
 #include "parameter_text.hpp"
@@ -100,13 +101,36 @@ Result<Matcher> Matcher::create(const Parameters& parameters) noexcept {
 
 Status Matcher::set_parameters(const Parameters& parameters) noexcept {
   return guarded([&]() -> Status {
-    state_->matcher.set(Settings(parameters));
+    Settings settings(parameters);
+    settings.correction = correction();
+    state_->matcher.set(settings);
     state_->parameters = parameters;
     return {};
   });
 }
 
 const Parameters& Matcher::parameters() const noexcept { return state_->parameters; }
+
+Status Matcher::set_correction(const ViewCorrection& correction) noexcept {
+  return guarded([&]() -> Status {
+    if (Status status = check_field(correction.rows); !status) return status;
+    for (const float blur : {correction.left_blur, correction.right_blur}) {
+      if (blur >= 0 && blur <= kLargestBlur) continue;
+      return Error{ErrorCode::kInvalidParameter,
+                   "a blur of " + std::to_string(blur) + " px is invalid: the range is 0 to " +
+                       std::to_string(static_cast<int>(kLargestBlur))};
+    }
+    if (correction == this->correction()) return {};
+    Settings settings = state_->matcher.settings();
+    settings.correction = correction;
+    state_->matcher.set(settings);
+    return {};
+  });
+}
+
+const ViewCorrection& Matcher::correction() const noexcept {
+  return state_->matcher.settings().correction;
+}
 
 Result<DisparityView> Matcher::compute(GrayView left, GrayView right) noexcept {
   return guarded([&]() -> Result<DisparityView> {

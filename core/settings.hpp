@@ -2,6 +2,7 @@
 #pragma once
 
 #include "choices.hpp"
+#include "mtstereo/alignment.hpp"
 #include "mtstereo/parameters.hpp"
 #include "stages/pixels/census_cost.hpp"
 #include "stages/pixels/census_matching.hpp"
@@ -12,8 +13,8 @@
 namespace mtstereo {
 
 /// The parameters of one frame as typed values, derived from Parameters once, before the frame
-/// starts. The parameter table states the meaning of each field. Lengths in px count pixels of the
-/// matched resolution unless stated otherwise.
+/// starts, and the correction of its views. The parameter table states the meaning of each field.
+/// Lengths in px count pixels of the matched resolution unless stated otherwise.
 struct Settings {
   explicit Settings(const Parameters& parameters);
 
@@ -50,6 +51,9 @@ struct Settings {
   int max_gap;           ///< [px]
   int smoothing_radius;  ///< [px]
 
+  /// What is done to the input views; no parameter sets it.
+  ViewCorrection correction;
+
   /// Whether the views are matched at half resolution.
   bool half() const { return resolution != Resolution::kFull; }
   /// Whether the disparities are then refined at full resolution.
@@ -61,6 +65,9 @@ struct Settings {
   /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost
   /// the nodes themselves are drawn at their ends only, see drawn_end_width().
   bool keeps_only_ends() const { return mode == Mode::kSparse && census(); }
+  /// Whether the rows of the right view are resampled, and whether a view is blurred.
+  bool aligned() const { return !(correction.rows == RowField()); }
+  bool blurred() const { return correction.left_blur > 0 || correction.right_blur > 0; }
   /// Number of pixels around each end of a leaf that start guided pixel matching; 0: the whole
   /// leaf. With the census cost it is always 0, since there the nodes only guide the search.
   int drawn_end_width() const { return mode == Mode::kSparse && !census() ? node_end_width : 0; }

@@ -20,6 +20,8 @@
 #include "stages/prepare/max_tree.hpp"
 #include "stages/prepare/median_filter.hpp"
 #include "stages/prepare/preprocess.hpp"
+#include "stages/prepare/row_alignment.hpp"
+#include "stages/prepare/view_blur.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/disparity_refinement.hpp"
 #include "stages/refine/enlarging.hpp"
@@ -31,6 +33,27 @@ namespace mtstereo {
 namespace {
 
 // prepare
+
+void align(const StepContext& step, Views& views) {
+  step.input_bands.rows([&](int y0, int y1, int worker) {
+    align_rows(views.input[1], step.settings.correction.rows, y0, y1,
+               views.scratch[worker].alignment, views.aligned);
+  });
+  views.replace_input(1, views.aligned.view());
+}
+
+void match_sharpness(const StepContext& step, Views& views) {
+  const ViewCorrection& correction = step.settings.correction;
+  const float blurs[] = {correction.left_blur, correction.right_blur};
+  for (int side = 0; side < 2; ++side) {
+    if (blurs[side] <= 0) continue;
+    const BlurKernel kernel = gaussian_kernel(blurs[side]);
+    step.input_bands.rows([&](int y0, int y1, int worker) {
+      blur_rows(views.input[side], kernel, y0, y1, views.scratch[worker].blur, views.blurred[side]);
+    });
+    views.replace_input(side, views.blurred[side].view());
+  }
+}
 
 void halve(const StepContext& step, Views& views) {
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int) {
@@ -272,6 +295,8 @@ void on(const StepContext& context, FrameMemory& memory) {
 }
 
 bool always(const Settings&) { return true; }
+bool if_aligned(const Settings& s) { return s.aligned(); }
+bool if_blurred(const Settings& s) { return s.blurred(); }
 bool if_half(const Settings& s) { return s.half(); }
 bool if_refined(const Settings& s) { return s.refined(); }
 bool if_census(const Settings& s) { return s.census(); }
@@ -288,6 +313,8 @@ bool if_smoothing(const Settings& s) { return s.smoothing_radius > 0; }
 constexpr Step kSteps[] = {
     // name                 runs               runs on
     // prepare
+    {"row-alignment",       if_aligned,        on<align, Views>},
+    {"sharpness",           if_blurred,        on<match_sharpness, Views>},
     {"halving",             if_half,           on<halve, Views>},
     {"preprocessing",       always,            on<preprocess, Views>},
     {"max-trees",           always,            on<build_trees, Views, Nodes>},

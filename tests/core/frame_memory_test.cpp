@@ -55,6 +55,22 @@ TEST(FrameMemory, HasMapsOfBothSizesAtHalfResolution) {
   EXPECT_EQ(3u, memory.enlarged.scratch.size());
 }
 
+TEST(FrameMemory, HasCorrectedViewsForACorrectionOnly) {
+  Settings settings = settings_of({{"preset", "fast"}});
+  FrameMemory memory;
+  memory.resize(settings, kHalf);
+  EXPECT_EQ(0, memory.views.aligned.width());
+  settings.correction.rows.offset = 1;
+  memory.resize(settings, kHalf);
+  EXPECT_EQ(101, memory.views.aligned.width());
+  EXPECT_EQ(0, memory.views.blurred[1].width());
+  settings.correction = {};
+  settings.correction.right_blur = 1;
+  memory.resize(settings, kHalf);
+  EXPECT_EQ(0, memory.views.blurred[0].width());
+  EXPECT_EQ(101, memory.views.blurred[1].width());
+}
+
 TEST(FrameMemory, KeepsItsBuffersIfNothingLargerIsNeeded) {
   FrameMemory memory;
   memory.resize(settings_of({}), kFull);

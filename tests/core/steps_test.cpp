@@ -83,5 +83,19 @@ TEST(Steps, AreEnabledBySettings) {
   EXPECT_FALSE(runs("refinement", "resolution", "half"));
 }
 
+TEST(Steps, CorrectTheViewsFirst) {
+  Settings settings{Parameters()};
+  const auto runs = [&](int step) { return steps()[step].runs(settings); };
+  ASSERT_EQ("row-alignment", steps()[0].name);
+  ASSERT_EQ("sharpness", steps()[1].name);
+  EXPECT_FALSE(runs(0) || runs(1));
+  settings.correction.rows.square = -0.1;
+  EXPECT_TRUE(runs(0) && !runs(1));
+  settings.correction = {{}, 0, 0.5F};
+  EXPECT_TRUE(!runs(0) && runs(1));
+  settings.correction = {{}, 0.5F, 0};
+  EXPECT_TRUE(!runs(0) && runs(1));
+}
+
 }  // namespace
 }  // namespace mtstereo

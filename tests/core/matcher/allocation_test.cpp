@@ -72,6 +72,23 @@ TEST_F(Allocation, NeverHappensInLaterFramesOnOneThread) {
       {{"threads", "1"}, {"cost", "gradient"}, {"cost-volume", "full"}, {"node-levels", "3,1,0"}});
 }
 
+TEST_F(Allocation, NeverHappensInLaterFramesWhenTheCorrectionChanges) {
+  const test::Pair pair = test::slanted_pair(333, 201, 40, 1);
+  for (const char* const preset : {"default", "fast"}) {
+    Matcher matcher = test::matcher({{"threads", "2"}, {"preset", preset}});
+    for (int frame = 0; frame < 6; ++frame) {
+      ViewCorrection correction;
+      if (frame % 3 != 2) correction = {{0.1 * frame, 3, 2, 0, 0}, 0.4F, 1};
+      test::count_allocations();
+      const bool ok = matcher.set_correction(correction).ok() &&
+                      matcher.compute(pair.left.view(), pair.right.view()).ok();
+      const long count = test::allocations();
+      EXPECT_TRUE(ok);
+      if (frame >= 2) EXPECT_EQ(0, count) << "frame " << frame;
+    }
+  }
+}
+
 TEST_F(Allocation, NeverHappensInLaterFramesInAnyModeOfAnyPreset) {
   for (const char* const threads : {"1", "2"}) {
     for (const char* const mode : {"sparse", "semi-dense", "dense"}) {
