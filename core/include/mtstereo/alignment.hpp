@@ -72,6 +72,7 @@ enum class FieldStatus {
   kTooScattered,     ///< the matches scatter too much about the field
   kTooConcentrated,  ///< the matches cover too small a part of the image
   kTooUncertain,     ///< the predicted error of the field is too large
+  kSwapped,          ///< most matches have a negative disparity: the left view is the right one
 };
 
 /// A short English text for a status, as in "too few matches". The string is static.
@@ -129,8 +130,9 @@ MTSTEREO_API const char* problem_text(PairProblem problem) noexcept;
 /// How estimates become a correction:
 /// - The first trusted one applies at once. Later ones are combined with it and refine it.
 /// - Estimates of an unchanged scene share the same errors, so together they count as one.
-/// - An estimate that differs from the correction by more than 0.3 px (rms) withdraws it. The next
-///   correction needs three successive estimates that agree.
+/// - An estimate that differs from the correction by more than 0.3 px (rms) withdraws it; a
+///   correction of three or more views needs two such estimates in succession. The next correction
+///   needs three successive estimates that agree.
 /// - A field of less than 0.1 px (rms) is not corrected.
 class MTSTEREO_API AlignmentTracker {
  public:

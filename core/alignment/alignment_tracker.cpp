@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The public class AlignmentTracker, and the texts of its enums.
+#include <new>
+#include <string>
+
+#include "alignment/correction_policy.hpp"
+#include "alignment/pair_inspection.hpp"
+#include "alignment/pair_watch.hpp"
+#include "alignment/row_field.hpp"
+#include "base/guard.hpp"
+#include "check_views.hpp"
+#include "mtstereo/alignment.hpp"
+#include "mtstereo/parameters.hpp"
+
+namespace mtstereo {
+
+const char* field_status_text(FieldStatus status) noexcept {
+  switch (status) {
+    case FieldStatus::kNotInspected:
+      return "not inspected yet";
+    case FieldStatus::kTrusted:
+      return "trusted";
+    case FieldStatus::kImageTooSmall:
+      return "the images are too small";
+    case FieldStatus::kTooFewCorners:
+      return "too little texture";
+    case FieldStatus::kTooFewMatches:
+      return "too few matches";
+    case FieldStatus::kTooFewInliers:
+      return "the matches disagree with each other";
+    case FieldStatus::kTooScattered:
+      return "the matches scatter too much";
+    case FieldStatus::kTooConcentrated:
+      return "the matches cover too small a part of the image";
+    case FieldStatus::kTooUncertain:
+      return "the matches do not determine the field";
+    case FieldStatus::kSwapped:
+      return "the views are swapped";
+  }
+  return "";
+}
+
+const char* problem_name(PairProblem problem) noexcept {
+  switch (problem) {
+    case PairProblem::kSwapped:
+      return "swapped";
+    case PairProblem::kNotAPair:
+      return "not-a-pair";
+    case PairProblem::kOutOfStep:
+      return "out-of-step";
+    case PairProblem::kSharpnessDiffers:
+      return "sharpness-differs";
+    case PairProblem::kLeftBlank:
+      return "left-blank";
+    case PairProblem::kRightBlank:
+      return "right-blank";
+    case PairProblem::kLeftFrozen:
+      return "left-frozen";
+    case PairProblem::kRightFrozen:
+      return "right-frozen";
+  }
+  return "";
+}
+
+const char* problem_text(PairProblem problem) noexcept {
+  switch (problem) {
+    case PairProblem::kSwapped:
+      return "The left and the right view are swapped: exchange the two streams.";
+    case PairProblem::kNotAPair:
+      return "The two views do not show the same scene: check which streams are connected, and "
+             "that "
+             "neither is upside down or mirrored.";
+    case PairProblem::kOutOfStep:
+      return "The two views were not taken at the same time: synchronize the cameras.";
+    case PairProblem::kSharpnessDiffers:
+      return "One view is less sharp than the other: clean and focus its lens.";
+    case PairProblem::kLeftBlank:
+      return "The left view shows nothing: check whether its lens is covered.";
+    case PairProblem::kRightBlank:
+      return "The right view shows nothing: check whether its lens is covered.";
+    case PairProblem::kLeftFrozen:
+      return "The left view repeats itself while the right one changes: check its stream.";
+    case PairProblem::kRightFrozen:
+      return "The right view repeats itself while the left one changes: check its stream.";
+  }
+  return "";
+}
+
+/// The state of the public class. Hidden, since it would otherwise be exported together with that
+/// class.
+struct __attribute__((visibility("hidden"))) AlignmentTracker::State {
+  PairInspector inspector;
+  PairFindings findings;
+  CorrectionPolicy policy;
+  PairWatch watch;
+};
+
+AlignmentTracker::AlignmentTracker(std::unique_ptr<State> state) noexcept
+    : state_(std::move(state)) {}
+AlignmentTracker::AlignmentTracker(AlignmentTracker&&) noexcept = default;
+AlignmentTracker& AlignmentTracker::operator=(AlignmentTracker&&) noexcept = default;
+AlignmentTracker::~AlignmentTracker() = default;
+
+Result<AlignmentTracker> AlignmentTracker::create() noexcept {
+  return guarded([&]() -> Result<AlignmentTracker> {
+    try {
+      return AlignmentTracker(std::make_unique<State>());
+    } catch (const std::bad_alloc&) {
+      return Error{ErrorCode::kOutOfMemory, "not enough memory for an alignment tracker"};
+    }
+  });
+}
+
+Status AlignmentTracker::watch(GrayView left, GrayView right) noexcept {
+  return guarded([&]() -> Status {
+    if (Status status = check_pair(left, right); !status) return status;
+    state_->watch.watch(left, right);
+    return {};
+  });
+}
+
+Status AlignmentTracker::inspect(GrayView left, GrayView right, int max_disparity) noexcept {
+  return guarded([&]() -> Status {
+    if (Status status = check_pair(left, right); !status) return status;
+    if (max_disparity < 1 || max_disparity > kLargestMaxDisparity) {
+      return Error{ErrorCode::kInvalidParameter,
+                   "max-disparity = " + std::to_string(max_disparity) +
+                       " is invalid: the range is 1 to " + std::to_string(kLargestMaxDisparity)};
+    }
+    state_->inspector.inspect(left, right, max_disparity);
+    state_->findings = state_->inspector.findings();
+    state_->policy.add(state_->findings, state_->inspector.matches(), left.width, left.height);
+    return {};
+  });
+}
+
+const PairFindings& AlignmentTracker::findings() const noexcept { return state_->findings; }
+
+const ViewCorrection& AlignmentTracker::correction() const noexcept {
+  return state_->policy.correction();
+}
+
+bool AlignmentTracker::trusted() const noexcept { return state_->policy.trusted(); }
+
+int AlignmentTracker::views() const noexcept { return state_->policy.views(); }
+
+bool AlignmentTracker::has(PairProblem problem) const noexcept {
+  const State& state = *state_;
+  switch (problem) {
+    case PairProblem::kSwapped:
+      return state.policy.swapped();
+    case PairProblem::kNotAPair:
+      return state.policy.not_a_pair();
+    case PairProblem::kOutOfStep:
+      return state.policy.out_of_step();
+    case PairProblem::kSharpnessDiffers:
+      return state.policy.sharpness_differs();
+    case PairProblem::kLeftBlank:
+      return state.watch.blank(0);
+    case PairProblem::kRightBlank:
+      return state.watch.blank(1);
+    case PairProblem::kLeftFrozen:
+      return state.watch.frozen(0);
+    case PairProblem::kRightFrozen:
+      return state.watch.frozen(1);
+  }
+  return false;
+}
+
+Status AlignmentTracker::restore(const RowField& field) noexcept {
+  return guarded([&]() -> Status {
+    if (Status status = check_field(field); !status) return status;
+    reset();
+    state_->policy.restore(field);
+    return {};
+  });
+}
+
+void AlignmentTracker::reset() noexcept {
+  state_->findings = {};
+  state_->policy.reset();
+  state_->watch.reset();
+}
+
+}  // namespace mtstereo

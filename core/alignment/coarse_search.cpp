@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "alignment/coarse_search.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#define HWY_TARGET_INCLUDE "alignment/coarse_search.cpp"
+#include "base/simd.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo::HWY_NAMESPACE {
+
+/// The costs of `count` adjacent places in one row: costs[i] compares the patches whose first
+/// pixels are `patch` and `places` + i.
+void compare_patches(const std::uint8_t* patch, std::ptrdiff_t patch_stride,
+                     const std::uint8_t* places, std::ptrdiff_t stride, int count,
+                     std::int32_t* costs) {
+  const hn::FixedTag<std::uint8_t, kPatchWidth> d8;
+  const hn::Repartition<std::uint64_t, decltype(d8)> d64;
+  for (int i = 0; i < count; ++i) {
+    auto sums = hn::Zero(d64);
+    for (int y = 0; y < kPatchRows; ++y) {
+      const auto a = hn::LoadU(d8, patch + y * patch_stride);
+      const auto b = hn::LoadU(d8, places + i + y * stride);
+      const auto difference = hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a));
+      sums = hn::Add(sums, hn::SumsOf8(difference));
+    }
+    costs[i] = static_cast<std::int32_t>(hn::GetLane(hn::SumOfLanes(d64, sums)));
+  }
+}
+
+}  // namespace mtstereo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(compare_patches);
+
+namespace {
+
+/// Places x0 .. x1, y0 .. y1.
+struct Area {
+  int x0, x1, y0, y1;
+
+  int width() const { return x1 - x0 + 1; }
+};
+
+/// All places in reach of (x, y) whose patches lie inside the image.
+Area area_around(int x0, int x1, int y, int rows, const Image<std::uint8_t>& image) {
+  return {std::max(x0, kPatchWidth / 2), std::min(x1, image.width() - kPatchWidth / 2),
+          std::max(y - rows, kPatchRows / 2),
+          std::min(y + rows, image.height() - 1 - kPatchRows / 2)};
+}
+
+const std::uint8_t* patch_at(const Image<std::uint8_t>& image, int x, int y) {
+  return image.row(y - kPatchRows / 2) + x - kPatchWidth / 2;
+}
+
+/// The least costs of an area: the best place, and the best one that is not near it.
+struct Best {
+  Place place{};
+  std::int32_t cost = 0;
+  std::int32_t other = -1;  ///< -1 if there is no other place
+
+  bool is_distinct() const { return other < 0 || other > kDistinctness * cost; }
+};
+
+std::optional<Best> search(const Image<std::uint8_t>& from, int x, int y,
+                           const Image<std::uint8_t>& in, const Area& area,
+                           SearchScratch& scratch) {
+  if (area.x0 > area.x1 || area.y0 > area.y1) return {};
+  const int width = area.width();
+  std::int32_t* costs = scratch.costs.data();
+  for (int j = area.y0; j <= area.y1; ++j) {
+    HWY_DYNAMIC_DISPATCH(compare_patches)
+    (patch_at(from, x, y), from.stride(), patch_at(in, area.x0, j), in.stride(), width,
+     costs + (j - area.y0) * width);
+  }
+  const int count = width * (area.y1 - area.y0 + 1);
+  const int at = static_cast<int>(std::min_element(costs, costs + count) - costs);
+  Best best;
+  best.place = {area.x0 + at % width, area.y0 + at / width};
+  best.cost = costs[at];
+  for (int i = 0; i < count; ++i) {
+    if (best.other >= 0 && costs[i] >= best.other) continue;
+    if (std::abs(i % width - at % width) <= kNeighborhood &&
+        std::abs(i / width - at / width) <= kNeighborhood) {
+      continue;
+    }
+    best.other = costs[i];
+  }
+  return best;
+}
+
+}  // namespace
+
+void SearchScratch::resize(const SearchWindow& window) {
+  costs.resize(static_cast<std::size_t>(window.most_disparity - window.least_disparity + 1) *
+               (2 * window.rows + 1));
+}
+
+std::optional<Place> find_in_right_view(const Image<std::uint8_t>& left,
+                                        const Image<std::uint8_t>& right, const Corner& corner,
+                                        const SearchWindow& window, SearchScratch& scratch) {
+  scratch.resize(window);
+  const Area there = area_around(corner.x - window.most_disparity,
+                                 corner.x - window.least_disparity, corner.y, window.rows, right);
+  const std::optional<Best> best = search(left, corner.x, corner.y, right, there, scratch);
+  if (!best || !best->is_distinct()) return {};
+  const auto [x, y] = best->place;
+  const Area here =
+      area_around(x + window.least_disparity, x + window.most_disparity, y, window.rows, left);
+  const std::optional<Best> back = search(right, x, y, left, here, scratch);
+  if (!back || std::abs(back->place.x - corner.x) > 1 || std::abs(back->place.y - corner.y) > 1) {
+    return {};
+  }
+  return best->place;
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE
