@@ -26,6 +26,8 @@ const char* field_status_text(FieldStatus status) noexcept {
       return "too little texture";
     case FieldStatus::kTooFewMatches:
       return "too few matches";
+    case FieldStatus::kRepeatedPattern:
+      return "the texture repeats itself";
     case FieldStatus::kTooFewInliers:
       return "the matches disagree with each other";
     case FieldStatus::kTooScattered:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #define HWY_TARGET_INCLUDE "alignment/coarse_search.cpp"
 #include "base/simd.hpp"
@@ -59,7 +60,8 @@ const std::uint8_t* patch_at(const Image<std::uint8_t>& image, int x, int y) {
 
 /// The least costs of an area: the best place, and the best one that is not near it.
 struct Best {
-  Place place{};
+  int x = 0;
+  int y = 0;
   std::int32_t cost = 0;
   std::int32_t other = -1;  ///< -1 if there is no other place
 
@@ -80,7 +82,8 @@ std::optional<Best> search(const Image<std::uint8_t>& from, int x, int y,
   const int count = width * (area.y1 - area.y0 + 1);
   const int at = static_cast<int>(std::min_element(costs, costs + count) - costs);
   Best best;
-  best.place = {area.x0 + at % width, area.y0 + at / width};
+  best.x = area.x0 + at % width;
+  best.y = area.y0 + at / width;
   best.cost = costs[at];
   for (int i = 0; i < count; ++i) {
     if (best.other >= 0 && costs[i] >= best.other) continue;
@@ -93,6 +96,16 @@ std::optional<Best> search(const Image<std::uint8_t>& from, int x, int y,
   return best;
 }
 
+/// Sum of the absolute differences of a patch from the local mean.
+int contrast_at(const Image<std::uint8_t>& image, int x, int y) {
+  int sum = 0;
+  for (int j = 0; j < kPatchRows; ++j) {
+    const std::uint8_t* row = patch_at(image, x, y) + j * image.stride();
+    for (int i = 0; i < kPatchWidth; ++i) sum += std::abs(row[i] - 128);
+  }
+  return sum;
+}
+
 }  // namespace
 
 void SearchScratch::resize(const SearchWindow& window) {
@@ -100,22 +113,23 @@ void SearchScratch::resize(const SearchWindow& window) {
                (2 * window.rows + 1));
 }
 
-std::optional<Place> find_in_right_view(const Image<std::uint8_t>& left,
-                                        const Image<std::uint8_t>& right, const Corner& corner,
-                                        const SearchWindow& window, SearchScratch& scratch) {
+Place find_in_right_view(const Image<std::uint8_t>& left, const Image<std::uint8_t>& right,
+                         const Corner& corner, const SearchWindow& window, SearchScratch& scratch) {
+  using Outcome = Place::Outcome;
   scratch.resize(window);
   const Area there = area_around(corner.x - window.most_disparity,
                                  corner.x - window.least_disparity, corner.y, window.rows, right);
   const std::optional<Best> best = search(left, corner.x, corner.y, right, there, scratch);
-  if (!best || !best->is_distinct()) return {};
-  const auto [x, y] = best->place;
-  const Area here =
-      area_around(x + window.least_disparity, x + window.most_disparity, y, window.rows, left);
-  const std::optional<Best> back = search(right, x, y, left, here, scratch);
-  if (!back || std::abs(back->place.x - corner.x) > 1 || std::abs(back->place.y - corner.y) > 1) {
-    return {};
+  if (!best) return {};
+  if (!best->is_distinct()) {
+    const bool similar = best->cost < kRepeatedCost * contrast_at(left, corner.x, corner.y);
+    return {similar ? Outcome::kRepeated : Outcome::kNotFound};
   }
-  return best->place;
+  const Area here = area_around(best->x + window.least_disparity, best->x + window.most_disparity,
+                                best->y, window.rows, left);
+  const std::optional<Best> back = search(right, best->x, best->y, left, here, scratch);
+  if (!back || std::abs(back->x - corner.x) > 1 || std::abs(back->y - corner.y) > 1) return {};
+  return {Outcome::kFound, best->x, best->y};
 }
 
 }  // namespace mtstereo

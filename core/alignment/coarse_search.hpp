@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "alignment/corner_grid.hpp"
 #include "base/buffer.hpp"
@@ -28,10 +27,19 @@ inline constexpr int kPatchRows = 11;
 inline constexpr double kDistinctness = 1.15;
 inline constexpr int kNeighborhood = 2;
 
-/// The place in the other view.
+/// The corner is part of a repeated pattern if the best place is not distinct although its cost is
+/// less than this fraction of the contrast of the patch.
+inline constexpr double kRepeatedCost = 0.25;
+
+/// A place in the other view, or why there is none.
 struct Place {
-  int x;
-  int y;
+  enum class Outcome { kFound, kNotFound, kRepeated };
+
+  Outcome outcome = Outcome::kNotFound;
+  int x = 0;
+  int y = 0;
+
+  bool found() const { return outcome == Outcome::kFound; }
 };
 
 /// Sums of absolute differences of one search.
@@ -43,8 +51,7 @@ struct SearchScratch {
 
 /// The place of the corner in the right view, if it is distinct and if the search from there in the
 /// left view leads back to the corner within 1 px.
-std::optional<Place> find_in_right_view(const Image<std::uint8_t>& left,
-                                        const Image<std::uint8_t>& right, const Corner& corner,
-                                        const SearchWindow& window, SearchScratch& scratch);
+Place find_in_right_view(const Image<std::uint8_t>& left, const Image<std::uint8_t>& right,
+                         const Corner& corner, const SearchWindow& window, SearchScratch& scratch);
 
 }  // namespace mtstereo

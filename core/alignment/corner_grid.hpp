@@ -31,7 +31,7 @@ inline constexpr int kCornerMargin = 9;
 /// cell.
 inline constexpr int kCornerWindow = 7;
 inline constexpr float kSmallestGradient = 9;
-inline constexpr float kGradientOfNoise = 2 * 1.7F;
+inline constexpr float kGradientOfNoise = 2 * 2.6F;
 
 /// The gradients' products, summed up over windows. Memory that successive views share.
 struct CornerScratch {

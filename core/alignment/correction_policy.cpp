@@ -93,7 +93,7 @@ FieldChoice CorrectionPolicy::fit_pool() {
   }
   const FieldFit fit = fit_field(together_, width_, height_, scratch_);
   const double floor = correction_.rows == RowField() ? kFieldFloor : kKeptField;
-  return choose_field(fit, static_cast<int>(together_.size()), floor, width_, height_);
+  return choose_field(fit, static_cast<int>(together_.size()), 0, floor, width_, height_);
 }
 
 void CorrectionPolicy::apply(const RowField& field) {

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "alignment/field_choice.hpp"
 
+#include <algorithm>
+
 namespace mtstereo {
 namespace {
 
 /// Whether the matches are good enough for any field.
-FieldStatus status_of(const FieldFit& fit, int matches) {
+FieldStatus status_of(const FieldFit& fit, int matches, int repeated) {
+  if (repeated > kLargestRepeatedShare * std::max(matches, kFewestInliers)) {
+    return FieldStatus::kRepeatedPattern;
+  }
   if (matches < kFewestInliers) return FieldStatus::kTooFewMatches;
   if (fit.inliers < kFewestInliers || fit.inliers < kLeastInlierShare * matches) {
     return FieldStatus::kTooFewInliers;
@@ -23,9 +28,10 @@ double allowed_excess(int missing) {
 
 }  // namespace
 
-FieldChoice choose_field(const FieldFit& fit, int matches, double floor, int width, int height) {
+FieldChoice choose_field(const FieldFit& fit, int matches, int repeated, double floor, int width,
+                         int height) {
   FieldChoice choice;
-  choice.status = status_of(fit, matches);
+  choice.status = status_of(fit, matches, repeated);
   if (choice.status != FieldStatus::kTrusted) return choice;
   std::size_t largest = fit.models.size() - 1;
   while (largest > 0 && fit.models[largest].deviation > kLargestDeviation) --largest;

@@ -15,6 +15,9 @@ inline constexpr double kLargestResidual = 0.45;   ///< [px]
 inline constexpr double kLargestDeviation = 0.15;  ///< [px]
 inline constexpr int kFewestCells = 5;
 
+/// What a trusted fit has at most: corners that are found at several places, per match.
+inline constexpr double kLargestRepeatedShare = 0.25;
+
 /// By how much the capped chi-square of a smaller model may exceed that of a larger one, in all and
 /// for each term that it lacks.
 inline constexpr double kChiSquareBase = 20;
@@ -34,7 +37,9 @@ struct FieldChoice {
 };
 
 /// Chooses the smallest model that explains the matches about as well as the largest one whose
-/// predicted error is small enough. Fields below `floor` become zero.
-FieldChoice choose_field(const FieldFit& fit, int matches, double floor, int width, int height);
+/// predicted error is small enough. Fields below `floor` become zero. `repeated` counts the corners
+/// that were found at several places, which are no matches.
+FieldChoice choose_field(const FieldFit& fit, int matches, int repeated, double floor, int width,
+                         int height);
 
 }  // namespace mtstereo

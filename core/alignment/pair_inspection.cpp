@@ -23,13 +23,15 @@ void PairInspector::search(GrayView left, GrayView right, int least_disparity, i
                                reduced(kSearchedRows, factor)};
   const auto reach = static_cast<float>(factor + 1);
   matches_.clear();
+  repeated_ = 0;
   for (const Corner& corner : corners_) {
-    const auto place = find_in_right_view(reduced_left_.gray, reduced_right_.gray, corner, window,
-                                          search_scratch_);
-    if (!place) continue;
+    const Place place = find_in_right_view(reduced_left_.gray, reduced_right_.gray, corner, window,
+                                           search_scratch_);
+    repeated_ += place.outcome == Place::Outcome::kRepeated ? 1 : 0;
+    if (!place.found()) continue;
     const auto match = track_patch(left, right, middle(corner.x, factor), middle(corner.y, factor),
-                                   static_cast<float>(middle(place->x, factor)),
-                                   static_cast<float>(middle(place->y, factor)), reach);
+                                   static_cast<float>(middle(place.x, factor)),
+                                   static_cast<float>(middle(place.y, factor)), reach);
     if (match) matches_.push_back(*match);
   }
 }
@@ -77,7 +79,8 @@ void PairInspector::judge(int width, int height) {
     return;
   }
   const FieldFit fit = fit_field(matches_, width, height, fit_scratch_);
-  const FieldChoice choice = choose_field(fit, findings_.matches, kFieldFloor, width, height);
+  const FieldChoice choice =
+      choose_field(fit, findings_.matches, repeated_, kFieldFloor, width, height);
   findings_.status = choice.status;
   findings_.inliers = fit.inliers;
   if (findings_.matches > 0) {
@@ -94,6 +97,7 @@ void PairInspector::inspect(GrayView left, GrayView right, int max_disparity) {
   findings_ = {};
   matches_.clear();
   corners_.clear();
+  repeated_ = 0;
   if (left.width < kFewestColumns || left.height < kFewestRows) {
     findings_.status = FieldStatus::kImageTooSmall;
     return;

@@ -48,6 +48,7 @@ class PairInspector {
   std::vector<Corner> corners_;
   std::vector<Match> matches_, other_matches_;
   Image<std::uint8_t> blurred_;
+  int repeated_ = 0;  ///< corners that are found at several places
 };
 
 }  // namespace mtstereo

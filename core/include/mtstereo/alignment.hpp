@@ -68,6 +68,7 @@ enum class FieldStatus {
   kImageTooSmall,    ///< the image has fewer than 96 columns or 64 rows
   kTooFewCorners,    ///< the left view has too little texture
   kTooFewMatches,    ///< too few corners were found again in the right view, at one place only
+  kRepeatedPattern,  ///< many corners were found at several places: the texture repeats itself
   kTooFewInliers,    ///< too many matches disagree with every smooth field
   kTooScattered,     ///< the matches scatter too much about the field
   kTooConcentrated,  ///< the matches cover too small a part of the image
