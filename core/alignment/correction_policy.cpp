@@ -150,7 +150,7 @@ void CorrectionPolicy::add_sharpness(const PairFindings& findings) {
   const float now = correction_.left_blur - correction_.right_blur;
   if (median != 0 && std::abs(median - now) < kSmallestBlurChange) return;
   correction_.left_blur = std::max(median, 0.0F);
-  correction_.right_blur = std::max(-median, 0.0F);
+  correction_.right_blur = median < 0 ? -median : 0;
 }
 
 void CorrectionPolicy::add(const PairFindings& findings, std::span<const Match> matches, int width,
@@ -160,7 +160,8 @@ void CorrectionPolicy::add(const PairFindings& findings, std::span<const Match> 
   height_ = height;
   Finding finding;
   finding.matched = findings.inliers >= kFewestInliers;
-  finding.unrelated = findings.candidates >= kFewestCandidates && findings.inliers < kChanceInliers;
+  finding.unrelated = findings.candidates >= kFewestCandidates &&
+                      findings.inliers < kChanceInliers && findings.inlier_share < kChanceShare;
   swapped_ =
       findings.status == FieldStatus::kSwapped || (swapped_ && findings.inliers < kFewestInliers);
   if (findings.status == FieldStatus::kTrusted) {

@@ -43,9 +43,11 @@ inline constexpr int kHistory = 5;
 inline constexpr int kNeededOutOfStep = 3;
 inline constexpr int kNeededNotAPair = 3;
 
-/// A pair without any doubt is none: fewer matches than this fraction of the candidates.
+/// Views are unrelated if there are this many candidates, but no more inliers than occur by chance,
+/// among matches that disagree. In dark and noisy views the few matches agree.
 inline constexpr int kFewestCandidates = 150;
 inline constexpr int kChanceInliers = 12;
+inline constexpr double kChanceShare = 0.8;
 
 class CorrectionPolicy {
  public:

@@ -53,7 +53,7 @@ inline constexpr float kLargestBlur = 3;
 /// What a Matcher does to the views before it matches them. The default does nothing.
 struct ViewCorrection {
   /// The rows of the right view are resampled by this field. A roll of more than 0.1 degrees also
-  /// moves the rows sideways, and a stretch of more than 0.2 % the columns.
+  /// moves the rows sideways, and a stretch of more than 0.3 % the columns.
   RowField rows;
   float left_blur = 0;   ///< sigma of the Gaussian that blurs the left view [px], 0 = none
   float right_blur = 0;  ///< sigma of the Gaussian that blurs the right view [px], 0 = none

@@ -14,7 +14,7 @@ namespace mtstereo {
 /// From which size on a roll also moves the rows sideways [tangent of the angle], and a stretch the
 /// columns [fraction]. Below, the slope of the rows is more likely to have another cause.
 inline constexpr double kSmallestRoll = 0.0017453;
-inline constexpr double kSmallestStretch = 0.002;
+inline constexpr double kSmallestStretch = 0.003;
 
 /// The displacement of a row of the right view, in px, at column x: base + slope x, and sideways
 /// shift + zoom x. The rows are displaced by a RowField; sideways it is zero unless the field has a
