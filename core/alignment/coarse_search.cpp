@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 
 #define HWY_TARGET_INCLUDE "alignment/coarse_search.cpp"
@@ -11,22 +12,39 @@
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
-/// The costs of `count` adjacent places in one row: costs[i] compares the patches whose first
-/// pixels are `patch` and `places` + i.
-void compare_patches(const std::uint8_t* patch, std::ptrdiff_t patch_stride,
-                     const std::uint8_t* places, std::ptrdiff_t stride, int count,
-                     std::int32_t* costs) {
+/// The sum of the absolute differences of the rows y0 .. y1 - 1 of two patches.
+std::int32_t compare_rows(const std::uint8_t* patch, std::ptrdiff_t patch_stride,
+                          const std::uint8_t* place, std::ptrdiff_t stride, int y0, int y1) {
   const hn::FixedTag<std::uint8_t, kPatchWidth> d8;
   const hn::Repartition<std::uint64_t, decltype(d8)> d64;
+  auto sums = hn::Zero(d64);
+  for (int y = y0; y < y1; ++y) {
+    const auto a = hn::LoadU(d8, patch + y * patch_stride);
+    const auto b = hn::LoadU(d8, place + y * stride);
+    const auto difference = hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a));
+    sums = hn::Add(sums, hn::SumsOf8(difference));
+  }
+  return static_cast<std::int32_t>(hn::GetLane(hn::SumOfLanes(d64, sums)));
+}
+
+/// The costs of `count` adjacent places in one row: costs[i] compares the patches whose first
+/// pixels are `patch` and `places` + i. A cost that is clearly too large to matter is not summed up
+/// to the end: more than `factor` times the least one so far, `least`.
+void compare_patches(const std::uint8_t* patch, std::ptrdiff_t patch_stride,
+                     const std::uint8_t* places, std::ptrdiff_t stride, int count, double factor,
+                     std::int32_t& least, std::int32_t* costs) {
+  constexpr int kFirstRows = 4;
+  double limit = factor * least;
   for (int i = 0; i < count; ++i) {
-    auto sums = hn::Zero(d64);
-    for (int y = 0; y < kPatchRows; ++y) {
-      const auto a = hn::LoadU(d8, patch + y * patch_stride);
-      const auto b = hn::LoadU(d8, places + i + y * stride);
-      const auto difference = hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a));
-      sums = hn::Add(sums, hn::SumsOf8(difference));
-    }
-    costs[i] = static_cast<std::int32_t>(hn::GetLane(hn::SumOfLanes(d64, sums)));
+    // The middle rows first: there the patch has its corner.
+    constexpr int kStart = (kPatchRows - kFirstRows) / 2, kEnd = kStart + kFirstRows;
+    costs[i] = compare_rows(patch, patch_stride, places + i, stride, kStart, kEnd);
+    if (costs[i] > limit) continue;
+    costs[i] += compare_rows(patch, patch_stride, places + i, stride, 0, kStart) +
+                compare_rows(patch, patch_stride, places + i, stride, kEnd, kPatchRows);
+    if (costs[i] >= least) continue;
+    least = costs[i];
+    limit = factor * least;
   }
 }
 
@@ -68,17 +86,24 @@ struct Best {
   bool is_distinct() const { return other < 0 || other > kDistinctness * cost; }
 };
 
+/// The best places for the patch at (x, y). Costs of more than `factor` times the least one may be
+/// too small, but are above that limit.
 std::optional<Best> search(const Image<std::uint8_t>& from, int x, int y,
-                           const Image<std::uint8_t>& in, const Area& area,
+                           const Image<std::uint8_t>& in, const Area& area, double factor,
                            SearchScratch& scratch) {
   if (area.x0 > area.x1 || area.y0 > area.y1) return {};
   const int width = area.width();
   std::int32_t* costs = scratch.costs.data();
-  for (int j = area.y0; j <= area.y1; ++j) {
+  std::int32_t least = std::numeric_limits<std::int32_t>::max();
+  const auto compare_row = [&](int j) {
     HWY_DYNAMIC_DISPATCH(compare_patches)
-    (patch_at(from, x, y), from.stride(), patch_at(in, area.x0, j), in.stride(), width,
-     costs + (j - area.y0) * width);
-  }
+    (patch_at(from, x, y), from.stride(), patch_at(in, area.x0, j), in.stride(), width, factor,
+     least, costs + (j - area.y0) * width);
+  };
+  // Near the middle first, where the place most likely is: then few others are compared fully.
+  const int middle = std::clamp(y, area.y0, area.y1);
+  for (int j = middle; j <= area.y1; ++j) compare_row(j);
+  for (int j = middle - 1; j >= area.y0; --j) compare_row(j);
   const int count = width * (area.y1 - area.y0 + 1);
   const int at = static_cast<int>(std::min_element(costs, costs + count) - costs);
   Best best;
@@ -119,7 +144,8 @@ Place find_in_right_view(const Image<std::uint8_t>& left, const Image<std::uint8
   scratch.resize(window);
   const Area there = area_around(corner.x - window.most_disparity,
                                  corner.x - window.least_disparity, corner.y, window.rows, right);
-  const std::optional<Best> best = search(left, corner.x, corner.y, right, there, scratch);
+  const std::optional<Best> best =
+      search(left, corner.x, corner.y, right, there, kDistinctness, scratch);
   if (!best) return {};
   if (!best->is_distinct()) {
     const bool similar = best->cost < kRepeatedCost * contrast_at(left, corner.x, corner.y);
@@ -127,7 +153,7 @@ Place find_in_right_view(const Image<std::uint8_t>& left, const Image<std::uint8
   }
   const Area here = area_around(best->x + window.least_disparity, best->x + window.most_disparity,
                                 best->y, window.rows, left);
-  const std::optional<Best> back = search(right, best->x, best->y, left, here, scratch);
+  const std::optional<Best> back = search(right, best->x, best->y, left, here, 1, scratch);
   if (!back || std::abs(back->x - corner.x) > 1 || std::abs(back->y - corner.y) > 1) return {};
   return {Outcome::kFound, best->x, best->y};
 }

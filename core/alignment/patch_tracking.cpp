@@ -114,7 +114,9 @@ std::optional<Match> track_patch(GrayView left, GrayView right, int x, int y, fl
   if (!is_inside(left, static_cast<float>(x), static_cast<float>(y))) return {};
   const Template patch = template_at(left, x, y);
   const Eigen::LDLT<Eigen::Matrix3f> normal(normal_matrix(patch));
-  if (normal.info() != Eigen::Success || !normal.isPositive()) return {};
+  // What the gray values and each gradient have of their own: without it there is no unique place.
+  constexpr float kLeastSquare = 0.05F * kPixels;
+  if (normal.info() != Eigen::Success || normal.vectorD().minCoeff() < kLeastSquare) return {};
   Patch other;
   float px = x_right, py = y_right;
   for (int i = 0; i < kIterations; ++i) {

@@ -99,7 +99,7 @@ TEST(Correction, LeavesTheCallersViewsAlone) {
 }
 
 TEST(Correction, WorksOnTheSmallestViews) {
-  for (const auto [width, height] : {std::pair(1, 1), std::pair(1, 20), std::pair(17, 2)}) {
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 20), std::pair(17, 2)}) {
     Matcher matcher = test::matcher({{"max-disparity", "1"}});
     ASSERT_TRUE(matcher.set_correction(kCorrections[3]).ok());
     const GrayPlane view = test::noise(width, height, 1);
