@@ -33,7 +33,8 @@ CorrectionPolicy::CorrectionPolicy() {
   pool_.reserve(kPooledViews + 1);
   spare_.resize(kPooledViews + 1);
   for (Matches& matches : spare_) matches.reserve(kMostCorners);
-  together_.reserve(static_cast<std::size_t>(kPooledViews) * kMostCorners);
+  together_.reserve(kPooledViews * std::size_t{kMostCorners});
+  scratch_.reserve(together_.capacity());
   history_.reserve(kHistory + 1);
   blurs_.reserve(kHistory + 1);
 }

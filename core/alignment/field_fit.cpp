@@ -218,6 +218,13 @@ void count_inliers(std::span<const Match> matches, int width, int height, const 
 
 }  // namespace
 
+void FitScratch::reserve(std::size_t matches) {
+  factors.reserve(matches);
+  for (std::vector<double>* values : {&residuals, &sorted, &weights, &variances}) {
+    values->reserve(matches);
+  }
+}
+
 FieldFit fit_field(std::span<const Match> matches, int width, int height, FitScratch& scratch) {
   FieldFit fit;
   const std::size_t count = matches.size();
@@ -226,7 +233,7 @@ FieldFit fit_field(std::span<const Match> matches, int width, int height, FitScr
   scratch.residuals.resize(count);
   scratch.weights.resize(count);
   scratch.variances.resize(count);
-  scratch.sorted.reserve(count);
+  scratch.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     scratch.factors[i] = field_factors(matches[i].x_right, matches[i].y_left, width, height);
   }

@@ -48,6 +48,9 @@ struct FitScratch {
   std::vector<double> sorted;
   std::vector<double> weights;
   std::vector<double> variances;
+
+  /// Reserves the memory for this many matches.
+  void reserve(std::size_t matches);
 };
 
 /// Fits all models. There is no fit, 0 inliers, for less than 6 matches. The same matches always

@@ -105,6 +105,7 @@ void PairInspector::inspect(GrayView left, GrayView right, int max_disparity) {
   matches_.reserve(kMostCorners);
   other_matches_.reserve(kMostCorners);
   corners_.reserve(kMostCorners);
+  fit_scratch_.reserve(kMostCorners);
   find_matches(left, right, max_disparity);
   if (even_out_sharpness(left, right)) {
     // Views of equal sharpness have more matches, and more exact ones.

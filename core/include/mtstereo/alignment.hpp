@@ -126,7 +126,7 @@ MTSTEREO_API const char* problem_text(PairProblem problem) noexcept;
 /// Call watch() for every pair and inspect() from time to time, for the first pair and then for
 /// example for every 30th. The result depends on the pairs and the order of the calls only. A
 /// tracker has no threads and may be used by one thread at a time. watch() allocates nothing;
-/// inspect() allocates for the first pair and after a change of the size or of max_disparity only.
+/// inspect() allocates only if a pair needs more memory than all before.
 ///
 /// How estimates become a correction:
 /// - The first trusted one applies at once. Later ones are combined with it and refine it.

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "mtstereo/alignment.hpp"
 #include "support/compare.hpp"
 #include "support/counting_allocator.hpp"
 #include "support/matching.hpp"
@@ -88,6 +89,41 @@ TEST_F(Allocation, NeverHappensInLaterFramesWhenTheCorrectionChanges) {
       EXPECT_EQ(0, count) << "frame " << frame;
     }
   }
+}
+
+TEST_F(Allocation, NeverHappensInLaterInspections) {
+  AlignmentTracker tracker = std::move(AlignmentTracker::create().value());
+  for (int i = 0; i < 12; ++i) {
+    const test::Pair pair = test::slanted_pair(333, 201, 40, i);
+    test::count_allocations();
+    const bool watched = tracker.watch(pair.left.view(), pair.right.view()).ok();
+    EXPECT_EQ(0, test::allocations());
+    const bool ok = tracker.inspect(pair.left.view(), pair.right.view(), 50).ok();
+    const long count = test::allocations();
+    EXPECT_TRUE(watched && ok);
+    if (i == 0) continue;
+    EXPECT_EQ(0, count) << "pair " << i;
+  }
+  EXPECT_GT(tracker.views(), 5);
+}
+
+TEST_F(Allocation, OfATrackerThatFailsIsAnError) {
+  const test::Pair pair = test::slanted_pair(333, 201, 40, 1);
+  test::fail_allocation_after(0);
+  EXPECT_TRUE(test::fails_with(AlignmentTracker::create(), ErrorCode::kOutOfMemory, {}));
+  AlignmentTracker tracker = std::move(AlignmentTracker::create().value());
+  int failures = 0;
+  for (int i = 0; i < 100; ++i) {
+    test::fail_allocation_after(i);
+    const Status status = tracker.inspect(pair.left.view(), pair.right.view(), 50);
+    test::fail_allocation_after(-1);
+    if (status.ok()) break;
+    EXPECT_TRUE(test::fails_with(status, ErrorCode::kOutOfMemory, {}));
+    EXPECT_EQ(RowField(), tracker.correction().rows);
+    ++failures;
+  }
+  EXPECT_GT(failures, 5);
+  EXPECT_EQ(FieldStatus::kTrusted, tracker.findings().status) << "cannot be used after a failure";
 }
 
 TEST_F(Allocation, NeverHappensInLaterFramesInAnyModeOfAnyPreset) {
