@@ -117,7 +117,7 @@ def presets_of(step, steps):
     if step.runs and all(modes == ["dense"] for modes in step.runs.values()):
         return "mode dense"
     return ", ".join(preset if modes == everything[preset] else f"{preset} {'/'.join(modes)}"
-                     for preset, modes in step.runs.items()) or "by parameters"
+                     for preset, modes in step.runs.items()) or "on request"
 
 
 def table(steps):

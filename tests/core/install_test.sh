@@ -41,7 +41,7 @@ case $flags in
   *"$root$prefix"*) ;;
   *) fail "the flags do not refer to the installed files: $flags" ;;
 esac
-for word in opencv hwy; do
+for word in opencv hwy eigen; do
   case $flags in
     *$word*) fail "the flags require $word: $flags" ;;
   esac
@@ -79,7 +79,7 @@ grep -q '^_ZNK*8mtstereo' "$root/names.txt" || fail "the library exports nothing
 foreign=$(grep -v '^_ZNK*8mtstereo' "$root/names.txt" | c++filt || true)
 [ -z "$foreign" ] || fail "the library exports names that are not its own:
 $foreign"
-public='(Matcher|Parameters)::~?[A-Za-z0-9_=]+(\[abi:cxx11\])?|parameter_table|parameter_info|parameter_default|parameter_defaults_text(\[abi:cxx11\])?|find_parameter|write_disparity16|version'
+public='(AlignmentTracker|Matcher|Parameters|RowField)::~?[A-Za-z0-9_=]+(\[abi:cxx11\])?|parameter_table|parameter_info|parameter_default|parameter_defaults_text(\[abi:cxx11\])?|find_parameter|write_disparity16|version|field_status_text|problem_name|problem_text'
 internal=$(c++filt <"$root/names.txt" | grep -vE "^mtstereo::($public)\\(" || true)
 [ -z "$internal" ] || fail "the library exports internal names:
 $internal"

@@ -41,6 +41,7 @@ struct MTSTEREO_API RowField {
   /// between -kLargestFieldTerm and kLargestFieldTerm.
   static Result<RowField> parse(std::string_view text) noexcept;
 
+  /// True if all terms are equal.
   friend bool operator==(const RowField&, const RowField&) = default;
 };
 
@@ -58,6 +59,7 @@ struct ViewCorrection {
   float left_blur = 0;   ///< sigma of the Gaussian that blurs the left view [px], 0 = none
   float right_blur = 0;  ///< sigma of the Gaussian that blurs the right view [px], 0 = none
 
+  /// True if both do the same.
   friend bool operator==(const ViewCorrection&, const ViewCorrection&) = default;
 };
 
