@@ -141,9 +141,8 @@ void spread_patches(int width, int height, std::vector<Match>& places) {
   places.clear();
   for (int j = 0; j < kRows; ++j) {
     for (int i = 0; i < kColumns; ++i) {
-      const auto x = static_cast<float>(width * (2 * i + 1) / (2 * kColumns));
-      const auto y = static_cast<float>(height * (2 * j + 1) / (2 * kRows));
-      places.push_back({x, y, x, 0, 0});
+      const int x = width * (2 * i + 1) / (2 * kColumns), y = height * (2 * j + 1) / (2 * kRows);
+      places.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(x), 0, 0});
     }
   }
 }
