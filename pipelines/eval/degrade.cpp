@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "eval/h264.hpp"
 #include "eval/input_error.hpp"
 
 namespace mtstereo::eval {
@@ -19,11 +20,13 @@ struct KindInfo {
   std::string_view name;
   double least;
   double most;
+  bool whole = false;  // the amount is a whole number
 };
 
 constexpr std::array kKinds = {
     KindInfo{DegradationKind::kNoise, "noise", 0, 100},
-    KindInfo{DegradationKind::kJpeg, "jpeg", 1, 100},
+    KindInfo{DegradationKind::kJpeg, "jpeg", 1, 100, true},
+    KindInfo{DegradationKind::kH264, "h264", 1, 50, true},
     KindInfo{DegradationKind::kDark, "dark", 0, 1},
     KindInfo{DegradationKind::kBright, "bright", 1, 16},
     KindInfo{DegradationKind::kBlurRight, "blur-right", 0, 10},
@@ -120,9 +123,17 @@ Degradation parse_degradation(std::string_view text) {
     if (error != std::errc() || stop != end || !(amount >= info.least && amount <= info.most)) {
       throw InputError("degradation '" + std::string(text) + "' is out of range; use " + range);
     }
+    if (info.whole && amount != std::floor(amount)) {
+      throw InputError("degradation '" + std::string(text) + "' needs a whole number; use " +
+                       range);
+    }
     return {info.kind, amount};
   }
   throw InputError("unknown degradation '" + std::string(text) + "'; the kinds are " + kind_list());
+}
+
+std::optional<std::string> degradation_obstacle(const Degradation& degradation) {
+  return degradation.kind == DegradationKind::kH264 ? h264_obstacle() : std::nullopt;
 }
 
 std::string degradation_text(const Degradation& degradation) {
@@ -148,6 +159,9 @@ void degrade(const Degradation& degradation, cv::Mat& left, cv::Mat& right) {
         break;
       case DegradationKind::kJpeg:
         compress(amount, *view);
+        break;
+      case DegradationKind::kH264:
+        *view = through_h264(*view, static_cast<int>(amount));
         break;
       case DegradationKind::kDark:
         scale(amount, *view);

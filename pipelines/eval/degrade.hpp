@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +13,8 @@ namespace mtstereo::eval {
 /// How a pair is degraded before matching. The disparities of the ground truth remain valid.
 enum class DegradationKind {
   kNoise,       ///< Gaussian noise in both views; amount: standard deviation [gray values]
-  kJpeg,        ///< JPEG compression of both views; amount: quality
+  kJpeg,        ///< JPEG compression of both views; amount: quality, a whole number
+  kH264,        ///< H.264 compression, each view in its own stream; amount: quantizer, whole
   kDark,        ///< both views times the amount, then noise of standard deviation 2
   kBright,      ///< both views times the amount; values above 255 saturate
   kBlurRight,   ///< the right view out of focus; amount: sigma of the Gaussian [px]
@@ -31,6 +34,10 @@ struct Degradation {
 /// amount.
 Degradation parse_degradation(std::string_view text);
 
+/// The reason why a degradation cannot be applied on this machine, and what to install; none if it
+/// can.
+std::optional<std::string> degradation_obstacle(const Degradation& degradation);
+
 /// The text that parse_degradation() reads.
 std::string degradation_text(const Degradation& degradation);
 
@@ -38,7 +45,8 @@ std::string degradation_text(const Degradation& degradation);
 void add_noise(double sigma, std::uint64_t seed, cv::Mat& image);
 
 /// Degrades both views, CV_8UC1 of the same size, in place. The result depends on the arguments
-/// only: seeds are fixed, and the noise of the two views differs.
+/// only: seeds are fixed, and the noise of the two views differs. Throws InputError if a part that
+/// the kind needs is missing, see degradation_obstacle().
 void degrade(const Degradation& degradation, cv::Mat& left, cv::Mat& right);
 
 }  // namespace mtstereo::eval
