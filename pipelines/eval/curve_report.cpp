@@ -105,8 +105,9 @@ CurveReport make_curves(const std::string& dataset, const ParameterTexts& parame
 }
 
 void print_curves(std::ostream& out, const CurveReport& report) {
-  out << "errors at equal density, " << report.dataset << ", unweighted mean of " << report.pairs
-      << " pairs, all pixels with ground truth\n";
+  out << "errors at equal density, " << report.dataset;
+  if (report.kind != kCleanKind) out << ", " << report.kind;
+  out << ", unweighted mean of " << report.pairs << " pairs, all pixels with ground truth\n";
   std::vector<TableRow> rows{{"density %", ""}};
   for (const double density : kCurveDensities) rows[0].push_back(fixed(density, 0));
   for (const CurveMeasure& measure : kCurveMeasures) {
@@ -120,16 +121,19 @@ void print_curves(std::ostream& out, const CurveReport& report) {
     }
   }
   if (report.pairs > 0) print_rows(out, rows);
-  for (const Curve& curve : report.curves) out << curve.name << ": " << curve.settings << '\n';
   for (const Problem& problem : report.left_out) {
     out << "left out: " << problem.pair << ": " << problem.reason << '\n';
   }
 }
 
+void print_curve_settings(std::ostream& out, const CurveReport& report) {
+  for (const Curve& curve : report.curves) out << curve.name << ": " << curve.settings << '\n';
+}
+
 json curves_json(const CurveReport& report) {
-  json result{{"dataset", report.dataset}, {"mode", report.mode},   {"filters", report.filters},
-              {"region", "all"},           {"pairs", report.pairs}, {"left_out", json::array()},
-              {"curves", json::array()}};
+  json result{{"dataset", report.dataset}, {"kind", report.kind},    {"mode", report.mode},
+              {"filters", report.filters}, {"region", "all"},        {"pairs", report.pairs},
+              {"left_out", json::array()}, {"curves", json::array()}};
   for (const Problem& problem : report.left_out) {
     result["left_out"].push_back({{"pair", problem.pair}, {"reason", problem.reason}});
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "eval/curve_means.hpp"
+#include "eval/degrade.hpp"
 #include "eval/rival_filters.hpp"
 
 namespace mtstereo::eval {
@@ -29,6 +30,7 @@ struct CurveReport {
   int pairs = 0;
   std::vector<Problem> left_out;
   std::vector<Curve> curves;
+  std::string kind = kCleanKind;  ///< of the images
 };
 
 /// The library's parameters as name and value.
@@ -39,8 +41,11 @@ using ParameterTexts = std::vector<std::pair<std::string, std::string>>;
 CurveReport make_curves(const std::string& dataset, const ParameterTexts& parameters,
                         const FilterSettings& filters, const CurveMeans& means);
 
-/// Prints the errors at equal density as a table, and the settings.
+/// Prints the errors at equal density as a table, and the pairs that were left out.
 void print_curves(std::ostream& out, const CurveReport& report);
+
+/// Prints what was swept, one line for each curve.
+void print_curve_settings(std::ostream& out, const CurveReport& report);
 
 /// The same as JSON, with the points of all lines; densities that are not reached have null.
 nlohmann::json curves_json(const CurveReport& report);

@@ -57,13 +57,15 @@ struct Problem {
   std::string reason;  ///< one sentence that names the file
 };
 
-/// The contents of a folder.
+/// The contents of a folder, or of several ones.
 struct DataSet {
-  Layout layout = Layout::kMiddlebury;
-  std::filesystem::path root;
-  std::vector<StereoPair> pairs;   ///< sorted by name
-  std::vector<Problem> problems;   ///< pairs with a missing file
-  std::vector<std::string> notes;  ///< remarks that matter for reading the figures
+  Layout layout = Layout::kMiddlebury;  ///< of the first folder
+  std::filesystem::path root;           ///< the first folder
+  std::string name;                     ///< the names of all layouts
+  std::string folder;                   ///< all folders
+  std::vector<StereoPair> pairs;        ///< sorted by name
+  std::vector<Problem> problems;        ///< pairs with a missing file
+  std::vector<std::string> notes;       ///< remarks that matter for reading the figures
 };
 
 /// Detects the layout of a folder. Throws InputError if it is no known layout.
@@ -72,6 +74,11 @@ Layout detect_layout(const std::filesystem::path& root);
 /// Lists the pairs of a folder. Throws InputError if the folder cannot be read or holds no pair of
 /// that layout.
 DataSet find_pairs(const std::filesystem::path& root, Layout layout);
+
+/// The same for several folders, each with the given layout or the detected one. If there is more
+/// than one, the names of the pairs begin with the name of their folder. Throws InputError also if
+/// two pairs have the same name.
+DataSet find_pairs(const std::vector<std::filesystem::path>& roots, std::optional<Layout> layout);
 
 /// A pair in memory.
 struct LoadedPair {

@@ -60,6 +60,10 @@ std::string number_text(double value) {
   return text.str();
 }
 
+std::string range_text(const KindInfo& info) {
+  return std::string(info.name) + "=" + number_text(info.least) + " .. " + number_text(info.most);
+}
+
 void compress(double quality, cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, static_cast<int>(quality)});
@@ -106,13 +110,21 @@ void apply_gamma(double exponent, cv::Mat& image) {
 
 }  // namespace
 
+std::string degradation_kinds() {
+  std::string list;
+  for (const KindInfo& info : kKinds) {
+    if (!list.empty()) list += ", ";
+    list += range_text(info);
+  }
+  return list;
+}
+
 Degradation parse_degradation(std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view name = text.substr(0, equals);
   for (const KindInfo& info : kKinds) {
     if (info.name != name) continue;
-    const std::string range =
-        std::string(name) + "=" + number_text(info.least) + " .. " + number_text(info.most);
+    const std::string range = range_text(info);
     if (equals == std::string_view::npos) {
       throw InputError("degradation '" + std::string(text) + "' has no amount; use " + range);
     }

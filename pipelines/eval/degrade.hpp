@@ -24,11 +24,17 @@ enum class DegradationKind {
   kGammaRight,  ///< the right view with another response; amount: exponent of value / 255
 };
 
+/// The name of images that are not degraded, beside degradation_text().
+inline constexpr const char* kCleanKind = "clean";
+
 /// One degradation with its amount.
 struct Degradation {
   DegradationKind kind = DegradationKind::kNoise;
   double amount = 0;
 };
+
+/// All kinds with the ranges of their amounts, for the help and the documentation.
+std::string degradation_kinds();
 
 /// Parses "KIND=AMOUNT", as in "noise=5". Throws InputError, naming the kinds or the range of the
 /// amount.

@@ -46,10 +46,19 @@ void print_failure(const Problem& failure) {
   std::cerr << "mtstereo-eval: " << failure.pair << ": " << failure.reason << '\n';
 }
 
+std::string list_of(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "'" : " or '") + text + "'";
+  return list;
+}
+
 // The pairs to run, after --only and --limit.
 DataSet select_pairs(const Options& options, DataSet set) {
   const auto unwanted = [&](const std::string& name) {
-    return name.find(options.only) == std::string::npos;
+    return !options.only.empty() &&
+           std::none_of(options.only.begin(), options.only.end(), [&](const std::string& text) {
+             return name.find(text) != std::string::npos;
+           });
   };
   std::erase_if(set.pairs, [&](const StereoPair& pair) { return unwanted(pair.name); });
   std::erase_if(set.problems, [&](const Problem& problem) { return unwanted(problem.pair); });
@@ -60,8 +69,10 @@ DataSet select_pairs(const Options& options, DataSet set) {
 
 Report start_report(const Options& options, const DataSet& set) {
   Report report;
-  report.dataset = layout_name(set.layout);
-  report.folder = set.root.string();
+  report.dataset = set.name;
+  report.folder = set.folder;
+  report.kinds = kinds_of(options.run);
+  report.flicker = options.run.flicker;
   report.warm_up = options.run.warm_up;
   report.repeat = options.run.repeat;
   for (const ParameterInfo& info : parameter_table()) {
@@ -79,29 +90,61 @@ Report start_report(const Options& options, const DataSet& set) {
   return report;
 }
 
+// The curves of all kinds.
+class Curves {
+ public:
+  explicit Curves(const Report& report) {
+    for (const std::string& kind : report.kinds) {
+      collectors_.emplace_back(kind, CurveCollector(report.methods));
+    }
+  }
+
+  void add(PairReport& pair) {
+    for (auto& [kind, collector] : collectors_) {
+      if (kind == pair.kind) collector.add(pair.pair.name, std::exchange(pair.sweeps, {}));
+    }
+  }
+
+  void finish(const Options& options, Report& report) const {
+    for (const auto& [kind, collector] : collectors_) {
+      report.curves.push_back(make_curves(report.dataset, report.parameters,
+                                          filter_settings(options.run.parameters),
+                                          collector.means()));
+      report.curves.back().kind = kind;
+    }
+  }
+
+ private:
+  std::vector<std::pair<std::string, CurveCollector>> collectors_;
+};
+
+void add_pair(PairReport pair, Report& report) {
+  for (const std::string& note : pair.notes) std::cerr << "mtstereo-eval: note: " << note << '\n';
+  for (const std::string& reason : pair.failures) {
+    report.failures.push_back({pair.pair.name, reason});
+    print_failure(report.failures.back());
+  }
+  report.pairs.push_back(std::move(pair));
+}
+
 void run_all(const Options& options, const DataSet& set, Report& report) {
   const int threads = options.run.parameters.integer(Parameter::kThreads);
   cv::setNumThreads(threads > 0 ? threads : -1);  // -1: one per processor
   for (const Problem& problem : set.problems) print_failure(problem);
   for (const std::string& note : set.notes) std::cerr << "mtstereo-eval: note: " << note << '\n';
   Runner runner(options.run);
-  CurveCollector curve(report.methods);
+  Curves curves(report);
   const Progress progress(set.pairs.size());
   for (std::size_t i = 0; i < set.pairs.size(); ++i) {
     progress.show(i, set.pairs[i].name);
-    PairReport pair = runner.run(set.pairs[i]);
+    std::vector<PairReport> kinds = runner.run_kinds(set.pairs[i]);
     progress.clear();
-    for (const std::string& note : pair.notes) std::cerr << "mtstereo-eval: note: " << note << '\n';
-    for (const std::string& reason : pair.failures) {
-      report.failures.push_back({pair.pair.name, reason});
-      print_failure(report.failures.back());
+    for (PairReport& pair : kinds) {
+      if (options.curve) curves.add(pair);
+      add_pair(std::move(pair), report);
     }
-    if (options.curve) curve.add(pair.pair.name, std::exchange(pair.sweeps, {}));
-    report.pairs.push_back(std::move(pair));
   }
-  if (options.curve)
-    report.curve = make_curves(report.dataset, report.parameters,
-                               filter_settings(options.run.parameters), curve.means());
+  if (options.curve) curves.finish(options, report);
 }
 
 int list_pairs(const DataSet& set) {
@@ -112,29 +155,49 @@ int list_pairs(const DataSet& set) {
               << '\n';
   }
   for (const Problem& problem : set.problems) print_failure(problem);
-  std::cout << set.pairs.size() << " pairs of " << layout_name(set.layout) << '\n';
+  std::cout << set.pairs.size() << " pairs of " << set.name << '\n';
   return set.problems.empty() ? kAllFine : kSomeFailed;
 }
 
+void print(const Report& report) {
+  print_table(std::cout, report);
+  if (report.kinds.size() > 1) {
+    std::cout << '\n';
+    print_kinds(std::cout, report);
+  }
+  if (report.flicker) {
+    std::cout << '\n';
+    print_flicker(std::cout, report);
+  }
+  for (const CurveReport& curve : report.curves) {
+    std::cout << '\n';
+    print_curves(std::cout, curve);
+  }
+  if (!report.curves.empty()) print_curve_settings(std::cout, report.curves.front());
+  std::cout << std::flush;
+}
+
+void check_degradations(const Options& options) {
+  for (const Degradation& degradation : options.run.degradations) {
+    if (const std::optional<std::string> obstacle = degradation_obstacle(degradation)) {
+      throw InputError("--degrade " + degradation_text(degradation) + ": " + *obstacle);
+    }
+  }
+}
+
 int run(const Options& options) {
-  const Layout layout = options.layout ? *options.layout : detect_layout(options.folder);
-  const DataSet all = find_pairs(options.folder, layout);
+  const DataSet all = find_pairs(options.folders, options.layout);
   const DataSet set = select_pairs(options, all);
   if (set.pairs.empty() && set.problems.empty()) {
-    throw InputError(options.folder, "no pair has '" + options.only + "' in its name");
+    throw InputError(all.folder, "no pair has " + list_of(options.only) + " in its name");
   }
   if (options.list) return list_pairs(set);
+  check_degradations(options);
   check_outputs(options, all);
   const bool can_plot = check_plotting(options);
   Report report = start_report(options, set);
   run_all(options, set, report);
-
-  print_table(std::cout, report);
-  if (report.curve) {
-    std::cout << '\n';
-    print_curves(std::cout, *report.curve);
-  }
-  std::cout << std::flush;
+  print(report);
   if (!report.failures.empty()) {
     std::cerr << "mtstereo-eval: " << report.failures.size()
               << " failures (listed above); the mean is over the other pairs\n";

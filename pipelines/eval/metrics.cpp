@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "eval/flat_answers.hpp"
 #include "eval/input_error.hpp"
 
 namespace mtstereo::eval {
@@ -133,6 +134,12 @@ Evaluation evaluate(const cv::Mat& estimate, const GroundTruth& truth) {
   return result;
 }
 
+Evaluation evaluate(const cv::Mat& estimate, const LoadedPair& images) {
+  Evaluation result = evaluate(estimate, images.truth);
+  result.flat_answers = count_flat_answers(estimate, images.left, images.right);
+  return result;
+}
+
 Evaluation evaluate(DisparityView estimate, const GroundTruth& truth) {
   return evaluate(to_float(estimate), truth);
 }
@@ -159,6 +166,9 @@ Evaluation mean(const std::vector<WeightedEvaluation>& pairs) {
     density.add(evaluation->density, 1);
     all.push_back({&evaluation->all, weight});
     if (evaluation->noc) noc.push_back({&*evaluation->noc, weight});
+    if (evaluation->flat_answers) {
+      result.flat_answers = result.flat_answers.value_or(0) + *evaluation->flat_answers;
+    }
   }
   result.density = density.value();
   result.all = mean_of(all);

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "eval/ground_truth.hpp"
+#include "eval/datasets.hpp"
 #include "mtstereo/image.hpp"
 
 namespace mtstereo::eval {
@@ -41,6 +41,9 @@ struct Evaluation {
   double density = kNone;      ///< pixels with an estimate / all pixels of the image [%]
   Metrics all;                 ///< over all pixels with ground truth
   std::optional<Metrics> noc;  ///< over those of them that are visible in both views, if known
+  /// disparities in areas that are constant in both views, see count_flat_answers(); none if it is
+  /// unknown
+  std::optional<std::int64_t> flat_answers;
 };
 
 /// Compares an estimate with the truth (both CV_32FC1 [px], NaN = none) at the pixels where
@@ -51,7 +54,10 @@ Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& vi
 /// The same with the density, for all pixels and, if known, for those visible in both views.
 Evaluation evaluate(const cv::Mat& estimate, const GroundTruth& truth);
 
-/// The same for a disparity map of the library.
+/// The same with the number of disparities in flat areas of these images.
+Evaluation evaluate(const cv::Mat& estimate, const LoadedPair& images);
+
+/// The same as the second for a disparity map of the library.
 Evaluation evaluate(DisparityView estimate, const GroundTruth& truth);
 
 /// A disparity map of the library as CV_32FC1 [px], NaN = none.
@@ -65,6 +71,7 @@ struct WeightedEvaluation {
 
 /// The mean over pairs: errors are weighted, densities are not. A pair without a compared pixel is
 /// left out of the mean error. `noc` is the mean over the pairs that have it, none if no pair has.
+/// Numbers of pixels, `flat_answers` too, are sums.
 Evaluation mean(const std::vector<WeightedEvaluation>& pairs);
 
 }  // namespace mtstereo::eval

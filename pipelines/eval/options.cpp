@@ -5,20 +5,23 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include "eval/files.hpp"
+#include "eval/input_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
 
 // The option texts before validation.
 struct Texts {
-  std::string folder;
+  std::vector<std::string> folders;
   std::string dataset = "auto";
   std::string dmap = "auto";
   std::string format = "pfm";
-  std::string json, csv, curve, disparity_folder, picture_folder;
+  std::string json, csv, curve, report, disparity_folder, picture_folder;
   std::vector<std::string> compare;
+  std::vector<std::string> degrade;
   std::map<std::string, std::string> parameters;
 };
 
@@ -60,12 +63,14 @@ void add_parameters(CLI::App& app, Texts& texts) {
 void add_options(CLI::App& app, Texts& texts, Options& options) {
   std::vector<std::string> layouts = layout_names();
   layouts.insert(layouts.begin(), "auto");
-  app.add_option("FOLDER", texts.folder, "folder of the data set")->required()->type_name("");
-  app.add_option("--dataset", texts.dataset, "layout of FOLDER")
+  app.add_option("FOLDER", texts.folders, "folders of the data sets")->required()->type_name("");
+  app.add_option("--dataset", texts.dataset, "layout of each FOLDER")
       ->check(CLI::IsMember(layouts))
       ->capture_default_str();
-  app.add_option("--only", options.only, "run only pairs whose name contains TEXT")
-      ->type_name("TEXT");
+  app.add_option("--only", options.only,
+                 "run only pairs whose name contains TEXT, or one of several texts")
+      ->type_name("TEXT,...")
+      ->delimiter(',');
   app.add_option("--limit", options.limit, "run at most the first N of these pairs; 0 = all")
       ->type_name("N")
       ->check(CLI::Range(0, 1000000))
@@ -87,17 +92,34 @@ void add_options(CLI::App& app, Texts& texts, Options& options) {
       ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+}
+
+void add_methods(CLI::App& app, Texts& texts, Options& options) {
   app.add_option("--compare", texts.compare,
                  "also run these matchers of OpenCV on the same pairs: sgbm, sgbm-3way, sgbm-hh, "
                  "bm")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->check(CLI::IsMember(rival_names()));
+  app.add_option("--degrade", texts.degrade,
+                 "also evaluate degraded images: " + degradation_kinds())
+      ->type_name("KIND=AMOUNT,...")
+      ->delimiter(',');
+  app.add_option("--flicker", options.run.flicker,
+                 "also measure how the disparities of " + std::to_string(kFlickerFrames) +
+                     " frames differ that have fresh noise of this standard deviation")
+      ->type_name("SIGMA")
+      ->check(CLI::Range(0.1, 100.0));
 }
 
 std::string is_png(const std::string& file) {
   if (extension_of(std::filesystem::path(file)) == ".png") return {};
   return "the picture is a PNG file: the name '" + file + "' must end in .png";
+}
+
+std::string is_html(const std::string& file) {
+  if (extension_of(std::filesystem::path(file)) == ".html") return {};
+  return "the report is a page: the name '" + file + "' must end in .html";
 }
 
 void add_outputs(CLI::App& app, Texts& texts) {
@@ -114,6 +136,11 @@ void add_outputs(CLI::App& app, Texts& texts) {
                  "those matchers too")
       ->type_name("FILE")
       ->check(is_png)
+      ->group(group);
+  app.add_option("--report", texts.report,
+                 "write one HTML page with all figures, curves and pictures of each pair")
+      ->type_name("FILE")
+      ->check(is_html)
       ->group(group);
   app.add_option("--write-disparity", texts.disparity_folder,
                  "write the disparity maps to this folder")
@@ -148,9 +175,21 @@ void apply_parameters(const Texts& texts, Parameters& parameters) {
   }
 }
 
+void apply_degradations(const Texts& texts, std::vector<Degradation>& degradations) {
+  std::set<std::string> known;
+  for (const std::string& text : texts.degrade) {
+    try {
+      const Degradation degradation = parse_degradation(text);
+      if (known.insert(degradation_text(degradation)).second) degradations.push_back(degradation);
+    } catch (const InputError& error) {
+      throw CLI::ValidationError("--degrade", error.what());
+    }
+  }
+}
+
 void apply(const Texts& texts, Options& options) {
   apply_parameters(texts, options.run.parameters);
-  options.folder = texts.folder;
+  options.folders.assign(texts.folders.begin(), texts.folders.end());
   if (texts.dataset != "auto") options.layout = find_layout(texts.dataset);
   if (texts.dmap == "depth") options.run.dmap = DmapMeaning::kDepth;
   if (texts.dmap == "disparity") options.run.dmap = DmapMeaning::kDisparity;
@@ -160,9 +199,12 @@ void apply(const Texts& texts, Options& options) {
     const bool twice = std::find(known.begin(), known.end(), rival) != known.end();
     if (!twice) options.run.rivals.push_back(rival);
   }
+  apply_degradations(texts, options.run.degradations);
   options.json = path_of(texts.json);
   options.csv = path_of(texts.csv);
   options.curve = path_of(texts.curve);
+  options.report = path_of(texts.report);
+  options.run.html_pictures = options.report.has_value();
   options.run.curve = options.curve.has_value();
   options.run.disparity_folder = path_of(texts.disparity_folder);
   options.run.picture_folder = path_of(texts.picture_folder);
@@ -186,6 +228,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   Texts texts;
   Options options;
   add_options(app, texts, options);
+  add_methods(app, texts, options);
   add_outputs(app, texts);
   add_parameters(app, texts);
   try {

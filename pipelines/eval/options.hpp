@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "eval/runner.hpp"
 
@@ -11,14 +12,15 @@ namespace mtstereo::eval {
 
 /// The parsed command line.
 struct Options {
-  std::filesystem::path folder;
-  std::optional<Layout> layout;  ///< none: detect it
-  std::string only;              ///< part of a pair's name; empty: all
-  int limit = 0;                 ///< maximum number of pairs; 0: all
-  bool list = false;             ///< only list the pairs
+  std::vector<std::filesystem::path> folders;
+  std::optional<Layout> layout;   ///< of all folders; none: detect it
+  std::vector<std::string> only;  ///< parts of pairs' names; empty: all
+  int limit = 0;                  ///< maximum number of pairs; 0: all
+  bool list = false;              ///< only list the pairs
   std::optional<std::filesystem::path> json;
   std::optional<std::filesystem::path> csv;
-  std::optional<std::filesystem::path> curve;  ///< the picture
+  std::optional<std::filesystem::path> curve;   ///< the picture
+  std::optional<std::filesystem::path> report;  ///< the HTML page
   RunSettings run;
 };
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/files.hpp"
+#include "eval/html_report.hpp"
 #include "eval/input_error.hpp"
 #include "eval/plot.hpp"
 
@@ -45,17 +46,20 @@ bool attempt(const std::function<void()>& write) {
   }
 }
 
-void write_curve(const fs::path& file, const CurveReport& report) {
-  if (report.pairs == 0) {
+void write_curve(const fs::path& file, const Report& report) {
+  if (report.curves.front().pairs == 0) {
     throw InputError(file, "is not written: no pair was completed by all methods");
   }
-  plot_curves(file, {{"curve", curves_json(report)}});
+  nlohmann::json curves;
+  add_curves(report, curves);
+  plot_curves(file, curves);
 }
 
 }  // namespace
 
 void check_outputs(const Options& options, const DataSet& set) {
-  for (const std::optional<fs::path>& file : {options.json, options.csv, options.curve}) {
+  for (const std::optional<fs::path>& file :
+       {options.json, options.csv, options.curve, options.report}) {
     if (!file) continue;
     refuse_inputs(*file, set);
     require_writable(*file);
@@ -80,9 +84,10 @@ bool write_outputs(const Options& options, bool can_plot, const Report& report) 
     fine &= attempt([&] { write_bytes(*options.json, text); });
   }
   if (options.csv) fine &= attempt([&] { write_bytes(*options.csv, to_csv(report)); });
-  if (options.curve && report.curve && can_plot) {
-    fine &= attempt([&] { write_curve(*options.curve, *report.curve); });
+  if (options.curve && !report.curves.empty() && can_plot) {
+    fine &= attempt([&] { write_curve(*options.curve, report); });
   }
+  if (options.report) fine &= attempt([&] { write_bytes(*options.report, to_html(report)); });
   return fine && can_plot;
 }
 

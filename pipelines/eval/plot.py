@@ -3,7 +3,8 @@
 """Plots the figures that mtstereo's programs write as JSON.
 
   plot.py curve REPORT.json PICTURE.png   error against density; REPORT.json comes from
-                                          'mtstereo-eval --curve ... --json REPORT.json'
+                                          'mtstereo-eval --curve ... --json REPORT.json'; with
+                                          '--degrade ...', one panel for each kind of images
   plot.py growth PLOT.json PICTURE.png    frame time against problem size; PLOT.json is
                                           {"title": TEXT, "panels": [PANEL] or [PANEL, PANEL]}
                                           with PANEL = {"x": LABEL, "y": LABEL, "caption": TEXT,
@@ -28,6 +29,7 @@ DPI = 100
 MOST_DOTS = 20  # longer lines are drawn without a dot for each point
 LARGE, SMALL = 11, 8.5  # font sizes [pt]
 MEASURES = (("avgerr", "avgerr [px]"), ("d_all", "D-all [%]"))
+COLUMNS = 4  # of panels, one for each kind of images
 
 
 class InputError(Exception):
@@ -69,12 +71,12 @@ class Canvas:
         self.figure.text(x / self.size[0], 1 - y / self.size[1], text, fontsize=size, color=INK,
                          parse_math=False)
 
-    def axes(self, box, labels, largest):
+    def axes(self, box, labels, largest, steps=(10, 7)):
         """Axes from 0; the box is (left, top, width, height) [px] from the top left corner."""
         left, top, width, height = box
         axes = self.figure.add_axes((left / self.size[0], 1 - (top + height) / self.size[1],
                                      width / self.size[0], height / self.size[1]))
-        x_ticks, y_ticks = self.ticks(largest[0], 10), self.ticks(largest[1], 7)
+        x_ticks, y_ticks = (self.ticks(*each) for each in zip(largest, steps))
         axes.set(xticks=x_ticks, yticks=y_ticks, xlim=(0, x_ticks[-1]), ylim=(0, y_ticks[-1]))
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_major_formatter(self.ticker.FormatStrFormatter("%g"))
@@ -165,27 +167,68 @@ def curve_captions(curve, lines):
     return [" ".join(captions)]
 
 
-def draw_curve(report, title):
-    """Error against density, from the report of mtstereo-eval: avgerr on the left, D-all right."""
+def curve_title(curve):
+    return (f"{text(curve['dataset'])}, mean of {int(number(curve['pairs']))} pairs, all pixels "
+            f"with ground truth, mode {text(curve['mode'])}")
+
+
+def largest_error(lines, key):
+    errors = [value for line in lines for value in line.errors[key] if math.isfinite(value)]
+    return max(errors, default=1)
+
+
+def draw_curve(report, options):
+    """Error against density, from the report of mtstereo-eval."""
     if "curve" not in report:
         raise InputError("it has no curve: run mtstereo-eval with --curve")
     curve = report["curve"]
     lines = [Line(entry) for entry in curve["curves"]]
     if not lines:
         raise InputError("the curve has no lines")
-    own_title = (f"{text(curve['dataset'])}, mean of {int(number(curve['pairs']))} pairs, all "
-                 f"pixels with ground truth, mode {text(curve['mode'])}")
+    title = options.title or curve_title(curve)
     captions = curve_captions(curve, lines)
+    degraded = [entry for entry in report.get("degraded", []) if "curve" in entry]
+    if degraded:
+        return draw_kinds({"clean": lines} | lines_of_kinds(degraded), options.measure,
+                          (title, captions))
     canvas = Canvas(1200, 600)
-    canvas.text(60, 26, title or own_title, LARGE + 1)
+    canvas.text(60, 26, title, LARGE + 1)
     handles = []
     for (key, label), left in zip(MEASURES, (60, 665)):
-        errors = [value for line in lines for value in line.errors[key] if math.isfinite(value)]
         axes = canvas.axes((left, 120, 510, 375), ("density [%]", label),
-                           (100, max(errors, default=1)))
+                           (100, largest_error(lines, key)))
         handles = [axes.plot(line.density, line.errors[key], **line.style())[0] for line in lines]
     canvas.legend(handles, 40, 5)
     for y, caption in zip((569, 589), captions):
+        canvas.text(60, y, caption, SMALL)
+    return canvas
+
+
+def lines_of_kinds(degraded):
+    """The lines of each kind; a kind that no method completed is left out."""
+    lines = {text(entry["kind"]): [Line(line) for line in entry["curve"]["curves"]]
+             for entry in degraded}
+    return {kind: found for kind, found in lines.items() if found}
+
+
+def draw_kinds(kinds, measure, texts):
+    """One panel for each kind of images: avgerr or D-all against density."""
+    title, captions = texts
+    rows = -(-len(kinds) // COLUMNS)
+    height = 120 + 250 * rows
+    canvas = Canvas(1200, height + 45)
+    canvas.text(60, 26, title, LARGE + 1)
+    handles = []
+    for index, (kind, lines) in enumerate(kinds.items()):
+        box = (50 + 292 * (index % COLUMNS), 120 + 250 * (index // COLUMNS), 245, 175)
+        axes = canvas.axes(box, ("density [%]", dict(MEASURES)[measure]),
+                           (100, largest_error(lines, measure)), (5, 5))
+        axes.set_title(kind, loc="right", color=INK, fontsize=LARGE, parse_math=False)
+        drawn = [axes.plot(line.density, line.errors[measure], **line.style())[0]
+                 for line in lines]
+        handles = handles or drawn
+    canvas.legend(handles, 40, 5)
+    for y, caption in zip((height + 10, height + 30), captions):
         canvas.text(60, y, caption, SMALL)
     return canvas
 
@@ -209,14 +252,14 @@ class Panel:
         return last, y / x * last
 
 
-def draw_growth(plot, title):
+def draw_growth(plot, options):
     """Measured times, and the line that proportional growth from the first point would follow."""
     panels = [Panel(panel) for panel in plot["panels"]]
     if not 1 <= len(panels) <= 2:
         raise InputError("a growth plot has 1 or 2 panels")
     own_title = text(plot["title"])
     canvas = Canvas(600 * len(panels), 420)
-    canvas.text(65, 28, title or own_title, LARGE + 1)
+    canvas.text(65, 28, options.title or own_title, LARGE + 1)
     handles = []
     for index, panel in enumerate(panels):
         end = panel.proportional()
@@ -249,7 +292,7 @@ def plot(options):
     draw = {"curve": draw_curve, "growth": draw_growth}[options.command]
     name = "standard input" if options.json == "-" else options.json
     try:
-        canvas = draw(read_json(options.json), options.title)
+        canvas = draw(read_json(options.json), options)
     except InputError as error:
         raise InputError(f"{name}: {error}") from error
     except (KeyError, TypeError, ValueError, AttributeError) as error:
@@ -267,6 +310,9 @@ def parse_options():
         command.add_argument("json", metavar="FILE.json", help="'-' reads standard input")
         command.add_argument("picture", metavar="PICTURE.png")
         command.add_argument("--title", metavar="TEXT", help="replaces the title")
+        if name == "curve":
+            command.add_argument("--measure", choices=[key for key, _ in MEASURES],
+                                 default="avgerr", help="of the panels of degraded images")
     commands.add_parser("check", help="check that matplotlib is installed")
     return parser.parse_args()
 

@@ -35,11 +35,23 @@ json metrics_json(const Metrics& metrics) {
 json evaluation_json(const Evaluation& evaluation) {
   return {{"density", json_number(evaluation.density)},
           {"all", metrics_json(evaluation.all)},
-          {"noc", evaluation.noc ? metrics_json(*evaluation.noc) : json(nullptr)}};
+          {"noc", evaluation.noc ? metrics_json(*evaluation.noc) : json(nullptr)},
+          {"flat_answers", evaluation.flat_answers ? json(*evaluation.flat_answers) : json()}};
+}
+
+json flicker_json(const std::vector<MethodFlicker>& list) {
+  json result = json::object();
+  for (const auto& [method, flicker] : list) {
+    result[method] = {{"density", json_number(flicker.density)},
+                      {"come_and_go", json_number(flicker.come_and_go)},
+                      {"spread", json_number(flicker.spread)}};
+  }
+  return result;
 }
 
 json pair_json(const PairReport& pair) {
   json result{{"name", pair.pair.name},
+              {"kind", pair.kind},
               {"left", pair.pair.left.string()},
               {"right", pair.pair.right.string()},
               {"ground_truth", pair.pair.truth.string()},
@@ -54,6 +66,7 @@ json pair_json(const PairReport& pair) {
     entry["seconds_per_megapixel"] = json_number(method.seconds_per_megapixel);
     result["results"][method.method] = std::move(entry);
   }
+  if (!pair.flicker.empty()) result["flicker"] = flicker_json(pair.flicker);
   return result;
 }
 
@@ -63,14 +76,14 @@ const MethodResult* result_of(const PairReport& pair, const std::string& method)
   return found == pair.results.end() ? nullptr : &*found;
 }
 
-Summary summarize_method(const Report& report, const std::string& method) {
+Summary summarize_method(const Report& report, const std::string& kind, const std::string& method) {
   Summary summary;
   summary.method = method;
   std::vector<WeightedEvaluation> evaluations;
   double time = 0, ratio = 0;
   int both = 0;
   for (const PairReport& pair : report.pairs) {
-    const MethodResult* result = result_of(pair, method);
+    const MethodResult* result = pair.kind == kind ? result_of(pair, method) : nullptr;
     if (result == nullptr) continue;
     evaluations.push_back({&result->evaluation, pair.pair.weight});
     time += result->seconds_per_megapixel;
@@ -86,14 +99,71 @@ Summary summarize_method(const Report& report, const std::string& method) {
   return summary;
 }
 
+json means_json(const std::vector<Summary>& means) {
+  json result = json::object();
+  for (const Summary& summary : means) {
+    json entry = evaluation_json(summary.evaluation);
+    entry["pairs"] = summary.pairs;
+    entry["seconds_per_megapixel"] = json_number(summary.seconds_per_megapixel);
+    entry["time_ratio"] = json_number(summary.time_ratio);
+    result[summary.method] = std::move(entry);
+  }
+  return result;
+}
+
+// The means of the degradations, and the curves of all kinds.
+void add_kinds(const Report& report, json& result) {
+  for (const std::string& kind : report.kinds) {
+    if (kind == kCleanKind) continue;
+    result["degraded"].push_back({{"kind", kind}, {"mean", means_json(summarize(report, kind))}});
+  }
+  add_curves(report, result);
+}
+
 }  // namespace
 
-std::vector<Summary> summarize(const Report& report) {
+void add_curves(const Report& report, json& result) {
+  for (const CurveReport& curve : report.curves) {
+    if (curve.kind == kCleanKind) {
+      result["curve"] = curves_json(curve);
+      continue;
+    }
+    json& degraded = result["degraded"];
+    const auto found = std::find_if(degraded.begin(), degraded.end(),
+                                    [&](const json& entry) { return entry["kind"] == curve.kind; });
+    json& entry =
+        found == degraded.end() ? degraded.emplace_back(json{{"kind", curve.kind}}) : *found;
+    entry["curve"] = curves_json(curve);
+  }
+}
+
+std::string parameter_text(const Report& report, const std::string& name) {
+  for (const auto& [key, text] : report.parameters) {
+    if (key == name) return text;
+  }
+  return {};
+}
+
+std::vector<Summary> summarize(const Report& report, const std::string& kind) {
   std::vector<Summary> summaries;
   for (const std::string& method : report.methods) {
-    summaries.push_back(summarize_method(report, method));
+    summaries.push_back(summarize_method(report, kind, method));
   }
   return summaries;
+}
+
+std::vector<MethodFlicker> summarize_flicker(const Report& report) {
+  std::vector<MethodFlicker> result;
+  for (const std::string& method : report.methods) {
+    std::vector<Flicker> list;
+    for (const PairReport& pair : report.pairs) {
+      for (const MethodFlicker& entry : pair.flicker) {
+        if (entry.method == method) list.push_back(entry.flicker);
+      }
+    }
+    if (!list.empty()) result.push_back({method, mean(list)});
+  }
+  return result;
 }
 
 json to_json(const Report& report) {
@@ -105,21 +175,19 @@ json to_json(const Report& report) {
               {"repeat", report.repeat},
               {"compared_methods", json::object()},
               {"pairs", json::array()},
-              {"mean", json::object()},
+              {"mean", means_json(summarize(report))},
               {"failures", json::array()}};
   for (const auto& [name, text] : report.parameters) result["parameters"][name] = text;
   for (const auto& [name, text] : report.rival_settings) result["compared_methods"][name] = text;
   for (const PairReport& pair : report.pairs) {
     if (!pair.results.empty()) result["pairs"].push_back(pair_json(pair));
   }
-  for (const Summary& summary : summarize(report)) {
-    json entry = evaluation_json(summary.evaluation);
-    entry["pairs"] = summary.pairs;
-    entry["seconds_per_megapixel"] = json_number(summary.seconds_per_megapixel);
-    entry["time_ratio"] = json_number(summary.time_ratio);
-    result["mean"][summary.method] = std::move(entry);
+  if (report.flicker) {
+    result["flicker"] = {{"noise", *report.flicker},
+                         {"frames", kFlickerFrames},
+                         {"mean", flicker_json(summarize_flicker(report))}};
   }
-  if (report.curve) result["curve"] = curves_json(*report.curve);
+  add_kinds(report, result);
   for (const Problem& failure : report.failures) {
     result["failures"].push_back({{"pair", failure.pair}, {"reason", failure.reason}});
   }
@@ -144,7 +212,7 @@ std::string csv_number(double value) {
 
 // The fields that the lines of one pair and method share.
 struct CsvLine {
-  std::string pair, method, width, height, max_disparity, weight;
+  std::string kind, pair, method, width, height, max_disparity, weight;
   const Evaluation* evaluation;
   double seconds, seconds_per_megapixel;
 };
@@ -167,6 +235,9 @@ std::string csv_line(const CsvLine& line, const char* region, const Metrics& met
   fields.push_back(csv_number(metrics.known_density));
   fields.push_back(csv_number(line.seconds));
   fields.push_back(csv_number(line.seconds_per_megapixel));
+  const std::optional<std::int64_t>& flat = line.evaluation->flat_answers;
+  fields.push_back(flat ? std::to_string(*flat) : "");
+  fields.push_back(csv_field(line.kind));
   std::string text;
   for (const std::string& field : fields) text += (text.empty() ? "" : ",") + field;
   return text + "\n";
@@ -178,6 +249,15 @@ std::string csv_lines(const CsvLine& line) {
   return text;
 }
 
+std::string csv_means(const Report& report, const std::string& kind) {
+  std::string text;
+  for (const Summary& summary : summarize(report, kind)) {
+    text += csv_lines({kind, "mean", summary.method, "", "", "", "", &summary.evaluation, kNone,
+                       summary.seconds_per_megapixel});
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string to_csv(const Report& report) {
@@ -186,19 +266,16 @@ std::string to_csv(const Report& report) {
       "rms,"
       "d_all";
   for (const double threshold : kBadThresholds) text += "," + bad_name(threshold);
-  text += ",density,known_density,seconds,seconds_per_megapixel\n";
+  text += ",density,known_density,seconds,seconds_per_megapixel,flat_answers,kind\n";
   for (const PairReport& pair : report.pairs) {
     for (const MethodResult& result : pair.results) {
-      text += csv_lines({pair.pair.name, result.method, std::to_string(pair.size.width),
+      text += csv_lines({pair.kind, pair.pair.name, result.method, std::to_string(pair.size.width),
                          std::to_string(pair.size.height), std::to_string(pair.max_disparity),
                          csv_number(pair.pair.weight), &result.evaluation, result.seconds,
                          result.seconds_per_megapixel});
     }
   }
-  for (const Summary& summary : summarize(report)) {
-    text += csv_lines({"mean", summary.method, "", "", "", "", &summary.evaluation, kNone,
-                       summary.seconds_per_megapixel});
-  }
+  for (const std::string& kind : report.kinds) text += csv_means(report, kind);
   return text;
 }
 

@@ -44,11 +44,13 @@ bool attempt(PairReport& report, const std::string& who, Step step) {
   return false;
 }
 
-fs::path output_file(const fs::path& folder, const std::string& method, const std::string& name,
+// The library's own files go directly into the folder, as the benchmark servers require. Each
+// degradation and each rival has a subfolder.
+fs::path output_file(const fs::path& folder, const std::string& method, const PairReport& report,
                      const char* extension) {
-  // The library's own files go directly into the folder, as the benchmark servers require.
-  const fs::path base = method == kOwnMethod ? folder : folder / method;
-  return base / (name + extension);
+  fs::path base = report.kind == kCleanKind ? folder : folder / report.kind;
+  if (method != kOwnMethod) base /= method;
+  return base / (report.pair.name + extension);
 }
 
 }  // namespace
@@ -91,27 +93,74 @@ double median_seconds(int warm_up, int repeat, const std::function<void()>& fram
 
 Runner::Runner(RunSettings settings) : settings_(std::move(settings)) {}
 
-PairReport Runner::run(const StereoPair& pair) {
+std::vector<std::string> kinds_of(const RunSettings& settings) {
+  std::vector<std::string> kinds{kCleanKind};
+  for (const Degradation& degradation : settings.degradations) {
+    kinds.push_back(degradation_text(degradation));
+  }
+  return kinds;
+}
+
+// `failures` has the reason if the pair cannot be read.
+PairReport Runner::load(const StereoPair& pair, LoadedPair& images) const {
   PairReport report;
   report.pair = pair;
-  LoadedPair images;
-  const bool loaded = attempt(report, "", [&] {
+  attempt(report, "", [&] {
     images = load_pair(pair, settings_.dmap);
     report.size = images.left.size();
     report.max_disparity =
         search_range(pair, settings_.parameters, report.size.width, report.notes);
   });
-  if (!loaded) return report;
-  attempt(report, kOwnMethod, [&] { run_own(images, report); });
-  for (const Rival rival : settings_.rivals) {
-    attempt(report, std::string(rival_name(rival)), [&] { run_rival(rival, images, report); });
-  }
   return report;
 }
 
-void Runner::run_own(const LoadedPair& images, PairReport& report) {
+PairReport Runner::run(const StereoPair& pair) {
+  LoadedPair images;
+  PairReport report = load(pair, images);
+  if (!report.failures.empty()) return report;
+  run_methods(images, report);
+  if (settings_.flicker) run_flicker(images, report);
+  return report;
+}
+
+std::vector<PairReport> Runner::run_kinds(const StereoPair& pair) {
+  std::vector<PairReport> reports;
+  LoadedPair images;
+  const PairReport start = load(pair, images);
+  reports.push_back(start);
+  if (!start.failures.empty()) return reports;
+  run_methods(images, reports[0]);
+  if (settings_.flicker) run_flicker(images, reports[0]);
+  for (const Degradation& degradation : settings_.degradations) {
+    PairReport report = start;
+    report.notes.clear();
+    report.kind = degradation_text(degradation);
+    LoadedPair degraded{images.left.clone(), images.right.clone(), images.truth};
+    const bool done =
+        attempt(report, report.kind, [&] { degrade(degradation, degraded.left, degraded.right); });
+    if (done) run_methods(degraded, report);
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+void Runner::run_methods(const LoadedPair& images, PairReport& report) {
+  const std::string prefix = report.kind == kCleanKind ? "" : report.kind + ": ";
+  attempt(report, prefix + kOwnMethod, [&] { run_own(images, report); });
+  for (const Rival rival : settings_.rivals) {
+    attempt(report, prefix + std::string(rival_name(rival)),
+            [&] { run_rival(rival, images, report); });
+  }
+}
+
+// Times are compared on the images as they are; those of degraded ones need no warm-up.
+int Runner::warm_up(const PairReport& report) const {
+  return report.kind == kCleanKind ? settings_.warm_up : 0;
+}
+
+void Runner::prepare_matcher(int max_disparity) {
   Parameters parameters = settings_.parameters;
-  require(parameters.set(Parameter::kMaxDisparity, report.max_disparity));
+  require(parameters.set(Parameter::kMaxDisparity, max_disparity));
   if (matcher_) {
     require(matcher_->set_parameters(parameters));
   } else {
@@ -119,22 +168,29 @@ void Runner::run_own(const LoadedPair& images, PairReport& report) {
     if (!made) throw InputError(made.error().message);
     matcher_.emplace(std::move(*made));
   }
+}
+
+void Runner::run_own(const LoadedPair& images, PairReport& report) {
+  prepare_matcher(report.max_disparity);
   DisparityView disparity;
-  const double seconds = median_seconds(settings_.warm_up, settings_.repeat, [&] {
+  const double seconds = median_seconds(warm_up(report), settings_.repeat, [&] {
     Result<DisparityView> result = matcher_->compute(view_of(images.left), view_of(images.right));
     if (!result) throw InputError(result.error().message);
     disparity = *result;
   });
   const cv::Mat map = to_float(disparity);
+  const cv::Mat confidence = mat_of(matcher_->confidence());
   finish(kOwnMethod, map, seconds, images, report);
+  if (settings_.html_pictures) {
+    report.pictures = html_pictures(images, map, confidence, report.max_disparity);
+  }
   if (!settings_.curve) return;
-  report.sweeps.push_back(
-      {kOwnMethod, confidence_sweep(map, mat_of(matcher_->confidence()), images.truth.disparity)});
+  report.sweeps.push_back({kOwnMethod, confidence_sweep(map, confidence, images.truth.disparity)});
 }
 
 void Runner::run_rival(Rival rival, const LoadedPair& images, PairReport& report) {
   RivalMatcher matcher(rival, report.max_disparity);
-  const double seconds = median_seconds(settings_.warm_up, settings_.repeat,
+  const double seconds = median_seconds(warm_up(report), settings_.repeat,
                                         [&] { matcher.compute(images.left, images.right); });
   const std::string name(rival_name(rival));
   finish(name, matcher.disparity(), seconds, images, report);
@@ -147,19 +203,49 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
                     const LoadedPair& images, PairReport& report) const {
   MethodResult result;
   result.method = method;
-  result.evaluation = evaluate(disparity, images.truth);
+  result.evaluation = evaluate(disparity, images);
   result.seconds = seconds;
   result.seconds_per_megapixel = seconds * 1e6 / static_cast<double>(images.left.total());
   report.results.push_back(std::move(result));
 
   if (settings_.disparity_folder) {
     const char* extension = extension_of(settings_.disparity_format);
-    write_disparity(output_file(*settings_.disparity_folder, method, report.pair.name, extension),
-                    disparity, settings_.disparity_format);
+    write_disparity(output_file(*settings_.disparity_folder, method, report, extension), disparity,
+                    settings_.disparity_format);
   }
   if (settings_.picture_folder) {
-    write_picture(output_file(*settings_.picture_folder, method, report.pair.name, ".png"),
+    write_picture(output_file(*settings_.picture_folder, method, report, ".png"),
                   overview(images.left, disparity, images.truth.disparity, report.max_disparity));
+  }
+}
+
+void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
+  std::vector<LoadedPair> frames;
+  for (int i = 0; i < kFlickerFrames; ++i) {
+    frames.push_back({images.left.clone(), images.right.clone(), {}});
+    add_flicker_noise(*settings_.flicker, i, frames.back().left, frames.back().right);
+  }
+  attempt(report, std::string("flicker: ") + kOwnMethod, [&] {
+    prepare_matcher(report.max_disparity);
+    std::vector<cv::Mat> maps;
+    for (const LoadedPair& frame : frames) {
+      Result<DisparityView> result = matcher_->compute(view_of(frame.left), view_of(frame.right));
+      if (!result) throw InputError(result.error().message);
+      maps.push_back(to_float(*result));
+    }
+    report.flicker.push_back({kOwnMethod, measure_flicker(maps)});
+  });
+  for (const Rival rival : settings_.rivals) {
+    const std::string name(rival_name(rival));
+    attempt(report, "flicker: " + name, [&] {
+      RivalMatcher matcher(rival, report.max_disparity);
+      std::vector<cv::Mat> maps;
+      for (const LoadedPair& frame : frames) {
+        matcher.compute(frame.left, frame.right);
+        maps.push_back(matcher.disparity());
+      }
+      report.flicker.push_back({name, measure_flicker(maps)});
+    });
   }
 }
 

@@ -9,6 +9,9 @@
 
 #include "eval/curve_means.hpp"
 #include "eval/datasets.hpp"
+#include "eval/degrade.hpp"
+#include "eval/flicker.hpp"
+#include "eval/html_pictures.hpp"
 #include "eval/metrics.hpp"
 #include "eval/pictures.hpp"
 #include "eval/rivals.hpp"
@@ -29,8 +32,14 @@ struct RunSettings {
   std::optional<std::filesystem::path> disparity_folder;
   DisparityFormat disparity_format = DisparityFormat::kPfm;
   std::optional<std::filesystem::path> picture_folder;
-  bool curve = false;  ///< sweep the confidence of every method
+  bool curve = false;                     ///< sweep the confidence of every method
+  std::vector<Degradation> degradations;  ///< evaluated in addition to the images as they are
+  std::optional<double> flicker;          ///< standard deviation of its noise [gray values]
+  bool html_pictures = false;             ///< pictures of the library's results
 };
+
+/// The kinds of images of a run: kCleanKind and the texts of the degradations.
+std::vector<std::string> kinds_of(const RunSettings& settings);
 
 /// The result of one method on one pair.
 struct MethodResult {
@@ -40,14 +49,23 @@ struct MethodResult {
   double seconds_per_megapixel = 0;  ///< the same divided by the size of the left image [s/MP]
 };
 
-/// The results of one pair.
+/// The flicker of one method.
+struct MethodFlicker {
+  std::string method;
+  Flicker flicker;
+};
+
+/// The results of one pair and one kind of images.
 struct PairReport {
   StereoPair pair;
+  std::string kind = kCleanKind;
   cv::Size size;
-  int max_disparity = 0;              ///< search range [px]
-  std::vector<MethodResult> results;  ///< the library's first; without methods that failed
-  std::vector<MethodSweep> sweeps;    ///< with --curve, one per method
-  std::vector<std::string> failures;  ///< one sentence each
+  int max_disparity = 0;               ///< search range [px]
+  std::vector<MethodResult> results;   ///< the library's first; without methods that failed
+  std::vector<MethodSweep> sweeps;     ///< with --curve, one per method
+  std::vector<MethodFlicker> flicker;  ///< with --flicker, of the images as they are
+  HtmlPictures pictures;               ///< with --report
+  std::vector<std::string> failures;   ///< one sentence each
   std::vector<std::string> notes;
 };
 
@@ -65,12 +83,22 @@ class Runner {
  public:
   explicit Runner(RunSettings settings);
 
-  /// Does not throw for a pair that cannot be used: `failures` has the reason.
+  /// The images as they are. Does not throw for a pair that cannot be used: `failures` has the
+  /// reason.
   PairReport run(const StereoPair& pair);
 
+  /// The same for each kind of kinds_of(), in this order. The pair is read once. Only the clean
+  /// pair if it cannot be read.
+  std::vector<PairReport> run_kinds(const StereoPair& pair);
+
  private:
+  PairReport load(const StereoPair& pair, LoadedPair& images) const;
+  void run_methods(const LoadedPair& images, PairReport& report);
   void run_own(const LoadedPair& images, PairReport& report);
   void run_rival(Rival rival, const LoadedPair& images, PairReport& report);
+  void run_flicker(const LoadedPair& images, PairReport& report);
+  void prepare_matcher(int max_disparity);
+  int warm_up(const PairReport& report) const;
   void finish(const std::string& method, const cv::Mat& disparity, double seconds,
               const LoadedPair& images, PairReport& report) const;
 

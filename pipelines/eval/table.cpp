@@ -37,6 +37,7 @@ const Metrics* region_of(const Evaluation& evaluation, bool noc) {
 std::vector<Row> rows_of(const Report& report, const std::vector<Summary>& means, bool noc) {
   std::vector<Row> rows{header()};
   for (const PairReport& pair : report.pairs) {
+    if (pair.kind != kCleanKind) continue;
     for (const MethodResult& result : pair.results) {
       if (const Metrics* metrics = region_of(result.evaluation, noc)) {
         rows.push_back(row_of(pair.pair.name, result.method, std::to_string(pair.max_disparity),
@@ -57,11 +58,8 @@ std::vector<Row> rows_of(const Report& report, const std::vector<Summary>& means
 
 void print_table(std::ostream& out, const Report& report) {
   const std::vector<Summary> means = summarize(report);
-  out << report.dataset << " in " << report.folder << ", mode ";
-  for (const auto& [name, text] : report.parameters) {
-    if (name == "mode") out << text;
-  }
-  out << "; time: median of " << report.repeat << " frames after " << report.warm_up
+  out << report.dataset << " in " << report.folder << ", mode " << parameter_text(report, "mode")
+      << "; time: median of " << report.repeat << " frames after " << report.warm_up
       << " warm-up frames\n";
   out << "range px, avgerr px, D-all %, bad %, rms px, density % of all pixels, s per "
          "megapixel\n\n";

@@ -38,6 +38,7 @@ CurveReport small_report() {
 std::string table_of(const CurveReport& report) {
   std::ostringstream out;
   print_curves(out, report);
+  print_curve_settings(out, report);
   return out.str();
 }
 

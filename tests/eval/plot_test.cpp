@@ -150,6 +150,41 @@ TEST_F(Plot, HasAColorAndALegendForEachMethod) {
   }
 }
 
+TEST_F(Plot, DrawsAPanelForEachKindOfImages) {
+  json report = report_of({curve_of(0, {point(100, 1), point(0, 1)})});
+  for (const char* kind : {"noise=5", "dark=0.15", "jpeg=20", "bright=2", "blur-right=1"}) {
+    const json curve = report_of({curve_of(1, {point(100, 1), point(0, 1)})});
+    report["degraded"].push_back({{"kind", kind}, {"curve", curve["curve"]}});
+  }
+  // A kind whose pairs no method completed has no panel.
+  report["degraded"].push_back({{"kind", "dark=0"}, {"curve", report_of({})["curve"]}});
+  report["degraded"].push_back({{"kind", "without a curve"}});
+  const Outcome run = run_plot({"curve", file(report), picture()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const cv::Mat drawn = cv::imread(picture());
+  ASSERT_EQ(drawn.size(), cv::Size(1200, 120 + 2 * 250 + 45));
+  // The lines at the top of the six panels.
+  for (int i = 0; i < 8; ++i) {
+    const cv::Rect top(50 + 292 * (i % 4), 120 + 250 * (i / 4) - 3, 245, 7);
+    cv::Mat mask;
+    const cv::Scalar& color = kColors[i == 0 ? 0 : 1];
+    cv::inRange(drawn(top), color - cv::Scalar::all(3), color + cv::Scalar::all(3), mask);
+    EXPECT_EQ(cv::countNonZero(mask) > 200, i < 6) << i;
+  }
+}
+
+TEST_F(Plot, DrawsTheRequestedMeasureOfEachKind) {
+  json report = report_of({curve_of(0, {point(60, 1), point(20, 1)})});
+  json curve = report["curve"];
+  for (json& each : curve["curves"][0]["points"]) each["d_all"] = 7;
+  report["degraded"] = {{{"kind", "noise=5"}, {"curve", curve}}};
+  ASSERT_EQ(run_plot({"curve", file(report), picture()}).status, 0);
+  const std::string avgerr = testing::read_file(picture());
+  ASSERT_EQ(run_plot({"curve", file(report), picture(), "--measure", "d_all"}).status, 0);
+  EXPECT_NE(testing::read_file(picture()), avgerr);
+  EXPECT_EQ(run_plot({"curve", file(report), picture(), "--measure", "beauty"}).status, 2);
+}
+
 TEST_F(Plot, ReadsTheReportFromStandardInput) {
   // The tests start programs with an empty standard input.
   const Outcome run = run_plot({"curve", "-", picture()});
