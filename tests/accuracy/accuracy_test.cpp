@@ -6,23 +6,17 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <limits>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
-#include "element_matcher.hpp"
 #include "eval/datasets.hpp"
 #include "eval/metrics.hpp"
-#include "render/render.hpp"
+#include "pairs.hpp"
 #include "render/scene.hpp"
 
 namespace mtstereo::tests {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Means over pairs, or limits for them.
 struct Figures {
@@ -39,12 +33,6 @@ void expect_kept(const eval::Evaluation& mean, const Figures& limit) {
               mean.density);
 }
 
-eval::Evaluation mean_of(const std::vector<eval::Evaluation>& evaluations) {
-  std::vector<eval::WeightedEvaluation> weighted;
-  for (const eval::Evaluation& evaluation : evaluations) weighted.push_back({&evaluation, 1});
-  return eval::mean(weighted);
-}
-
 /// The properties of a test and the limits for its means.
 struct Gate {
   const char* name;
@@ -55,15 +43,6 @@ struct Gate {
 /// A change of the right view before matching.
 using Change = void (*)(cv::Mat& right);
 
-eval::Evaluation evaluate_pair(const cv::Mat& left, const cv::Mat& right,
-                               const eval::GroundTruth& truth, const std::string& properties,
-                               int max_disparity) {
-  const cv::Mat disparity = match_with_element(
-      left, right, properties + " max-disparity=" + std::to_string(max_disparity));
-  EXPECT_FALSE(disparity.empty()) << "the element gave no result";
-  return disparity.empty() ? eval::Evaluation{} : eval::evaluate(disparity, truth);
-}
-
 std::string gate_name(const testing::TestParamInfo<Gate>& info) { return info.param.name; }
 
 class RenderedScenes : public testing::TestWithParam<Gate> {};
@@ -72,16 +51,8 @@ TEST_P(RenderedScenes, KeepTheirAccuracy) {
   std::vector<eval::Evaluation> evaluations;
   for (const std::string& name : render::scene_names()) {
     for (const double time : {0.0, 1.0}) {
-      render::Settings settings;
-      settings.width = 480;
-      settings.height = 270;
-      const render::StereoFrame frame = render::render(render::make_scene(name, 1), time, settings);
-      eval::GroundTruth truth{frame.truth, {}};
-      for (float& disparity : cv::Mat_<float>(truth.disparity)) {
-        if (!std::isfinite(disparity)) disparity = std::numeric_limits<float>::quiet_NaN();
-      }
       evaluations.push_back(
-          evaluate_pair(frame.left, frame.right, truth, GetParam().properties, 64));
+          evaluate_with_element(rendered_pair(name, time), GetParam().properties, 64));
     }
   }
   expect_kept(mean_of(evaluations), GetParam().limit);
@@ -102,37 +73,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Gate{"PaperSemiDense", "preset=paper mode=semi-dense", {1.12, 11.2, 44.0}}),
     gate_name);
 
-/// The ten pairs with ground truth; empty if they are not available.
-std::vector<eval::StereoPair> real_pairs(const char* folder) {
-  struct Collection {
-    const char* folder;
-    eval::Layout layout;
-    int max_disparity;  ///< if the data set does not state it [px]
-  };
-  const Collection collections[] = {{"middlebury", eval::Layout::kMiddlebury, 0},
-                                    {"kitti2015", eval::Layout::kKitti2015, 100},
-                                    {"sceneflow", eval::Layout::kFlyingThings, 192},
-                                    {"eth3d", eval::Layout::kEth3d, 64}};
-  std::vector<eval::StereoPair> pairs;
-  for (const Collection& collection : collections) {
-    eval::DataSet set = eval::find_pairs(fs::path(folder) / collection.folder, collection.layout);
-    EXPECT_TRUE(set.problems.empty());
-    for (eval::StereoPair& pair : set.pairs) {
-      if (collection.max_disparity > 0) pair.max_disparity = collection.max_disparity;
-      pairs.push_back(std::move(pair));
-    }
-  }
-  return pairs;
-}
-
 class RealPairs : public testing::TestWithParam<Gate> {
  protected:
   void SetUp() override {
-    const char* folder = std::getenv("MTSTEREO_TEST_DATA");
-    if (folder == nullptr || !fs::is_directory(folder)) {
+    if (data_folder().empty()) {
       GTEST_SKIP() << "no pairs with ground truth: MTSTEREO_TEST_DATA names no folder with them";
     }
-    pairs_ = real_pairs(folder);
+    pairs_ = ten_pairs(data_folder());
     ASSERT_EQ(pairs_.size(), 10u);
   }
 
@@ -141,8 +88,8 @@ class RealPairs : public testing::TestWithParam<Gate> {
     for (const eval::StereoPair& pair : pairs_) {
       eval::LoadedPair loaded = eval::load_pair(pair);
       change(loaded.right);
-      evaluations.push_back(evaluate_pair(loaded.left, loaded.right, loaded.truth,
-                                          GetParam().properties, pair.max_disparity.value()));
+      evaluations.push_back(
+          evaluate_with_element(loaded, GetParam().properties, pair.max_disparity.value()));
     }
     return mean_of(evaluations);
   }
@@ -206,8 +153,7 @@ TEST_P(Road, KeepsItsAccuracy) {
   for (const eval::StereoPair& pair : pairs_) {
     if (pair.name.find("000046_10") == std::string::npos) continue;
     const eval::LoadedPair loaded = eval::load_pair(pair);
-    expect_kept(evaluate_pair(loaded.left, loaded.right, loaded.truth, GetParam().properties,
-                              pair.max_disparity.value()),
+    expect_kept(evaluate_with_element(loaded, GetParam().properties, pair.max_disparity.value()),
                 GetParam().limit);
     return;
   }

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Regression tests of the accuracy on degraded images, as cameras deliver them: on real pairs with
+// ground truth, in builds without a sanitizer, and on rendered scenes. All pairs are matched by the
+// element. After a change of the matcher, "degraded-test | grep '^    {'" in a release build prints
+// all rows of degraded_figures.hpp, in their order.
+#include <gst/gst.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "degraded_figures.hpp"
+#include "eval/degrade.hpp"
+#include "pairs.hpp"
+#include "render/scene.hpp"
+#include "support/sanitizers.hpp"
+
+namespace mtstereo::tests {
+namespace {
+
+/// How far a figure may be from the one in the table.
+constexpr double kErrorMargin = 0.04;    // share of the error
+constexpr double kAvgerrMargin = 0.005;  // [px]
+constexpr double kDAllMargin = 0.05;     // [points]
+constexpr double kDensityMargin = 0.6;   // [points]
+constexpr double kFlatMargin = 0.05;     // share of the pixels
+constexpr double kFlatPixels = 100;
+
+/// A pair that is read or rendered once for all kinds and modes.
+struct Images {
+  eval::LoadedPair pair;
+  int max_disparity;  ///< [px]
+};
+
+std::vector<Images> load(const std::vector<eval::StereoPair>& pairs, std::size_t count) {
+  EXPECT_EQ(pairs.size(), count);
+  std::vector<Images> images;
+  for (const eval::StereoPair& pair : pairs) {
+    images.push_back({eval::load_pair(pair), pair.max_disparity.value()});
+  }
+  return images;
+}
+
+std::vector<Images> images_of(Pairs pairs) {
+  if (pairs == Pairs::kTen) return load(ten_pairs(data_folder()), 10);
+  if (pairs == Pairs::kFurther) return load(further_pairs(data_folder()), 17);
+  std::vector<Images> images;
+  for (const std::string& scene : render::scene_names()) {
+    images.push_back({rendered_pair(scene, 0), 64});
+  }
+  return images;
+}
+
+/// The images of a degradation, made once for all modes.
+class DegradedImages {
+ public:
+  const std::vector<Images>& get(Pairs pairs, const std::string& kind) {
+    const std::pair key(pairs, kind);
+    if (key == key_) return degraded_;
+    if (!clean_.contains(pairs)) clean_.emplace(pairs, images_of(pairs));
+    degraded_.clear();
+    for (const Images& images : clean_.at(pairs)) {
+      degraded_.push_back({{images.pair.left.clone(), images.pair.right.clone(), images.pair.truth},
+                           images.max_disparity});
+      if (kind == eval::kCleanKind) continue;
+      eval::LoadedPair& pair = degraded_.back().pair;
+      eval::degrade(eval::parse_degradation(kind), pair.left, pair.right);
+    }
+    key_ = key;
+    return degraded_;
+  }
+
+ private:
+  std::map<Pairs, std::vector<Images>> clean_;
+  std::pair<Pairs, std::string> key_;
+  std::vector<Images> degraded_;
+};
+
+const char* code_of(Pairs pairs) {
+  return pairs == Pairs::kTen       ? "Pairs::kTen"
+         : pairs == Pairs::kFurther ? "Pairs::kFurther"
+                                    : "Pairs::kRendered";
+}
+
+/// Prints the measured figures as a row of the table.
+void print_row(const DegradedFigures& row, const eval::Evaluation& mean) {
+  std::printf("    {%s, \"%s\", \"%s\", %.3f, %.2f, %.1f, %lld},\n", code_of(row.pairs), row.kind,
+              row.properties, mean.all.avgerr, mean.all.d_all, mean.density,
+              static_cast<long long>(mean.flat_answers.value_or(0)));
+}
+
+class Degraded : public testing::TestWithParam<DegradedFigures> {
+ protected:
+  void SetUp() override {
+    if (GetParam().pairs == Pairs::kRendered) return;
+    if (test::kSanitized) GTEST_SKIP() << "real pairs take too long with a sanitizer";
+    if (data_folder().empty()) {
+      GTEST_SKIP() << "no pairs with ground truth: MTSTEREO_TEST_DATA names no folder with them";
+    }
+  }
+  static DegradedImages images_;
+};
+
+DegradedImages Degraded::images_;
+
+TEST_P(Degraded, KeepTheirAccuracy) {
+  const DegradedFigures& row = GetParam();
+  std::vector<eval::Evaluation> evaluations;
+  for (const Images& images : images_.get(row.pairs, row.kind)) {
+    evaluations.push_back(evaluate_with_element(images.pair, row.properties, images.max_disparity));
+  }
+  const eval::Evaluation mean = mean_of(evaluations);
+  print_row(row, mean);
+  EXPECT_LE(mean.all.avgerr, row.avgerr * (1 + kErrorMargin) + kAvgerrMargin);
+  EXPECT_LE(mean.all.d_all, row.d_all * (1 + kErrorMargin) + kDAllMargin);
+  EXPECT_GE(mean.density, row.density - kDensityMargin);
+  EXPECT_LE(static_cast<double>(mean.flat_answers.value()),
+            static_cast<double>(row.flat_answers) * (1 + kFlatMargin) + kFlatPixels);
+}
+
+std::string name_of(const testing::TestParamInfo<DegradedFigures>& info) {
+  const DegradedFigures& row = info.param;
+  const std::string pairs = code_of(row.pairs);
+  std::string name = pairs.substr(pairs.find("::k") + 3) + "_" + row.kind + "_" + row.properties;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Images, Degraded, testing::ValuesIn(kDegradedFigures), name_of);
+
+}  // namespace
+}  // namespace mtstereo::tests
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  gst_init(&argc, &argv);
+  return RUN_ALL_TESTS();
+}
