@@ -70,7 +70,8 @@ void add_options(CLI::App& app, Texts& texts, Options& options) {
   app.add_option("--only", options.only,
                  "run only pairs whose name contains TEXT, or one of several texts")
       ->type_name("TEXT,...")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--limit", options.limit, "run at most the first N of these pairs; 0 = all")
       ->type_name("N")
       ->check(CLI::Range(0, 1000000))
@@ -100,11 +101,13 @@ void add_methods(CLI::App& app, Texts& texts, Options& options) {
                  "bm")
       ->type_name("NAME,...")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::IsMember(rival_names()));
   app.add_option("--degrade", texts.degrade,
                  "also evaluate degraded images: " + degradation_kinds())
       ->type_name("KIND=AMOUNT,...")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--flicker", options.run.flicker,
                  "also measure how the disparities of " + std::to_string(kFlickerFrames) +
                      " frames differ that have fresh noise of this standard deviation")

@@ -85,6 +85,15 @@ TEST_F(DegradeProgram, NamesAWrongKindAndItsRange) {
   }
 }
 
+TEST_F(DegradeProgram, TakesOneArgumentOfEachListBeforeTheFolder) {
+  for (const auto& [option, value] :
+       {std::pair("--degrade", "noise=5"), {"--compare", "bm"}, {"--only", "A,B"}}) {
+    const Outcome run = run_eval({option, value, set(), "--list"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("2 pairs of middlebury")) << option;
+  }
+}
+
 TEST_F(DegradeProgram, NamesThePackageOfAMissingEncoder) {
   const Outcome run =
       run_eval({set(), "--degrade", "h264=30"},
