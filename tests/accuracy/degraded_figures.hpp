@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ostream>
 
 namespace mtstereo::tests {
 
@@ -22,6 +23,18 @@ struct DegradedFigures {
   double density;             ///< [%]
   std::int64_t flat_answers;  ///< disparities in flat areas, all pairs [px]
 };
+
+/// The name of a set as in the table.
+inline const char* code_of(Pairs pairs) {
+  return pairs == Pairs::kTen       ? "Pairs::kTen"
+         : pairs == Pairs::kFurther ? "Pairs::kFurther"
+                                    : "Pairs::kRendered";
+}
+
+/// What GoogleTest prints of a row.
+inline void PrintTo(const DegradedFigures& row, std::ostream* out) {
+  *out << code_of(row.pairs) << ", " << row.kind << ", " << row.properties;
+}
 
 // clang-format off
 inline constexpr DegradedFigures kDegradedFigures[] = {

@@ -23,13 +23,18 @@
 namespace mtstereo::tests {
 namespace {
 
-/// How far a figure may be from the one in the table.
-constexpr double kErrorMargin = 0.04;    // share of the error
-constexpr double kAvgerrMargin = 0.005;  // [px]
-constexpr double kDAllMargin = 0.05;     // [points]
-constexpr double kDensityMargin = 0.6;   // [points]
-constexpr double kFlatMargin = 0.05;     // share of the pixels
-constexpr double kFlatPixels = 100;
+/// How far the figures may be from those in the table.
+struct Margins {
+  double error;    ///< share of an error
+  double avgerr;   ///< in addition [px]
+  double d_all;    ///< in addition [points]
+  double density;  ///< [points]
+  double flat;     ///< share of the pixels in flat areas
+};
+constexpr Margins kRealMargins{0.04, 0.005, 0.05, 0.6, 0.05};
+// Compilers round the colors of rendered scenes differently.
+constexpr Margins kRenderedMargins{0.1, 0.01, 0.15, 1.5, 0.1};
+constexpr double kFlatPixels = 100;  // in addition
 
 /// A pair that is read or rendered once for all kinds and modes.
 struct Images {
@@ -81,12 +86,6 @@ class DegradedImages {
   std::vector<Images> degraded_;
 };
 
-const char* code_of(Pairs pairs) {
-  return pairs == Pairs::kTen       ? "Pairs::kTen"
-         : pairs == Pairs::kFurther ? "Pairs::kFurther"
-                                    : "Pairs::kRendered";
-}
-
 /// Prints the measured figures as a row of the table.
 void print_row(const DegradedFigures& row, const eval::Evaluation& mean) {
   std::printf("    {%s, \"%s\", \"%s\", %.3f, %.2f, %.1f, %lld},\n", code_of(row.pairs), row.kind,
@@ -116,11 +115,12 @@ TEST_P(Degraded, KeepTheirAccuracy) {
   }
   const eval::Evaluation mean = mean_of(evaluations);
   print_row(row, mean);
-  EXPECT_LE(mean.all.avgerr, row.avgerr * (1 + kErrorMargin) + kAvgerrMargin);
-  EXPECT_LE(mean.all.d_all, row.d_all * (1 + kErrorMargin) + kDAllMargin);
-  EXPECT_GE(mean.density, row.density - kDensityMargin);
+  const Margins& margin = row.pairs == Pairs::kRendered ? kRenderedMargins : kRealMargins;
+  EXPECT_LE(mean.all.avgerr, row.avgerr * (1 + margin.error) + margin.avgerr);
+  EXPECT_LE(mean.all.d_all, row.d_all * (1 + margin.error) + margin.d_all);
+  EXPECT_GE(mean.density, row.density - margin.density);
   EXPECT_LE(static_cast<double>(mean.flat_answers.value()),
-            static_cast<double>(row.flat_answers) * (1 + kFlatMargin) + kFlatPixels);
+            static_cast<double>(row.flat_answers) * (1 + margin.flat) + kFlatPixels);
 }
 
 std::string name_of(const testing::TestParamInfo<DegradedFigures>& info) {
