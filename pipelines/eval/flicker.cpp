@@ -69,7 +69,7 @@ Flicker mean(const std::vector<Flicker>& list) {
 }
 
 void add_flicker_noise(double sigma, int frame, cv::Mat& left, cv::Mat& right) {
-  const auto seed = static_cast<std::uint64_t>(2 * frame + 1);
+  const auto seed = 2 * static_cast<std::uint64_t>(frame) + 1;
   add_noise(sigma, seed, left);
   add_noise(sigma, seed + 1, right);
 }
