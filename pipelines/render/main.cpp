@@ -51,12 +51,6 @@ void define(CLI::App& app, Options& o) {
       ->capture_default_str();
   app.add_option("--focal", o.settings.focal, "focal length [px]; 0 = 0.85 times the width")
       ->capture_default_str();
-  app.add_option("--noise", o.settings.noise,
-                 "standard deviation of the sensor noise [gray values]")
-      ->capture_default_str();
-  app.add_option("--exposure", o.settings.exposure,
-                 "brightness of the right view relative to the left")
-      ->capture_default_str();
   app.add_option("--samples", o.settings.samples, "samples x samples rays per pixel")
       ->capture_default_str();
   app.add_option("--threads", o.settings.threads, "number of threads; 0 = one per processor")
@@ -69,6 +63,30 @@ void define(CLI::App& app, Options& o) {
       ->default_str("clip");
   app.add_flag("--overwrite", o.overwrite, "replace an existing clip in the folder");
   app.add_flag("--gray", o.gray, "gray images instead of color");
+}
+
+void define_sensor(CLI::App& app, Settings& s) {
+  const auto number = [&app](const char* name, auto& value, const char* help) {
+    app.add_option(name, value, help)->capture_default_str();
+  };
+  number("--noise", s.noise, "standard deviation of the constant sensor noise [gray values]");
+  number("--shot-noise", s.shot_noise, "variance of the shot noise per gray value of the signal");
+  number("--light", s.light, "light of both views; what exceeds white is clipped");
+  number("--gain", s.gain, "amplification of signal and noise in both views");
+  number("--exposure", s.exposure, "brightness of the right view relative to the left");
+  number("--vignette", s.vignette, "fraction of the light that is lost in the corners");
+  number("--jpeg", s.jpeg, "quality of JPEG compression, 1 to 100; 0 = no compression");
+}
+
+void define_rig(CLI::App& app, Rig& rig) {
+  const auto number = [&app](const char* name, double& value, const char* help) {
+    app.add_option(name, value, help)->capture_default_str();
+  };
+  number("--roll", rig.roll, "error of the right camera: roll, clockwise [degrees]");
+  number("--pitch", rig.pitch, "error of the right camera: pitch, downwards [degrees]");
+  number("--yaw", rig.yaw, "error of the right camera: yaw, to the right [degrees]");
+  number("--focal-ratio", rig.focal_ratio, "focal length of the right camera / of the left");
+  number("--row-offset", rig.row_offset, "error of the right image: lower by this [px]");
 }
 
 void parse_size(const std::string& text, Settings& settings) {
@@ -109,6 +127,8 @@ int main(int argc, char** argv) {
     CLI::App app("Renders a stereo clip with exact ground truth.", "mtstereo-render");
     Options options;
     define(app, options);
+    define_sensor(app, options.settings);
+    define_rig(app, options.settings.rig);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
+#include "render/sensor.hpp"
 #include "render/view.hpp"
 
 namespace mtstereo::render {
@@ -32,28 +32,21 @@ void for_rows(int height, int threads, const std::function<void(int)>& work) {
   run();
 }
 
-// A normally distributed number with mean 0 and standard deviation 1 that depends only on the
-// arguments.
-float normal(std::uint32_t frame, std::uint32_t channel, std::uint32_t x, std::uint32_t y) {
-  const std::uint32_t place = hash(x, y, channel);
-  const double a = 1 - hash_unit(frame, place, 1), b = hash_unit(frame, place, 2);
-  return static_cast<float>(std::sqrt(-2 * std::log(a)) * std::cos(2 * std::numbers::pi * b));
-}
-
 class Painter {
  public:
-  Painter(const View& view, const Settings& settings, std::uint32_t frame, float exposure)
-      : view_(view), settings_(settings), frame_(frame), exposure_(exposure) {}
+  Painter(const View& view, const Settings& settings, const Sensor& sensor, bool is_right)
+      : view_(view), settings_(settings), sensor_(sensor), is_right_(is_right) {}
 
   void row(int y, cv::Mat& image) const {
     auto* out = image.ptr<std::uint8_t>(y);
     for (int x = 0; x < settings_.width; ++x) {
       const Eigen::Vector3f color = pixel(x, y);
       if (settings_.color) {
-        for (int c = 0; c < 3; ++c) *out++ = sensor(color[c], x, y, c);
+        for (int c = 0; c < 3; ++c) *out++ = sensor_.gray(color[c], x, y, c);
       } else {
         // ITU-R BT.601 luma
-        *out++ = sensor(0.114f * color[0] + 0.587f * color[1] + 0.299f * color[2], x, y, 0);
+        const float luma = 0.114f * color[0] + 0.587f * color[1] + 0.299f * color[2];
+        *out++ = sensor_.gray(luma, x, y, 0);
       }
     }
   }
@@ -66,30 +59,21 @@ class Painter {
       for (int i = 0; i < n; ++i) {
         const double sx = x + (i + 0.5) / n - 0.5, sy = y + (j + 0.5) / n - 0.5;
         const auto seen = view_.look(sx, sy);
-        if (seen) {
-          sum += seen->gray * seen->object->texture.color;
-        } else {
-          sum += view_.sky(sy) * Eigen::Vector3f(1.0f, 0.97f, 0.93f);
-        }
+        sum += seen ? Eigen::Vector3f(seen->gray * seen->object->texture.color) : sky(sx, sy);
       }
     }
     return sum / static_cast<float>(n * n);
   }
 
-  std::uint8_t sensor(float value, int x, int y, int channel) const {
-    float gray = 255 * exposure_ * value;
-    if (settings_.noise > 0) {
-      gray += static_cast<float>(settings_.noise) *
-              normal(frame_, static_cast<std::uint32_t>(channel), static_cast<std::uint32_t>(x),
-                     static_cast<std::uint32_t>(y));
-    }
-    return cv::saturate_cast<std::uint8_t>(gray);
+  Eigen::Vector3f sky(double x, double y) const {
+    const cv::Point2d at = is_right_ ? ideal_pixel(settings_, x, y) : cv::Point2d(x, y);
+    return view_.sky(at.y) * Eigen::Vector3f(1.0f, 0.97f, 0.93f);
   }
 
   const View& view_;
   const Settings& settings_;
-  std::uint32_t frame_;
-  float exposure_;
+  const Sensor& sensor_;
+  bool is_right_;
 };
 
 // Whether the right camera sees the point at (x, y) of the left image with this depth.
@@ -113,28 +97,46 @@ void truth_row(int y, const View& left, const View& right, const Settings& setti
   }
 }
 
-std::string out_of_range(const char* what, double value, const char* range) {
+struct Limit {
+  const char* name;
+  double value, low, high;
+  const char* unit;
+};
+
+std::string sentence(const Limit& limit) {
   std::ostringstream text;
-  text << what << " is " << value << "; it must be " << range;
+  text << limit.name << " is " << limit.value << "; it must be " << limit.low << " to "
+       << limit.high << limit.unit;
   return text.str();
 }
 
 }  // namespace
 
 std::string check(const Settings& s) {
-  if (s.width < 1 || s.width > 16384) return out_of_range("width", s.width, "1 to 16384 px");
-  if (s.height < 1 || s.height > 16384) return out_of_range("height", s.height, "1 to 16384 px");
-  // These comparisons are false for NaN too.
-  if (!(s.focal >= 0 && s.focal <= 1e6)) return out_of_range("focal", s.focal, "0 to 1e6 px");
-  if (!(s.baseline >= 0 && s.baseline <= 100)) {
-    return out_of_range("baseline", s.baseline, "0 to 100 m");
+  const Limit limits[] = {
+      {"width", static_cast<double>(s.width), 1, 16384, " px"},
+      {"height", static_cast<double>(s.height), 1, 16384, " px"},
+      {"focal", s.focal, 0, 1e6, " px"},
+      {"baseline", s.baseline, 0, 100, " m"},
+      {"noise", s.noise, 0, 100, ""},
+      {"shot-noise", s.shot_noise, 0, 10, ""},
+      {"light", s.light, 0.001, 1000, ""},
+      {"gain", s.gain, 0.1, 100, ""},
+      {"exposure", s.exposure, 0.1, 10, ""},
+      {"vignette", s.vignette, 0, 1, ""},
+      {"jpeg", static_cast<double>(s.jpeg), 0, 100, ""},
+      {"roll", s.rig.roll, -10, 10, " degrees"},
+      {"pitch", s.rig.pitch, -10, 10, " degrees"},
+      {"yaw", s.rig.yaw, -10, 10, " degrees"},
+      {"focal-ratio", s.rig.focal_ratio, 0.9, 1.1, ""},
+      {"row-offset", s.rig.row_offset, -100, 100, " px"},
+      {"samples", static_cast<double>(s.samples), 1, 8, ""},
+      {"threads", static_cast<double>(s.threads), 0, 1024, ""},
+  };
+  for (const Limit& limit : limits) {
+    // The comparisons are false for NaN too.
+    if (!(limit.value >= limit.low && limit.value <= limit.high)) return sentence(limit);
   }
-  if (!(s.noise >= 0 && s.noise <= 100)) return out_of_range("noise", s.noise, "0 to 100");
-  if (!(s.exposure >= 0.1 && s.exposure <= 10)) {
-    return out_of_range("exposure", s.exposure, "0.1 to 10");
-  }
-  if (s.samples < 1 || s.samples > 8) return out_of_range("samples", s.samples, "1 to 8");
-  if (s.threads < 0 || s.threads > 1024) return out_of_range("threads", s.threads, "0 to 1024");
   return "";
 }
 
@@ -152,19 +154,25 @@ StereoFrame render(const Scene& scene, double time, const Settings& given) {
   StereoFrame frame{cv::Mat(size, type), cv::Mat(size, type), cv::Mat(size, CV_32FC1),
                     cv::Mat(size, CV_8UC1)};
 
-  const View left(scene, time, settings, 0);
-  const View right(scene, time, settings, settings.baseline);
+  const View left(scene, time, settings, left_camera(settings));
+  const View ideal_right(scene, time, settings, ideal_right_camera(settings));
+  const View right(scene, time, settings, right_camera(settings));
   const auto moment = std::bit_cast<std::uint64_t>(time);
   const std::uint32_t number = hash(settings.seed, static_cast<std::uint32_t>(moment),
                                     static_cast<std::uint32_t>(moment >> 32));
-  const Painter paint_left(left, settings, hash(number, 0, 0), 1);
-  const Painter paint_right(right, settings, hash(number, 1, 0),
-                            static_cast<float>(settings.exposure));
+  const Sensor left_sensor(settings, hash(number, 0, 0), settings.light);
+  const Sensor right_sensor(settings, hash(number, 1, 0), settings.light * settings.exposure);
+  const Painter paint_left(left, settings, left_sensor, false);
+  const Painter paint_right(right, settings, right_sensor, true);
   for_rows(settings.height, settings.threads, [&](int y) {
     paint_left.row(y, frame.left);
     paint_right.row(y, frame.right);
-    truth_row(y, left, right, settings, frame);
+    truth_row(y, left, ideal_right, settings, frame);
   });
+  if (settings.jpeg > 0) {
+    frame.left = after_jpeg(frame.left, settings.jpeg);
+    frame.right = after_jpeg(frame.right, settings.jpeg);
+  }
   return frame;
 }
 

@@ -5,19 +5,27 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "render/rig.hpp"
 #include "render/scene.hpp"
 
 namespace mtstereo::render {
 
-/// The stereo camera and its sensor. Both views have the same focal length and principal point (the
-/// image center), and the right camera is shifted along x only: the pair is rectified.
+/// The stereo camera and its sensors. Both views have the same focal length and principal point
+/// (the image center), and the right camera is shifted along x only: the pair is rectified, unless
+/// `rig` has errors.
 struct Settings {
-  int width = 640;         ///< [px]
-  int height = 360;        ///< [px]
-  double focal = 0;        ///< [px]; 0 = the scene's fraction of the width
-  double baseline = 0;     ///< [m]; 0 = the scene's default
-  double noise = 1.0;      ///< standard deviation of the sensor noise [gray values]
-  double exposure = 1.0;   ///< brightness of the right image relative to the left
+  int width = 640;        ///< [px]
+  int height = 360;       ///< [px]
+  double focal = 0;       ///< [px]; 0 = the scene's fraction of the width
+  double baseline = 0;    ///< [m]; 0 = the scene's default
+  double noise = 1.0;     ///< standard deviation of the constant (read) noise [gray values]
+  double shot_noise = 0;  ///< variance of the shot noise per gray value of the signal [gray values]
+  double light = 1;       ///< light (aperture, exposure time) of both views; values above 255 clip
+  double gain = 1;        ///< amplification of signal and noise in both views; clips too
+  double exposure = 1.0;  ///< brightness of the right image relative to the left
+  double vignette = 0;    ///< fraction of the light that is lost in the corners
+  int jpeg = 0;           ///< quality of JPEG compression, 1 to 100; 0 = no compression
+  Rig rig;                ///< errors of the right camera
   std::uint32_t seed = 1;  ///< seed of the noise
   int samples = 2;         ///< anti-aliasing: samples x samples rays per pixel
   int threads = 0;         ///< 0 = one per processor
@@ -30,7 +38,8 @@ std::string check(const Settings& settings);
 /// The settings with the scene's focal length and baseline in place of zeros.
 Settings complete(const Scene& scene, Settings settings);
 
-/// The images and the ground truth of a scene at one time.
+/// The images and the ground truth of a scene at one time. Truth and occlusion are those of the
+/// rectified pair: errors of the rig change only the right image, and right_pixel() states how.
 struct StereoFrame {
   cv::Mat left;      ///< CV_8UC1, or CV_8UC3 with Settings::color
   cv::Mat right;     ///< the same

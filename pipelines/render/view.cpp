@@ -15,19 +15,17 @@ constexpr int kTile = 16;       // [px]
 
 }  // namespace
 
-View::View(const Scene& scene, double time, const Settings& settings, double offset_x)
+View::View(const Scene& scene, double time, const Settings& settings, const Camera& camera)
     : scene_(scene),
-      width_(settings.width),
       height_(settings.height),
-      focal_(settings.focal),
+      camera_(camera),
       tiles_x_((settings.width + kTile - 1) / kTile),
       tiles_y_((settings.height + kTile - 1) / kTile),
       tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)) {
   const Eigen::Isometry3d camera_from_world = scene.camera.pose_at(time).inverse();
-  const Vector3d eye(offset_x, 0, 0);
   placed_.reserve(scene.objects.size());
   for (const Object& object : scene.objects) {
-    place(object, camera_from_world, time, eye, scene.to_light.normalized());
+    place(object, camera_from_world, time, scene.to_light.normalized());
   }
   // Nearest first, so that objects farther than a hit can be skipped.
   for (auto& tile : tiles_) {
@@ -38,10 +36,11 @@ View::View(const Scene& scene, double time, const Settings& settings, double off
 }
 
 void View::place(const Object& object, const Eigen::Isometry3d& camera_from_world, double time,
-                 const Vector3d& eye, const Vector3d& to_light) {
+                 const Vector3d& to_light) {
   const Eigen::Isometry3d world_from_object = object.pose_at(time);
   Eigen::Isometry3d eye_from_object = camera_from_world * world_from_object;
-  eye_from_object.pretranslate(-eye);
+  eye_from_object.pretranslate(-camera_.pose.translation());
+  eye_from_object.prerotate(camera_.pose.linear().transpose());
   const Eigen::Isometry3d object_from_eye = eye_from_object.inverse();
 
   Placed placed;
@@ -64,8 +63,8 @@ void View::sort_into_tiles(const Eigen::Isometry3d& eye_from_object, std::uint32
     nearest = std::min(nearest, p.z());
     farthest = std::max(farthest, p.z());
     const double z = std::max(p.z(), kNear);
-    const double x = p.x() / z * focal_ + (width_ - 1) / 2.0;
-    const double y = p.y() / z * focal_ + (height_ - 1) / 2.0;
+    const double x = p.x() / z * camera_.focal + camera_.center_x;
+    const double y = p.y() / z * camera_.focal + camera_.center_y;
     left = std::min(left, x), right = std::max(right, x);
     top = std::min(top, y), bottom = std::max(bottom, y);
   }
@@ -93,10 +92,6 @@ void View::sort_into_tiles(const Eigen::Isometry3d& eye_from_object, std::uint32
   }
 }
 
-Vector3d View::direction(double x, double y) const {
-  return {(x - (width_ - 1) / 2.0) / focal_, (y - (height_ - 1) / 2.0) / focal_, 1};
-}
-
 View::Nearest View::nearest(const Vector3d& direction, double x, double y) const {
   const int tile_x = std::clamp(static_cast<int>(x) / kTile, 0, tiles_x_ - 1);
   const int tile_y = std::clamp(static_cast<int>(y) / kTile, 0, tiles_y_ - 1);
@@ -115,20 +110,20 @@ View::Nearest View::nearest(const Vector3d& direction, double x, double y) const
 }
 
 std::optional<double> View::depth(double x, double y) const {
-  const Nearest found = nearest(direction(x, y), x, y);
+  const Nearest found = nearest(camera_.direction(x, y), x, y);
   if (found.placed == nullptr) return std::nullopt;
   return found.hit.t;  // the z of the direction is 1, so t is the depth
 }
 
 std::optional<Seen> View::look(double x, double y) const {
-  const Vector3d ray = direction(x, y);
+  const Vector3d ray = camera_.direction(x, y);
   const Nearest found = nearest(ray, x, y);
   if (found.placed == nullptr) return std::nullopt;
   const Placed& placed = *found.placed;
   const Hit& hit = found.hit;
   const double facing = std::abs(hit.normal.dot(placed.object_from_camera * ray)) / ray.norm();
   // A pixel covers more of a slanted surface in one direction; this is the mean of both directions.
-  const double footprint = hit.t / focal_ / std::sqrt(std::max(facing, 0.02));
+  const double footprint = hit.t / camera_.focal / std::sqrt(std::max(facing, 0.02));
   const double lit = std::abs(hit.normal.dot(placed.to_light));
   const double shade = scene_.ambient + (1 - scene_.ambient) * lit;
   const double gray = shade * gray_value(placed.object->texture, hit.u, hit.v, footprint);

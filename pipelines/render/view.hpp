@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/render.hpp"
+#include "render/rig.hpp"
 
 namespace mtstereo::render {
 
@@ -21,9 +22,8 @@ struct Seen {
 /// that each ray is tested against only a few of them.
 class View {
  public:
-  /// `offset_x` is the camera's position on the left camera's x axis [m]. The scene must outlive
-  /// the view; the settings are those of complete().
-  View(const Scene& scene, double time, const Settings& settings, double offset_x);
+  /// The scene must outlive the view; the settings are those of complete().
+  View(const Scene& scene, double time, const Settings& settings, const Camera& camera);
 
   /// Traces a ray through the point (x, y) of the image [px]; pixel centers have integer
   /// coordinates.
@@ -49,14 +49,13 @@ class View {
   };
 
   void place(const Object& object, const Eigen::Isometry3d& camera_from_world, double time,
-             const Eigen::Vector3d& eye, const Eigen::Vector3d& to_light);
+             const Eigen::Vector3d& to_light);
   void sort_into_tiles(const Eigen::Isometry3d& eye_from_object, std::uint32_t index);
   Nearest nearest(const Eigen::Vector3d& direction, double x, double y) const;
-  Eigen::Vector3d direction(double x, double y) const;
 
   const Scene& scene_;
-  int width_, height_;
-  double focal_;
+  int height_;
+  Camera camera_;
   int tiles_x_, tiles_y_;
   std::vector<Placed> placed_;
   std::vector<std::vector<std::uint32_t>> tiles_;

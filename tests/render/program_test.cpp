@@ -69,6 +69,19 @@ TEST_F(Program, WritesTheSameBytesInEveryRun) {
   EXPECT_EQ(first, read_text(folder_ / "clip/right/000001.png"));
 }
 
+TEST_F(Program, RendersABadCameraWithTheTruthOfAGoodOne) {
+  ASSERT_EQ(run(out() + "--size 48x27 --frames 1").status, 0);
+  const std::string truth = read_text(folder_ / "clip/truth/000000.pfm");
+  const std::string right = read_text(folder_ / "clip/right/000000.png");
+  const Outcome r = run(out() +
+                        "--size 48x27 --frames 1 --overwrite --shot-noise 0.1 --light 0.5 "
+                        "--gain 2 --vignette 0.4 --jpeg 50 --roll 0.5 --pitch 0.2 --yaw -0.1 "
+                        "--focal-ratio 1.01 --row-offset -2");
+  EXPECT_EQ(r.status, 0) << r.errors;
+  EXPECT_EQ(truth, read_text(folder_ / "clip/truth/000000.pfm"));
+  EXPECT_NE(right, read_text(folder_ / "clip/right/000000.png"));
+}
+
 TEST_F(Program, WritesTheMiddleburyLayout) {
   const Outcome r = run(out() + "--size 48x27 --frames 1 --layout middlebury");
   EXPECT_EQ(r.status, 0) << r.errors;
@@ -82,14 +95,33 @@ struct Bad {
 
 TEST_F(Program, RejectsInvalidOptionsByName) {
   const Bad cases[] = {
-      {"--size 640", "--size"},      {"--size 640x360x3", "--size"},
-      {"--size axb", "--size"},      {"--size 0x10", "width"},
-      {"--size 10x-4", "height"},    {"--frames 0", "--frames"},
-      {"--frames many", "--frames"}, {"--scene moon", "street, garden, room"},
-      {"--baseline -1", "baseline"}, {"--focal nan", "focal"},
-      {"--noise 1e9", "noise"},      {"--exposure 0", "exposure"},
-      {"--rate 0", "--rate"},        {"--layout kitti", "--layout"},
-      {"--samples 99", "samples"},   {"--no-such-option", "--no-such-option"},
+      {"--size 640", "--size"},
+      {"--size 640x360x3", "--size"},
+      {"--size axb", "--size"},
+      {"--size 0x10", "width"},
+      {"--size 10x-4", "height"},
+      {"--frames 0", "--frames"},
+      {"--frames many", "--frames"},
+      {"--scene moon", "street, garden, room"},
+      {"--baseline -1", "baseline"},
+      {"--focal nan", "focal"},
+      {"--noise 1e9", "noise"},
+      {"--exposure 0", "exposure"},
+      {"--rate 0", "--rate"},
+      {"--layout kitti", "--layout"},
+      {"--shot-noise -1", "shot-noise"},
+      {"--light 0", "light"},
+      {"--gain 1e9", "gain"},
+      {"--vignette 2", "vignette"},
+      {"--jpeg 101", "jpeg"},
+      {"--jpeg good", "--jpeg"},
+      {"--roll 90", "roll"},
+      {"--pitch nan", "pitch"},
+      {"--yaw -20", "yaw"},
+      {"--focal-ratio 2", "focal-ratio"},
+      {"--row-offset 1000", "row-offset"},
+      {"--samples 99", "samples"},
+      {"--no-such-option", "--no-such-option"},
   };
   for (const Bad& bad : cases) {
     const Outcome r = run(out() + bad.arguments);

@@ -2,6 +2,7 @@
 // Noise, exposure, determinism, odd sizes and invalid settings.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -103,6 +104,73 @@ TEST(Sensor, ExposureBrightensOnlyTheRightView) {
   EXPECT_NEAR(cv::mean(bright.right)[0] / cv::mean(plain.right)[0], 1.2, 0.02);
 }
 
+// A uniform wall of one gray value in front of the cameras.
+Scene gray_wall(double gray = 0.5) {
+  SceneBuilder b("gray", 1);
+  Texture flat;
+  flat.mean = gray, flat.noise_contrast = 0;
+  b.rectangle({0, 0, 3}, 50, 50, flat);
+  b.scene().ambient = 1;
+  return b.scene();
+}
+
+TEST(Sensor, ShotNoiseGrowsWithTheSignal) {
+  for (const double gray : {0.1, 0.4, 0.8}) {
+    Settings s = small();
+    s.noise = 2, s.shot_noise = 0.1;
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(render(gray_wall(gray), 0, s).left, mean, deviation);
+    const double expected = std::sqrt(4 + 0.1 * 255 * gray + 1.0 / 12);
+    EXPECT_NEAR(deviation[0], expected, 0.05 * expected) << "gray value " << gray;
+  }
+}
+
+TEST(Sensor, GainAmplifiesSignalAndNoise) {
+  Settings s = small();
+  s.light = 0.1, s.gain = 4, s.noise = 2;
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(render(gray_wall(), 0, s).right, mean, deviation);
+  EXPECT_NEAR(mean[0], 0.4 * 127.5, 0.3);
+  EXPECT_NEAR(deviation[0], 8, 0.4);
+}
+
+TEST(Sensor, LightBeyondWhiteIsClippedInBothViews) {
+  Settings s = small();
+  s.noise = 0, s.light = 3;
+  const StereoFrame f = render(gray_wall(), 0, s);
+  EXPECT_EQ(cv::countNonZero(f.left == 255), f.left.rows * f.left.cols);
+  EXPECT_EQ(cv::countNonZero(f.right == 255), f.right.rows * f.right.cols);
+  EXPECT_TRUE(std::isfinite(f.truth.at<float>(4, 4)));
+}
+
+TEST(Sensor, VignetteDarkensTheCornersOnly) {
+  Settings s = small();
+  s.width = 161, s.height = 91, s.noise = 0, s.vignette = 0.5;
+  const StereoFrame f = render(gray_wall(), 0, s);
+  EXPECT_EQ(f.left.at<std::uint8_t>(45, 80), 128);
+  EXPECT_NEAR(f.left.at<std::uint8_t>(0, 0), 64, 1);
+  EXPECT_EQ(f.left.at<std::uint8_t>(0, 0), f.right.at<std::uint8_t>(90, 160));
+}
+
+TEST(Sensor, CompressionLosesDetailAndKeepsTheTruth) {
+  const Scene scene = make_scene("garden", 1);
+  for (const bool color : {false, true}) {
+    Settings s = small();
+    s.noise = 0, s.color = color;
+    const StereoFrame clean = render(scene, 0, s);
+    double last = 0;
+    for (const int quality : {95, 50, 10}) {
+      s.jpeg = quality;
+      const StereoFrame lossy = render(scene, 0, s);
+      ASSERT_EQ(lossy.left.type(), clean.left.type());
+      const double error = cv::norm(lossy.left, clean.left, cv::NORM_L1);
+      EXPECT_GT(error, last) << "quality " << quality;
+      EXPECT_EQ(cv::norm(lossy.truth, clean.truth, cv::NORM_INF), 0);
+      last = error;
+    }
+  }
+}
+
 TEST(Sensor, OddSizesAreRendered) {
   const Scene scene = make_scene("street", 1);
   const int sizes[][2] = {{1, 1}, {1, 9}, {17, 1}, {33, 15}, {16, 16}, {31, 47}};
@@ -162,9 +230,31 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"noise", [](Settings& s) { s.noise = 1000; }},
                     Wrong{"noise", [](Settings& s) { s.noise = kNotANumber; }},
                     Wrong{"exposure", [](Settings& s) { s.exposure = 0; }},
+                    Wrong{"shot-noise", [](Settings& s) { s.shot_noise = -1; }},
+                    Wrong{"shot-noise", [](Settings& s) { s.shot_noise = kNotANumber; }},
+                    Wrong{"light", [](Settings& s) { s.light = 0; }},
+                    Wrong{"gain", [](Settings& s) { s.gain = 1000; }},
+                    Wrong{"vignette", [](Settings& s) { s.vignette = 1.1; }},
+                    Wrong{"jpeg", [](Settings& s) { s.jpeg = 101; }},
+                    Wrong{"jpeg", [](Settings& s) { s.jpeg = -1; }},
+                    Wrong{"roll", [](Settings& s) { s.rig.roll = 11; }},
+                    Wrong{"pitch", [](Settings& s) { s.rig.pitch = -11; }},
+                    Wrong{"yaw", [](Settings& s) { s.rig.yaw = kNotANumber; }},
+                    Wrong{"focal-ratio", [](Settings& s) { s.rig.focal_ratio = 0; }},
+                    Wrong{"row-offset", [](Settings& s) { s.rig.row_offset = 101; }},
                     Wrong{"samples", [](Settings& s) { s.samples = 0; }},
                     Wrong{"threads", [](Settings& s) { s.threads = -1; }}),
-    [](const auto& info) { return info.param.name + std::to_string(info.index); });
+    [](const auto& info) {
+      std::string name = info.param.name;
+      std::replace(name.begin(), name.end(), '-', '_');
+      return name + std::to_string(info.index);
+    });
+
+TEST(Settings, MessageStatesTheValueAndTheRange) {
+  Settings s;
+  s.rig.focal_ratio = 1.25;
+  EXPECT_EQ(check(s), "focal-ratio is 1.25; it must be 0.9 to 1.1");
+}
 
 TEST(Settings, DefaultsAreValid) { EXPECT_EQ(check(Settings()), ""); }
 
