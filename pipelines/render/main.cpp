@@ -27,6 +27,7 @@ struct Options {
   Layout layout = Layout::kClip;
   bool overwrite = false;
   bool gray = false;
+  bool lights = false;
   Settings settings;
 };
 
@@ -62,6 +63,7 @@ void define(CLI::App& app, Options& o) {
       ->transform(CLI::CheckedTransformer(layouts, CLI::ignore_case))
       ->default_str("clip");
   app.add_flag("--overwrite", o.overwrite, "replace an existing clip in the folder");
+  app.add_flag("--lights", o.lights, "sun, lamps, and ground that reflects them");
   app.add_flag("--gray", o.gray, "gray images instead of color");
 }
 
@@ -74,6 +76,9 @@ void define_sensor(CLI::App& app, Settings& s) {
   number("--light", s.light, "light of both views; what exceeds white is clipped");
   number("--gain", s.gain, "amplification of signal and noise in both views");
   number("--exposure", s.exposure, "brightness of the right view relative to the left");
+  number("--sky", s.sky, "brightness of the sky at the bottom of the image; 1 = white");
+  number("--sky-gradient", s.sky_gradient,
+         "what the sky loses up to the top of the image; 0 = a flat sky");
   number("--vignette", s.vignette, "fraction of the light that is lost in the corners");
   number("--jpeg", s.jpeg, "quality of JPEG compression, 1 to 100; 0 = no compression");
 }
@@ -104,7 +109,7 @@ int run(Options& o) {
   if (const std::string wrong = check(o.settings); !wrong.empty()) {
     throw std::invalid_argument(wrong);
   }
-  const Scene scene = make_scene(o.scene, o.settings.seed);
+  const Scene scene = make_scene(o.scene, o.settings.seed, o.lights);
   const Settings settings = complete(scene, o.settings);
   ClipWriter writer(o.folder, o.layout, o.overwrite);
   const bool terminal = isatty(STDERR_FILENO) != 0;

@@ -67,7 +67,7 @@ class Painter {
 
   Eigen::Vector3f sky(double x, double y) const {
     const cv::Point2d at = is_right_ ? ideal_pixel(settings_, x, y) : cv::Point2d(x, y);
-    return view_.sky(at.y) * Eigen::Vector3f(1.0f, 0.97f, 0.93f);
+    return view_.sky(at.x, at.y) * Eigen::Vector3f(1.0f, 0.97f, 0.93f);
   }
 
   const View& view_;
@@ -123,6 +123,8 @@ std::string check(const Settings& s) {
       {"light", s.light, 0.001, 1000, ""},
       {"gain", s.gain, 0.1, 100, ""},
       {"exposure", s.exposure, 0.1, 10, ""},
+      {"sky", s.sky, 0, 100, ""},
+      {"sky-gradient", s.sky_gradient, 0, 1, ""},
       {"vignette", s.vignette, 0, 1, ""},
       {"jpeg", static_cast<double>(s.jpeg), 0, 100, ""},
       {"roll", s.rig.roll, -10, 10, " degrees"},

@@ -91,7 +91,7 @@ void flowers(SceneBuilder& b, const Vector3d& foot, int count, const Eigen::Vect
 
 }  // namespace
 
-Scene make_garden(std::uint32_t seed) {
+Scene make_garden(std::uint32_t seed, bool lights) {
   SceneBuilder b("garden", seed);
   Scene& scene = b.scene();
   scene.baseline = 0.06;
@@ -105,6 +105,7 @@ Scene make_garden(std::uint32_t seed) {
   Object& path =
       b.rectangle({-0.7, kGround - 0.004, 4}, 0.35, 5, gravel(), 0, std::numbers::pi / 2);
   path.pose.rotate(Eigen::AngleAxisd(-0.12, Vector3d::UnitZ()));
+  path.wet = lights ? 0.6 : 0;
   b.box({-2.6, kGround - 0.4, 4.5}, {0.35, 0.4, 3}, hedge(), 0.15);
   b.box({0, kGround - 0.9, 9.5}, {9, 0.9, 0.2}, stone(), -0.1);
   b.box({2.6, kGround - 0.6, 6.0}, {0.9, 0.6, 0.5}, wood(0.5), 0.5);
@@ -127,6 +128,10 @@ Scene make_garden(std::uint32_t seed) {
   Object& ball = b.sphere({-0.1, kGround - 0.11, 2.0}, 0.11, flower({0.4f, 0.4f, 1.0f}));
   ball.motion.velocity = {0.12, 0, 0.1};
   ball.motion.spin = 1;
+  if (lights) {
+    scene.sun = {{-0.1, -0.22, 1}, 0.012, 30};
+    scene.to_light = scene.sun.direction;
+  }
   return std::move(scene);
 }
 

@@ -21,8 +21,16 @@ View::View(const Scene& scene, double time, const Settings& settings, const Came
       camera_(camera),
       tiles_x_((settings.width + kTile - 1) / kTile),
       tiles_y_((settings.height + kTile - 1) / kTile),
+      ideal_(left_camera(settings)),
+      world_from_left_(scene.camera.pose_at(time).linear()),
+      sky_(settings.sky),
+      sky_gradient_(settings.sky_gradient),
       tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)) {
   const Eigen::Isometry3d camera_from_world = scene.camera.pose_at(time).inverse();
+  if (scene.sun.brightness > 0) {
+    const Vector3d to_sun = world_from_left_.transpose() * scene.sun.direction.normalized();
+    lamps_.push_back({camera.pose.linear().transpose() * to_sun, true, scene.sun.brightness});
+  }
   placed_.reserve(scene.objects.size());
   for (const Object& object : scene.objects) {
     place(object, camera_from_world, time, scene.to_light.normalized());
@@ -49,6 +57,7 @@ void View::place(const Object& object, const Eigen::Isometry3d& camera_from_worl
   placed.origin = object_from_eye.translation();
   placed.to_light = world_from_object.linear().transpose() * to_light;
   placed.nearest = 0;
+  if (object.glow > 0) lamps_.push_back({eye_from_object.translation(), false, object.glow});
   placed_.push_back(placed);
   sort_into_tiles(eye_from_object, static_cast<std::uint32_t>(placed_.size() - 1));
 }
@@ -121,17 +130,40 @@ std::optional<Seen> View::look(double x, double y) const {
   if (found.placed == nullptr) return std::nullopt;
   const Placed& placed = *found.placed;
   const Hit& hit = found.hit;
+  if (placed.object->glow > 0) {
+    return Seen{hit.t, static_cast<float>(placed.object->glow), placed.object};
+  }
   const double facing = std::abs(hit.normal.dot(placed.object_from_camera * ray)) / ray.norm();
   // A pixel covers more of a slanted surface in one direction; this is the mean of both directions.
   const double footprint = hit.t / camera_.focal / std::sqrt(std::max(facing, 0.02));
   const double lit = std::abs(hit.normal.dot(placed.to_light));
   const double shade = scene_.ambient + (1 - scene_.ambient) * lit;
-  const double gray = shade * gray_value(placed.object->texture, hit.u, hit.v, footprint);
+  double gray = shade * gray_value(placed.object->texture, hit.u, hit.v, footprint);
+  if (placed.object->wet > 0) gray += reflection(placed, hit, ray);
   return Seen{hit.t, static_cast<float>(gray), placed.object};
 }
 
-float View::sky(double y) const {
-  return static_cast<float>(std::clamp(0.95 - 0.15 * (1 - y / height_), 0.0, 1.0));
+// The mirror images of the lamps in a surface with fine ripples: light is reflected best where the
+// normal halves the angle between viewer and lamp. The image has the disparity of the lamp behind
+// the mirror, not that of the surface.
+double View::reflection(const Placed& placed, const Hit& hit, const Vector3d& ray) const {
+  constexpr double kSmoothness = 4000;
+  const Vector3d point = hit.t * ray, to_viewer = -ray.normalized();
+  const Vector3d normal = placed.object_from_camera.transpose() * hit.normal;
+  double sum = 0;
+  for (const Lamp& lamp : lamps_) {
+    const Vector3d to_lamp = (lamp.distant ? lamp.at : lamp.at - point).normalized();
+    if ((normal.dot(to_lamp) > 0) != (normal.dot(to_viewer) > 0)) continue;
+    const double along = std::abs(normal.dot((to_lamp + to_viewer).normalized()));
+    sum += lamp.brightness * std::pow(along, kSmoothness);
+  }
+  return placed.object->wet * sum;
+}
+
+float View::sky(double x, double y) const {
+  const double plain = std::max(0.0, sky_ - sky_gradient_ * (1 - y / height_));
+  const Vector3d towards = world_from_left_ * ideal_.direction(x, y).normalized();
+  return static_cast<float>(plain + scene_.sun.glare(towards));
 }
 
 }  // namespace mtstereo::render

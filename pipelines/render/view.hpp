@@ -14,7 +14,7 @@ namespace mtstereo::render {
 /// The result of a camera ray.
 struct Seen {
   double depth = 0;  ///< along the optical axis [m]
-  float gray = 0;    ///< shaded, 0 .. 1
+  float gray = 0;    ///< shaded, 0 .. 1, or more in lamps and their reflections
   const Object* object = nullptr;
 };
 
@@ -32,8 +32,8 @@ class View {
   /// Only the depth, without shading [m].
   std::optional<double> depth(double x, double y) const;
 
-  /// Brightness of the sky at the row y, 0 .. 1.
-  float sky(double y) const;
+  /// Brightness of the sky where an ideal camera sees it at (x, y); 1 = white.
+  float sky(double x, double y) const;
 
  private:
   struct Placed {
@@ -43,6 +43,11 @@ class View {
     Eigen::Vector3d to_light;  // unit length
     double nearest;            // depth of its nearest corner [m]
   };
+  struct Lamp {
+    Eigen::Vector3d at;  // the center in the camera's coordinates, or the direction to the sun
+    bool distant;
+    double brightness;
+  };
   struct Nearest {
     const Placed* placed = nullptr;
     Hit hit;
@@ -51,12 +56,17 @@ class View {
   void place(const Object& object, const Eigen::Isometry3d& camera_from_world, double time,
              const Eigen::Vector3d& to_light);
   void sort_into_tiles(const Eigen::Isometry3d& eye_from_object, std::uint32_t index);
+  double reflection(const Placed& placed, const Hit& hit, const Eigen::Vector3d& ray) const;
   Nearest nearest(const Eigen::Vector3d& direction, double x, double y) const;
 
   const Scene& scene_;
   int height_;
   Camera camera_;
   int tiles_x_, tiles_y_;
+  Camera ideal_;  // without the errors of the rig
+  Eigen::Matrix3d world_from_left_;
+  double sky_, sky_gradient_;
+  std::vector<Lamp> lamps_;
   std::vector<Placed> placed_;
   std::vector<std::vector<std::uint32_t>> tiles_;
 };

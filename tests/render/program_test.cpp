@@ -76,7 +76,7 @@ TEST_F(Program, RendersABadCameraWithTheTruthOfAGoodOne) {
   const Outcome r = run(out() +
                         "--size 48x27 --frames 1 --overwrite --shot-noise 0.1 --light 0.5 "
                         "--gain 2 --vignette 0.4 --jpeg 50 --roll 0.5 --pitch 0.2 --yaw -0.1 "
-                        "--focal-ratio 1.01 --row-offset -2");
+                        "--focal-ratio 1.01 --row-offset -2 --sky 2 --sky-gradient 0");
   EXPECT_EQ(r.status, 0) << r.errors;
   EXPECT_EQ(truth, read_text(folder_ / "clip/truth/000000.pfm"));
   EXPECT_NE(right, read_text(folder_ / "clip/right/000000.png"));
@@ -113,6 +113,9 @@ TEST_F(Program, RejectsInvalidOptionsByName) {
       {"--light 0", "light"},
       {"--gain 1e9", "gain"},
       {"--vignette 2", "vignette"},
+      {"--sky -1", "sky"},
+      {"--sky-gradient 2", "sky-gradient"},
+      {"--lights=maybe", "--lights"},
       {"--jpeg 101", "jpeg"},
       {"--jpeg good", "--jpeg"},
       {"--roll 90", "roll"},
