@@ -95,6 +95,9 @@ struct __attribute__((visibility("hidden"))) AlignmentTracker::State {
   PairFindings findings;
   CorrectionPolicy policy;
   PairWatch watch;
+
+  bool shows(PairProblem problem) const;
+  bool explained(PairProblem problem) const;
 };
 
 AlignmentTracker::AlignmentTracker(std::unique_ptr<State> state) noexcept
@@ -146,27 +149,40 @@ bool AlignmentTracker::trusted() const noexcept { return state_->policy.trusted(
 
 int AlignmentTracker::views() const noexcept { return state_->policy.views(); }
 
-bool AlignmentTracker::has(PairProblem problem) const noexcept {
-  const State& state = *state_;
+bool AlignmentTracker::State::shows(PairProblem problem) const {
   switch (problem) {
     case PairProblem::kSwapped:
-      return state.policy.swapped();
+      return policy.swapped();
     case PairProblem::kNotAPair:
-      return state.policy.not_a_pair();
+      return policy.not_a_pair();
     case PairProblem::kOutOfStep:
-      return state.policy.out_of_step();
+      return policy.out_of_step();
     case PairProblem::kSharpnessDiffers:
-      return state.policy.sharpness_differs();
+      return policy.sharpness_differs();
     case PairProblem::kLeftBlank:
-      return state.watch.blank(0);
+      return watch.blank(0);
     case PairProblem::kRightBlank:
-      return state.watch.blank(1);
+      return watch.blank(1);
     case PairProblem::kLeftFrozen:
-      return state.watch.frozen(0);
+      return watch.frozen(0);
     case PairProblem::kRightFrozen:
-      return state.watch.frozen(1);
+      return watch.frozen(1);
   }
   return false;
+}
+
+/// Whether the problem follows from another one that the streams have.
+bool AlignmentTracker::State::explained(PairProblem problem) const {
+  if (problem == PairProblem::kLeftBlank || problem == PairProblem::kRightBlank) return false;
+  if (watch.blank(0) || watch.blank(1)) return true;
+  if (problem == PairProblem::kLeftFrozen || problem == PairProblem::kRightFrozen) return false;
+  if (watch.frozen(0) || watch.frozen(1)) return true;
+  // Views of a moving camera at different times can have negative disparities.
+  return problem == PairProblem::kSwapped && policy.out_of_step();
+}
+
+bool AlignmentTracker::has(PairProblem problem) const noexcept {
+  return state_->shows(problem) && !state_->explained(problem);
 }
 
 Status AlignmentTracker::restore(const RowField& field) noexcept {

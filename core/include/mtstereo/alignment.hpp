@@ -172,7 +172,8 @@ class MTSTEREO_API AlignmentTracker {
   /// Number of inspections of different scenes that correction() is made of.
   int views() const noexcept;
 
-  /// Whether the streams have this problem now.
+  /// Whether the streams have this problem now. A problem that follows from another one is left
+  /// out: a blank or frozen view explains everything else.
   bool has(PairProblem problem) const noexcept;
 
   /// Starts with a field that an earlier run stored, as if reset() had been called before. It

@@ -99,6 +99,25 @@ TEST(AlignmentTracker, ReportsBlankAndFrozenViews) {
   EXPECT_FALSE(alignment.has(PairProblem::kLeftFrozen) || alignment.has(PairProblem::kLeftBlank));
 }
 
+TEST(AlignmentTracker, ReportsTheCauseAndNotItsConsequences) {
+  AlignmentTracker alignment = tracker();
+  for (int i = 0; i < 12; ++i) {
+    const GrayPlane left = test::texture(320, 200, 10 + i), right = test::texture(320, 200, 1);
+    ASSERT_TRUE(alignment.watch(left.view(), right.view()).ok());
+    inspect(alignment, {left, right});
+  }
+  EXPECT_TRUE(alignment.has(PairProblem::kRightFrozen));
+  EXPECT_FALSE(alignment.has(PairProblem::kNotAPair));
+  const GrayPlane black(320, 200, 0);
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_TRUE(alignment.watch(test::texture(320, 200, 40 + i).view(), black.view()).ok());
+  }
+  for (int i = 0; i < kPairProblems; ++i) {
+    const auto problem = static_cast<PairProblem>(i);
+    EXPECT_EQ(problem == PairProblem::kRightBlank, alignment.has(problem)) << problem_name(problem);
+  }
+}
+
 TEST(AlignmentTracker, DependsOnThePairsOnly) {
   AlignmentTracker one = tracker(), other = tracker();
   inspect(other, test::taken_as({}));
