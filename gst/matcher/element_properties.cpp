@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/element_properties.hpp"
 
+#include "matcher/alignment_properties.hpp"
+#include "matcher/alignment_reports.hpp"
 #include "matcher/negotiation.hpp"
 #include "matcher/parameter_properties.hpp"
 #include "shared/ownership.hpp"
@@ -10,30 +12,44 @@ namespace {
 
 enum Property : guint { kDisparityScale = 1, kSyncTolerance, kConfidenceMap, kQos, kStats };
 
-void set_parameter(ElementState& state, const ParameterInfo& info, const GValue& value) {
-  const ObjectLock lock(state.element);
-  Settings& settings = state.settings;
-  const Status status = set_parameter_from_value(settings.parameters, info, value);
+/// Keeps why a value was rejected. There may be no bus yet: the error is posted when the element
+/// starts, or at the next pair if it is running. Call it with the object lock held.
+void keep_problem(Settings& settings, guint id, const Status& status) {
   ++settings.revision;
   if (!status) {
-    // There may be no bus yet: the error is posted when the element starts, or at the next pair if
-    // it is running.
     settings.problem = status.error().message;
-    settings.problem_parameter = &info;
-  } else if (settings.problem_parameter == &info) {
+    settings.problem_property = id;
+  } else if (settings.problem_property == id) {
     settings.problem.clear();
-    settings.problem_parameter = nullptr;
+    settings.problem_property = 0;
   }
 }
 
-GstStructure* statistics_structure(const Statistics& statistics) {
+void set_parameter(ElementState& state, guint id, const ParameterInfo& info, const GValue& value) {
+  const ObjectLock lock(state.element);
+  Settings& settings = state.settings;
+  keep_problem(settings, id, set_parameter_from_value(settings.parameters, info, value));
+}
+
+void set_alignment(ElementState& state, guint id, const GValue& value) {
+  const ObjectLock lock(state.element);
+  Settings& settings = state.settings;
+  const Status status = set_alignment_from_value(settings.alignment, id, value);
+  // The field that was found is no longer the one to read.
+  if (status && id == kAlignmentField) state.alignment_report.field.reset();
+  keep_problem(settings, id, status);
+}
+
+GstStructure* statistics_structure(const Statistics& statistics, const AlignmentReport& alignment) {
   const double mean =
       statistics.pairs > 0 ? statistics.total_ms / static_cast<double>(statistics.pairs) : 0.0;
-  return gst_structure_new(
+  GstStructure* structure = gst_structure_new(
       "mtstereo-stats", "pairs", G_TYPE_UINT64, statistics.pairs, "dropped-left", G_TYPE_UINT64,
       statistics.dropped[0], "dropped-right", G_TYPE_UINT64, statistics.dropped[1], "skipped",
       G_TYPE_UINT64, statistics.skipped, "last-ms", G_TYPE_DOUBLE, statistics.last_ms, "mean-ms",
       G_TYPE_DOUBLE, mean, "density", G_TYPE_DOUBLE, statistics.density, nullptr);
+  add_alignment_fields(structure, alignment);
+  return structure;
 }
 
 }  // namespace
@@ -42,6 +58,7 @@ void install_properties(GObjectClass* object_class) noexcept {
   constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
                                                    GST_PARAM_MUTABLE_PLAYING);
   install_parameter_properties(object_class);
+  install_alignment_properties(object_class);
   g_object_class_install_property(
       object_class, kDisparityScale,
       g_param_spec_int("disparity-scale", "disparity-scale",
@@ -74,15 +91,21 @@ void install_properties(GObjectClass* object_class) noexcept {
       g_param_spec_boxed("stats", "stats",
                          "Statistics since the start: pairs (matched pairs), dropped-left and "
                          "dropped-right (frames without a partner), skipped (pairs that were too "
-                         "late), last-ms and mean-ms (matching time of a pair), density (share of "
-                         "the last map's pixels with a disparity)",
+                         "late), last-ms and mean-ms (time of a pair), density (share of "
+                         "the last map's pixels with a disparity); alignment of the views: offset "
+                         "(px), roll (degrees), residual (px), trust, applied, inspections, "
+                         "sharpness (left / right), left-blur and right-blur (px), problem",
                          GST_TYPE_STRUCTURE,
                          static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));
 }
 
 void set_element_property(ElementState& state, guint id, const GValue* value, GParamSpec* spec) {
   if (const ParameterInfo* info = parameter_of_property(id)) {
-    set_parameter(state, *info, *value);
+    set_parameter(state, id, *info, *value);
+    return;
+  }
+  if (is_alignment_property(id)) {
+    set_alignment(state, id, *value);
     return;
   }
   {
@@ -117,6 +140,11 @@ void get_element_property(ElementState& state, guint id, GValue* value, GParamSp
     parameter_to_value(state.settings.parameters, *info, *value);
     return;
   }
+  if (is_alignment_property(id)) {
+    alignment_to_value(state.settings.alignment, state.settings.parameters.preset(),
+                       state.alignment_report.field, id, *value);
+    return;
+  }
   switch (id) {
     case kDisparityScale:
       g_value_set_int(value, state.settings.disparity_scale);
@@ -131,7 +159,7 @@ void get_element_property(ElementState& state, guint id, GValue* value, GParamSp
       g_value_set_boolean(value, state.settings.qos);
       return;
     case kStats:
-      g_value_take_boxed(value, statistics_structure(state.statistics));
+      g_value_take_boxed(value, statistics_structure(state.statistics, state.alignment_report));
       return;
     default:
       G_OBJECT_WARN_INVALID_PROPERTY_ID(state.element, id, spec);

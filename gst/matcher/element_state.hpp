@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "matcher/alignment.hpp"
 #include "matcher/latency.hpp"
 #include "matcher/pairing.hpp"
 #include "mtstereo/matcher.hpp"
@@ -27,14 +28,15 @@ const char* pad_name(Side side);
 /// The values of the properties. Each pair is matched with one copy of them.
 struct Settings {
   Parameters parameters;
+  AlignmentSettings alignment;
   int disparity_scale = 256;   ///< [steps per px]
   gint64 sync_tolerance = -1;  ///< [ns]; -1: see effective_tolerance()
   bool confidence_map = true;  ///< attach a confidence map to every disparity map
   bool qos = true;             ///< skip pairs that are too late
   std::string
       problem;  ///< why a value was rejected, reported at the next use of the settings; "" if none
-  const ParameterInfo* problem_parameter = nullptr;  ///< the parameter of `problem`
-  guint64 revision = 0;                              ///< incremented by every change
+  guint problem_property = 0;  ///< the id of the property of `problem`
+  guint64 revision = 0;        ///< incremented by every change
 };
 
 /// The fields of the property `stats`.
@@ -42,9 +44,15 @@ struct Statistics {
   guint64 pairs = 0;
   std::array<guint64, 2> dropped{};  ///< frames without a partner, by side
   guint64 skipped = 0;               ///< pairs that were too late to be matched (QoS)
-  double last_ms = 0;                ///< matching time of the last pair
-  double total_ms = 0;               ///< matching time of all pairs
+  double last_ms = 0;                ///< time for the last pair: inspection and matching
+  double total_ms = 0;               ///< of all pairs
   double density = 0;                ///< of the last pair
+};
+
+/// The correction in the last message `mtstereo-alignment`.
+struct AnnouncedCorrection {
+  ViewCorrection correction;
+  std::optional<gint64> time;  ///< wall clock [us]
 };
 
 /// A sink pad and its stream.
@@ -73,6 +81,7 @@ struct ElementState {
   // Guarded by the element's object lock.
   Settings settings;
   Statistics statistics;
+  AlignmentReport alignment_report;
   FrameDurations caps_durations;                    ///< from the framerates of the caps
   GstClockTime qos_earliest = GST_CLOCK_TIME_NONE;  ///< frames before this are late [running time]
   double qos_proportion = 1;
@@ -87,7 +96,10 @@ struct ElementState {
   int checked_width = 0;         ///< the frame size for which `active` was checked [px]
   int checked_height = 0;
   std::optional<Matcher> matcher;
-  GstVideoInfo output{};  ///< of the disparity map; valid if the source pad has caps
+  PairAlignment alignment;
+  AnnouncedCorrection announced;
+  double inspection_ms = 0;  ///< time for the inspection of the last pair
+  GstVideoInfo output{};     ///< of the disparity map; valid if the source pad has caps
   ConfidencePool confidence_pool;
   OutputSegment segment = OutputSegment::kNone;
   guint32 segment_seqnum = GST_SEQNUM_INVALID;  ///< of the left stream's segment

@@ -41,6 +41,7 @@ bool take_segment(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   gst_aggregator_update_segment(state.element, &copy);
   state.segment = OutputSegment::kWaiting;
   state.segment_seqnum = seqnum;
+  state.alignment.restart();  // the output of a segment does not depend on earlier ones
   const ObjectLock lock(state.element);
   state.qos_earliest = GST_CLOCK_TIME_NONE;
   return true;

@@ -3,6 +3,7 @@
 
 #include <bit>
 
+#include "matcher/alignment_reports.hpp"
 #include "matcher/allocation.hpp"
 #include "matcher/confidence.hpp"
 #include "matcher/negotiation.hpp"
@@ -119,6 +120,20 @@ void to_little_endian(ImageView<std::uint16_t> map) {
   }
 }
 
+/// Inspects, corrects and matches a pair.
+Status match_views(ElementState& state, GrayView left, GrayView right,
+                   ImageView<std::uint16_t> map) {
+  const gint64 start = g_get_monotonic_time();
+  const Status prepared =
+      state.alignment.prepare(state.active.alignment, left, right, *state.matcher);
+  if (!prepared) return prepared;
+  state.inspection_ms = static_cast<double>(g_get_monotonic_time() - start) / 1000;
+  publish_alignment(state);
+  const Result<DisparityView> disparity = state.matcher->compute(left, right);
+  if (!disparity) return disparity.error();
+  return write_disparity16(*disparity, state.active.disparity_scale, map);
+}
+
 /// Computes the output from the two frames. Posts an error if it does not return GST_FLOW_OK.
 GstFlowReturn compute(ElementState& state, GstBuffer* left, GstBuffer* right, GstBuffer* output) {
   const MappedFrame left_frame(state.input(Side::kLeft).info, left, GST_MAP_READ);
@@ -128,11 +143,7 @@ GstFlowReturn compute(ElementState& state, GstBuffer* left, GstBuffer* right, Gs
   const MappedFrame map(state.output, output, GST_MAP_WRITE);
   if (!map.mapped()) return refuse_frame(state, "the buffer pool of downstream", map.problem());
 
-  const Result<DisparityView> disparity =
-      state.matcher->compute(left_frame.luma(), right_frame.luma());
-  Status status = disparity
-                      ? write_disparity16(*disparity, state.active.disparity_scale, map.gray16())
-                      : Status(disparity.error());
+  const Status status = match_views(state, left_frame.luma(), right_frame.luma(), map.gray16());
   if (!status) {
     const bool memory = status.error().code == ErrorCode::kOutOfMemory;
     post_error(state, memory ? GST_RESOURCE_ERROR : GST_LIBRARY_ERROR,
@@ -148,14 +159,15 @@ GstFlowReturn compute(ElementState& state, GstBuffer* left, GstBuffer* right, Gs
 void count_pair(ElementState& state) {
   const FrameStatistics frame = state.matcher->statistics();
   const bool live = GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element));
+  const double milliseconds = state.inspection_ms + frame.milliseconds;
   bool changed = false;
   {
     const ObjectLock lock(state.element);
     ++state.statistics.pairs;
-    state.statistics.last_ms = frame.milliseconds;
-    state.statistics.total_ms += frame.milliseconds;
+    state.statistics.last_ms = milliseconds;
+    state.statistics.total_ms += milliseconds;
     state.statistics.density = frame.density;
-    changed = state.processing.measured(frame.milliseconds);
+    changed = state.processing.measured(milliseconds);
   }
   if (changed && live) {
     gst_element_post_message(GST_ELEMENT_CAST(state.element),

@@ -121,11 +121,14 @@ gboolean start(GstAggregator* aggregator) {
   {
     const ObjectLock lock(aggregator);
     state.statistics = {};
+    state.alignment_report = {};
     state.caps_durations = {};
     state.qos_earliest = GST_CLOCK_TIME_NONE;
     state.processing.reset();
     state.failed = false;
   }
+  state.alignment = PairAlignment();
+  state.announced = {};
   state.unpaired_warning.reset();
   state.waiting_frame = {};
   state.known_latency = 0;
@@ -137,12 +140,14 @@ gboolean stop(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
   for (Input& input : state.inputs) input.has_caps = false;
   state.matcher.reset();
+  state.alignment = PairAlignment();
   state.confidence_pool.clear();
   return TRUE;
 }
 
 GstFlowReturn flush(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
+  state.alignment.restart();
   state.unpaired_warning.reset();
   state.waiting_frame = {};
   state.segment = OutputSegment::kNone;

@@ -13,6 +13,7 @@ import sys
 import tempfile
 
 PASSED, FAILED = [], []
+INTERVAL = 5  # pairs from one inspection of the views to the next
 
 
 def run(command, **options):
@@ -61,11 +62,11 @@ def check(name, sources, raw_format, clip, match_raw, folder):
         wanted = folder / f"{files}-{mode}-library.raw"
         settings = [f"mode={mode}", f"max-disparity={clip.max_disparity}", "threads=1"]
         run([match_raw, raw["left"], raw["right"], wanted, "--width", clip.width, "--height",
-             clip.height, "--frames", clip.count, "--set", *settings])
+             clip.height, "--frames", clip.count, "--inspect", INTERVAL, "--set", *settings])
         for threads in (1, 2, 4):
             got = folder / f"{files}-{mode}-{threads}.raw"
             launch(f"mtstereo name=m mode={mode} max-disparity={clip.max_disparity} "
-                   f"threads={threads} ! filesink location={got} "
+                   f"threads={threads} alignment-interval={INTERVAL} ! filesink location={got} "
                    f"{sources['left']} ! video/x-raw,format={raw_format} ! m.sink_left "
                    f"{sources['right']} ! video/x-raw,format={raw_format} ! m.sink_right")
             a, b = wanted.read_bytes(), got.read_bytes()

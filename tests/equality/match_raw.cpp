@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Runs the library on raw frames in files and writes the expected output of the element: 16-bit
-// disparities with rows padded to 4 bytes.
+// Runs the library on raw frames in files, with their alignment corrected, and writes the expected
+// output of the element: 16-bit disparities with rows padded to 4 bytes.
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
@@ -30,7 +30,7 @@ int fail(const std::string& message) {
 int main(int argc, char** argv) {
   CLI::App app("The library's disparities of raw frames");
   std::string left_file, right_file, out_file;
-  int width = 0, height = 0, frames = 0;
+  int width = 0, height = 0, frames = 0, interval = 0;
   std::vector<std::string> settings;
   app.add_option("left", left_file)->required();
   app.add_option("right", right_file)->required();
@@ -39,6 +39,8 @@ int main(int argc, char** argv) {
   app.add_option("--height", height)->required();
   app.add_option("--frames", frames, "frames in each file")->required();
   app.add_option("--set", settings, "parameter=value");
+  app.add_option("--inspect", interval, "pairs from one inspection of the views to the next")
+      ->required();
   CLI11_PARSE(app, argc, argv);
 
   Parameters parameters;
@@ -49,6 +51,8 @@ int main(int argc, char** argv) {
   }
   auto matcher = Matcher::create(parameters);
   if (!matcher) return fail(matcher.error().message);
+  auto tracker = AlignmentTracker::create();
+  if (!tracker) return fail(tracker.error().message);
 
   const std::vector<std::uint8_t> left = read(left_file);
   const std::vector<std::uint8_t> right = read(right_file);
@@ -63,6 +67,15 @@ int main(int argc, char** argv) {
   for (int frame = 0; frame < frames; ++frame) {
     const GrayView left_view{left.data() + frame * frame_bytes, width, height, stride};
     const GrayView right_view{right.data() + frame * frame_bytes, width, height, stride};
+    Status aligned = tracker->watch(left_view, right_view);
+    if (aligned && frame % interval == 0) {
+      aligned =
+          tracker->inspect(left_view, right_view, parameters.integer(Parameter::kMaxDisparity));
+      // The element would inspect other pairs then.
+      if (!tracker->trusted()) return fail("frame " + std::to_string(frame) + " is not trusted");
+    }
+    if (aligned) aligned = matcher->set_correction(tracker->correction());
+    if (!aligned) return fail(aligned.error().message);
     const auto disparity = matcher->compute(left_view, right_view);
     if (!disparity) return fail(disparity.error().message);
     std::vector<std::uint16_t> written(static_cast<std::size_t>(out_stride / 2) * height, 0);

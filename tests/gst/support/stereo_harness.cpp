@@ -135,6 +135,27 @@ Report StereoHarness::report(GstMessageType type, double seconds) {
   return message ? parse(message.get()) : Report{};
 }
 
+std::vector<Report> StereoHarness::warnings(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  std::vector<Report> all;
+  while (const auto message = MessagePointer(gst_bus_pop_filtered(bus_, GST_MESSAGE_WARNING))) {
+    all.push_back(parse(message.get()));
+  }
+  return all;
+}
+
+StructurePointer StereoHarness::message(const char* name, double seconds) {
+  StructurePointer found;
+  wait_until(seconds, [&] {
+    const MessagePointer next(gst_bus_pop_filtered(bus_, GST_MESSAGE_ELEMENT));
+    if (next && gst_message_has_name(next.get(), name)) {
+      found.reset(gst_structure_copy(gst_message_get_structure(next.get())));
+    }
+    return found != nullptr;
+  });
+  return found;
+}
+
 int StereoHarness::further_errors(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   int count = 0;

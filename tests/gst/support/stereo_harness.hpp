@@ -88,6 +88,10 @@ class StereoHarness {
   Report report(GstMessageType type, double seconds = 20);
   Report error(double seconds = 20) { return report(GST_MESSAGE_ERROR, seconds); }
   Report warning(double seconds = 20) { return report(GST_MESSAGE_WARNING, seconds); }
+  /// All warnings that the element has posted since the last call, after a delay.
+  std::vector<Report> warnings(double seconds = 0.05);
+  /// The next element message of this name; nullptr if none arrives. Other messages are discarded.
+  StructurePointer message(const char* name, double seconds = 20);
   /// Number of errors that the element has posted since the last call, after a delay.
   int further_errors(double seconds = 0.2);
 
