@@ -21,6 +21,10 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
   for (int side = 0; side < 2; ++side) {
     if (blurs[side] > 0) blurred[side].resize(size.frame.width, size.frame.height);
     if (settings.half()) halves[side].resize(width, height);
+    if (settings.noise_filter) {
+      noise[side].resize(width, height);
+      filtered[side].resize(width, height);
+    }
     preprocessed[side].resize(width, height);
     if (!settings.census()) preprocessed[side].resize_costs(width, height);
     trees[side].resize(width, height);
@@ -31,6 +35,7 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
   for (Scratch& worker : scratch) {
     if (settings.aligned()) worker.alignment.resize(size.frame.width);
     if (settings.blurred()) worker.blur.resize(size.frame.width);
+    if (settings.noise_filter) worker.noise_filter.resize(width, band_rows(size.matched));
     worker.median.resize(width);
     worker.sobel.resize(width);
     const ImageSize& largest = settings.refined() ? size.frame : size.matched;
@@ -82,6 +87,7 @@ void Maps::resize(const Settings& settings, const FrameSize& size) {
   confidence.resize(width, height);
   if (settings.outlier_radius > 0) votes.resize(width, height, settings.outlier_radius);
   speckles.resize(width, height);
+  if (settings.speckle_size > 1) area.resize(width, height);
   support.resize(width, height);
   if (settings.smoothing_radius > 0) smoothed.resize(width, height);
   scratch.resize(size.threads);

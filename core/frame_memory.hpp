@@ -18,6 +18,8 @@
 #include "stages/prepare/cost_volume.hpp"
 #include "stages/prepare/max_tree.hpp"
 #include "stages/prepare/median_filter.hpp"
+#include "stages/prepare/noise_filter.hpp"
+#include "stages/prepare/noise_level.hpp"
 #include "stages/prepare/preprocess.hpp"
 #include "stages/prepare/row_alignment.hpp"
 #include "stages/prepare/view_blur.hpp"
@@ -50,10 +52,12 @@ struct FrameSize {
 /// The two views and what the stages in prepare/ compute from them. All arrays are indexed by Side.
 struct Views {
   std::array<GrayView, 2> input;    ///< the views of this frame: the caller's or corrected ones
-  std::array<GrayView, 2> matched;  ///< the views to match: the input or its halves
+  std::array<GrayView, 2> matched;  ///< those to match: the input, its halves, or these filtered
   Image<std::uint8_t> aligned;      ///< the right view with its rows aligned
   std::array<Image<std::uint8_t>, 2> blurred;
   std::array<Image<std::uint8_t>, 2> halves;
+  std::array<NoiseBlocks, 2> noise;
+  std::array<Image<std::uint8_t>, 2> filtered;  ///< without noise
   std::array<PreprocessedView, 2> preprocessed;
   std::array<MaxTrees, 2> trees;
   std::array<CensusImage, 2> census;        ///< of the matched views
@@ -62,6 +66,7 @@ struct Views {
   struct Scratch {
     AlignmentScratch alignment;
     BlurScratch blur;
+    NoiseFilterScratch noise_filter;
     MedianScratch median;
     SobelScratch sobel;
     CensusScratch census;
@@ -125,6 +130,7 @@ struct Maps {
   Image<std::uint8_t> confidence;  ///< 1 .. 255, 0 where there is no disparity
   VoteMap votes;
   SpeckleRuns speckles;
+  Image<std::uint8_t> area;  ///< weights of the areas' sizes in the confidence
   SupportMap support;
   Image<std::int32_t> smoothed;  ///< smoothed along the rows only
 

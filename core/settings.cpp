@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "settings.hpp"
 
+#include <limits>
+
+#include "stages/nodes/node_census_cost.hpp"
 #include "stages/prepare/halving.hpp"
 
 namespace mtstereo {
@@ -10,6 +13,15 @@ using P = Parameter;
 
 /// Converts a percentage to a fraction.
 double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
+
+/// Without a limit, the ratio of the costs alone decides.
+float most_node_cost(const Parameters& p) {
+  return choice<Cost>(p) == Cost::kCensus ? kMostNodeBits * kBitCost
+                                          : std::numeric_limits<float>::infinity();
+}
+
+/// The offset of the peak ratio in the sums of two paths' costs.
+int ratio_offset(const Parameters& p) { return 2 * kRatioOffset * p.integer(P::kCensusKernelSize); }
 
 int matched_disparities(const Parameters& p) {
   const int disparities = p.integer(P::kMaxDisparity);
@@ -25,6 +37,7 @@ Settings::Settings(const Parameters& p)
       threads(p.integer(P::kThreads)),
       max_disparity(p.integer(P::kMaxDisparity)),
       disparities(matched_disparities(p)),
+      noise_filter(p.get(P::kNoiseFilter) != 0),
       gray_levels(p.integer(P::kGrayLevels)),
       min_node_width(p.integer(P::kMinNodeWidth)),
       max_node_width(p.get(P::kMaxNodeWidth)),
@@ -33,15 +46,20 @@ Settings::Settings(const Parameters& p)
       cost_kernel_size(p.integer(P::kCostKernelSize)),
       cost_volume(choice<CostVolumeResolution>(p)),
       intensity_weight(static_cast<float>(p.get(P::kIntensityWeight))),
-      node_confidence(static_cast<float>(share(p, P::kNodeConfidence))),
+      node_acceptance{static_cast<float>(share(p, P::kNodeConfidence)), most_node_cost(p)},
       outlier_radius(p.integer(P::kOutlierRadius)),
       outlier_removal(choice<OutlierRemoval>(p)),
+      census_scales(p.integer(P::kCensusScales)),
       search_range{share(p, P::kPixelSearchRange), choice<BetweenNodes>(p), disparities},
-      census_cost{disparities, p.integer(P::kCensusKernelSize), p.integer(P::kRangePenalty)},
+      census_cost{disparities, p.integer(P::kCensusKernelSize), p.integer(P::kRangePenalty),
+                  census_bytes(p.integer(P::kCensusScales))},
       smoothness{p.integer(P::kSmallStepPenalty), p.integer(P::kLargeStepPenalty)},
-      selection{disparities, share(p, P::kPixelConfidence),
-                choice<RunnerUp>(p) == RunnerUp::kExpected, p.integer(P::kLeftRightTolerance),
-                p.get(P::kSubpixel) != 0},
+      selection{disparities,
+                share(p, P::kPixelConfidence),
+                choice<RunnerUp>(p) == RunnerUp::kExpected,
+                p.integer(P::kLeftRightTolerance),
+                p.get(P::kSubpixel) != 0,
+                ratio_offset(p)},
       speckle_size(p.integer(P::kSpeckleSize)),
       min_confidence(p.integer(P::kMinConfidence)),
       node_end_width(p.integer(P::kNodeEndWidth)),

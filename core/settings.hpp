@@ -4,6 +4,7 @@
 #include "choices.hpp"
 #include "mtstereo/alignment.hpp"
 #include "mtstereo/parameters.hpp"
+#include "stages/nodes/node_matching.hpp"
 #include "stages/pixels/census_cost.hpp"
 #include "stages/pixels/census_matching.hpp"
 #include "stages/pixels/disparity_selection.hpp"
@@ -24,6 +25,7 @@ struct Settings {
   int threads;        ///< 0: one per processor
   int max_disparity;  ///< D [px of the views]
   int disparities;    ///< D [px]
+  bool noise_filter;
 
   // nodes
   int gray_levels;                 ///< q
@@ -34,11 +36,12 @@ struct Settings {
   int cost_kernel_size;            ///< omega_cv [px]
   CostVolumeResolution cost_volume;
   float intensity_weight;  ///< alpha, 0 .. 1
-  float node_confidence;   ///< omega_Pi of the nodes, as a fraction
-  int outlier_radius;      ///< [px], 0 = no outlier removal
+  NodeAcceptance node_acceptance;
+  int outlier_radius;  ///< [px], 0 = no outlier removal
   OutlierRemoval outlier_removal;
 
   // pixels
+  int census_scales;
   SearchRangeOptions search_range;
   CensusCostOptions census_cost;
   SmoothnessOptions smoothness;  ///< [bits]

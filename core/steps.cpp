@@ -19,6 +19,8 @@
 #include "stages/prepare/halving.hpp"
 #include "stages/prepare/max_tree.hpp"
 #include "stages/prepare/median_filter.hpp"
+#include "stages/prepare/noise_filter.hpp"
+#include "stages/prepare/noise_level.hpp"
 #include "stages/prepare/preprocess.hpp"
 #include "stages/prepare/row_alignment.hpp"
 #include "stages/prepare/view_blur.hpp"
@@ -61,6 +63,20 @@ void halve(const StepContext& step, Views& views) {
   });
 }
 
+/// Both views are filtered alike, as the noisier one needs it.
+void filter_noise(const StepContext& step, Views& views) {
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int) {
+    measure_blocks(views.matched[side], y0, y1, views.noise[side]);
+  });
+  const float threshold = std::max(noise_threshold(noise_level(views.noise[0])),
+                                   noise_threshold(noise_level(views.noise[1])));
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
+    mtstereo::filter_noise(views.matched[side], threshold, y0, y1,
+                           views.scratch[worker].noise_filter, views.filtered[side]);
+  });
+  for (int side = 0; side < 2; ++side) views.matched[side] = views.filtered[side].view();
+}
+
 void preprocess(const StepContext& step, Views& views) {
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
     median_rows(views.matched[side], y0, y1, views.scratch[worker].median,
@@ -89,7 +105,8 @@ void build_trees(const StepContext& step, Views& views, Nodes& nodes) {
 
 void transform(const StepContext& step, Views& views) {
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
-    census_rows(views.matched[side], y0, y1, views.scratch[worker].census, views.census[side]);
+    census_rows(views.matched[side], step.settings.census_scales, y0, y1,
+                views.scratch[worker].census, views.census[side]);
   });
 }
 
@@ -138,7 +155,7 @@ void match_levels(const StepContext& step, const Views& views, const Costs& cost
       return 1 + std::int64_t{level.left.count[y]} * level.right.count[y];
     };
     step.bands.rows_by_work(work, [&](int y0, int y1, int worker) {
-      match_nodes(input, level.intervals, settings.max_neighbors, settings.node_confidence, y0, y1,
+      match_nodes(input, level.intervals, settings.max_neighbors, settings.node_acceptance, y0, y1,
                   nodes.scratch[worker].match, level.matches);
       const bool leaves = i + 1 == nodes.level_count;
       if (leaves) take_match_ends(level.left, level.matches, y0, y1, nodes.ends);
@@ -198,14 +215,21 @@ void match_by_gradient(const StepContext& step, Costs& costs, Maps& maps) {
 
 // refine
 
-void remove_speckles(const StepContext& step, Maps& maps) {
+bool if_speckles(const Settings& s) { return s.speckle_size > 1; }
+
+/// Removes the areas of fewer than `size` px.
+void remove_areas(const StepContext& step, int size, Maps& maps) {
   step.bands.rows([&](int y0, int y1, int) {
     find_runs(maps.disparity, kDisparityOne, y0, y1, maps.speckles);
   });
   join_bands(maps.disparity, kDisparityOne, Bands::kRows, maps.speckles);
   step.bands.rows([&](int y0, int y1, int) {
-    remove_small(maps.speckles, step.settings.speckle_size, y0, y1, maps.disparity);
+    remove_small(maps.speckles, size, y0, y1, maps.disparity, maps.area);
   });
+}
+
+void remove_speckles(const StepContext& step, Maps& maps) {
+  remove_areas(step, step.settings.speckle_size, maps);
 }
 
 void rate_confidence(const StepContext& step, const Nodes& nodes, Maps& maps) {
@@ -220,10 +244,19 @@ void rate_confidence(const StepContext& step, const Nodes& nodes, Maps& maps) {
   });
   step.bands.rows([&](int y0, int y1, int worker) {
     rate_support(maps.support, maps.ratio, y0, y1, maps.scratch[worker].support, maps.confidence);
+    if (if_speckles(settings)) weigh_confidence(maps.area, y0, y1, maps.confidence);
     if (settings.min_confidence > 0) {
       remove_doubtful(settings.min_confidence, y0, y1, maps.disparity, maps.confidence);
     }
   });
+}
+
+/// Only small islands are left of some areas, with the disparities of highest confidence.
+void remove_islands(const StepContext& step, Maps& maps) {
+  constexpr int kSpeckleParts = 3;  // an island may be this much smaller than a speckle
+  remove_areas(step, step.settings.speckle_size / kSpeckleParts, maps);
+  step.bands.rows(
+      [&](int y0, int y1, int) { clear_unknown(maps.disparity, y0, y1, maps.confidence); });
 }
 
 void fill_gaps(const StepContext& step, Maps& maps) {
@@ -258,7 +291,8 @@ void enlarge(const StepContext& step, const Maps& maps, EnlargedMaps& enlarged) 
 
 void transform_input(const StepContext& step, Views& views) {
   step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
-    census_rows(views.input[side], y0, y1, views.scratch[worker].census, views.input_census[side]);
+    census_rows(views.input[side], step.settings.census_scales, y0, y1,
+                views.scratch[worker].census, views.input_census[side]);
   });
 }
 
@@ -297,6 +331,7 @@ void on(const StepContext& context, FrameMemory& memory) {
 bool always(const Settings&) { return true; }
 bool if_aligned(const Settings& s) { return s.aligned(); }
 bool if_blurred(const Settings& s) { return s.blurred(); }
+bool if_noise_filter(const Settings& s) { return s.noise_filter; }
 bool if_half(const Settings& s) { return s.half(); }
 bool if_refined(const Settings& s) { return s.refined(); }
 bool if_census(const Settings& s) { return s.census(); }
@@ -305,7 +340,9 @@ bool if_outliers(const Settings& s) { return s.outlier_radius > 0; }
 bool if_pixel_outliers(const Settings& s) {
   return s.outlier_radius > 0 && s.outlier_removal == OutlierRemoval::kNodesAndPixels;
 }
-bool if_speckles(const Settings& s) { return s.speckle_size > 1; }
+bool if_islands(const Settings& s) {
+  return if_speckles(s) && s.min_confidence > 0 && !s.keeps_only_ends();
+}
 bool if_gaps(const Settings& s) { return s.max_gap > 0; }
 bool if_smoothing(const Settings& s) { return s.smoothing_radius > 0; }
 
@@ -316,6 +353,7 @@ constexpr Step kSteps[] = {
     {"row-alignment",       if_aligned,        on<align, Views>},
     {"sharpness",           if_blurred,        on<match_sharpness, Views>},
     {"halving",             if_half,           on<halve, Views>},
+    {"noise-filter",        if_noise_filter,   on<filter_noise, Views>},
     {"preprocessing",       always,            on<preprocess, Views>},
     {"max-trees",           always,            on<build_trees, Views, Nodes>},
     {"census",              if_census,         on<transform, Views>},
@@ -332,6 +370,7 @@ constexpr Step kSteps[] = {
     {"pixel-outliers",      if_pixel_outliers, on<remove_outliers, Maps>},
     {"speckle-removal",     if_speckles,       on<remove_speckles, Maps>},
     {"confidence",          always,            on<rate_confidence, const Nodes, Maps>},
+    {"island-removal",      if_islands,        on<remove_islands, Maps>},
     {"gap-filling",         if_gaps,           on<fill_gaps, Maps>},
     {"smoothing",           if_smoothing,      on<smooth, Maps>},
     {"enlarging",           if_half,           on<enlarge, const Maps, EnlargedMaps>},

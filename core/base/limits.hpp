@@ -32,7 +32,7 @@ inline constexpr int kLargestOutlierRadius = 31;
 inline constexpr int kLargestCensusKernel = 5;
 
 /// Largest Parameter::kRangePenalty [bits].
-inline constexpr int kLargestRangePenalty = 24;
+inline constexpr int kLargestRangePenalty = 32;
 
 /// Largest Parameter::kSmallStepPenalty and Parameter::kLargeStepPenalty [bits].
 inline constexpr int kLargestStepPenalty = 50;

@@ -39,11 +39,16 @@ void expect_none_of(const Parameters& parameters, const Names& absent) {
 }
 
 TEST(Steps, RunInOrderWithTheDefaults) {
-  expect_order({}, {"preprocessing", "max-trees", "census", "node-matching", "node-extrapolation",
-                    "census-matching", "speckle-removal", "confidence"});
-  expect_none_of({}, {"halving", "cost-volume", "node-drawing", "node-outliers",
-                      "gradient-matching", "pixel-outliers", "gap-filling", "smoothing",
-                      "enlarging", "input-census", "refinement"});
+  expect_order({}, {"noise-filter", "preprocessing", "max-trees", "census", "node-matching",
+                    "node-extrapolation", "census-matching", "speckle-removal", "confidence",
+                    "island-removal", "gap-filling", "smoothing"});
+  expect_none_of({},
+                 {"halving", "cost-volume", "node-drawing", "node-outliers", "gradient-matching",
+                  "pixel-outliers", "enlarging", "input-census", "refinement"});
+}
+
+TEST(Steps, LeaveTheEndsOfNodesAloneInModeSparse) {
+  expect_none_of(test::parameters({{"mode", "sparse"}}), {"island-removal", "gap-filling"});
 }
 
 TEST(Steps, FillGapsAfterConfidenceInModeDense) {
@@ -63,8 +68,9 @@ TEST(Steps, AreThoseOfThePaperInPresetPaper) {
   expect_order(paper, {"preprocessing", "max-trees", "cost-volume", "node-matching", "node-drawing",
                        "node-outliers", "node-extrapolation", "gradient-matching", "pixel-outliers",
                        "confidence"});
-  expect_none_of(paper, {"halving", "census", "census-matching", "speckle-removal", "gap-filling",
-                         "smoothing", "enlarging", "input-census", "refinement"});
+  expect_none_of(paper, {"halving", "noise-filter", "island-removal", "census", "census-matching",
+                         "speckle-removal", "gap-filling", "smoothing", "enlarging", "input-census",
+                         "refinement"});
 }
 
 TEST(Steps, AreEnabledBySettings) {
@@ -75,6 +81,9 @@ TEST(Steps, AreEnabledBySettings) {
   EXPECT_FALSE(runs("speckle-removal", "speckle-size", "0"));
   EXPECT_FALSE(runs("speckle-removal", "speckle-size", "1"));
   EXPECT_TRUE(runs("speckle-removal", "speckle-size", "2"));
+  EXPECT_FALSE(runs("island-removal", "speckle-size", "0"));
+  EXPECT_FALSE(runs("island-removal", "min-confidence", "0"));
+  EXPECT_FALSE(runs("noise-filter", "noise-filter", "false"));
   EXPECT_TRUE(runs("gap-filling", "max-gap", "1"));
   EXPECT_TRUE(runs("smoothing", "smoothing-radius", "1"));
   EXPECT_TRUE(runs("node-outliers", "outlier-radius", "1"));

@@ -16,7 +16,11 @@ namespace mtstereo {
 inline constexpr int kNodeMargin = 5;
 
 /// Cost of one differing bit [gray values].
-inline constexpr int kBitCost = 4;
+inline constexpr int kBitCost = 3;
+
+/// A pair of nodes whose pixels differ in this many bits or more is no match: different points of
+/// the scene differ in half of the bits, the same point in few even if the views are noisy. [bits]
+inline constexpr int kMostNodeBits = 7;
 
 /// Mean number of differing bits, times kBitCost, over every second column of the left node of row
 /// y and of kNodeMargin columns on both sides, beginning with the first of these. The disparity

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "stages/pixels/census_window.hpp"
@@ -30,8 +31,9 @@ constexpr bool kCountTwice = true;
 constexpr bool kCountTwice = false;
 #endif
 
-/// Counts the differing bits of one left pixel and its right pixels at all disparities.
-template <class D8>
+/// Counts the differing bits of one left pixel and its right pixels at all disparities. kBytes: 3
+/// or 4 planes.
+template <int kBytes, class D8>
 class Difference {
  public:
   /// In the mirrored row, the right pixel of column x at disparity d is width - 1 - x + d.
@@ -39,35 +41,40 @@ class Difference {
       : bits0_(hn::Set(D8(), row.left[0][x])),
         bits1_(hn::Set(D8(), row.left[1][x])),
         bits2_(hn::Set(D8(), row.left[2][x])),
+        bits3_(hn::Set(D8(), row.left[3][x])),
         right0_(row.right[0] + (width - 1 - x)),
         right1_(row.right[1] + (width - 1 - x)),
-        right2_(row.right[2] + (width - 1 - x)) {}
+        right2_(row.right[2] + (width - 1 - x)),
+        right3_(row.right[3] + (width - 1 - x)) {}
 
   HWY_INLINE hn::Vec<D8> count(int d) const {
     const D8 d8;
     const auto count0 = hn::PopulationCount(hn::Xor(bits0_, hn::LoadU(d8, right0_ + d)));
     const auto count1 = hn::PopulationCount(hn::Xor(bits1_, hn::LoadU(d8, right1_ + d)));
     const auto count2 = hn::PopulationCount(hn::Xor(bits2_, hn::LoadU(d8, right2_ + d)));
-    return hn::Add(hn::Add(count0, count1), count2);
+    const auto sum = hn::Add(hn::Add(count0, count1), count2);
+    if constexpr (kBytes == 3) return sum;
+    return hn::Add(sum, hn::PopulationCount(hn::Xor(bits3_, hn::LoadU(d8, right3_ + d))));
   }
 
  private:
-  hn::Vec<D8> bits0_, bits1_, bits2_;
+  hn::Vec<D8> bits0_, bits1_, bits2_, bits3_;
   const std::uint8_t* right0_;
   const std::uint8_t* right1_;
   const std::uint8_t* right2_;
+  const std::uint8_t* right3_;
 };
 
 /// Advances the sums of column x by one row.
-template <class D8>
+template <int kBytes, class D8>
 HWY_INLINE void move_sums(const CensusWindow& window, int x) {
   const D8 d8;
   const int step = static_cast<int>(hn::Lanes(d8));
   const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
   std::uint8_t* sums = window.sums + first;
-  const Difference<D8> in(window.in, window.width, x);
+  const Difference<kBytes, D8> in(window.in, window.width, x);
   if (kCountTwice) {
-    const Difference<D8> out(window.out, window.width, x);
+    const Difference<kBytes, D8> out(window.out, window.width, x);
     for (int d = 0; d < window.lanes; d += step) {
       const auto sum = hn::Sub(hn::Load(d8, sums + d), out.count(d));
       hn::Store(hn::Add(sum, in.count(d)), d8, sums + d);
@@ -95,7 +102,7 @@ void add_row(const CensusWindow& window) {
   for (int x = 0; x < window.width; ++x) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
     const Narrow d8;
-    const Difference<Narrow> in(window.in, window.width, x);
+    const Difference<kCensusBytes, Narrow> in(window.in, window.width, x);
     for (int d = 0; d < window.lanes; d += static_cast<int>(hn::Lanes(d8))) {
       const auto count = in.count(d);
       std::uint8_t* sums = window.sums + first + d;
@@ -155,7 +162,7 @@ HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, 
 
 /// Advances the sums by one row and writes its costs, column by column, while the sums of the
 /// adjacent columns are in the cache.
-template <int kSize, class D8>
+template <int kBytes, int kSize, class D8>
 void write_row_of(const CensusWindow& of_window, int disparities, const std::uint16_t* low,
                   const std::uint16_t* high, const CensusTables& of_tables, std::uint8_t* costs) {
   // Copies: the compiler knows that no store of bytes changes them.
@@ -163,9 +170,9 @@ void write_row_of(const CensusWindow& of_window, int disparities, const std::uin
   const CensusTables tables = of_tables;
   constexpr int kReach = kSize / 2;
   const int width = window.width;
-  for (int x = 0; x < std::min(kReach, width); ++x) move_sums<D8>(window, x);
+  for (int x = 0; x < std::min(kReach, width); ++x) move_sums<kBytes, D8>(window, x);
   for (int x = 0; x < width; ++x) {
-    if (x + kReach < width) move_sums<D8>(window, x + kReach);
+    if (x + kReach < width) move_sums<kBytes, D8>(window, x + kReach);
     write_costs<kSize, D8>(window, disparities, x, low[x], high[x], tables, costs);
   }
 }
@@ -173,12 +180,16 @@ void write_row_of(const CensusWindow& of_window, int disparities, const std::uin
 void write_row(const CensusWindow& window, const CensusCostOptions& options,
                const std::uint16_t* low, const std::uint16_t* high, const CensusTables& tables,
                std::uint8_t* costs) {
-  const auto by_size = [&]<class D8>(D8) {
-    return options.kernel_size == 5   ? write_row_of<5, D8>
-           : options.kernel_size == 3 ? write_row_of<3, D8>
-                                      : write_row_of<1, D8>;
+  const auto by_size = [&]<int kBytes, class D8>(std::integral_constant<int, kBytes>, D8) {
+    return options.kernel_size == 5   ? write_row_of<kBytes, 5, D8>
+           : options.kernel_size == 3 ? write_row_of<kBytes, 3, D8>
+                                      : write_row_of<kBytes, 1, D8>;
   };
-  const auto write = is_wide(window.lanes) ? by_size(Wide()) : by_size(Narrow());
+  const auto by_bytes = [&](auto d8) {
+    return options.bytes == 3 ? by_size(std::integral_constant<int, 3>(), d8)
+                              : by_size(std::integral_constant<int, 4>(), d8);
+  };
+  const auto write = is_wide(window.lanes) ? by_bytes(Wide()) : by_bytes(Narrow());
   write(window, options.disparities, low, high, tables, costs);
 }
 

@@ -7,6 +7,7 @@ void CensusMatchingScratch::resize(int width, const CensusMatchingOptions& optio
   const std::size_t cells = static_cast<std::size_t>(width) * cost_lanes(options.cost.disparities);
   low.resize(width);
   high.resize(width);
+  texture.resize(width);
   cost.resize(width, options.cost);
   scanline.resize(width, options.cost.disparities);
   selection.resize(width, options.cost.disparities);
@@ -28,6 +29,7 @@ void match_pixels_by_census(GrayView left_image, const CensusImage& left, const 
   start_census_costs(left, right, options.cost, y0, scratch.cost);
   for (int y = y0; y < y1; ++y) {
     find_search_ranges(map.row(y), width, options.range, scratch.low.data(), scratch.high.data());
+    exclude_flat(left, y, scratch.texture, scratch.low.data(), scratch.high.data());
     census_cost_row(left, right, options.cost, y, low, high, scratch.cost, scratch.costs.data());
     const ScanlineRow row = {scratch.costs.data(),     left_image.row(y), width,
                              options.cost.disparities, small_step,        &large_step};

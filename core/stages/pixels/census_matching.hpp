@@ -9,12 +9,13 @@
 #include "stages/pixels/disparity_selection.hpp"
 #include "stages/pixels/scanline_optimization.hpp"
 #include "stages/pixels/search_range.hpp"
+#include "stages/pixels/texture.hpp"
 #include "stages/prepare/census.hpp"
 
 namespace mtstereo {
 
-/// Guided pixel matching by the census cost: runs search_range, census_cost, scanline_optimization
-/// and disparity_selection row by row, the last two of them block by block.
+/// Guided pixel matching by the census cost: runs search_range, texture, census_cost,
+/// scanline_optimization and disparity_selection row by row, the last two of them block by block.
 
 struct CensusMatchingOptions {
   SearchRangeOptions range;
@@ -27,6 +28,7 @@ struct CensusMatchingOptions {
 struct CensusMatchingScratch {
   Buffer<std::uint16_t> low;
   Buffer<std::uint16_t> high;
+  TextureScratch texture;
   CensusCostScratch cost;
   ScanlineScratch scanline;
   SelectionScratch selection;
@@ -36,7 +38,8 @@ struct CensusMatchingScratch {
 };
 
 /// Replaces the nodes' disparities in the rows y0 .. y1 - 1 by the pixels' own and writes their
-/// peak ratios. The result does not depend on how the image is divided into such bands.
+/// peak ratios. Pixels without texture around them lose theirs. The result does not depend on how
+/// the image is divided into such bands.
 void match_pixels_by_census(GrayView left_image, const CensusImage& left, const CensusImage& right,
                             const CensusMatchingOptions& options, int y0, int y1,
                             CensusMatchingScratch& scratch, Image<std::int32_t>& map,

@@ -336,7 +336,8 @@ void finish_selection(int width, const SelectionOptions& options, const std::uin
       refined += symmetric_v_offset(scratch.before[x], least, scratch.after[x]);
     }
     disparity[x] = std::max(refined, 1);
-    ratio[x] = static_cast<std::uint8_t>(std::max(peak_ratio(least, second), 1));
+    ratio[x] =
+        static_cast<std::uint8_t>(std::max(peak_ratio(least, second, options.ratio_offset), 1));
   }
 }
 

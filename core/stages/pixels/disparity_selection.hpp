@@ -18,7 +18,11 @@ struct SelectionOptions {
   bool runner_up_in_range;   ///< only disparities of the expected range can be runner-up
   int left_right_tolerance;  ///< largest difference to the right pixel's disparity [px], -1 = any
   bool subpixel;             ///< refine by the V of equal slopes through the best and its neighbors
+  int ratio_offset;          ///< peak_ratio()'s offset [steps of the costs]
 };
+
+/// The offset of the peak ratio for one path [bits of one pixel].
+inline constexpr int kRatioOffset = 10;
 
 /// All valid costs are below this.
 inline constexpr int kCostLimit = 511;

@@ -22,9 +22,10 @@ inline int symmetric_v_offset(int before, int best, int after) {
 }
 
 /// The excess of the runner-up's cost over the best cost, as a share of the runner-up's: 0 .. 255
-/// for 0 .. 1.
-inline int peak_ratio(int best, int runner_up) {
-  return runner_up > best ? (runner_up - best) * 255 / runner_up : 0;
+/// for 0 .. 1. `offset` is added to the runner-up's cost: where all costs are near 0, as in flat,
+/// saturated or compressed areas, a small excess would be a large share.
+inline int peak_ratio(int best, int runner_up, int offset = 0) {
+  return runner_up > best ? (runner_up - best) * 255 / (runner_up + offset) : 0;
 }
 
 }  // namespace mtstereo

@@ -8,35 +8,51 @@
 
 namespace mtstereo {
 
-/// The step census, the input of all census costs: which pixels of the 5x5 window are darker than
-/// its center. The result is invariant to a camera's gain and offset and to any other monotonic
-/// change of the gray values.
+/// The step census, the input of all census costs: which pixels around a pixel are darker, in one
+/// or two scales. One scale compares all pixels of the 5x5 window in the view itself. Two scales
+/// compare its neighbors at 1 and 2 px, which locate edges, and those at 2 and 4 px in the smoothed
+/// view, whose order of gray values noise and compression seldom change.
+///
+/// The result does not depend on the brightness of the view. The bits of the view itself are
+/// invariant to any monotonic change of the gray values, those of the smoothed view to gain, up to
+/// rounding, and almost to others.
 
-/// Bits of a pixel's census transform: the window without its center.
-inline constexpr int kCensusBits = 24;
+/// Bytes of a pixel's census transform; one scale leaves the last one 0.
+inline constexpr int kCensusBytes = 4;
 
-/// Bytes of a pixel's census transform.
-inline constexpr int kCensusBytes = kCensusBits / 8;
+/// Bits of a pixel's census transform: one for each neighbor.
+inline constexpr int kCensusBits = 8 * kCensusBytes;
 
-/// The census transform of a view: per pixel a word whose bits 0 .. 23 are those of the window's
-/// pixels, row by row from the top left.
+/// Bytes of this many scales that may differ from 0.
+constexpr int census_bytes(int scales) { return scales == 1 ? 3 : 4; }
+
+/// Width of the binomial filter that smooths the view, weights 1 4 6 4 1 in both directions [px].
+inline constexpr int kCensusSmoothing = 5;
+
+/// The census transform of a view: per pixel a word. The bytes, the lowest first, belong to the
+/// neighbors at 1 px in each of the eight directions, to those at 2 px, and to the remaining pixels
+/// of the window (one scale), or to those at 2 px and at 4 px in the smoothed view (two scales).
+/// The bits of a byte belong to its neighbors row by row from the top left.
 struct CensusImage {
   Image<std::uint32_t> bits;
 
   void resize(int width, int height) { bits.resize(width, height); }
 };
 
-/// Scratch memory of one thread: the rows of a band with their borders.
+/// Scratch memory of one thread: the rows of a band with their borders, as gray values - 128.
 struct CensusScratch {
-  Image<std::uint8_t> padded;
+  Image<std::int8_t> view;
+  Image<std::int8_t> smoothed;  ///< for two scales
+  Buffer<std::int16_t> sums;    ///< of the columns of a row's filter
 
   /// For bands of up to `rows` rows of views of up to this width.
   void resize(int width, int rows);
 };
 
-/// Writes the rows y0 .. y1 - 1. The border's pixels are repeated outside of the image. `scratch`
-/// is resized if it is too small for the band.
-void census_rows(GrayView image, int y0, int y1, CensusScratch& scratch, CensusImage& census);
+/// Writes the rows y0 .. y1 - 1 in 1 or 2 scales. The border's pixels are repeated outside of the
+/// image. `scratch` is resized if it is too small for the band.
+void census_rows(GrayView image, int scales, int y0, int y1, CensusScratch& scratch,
+                 CensusImage& census);
 
 /// Whether element x of a row is column x of the view, or the x-th column from the right end. In a
 /// mirrored right view a larger disparity is further to the right.

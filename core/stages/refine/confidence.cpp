@@ -235,6 +235,30 @@ void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, i
   }
 }
 
+void weigh_confidence(const Image<std::uint8_t>& weight, int y0, int y1,
+                      Image<std::uint8_t>& confidence) {
+  for (int y = y0; y < y1; ++y) {
+    const std::uint8_t* weights = weight.row(y);
+    std::uint8_t* row = confidence.row(y);
+    for (int x = 0; x < confidence.width(); ++x) {
+      const int product = row[x] * weights[x] + 128;
+      const int quotient = (product + (product >> 8)) >> 8;  // exact: rounded by 255
+      row[x] = static_cast<std::uint8_t>(std::max(quotient, row[x] > 0 ? 1 : 0));
+    }
+  }
+}
+
+void clear_unknown(const Image<std::int32_t>& map, int y0, int y1,
+                   Image<std::uint8_t>& confidence) {
+  for (int y = y0; y < y1; ++y) {
+    const std::int32_t* disparities = map.row(y);
+    std::uint8_t* row = confidence.row(y);
+    for (int x = 0; x < map.width(); ++x) {
+      if (disparities[x] == kNoDisparity) row[x] = 0;
+    }
+  }
+}
+
 void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,
                      Image<std::uint8_t>& confidence) {
   for (int y = y0; y < y1; ++y) {

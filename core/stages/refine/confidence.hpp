@@ -66,6 +66,14 @@ void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, i
 /// SupportScratch::steps from `count` and `ratio`, for windows of `pixels` pixels (up to 81).
 void find_support_steps(int pixels, int width, SupportScratch& scratch);
 
+/// Multiplies the confidence of the rows y0 .. y1 - 1 by `weight` / 255, rounded; the result is at
+/// least 1 where the confidence was.
+void weigh_confidence(const Image<std::uint8_t>& weight, int y0, int y1,
+                      Image<std::uint8_t>& confidence);
+
+/// Sets the confidence of the rows y0 .. y1 - 1 to 0 where there is no disparity.
+void clear_unknown(const Image<std::int32_t>& map, int y0, int y1, Image<std::uint8_t>& confidence);
+
 /// Removes the disparities of the rows y0 .. y1 - 1 whose confidence is below `least`.
 void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,
                      Image<std::uint8_t>& confidence);

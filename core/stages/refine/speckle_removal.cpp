@@ -2,6 +2,7 @@
 #include "stages/refine/speckle_removal.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdlib>
 #include <utility>
@@ -157,6 +158,24 @@ void join_rows(const Image<std::int32_t>& map, std::int32_t tolerance, int y, Sp
   }
 }
 
+/// Entry k: the least share of a full component with the weight k, (k / 255)^10, in 1 / 2^32. The
+/// products are exact enough on every processor, and no sums are involved.
+constexpr std::array<std::uint64_t, 256> kLeastShares = [] {
+  std::array<std::uint64_t, 256> shares{};
+  for (int k = 0; k < 256; ++k) {
+    double share = 4294967296.0;
+    for (int i = 0; i < 10; ++i) share *= k / 255.0;
+    shares[k] = static_cast<std::uint64_t>(share);
+  }
+  return shares;
+}();
+
+std::uint8_t area_weight(std::uint64_t pixels, std::uint64_t map_pixels) {
+  const std::uint64_t share = (pixels * kFullArea << 32) / map_pixels;
+  const auto next = std::upper_bound(kLeastShares.begin() + 1, kLeastShares.end(), share);
+  return static_cast<std::uint8_t>(next - kLeastShares.begin() - 1);
+}
+
 }  // namespace
 
 void SpeckleRuns::resize(int map_width, int map_height) {
@@ -186,16 +205,24 @@ void join_bands(const Image<std::int32_t>& map, std::int32_t tolerance, int band
   for (int y = band; y < runs.height; y += band) join_rows(map, tolerance, y, runs);
 }
 
-void remove_small(const SpeckleRuns& runs, int size, int y0, int y1, Image<std::int32_t>& map) {
-  if (size <= 1) return;
+void remove_small(const SpeckleRuns& runs, int size, int y0, int y1, Image<std::int32_t>& map,
+                  Image<std::uint8_t>& area) {
   const std::uint32_t* link = runs.link.data();
+  const std::uint64_t map_pixels = static_cast<std::uint64_t>(runs.width) * runs.height;
   const std::uint32_t enough = kRootRun + static_cast<std::uint32_t>(size);
   for (int y = y0; y < y1; ++y) {
     std::int32_t* row = map.row(y);
+    std::uint8_t* weights = area.row(y);
+    std::fill_n(weights, runs.width, std::uint8_t{0});
     for (std::uint32_t i = runs.first[y]; i < runs.last[y]; ++i) {
       std::uint32_t root = i;  // no path halving here, since other bands read the links
       while (!is_root(link[root])) root = link[root];
-      if (link[root] < enough) std::fill(row + runs.begin[i], row + runs.end[i], kNoDisparity);
+      if (link[root] < enough) {
+        std::fill(row + runs.begin[i], row + runs.end[i], kNoDisparity);
+      } else {
+        const std::uint8_t weight = area_weight(link[root] - kRootRun, map_pixels);
+        std::fill(weights + runs.begin[i], weights + runs.end[i], weight);
+      }
     }
   }
 }

@@ -44,12 +44,12 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0xe3c1048a58e1395b},
-    {"default", "semi-dense", 0x82e5d10b4e40e5cc},
-    {"default", "dense", 0xd705afc9d58432c1},
-    {"fast", "sparse", 0x0ed7d79f1c86e984},
-    {"fast", "semi-dense", 0xe429e3f0c3f91aa8},
-    {"fast", "dense", 0xe6449cfeeb1c1df5},
+    {"default", "sparse", 0x66790e3200bbd5e5},
+    {"default", "semi-dense", 0x1dd3359dc13b67ce},
+    {"default", "dense", 0xadac87acfeb872cd},
+    {"fast", "sparse", 0x551fbc1754b1b581},
+    {"fast", "semi-dense", 0x1fb0f5218460c61a},
+    {"fast", "dense", 0xc3004d6014848394},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -116,6 +116,9 @@ Change change_of(Parameter id) {
       return {{{"preset", "paper"}}, "any"};
     case Parameter::kLeftRightTolerance:
       return {{}, "0"};
+    case Parameter::kCensusScales:
+      return {{}, "1"};
+    case Parameter::kNoiseFilter:
     case Parameter::kSubpixel:
       return {{}, "false"};
     case Parameter::kSpeckleSize:

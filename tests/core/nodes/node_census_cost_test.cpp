@@ -24,7 +24,7 @@ CensusImage image_of_words(const test::Plane<std::uint32_t>& words) {
 test::Plane<std::uint32_t> random_words(int width, int height, Random& random) {
   test::Plane<std::uint32_t> words(width, height);
   for (std::uint32_t& word : words.pixels) {
-    word = static_cast<std::uint32_t>(random.next()) & 0xFFFFFF;
+    word = static_cast<std::uint32_t>(random.next());
   }
   return words;
 }
@@ -87,23 +87,23 @@ TEST(NodeCensusCost, StaysInTheViewsForTheLongestAndSteepestNodes) {
 }
 
 TEST(NodeCensusCost, IsZeroForEqualPixelsAndAllBitsForInvertedOnes) {
-  test::Plane<std::uint32_t> words(40, 1, 0x123456), opposite(40, 1, 0x123456 ^ 0xFFFFFF);
+  test::Plane<std::uint32_t> words(40, 1, 0x123456u), opposite(40, 1, ~0x123456u);
   const CensusImage left = image_of_words(words);
   const NodePair pair{20, 30, 12, 22};
   EXPECT_EQ(0, census_intensity_cost(left, left, 0, pair));
-  EXPECT_EQ(24 * kBitCost, census_intensity_cost(left, image_of_words(opposite), 0, pair));
+  EXPECT_EQ(kCensusBits * kBitCost, census_intensity_cost(left, image_of_words(opposite), 0, pair));
 }
 
 TEST(NodeCensusCost, IncludesColumnsBesideTheNode) {
   test::Plane<std::uint32_t> words(60, 1), other(60, 1);
   for (int x = 0; x < 60; ++x) {
     words(x, 0) = 0;
-    other(x, 0) = x < 20 || x > 30 ? 0xFFFFFF : 0;
+    other(x, 0) = x < 20 || x > 30 ? 0xFFFFFFFF : 0;
   }
   const NodePair pair{20, 30, 20, 30};
   const float cost = census_intensity_cost(image_of_words(words), image_of_words(other), 0, pair);
   // Columns 15, 17, 19 and 31, 33, 35 of 15 .. 35 differ in all bits.
-  EXPECT_FLOAT_EQ(24.0F * kBitCost * 6 / 11, cost);
+  EXPECT_FLOAT_EQ(1.0F * kCensusBits * kBitCost * 6 / 11, cost);
 }
 
 }  // namespace

@@ -60,10 +60,11 @@ std::vector<std::uint8_t> costs_of(const CensusPair& pair, const CensusCostOptio
 /// Compares every cell of the rows y0 .. y1 - 1; the padding cells after D must never be the least.
 void expect_reference(const Pair& views, const CensusCostOptions& options, int y0, int y1,
                       const Ranges& ranges, CensusCostScratch& scratch) {
-  const CensusPair pair(views.left.view(), views.right.view());
+  const int scales = options.bytes == 3 ? 1 : 2;
+  const CensusPair pair(views.left.view(), views.right.view(), scales);
   const std::vector<std::uint8_t> costs = costs_of(pair, options, y0, y1, ranges, scratch);
-  const reference::CensusCosts plain{reference::census(views.left), reference::census(views.right),
-                                     options};
+  const reference::CensusCosts plain{reference::census(views.left, scales),
+                                     reference::census(views.right, scales), options};
   const int lanes = cost_lanes(options.disparities);
   const int width = views.left.width;
   for (int y = y0; y < y1; ++y) {
@@ -96,8 +97,8 @@ TEST(CensusCost, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
       const int disparities = random.between(1, width);
       for (const int size : {1, 3, 5}) {
         expect_reference(noise_pair(width, height, 10 * width),
-                         {disparities, size, random.below(25)}, 0, height,
-                         random_ranges(width, disparities, random), scratch);
+                         {disparities, size, random.below(33), census_bytes(random.between(1, 2))},
+                         0, height, random_ranges(width, disparities, random), scratch);
       }
     }
   });
@@ -119,7 +120,7 @@ TEST(CensusCost, EqualsReferenceForEveryNumberOfDisparities) {
 
 TEST(CensusCost, EqualsReferenceWithEveryPenalty) {
   CensusCostScratch scratch;
-  for (int penalty = 0; penalty <= 24; ++penalty) {
+  for (int penalty = 0; penalty <= 32; ++penalty) {
     for (const int size : {1, 3, 5}) {
       Random random(penalty);
       expect_reference(noise_pair(40, 3, penalty), {37, size, penalty}, 0, 3,
@@ -162,11 +163,11 @@ TEST(CensusCost, CountsAllBitsOfAllRowsForInvertedViews) {
     left.resize(20, 6);
     right.resize(20, 6);
     for (int y = 0; y < 6; ++y) {
-      std::fill_n(left.bits.row(y), 20, (std::uint32_t{1} << kCensusBits) - 1);
+      std::fill_n(left.bits.row(y), 20, ~std::uint32_t{0});
       std::fill_n(right.bits.row(y), 20, std::uint32_t{0});
     }
     CensusCostScratch scratch;
-    const CensusCostOptions options = {20, size, 24};
+    const CensusCostOptions options = {20, size, 16};
     scratch.resize(20, options);
     std::vector<std::uint16_t> low(20, 5), high(20, 8);
     Buffer<std::uint8_t> row;
@@ -174,7 +175,7 @@ TEST(CensusCost, CountsAllBitsOfAllRowsForInvertedViews) {
     start_census_costs(left, right, options, 0, scratch);
     census_cost_row(left, right, options, 0, low.data(), high.data(), scratch, row.data());
     for (int d = 0; d < 20; ++d) {
-      const int bits = d >= 5 && d <= 8 ? 24 : 48;
+      const int bits = d >= 5 && d <= 8 ? 32 : 48;
       EXPECT_EQ(bits * cost_scale(options), row[10 * 32 + d]) << "window " << size << ", d " << d;
     }
   }

@@ -109,10 +109,10 @@ long expect_reference_with_all_options(int width, int disparities, Random& rando
     for (const bool in_range : {false, true}) {
       for (const int tolerance : {-1, 0, 1}) {
         const int largest = random.below(3) == 0 ? 12 : 510;
-        known +=
-            expect_reference(random_sums(width, disparities, largest, random),
-                             {disparities, confidence, in_range, tolerance, random.below(2) == 0},
-                             random_ranges(width, disparities, random), scratch);
+        known += expect_reference(
+            random_sums(width, disparities, largest, random),
+            {disparities, confidence, in_range, tolerance, random.below(2) == 0, random.below(50)},
+            random_ranges(width, disparities, random), scratch);
       }
     }
   }
@@ -149,8 +149,8 @@ TEST(DisparitySelection, EqualsReferenceForEqualCosts) {
   for (const int cost : {0, 1, 510}) {
     const RowCosts sums(60, std::vector<int>(40, cost));
     for (const int tolerance : {-1, 0}) {
-      EXPECT_EQ(
-          0, expect_reference(sums, {40, 0, false, tolerance, true}, all_expected(60, 40), scratch))
+      EXPECT_EQ(0, expect_reference(sums, {40, 0, false, tolerance, true, 0}, all_expected(60, 40),
+                                    scratch))
           << "equal costs have no best disparity";
     }
   }
@@ -168,7 +168,7 @@ struct OnePixel {
     ranges.low[50] = static_cast<std::uint16_t>(low);
     ranges.high[50] = static_cast<std::uint16_t>(high);
     SelectionScratch scratch;
-    return selected(sums, {disparities, confidence, in_range, tolerance, subpixel}, ranges,
+    return selected(sums, {disparities, confidence, in_range, tolerance, subpixel, 0}, ranges,
                     scratch)[50];
   }
   int disparities;

@@ -10,6 +10,7 @@
 #include "reference/nodes/outlier_removal.hpp"
 #include "reference/pixels/pixel_matching.hpp"
 #include "reference/prepare/halving.hpp"
+#include "reference/prepare/noise_filter.hpp"
 #include "reference/refine/confidence.hpp"
 #include "reference/refine/disparity_refinement.hpp"
 #include "reference/refine/enlarging.hpp"
@@ -17,6 +18,7 @@
 #include "reference/refine/map_smoothing.hpp"
 #include "reference/refine/speckle_removal.hpp"
 #include "settings.hpp"
+#include "stages/prepare/noise_filter.hpp"
 
 namespace mtstereo::reference {
 
@@ -37,11 +39,18 @@ struct Frame {
   DisparityPlane nodes;  ///< the drawn leaves; without outliers after their removal
   DisparityPlane map;
   GrayPlane ratio;
+  GrayPlane area;  ///< weights of the areas
   GrayPlane confidence;
 };
 
 inline void halve(Frame& f) {
   for (int side = 0; side < 2; ++side) f.views[side] = halve(f.input[side]);
+}
+
+inline void filter_noise(Frame& f) {
+  const float threshold =
+      std::max(noise_threshold(noise_level(f.views[0])), noise_threshold(noise_level(f.views[1])));
+  for (GrayPlane& view : f.views) view = filter_noise(view, threshold);
 }
 
 inline void preprocess(Frame& f) {
@@ -64,7 +73,8 @@ inline void compute_costs(Frame& f) {
 inline void match_levels(Frame& f) {
   const Settings& s = f.settings;
   const int width = f.views[0].width;
-  const CensusPair census_pair = {census(f.views[0]), census(f.views[1])};
+  const CensusPair census_pair = {census(f.views[0], s.census_scales),
+                                  census(f.views[1], s.census_scales)};
   for (int n = 0; n < s.node_levels.count; ++n) {
     const double below = s.max_node_width * width;
     const Level left = select_nodes(f.trees[0], s.node_levels.level[n], s.min_node_width, below);
@@ -76,7 +86,7 @@ inline void match_levels(Frame& f) {
         f.trees[0],   f.trees[1],        left, right, s.census() ? nullptr : &f.volume,
         &census_pair, s.intensity_weight};
     f.matches =
-        match_nodes(input, intervals, s.max_neighbors, s.disparities, s.node_confidence, width);
+        match_nodes(input, intervals, s.max_neighbors, s.disparities, s.node_acceptance, width);
     f.leaves = left;
   }
   f.nodes = draw_matches(f.leaves, f.matches, width);
@@ -110,12 +120,15 @@ inline void remove_pixel_outliers(Frame& f) {
 }
 
 inline void remove_speckles(Frame& f) {
-  f.map = remove_speckles(f.map, 256, f.settings.speckle_size);
+  const Areas areas = remove_speckles(f.map, 256, f.settings.speckle_size);
+  f.map = areas.map;
+  f.area = areas.weight;
 }
 
 inline void rate_confidence(Frame& f) {
   const Settings& s = f.settings;
   f.confidence = rate_support(f.map, f.ratio);
+  if (s.speckle_size > 1) f.confidence = weighed(f.confidence, f.area);
   const auto keep_where = [&](auto&& keep) {
     for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
       if (!keep(i)) f.map.pixels[i] = f.confidence.pixels[i] = 0;
@@ -125,6 +138,13 @@ inline void rate_confidence(Frame& f) {
   if (!s.keeps_only_ends()) return;
   const Plane<int> ends = leaf_ends(f.leaves, f.nodes, s.max_neighbors, s.node_end_width);
   keep_where([&](std::size_t i) { return ends.pixels[i] != 0; });
+}
+
+inline void remove_islands(Frame& f) {
+  f.map = remove_speckles(f.map, 256, f.settings.speckle_size / 3).map;
+  for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
+    if (f.map.pixels[i] == 0) f.confidence.pixels[i] = 0;
+  }
 }
 
 inline void fill_gaps(Frame& f) {
@@ -144,7 +164,9 @@ inline void enlarge(Frame& f) {
 }
 
 inline void refine(Frame& f) {
-  f.map = refine(census(f.input[0]), census(f.input[1]), f.map, f.settings.max_disparity);
+  const int scales = f.settings.census_scales;
+  f.map = refine(census(f.input[0], scales), census(f.input[1], scales), f.map,
+                 f.settings.max_disparity);
 }
 
 inline void nothing(Frame&) {}  // other steps call reference::census() themselves
@@ -152,6 +174,7 @@ inline void nothing(Frame&) {}  // other steps call reference::census() themselv
 /// The scalar version of each step of the matcher, by the name of the step.
 inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = {
     {"halving", halve},
+    {"noise-filter", filter_noise},
     {"preprocessing", preprocess},
     {"max-trees", build_trees},
     {"census", nothing},
@@ -165,6 +188,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"pixel-outliers", remove_pixel_outliers},
     {"speckle-removal", remove_speckles},
     {"confidence", rate_confidence},
+    {"island-removal", remove_islands},
     {"gap-filling", fill_gaps},
     {"smoothing", smooth},
     {"enlarging", enlarge},

@@ -39,13 +39,16 @@ TEST(FilterThreads, RemoveTheSameSpecklesForAnyNumber) {
       const DisparityPlane map = tall_map(seed);
       Image<std::int32_t> image = image_of(map);
       runs.resize(map.width, map.height);
+      Image<std::uint8_t> area;
+      area.resize(map.width, map.height);
       for_parts(pool, map.height, kBand,
                 [&](int y0, int y1, int) { find_runs(image, 64, y0, y1, runs); });
       join_bands(image, 64, kBand, runs);
       for_parts(pool, map.height, kBand,
-                [&](int y0, int y1, int) { remove_small(runs, 40, y0, y1, image); });
-      EXPECT_TRUE(same_image(reference::remove_speckles(map, 64, 40), image))
-          << threads << " threads";
+                [&](int y0, int y1, int) { remove_small(runs, 40, y0, y1, image, area); });
+      const reference::Areas expected = reference::remove_speckles(map, 64, 40);
+      EXPECT_TRUE(same_image(expected.map, image)) << threads << " threads";
+      EXPECT_TRUE(same_image(expected.weight, area)) << threads << " threads";
     }
   }
 }

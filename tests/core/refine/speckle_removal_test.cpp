@@ -21,31 +21,38 @@ using test::patches;
 
 constexpr int kWhole = 1 << 20;
 
-/// The map without its speckles, computed in bands of `band` rows from the last band to the first.
-DisparityPlane filtered(const DisparityPlane& map, int tolerance, int size, int band,
-                        SpeckleRuns& runs) {
+/// The map without its speckles and the weights of its areas, computed in bands of `band` rows from
+/// the last band to the first.
+reference::Areas filtered_areas(const DisparityPlane& map, int tolerance, int size, int band,
+                                SpeckleRuns& runs) {
   Image<std::int32_t> image = image_of(map);
   runs.resize(map.width, map.height);
+  Image<std::uint8_t> area;
+  area.resize(map.width, map.height);
   const int bands = (map.height + band - 1) / band;
   for (int i = bands - 1; i >= 0; --i) {
     find_runs(image, tolerance, i * band, std::min((i + 1) * band, map.height), runs);
   }
   join_bands(image, tolerance, band, runs);
   for (int i = bands - 1; i >= 0; --i) {
-    remove_small(runs, size, i * band, std::min((i + 1) * band, map.height), image);
+    remove_small(runs, size, i * band, std::min((i + 1) * band, map.height), image, area);
   }
-  return copy_of(image);
+  return {copy_of(image), copy_of(area)};
 }
 
 DisparityPlane filtered(const DisparityPlane& map, int tolerance, int size, int band = kWhole) {
   SpeckleRuns runs;
-  return filtered(map, tolerance, size, band, runs);
+  return filtered_areas(map, tolerance, size, band, runs).map;
 }
 
 void expect_reference(const DisparityPlane& map, int tolerance, int size) {
-  const DisparityPlane expected = reference::remove_speckles(map, tolerance, size);
+  const reference::Areas expected = reference::remove_speckles(map, tolerance, size);
+  SpeckleRuns runs;
   for (const int band : {1, 3, 32, kWhole}) {
-    EXPECT_TRUE(same_image(expected, filtered(map, tolerance, size, band)))
+    const reference::Areas actual = filtered_areas(map, tolerance, size, band, runs);
+    EXPECT_TRUE(same_image(expected.map, actual.map))
+        << "tolerance " << tolerance << ", size " << size << ", bands of " << band << " rows";
+    EXPECT_TRUE(same_image(expected.weight, actual.weight))
         << "tolerance " << tolerance << ", size " << size << ", bands of " << band << " rows";
   }
 }
@@ -251,8 +258,8 @@ TEST(SpeckleRemoval, CanReuseTheMemoryOfOtherMaps) {
   SpeckleRuns runs;
   for (int seed = 0; seed < 30; ++seed) {
     const DisparityPlane map = patches(10 + 31 * seed % 60, 5 + 17 * seed % 70, 2, 700 + seed);
-    EXPECT_TRUE(
-        same_image(reference::remove_speckles(map, 64, 15), filtered(map, 64, 15, 32, runs)));
+    EXPECT_TRUE(same_image(reference::remove_speckles(map, 64, 15).map,
+                           filtered_areas(map, 64, 15, 32, runs).map));
   }
 }
 
@@ -262,6 +269,20 @@ TEST(SpeckleRemoval, HandlesTheLargestWidth) {
   map(16383, 0) = 8000;
   expect_reference(map, 100, 2);
   expect_reference(map, 100, 16385);
+}
+
+TEST(SpeckleRemoval, WeighsAreasByTheirShareOfTheMap) {
+  // The map has 3000 px, so 300 px have full weight, and each halving costs 7 %.
+  constexpr std::pair<int, int> kWeights[] = {{1, 144},   {30, 202},  {150, 237},
+                                              {299, 254}, {300, 255}, {3000, 255}};
+  for (const auto& [pixels, weight] : kWeights) {
+    DisparityPlane map(100, 30);
+    for (int i = 0; i < pixels; ++i) map.pixels[i] = 1000;
+    SpeckleRuns runs;
+    const reference::Areas areas = filtered_areas(map, 10, 0, 7, runs);
+    EXPECT_EQ(weight, areas.weight(0, 0)) << pixels << " px";
+    EXPECT_EQ(pixels == 3000 ? 255 : 0, areas.weight(99, 29));
+  }
 }
 
 }  // namespace

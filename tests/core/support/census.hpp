@@ -11,23 +11,25 @@ namespace mtstereo::test {
 
 /// The census transform of a whole view, computed in bands of `band` rows from the last band to the
 /// first, in poisoned memory.
-inline CensusImage census_of(GrayView image, int band = 1 << 20) {
+inline CensusImage census_of(GrayView image, int band = 1 << 20, int scales = 2) {
   CensusImage census;
   census.resize(image.width, image.height);
   poison(census.bits);
   CensusScratch scratch;
   scratch.resize(image.width, std::min(band, image.height));
-  poison(scratch.padded);
+  poison(scratch.view);
+  poison(scratch.smoothed);
   for (int i = (image.height + band - 1) / band - 1; i >= 0; --i) {
-    census_rows(image, i * band, std::min((i + 1) * band, image.height), scratch, census);
+    census_rows(image, scales, i * band, std::min((i + 1) * band, image.height), scratch, census);
   }
   return census;
 }
 
 /// The census transforms of both views, the input of guided pixel matching.
 struct CensusPair {
-  CensusPair(GrayView left_view, GrayView right_view)
-      : left(census_of(left_view)), right(census_of(right_view)) {}
+  CensusPair(GrayView left_view, GrayView right_view, int scales = 2)
+      : left(census_of(left_view, 1 << 20, scales)),
+        right(census_of(right_view, 1 << 20, scales)) {}
   CensusImage left, right;
 };
 
@@ -42,6 +44,13 @@ inline GrayPlane exposed_otherwise(const GrayPlane& image, Random& random) {
   }
   GrayPlane out = image;
   for (std::uint8_t& gray : out.pixels) gray = exposed[gray];
+  return out;
+}
+
+/// Adds the same number to all gray values, which must not saturate.
+inline GrayPlane brighter(const GrayPlane& image, int by) {
+  GrayPlane out = image;
+  for (std::uint8_t& gray : out.pixels) gray = static_cast<std::uint8_t>(gray + by);
   return out;
 }
 

@@ -55,7 +55,7 @@ Real intensity_cost(const Volume& volume, int y, const LevelNode& left, const Le
   return static_cast<Real>(sum) / static_cast<Real>(count * 16);
 }
 
-/// Mean number of different bits, times 4, over every second column from 5 px before to 5 px after
+/// Mean number of different bits, times 3, over every second column from 5 px before to 5 px after
 /// the left node, as far as both views have these columns.
 template <typename Real>
 Real census_intensity_cost(const CensusPair& census, int y, const LevelNode& left,
@@ -70,7 +70,7 @@ Real census_intensity_cost(const CensusPair& census, int y, const LevelNode& lef
     sum += std::popcount(census.left(x, y) ^ census.right(x - d, y));
     ++count;
   }
-  return static_cast<Real>(4 * sum) / static_cast<Real>(count);
+  return static_cast<Real>(3 * sum) / static_cast<Real>(count);
 }
 
 /// Mean of |aL / (aL + aR) - 1/2| = |aL - aR| / (2 (aL + aR)) over the pair and its ancestors,

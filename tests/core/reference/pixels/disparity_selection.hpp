@@ -52,7 +52,8 @@ inline Selected judge(const std::vector<int>& costs, int best, int low, int high
     const int after = costs[best + 1] - cost;
     if (before >= 0 && after >= 0) disparity += refined(curve, before, after);
   }
-  const int ratio = (other - cost) * 255 / other;
+  const int offset = curve == Refinement::kSymmetricV ? options.ratio_offset : 0;
+  const int ratio = (other - cost) * 255 / (other + offset);
   return {std::max(disparity, 1), std::max(ratio, 1)};
 }
 

@@ -57,12 +57,23 @@ inline RatedMap match_pixels(const Volume& volume, const PixelMatchingOptions& o
   return out;
 }
 
-/// The same with the census cost. The step penalties are scaled by the rows of the window, as the
-/// costs are sums over these rows.
+/// Whether no pixel of the 5x5 window has a census bit. The pixels of the border are repeated.
+inline bool is_flat(const Plane<std::uint32_t>& census, int x, int y) {
+  for (int dy = -2; dy <= 2; ++dy) {
+    for (int dx = -2; dx <= 2; ++dx) {
+      if (census.clamped(x + dx, y + dy) != 0) return false;
+    }
+  }
+  return true;
+}
+
+/// The same with the census cost. Pixels in flat areas get no disparity. The step penalties are
+/// scaled by the rows of the window, as the costs are sums over these rows.
 inline RatedMap match_pixels_by_census(const GrayPlane& left, const GrayPlane& right,
                                        const CensusMatchingOptions& options,
                                        const DisparityPlane& map) {
-  const CensusCosts costs{census(left), census(right), options.cost};
+  const int scales = options.cost.bytes == 3 ? 1 : 2;
+  const CensusCosts costs{census(left, scales), census(right, scales), options.cost};
   const int rows = options.cost.kernel_size;
   const SmoothnessOptions steps = {options.smoothness.small_step * rows,
                                    options.smoothness.large_step * rows};
@@ -72,7 +83,8 @@ inline RatedMap match_pixels_by_census(const GrayPlane& left, const GrayPlane& r
     std::vector<int> low, high;
     RowCosts row(map.width);
     for (int x = 0; x < map.width; ++x) {
-      const std::vector<int> expected = expected_disparities(nodes, x, options.range);
+      std::vector<int> expected = expected_disparities(nodes, x, options.range);
+      if (is_flat(costs.left, x, y)) expected.clear();
       low.push_back(expected.empty() ? 1 : expected.front());
       high.push_back(expected.empty() ? 0 : expected.back());
       for (int d = 0; d < options.cost.disparities; ++d) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cstdlib>
 
 #include "stages/pixels/census_cost.hpp"
 #include "support/plane.hpp"
@@ -11,17 +12,49 @@ namespace mtstereo::reference {
 using test::GrayPlane;
 using test::Plane;
 
-/// For each pixel one bit per other pixel of the 5x5 window around it, row by row from the top
-/// left: 1 if that pixel is darker. The pixels of the border are repeated.
-inline Plane<std::uint32_t> census(const GrayPlane& image) {
+/// The gray value of the view smoothed by weights 1 4 6 4 1 in both directions, rounded. The pixels
+/// of the border are repeated, also around a place outside of the image.
+inline int smoothed(const GrayPlane& image, int x, int y) {
+  constexpr int kWeights[] = {1, 4, 6, 4, 1};
+  int sum = 0;
+  for (int dy = -2; dy <= 2; ++dy) {
+    for (int dx = -2; dx <= 2; ++dx) {
+      sum += kWeights[dy + 2] * kWeights[dx + 2] * image.clamped(x + dx, y + dy);
+    }
+  }
+  return (sum + 128) / 256;
+}
+
+/// For each pixel one bit per neighbor: 1 if it is darker. First the eight neighbors at 1 px, row
+/// by row from the top left, then those at 2 px. In one scale, then the other pixels of the 5x5
+/// window; in two, those at 2 and at 4 px in the smoothed view.
+inline Plane<std::uint32_t> census(const GrayPlane& image, int scales = 2) {
   Plane<std::uint32_t> out(image.width, image.height);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       int bit = 0;
+      const auto add = [&](int distance, auto&& gray) {
+        for (int dy = -distance; dy <= distance; dy += distance) {
+          for (int dx = -distance; dx <= distance; dx += distance) {
+            if (dx == 0 && dy == 0) continue;
+            const bool darker = gray(x + dx, y + dy) < gray(x, y);
+            out(x, y) |= std::uint32_t{darker} << bit++;
+          }
+        }
+      };
+      const auto fine = [&](int column, int row) { return int{image.clamped(column, row)}; };
+      const auto coarse = [&](int column, int row) { return smoothed(image, column, row); };
+      add(1, fine);
+      add(2, fine);
+      if (scales == 2) {
+        add(2, coarse);
+        add(4, coarse);
+        continue;
+      }
       for (int dy = -2; dy <= 2; ++dy) {
         for (int dx = -2; dx <= 2; ++dx) {
-          if (dx == 0 && dy == 0) continue;
-          const bool darker = image.clamped(x + dx, y + dy) < image(x, y);
+          if (std::abs(dx * dy) != 2) continue;
+          const bool darker = fine(x + dx, y + dy) < fine(x, y);
           out(x, y) |= std::uint32_t{darker} << bit++;
         }
       }

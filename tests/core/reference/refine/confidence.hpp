@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdlib>
 
 #include "support/plane.hpp"
@@ -65,6 +66,17 @@ inline GrayPlane rate_support(const DisparityPlane& map, const GrayPlane& ratio)
       const long steps = support_of(map, ratio, x, y).share_steps();
       out(x, y) = static_cast<std::uint8_t>(std::max(cube_root(steps), 1));
     }
+  }
+  return out;
+}
+
+/// The confidence times weight / 255, rounded, but at least 1 where it was.
+inline GrayPlane weighed(const GrayPlane& confidence, const GrayPlane& weight) {
+  GrayPlane out = confidence;
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+    if (out.pixels[i] == 0) continue;
+    const double product = out.pixels[i] * weight.pixels[i] / 255.0;
+    out.pixels[i] = static_cast<std::uint8_t>(std::max(std::floor(product + 0.5), 1.0));
   }
   return out;
 }

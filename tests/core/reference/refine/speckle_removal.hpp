@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 #include <vector>
@@ -31,19 +32,37 @@ inline std::vector<std::pair<int, int>> flood(const DisparityPlane& map, int tol
   return component;
 }
 
-/// Removes the connected components of fewer than `size` pixels.
-inline DisparityPlane remove_speckles(const DisparityPlane& map, int tolerance, int size) {
-  DisparityPlane kept = map;
+/// The largest weight k with (k / 255)^10 <= 10 * pixels / map's pixels, at most 255.
+inline std::uint8_t area_weight(double pixels, double map_pixels) {
+  int weight = 255;
+  while (weight > 0 && std::pow(weight / 255.0, 10) > 10 * pixels / map_pixels) --weight;
+  return static_cast<std::uint8_t>(weight);
+}
+
+/// A map, and the weights of its areas.
+struct Areas {
+  DisparityPlane map;
+  GrayPlane weight;
+};
+
+/// Removes the connected components of fewer than `size` pixels and weighs the others.
+inline Areas remove_speckles(const DisparityPlane& map, int tolerance, int size) {
+  Areas areas = {map, GrayPlane(map.width, map.height)};
   GrayPlane seen(map.width, map.height);
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       if (map(x, y) == 0 || seen(x, y) != 0) continue;
       const auto component = flood(map, tolerance, {x, y}, seen);
-      if (static_cast<long>(component.size()) >= size) continue;
-      for (const auto& [u, v] : component) kept(u, v) = 0;
+      const bool removed = static_cast<long>(component.size()) < size;
+      const auto pixels = static_cast<double>(component.size());
+      const std::uint8_t weight = removed ? 0 : area_weight(pixels, 1.0 * map.width * map.height);
+      for (const auto& [u, v] : component) {
+        areas.weight(u, v) = weight;
+        if (removed) areas.map(u, v) = 0;
+      }
     }
   }
-  return kept;
+  return areas;
 }
 
 }  // namespace mtstereo::reference
