@@ -103,7 +103,7 @@ constexpr ParameterInfo kTable[] = {
      "refine the disparity between whole pixels: by a V through the costs (census) or a parabola (gradient)"},
     {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", EACH("300", "75", "0"),
      "connected areas with fewer pixels than this are removed; 0 = none"},
-    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "152", "95"), MODES("183", "160", "101"), MODES("0", "0", "0")),
+    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "153", "95"), MODES("183", "160", "101"), MODES("0", "0", "0")),
      "disparities of lower confidence (1 .. 255) are removed; 0 = none; a filled gap has half the "
      "confidence of its sides"},
     {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, kLargestNodeEnd, "", EACH("9", "9", "1"),

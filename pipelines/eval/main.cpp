@@ -81,6 +81,7 @@ Report start_report(const Options& options, const DataSet& set) {
     report.parameters.emplace_back(
         info.name, from_data ? "from the data set" : options.run.parameters.text(info.id));
   }
+  report.parameters.emplace_back("alignment", aligns(options.run) ? "correct" : "off");
   report.methods.emplace_back(kOwnMethod);
   for (const Rival rival : options.run.rivals) {
     report.methods.emplace_back(rival_name(rival));

@@ -22,6 +22,7 @@ struct Texts {
   std::string json, csv, curve, report, disparity_folder, picture_folder;
   std::vector<std::string> compare;
   std::vector<std::string> degrade;
+  std::string alignment;
   std::map<std::string, std::string> parameters;
 };
 
@@ -103,6 +104,12 @@ void add_methods(CLI::App& app, Texts& texts, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(rival_names()));
+  app.add_option("--alignment", texts.alignment,
+                 "correct: align the rows and even out the sharpness of each pair before mtstereo "
+                 "matches it, as the element does; off: match it as it is [default: correct; off "
+                 "with preset paper]")
+      ->type_name("off|correct")
+      ->check(CLI::IsMember({"off", "correct"}));
   app.add_option("--degrade", texts.degrade,
                  "also evaluate degraded images: " + degradation_kinds())
       ->type_name("KIND=AMOUNT,...")
@@ -202,6 +209,7 @@ void apply(const Texts& texts, Options& options) {
     const bool twice = std::find(known.begin(), known.end(), rival) != known.end();
     if (!twice) options.run.rivals.push_back(rival);
   }
+  if (!texts.alignment.empty()) options.run.align = texts.alignment == "correct";
   apply_degradations(texts, options.run.degradations);
   options.json = path_of(texts.json);
   options.csv = path_of(texts.csv);

@@ -91,6 +91,10 @@ double median_seconds(int warm_up, int repeat, const std::function<void()>& fram
   return seconds.size() % 2 == 1 ? seconds[middle] : (seconds[middle - 1] + seconds[middle]) / 2;
 }
 
+bool aligns(const RunSettings& settings) {
+  return settings.align.value_or(settings.parameters.preset() != Preset::kPaper);
+}
+
 Runner::Runner(RunSettings settings) : settings_(std::move(settings)) {}
 
 std::vector<std::string> kinds_of(const RunSettings& settings) {
@@ -158,7 +162,7 @@ int Runner::warm_up(const PairReport& report) const {
   return report.kind == kCleanKind ? settings_.warm_up : 0;
 }
 
-void Runner::prepare_matcher(int max_disparity) {
+void Runner::prepare_matcher(const LoadedPair& images, int max_disparity) {
   Parameters parameters = settings_.parameters;
   require(parameters.set(Parameter::kMaxDisparity, max_disparity));
   if (matcher_) {
@@ -168,10 +172,19 @@ void Runner::prepare_matcher(int max_disparity) {
     if (!made) throw InputError(made.error().message);
     matcher_.emplace(std::move(*made));
   }
+  if (!aligns(settings_)) return;
+  if (!tracker_) {
+    Result<AlignmentTracker> made = AlignmentTracker::create();
+    if (!made) throw InputError(made.error().message);
+    tracker_.emplace(std::move(*made));
+  }
+  tracker_->reset();
+  require(tracker_->inspect(view_of(images.left), view_of(images.right), max_disparity));
+  require(matcher_->set_correction(tracker_->correction()));
 }
 
 void Runner::run_own(const LoadedPair& images, PairReport& report) {
-  prepare_matcher(report.max_disparity);
+  prepare_matcher(images, report.max_disparity);
   DisparityView disparity;
   const double seconds = median_seconds(warm_up(report), settings_.repeat, [&] {
     Result<DisparityView> result = matcher_->compute(view_of(images.left), view_of(images.right));
@@ -226,7 +239,7 @@ void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
     add_flicker_noise(*settings_.flicker, i, frames.back().left, frames.back().right);
   }
   attempt(report, std::string("flicker: ") + kOwnMethod, [&] {
-    prepare_matcher(report.max_disparity);
+    prepare_matcher(frames.front(), report.max_disparity);
     std::vector<cv::Mat> maps;
     for (const LoadedPair& frame : frames) {
       Result<DisparityView> result = matcher_->compute(view_of(frame.left), view_of(frame.right));

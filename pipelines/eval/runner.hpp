@@ -15,6 +15,7 @@
 #include "eval/metrics.hpp"
 #include "eval/pictures.hpp"
 #include "eval/rivals.hpp"
+#include "mtstereo/alignment.hpp"
 #include "mtstereo/matcher.hpp"
 
 namespace mtstereo::eval {
@@ -25,6 +26,9 @@ inline constexpr const char* kOwnMethod = "mtstereo";
 /// The settings of a run.
 struct RunSettings {
   Parameters parameters;  ///< max-disparity applies to all pairs if it is set
+  /// Align each pair before the library matches it, as the element does; std::nullopt: unless the
+  /// preset is the paper's.
+  std::optional<bool> align;
   std::vector<Rival> rivals;
   int warm_up = 1;  ///< untimed frames before the timed ones
   int repeat = 1;   ///< timed frames; the result is their median
@@ -37,6 +41,9 @@ struct RunSettings {
   std::optional<double> flicker;          ///< standard deviation of its noise [gray values]
   bool html_pictures = false;             ///< pictures of the library's results
 };
+
+/// Whether pairs are aligned.
+bool aligns(const RunSettings& settings);
 
 /// The kinds of images of a run: kCleanKind and the texts of the degradations.
 std::vector<std::string> kinds_of(const RunSettings& settings);
@@ -97,13 +104,14 @@ class Runner {
   void run_own(const LoadedPair& images, PairReport& report);
   void run_rival(Rival rival, const LoadedPair& images, PairReport& report);
   void run_flicker(const LoadedPair& images, PairReport& report);
-  void prepare_matcher(int max_disparity);
+  void prepare_matcher(const LoadedPair& images, int max_disparity);
   int warm_up(const PairReport& report) const;
   void finish(const std::string& method, const cv::Mat& disparity, double seconds,
               const LoadedPair& images, PairReport& report) const;
 
   RunSettings settings_;
   std::optional<Matcher> matcher_;
+  std::optional<AlignmentTracker> tracker_;
 };
 
 }  // namespace mtstereo::eval

@@ -24,8 +24,9 @@ bool is_wide(int lanes) {
 }
 
 /// Whether the bits of the row that leaves the window are counted again instead of being stored.
-/// This is cheaper where counting is one instruction, and needs less of the cache.
-#if HWY_TARGET == HWY_AVX3_DL || HWY_TARGET == HWY_NEON
+/// This is cheaper where counting is one instruction and vectors are short, and needs less of the
+/// cache.
+#if HWY_TARGET == HWY_NEON
 constexpr bool kCountTwice = true;
 #else
 constexpr bool kCountTwice = false;

@@ -9,7 +9,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
-/// A block is two vectors wide. The magnitudes, up to 8 * 255, of a lane's 32 pixels add up to 16
+/// A block is two vectors wide. The magnitudes, up to 8 * 255, of a lane's 16 pixels add up to 16
 /// bits.
 using Words = hn::CappedTag<std::int16_t, 8>;
 
@@ -18,10 +18,10 @@ std::uint32_t measure_block(const std::uint8_t* first, std::ptrdiff_t stride) {
   const Words d16;
   const hn::Rebind<std::uint8_t, Words> d8;
   const hn::RebindToUnsigned<Words> du16;
-  constexpr int kSaturatedPixels = 8;
+  constexpr int kSaturatedPixels = 4;
   auto sums = hn::Zero(du16);
   auto saturated = hn::Zero(d16);
-  for (int y = 0; y < kNoiseBlock; ++y) {
+  for (int y = 0; y < kNoiseBlock; y += kNoiseRowStep) {
     for (int x = 0; x < kNoiseBlock; x += static_cast<int>(hn::Lanes(d16))) {
       const std::uint8_t* at = first + y * stride + x;
       const auto row = [&](int column) {
@@ -90,7 +90,7 @@ float noise_level(NoiseBlocks& blocks) {
   // The operator multiplies the deviation of white noise by 6. The mean magnitude of a normal
   // distribution is its deviation times the square root of 2 / pi.
   constexpr float kDeviation = 1.2533141F / 6;
-  constexpr float kPixels = kNoiseBlock * kNoiseBlock;
+  constexpr float kPixels = kNoiseBlock * kNoiseBlock / kNoiseRowStep;
   return static_cast<float>(*quartile) * (kDeviation / kPixels);
 }
 

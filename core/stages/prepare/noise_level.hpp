@@ -14,12 +14,15 @@ namespace mtstereo {
 /// Side of a block [px].
 inline constexpr int kNoiseBlock = 16;
 
+/// Every second row of a block is measured.
+inline constexpr int kNoiseRowStep = 2;
+
 /// A block of which a part is saturated: it shows less noise than the view has.
 inline constexpr std::uint32_t kSaturatedBlock = 0xFFFFFFFF;
 
-/// Per block, row by row, the sum over its pixels of the magnitude of the 3x3 operator 1 -2 1 in
-/// both directions, which a slope or a straight edge along a row or column does not change; or
-/// kSaturatedBlock. The blocks begin at pixel (1, 1) and are complete.
+/// Per block, row by row, the sum over its measured pixels of the magnitude of the 3x3 operator 1
+/// -2 1 in both directions, which a slope or a straight edge along a row or column does not change;
+/// or kSaturatedBlock. The blocks begin at pixel (1, 1) and are complete.
 struct NoiseBlocks {
   int columns = 0;
   int rows = 0;

@@ -139,6 +139,33 @@ void remove_below(int least, int width, std::int32_t* map, std::uint8_t* confide
   }
 }
 
+/// Multiplies by weight / 255, rounded; the result is at least 1 where the confidence was. Accesses
+/// the padding of the rows.
+void weigh_row(const std::uint8_t* weight, int width, std::uint8_t* confidence) {
+  const Words d16;
+  const hn::Rebind<std::uint8_t, Words> d8;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
+    const auto value = hn::PromoteTo(d16, hn::LoadU(d8, confidence + x));
+    const auto factor = hn::PromoteTo(d16, hn::LoadU(d8, weight + x));
+    const auto product = hn::Add(hn::Mul(value, factor), hn::Set(d16, 128));
+    const auto quotient = hn::ShiftRight<8>(hn::Add(product, hn::ShiftRight<8>(product)));
+    const auto some = hn::Min(value, hn::Set(d16, 1));
+    hn::StoreU(hn::DemoteTo(d8, hn::BitCast(Signed(), hn::Max(quotient, some))), d8,
+               confidence + x);
+  }
+}
+
+/// Accesses the padding of the rows.
+void clear_row(const std::int32_t* map, int width, std::uint8_t* confidence) {
+  const Map d32;
+  const MapConfidence d8;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
+    const auto unknown = hn::Eq(hn::LoadU(d32, map + x), hn::Zero(d32));
+    const auto value = hn::PromoteTo(d32, hn::LoadU(d8, confidence + x));
+    hn::StoreU(hn::DemoteTo(d8, hn::IfThenZeroElse(unknown, value)), d8, confidence + x);
+  }
+}
+
 }  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -149,6 +176,8 @@ HWY_EXPORT(copy_row);
 HWY_EXPORT(sum_row);
 HWY_EXPORT(find_steps);
 HWY_EXPORT(remove_below);
+HWY_EXPORT(weigh_row);
+HWY_EXPORT(clear_row);
 
 namespace {
 
@@ -238,24 +267,14 @@ void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, i
 void weigh_confidence(const Image<std::uint8_t>& weight, int y0, int y1,
                       Image<std::uint8_t>& confidence) {
   for (int y = y0; y < y1; ++y) {
-    const std::uint8_t* weights = weight.row(y);
-    std::uint8_t* row = confidence.row(y);
-    for (int x = 0; x < confidence.width(); ++x) {
-      const int product = row[x] * weights[x] + 128;
-      const int quotient = (product + (product >> 8)) >> 8;  // exact: rounded by 255
-      row[x] = static_cast<std::uint8_t>(std::max(quotient, row[x] > 0 ? 1 : 0));
-    }
+    HWY_DYNAMIC_DISPATCH(weigh_row)(weight.row(y), confidence.width(), confidence.row(y));
   }
 }
 
 void clear_unknown(const Image<std::int32_t>& map, int y0, int y1,
                    Image<std::uint8_t>& confidence) {
   for (int y = y0; y < y1; ++y) {
-    const std::int32_t* disparities = map.row(y);
-    std::uint8_t* row = confidence.row(y);
-    for (int x = 0; x < map.width(); ++x) {
-      if (disparities[x] == kNoDisparity) row[x] = 0;
-    }
+    HWY_DYNAMIC_DISPATCH(clear_row)(map.row(y), map.width(), confidence.row(y));
   }
 }
 

@@ -44,9 +44,9 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0x66790e3200bbd5e5},
-    {"default", "semi-dense", 0x1dd3359dc13b67ce},
-    {"default", "dense", 0xadac87acfeb872cd},
+    {"default", "sparse", 0x28618abb18c13521},
+    {"default", "semi-dense", 0xcfae0a1e708a4696},
+    {"default", "dense", 0x329a9b54232d3192},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0x1fb0f5218460c61a},
     {"fast", "dense", 0xc3004d6014848394},

@@ -109,7 +109,7 @@ Change change_of(Parameter id) {
     case Parameter::kBetweenNodes:
       return {{}, "none"};
     case Parameter::kRangePenalty:
-      return {{{"min-confidence", "0"}}, "24"};
+      return {{{"min-confidence", "0"}, {"large-step-penalty", "0"}}, "24"};
     case Parameter::kPixelConfidence:
       return {{}, "60"};
     case Parameter::kRunnerUp:
