@@ -118,8 +118,8 @@ TEST(PixelMatching, EqualsReferenceWithEveryChoice) {
          {BetweenNodes::kNone, BetweenNodes::kSpan, BetweenNodes::kAll}) {
       for (const int tolerance : {-1, 0, 1, 20}) {
         for (const bool in_range : {false, true}) {
-          const SelectionOptions selection = {0, 0.04 * random.below(2), in_range, tolerance,
-                                              random.below(2) == 0, 0};
+          const SelectionOptions selection = {0,         0.04 * random.below(2), in_range,
+                                              tolerance, random.below(2) == 0,   0};
           known += expect_reference(volume, {{0.15, between, 0}, selection}, map);
         }
       }
