@@ -255,7 +255,7 @@ TEST(DisparitySelection, SelectsOnlyPossibleDisparitiesAtTheBorder) {
     for (int d = 0; d < 40; ++d) sums[x][d] = d > x ? 0 : 400 - d;
   }
   SelectionScratch scratch;
-  const auto row = selected(sums, {40, 0, false, -1, true}, all_expected(40, 40), scratch);
+  const auto row = selected(sums, {40, 0, false, -1, true, 0}, all_expected(40, 40), scratch);
   for (int x = 0; x < 40; ++x) {
     EXPECT_EQ(x < 2 ? 0 : 256 * x, row[x].disparity)
         << "columns 0 and 1 have too few disparities to compare";

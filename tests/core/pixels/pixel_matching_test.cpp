@@ -17,7 +17,7 @@ using test::RandomVolume;
 
 /// The options of the paper's method; range and confidence are fractions.
 PixelMatchingOptions paper(double range, double confidence, bool subpixel) {
-  return {{range, BetweenNodes::kNone, 0}, {0, confidence, true, -1, subpixel}};
+  return {{range, BetweenNodes::kNone, 0}, {0, confidence, true, -1, subpixel, 0}};
 }
 
 /// The options with the number of disparities of the volume.
