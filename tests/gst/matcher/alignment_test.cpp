@@ -316,13 +316,13 @@ Pair with_blurred_right(const Pair& pair, double sigma) {
 }
 
 TEST(Sharpness, OfTheSharperViewIsMatched) {
-  const Pair pair = with_blurred_right(aligned_pairs()[0], 1.2);
+  const Pair pair = with_blurred_right(aligned_pairs()[0], 2);
   StereoHarness harness(kRange);
   harness.caps(rendered_caps());
   const Maps matched = match_all(harness, {pair});
   const StructurePointer stats = stats_structure(harness.element());
   EXPECT_GT(number_of(stats.get(), "sharpness"), 1.25);
-  EXPECT_NEAR(number_of(stats.get(), "left-blur"), 1.2, 0.3);
+  EXPECT_NEAR(number_of(stats.get(), "left-blur"), 2, 0.3);
   EXPECT_EQ(number_of(stats.get(), "right-blur"), 0);
   const Maps kept = maps_with("sharpness=keep", {pair});
   EXPECT_GT(density_of(matched[0]), 1.1 * density_of(kept[0]));
