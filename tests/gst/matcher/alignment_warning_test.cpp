@@ -8,6 +8,7 @@
 
 #include "eval/datasets.hpp"
 #include "support/rendered.hpp"
+#include "support/sanitizers.hpp"
 
 namespace mtstereo::test {
 namespace {
@@ -74,7 +75,14 @@ const std::vector<Pair>& street() {
   return pairs;
 }
 
-class GoodScene : public testing::TestWithParam<const char*> {};
+class GoodScene : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    if (kSanitized && GetParam() != std::string("street")) {
+      GTEST_SKIP() << "one scene suffices with a sanitizer";
+    }
+  }
+};
 
 TEST_P(GoodScene, CausesNoWarning) { expect_none(rendered_pairs(GetParam(), 8), "good cameras"); }
 
@@ -167,6 +175,7 @@ TEST(Warning, IsNotPostedWithoutInspection) {
 class RealStreams : public testing::Test {
  protected:
   void SetUp() override {
+    if (kSanitized) GTEST_SKIP() << "real pairs take too long with a sanitizer";
     const char* folder = std::getenv("MTSTEREO_TEST_DATA");
     if (folder == nullptr || !fs::is_directory(folder)) {
       GTEST_SKIP() << "no real pairs: MTSTEREO_TEST_DATA names no folder with them";
