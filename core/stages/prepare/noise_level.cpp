@@ -90,8 +90,8 @@ float noise_level(NoiseBlocks& blocks) {
   // The operator multiplies the deviation of white noise by 6. The mean magnitude of a normal
   // distribution is its deviation times the square root of 2 / pi.
   constexpr float kDeviation = 1.2533141F / 6;
-  constexpr float kPixels = kNoiseBlock * kNoiseBlock / kNoiseRowStep;
-  return static_cast<float>(*quartile) * (kDeviation / kPixels);
+  constexpr int kPixels = kNoiseBlock * kNoiseBlock / kNoiseRowStep;
+  return static_cast<float>(*quartile) * (kDeviation / static_cast<float>(kPixels));
 }
 
 }  // namespace mtstereo
