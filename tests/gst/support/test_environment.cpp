@@ -14,9 +14,23 @@ namespace mtstereo::test {
 namespace {
 
 constexpr const char* kPlugins[] = {
-    "app",       "debug",     "coreelements", "coretracers", "deinterlace",
-    "interlace", "matroska",  "rawparse",     "videobox",    "videoconvertscale",
-    "videocrop", "videorate", "videotestsrc", "videofilter",
+    "app",
+    "debug",
+    "coreelements",
+    "coretracers",
+    "deinterlace",
+    "interlace",
+    "libav",
+    "matroska",
+    "rawparse",
+    "videobox",
+    "videoconvertscale",
+    "videocrop",
+    "videoparsersbad",
+    "videorate",
+    "videotestsrc",
+    "videofilter",
+    "x264",
 };
 
 void unset_all() {
