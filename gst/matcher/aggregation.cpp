@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "matcher/clock.hpp"
 #include "matcher/matching.hpp"
 #include "matcher/output_events.hpp"
 #include "shared/ownership.hpp"
@@ -34,15 +35,6 @@ std::optional<Nanoseconds> running_time(const Input& input, GstBuffer* buffer) {
 std::optional<Nanoseconds> duration_of(GstBuffer* buffer) {
   if (!GST_BUFFER_DURATION_IS_VALID(buffer)) return std::nullopt;
   return static_cast<Nanoseconds>(GST_BUFFER_DURATION(buffer));
-}
-
-/// The running time of the pipeline; std::nullopt if there is no clock or its base time is not
-/// valid yet, which is the case before PLAYING.
-std::optional<Nanoseconds> running_time_now(const ElementState& state) {
-  const ObjectLock lock(state.element);
-  GstClock* clock = GST_ELEMENT_CLOCK(state.element);
-  if (!state.playing || clock == nullptr) return std::nullopt;
-  return GST_CLOCK_DIFF(GST_ELEMENT_CAST(state.element)->base_time, gst_clock_get_time(clock));
 }
 
 std::string milliseconds(Nanoseconds time) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "matcher/alignment.hpp"
+#include "matcher/lateness.hpp"
 #include "matcher/latency.hpp"
 #include "matcher/pairing.hpp"
 #include "mtstereo/matcher.hpp"
@@ -83,8 +84,8 @@ struct ElementState {
   Statistics statistics;
   AlignmentReport alignment_report;
   FrameDurations caps_durations;                    ///< from the framerates of the caps
-  GstClockTime qos_earliest = GST_CLOCK_TIME_NONE;  ///< frames before this are late [running time]
-  double qos_proportion = 1;
+  Lateness lateness;
+  double qos_proportion = 1;  ///< of the last QoS event
   ProcessingLatency processing;
   bool playing = false;  ///< the base time of the clock is valid
   bool failed = false;   ///< an error was posted; a second one would hide it

@@ -3,6 +3,7 @@
 
 #include "matcher/negotiation.hpp"
 #include "matcher/output_events.hpp"
+#include "matcher/skipping.hpp"
 #include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
@@ -43,7 +44,7 @@ bool take_segment(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   state.segment_seqnum = seqnum;
   state.alignment.restart();  // the output of a segment does not depend on earlier ones
   const ObjectLock lock(state.element);
-  state.qos_earliest = GST_CLOCK_TIME_NONE;
+  state.lateness.restart();
   return true;
 }
 
@@ -54,20 +55,10 @@ bool take_end(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   return taken;
 }
 
-/// Stores the lateness that downstream reports. True if the event is to be passed upstream.
+/// True if the event is to be passed upstream.
 bool take_qos_event(ElementState& state, GstEvent* event) {
-  gdouble proportion = 1;
-  GstClockTimeDiff late = 0;
-  GstClockTime time = GST_CLOCK_TIME_NONE;
-  gst_event_parse_qos(event, nullptr, &proportion, &late, &time);
+  note_qos_event(state, event);
   const ObjectLock lock(state.element);
-  state.qos_proportion = proportion;
-  if (!GST_CLOCK_TIME_IS_VALID(time)) {
-    state.qos_earliest = GST_CLOCK_TIME_NONE;
-    return state.settings.qos;
-  }
-  const auto earliest = static_cast<GstClockTimeDiff>(time) + late;
-  state.qos_earliest = earliest > 0 ? static_cast<GstClockTime>(earliest) : 0;
   return state.settings.qos;
 }
 
@@ -97,6 +88,7 @@ bool handle_source_event(ElementState& state, GstEvent* event) {
     gst_event_unref(event);
     return true;
   }
+  if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) note_latency_event(state, event);
   return state.base_class->src_event(state.element, event) != FALSE;
 }
 

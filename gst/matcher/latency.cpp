@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/latency.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mtstereo::plugin {
 namespace {
 
 constexpr double kWeightOfNewest = 0.125;
+constexpr double kWeightOfNewestDeviation = 0.25;
 constexpr double kHeadroom = 1.05;
-constexpr double kDeviation = 0.25;
+constexpr double kExcess = 1.35;  // of the reported over the fitting value
 
 }  // namespace
 
@@ -17,9 +19,16 @@ bool ProcessingLatency::measured(double milliseconds) {
     first_ = false;
     return false;
   }
-  average_ = average_ == 0 ? milliseconds : average_ + kWeightOfNewest * (milliseconds - average_);
-  const double fitting = average_ * kHeadroom;
-  if (std::abs(fitting - reported_) <= kDeviation * reported_) return false;
+  if (average_ == 0) {
+    average_ = milliseconds;
+  } else {
+    // One pair that took very long, for example while the computer was busy, has a limited effect.
+    const double error = std::min(milliseconds - average_, average_);
+    deviation_ += kWeightOfNewestDeviation * (std::abs(error) - deviation_);
+    average_ += kWeightOfNewest * error;
+  }
+  const double fitting = expected_ms() * kHeadroom;
+  if (expected_ms() <= reported_ && reported_ <= fitting * kExcess) return false;
   reported_ = fitting;
   return true;
 }

@@ -7,18 +7,13 @@
 #include "matcher/allocation.hpp"
 #include "matcher/confidence.hpp"
 #include "matcher/negotiation.hpp"
+#include "matcher/skipping.hpp"
 #include "shared/frame_views.hpp"
 
 #define GST_CAT_DEFAULT mtstereo_debug
 
 namespace mtstereo::plugin {
 namespace {
-
-/// The times of a left frame in the segment of the source pad.
-struct OutputTimes {
-  GstClockTime running = GST_CLOCK_TIME_NONE;
-  GstClockTime stream = GST_CLOCK_TIME_NONE;
-};
 
 OutputTimes output_times(const ElementState& state, GstBuffer* left) {
   OutputTimes times;
@@ -69,38 +64,6 @@ bool refresh_settings(ElementState& state) {
   }
   if (same_caps) return apply_settings(state);
   return gst_aggregator_negotiate(state.element);
-}
-
-/// The matching time [ns]. Call it with the object lock held.
-GstClockTimeDiff matching_time(const ElementState& state) {
-  return static_cast<GstClockTimeDiff>(state.processing.reported_ms() * GST_MSECOND);
-}
-
-/// True if the disparity map would be too late downstream; the pair is then counted as skipped.
-bool is_late(ElementState& state, GstBuffer* left, const OutputTimes& times) {
-  if (!GST_CLOCK_TIME_IS_VALID(times.running)) return false;
-  GstClockTimeDiff lateness = 0;
-  double proportion = 1;
-  Statistics counted;
-  {
-    const ObjectLock lock(state.element);
-    if (!state.settings.qos || !GST_CLOCK_TIME_IS_VALID(state.qos_earliest)) return false;
-    // Downstream reported the earliest running time that is not late now. This map would arrive one
-    // matching time from now.
-    lateness = GST_CLOCK_DIFF(times.running, state.qos_earliest) + matching_time(state);
-    if (lateness <= 0) return false;
-    ++state.statistics.skipped;
-    counted = state.statistics;
-    proportion = state.qos_proportion;
-  }
-  const bool live = GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element));
-  GstMessage* message =
-      gst_message_new_qos(GST_OBJECT_CAST(state.element), live, times.running, times.stream,
-                          GST_BUFFER_PTS(left), GST_BUFFER_DURATION(left));
-  gst_message_set_qos_values(message, lateness, proportion, 1000000);
-  gst_message_set_qos_stats(message, GST_FORMAT_BUFFERS, counted.pairs, counted.skipped);
-  gst_element_post_message(GST_ELEMENT_CAST(state.element), message);
-  return true;
 }
 
 GstFlowReturn refuse_frame(ElementState& state, const char* source, const std::string& problem) {
@@ -158,21 +121,12 @@ GstFlowReturn compute(ElementState& state, GstBuffer* left, GstBuffer* right, Gs
 
 void count_pair(ElementState& state) {
   const FrameStatistics frame = state.matcher->statistics();
-  const bool live = GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element));
   const double milliseconds = state.inspection_ms + frame.milliseconds;
-  bool changed = false;
-  {
-    const ObjectLock lock(state.element);
-    ++state.statistics.pairs;
-    state.statistics.last_ms = milliseconds;
-    state.statistics.total_ms += milliseconds;
-    state.statistics.density = frame.density;
-    changed = state.processing.measured(milliseconds);
-  }
-  if (changed && live) {
-    gst_element_post_message(GST_ELEMENT_CAST(state.element),
-                             gst_message_new_latency(GST_OBJECT_CAST(state.element)));
-  }
+  const ObjectLock lock(state.element);
+  ++state.statistics.pairs;
+  state.statistics.last_ms = milliseconds;
+  state.statistics.total_ms += milliseconds;
+  state.statistics.density = frame.density;
 }
 
 void advance_position(const ElementState& state, GstBuffer* left) {
@@ -198,7 +152,8 @@ GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right)
     return GST_PAD_IS_FLUSHING(state.source_pad()) ? GST_FLOW_FLUSHING : GST_FLOW_ERROR;
   }
   // No gap is sent: a sink would wait until the time of the gap, and more pairs would be late.
-  if (is_late(state, left, times)) return GST_FLOW_OK;
+  if (skip_late_pair(state, left, times)) return GST_FLOW_OK;
+  const gint64 start = g_get_monotonic_time();
   gst_aggregator_selected_samples(state.element, GST_BUFFER_PTS(left), GST_CLOCK_TIME_NONE,
                                   GST_BUFFER_DURATION(left), nullptr);
 
@@ -218,6 +173,7 @@ GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right)
   count_pair(state);
   advance_position(state, left);
   state.segment = OutputSegment::kSent;  // by the base class, before the buffer
+  note_sent_map(state, times, static_cast<double>(g_get_monotonic_time() - start) / 1000);
   GST_LOG_OBJECT(state.element, "matched %" GST_PTR_FORMAT, static_cast<void*>(output.get()));
   return gst_aggregator_finish_buffer(state.element, output.release());
 }

@@ -123,7 +123,7 @@ gboolean start(GstAggregator* aggregator) {
     state.statistics = {};
     state.alignment_report = {};
     state.caps_durations = {};
-    state.qos_earliest = GST_CLOCK_TIME_NONE;
+    state.lateness = {};
     state.processing.reset();
     state.failed = false;
   }
@@ -152,7 +152,7 @@ GstFlowReturn flush(GstAggregator* aggregator) {
   state.waiting_frame = {};
   state.segment = OutputSegment::kNone;
   const ObjectLock lock(aggregator);
-  state.qos_earliest = GST_CLOCK_TIME_NONE;
+  state.lateness.restart();
   return GST_FLOW_OK;
 }
 

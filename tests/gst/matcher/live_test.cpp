@@ -22,6 +22,14 @@ class Live : public testing::Test {
   GstFlowReturn right(GstClockTime time) {
     return harness->push(Side::kRight, frame_buffer(pair.right, time, kFrame));
   }
+  void match_first_pair() {
+    harness->push_pair(pair, 0);
+    ASSERT_TRUE(harness->pull());
+  }
+  /// The sink reports the lateness of the first map.
+  void report_from_sink(GstClockTimeDiff jitter, GstQOSType type = GST_QOS_TYPE_UNDERFLOW) {
+    gst_harness_push_upstream_event(harness->output(), gst_event_new_qos(type, 1.0, jitter, 0));
+  }
   /// Advances the clock to the end of the only wait of the element.
   bool pass_deadline() { return gst_harness_crank_single_clock_wait(harness->output()); }
   GstClockTime latency() { return gst_harness_query_latency(harness->output()); }
@@ -137,12 +145,11 @@ TEST_F(Live, LatencyIncludesTheMatchingTime) {
   EXPECT_GT(harness->stats().mean_ms, 0.0);
 }
 
-TEST_F(Live, SkipsPairsThatDownstreamReportsAsLate) {
+TEST_F(Live, SkipsPairsThatWouldBeLateAtASinkThatSynchronizes) {
   start(true);
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
-  gst_harness_push_upstream_event(harness->output(),
-                                  gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 2.0, 3 * kFrame, 0));
+  match_first_pair();
+  gst_harness_set_time(harness->output(), 3 * kFrame);
+  report_from_sink(1);
   harness->push_pair(pair, kFrame);
   harness->push_pair(pair, 4 * kFrame);
   const BufferPointer map = harness->pull();
@@ -158,14 +165,103 @@ TEST_F(Live, SkipsPairsThatDownstreamReportsAsLate) {
   gst_message_parse_qos_stats(message.get(), nullptr, &processed, &dropped);
   EXPECT_EQ(processed, 1u);
   EXPECT_EQ(dropped, 1u);
+  gint64 jitter = 0;
+  gst_message_parse_qos_values(message.get(), &jitter, nullptr, nullptr);
+  EXPECT_EQ(jitter, static_cast<gint64>(2 * kFrame + 1)) << "by the clock";
+}
+
+TEST_F(Live, SkipsLatePairsOfStreamsThatAreNotLiveToo) {
+  start(false);
+  match_first_pair();
+  gst_harness_set_time(harness->output(), 3 * kFrame);
+  report_from_sink(1);
+  harness->push_pair(pair, kFrame);
+  harness->push_pair(pair, 4 * kFrame);
+  const BufferPointer map = harness->pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 4 * kFrame);
+}
+
+TEST_F(Live, MatchesLatePairsIfTheSinkDoesNotSynchronize) {
+  start(true);
+  match_first_pair();
+  gst_harness_set_time(harness->output(), 3 * kFrame);
+  report_from_sink(0);
+  harness->push_pair(pair, kFrame);
+  EXPECT_TRUE(harness->pull());
+  EXPECT_EQ(harness->stats().skipped, 0u);
+}
+
+TEST_F(Live, MatchesLatePairsIfThrottlingIsAllThatTheSinkReports) {
+  start(true);
+  match_first_pair();
+  gst_harness_set_time(harness->output(), 3 * kFrame);
+  report_from_sink(kFrame, GST_QOS_TYPE_THROTTLE);
+  harness->push_pair(pair, kFrame);
+  EXPECT_TRUE(harness->pull());
 }
 
 TEST_F(Live, MatchesLatePairsIfQosIsDisabled) {
   start(true, "max-disparity=16 qos=false");
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
-  gst_harness_push_upstream_event(harness->output(),
-                                  gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 2.0, 3 * kFrame, 0));
+  match_first_pair();
+  gst_harness_set_time(harness->output(), 3 * kFrame);
+  report_from_sink(1);
+  harness->push_pair(pair, kFrame);
+  EXPECT_TRUE(harness->pull());
+  EXPECT_EQ(harness->stats().skipped, 0u);
+}
+
+TEST_F(Live, MatchesLatePairsInPaused) {
+  start(true);
+  match_first_pair();
+  gst_harness_set_time(harness->output(), 3 * kFrame);
+  report_from_sink(1);
+  gst_element_set_state(harness->element(), GST_STATE_PAUSED);
+  harness->push_pair(pair, kFrame);
+  EXPECT_TRUE(harness->pull()) << "the clock does not count before PLAYING";
+}
+
+TEST_F(Live, ALatePairIsMatchedAfterAPauseOfOneSecond) {
+  start(true);
+  match_first_pair();
+  gst_harness_set_time(harness->output(), 100 * GST_SECOND);
+  report_from_sink(1);
+  for (GstClockTime time = kFrame; time <= GST_SECOND; time += kFrame) {
+    harness->push_pair(pair, time);
+  }
+  harness->push_pair(pair, 2 * GST_SECOND);
+  const BufferPointer map = harness->pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 2 * GST_SECOND);
+  EXPECT_EQ(harness->stats().skipped, 30u);
+}
+
+TEST_F(Live, AFlushForgetsThatTheSinkSynchronizes) {
+  start(true);
+  match_first_pair();
+  gst_harness_set_time(harness->output(), 3 * kFrame);
+  report_from_sink(1);
+  for (const Side side : {Side::kLeft, Side::kRight})
+    harness->event(side, gst_event_new_flush_start());
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    harness->event(side, gst_event_new_flush_stop(TRUE));
+  }
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    harness->event(side, gst_event_new_segment(&segment));
+  }
+  harness->push_pair(pair, kFrame);
+  EXPECT_TRUE(harness->pull()) << "the sink has to preroll";
+  EXPECT_EQ(harness->stats().skipped, 0u);
+}
+
+TEST_F(Live, TheLatencyOfThePipelineIsNotLateness) {
+  start(true);
+  match_first_pair();
+  gst_harness_push_upstream_event(harness->output(), gst_event_new_latency(5 * GST_SECOND));
+  gst_harness_set_time(harness->output(), 3 * kFrame);
+  report_from_sink(1);
   harness->push_pair(pair, kFrame);
   EXPECT_TRUE(harness->pull());
   EXPECT_EQ(harness->stats().skipped, 0u);
@@ -177,14 +273,14 @@ TEST_F(Live, AddsTheMatchingTimeToTheLateness) {
     harness->push_pair(pair, i * kFrame);
     ASSERT_TRUE(harness->pull());
   }
-  // A map of 10 s would be in time now, but not after the time to match it.
-  gst_harness_push_upstream_event(
-      harness->output(), gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 1.0, 0, 10 * GST_SECOND));
-  harness->push_pair(pair, 10 * GST_SECOND + 1000);
-  harness->push_pair(pair, 20 * GST_SECOND);
+  // A map of 3 frames would be in time now, but not after the time to match it.
+  gst_harness_set_time(harness->output(), 3 * kFrame - 1000);
+  report_from_sink(1);
+  harness->push_pair(pair, 3 * kFrame);
+  harness->push_pair(pair, 20 * kFrame);
   const BufferPointer map = harness->pull();
   ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 20 * GST_SECOND);
+  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 20 * kFrame);
   EXPECT_EQ(harness->stats().skipped, 1u);
 }
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "matcher/latency.hpp"
-
 namespace mtstereo::plugin {
 namespace {
 
@@ -100,31 +98,6 @@ TEST(UnpairedWarning, IsDueAgainOnlyAfterTheInterval) {
   EXPECT_TRUE(warning.dropped(0));
   EXPECT_FALSE(warning.dropped(UnpairedWarning::kInterval - 1));
   EXPECT_TRUE(warning.dropped(UnpairedWarning::kInterval));
-}
-
-TEST(ProcessingLatency, IgnoresTheFirstPair) {
-  ProcessingLatency latency;
-  EXPECT_FALSE(latency.measured(900));
-  EXPECT_EQ(latency.reported_ms(), 0);
-  EXPECT_TRUE(latency.measured(10));
-  EXPECT_NEAR(latency.reported_ms(), 10.5, 1e-9);
-}
-
-TEST(ProcessingLatency, KeepsTheReportedValueDespiteJitter) {
-  ProcessingLatency latency;
-  latency.measured(10);
-  latency.measured(10);
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(latency.measured(i % 2 == 0 ? 8 : 12)) << i;
-}
-
-TEST(ProcessingLatency, FollowsALastingChange) {
-  ProcessingLatency latency;
-  latency.measured(10);
-  latency.measured(10);
-  bool changed = false;
-  for (int i = 0; i < 50; ++i) changed = latency.measured(40) || changed;
-  EXPECT_TRUE(changed);
-  EXPECT_NEAR(latency.reported_ms(), 42, 0.25 * 42);
 }
 
 }  // namespace

@@ -108,13 +108,17 @@ std::string text_of(GstMessage* message) {
 void collect_messages(GstElement* pipeline, double seconds, FeedResult& result) {
   GstBus* bus = gst_element_get_bus(pipeline);
   const gint64 end = g_get_monotonic_time() + static_cast<gint64>(seconds * G_USEC_PER_SEC);
-  constexpr auto kTypes =
-      static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR | GST_MESSAGE_WARNING);
+  constexpr auto kTypes = static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR |
+                                                      GST_MESSAGE_WARNING | GST_MESSAGE_LATENCY);
   result.error = "timeout: neither end of stream nor error";
   for (gint64 now = 0; (now = g_get_monotonic_time()) < end;) {
     const MessagePointer message(
         gst_bus_timed_pop_filtered(bus, static_cast<GstClockTime>(end - now) * 1000, kTypes));
     if (!message) break;
+    if (GST_MESSAGE_TYPE(message.get()) == GST_MESSAGE_LATENCY) {
+      gst_bin_recalculate_latency(GST_BIN(pipeline));
+      continue;
+    }
     if (GST_MESSAGE_TYPE(message.get()) != GST_MESSAGE_WARNING) {
       const bool failed = GST_MESSAGE_TYPE(message.get()) == GST_MESSAGE_ERROR;
       result.error = failed ? text_of(message.get()) : std::string();

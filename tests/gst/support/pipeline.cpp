@@ -70,15 +70,23 @@ std::string Pipeline::run() {
 }
 
 std::string Pipeline::wait_for_end(double seconds) {
+  constexpr auto kTypes =
+      static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR | GST_MESSAGE_LATENCY);
+  const gint64 end = g_get_monotonic_time() + static_cast<gint64>(seconds * G_USEC_PER_SEC);
   GstBus* bus = gst_element_get_bus(pipeline_);
-  GstMessage* message =
-      gst_bus_timed_pop_filtered(bus, static_cast<GstClockTime>(seconds * GST_SECOND),
-                                 static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR));
+  std::string text = "timeout: neither end of stream nor error";
+  for (gint64 now = 0; (now = g_get_monotonic_time()) < end;) {
+    GstMessage* message =
+        gst_bus_timed_pop_filtered(bus, static_cast<GstClockTime>(end - now) * 1000, kTypes);
+    const GstMessageType type =
+        message != nullptr ? GST_MESSAGE_TYPE(message) : GST_MESSAGE_UNKNOWN;
+    if (type == GST_MESSAGE_LATENCY) gst_bin_recalculate_latency(GST_BIN(pipeline_));
+    if (type == GST_MESSAGE_EOS) text.clear();
+    if (type == GST_MESSAGE_ERROR) text = text_of(message);
+    gst_clear_message(&message);
+    if (type == GST_MESSAGE_EOS || type == GST_MESSAGE_ERROR) break;
+  }
   gst_object_unref(bus);
-  if (message == nullptr) return "timeout: neither end of stream nor error";
-  const std::string text =
-      GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR ? text_of(message) : std::string();
-  gst_message_unref(message);
   return text;
 }
 

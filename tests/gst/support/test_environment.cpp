@@ -19,6 +19,7 @@ constexpr const char* kPlugins[] = {
     "coreelements",
     "coretracers",
     "deinterlace",
+    "imagefreeze",
     "interlace",
     "libav",
     "matroska",
