@@ -10,7 +10,14 @@
 namespace mtstereo::plugin {
 namespace {
 
-enum Property : guint { kDisparityScale = 1, kSyncTolerance, kConfidenceMap, kQos, kStats };
+enum Property : guint {
+  kDisparityScale = 1,
+  kSyncTolerance,
+  kConfidenceMap,
+  kQos,
+  kStats,
+  kTimeout
+};
 
 /// Keeps why a value was rejected. There may be no bus yet: the error is posted when the element
 /// starts, or at the next pair if it is running. Call it with the object lock held.
@@ -83,9 +90,17 @@ void install_properties(GObjectClass* object_class) noexcept {
   g_object_class_install_property(
       object_class, kQos,
       g_param_spec_boolean("qos", "qos",
-                           "Skip pairs that would be too late according to downstream; sinks with "
+                           "Skip pairs whose maps would be too late at the sink; sinks with "
                            "sync=false report no lateness",
                            TRUE, kFlags));
+  g_object_class_install_property(
+      object_class, kTimeout,
+      g_param_spec_uint64("timeout", "timeout",
+                          "Streams that are not live: how long frames wait for a frame of the "
+                          "other pad, in nanoseconds, until the element reports an error if that "
+                          "pad is not linked, or a warning if it is silent (0: wait without a "
+                          "report)",
+                          0, G_MAXUINT64, 5 * GST_SECOND, kFlags));
   g_object_class_install_property(
       object_class, kStats,
       g_param_spec_boxed("stats", "stats",
@@ -122,6 +137,9 @@ void set_element_property(ElementState& state, guint id, const GValue* value, GP
       case kQos:
         state.settings.qos = g_value_get_boolean(value);
         return;
+      case kTimeout:
+        state.settings.timeout = g_value_get_uint64(value);
+        return;
       case kSyncTolerance:
         state.settings.sync_tolerance = g_value_get_int64(value);
         break;
@@ -157,6 +175,9 @@ void get_element_property(ElementState& state, guint id, GValue* value, GParamSp
       return;
     case kQos:
       g_value_set_boolean(value, state.settings.qos);
+      return;
+    case kTimeout:
+      g_value_set_uint64(value, state.settings.timeout);
       return;
     case kStats:
       g_value_take_boxed(value, statistics_structure(state.statistics, state.alignment_report));

@@ -9,9 +9,10 @@
 #include <string>
 
 #include "matcher/alignment.hpp"
-#include "matcher/lateness.hpp"
 #include "matcher/latency.hpp"
+#include "matcher/lateness.hpp"
 #include "matcher/pairing.hpp"
+#include "matcher/watchdog.hpp"
 #include "mtstereo/matcher.hpp"
 #include "mtstereo/parameters.hpp"
 #include "shared/confidence_pool.hpp"
@@ -30,10 +31,11 @@ const char* pad_name(Side side);
 struct Settings {
   Parameters parameters;
   AlignmentSettings alignment;
-  int disparity_scale = 256;   ///< [steps per px]
-  gint64 sync_tolerance = -1;  ///< [ns]; -1: see effective_tolerance()
-  bool confidence_map = true;  ///< attach a confidence map to every disparity map
-  bool qos = true;             ///< skip pairs that are too late
+  int disparity_scale = 256;         ///< [steps per px]
+  gint64 sync_tolerance = -1;        ///< [ns]; -1: see effective_tolerance()
+  bool confidence_map = true;        ///< attach a confidence map to every disparity map
+  bool qos = true;                   ///< skip pairs that are too late
+  guint64 timeout = 5 * GST_SECOND;  ///< until a silent pad is reported [ns]; 0: never
   std::string
       problem;  ///< why a value was rejected, reported at the next use of the settings; "" if none
   guint problem_property = 0;  ///< the id of the property of `problem`
@@ -83,10 +85,11 @@ struct ElementState {
   Settings settings;
   Statistics statistics;
   AlignmentReport alignment_report;
-  FrameDurations caps_durations;                    ///< from the framerates of the caps
+  FrameDurations caps_durations;  ///< from the framerates of the caps
   Lateness lateness;
   double qos_proportion = 1;  ///< of the last QoS event
   ProcessingLatency processing;
+  WatchdogInput watchdog_input;
   bool playing = false;  ///< the base time of the clock is valid
   bool failed = false;   ///< an error was posted; a second one would hide it
 
@@ -107,6 +110,8 @@ struct ElementState {
   UnpairedWarning unpaired_warning;
   WaitingFrame waiting_frame;      ///< the frame whose partner has not arrived
   GstClockTime known_latency = 0;  ///< added to deadlines by the base class; 0: not known yet
+
+  Watchdog watchdog{*this};  ///< has its own lock
 
   Input& input(Side side) { return inputs[static_cast<std::size_t>(side)]; }
   const Input& input(Side side) const { return inputs[static_cast<std::size_t>(side)]; }

@@ -109,7 +109,9 @@ GstBuffer* clip(GstAggregator*, GstAggregatorPad* pad, GstBuffer* buffer) noexce
 }
 
 GstFlowReturn aggregate_heads(GstAggregator* aggregator, gboolean timeout) {
-  return aggregate(state_of(aggregator), timeout != FALSE);
+  ElementState& state = state_of(aggregator);
+  const BusyMark mark(state);
+  return aggregate(state, timeout != FALSE);
 }
 
 GstClockTime next_time(GstAggregator* aggregator) { return next_deadline(state_of(aggregator)); }
@@ -125,6 +127,7 @@ gboolean start(GstAggregator* aggregator) {
     state.caps_durations = {};
     state.lateness = {};
     state.processing.reset();
+    state.watchdog_input = {};
     state.failed = false;
   }
   state.alignment = PairAlignment();
@@ -133,11 +136,14 @@ gboolean start(GstAggregator* aggregator) {
   state.waiting_frame = {};
   state.known_latency = 0;
   state.segment = OutputSegment::kNone;
-  return apply_settings(state);
+  if (!apply_settings(state)) return FALSE;
+  state.watchdog.start();
+  return TRUE;
 }
 
 gboolean stop(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
+  state.watchdog.stop();
   for (Input& input : state.inputs) input.has_caps = false;
   state.matcher.reset();
   state.alignment = PairAlignment();
@@ -153,6 +159,8 @@ GstFlowReturn flush(GstAggregator* aggregator) {
   state.segment = OutputSegment::kNone;
   const ObjectLock lock(aggregator);
   state.lateness.restart();
+  ++state.watchdog_input.flushes;
+  state.watchdog_input.pairs_before = state.statistics.pairs;
   return GST_FLOW_OK;
 }
 

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A pad that is not linked, or on which no frames arrive, is reported.
+#include <gst/app/gstappsrc.h>
+#include <gtest/gtest.h>
+
+#include "support/pipeline.hpp"
+#include "support/stereo_harness.hpp"
+
+namespace mtstereo::test {
+namespace {
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+constexpr const char* kShort = "max-disparity=16 timeout=100000000";
+
+class SilentPad : public testing::Test {
+ protected:
+  void start(const std::string& properties = kShort, bool live = false) {
+    harness = std::make_unique<StereoHarness>(properties, live);
+    harness->caps(raw_caps("GRAY8", kWidth, kHeight));
+  }
+  void push(Side side, GstClockTime time) {
+    harness->push(side, frame_buffer(side == Side::kLeft ? pair.left : pair.right, time, kFrame));
+  }
+  void flush() {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      harness->event(side, gst_event_new_flush_start());
+    }
+    GstSegment segment;
+    gst_segment_init(&segment, GST_FORMAT_TIME);
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      harness->event(side, gst_event_new_flush_stop(TRUE));
+      harness->event(side, gst_event_new_segment(&segment));
+    }
+  }
+
+  Pair pair = noise_pair(kWidth, kHeight, 5, 3);
+  std::unique_ptr<StereoHarness> harness;
+};
+
+TEST_F(SilentPad, IsNamedInAWarning) {
+  for (const Side waiting : {Side::kLeft, Side::kRight}) {
+    start();
+    push(waiting, 0);
+    const Report warning = harness->warning();
+    const std::string name = waiting == Side::kLeft ? "sink_right" : "sink_left";
+    EXPECT_NE(warning.text.find("arrived on " + name + " for 0.1 s"), std::string::npos)
+        << warning.text;
+    EXPECT_NE(warning.details.find("timeout"), std::string::npos) << warning.details;
+  }
+}
+
+TEST_F(SilentPad, IsReportedOnceAndThePipelineGoesOn) {
+  start();
+  push(Side::kLeft, 0);
+  EXPECT_NE(harness->warning().text, "");
+  EXPECT_TRUE(harness->warnings(0.4).empty());
+  push(Side::kRight, 0);
+  EXPECT_TRUE(harness->pull());
+}
+
+TEST_F(SilentPad, IsReportedAgainAfterFramesHaveArrived) {
+  start();
+  push(Side::kLeft, 0);
+  EXPECT_NE(harness->warning().text, "");
+  push(Side::kRight, 0);
+  ASSERT_TRUE(harness->pull());
+  push(Side::kLeft, kFrame);
+  EXPECT_NE(harness->warning().text, "");
+}
+
+TEST_F(SilentPad, IsReportedAfterAFlush) {
+  start();
+  push(Side::kLeft, 0);
+  EXPECT_NE(harness->warning().text, "");
+  flush();
+  EXPECT_TRUE(harness->warnings(0.3).empty()) << "no frame waits";
+  push(Side::kLeft, 0);
+  EXPECT_NE(harness->warning().text, "");
+}
+
+TEST_F(SilentPad, IsNotReportedWhileNoFrameWaits) {
+  start();
+  EXPECT_TRUE(harness->warnings(0.3).empty());
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  EXPECT_TRUE(harness->warnings(0.3).empty());
+}
+
+TEST_F(SilentPad, IsNotReportedWithoutATimeout) {
+  start("max-disparity=16 timeout=0");
+  push(Side::kLeft, 0);
+  EXPECT_TRUE(harness->warnings(0.3).empty());
+}
+
+TEST_F(SilentPad, TheTimeoutMayChangeWhilePlaying) {
+  start("max-disparity=16 timeout=0");
+  push(Side::kLeft, 0);
+  g_object_set(harness->element(), "timeout", static_cast<guint64>(50 * GST_MSECOND), nullptr);
+  EXPECT_NE(harness->warning().text, "");
+  guint64 timeout = 0;
+  g_object_get(harness->element(), "timeout", &timeout, nullptr);
+  EXPECT_EQ(timeout, 50 * GST_MSECOND);
+}
+
+TEST_F(SilentPad, OfALiveStreamHasADeadlineInstead) {
+  start(kShort, true);
+  push(Side::kLeft, 0);
+  EXPECT_TRUE(harness->warnings(0.4).empty());
+}
+
+TEST_F(SilentPad, IsNotReportedAfterTheElementWasStopped) {
+  start();
+  push(Side::kLeft, 0);
+  EXPECT_NE(harness->warning().text, "");
+  gst_element_set_state(harness->element(), GST_STATE_READY);
+  EXPECT_TRUE(harness->warnings(0.3).empty());
+}
+
+TEST(UnlinkedPad, IsAnErrorThatNamesThePad) {
+  for (const std::string linked : {"sink_left", "sink_right"}) {
+    const std::string other = linked == "sink_left" ? "sink_right" : "sink_left";
+    Pipeline pipeline("videotestsrc ! video/x-raw,format=GRAY8 ! m." + linked +
+                      " mtstereo name=m timeout=100000000 ! fakesink");
+    const std::string error = pipeline.run();
+    EXPECT_NE(error.find(other + " is not linked"), std::string::npos) << error;
+    EXPECT_NE(error.find("NAME." + other), std::string::npos) << error;
+  }
+}
+
+/// An mtstereo whose streams come from two appsrc, for frames at any time.
+class PausedPipeline : public testing::Test {
+ protected:
+  PausedPipeline()
+      : pipeline_(std::string("mtstereo name=m ") + kShort +
+                  " ! fakesink appsrc name=left caps=" + raw_caps("GRAY8", kWidth, kHeight) +
+                  " format=time ! m.sink_left appsrc name=right caps=" +
+                  raw_caps("GRAY8", kWidth, kHeight) + " format=time ! m.sink_right") {}
+  void push(const char* source, GstClockTime time) {
+    gst_app_src_push_buffer(GST_APP_SRC(pipeline_.named(source)),
+                            frame_buffer(pair_.left, time, kFrame));
+  }
+  bool warned(double seconds) {
+    GstBus* bus = gst_element_get_bus(pipeline_.element());
+    const MessagePointer message(gst_bus_timed_pop_filtered(
+        bus, static_cast<GstClockTime>(seconds * GST_SECOND), GST_MESSAGE_WARNING));
+    gst_object_unref(bus);
+    return message != nullptr;
+  }
+
+  Pair pair_ = noise_pair(kWidth, kHeight, 5, 3);
+  Pipeline pipeline_;
+};
+
+TEST_F(PausedPipeline, ThatWaitsForItsFirstPairReportsASilentPad) {
+  pipeline_.set_state(GST_STATE_PAUSED);
+  push("left", 0);
+  EXPECT_TRUE(warned(20));
+}
+
+TEST_F(PausedPipeline, ThatHasItsFirstMapReportsNothing) {
+  pipeline_.set_state(GST_STATE_PAUSED);
+  push("left", 0);
+  push("right", 0);
+  ASSERT_TRUE(pipeline_.wait_until_settled());
+  push("left", kFrame);
+  EXPECT_FALSE(warned(0.4));
+  pipeline_.set_state(GST_STATE_PLAYING);
+  EXPECT_TRUE(warned(20));
+}
+
+TEST_F(PausedPipeline, ThatIsPausedWhileFramesWaitReportsNothing) {
+  pipeline_.set_state(GST_STATE_PLAYING);
+  push("left", 0);
+  push("right", 0);
+  ASSERT_TRUE(pipeline_.wait_until_settled());
+  pipeline_.set_state(GST_STATE_PAUSED);
+  push("left", kFrame);
+  EXPECT_FALSE(warned(0.4));
+}
+
+TEST(Watchdog, IsSafeAgainstStateChangesAndTheEndOfTheElement) {
+  for (int i = 0; i < 40; ++i) {
+    StereoHarness harness("max-disparity=16 timeout=1000");
+    harness.caps(raw_caps("GRAY8", kWidth, kHeight));
+    const Pair pair = noise_pair(kWidth, kHeight, 5, 3);
+    harness.push(Side::kLeft, frame_buffer(pair.left, 0, kFrame));
+    for (const GstState state : {GST_STATE_PAUSED, GST_STATE_READY, GST_STATE_PLAYING}) {
+      g_usleep(static_cast<gulong>(i * 97 % 3000));
+      gst_element_set_state(harness.element(), state);
+    }
+    g_usleep(static_cast<gulong>(4500 + i * 31 % 1000));  // the timer runs every 5 ms
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo::test
