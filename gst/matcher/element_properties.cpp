@@ -16,12 +16,23 @@ enum Property : guint {
   kConfidenceMap,
   kQos,
   kStats,
-  kTimeout
+  kTimeout,
+  kLatency,
+  kMinUpstreamLatency
 };
 
-/// Keeps why a value was rejected. There may be no bus yet: the error is posted when the element
-/// starts, or at the next pair if it is running. Call it with the object lock held.
-void keep_problem(Settings& settings, guint id, const Status& status) {
+/// Largest wait [ns]. Deadlines are sums of several waits, which must not overflow.
+constexpr gint64 kLongestWait = 3600 * static_cast<gint64>(GST_SECOND);
+
+/// Sets a value under the object lock. A value that is not valid is not set: while the element
+/// runs, the failure is returned. Otherwise it is kept as the error of the start, since there may
+/// be no bus yet.
+template <typename Set>
+Status set_or_keep_problem(ElementState& state, guint id, const Set& set) {
+  const ObjectLock lock(state.element);
+  Settings& settings = state.settings;
+  const Status status = set(settings);
+  if (!status && state.started) return status;
   ++settings.revision;
   if (!status) {
     settings.problem = status.error().message;
@@ -30,21 +41,51 @@ void keep_problem(Settings& settings, guint id, const Status& status) {
     settings.problem.clear();
     settings.problem_property = 0;
   }
+  return {};
 }
 
-void set_parameter(ElementState& state, guint id, const ParameterInfo& info, const GValue& value) {
-  const ObjectLock lock(state.element);
-  Settings& settings = state.settings;
-  keep_problem(settings, id, set_parameter_from_value(settings.parameters, info, value));
+Status set_parameter(ElementState& state, guint id, const ParameterInfo& info,
+                     const GValue& value) {
+  return set_or_keep_problem(state, id, [&](Settings& settings) {
+    return set_parameter_from_value(settings.parameters, info, value);
+  });
 }
 
-void set_alignment(ElementState& state, guint id, const GValue& value) {
-  const ObjectLock lock(state.element);
-  Settings& settings = state.settings;
-  const Status status = set_alignment_from_value(settings.alignment, id, value);
-  // The field that was found is no longer the one to read.
-  if (status && id == kAlignmentField) state.alignment_report.field.reset();
-  keep_problem(settings, id, status);
+Status set_alignment(ElementState& state, guint id, const GValue& value) {
+  return set_or_keep_problem(state, id, [&](Settings& settings) {
+    Status status = set_alignment_from_value(settings.alignment, id, value);
+    // The field that was found is no longer the one to read.
+    if (status && id == kAlignmentField) state.alignment_report.field.reset();
+    return status;
+  });
+}
+
+/// Reports a value that was refused; call it without the object lock.
+void warn_of_value(ElementState& state, const Status& status, const GParamSpec* spec) {
+  if (status) return;
+  GValue value = G_VALUE_INIT;
+  g_object_get_property(G_OBJECT(state.element), spec->name, &value);
+  const TextPointer kept(gst_value_serialize(&value));
+  g_value_unset(&value);
+  post_settings_warning(state, status.error().message + ". The property keeps its last value.",
+                        std::string(spec->name) + " stays " + (kept ? kept.get() : "empty"));
+}
+
+/// The properties of the base class for waits. It adds them to other times without limits.
+void set_wait(ElementState& state, const GValue& value, const GParamSpec* spec) {
+  auto* base_class = G_OBJECT_CLASS(state.base_class);
+  GParamSpec* base = g_object_class_find_property(base_class, spec->name);
+  GValue limited = G_VALUE_INIT;
+  g_value_init(&limited, G_TYPE_UINT64);
+  g_value_set_uint64(&limited, MIN(g_value_get_uint64(&value), guint64{kLongestWait}));
+  base_class->set_property(G_OBJECT(state.element), base->param_id, &limited, base);
+  g_value_unset(&limited);
+}
+
+void get_wait(ElementState& state, GValue& value, const GParamSpec* spec) {
+  auto* base_class = G_OBJECT_CLASS(state.base_class);
+  GParamSpec* base = g_object_class_find_property(base_class, spec->name);
+  base_class->get_property(G_OBJECT(state.element), base->param_id, &value, base);
 }
 
 GstStructure* statistics_structure(const Statistics& statistics, const AlignmentReport& alignment) {
@@ -78,7 +119,7 @@ void install_properties(GObjectClass* object_class) noexcept {
       g_param_spec_int64("sync-tolerance", "sync-tolerance",
                          "Largest difference of the running times of a left and a right frame that "
                          "are a pair, in nanoseconds (-1: half the frame duration of the faster "
-                         "stream)",
+                         "stream; more than one hour: one hour)",
                          -1, G_MAXINT64, -1, kFlags));
   g_object_class_install_property(
       object_class, kConfidenceMap,
@@ -102,6 +143,18 @@ void install_properties(GObjectClass* object_class) noexcept {
                           "report)",
                           0, G_MAXUINT64, 5 * GST_SECOND, kFlags));
   g_object_class_install_property(
+      object_class, kLatency,
+      g_param_spec_uint64("latency", "latency",
+                          "Additional wait for a partner in live pipelines, in nanoseconds, at "
+                          "most one hour",
+                          0, G_MAXUINT64, 0, kFlags));
+  g_object_class_install_property(
+      object_class, kMinUpstreamLatency,
+      g_param_spec_uint64("min-upstream-latency", "min-upstream-latency",
+                          "Latency to assume of sources that are linked later, in nanoseconds, at "
+                          "most one hour",
+                          0, G_MAXUINT64, 0, kFlags));
+  g_object_class_install_property(
       object_class, kStats,
       g_param_spec_boxed("stats", "stats",
                          "Statistics since the start: pairs (matched pairs), dropped-left and "
@@ -116,11 +169,15 @@ void install_properties(GObjectClass* object_class) noexcept {
 
 void set_element_property(ElementState& state, guint id, const GValue* value, GParamSpec* spec) {
   if (const ParameterInfo* info = parameter_of_property(id)) {
-    set_parameter(state, id, *info, *value);
+    warn_of_value(state, set_parameter(state, id, *info, *value), spec);
     return;
   }
   if (is_alignment_property(id)) {
-    set_alignment(state, id, *value);
+    warn_of_value(state, set_alignment(state, id, *value), spec);
+    return;
+  }
+  if (id == kLatency || id == kMinUpstreamLatency) {
+    set_wait(state, *value, spec);
     return;
   }
   {
@@ -141,7 +198,7 @@ void set_element_property(ElementState& state, guint id, const GValue* value, GP
         state.settings.timeout = g_value_get_uint64(value);
         return;
       case kSyncTolerance:
-        state.settings.sync_tolerance = g_value_get_int64(value);
+        state.settings.sync_tolerance = MIN(g_value_get_int64(value), kLongestWait);
         break;
       default:
         G_OBJECT_WARN_INVALID_PROPERTY_ID(state.element, id, spec);
@@ -153,6 +210,10 @@ void set_element_property(ElementState& state, guint id, const GValue* value, GP
 }
 
 void get_element_property(ElementState& state, guint id, GValue* value, GParamSpec* spec) {
+  if (id == kLatency || id == kMinUpstreamLatency) {
+    get_wait(state, *value, spec);
+    return;
+  }
   const ObjectLock lock(state.element);
   if (const ParameterInfo* info = parameter_of_property(id)) {
     parameter_to_value(state.settings.parameters, *info, *value);

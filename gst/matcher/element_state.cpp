@@ -18,9 +18,9 @@ void post(const ElementState& state, GstMessageType type, GQuark domain, gint co
 
 const char* pad_name(Side side) { return side == Side::kLeft ? "sink_left" : "sink_right"; }
 
-Settings ElementState::snapshot() const {
+void ElementState::complete_settings() {
   const ObjectLock lock(element);
-  return settings;
+  if (complete.revision != settings.revision) complete = settings;
 }
 
 std::string ElementState::streams_text() const {
@@ -52,6 +52,11 @@ void post_error(ElementState& state, GQuark domain, gint code, const std::string
 
 void post_warning(ElementState& state, const std::string& text, const std::string& details) {
   post(state, GST_MESSAGE_WARNING, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED, text, details);
+}
+
+void post_settings_warning(ElementState& state, const std::string& text,
+                           const std::string& details) {
+  post(state, GST_MESSAGE_WARNING, GST_LIBRARY_ERROR, GST_LIBRARY_ERROR_SETTINGS, text, details);
 }
 
 }  // namespace mtstereo::plugin

@@ -36,8 +36,7 @@ struct Settings {
   bool confidence_map = true;        ///< attach a confidence map to every disparity map
   bool qos = true;                   ///< skip pairs that are too late
   guint64 timeout = 5 * GST_SECOND;  ///< until a silent pad is reported [ns]; 0: never
-  std::string
-      problem;  ///< why a value was rejected, reported at the next use of the settings; "" if none
+  std::string problem;  ///< why a value was rejected, the error of the next start; "" if none
   guint problem_property = 0;  ///< the id of the property of `problem`
   guint64 revision = 0;        ///< incremented by every change
 };
@@ -82,7 +81,9 @@ struct ElementState {
   GstAggregatorClass* const base_class;  ///< to chain up to
 
   // Guarded by the element's object lock.
-  Settings settings;
+  Settings settings;     ///< the values that the properties return
+  Settings complete;     ///< `settings` after the last g_object_set() that has ended
+  bool started = false;  ///< a value that is not valid is refused, and no longer a problem
   Statistics statistics;
   AlignmentReport alignment_report;
   FrameDurations caps_durations;  ///< from the framerates of the caps
@@ -120,8 +121,8 @@ struct ElementState {
   }
   GstPad* source_pad() const { return GST_AGGREGATOR_SRC_PAD(element); }
 
-  /// A copy of the property values. Takes the object lock.
-  Settings snapshot() const;
+  /// Makes the property values those of the next pair. Takes the object lock.
+  void complete_settings();
   /// A description of both streams for messages: "sink_left: GRAY8 640x480 at 30/1 fps;
   /// sink_right: ...".
   std::string streams_text() const;
@@ -132,7 +133,10 @@ struct ElementState {
 void post_error(ElementState& state, GQuark domain, gint code, const std::string& text,
                 const std::string& details);
 
-/// Posts a warning message.
+/// Posts a warning message. Call it without locks.
 void post_warning(ElementState& state, const std::string& text, const std::string& details);
+/// The same for a value of a property, or several, that is refused.
+void post_settings_warning(ElementState& state, const std::string& text,
+                           const std::string& details);
 
 }  // namespace mtstereo::plugin

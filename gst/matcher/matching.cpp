@@ -6,7 +6,7 @@
 #include "matcher/alignment_reports.hpp"
 #include "matcher/allocation.hpp"
 #include "matcher/confidence.hpp"
-#include "matcher/negotiation.hpp"
+#include "matcher/settings.hpp"
 #include "matcher/skipping.hpp"
 #include "shared/frame_views.hpp"
 
@@ -52,17 +52,9 @@ bool check_streams(ElementState& state) {
 
 /// Applies settings that have changed since the last pair. Some of them are part of the caps.
 bool refresh_settings(ElementState& state) {
-  const Settings now = state.snapshot();
-  const Input& left = state.input(Side::kLeft);
-  const bool negotiated = gst_pad_has_current_caps(state.source_pad());
-  const bool same_caps = negotiated && now.disparity_scale == state.active.disparity_scale &&
-                         now.parameters.integer(Parameter::kMaxDisparity) ==
-                             state.active.parameters.integer(Parameter::kMaxDisparity);
-  if (same_caps && now.revision == state.active.revision &&
-      state.checked_width == left.info.width && state.checked_height == left.info.height) {
-    return true;
-  }
-  if (same_caps) return apply_settings(state);
+  const Settings last = state.active;
+  if (!apply_settings(state)) return false;
+  if (same_caps(last, state.active) && gst_pad_has_current_caps(state.source_pad())) return true;
   return gst_aggregator_negotiate(state.element);
 }
 

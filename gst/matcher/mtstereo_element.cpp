@@ -8,6 +8,7 @@
 #include "matcher/events.hpp"
 #include "matcher/negotiation.hpp"
 #include "matcher/queries.hpp"
+#include "matcher/settings.hpp"
 #include "shared/caps.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/frame_views.hpp"
@@ -53,6 +54,13 @@ void set_property(GObject* object, guint id, const GValue* value, GParamSpec* sp
 
 void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
   get_element_property(state_of(object), id, value, spec);
+}
+
+/// GObject calls it once after all properties of a g_object_set(), or between
+/// g_object_freeze_notify() and g_object_thaw_notify(), are set: these belong together.
+void properties_changed(GObject* object, guint count, GParamSpec** specs) {
+  state_of(object).complete_settings();
+  G_OBJECT_CLASS(gst_mtstereo_parent_class)->dispatch_properties_changed(object, count, specs);
 }
 
 // --- events and queries ---
@@ -136,8 +144,11 @@ gboolean start(GstAggregator* aggregator) {
   state.waiting_frame = {};
   state.known_latency = 0;
   state.segment = OutputSegment::kNone;
+  state.complete_settings();
   if (!apply_settings(state)) return FALSE;
   state.watchdog.start();
+  const ObjectLock lock(aggregator);
+  state.started = true;
   return TRUE;
 }
 
@@ -148,6 +159,8 @@ gboolean stop(GstAggregator* aggregator) {
   state.matcher.reset();
   state.alignment = PairAlignment();
   state.confidence_pool.clear();
+  const ObjectLock lock(aggregator);
+  state.started = false;
   return TRUE;
 }
 
@@ -240,6 +253,7 @@ static void gst_mtstereo_class_init(GstMtStereoClass* klass) {
   auto* object_class = G_OBJECT_CLASS(klass);
   object_class->set_property = guarded_or_failed<set_property>;
   object_class->get_property = guarded_or_failed<get_property>;
+  object_class->dispatch_properties_changed = guarded_or_failed<properties_changed>;
   object_class->finalize = finalize;
   install_properties(object_class);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "matcher/settings.hpp"
 #include "shared/caps.hpp"
 #include "shared/frame_views.hpp"
 
@@ -68,30 +69,6 @@ std::optional<Nanoseconds> frame_duration(const GstVideoInfo& info) {
   return static_cast<Nanoseconds>(gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n));
 }
 
-void refuse_settings(ElementState& state, const std::string& message) {
-  std::string details = state.streams_text() + "; settings:";
-  for (const ParameterInfo& info : parameter_table()) {
-    details += std::string(" ") + info.name + "=" + state.active.parameters.text(info.id);
-  }
-  details += " disparity-scale=" + std::to_string(state.active.disparity_scale);
-  post_error(state, GST_LIBRARY_ERROR, GST_LIBRARY_ERROR_SETTINGS, message, details);
-}
-
-/// Creates the matcher, or sets its parameters.
-Status fit_matcher(ElementState& state) {
-  if (state.matcher_revision == state.active.revision && state.matcher) return {};
-  if (state.matcher) {
-    Status status = state.matcher->set_parameters(state.active.parameters);
-    if (!status) return status;
-  } else {
-    Result<Matcher> made = Matcher::create(state.active.parameters);
-    if (!made) return made.error();
-    state.matcher.emplace(std::move(made.value()));
-  }
-  state.matcher_revision = state.active.revision;
-  return {};
-}
-
 }  // namespace
 
 CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
@@ -154,16 +131,17 @@ bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps) {
   return true;
 }
 
-CapsPointer output_caps(const ElementState& state) {
+CapsPointer output_caps(const ElementState& state, const Settings& settings) {
   const GstVideoInfo& left = state.input(Side::kLeft).info;
   return CapsPointer(gst_caps_new_simple(
       "video/x-raw", "format", G_TYPE_STRING, "GRAY16_LE", "width", G_TYPE_INT, left.width,
       "height", G_TYPE_INT, left.height, "framerate", GST_TYPE_FRACTION, left.fps_n, left.fps_d,
       "pixel-aspect-ratio", GST_TYPE_FRACTION, left.par_n, left.par_d, "interlace-mode",
-      G_TYPE_STRING, "progressive", "disparity-scale", G_TYPE_INT, state.active.disparity_scale,
-      "max-disparity", G_TYPE_INT, state.active.parameters.integer(Parameter::kMaxDisparity),
-      nullptr));
+      G_TYPE_STRING, "progressive", "disparity-scale", G_TYPE_INT, settings.disparity_scale,
+      "max-disparity", G_TYPE_INT, settings.parameters.integer(Parameter::kMaxDisparity), nullptr));
 }
+
+CapsPointer output_caps(const ElementState& state) { return output_caps(state, state.active); }
 
 bool negotiate_output(ElementState& state) {
   {
@@ -181,25 +159,6 @@ bool negotiate_output(ElementState& state) {
              "change these, or put a converter (mtcolor, videoconvert) downstream.",
              "offered: " + caps_text(output_caps(state).get()) +
                  "; accepted: " + caps_text(downstream.get()) + "; " + state.streams_text());
-  return false;
-}
-
-bool apply_settings(ElementState& state) {
-  state.active = state.snapshot();
-  if (!state.active.problem.empty()) {
-    refuse_settings(state, state.active.problem);
-    return false;
-  }
-  Status status = state.active.parameters.check_scale16(state.active.disparity_scale);
-  const Input& left = state.input(Side::kLeft);
-  if (status && left.has_caps) {
-    status = state.active.parameters.check_frame(left.info.width, left.info.height);
-    state.checked_width = left.info.width;
-    state.checked_height = left.info.height;
-  }
-  if (status) status = fit_matcher(state);
-  if (status) return true;
-  refuse_settings(state, status.error().message);
   return false;
 }
 

@@ -21,6 +21,10 @@ class Refusal : public testing::Test {
   }
   void expect_one_error(std::initializer_list<const char*> text,
                         std::initializer_list<const char*> details) {
+    expect_one_error_of(harness, text, details);
+  }
+  static void expect_one_error_of(StereoHarness& harness, std::initializer_list<const char*> text,
+                                  std::initializer_list<const char*> details) {
     const Report error = harness.error();
     ASSERT_NE(error.text, "") << "no error";
     for (const char* part : text) EXPECT_TRUE(has(error.text, part)) << part << "\n" << error.text;
@@ -142,10 +146,10 @@ TEST_F(Refusal, ReportsAMetaOfAnotherSize) {
 }
 
 TEST_F(Refusal, ReportsASearchRangeWiderThanTheFrame) {
-  g_object_set(harness.element(), "max-disparity", 100, nullptr);
-  harness.caps(raw_caps("GRAY8", 64, 48));
-  push();
-  expect_one_error({"max-disparity", "100", "64"}, {"max-disparity=100", "64x48"});
+  StereoHarness wide("max-disparity=100");
+  wide.caps(raw_caps("GRAY8", 64, 48));
+  wide.push_pair(noise_pair(64, 48, 4, 1), 0);
+  expect_one_error_of(wide, {"max-disparity", "100", "64"}, {"max-disparity=100", "64x48"});
 }
 
 TEST_F(Refusal, ReportsCapsThatDownstreamDoesNotAccept) {

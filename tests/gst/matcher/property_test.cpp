@@ -177,32 +177,6 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-TEST(WhilePlaying, AnInvalidCombinationIsOneErrorAtTheNextPair) {
-  StereoHarness harness;
-  const Pair pair = noise_pair(64, 48, 4, 4);
-  harness.caps(raw_caps("GRAY8", 64, 48));
-  harness.push_pair(pair, 0);
-  ASSERT_TRUE(harness.pull());
-  g_object_set(harness.element(), "disparity-scale", 65535, nullptr);
-  harness.push_pair(pair, kFrame);
-  const Report error = harness.error();
-  EXPECT_NE(error.text.find("disparity-scale"), std::string::npos) << error.text;
-  EXPECT_EQ(harness.further_errors(), 0);
-}
-
-TEST(WhilePlaying, ARejectedValueIsOneErrorAtTheNextPair) {
-  StereoHarness harness;
-  const Pair pair = noise_pair(64, 48, 4, 4);
-  harness.caps(raw_caps("GRAY8", 64, 48));
-  harness.push_pair(pair, 0);
-  ASSERT_TRUE(harness.pull());
-  g_object_set(harness.element(), "node-levels", "7", nullptr);
-  harness.push_pair(pair, kFrame);
-  const Report error = harness.error();
-  EXPECT_NE(error.text.find("node-levels"), std::string::npos) << error.text;
-  EXPECT_EQ(harness.further_errors(), 0);
-}
-
 TEST(WhilePlaying, ChangesFromAnotherThreadLoseNoPair) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 5);
