@@ -3,6 +3,7 @@
 
 #include <gst/video/gstvideofilter.h>
 
+#include "shared/caps.hpp"
 #include "shared/ownership.hpp"
 
 // The common part of the elements downstream of mtstereo: each one is a GstVideoFilter whose input
@@ -12,14 +13,11 @@ namespace mtstereo::plugin {
 
 /// Caps of a disparity map, as text: the output of mtstereo, with or without its own fields.
 inline constexpr const char* kDisparityCaps =
-    "video/x-raw, format = (string) GRAY16_LE, width = (int) [ 1, max ], "
-    "height = (int) [ 1, max ], framerate = (fraction) [ 0/1, max ]";
+    "video/x-raw, format = (string) GRAY16_LE, " MTSTEREO_SIZE_CAPS;
 
 /// Caps of an image that is computed from such a map. `formats`: "RGB" or "{ RGB, BGR }".
-#define MTSTEREO_PICTURE_CAPS(formats)                      \
-  "video/x-raw, format = (string) " formats                 \
-  ", width = (int) [ 1, max ], height = (int) [ 1, max ], " \
-  "framerate = (fraction) [ 0/1, max ]"
+#define MTSTEREO_PICTURE_CAPS(formats) \
+  "video/x-raw, format = (string) " formats ", " MTSTEREO_SIZE_CAPS
 
 /// The caps of the other pad if the filter turns a map into an image: size and framerate are kept,
 /// the format is one of `other`, and the fields that define the meaning of a pixel are removed.

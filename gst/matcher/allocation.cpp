@@ -12,10 +12,21 @@ constexpr guint kMinimumBuffers = 2;
 gboolean copy_meta(GstBuffer* left, GstMeta** meta, gpointer user_data) noexcept {
   const GstMetaInfo* info = (*meta)->info;
   if (info->transform_func == nullptr || belongs_to_pixels(*info)) return TRUE;
+  if (info->api == GST_VIDEO_OVERLAY_COMPOSITION_META_API_TYPE) return TRUE;  // drawn on the view
   GstMetaTransformCopy whole = {FALSE, 0, static_cast<gsize>(-1)};
   info->transform_func(static_cast<GstBuffer*>(user_data), *meta, left,
                        g_quark_from_static_string("gst-copy"), &whole);
   return TRUE;
+}
+
+/// Sets the allocator of downstream, if it has one but no pool.
+void use_allocator(GstQuery* query, GstStructure* config) {
+  if (gst_query_get_n_allocation_params(query) == 0) return;
+  GstAllocator* allocator = nullptr;
+  GstAllocationParams parameters;
+  gst_query_parse_nth_allocation_param(query, 0, &allocator, &parameters);
+  gst_buffer_pool_config_set_allocator(config, allocator, &parameters);
+  if (allocator != nullptr) gst_object_unref(allocator);
 }
 
 }  // namespace
@@ -37,10 +48,12 @@ gboolean decide_allocation(GstAggregator*, GstQuery* query) {
     minimum = MAX(minimum, kMinimumBuffers);
     if (maximum != 0) maximum = MAX(maximum, minimum);
   }
-  if (pool == nullptr) pool = gst_video_buffer_pool_new();
+  const bool own = pool == nullptr;
+  if (own) pool = gst_video_buffer_pool_new();
 
   GstStructure* config = gst_buffer_pool_get_config(pool);
   gst_buffer_pool_config_set_params(config, caps, size, minimum, maximum);
+  if (own) use_allocator(query, config);
   if (gst_query_find_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr)) {
     gst_buffer_pool_config_add_option(config, GST_BUFFER_POOL_OPTION_VIDEO_META);
   }

@@ -16,6 +16,7 @@
 #include "mtstereo/matcher.hpp"
 #include "mtstereo/parameters.hpp"
 #include "shared/confidence_pool.hpp"
+#include "shared/luma.hpp"
 
 namespace mtstereo::plugin {
 
@@ -46,9 +47,9 @@ struct Statistics {
   guint64 pairs = 0;
   std::array<guint64, 2> dropped{};  ///< frames without a partner, by side
   guint64 skipped = 0;               ///< pairs that were too late to be matched (QoS)
-  double last_ms = 0;                ///< time for the last pair: inspection and matching
-  double total_ms = 0;               ///< of all pairs
-  double density = 0;                ///< of the last pair
+  double last_ms = 0;   ///< time for the last pair: conversion, inspection and matching
+  double total_ms = 0;  ///< of all pairs
+  double density = 0;   ///< of the last pair
 };
 
 /// The correction in the last message `mtstereo-alignment`.
@@ -103,8 +104,9 @@ struct ElementState {
   std::optional<Matcher> matcher;
   PairAlignment alignment;
   AnnouncedCorrection announced;
-  double inspection_ms = 0;  ///< time for the inspection of the last pair
-  GstVideoInfo output{};     ///< of the disparity map; valid if the source pad has caps
+  double inspection_ms = 0;        ///< time for the conversion and the inspection of the last pair
+  GstVideoInfo output{};           ///< of the disparity map; valid if the source pad has caps
+  std::array<LumaReader, 2> luma;  ///< by side
   ConfidencePool confidence_pool;
   OutputSegment segment = OutputSegment::kNone;
   guint32 segment_seqnum = GST_SEQNUM_INVALID;  ///< of the left stream's segment

@@ -76,9 +76,11 @@ void to_little_endian(ImageView<std::uint16_t> map) {
 }
 
 /// Inspects, corrects and matches a pair.
-Status match_views(ElementState& state, GrayView left, GrayView right,
-                   ImageView<std::uint16_t> map) {
+Status match_views(ElementState& state, const MappedFrame& left_frame,
+                   const MappedFrame& right_frame, ImageView<std::uint16_t> map) {
   const gint64 start = g_get_monotonic_time();
+  const GrayView left = state.luma[0].read(left_frame);
+  const GrayView right = state.luma[1].read(right_frame);
   const Status prepared =
       state.alignment.prepare(state.active.alignment, left, right, *state.matcher);
   if (!prepared) return prepared;
@@ -98,7 +100,7 @@ GstFlowReturn compute(ElementState& state, GstBuffer* left, GstBuffer* right, Gs
   const MappedFrame map(state.output, output, GST_MAP_WRITE);
   if (!map.mapped()) return refuse_frame(state, "the buffer pool of downstream", map.problem());
 
-  const Status status = match_views(state, left_frame.luma(), right_frame.luma(), map.gray16());
+  const Status status = match_views(state, left_frame, right_frame, map.gray16());
   if (!status) {
     const bool memory = status.error().code == ErrorCode::kOutOfMemory;
     post_error(state, memory ? GST_RESOURCE_ERROR : GST_LIBRARY_ERROR,

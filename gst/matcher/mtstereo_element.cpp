@@ -11,7 +11,7 @@
 #include "matcher/settings.hpp"
 #include "shared/caps.hpp"
 #include "shared/exception_guard.hpp"
-#include "shared/frame_views.hpp"
+#include "shared/luma.hpp"
 #include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
@@ -159,6 +159,7 @@ gboolean stop(GstAggregator* aggregator) {
   state.matcher.reset();
   state.alignment = PairAlignment();
   state.confidence_pool.clear();
+  for (LumaReader& luma : state.luma) luma.clear();
   const ObjectLock lock(aggregator);
   state.started = false;
   return TRUE;
@@ -213,18 +214,20 @@ void child_proxy_init(gpointer interface, gpointer) noexcept {
 // --- class ---
 
 void add_pad_templates(GstElementClass* element_class) noexcept {
-  const std::string sink = "video/x-raw, format = (string) " + luma_formats() +
-                           ", width = (int) [ 1, max ], height = (int) [ 1, max ], "
-                           "framerate = (fraction) [ 0/1, max ], "
-                           "interlace-mode = (string) progressive";
+  const std::string fields = ", format = (string) " + luma_formats() +
+                             ", " MTSTEREO_SIZE_CAPS ", interlace-mode = (string) progressive";
+  // Overlays are ignored, and with them upstream need not draw them into the frames.
+  const std::string sink = "video/x-raw" + fields +
+                           "; video/x-raw(" GST_CAPS_FEATURE_MEMORY_SYSTEM_MEMORY
+                           ", " GST_CAPS_FEATURE_META_GST_VIDEO_OVERLAY_COMPOSITION ")" +
+                           fields;
   for (const Side side : kSides) {
     add_pad_template(element_class, pad_name(side), GST_PAD_SINK, sink.c_str(),
                      GST_TYPE_AGGREGATOR_PAD);
   }
   add_pad_template(element_class, "src", GST_PAD_SRC,
-                   "video/x-raw, format = (string) GRAY16_LE, width = (int) [ 1, max ], "
-                   "height = (int) [ 1, max ], framerate = (fraction) [ 0/1, max ], "
-                   "interlace-mode = (string) progressive, disparity-scale = (int) [ 1, 65535 ]",
+                   "video/x-raw, format = (string) GRAY16_LE, " MTSTEREO_SIZE_CAPS
+                   ", interlace-mode = (string) progressive, disparity-scale = (int) [ 1, 65535 ]",
                    GST_TYPE_AGGREGATOR_PAD);
 }
 

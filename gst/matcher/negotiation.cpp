@@ -6,7 +6,7 @@
 
 #include "matcher/settings.hpp"
 #include "shared/caps.hpp"
-#include "shared/frame_views.hpp"
+#include "shared/luma.hpp"
 
 namespace mtstereo::plugin {
 namespace {
@@ -33,6 +33,20 @@ CapsPointer intersection(GstCaps* first, GstCaps* second) {
   return CapsPointer(gst_caps_intersect_full(first, second, GST_CAPS_INTERSECT_FIRST));
 }
 
+/// True if frames with these features are in system memory. Metas of frames do not matter.
+bool in_system_memory(const GstCapsFeatures* features) {
+  if (features == nullptr) return true;
+  if (gst_caps_features_is_any(features)) return false;
+  for (guint i = 0; i < gst_caps_features_get_size(features); ++i) {
+    const gchar* feature = gst_caps_features_get_nth(features, i);
+    if (!g_str_has_prefix(feature, "meta:") &&
+        std::string(feature) != GST_CAPS_FEATURE_MEMORY_SYSTEM_MEMORY) {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// Why a stream is not supported, and how to correct it; "" if it is supported.
 std::string refusal(const GstCaps* caps) {
   const GstStructure* structure = gst_caps_get_structure(caps, 0);
@@ -46,8 +60,7 @@ std::string refusal(const GstCaps* caps) {
            "), and its two fields are from different times: put deinterlace upstream of it";
   }
   const GstCapsFeatures* features = gst_caps_get_features(caps, 0);
-  if (features != nullptr &&
-      !gst_caps_features_is_equal(features, GST_CAPS_FEATURES_MEMORY_SYSTEM_MEMORY)) {
+  if (!in_system_memory(features)) {
     const TextPointer text(gst_caps_features_to_string(features));
     return std::string("its frames are in ") + text.get() +
            ", but system memory is required: put a download element (such as gldownload) upstream "
@@ -57,9 +70,9 @@ std::string refusal(const GstCaps* caps) {
   if (!gst_video_info_from_caps(&info, caps)) {
     return "its caps are incomplete: a known format, width and height are required";
   }
-  if (!has_luma_plane(GST_VIDEO_INFO_FORMAT(&info))) {
+  if (!is_readable(GST_VIDEO_INFO_FORMAT(&info))) {
     return std::string("its format ") + gst_video_format_to_string(GST_VIDEO_INFO_FORMAT(&info)) +
-           " has no 8-bit luma plane: put videoconvert upstream of it";
+           " is not supported: put videoconvert upstream of it";
   }
   return {};
 }

@@ -5,9 +5,17 @@
 
 #include <string>
 
+#include "mtstereo/parameters.hpp"
 #include "shared/ownership.hpp"
 
+/// Size and framerate in the caps of all pads. The library accepts no larger images.
+#define MTSTEREO_SIZE_CAPS                                    \
+  "width = (int) [ 1, 16384 ], height = (int) [ 1, 16384 ], " \
+  "framerate = (fraction) [ 0/1, max ]"
+
 namespace mtstereo::plugin {
+
+static_assert(kLargestImageSide == 16384, "MTSTEREO_SIZE_CAPS has another size");
 
 /// Caps as text for a message; "none" for NULL.
 std::string caps_text(const GstCaps* caps);

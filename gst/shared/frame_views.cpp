@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "shared/frame_views.hpp"
 
+#include <algorithm>
+
 namespace mtstereo::plugin {
 namespace {
 
@@ -25,25 +27,64 @@ std::string meta_problem(GstBuffer* buffer, const GstVideoInfo& expected) {
          size_text(expected.width, expected.height);
 }
 
+/// Bytes of a row of a plane, without padding.
+std::ptrdiff_t row_bytes(const GstVideoFrame& frame, guint plane) {
+  const GstVideoFormatInfo* format = frame.info.finfo;
+  if (GST_VIDEO_FORMAT_INFO_IS_COMPLEX(format)) {
+    // Pixels share bytes; without a meta the stride is that of the format.
+    GstVideoInfo plain;
+    gst_video_info_set_format(&plain, GST_VIDEO_FORMAT_INFO_FORMAT(format),
+                              static_cast<guint>(frame.info.width),
+                              static_cast<guint>(frame.info.height));
+    return plain.stride[plane];
+  }
+  std::ptrdiff_t bytes = 0;
+  for (guint i = 0; i < GST_VIDEO_FORMAT_INFO_N_COMPONENTS(format); ++i) {
+    if (GST_VIDEO_FORMAT_INFO_PLANE(format, i) != plane) continue;
+    const std::ptrdiff_t pixels = GST_VIDEO_FRAME_COMP_WIDTH(&frame, i);
+    bytes = std::max(bytes, pixels * GST_VIDEO_FORMAT_INFO_PSTRIDE(format, i));
+  }
+  return bytes;
+}
+
+int plane_height(const GstVideoFrame& frame, guint plane) {
+  for (guint i = 0; i < GST_VIDEO_FRAME_N_COMPONENTS(&frame); ++i) {
+    if (GST_VIDEO_FORMAT_INFO_PLANE(frame.info.finfo, i) == plane) {
+      return GST_VIDEO_FRAME_COMP_HEIGHT(&frame, i);
+    }
+  }
+  return 0;
+}
+
 /// The offset and the stride of a meta are unchecked so far: the rows may lie outside the memory.
-std::string bounds_problem(const GstVideoFrame& frame) {
-  const int width = GST_VIDEO_FRAME_WIDTH(&frame);
-  const int height = GST_VIDEO_FRAME_HEIGHT(&frame);
-  const std::ptrdiff_t stride = GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
-  const std::ptrdiff_t row =
-      static_cast<std::ptrdiff_t>(width) * GST_VIDEO_FRAME_COMP_PSTRIDE(&frame, 0);
+std::string bounds_problem(const GstVideoFrame& frame, guint plane) {
+  const std::ptrdiff_t stride = GST_VIDEO_FRAME_PLANE_STRIDE(&frame, plane);
+  const std::ptrdiff_t row = row_bytes(frame, plane);
   if (stride < row) {
     return "its stride is " + std::to_string(stride) + " bytes, a row needs " +
            std::to_string(row) + " bytes";
   }
-  const auto* begin = static_cast<const guint8*>(frame.map[0].data);
-  const auto* plane = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
-  const std::ptrdiff_t needed = (plane - begin) + stride * (height - 1) + row;
-  if (needed > static_cast<std::ptrdiff_t>(frame.map[0].size)) {
-    return "its buffer has " + std::to_string(frame.map[0].size) + " bytes, the frame needs " +
+  // Without a meta all planes are in one mapped range.
+  const GstMapInfo& map = frame.map[frame.meta != nullptr ? plane : 0];
+  const auto* begin = static_cast<const guint8*>(map.data);
+  const auto* data = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, plane));
+  const std::ptrdiff_t needed = (data - begin) + stride * (plane_height(frame, plane) - 1) + row;
+  if (needed > static_cast<std::ptrdiff_t>(map.size)) {
+    return "its buffer has " + std::to_string(map.size) + " bytes, the frame needs " +
            std::to_string(needed) + " bytes";
   }
   return {};
+}
+
+/// The same for all planes that are read.
+std::string bounds_problem(const GstVideoFrame& frame) {
+  const bool luma_only = has_luma_plane(GST_VIDEO_FRAME_FORMAT(&frame));
+  const guint planes = luma_only ? 1 : GST_VIDEO_FRAME_N_PLANES(&frame);
+  std::string problem;
+  for (guint plane = 0; plane < planes && problem.empty(); ++plane) {
+    problem = bounds_problem(frame, plane);
+  }
+  return problem;
 }
 
 }  // namespace
@@ -92,18 +133,6 @@ bool has_luma_plane(GstVideoFormat format) {
   if (GST_VIDEO_FORMAT_INFO_IS_TILED(info) || GST_VIDEO_FORMAT_INFO_IS_COMPLEX(info)) return false;
   return GST_VIDEO_FORMAT_INFO_DEPTH(info, 0) == 8 && GST_VIDEO_FORMAT_INFO_PLANE(info, 0) == 0 &&
          GST_VIDEO_FORMAT_INFO_PSTRIDE(info, 0) == 1 && GST_VIDEO_FORMAT_INFO_POFFSET(info, 0) == 0;
-}
-
-std::string luma_formats() {
-  std::string list = "{ GRAY8";  // first: the preferred format
-  guint count = 0;
-  const GstVideoFormat* formats = gst_video_formats_raw(&count);
-  for (guint i = 0; i < count; ++i) {
-    if (formats[i] == GST_VIDEO_FORMAT_GRAY8 || !has_luma_plane(formats[i])) continue;
-    list += ", ";
-    list += gst_video_format_to_string(formats[i]);
-  }
-  return list + " }";
 }
 
 }  // namespace mtstereo::plugin

@@ -28,6 +28,7 @@ class MappedFrame {
 
   /// The frame; only if mapped().
   GstVideoFrame* frame() { return &frame_; }
+  const GstVideoFrame* frame() const { return &frame_; }
 
   /// The first plane of an 8-bit format; only if mapped().
   GrayView luma() const;
@@ -50,8 +51,5 @@ inline std::uint8_t* plane_row(const GstVideoFrame& frame, int y) {
 /// True if the first plane of the format is 8-bit luma with one byte per pixel, which the matcher
 /// reads in place.
 bool has_luma_plane(GstVideoFormat format);
-
-/// All formats of the installed GStreamer with such a plane, as text for caps: "{ GRAY8, ... }".
-std::string luma_formats();
 
 }  // namespace mtstereo::plugin

@@ -146,8 +146,8 @@ INSTANTIATE_TEST_SUITE_P(Sizes, FrameLayout,
                                          OddCase{64, 48, 0, 37}, OddCase{61, 47, 3, 5},
                                          OddCase{33, 17, 1, 1}, OddCase{17, 1, 7, 0}));
 
-/// Answers an allocation query with a pool whose rows have padding.
-GstPadProbeReturn offer_padded_pool(GstPad*, GstPadProbeInfo* probe, gpointer) {
+/// Answers an allocation query with a pool whose rows have padding, and stores the pool.
+GstPadProbeReturn offer_padded_pool(GstPad*, GstPadProbeInfo* probe, gpointer stored) noexcept {
   GstQuery* query = GST_PAD_PROBE_INFO_QUERY(probe);
   if (GST_QUERY_TYPE(query) != GST_QUERY_ALLOCATION) return GST_PAD_PROBE_OK;
   GstCaps* caps = nullptr;
@@ -167,25 +167,50 @@ GstPadProbeReturn offer_padded_pool(GstPad*, GstPadProbeInfo* probe, gpointer) {
   EXPECT_TRUE(gst_buffer_pool_set_config(pool, config));
   gst_query_add_allocation_pool(query, pool, static_cast<guint>(info.size), 2, 0);
   gst_query_add_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr);
-  gst_object_unref(pool);
+  *static_cast<GstBufferPool**>(stored) = pool;
+  gst_object_unref(pool);  // the query holds it, later the element
   return GST_PAD_PROBE_HANDLED;
 }
 
-TEST(Output, UsesTheStrideOfDownstream) {
+TEST(Output, UsesThePoolAndTheStrideOfDownstream) {
   const Pair pair = noise_pair(61, 47, 3, 10);
+  GstBufferPool* pool = nullptr;
   StereoHarness harness;
   gst_pad_add_probe(harness.output()->sinkpad, GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM,
-                    offer_padded_pool, nullptr, nullptr);
+                    offer_padded_pool, &pool, nullptr);
   harness.caps(raw_caps("GRAY8", 61, 47));
   harness.push_pair(pair, 0);
   const BufferPointer map = harness.pull();
   ASSERT_TRUE(map);
   const GstVideoMeta* meta = gst_buffer_get_video_meta(map.get());
   ASSERT_NE(meta, nullptr);
+  EXPECT_EQ(map->pool, pool);
   EXPECT_GE(meta->stride[0], 2 * (61 + 11));
   EXPECT_GT(meta->offset[0], 0u);
   EXPECT_EQ(first_difference(library_map(pair, small_range(), 256), map_of(map.get(), 61, 47), 61),
             "");
+}
+
+/// Answers an allocation query with an allocator that aligns memory to 128 bytes.
+GstPadProbeReturn offer_alignment(GstPad*, GstPadProbeInfo* probe, gpointer) noexcept {
+  GstQuery* query = GST_PAD_PROBE_INFO_QUERY(probe);
+  if (GST_QUERY_TYPE(query) != GST_QUERY_ALLOCATION) return GST_PAD_PROBE_OK;
+  GstAllocationParams parameters;
+  gst_allocation_params_init(&parameters);
+  parameters.align = 127;
+  gst_query_add_allocation_param(query, nullptr, &parameters);
+  return GST_PAD_PROBE_HANDLED;
+}
+
+TEST(Output, HasTheMemoryAlignmentOfDownstream) {
+  StereoHarness harness;
+  gst_pad_add_probe(harness.output()->sinkpad, GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM, offer_alignment,
+                    nullptr, nullptr);
+  harness.caps(raw_caps("GRAY8", 61, 47));
+  harness.push_pair(noise_pair(61, 47, 3, 10), 0);
+  const BufferPointer map = harness.pull();
+  ASSERT_TRUE(map);
+  EXPECT_GE(gst_buffer_peek_memory(map.get(), 0)->align, 127u);
 }
 
 TEST(Input, ProposesVideoMetaSoThatNoFrameIsCopied) {
