@@ -47,7 +47,7 @@ class Watchdog {
   void cancel();    // with mutex_ held
 
   ElementState& state_;
-  std::mutex mutex_;  // guards the members below
+  std::mutex mutex_;            // guards the members below
   GstClockID timer_ = nullptr;  // nullptr: stopped
   SilenceDetector detector_;
 };

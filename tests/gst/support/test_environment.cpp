@@ -14,25 +14,16 @@ namespace mtstereo::test {
 namespace {
 
 constexpr const char* kPlugins[] = {
-    "app",
-    "debug",
-    "coreelements",
-    "coretracers",
-    "deinterlace",
-    "imagefreeze",
-    "interlace",
-    "libav",
-    "matroska",
-    "rawparse",
-    "videobox",
-    "videoconvertscale",
-    "videocrop",
-    "videoparsersbad",
-    "videorate",
-    "videotestsrc",
-    "videofilter",
-    "x264",
+    "app",          "debug",           "coreelements",
+    "coretracers",  "deinterlace",     "imagefreeze",
+    "interlace",    "libav",           "matroska",
+    "rawparse",     "videobox",        "videoconvertscale",
+    "videocrop",    "videoparsersbad", "videorate",
+    "videotestsrc", "videofilter",     "x264",
 };
+
+/// Timeout of a test [s]; then the program is terminated. The factor is 1 without a sanitizer.
+constexpr unsigned kTestTimeout = 120 * MTSTEREO_SLOWNESS;
 
 void unset_all() {
   for (const char* name : {"GST_PLUGIN_PATH", "GST_PLUGIN_SYSTEM_PATH", "GST_REGISTRY",

@@ -21,10 +21,6 @@ class TestEnvironment {
   std::string folder_;
 };
 
-/// Timeout of a test [s]; then the program is terminated. A rendered clip takes minutes with a
-/// sanitizer on a machine that is not idle.
-inline constexpr unsigned kTestTimeout = 600;
-
 /// Runs the tests of a program. argc and argv are those of main().
 int run_tests(int argc, char** argv);
 
