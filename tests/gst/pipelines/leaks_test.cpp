@@ -70,7 +70,8 @@ void drop_frames_and_send_gaps() {
 void give_errors() {
   {
     StereoHarness harness;
-    harness.caps(raw_caps("RGB", 64, 48), raw_caps("GRAY8", 64, 48));
+    harness.caps(raw_caps("GRAY8", 64, 48) + ",interlace-mode=interleaved",
+                 raw_caps("GRAY8", 64, 48));
     EXPECT_NE(harness.error().text, "");
   }
   StereoHarness harness;
