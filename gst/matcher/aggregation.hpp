@@ -8,6 +8,10 @@ namespace mtstereo::plugin {
 /// Pairs the heads of the two streams, or drops one of them. Runs in the task of the source pad.
 GstFlowReturn aggregate(ElementState& state, bool timeout);
 
+/// Pairs what it can after one stream has ended. True if no frame of it waits any more. Runs in the
+/// task of the source pad.
+bool finish_stream(ElementState& state, Side side);
+
 /// The time until which a frame without a partner waits [running time]. The base class calls it
 /// with its own lock held and adds the latency. Runs in the task of the source pad.
 GstClockTime next_deadline(ElementState& state);

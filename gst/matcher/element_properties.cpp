@@ -17,6 +17,8 @@ enum Property : guint {
   kQos,
   kStats,
   kTimeout,
+  kSyncMode,
+  kNewestPair,
   kLatency,
   kMinUpstreamLatency
 };
@@ -88,6 +90,25 @@ void get_wait(ElementState& state, GValue& value, const GParamSpec* spec) {
   base_class->get_property(G_OBJECT(state.element), base->param_id, &value, base);
 }
 
+GType sync_mode_type() {
+  static const GEnumValue values[] = {
+      {static_cast<gint>(SyncMode::kRunningTime), "By the running times of the time stamps",
+       "running-time"},
+      {static_cast<gint>(SyncMode::kArrival),
+       "In the order of arrival, without a look at time stamps", "arrival"},
+      {static_cast<gint>(SyncMode::kFirstPts),
+       "By the running times since the first frame of each stream", "first-pts"},
+      {static_cast<gint>(SyncMode::kReferenceTimestamp),
+       "By the reference time stamps of the frames (NTP, PTP)", "reference-timestamp"},
+      {0, nullptr, nullptr}};
+  static const GType type = [] {
+    const GType made = g_enum_register_static("GstMtStereoSyncMode", values);
+    gst_type_mark_as_plugin_api(made, static_cast<GstPluginAPIFlags>(0));
+    return made;
+  }();
+  return type;
+}
+
 GstStructure* statistics_structure(const Statistics& statistics, const AlignmentReport& alignment) {
   const double mean =
       statistics.pairs > 0 ? statistics.total_ms / static_cast<double>(statistics.pairs) : 0.0;
@@ -95,7 +116,11 @@ GstStructure* statistics_structure(const Statistics& statistics, const Alignment
       "mtstereo-stats", "pairs", G_TYPE_UINT64, statistics.pairs, "dropped-left", G_TYPE_UINT64,
       statistics.dropped[0], "dropped-right", G_TYPE_UINT64, statistics.dropped[1], "skipped",
       G_TYPE_UINT64, statistics.skipped, "last-ms", G_TYPE_DOUBLE, statistics.last_ms, "mean-ms",
-      G_TYPE_DOUBLE, mean, "density", G_TYPE_DOUBLE, statistics.density, nullptr);
+      G_TYPE_DOUBLE, mean, "density", G_TYPE_DOUBLE, statistics.density, "wrong-times",
+      G_TYPE_UINT64, statistics.wrong_times, "difference-ms", G_TYPE_DOUBLE,
+      statistics.difference.mean * 1e-6, "difference-spread-ms", G_TYPE_DOUBLE,
+      statistics.difference.spread * 1e-6, "difference-drift", G_TYPE_DOUBLE,
+      statistics.difference.drift * 1e-6, nullptr);
   add_alignment_fields(structure, alignment);
   return structure;
 }
@@ -134,6 +159,16 @@ void install_properties(GObjectClass* object_class) noexcept {
                            "Skip pairs whose maps would be too late at the sink; sinks with "
                            "sync=false report no lateness",
                            TRUE, kFlags));
+  g_object_class_install_property(
+      object_class, kSyncMode,
+      g_param_spec_enum("sync-mode", "sync-mode", "The times by which frames are paired",
+                        sync_mode_type(), static_cast<gint>(SyncMode::kRunningTime), kFlags));
+  g_object_class_install_property(
+      object_class, kNewestPair,
+      g_param_spec_boolean("newest-pair", "newest-pair",
+                           "Live pipelines: match the newest pair, and skip older ones that have "
+                           "arrived while a pair was matched, for sinks that report no lateness",
+                           FALSE, kFlags));
   g_object_class_install_property(
       object_class, kTimeout,
       g_param_spec_uint64("timeout", "timeout",
@@ -197,6 +232,12 @@ void set_element_property(ElementState& state, guint id, const GValue* value, GP
       case kTimeout:
         state.settings.timeout = g_value_get_uint64(value);
         return;
+      case kSyncMode:
+        state.settings.sync_mode = static_cast<SyncMode>(g_value_get_enum(value));
+        return;
+      case kNewestPair:
+        state.newest_pair = g_value_get_boolean(value) != FALSE;
+        return;
       case kSyncTolerance:
         state.settings.sync_tolerance = MIN(g_value_get_int64(value), kLongestWait);
         break;
@@ -239,6 +280,12 @@ void get_element_property(ElementState& state, guint id, GValue* value, GParamSp
       return;
     case kTimeout:
       g_value_set_uint64(value, state.settings.timeout);
+      return;
+    case kSyncMode:
+      g_value_set_enum(value, static_cast<gint>(state.settings.sync_mode));
+      return;
+    case kNewestPair:
+      g_value_set_boolean(value, state.newest_pair);
       return;
     case kStats:
       g_value_take_boxed(value, statistics_structure(state.statistics, state.alignment_report));

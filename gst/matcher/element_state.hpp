@@ -5,12 +5,18 @@
 #include <gst/video/video.h>
 
 #include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
 #include "matcher/alignment.hpp"
+#include "matcher/frame_queue.hpp"
 #include "matcher/latency.hpp"
 #include "matcher/lateness.hpp"
+#include "matcher/pair_finder.hpp"
+#include "matcher/pair_times.hpp"
 #include "matcher/pairing.hpp"
 #include "matcher/watchdog.hpp"
 #include "mtstereo/matcher.hpp"
@@ -25,6 +31,8 @@ GST_DEBUG_CATEGORY_EXTERN(mtstereo_debug);
 
 inline constexpr std::array<Side, 2> kSides = {Side::kLeft, Side::kRight};
 
+inline Side other_side(Side side) { return side == Side::kLeft ? Side::kRight : Side::kLeft; }
+
 /// "sink_left" or "sink_right".
 const char* pad_name(Side side);
 
@@ -32,9 +40,10 @@ const char* pad_name(Side side);
 struct Settings {
   Parameters parameters;
   AlignmentSettings alignment;
-  int disparity_scale = 256;         ///< [steps per px]
-  gint64 sync_tolerance = -1;        ///< [ns]; -1: see effective_tolerance()
-  bool confidence_map = true;        ///< attach a confidence map to every disparity map
+  int disparity_scale = 256;   ///< [steps per px]
+  gint64 sync_tolerance = -1;  ///< [ns]; -1: see effective_tolerance()
+  bool confidence_map = true;  ///< attach a confidence map to every disparity map
+  SyncMode sync_mode = SyncMode::kRunningTime;
   bool qos = true;                   ///< skip pairs that are too late
   guint64 timeout = 5 * GST_SECOND;  ///< until a silent pad is reported [ns]; 0: never
   std::string problem;  ///< why a value was rejected, the error of the next start; "" if none
@@ -46,10 +55,12 @@ struct Settings {
 struct Statistics {
   guint64 pairs = 0;
   std::array<guint64, 2> dropped{};  ///< frames without a partner, by side
-  guint64 skipped = 0;               ///< pairs that were too late to be matched (QoS)
-  double last_ms = 0;   ///< time for the last pair: conversion, inspection and matching
-  double total_ms = 0;  ///< of all pairs
-  double density = 0;   ///< of the last pair
+  guint64 skipped = 0;      ///< pairs that were too late to be matched (QoS), or not the newest
+  guint64 wrong_times = 0;  ///< of the dropped frames, those with a wrong time stamp
+  DifferenceStatistics difference;  ///< of the times of the pairs
+  double last_ms = 0;               ///< time for the last pair: conversion, inspection and matching
+  double total_ms = 0;              ///< of all pairs
+  double density = 0;               ///< of the last pair
 };
 
 /// The correction in the last message `mtstereo-alignment`.
@@ -108,14 +119,30 @@ struct ElementState {
   GstVideoInfo output{};           ///< of the disparity map; valid if the source pad has caps
   std::array<LumaReader, 2> luma;  ///< by side
   ConfidencePool confidence_pool;
+  std::array<std::shared_ptr<const GstVideoInfo>, 2> adopted_infos;     ///< that of Input::info
+  std::shared_ptr<const StreamSegment> output_segment;                  ///< that of the source pad
+  std::array<std::shared_ptr<const StreamSegment>, 2> paired_segments;  ///< of the last frames
+  SyncMode paired_mode = SyncMode::kRunningTime;
+  PairFinder finder;
+  PairClock clock;
+  GstFlowReturn pending_flow = GST_FLOW_OK;  ///< of a failure outside of aggregate()
   OutputSegment segment = OutputSegment::kNone;
   guint32 segment_seqnum = GST_SEQNUM_INVALID;  ///< of the left stream's segment
   UnpairedWarning unpaired_warning;
+  DoubtWarning doubt_warning;
   WaitingFrame waiting_frame;      ///< the frame whose partner has not arrived
   GstClockTime known_latency = 0;  ///< added to deadlines by the base class; 0: not known yet
 
+  // Guarded by queue_mutex. Lock it before the object lock, and not while a pair is matched.
+  std::mutex queue_mutex;
+  std::array<FrameQueue, 2> queues;
+
+  std::atomic<bool> newest_pair = false;          ///< the property
+  std::atomic<std::uint64_t> flushing_seeks = 0;  ///< sent upstream so far
+
   Watchdog watchdog{*this};  ///< has its own lock
 
+  FrameQueue& queue(Side side) { return queues[static_cast<std::size_t>(side)]; }
   Input& input(Side side) { return inputs[static_cast<std::size_t>(side)]; }
   const Input& input(Side side) const { return inputs[static_cast<std::size_t>(side)]; }
   Side side_of(const GstAggregatorPad* pad) const {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/events.hpp"
 
+#include "matcher/aggregation.hpp"
 #include "matcher/negotiation.hpp"
 #include "matcher/output_events.hpp"
 #include "matcher/skipping.hpp"
+#include "matcher/streams.hpp"
 #include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
@@ -38,20 +40,15 @@ bool take_segment(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   const GstSegment copy = *segment;
   const guint32 seqnum = gst_event_get_seqnum(event);
   if (!state.base_class->sink_event(state.element, pad, event)) return false;
-  if (side == Side::kRight) return true;
-  gst_aggregator_update_segment(state.element, &copy);
-  state.segment = OutputSegment::kWaiting;
-  state.segment_seqnum = seqnum;
-  state.alignment.restart();  // the output of a segment does not depend on earlier ones
-  const ObjectLock lock(state.element);
-  state.lateness.restart();
+  take_stream_segment(state, side, copy, seqnum);
   return true;
 }
 
 bool take_end(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   const guint32 seqnum = gst_event_get_seqnum(event);
   const bool taken = state.base_class->sink_event(state.element, pad, event) != FALSE;
-  end_output(state, seqnum);
+  // Frames that wait may still get partners from the other stream.
+  if (finish_stream(state, state.side_of(pad))) end_output(state, seqnum);
   return taken;
 }
 
@@ -60,6 +57,13 @@ bool take_qos_event(ElementState& state, GstEvent* event) {
   note_qos_event(state, event);
   const ObjectLock lock(state.element);
   return state.settings.qos;
+}
+
+/// The next segments of both streams follow this seek.
+void count_flushing_seek(ElementState& state, GstEvent* event) {
+  GstSeekFlags flags = GST_SEEK_FLAG_NONE;
+  gst_event_parse_seek(event, nullptr, nullptr, &flags, nullptr, nullptr, nullptr, nullptr);
+  if ((flags & GST_SEEK_FLAG_FLUSH) != 0) ++state.flushing_seeks;
 }
 
 }  // namespace
@@ -72,6 +76,9 @@ bool handle_sink_event(ElementState& state, GstAggregatorPad* pad, GstEvent* eve
       return take_segment(state, pad, event);
     case GST_EVENT_EOS:
       return take_end(state, pad, event);
+    case GST_EVENT_FLUSH_STOP:
+      clear_stream(state, state.side_of(pad));
+      break;
     case GST_EVENT_SEGMENT_DONE:
       // The output follows the left stream: only the end of its segment is passed on.
       if (state.side_of(pad) == Side::kLeft) break;
@@ -89,6 +96,7 @@ bool handle_source_event(ElementState& state, GstEvent* event) {
     return true;
   }
   if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) note_latency_event(state, event);
+  if (GST_EVENT_TYPE(event) == GST_EVENT_SEEK) count_flushing_seek(state, event);
   return state.base_class->src_event(state.element, event) != FALSE;
 }
 

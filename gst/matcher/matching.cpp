@@ -50,6 +50,11 @@ bool check_streams(ElementState& state) {
   return false;
 }
 
+/// The caps of the left stream have changed since the base class has called.
+bool renegotiate(ElementState& state) {
+  return !gst_pad_check_reconfigure(state.source_pad()) || gst_aggregator_negotiate(state.element);
+}
+
 /// Applies settings that have changed since the last pair. Some of them are part of the caps.
 bool refresh_settings(ElementState& state) {
   const Settings last = state.active;
@@ -141,7 +146,7 @@ GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right)
     gst_object_sync_values(GST_OBJECT_CAST(state.element), times.stream);
   }
   if (!check_streams(state)) return GST_FLOW_ERROR;
-  if (!refresh_settings(state)) {
+  if (!renegotiate(state) || !refresh_settings(state)) {
     // A flush in the meantime is not a failure; the base class handles it.
     return GST_PAD_IS_FLUSHING(state.source_pad()) ? GST_FLOW_FLUSHING : GST_FLOW_ERROR;
   }

@@ -9,6 +9,7 @@
 #include "matcher/negotiation.hpp"
 #include "matcher/queries.hpp"
 #include "matcher/settings.hpp"
+#include "matcher/streams.hpp"
 #include "shared/caps.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/luma.hpp"
@@ -143,7 +144,10 @@ gboolean start(GstAggregator* aggregator) {
   state.unpaired_warning.reset();
   state.waiting_frame = {};
   state.known_latency = 0;
+  state.doubt_warning = {};
   state.segment = OutputSegment::kNone;
+  state.output_segment.reset();
+  clear_streams(state);
   state.complete_settings();
   if (!apply_settings(state)) return FALSE;
   state.watchdog.start();
@@ -156,6 +160,9 @@ gboolean stop(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
   state.watchdog.stop();
   for (Input& input : state.inputs) input.has_caps = false;
+  clear_streams(state);
+  state.adopted_infos = {};
+  for (FrameQueue& queue : state.queues) queue = {};
   state.matcher.reset();
   state.alignment = PairAlignment();
   state.confidence_pool.clear();
@@ -171,6 +178,8 @@ GstFlowReturn flush(GstAggregator* aggregator) {
   state.unpaired_warning.reset();
   state.waiting_frame = {};
   state.segment = OutputSegment::kNone;
+  state.output_segment.reset();
+  clear_streams(state);
   const ObjectLock lock(aggregator);
   state.lateness.restart();
   ++state.watchdog_input.flushes;
@@ -282,6 +291,7 @@ static void gst_mtstereo_init(GstMtStereo* self) {
                                                   pad_template, nullptr));
     self->state->input(side).pad = GST_AGGREGATOR_PAD(pad);
     gst_element_add_pad(element, pad);
+    watch_pad(*self->state, side);
   }
 }
 

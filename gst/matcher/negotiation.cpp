@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "matcher/settings.hpp"
+#include "matcher/streams.hpp"
 #include "shared/caps.hpp"
 #include "shared/luma.hpp"
 
@@ -77,11 +78,6 @@ std::string refusal(const GstCaps* caps) {
   return {};
 }
 
-std::optional<Nanoseconds> frame_duration(const GstVideoInfo& info) {
-  if (info.fps_n <= 0 || info.fps_d <= 0) return std::nullopt;
-  return static_cast<Nanoseconds>(gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n));
-}
-
 }  // namespace
 
 CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
@@ -132,15 +128,9 @@ bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps) {
             caps_text(takes.get()) + "; " + state.streams_text());
     return false;
   }
-  gst_video_info_from_caps(&input.info, caps);
-  input.has_caps = true;
-  {
-    const ObjectLock lock(state.element);
-    (side == Side::kLeft ? state.caps_durations.left : state.caps_durations.right) =
-        frame_duration(input.info);
-  }
-  if (side == Side::kLeft) gst_pad_mark_reconfigure(state.source_pad());
-  update_pairing_latency(state);
+  GstVideoInfo info;
+  gst_video_info_from_caps(&info, caps);
+  take_stream_info(state, side, info);
   return true;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/output_events.hpp"
 
+#include <cstdio>
+
 #include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
@@ -26,8 +28,16 @@ bool send_segment(ElementState& state) {
 void end_output(ElementState& state, guint32 seqnum) {
   GstPad* pad = state.source_pad();
   const CapsPointer caps(gst_pad_get_current_caps(pad));
-  // If there was no output, the base class sends the event when both streams have ended.
-  if (!caps || !send_segment(state)) return;
+  if (caps) {
+    if (!send_segment(state)) return;  // the base class sends the event
+  } else if (GstEvent* start = gst_pad_get_sticky_event(pad, GST_EVENT_STREAM_START, 0)) {
+    gst_event_unref(start);
+  } else {
+    // There was no output: the base class would send nothing while the other stream is silent.
+    char id[32];
+    std::snprintf(id, sizeof id, "mtstereo-%08x", g_random_int());
+    gst_pad_push_event(pad, gst_event_new_stream_start(id));
+  }
   GstEvent* end = gst_event_new_eos();
   gst_event_set_seqnum(end, seqnum);
   gst_pad_push_event(pad, end);

@@ -233,6 +233,13 @@ void PairFinder::update_doubt() {
   doubtful_ = doubtful;
 }
 
+bool DoubtWarning::due(PairDoubt doubt, Nanoseconds now) {
+  auto& last = last_[static_cast<std::size_t>(doubt)];
+  if (last && now - *last < kInterval) return false;
+  last = now;
+  return true;
+}
+
 PairDoubt PairFinder::new_doubt() { return std::exchange(new_doubt_, PairDoubt::kNone); }
 
 }  // namespace mtstereo::plugin

@@ -41,6 +41,18 @@ enum class PairDoubt {
   kSlip,    ///< the streams have drifted apart, and the partner is now another frame
 };
 
+/// Decides when to report a doubt: each kind at most once per `kInterval`.
+class DoubtWarning {
+ public:
+  static constexpr Nanoseconds kInterval = 60'000'000'000;  ///< [ns], wall clock
+
+  /// A doubt came up at the wall clock time `now`. True: report it.
+  bool due(PairDoubt doubt, Nanoseconds now);
+
+ private:
+  std::array<std::optional<Nanoseconds>, 3> last_;
+};
+
 /// Finds the pairs of two streams by the times of their frames. Frames whose times agree with the
 /// offset of the streams are a pair at once. Otherwise it looks ahead by a few frames: to learn the
 /// offset, to find out which of two frames is the nearer one, and to tell a frame with a wrong time

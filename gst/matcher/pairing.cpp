@@ -5,16 +5,6 @@
 
 namespace mtstereo::plugin {
 
-PairingDecision decide_pairing(std::optional<Nanoseconds> left, std::optional<Nanoseconds> right,
-                               Nanoseconds tolerance) {
-  if (!left && !right) return {PairingAction::kPair, 0};
-  if (!left || !right) return {PairingAction::kMixedStamping, 0};
-  const Nanoseconds difference = *right - *left;
-  if (difference > tolerance) return {PairingAction::kDropLeft, difference};
-  if (difference < -tolerance) return {PairingAction::kDropRight, difference};
-  return {PairingAction::kPair, difference};
-}
-
 std::optional<Nanoseconds> FrameDurations::shorter() const {
   if (left && right) return std::min(*left, *right);
   return left ? left : right;

@@ -12,26 +12,6 @@ using Nanoseconds = std::int64_t;
 /// The tolerance if the frame duration is known neither from the caps nor from the buffers [ns].
 inline constexpr Nanoseconds kFallbackTolerance = 20'000'000;
 
-/// The action for the frames at the heads of the two streams.
-enum class PairingAction {
-  kPair,           ///< both were taken at the same time: match them
-  kDropLeft,       ///< the right stream is past the left frame, which has no partner
-  kDropRight,      ///< the left stream is past the right frame, which has no partner
-  kMixedStamping,  ///< only one of the frames has a time stamp: an error
-};
-
-/// An action and its reason, for the statistics and the messages.
-struct PairingDecision {
-  PairingAction action = PairingAction::kPair;
-  Nanoseconds difference = 0;  ///< right minus left; 0 without time stamps
-};
-
-/// Decides on two frames by their running times; std::nullopt stands for a frame without a time
-/// stamp. Two frames without time stamps are a pair. Frames at most `tolerance` apart are a pair;
-/// otherwise the older frame is dropped, since the times of both streams increase.
-PairingDecision decide_pairing(std::optional<Nanoseconds> left, std::optional<Nanoseconds> right,
-                               Nanoseconds tolerance);
-
 /// The frame duration of each side [ns], if known.
 struct FrameDurations {
   std::optional<Nanoseconds> left;

@@ -8,43 +8,6 @@ namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
 
-TEST(Pairing, PairsFramesWithEqualTimes) {
-  const PairingDecision decision = decide_pairing(40 * kMs, 40 * kMs, 0);
-  EXPECT_EQ(decision.action, PairingAction::kPair);
-  EXPECT_EQ(decision.difference, 0);
-}
-
-TEST(Pairing, IncludesTheToleranceItself) {
-  EXPECT_EQ(decide_pairing(40 * kMs, 50 * kMs, 10 * kMs).action, PairingAction::kPair);
-  EXPECT_EQ(decide_pairing(50 * kMs, 40 * kMs, 10 * kMs).action, PairingAction::kPair);
-}
-
-TEST(Pairing, DropsALeftFrameWithoutAPartner) {
-  const PairingDecision decision = decide_pairing(40 * kMs, 50 * kMs + 1, 10 * kMs);
-  EXPECT_EQ(decision.action, PairingAction::kDropLeft);
-  EXPECT_EQ(decision.difference, 10 * kMs + 1);
-}
-
-TEST(Pairing, DropsARightFrameWithoutAPartner) {
-  const PairingDecision decision = decide_pairing(50 * kMs + 1, 40 * kMs, 10 * kMs);
-  EXPECT_EQ(decision.action, PairingAction::kDropRight);
-  EXPECT_EQ(decision.difference, -10 * kMs - 1);
-}
-
-TEST(Pairing, SupportsTimesBeforeTheSegment) {
-  EXPECT_EQ(decide_pairing(-3 * kMs, 4 * kMs, 10 * kMs).action, PairingAction::kPair);
-  EXPECT_EQ(decide_pairing(-30 * kMs, 4 * kMs, 10 * kMs).action, PairingAction::kDropLeft);
-}
-
-TEST(Pairing, PairsFramesWithoutTimes) {
-  EXPECT_EQ(decide_pairing(std::nullopt, std::nullopt, 0).action, PairingAction::kPair);
-}
-
-TEST(Pairing, RejectsATimeOnOneSideOnly) {
-  EXPECT_EQ(decide_pairing(0, std::nullopt, kMs).action, PairingAction::kMixedStamping);
-  EXPECT_EQ(decide_pairing(std::nullopt, 0, kMs).action, PairingAction::kMixedStamping);
-}
-
 TEST(Tolerance, IsTheValueThatIsSet) {
   EXPECT_EQ(effective_tolerance(7, {40 * kMs, 40 * kMs}, {20 * kMs, 20 * kMs}), 7);
   EXPECT_EQ(effective_tolerance(0, {40 * kMs, 40 * kMs}, {}), 0);

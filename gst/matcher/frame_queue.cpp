@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/frame_queue.hpp"
+
+#include <utility>
+
+namespace mtstereo::plugin {
+namespace {
+
+std::optional<Nanoseconds> to_running_time(const GstSegment& segment, GstClockTime position) {
+  guint64 time = 0;
+  const int sign = gst_segment_to_running_time_full(&segment, GST_FORMAT_TIME, position, &time);
+  if (sign == 0) return std::nullopt;
+  return sign * static_cast<Nanoseconds>(time);
+}
+
+/// The running time at which a segment has this stream time, without the offset of the pad.
+std::optional<Nanoseconds> running_time_at(const StreamSegment& stream, guint64 stream_time) {
+  guint64 position = 0;
+  const int sign = gst_segment_position_from_stream_time_full(&stream.segment, GST_FORMAT_TIME,
+                                                              stream_time, &position);
+  if (sign <= 0) return std::nullopt;
+  const auto time = to_running_time(stream.segment, position);
+  if (!time) return std::nullopt;
+  return *time - stream.pad_offset;
+}
+
+}  // namespace
+
+std::optional<Nanoseconds> QueuedFrame::running_time() const {
+  if (!segment || segment->segment.format != GST_FORMAT_TIME) return std::nullopt;
+  if (!GST_BUFFER_PTS_IS_VALID(buffer.get())) return std::nullopt;
+  return to_running_time(segment->segment, GST_BUFFER_PTS(buffer.get()));
+}
+
+std::optional<Nanoseconds> QueuedFrame::end_time() const {
+  const auto begin = running_time();
+  if (!begin || !GST_BUFFER_DURATION_IS_VALID(buffer.get())) return begin;
+  const double rate = segment->segment.rate < 0 ? -segment->segment.rate : segment->segment.rate;
+  const auto length =
+      static_cast<Nanoseconds>(static_cast<double>(GST_BUFFER_DURATION(buffer.get())) / rate);
+  // In reverse the running time of the time stamp, the earliest one, is the end.
+  return segment->segment.rate < 0 ? *begin : *begin + length;
+}
+
+void FrameQueue::look(GstAggregatorPad* pad) {
+  BufferPointer buffer(gst_aggregator_pad_peek_buffer(pad));
+  if (in_pad_) {
+    if (buffer.get() == frames_.back().buffer.get()) return;
+    // A flush has removed it.
+    frames_.pop_back();
+    in_pad_ = false;
+  }
+  if (!buffer) return;
+  frames_.push_back({std::move(buffer), info, segment});
+  in_pad_ = true;
+}
+
+bool FrameQueue::hold(GstAggregatorPad* pad) {
+  look(pad);
+  if (!in_pad_) return false;
+  const BufferPointer buffer(gst_aggregator_pad_pop_buffer(pad));
+  in_pad_ = false;
+  return true;
+}
+
+QueuedFrame FrameQueue::take(GstAggregatorPad* pad, std::size_t index) {
+  if (in_pad_ && index + 1 == frames_.size()) {
+    gst_aggregator_pad_drop_buffer(pad);
+    in_pad_ = false;
+  }
+  QueuedFrame frame = std::move(frames_[index]);
+  frames_.erase(frames_.begin() + static_cast<std::ptrdiff_t>(index));
+  return frame;
+}
+
+void FrameQueue::clear() {
+  frames_.clear();
+  in_pad_ = false;
+  passed.reset();
+}
+
+Nanoseconds seek_correction(const StreamSegment& left, const StreamSegment& right) {
+  const bool same_seek = (left.seqnum != GST_SEQNUM_INVALID && left.seqnum == right.seqnum) ||
+                         (left.seek != 0 && left.seek == right.seek);
+  if (!same_seek || left.segment.rate != right.segment.rate) return 0;
+  const guint64 stream_time = left.segment.time;
+  if (!GST_CLOCK_TIME_IS_VALID(stream_time)) return 0;
+  const auto left_time = running_time_at(left, stream_time);
+  const auto right_time = running_time_at(right, stream_time);
+  return left_time && right_time ? *left_time - *right_time : 0;
+}
+
+}  // namespace mtstereo::plugin

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/pair_times.hpp"
+
+namespace mtstereo::plugin {
+namespace {
+
+/// The reference of the first reference time stamp of a frame.
+GstCaps* reference_of(const QueuedFrame& frame) {
+  const GstReferenceTimestampMeta* meta =
+      gst_buffer_get_reference_timestamp_meta(frame.buffer.get(), nullptr);
+  return meta != nullptr ? meta->reference : nullptr;
+}
+
+std::optional<Nanoseconds> reference_time(const QueuedFrame& frame, GstCaps* reference) {
+  if (reference == nullptr) return std::nullopt;
+  const GstReferenceTimestampMeta* meta =
+      gst_buffer_get_reference_timestamp_meta(frame.buffer.get(), reference);
+  if (meta == nullptr) return std::nullopt;
+  return static_cast<Nanoseconds>(meta->timestamp);
+}
+
+}  // namespace
+
+PairTimes PairClock::times(const FrameQueue& left, const FrameQueue& right, SyncMode mode) {
+  PairTimes result;
+  if (mode == SyncMode::kArrival) return result;
+  GstCaps* const reference = reference_of(left.front());
+  const bool segments = left.front().segment && right.front().segment;
+  const Nanoseconds correction =
+      segments ? seek_correction(*left.front().segment, *right.front().segment) : 0;
+  const auto time_of = [&](const QueuedFrame& frame,
+                           std::size_t side) -> std::optional<Nanoseconds> {
+    if (mode == SyncMode::kReferenceTimestamp) return reference_time(frame, reference);
+    auto time = frame.running_time();
+    if (!time) return time;
+    if (mode == SyncMode::kRunningTime) return side == 0 ? *time : *time + correction;
+    if (!first_[side]) first_[side] = time;
+    return *time - *first_[side];
+  };
+  for (const std::size_t side : {0u, 1u}) {
+    const FrameQueue& queue = side == 0 ? left : right;
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      const auto time = queue[i].is_gap() ? std::nullopt : time_of(queue[i], side);
+      if (!time || (i > 0 && queue[i].segment != queue.front().segment)) {
+        result.complete[side] = true;
+        break;
+      }
+      result.times[side].push_back(*time);
+    }
+  }
+  return result;
+}
+
+}  // namespace mtstereo::plugin

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/pairing_reports.hpp"
+
+#include <cstdio>
+
+namespace mtstereo::plugin {
+namespace {
+
+std::string milliseconds(Nanoseconds time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f ms", static_cast<double>(time) / 1e6);
+  return text;
+}
+
+Nanoseconds wall_clock() { return g_get_monotonic_time() * 1000; }
+
+constexpr const char* kIfTriggered =
+    "If both cameras are triggered together, correct it by the property offset of a pad "
+    "(sink_right::offset), or pair by sync-mode=first-pts or sync-mode=arrival.";
+
+}  // namespace
+
+void report_difference(ElementState& state, Nanoseconds difference, Nanoseconds tolerance) {
+  if (!state.unpaired_warning.dropped(wall_clock())) return;
+  post_warning(
+      state,
+      "The last " + std::to_string(state.unpaired_warning.run()) +
+          " frames had no partner within the tolerance of " + milliseconds(tolerance) +
+          ". If the cameras are not triggered together, increase sync-tolerance; if the skew "
+          "between the streams is constant, set the property offset of a pad "
+          "(sink_right::offset).",
+      "the right frame is " + milliseconds(difference) +
+          " after the left frame (negative: before), tolerance " + milliseconds(tolerance) + "; " +
+          state.streams_text());
+}
+
+void report_lateness(ElementState& state, Side silent) {
+  if (!state.unpaired_warning.dropped(wall_clock())) return;
+  post_warning(state,
+               "The last " + std::to_string(state.unpaired_warning.run()) +
+                   " frames had no partner, because no frame arrived in time on " +
+                   pad_name(silent) +
+                   ". If that stream is only delayed, increase the property latency.",
+               state.streams_text());
+}
+
+void report_doubt(ElementState& state, PairDoubt doubt) {
+  if (doubt == PairDoubt::kNone || !state.doubt_warning.due(doubt, wall_clock())) return;
+  const StreamOffset& offset = state.finder.offset();
+  const std::string distance = milliseconds(offset.value());
+  const std::string frame = milliseconds(state.finder.period());
+  if (doubt == PairDoubt::kSlip) {
+    post_warning(state,
+                 "The streams have drifted apart by half a frame: from now on each left frame is "
+                 "paired with the next or the previous right frame, which is nearer in time. If "
+                 "both cameras are triggered together, their clocks differ: pair by "
+                 "sync-mode=arrival or sync-mode=reference-timestamp.",
+                 "the right frames are now " + distance + " after the left ones, a frame takes " +
+                     frame + "; " + state.streams_text());
+    return;
+  }
+  const DifferenceStatistics statistics = offset.line().statistics();
+  post_warning(state,
+               "The right frames are " + distance +
+                   " after the left ones (negative: before), of a frame of " + frame +
+                   ": their time stamps cannot prove that they belong together. " + kIfTriggered,
+               "standard deviation " + milliseconds(static_cast<Nanoseconds>(statistics.spread)) +
+                   "; " + state.streams_text());
+}
+
+GstFlowReturn refuse_mixed_stamping(ElementState& state, bool left_has_time) {
+  post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
+             std::string("The frames of ") + (left_has_time ? "sink_left" : "sink_right") +
+                 " have time stamps and those of " + (left_has_time ? "sink_right" : "sink_left") +
+                 " have none, so they cannot be paired. Provide time stamps on both streams (for "
+                 "example by appsrc do-timestamp=true) or on neither.",
+             state.streams_text());
+  return GST_FLOW_ERROR;
+}
+
+GstFlowReturn refuse_missing_reference(ElementState& state, Side side) {
+  post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
+             std::string("A frame of ") + pad_name(side) +
+                 " has no reference time stamp of the same clock as the other stream, which "
+                 "sync-mode=reference-timestamp needs. Enable it in the source (rtspsrc "
+                 "add-reference-timestamp-meta=true), or choose another sync-mode.",
+             state.streams_text());
+  return GST_FLOW_ERROR;
+}
+
+}  // namespace mtstereo::plugin
