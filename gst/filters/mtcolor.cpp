@@ -3,12 +3,14 @@
 
 #include <gst/video/video.h>
 
+#include <optional>
 #include <vector>
 
 #include "filters/color_table.hpp"
 #include "filters/disparity_filter.hpp"
 #include "mtstereo/parameters.hpp"
 #include "shared/caps.hpp"
+#include "shared/disparity_meta.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/frame_views.hpp"
 
@@ -122,14 +124,15 @@ gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCa
   return TRUE;
 }
 
-/// The property or the caps, whichever applies.
-Range effective_range(GstVideoFilter* filter) {
+/// What the properties, the caps and the meta of a map say, whichever applies.
+Range effective_range(GstVideoFilter* filter, const std::optional<DisparityUnit>& meta) {
   const ColorState& state = state_of(filter);
   const ObjectLock lock(filter);
   Range range;
-  range.scale = state.caps_scale != 0 ? state.caps_scale : state.scale;
+  range.scale = state.caps_scale != 0 ? state.caps_scale : meta ? meta->scale : state.scale;
   range.max_disparity = state.max_disparity != 0        ? state.max_disparity
                         : state.caps_max_disparity != 0 ? state.caps_max_disparity
+                        : meta                          ? meta->max_disparity
                                                         : kFallbackMaxDisparity;
   return range;
 }
@@ -170,7 +173,7 @@ void paint(const GstVideoFrame* in, const GstVideoFrame* out, const std::vector<
 
 GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVideoFrame* out) {
   ColorState& state = state_of(filter);
-  const Range range = effective_range(filter);
+  const Range range = effective_range(filter, disparity_unit_of(in->buffer));
   if (range != state.range) {
     state.table = color_table(range.max_disparity, range.scale);
     state.range = range;
@@ -191,14 +194,15 @@ void install_properties(GObjectClass* object_class) {
       object_class, kMaxDisparity,
       g_param_spec_int("max-disparity", "max-disparity",
                        "Disparity of the last color, in px; the range is the same in every frame "
-                       "(0: max-disparity of the caps, which mtstereo sets, or 64 if the caps have "
-                       "none)",
+                       "(0: that of the caps or of the meta, which mtstereo sets, or 64 without "
+                       "them)",
                        0, kLargestMaxDisparity, 0, kFlags));
   g_object_class_install_property(
       object_class, kDisparityScale,
       g_param_spec_int("disparity-scale", "disparity-scale",
-                       "Steps per px of the input if its caps have no disparity-scale, for example "
-                       "downstream of a decoder; the caps take precedence",
+                       "Steps per px of the input if neither its caps nor its meta have a "
+                       "disparity-scale, for example downstream of a decoder; these take "
+                       "precedence",
                        1, 65535, kFallbackScale, kFlags));
 }
 

@@ -7,8 +7,10 @@
 #include "shared/caps.hpp"
 #include "shared/confidence_meta.hpp"
 #include "shared/confidence_pool.hpp"
+#include "shared/disparity_meta.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/frame_views.hpp"
+#include "shared/pixel_meta.hpp"
 
 namespace mtstereo::plugin {
 
@@ -233,6 +235,7 @@ GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVide
     return GST_FLOW_OK;
   }
   filter_disparity(*in, *confidence.frame(), *out, threshold);
+  if (const auto unit = disparity_unit_of(in->buffer)) set_disparity_unit(out->buffer, *unit);
   if (threshold.least > 0) {
     return attach_filtered(filter, *confidence.frame(), threshold, out->buffer);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/allocation.hpp"
 
-#include "shared/confidence_meta.hpp"
+#include "shared/pixel_meta.hpp"
 
 namespace mtstereo::plugin {
 namespace {

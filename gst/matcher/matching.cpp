@@ -8,6 +8,7 @@
 #include "matcher/confidence.hpp"
 #include "matcher/settings.hpp"
 #include "matcher/skipping.hpp"
+#include "shared/disparity_meta.hpp"
 #include "shared/frame_views.hpp"
 
 #define GST_CAT_DEFAULT mtstereo_debug
@@ -168,6 +169,8 @@ GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right)
   flow = compute(state, left, right, output.get());
   if (flow != GST_FLOW_OK) return flow;
   copy_frame_properties(left, right, output.get());
+  set_disparity_unit(output.get(), {state.active.disparity_scale,
+                                    state.active.parameters.integer(Parameter::kMaxDisparity)});
   if (state.active.confidence_map && !attach_confidence(state, output.get())) return GST_FLOW_ERROR;
   count_pair(state);
   advance_position(state, left);

@@ -19,10 +19,6 @@ inline constexpr const char* kConfidenceField = "confidence";
 /// has the name. Any thread.
 bool register_confidence_meta();
 
-/// True for a meta that describes the memory of a frame or the meaning of its pixels (colors,
-/// confidence). Such a meta is invalid for another frame that is computed from this one.
-bool belongs_to_pixels(const GstMetaInfo& info);
-
 /// Attaches a confidence map to a writable disparity map; replaces an existing one.
 void set_confidence(GstBuffer* disparity, GstSample* confidence);
 
