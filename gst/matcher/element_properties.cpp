@@ -69,7 +69,9 @@ void warn_of_value(ElementState& state, const Status& status, const GParamSpec* 
   g_object_get_property(G_OBJECT(state.element), spec->name, &value);
   const TextPointer kept(gst_value_serialize(&value));
   g_value_unset(&value);
-  post_settings_warning(state, status.error().message + ". The property keeps its last value.",
+  std::string text = status.error().message;
+  if (text.find(spec->name) == std::string::npos) text = std::string(spec->name) + ": " + text;
+  post_settings_warning(state, text + ". The property keeps its last value.",
                         std::string(spec->name) + " stays " + (kept ? kept.get() : "empty"));
 }
 
