@@ -29,9 +29,11 @@ void FrameMatcher::set(const Settings& settings) {
   sized_ = false;
 }
 
-void FrameMatcher::resize(ImageSize frame) {
-  if (sized_ && size_.frame == frame) return;
+void FrameMatcher::resize(ImageSize input) {
+  if (sized_ && size_.input == input) return;
   sized_ = false;
+  size_.input = input;
+  const ImageSize frame = {input.width - settings_.min_disparity, input.height};
   size_.frame = frame;
   size_.matched = settings_.half() ? ImageSize{half_of(frame.width), half_of(frame.height)} : frame;
   size_.threads = thread_count(settings_);
@@ -60,12 +62,13 @@ void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observ
     if (observer) observer(step, memory_);
   }
   views.input = views.matched = {};  // the caller may free the input
-  const bool half = settings_.half();
-  const Image<std::int32_t>& map = settings_.refined() ? memory_.enlarged.refined
-                                   : half              ? memory_.enlarged.disparity
-                                                       : memory_.maps.disparity;
-  disparity_ = map.view();
-  confidence_ = half ? memory_.enlarged.confidence.view() : memory_.maps.confidence.view();
+  const bool shifted = settings_.shifted();
+  const Maps& maps = memory_.maps;
+  const EnlargedMaps& enlarged = memory_.enlarged;
+  disparity_ =
+      (shifted ? memory_.output.disparity : last_disparity(settings_, maps, enlarged)).view();
+  confidence_ =
+      (shifted ? memory_.output.confidence : last_confidence(settings_, maps, enlarged)).view();
 }
 
 double FrameMatcher::density() {

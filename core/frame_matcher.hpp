@@ -40,7 +40,7 @@ class FrameMatcher {
   double density();
 
  private:
-  void resize(ImageSize frame);
+  void resize(ImageSize input);
 
   Settings settings_;
   std::optional<ThreadPool> pool_;

@@ -16,10 +16,11 @@ int band_rows(const ImageSize& size) { return std::min(Bands::kRows, size.height
 
 void Views::resize(const Settings& settings, const FrameSize& size) {
   const auto [width, height] = size.matched;
-  if (settings.aligned()) aligned.resize(size.frame.width, size.frame.height);
+  if (settings.aligned()) aligned.resize(size.input.width, size.input.height);
   const float blurs[] = {settings.correction.left_blur, settings.correction.right_blur};
   for (int side = 0; side < 2; ++side) {
-    if (blurs[side] > 0) blurred[side].resize(size.frame.width, size.frame.height);
+    if (blurs[side] > 0) blurred[side].resize(size.input.width, size.input.height);
+    if (settings.min_disparity < 0) extended[side].resize(size.frame.width, size.frame.height);
     if (settings.half()) halves[side].resize(width, height);
     if (settings.noise_filter) {
       noise[side].resize(width, height);
@@ -33,8 +34,8 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
   }
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
-    if (settings.aligned()) worker.alignment.resize(size.frame.width);
-    if (settings.blurred()) worker.blur.resize(size.frame.width);
+    if (settings.aligned()) worker.alignment.resize(size.input.width);
+    if (settings.blurred()) worker.blur.resize(size.input.width);
     if (settings.noise_filter) worker.noise_filter.resize(width, band_rows(size.matched));
     worker.median.resize(width);
     worker.sobel.resize(width);
@@ -111,12 +112,30 @@ void EnlargedMaps::resize(const Settings& settings, const FrameSize& size) {
   for (RefinementScratch& worker : scratch) worker.resize(width);
 }
 
+void OutputMaps::resize(const Settings& settings, const FrameSize& size) {
+  if (!settings.shifted()) return;
+  disparity.resize(size.input.width, size.input.height);
+  confidence.resize(size.input.width, size.input.height);
+}
+
+const Image<std::int32_t>& last_disparity(const Settings& settings, const Maps& maps,
+                                          const EnlargedMaps& enlarged) {
+  if (settings.refined()) return enlarged.refined;
+  return settings.half() ? enlarged.disparity : maps.disparity;
+}
+
+const Image<std::uint8_t>& last_confidence(const Settings& settings, const Maps& maps,
+                                           const EnlargedMaps& enlarged) {
+  return settings.half() ? enlarged.confidence : maps.confidence;
+}
+
 void FrameMemory::resize(const Settings& settings, const FrameSize& size) {
   views.resize(settings, size);
   nodes.resize(settings, size);
   costs.resize(settings, size);
   maps.resize(settings, size);
   enlarged.resize(settings, size);
+  output.resize(settings, size);
 }
 
 }  // namespace mtstereo

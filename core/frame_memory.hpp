@@ -44,7 +44,8 @@ struct ImageSize {
 
 /// What determines the sizes of the groups.
 struct FrameSize {
-  ImageSize frame;    ///< of the input views and the result
+  ImageSize input;    ///< of the caller's views and the result
+  ImageSize frame;    ///< of the input views after their shift by the smallest disparity
   ImageSize matched;  ///< of the matched views: the frame's size or half of it
   int threads = 1;
 };
@@ -55,6 +56,7 @@ struct Views {
   std::array<GrayView, 2> matched;  ///< those to match: the input, its halves, or these filtered
   Image<std::uint8_t> aligned;      ///< the right view with its rows aligned
   std::array<Image<std::uint8_t>, 2> blurred;
+  std::array<Image<std::uint8_t>, 2> extended;  ///< with more columns, for negative disparities
   std::array<Image<std::uint8_t>, 2> halves;
   std::array<NoiseBlocks, 2> noise;
   std::array<Image<std::uint8_t>, 2> filtered;  ///< without noise
@@ -155,6 +157,20 @@ struct EnlargedMaps {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
+/// The result before the shift of the map: that of the last step that runs with these settings.
+const Image<std::int32_t>& last_disparity(const Settings& settings, const Maps& maps,
+                                          const EnlargedMaps& enlarged);
+const Image<std::uint8_t>& last_confidence(const Settings& settings, const Maps& maps,
+                                           const EnlargedMaps& enlarged);
+
+/// The result, if the smallest disparity differs from 0: the size of the caller's views.
+struct OutputMaps {
+  Image<std::int32_t> disparity;
+  Image<std::uint8_t> confidence;
+
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
 /// All groups.
 struct FrameMemory {
   Views views;
@@ -162,6 +178,7 @@ struct FrameMemory {
   Costs costs;
   Maps maps;
   EnlargedMaps enlarged;
+  OutputMaps output;
 
   void resize(const Settings& settings, const FrameSize& size);
 };

@@ -127,8 +127,8 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) noexcept {
       return Error{
           ErrorCode::kOutOfMemory,
           "not enough memory for images of " + size_text(left.width, left.height) +
-              " px with max-disparity = " + std::to_string(state.matcher.settings().max_disparity) +
-              ": " + ways_to_save(state.matcher.settings())};
+              " px with max-disparity = " + state.parameters.text(Parameter::kMaxDisparity) + ": " +
+              ways_to_save(state.matcher.settings())};
     } catch (const std::exception& exception) {
       return Error{ErrorCode::kSystem,
                    std::string("the frame could not be matched: ") + exception.what()};

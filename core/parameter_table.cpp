@@ -33,8 +33,11 @@ constexpr ParameterInfo kTable[] = {
      "or most pixels, with gaps filled",
      {"few pixels with few errors, at the ends of the finest nodes", "all reliable disparities", "most pixels: less certain disparities too, and gaps filled"}},
     {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", ALL("64"),
-     "the disparities 0 .. max-disparity - 1 are searched; the nearest measurable point is at "
+     "the disparities min-disparity .. max-disparity - 1 are searched; the nearest measurable point is at "
      "focal length * baseline / max-disparity"},
+    {P::kMinDisparity, "min-disparity", "", "px", T::kInteger, -kLargestMinDisparity, kLargestMinDisparity, "", ALL("0"),
+     "the smallest disparity that is searched, less than max-disparity; a negative one is needed if the cameras "
+     "converge or the views are cropped differently"},
     {P::kResolution, "resolution", "", "", T::kChoice, 0, 2, "full|half-refined|half", EACH("full", "half-refined", "full"),
      "resolution at which the views are matched: half is several times as fast, and half-refined refines its "
      "disparities at full resolution; the disparity map always has the size of the views and counts their px; "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "mtstereo/parameters.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/guard.hpp"
@@ -149,6 +150,26 @@ Parameters::Levels Parameters::node_levels() const noexcept {
   return effective(P::kNodeLevels).levels;
 }
 
+int Parameters::disparity_offset() const noexcept { return std::min(integer(P::kMinDisparity), 0); }
+
+/// Checks that the smallest and the largest disparity fit each other.
+Status Parameters::check_range() const {
+  const int least = integer(P::kMinDisparity);
+  const int most = integer(P::kMaxDisparity);
+  if (least < most && most - least <= kLargestMaxDisparity) return {};
+  const std::string range = "min-disparity = " + std::to_string(least) +
+                            " px and max-disparity = " + std::to_string(most) + " px ";
+  if (least >= most) {
+    return Error{ErrorCode::kInvalidCombination,
+                 range + "leave no disparity to search: set min-disparity to at most " +
+                     std::to_string(most - 1) + " px"};
+  }
+  return Error{ErrorCode::kInvalidCombination,
+               range + "are more than " + std::to_string(kLargestMaxDisparity) +
+                   " disparities: set min-disparity to at least " +
+                   std::to_string(most - kLargestMaxDisparity) + " px"};
+}
+
 Status Parameters::check_frame(int width, int height) const noexcept {
   return guarded([&]() -> Status {
     const std::string size = size_text(width, height);
@@ -157,6 +178,7 @@ Status Parameters::check_frame(int width, int height) const noexcept {
                    "images of " + size + " px cannot be matched: each side must be 1 to " +
                        std::to_string(kLargestImageSide) + " px"};
     }
+    if (Status status = check_range(); !status) return status;
     const int disparities = integer(P::kMaxDisparity);
     if (disparities > width) {
       return Error{ErrorCode::kFrameDoesNotFit, "max-disparity = " + std::to_string(disparities) +
@@ -184,7 +206,9 @@ Status Parameters::check_frame(int width, int height) const noexcept {
 
 Status Parameters::check_scale16(int scale) const noexcept {
   return guarded([&]() -> Status {
-    const int disparities = integer(P::kMaxDisparity);
+    if (Status status = check_range(); !status) return status;
+    const int offset = disparity_offset();
+    const int disparities = integer(P::kMaxDisparity) - offset;
     if (scale >= 1 && static_cast<long long>(disparities) * scale <= 65535) return {};
     const int fitting = 65535 / disparities;
     if (scale < 1) {
@@ -192,14 +216,15 @@ Status Parameters::check_scale16(int scale) const noexcept {
                                                        " is invalid: set it to 1 to " +
                                                        std::to_string(fitting)};
     }
+    const int most = scale <= 65535 ? 65535 / scale + offset : 0;
     return Error{
         ErrorCode::kInvalidCombination,
-        "max-disparity = " + std::to_string(disparities) +
-            " px times disparity-scale = " + std::to_string(scale) +
+        "max-disparity = " + text(P::kMaxDisparity) + " px" +
+            (offset < 0 ? " minus min-disparity = " + std::to_string(offset) + " px" : "") +
+            " times disparity-scale = " + std::to_string(scale) +
             " does not fit in 16 bits (65535): set disparity-scale to 1 to " +
             std::to_string(fitting) +
-            (scale <= 65535 ? ", or max-disparity to at most " + std::to_string(65535 / scale)
-                            : "")};
+            (most >= 1 ? ", or max-disparity to at most " + std::to_string(most) : "")};
   });
 }
 

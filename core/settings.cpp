@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "settings.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "stages/nodes/node_census_cost.hpp"
@@ -23,8 +24,13 @@ float most_node_cost(const Parameters& p) {
 /// The offset of the peak ratio in the sums of two paths' costs.
 int ratio_offset(const Parameters& p) { return 2 * kRatioOffset * p.integer(P::kCensusKernelSize); }
 
+/// At least one, also with parameters that check_frame() refuses.
+int view_disparities(const Parameters& p) {
+  return std::max(p.integer(P::kMaxDisparity) - p.integer(P::kMinDisparity), 1);
+}
+
 int matched_disparities(const Parameters& p) {
-  const int disparities = p.integer(P::kMaxDisparity);
+  const int disparities = view_disparities(p);
   return choice<Resolution>(p) == Resolution::kFull ? disparities : half_of(disparities);
 }
 
@@ -35,7 +41,8 @@ Settings::Settings(const Parameters& p)
       resolution(choice<Resolution>(p)),
       cost(choice<Cost>(p)),
       threads(p.integer(P::kThreads)),
-      max_disparity(p.integer(P::kMaxDisparity)),
+      min_disparity(p.integer(P::kMinDisparity)),
+      view_disparities(mtstereo::view_disparities(p)),
       disparities(matched_disparities(p)),
       noise_filter(p.get(P::kNoiseFilter) != 0),
       gray_levels(p.integer(P::kGrayLevels)),

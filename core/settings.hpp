@@ -22,9 +22,10 @@ struct Settings {
   Mode mode;
   Resolution resolution;
   Cost cost;
-  int threads;        ///< 0: one per processor
-  int max_disparity;  ///< D [px of the views]
-  int disparities;    ///< D [px]
+  int threads;           ///< 0: one per processor
+  int min_disparity;     ///< the smallest one [px of the views]
+  int view_disparities;  ///< D, from the smallest one on [px of the views]
+  int disparities;       ///< D [px]
   bool noise_filter;
 
   // nodes
@@ -68,6 +69,8 @@ struct Settings {
   /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost
   /// the nodes themselves are drawn at their ends only, see drawn_end_width().
   bool keeps_only_ends() const { return mode == Mode::kSparse && census(); }
+  /// Whether the smallest disparity differs from 0.
+  bool shifted() const { return min_disparity != 0; }
   /// Whether the rows of the right view are resampled, and whether a view is blurred.
   bool aligned() const { return !(correction.rows == RowField()); }
   bool blurred() const { return correction.left_blur > 0 || correction.right_blur > 0; }

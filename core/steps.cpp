@@ -5,7 +5,6 @@
 #include "steps.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "stages/nodes/disparity_drawing.hpp"
 #include "stages/nodes/node_extrapolation.hpp"
@@ -24,12 +23,15 @@
 #include "stages/prepare/preprocess.hpp"
 #include "stages/prepare/row_alignment.hpp"
 #include "stages/prepare/view_blur.hpp"
+#include "stages/prepare/view_shift.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/disparity_refinement.hpp"
 #include "stages/refine/enlarging.hpp"
 #include "stages/refine/gap_filling.hpp"
+#include "stages/refine/map_shift.hpp"
 #include "stages/refine/map_smoothing.hpp"
 #include "stages/refine/speckle_removal.hpp"
+#include "step_groups.hpp"
 
 namespace mtstereo {
 namespace {
@@ -55,6 +57,21 @@ void match_sharpness(const StepContext& step, Views& views) {
     });
     views.replace_input(side, views.blurred[side].view());
   }
+}
+
+/// Makes the smallest disparity that of 0 px of the views to match.
+void shift_views(const StepContext& step, Views& views) {
+  const int least = step.settings.min_disparity;
+  if (least > 0) {
+    views.replace_input(0, cropped_left(views.input[0], least));
+    views.replace_input(1, cropped_right(views.input[1], least));
+    return;
+  }
+  step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int) {
+    extend_rows(views.input[side], side == 0 ? -least : 0, side == 0 ? 0 : -least, y0, y1,
+                views.extended[side]);
+  });
+  for (int side = 0; side < 2; ++side) views.replace_input(side, views.extended[side].view());
 }
 
 void halve(const StepContext& step, Views& views) {
@@ -284,7 +301,7 @@ void smooth(const StepContext& step, Maps& maps) {
 
 void enlarge(const StepContext& step, const Maps& maps, EnlargedMaps& enlarged) {
   step.input_bands.rows([&](int y0, int y1, int) {
-    enlarge_rows(maps.disparity, step.settings.max_disparity, y0, y1, enlarged.disparity);
+    enlarge_rows(maps.disparity, step.settings.view_disparities, y0, y1, enlarged.disparity);
     enlarge_confidence(maps.confidence, y0, y1, enlarged.confidence);
   });
 }
@@ -299,39 +316,26 @@ void transform_input(const StepContext& step, Views& views) {
 void refine(const StepContext& step, const Views& views, EnlargedMaps& enlarged) {
   step.input_bands.rows_per_thread([&](int y0, int y1, int worker) {
     refine_disparities(views.input_census[0], views.input_census[1], enlarged.disparity,
-                       step.settings.max_disparity, y0, y1, enlarged.scratch[worker],
+                       step.settings.view_disparities, y0, y1, enlarged.scratch[worker],
                        enlarged.refined);
   });
 }
 
-// The group of the memory that has this type.
-template <typename Group>
-Group& group(FrameMemory& memory) {
-  using Plain = std::remove_const_t<Group>;
-  if constexpr (std::is_same_v<Plain, Views>) {
-    return memory.views;
-  } else if constexpr (std::is_same_v<Plain, Nodes>) {
-    return memory.nodes;
-  } else if constexpr (std::is_same_v<Plain, Costs>) {
-    return memory.costs;
-  } else if constexpr (std::is_same_v<Plain, Maps>) {
-    return memory.maps;
-  } else {
-    static_assert(std::is_same_v<Plain, EnlargedMaps>, "FrameMemory has no such group");
-    return memory.enlarged;
-  }
-}
-
-/// A step's function, called with the groups that it reads (const) and writes.
-template <auto kFunction, typename... Groups>
-void on(const StepContext& context, FrameMemory& memory) {
-  kFunction(context, group<Groups>(memory)...);
+void shift_map(const StepContext& step, const Maps& maps, const EnlargedMaps& enlarged,
+               OutputMaps& output) {
+  const Settings& settings = step.settings;
+  step.input_bands.rows([&](int y0, int y1, int) {
+    mtstereo::shift_map(last_disparity(settings, maps, enlarged),
+                        last_confidence(settings, maps, enlarged), settings.min_disparity, y0, y1,
+                        output.disparity, output.confidence);
+  });
 }
 
 bool always(const Settings&) { return true; }
 bool if_aligned(const Settings& s) { return s.aligned(); }
 bool if_blurred(const Settings& s) { return s.blurred(); }
 bool if_noise_filter(const Settings& s) { return s.noise_filter; }
+bool if_shifted(const Settings& s) { return s.shifted(); }
 bool if_half(const Settings& s) { return s.half(); }
 bool if_refined(const Settings& s) { return s.refined(); }
 bool if_census(const Settings& s) { return s.census(); }
@@ -352,6 +356,7 @@ constexpr Step kSteps[] = {
     // prepare
     {"row-alignment",       if_aligned,        on<align, Views>},
     {"sharpness",           if_blurred,        on<match_sharpness, Views>},
+    {"view-shift",          if_shifted,        on<shift_views, Views>},
     {"halving",             if_half,           on<halve, Views>},
     {"noise-filter",        if_noise_filter,   on<filter_noise, Views>},
     {"preprocessing",       always,            on<preprocess, Views>},
@@ -376,6 +381,7 @@ constexpr Step kSteps[] = {
     {"enlarging",           if_half,           on<enlarge, const Maps, EnlargedMaps>},
     {"input-census",        if_refined,        on<transform_input, Views>},
     {"refinement",          if_refined,        on<refine, const Views, EnlargedMaps>},
+    {"map-shift",           if_shifted,        on<shift_map, const Maps, const EnlargedMaps, OutputMaps>},
 };
 // clang-format on
 

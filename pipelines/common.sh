@@ -87,8 +87,8 @@ common_option() {
       matcher+=("mode=$2")
       ;;
     --max-disparity)
-      { is_number "$2" && [ "$2" -ge 1 ] && [ "$2" -le 1024 ]; } ||
-        wrong_usage "--max-disparity is '$2'; it must be an integer from 1 to 1024 [px]"
+      { is_number "$2" && [ "$2" -ge 1 ] && [ "$2" -le 1984 ]; } ||
+        wrong_usage "--max-disparity is '$2'; it must be an integer from 1 to 1984 [px]"
       matcher+=("max-disparity=$2")
       color+=("max-disparity=$2")
       ;;

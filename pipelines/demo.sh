@@ -53,7 +53,7 @@ take_option() {
       ;;
     --max-disparity)
       whole_number "$@"
-      [ "$2" -le 1024 ] || wrong_usage "--max-disparity is '$2'; it must be 1 to 1024 [px]"
+      [ "$2" -le 1984 ] || wrong_usage "--max-disparity is '$2'; it must be 1 to 1984 [px]"
       max_disparity=$2
       ;;
     --frames) whole_number "$@" && frames=$2 ;;

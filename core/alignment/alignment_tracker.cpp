@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The public class AlignmentTracker, and the texts of its enums.
+#include <algorithm>
 #include <new>
 #include <string>
 
@@ -8,6 +9,7 @@
 #include "alignment/pair_watch.hpp"
 #include "alignment/row_field.hpp"
 #include "base/guard.hpp"
+#include "base/limits.hpp"
 #include "check_views.hpp"
 #include "mtstereo/alignment.hpp"
 #include "mtstereo/parameters.hpp"
@@ -125,6 +127,11 @@ Status AlignmentTracker::watch(GrayView left, GrayView right) noexcept {
 }
 
 Status AlignmentTracker::inspect(GrayView left, GrayView right, int max_disparity) noexcept {
+  return inspect(left, right, max_disparity, 0);
+}
+
+Status AlignmentTracker::inspect(GrayView left, GrayView right, int max_disparity,
+                                 int min_disparity) noexcept {
   return guarded([&]() -> Status {
     if (Status status = check_pair(left, right); !status) return status;
     if (max_disparity < 1 || max_disparity > kLargestMaxDisparity) {
@@ -132,7 +139,13 @@ Status AlignmentTracker::inspect(GrayView left, GrayView right, int max_disparit
                    "max-disparity = " + std::to_string(max_disparity) +
                        " is invalid: the range is 1 to " + std::to_string(kLargestMaxDisparity)};
     }
-    state_->inspector.inspect(left, right, max_disparity);
+    if (min_disparity < -kLargestMinDisparity || min_disparity >= max_disparity) {
+      return Error{ErrorCode::kInvalidParameter,
+                   "min-disparity = " + std::to_string(min_disparity) +
+                       " is invalid: the range is " + std::to_string(-kLargestMinDisparity) +
+                       " to " + std::to_string(max_disparity - 1)};
+    }
+    state_->inspector.inspect(left, right, max_disparity, std::min(min_disparity, 0));
     state_->findings = state_->inspector.findings();
     state_->policy.add(state_->findings, state_->inspector.matches(), left.width, left.height);
     return {};

@@ -44,12 +44,12 @@ void PairInspector::find_matches(GrayView left, GrayView right, int max_disparit
       kHighPassGain * noise_of(left, sharpness_scratch_) / reduced_left_.factor;
   find_corners(reduced_left_.gray, static_cast<float>(deviation * deviation), corner_scratch_,
                corners_);
-  search(left, right, -kSearchedNegative, most);
+  search(left, right, least_disparity_ - kSearchedNegative, most);
   constexpr double kEnough = 0.2;
   if (matches_.size() >= kEnough * corners_.size() || most <= kSearchedNegative) return;
   // The views may be swapped.
   std::swap(matches_, other_matches_);
-  search(left, right, -most, most);
+  search(left, right, least_disparity_ - most, most);
   if (matches_.size() < other_matches_.size()) std::swap(matches_, other_matches_);
 }
 
@@ -72,6 +72,8 @@ bool PairInspector::even_out_sharpness(GrayView& left, GrayView& right) {
 }
 
 void PairInspector::judge(int width, int height) {
+  // Only the sign of a disparity matters from here on.
+  for (Match& match : matches_) match.x_left -= static_cast<float>(least_disparity_);
   findings_.candidates = static_cast<int>(corners_.size());
   findings_.matches = static_cast<int>(matches_.size());
   if (findings_.candidates < kFewestInliers) {
@@ -93,8 +95,9 @@ void PairInspector::judge(int width, int height) {
   findings_.deviation = choice.model.deviation;
 }
 
-void PairInspector::inspect(GrayView left, GrayView right, int max_disparity) {
+void PairInspector::inspect(GrayView left, GrayView right, int max_disparity, int least_disparity) {
   findings_ = {};
+  least_disparity_ = std::max(least_disparity, -left.width);
   matches_.clear();
   corners_.clear();
   repeated_ = 0;

@@ -26,11 +26,13 @@ inline constexpr int kSearchedRows = 8;
 /// Inspects one pair by itself. The memory is used again for the next pair.
 class PairInspector {
  public:
-  /// Estimates the field and the sharpness of a pair of views of the same size.
-  void inspect(GrayView left, GrayView right, int max_disparity);
+  /// Estimates the field and the sharpness of a pair of views of the same size. The smallest
+  /// disparity of the stereo camera, `least_disparity`, is at most 0.
+  void inspect(GrayView left, GrayView right, int max_disparity, int least_disparity = 0);
 
   const PairFindings& findings() const { return findings_; }
-  /// The matches of the last pair, with those that disagree with the field.
+  /// The matches of the last pair, with those that disagree with the field. Their disparities are
+  /// relative to the least one.
   std::span<const Match> matches() const { return matches_; }
 
  private:
@@ -48,6 +50,7 @@ class PairInspector {
   std::vector<Corner> corners_;
   std::vector<Match> matches_, other_matches_;
   Image<std::uint8_t> blurred_;
+  int least_disparity_ = 0;
   int repeated_ = 0;  ///< corners that are found at several places
 };
 

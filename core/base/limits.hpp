@@ -11,6 +11,9 @@ namespace mtstereo {
 /// The maxima of the parameter table and the array sizes of the stages both use them, so that
 /// neither can change without the other. kLargestMaxDisparity and kLargestImageSide are public.
 
+/// Largest absolute value of Parameter::kMinDisparity [px].
+inline constexpr int kLargestMinDisparity = 1024;
+
 /// Largest Parameter::kGrayLevels (q): levels fit 8 bits.
 inline constexpr int kLargestGrayLevels = 256;
 

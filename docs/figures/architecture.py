@@ -15,7 +15,7 @@ import sys
 from dataclasses import dataclass
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-GROUPS = ("Views", "Nodes", "Costs", "Maps", "EnlargedMaps")
+GROUPS = ("Views", "Nodes", "Costs", "Maps", "EnlargedMaps", "OutputMaps")
 INK, FAINT, GIVEN, EDGE = "#282828", "#767676", "#1464be", "#b4b4b4"
 GST, CORE, ROOM = "#fdf0dc", "#e4eefa", "#f4f4f4"
 
@@ -149,7 +149,7 @@ AFTER = [
 
 class Drawing:
     """A picture in pixels, y downwards."""
-    WIDTH, HEIGHT, DPI = 1180, 760, 100
+    WIDTH, HEIGHT, DPI = 1180, 900, 100
 
     def __init__(self):
         # pylint: disable=import-outside-toplevel
@@ -207,12 +207,12 @@ def draw_way(drawing, boxes, top):
 def draw_steps(drawing, steps, top):
     """The rooms with their steps and the memory of each. Returns the heights of the first and of
     the last room's middle."""
-    x, right, row, columns = 470, 1160, 25, 905
+    x, right, row, columns = 470, 1160, 25, 850
     spacing = (right - columns) / len(GROUPS)
     drawing.text(x, top, "core/steps: the list", 9.5, weight="bold")
     drawing.text(x + 205, top, "presets that run it")
     for i, group in enumerate(GROUPS):
-        drawing.text(columns + spacing * (i + 0.5), top, group.replace("dMaps", "d-\nMaps"), 9,
+        drawing.text(columns + spacing * (i + 0.5), top, re.sub("([dt])Maps", r"\1-\nMaps", group), 8.5,
                      ha="center", linespacing=0.95)
     y, middles = top + 20, []
     rooms = list(dict.fromkeys(step.room for step in steps))
@@ -246,7 +246,7 @@ def picture(steps, path):
     drawing.text(20, 28, "The path of a frame", 9.5, weight="bold")
     _, last = draw_way(drawing, BEFORE, 48)
     drawing.arrow((405, last), (438, last), (438, first_room), (470, first_room))
-    first, _ = draw_way(drawing, AFTER, 540)
+    first, _ = draw_way(drawing, AFTER, 640)
     drawing.arrow((470, last_room), (438, last_room), (438, first), (405, first))
     drawing.write(path)
 

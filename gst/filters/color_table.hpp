@@ -14,8 +14,9 @@ struct Rgb {
 };
 
 /// The color of every 16-bit disparity value: black for 0 (no disparity), otherwise the color map
-/// Turbo (Mikhailov, 2019) from blue at 0 px to red at `max_disparity` px and above. The range is
-/// fixed, so that a color stands for the same disparity in every frame.
+/// Turbo (Mikhailov, 2019) from blue at 0 px (or the offset of the values) to red at
+/// `max_disparity` px and above. The range is fixed, so that a color stands for the same disparity
+/// in every frame.
 std::vector<Rgb> color_table(int max_disparity, int disparity_scale);
 
 }  // namespace mtstereo::plugin

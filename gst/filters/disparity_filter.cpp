@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "filters/disparity_filter.hpp"
 
+#include "shared/disparity_meta.hpp"
 #include "shared/frame_views.hpp"
 
 namespace mtstereo::plugin {
@@ -20,7 +21,8 @@ CapsPointer picture_caps(const GstCaps* caps, const char* other) {
   const CapsPointer common(gst_caps_copy(caps));
   for (guint i = 0; i < gst_caps_get_size(common.get()); ++i) {
     gst_structure_remove_fields(gst_caps_get_structure(common.get(), i), "format", "colorimetry",
-                                "chroma-site", "disparity-scale", "max-disparity", nullptr);
+                                "chroma-site", kScaleField, kMaxDisparityField, kMinDisparityField,
+                                kOffsetField, nullptr);
   }
   const CapsPointer formats(gst_caps_from_string(other));
   return CapsPointer(

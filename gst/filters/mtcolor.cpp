@@ -28,6 +28,7 @@ constexpr int kFallbackScale = 256;
 struct Range {
   int max_disparity = 0;  ///< [px]
   int scale = 0;          ///< [steps per px]
+  int offset = 0;         ///< disparity of the first color, at most 0 [px]
   bool operator==(const Range&) const = default;
 };
 
@@ -40,6 +41,7 @@ struct ColorState {
   // Used by the streaming thread only.
   int caps_max_disparity = 0;  ///< 0: not in the caps [px]
   int caps_scale = 0;          ///< 0: not in the caps [steps per px]
+  int caps_offset = 0;         ///< smallest disparity, if it is negative [px]
   Range range;                 ///< of `table`
   std::vector<Rgb> table;
 };
@@ -108,16 +110,20 @@ gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCa
   const GstStructure* structure = gst_caps_get_structure(in_caps, 0);
   state.caps_scale = 0;
   state.caps_max_disparity = 0;
+  state.caps_offset = 0;
   const bool has_scale = gst_structure_get_int(structure, "disparity-scale", &state.caps_scale);
   const bool has_range =
       gst_structure_get_int(structure, "max-disparity", &state.caps_max_disparity);
+  gst_structure_get_int(structure, kOffsetField, &state.caps_offset);
   if ((has_scale && (state.caps_scale < 1 || state.caps_scale > 65535)) ||
-      (has_range && state.caps_max_disparity < 1)) {
+      (has_range && state.caps_max_disparity < 1) || state.caps_offset > 0 ||
+      state.caps_offset < -65535) {
     GST_ELEMENT_ERROR(filter, STREAM, FORMAT,
-                      ("The caps of the disparity map have disparity-scale=%d and "
-                       "max-disparity=%d. The scale must be 1 to 65535 steps per px and the "
-                       "range at least 1 px: correct them in the element that sets the caps.",
-                       state.caps_scale, state.caps_max_disparity),
+                      ("The caps of the disparity map have disparity-scale=%d, "
+                       "max-disparity=%d and disparity-offset=%d. The scale must be 1 to 65535 "
+                       "steps per px, the range at least 1 px and the offset -65535 to 0 px: "
+                       "correct them in the element that sets the caps.",
+                       state.caps_scale, state.caps_max_disparity, state.caps_offset),
                       ("caps: %s", caps_text(in_caps).c_str()));
     return FALSE;
   }
@@ -134,6 +140,7 @@ Range effective_range(GstVideoFilter* filter, const std::optional<DisparityUnit>
                         : state.caps_max_disparity != 0 ? state.caps_max_disparity
                         : meta                          ? meta->max_disparity
                                                         : kFallbackMaxDisparity;
+  range.offset = state.caps_scale != 0 ? state.caps_offset : meta ? meta->offset : 0;
   return range;
 }
 
@@ -175,7 +182,7 @@ GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVide
   ColorState& state = state_of(filter);
   const Range range = effective_range(filter, disparity_unit_of(in->buffer));
   if (range != state.range) {
-    state.table = color_table(range.max_disparity, range.scale);
+    state.table = color_table(range.max_disparity - range.offset, range.scale);
     state.range = range;
   }
   paint(in, out, state.table);

@@ -17,12 +17,12 @@ Sharpness AlignmentSettings::effective_sharpness(Preset preset) const {
 /// An inspection takes about as long for small frames as for large ones, and matching does not.
 /// With these intervals inspections take at most 3 % of the time of matching on two cores.
 int AlignmentSettings::effective_interval(Preset preset, int width, int height,
-                                          int max_disparity) const {
+                                          int disparities) const {
   if (interval > 0) return interval;
   constexpr std::int64_t kShortest = 30, kLongest = 600;  // [pairs]
   // Matching work per inspection [px x disparities]
   const std::int64_t work = preset == Preset::kFast ? 4'000'000'000 : 1'100'000'000;
-  const std::int64_t pair = std::int64_t{width} * height * max_disparity;
+  const std::int64_t pair = std::int64_t{width} * height * disparities;
   return static_cast<int>(std::clamp(work / pair, kShortest, kLongest));
 }
 
@@ -61,15 +61,16 @@ Status PairAlignment::fit(const AlignmentSettings& settings, Size size) {
 Status PairAlignment::inspect(const AlignmentSettings& settings, GrayView left, GrayView right,
                               const Parameters& parameters) {
   const int max_disparity = parameters.integer(Parameter::kMaxDisparity);
+  const int min_disparity = parameters.integer(Parameter::kMinDisparity);
   Status status = fit(settings, {left.width, left.height});
   if (status) status = tracker_->watch(left, right);
-  interval_ =
-      settings.effective_interval(parameters.preset(), left.width, left.height, max_disparity);
+  interval_ = settings.effective_interval(parameters.preset(), left.width, left.height,
+                                          max_disparity - min_disparity);
   // The inspection of views that differ in sharpness takes three times as long.
   const bool differ = report_.findings.left_blur > 0 || report_.findings.right_blur > 0;
   if (differ && settings.interval == 0) interval_ *= 3;
   if (!status || !schedule_.due(interval_)) return status;
-  status = tracker_->inspect(left, right, max_disparity);
+  status = tracker_->inspect(left, right, max_disparity, min_disparity);
   schedule_.inspected(tracker_->trusted());
   ++report_.inspections;
   return status;

@@ -35,7 +35,7 @@ struct AlignmentSettings {
   /// The value in effect. The published method does not correct its input.
   Alignment effective_alignment(Preset preset) const;
   Sharpness effective_sharpness(Preset preset) const;
-  int effective_interval(Preset preset, int width, int height, int max_disparity) const;
+  int effective_interval(Preset preset, int width, int height, int disparities) const;
 };
 
 /// What is known about the alignment of the streams.

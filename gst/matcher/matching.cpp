@@ -169,8 +169,7 @@ GstFlowReturn match_pair(ElementState& state, GstBuffer* left, GstBuffer* right)
   flow = compute(state, left, right, output.get());
   if (flow != GST_FLOW_OK) return flow;
   copy_frame_properties(left, right, output.get());
-  set_disparity_unit(output.get(), {state.active.disparity_scale,
-                                    state.active.parameters.integer(Parameter::kMaxDisparity)});
+  set_disparity_unit(output.get(), unit_of(state.active));
   if (state.active.confidence_map && !attach_confidence(state, output.get())) return GST_FLOW_ERROR;
   count_pair(state);
   advance_position(state, left);

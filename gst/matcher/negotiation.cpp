@@ -136,12 +136,21 @@ bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps) {
 
 CapsPointer output_caps(const ElementState& state, const Settings& settings) {
   const GstVideoInfo& left = state.input(Side::kLeft).info;
-  return CapsPointer(gst_caps_new_simple(
+  const DisparityUnit unit = unit_of(settings);
+  CapsPointer caps(gst_caps_new_simple(
       "video/x-raw", "format", G_TYPE_STRING, "GRAY16_LE", "width", G_TYPE_INT, left.width,
       "height", G_TYPE_INT, left.height, "framerate", GST_TYPE_FRACTION, left.fps_n, left.fps_d,
       "pixel-aspect-ratio", GST_TYPE_FRACTION, left.par_n, left.par_d, "interlace-mode",
-      G_TYPE_STRING, "progressive", "disparity-scale", G_TYPE_INT, settings.disparity_scale,
-      "max-disparity", G_TYPE_INT, settings.parameters.integer(Parameter::kMaxDisparity), nullptr));
+      G_TYPE_STRING, "progressive", kScaleField, G_TYPE_INT, unit.scale, kMaxDisparityField,
+      G_TYPE_INT, unit.max_disparity, nullptr));
+  // Absent fields are 0.
+  if (unit.min_disparity != 0) {
+    gst_caps_set_simple(caps.get(), kMinDisparityField, G_TYPE_INT, unit.min_disparity, nullptr);
+  }
+  if (unit.offset != 0) {
+    gst_caps_set_simple(caps.get(), kOffsetField, G_TYPE_INT, unit.offset, nullptr);
+  }
+  return caps;
 }
 
 CapsPointer output_caps(const ElementState& state) { return output_caps(state, state.active); }

@@ -39,6 +39,7 @@ Status check_downstream(const ElementState& state, const Settings& settings) {
   return Error{ErrorCode::kInvalidCombination,
                "downstream does not accept a disparity map with max-disparity = " +
                    settings.parameters.text(Parameter::kMaxDisparity) +
+                   ", min-disparity = " + settings.parameters.text(Parameter::kMinDisparity) +
                    " and disparity-scale = " + std::to_string(settings.disparity_scale) +
                    ": it accepts " + caps_text(accepted.get())};
 }
@@ -126,10 +127,15 @@ void restore(ElementState& state, const Settings& refused, const Status& status)
 
 }  // namespace
 
+DisparityUnit unit_of(const Settings& settings) {
+  return {.scale = settings.disparity_scale,
+          .max_disparity = settings.parameters.integer(Parameter::kMaxDisparity),
+          .min_disparity = settings.parameters.integer(Parameter::kMinDisparity),
+          .offset = settings.parameters.disparity_offset()};
+}
+
 bool same_caps(const Settings& first, const Settings& second) {
-  return first.disparity_scale == second.disparity_scale &&
-         first.parameters.integer(Parameter::kMaxDisparity) ==
-             second.parameters.integer(Parameter::kMaxDisparity);
+  return unit_of(first) == unit_of(second);
 }
 
 bool apply_settings(ElementState& state) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "matcher/element_state.hpp"
+#include "shared/disparity_meta.hpp"
 
 namespace mtstereo::plugin {
 
@@ -12,6 +13,9 @@ namespace mtstereo::plugin {
 /// ones fit, the properties return to these, and a warning is posted. Otherwise there is nothing to
 /// match with: an error is posted, and false is returned.
 bool apply_settings(ElementState& state);
+
+/// The unit of the disparity maps with these settings.
+DisparityUnit unit_of(const Settings& settings);
 
 /// True if both settings have the same disparity map caps.
 bool same_caps(const Settings& first, const Settings& second);

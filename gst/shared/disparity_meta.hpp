@@ -15,11 +15,15 @@ namespace mtstereo::plugin {
 inline constexpr const char* kDisparityMeta = "MtStereoDisparityMeta";
 inline constexpr const char* kScaleField = "disparity-scale";
 inline constexpr const char* kMaxDisparityField = "max-disparity";
+inline constexpr const char* kMinDisparityField = "min-disparity";
+inline constexpr const char* kOffsetField = "disparity-offset";
 
-/// The unit and the range of a disparity map.
+/// The unit and the range of a disparity map: disparity [px] = value / scale + offset.
 struct DisparityUnit {
   int scale = 0;          ///< [steps per px], 1 .. 65535
-  int max_disparity = 0;  ///< [px], at least 1
+  int max_disparity = 0;  ///< [px], more than min_disparity and offset
+  int min_disparity = 0;  ///< [px]
+  int offset = 0;         ///< [px]
   bool operator==(const DisparityUnit&) const = default;
 };
 
@@ -29,6 +33,10 @@ bool register_disparity_meta();
 
 /// Attaches the unit to a writable disparity map; replaces an existing one.
 void set_disparity_unit(GstBuffer* disparity, const DisparityUnit& unit);
+
+/// The unit in the fields of caps or of a meta: the smallest disparity and the offset are 0 if they
+/// are absent. std::nullopt without a scale and a range, or if a value is not valid.
+std::optional<DisparityUnit> read_disparity_unit(const GstStructure* fields);
 
 /// The unit of a disparity map; std::nullopt if it has none, or one that is not valid.
 std::optional<DisparityUnit> disparity_unit_of(GstBuffer* disparity);

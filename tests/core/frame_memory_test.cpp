@@ -12,8 +12,8 @@ Settings settings_of(std::initializer_list<std::pair<const char*, std::string>> 
   return Settings(test::parameters(values));
 }
 
-constexpr FrameSize kFull = {{101, 51}, {101, 51}, 2};
-constexpr FrameSize kHalf = {{101, 51}, {51, 26}, 3};
+constexpr FrameSize kFull = {{101, 51}, {101, 51}, {101, 51}, 2};
+constexpr FrameSize kHalf = {{101, 51}, {101, 51}, {51, 26}, 3};
 
 TEST(FrameMemory, HasTheBuffersOfTheDefaultSteps) {
   FrameMemory memory;

@@ -23,7 +23,12 @@ struct Mapping {
 const Mapping kMappings[] = {
     {"mode", "sparse", 0, [](const Settings& s) { return static_cast<int>(s.mode); }},
     {"mode", "dense", 2, [](const Settings& s) { return static_cast<int>(s.mode); }},
-    {"max-disparity", "77", 77, [](const Settings& s) { return s.max_disparity; }},
+    {"max-disparity", "77", 77, [](const Settings& s) { return s.view_disparities; }},
+    {"min-disparity", "-9", -9, [](const Settings& s) { return s.min_disparity; }},
+    {"min-disparity", "-9", 73, [](const Settings& s) { return s.view_disparities; }},
+    {"min-disparity", "9", 55, [](const Settings& s) { return s.disparities; }},
+    {"min-disparity", "0", 0, [](const Settings& s) { return s.shifted(); }},
+    {"min-disparity", "1", 1, [](const Settings& s) { return s.shifted(); }},
     {"max-disparity", "77", 77, [](const Settings& s) { return s.disparities; }},
     {"max-disparity", "77", 77, [](const Settings& s) { return s.search_range.disparities; }},
     {"max-disparity", "77", 77, [](const Settings& s) { return s.census_cost.disparities; }},
@@ -97,7 +102,7 @@ TEST(Settings, HalveTheDisparitiesAtHalfResolutionAndRoundUp) {
   for (const auto& [given, matched] : {std::pair{1, 1}, {2, 1}, {3, 2}, {64, 32}, {101, 51}}) {
     const Settings settings(
         test::parameters({{"resolution", "half"}, {"max-disparity", std::to_string(given)}}));
-    EXPECT_EQ(given, settings.max_disparity);
+    EXPECT_EQ(given, settings.view_disparities);
     EXPECT_EQ(matched, settings.disparities);
     EXPECT_EQ(matched, settings.selection.disparities);
   }

@@ -78,7 +78,7 @@ class Demo(ClipTest):
                             (["a", "b", "c"], "two video files"),
                             (["--mode", "denser"], "--mode"),
                             (["--max-disparity", "-3"], "--max-disparity"),
-                            (["--max-disparity", "5000"], "1 to 1024"),
+                            (["--max-disparity", "5000"], "1 to 1984"),
                             (["--frames", "0"], "--frames"),
                             (["--size", "640"], "--size"),
                             (["--size", "161x120"], "even"),

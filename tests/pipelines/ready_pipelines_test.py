@@ -166,7 +166,7 @@ class WrongUse(ClipTest):
                 (["from-files.sh", "left.mp4"], "LEFT and RIGHT"),
                 (["from-files.sh", *files, "--mode", "denser"], "--mode"),
                 (["from-files.sh", *files, "--max-disparity", "many"], "--max-disparity"),
-                (["from-files.sh", *files, "--max-disparity", "5000"], "1 to 1024"),
+                (["from-files.sh", *files, "--max-disparity", "5000"], "1 to 1984"),
                 (["from-files.sh", *files, "--set", "threads"], "--set"),
                 (["from-files.sh", *files, "--seconds", "1.5"], "--seconds"),
                 (["from-files.sh", *files, "--seconds"], "--seconds"),

@@ -75,7 +75,7 @@ enum class FieldStatus {
   kTooScattered,     ///< the matches scatter too much about the field
   kTooConcentrated,  ///< the matches cover too small a part of the image
   kTooUncertain,     ///< the predicted error of the field is too large
-  kSwapped,          ///< most matches have a negative disparity: the left view is the right one
+  kSwapped,  ///< most disparities are below the smallest one: the left view is the right one
 };
 
 /// A short English text for a status, as in "too few matches". The string is static.
@@ -84,12 +84,13 @@ MTSTEREO_API const char* field_status_text(FieldStatus status) noexcept;
 /// The result of the inspection of one pair.
 struct PairFindings {
   FieldStatus status = FieldStatus::kNotInspected;  ///< whether `field` can be trusted, or why not
-  int candidates = 0;         ///< corners of the left view that were searched in the right one
-  int matches = 0;            ///< corners that were found
-  int inliers = 0;            ///< matches that agree with the field within 1 px
-  double inlier_share = 0;    ///< inliers / matches, 0 .. 1
-  double negative_share = 0;  ///< fraction of the inliers with a disparity below -1 px, 0 .. 1
-  double residual = 0;        ///< robust standard deviation of the inliers about the field [px]
+  int candidates = 0;       ///< corners of the left view that were searched in the right one
+  int matches = 0;          ///< corners that were found
+  int inliers = 0;          ///< matches that agree with the field within 1 px
+  double inlier_share = 0;  ///< inliers / matches, 0 .. 1
+  double negative_share =
+      0;  ///< fraction of the inliers that are 1 px below the smallest disparity, 0 .. 1
+  double residual = 0;  ///< robust standard deviation of the inliers about the field [px]
   /// The smallest field that explains the matches; terms that are not needed are 0. All are 0
   /// without trust.
   RowField field;
@@ -158,6 +159,9 @@ class MTSTEREO_API AlignmentTracker {
   /// with kInvalidImage, kSizeMismatch, kInvalidParameter, kOutOfMemory or kSystem; a pair that
   /// gives no trusted field is a success.
   Status inspect(GrayView left, GrayView right, int max_disparity) noexcept;
+  /// The same for a stereo camera with negative disparities: those from `min_disparity`
+  /// (Parameter::kMinDisparity) on are searched, and are not taken for swapped views.
+  Status inspect(GrayView left, GrayView right, int max_disparity, int min_disparity) noexcept;
 
   /// The result of the last inspection.
   const PairFindings& findings() const noexcept;

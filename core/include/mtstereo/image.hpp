@@ -27,10 +27,11 @@ struct ImageView {
 /// An image of 8-bit gray values (luma).
 using GrayView = ImageView<const std::uint8_t>;
 
-/// A disparity map of the left view in fixed point: disparity [px] = value / kDisparityOne. The
+/// A disparity map of the left view in fixed point: disparity [px] = value / kDisparityOne, plus
+/// Parameters::disparity_offset() if negative disparities are searched (otherwise that is 0). The
 /// left pixel (x, y) and the right pixel (x - disparity, y) show the same point of the scene. A
-/// pixel without a disparity has the value kNoDisparity. The smallest reported disparity is 1 /
-/// kDisparityOne px, so that a point at infinity differs from an unknown one.
+/// pixel without a disparity has the value kNoDisparity. The smallest value of a disparity is 1, so
+/// that a point at infinity differs from an unknown one.
 using DisparityView = ImageView<const std::int32_t>;
 
 /// The value of 1 px of disparity in a DisparityView.

@@ -77,11 +77,12 @@ class MTSTEREO_API Matcher {
   std::unique_ptr<State> state_;
 };
 
-/// Converts a disparity map to 16-bit fixed point: disparity [px] = value / scale, 0 = no
-/// disparity. A disparity that would round to 0 becomes 1, and one above 65535 becomes 65535
-/// (Parameters::check_scale16()). `scale` is 1 .. 65535; 256 with big-endian storage is KITTI's
-/// format. `out` has the size of the map and is written only during the call. Fails with
-/// kSizeMismatch, kInvalidParameter or kInvalidImage. Any thread may call it.
+/// Converts a disparity map to 16-bit fixed point: disparity [px] = value / scale, plus
+/// Parameters::disparity_offset() of the map, 0 = no disparity. A disparity that would round to 0
+/// becomes 1, and one above 65535 becomes 65535 (Parameters::check_scale16()). `scale` is 1 ..
+/// 65535; 256 with big-endian storage is KITTI's format. `out` has the size of the map and is
+/// written only during the call. Fails with kSizeMismatch, kInvalidParameter or kInvalidImage. Any
+/// thread may call it.
 MTSTEREO_API Status write_disparity16(DisparityView disparity, int scale,
                                       ImageView<std::uint16_t> out) noexcept;
 

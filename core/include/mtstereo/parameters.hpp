@@ -30,8 +30,8 @@ enum class Preset {
 /// Number of presets.
 inline constexpr int kPresets = 3;
 
-/// Largest value of Parameter::kMaxDisparity [px].
-inline constexpr int kLargestMaxDisparity = 1024;
+/// Largest value of Parameter::kMaxDisparity, and largest number of disparities [px].
+inline constexpr int kLargestMaxDisparity = 1984;
 
 /// Largest width and largest height of an image [px].
 inline constexpr int kLargestImageSide = 16384;
@@ -42,6 +42,7 @@ enum class Parameter {
   kPreset,
   kMode,
   kMaxDisparity,
+  kMinDisparity,
   kResolution,
   kThreads,
   kNoiseFilter,
@@ -170,13 +171,17 @@ class MTSTEREO_API Parameters {
   /// The node levels in effect.
   Levels node_levels() const noexcept;
 
+  /// What is added to the values of a disparity map [px]: Parameter::kMinDisparity if that is
+  /// negative, otherwise 0. With it, a map needs no negative values.
+  int disparity_offset() const noexcept;
+
   /// Checks that the parameters fit each other and images of this size [px]. Fails with
   /// kFrameDoesNotFit or kInvalidCombination; the message names the parameter, its value, the size
   /// and a value that would fit.
   Status check_frame(int width, int height) const noexcept;
 
-  /// Checks that all disparities below max-disparity fit into 16 bits at `scale` steps per px.
-  /// Fails with kInvalidCombination; the message states what to set.
+  /// Checks that all disparities below max-disparity, minus disparity_offset(), fit into 16 bits at
+  /// `scale` steps per px. Fails with kInvalidCombination; the message states what to set.
   Status check_scale16(int scale) const noexcept;
 
  private:
@@ -187,6 +192,7 @@ class MTSTEREO_API Parameters {
   static std::optional<Value> parse(const ParameterInfo& info, std::string_view text) noexcept;
   std::array<std::optional<Value>, kParameters> values_;
   Value effective(Parameter id) const noexcept;
+  Status check_range() const;
 };
 
 }  // namespace mtstereo

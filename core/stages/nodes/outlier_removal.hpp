@@ -23,7 +23,8 @@ struct VoteMap {
   void resize(int width, int height, int window_radius);
 };
 
-/// Steps of a VoteMap's disparities per px. 1024 px plus the window's radius fit into 16 bits.
+/// Steps of a VoteMap's disparities per px. The largest disparity plus the window's width fit
+/// into 16 bits.
 inline constexpr int kVoteOne = 32;
 
 /// The value of a VoteMap's pixel without a disparity, further than a window's radius from every

@@ -16,6 +16,11 @@ namespace mtstereo::HWY_NAMESPACE {
 using Words = hn::CappedTag<std::uint16_t, kAlignment / 2>;
 using Signed = hn::RebindToSigned<Words>;
 
+static_assert(kLargestMaxDisparity * kVoteOne +
+                  2 * (kSupportTolerance + kSupportRadius * kSupportSlope) <
+              kSupportNone);
+static_assert(kSupportNone + 2 * (kSupportTolerance + kSupportRadius * kSupportSlope) < 1 << 16);
+
 void copy_row(const std::int32_t* map, const std::uint8_t* map_ratio, int width,
               std::uint16_t* disparity, std::uint16_t* ratio) {
   constexpr int kSteps = kDisparityOne / kVoteOne;

@@ -23,7 +23,7 @@ inline constexpr int kSupportTolerance = 32;  ///< [1 / kVoteOne px]
 inline constexpr int kSupportSlope = 13;      ///< [1 / kVoteOne px per px]
 
 /// No disparity. Its distance from every disparity, modulo 2^16, is larger than any tolerance.
-inline constexpr std::uint16_t kSupportNone = 0xC000;
+inline constexpr std::uint16_t kSupportNone = 0xFC00;
 
 /// Added to the ratio of each disparity, so that the upper bits of a sum of ratios count them. The
 /// sum of a row of the window fits into 16 bits.

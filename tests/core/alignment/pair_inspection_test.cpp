@@ -102,6 +102,18 @@ TEST(PairInspection, RecognizesSwappedViews) {
   EXPECT_EQ(RowField(), findings.field);
 }
 
+TEST(PairInspection, DoesNotTakeNegativeDisparitiesOfTheCameraForSwappedViews) {
+  FieldPair options;
+  options.disparity = 30;
+  const Pair pair = test::taken_as(options);
+  PairInspector inspector;
+  inspector.inspect(pair.right.view(), pair.left.view(), 20, -60);
+  EXPECT_EQ(FieldStatus::kTrusted, inspector.findings().status);
+  EXPECT_EQ(0, inspector.findings().negative_share);
+  inspector.inspect(pair.right.view(), pair.left.view(), 64, -10);
+  EXPECT_EQ(FieldStatus::kSwapped, inspector.findings().status);
+}
+
 GrayPlane turned(const GrayPlane& view, bool along_rows, bool along_columns) {
   GrayPlane out(view.width, view.height);
   for (int y = 0; y < view.height; ++y) {

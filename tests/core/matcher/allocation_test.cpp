@@ -68,6 +68,9 @@ void expect_no_allocations(std::initializer_list<std::pair<const char*, std::str
 
 TEST_F(Allocation, NeverHappensInLaterFramesOnOneThread) {
   expect_no_allocations({{"threads", "1"}});
+  for (const char* const least : {"-20", "10"}) {
+    expect_no_allocations({{"threads", "1"}, {"min-disparity", least}});
+  }
   expect_no_allocations({{"threads", "1"}, {"mode", "sparse"}});
   expect_no_allocations(
       {{"threads", "1"}, {"cost", "gradient"}, {"cost-volume", "full"}, {"node-levels", "3,1,0"}});

@@ -83,6 +83,8 @@ Change change_of(Parameter id) {
       return {{}, "sparse"};
     case Parameter::kMaxDisparity:
       return {{}, "15"};
+    case Parameter::kMinDisparity:
+      return {{}, "12"};
     case Parameter::kResolution:
       return {{}, "half"};
     case Parameter::kMaxNodeWidth:

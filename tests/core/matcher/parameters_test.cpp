@@ -242,7 +242,7 @@ TEST(Parameters, FitSixteenBitsUpToTheLimit) {
   EXPECT_TRUE(parameters.check_scale16(256).ok());
   EXPECT_TRUE(parameters.check_scale16(257).ok()) << "255 * 257 = 65535";
   EXPECT_TRUE(test::parameters({{"max-disparity", "1"}}).check_scale16(65535).ok());
-  EXPECT_TRUE(test::parameters({{"max-disparity", "1024"}}).check_scale16(63).ok());
+  EXPECT_TRUE(test::parameters({{"max-disparity", "1984"}}).check_scale16(33).ok());
 }
 
 }  // namespace

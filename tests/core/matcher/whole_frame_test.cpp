@@ -24,11 +24,13 @@ std::string one_of(Random& random, const char* const (&choices)[N]) {
 
 /// Random values of all parameters, chosen to fit images of this width.
 Parameters random_parameters(int width, Random& random) {
-  const std::string disparities = std::to_string(random.between(1, width));
+  const int most = random.between(1, width);
+  const int least = random.below(3) == 0 ? random.between(-12, most - 1) : 0;
   return test::parameters({
       {"preset", one_of(random, {"default", "fast", "paper"})},
       {"mode", one_of(random, {"sparse", "semi-dense", "dense"})},
-      {"max-disparity", disparities},
+      {"max-disparity", std::to_string(most)},
+      {"min-disparity", std::to_string(least)},
       {"resolution", one_of(random, {"full", "full", "half", "half-refined"})},
       {"threads", one_of(random, {"1", "2", "3"})},
       {"noise-filter", one_of(random, {"true", "false"})},

@@ -128,7 +128,7 @@ TEST(DisparitySelection, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstru
       known += expect_reference_with_all_options(disparities + random.below(60), disparities,
                                                  random, scratch);
     }
-    for (const int disparities : {300, 1024}) {
+    for (const int disparities : {300, 1984}) {
       Random random(disparities);
       known += expect_reference_with_all_options(disparities + 5, disparities, random, scratch);
     }

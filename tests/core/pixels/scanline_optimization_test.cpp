@@ -103,7 +103,7 @@ TEST(ScanlineOptimization, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInst
                          random, scratch);
       }
     }
-    for (const int disparities : {200, 224, 1023, 1024}) {
+    for (const int disparities : {200, 224, 1023, 1984}) {
       Random random(disparities);
       expect_reference(30, disparities, 255, {4, 30}, random, scratch);
       expect_reference(30, disparities, 100, {20, 150}, random, scratch);

@@ -75,7 +75,7 @@ TEST(SearchRange, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
 }
 
 TEST(SearchRange, RoundsTheEndsInwardsForEveryDisparity) {
-  constexpr int kDisparities = 1024;
+  constexpr int kDisparities = 1984;
   Row nodes;
   for (int disparity = 1; disparity < 256 * kDisparities; ++disparity) nodes.push_back(disparity);
   test::for_each_simd_target([&] {
@@ -110,7 +110,7 @@ TEST(SearchRange, EqualsReferenceWithTheLargestNumberOfDisparities) {
   Random random(1);
   for (const BetweenNodes between : kAllWays) {
     for (const double range : {0.0, 0.15, 1.0}) {
-      expect_reference(random_nodes(200, 1024, random), {range, between, 1024});
+      expect_reference(random_nodes(200, 1984, random), {range, between, 1984});
     }
   }
 }

@@ -43,6 +43,38 @@ struct Frame {
   GrayPlane confidence;
 };
 
+/// Left pixels before the first column, and right ones after the last one, repeat these.
+inline void shift_views(Frame& f) {
+  const int least = f.settings.min_disparity, width = f.input[0].width;
+  for (int side = 0; side < 2; ++side) {
+    GrayPlane shifted(width - least, f.input[side].height);
+    for (int y = 0; y < shifted.height; ++y) {
+      for (int x = 0; x < shifted.width; ++x) {
+        const int from = side == 0 ? x + least : x;
+        shifted(x, y) = f.input[side](std::clamp(from, 0, width - 1), y);
+      }
+    }
+    f.views[side] = f.input[side] = shifted;
+  }
+}
+
+inline void shift_map(Frame& f) {
+  const int least = f.settings.min_disparity, width = f.map.width + least;
+  DisparityPlane map(width, f.map.height);
+  GrayPlane confidence(width, f.map.height);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = std::max(least, 0); x < width; ++x) {
+      const int value = f.map(x - least, y);
+      const int partner = 256 * (x - least) - value;
+      if (value == 0 || partner > 256 * (width - 1)) continue;
+      map(x, y) = value + 256 * std::max(least, 0);
+      confidence(x, y) = f.confidence(x - least, y);
+    }
+  }
+  f.map = map;
+  f.confidence = confidence;
+}
+
 inline void halve(Frame& f) {
   for (int side = 0; side < 2; ++side) f.views[side] = halve(f.input[side]);
 }
@@ -159,20 +191,21 @@ inline void smooth(Frame& f) { f.map = smooth(f.map, f.settings.smoothing_radius
 
 inline void enlarge(Frame& f) {
   const int width = f.input[0].width, height = f.input[0].height;
-  f.map = enlarge(f.map, width, height, f.settings.max_disparity);
+  f.map = enlarge(f.map, width, height, f.settings.view_disparities);
   f.confidence = enlarge_confidence(f.confidence, width, height);
 }
 
 inline void refine(Frame& f) {
   const int scales = f.settings.census_scales;
   f.map = refine(census(f.input[0], scales), census(f.input[1], scales), f.map,
-                 f.settings.max_disparity);
+                 f.settings.view_disparities);
 }
 
 inline void nothing(Frame&) {}  // other steps call reference::census() themselves
 
 /// The scalar version of each step of the matcher, by the name of the step.
 inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = {
+    {"view-shift", shift_views},
     {"halving", halve},
     {"noise-filter", filter_noise},
     {"preprocessing", preprocess},
@@ -194,6 +227,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"enlarging", enlarge},
     {"input-census", nothing},
     {"refinement", refine},
+    {"map-shift", shift_map},
 };
 
 /// Runs the scalar version of a step. A step without one leaves the frame unchanged: if the step

@@ -14,10 +14,11 @@ namespace mtstereo::test {
 
 /// The disparity map after a step; empty if no step has written one yet.
 inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
-  static constexpr std::string_view kBefore[] = {"row-alignment", "sharpness",     "halving",
-                                                 "noise-filter",  "preprocessing", "max-trees",
-                                                 "census",        "cost-volume",   "node-matching"};
+  static constexpr std::string_view kBefore[] = {
+      "row-alignment", "sharpness", "view-shift", "halving",     "noise-filter",
+      "preprocessing", "max-trees", "census",     "cost-volume", "node-matching"};
   if (std::count(std::begin(kBefore), std::end(kBefore), step.name) > 0) return {};
+  if (step.name == "map-shift") return memory.output.disparity.view();
   if (step.name == "refinement") return memory.enlarged.refined.view();
   if (step.name == "enlarging" || step.name == "input-census") {
     return memory.enlarged.disparity.view();

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "support/stereo_harness.hpp"
 
@@ -14,7 +16,8 @@ namespace {
 using plugin::disparity_unit_of;
 using plugin::DisparityUnit;
 
-constexpr DisparityUnit kUnit = {.scale = 64, .max_disparity = 300};
+constexpr DisparityUnit kUnit = {
+    .scale = 64, .max_disparity = 300, .min_disparity = -20, .offset = -20};
 
 class DisparityMeta : public testing::Test {
  protected:
@@ -32,12 +35,14 @@ class DisparityMeta : public testing::Test {
 };
 
 TEST_F(DisparityMeta, HasTheFieldsOfTheCaps) {
-  int scale = 0;
-  int range = 0;
+  int scale = 0, most = 0, least = 0, offset = 0;
   EXPECT_TRUE(gst_structure_get(fields(), "disparity-scale", G_TYPE_INT, &scale, "max-disparity",
-                                G_TYPE_INT, &range, nullptr));
+                                G_TYPE_INT, &most, "min-disparity", G_TYPE_INT, &least,
+                                "disparity-offset", G_TYPE_INT, &offset, nullptr));
   EXPECT_EQ(scale, 64);
-  EXPECT_EQ(range, 300);
+  EXPECT_EQ(most, 300);
+  EXPECT_EQ(least, -20);
+  EXPECT_EQ(offset, -20);
 }
 
 TEST_F(DisparityMeta, TheLastOneReplacesTheOthers) {
@@ -66,6 +71,12 @@ TEST_F(DisparityMeta, IsIgnoredIfItIsNotValid) {
   gst_structure_set(fields(), "disparity-scale", G_TYPE_INT, 64, "max-disparity", G_TYPE_INT, 0,
                     nullptr);
   EXPECT_EQ(disparity_unit_of(map.get()), std::nullopt);
+  gst_structure_set(fields(), "max-disparity", G_TYPE_INT, 300, "disparity-offset", G_TYPE_INT, 1,
+                    nullptr);
+  EXPECT_EQ(disparity_unit_of(map.get()), std::nullopt) << "a positive offset";
+  gst_structure_set(fields(), "disparity-offset", G_TYPE_INT, 0, "min-disparity", G_TYPE_INT, 300,
+                    nullptr);
+  EXPECT_EQ(disparity_unit_of(map.get()), std::nullopt) << "an empty range";
   gst_structure_remove_field(fields(), "max-disparity");
   EXPECT_EQ(disparity_unit_of(map.get()), std::nullopt);
 }
@@ -83,6 +94,71 @@ TEST(DisparityUnits, AreOnEveryMapAndFollowTheProperties) {
   map = harness.pull();
   ASSERT_TRUE(map);
   EXPECT_EQ(disparity_unit_of(map.get()), (DisparityUnit{.scale = 100, .max_disparity = 20}));
+}
+
+/// A number in the output caps; std::nullopt if it is absent.
+std::optional<int> caps_field(const StereoHarness& harness, const char* name) {
+  const CapsPointer caps = harness.output_caps();
+  int value = 0;
+  if (!gst_structure_get_int(gst_caps_get_structure(caps.get(), 0), name, &value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+TEST(DisparityUnits, HaveTheSmallestDisparityAndAnOffsetIfItIsNegative) {
+  StereoHarness harness("max-disparity=16 alignment=off");
+  harness.caps(raw_caps("GRAY8", 96, 64));
+  // The smooth noise is moved to the left in the right view: swapped, its disparity is negative.
+  const Pair pair = noise_pair(96, 64, 6, 1);
+  const Pair swapped = {pair.right, pair.left};
+  GstClockTime time = 0;
+  for (const int least : {-12, 3, -7, 0}) {
+    g_object_set(harness.element(), "min-disparity", least, nullptr);
+    const Pair& views = least < 0 ? swapped : pair;
+    harness.push_pair(views, time);
+    time += kFrame;
+    const BufferPointer map = harness.pull();
+    ASSERT_TRUE(map) << harness.error(0).text;
+    Parameters parameters;
+    ASSERT_TRUE(parameters.set(Parameter::kMaxDisparity, 16).ok());
+    ASSERT_TRUE(parameters.set(Parameter::kMinDisparity, least).ok());
+    const std::vector<std::uint16_t> values = map_of(map.get(), 96, 64);
+    EXPECT_EQ(first_difference(library_map(views, parameters, 256), values, 96), "");
+    const int offset = std::min(least, 0);
+    EXPECT_EQ(disparity_unit_of(map.get()),
+              (DisparityUnit{
+                  .scale = 256, .max_disparity = 16, .min_disparity = least, .offset = offset}));
+    EXPECT_EQ(caps_field(harness, "min-disparity"),
+              least != 0 ? std::optional(least) : std::nullopt);
+    EXPECT_EQ(caps_field(harness, "disparity-offset"),
+              offset != 0 ? std::optional(offset) : std::nullopt);
+    long known = 0, near = 0;
+    for (const std::uint16_t value : values) {
+      known += value != 0;
+      near += value != 0 && std::abs(value / 256.0 + offset - (least < 0 ? -6 : 6)) < 1;
+    }
+    EXPECT_GT(known, 600);
+    EXPECT_GT(static_cast<double>(near), 0.9 * static_cast<double>(known)) << least;
+  }
+  EXPECT_EQ(harness.warnings().size(), 0u);
+}
+
+TEST(DisparityUnits, AreKeptIfTheSmallestDisparityExceedsTheLargest) {
+  StereoHarness harness("max-disparity=16");
+  harness.caps(raw_caps("GRAY8", 64, 48));
+  const Pair pair = noise_pair(64, 48, 4, 1);
+  harness.push_pair(pair, 0);
+  ASSERT_TRUE(harness.pull());
+  g_object_set(harness.element(), "min-disparity", 16, nullptr);
+  harness.push_pair(pair, kFrame);
+  ASSERT_TRUE(harness.pull());
+  const std::vector<Report> warnings = harness.warnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].text.find("min-disparity = 16"), std::string::npos) << warnings[0].text;
+  int least = -1;
+  g_object_get(harness.element(), "min-disparity", &least, nullptr);
+  EXPECT_EQ(least, 0);
 }
 
 /// The unit of the maps downstream of `elements`; std::nullopt if there is no meta.
@@ -139,7 +215,10 @@ std::array<int, 3> color_of(std::uint16_t value, const std::string& fields, bool
 TEST(DisparityUnits, AreThoseOfMtcolorIfTheCapsHaveNone) {
   ASSERT_TRUE(plugin::register_disparity_meta());
   const std::uint16_t value = 100 * 64;
-  const auto expected = color_of(value, ",disparity-scale=64,max-disparity=300", false);
+  const auto expected =
+      color_of(value, ",disparity-scale=64,max-disparity=300,disparity-offset=-20", false);
+  EXPECT_EQ(expected, color_of(value, ",disparity-scale=64,max-disparity=320", false))
+      << "the first color is that of the offset";
   EXPECT_EQ(color_of(value, "", true), expected);
   EXPECT_NE(color_of(value, "", false), expected);
   const auto caps = color_of(value, ",disparity-scale=128,max-disparity=100", false);
