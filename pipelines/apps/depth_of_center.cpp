@@ -13,6 +13,7 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -115,8 +116,9 @@ void set_place(const Pipeline& pipeline, const char* name, const std::string& pl
   g_object_set(element.get(), camera ? "device" : "location", place.c_str(), nullptr);
 }
 
-// The median of the disparities around the center [px]; 0 if there is none.
-double center_disparity(const MappedFrame& frame, int window, int scale) {
+// The median of the disparities around the center [px]; empty if there is none.
+std::optional<double> center_disparity(const MappedFrame& frame, int window, int scale,
+                                       int offset) {
   std::vector<int> known;
   const int x0 = frame.width() / 2, y0 = frame.height() / 2, half = window / 2;
   for (int y = std::max(0, y0 - half); y <= std::min(frame.height() - 1, y0 + half); ++y) {
@@ -124,28 +126,30 @@ double center_disparity(const MappedFrame& frame, int window, int scale) {
       if (const int value = frame.value(x, y); value != 0) known.push_back(value);
     }
   }
-  if (known.empty()) return 0;
+  if (known.empty()) return std::nullopt;
   const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
   std::nth_element(known.begin(), middle, known.end());
-  return static_cast<double>(*middle) / scale;
+  return static_cast<double>(*middle) / scale + offset;
 }
 
 void print(GstSample* sample, const Options& o) {
   int scale = 256;
-  gst_structure_get_int(gst_caps_get_structure(gst_sample_get_caps(sample), 0), "disparity-scale",
-                        &scale);
+  int offset = 0;
+  const GstStructure* caps = gst_caps_get_structure(gst_sample_get_caps(sample), 0);
+  gst_structure_get_int(caps, "disparity-scale", &scale);
+  gst_structure_get_int(caps, "disparity-offset", &offset);
   const GstBuffer* buffer = gst_sample_get_buffer(sample);
-  const double disparity = center_disparity(MappedFrame(sample), o.window, scale);
+  const auto disparity = center_disparity(MappedFrame(sample), o.window, scale, offset);
   if (GST_BUFFER_PTS_IS_VALID(buffer)) {
     std::printf("%8.3f s  ", static_cast<double>(GST_BUFFER_PTS(buffer)) / GST_SECOND);
   }
-  if (disparity == 0) {
+  if (!disparity) {
     std::printf("no disparity at the center\n");
-  } else if (o.focal > 0 && o.baseline > 0) {
-    std::printf("disparity %7.2f px  distance %7.3f m\n", disparity,
-                o.focal * o.baseline / disparity);
+  } else if (o.focal > 0 && o.baseline > 0 && *disparity > 0) {
+    std::printf("disparity %7.2f px  distance %7.3f m\n", *disparity,
+                o.focal * o.baseline / *disparity);
   } else {
-    std::printf("disparity %7.2f px\n", disparity);
+    std::printf("disparity %7.2f px\n", *disparity);
   }
   std::fflush(stdout);
 }

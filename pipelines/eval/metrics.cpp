@@ -144,7 +144,7 @@ Evaluation evaluate(DisparityView estimate, const GroundTruth& truth) {
   return evaluate(to_float(estimate), truth);
 }
 
-cv::Mat to_float(DisparityView disparity) {
+cv::Mat to_float(DisparityView disparity, int offset) {
   cv::Mat result(disparity.height, disparity.width, CV_32FC1);
   for (int y = 0; y < disparity.height; ++y) {
     const std::int32_t* source = disparity.row(y);
@@ -152,7 +152,8 @@ cv::Mat to_float(DisparityView disparity) {
     for (int x = 0; x < disparity.width; ++x) {
       target[x] = source[x] == kNoDisparity
                       ? std::numeric_limits<float>::quiet_NaN()
-                      : static_cast<float>(source[x]) / static_cast<float>(kDisparityOne);
+                      : static_cast<float>(source[x]) / static_cast<float>(kDisparityOne) +
+                            static_cast<float>(offset);
     }
   }
   return result;

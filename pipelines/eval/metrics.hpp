@@ -61,7 +61,7 @@ Evaluation evaluate(const cv::Mat& estimate, const LoadedPair& images);
 Evaluation evaluate(DisparityView estimate, const GroundTruth& truth);
 
 /// A disparity map of the library as CV_32FC1 [px], NaN = none.
-cv::Mat to_float(DisparityView disparity);
+cv::Mat to_float(DisparityView disparity, int offset = 0);
 
 /// The evaluation of one pair and its weight in the mean.
 struct WeightedEvaluation {

@@ -63,6 +63,11 @@ cv::Mat to_kitti(const fs::path& file, const cv::Mat& disparity) {
                                    " px is above 255.99 px, the largest of a KITTI PNG; use "
                                    "--format pfm");
       }
+      if (value < 0) {
+        throw InputError(file, "a disparity of " + std::to_string(source[x]) +
+                                   " px is negative, which a KITTI PNG cannot store; use --format "
+                                   "pfm");
+      }
       target[x] = static_cast<std::uint16_t>(std::max(value, 1.0));
     }
   }

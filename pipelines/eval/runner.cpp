@@ -179,7 +179,8 @@ void Runner::prepare_matcher(const LoadedPair& images, int max_disparity) {
     tracker_.emplace(std::move(*made));
   }
   tracker_->reset();
-  require(tracker_->inspect(view_of(images.left), view_of(images.right), max_disparity));
+  require(tracker_->inspect(view_of(images.left), view_of(images.right), max_disparity,
+                            parameters.integer(Parameter::kMinDisparity)));
   require(matcher_->set_correction(tracker_->correction()));
 }
 
@@ -191,7 +192,7 @@ void Runner::run_own(const LoadedPair& images, PairReport& report) {
     if (!result) throw InputError(result.error().message);
     disparity = *result;
   });
-  const cv::Mat map = to_float(disparity);
+  const cv::Mat map = to_float(disparity, matcher_->parameters().disparity_offset());
   const cv::Mat confidence = mat_of(matcher_->confidence());
   finish(kOwnMethod, map, seconds, images, report);
   if (settings_.html_pictures) {
@@ -244,7 +245,7 @@ void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
     for (const LoadedPair& frame : frames) {
       Result<DisparityView> result = matcher_->compute(view_of(frame.left), view_of(frame.right));
       if (!result) throw InputError(result.error().message);
-      maps.push_back(to_float(*result));
+      maps.push_back(to_float(*result, matcher_->parameters().disparity_offset()));
     }
     report.flicker.push_back({kOwnMethod, measure_flicker(maps)});
   });

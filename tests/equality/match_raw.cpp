@@ -70,7 +70,8 @@ int main(int argc, char** argv) {
     Status aligned = tracker->watch(left_view, right_view);
     if (aligned && frame % interval == 0) {
       aligned =
-          tracker->inspect(left_view, right_view, parameters.integer(Parameter::kMaxDisparity));
+          tracker->inspect(left_view, right_view, parameters.integer(Parameter::kMaxDisparity),
+                           parameters.integer(Parameter::kMinDisparity));
       // The element would inspect other pairs then.
       if (!tracker->trusted()) return fail("frame " + std::to_string(frame) + " is not trusted");
     }

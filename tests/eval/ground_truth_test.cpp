@@ -66,6 +66,12 @@ TEST_F(GroundTruthFiles, PngInColorIsRejected) {
   EXPECT_INPUT_ERROR(read_png_disparity(folder_ / "a.png"), "3 channels");
 }
 
+TEST_F(GroundTruthFiles, KittiPngRefusesNegativeDisparities) {
+  const cv::Mat map = (cv::Mat_<float>(1, 2) << 3, -0.5);
+  EXPECT_THROW(write_disparity(folder_ / "a.png", map, DisparityFormat::kKitti), InputError);
+  write_disparity(folder_ / "a.pfm", map, DisparityFormat::kPfm);
+}
+
 TEST_F(GroundTruthFiles, KittiPngRoundTripKeepsDisparities) {
   const cv::Mat map = (cv::Mat_<float>(2, 3) << 1, kNan, 0.001F, 255.5F, 12.25F, 100);
   write_disparity(folder_ / "a.png", map, DisparityFormat::kKitti);

@@ -108,6 +108,14 @@ TEST(Evaluate, ReadsTheLibrarysFixedPointWithItsStride) {
   EXPECT_DOUBLE_EQ(e.all.avgerr, 0.25);
 }
 
+TEST(Evaluate, AddsTheOffsetOfTheMapToKnownDisparities) {
+  const std::vector<std::int32_t> values{256, 0, 2560};
+  const cv::Mat map = to_float({values.data(), 3, 1, 3 * sizeof(std::int32_t)}, -4);
+  EXPECT_EQ(map.at<float>(0, 0), -3);
+  EXPECT_TRUE(std::isnan(map.at<float>(0, 1)));
+  EXPECT_EQ(map.at<float>(0, 2), 6);
+}
+
 Evaluation evaluation_of(double avgerr, double density) {
   Evaluation e;
   e.density = density;
