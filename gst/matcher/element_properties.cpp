@@ -127,20 +127,10 @@ GstStructure* statistics_structure(const Statistics& statistics, const Alignment
   return structure;
 }
 
-}  // namespace
+constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
+                                                 GST_PARAM_MUTABLE_PLAYING);
 
-void install_properties(GObjectClass* object_class) noexcept {
-  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
-                                                   GST_PARAM_MUTABLE_PLAYING);
-  install_parameter_properties(object_class);
-  install_alignment_properties(object_class);
-  g_object_class_install_property(
-      object_class, kDisparityScale,
-      g_param_spec_int("disparity-scale", "disparity-scale",
-                       "Steps per px of the output: disparity in px = value / disparity-scale, "
-                       "0 = none; max-disparity times this value must fit in 16 bits (256: KITTI, "
-                       "16: OpenCV)",
-                       1, 65535, 256, kFlags));
+void install_wait_properties(GObjectClass* object_class) noexcept {
   g_object_class_install_property(
       object_class, kSyncTolerance,
       g_param_spec_int64("sync-tolerance", "sync-tolerance",
@@ -148,19 +138,6 @@ void install_properties(GObjectClass* object_class) noexcept {
                          "are a pair, in nanoseconds (-1: half the frame duration of the faster "
                          "stream; more than one hour: one hour)",
                          -1, G_MAXINT64, -1, kFlags));
-  g_object_class_install_property(
-      object_class, kConfidenceMap,
-      g_param_spec_boolean("confidence-map", "confidence-map",
-                           "Attach the confidence of every value to the disparity map: field "
-                           "\"confidence\" of the meta MtStereoConfidenceMeta, a GRAY8 sample with "
-                           "values from 1 (lowest) to 255 (highest), 0 = no disparity",
-                           TRUE, kFlags));
-  g_object_class_install_property(
-      object_class, kQos,
-      g_param_spec_boolean("qos", "qos",
-                           "Skip pairs whose maps would be too late at the sink; sinks with "
-                           "sync=false report no lateness",
-                           TRUE, kFlags));
   g_object_class_install_property(
       object_class, kSyncMode,
       g_param_spec_enum("sync-mode", "sync-mode", "The times by which frames are paired",
@@ -191,6 +168,35 @@ void install_properties(GObjectClass* object_class) noexcept {
                           "Latency to assume of sources that are linked later, in nanoseconds, at "
                           "most one hour",
                           0, G_MAXUINT64, 0, kFlags));
+}
+
+}  // namespace
+
+void install_properties(GObjectClass* object_class) noexcept {
+  install_parameter_properties(object_class);
+  install_alignment_properties(object_class);
+  install_wait_properties(object_class);
+  g_object_class_install_property(
+      object_class, kDisparityScale,
+      g_param_spec_int(
+          "disparity-scale", "disparity-scale",
+          "Steps per px of the output: disparity in px = value / disparity-scale, "
+          "0 = none; plus min-disparity if that is negative; the number of disparities "
+          "times this value must fit in 16 bits (256: KITTI, 16: OpenCV)",
+          1, 65535, 256, kFlags));
+  g_object_class_install_property(
+      object_class, kConfidenceMap,
+      g_param_spec_boolean("confidence-map", "confidence-map",
+                           "Attach the confidence of every value to the disparity map: field "
+                           "\"confidence\" of the meta MtStereoConfidenceMeta, a GRAY8 sample with "
+                           "values from 1 (lowest) to 255 (highest), 0 = no disparity",
+                           TRUE, kFlags));
+  g_object_class_install_property(
+      object_class, kQos,
+      g_param_spec_boolean("qos", "qos",
+                           "Skip pairs whose maps would be too late at the sink; sinks with "
+                           "sync=false report no lateness",
+                           TRUE, kFlags));
   g_object_class_install_property(
       object_class, kStats,
       g_param_spec_boxed("stats", "stats",
