@@ -104,7 +104,7 @@ struct ElementState {
   ProcessingLatency processing;
   WatchdogInput watchdog_input;
   bool playing = false;  ///< the base time of the clock is valid
-  bool failed = false;   ///< an error was posted; a second one would hide it
+  bool failed = false;   ///< an error was posted; until a flush a second one would hide it
 
   // Used by the task of the source pad, and by start, stop and flush while the task does not run.
   std::array<Input, 2> inputs;
@@ -157,8 +157,9 @@ struct ElementState {
   std::string streams_text() const;
 };
 
-/// Posts an error message, unless the element has already posted one since it was started. `text`
-/// is for the user: what is wrong and how to correct it; `details` contains the facts.
+/// Posts an error message, unless the element has already posted one since the start or the last
+/// flush. `text` is for the user: what is wrong and how to correct it; `details` contains the
+/// facts.
 void post_error(ElementState& state, GQuark domain, gint code, const std::string& text,
                 const std::string& details);
 

@@ -181,6 +181,7 @@ GstFlowReturn flush(GstAggregator* aggregator) {
   state.output_segment.reset();
   clear_streams(state);
   const ObjectLock lock(aggregator);
+  state.failed = false;
   state.lateness.restart();
   ++state.watchdog_input.flushes;
   state.watchdog_input.pairs_before = state.statistics.pairs;

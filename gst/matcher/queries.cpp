@@ -2,6 +2,7 @@
 #include "matcher/queries.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "matcher/negotiation.hpp"
 #include "shared/ownership.hpp"
@@ -42,6 +43,27 @@ void answer_seeking(const ElementState& state, GstQuery* query) {
                                        : std::min(left.stop, right.stop);
   gst_query_set_seeking(query, format, left.seekable && right.seekable,
                         std::max(left.start, right.start), stop);
+}
+
+/// The duration of a stream; std::nullopt if it is not known.
+std::optional<gint64> ask_duration(GstPad* sink, GstFormat format) {
+  gint64 duration = -1;
+  if (!gst_pad_peer_query_duration(sink, format, &duration) || duration < 0) return std::nullopt;
+  return duration;
+}
+
+/// The output ends with the shorter stream.
+bool answer_duration(const ElementState& state, GstQuery* query) {
+  GstFormat format = GST_FORMAT_UNDEFINED;
+  gst_query_parse_duration(query, &format, nullptr);
+  auto duration = ask_duration(GST_PAD_CAST(state.input(Side::kLeft).pad), format);
+  if (format == GST_FORMAT_TIME) {
+    const auto right = ask_duration(GST_PAD_CAST(state.input(Side::kRight).pad), format);
+    if (right) duration = std::min(*right, duration.value_or(*right));
+  }
+  if (!duration) return false;
+  gst_query_set_duration(query, format, *duration);
+  return true;
 }
 
 /// The position of the last map; without one, that of the left stream.
@@ -107,7 +129,7 @@ bool answer_source_query(ElementState& state, GstQuery* query) {
     case GST_QUERY_POSITION:
       return answer_position(state, query);
     case GST_QUERY_DURATION:
-      return gst_pad_peer_query(GST_PAD_CAST(state.input(Side::kLeft).pad), query) != FALSE;
+      return answer_duration(state, query);
     default:
       break;
   }

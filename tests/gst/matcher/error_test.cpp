@@ -59,6 +59,21 @@ TEST_F(Refusal, EndsTheStreamsAfterAnError) {
             GST_FLOW_ERROR);
 }
 
+TEST_F(Refusal, AFlushClearsTheError) {
+  harness.caps(raw_caps("GRAY8", 64, 48), raw_caps("GRAY8", 32, 24));
+  push();
+  ASSERT_NE(harness.error().text, "");
+  ASSERT_TRUE(harness.pull_event(GST_EVENT_EOS));
+  harness.flush(7);
+  push();
+  EXPECT_TRUE(has(harness.error().text, "different sizes")) << "the cause is still there";
+  harness.flush(8);
+  harness.caps(raw_caps("GRAY8", 64, 48));
+  push();
+  EXPECT_TRUE(harness.pull());
+  EXPECT_EQ(harness.further_errors(), 0);
+}
+
 TEST_F(Refusal, ReportsInterlacedVideo) {
   harness.caps(raw_caps("GRAY8", 64, 48),
                raw_caps("GRAY8", 64, 48) + ",interlace-mode=interleaved");

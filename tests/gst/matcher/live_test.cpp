@@ -241,16 +241,7 @@ TEST_F(Live, AFlushForgetsThatTheSinkSynchronizes) {
   match_first_pair();
   gst_harness_set_time(harness->output(), 3 * kFrame);
   report_from_sink(1);
-  for (const Side side : {Side::kLeft, Side::kRight})
-    harness->event(side, gst_event_new_flush_start());
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness->event(side, gst_event_new_flush_stop(TRUE));
-  }
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness->event(side, gst_event_new_segment(&segment));
-  }
+  harness->flush(7);
   harness->push_pair(pair, kFrame);
   EXPECT_TRUE(harness->pull()) << "the sink has to preroll";
   EXPECT_EQ(harness->stats().skipped, 0u);

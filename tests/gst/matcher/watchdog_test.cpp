@@ -22,17 +22,6 @@ class SilentPad : public testing::Test {
   void push(Side side, GstClockTime time) {
     harness->push(side, frame_buffer(side == Side::kLeft ? pair.left : pair.right, time, kFrame));
   }
-  void flush() {
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      harness->event(side, gst_event_new_flush_start());
-    }
-    GstSegment segment;
-    gst_segment_init(&segment, GST_FORMAT_TIME);
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      harness->event(side, gst_event_new_flush_stop(TRUE));
-      harness->event(side, gst_event_new_segment(&segment));
-    }
-  }
 
   Pair pair = noise_pair(kWidth, kHeight, 5, 3);
   std::unique_ptr<StereoHarness> harness;
@@ -73,7 +62,7 @@ TEST_F(SilentPad, IsReportedAfterAFlush) {
   start();
   push(Side::kLeft, 0);
   EXPECT_NE(harness->warning().text, "");
-  flush();
+  harness->flush(7);
   EXPECT_TRUE(harness->warnings(0.3).empty()) << "no frame waits";
   push(Side::kLeft, 0);
   EXPECT_NE(harness->warning().text, "");

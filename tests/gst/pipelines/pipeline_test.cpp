@@ -92,6 +92,61 @@ TEST(Pipelines, SupportSeeksWhilePlaying) {
   EXPECT_EQ(pipeline.wait_for_end(), "");
 }
 
+/// The duration of two streams with these numbers of frames, -1: without an end [frames of 1/30 s].
+/// -1: unknown.
+gint64 duration_of(int left, int right) {
+  const auto source = [](int frames, const char* pad) {
+    return " videotestsrc num-buffers=" + std::to_string(frames) +
+           " ! video/x-raw,format=GRAY8,width=64,height=48,framerate=30/1 ! m." + pad;
+  };
+  Pipeline pipeline("mtstereo name=m max-disparity=16 ! appsink name=out" +
+                    source(left, "sink_left") + source(right, "sink_right"));
+  pipeline.set_state(GST_STATE_PAUSED);
+  EXPECT_TRUE(pipeline.wait_until_settled());
+  gint64 duration = 0;
+  if (!gst_element_query_duration(pipeline.named("m"), GST_FORMAT_TIME, &duration)) return -1;
+  if (duration < 0) return -1;
+  return duration * 30 / static_cast<gint64>(GST_SECOND);
+}
+
+TEST(Pipelines, HaveTheDurationOfTheShorterStream) {
+  EXPECT_EQ(duration_of(60, 60), 60);
+  EXPECT_EQ(duration_of(60, 30), 30);
+  EXPECT_EQ(duration_of(30, 60), 30);
+}
+
+TEST(Pipelines, HaveTheDurationThatIsKnown) {
+  EXPECT_EQ(duration_of(30, -1), 30);
+  EXPECT_EQ(duration_of(-1, 30), 30);
+  EXPECT_EQ(duration_of(-1, -1), -1);
+}
+
+/// Makes the next frame of sink_right too short for its caps.
+GstPadProbeReturn shorten(GstPad*, GstPadProbeInfo* info, gpointer) {
+  GstBuffer* buffer = gst_buffer_make_writable(GST_PAD_PROBE_INFO_BUFFER(info));
+  gst_buffer_set_size(buffer, 10);
+  GST_PAD_PROBE_INFO_DATA(info) = buffer;
+  return GST_PAD_PROBE_REMOVE;
+}
+
+TEST(Pipelines, PlayAgainByAFlushingSeekAfterAnError) {
+  Pipeline pipeline(noise_launch(-1, "max-disparity=16"));
+  pipeline.set_state(GST_STATE_PLAYING);
+  ASSERT_TRUE(pipeline.wait_until_settled());
+  GstPad* pad = gst_element_get_static_pad(pipeline.named("m"), "sink_right");
+  gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, shorten, nullptr, nullptr);
+  gst_object_unref(pad);
+  ASSERT_NE(pipeline.wait_for_end().find("sink_right"), std::string::npos);
+  // The elements upstream post errors too.
+  while (pipeline.wait_for_end(0.2).find("timeout") == std::string::npos) continue;
+  pipeline.samples();
+  ASSERT_TRUE(gst_element_seek(pipeline.element(), 1, GST_FORMAT_TIME, GST_SEEK_FLAG_FLUSH,
+                               GST_SEEK_TYPE_SET, 0, GST_SEEK_TYPE_SET, GST_SECOND / 2));
+  pipeline.set_state(GST_STATE_PLAYING);
+  EXPECT_EQ(pipeline.wait_for_end(10), "");
+  EXPECT_EQ(pipeline.samples().size(), 15u);
+}
+
 TEST(Pipelines, SupportReversePlayback) {
   Pipeline pipeline(noise_launch(-1, "max-disparity=16"));
   pipeline.set_state(GST_STATE_PAUSED);

@@ -105,6 +105,20 @@ bool StereoHarness::event(Side which, GstEvent* event) {
   return gst_harness_push_event(side(which), event);
 }
 
+void StereoHarness::flush(std::uint32_t seqnum) {
+  const auto send = [&](Side side, GstEvent* flush) {
+    gst_event_set_seqnum(flush, seqnum);
+    event(side, flush);
+  };
+  for (const Side side : {Side::kLeft, Side::kRight}) send(side, gst_event_new_flush_start());
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    send(side, gst_event_new_flush_stop(TRUE));
+    event(side, gst_event_new_segment(&segment));
+  }
+}
+
 BufferPointer StereoHarness::pull(double seconds) {
   BufferPointer buffer;
   wait_until(seconds, [&] {

@@ -75,6 +75,8 @@ class StereoHarness {
   void push_pair(const Pair& pair, GstClockTime pts, const Layout& left = {},
                  const Layout& right = {});
   bool event(Side side, GstEvent* event);
+  /// Flushes both sides as one seek does, which needs a number of its own, and begins new segments.
+  void flush(std::uint32_t seqnum);
   void end(Side side) { event(side, gst_event_new_eos()); }
 
   /// The next disparity map; nullptr after `seconds` without one.
