@@ -112,6 +112,19 @@ def without_camera(text):
     return text
 
 
+class Pads(unittest.TestCase):
+    def test_every_pipeline_names_the_pads_of_the_matcher(self):
+        """decodebin links when it is ready: without names, left and right may be swapped."""
+        scripts = sorted((SOURCE / "pipelines").glob("*.sh"))
+        texts = {command.where: command.text for document in DOCUMENTS
+                 for command in commands_of(document)}
+        texts.update({script.name: script.read_text() for script in scripts})
+        self.assertGreater(sum("m.sink_left" in text for text in texts.values()), 10)
+        for where, text in texts.items():
+            with self.subTest(where):
+                self.assertEqual(re.findall(r"!'?\s+m\.(?!sink_)\S*", text), [])
+
+
 class Documentation(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory(prefix="mtstereo-")

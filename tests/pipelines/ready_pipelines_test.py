@@ -104,6 +104,35 @@ class ReadyPipelines(ClipTest):
         expected = [f"{int(100 * n / RATE) / 100:.2f}" for n in (0, 1, 3, 6, 7)]
         self.assertEqual(times, expected, str(done))
 
+    def test_one_file_with_two_video_tracks_gives_the_result_of_two_files(self):
+        for extension, demuxer, muxer in (("mkv", "matroskademux", "matroskamux"),
+                                          ("mp4", "qtdemux", "mp4mux")):
+            with self.subTest(extension):
+                require(launch(f"{muxer} name=file ! filesink location=tracks.{extension} "
+                               "filesrc location=left.mkv ! matroskademux ! h264parse ! queue ! "
+                               "file.video_0 "
+                               "filesrc location=right.mkv ! matroskademux ! h264parse ! queue ! "
+                               "file.video_1", self.folder))
+                folder = f"tracks-{extension}"
+                (self.folder / folder).mkdir()
+                require(launch("mtstereo name=m ! videoconvert ! video/x-raw,format=GRAY16_BE ! "
+                               f"pngenc ! multifilesink location={folder}/%06d.png "
+                               f"filesrc location=tracks.{extension} ! {demuxer} name=file "
+                               "file.video_0 ! queue ! decodebin ! videoconvert ! queue ! m.sink_left "
+                               "file.video_1 ! queue ! decodebin ! videoconvert ! queue ! "
+                               "m.sink_right", self.folder))
+                self.assertEqual(len(list((self.folder / folder).iterdir())), 8)
+                error, _, density = self.compare(folder)
+                # With swapped tracks almost nothing would match.
+                self.assertLess(error, 3)
+                self.assertGreater(density, 15)
+
+    def test_unlinked_pad_is_reported(self):
+        done = run(["gst-launch-1.0", *"videotestsrc ! m.sink_left mtstereo name=m "
+                    "timeout=300000000 ! fakesink".split()], self.folder)
+        self.assertEqual(done.status, 1, str(done))
+        self.assertIn("sink_right is not linked", done.text)
+
     def test_stream_that_ends_early_ends_the_output(self):
         right = self.lossy("right", [5, 6, 7])
         done = self.run_script("from-files.sh", "left.mp4", right, "--out", "short.mkv")
