@@ -84,7 +84,15 @@ gboolean source_query(GstAggregator* aggregator, GstQuery* query) {
 
 // --- negotiation and data ---
 
-gboolean negotiate(GstAggregator* aggregator) { return negotiate_output(state_of(aggregator)); }
+gboolean negotiate(GstAggregator* aggregator) {
+  ElementState& state = state_of(aggregator);
+  {
+    const ObjectLock lock(aggregator);
+    // aggregate() returns the error, which also ends the stream downstream.
+    if (state.failed) return TRUE;
+  }
+  return negotiate_output(state);
+}
 
 GstFlowReturn update_source_caps(GstAggregator* aggregator, GstCaps* downstream, GstCaps** result) {
   *result = gst_caps_intersect(output_caps(state_of(aggregator)).get(), downstream);

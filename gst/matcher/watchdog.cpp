@@ -74,6 +74,13 @@ std::string seconds(Nanoseconds time) {
   return text;
 }
 
+/// Ends the stream of an unlinked pad. Otherwise the element would go on waiting for its frames,
+/// and the other stream would neither get the error nor come to its end.
+void end_stream(GstAggregatorPad* pad) {
+  gst_pad_send_event(GST_PAD_CAST(pad), gst_event_new_stream_start("unlinked"));
+  gst_pad_send_event(GST_PAD_CAST(pad), gst_event_new_eos());
+}
+
 /// Reports a silent pad. Frames of live streams have a deadline, and are reported there.
 void report(ElementState& state, Side silent, Nanoseconds timeout) {
   if (GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element))) return;
@@ -94,6 +101,7 @@ void report(ElementState& state, Side silent, Nanoseconds timeout) {
                  " is not linked. Link the other stream to it, by \"! NAME." + pad +
                  "\" on a command line.",
              details);
+  end_stream(state.input(silent).pad);
 }
 
 }  // namespace

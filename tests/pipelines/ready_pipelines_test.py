@@ -3,6 +3,7 @@
 """The pipeline scripts with files, over the loopback network, and with invalid input."""
 import re
 import shlex
+import signal
 import time
 import unittest
 
@@ -132,6 +133,21 @@ class ReadyPipelines(ClipTest):
                     "timeout=300000000 ! fakesink".split()], self.folder)
         self.assertEqual(done.status, 1, str(done))
         self.assertIn("sink_right is not linked", done.text)
+
+    def test_interrupt_ends_a_pipeline_with_a_silent_source(self):
+        process = start(["gst-launch-1.0", "-e", "-v",
+                         *"videotestsrc ! video/x-raw,format=GRAY8,width=64,height=48 ! m.sink_left "
+                         "appsrc format=time caps=video/x-raw,format=GRAY8,width=64,height=48,"
+                         "framerate=30/1 ! m.sink_right mtstereo name=m ! fakesink".split()],
+                        self.folder)
+        self.addCleanup(stop, process)
+        for line in process.stdout:
+            if "m.GstAggregatorPad:sink_left: caps" in line:
+                break
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=30 * SLOW)
+        self.assertEqual(process.returncode, 0, output + errors)
+        self.assertIn("Got EOS", output)
 
     def test_stream_that_ends_early_ends_the_output(self):
         right = self.lossy("right", [5, 6, 7])

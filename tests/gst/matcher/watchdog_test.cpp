@@ -3,6 +3,8 @@
 #include <gst/app/gstappsrc.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/pipeline.hpp"
 #include "support/stereo_harness.hpp"
 
@@ -115,6 +117,17 @@ TEST(UnlinkedPad, IsAnErrorThatNamesThePad) {
     EXPECT_NE(error.find(other + " is not linked"), std::string::npos) << error;
     EXPECT_NE(error.find("NAME." + other), std::string::npos) << error;
   }
+}
+
+TEST(UnlinkedPad, EndsTheOtherStream) {
+  Pipeline pipeline(
+      "videotestsrc ! video/x-raw,format=GRAY8 ! m.sink_left mtstereo name=m "
+      "timeout=100000000 ! fakesink async=false");
+  EXPECT_NE(pipeline.run().find("sink_right is not linked"), std::string::npos);
+  std::vector<std::string> ends{pipeline.wait_for_end(5), pipeline.wait_for_end(5)};
+  std::sort(ends.begin(), ends.end());
+  EXPECT_EQ(ends[0], "") << "of the sink";
+  EXPECT_NE(ends[1].find("reason error"), std::string::npos) << ends[1] << ", of the source";
 }
 
 /// An mtstereo whose streams come from two appsrc, for frames at any time.
