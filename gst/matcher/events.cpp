@@ -52,6 +52,12 @@ bool take_end(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   return taken;
 }
 
+/// A gap in no segment has no running time. The base class would report a programming error.
+bool is_outside_of_segments(GstAggregatorPad* pad) {
+  const ObjectLock lock(pad);
+  return pad->segment.format != GST_FORMAT_TIME;
+}
+
 /// True if the event is to be passed upstream.
 bool take_qos_event(ElementState& state, GstEvent* event) {
   note_qos_event(state, event);
@@ -79,6 +85,10 @@ bool handle_sink_event(ElementState& state, GstAggregatorPad* pad, GstEvent* eve
     case GST_EVENT_FLUSH_STOP:
       clear_stream(state, state.side_of(pad));
       break;
+    case GST_EVENT_GAP:
+      if (!is_outside_of_segments(pad)) break;
+      gst_event_unref(event);
+      return true;
     case GST_EVENT_SEGMENT_DONE:
       // The output follows the left stream: only the end of its segment is passed on.
       if (state.side_of(pad) == Side::kLeft) break;

@@ -214,6 +214,17 @@ TEST_F(Stream, SendsTheSegmentBeforeAGapAfterAFlush) {
   EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap was sent before the segment";
 }
 
+TEST(StreamStart, IgnoresAGapBeforeTheSegment) {
+  const Pair pair = noise_pair(kWidth, kHeight, 5, 2);
+  StereoHarness harness;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    harness.event(side, gst_event_new_gap(0, kFrame));
+  }
+  harness.caps(raw_caps("GRAY8", kWidth, kHeight));
+  harness.push_pair(pair, 0);
+  EXPECT_TRUE(harness.pull());
+}
+
 TEST_F(Stream, DropsLeftFramesInAGapOfTheRightStream) {
   harness.push_pair(pair, 0);
   ASSERT_TRUE(harness.pull());
