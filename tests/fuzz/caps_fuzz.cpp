@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Any caps on the pads of the three elements. The first byte selects the element; the lines that
+// follow are the caps of its sink pad or pads, and the last one those that downstream accepts.
+#include <gst/video/video.h>
+
+#include <array>
+#include <vector>
+
+#include "fuzz_gst.hpp"
+#include "fuzz_input.hpp"
+
+namespace mtstereo::fuzz {
+namespace {
+
+/// Queries with the caps as they are, which may be a choice.
+void query_with(GstElement* element, const char* pad_name, const std::string& text) {
+  const CapsPointer filter = parsed_caps(text);
+  if (!filter) return;
+  GstPad* pad = gst_element_get_static_pad(element, pad_name);
+  const CapsPointer accepted(gst_pad_query_caps(pad, filter.get()));
+  require(gst_caps_is_subset(accepted.get(), filter.get()), "the filter limits the answer");
+  const CapsPointer all(gst_pad_query_caps(pad, nullptr));
+  require(accepted && all, "the caps query is answered");
+  if (const CapsPointer fixed = fixed_caps(text)) gst_pad_query_accept_caps(pad, fixed.get());
+  gst_object_unref(pad);
+}
+
+/// Sends the caps, and a frame of the size that they need, if they describe video.
+void send_caps(GstHarness* harness, const std::string& text, unsigned seed) {
+  const CapsPointer caps = fixed_caps(text);
+  if (!caps) return;
+  gst_harness_push_event(harness, gst_event_new_caps(caps.get()));
+  GstVideoInfo info;
+  if (!gst_video_info_from_caps(&info, caps.get()) || info.size > (1U << 22)) return;
+  GstBuffer* buffer = pattern_buffer(info.size, seed);
+  GST_BUFFER_PTS(buffer) = 0;
+  gst_harness_push(harness, buffer);
+}
+
+void start_stream(GstHarness* harness, const char* name) {
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  gst_harness_push_event(harness, gst_event_new_stream_start(name));
+  gst_harness_push_event(harness, gst_event_new_segment(&segment));
+}
+
+void restrict_downstream(GstHarness* harness, const std::string& text) {
+  CapsPointer caps = parsed_caps(text);
+  if (caps && !gst_caps_is_empty(caps.get())) gst_harness_set_sink_caps(harness, caps.release());
+}
+
+/// Waits until downstream got an event of this type, unless the element has failed.
+void wait_for(GstHarness* harness, TestedElement& element, GstEventType type) {
+  const gint64 end = g_get_monotonic_time() + 10 * G_TIME_SPAN_SECOND;
+  while (!element.has_failed()) {
+    const EventPointer event(gst_harness_try_pull_event(harness));
+    if (event && GST_EVENT_TYPE(event.get()) == type) return;
+    if (event) continue;
+    require(g_get_monotonic_time() < end, "the output ends after both inputs");
+    g_usleep(100);
+  }
+}
+
+void test_matcher(const std::array<std::string, 3>& texts) {
+  TestedElement element("mtstereo");
+  g_object_set(element.get(), "max-disparity", 4, "threads", 1, nullptr);
+  GstHarness* left = gst_harness_new_with_element(element.get(), "sink_left", "src");
+  GstHarness* right = gst_harness_new_with_element(element.get(), "sink_right", nullptr);
+  restrict_downstream(left, texts[2]);
+  query_with(element.get(), "sink_left", texts[0]);
+  start_stream(left, "left");
+  start_stream(right, "right");
+  send_caps(left, texts[0], 1);
+  query_with(element.get(), "sink_right", texts[1]);
+  send_caps(right, texts[1], 2);
+  query_with(element.get(), "src", texts[2]);
+  gst_harness_push_event(left, gst_event_new_eos());
+  gst_harness_push_event(right, gst_event_new_eos());
+  wait_for(left, element, GST_EVENT_EOS);
+  gst_harness_teardown(right);
+  gst_harness_teardown(left);
+}
+
+void test_filter(const char* factory, const std::array<std::string, 3>& texts) {
+  TestedElement element(factory);
+  GstHarness* harness = gst_harness_new_with_element(element.get(), "sink", "src");
+  restrict_downstream(harness, texts[2]);
+  query_with(element.get(), "sink", texts[0]);
+  query_with(element.get(), "src", texts[2]);
+  start_stream(harness, "maps");
+  send_caps(harness, texts[0], 1);
+  send_caps(harness, texts[1], 2);
+  gst_harness_push_event(harness, gst_event_new_eos());
+  gst_harness_teardown(harness);
+}
+
+}  // namespace
+}  // namespace mtstereo::fuzz
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  mtstereo::fuzz::init_gstreamer();
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace mtstereo::fuzz;
+  FuzzInput input(data, size);
+  const int element = input.byte() % 3;
+  std::array<std::string, 3> texts;
+  for (std::string& text : texts) {
+    // GStreamer's own functions do not take text that is not UTF-8.
+    const std::string_view line = input.line();
+    if (g_utf8_validate(line.data(), static_cast<gssize>(line.size()), nullptr)) text = line;
+  }
+  if (element == 0) {
+    test_matcher(texts);
+  } else {
+    test_filter(element == 1 ? "mtcolor" : "mtconfidence", texts);
+  }
+  return 0;
+}

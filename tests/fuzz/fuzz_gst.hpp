@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <gst/check/gstharness.h>
+#include <gst/gst.h>
+
+#include <memory>
+#include <string>
+
+namespace mtstereo::fuzz {
+
+/// Initializes GStreamer with the plugin of this build only. A critical message ends the program.
+void init_gstreamer();
+
+/// The deleter of the owning pointers below.
+struct Unref {
+  void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
+  void operator()(GstEvent* event) const { gst_event_unref(event); }
+  void operator()(GstMessage* message) const { gst_message_unref(message); }
+  void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
+};
+using CapsPointer = std::unique_ptr<GstCaps, Unref>;
+using EventPointer = std::unique_ptr<GstEvent, Unref>;
+using MessagePointer = std::unique_ptr<GstMessage, Unref>;
+using BufferPointer = std::unique_ptr<GstBuffer, Unref>;
+
+/// An element with a bus. Errors that it posts must state a cause.
+class TestedElement {
+ public:
+  explicit TestedElement(const char* factory);
+  ~TestedElement();
+  TestedElement(const TestedElement&) = delete;
+  TestedElement& operator=(const TestedElement&) = delete;
+
+  GstElement* get() const { return element_; }
+  /// Takes all messages from the bus. True if an error was among the messages so far.
+  bool has_failed();
+
+ private:
+  GstElement* element_;
+  GstBus* bus_;
+  bool failed_ = false;
+};
+
+/// The caps of a text; nullptr if the text is none.
+CapsPointer parsed_caps(const std::string& text);
+
+/// The caps of a text, with every field fixed; nullptr if the text is none, or if frames of these
+/// caps would be large.
+CapsPointer fixed_caps(const std::string& text);
+
+/// A buffer of this size, filled with a pattern of `seed`.
+GstBuffer* pattern_buffer(std::size_t size, unsigned seed);
+
+}  // namespace mtstereo::fuzz

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""seeds.py LIST: writes the first inputs of every fuzzing program to seeds/PROGRAM/ next to LIST, and their names
+to LIST. The programs read their inputs byte by byte, see their FuzzInput."""
+import pathlib
+import struct
+import sys
+import zlib
+
+
+def png(width, height, depth, color, rows):
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    pixels = b"".join(b"\0" + row for row in rows)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, color, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b""))
+
+
+def files():
+    values = struct.pack("<6f", 1, 2.5, -3, float("inf"), float("nan"), 0)
+    yield "pfm-little", b"\0" + b"Pf\n3 2\n-1.0\n" + values
+    yield "pfm-big", b"\0" + b"Pf # map\n3\n2 1.0\n" + values
+    yield "pfm-color", b"\0" + b"PF\n1 1\n1\n" + values
+    yield "png-gray8", b"\1" + png(4, 2, 8, 0, [b"\0\1\2\3", b"\4\5\6\7"])
+    yield "png-gray16", b"\1" + png(2, 2, 16, 0, [b"\0\1\2\3", b"\4\5\6\7"])
+    yield "view-rgb", b"\2" + png(1, 2, 8, 2, [b"\0\1\2", b"\4\5\6"])
+    yield "view-rgba", b"\2" + png(1, 1, 8, 6, [b"\0\1\2\3"])
+    yield "dmap", b"\3" + bytes([1, 2]) + struct.pack(">6f", 1, 2, 3, 4, 1e6, -1)
+    yield "camera", b"\4" + b"500 500 320 240 1 0 0 0 0.1 0 0\n"
+    yield "calibration", b"\5\0cam0=[1 0 0; 0 1 0; 0 0 1]\nwidth=640\nndisp=64\n"
+    yield "calibration-eth3d", b"\5\1width=640\nndisp=32 \n"
+
+
+def text():
+    yield "numbers", b"\0max-disparity=64\nmax-node-width=0.5\ncensus-kernel-size=3\npixel-confidence=1e1\n"
+    yield "words", b"\0preset=fast\nmode=semi-dense\ncost=gradient\nsubpixel=false\nnoise-filter=1\n"
+    yield "levels", b"\0node-levels=5,3,0\nnode-levels=0\nnode-levels=1,1\n"
+    yield "wrong", b"\0threads=-1\nmax-disparity=nan\nmode=\nno-such=1\nmode\n"
+    yield "field", b"\1" + b"0.5,-0.1,0,1e-3,0"
+    yield "field-wrong", b"\1" + b"0.5,,0,inf,101"
+    for index, kind in enumerate(("noise=5", "jpeg=20", "h264=40", "dark=0.3", "bright=2", "blur-right=1.5",
+                                  "lower-right=-2", "roll-right=1", "gain-right=0.5", "gamma-right=2", "noise=x")):
+        yield f"degradation-{index}", b"\2" + kind.encode() + b"\n" + bytes([20, 10, 100])
+    yield "layout", b"\3" + b"middlebury"
+
+
+def matcher():
+    # count of parameters, (index, share)..., correction, width, height, padding and offset of both, scale, shift,
+    # related, then the paint of the left view
+    frame = bytes([63, 15, 3, 1, 0, 0]) + struct.pack("<H", 256) + bytes([4, 1])
+    paint = bytes([2, 128, 200, 5, 1, 0])
+    yield "default", bytes([0, 1]) + frame + paint
+    yield "flat", bytes([0, 1]) + frame + bytes([0, 128, 0, 0, 0, 0])
+    for index in range(40):
+        yield f"parameter-{index}", bytes([1, index]) + struct.pack("<H", 0x7000) + b"\1" + frame + paint
+    for preset in (0x8000, 0xffff):
+        yield f"preset-{preset}", bytes([1, 0]) + struct.pack("<H", preset) + b"\1" + frame + paint
+    yield "correction", bytes([0, 0, 160, 1, 140, 0, 128, 0, 128, 1, 128, 0, 1, 0]) + frame + paint
+    yield "two-frames", (bytes([0, 1]) + frame + paint + bytes([0])) * 2
+
+
+def alignment():
+    # action, paddings, offsets, shift, down, paint, how the right view is made, disturbances, range
+    step = bytes([1, 0, 0, 3, 1, 24, 11]) + bytes([2, 128, 255, 3, 1, 0]) + bytes([1, 0, 60])
+    sized = bytes([7, 149, 89]) + step[1:]
+    yield "one-pair", step
+    yield "several-pairs", step * 5
+    yield "sizes", step + sized + step
+    yield "reset", step + bytes([15]) + sized[1:]
+    yield "restore", bytes([14, 130]) + step[1:] + step * 4
+    yield "bytes", bytes([1, 0, 0, 3, 1, 24, 11, 4, 0, 0, 0, 0, 0]) + bytes(range(256)) * 8
+
+
+def caps():
+    gray = b"video/x-raw,format=GRAY8,width=32,height=16,framerate=30/1\n"
+    disparity = b"video/x-raw,format=GRAY16_LE,width=32,height=16,framerate=30/1,disparity-scale=256,max-disparity=8\n"
+    yield "gray", b"\0" + gray * 2 + b"video/x-raw,format=GRAY16_LE"
+    yield "sizes", b"\0" + gray + gray.replace(b"32", b"48") + b"video/x-raw"
+    yield "planar", b"\0" + gray.replace(b"GRAY8", b"I420") + gray.replace(b"GRAY8", b"NV12") + b"ANY"
+    yield "packed", b"\0" + gray.replace(b"GRAY8", b"YUY2") + gray.replace(b"GRAY8", b"RGBA")
+    yield "choice", b"\0video/x-raw,format={GRAY8,I420},width=[1,64],height=[1,max],framerate=[0/1,60/1]\n" + gray
+    yield "interlaced", b"\0" + gray[:-1] + b",interlace-mode=mixed\n" + gray
+    yield "features", b"\0video/x-raw(memory:GLMemory),format=RGBA,width=8,height=8\n" + gray
+    yield "encoded", b"\0video/x-h264,stream-format=avc\nimage/jpeg\n"
+    yield "downstream", b"\0" + gray * 2 + b"video/x-raw,format=GRAY16_LE,width=64,height=[1,100]"
+    yield "color", b"\1" + disparity * 2 + b"video/x-raw,format={RGB,BGRx}"
+    yield "color-range", b"\1" + disparity.replace(b"256", b"-1") + disparity.replace(b"=8", b"=0")
+    yield "confidence", b"\2" + disparity + gray + b"video/x-raw"
+
+
+def streams():
+    def frame(side, index, kind=0, more=1):
+        return bytes([64 * side, kind, index, 0, more])
+
+    pairs = b"".join(frame(0, i) + frame(1, i) for i in range(8))
+    yield "pairs", b"\0\1" + pairs
+    yield "live", b"\1\1" + pairs
+    yield "not-started", b"\0\0" + pairs
+    yield "lost", b"\0\1" + b"".join(frame(0, i) + (frame(1, i) if i % 3 else b"") for i in range(8))
+    yield "no-times", b"\0\1" + bytes([0, 0, 240, 0, 0, 64, 0, 240, 0, 0]) * 4
+    yield "sizes", b"\0\1" + frame(0, 0, 2) + frame(1, 0) + frame(0, 1) + frame(1, 1, 2)
+    for kind in (12, 13, 14, 15):
+        yield f"meta-{kind}", b"\0\1" + bytes([0, kind, 0, 20, 1, 0, 1]) + frame(1, 0) + pairs
+    for caps_index in range(12):
+        change = bytes([16, caps_index, 16 + 64, caps_index])
+        yield f"caps-{caps_index}", b"\0\1" + pairs[:20] + change + pairs[20:]
+    for action, parameters in ((17, (1, 0, 1)), (18, (2, 0, 3, 0)), (19, (1, 1, 1)), (20, ()), (21, (0, 9)), (21, (4,)),
+                               (22, (0, 2, 0, 3, 0)), (22, (3, 1)), (23, ()), (26, (1,)), (26, (0,)), (27, (200,)),
+                               (28, ())):
+        for side in (0, 64):
+            name = "-".join(str(n) for n in (action + side, *parameters))
+            yield f"action-{name}", b"\0\1" + pairs[:20] + bytes([action + side, *parameters]) + pairs[20:]
+    for index in range(28):
+        yield f"property-{index}", b"\0\1" + pairs[:20] + bytes([24, index]) + pairs[20:]
+
+
+def main():
+    out = pathlib.Path(sys.argv[1])
+    names = []
+    for program in (alignment, caps, files, matcher, streams, text):
+        folder = out.parent / "seeds" / program.__name__
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, content in program():
+            (folder / name).write_bytes(content)
+            names.append(f"{program.__name__}/{name}")
+    out.write_text("\n".join(names) + "\n")
+
+
+if __name__ == "__main__":
+    main()
