@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "soak.hpp"
+
+namespace mtstereo::soak {
+namespace {
+
+constexpr double kStateSeconds = 60;
+
+struct Text {
+  std::string message;
+  std::string details;
+};
+
+Text text_of(GstMessage* message) {
+  GError* error = nullptr;
+  gchar* details = nullptr;
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
+    gst_message_parse_error(message, &error, &details);
+  } else {
+    gst_message_parse_warning(message, &error, &details);
+  }
+  Text text{error->message, details != nullptr ? details : ""};
+  g_error_free(error);
+  g_free(details);
+  return text;
+}
+
+bool is_of_plugin(GstObject* source) {
+  const std::string type = G_OBJECT_TYPE_NAME(source);
+  return type.starts_with("GstMtStereo") || type.starts_with("GstMt");
+}
+
+}  // namespace
+
+bool states_cause(const std::string& text, const std::string& details) {
+  return text.size() >= 25 && text.find("Internal") == std::string::npos && !details.empty();
+}
+
+CheckedPipeline::CheckedPipeline(Soak& soak, std::string kind, const std::string& launch,
+                                 bool numbered)
+    : soak_(soak), kind_(std::move(kind)), numbered_(numbered) {
+  pipeline_ = std::make_unique<test::Pipeline>(launch);
+  GstElement* matcher = gst_bin_get_by_name(GST_BIN(element()), "m");
+  if (matcher == nullptr) return;
+  GstPad* output = gst_element_get_static_pad(matcher, "src");
+  gst_pad_add_probe(output, GST_PAD_PROBE_TYPE_BUFFER, check_map, this, nullptr);
+  gst_object_unref(output);
+  gst_object_unref(matcher);
+}
+
+CheckedPipeline::~CheckedPipeline() {
+  failed();
+  soak_.within(kStateSeconds, kind_, "stop", [&] { pipeline_.reset(); });
+  soak_.count(kind_, [&](Counts& counts) {
+    counts.maps += maps_;
+    counts.wrong += wrong_;
+    counts.warned += warned_maps_;
+    counts.unreadable += unreadable_;
+  });
+}
+
+GstPadProbeReturn CheckedPipeline::check_map(GstPad*, GstPadProbeInfo* info, gpointer self) {
+  auto& pipeline = *static_cast<CheckedPipeline*>(self);
+  ++pipeline.maps_;
+  if (!pipeline.numbered_) return GST_PAD_PROBE_OK;
+  const auto difference = test::frame_difference(GST_PAD_PROBE_INFO_BUFFER(info));
+  if (!difference) {
+    ++pipeline.unreadable_;
+  } else if (*difference != 0) {
+    pipeline.failed();  // reads the warnings up to now
+    ++(pipeline.warned_ ? pipeline.warned_maps_ : pipeline.wrong_);
+  }
+  return GST_PAD_PROBE_OK;
+}
+
+void CheckedPipeline::set_state(GstState state) {
+  soak_.within(kStateSeconds, kind_, std::string("state ") + gst_element_state_get_name(state),
+               [&] { pipeline_->set_state(state); });
+}
+
+void CheckedPipeline::settle(const char* what) {
+  bool settled = false;
+  soak_.within(kStateSeconds, kind_, what, [&] {
+    while (!settled && !failed()) settled = pipeline_->wait_until_settled(0.1);
+  });
+}
+
+bool CheckedPipeline::seek(double rate, GstSeekFlags flags, GstClockTime from, GstClockTime to) {
+  bool done = false;
+  soak_.within(kStateSeconds, kind_, "seek", [&] {
+    done = gst_element_seek(element(), rate, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET,
+                            static_cast<gint64>(from), GST_SEEK_TYPE_SET,
+                            GST_CLOCK_TIME_IS_VALID(to) ? static_cast<gint64>(to) : -1);
+  });
+  return done;
+}
+
+void CheckedPipeline::forget_end() {
+  failed();
+  const std::scoped_lock lock(mutex_);
+  ended_ = false;
+}
+
+void CheckedPipeline::wait_for_end(const char* what) {
+  soak_.within(kStateSeconds, kind_, what, [&] {
+    while (!failed()) {
+      {
+        const std::scoped_lock lock(mutex_);
+        if (ended_) return;
+      }
+      g_usleep(2000);
+    }
+  });
+}
+
+void CheckedPipeline::take(GstMessage* message) {
+  switch (GST_MESSAGE_TYPE(message)) {
+    case GST_MESSAGE_EOS:
+    case GST_MESSAGE_SEGMENT_DONE:
+      ended_ = true;
+      return;
+    case GST_MESSAGE_ERROR:
+    case GST_MESSAGE_WARNING:
+      break;
+    default:
+      return;
+  }
+  const Text text = text_of(message);
+  const bool ours = is_of_plugin(GST_MESSAGE_SRC(message));
+  if (ours) warned_ = true;
+  if (ours && !states_cause(text.message, text.details)) {
+    soak_.fail(kind_, "a message does not state its cause: " + text.message);
+  }
+  if (GST_MESSAGE_TYPE(message) != GST_MESSAGE_ERROR || !error_.empty()) return;
+  error_ = text.message + " [" + text.details + "]";
+  if (!ours) {
+    soak_.fail(kind_, std::string("an error of ") + GST_OBJECT_NAME(GST_MESSAGE_SRC(message)) +
+                          " instead of mtstereo: " + error_);
+  }
+}
+
+bool CheckedPipeline::failed() {
+  const std::scoped_lock lock(mutex_);
+  GstBus* bus = gst_element_get_bus(element());
+  while (const test::MessagePointer message{gst_bus_pop(bus)}) take(message.get());
+  gst_object_unref(bus);
+  return !error_.empty();
+}
+
+std::string CheckedPipeline::error() {
+  failed();
+  const std::scoped_lock lock(mutex_);
+  return error_;
+}
+
+}  // namespace mtstereo::soak

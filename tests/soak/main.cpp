@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Plays the element in hostile ways for some time and prints what happened as a table.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "soak.hpp"
+#include "support/test_environment.hpp"
+
+namespace mtstereo::soak {
+namespace {
+
+constexpr std::array kCases = {seek_in_files,   change_states,     set_properties, change_caps,
+                               send_wrong_caps, send_wrong_frames, end_streams,    relink_pads,
+                               lose_frames,     play_live};
+
+std::atomic<int> critical_messages{0};
+
+/// GObject's message about a value that is out of range is expected.
+void handle_message(const gchar* domain, GLogLevelFlags level, const gchar* message, gpointer) {
+  const bool critical = (level & (G_LOG_LEVEL_CRITICAL | G_LOG_LEVEL_ERROR)) != 0;
+  if (!critical || std::strstr(message, "out of range for property") != nullptr) return;
+  ++critical_messages;
+  std::fprintf(stderr, "critical: %s: %s\n", domain != nullptr ? domain : "", message);
+}
+
+/// Objects that the tracer reports as alive after gst_deinit(). Its first line explains the format.
+int count_leaks(const std::string& file) {
+  std::ifstream stream(file);
+  int leaks = 0;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.find("object-alive, type-name=(string)Gst") == std::string::npos) continue;
+    ++leaks;
+    std::fprintf(stderr, "leak: %s\n", line.c_str());
+  }
+  return leaks;
+}
+
+void run(Soak& soak, double seconds) {
+  const gint64 end = g_get_monotonic_time() + static_cast<gint64>(seconds * G_USEC_PER_SEC);
+  while (g_get_monotonic_time() < end) {
+    for (const auto& one_case : kCases) one_case(soak);
+    soak.sample_memory();
+  }
+  if (critical_messages > 0) {
+    soak.fail("all", std::to_string(critical_messages) + " critical messages");
+  }
+  if (testing::Test::HasFailure()) soak.fail("all", "an expectation of the support code failed");
+}
+
+int usage() {
+  std::fprintf(stderr, "usage: mtstereo-soak --seconds N [--seed N]\n");
+  return 2;
+}
+
+}  // namespace
+}  // namespace mtstereo::soak
+
+int main(int argc, char** argv) {
+  using namespace mtstereo;
+  double seconds = 0;
+  std::uint64_t seed = std::random_device{}();
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (std::strcmp(argv[i], "--seconds") == 0) seconds = std::atof(argv[i + 1]);
+    if (std::strcmp(argv[i], "--seed") == 0) seed = std::strtoull(argv[i + 1], nullptr, 10);
+  }
+  if (!(seconds > 0)) return soak::usage();
+  const test::TestEnvironment environment;
+  const std::string trace = environment.folder() + "/trace.log";
+  setenv("GST_TRACERS", "leaks", 1);
+  setenv("GST_DEBUG", "GST_TRACER:7", 1);
+  setenv("GST_DEBUG_FILE", trace.c_str(), 1);
+  testing::InitGoogleTest(&argc, argv);
+  gst_init(nullptr, nullptr);
+  g_log_set_default_handler(soak::handle_message, nullptr);
+  soak::make_files(environment.folder());
+  soak::Soak soak(seed);
+  soak::run(soak, seconds);
+  gst_deinit();
+  return soak.print(soak::count_leaks(trace)) ? 0 : 1;
+}
