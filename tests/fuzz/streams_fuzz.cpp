@@ -161,10 +161,13 @@ class Session {
     segment.rate = rate;
     segment.start = GST_CLOCK_TIME_IS_VALID(start) ? start : 0;
     if (rate < 0) segment.stop = segment.start + GST_SECOND;
+    has_segment_[side] = true;
     send(side, gst_event_new_segment(&segment));
   }
 
+  /// No frame is sent before the segment: a source must not do that.
   void push_frame(std::size_t side) {
+    if (!has_segment_[side]) send_segment(side, 0, 1);
     const GstVideoInfo& info = info_[side];
     gsize size = info.size != 0 ? info.size : 512;
     const int what = input_.byte();
@@ -195,6 +198,7 @@ class Session {
         // A flush is not serialized with what waits on the pad: it ends the wait.
         gst_harness_push_event(harness_[i], gst_event_copy(event));
         worker_[i]->settle();
+        has_segment_[i] = false;
       }
       gst_event_unref(event);
     }
@@ -271,7 +275,9 @@ class Session {
   }
 
   void change_state() {
-    gst_element_set_state(element_.get(), input_.flag() ? GST_STATE_READY : GST_STATE_PAUSED);
+    const bool stop = input_.flag();
+    gst_element_set_state(element_.get(), stop ? GST_STATE_READY : GST_STATE_PAUSED);
+    if (stop) has_segment_ = {};
     gst_element_set_state(element_.get(), GST_STATE_PLAYING);
   }
 
@@ -340,6 +346,7 @@ class Session {
   TestedElement element_;
   std::array<GstHarness*, 2> harness_{};
   std::array<GstVideoInfo, 2> info_{};
+  std::array<bool, 2> has_segment_{};
   std::array<std::optional<StreamWorker>, 2> worker_;
   std::set<GstClockTime> left_times_;
   GstClockTime clock_ = 0;
