@@ -277,8 +277,9 @@ class Session {
   void change_state() {
     const bool stop = input_.flag();
     gst_element_set_state(element_.get(), stop ? GST_STATE_READY : GST_STATE_PAUSED);
-    if (stop) has_segment_ = {};
     gst_element_set_state(element_.get(), GST_STATE_PLAYING);
+    // A stopped element forgets all events, also the ends of the streams.
+    if (stop) start_both();
   }
 
   void step() {
