@@ -74,20 +74,26 @@ GstPadProbeReturn CheckedPipeline::check_map(GstPad*, GstPadProbeInfo* info, gpo
 }
 
 void CheckedPipeline::set_state(GstState state) {
+  history_ += std::string("; ") + gst_element_state_get_name(state);
   soak_.within(kStateSeconds, kind_, std::string("state ") + gst_element_state_get_name(state),
                [&] { pipeline_->set_state(state); });
 }
 
 void CheckedPipeline::settle(const char* what) {
   bool settled = false;
-  soak_.within(kStateSeconds, kind_, what, [&] {
+  soak_.within(kStateSeconds, kind_, what + (" after " + history_), [&] {
     while (!settled && !failed()) settled = pipeline_->wait_until_settled(0.1);
   });
 }
 
 bool CheckedPipeline::seek(double rate, GstSeekFlags flags, GstClockTime from, GstClockTime to) {
   bool done = false;
-  soak_.within(kStateSeconds, kind_, "seek", [&] {
+  const auto text = [](GstClockTime time) {
+    return GST_CLOCK_TIME_IS_VALID(time) ? std::to_string(time / GST_MSECOND) + " ms" : "the end";
+  };
+  history_ += "; seek at rate " + std::to_string(rate) + " with flags " + std::to_string(flags) +
+              " from " + text(from) + " to " + text(to);
+  soak_.within(kStateSeconds, kind_, "seek after " + history_, [&] {
     done = gst_element_seek(element(), rate, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET,
                             static_cast<gint64>(from), GST_SEEK_TYPE_SET,
                             GST_CLOCK_TIME_IS_VALID(to) ? static_cast<gint64>(to) : -1);
@@ -102,7 +108,7 @@ void CheckedPipeline::forget_end() {
 }
 
 void CheckedPipeline::wait_for_end(const char* what) {
-  soak_.within(kStateSeconds, kind_, what, [&] {
+  soak_.within(kStateSeconds, kind_, what + (" after " + history_), [&] {
     while (!failed()) {
       {
         const std::scoped_lock lock(mutex_);

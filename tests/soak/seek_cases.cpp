@@ -64,7 +64,6 @@ GstSeekFlags random_flags(Random& random, bool flush) {
 void play_second_half(Soak& soak, CheckedPipeline& pipeline) {
   constexpr std::uint64_t kLeast = kRightFrames - kLeftFrames / 2 - 3;
   pipeline.set_state(GST_STATE_PAUSED);
-  pipeline.settle("pause");
   pipeline.forget_end();
   pipeline.seek(1, static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE),
                 kEnd / 2, GST_CLOCK_TIME_NONE);
@@ -79,12 +78,14 @@ void play_second_half(Soak& soak, CheckedPipeline& pipeline) {
   }
 }
 
-/// One seek. A seek without a flush waits for the sink, so it is only sent while playing.
-void seek_somewhere(Soak& soak, CheckedPipeline& pipeline, bool playing) {
+/// One seek, without a flush only if `flows`: such a seek waits until the sink takes frames, and
+/// keeps a pipeline that is not yet playing from it. True if a frame or the end of the stream
+/// follows in any case: after the end of a segment nothing does.
+bool seek_somewhere(Soak& soak, CheckedPipeline& pipeline, bool flows) {
   Random& random = soak.random;
   constexpr std::array kRates = {1.0, 1.0, 1.0, 2.0, 0.5, -1.0, -1.0, -2.0};
   const double rate = random.one_of(kRates);
-  const bool flush = !playing || random.chance(0.85);
+  const bool flush = !flows || random.chance(0.5);
   auto from = static_cast<GstClockTime>(random.between(0, static_cast<std::int64_t>(kEnd)));
   GstClockTime to = GST_CLOCK_TIME_NONE;
   if (random.chance(0.3) || rate < 0) {
@@ -92,8 +93,10 @@ void seek_somewhere(Soak& soak, CheckedPipeline& pipeline, bool playing) {
     if (rate < 0 && random.chance(0.3)) from = 0;
   }
   if (rate < 0 && random.chance(0.3)) to = kEnd;
-  pipeline.seek(rate, random_flags(random, flush), from, to);
+  const GstSeekFlags flags = random_flags(random, flush);
+  pipeline.seek(rate, flags, from, to);
   soak.count(kSeeks, [](Counts& counts) { ++counts.operations; });
+  return flush && (flags & GST_SEEK_FLAG_SEGMENT) == 0;
 }
 
 }  // namespace
@@ -125,12 +128,15 @@ void seek_in_files(Soak& soak) {
   bool playing = random.chance(0.5);
   pipeline.set_state(playing ? GST_STATE_PLAYING : GST_STATE_PAUSED);
   pipeline.settle("preroll");
+  bool settled = true;
   for (int i = 0; i < 8 && !pipeline.failed(); ++i) {
-    seek_somewhere(soak, pipeline, playing);
-    if (random.chance(0.5)) pipeline.settle("preroll after a seek");
+    const bool prerolls = seek_somewhere(soak, pipeline, playing && settled);
+    settled = prerolls && random.chance(0.5);
+    if (settled) pipeline.settle("preroll after a seek");
     if (random.chance(0.5)) g_usleep(static_cast<gulong>(random.between(0, 60'000)));
     if (random.chance(0.3)) {
       playing = !playing;
+      settled = false;
       pipeline.set_state(playing ? GST_STATE_PLAYING : GST_STATE_PAUSED);
       soak.count(kind, [](Counts& counts) { ++counts.operations; });
     }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 
 #include "mtstereo/matcher.hpp"
@@ -21,6 +22,14 @@ double resident_mebibytes() {
   double resident = 0;
   statistics >> total >> resident;
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+/// With MTSTEREO_SOAK_STACKS=1 and gdb: where all threads are.
+void print_stacks() {
+  if (std::getenv("MTSTEREO_SOAK_STACKS") == nullptr) return;
+  const std::string command = "gdb -p " + std::to_string(getpid()) +
+                              " -batch -ex 'set pagination off' -ex 'thread apply all bt' >&2";
+  if (std::system(command.c_str()) != 0) std::fprintf(stderr, "gdb cannot print the stacks\n");
 }
 
 void print_row(const char* name, const Counts& counts) {
@@ -76,6 +85,7 @@ void Soak::watch() {
       ++hangs_;
       std::fprintf(stderr, "hang: %s\n", operation_.c_str());
     }
+    print_stacks();
     // The thread that hangs cannot be stopped.
     print(0);
     std::fflush(stdout);

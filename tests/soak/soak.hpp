@@ -130,6 +130,7 @@ class CheckedPipeline {
   Soak& soak_;
   std::string kind_;
   bool numbered_;
+  std::string history_;  ///< states and seeks, for the report of a hang
   std::unique_ptr<test::Pipeline> pipeline_;
   std::atomic<std::uint64_t> maps_{0};
   std::atomic<std::uint64_t> wrong_{0};
