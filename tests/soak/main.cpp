@@ -2,6 +2,7 @@
 // Plays the element in hostile ways for some time and prints what happened as a table.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -15,9 +16,16 @@
 namespace mtstereo::soak {
 namespace {
 
-constexpr std::array kCases = {seek_in_files,   change_states,     set_properties, change_caps,
-                               send_wrong_caps, send_wrong_frames, end_streams,    relink_pads,
-                               lose_frames,     play_live};
+struct Case {
+  const char* name;
+  void (*run)(Soak& soak);
+};
+constexpr std::array kCases = {
+    Case{"seeks", seek_in_files},        Case{"states", change_states},
+    Case{"properties", set_properties},  Case{"caps", change_caps},
+    Case{"wrong-caps", send_wrong_caps}, Case{"wrong-frames", send_wrong_frames},
+    Case{"ends", end_streams},           Case{"links", relink_pads},
+    Case{"loss", lose_frames},           Case{"live", play_live}};
 
 std::atomic<int> critical_messages{0};
 
@@ -41,10 +49,13 @@ int count_leaks(const std::string& file) {
   return leaks;
 }
 
-void run(Soak& soak, double seconds) {
+/// Runs all cases in turn, or only those of this name.
+void run(Soak& soak, double seconds, const std::string& only) {
   const gint64 end = g_get_monotonic_time() + static_cast<gint64>(seconds * G_USEC_PER_SEC);
   while (g_get_monotonic_time() < end) {
-    for (const auto& one_case : kCases) one_case(soak);
+    for (const Case& one_case : kCases) {
+      if (only.empty() || only == one_case.name) one_case.run(soak);
+    }
     soak.sample_memory();
   }
   if (critical_messages > 0) {
@@ -54,7 +65,7 @@ void run(Soak& soak, double seconds) {
 }
 
 int usage() {
-  std::fprintf(stderr, "usage: mtstereo-soak --seconds N [--seed N]\n");
+  std::fprintf(stderr, "usage: mtstereo-soak --seconds N [--seed N] [--only CASES]\n");
   return 2;
 }
 
@@ -64,15 +75,19 @@ int usage() {
 int main(int argc, char** argv) {
   using namespace mtstereo;
   double seconds = 0;
+  std::string only;
   std::uint64_t seed = std::random_device{}();
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--seconds") == 0) seconds = std::atof(argv[i + 1]);
+    if (std::strcmp(argv[i], "--only") == 0) only = argv[i + 1];
     if (std::strcmp(argv[i], "--seed") == 0) seed = std::strtoull(argv[i + 1], nullptr, 10);
   }
-  if (!(seconds > 0)) return soak::usage();
+  const bool known = only.empty() || std::any_of(soak::kCases.begin(), soak::kCases.end(),
+                                                 [&](const auto& one) { return only == one.name; });
+  if (!(seconds > 0) || !known) return soak::usage();
   const test::TestEnvironment environment;
   const std::string trace = environment.folder() + "/trace.log";
-  setenv("GST_TRACERS", "leaks", 1);
+  setenv("GST_TRACERS", "leaks", 0);  // an empty value of the user disables it
   setenv("GST_DEBUG", "GST_TRACER:7", 1);
   setenv("GST_DEBUG_FILE", trace.c_str(), 1);
   testing::InitGoogleTest(&argc, argv);
@@ -80,7 +95,7 @@ int main(int argc, char** argv) {
   g_log_set_default_handler(soak::handle_message, nullptr);
   soak::make_files(environment.folder());
   soak::Soak soak(seed);
-  soak::run(soak, seconds);
+  soak::run(soak, seconds, only);
   gst_deinit();
   return soak.print(soak::count_leaks(trace)) ? 0 : 1;
 }
