@@ -160,6 +160,7 @@ class Stepper {
   }
 
   Step pair() {
+    state_.working_mode = mode_;
     Step step = take(StepKind::kPair, Side::kLeft);
     step.right = queue(Side::kRight).take(pad(Side::kRight), 0);
     return step;
@@ -282,11 +283,20 @@ GstFlowReturn match(ElementState& state, const Step& pair) {
   return match_pair(state, pair.left.buffer.get(), pair.right.buffer.get());
 }
 
+/// Reports a frame without a time. GST_FLOW_OK if the pairs go on: a change of `sync-mode` that
+/// does not fit the streams is taken back.
 GstFlowReturn report_missing_time(ElementState& state, const Step& step) {
-  if (state.paired_mode == SyncMode::kReferenceTimestamp) {
-    return refuse_missing_reference(state, step.side);
+  if (state.paired_mode != SyncMode::kReferenceTimestamp) {
+    return refuse_mixed_stamping(state, step.side == Side::kRight);
   }
-  return refuse_mixed_stamping(state, step.side == Side::kRight);
+  const auto before = state.working_mode;
+  if (!before || *before == state.paired_mode) return refuse_missing_reference(state, step.side);
+  {
+    const ObjectLock lock(state.element);
+    if (state.settings.sync_mode == state.paired_mode) state.settings.sync_mode = *before;
+  }
+  warn_of_missing_reference(state, step.side);
+  return GST_FLOW_OK;
 }
 
 /// In a live pipeline with the property `newest-pair`, pairs for which there is a newer one are
@@ -331,7 +341,10 @@ GstFlowReturn step_through(ElementState& state, Occasion occasion) {
       case StepKind::kEnd:
         return GST_FLOW_EOS;
       case StepKind::kNoTime:
-        return report_missing_time(state, step);
+        if (const GstFlowReturn flow = report_missing_time(state, step); flow != GST_FLOW_OK) {
+          return flow;
+        }
+        break;
       case StepKind::kDrop:
         after_drop(state, step);
         break;

@@ -123,6 +123,7 @@ struct ElementState {
   std::shared_ptr<const StreamSegment> output_segment;                  ///< that of the source pad
   std::array<std::shared_ptr<const StreamSegment>, 2> paired_segments;  ///< of the last frames
   SyncMode paired_mode = SyncMode::kRunningTime;
+  std::optional<SyncMode> working_mode;  ///< of the last pair
   PairFinder finder;
   PairClock clock;
   GstFlowReturn pending_flow = GST_FLOW_OK;  ///< of a failure outside of aggregate()

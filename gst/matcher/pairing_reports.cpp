@@ -18,6 +18,13 @@ constexpr const char* kIfTriggered =
     "If both cameras are triggered together, correct it by the property offset of a pad "
     "(sink_right::offset), or pair by sync-mode=first-pts or sync-mode=arrival.";
 
+std::string missing_reference(Side side) {
+  return std::string("A frame of ") + pad_name(side) +
+         " has no reference time stamp of the same clock as the other stream, which "
+         "sync-mode=reference-timestamp needs. Enable it in the source (rtspsrc "
+         "add-reference-timestamp-meta=true)";
+}
+
 }  // namespace
 
 void report_difference(ElementState& state, Nanoseconds difference, Nanoseconds tolerance) {
@@ -80,12 +87,13 @@ GstFlowReturn refuse_mixed_stamping(ElementState& state, bool left_has_time) {
 
 GstFlowReturn refuse_missing_reference(ElementState& state, Side side) {
   post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
-             std::string("A frame of ") + pad_name(side) +
-                 " has no reference time stamp of the same clock as the other stream, which "
-                 "sync-mode=reference-timestamp needs. Enable it in the source (rtspsrc "
-                 "add-reference-timestamp-meta=true), or choose another sync-mode.",
-             state.streams_text());
+             missing_reference(side) + ", or choose another sync-mode.", state.streams_text());
   return GST_FLOW_ERROR;
+}
+
+void warn_of_missing_reference(ElementState& state, Side side) {
+  post_settings_warning(state, missing_reference(side) + ". The last sync-mode is in effect again.",
+                        state.streams_text());
 }
 
 }  // namespace mtstereo::plugin

@@ -21,4 +21,7 @@ void report_doubt(ElementState& state, PairDoubt doubt);
 GstFlowReturn refuse_mixed_stamping(ElementState& state, bool left_has_time);
 GstFlowReturn refuse_missing_reference(ElementState& state, Side side);
 
+/// A change to sync-mode=reference-timestamp was taken back.
+void warn_of_missing_reference(ElementState& state, Side side);
+
 }  // namespace mtstereo::plugin

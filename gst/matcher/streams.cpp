@@ -131,6 +131,7 @@ void adopt_segment(ElementState& state, const std::shared_ptr<const StreamSegmen
 void clear_streams(ElementState& state) {
   for (const Side side : kSides) clear_stream(state, side);
   state.paired_segments = {};
+  state.working_mode.reset();
   state.finder.reset();
   state.clock.reset();
   state.pending_flow = GST_FLOW_OK;

@@ -46,7 +46,8 @@ ViewCorrection correction_of(FuzzInput& input) {
 void check_map(const DisparityView& map, const GrayView& confidence, const Parameters& parameters) {
   require(confidence.width == map.width && confidence.height == map.height,
           "the confidence has the size of the map");
-  const int end = parameters.integer(Parameter::kMaxDisparity) * kDisparityOne;
+  const int end = (parameters.integer(Parameter::kMaxDisparity) - parameters.disparity_offset()) *
+                  kDisparityOne;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const std::int32_t value = map.row(y)[x];

@@ -57,13 +57,17 @@ void drop_frames_and_send_gaps() {
   watch.emplace(harness.element());
   harness.caps(raw_caps("GRAY8", 64, 48));
   harness.push(Side::kLeft, frame_buffer(pair.left, 0, kFrame));
+  // Left frames up to the second right one have no partners; so late a first frame is checked.
   harness.push(Side::kRight, frame_buffer(pair.right, 5 * kFrame, kFrame));
-  EXPECT_TRUE(harness.wait_for_stats(0, 1, 0));
+  harness.push(Side::kLeft, frame_buffer(pair.left, kFrame / 2, kFrame));
+  harness.push(Side::kRight, frame_buffer(pair.right, 6 * kFrame, kFrame));
+  EXPECT_TRUE(harness.wait_for_stats(0, 2, 0));
   harness.event(Side::kLeft, gst_event_new_gap(kFrame, kFrame));
   harness.push(Side::kLeft, frame_buffer(pair.left, 5 * kFrame, kFrame));
   EXPECT_TRUE(harness.pull());
   harness.event(Side::kRight, gst_event_new_segment_done(GST_FORMAT_TIME, 0));
   harness.end(Side::kRight);
+  harness.end(Side::kLeft);
   EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
 }
 
