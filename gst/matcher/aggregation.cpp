@@ -6,6 +6,7 @@
 #include "matcher/clock.hpp"
 #include "matcher/matching.hpp"
 #include "matcher/output_events.hpp"
+#include "matcher/pair_steps.hpp"
 #include "matcher/pairing_reports.hpp"
 #include "matcher/streams.hpp"
 #include "shared/ownership.hpp"
@@ -14,215 +15,6 @@
 
 namespace mtstereo::plugin {
 namespace {
-
-/// Why steps are taken now.
-enum class Occasion {
-  kFrames,    // both streams have a frame, or have ended
-  kDeadline,  // the oldest frame waits no longer
-  kEnd,       // one stream has just ended; the rest of the other one is left to the next occasion
-};
-
-/// What is done next.
-enum class StepKind {
-  kWait,    // for a frame
-  kEnd,     // no pair can follow
-  kPair,    // the frames `left` and `right` are a pair
-  kDrop,    // `left` or `right` has no partner
-  kGap,     // `left` is a gap
-  kPassed,  // a gap of the right stream has been passed
-  kNoTime,  // error: a frame has no time, the other one has
-};
-
-struct Step {
-  StepKind kind = StepKind::kWait;
-  Side side = Side::kLeft;  // of the frame that is dropped or has no time
-  QueuedFrame left{};
-  QueuedFrame right{};
-  bool at_deadline = false;      // it is dropped because its partner has not arrived
-  bool wrong_time = false;       // it is dropped because of its time stamp
-  bool without_message = false;  // it is dropped where a frame without a partner is normal
-  Nanoseconds difference = 0;    // of the two frames, right minus left
-  Nanoseconds tolerance = 0;
-  PairDoubt doubt = PairDoubt::kNone;
-
-  QueuedFrame& frame() { return side == Side::kLeft ? left : right; }
-};
-
-std::optional<Nanoseconds> duration_of(const QueuedFrame& frame) {
-  if (!GST_BUFFER_DURATION_IS_VALID(frame.buffer.get())) return std::nullopt;
-  return static_cast<Nanoseconds>(GST_BUFFER_DURATION(frame.buffer.get()));
-}
-
-bool has_ended(const ElementState& state, Side side) {
-  return gst_aggregator_pad_is_eos(state.input(side).pad) != FALSE;
-}
-
-/// The steps of two streams. Holds the lock of the queues.
-class Stepper {
- public:
-  Stepper(ElementState& state, Occasion occasion)
-      : state_(state),
-        occasion_(occasion),
-        deadline_(occasion == Occasion::kDeadline),
-        lock_(state.queue_mutex) {
-    for (const Side side : kSides) queue(side).look(pad(side));
-    const ObjectLock object_lock(state.element);
-    mode_ = state.settings.sync_mode;
-    set_tolerance_ = state.settings.sync_tolerance;
-    durations_ = state.caps_durations;
-  }
-
-  Step next() {
-    if (auto step = pass_gap()) return std::move(*step);
-    if (auto step = drop_in_gap()) return std::move(*step);
-    for (const Side side : kSides) {
-      if (queue(side).empty()) return without_frame(side);
-    }
-    begin_segments();
-    return with_both();
-  }
-
- private:
-  FrameQueue& queue(Side side) { return state_.queue(side); }
-  GstAggregatorPad* pad(Side side) const { return state_.input(side).pad; }
-
-  Step take(StepKind kind, Side side, std::size_t index = 0) {
-    Step step;
-    step.kind = kind;
-    step.side = side;
-    step.frame() = queue(side).take(pad(side), index);
-    return step;
-  }
-
-  Nanoseconds tolerance() const {
-    FrameDurations buffers;
-    if (!state_.queues[0].empty()) buffers.left = duration_of(state_.queues[0].front());
-    if (!state_.queues[1].empty()) buffers.right = duration_of(state_.queues[1].front());
-    return effective_tolerance(set_tolerance_, durations_, buffers);
-  }
-
-  /// Passes a gap at the head of a stream: frames of the other stream in its time have no partners.
-  std::optional<Step> pass_gap() {
-    for (const Side side : kSides) {
-      if (queue(side).empty() || !queue(side).front().is_gap()) continue;
-      Step step = take(side == Side::kLeft ? StepKind::kGap : StepKind::kPassed, side);
-      const auto end = step.frame().end_time();
-      if (end) queue(side).passed = PassedTime{*end, step.frame().segment};
-      return step;
-    }
-    return std::nullopt;
-  }
-
-  /// Drops a frame whose partner would be in a gap of the other stream.
-  std::optional<Step> drop_in_gap() {
-    if (mode_ != SyncMode::kRunningTime) return std::nullopt;
-    for (const Side side : kSides) {
-      if (queue(side).empty()) continue;
-      const auto time = queue(side).front().running_time();
-      if (!time || !queue(other_side(side)).has_passed(*time + tolerance())) continue;
-      Step step = take(StepKind::kDrop, side);
-      step.without_message = true;
-      return step;
-    }
-    return std::nullopt;
-  }
-
-  /// No frame of this side is here.
-  Step without_frame(Side side) {
-    const Side full = other_side(side);
-    const bool alone = queue(full).empty();
-    if (has_ended(state_, side) || (alone && has_ended(state_, full))) {
-      if (occasion_ == Occasion::kEnd) return Step{};
-      if (alone) return Step{.kind = StepKind::kEnd};
-      Step step = take(StepKind::kDrop, full);
-      step.without_message = true;
-      return step;
-    }
-    if (!deadline_ || alone) return Step{};
-    Step step = take(StepKind::kDrop, full);
-    step.at_deadline = true;
-    return step;
-  }
-
-  /// The result of a segment does not depend on earlier ones.
-  void begin_segments() {
-    for (const Side side : kSides) {
-      auto& last = state_.paired_segments[static_cast<std::size_t>(side)];
-      if (last == queue(side).front().segment) continue;
-      last = queue(side).front().segment;
-      state_.finder.reset();
-      state_.clock.reset();
-    }
-    if (mode_ == state_.paired_mode) return;
-    state_.paired_mode = mode_;
-    state_.finder.reset();
-    state_.clock.reset();
-  }
-
-  Step pair() {
-    state_.working_mode = mode_;
-    Step step = take(StepKind::kPair, Side::kLeft);
-    step.right = queue(Side::kRight).take(pad(Side::kRight), 0);
-    return step;
-  }
-
-  Step with_both() {
-    const PairTimes found = state_.clock.times(queue(Side::kLeft), queue(Side::kRight), mode_);
-    const bool left = !found.times[0].empty();
-    const bool right = !found.times[1].empty();
-    const bool needed = mode_ == SyncMode::kReferenceTimestamp;
-    if (!left && !right && !needed) return pair();
-    if (!left || !right) {
-      return Step{.kind = StepKind::kNoTime, .side = left ? Side::kRight : Side::kLeft};
-    }
-    std::array<WaitingFrames, 2> waiting;
-    for (const Side side : kSides) {
-      const auto index = static_cast<std::size_t>(side);
-      const auto& duration = side == Side::kLeft ? durations_.left : durations_.right;
-      const auto period = duration ? duration : duration_of(queue(side).front());
-      const bool full = queue(side).size() >= FrameQueue::kCapacity;
-      waiting[index] = {found.times[index], period.value_or(0),
-                        found.complete[index] || deadline_ || full || has_ended(state_, side)};
-    }
-    const Nanoseconds allowed = tolerance();
-    const PairStep decision = state_.finder.next(waiting[0], waiting[1], allowed);
-    Step step = carry_out(decision, found);
-    step.tolerance = allowed;
-    step.difference = decision.difference;
-    step.doubt = state_.finder.new_doubt();
-    return step;
-  }
-
-  Step carry_out(const PairStep& decision, const PairTimes& found) {
-    if (decision.action == PairAction::kPair) {
-      state_.finder.paired(found.times[0].front(), found.times[1].front());
-      return pair();
-    }
-    const auto index = static_cast<std::size_t>(decision.side);
-    if (decision.action == PairAction::kDrop) {
-      if (!decision.wrong_time) {
-        state_.finder.dropped(decision.side, found.times[index][decision.index]);
-      }
-      Step step = take(StepKind::kDrop, decision.side, decision.index);
-      step.wrong_time = decision.wrong_time;
-      step.at_deadline = deadline_;
-      return step;
-    }
-    // Both streams get room: one thread may feed both.
-    queue(decision.side).hold(pad(decision.side));
-    FrameQueue& rest = queue(other_side(decision.side));
-    if (rest.size() < FrameQueue::kCapacity) rest.hold(pad(other_side(decision.side)));
-    return Step{};
-  }
-
-  ElementState& state_;
-  const Occasion occasion_;
-  const bool deadline_;
-  std::lock_guard<std::mutex> lock_;
-  SyncMode mode_ = SyncMode::kRunningTime;
-  gint64 set_tolerance_ = -1;
-  FrameDurations durations_;
-};
 
 /// Advances the output by the right stream if no left frame arrives.
 void send_gap_for_right(ElementState& state, const QueuedFrame& right) {
@@ -316,12 +108,26 @@ void publish(ElementState& state) {
   state.statistics.difference = state.finder.offset().line().statistics();
 }
 
-/// Takes all steps that are possible now.
+/// True if frames wait that are no longer in the pads, so that the base class does not know of
+/// them.
+bool holds_frames(ElementState& state) {
+  const std::lock_guard<std::mutex> lock(state.queue_mutex);
+  return state.queues[0].held() > 0 || state.queues[1].held() > 0;
+}
+
+/// A flush or the end of the element is under way: the base class sends no buffer any more.
+bool is_stopping(const ElementState& state) {
+  GstPad* const pad = state.source_pad();
+  return GST_PAD_IS_FLUSHING(pad) || !gst_pad_is_active(pad);
+}
+
+/// Takes the steps that are possible now, up to the next map if the base class knows of all frames
+/// that wait.
 GstFlowReturn step_through(ElementState& state, Occasion occasion) {
   const bool newest = only_newest(state);
   std::optional<Step> pair;
   for (;;) {
-    Step step = Stepper(state, occasion).next();
+    Step step = next_step(state, occasion);
     if (occasion == Occasion::kDeadline) occasion = Occasion::kFrames;  // it is that of one frame
     report_doubt(state, step.doubt);
     const bool more = step.kind != StepKind::kWait && step.kind != StepKind::kEnd;
@@ -332,7 +138,8 @@ GstFlowReturn step_through(ElementState& state, Occasion occasion) {
     }
     if (pair && (!newest || !more)) {
       const GstFlowReturn flow = match(state, *std::exchange(pair, std::nullopt));
-      if (flow != GST_FLOW_OK) return flow;
+      if (flow != GST_FLOW_OK || !holds_frames(state)) return flow;
+      if (is_stopping(state)) return GST_FLOW_FLUSHING;
       continue;
     }
     switch (step.kind) {

@@ -122,7 +122,6 @@ void CheckedPipeline::wait_for_end(const char* what) {
 void CheckedPipeline::take(GstMessage* message) {
   switch (GST_MESSAGE_TYPE(message)) {
     case GST_MESSAGE_EOS:
-    case GST_MESSAGE_SEGMENT_DONE:
       ended_ = true;
       return;
     case GST_MESSAGE_ERROR:

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/pair_steps.hpp"
+
+#include <utility>
+
+#include "shared/ownership.hpp"
+
+namespace mtstereo::plugin {
+namespace {
+
+std::optional<Nanoseconds> duration_of(const QueuedFrame& frame) {
+  if (!GST_BUFFER_DURATION_IS_VALID(frame.buffer.get())) return std::nullopt;
+  return static_cast<Nanoseconds>(GST_BUFFER_DURATION(frame.buffer.get()));
+}
+
+/// The longest duration of the frames that wait: a seek may clip the first one.
+std::optional<Nanoseconds> longest_duration(const FrameQueue& queue) {
+  std::optional<Nanoseconds> longest;
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const auto duration = duration_of(queue[i]);
+    if (duration && (!longest || *duration > *longest)) longest = duration;
+  }
+  return longest;
+}
+
+bool has_ended(const ElementState& state, Side side) {
+  return gst_aggregator_pad_is_eos(state.input(side).pad) != FALSE;
+}
+
+/// The steps of two streams. Holds the lock of the queues.
+class Stepper {
+ public:
+  Stepper(ElementState& state, Occasion occasion)
+      : state_(state),
+        occasion_(occasion),
+        deadline_(occasion == Occasion::kDeadline),
+        lock_(state.queue_mutex) {
+    for (const Side side : kSides) queue(side).look(pad(side));
+    const ObjectLock object_lock(state.element);
+    mode_ = state.settings.sync_mode;
+    set_tolerance_ = state.settings.sync_tolerance;
+    durations_ = state.caps_durations;
+  }
+
+  Step next() {
+    if (auto step = pass_gap()) return std::move(*step);
+    if (auto step = drop_in_gap()) return std::move(*step);
+    for (const Side side : kSides) {
+      if (queue(side).empty()) return without_frame(side);
+    }
+    begin_segments();
+    return with_both();
+  }
+
+ private:
+  FrameQueue& queue(Side side) { return state_.queue(side); }
+  GstAggregatorPad* pad(Side side) const { return state_.input(side).pad; }
+
+  Step take(StepKind kind, Side side, std::size_t index = 0) {
+    Step step;
+    step.kind = kind;
+    step.side = side;
+    step.frame() = queue(side).take(pad(side), index);
+    return step;
+  }
+
+  Nanoseconds tolerance() const {
+    FrameDurations buffers;
+    if (!state_.queues[0].empty()) buffers.left = longest_duration(state_.queues[0]);
+    if (!state_.queues[1].empty()) buffers.right = longest_duration(state_.queues[1]);
+    return effective_tolerance(set_tolerance_, durations_, buffers);
+  }
+
+  /// Passes a gap at the head of a stream: frames of the other stream in its time have no partners.
+  std::optional<Step> pass_gap() {
+    for (const Side side : kSides) {
+      if (queue(side).empty() || !queue(side).front().is_gap()) continue;
+      Step step = take(side == Side::kLeft ? StepKind::kGap : StepKind::kPassed, side);
+      const auto end = step.frame().end_time();
+      if (end) queue(side).passed = PassedTime{*end, step.frame().segment};
+      return step;
+    }
+    return std::nullopt;
+  }
+
+  /// Drops a frame whose partner would be in a gap of the other stream.
+  std::optional<Step> drop_in_gap() {
+    if (mode_ != SyncMode::kRunningTime) return std::nullopt;
+    for (const Side side : kSides) {
+      if (queue(side).empty()) continue;
+      const auto time = queue(side).front().running_time();
+      if (!time || !queue(other_side(side)).has_passed(*time + tolerance())) continue;
+      Step step = take(StepKind::kDrop, side);
+      step.without_message = true;
+      return step;
+    }
+    return std::nullopt;
+  }
+
+  /// No frame of this side is here.
+  Step without_frame(Side side) {
+    const Side full = other_side(side);
+    const bool alone = queue(full).empty();
+    if (has_ended(state_, side) || (alone && has_ended(state_, full))) {
+      if (occasion_ == Occasion::kEnd) return Step{};
+      if (alone) return Step{.kind = StepKind::kEnd};
+      Step step = take(StepKind::kDrop, full);
+      step.without_message = true;
+      return step;
+    }
+    if (!deadline_ || alone) return Step{};
+    Step step = take(StepKind::kDrop, full);
+    step.at_deadline = true;
+    return step;
+  }
+
+  /// The result of a segment does not depend on earlier ones.
+  void begin_segments() {
+    for (const Side side : kSides) {
+      auto& last = state_.paired_segments[static_cast<std::size_t>(side)];
+      if (last == queue(side).front().segment) continue;
+      last = queue(side).front().segment;
+      state_.finder.reset();
+      state_.clock.reset();
+    }
+    if (mode_ == state_.paired_mode) return;
+    state_.paired_mode = mode_;
+    state_.finder.reset();
+    state_.clock.reset();
+  }
+
+  Step pair() {
+    state_.working_mode = mode_;
+    Step step = take(StepKind::kPair, Side::kLeft);
+    step.right = queue(Side::kRight).take(pad(Side::kRight), 0);
+    return step;
+  }
+
+  Step with_both() {
+    const PairTimes found = state_.clock.times(queue(Side::kLeft), queue(Side::kRight), mode_);
+    const bool left = !found.times[0].empty();
+    const bool right = !found.times[1].empty();
+    const bool needed = mode_ == SyncMode::kReferenceTimestamp;
+    if (!left && !right && !needed) return pair();
+    if (!left || !right) {
+      return Step{.kind = StepKind::kNoTime, .side = left ? Side::kRight : Side::kLeft};
+    }
+    std::array<WaitingFrames, 2> waiting;
+    for (const Side side : kSides) {
+      const auto index = static_cast<std::size_t>(side);
+      const auto& duration = side == Side::kLeft ? durations_.left : durations_.right;
+      const auto period = duration ? duration : longest_duration(queue(side));
+      const bool full = queue(side).size() >= FrameQueue::kCapacity;
+      waiting[index] = {found.times[index], period.value_or(0),
+                        found.complete[index] || deadline_ || full || has_ended(state_, side)};
+    }
+    const Nanoseconds allowed = tolerance();
+    const PairStep decision = state_.finder.next(waiting[0], waiting[1], allowed);
+    Step step = carry_out(decision, found);
+    step.tolerance = allowed;
+    step.difference = decision.difference;
+    step.doubt = state_.finder.new_doubt();
+    return step;
+  }
+
+  Step carry_out(const PairStep& decision, const PairTimes& found) {
+    if (decision.action == PairAction::kPair) {
+      state_.finder.paired(found.times[0].front(), found.times[1].front());
+      return pair();
+    }
+    const auto index = static_cast<std::size_t>(decision.side);
+    if (decision.action == PairAction::kDrop) {
+      if (!decision.wrong_time) {
+        state_.finder.dropped(decision.side, found.times[index][decision.index]);
+      }
+      Step step = take(StepKind::kDrop, decision.side, decision.index);
+      step.wrong_time = decision.wrong_time;
+      step.at_deadline = deadline_;
+      return step;
+    }
+    // Both streams get room: one thread may feed both.
+    queue(decision.side).hold(pad(decision.side));
+    FrameQueue& rest = queue(other_side(decision.side));
+    if (rest.size() < FrameQueue::kCapacity) rest.hold(pad(other_side(decision.side)));
+    return Step{};
+  }
+
+  ElementState& state_;
+  const Occasion occasion_;
+  const bool deadline_;
+  std::lock_guard<std::mutex> lock_;
+  SyncMode mode_ = SyncMode::kRunningTime;
+  gint64 set_tolerance_ = -1;
+  FrameDurations durations_;
+};
+
+}  // namespace
+
+Step next_step(ElementState& state, Occasion occasion) { return Stepper(state, occasion).next(); }
+
+}  // namespace mtstereo::plugin
