@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 #include <thread>
+#include <utility>
 
 #include "support/pipeline.hpp"
 
@@ -58,11 +60,18 @@ bool wait_for(GstElement* pipeline, GstClockTime running_time, const std::atomic
   return !stop;
 }
 
+void add_reference(GstBuffer* buffer, GstClockTime time) {
+  if (!GST_CLOCK_TIME_IS_VALID(time)) return;
+  const CapsPointer clock(gst_caps_new_empty_simple("timestamp/x-ntp"));
+  gst_buffer_add_reference_timestamp_meta(buffer, clock.get(), time, GST_CLOCK_TIME_NONE);
+}
+
 void push_all(const Pipeline& pipeline, Side side, const std::vector<NumberedFrame>& frames,
               const FeedOptions& options, const std::atomic<bool>& stop) {
   auto* source = GST_APP_SRC(pipeline.named(side == Side::kLeft ? "left" : "right"));
   for (const NumberedFrame& frame : frames) {
     GstBuffer* buffer = numbered_frame(side, frame.number, frame.pts, options.duration);
+    add_reference(buffer, frame.reference);
     const GstClockTime arrival = GST_CLOCK_TIME_IS_VALID(frame.arrival) ? frame.arrival : frame.pts;
     if (options.live && GST_CLOCK_TIME_IS_VALID(arrival) &&
         !wait_for(pipeline.element(), arrival, stop)) {
@@ -75,21 +84,17 @@ void push_all(const Pipeline& pipeline, Side side, const std::vector<NumberedFra
 }
 
 std::string launch_text(const FeedOptions& options) {
-  const std::string source =
-      std::string(" format=time caps=") +
-      raw_caps("GRAY8", kNumberedWidth, kNumberedHeight, options.framerate) +
-      // A live source does not wait for the element.
-      (options.live ? " is-live=true max-bytes=0" : " block=true max-bytes=0 max-buffers=4");
-  const std::string link = options.upstream.empty() ? " ! " : " ! " + options.upstream + " ! ";
-  return "mtstereo name=m " + options.properties + " ! " + options.tail + " appsrc name=left" +
-         source + link + "m.sink_left appsrc name=right" + source + link + "m.sink_right";
-}
-
-GstPadProbeReturn add_map(GstPad*, GstPadProbeInfo* info, gpointer maps) {
-  GstBuffer* buffer = GST_PAD_PROBE_INFO_BUFFER(info);
-  static_cast<std::vector<NumberedMap>*>(maps)->push_back(
-      {GST_BUFFER_PTS(buffer), frame_difference(buffer)});
-  return GST_PAD_PROBE_OK;
+  const auto source = [&](const char* name, const char* framerate) {
+    return std::string(" appsrc name=") + name +
+           " format=time caps=" + raw_caps("GRAY8", kNumberedWidth, kNumberedHeight, framerate) +
+           // A live source does not wait for the element.
+           (options.live ? " is-live=true max-bytes=0" : " block=true max-bytes=0 max-buffers=4") +
+           (options.upstream.empty() ? " ! " : " ! " + options.upstream + " ! ") + "m.sink_" + name;
+  };
+  const char* right = options.right_framerate;
+  return "mtstereo name=m " + options.properties + " ! " + options.tail +
+         source("left", options.framerate) +
+         source("right", right != nullptr ? right : options.framerate);
 }
 
 std::string text_of(GstMessage* message) {
@@ -104,12 +109,66 @@ std::string text_of(GstMessage* message) {
   return text;
 }
 
+/// Notes the maps and the warnings in the order in which the element sends them.
+class Recorder {
+ public:
+  Recorder(const Pipeline& pipeline, const FeedOptions& options)
+      : element_(pipeline.named("m")), delay_(options.delay) {
+    GstPad* output = gst_element_get_static_pad(element_, "src");
+    gst_pad_add_probe(output, GST_PAD_PROBE_TYPE_BUFFER, on_map, this, nullptr);
+    gst_object_unref(output);
+    GstBus* bus = gst_element_get_bus(pipeline.element());
+    gst_bus_set_sync_handler(bus, on_message, this, nullptr);
+    gst_object_unref(bus);
+  }
+  /// After the pipeline has stopped.
+  void move_to(FeedResult& result) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const NumberedMap& map : maps_) result.count.add(map.difference);
+    result.maps = std::move(maps_);
+    result.warnings = std::move(warnings_);
+    result.maps_before_warning = std::move(maps_before_warning_);
+  }
+
+ private:
+  static GstPadProbeReturn on_map(GstPad*, GstPadProbeInfo* info, gpointer recorder) {
+    static_cast<Recorder*>(recorder)->add_map(GST_PAD_PROBE_INFO_BUFFER(info));
+    return GST_PAD_PROBE_OK;
+  }
+  static GstBusSyncReply on_message(GstBus*, GstMessage* message, gpointer recorder) {
+    if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING) {
+      static_cast<Recorder*>(recorder)->add_warning(message);
+    }
+    return GST_BUS_PASS;
+  }
+  void add_map(GstBuffer* buffer) {
+    g_usleep(static_cast<gulong>(delay_ / 1000));
+    const NumberedMap map{GST_BUFFER_PTS(buffer), frame_difference(buffer),
+                          gst_element_get_current_running_time(element_)};
+    const std::lock_guard<std::mutex> lock(mutex_);
+    maps_.push_back(map);
+  }
+  void add_warning(GstMessage* message) {
+    if (GST_MESSAGE_SRC(message) != GST_OBJECT(element_)) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    warnings_.push_back(text_of(message));
+    maps_before_warning_.push_back(maps_.size());
+  }
+
+  GstElement* element_;
+  GstClockTime delay_;
+  std::mutex mutex_;
+  std::vector<NumberedMap> maps_;
+  std::vector<std::string> warnings_;
+  std::vector<std::size_t> maps_before_warning_;
+};
+
 /// Collects the messages up to the end of the stream or an error.
 void collect_messages(GstElement* pipeline, double seconds, FeedResult& result) {
   GstBus* bus = gst_element_get_bus(pipeline);
   const gint64 end = g_get_monotonic_time() + static_cast<gint64>(seconds * G_USEC_PER_SEC);
-  constexpr auto kTypes = static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR |
-                                                      GST_MESSAGE_WARNING | GST_MESSAGE_LATENCY);
+  constexpr auto kTypes =
+      static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR | GST_MESSAGE_LATENCY);
   result.error = "timeout: neither end of stream nor error";
   for (gint64 now = 0; (now = g_get_monotonic_time()) < end;) {
     const MessagePointer message(
@@ -119,14 +178,9 @@ void collect_messages(GstElement* pipeline, double seconds, FeedResult& result) 
       gst_bin_recalculate_latency(GST_BIN(pipeline));
       continue;
     }
-    if (GST_MESSAGE_TYPE(message.get()) != GST_MESSAGE_WARNING) {
-      const bool failed = GST_MESSAGE_TYPE(message.get()) == GST_MESSAGE_ERROR;
-      result.error = failed ? text_of(message.get()) : std::string();
-      break;
-    }
-    if (std::string(GST_MESSAGE_SRC_NAME(message.get())) == "m") {
-      result.warnings.push_back(text_of(message.get()));
-    }
+    const bool failed = GST_MESSAGE_TYPE(message.get()) == GST_MESSAGE_ERROR;
+    result.error = failed ? text_of(message.get()) : std::string();
+    break;
   }
   gst_object_unref(bus);
 }
@@ -192,10 +246,7 @@ FeedResult feed(const std::vector<NumberedFrame>& left, const std::vector<Number
                 const FeedOptions& options) {
   FeedResult result;
   Pipeline pipeline(launch_text(options));
-  GstElement* element = pipeline.named("m");
-  GstPad* output = gst_element_get_static_pad(element, "src");
-  gst_pad_add_probe(output, GST_PAD_PROBE_TYPE_BUFFER, add_map, &result.maps, nullptr);
-  gst_object_unref(output);
+  Recorder recorder(pipeline, options);
   pipeline.set_state(GST_STATE_PLAYING);
   // Without a preroll, set_state() has set clock and base time of a live pipeline when it returns.
   std::atomic<bool> stop{false};
@@ -203,11 +254,11 @@ FeedResult feed(const std::vector<NumberedFrame>& left, const std::vector<Number
   std::thread right_thread([&] { push_all(pipeline, Side::kRight, right, options, stop); });
   collect_messages(pipeline.element(), options.timeout, result);
   stop = true;
-  result.stats = stats_of(element);
+  result.stats = stats_of(pipeline.named("m"));
   pipeline.set_state(GST_STATE_NULL);  // releases a push that blocks
   left_thread.join();
   right_thread.join();
-  for (const NumberedMap& map : result.maps) result.count.add(map.difference);
+  recorder.move_to(result);
   return result;
 }
 

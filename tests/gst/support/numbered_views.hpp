@@ -55,6 +55,8 @@ struct NumberedFrame {
   std::int64_t number = 0;                     ///< of the image
   GstClockTime pts = GST_CLOCK_TIME_NONE;      ///< time stamp [ns]
   GstClockTime arrival = GST_CLOCK_TIME_NONE;  ///< running time of the push if live; default: pts
+  /// The NTP time of a reference time stamp, which the frame has only if this is valid [ns].
+  GstClockTime reference = GST_CLOCK_TIME_NONE;
 };
 
 /// `count` frames from the number `first` on. The time stamp of the frame i is offset + i *
@@ -69,23 +71,28 @@ struct FeedOptions {
   std::string tail = "fakesink sync=false";     ///< downstream of mtstereo
   bool live = false;               ///< live sources: each frame is pushed at its arrival time
   const char* framerate = "30/1";  ///< of the caps
-  GstClockTime duration = kFrame;  ///< of every frame [ns]
-  double timeout = 60;             ///< for the end of the stream [s]
+  const char* right_framerate = nullptr;  ///< of the right caps, if another one
+  GstClockTime duration = kFrame;         ///< of every frame [ns]
+  double timeout = 60;                    ///< for the end of the stream [s]
+  /// Every map is delayed by this time in the task of the element, as if matching took longer [ns].
+  GstClockTime delay = 0;
 };
 
 /// One disparity map.
 struct NumberedMap {
   GstClockTime pts = GST_CLOCK_TIME_NONE;
   std::optional<int> difference;
+  GstClockTime arrival = GST_CLOCK_TIME_NONE;  ///< at the source pad [running time]
 };
 
 /// What came out.
 struct FeedResult {
   DifferenceCounter count;
   std::vector<NumberedMap> maps;
-  std::vector<std::string> warnings;  ///< of mtstereo
-  std::string error;                  ///< of any element, or that the time was up; "" if none
-  Stats stats;                        ///< of mtstereo, at the end
+  std::vector<std::string> warnings;             ///< of mtstereo
+  std::vector<std::size_t> maps_before_warning;  ///< for each warning, the maps that preceded it
+  std::string error;  ///< of any element, or that the time was up; "" if none
+  Stats stats;        ///< of mtstereo, at the end
 };
 
 /// Plays two sequences through an mtstereo, named m, in a pipeline with two appsrc and the system

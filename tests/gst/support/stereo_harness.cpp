@@ -61,6 +61,10 @@ Stats stats_of(GstElement* element) {
                                 &stats.dropped_right, "skipped", G_TYPE_UINT64, &stats.skipped,
                                 "last-ms", G_TYPE_DOUBLE, &stats.last_ms, "mean-ms", G_TYPE_DOUBLE,
                                 &stats.mean_ms, "density", G_TYPE_DOUBLE, &stats.density, nullptr));
+  EXPECT_TRUE(gst_structure_get(
+      structure, "wrong-times", G_TYPE_UINT64, &stats.wrong_times, "difference-ms", G_TYPE_DOUBLE,
+      &stats.difference_ms, "difference-spread-ms", G_TYPE_DOUBLE, &stats.difference_spread_ms,
+      "difference-drift", G_TYPE_DOUBLE, &stats.difference_drift, nullptr));
   return stats;
 }
 

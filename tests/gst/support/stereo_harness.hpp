@@ -46,6 +46,10 @@ struct Stats {
   double last_ms = 0;
   double mean_ms = 0;
   double density = 0;
+  std::uint64_t wrong_times = 0;
+  double difference_ms = 0;
+  double difference_spread_ms = 0;
+  double difference_drift = 0;
 };
 Stats stats_of(GstElement* element);
 
