@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/frame_queue.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace mtstereo::plugin {
@@ -24,12 +25,35 @@ std::optional<Nanoseconds> running_time_at(const StreamSegment& stream, guint64 
   return *time - stream.pad_offset;
 }
 
+/// What a decoder has cut from the beginning of a frame that begins before its segment: it sets the
+/// time stamp to the start of the segment and shortens the duration [stream time]. At its true time
+/// the frame cannot be mistaken for its successor, of which little or nothing is cut.
+Nanoseconds cut_at_start(const QueuedFrame& frame) {
+  const GstBuffer* buffer = frame.buffer.get();
+  const guint64 start = frame.segment->segment.start;
+  if (start == 0 || GST_BUFFER_PTS(buffer) != start || !GST_BUFFER_DURATION_IS_VALID(buffer)) {
+    return 0;
+  }
+  const auto duration = frame.info ? frame_duration(*frame.info) : std::nullopt;
+  if (!duration) return 0;
+  return std::max<Nanoseconds>(*duration - static_cast<Nanoseconds>(GST_BUFFER_DURATION(buffer)),
+                               0);
+}
+
 }  // namespace
+
+std::optional<Nanoseconds> frame_duration(const GstVideoInfo& info) {
+  if (info.fps_n <= 0 || info.fps_d <= 0) return std::nullopt;
+  return static_cast<Nanoseconds>(gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n));
+}
 
 std::optional<Nanoseconds> QueuedFrame::running_time() const {
   if (!segment || segment->segment.format != GST_FORMAT_TIME) return std::nullopt;
   if (!GST_BUFFER_PTS_IS_VALID(buffer.get())) return std::nullopt;
-  return to_running_time(segment->segment, GST_BUFFER_PTS(buffer.get()));
+  const auto time = to_running_time(segment->segment, GST_BUFFER_PTS(buffer.get()));
+  if (!time) return std::nullopt;
+  return *time -
+         static_cast<Nanoseconds>(static_cast<double>(cut_at_start(*this)) / segment->segment.rate);
 }
 
 std::optional<Nanoseconds> QueuedFrame::end_time() const {

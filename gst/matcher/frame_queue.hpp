@@ -30,6 +30,9 @@ enum class SyncMode {
   kReferenceTimestamp,  ///< the reference time stamps that a frame carries (NTP, PTP)
 };
 
+/// The duration of a frame by the framerate; std::nullopt if that is variable or not known.
+std::optional<Nanoseconds> frame_duration(const GstVideoInfo& info);
+
 /// A frame, or a gap, in the order in which its stream delivers them.
 struct QueuedFrame {
   BufferPointer buffer{};
@@ -38,7 +41,7 @@ struct QueuedFrame {
 
   bool is_gap() const { return GST_BUFFER_FLAG_IS_SET(buffer.get(), GST_BUFFER_FLAG_GAP); }
   /// The running time of the time stamp; std::nullopt without one. It is negative for a frame that
-  /// begins before its segment.
+  /// begins before its segment, also if a decoder has cut it there.
   std::optional<Nanoseconds> running_time() const;
   /// The running time at the end of a gap; its beginning if it has no duration.
   std::optional<Nanoseconds> end_time() const;

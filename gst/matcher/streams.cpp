@@ -8,11 +8,6 @@
 namespace mtstereo::plugin {
 namespace {
 
-std::optional<Nanoseconds> frame_duration(const GstVideoInfo& info) {
-  if (info.fps_n <= 0 || info.fps_d <= 0) return std::nullopt;
-  return static_cast<Nanoseconds>(gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n));
-}
-
 /// Makes room in the pad for a new frame. The oldest of too many frames is dropped: the other
 /// stream does not deliver.
 void make_room(ElementState& state, Side side) {
