@@ -14,12 +14,25 @@ namespace mtstereo::test {
 namespace {
 
 constexpr const char* kPlugins[] = {
-    "app",          "debug",           "coreelements",
-    "coretracers",  "deinterlace",     "imagefreeze",
-    "interlace",    "libav",           "matroska",
-    "rawparse",     "videobox",        "videoconvertscale",
-    "videocrop",    "videoparsersbad", "videorate",
-    "videotestsrc", "videofilter",     "x264",
+    "app",
+    "debug",
+    "coreelements",
+    "coretracers",
+    "deinterlace",
+    "imagefreeze",
+    "interlace",
+    "isomp4",
+    "libav",
+    "matroska",
+    "rawparse",
+    "videobox",
+    "videoconvertscale",
+    "videocrop",
+    "videoparsersbad",
+    "videorate",
+    "videotestsrc",
+    "videofilter",
+    "x264",
 };
 
 /// Timeout of a test [s]; then the program is terminated. The factor is 1 without a sanitizer.
