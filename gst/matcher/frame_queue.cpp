@@ -58,12 +58,15 @@ std::optional<Nanoseconds> QueuedFrame::running_time() const {
 
 std::optional<Nanoseconds> QueuedFrame::end_time() const {
   const auto begin = running_time();
-  if (!begin || !GST_BUFFER_DURATION_IS_VALID(buffer.get())) return begin;
-  const double rate = segment->segment.rate < 0 ? -segment->segment.rate : segment->segment.rate;
-  const auto length =
-      static_cast<Nanoseconds>(static_cast<double>(GST_BUFFER_DURATION(buffer.get())) / rate);
   // In reverse the running time of the time stamp, the earliest one, is the end.
-  return segment->segment.rate < 0 ? *begin : *begin + length;
+  if (!begin || segment->segment.rate < 0) return begin;
+  Nanoseconds duration = 0;
+  if (GST_BUFFER_DURATION_IS_VALID(buffer.get())) {
+    duration = static_cast<Nanoseconds>(GST_BUFFER_DURATION(buffer.get()));
+  } else if (info) {
+    duration = frame_duration(*info).value_or(0);
+  }
+  return *begin + static_cast<Nanoseconds>(static_cast<double>(duration) / segment->segment.rate);
 }
 
 void FrameQueue::look(GstAggregatorPad* pad) {
@@ -112,6 +115,19 @@ Nanoseconds seek_correction(const StreamSegment& left, const StreamSegment& righ
   const auto left_time = running_time_at(left, stream_time);
   const auto right_time = running_time_at(right, stream_time);
   return left_time && right_time ? *left_time - *right_time : 0;
+}
+
+bool is_in_gap(const QueuedFrame& frame, Side side, const FrameQueue& others,
+               Nanoseconds tolerance) {
+  const auto& gap = others.passed;
+  if (!gap || gap->segment != others.segment || !gap->segment || !frame.segment) return false;
+  const auto time = frame.running_time();
+  if (!time) return false;
+  const bool left = side == Side::kLeft;
+  const Nanoseconds correction =
+      seek_correction(left ? *frame.segment : *gap->segment, left ? *gap->segment : *frame.segment);
+  // The correction is added to right times.
+  return *time + tolerance < gap->end + (left ? correction : -correction);
 }
 
 }  // namespace mtstereo::plugin

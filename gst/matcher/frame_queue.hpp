@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "matcher/pairing.hpp"
+#include "mtstereo/matcher.hpp"
 #include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
@@ -43,14 +44,14 @@ struct QueuedFrame {
   /// The running time of the time stamp; std::nullopt without one. It is negative for a frame that
   /// begins before its segment, also if a decoder has cut it there.
   std::optional<Nanoseconds> running_time() const;
-  /// The running time at the end of a gap; its beginning if it has no duration.
+  /// The running time at the end of a gap. One without a duration is as long as a frame.
   std::optional<Nanoseconds> end_time() const;
 };
 
 /// The end of a gap: no frame of the stream is before it.
 struct PassedTime {
-  Nanoseconds end = 0;  ///< [running time]
-  std::shared_ptr<const StreamSegment> segment{};
+  Nanoseconds end = 0;                             ///< [running time]
+  std::shared_ptr<const StreamSegment> segment{};  ///< nullptr: none arrived
 };
 
 /// The frames of a sink pad that wait for their partners. The last one may still be in the queue of
@@ -67,10 +68,6 @@ class FrameQueue {
 
   /// The last gap.
   std::optional<PassedTime> passed;
-  /// True if no frame at this running time will come, because of a gap.
-  bool has_passed(Nanoseconds time) const {
-    return passed && passed->segment == segment && time < passed->end;
-  }
 
   /// Adds the frame at the head of the pad if it is not in the queue yet.
   void look(GstAggregatorPad* pad);
@@ -97,5 +94,10 @@ class FrameQueue {
 /// time are a pair, if both segments follow the same seek: a seek to key frames starts each file at
 /// another time, and in reverse each at its own end. 0 for other segments.
 Nanoseconds seek_correction(const StreamSegment& left, const StreamSegment& right);
+
+/// True if all frames that are at most `tolerance` from this frame would be in a gap of the other
+/// stream.
+bool is_in_gap(const QueuedFrame& frame, Side side, const FrameQueue& others,
+               Nanoseconds tolerance);
 
 }  // namespace mtstereo::plugin

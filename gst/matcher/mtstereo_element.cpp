@@ -7,6 +7,7 @@
 #include "matcher/element_state.hpp"
 #include "matcher/events.hpp"
 #include "matcher/negotiation.hpp"
+#include "matcher/output_events.hpp"
 #include "matcher/queries.hpp"
 #include "matcher/settings.hpp"
 #include "matcher/streams.hpp"
@@ -154,6 +155,7 @@ gboolean start(GstAggregator* aggregator) {
   state.known_latency = 0;
   state.doubt_warning = {};
   state.segment = OutputSegment::kNone;
+  state.segment_repeats = false;
   state.output_segment.reset();
   clear_streams(state);
   state.complete_settings();
@@ -186,6 +188,7 @@ GstFlowReturn flush(GstAggregator* aggregator) {
   state.unpaired_warning.reset();
   state.waiting_frame = {};
   state.segment = OutputSegment::kNone;
+  state.segment_repeats = false;
   state.output_segment.reset();
   clear_streams(state);
   const ObjectLock lock(aggregator);
@@ -302,6 +305,7 @@ static void gst_mtstereo_init(GstMtStereo* self) {
     gst_element_add_pad(element, pad);
     watch_pad(*self->state, side);
   }
+  watch_output(*self->state);
 }
 
 }  // namespace mtstereo::plugin

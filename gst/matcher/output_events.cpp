@@ -17,13 +17,30 @@ bool send_segment(ElementState& state) {
       event = gst_event_new_segment(&GST_AGGREGATOR_PAD(state.source_pad())->segment);
     }
     gst_event_set_seqnum(event, state.segment_seqnum);
+    state.segment_repeats = false;
     gst_pad_push_event(state.source_pad(), event);
+    state.segment_repeats = true;
     state.segment = OutputSegment::kSent;
   }
   return state.segment == OutputSegment::kSent;
 }
 
+/// Drops the segment that the base class sends before a buffer if the element has sent it already.
+GstPadProbeReturn on_output_event(GstPad*, GstPadProbeInfo* info, gpointer data) noexcept {
+  auto& state = *static_cast<ElementState*>(data);
+  GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
+  if (GST_EVENT_TYPE(event) != GST_EVENT_SEGMENT || !state.segment_repeats) return GST_PAD_PROBE_OK;
+  state.segment_repeats = false;
+  gst_event_unref(event);
+  return GST_PAD_PROBE_HANDLED;  // a sticky event that is dropped would be sent again
+}
+
 }  // namespace
+
+void watch_output(ElementState& state) {
+  gst_pad_add_probe(state.source_pad(), GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, on_output_event,
+                    &state, nullptr);
+}
 
 void end_output(ElementState& state, guint32 seqnum) {
   GstPad* pad = state.source_pad();

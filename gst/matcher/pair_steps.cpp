@@ -88,8 +88,7 @@ class Stepper {
     if (mode_ != SyncMode::kRunningTime) return std::nullopt;
     for (const Side side : kSides) {
       if (queue(side).empty()) continue;
-      const auto time = queue(side).front().running_time();
-      if (!time || !queue(other_side(side)).has_passed(*time + tolerance())) continue;
+      if (!is_in_gap(queue(side).front(), side, queue(other_side(side)), tolerance())) continue;
       Step step = take(StepKind::kDrop, side);
       step.without_message = true;
       return step;

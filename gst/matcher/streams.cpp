@@ -27,25 +27,37 @@ void make_room(ElementState& state, Side side) {
   ++state.statistics.dropped[static_cast<std::size_t>(side)];
 }
 
-/// True if a new frame is in a gap of the other stream, so that it has no partner. It must not
-/// block its source, which may be that of the other stream too.
-bool in_gap(ElementState& state, Side side, GstBuffer* buffer) {
+/// Drops frames that wait, and the new one, if they are in a gap of the other stream: none of them
+/// has a partner, and they must not block their source, which may be that of the other stream too.
+/// True if the new frame is to be dropped.
+bool drop_in_gap(ElementState& state, Side side, GstBuffer* buffer) {
+  Nanoseconds tolerance = 0;
   {
     const ObjectLock lock(state.element);
     if (state.settings.sync_mode != SyncMode::kRunningTime) return false;
+    tolerance = effective_tolerance(state.settings.sync_tolerance, state.caps_durations, {});
   }
-  const std::lock_guard<std::mutex> lock(state.queue_mutex);
-  const FrameQueue& own = state.queue(side);
-  const FrameQueue& others = state.queue(other_side(side));
-  if (!others.passed || !others.empty() || !own.empty() || !own.segment || !others.segment) {
-    return false;
+  guint64 dropped = 0;
+  bool drop = false;
+  {
+    const std::lock_guard<std::mutex> lock(state.queue_mutex);
+    FrameQueue& own = state.queue(side);
+    FrameQueue& others = state.queue(other_side(side));
+    if (!others.passed || !others.empty()) return false;
+    GstAggregatorPad* const pad = state.input(side).pad;
+    own.look(pad);
+    while (!own.empty() && is_in_gap(own.front(), side, others, tolerance)) {
+      own.take(pad, 0);
+      ++dropped;
+    }
+    const QueuedFrame frame{BufferPointer(gst_buffer_ref(buffer)), own.info, own.segment};
+    drop = own.empty() && is_in_gap(frame, side, others, tolerance);
+    // A frame at the end of the gap may still have a partner. There is room for the next one.
+    if (!drop && own.held() == 0) own.hold(pad);
   }
-  const StreamSegment& left = side == Side::kLeft ? *own.segment : *others.segment;
-  const StreamSegment& right = side == Side::kLeft ? *others.segment : *own.segment;
-  if (seek_correction(left, right) != 0) return false;
-  const QueuedFrame frame{BufferPointer(gst_buffer_ref(buffer)), own.info, own.segment};
-  const auto end = frame.end_time();
-  return end && others.has_passed(*end);
+  const ObjectLock lock(state.element);
+  state.statistics.dropped[static_cast<std::size_t>(side)] += dropped + (drop ? 1 : 0);
+  return drop;
 }
 
 GstPadProbeReturn on_frame(GstPad* pad, GstPadProbeInfo* info, gpointer data) noexcept {
@@ -53,11 +65,7 @@ GstPadProbeReturn on_frame(GstPad* pad, GstPadProbeInfo* info, gpointer data) no
   try {
     const Side side = state.side_of(GST_AGGREGATOR_PAD(pad));
     GstBuffer* const buffer = GST_PAD_PROBE_INFO_BUFFER(info);
-    if (buffer != nullptr && in_gap(state, side, buffer)) {
-      const ObjectLock lock(state.element);
-      ++state.statistics.dropped[static_cast<std::size_t>(side)];
-      return GST_PAD_PROBE_DROP;
-    }
+    if (buffer != nullptr && drop_in_gap(state, side, buffer)) return GST_PAD_PROBE_DROP;
     if (state.newest_pair && GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element))) {
       make_room(state, side);
     }
@@ -117,6 +125,7 @@ void adopt_segment(ElementState& state, const std::shared_ptr<const StreamSegmen
   state.output_segment = segment;
   gst_aggregator_update_segment(state.element, &segment->segment);
   state.segment = OutputSegment::kWaiting;
+  state.segment_repeats = false;
   state.segment_seqnum = segment->seqnum;
   state.alignment.restart();  // the output of a segment does not depend on earlier ones
   const ObjectLock lock(state.element);
