@@ -6,19 +6,19 @@
 #   ./pipelines/from-network.sh rtsp://a/left rtsp://b/right
 #
 # To try it on one machine, start network-sender.sh in another terminal. RTP over UDP loses packets
-# on a bad network; a frame without a partner is dropped and counted. The default tolerance of the
-# time stamps is 20 ms here, because of network jitter. It must be less than half the frame period;
-# otherwise neighboring frames may be paired.
+# on a bad network; a frame without a partner is dropped and counted. The time stamps are those of
+# the arrival: if one path is slower than the other by half a frame or more, set the difference by the
+# property sink_right::offset, or use time stamps of the sender.
 #
 # Options:
 #   --latency MS        waiting time for late packets (default 200)
-#   --tolerance MS      largest difference of the time stamps of a pair (default 20)
+#   --tolerance MS      largest difference of the time stamps of a pair (default half a frame)
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 latency=200
-tolerance=20
+tolerance=
 own_option() {
   case $1 in
     --latency) latency=$2 ;;
@@ -29,8 +29,10 @@ own_option() {
 parse_options "$@"
 [ ${#arguments[@]} -eq 2 ] || wrong_usage "two UDP ports or two rtsp:// addresses are required"
 is_number "$latency" || wrong_usage "--latency is '$latency'; it must be an integer [ms]"
-is_number "$tolerance" || wrong_usage "--tolerance is '$tolerance'; it must be an integer [ms]"
-matcher+=("sync-tolerance=$((tolerance * 1000000))")
+if [ -n "$tolerance" ]; then
+  is_number "$tolerance" || wrong_usage "--tolerance is '$tolerance'; it must be an integer [ms]"
+  matcher+=("sync-tolerance=$((tolerance * 1000000))")
+fi
 
 receiver_of() {
   if is_number "$1"; then

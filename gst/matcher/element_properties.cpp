@@ -199,15 +199,18 @@ void install_properties(GObjectClass* object_class) noexcept {
                            TRUE, kFlags));
   g_object_class_install_property(
       object_class, kStats,
-      g_param_spec_boxed("stats", "stats",
-                         "Statistics since the start: pairs (matched pairs), dropped-left and "
-                         "dropped-right (frames without a partner), skipped (pairs that were too "
-                         "late), last-ms and mean-ms (time of a pair), density (share of "
-                         "the last map's pixels with a disparity); alignment of the views: offset "
-                         "(px), roll (degrees), residual (px), trust, applied, inspections, "
-                         "sharpness (left / right), left-blur and right-blur (px), problem",
-                         GST_TYPE_STRUCTURE,
-                         static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));
+      g_param_spec_boxed(
+          "stats", "stats",
+          "Statistics since the start: pairs (matched pairs), dropped-left and "
+          "dropped-right (frames without a partner), skipped (pairs that were too "
+          "late, or not the newest), wrong-times (of the dropped frames, those "
+          "with a wrong time stamp), difference-ms, difference-spread-ms and "
+          "difference-drift (of the times of the pairs: mean, standard deviation, "
+          "and change in ms per s), last-ms and mean-ms (time of a pair), density "
+          "(share of the last map's pixels with a disparity); alignment of the views: offset "
+          "(px), roll (degrees), residual (px), trust, applied, inspections, "
+          "sharpness (left / right), left-blur and right-blur (px), problem",
+          GST_TYPE_STRUCTURE, static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));
 }
 
 void set_element_property(ElementState& state, guint id, const GValue* value, GParamSpec* spec) {
