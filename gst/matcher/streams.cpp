@@ -27,6 +27,17 @@ void make_room(ElementState& state, Side side) {
   ++state.statistics.dropped[static_cast<std::size_t>(side)];
 }
 
+/// True if a new frame of the pad belongs to this segment: no other one waits in the pad.
+bool is_newest_segment(GstAggregatorPad* pad, const std::shared_ptr<const StreamSegment>& segment) {
+  GstEvent* const event = gst_pad_get_sticky_event(GST_PAD_CAST(pad), GST_EVENT_SEGMENT, 0);
+  if (event == nullptr) return false;
+  const GstSegment* newest = nullptr;
+  gst_event_parse_segment(event, &newest);
+  const bool equal = segment && gst_segment_is_equal(newest, &segment->segment);
+  gst_event_unref(event);
+  return equal;
+}
+
 /// Drops frames that wait, and the new one, if they are in a gap of the other stream: none of them
 /// has a partner, and they must not block their source, which may be that of the other stream too.
 /// True if the new frame is to be dropped.
@@ -51,7 +62,8 @@ bool drop_in_gap(ElementState& state, Side side, GstBuffer* buffer) {
       ++dropped;
     }
     const QueuedFrame frame{BufferPointer(gst_buffer_ref(buffer)), own.info, own.segment};
-    drop = own.empty() && is_in_gap(frame, side, others, tolerance);
+    drop = own.empty() && is_newest_segment(pad, own.segment) &&
+           is_in_gap(frame, side, others, tolerance);
     // A frame at the end of the gap may still have a partner. There is room for the next one.
     if (!drop && own.held() == 0) own.hold(pad);
   }

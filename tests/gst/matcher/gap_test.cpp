@@ -158,6 +158,31 @@ TEST(Segments, EachNewOneIsSentOnce) {
   }
 }
 
+TEST(Segments, AFrameOfANewOneIsNotInTheGapOfTheOldOne) {
+  StereoHarness harness("max-disparity=64");
+  harness.caps(raw_caps("GRAY8", kNumberedWidth, kNumberedHeight));
+  const auto push_pair = [&](int number, GstClockTime time) {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      harness.push(side, numbered_frame(side, number, time));
+    }
+  };
+  push_pair(0, 0);
+  EXPECT_TRUE(harness.pull());
+  harness.event(Side::kRight, gst_event_new_gap(kFrame, GST_SECOND));
+  harness.push(Side::kLeft, numbered_frame(Side::kLeft, 1, kFrame));
+  EXPECT_TRUE(harness.wait_for_stats(1, 1, 0));
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.base = 2 * GST_SECOND;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    harness.event(side, gst_event_new_segment(&segment));
+  }
+  push_pair(2, 0);
+  const BufferPointer map = harness.pull();
+  ASSERT_TRUE(map);
+  EXPECT_EQ(frame_difference(map.get()), 0);
+}
+
 TEST(EndOfStream, OfOneSideWhileTheOtherOneIsSilentEndsTheOutput) {
   const std::string caps = raw_caps("GRAY8", kNumberedWidth, kNumberedHeight);
   for (const char* side : {"left", "right"}) {
