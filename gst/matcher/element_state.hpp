@@ -103,6 +103,7 @@ struct ElementState {
   double qos_proportion = 1;  ///< of the last QoS event
   ProcessingLatency processing;
   WatchdogInput watchdog_input;
+  SeekHistory seeks;
   bool playing = false;  ///< the base time of the clock is valid
   bool failed = false;   ///< an error was posted; until a flush a second one would hide it
 

@@ -66,10 +66,12 @@ bool take_qos_event(ElementState& state, GstEvent* event) {
 }
 
 /// The next segments of both streams follow this seek.
-void count_flushing_seek(ElementState& state, GstEvent* event) {
+void note_seek(ElementState& state, GstEvent* event) {
   GstSeekFlags flags = GST_SEEK_FLAG_NONE;
   gst_event_parse_seek(event, nullptr, nullptr, &flags, nullptr, nullptr, nullptr, nullptr);
   if ((flags & GST_SEEK_FLAG_FLUSH) != 0) ++state.flushing_seeks;
+  const ObjectLock lock(state.element);
+  state.seeks.add(gst_event_get_seqnum(event));
 }
 
 }  // namespace
@@ -106,7 +108,7 @@ bool handle_source_event(ElementState& state, GstEvent* event) {
     return true;
   }
   if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) note_latency_event(state, event);
-  if (GST_EVENT_TYPE(event) == GST_EVENT_SEEK) count_flushing_seek(state, event);
+  if (GST_EVENT_TYPE(event) == GST_EVENT_SEEK) note_seek(state, event);
   return state.base_class->src_event(state.element, event) != FALSE;
 }
 

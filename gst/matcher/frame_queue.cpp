@@ -117,6 +117,24 @@ Nanoseconds seek_correction(const StreamSegment& left, const StreamSegment& righ
   return left_time && right_time ? *left_time - *right_time : 0;
 }
 
+void SeekHistory::add(guint32 seqnum) {
+  // A seek arrives once from each sink.
+  if (number_of(seqnum) == 0) seqnums_[count_++ % seqnums_.size()] = seqnum;
+}
+
+guint64 SeekHistory::number_of(guint32 seqnum) const {
+  for (guint64 back = 0; back < std::min<guint64>(count_, seqnums_.size()); ++back) {
+    if (seqnums_[(count_ - 1 - back) % seqnums_.size()] == seqnum) return count_ - back;
+  }
+  return 0;
+}
+
+bool is_outdated(const StreamSegment& segment, const StreamSegment& other) {
+  // Not every source names the seek in its segment.
+  const guint64 last = segment.known_seek != 0 ? segment.known_seek : segment.seeks_before;
+  return last < other.known_seek;
+}
+
 bool is_in_gap(const QueuedFrame& frame, Side side, const FrameQueue& others,
                Nanoseconds tolerance) {
   const auto& gap = others.passed;

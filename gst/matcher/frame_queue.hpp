@@ -4,6 +4,7 @@
 #include <gst/base/gstaggregator.h>
 #include <gst/video/video.h>
 
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <memory>
@@ -20,7 +21,22 @@ struct StreamSegment {
   GstSegment segment{};
   guint32 seqnum = GST_SEQNUM_INVALID;  ///< of its event
   guint64 seek = 0;                     ///< number of the flushing seek that it follows; 0: none
+  guint64 known_seek = 0;               ///< number of the seek that its event names; 0: none
+  guint64 seeks_before = 0;             ///< number of the last seek when it arrived
   gint64 pad_offset = 0;  ///< the property offset of the pad, part of the segment [ns]
+};
+
+/// The last seeks that were sent upstream, numbered from 1.
+class SeekHistory {
+ public:
+  void add(guint32 seqnum);
+  /// The number of a seek; 0 if the sequence number is of none.
+  guint64 number_of(guint32 seqnum) const;
+  guint64 count() const { return count_; }
+
+ private:
+  std::array<guint32, 16> seqnums_{};
+  guint64 count_ = 0;
 };
 
 /// The properties `sync-mode`: the times by which frames are paired.
@@ -94,6 +110,10 @@ class FrameQueue {
 /// time are a pair, if both segments follow the same seek: a seek to key frames starts each file at
 /// another time, and in reverse each at its own end. 0 for other segments.
 Nanoseconds seek_correction(const StreamSegment& left, const StreamSegment& right);
+
+/// True if a segment is from before a seek that the other stream has carried out. Without a flush,
+/// each stream ends its old segment elsewhere.
+bool is_outdated(const StreamSegment& segment, const StreamSegment& other);
 
 /// True if all frames that are at most `tolerance` from this frame would be in a gap of the other
 /// stream.

@@ -48,6 +48,7 @@ class Stepper {
     for (const Side side : kSides) {
       if (queue(side).empty()) return without_frame(side);
     }
+    if (auto step = drop_outdated()) return std::move(*step);
     begin_segments();
     return with_both();
   }
@@ -94,6 +95,18 @@ class Stepper {
       return step;
     }
     return std::nullopt;
+  }
+
+  /// Drops a frame from before a seek that the other stream has carried out.
+  std::optional<Step> drop_outdated() {
+    const auto& left = queue(Side::kLeft).front().segment;
+    const auto& right = queue(Side::kRight).front().segment;
+    if (!left || !right) return std::nullopt;
+    const bool left_outdated = is_outdated(*left, *right);
+    if (!left_outdated && !is_outdated(*right, *left)) return std::nullopt;
+    Step step = take(StepKind::kDrop, left_outdated ? Side::kLeft : Side::kRight);
+    step.without_message = true;
+    return step;
   }
 
   /// No frame of this side is here.

@@ -122,6 +122,11 @@ void take_stream_segment(ElementState& state, Side side, const GstSegment& segme
   stream->segment = segment;
   stream->seqnum = seqnum;
   stream->seek = state.flushing_seeks;
+  {
+    const ObjectLock lock(state.element);
+    stream->known_seek = state.seeks.number_of(seqnum);
+    stream->seeks_before = state.seeks.count();
+  }
   stream->pad_offset = gst_pad_get_offset(GST_PAD_CAST(state.input(side).pad));
   bool now = false;
   {
