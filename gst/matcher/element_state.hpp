@@ -130,6 +130,7 @@ struct ElementState {
   GstFlowReturn pending_flow = GST_FLOW_OK;  ///< of a failure outside of aggregate()
   OutputSegment segment = OutputSegment::kNone;
   bool segment_repeats = false;                 ///< the base class is about to send it once more
+  bool start_repeats = false;                   ///< the same of the start of the stream
   guint32 segment_seqnum = GST_SEQNUM_INVALID;  ///< of the left stream's segment
   UnpairedWarning unpaired_warning;
   DoubtWarning doubt_warning;

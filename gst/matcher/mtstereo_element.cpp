@@ -156,6 +156,7 @@ gboolean start(GstAggregator* aggregator) {
   state.doubt_warning = {};
   state.segment = OutputSegment::kNone;
   state.segment_repeats = false;
+  state.start_repeats = false;
   state.output_segment.reset();
   clear_streams(state);
   state.complete_settings();

@@ -25,12 +25,16 @@ bool send_segment(ElementState& state) {
   return state.segment == OutputSegment::kSent;
 }
 
-/// Drops the segment that the base class sends before a buffer if the element has sent it already.
+/// Drops the events that the base class sends before a buffer or the end if the element has sent
+/// them already. After a second start of the stream, a sink would wait for a second end.
 GstPadProbeReturn on_output_event(GstPad*, GstPadProbeInfo* info, gpointer data) noexcept {
   auto& state = *static_cast<ElementState*>(data);
   GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
-  if (GST_EVENT_TYPE(event) != GST_EVENT_SEGMENT || !state.segment_repeats) return GST_PAD_PROBE_OK;
-  state.segment_repeats = false;
+  const GstEventType type = GST_EVENT_TYPE(event);
+  const bool segment = type == GST_EVENT_SEGMENT && state.segment_repeats;
+  const bool start = type == GST_EVENT_STREAM_START && state.start_repeats;
+  if (!segment && !start) return GST_PAD_PROBE_OK;
+  (segment ? state.segment_repeats : state.start_repeats) = false;
   gst_event_unref(event);
   return GST_PAD_PROBE_HANDLED;  // a sticky event that is dropped would be sent again
 }
@@ -54,6 +58,7 @@ void end_output(ElementState& state, guint32 seqnum) {
     char id[32];
     std::snprintf(id, sizeof id, "mtstereo-%08x", g_random_int());
     gst_pad_push_event(pad, gst_event_new_stream_start(id));
+    state.start_repeats = true;
   }
   GstEvent* end = gst_event_new_eos();
   gst_event_set_seqnum(end, seqnum);

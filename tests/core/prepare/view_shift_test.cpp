@@ -34,7 +34,9 @@ TEST(ViewShift, ExtendsRowsByTheirFirstAndLastPixels) {
   for (const int width : {1, 2, 23}) {
     const GrayPlane plane = test::noise(width, 7, 1);
     const test::PaddedImage<std::uint8_t> view(plane, 5, 3);
-    for (const auto& [before, after] : {std::pair(0, 4), {9, 0}, {3, 2}, {0, 0}}) {
+    for (const auto& columns : {std::pair(0, 4), {9, 0}, {3, 2}, {0, 0}}) {
+      const int before = columns.first;
+      const int after = columns.second;
       Image<std::uint8_t> out;
       out.resize(width + before + after, 7);
       for (const int y0 : {4, 0}) extend_rows(view.view(), before, after, y0, y0 == 0 ? 4 : 7, out);
