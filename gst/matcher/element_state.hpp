@@ -141,6 +141,7 @@ struct ElementState {
   std::mutex queue_mutex;
   std::array<FrameQueue, 2> queues;
 
+  std::atomic<bool> ended = false;                ///< no pair can follow; until a flush
   std::atomic<bool> newest_pair = false;          ///< the property
   std::atomic<std::uint64_t> flushing_seeks = 0;  ///< sent upstream so far
 

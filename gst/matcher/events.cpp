@@ -47,8 +47,15 @@ bool take_segment(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
 bool take_end(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   const guint32 seqnum = gst_event_get_seqnum(event);
   const bool taken = state.base_class->sink_event(state.element, pad, event) != FALSE;
+  {
+    const ObjectLock lock(state.element);
+    if (state.failed) return taken;  // aggregate() ends both streams with the error
+  }
   // Frames that wait may still get partners from the other stream.
-  if (finish_stream(state, state.side_of(pad))) end_output(state, seqnum);
+  if (finish_stream(state, state.side_of(pad))) {
+    refuse_frames(state, other_side(state.side_of(pad)));
+    end_output(state, seqnum);
+  }
   return taken;
 }
 

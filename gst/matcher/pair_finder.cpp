@@ -182,6 +182,11 @@ PairStep PairFinder::decide(const Ordered& left, const Ordered& right, Nanosecon
 PairStep PairFinder::next(const WaitingFrames& left, const WaitingFrames& right,
                           Nanoseconds tolerance) {
   update_periods(left, right, tolerance);
+  // Both streams repeat the times of their last pair: a file whose time stamps are wrong, but
+  // alike.
+  if (last_paired_ && left.times[0] == streams_[0].last && right.times[0] == streams_[1].last) {
+    return {.action = PairAction::kPair, .difference = right.times[0] - left.times[0]};
+  }
   for (const Side side : {Side::kLeft, Side::kRight}) {
     if (const auto step = check_order(side, side == Side::kLeft ? left : right)) return *step;
   }
@@ -209,6 +214,7 @@ PairStep PairFinder::next(const WaitingFrames& left, const WaitingFrames& right,
 
 void PairFinder::dropped(Side side, Nanoseconds time) {
   stream(side).passed(time);
+  last_paired_ = false;
   if (++misses_ < kMisses) return;
   misses_ = 0;
   offset_.forget();
@@ -218,6 +224,7 @@ void PairFinder::paired(Nanoseconds left, Nanoseconds right) {
   stream(Side::kLeft).passed(left);
   stream(Side::kRight).passed(right);
   misses_ = 0;
+  last_paired_ = true;
   if (!same_rate_) return;
   offset_.add(left, right - left);
   update_doubt();

@@ -108,9 +108,10 @@ class PairFinder {
 
   std::array<Stream, 2> streams_;
   StreamOffset offset_;
-  Nanoseconds period_ = 0;  // of the faster stream, or what the tolerance suggests
-  bool same_rate_ = true;   // both streams have the same period: their offset means something
-  int misses_ = 0;          // frames without a partner since the last pair
+  Nanoseconds period_ = 0;    // of the faster stream, or what the tolerance suggests
+  bool same_rate_ = true;     // both streams have the same period: their offset means something
+  int misses_ = 0;            // frames without a partner since the last pair
+  bool last_paired_ = false;  // the last frames of both streams were a pair
   bool doubtful_ = false;
   PairDoubt new_doubt_ = PairDoubt::kNone;
 };

@@ -77,6 +77,11 @@ GstPadProbeReturn on_frame(GstPad* pad, GstPadProbeInfo* info, gpointer data) no
   try {
     const Side side = state.side_of(GST_AGGREGATOR_PAD(pad));
     GstBuffer* const buffer = GST_PAD_PROBE_INFO_BUFFER(info);
+    if (state.ended) {
+      gst_buffer_unref(buffer);
+      GST_PAD_PROBE_INFO_FLOW_RETURN(info) = GST_FLOW_EOS;
+      return GST_PAD_PROBE_HANDLED;
+    }
     if (buffer != nullptr && drop_in_gap(state, side, buffer)) return GST_PAD_PROBE_DROP;
     if (state.newest_pair && GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element))) {
       make_room(state, side);
@@ -159,8 +164,22 @@ void clear_streams(ElementState& state) {
 }
 
 void clear_stream(ElementState& state, Side side) {
+  state.ended = false;
   const std::lock_guard<std::mutex> lock(state.queue_mutex);
   state.queue(side).clear();
+}
+
+void refuse_frames(ElementState& state, Side side) {
+  state.ended = true;
+  guint64 dropped = 0;
+  {
+    const std::lock_guard<std::mutex> lock(state.queue_mutex);
+    FrameQueue& queue = state.queue(side);
+    queue.look(state.input(side).pad);
+    for (; !queue.empty(); ++dropped) queue.take(state.input(side).pad, 0);
+  }
+  const ObjectLock lock(state.element);
+  state.statistics.dropped[static_cast<std::size_t>(side)] += dropped;
 }
 
 void watch_pad(ElementState& state, Side side) {

@@ -26,6 +26,11 @@ void clear_streams(ElementState& state);
 /// Drops the frames of one side that wait. Any thread.
 void clear_stream(ElementState& state, Side side);
 
+/// The other stream has ended: drops the frames of this side that wait, and ends its source with
+/// the next one. Downstream may block the end of the output for long; a source must not wait for
+/// that.
+void refuse_frames(ElementState& state, Side side);
+
 /// Lets frames of this pad replace older ones while a pair is matched, if the property
 /// `newest-pair` asks for it: upstream is not blocked then.
 void watch_pad(ElementState& state, Side side);

@@ -141,9 +141,7 @@ class ReadyPipelines(ClipTest):
                          "framerate=30/1 ! m.sink_right mtstereo name=m ! fakesink".split()],
                         self.folder)
         self.addCleanup(stop, process)
-        for line in process.stdout:
-            if "m.GstAggregatorPad:sink_left: caps" in line:
-                break
+        time.sleep(2 * SLOW)  # both sources wait then: an appsrc may miss an end before
         process.send_signal(signal.SIGINT)
         output, errors = process.communicate(timeout=30 * SLOW)
         self.assertEqual(process.returncode, 0, output + errors)

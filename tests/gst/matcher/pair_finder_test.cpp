@@ -258,6 +258,18 @@ TEST(PairFinder, ADuplicateCostsNothingElse) {
   EXPECT_EQ(outcome.wrong, 0);
 }
 
+TEST(PairFinder, TimesThatBothStreamsRepeatCostNothing) {
+  // A file whose muxer has lost the order of its frames.
+  Frames frames = steady(30);
+  for (std::size_t i = 2; i < 29; i += 4) {
+    frames[i].time = frames[i - 1].time;
+    frames[i + 1].time = frames[i - 1].time;
+  }
+  const Outcome outcome = run(frames, frames);
+  EXPECT_EQ(outcome.pairs, 30);
+  EXPECT_EQ(outcome.wrong, 0);
+}
+
 TEST(PairFinder, AClockThatIsResetOnBothSidesCostsNothing) {
   Frames frames = steady(100, 100 * kSecond);
   for (std::size_t i = 50; i < frames.size(); ++i) frames[i].time -= 99 * kSecond;
