@@ -77,6 +77,8 @@ void test_matcher(const std::array<std::string, 3>& texts) {
   gst_harness_push_event(left, gst_event_new_eos());
   gst_harness_push_event(right, gst_event_new_eos());
   wait_for(left, element, GST_EVENT_EOS);
+  // The element's thread queries the pads of both harnesses while it runs.
+  gst_element_set_state(element.get(), GST_STATE_NULL);
   gst_harness_teardown(right);
   gst_harness_teardown(left);
 }

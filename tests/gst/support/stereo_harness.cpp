@@ -80,6 +80,8 @@ StereoHarness::StereoHarness(const std::string& properties, bool live) {
 
 StereoHarness::~StereoHarness() {
   gst_element_set_bus(element_, nullptr);
+  // The element's thread queries the pads of both harnesses while it runs.
+  gst_element_set_state(element_, GST_STATE_NULL);
   gst_harness_teardown(right_);
   gst_harness_teardown(left_);
   gst_object_unref(element_);
