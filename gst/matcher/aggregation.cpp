@@ -121,6 +121,30 @@ bool is_stopping(const ElementState& state) {
   return GST_PAD_IS_FLUSHING(pad) || !gst_pad_is_active(pad);
 }
 
+/// Does what a step other than a pair asks for. A value ends the call of aggregate() with it.
+std::optional<GstFlowReturn> carry_out(ElementState& state, Step& step) {
+  switch (step.kind) {
+    case StepKind::kWait:
+      return GST_AGGREGATOR_FLOW_NEED_DATA;
+    case StepKind::kEnd:
+      return GST_FLOW_EOS;
+    case StepKind::kNoTime:
+      if (const GstFlowReturn flow = report_missing_time(state, step); flow != GST_FLOW_OK) {
+        return flow;
+      }
+      break;
+    case StepKind::kDrop:
+      after_drop(state, step);
+      break;
+    case StepKind::kGap:
+      send_gap_for_left(state, step.left);
+      break;
+    default:
+      break;
+  }
+  return std::nullopt;
+}
+
 /// Takes the steps that are possible now, up to the next map if the base class knows of all frames
 /// that wait.
 GstFlowReturn step_through(ElementState& state, Occasion occasion) {
@@ -130,37 +154,18 @@ GstFlowReturn step_through(ElementState& state, Occasion occasion) {
     Step step = next_step(state, occasion);
     if (occasion == Occasion::kDeadline) occasion = Occasion::kFrames;  // it is that of one frame
     report_doubt(state, step.doubt);
-    const bool more = step.kind != StepKind::kWait && step.kind != StepKind::kEnd;
+    const bool last = step.kind == StepKind::kWait || step.kind == StepKind::kEnd;
     if (step.kind == StepKind::kPair) {
       if (pair) skip(state);
       pair = std::move(step);
-      if (newest) continue;
-    }
-    if (pair && (!newest || !more)) {
-      const GstFlowReturn flow = match(state, *std::exchange(pair, std::nullopt));
-      if (flow != GST_FLOW_OK || !holds_frames(state)) return flow;
-      if (is_stopping(state)) return GST_FLOW_FLUSHING;
+      if (newest) continue;  // a newer one may follow
+    } else if (!pair || !last) {
+      if (const auto flow = carry_out(state, step)) return *flow;
       continue;
     }
-    switch (step.kind) {
-      case StepKind::kWait:
-        return GST_AGGREGATOR_FLOW_NEED_DATA;
-      case StepKind::kEnd:
-        return GST_FLOW_EOS;
-      case StepKind::kNoTime:
-        if (const GstFlowReturn flow = report_missing_time(state, step); flow != GST_FLOW_OK) {
-          return flow;
-        }
-        break;
-      case StepKind::kDrop:
-        after_drop(state, step);
-        break;
-      case StepKind::kGap:
-        send_gap_for_left(state, step.left);
-        break;
-      default:
-        break;
-    }
+    const GstFlowReturn flow = match(state, *std::exchange(pair, std::nullopt));
+    if (flow != GST_FLOW_OK || !holds_frames(state)) return flow;
+    if (is_stopping(state)) return GST_FLOW_FLUSHING;
   }
 }
 
