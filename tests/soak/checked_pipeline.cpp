@@ -25,6 +25,20 @@ Text text_of(GstMessage* message) {
   return text;
 }
 
+/// True if no element of the bin is changing its state.
+bool elements_are_settled(GstElement* bin) {
+  GstIterator* elements = gst_bin_iterate_recurse(GST_BIN(bin));
+  GValue changing = G_VALUE_INIT;
+  const auto is_settled = [](gconstpointer value, gconstpointer) -> gint {
+    auto* element = GST_ELEMENT(g_value_get_object(static_cast<const GValue*>(value)));
+    return gst_element_get_state(element, nullptr, nullptr, 0) == GST_STATE_CHANGE_ASYNC ? 0 : 1;
+  };
+  const bool found = gst_iterator_find_custom(elements, is_settled, &changing, nullptr) != FALSE;
+  if (found) g_value_unset(&changing);
+  gst_iterator_free(elements);
+  return !found;
+}
+
 bool is_of_plugin(GstObject* source) {
   const std::string type = G_OBJECT_TYPE_NAME(source);
   return type.starts_with("GstMtStereo") || type.starts_with("GstMt");
@@ -79,11 +93,17 @@ void CheckedPipeline::set_state(GstState state) {
                [&] { pipeline_->set_state(state); });
 }
 
-void CheckedPipeline::settle(const char* what) {
+bool CheckedPipeline::settle(const char* what) {
   bool settled = false;
+  int only_bin = 0;  // successive waits in which only the bin was not settled
   soak_.within(kStateSeconds, kind_, what + (" after " + history_), [&] {
-    while (!settled && !failed()) settled = pipeline_->wait_until_settled(0.1);
+    while (!settled && !failed() && only_bin < 100) {
+      settled = pipeline_->wait_until_settled(0.1);
+      only_bin = elements_are_settled(element()) ? only_bin + 1 : 0;
+    }
   });
+  if (!settled && only_bin > 0) soak_.bin_got_stuck();
+  return settled || only_bin == 0;
 }
 
 bool CheckedPipeline::seek(double rate, GstSeekFlags flags, GstClockTime from, GstClockTime to) {

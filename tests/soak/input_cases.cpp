@@ -108,7 +108,7 @@ void set_properties(Soak& soak) {
   soak.count(kProperties, [](Counts& counts) { ++counts.cases; });
   const Objects objects(pipeline);
   pipeline.set_state(GST_STATE_PLAYING);
-  pipeline.settle("start");
+  if (!pipeline.settle("start")) return;
   soak.within(120, kProperties, "set values", [&] {
     std::vector<std::thread> threads;
     for (int i = 0; i < 3; ++i) {

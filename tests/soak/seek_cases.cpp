@@ -68,7 +68,7 @@ void play_second_half(Soak& soak, CheckedPipeline& pipeline) {
   pipeline.seek(1, static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE),
                 kEnd / 2, GST_CLOCK_TIME_NONE);
   const std::uint64_t before = pipeline.maps();
-  pipeline.settle("preroll after the last seek");
+  if (!pipeline.settle("preroll after the last seek")) return;
   pipeline.set_state(GST_STATE_PLAYING);
   pipeline.wait_for_end("the end of the stream after the last seek");
   const std::uint64_t maps = pipeline.maps() - before;
@@ -127,12 +127,12 @@ void seek_in_files(Soak& soak) {
   soak.count(kind, [](Counts& counts) { ++counts.cases; });
   bool playing = random.chance(0.5);
   pipeline.set_state(playing ? GST_STATE_PLAYING : GST_STATE_PAUSED);
-  pipeline.settle("preroll");
+  if (!pipeline.settle("preroll")) return;
   bool settled = true;
   for (int i = 0; i < 8 && !pipeline.failed(); ++i) {
     const bool prerolls = seek_somewhere(soak, pipeline, playing && settled);
     settled = prerolls && random.chance(0.5);
-    if (settled) pipeline.settle("preroll after a seek");
+    if (settled && !pipeline.settle("preroll after a seek")) return;
     if (random.chance(0.5)) g_usleep(static_cast<gulong>(random.between(0, 60'000)));
     if (random.chance(0.3)) {
       playing = !playing;
@@ -170,7 +170,7 @@ void change_states(Soak& soak) {
   for (int i = 0; i < 12 && !pipeline.failed(); ++i) {
     // gst_parse_launch() links the pads of a demuxer once only; below PAUSED they are removed.
     pipeline.set_state(files ? kStates[random.between(2, 3)] : random.one_of(kStates));
-    if (random.chance(0.3)) pipeline.settle("a state change");
+    if (random.chance(0.3) && !pipeline.settle("a state change")) break;
     if (random.chance(0.5)) g_usleep(static_cast<gulong>(random.between(0, 30'000)));
     soak.count(kind, [](Counts& counts) { ++counts.operations; });
   }

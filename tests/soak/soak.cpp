@@ -142,6 +142,9 @@ bool Soak::print(int leaks) {
     std::printf(" %.0f (%.1f)", memory_[i].mebibytes, memory_[i].minutes);
   }
   std::printf("%s.\n", grew ? " -- it grows" : "");
+  std::printf(
+      "State changes that GStreamer's bin did not complete although its elements did: %d.\n",
+      stuck_bins_.load());
   // The maps of frames that are far apart are not readable either.
   const bool readable = all.unreadable * 200 <= all.maps;
   return all.wrong == 0 && readable && all.failures == 0 && hangs_ == 0 && leaks == 0 && !grew;
