@@ -15,6 +15,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// What the program has allocated, with what the allocator needs for it.
+double allocated_mebibytes() {
+  const struct mallinfo2 information = mallinfo2();
+  return static_cast<double>(information.uordblks + information.hblkhd) / (1 << 20);
+}
+
 double resident_mebibytes() {
   malloc_trim(0);
   std::ifstream statistics("/proc/self/statm");
@@ -95,9 +101,10 @@ void Soak::watch() {
 
 void Soak::sample_memory() {
   const double minutes = std::chrono::duration<double>(Clock::now() - start_).count() / 60;
-  const double now = resident_mebibytes();
+  const double resident = resident_mebibytes();
+  const double allocated = allocated_mebibytes();
   const std::scoped_lock lock(mutex_);
-  memory_.push_back({minutes, now});
+  memory_.push_back({minutes, resident, allocated});
 }
 
 /// Compares the last quarter of the run with its second one: caches have been filled by then.
@@ -105,7 +112,7 @@ bool Soak::memory_grew() const {
   if (memory_.size() < 8 || memory_.back().minutes < 5) return false;
   const auto mean = [&](std::size_t first, std::size_t last) {
     double sum = 0;
-    for (std::size_t i = first; i < last; ++i) sum += memory_[i].mebibytes;
+    for (std::size_t i = first; i < last; ++i) sum += memory_[i].allocated;
     return sum / static_cast<double>(last - first);
   };
   const std::size_t quarter = memory_.size() / 4;
@@ -136,10 +143,12 @@ bool Soak::print(int leaks) {
   }
   print_row("all", all);
   const bool grew = memory_grew();
-  std::printf("\nHangs: %d. Leaked objects: %d. Resident memory [MiB], at minutes:", hangs_, leaks);
+  std::printf("\nHangs: %d. Leaked objects: %d. Memory [MiB], resident / allocated, at minutes:",
+              hangs_, leaks);
   const std::size_t step = memory_.size() / 10 + 1;
   for (std::size_t i = 0; i < memory_.size(); i += step) {
-    std::printf(" %.0f (%.1f)", memory_[i].mebibytes, memory_[i].minutes);
+    std::printf(" %.0f / %.1f (%.1f)", memory_[i].resident, memory_[i].allocated,
+                memory_[i].minutes);
   }
   std::printf("%s.\n", grew ? " -- it grows" : "");
   std::printf(

@@ -92,7 +92,8 @@ class Soak {
   int hangs_ = 0;
   struct MemorySample {
     double minutes;
-    double mebibytes;
+    double resident;   ///< [MiB]
+    double allocated;  ///< [MiB]; it does not contain what the allocator keeps for later
   };
   std::vector<MemorySample> memory_;
   std::atomic<int> stuck_bins_{0};
