@@ -102,18 +102,16 @@ Differences differences(const Settings& refused, const Settings& kept) {
   return found;
 }
 
-/// Returns the properties to the last settings, unless they were changed again in the meantime: the
-/// next pair judges those values then.
+/// Returns the properties that must fit each other to their last values, unless they were changed
+/// again in the meantime: the next pair judges those values then. The other properties keep theirs.
 void restore(ElementState& state, const Settings& refused, const Status& status) {
   {
     const ObjectLock lock(state.element);
     if (state.settings.revision != refused.revision) return;
-    const Settings now = state.settings;
-    state.settings = state.active;
-    // Others than the element's thread use these, and they are valid in any combination.
-    state.settings.sync_tolerance = now.sync_tolerance;
-    state.settings.qos = now.qos;
-    state.complete = state.settings;
+    state.settings.parameters = state.active.parameters;
+    state.settings.disparity_scale = state.active.disparity_scale;
+    state.complete = state.active = state.settings;
+    state.matcher_revision = state.settings.revision;  // the matcher has these parameters
   }
   const Differences changes = differences(refused, state.active);
   for (const char* name : changes.names) g_object_notify(G_OBJECT(state.element), name);

@@ -160,6 +160,32 @@ TEST_F(Running, ARefusedCombinationIsOneWarningAtTheNextPair) {
   expect_no_message();
 }
 
+TEST_F(Running, ARefusedCombinationDoesNotUndoSettingsThatFitEverything) {
+  start();
+  set("timeout", "7");
+  set("sync-mode", "first-pts");
+  ASSERT_TRUE(next());
+  set("sync-tolerance", "8000000");
+  set("confidence-map", "false");
+  set("alignment", "monitor");
+  set("alignment-interval", "9");
+  set("max-disparity", "300");
+  const BufferPointer map = next();
+  ASSERT_TRUE(map);
+  expect_one_warning({"refused: max-disparity=300"});
+  EXPECT_EQ(get("max-disparity"), "16");
+  EXPECT_EQ(get("timeout"), "7");
+  EXPECT_EQ(get("sync-mode"), "first-pts");
+  EXPECT_EQ(get("sync-tolerance"), "8000000");
+  EXPECT_EQ(get("confidence-map"), "false");
+  EXPECT_EQ(get("alignment-interval"), "9");
+  EXPECT_EQ(gst_buffer_get_custom_meta(map.get(), "MtStereoConfidenceMeta"), nullptr);
+  // They are in effect, and a later change of the range is too.
+  set("max-disparity", "8");
+  expect_next(range(8), 256);
+  expect_no_message();
+}
+
 TEST_F(Running, NotifiesOfPropertiesThatReturnToTheirLastValues) {
   start();
   std::atomic<int> notified{0};
