@@ -91,12 +91,6 @@ GstFlowReturn report_missing_time(ElementState& state, const Step& step) {
   return GST_FLOW_OK;
 }
 
-/// In a live pipeline with the property `newest-pair`, pairs for which there is a newer one are
-/// skipped.
-bool only_newest(const ElementState& state) {
-  return state.newest_pair && GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element));
-}
-
 void publish(ElementState& state) {
   std::array<bool, 2> held{};
   {

@@ -12,4 +12,8 @@ std::optional<Nanoseconds> running_time_now(const ElementState& state) {
   return GST_CLOCK_DIFF(GST_ELEMENT_CAST(state.element)->base_time, gst_clock_get_time(clock));
 }
 
+bool is_live(const ElementState& state) {
+  return GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element));
+}
+
 }  // namespace mtstereo::plugin

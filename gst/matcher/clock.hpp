@@ -11,4 +11,8 @@ namespace mtstereo::plugin {
 /// valid yet, which is the case before PLAYING. Takes the object lock. Any thread.
 std::optional<Nanoseconds> running_time_now(const ElementState& state);
 
+/// True if a source is live, so that frames have a deadline. Takes the lock of the aggregator: not
+/// with the object lock. Any thread.
+bool is_live(const ElementState& state);
+
 }  // namespace mtstereo::plugin

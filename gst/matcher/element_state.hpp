@@ -29,10 +29,6 @@ namespace mtstereo::plugin {
 /// The debug category of the element.
 GST_DEBUG_CATEGORY_EXTERN(mtstereo_debug);
 
-inline constexpr std::array<Side, 2> kSides = {Side::kLeft, Side::kRight};
-
-inline Side other_side(Side side) { return side == Side::kLeft ? Side::kRight : Side::kLeft; }
-
 /// "sink_left" or "sink_right".
 const char* pad_name(Side side);
 
@@ -152,6 +148,11 @@ struct ElementState {
   const Input& input(Side side) const { return inputs[static_cast<std::size_t>(side)]; }
   Side side_of(const GstAggregatorPad* pad) const {
     return pad == input(Side::kLeft).pad ? Side::kLeft : Side::kRight;
+  }
+  /// Forgets what was learned of the times of the streams.
+  void restart_pairing() {
+    finder.reset();
+    clock.reset();
   }
   GstPad* source_pad() const { return GST_AGGREGATOR_SRC_PAD(element); }
 

@@ -104,7 +104,7 @@ CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
 
   // The size of the other stream is preferred, so that a source that supports several sizes selects
   // it. Other sizes remain possible, since both streams may be about to change theirs.
-  const Side other = side == Side::kLeft ? Side::kRight : Side::kLeft;
+  const Side other = other_side(side);
   const CapsPointer current(gst_pad_get_current_caps(GST_PAD_CAST(state.input(other).pad)));
   if (current && gst_caps_get_size(current.get()) > 0) {
     const CapsPointer wish = with_fields(open, current.get(), {"width", "height"});

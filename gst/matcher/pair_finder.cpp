@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <tuple>
 #include <utility>
-#include <vector>
 
 namespace mtstereo::plugin {
 namespace {
@@ -25,8 +25,6 @@ constexpr std::size_t kMostFrames = StreamOffset::kFrames + 2;
 /// frames.
 constexpr std::size_t kStepsOfPeriod = 12;
 
-Side other(Side side) { return side == Side::kLeft ? Side::kRight : Side::kLeft; }
-
 PairStep wait_for(Side side) { return {.action = PairAction::kWait, .side = side}; }
 
 PairStep drop_wrong_time(Side side, std::size_t index) {
@@ -43,14 +41,14 @@ std::size_t ordered_length(std::span<const Nanoseconds> times) {
 
 /// The median of the steps between frames: of those that have passed and of those that wait.
 Nanoseconds PairFinder::Stream::period(std::span<const Nanoseconds> waiting) const {
-  std::vector<Nanoseconds> all(
-      steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(std::min(count, steps.size())));
-  for (std::size_t i = 1; i < waiting.size(); ++i) {
-    if (waiting[i] > waiting[i - 1]) all.push_back(waiting[i] - waiting[i - 1]);
+  std::array<Nanoseconds, std::tuple_size_v<decltype(steps)> + kMostFrames> all{};
+  auto end = std::copy_n(steps.begin(), std::min(count, steps.size()), all.begin());
+  for (std::size_t i = 1; i < waiting.size() && end != all.end(); ++i) {
+    if (waiting[i] > waiting[i - 1]) *end++ = waiting[i] - waiting[i - 1];
   }
-  if (all.size() < kStepsOfPeriod) return 0;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
+  if (static_cast<std::size_t>(end - all.begin()) < kStepsOfPeriod) return 0;
+  const auto middle = all.begin() + (end - all.begin()) / 2;
+  std::nth_element(all.begin(), middle, end);
   return *middle;
 }
 
@@ -122,7 +120,7 @@ bool PairFinder::suspicious(Side side, Nanoseconds time, Nanoseconds distance) {
 
 PairStep PairFinder::drop_older(Side older, const Ordered& left, const Ordered& right,
                                 Nanoseconds difference) {
-  const Side newer = other(older);
+  const Side newer = other_side(older);
   const Ordered& frames = newer == Side::kLeft ? left : right;
   if (frames.times.size() < 2 && !frames.complete &&
       suspicious(newer, frames.times[0], difference)) {
@@ -187,7 +185,7 @@ PairStep PairFinder::next(const WaitingFrames& left, const WaitingFrames& right,
   if (last_paired_ && left.times[0] == streams_[0].last && right.times[0] == streams_[1].last) {
     return {.action = PairAction::kPair, .difference = right.times[0] - left.times[0]};
   }
-  for (const Side side : {Side::kLeft, Side::kRight}) {
+  for (const Side side : kSides) {
     if (const auto step = check_order(side, side == Side::kLeft ? left : right)) return *step;
   }
   const auto ordered = [](const WaitingFrames& frames) {

@@ -126,19 +126,16 @@ class Stepper {
     return step;
   }
 
-  /// The result of a segment does not depend on earlier ones.
+  /// The result of a segment does not depend on earlier ones, nor on other modes.
   void begin_segments() {
+    bool changed = std::exchange(state_.paired_mode, mode_) != mode_;
     for (const Side side : kSides) {
       auto& last = state_.paired_segments[static_cast<std::size_t>(side)];
-      if (last == queue(side).front().segment) continue;
-      last = queue(side).front().segment;
-      state_.finder.reset();
-      state_.clock.reset();
+      const auto& segment = queue(side).front().segment;
+      changed = changed || last != segment;
+      last = segment;
     }
-    if (mode_ == state_.paired_mode) return;
-    state_.paired_mode = mode_;
-    state_.finder.reset();
-    state_.clock.reset();
+    if (changed) state_.restart_pairing();
   }
 
   Step pair() {

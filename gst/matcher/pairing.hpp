@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
+#include "mtstereo/matcher.hpp"
+
 namespace mtstereo::plugin {
+
+inline constexpr std::array<Side, 2> kSides = {Side::kLeft, Side::kRight};
+
+inline Side other_side(Side side) { return side == Side::kLeft ? Side::kRight : Side::kLeft; }
 
 /// A running time or a difference of two [ns]. Signed: a frame may begin before its segment.
 using Nanoseconds = std::int64_t;

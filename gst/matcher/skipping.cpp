@@ -7,10 +7,6 @@
 namespace mtstereo::plugin {
 namespace {
 
-bool is_live(const ElementState& state) {
-  return GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element));
-}
-
 /// The lateness of the map, if it is to be skipped, and the counts after that.
 struct Skip {
   Nanoseconds lateness = 0;

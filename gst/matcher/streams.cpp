@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/streams.hpp"
 
+#include "matcher/clock.hpp"
 #include "matcher/negotiation.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/ownership.hpp"
@@ -8,23 +9,23 @@
 namespace mtstereo::plugin {
 namespace {
 
+void count_dropped(ElementState& state, Side side, guint64 frames) {
+  const ObjectLock lock(state.element);
+  state.statistics.dropped[static_cast<std::size_t>(side)] += frames;
+}
+
 /// Makes room in the pad for a new frame. The oldest of too many frames is dropped: the other
 /// stream does not deliver.
 void make_room(ElementState& state, Side side) {
   GstAggregatorPad* const pad = state.input(side).pad;
-  bool dropped = false;
   {
     const std::lock_guard<std::mutex> lock(state.queue_mutex);
     FrameQueue& queue = state.queue(side);
     if (!gst_aggregator_pad_has_buffer(pad) || !queue.hold(pad)) return;
-    if (queue.size() > FrameQueue::kCapacity) {
-      queue.take(pad, 0);
-      dropped = true;
-    }
+    if (queue.size() <= FrameQueue::kCapacity) return;
+    queue.take(pad, 0);
   }
-  if (!dropped) return;
-  const ObjectLock lock(state.element);
-  ++state.statistics.dropped[static_cast<std::size_t>(side)];
+  count_dropped(state, side, 1);
 }
 
 /// True if a new frame of the pad belongs to this segment: no other one waits in the pad.
@@ -67,8 +68,7 @@ bool drop_in_gap(ElementState& state, Side side, GstBuffer* buffer) {
     // A frame at the end of the gap may still have a partner. There is room for the next one.
     if (!drop && own.held() == 0) own.hold(pad);
   }
-  const ObjectLock lock(state.element);
-  state.statistics.dropped[static_cast<std::size_t>(side)] += dropped + (drop ? 1 : 0);
+  count_dropped(state, side, dropped + (drop ? 1 : 0));
   return drop;
 }
 
@@ -83,9 +83,7 @@ GstPadProbeReturn on_frame(GstPad* pad, GstPadProbeInfo* info, gpointer data) no
       return GST_PAD_PROBE_HANDLED;
     }
     if (buffer != nullptr && drop_in_gap(state, side, buffer)) return GST_PAD_PROBE_DROP;
-    if (state.newest_pair && GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element))) {
-      make_room(state, side);
-    }
+    if (only_newest(state)) make_room(state, side);
   } catch (...) {
     post_exception(state.element);
   }
@@ -93,6 +91,8 @@ GstPadProbeReturn on_frame(GstPad* pad, GstPadProbeInfo* info, gpointer data) no
 }
 
 }  // namespace
+
+bool only_newest(const ElementState& state) { return state.newest_pair && is_live(state); }
 
 void take_stream_info(ElementState& state, Side side, const GstVideoInfo& info) {
   const auto shared = std::make_shared<const GstVideoInfo>(info);
@@ -158,8 +158,7 @@ void clear_streams(ElementState& state) {
   for (const Side side : kSides) clear_stream(state, side);
   state.paired_segments = {};
   state.working_mode.reset();
-  state.finder.reset();
-  state.clock.reset();
+  state.restart_pairing();
   state.pending_flow = GST_FLOW_OK;
 }
 
@@ -178,8 +177,7 @@ void refuse_frames(ElementState& state, Side side) {
     queue.look(state.input(side).pad);
     for (; !queue.empty(); ++dropped) queue.take(state.input(side).pad, 0);
   }
-  const ObjectLock lock(state.element);
-  state.statistics.dropped[static_cast<std::size_t>(side)] += dropped;
+  count_dropped(state, side, dropped);
 }
 
 void watch_pad(ElementState& state, Side side) {

@@ -21,6 +21,10 @@ void take_stream_segment(ElementState& state, Side side, const GstSegment& segme
 /// The segment of a left frame that is matched, or replaced by a gap, now: that of the output.
 void adopt_segment(ElementState& state, const std::shared_ptr<const StreamSegment>& segment);
 
+/// True in a live pipeline with the property `newest-pair`: pairs for which there is a newer one
+/// are skipped. Takes the lock of the aggregator. Any thread.
+bool only_newest(const ElementState& state);
+
 /// Drops all frames that wait, and what is known of the streams' times.
 void clear_streams(ElementState& state);
 /// Drops the frames of one side that wait. Any thread.

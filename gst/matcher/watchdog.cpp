@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include "matcher/clock.hpp"
 #include "matcher/element_state.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/ownership.hpp"
@@ -83,9 +84,9 @@ void end_stream(GstAggregatorPad* pad) {
 
 /// Reports a silent pad. Frames of live streams have a deadline, and are reported there.
 void report(ElementState& state, Side silent, Nanoseconds timeout) {
-  if (GST_CLOCK_TIME_IS_VALID(gst_aggregator_get_latency(state.element))) return;
+  if (is_live(state)) return;
   const std::string pad = pad_name(silent);
-  const std::string other = pad_name(silent == Side::kLeft ? Side::kRight : Side::kLeft);
+  const std::string other = pad_name(other_side(silent));
   const std::string details = "waited for " + seconds(timeout) + " (property timeout)";
   if (gst_pad_is_linked(GST_PAD_CAST(state.input(silent).pad))) {
     post_warning(state,

@@ -99,11 +99,6 @@ void test_filter(const char* factory, const std::array<std::string, 3>& texts) {
 }  // namespace
 }  // namespace mtstereo::fuzz
 
-extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  mtstereo::fuzz::init_gstreamer();
-  return 0;
-}
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mtstereo::fuzz;
   FuzzInput input(data, size);

@@ -23,8 +23,7 @@ void handle_message(const gchar* domain, GLogLevelFlags level, const gchar* mess
   require(false, "there is no critical message");
 }
 
-}  // namespace
-
+/// Initializes GStreamer with the plugin of this build only. A critical message ends the program.
 void init_gstreamer() {
   // No other plugin, and no file of the user.
   setenv("GST_REGISTRY_DISABLE", "yes", 1);
@@ -38,6 +37,8 @@ void init_gstreamer() {
   require(plugin != nullptr, "the plugin can be loaded");
   gst_object_unref(plugin);
 }
+
+}  // namespace
 
 TestedElement::TestedElement(const char* factory)
     : element_(gst_element_factory_make(factory, nullptr)), bus_(gst_bus_new()) {
@@ -107,3 +108,8 @@ GstBuffer* pattern_buffer(std::size_t size, unsigned seed) {
 }
 
 }  // namespace mtstereo::fuzz
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  mtstereo::fuzz::init_gstreamer();
+  return 0;
+}

@@ -9,9 +9,6 @@
 
 namespace mtstereo::fuzz {
 
-/// Initializes GStreamer with the plugin of this build only. A critical message ends the program.
-void init_gstreamer();
-
 /// The deleter of the owning pointers below.
 struct Unref {
   void operator()(GstCaps* caps) const { gst_caps_unref(caps); }

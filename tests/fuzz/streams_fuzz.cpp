@@ -357,11 +357,6 @@ class Session {
 }  // namespace
 }  // namespace mtstereo::fuzz
 
-extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  mtstereo::fuzz::init_gstreamer();
-  return 0;
-}
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mtstereo::fuzz;
   FuzzInput input(data, size);

@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "soak.hpp"
+#include "support/stereo_harness.hpp"
 
 namespace mtstereo::soak {
 namespace {
 
 constexpr double kStateSeconds = 60;
-
-struct Text {
-  std::string message;
-  std::string details;
-};
-
-Text text_of(GstMessage* message) {
-  GError* error = nullptr;
-  gchar* details = nullptr;
-  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
-    gst_message_parse_error(message, &error, &details);
-  } else {
-    gst_message_parse_warning(message, &error, &details);
-  }
-  Text text{error->message, details != nullptr ? details : ""};
-  g_error_free(error);
-  g_free(details);
-  return text;
-}
 
 /// True if no element of the bin is changing its state.
 bool elements_are_settled(GstElement* bin) {
@@ -150,14 +132,14 @@ void CheckedPipeline::take(GstMessage* message) {
     default:
       return;
   }
-  const Text text = text_of(message);
+  const test::Report report = test::report_of(message);
   const bool ours = is_of_plugin(GST_MESSAGE_SRC(message));
   if (ours) warned_ = true;
-  if (ours && !states_cause(text.message, text.details)) {
-    soak_.fail(kind_, "a message does not state its cause: " + text.message);
+  if (ours && !states_cause(report.text, report.details)) {
+    soak_.fail(kind_, "a message does not state its cause: " + report.text);
   }
   if (GST_MESSAGE_TYPE(message) != GST_MESSAGE_ERROR || !error_.empty()) return;
-  error_ = text.message + " [" + text.details + "]";
+  error_ = report.text + " [" + report.details + "]";
   if (!ours) {
     soak_.fail(kind_, std::string("an error of ") + GST_OBJECT_NAME(GST_MESSAGE_SRC(message)) +
                           " instead of mtstereo: " + error_);

@@ -26,6 +26,11 @@ class Live : public testing::Test {
     harness->push_pair(pair, 0);
     ASSERT_TRUE(harness->pull());
   }
+  /// Matches the first pair. Then it is the time of the fourth.
+  void fall_behind() {
+    match_first_pair();
+    gst_harness_set_time(harness->output(), 3 * kFrame);
+  }
   /// The sink reports the lateness of the first map.
   void report_from_sink(GstClockTimeDiff jitter, GstQOSType type = GST_QOS_TYPE_UNDERFLOW) {
     gst_harness_push_upstream_event(harness->output(), gst_event_new_qos(type, 1.0, jitter, 0));
@@ -147,8 +152,7 @@ TEST_F(Live, LatencyIncludesTheMatchingTime) {
 
 TEST_F(Live, SkipsPairsThatWouldBeLateAtASinkThatSynchronizes) {
   start(true);
-  match_first_pair();
-  gst_harness_set_time(harness->output(), 3 * kFrame);
+  fall_behind();
   report_from_sink(1);
   harness->push_pair(pair, kFrame);
   harness->push_pair(pair, 4 * kFrame);
@@ -172,8 +176,7 @@ TEST_F(Live, SkipsPairsThatWouldBeLateAtASinkThatSynchronizes) {
 
 TEST_F(Live, SkipsLatePairsOfStreamsThatAreNotLiveToo) {
   start(false);
-  match_first_pair();
-  gst_harness_set_time(harness->output(), 3 * kFrame);
+  fall_behind();
   report_from_sink(1);
   harness->push_pair(pair, kFrame);
   harness->push_pair(pair, 4 * kFrame);
@@ -184,8 +187,7 @@ TEST_F(Live, SkipsLatePairsOfStreamsThatAreNotLiveToo) {
 
 TEST_F(Live, MatchesLatePairsIfTheSinkDoesNotSynchronize) {
   start(true);
-  match_first_pair();
-  gst_harness_set_time(harness->output(), 3 * kFrame);
+  fall_behind();
   report_from_sink(0);
   harness->push_pair(pair, kFrame);
   EXPECT_TRUE(harness->pull());
@@ -194,8 +196,7 @@ TEST_F(Live, MatchesLatePairsIfTheSinkDoesNotSynchronize) {
 
 TEST_F(Live, MatchesLatePairsIfThrottlingIsAllThatTheSinkReports) {
   start(true);
-  match_first_pair();
-  gst_harness_set_time(harness->output(), 3 * kFrame);
+  fall_behind();
   report_from_sink(kFrame, GST_QOS_TYPE_THROTTLE);
   harness->push_pair(pair, kFrame);
   EXPECT_TRUE(harness->pull());
@@ -203,8 +204,7 @@ TEST_F(Live, MatchesLatePairsIfThrottlingIsAllThatTheSinkReports) {
 
 TEST_F(Live, MatchesLatePairsIfQosIsDisabled) {
   start(true, "max-disparity=16 qos=false");
-  match_first_pair();
-  gst_harness_set_time(harness->output(), 3 * kFrame);
+  fall_behind();
   report_from_sink(1);
   harness->push_pair(pair, kFrame);
   EXPECT_TRUE(harness->pull());
@@ -213,8 +213,7 @@ TEST_F(Live, MatchesLatePairsIfQosIsDisabled) {
 
 TEST_F(Live, MatchesLatePairsInPaused) {
   start(true);
-  match_first_pair();
-  gst_harness_set_time(harness->output(), 3 * kFrame);
+  fall_behind();
   report_from_sink(1);
   gst_element_set_state(harness->element(), GST_STATE_PAUSED);
   harness->push_pair(pair, kFrame);
@@ -238,8 +237,7 @@ TEST_F(Live, ALatePairIsMatchedAfterAPauseOfOneSecond) {
 
 TEST_F(Live, AFlushForgetsThatTheSinkSynchronizes) {
   start(true);
-  match_first_pair();
-  gst_harness_set_time(harness->output(), 3 * kFrame);
+  fall_behind();
   report_from_sink(1);
   harness->flush(7);
   harness->push_pair(pair, kFrame);

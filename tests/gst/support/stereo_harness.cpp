@@ -19,7 +19,9 @@ bool wait_until(double seconds, const std::function<bool()>& done) {
   return true;
 }
 
-Report parse(GstMessage* message) {
+}  // namespace
+
+Report report_of(GstMessage* message) {
   GError* error = nullptr;
   gchar* details = nullptr;
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
@@ -32,8 +34,6 @@ Report parse(GstMessage* message) {
   g_free(details);
   return report;
 }
-
-}  // namespace
 
 GstElement* make_element(const std::string& properties, const char* factory) {
   GstElement* element = gst_element_factory_make(factory, nullptr);
@@ -152,14 +152,14 @@ bool StereoHarness::silent(double seconds) {
 Report StereoHarness::report(GstMessageType type, double seconds) {
   const MessagePointer message(
       gst_bus_timed_pop_filtered(bus_, static_cast<GstClockTime>(seconds * GST_SECOND), type));
-  return message ? parse(message.get()) : Report{};
+  return message ? report_of(message.get()) : Report{};
 }
 
 std::vector<Report> StereoHarness::warnings(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   std::vector<Report> all;
   while (const auto message = MessagePointer(gst_bus_pop_filtered(bus_, GST_MESSAGE_WARNING))) {
-    all.push_back(parse(message.get()));
+    all.push_back(report_of(message.get()));
   }
   return all;
 }

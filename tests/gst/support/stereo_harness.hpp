@@ -37,6 +37,9 @@ struct Report {
   int code = 0;
 };
 
+/// What a message of an error or a warning says.
+Report report_of(GstMessage* message);
+
 /// The property `stats`.
 struct Stats {
   std::uint64_t pairs = 0;
