@@ -75,7 +75,7 @@ GstFlowReturn match(ElementState& state, const Step& pair) {
   return match_pair(state, pair.left.buffer.get(), pair.right.buffer.get());
 }
 
-/// Reports a frame without a time. GST_FLOW_OK if the pairs go on: a change of `sync-mode` that
+/// Reports a frame without a time. GST_FLOW_OK if pairing continues: a change of `sync-mode` that
 /// does not fit the streams is taken back.
 GstFlowReturn report_missing_time(ElementState& state, const Step& step) {
   if (state.paired_mode != SyncMode::kReferenceTimestamp) {
@@ -204,8 +204,8 @@ GstClockTime next_deadline(ElementState& state) {
   }
   const auto now = running_time_now(state);
   if (!time || !now) return GST_CLOCK_TIME_NONE;
-  const Nanoseconds deadline = state.waiting_frame.deadline(
-      left, *time, *now, static_cast<Nanoseconds>(state.known_latency));
+  const Nanoseconds deadline =
+      state.waiting_frame.deadline(left, *time, *now, bounded(state.known_latency));
   return deadline > 0 ? static_cast<GstClockTime>(deadline) : 0;
 }
 

@@ -11,7 +11,7 @@ std::optional<Nanoseconds> to_running_time(const GstSegment& segment, GstClockTi
   guint64 time = 0;
   const int sign = gst_segment_to_running_time_full(&segment, GST_FORMAT_TIME, position, &time);
   if (sign == 0) return std::nullopt;
-  return sign * static_cast<Nanoseconds>(time);
+  return sign * bounded(time);
 }
 
 /// The running time at which a segment has this stream time, without the offset of the pad.
@@ -22,7 +22,7 @@ std::optional<Nanoseconds> running_time_at(const StreamSegment& stream, guint64 
   if (sign <= 0) return std::nullopt;
   const auto time = to_running_time(stream.segment, position);
   if (!time) return std::nullopt;
-  return *time - stream.pad_offset;
+  return bounded(*time - bounded(stream.pad_offset));
 }
 
 /// What a decoder has cut from the beginning of a frame that begins before its segment: it sets the
@@ -36,15 +36,14 @@ Nanoseconds cut_at_start(const QueuedFrame& frame) {
   }
   const auto duration = frame.info ? frame_duration(*frame.info) : std::nullopt;
   if (!duration) return 0;
-  return std::max<Nanoseconds>(*duration - static_cast<Nanoseconds>(GST_BUFFER_DURATION(buffer)),
-                               0);
+  return std::max<Nanoseconds>(*duration - bounded(GST_BUFFER_DURATION(buffer)), 0);
 }
 
 }  // namespace
 
 std::optional<Nanoseconds> frame_duration(const GstVideoInfo& info) {
   if (info.fps_n <= 0 || info.fps_d <= 0) return std::nullopt;
-  return static_cast<Nanoseconds>(gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n));
+  return bounded(gst_util_uint64_scale_int(GST_SECOND, info.fps_d, info.fps_n));
 }
 
 std::optional<Nanoseconds> QueuedFrame::running_time() const {
@@ -52,8 +51,7 @@ std::optional<Nanoseconds> QueuedFrame::running_time() const {
   if (!GST_BUFFER_PTS_IS_VALID(buffer.get())) return std::nullopt;
   const auto time = to_running_time(segment->segment, GST_BUFFER_PTS(buffer.get()));
   if (!time) return std::nullopt;
-  return *time -
-         static_cast<Nanoseconds>(static_cast<double>(cut_at_start(*this)) / segment->segment.rate);
+  return bounded(*time - bounded(static_cast<double>(cut_at_start(*this)) / segment->segment.rate));
 }
 
 std::optional<Nanoseconds> QueuedFrame::end_time() const {
@@ -62,11 +60,11 @@ std::optional<Nanoseconds> QueuedFrame::end_time() const {
   if (!begin || segment->segment.rate < 0) return begin;
   Nanoseconds duration = 0;
   if (GST_BUFFER_DURATION_IS_VALID(buffer.get())) {
-    duration = static_cast<Nanoseconds>(GST_BUFFER_DURATION(buffer.get()));
+    duration = bounded(GST_BUFFER_DURATION(buffer.get()));
   } else if (info) {
     duration = frame_duration(*info).value_or(0);
   }
-  return *begin + static_cast<Nanoseconds>(static_cast<double>(duration) / segment->segment.rate);
+  return bounded(*begin + bounded(static_cast<double>(duration) / segment->segment.rate));
 }
 
 void FrameQueue::look(GstAggregatorPad* pad) {
@@ -114,7 +112,7 @@ Nanoseconds seek_correction(const StreamSegment& left, const StreamSegment& righ
   if (!GST_CLOCK_TIME_IS_VALID(stream_time)) return 0;
   const auto left_time = running_time_at(left, stream_time);
   const auto right_time = running_time_at(right, stream_time);
-  return left_time && right_time ? *left_time - *right_time : 0;
+  return left_time && right_time ? bounded(*left_time - *right_time) : 0;
 }
 
 void SeekHistory::add(guint32 seqnum) {

@@ -20,7 +20,7 @@ void Lateness::learn_delay(Nanoseconds time, Nanoseconds jitter) {
   const auto map =
       std::find_if(history_.begin(), end, [&](const Sent& sent) { return sent.time == time; });
   if (map == end) return;
-  const Nanoseconds arrival = time + latency_ + jitter;
+  const Nanoseconds arrival = bounded(bounded(time + latency_) + jitter);
   const Nanoseconds delay = std::clamp<Nanoseconds>(arrival - map->now, 0, kLongestDelay);
   // A map that is early may have waited in a queue until its predecessor was shown, so it can only
   // show that the delay is shorter.
@@ -37,7 +37,7 @@ std::optional<Nanoseconds> Lateness::predict(Nanoseconds time, Nanoseconds now,
   if (!synchronizes_ || sent_ == 0) return std::nullopt;
   const Nanoseconds last = history_[(sent_ - 1) % kHistory].time;
   if (time - last > kLongestPause + 2 * matching_time) return std::nullopt;
-  return now + matching_time + delay_ - (time + latency_);
+  return now + matching_time + delay_ - bounded(time + latency_);
 }
 
 void Lateness::restart() {

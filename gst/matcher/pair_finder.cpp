@@ -44,7 +44,7 @@ Nanoseconds PairFinder::Stream::period(std::span<const Nanoseconds> waiting) con
   std::array<Nanoseconds, std::tuple_size_v<decltype(steps)> + kMostFrames> all{};
   auto end = std::copy_n(steps.begin(), std::min(count, steps.size()), all.begin());
   for (std::size_t i = 1; i < waiting.size() && end != all.end(); ++i) {
-    if (waiting[i] > waiting[i - 1]) *end++ = waiting[i] - waiting[i - 1];
+    if (waiting[i] > waiting[i - 1]) *end++ = bounded(waiting[i] - waiting[i - 1]);
   }
   if (static_cast<std::size_t>(end - all.begin()) < kStepsOfPeriod) return 0;
   const auto middle = all.begin() + (end - all.begin()) / 2;
@@ -53,7 +53,7 @@ Nanoseconds PairFinder::Stream::period(std::span<const Nanoseconds> waiting) con
 }
 
 void PairFinder::Stream::passed(Nanoseconds time) {
-  if (last && time > *last) steps[count++ % steps.size()] = time - *last;
+  if (last && time > *last) steps[count++ % steps.size()] = bounded(time - *last);
   last = time;
 }
 
@@ -63,14 +63,14 @@ void PairFinder::update_periods(const WaitingFrames& left, const WaitingFrames& 
     const Nanoseconds measured = stream.period(frames.times);
     // Jitter and loss do not prove that the caps are wrong.
     const bool plausible =
-        frames.period > 0 && std::llabs(measured - frames.period) * 2 <= frames.period;
+        frames.period > 0 && std::llabs(measured - frames.period) <= frames.period / 2;
     return measured == 0 || plausible ? frames.period : measured;
   };
   const Nanoseconds first = period_of(streams_[0], left);
   const Nanoseconds second = period_of(streams_[1], right);
   // Measured periods vary by the jitter.
   same_rate_ =
-      first == 0 || second == 0 || std::llabs(first - second) * 8 <= std::max(first, second);
+      first == 0 || second == 0 || std::llabs(first - second) <= std::max(first, second) / 8;
   period_ = first == 0 ? second : second == 0 ? first : std::min(first, second);
   if (period_ == 0) period_ = 2 * tolerance;
 }
@@ -85,7 +85,7 @@ std::optional<PairStep> PairFinder::check_first(Side side, const WaitingFrames& 
   }
   const Nanoseconds second = frames.times[1];
   if (second > *here.last || second <= first) return drop_wrong_time(side, 0);
-  // The stream goes on at an earlier time: a clock was reset, or a counter has wrapped around.
+  // The stream continues at an earlier time: a clock was reset, or a counter has wrapped around.
   here = Stream();
   offset_ = StreamOffset();
   return std::nullopt;
@@ -141,7 +141,7 @@ std::optional<PairStep> PairFinder::learn(const Ordered& left, const Ordered& ri
     return wait_for(Side::kLeft);
   }
   if (right_open) return wait_for(Side::kRight);
-  // There is no more to learn from. One frame each says little, but it is all there is.
+  // No more frames to learn from will come: the difference of a single pair has to do.
   const auto frames = static_cast<int>(std::min(left.times.size(), right.times.size()));
   offset_.learn(left.times, right.times, period_, frames);
   return std::nullopt;
@@ -150,17 +150,17 @@ std::optional<PairStep> PairFinder::learn(const Ordered& left, const Ordered& ri
 /// Streams that are half a frame apart must not change partners with every jitter: then a pair may
 /// exceed a tolerance of half a frame by this much.
 Nanoseconds PairFinder::slack(Nanoseconds tolerance) const {
-  const bool half = std::llabs(2 * tolerance - period_) * 50 <= period_;
+  const bool half = std::llabs(2 * tolerance - period_) <= period_ / 50;
   return same_rate_ && offset_.known() && half ? period_ / 10 : 0;
 }
 
 PairStep PairFinder::decide(const Ordered& left, const Ordered& right, Nanoseconds tolerance) {
-  const Nanoseconds raw = right.times[0] - left.times[0];
-  const Nanoseconds distance = raw - (same_rate_ ? offset_.value() : 0);
+  const Nanoseconds raw = bounded(right.times[0] - left.times[0]);
+  const Nanoseconds distance = bounded(raw - (same_rate_ ? offset_.value() : 0));
   const Nanoseconds size = std::llabs(distance);
   const Side older = distance >= 0 ? Side::kLeft : Side::kRight;
   const bool tolerated = std::llabs(raw) <= tolerance + slack(tolerance);
-  if (tolerated && size * 4 <= period_) return {.action = PairAction::kPair, .difference = raw};
+  if (tolerated && size <= period_ / 4) return {.action = PairAction::kPair, .difference = raw};
   const bool far = same_rate_ && offset_.known() &&
                    static_cast<double>(size) > kGate * static_cast<double>(period_);
   if (!tolerated || far) return drop_older(older, left, right, raw);
@@ -194,7 +194,7 @@ PairStep PairFinder::next(const WaitingFrames& left, const WaitingFrames& right,
   };
   const Ordered lefts = ordered(left);
   const Ordered rights = ordered(right);
-  const Nanoseconds raw = rights.times[0] - lefts.times[0];
+  const Nanoseconds raw = bounded(rights.times[0] - lefts.times[0]);
   if (same_rate_ && !offset_.known() && std::llabs(raw) <= tolerance) {
     const auto safe = static_cast<Nanoseconds>(kSafeOffset * static_cast<double>(period_));
     if (std::llabs(raw) <= safe) return {.action = PairAction::kPair, .difference = raw};
@@ -203,7 +203,7 @@ PairStep PairFinder::next(const WaitingFrames& left, const WaitingFrames& right,
   }
   // An offset beyond the tolerance leads to no pairs at all.
   if (same_rate_ && std::llabs(offset_.value()) > tolerance + slack(tolerance) / 2 &&
-      tolerance * 2 + period_ / 100 >= period_) {
+      tolerance * 2 >= period_ - period_ / 100) {
     offset_.slip(offset_.value() > 0 ? -period_ : period_);
     new_doubt_ = PairDoubt::kSlip;
   }

@@ -55,9 +55,9 @@ class DoubtWarning {
 
 /// Finds the pairs of two streams by the times of their frames. Frames whose times agree with the
 /// offset of the streams are a pair at once. Otherwise it looks ahead by a few frames: to learn the
-/// offset, to find out which of two frames is the nearer one, and to tell a frame with a wrong time
-/// stamp from lost frames. Its decisions depend only on the times, not on when frames arrive, as
-/// long as no stream is complete early.
+/// offset, to find out which of two frames is the nearer one, and to distinguish a frame with a
+/// wrong time stamp from lost frames. Its decisions depend only on the times, not on when frames
+/// arrive, as long as no stream is complete early.
 class PairFinder {
  public:
   /// Streams are out of step by at most this part of a frame without doubt.

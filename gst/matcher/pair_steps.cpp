@@ -10,7 +10,7 @@ namespace {
 
 std::optional<Nanoseconds> duration_of(const QueuedFrame& frame) {
   if (!GST_BUFFER_DURATION_IS_VALID(frame.buffer.get())) return std::nullopt;
-  return static_cast<Nanoseconds>(GST_BUFFER_DURATION(frame.buffer.get()));
+  return bounded(GST_BUFFER_DURATION(frame.buffer.get()));
 }
 
 /// The longest duration of the frames that wait: a seek may clip the first one.

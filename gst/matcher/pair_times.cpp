@@ -16,7 +16,7 @@ std::optional<Nanoseconds> reference_time(const QueuedFrame& frame, GstCaps* ref
   const GstReferenceTimestampMeta* meta =
       gst_buffer_get_reference_timestamp_meta(frame.buffer.get(), reference);
   if (meta == nullptr) return std::nullopt;
-  return static_cast<Nanoseconds>(meta->timestamp);
+  return bounded(meta->timestamp);
 }
 
 }  // namespace
@@ -33,9 +33,9 @@ PairTimes PairClock::times(const FrameQueue& left, const FrameQueue& right, Sync
     if (mode == SyncMode::kReferenceTimestamp) return reference_time(frame, reference);
     auto time = frame.running_time();
     if (!time) return time;
-    if (mode == SyncMode::kRunningTime) return side == 0 ? *time : *time + correction;
+    if (mode == SyncMode::kRunningTime) return side == 0 ? *time : bounded(*time + correction);
     if (!first_[side]) first_[side] = time;
-    return *time - *first_[side];
+    return bounded(*time - *first_[side]);
   };
   for (const std::size_t side : {0u, 1u}) {
     const FrameQueue& queue = side == 0 ? left : right;

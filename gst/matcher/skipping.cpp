@@ -20,7 +20,7 @@ std::optional<Skip> decide(ElementState& state, GstClockTime time) {
   const ObjectLock lock(state.element);
   if (!state.settings.qos) return std::nullopt;
   const auto matching_time = static_cast<Nanoseconds>(state.processing.expected_ms() * GST_MSECOND);
-  const auto lateness = state.lateness.predict(static_cast<Nanoseconds>(time), *now, matching_time);
+  const auto lateness = state.lateness.predict(bounded(time), *now, matching_time);
   if (!lateness || *lateness <= 0) return std::nullopt;
   ++state.statistics.skipped;
   return Skip{*lateness, state.qos_proportion, state.statistics};
@@ -49,7 +49,7 @@ void note_sent_map(ElementState& state, const OutputTimes& times, double millise
     const ObjectLock lock(state.element);
     changed = state.processing.measured(milliseconds);
     if (now && GST_CLOCK_TIME_IS_VALID(times.running)) {
-      state.lateness.sent(static_cast<Nanoseconds>(times.running), *now);
+      state.lateness.sent(bounded(times.running), *now);
     }
   }
   if (changed && is_live(state)) {
@@ -68,7 +68,7 @@ void note_qos_event(ElementState& state, GstEvent* event) {
   state.qos_proportion = proportion;
   // The time of a throttle event is a setting of the sink, no measurement.
   if (type == GST_QOS_TYPE_THROTTLE || !GST_CLOCK_TIME_IS_VALID(time)) return;
-  state.lateness.sink_reported(static_cast<Nanoseconds>(time), jitter);
+  state.lateness.sink_reported(bounded(time), bounded(jitter));
 }
 
 void note_latency_event(ElementState& state, GstEvent* event) {
@@ -76,7 +76,7 @@ void note_latency_event(ElementState& state, GstEvent* event) {
   gst_event_parse_latency(event, &latency);
   if (!GST_CLOCK_TIME_IS_VALID(latency)) return;
   const ObjectLock lock(state.element);
-  state.lateness.set_latency(static_cast<Nanoseconds>(latency));
+  state.lateness.set_latency(bounded(latency));
 }
 
 }  // namespace mtstereo::plugin

@@ -45,7 +45,7 @@ class StreamOffset {
 
   bool known() const { return known_; }
   /// The expected difference of a pair, right minus left; 0 if not known.
-  Nanoseconds value() const { return known_ ? static_cast<Nanoseconds>(value_) : 0; }
+  Nanoseconds value() const { return known_ ? bounded(value_) : 0; }
 
   /// Learns from the times of frames that overlap: the difference that most frames have from the
   /// frames of the other side, of which one in each `period` is counted. Returns false, and learns

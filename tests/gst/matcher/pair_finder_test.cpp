@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <functional>
 #include <random>
@@ -236,17 +237,37 @@ TEST(PairFinder, FollowsADriftUpToTheToleranceAndReportsTheSlip) {
 
 TEST(PairFinder, AWildTimeStampCostsOneFrame) {
   for (const Nanoseconds jump :
-       {3600 * kSecond, 3 * kSecond, 200 * kMs, -3 * kSecond, -200 * kMs}) {
+       {kFarthestTime, 3600 * kSecond, 3 * kSecond, 200 * kMs, -3 * kSecond, -200 * kMs}) {
     for (const int at : {0, 1, 50, 299}) {
       for (const int side : {0, 1}) {
         std::array<Frames, 2> streams{steady(300), steady(300)};
-        streams[static_cast<std::size_t>(side)][static_cast<std::size_t>(at)].time += jump;
+        Nanoseconds& time =
+            streams[static_cast<std::size_t>(side)][static_cast<std::size_t>(at)].time;
+        time = bounded(time + jump);
         const Outcome outcome = run(streams[0], streams[1]);
         EXPECT_EQ(outcome.wrong, 0) << jump << " at " << at;
         EXPECT_GE(outcome.pairs, at == 0 && jump < 0 ? 298 : 299)
             << jump << " at " << at << " side " << side;
       }
     }
+  }
+}
+
+TEST(PairFinder, AcceptsTimesAtTheEndsOfTheRange) {
+  std::mt19937 random(7);
+  constexpr std::array kTimes = {-kFarthestTime, -kPeriod, Nanoseconds{0}, kPeriod, kFarthestTime};
+  for (int repetition = 0; repetition < 300; ++repetition) {
+    std::array<Frames, 2> streams{steady(60), steady(60)};
+    for (Frames& frames : streams) {
+      for (Frame& frame : frames) {
+        if (random() % 3 == 0) frame.time = kTimes[random() % kTimes.size()];
+      }
+    }
+    Rules rules;
+    rules.tolerance = repetition % 2 == 0 ? kPeriod / 2 : 3600 * kSecond;
+    if (repetition % 3 == 0) rules.periods = {kFarthestTime, 0};
+    const Outcome outcome = run(streams[0], streams[1], rules);
+    EXPECT_LE(2 * outcome.pairs + outcome.dropped + outcome.wrong_times, 120);
   }
 }
 

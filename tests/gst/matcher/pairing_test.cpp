@@ -3,10 +3,28 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace mtstereo::plugin {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
+
+TEST(BoundedTime, KeepsTimesInRange) {
+  for (const Nanoseconds time : {Nanoseconds{0}, kMs, -3600'000 * kMs, kFarthestTime}) {
+    EXPECT_EQ(bounded(time), time);
+  }
+  EXPECT_EQ(bounded(std::uint64_t{5}), 5);
+  EXPECT_EQ(bounded(-2.75), -2);
+}
+
+TEST(BoundedTime, IsTheNearestInRange) {
+  EXPECT_EQ(bounded(std::numeric_limits<std::int64_t>::max()), kFarthestTime);
+  EXPECT_EQ(bounded(std::numeric_limits<std::int64_t>::min()), -kFarthestTime);
+  EXPECT_EQ(bounded(std::numeric_limits<std::uint64_t>::max()), kFarthestTime);
+  EXPECT_EQ(bounded(1e300), kFarthestTime);
+  EXPECT_EQ(bounded(-std::numeric_limits<double>::infinity()), -kFarthestTime);
+}
 
 TEST(Tolerance, IsTheValueThatIsSet) {
   EXPECT_EQ(effective_tolerance(7, {40 * kMs, 40 * kMs}, {20 * kMs, 20 * kMs}), 7);
