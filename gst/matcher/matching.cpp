@@ -58,9 +58,9 @@ bool renegotiate(ElementState& state) {
 
 /// Applies settings that have changed since the last pair. Some of them are part of the caps.
 bool refresh_settings(ElementState& state) {
-  const Settings last = state.active;
+  const DisparityUnit last = unit_of(state.active);
   if (!apply_settings(state)) return false;
-  if (same_caps(last, state.active) && gst_pad_has_current_caps(state.source_pad())) return true;
+  if (unit_of(state.active) == last && gst_pad_has_current_caps(state.source_pad())) return true;
   return gst_aggregator_negotiate(state.element);
 }
 

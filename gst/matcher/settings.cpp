@@ -32,7 +32,7 @@ void refuse_start(ElementState& state, const Settings& settings, const Status& s
 /// would change while maps flow.
 Status check_downstream(const ElementState& state, const Settings& settings) {
   if (!gst_pad_has_current_caps(state.source_pad())) return {};
-  if (same_caps(settings, state.active)) return {};
+  if (unit_of(settings) == unit_of(state.active)) return {};
   const CapsPointer offered = output_caps(state, settings);
   const CapsPointer accepted(gst_pad_peer_query_caps(state.source_pad(), nullptr));
   if (!accepted || gst_caps_can_intersect(offered.get(), accepted.get())) return {};
@@ -130,10 +130,6 @@ DisparityUnit unit_of(const Settings& settings) {
           .max_disparity = settings.parameters.integer(Parameter::kMaxDisparity),
           .min_disparity = settings.parameters.integer(Parameter::kMinDisparity),
           .offset = settings.parameters.disparity_offset()};
-}
-
-bool same_caps(const Settings& first, const Settings& second) {
-  return unit_of(first) == unit_of(second);
 }
 
 bool apply_settings(ElementState& state) {

@@ -17,7 +17,4 @@ bool apply_settings(ElementState& state);
 /// The unit of the disparity maps with these settings.
 DisparityUnit unit_of(const Settings& settings);
 
-/// True if both settings have the same disparity map caps.
-bool same_caps(const Settings& first, const Settings& second);
-
 }  // namespace mtstereo::plugin

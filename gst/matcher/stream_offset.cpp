@@ -95,7 +95,7 @@ void StreamOffset::add(Nanoseconds left_time, Nanoseconds difference) {
   const double share = std::max(kWeightOfNewest, 1.0 / (pairs_ + kCaution));
   value_ += share * (static_cast<double>(difference) - value_);
   line_.add(left_time, difference);
-  // A mean lags behind a drift, a line does not.
+  // A mean follows a drift with a delay, a line does not.
   const DifferenceStatistics statistics = line_.statistics();
   if (statistics.pairs >= DifferenceLine::kPairsOfDrift) value_ = statistics.mean;
 }

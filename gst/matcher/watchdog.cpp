@@ -75,7 +75,7 @@ std::string seconds(Nanoseconds time) {
   return text;
 }
 
-/// Ends the stream of an unlinked pad. Otherwise the element would go on waiting for its frames,
+/// Ends the stream of an unlinked pad. Otherwise the element would still wait for its frames,
 /// and the other stream would neither get the error nor come to its end.
 void end_stream(GstAggregatorPad* pad) {
   gst_pad_send_event(GST_PAD_CAST(pad), gst_event_new_stream_start("unlinked"));

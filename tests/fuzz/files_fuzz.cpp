@@ -51,7 +51,7 @@ const Folder& folder() {
   return folder;
 }
 
-/// A PNG whose header is valid; its size is limited, since OpenCV allocates what the header says.
+/// A PNG whose header is valid; its size is limited, since OpenCV allocates the size in the header.
 std::string png_of(FuzzInput& input) {
   std::string bytes(input.rest());
   const std::string signature = "\x89PNG\r\n\x1a\n";

@@ -100,7 +100,7 @@ Maps match(Matcher& matcher, Parameters parameters, int threads, GrayView left, 
   require(matcher.set_parameters(parameters).ok(), "parameters can be set");
   const Result<DisparityView> map = matcher.compute(left, right);
   const bool fits = parameters.check_frame(left.width, left.height).ok();
-  require(map.ok() == fits, "check_frame() says whether a frame is matched");
+  require(map.ok() == fits, "check_frame() predicts whether a frame is matched");
   if (!map) {
     require(!map.error().message.empty(), "an error has a message");
     return {};

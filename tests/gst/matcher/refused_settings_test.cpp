@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Values of properties that do not fit while the element runs: they are refused, and it goes on.
+// Values of properties that do not fit while the element runs: they are refused, and it continues.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -37,7 +37,7 @@ struct Report {
   int code = 0;
 };
 
-/// What a message of an error or a warning says.
+/// The content of an error or warning message.
 Report report_of(GstMessage* message);
 
 /// The property `stats`.
