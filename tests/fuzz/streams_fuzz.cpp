@@ -231,8 +231,12 @@ class Session {
     switch (input_.byte() % 4) {
       case 0: {
         const auto late = static_cast<GstClockTimeDiff>(time_of(input_));
+        const GstClockTime time = time_of(input_);
+        // GStreamer refuses a frame that was shown before the time 0.
+        const bool valid =
+            late >= 0 || GST_CLOCK_TIME_NONE - static_cast<GstClockTime>(late) < time;
         gst_harness_push_upstream_event(
-            harness_[0], gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 1.5, late, time_of(input_)));
+            harness_[0], gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 1.5, valid ? late : 0, time));
         return;
       }
       case 1:
