@@ -22,8 +22,10 @@ enum class ErrorCode {
   kFrameDoesNotFit,
   /// There is not enough memory for this image size and search range.
   kOutOfMemory,
-  /// The operating system refused another resource, such as a thread.
+  /// The operating system refused another resource, such as a thread, or failed to write a file.
   kSystem,
+  /// A calibration file cannot be read, or a calibration makes no sense.
+  kInvalidCalibration,
 };
 
 /// Why a call failed.
