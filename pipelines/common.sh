@@ -11,6 +11,9 @@ out=
 sink='videoconvert ! autovideosink'
 matcher=(mtstereo name=m)
 color=(mtcolor)
+calibration=
+far=
+cloud=
 arguments=()
 
 fail() {
@@ -29,7 +32,11 @@ show_help() {
   cat <<'END'
 
 Options of every pipeline script:
-  --out FILE.mkv      record the disparity losslessly instead of showing it
+  --calibration FILE  rectify the views of these cameras first, and take f and the baseline from it
+  --depth METERS      output depths up to this distance, in millimeters, instead of disparities
+  --cloud PATTERN     also write the points of each map, such as clouds/%05d.ply (needs --calibration)
+  --out FILE.mkv      record the disparity or the depth losslessly instead of showing it; a pattern
+                      such as depth/%06d.png writes 16-bit pictures
   --mode MODE         sparse, semi-dense or dense
   --max-disparity N   search range [px]
   --set NAME=VALUE    any other property of mtstereo (gst-inspect-1.0 mtstereo lists them)
@@ -57,7 +64,7 @@ parse_options() {
     case $1 in
       --help | -h) show_help ;;
       --dry-run) dry_run=yes ;;
-      --out | --mode | --max-disparity | --set | --sink | --seconds | --build)
+      --calibration | --depth | --cloud | --out | --mode | --max-disparity | --set | --sink | --seconds | --build)
         require_value "$@"
         common_option "$1" "$2"
         shift
@@ -72,6 +79,10 @@ parse_options() {
     esac
     shift
   done
+  if [[ -z $calibration && -n $far$cloud ]]; then
+    wrong_usage "--depth and --cloud need --calibration: without it the focal length and the baseline are unknown"
+  fi
+  [ "$dry_run" = yes ] || [ -z "$calibration" ] || require_calibration
   local input
   for input in "${arguments[@]}"; do
     [[ -z $out || ! $out -ef $input ]] || fail "--out $out is the input itself: choose another file"
@@ -80,6 +91,18 @@ parse_options() {
 
 common_option() {
   case $1 in
+    --calibration) calibration=$2 ;;
+    --depth)
+      [[ $2 =~ ^[0-9]+(\.[0-9]+)?$ && $2 =~ [1-9] ]] ||
+        wrong_usage "--depth is '$2'; it must be a distance in meters, such as 20"
+      far=$2
+      color+=("far=$far")
+      ;;
+    --cloud)
+      [[ $2 =~ \.(ply|pcd)$ ]] ||
+        wrong_usage "--cloud is '$2'; expected a .ply or .pcd file, such as clouds/%05d.ply"
+      cloud=$2
+      ;;
     --out) out=$2 ;;
     --mode)
       [[ $2 == sparse || $2 == semi-dense || $2 == dense ]] ||
@@ -119,9 +142,42 @@ source_of() {
   esac
 }
 
-# The elements downstream of mtstereo: a color picture on the screen, or a lossless file.
+# A file, or two of them separated by a comma.
+require_calibration() {
+  local file files
+  [ ! -e "$calibration" ] || return 0
+  IFS=, read -ra files <<<"$calibration"
+  for file in "${files[@]}"; do
+    [ -e "$file" ] || fail "there is no calibration $file: mtcalibrate makes one (docs/cameras.md)"
+  done
+}
+
+# The elements from a decoded view to the matcher: view_to left.
+view_to() {
+  if [ -z "$calibration" ]; then
+    printf '%s\n' '!' queue '!' "m.sink_$1"
+    return
+  fi
+  local rectify=(mtrectify "camera=$1" "calibration=$calibration")
+  if [[ -n $cloud && $1 == left ]]; then
+    printf '%s\n' '!' "${rectify[@]}" color=true '!' tee name=view '!' queue '!' m.sink_left
+  else
+    printf '%s\n' '!' "${rectify[@]}" '!' queue '!' "m.sink_$1"
+  fi
+}
+
+# The elements downstream of mtstereo: a color picture on the screen, or a lossless file, and clouds.
 output_of() {
-  if [ -n "$out" ]; then
+  if [ -n "$cloud" ]; then
+    printf '%s\n' '!' queue '!' tee name=maps '!' queue '!' mtcloud name=cloud "location=$cloud" \
+      ${far:+"far=$far"} view. '!' queue '!' videoconvert '!' cloud.sink_left maps.
+  fi
+  [ -z "$far" ] || printf '%s\n' '!' queue '!' mtdepth "far=$far"
+  if [[ $out == *.png ]]; then
+    # Without the format, pngenc would get 8 bits.
+    printf '%s\n' '!' queue '!' videoconvert '!' video/x-raw,format=GRAY16_BE '!' pngenc '!' \
+      multifilesink "location=$out"
+  elif [ -n "$out" ]; then
     printf '%s\n' '!' queue '!' avenc_ffv1 '!' matroskamux '!' filesink "location=$out"
   else
     local words

@@ -4,10 +4,11 @@
 #
 #   ./pipelines/from-cameras.sh /dev/video0 /dev/video2
 #   ./pipelines/from-cameras.sh /dev/video0 /dev/video2 --size 640x480 --rate 30
+#   ./pipelines/from-cameras.sh /dev/video0 /dev/video2 --calibration cameras.yml --depth 10
 #
-# The cameras must be mounted and rectified such that a point is on the same row in both images, and
-# must expose at the same time (external trigger): mtstereo pairs frames whose time stamps differ by
-# less than half a frame period and drops the others.
+# Without a calibration the cameras must be rectified, so that a point is on the same row in both
+# images. They must expose at the same time (external trigger): mtstereo pairs frames whose time
+# stamps differ by less than half a frame period and drops the others.
 #
 # Options:
 #   --size WxH          requested image size (default 640x480)
@@ -39,8 +40,10 @@ fi
 
 # Raw video or MJPEG, whichever the camera has at this size; decodebin passes raw video through.
 caps="video/x-raw,$wanted;image/jpeg,$wanted"
+mapfile -t left < <(view_to left)
+mapfile -t right < <(view_to right)
 mapfile -t output < <(output_of)
 launch \
-  v4l2src "device=${arguments[0]}" '!' "$caps" '!' decodebin '!' videoconvert '!' queue '!' m.sink_left \
-  v4l2src "device=${arguments[1]}" '!' "$caps" '!' decodebin '!' videoconvert '!' queue '!' m.sink_right \
+  v4l2src "device=${arguments[0]}" '!' "$caps" '!' decodebin '!' videoconvert "${left[@]}" \
+  v4l2src "device=${arguments[1]}" '!' "$caps" '!' decodebin '!' videoconvert "${right[@]}" \
   "${matcher[@]}" "${output[@]}"

@@ -51,8 +51,10 @@ left=$(receiver_of "${arguments[0]}")
 right=$(receiver_of "${arguments[1]}")
 mapfile -t left <<<"$left"
 mapfile -t right <<<"$right"
+mapfile -t left_view < <(view_to left)
+mapfile -t right_view < <(view_to right)
 mapfile -t output < <(output_of)
 launch \
-  "${left[@]}" '!' avdec_h264 '!' videoconvert '!' queue '!' m.sink_left \
-  "${right[@]}" '!' avdec_h264 '!' videoconvert '!' queue '!' m.sink_right \
+  "${left[@]}" '!' avdec_h264 '!' videoconvert "${left_view[@]}" \
+  "${right[@]}" '!' avdec_h264 '!' videoconvert "${right_view[@]}" \
   "${matcher[@]}" "${output[@]}"

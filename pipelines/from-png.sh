@@ -4,8 +4,9 @@
 #
 #   ./pipelines/from-png.sh left/%06d.png right/%06d.png disparity/%06d.png
 #
-# The output is 16-bit PNG images in KITTI's format: px = value / 256, 0 = no disparity. The folder
-# of the disparities is created if missing. Without DISPARITY, the color pictures are shown.
+# The output is 16-bit PNG images in KITTI's format: px = value / 256, 0 = no disparity; with
+# --depth, it is millimeters. The folder of the result is created if missing. Without DISPARITY, the
+# color pictures are shown.
 #
 # Options:
 #   --first N           number of the first image (default 0)
@@ -41,16 +42,16 @@ if [ "$dry_run" = no ]; then
   done
 fi
 
+mapfile -t left < <(view_to left)
+mapfile -t right < <(view_to right)
 if [ ${#arguments[@]} -eq 3 ]; then
-  # Without the format, pngenc would get 8 bits.
-  output=('!' videoconvert '!' 'video/x-raw,format=GRAY16_BE' '!' pngenc '!'
-    multifilesink "location=${arguments[2]}" "index=$first")
-  [ "$dry_run" = yes ] || mkdir -p "$(dirname "${arguments[2]}")"
-else
-  mapfile -t output < <(output_of)
+  out=${arguments[2]}
+  [ "$dry_run" = yes ] || mkdir -p "$(dirname "$out")"
 fi
-reader=("index=$first" "caps=image/png,framerate=$rate/1" '!' pngdec '!' videoconvert '!' queue)
+mapfile -t output < <(output_of)
+[ ${#arguments[@]} -eq 2 ] || output+=("index=$first")
+reader=("index=$first" "caps=image/png,framerate=$rate/1" '!' pngdec '!' videoconvert)
 launch \
-  multifilesrc "location=${arguments[0]}" "${reader[@]}" '!' m.sink_left \
-  multifilesrc "location=${arguments[1]}" "${reader[@]}" '!' m.sink_right \
+  multifilesrc "location=${arguments[0]}" "${reader[@]}" "${left[@]}" \
+  multifilesrc "location=${arguments[1]}" "${reader[@]}" "${right[@]}" \
   "${matcher[@]}" "${output[@]}"
