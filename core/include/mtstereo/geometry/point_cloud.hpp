@@ -31,8 +31,9 @@ struct CloudPoint {
 /// The images that a cloud is made of; all have the same size.
 struct CloudInput {
   ImageView<const std::uint16_t> disparity;  ///< the map, 0 = no disparity
-  ImageView<const std::uint8_t> color;       ///< the left view; may have no data: points are white
-  int color_channels = 1;                    ///< 1 (gray) or 3 (red, green, blue), interleaved
+  /// The left view; may have no data: points are white. Its width counts pixels, its stride bytes.
+  ImageView<const std::uint8_t> color{};
+  int color_channels = 1;                      ///< 1 (gray) or 3 (red, green, blue), interleaved
   ImageView<const std::uint8_t> confidence{};  ///< may have no data
 };
 
@@ -41,11 +42,12 @@ struct CloudOptions {
   double near = 0;                                       ///< nearer points are left out [m]
   double far = std::numeric_limits<double>::infinity();  ///< farther points are left out [m]
   int min_confidence = 0;                                ///< less certain points are left out
-  int step = 1;                                          ///< every n-th pixel of every n-th row
+  int step = 1;  ///< every n-th pixel of every n-th row, from the first one
 };
 
-/// Computes the points of all pixels with a disparity, row by row. `points` is replaced; a vector
-/// that is reused allocates only while it grows.
+/// Computes the points of all pixels with a disparity whose depth is finite and in the range, row
+/// by row. `points` is replaced; a vector that is reused allocates only while it grows. Fails with
+/// kInvalidImage, kSizeMismatch, kInvalidCalibration or kInvalidParameter.
 MTSTEREO_API Status make_cloud(const CloudInput& input, const DepthGeometry& geometry,
                                const CloudOptions& options,
                                std::vector<CloudPoint>& points) noexcept;
@@ -56,7 +58,10 @@ enum class CloudFormat {
   kPcd,  ///< x, y, z, rgb (PCL's packed float), confidence
 };
 
-/// Writes points to a file, aside first and then renamed. The header states the unit and the axes.
+/// Writes points to a file. The header states the unit and the axes. The file is written aside and
+/// renamed, so that a reader never finds half of it and an existing file is kept if writing fails.
+/// Fails with kSystem, and a message that names the file and the reason. Something that exists
+/// under the name and is not a regular file is not replaced.
 MTSTEREO_API Status write_cloud(const std::vector<CloudPoint>& points, CloudFormat format,
                                 const std::string& path) noexcept;
 
