@@ -60,6 +60,11 @@ Status NewFile::write(const void* data, std::size_t size) {
   return {};
 }
 
+Status NewFile::sync() {
+  if (fsync(file_) != 0) return failure("written", errno);
+  return {};
+}
+
 Status NewFile::finish() {
   if (close(std::exchange(file_, -1)) != 0) return failure("written", errno);
   if (std::rename(aside_.c_str(), path_.c_str()) != 0) return failure("replaced", errno);
