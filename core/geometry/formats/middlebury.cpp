@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Middlebury's calib.txt, and that of ETH3D: rectified cameras, the baseline in millimeters.
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "geometry/formats/parts.hpp"
+#include "geometry/formats/readers.hpp"
+
+namespace mtstereo::formats {
+
+StereoCalibration read_middlebury(const Entry& file, const Request& request) {
+  no_selection(file, request.selection);
+  const Entry left = file.at("cam0", "K of the left camera");
+  const Entry right = file.at("cam1", "K of the right camera");
+  const Entry baseline = file.at("baseline", "in millimeters");
+  StereoCalibration calibration;
+  set_camera_matrix(calibration.left, left);
+  set_camera_matrix(calibration.right, right);
+
+  RectifiedViews views;
+  const CameraCalibration& k1 = calibration.left;
+  const CameraCalibration& k2 = calibration.right;
+  const double length = baseline.number() / 1000;
+  views.left_projection = {k1.focal_x,  0, k1.center_x, 0, 0, k1.focal_y,
+                           k1.center_y, 0, 0,           0, 1, 0};
+  views.right_projection = {
+      k2.focal_x, 0, k2.center_x, -k1.focal_x * length, 0, k2.focal_y, k2.center_y, 0, 0, 0, 1, 0};
+  Rectification rectification = rectification_from(views, left, right);
+  rectification.baseline = length;
+  check_translation({-length, 0, 0}, baseline, "; it is in millimeters");
+
+  const std::optional<Entry> offset = file.find("doffs");
+  constexpr double kRounding = 0.1;
+  if (offset && std::abs(offset->number() - rectification.principal_offset()) > kRounding) {
+    offset->fail("is " + number_text(offset->number()) + ", but cam0 and cam1 state " +
+                 number_text(rectification.principal_offset()));
+  }
+  CameraCalibration size;
+  size.width = request.width;
+  size.height = request.height;
+  if (file.find("width") || file.find("height")) {
+    set_size(size, file.at("width"), file.at("height"));
+  }
+  rectification.width = size.width;
+  rectification.height = size.height;
+  calibration = rectified_cameras(rectification);
+  calibration.format = "Middlebury";
+  return calibration;
+}
+
+}  // namespace mtstereo::formats

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/formats/value.hpp"
+#include "mtstereo/geometry/calibration.hpp"
+
+// One reader per format of calibration files. All throw a FileError.
+
+namespace mtstereo::formats {
+
+/// What the caller of read_calibration() states.
+struct Request {
+  int width = 0;          ///< of the video [px], or 0
+  int height = 0;         ///< of the video [px], or 0
+  std::string selection;  ///< what follows '#' in the path, or empty
+};
+
+/// A file of OpenCV's FileStorage, or one for the cameras and one for their position.
+StereoCalibration read_opencv(const std::vector<Entry>& files, const Request& request);
+/// The camera_info files of ROS, left and right.
+StereoCalibration read_camera_info(const Entry& left, const Entry& right, const Request& request);
+/// A camchain of Kalibr.
+StereoCalibration read_kalibr(const Entry& file, const Request& request);
+/// The sensor.yaml files of EuRoC, left and right.
+StereoCalibration read_euroc(const Entry& left, const Entry& right, const Request& request);
+/// KITTI's calib_cam_to_cam.txt.
+StereoCalibration read_kitti_raw(const Entry& file, const Request& request);
+/// The calib.txt of KITTI's odometry and object data: a map of P0 to P3, or a list without names.
+StereoCalibration read_kitti_odometry(const Entry& file, const Request& request);
+/// Middlebury's calib.txt, also that of ETH3D.
+StereoCalibration read_middlebury(const Entry& file, const Request& request);
+/// The calibration of a DepthAI board as JSON.
+StereoCalibration read_depthai(const Entry& file, const Request& request);
+/// A ZED camera's SN....conf.
+StereoCalibration read_zed(const Entry& file, const Request& request);
+
+/// Whether a file is one of OpenCV's FileStorage: it has an entry with a name that read_opencv()
+/// knows, or a matrix.
+bool is_opencv(const Entry& file);
+/// Whether a file is a camera_info of ROS.
+bool is_camera_info(const Entry& file);
+
+}  // namespace mtstereo::formats

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <map>
+#include <new>
+#include <sstream>
+#include <utility>
+
+#include "geometry/formats/syntax.hpp"
+
+namespace mtstereo::formats {
+namespace {
+
+/// Builds the tree of one document. An alias becomes a copy of what it refers to; copies count
+/// like any value, so that aliases of aliases end in an error.
+class Handler : public YAML::EventHandler {
+ public:
+  explicit Handler(const std::string& file) : builder_(file), file_(file) {}
+
+  Value take() { return builder_.take(); }
+
+  void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& /*mark*/, YAML::anchor_t anchor) override { add({}, anchor); }
+  void OnScalar(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t anchor,
+                const std::string& text) override {
+    Value value;
+    value.text = text;
+    add(std::move(value), anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto found = anchors_.find(anchor);
+    if (found == anchors_.end()) {
+      throw FileError(file_ + ": line " + std::to_string(mark.line + 1) +
+                      ": an alias refers to the list or map that it is in");
+    }
+    builder_.count(found->second);
+    builder_.add(found->second);
+  }
+  void OnSequenceStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/,
+                       YAML::anchor_t anchor, YAML::EmitterStyle::value /*style*/) override {
+    begin(Value::Kind::kList, anchor);
+  }
+  void OnSequenceEnd() override { end(); }
+  void OnMapStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value /*style*/) override {
+    begin(Value::Kind::kMap, anchor);
+  }
+  void OnMapEnd() override { end(); }
+
+ private:
+  void add(Value value, YAML::anchor_t anchor) {
+    if (anchor != YAML::NullAnchor) anchors_[anchor] = value;
+    builder_.add(std::move(value));
+  }
+  void begin(Value::Kind kind, YAML::anchor_t anchor) {
+    builder_.begin(kind);
+    open_.push_back(anchor);
+  }
+  void end() {
+    const YAML::anchor_t anchor = open_.back();
+    open_.pop_back();
+    const bool named = anchor != YAML::NullAnchor;
+    Value value = builder_.end(named);
+    if (!named) return;
+    builder_.count(value);
+    anchors_[anchor] = std::move(value);
+  }
+
+  TreeBuilder builder_;
+  std::string file_;
+  std::vector<YAML::anchor_t> open_;
+  std::map<YAML::anchor_t, Value> anchors_;
+};
+
+}  // namespace
+
+Value parse_yaml(const std::string& text, const std::string& file) {
+  // "%YAML:1.0" is no directive of YAML. A comment in its place keeps the numbers of the lines.
+  std::string yaml = text;
+  if (yaml.compare(0, 6, "%YAML:") == 0) yaml[0] = '#';
+  Handler handler(file);
+  try {
+    std::istringstream stream(yaml);
+    YAML::Parser parser(stream);
+    parser.HandleNextDocument(handler);
+  } catch (const FileError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const YAML::Exception& error) {
+    throw FileError(file + ": line " + std::to_string(error.mark.line + 1) +
+                    " is not valid YAML: " + error.msg);
+  } catch (const std::exception& error) {
+    throw FileError(file + ": is not valid YAML: " + error.what());
+  }
+  return handler.take();
+}
+
+}  // namespace mtstereo::formats
