@@ -35,8 +35,10 @@ struct RectificationOptions {
 /// The value of RectificationOptions::alpha that keeps the focal length of the cameras.
 inline constexpr double kKeepScale = -1;
 
-/// The rectification of a calibration. Fails with kInvalidCalibration if the cameras cannot be
-/// rectified (a baseline along the optical axis, a field of view of 180 degrees or more).
+/// The rectification of a calibration. Two polynomial lenses (kNone, kPlumbBob) get the result of
+/// OpenCV's stereoRectify(). Fails with kInvalidCalibration if the cameras cannot be rectified (a
+/// baseline along the optical axis, a vertical or reversed one, with alpha >= 0 also a field of view
+/// of 170 degrees or more), and with kInvalidParameter if an option is out of range.
 MTSTEREO_API Result<Rectification> rectify(const StereoCalibration& calibration,
                                            const RectificationOptions& options = {}) noexcept;
 
@@ -80,7 +82,8 @@ class MTSTEREO_API Rectifier {
   Status apply(ImageView<const std::uint8_t> in, ImageView<std::uint8_t> out, int channels = 1,
                std::uint8_t border = 0) noexcept;
 
-  /// The position in the camera's image of the rectified pixel (x, y) [px], not rounded.
+  /// The position in the camera's image of the rectified pixel (x, y) [px], not rounded; NaN for a
+  /// direction that the lens model does not cover.
   std::array<double, 2> source_of(double x, double y) const noexcept;
 
   /// For each row of the rectified image, the longest range of columns that the camera sees.
