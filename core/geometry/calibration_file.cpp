@@ -166,7 +166,8 @@ bool parse_as_lines(std::string_view text, Document& document) {
       document.root = formats::parse_lines(text, ':', document.file);
       return true;
     }
-    if (line.front() == '[' && line.back() == ']' && line.find_first_of(",: ") == line.npos) {
+    if (line.front() == '[' && line.back() == ']' &&
+        line.find_first_of(",: ") == std::string_view::npos) {
       document.format = Format::kZed;
       document.root = formats::parse_sections(text, document.file);
       return true;

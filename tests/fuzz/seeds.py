@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """seeds.py LIST: writes the first inputs of every fuzzing program to seeds/PROGRAM/ next to LIST, and their names
 to LIST. The programs read their inputs byte by byte, see their FuzzInput."""
+import json
 import pathlib
 import struct
 import sys
@@ -115,10 +116,28 @@ def streams():
         yield f"property-{index}", b"\0\1" + pairs[:20] + bytes([24, index]) + pairs[20:]
 
 
+def calibration():
+    folder = pathlib.Path(__file__).parent.parent / "geometry" / "files"
+    pairs = (("intrinsics.yml", "extrinsics.yml"), ("camera_info_left.yaml", "camera_info_right.yaml"),
+             ("euroc_cam0.yaml", "euroc_cam1.yaml"))
+    for left, right in pairs:
+        yield left, b"\0\0" + (folder / left).read_bytes() + b"\1" + (folder / right).read_bytes()
+    single = (("calib_cam_to_cam.txt", 0, 0), ("camchain.yaml", 0, 0), ("kitti_calib.txt", 1, 1),
+              ("middlebury_calib.txt", 0, 0), ("SN12345.conf", 2, 0))
+    for name, size, selection in single:
+        yield name, bytes([size, selection]) + (folder / name).read_bytes()
+    board = json.loads((folder / "depthai.json").read_text())
+    yield "depthai.json", b"\0\0" + json.dumps(board, separators=(",", ":")).encode()
+    yield "opencv.xml", (b"\1\0<?xml version=\"1.0\"?>\n<opencv_storage>\n<M1 type_id=\"opencv-matrix\">\n"
+                         b"  <rows>1</rows>\n  <cols>2</cols>\n  <dt>d</dt>\n  <data>\n    1. 2e3</data></M1>\n"
+                         b"<size>640 480</size><s>&lt;</s><l><_>1</_><_>2</_></l></opencv_storage>\n")
+    yield "aliases", b"\0\0a: &a [1, 2]\nb: *a\nM1: {rows: 1, cols: 2, dt: d, data: *a}\n"
+
+
 def main():
     out = pathlib.Path(sys.argv[1])
     names = []
-    for program in (alignment, caps, files, matcher, streams, text):
+    for program in (alignment, calibration, caps, files, matcher, streams, text):
         folder = out.parent / "seeds" / program.__name__
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in program():

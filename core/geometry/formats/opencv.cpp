@@ -56,7 +56,7 @@ bool is_one_of(const std::string& plain, Names names) {
 /// The entries of one or two files.
 class Files {
  public:
-  explicit Files(const std::vector<Entry>& files) : files_(files) {}
+  explicit Files(std::vector<Entry> files) : files_(std::move(files)) {}
 
   std::optional<Entry> find(Names names) const {
     std::optional<Entry> found;
