@@ -97,29 +97,34 @@ inline constexpr double kLongestBaseline = 10;
 /// write_calibration().
 ///
 /// `path`: a file, or two files separated by a comma where the format has one file per camera
-/// (left, right) or one for intrinsics and one for extrinsics. `width`, `height`: the size of the
-/// video [px], or 0 if it is not known; a format that states several resolutions (ZED) selects by
-/// it, and one that states none (KITTI odometry) takes it.
+/// (left, right) or one for intrinsics and one for extrinsics. "FILE#CHOICE" selects: "#gray" or
+/// "#color" (KITTI), "#cam1-cam0" (Kalibr: left-right), "#1-2" (DepthAI: sockets left-right), "#HD"
+/// (ZED: resolution). `width`, `height`: the size of the video [px], or 0 if it is not known; a
+/// format that states several resolutions (ZED) selects by it, and one that states none (KITTI
+/// odometry, OpenCV) takes it. Where nothing states a size, it stays 0.
 ///
-/// Fails with kInvalidCalibration, and a message that names the file, the entry and what to do: a
-/// file that cannot be read or is not recognised, a missing camera or entry, a baseline that is
-/// zero, reversed (the views are swapped) or longer than kLongestBaseline, values that are not
-/// finite.
+/// Prints nothing. Fails with kInvalidCalibration, and a message that names the file, the entry and
+/// what to do: a file that cannot be read or is not recognised, a missing camera or entry, a
+/// baseline that is zero, reversed (the views are swapped) or longer than kLongestBaseline, values
+/// that are not finite.
 MTSTEREO_API Result<StereoCalibration> read_calibration(const std::string& path, int width = 0,
                                                         int height = 0) noexcept;
 
 /// Writes a calibration as YAML that OpenCV's FileStorage reads, and plain YAML readers too: K, D,
 /// R, T [m], the rectification if there is one, the units and the date. The file is written aside
-/// and renamed, so that an interrupted program leaves no half of it.
+/// and renamed, so that an interrupted program leaves no half of it. Without a date, the
+/// calibration gets that of the call. Fails with kInvalidCalibration or kSystem.
 MTSTEREO_API Status write_calibration(const StereoCalibration& calibration,
                                       const std::string& path) noexcept;
 
-/// Checks what read_calibration() checks, for a calibration from elsewhere.
+/// Checks what read_calibration() checks, for a calibration from elsewhere. Sizes of 0 are unknown
+/// sizes, which both cameras may have.
 MTSTEREO_API Status check_calibration(const StereoCalibration& calibration) noexcept;
 
 /// The calibration for video of another size with the same aspect ratio: focal lengths and centers
-/// are scaled, with the shift of half a pixel that the position of the pixel centers needs. Fails
-/// with kInvalidCalibration if the aspect ratios differ by more than a pixel.
+/// are scaled, with the shift of half a pixel that the position of the pixel centers needs. A
+/// calibration of unknown size gets this one. Fails with kInvalidCalibration if the aspect ratios
+/// differ by more than a pixel.
 MTSTEREO_API Result<StereoCalibration> scale_calibration(const StereoCalibration& calibration,
                                                          int width, int height) noexcept;
 
