@@ -80,6 +80,8 @@ TEST(OpenCvNames, OfSeveralProgramsAreKnown) {
     {
       cv::FileStorage file(path, cv::FileStorage::WRITE);
       file << "image_width" << 640 << "image_height" << 480;
+      // Numbers with names of matrices, as of a lens.
+      file << "p1" << 0.001 << "p2" << 0.002;
       write_pair(file, names);
     }
     expect_near(read_valid(path), plumb_bob_pair(), 1e-12, false);

@@ -48,9 +48,13 @@ std::string plain_name(std::string_view name) {
   return plain;
 }
 
-bool is_one_of(const std::string& plain, Names names) {
-  const std::string all = " " + std::string(names) + " ";
-  return !plain.empty() && all.find(" " + plain + " ") != std::string::npos;
+bool is_one_of(std::string_view plain, Names names) {
+  while (!names.empty()) {
+    const std::string_view name = names.substr(0, names.find(' '));
+    if (name == plain) return true;
+    names.remove_prefix(std::min(name.size() + 1, names.size()));
+  }
+  return false;
 }
 
 /// The entries of one or two files.
@@ -75,10 +79,12 @@ class Files {
     }
     return found;
   }
-  /// A matrix; numbers with such a name may have another meaning.
+  /// A matrix; a single number or word with such a name has another meaning.
   std::optional<Entry> find_matrix(Names names) const {
     std::optional<Entry> found = find(names);
-    return found && found->is_scalar() && found->numbers().size() < 3 ? std::nullopt : found;
+    const bool single =
+        found && found->is_scalar() && found->text().find_first_of(" \t\n") == std::string::npos;
+    return single ? std::nullopt : found;
   }
   Entry at(Names names, const char* name, const char* meaning) const {
     if (std::optional<Entry> found = find(names)) return *std::move(found);
