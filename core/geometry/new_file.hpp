@@ -24,7 +24,8 @@ class NewFile {
   Status open();
   /// Appends bytes.
   Status write(const void* data, std::size_t size);
-  /// Waits until the bytes are on the disk, so that the complete file also survives a loss of power.
+  /// Waits until the bytes are on the disk, so that the complete file also survives a loss of
+  /// power.
   Status sync();
   /// Closes the file and gives it its name; replaces an existing file of this name.
   Status finish();
