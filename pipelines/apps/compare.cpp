@@ -15,18 +15,22 @@
 #include <string>
 #include <vector>
 
+#include "compare_depth.hpp"
 #include "eval/files.hpp"
 #include "eval/ground_truth.hpp"
 #include "eval/metrics.hpp"
 #include "eval/pictures.hpp"
+#include "frame_files.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace mtstereo::eval;
+using mtstereo::apps::by_name;
+using mtstereo::apps::partner;
 
 struct Options {
-  fs::path disparity, truth, mask, left, picture;
+  fs::path disparity, truth, mask, left, picture, depth, true_depth;
   std::string label = "clip";
   int frame = 0;
   int width = 0;
@@ -35,10 +39,13 @@ struct Options {
 
 void define(CLI::App& app, Options& o) {
   app.add_option("--disparity", o.disparity,
-                 "folder of 16-bit PNG pictures: px = value / 256, 0 = none")
-      ->required();
+                 "folder of 16-bit PNG pictures: px = value / 256, 0 = none");
   app.add_option("--truth", o.truth, "folder of PFM files with the same names: the ground truth");
   app.add_option("--mask", o.mask, "folder of masks: 255 = visible in both views, 128 = occluded");
+  app.add_option("--depth", o.depth,
+                 "folder of 16-bit PNG pictures of depths: mm, 0 = none; compared in meters");
+  app.add_option("--true-depth", o.true_depth,
+                 "folder of PFM files with the same names: the true depths [m]");
   app.add_option("--label", o.label, "text of the first column")->capture_default_str();
   app.add_option("--picture", o.picture, "PNG to write: left image, disparity, ground truth");
   app.add_option("--left", o.left, "folder of left images, or one image, for the picture");
@@ -52,29 +59,6 @@ void define(CLI::App& app, Options& o) {
                  "upper end of the color range of the picture [px]")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-}
-
-std::map<std::string, fs::path> by_name(const fs::path& folder, const std::string& extension) {
-  if (!fs::is_directory(folder)) {
-    throw std::runtime_error(folder.string() + ": no such folder");
-  }
-  std::map<std::string, fs::path> files;
-  for (const auto& file : files_in(folder)) {
-    if (extension_of(file) == extension) files[file.stem().string()] = file;
-  }
-  if (files.empty()) {
-    throw std::runtime_error(folder.string() + ": contains no " + extension + " file");
-  }
-  return files;
-}
-
-const fs::path& partner(const std::map<std::string, fs::path>& files, const fs::path& folder,
-                        const std::string& name) {
-  const auto found = files.find(name);
-  if (found == files.end()) {
-    throw std::runtime_error(folder.string() + ": frame " + name + " is missing");
-  }
-  return found->second;
 }
 
 struct ClipEvaluation {
@@ -163,10 +147,17 @@ void write_montage(const Options& o) {
 }
 
 int run(const Options& o) {
-  if (o.truth.empty() && o.picture.empty()) {
-    std::cerr << "mtstereo-compare: nothing to do: add --truth, --picture or both\n";
+  if (o.depth.empty() != o.true_depth.empty()) {
+    std::cerr << "mtstereo-compare: --depth and --true-depth need each other\n";
     return 2;
   }
+  const bool of_disparity = !o.truth.empty() || !o.picture.empty();
+  if (o.disparity.empty() ? of_disparity || o.depth.empty() : !of_disparity) {
+    std::cerr << "mtstereo-compare: nothing to do: --disparity needs --truth, --picture or both, "
+                 "and --depth needs --true-depth\n";
+    return 2;
+  }
+  if (!o.depth.empty()) mtstereo::apps::print_depth_errors(o.depth, o.true_depth);
   if (!o.truth.empty()) print(o.label, evaluate_clip(o));
   if (!o.picture.empty()) write_montage(o);
   return 0;

@@ -134,6 +134,31 @@ class Compare(unittest.TestCase):
         done = self.compare("--disparity", "d", "--picture", "/dev/null/p.png")
         self.assert_rejects(done, "/dev/null")
 
+    def write_depths(self):
+        # True depths of 4 m and 8 m; the near half is 1 % too far, an eighth of the rest is unknown.
+        write_pfm(self.folder / "z/000000.pfm", [[4.0] * WIDTH] * 2 + [[8.0] * WIDTH] * 2)
+        write_png(self.folder / "e/000000.png",
+                  [[4040] * WIDTH] * 2 + [[8000] * WIDTH, [8160] * 6 + [0] * 2], 16)
+
+    def test_depth_errors_are_shares_of_the_true_depth(self):
+        self.write_depths()
+        done = self.compare("--depth", "e", "--true-depth", "z")
+        self.assertEqual(done.status, 0, str(done))
+        rows = [line.split() for line in done.output.splitlines()]
+        self.assertEqual(rows[1:], [["0", "..", "5", "100.0", "1.00", "1.00"],
+                                    ["5", "..", "10", "87.5", "0.00", "2.00"]])
+
+    def test_depths_of_another_size_are_an_error(self):
+        self.write_depths()
+        write_pfm(self.folder / "z/000000.pfm", [[4.0] * 3] * 3)
+        self.assert_rejects(self.compare("--depth", "e", "--true-depth", "z"), "another size")
+
+    def test_depths_need_pictures_of_16_bits_and_their_truth(self):
+        self.write_depths()
+        write_png(self.folder / "e/000000.png", everywhere(40), 8)
+        self.assert_rejects(self.compare("--depth", "e", "--true-depth", "z"), "16 bits")
+        self.assert_rejects(self.compare("--depth", "e"), "--true-depth", 2)
+
     def test_invalid_options_are_rejected(self):
         self.assert_rejects(self.compare("--truth", "t"), "--disparity", 2)
         self.assert_rejects(self.compare("--disparity", "d"), "nothing to do", 2)
