@@ -172,21 +172,6 @@ GstFlowReturn refuse_missing(GstVideoFilter* filter) {
   return GST_FLOW_ERROR;
 }
 
-/// Why the confidence does not match the disparity map; "" if it does.
-std::string confidence_problem(GstSample* sample, const GstVideoInfo& disparity,
-                               GstVideoInfo& info) {
-  GstCaps* caps = gst_sample_get_caps(sample);
-  if (caps == nullptr || gst_sample_get_buffer(sample) == nullptr ||
-      !gst_video_info_from_caps(&info, caps) ||
-      GST_VIDEO_INFO_FORMAT(&info) != GST_VIDEO_FORMAT_GRAY8) {
-    return "it is not a GRAY8 frame with caps";
-  }
-  if (info.width == disparity.width && info.height == disparity.height) return {};
-  return "it has " + std::to_string(info.width) + "x" + std::to_string(info.height) +
-         " px, the disparity map has " + std::to_string(disparity.width) + "x" +
-         std::to_string(disparity.height) + " px";
-}
-
 /// The filtered confidence in a new buffer; NULL if there is no memory for it.
 BufferPointer filtered_map(ConfidencePool& pool, const GstVideoInfo& disparity,
                            const GstVideoFrame& confidence, Threshold threshold) {

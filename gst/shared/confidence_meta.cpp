@@ -41,4 +41,18 @@ GstSample* confidence_of(GstBuffer* disparity) {
   return meta != nullptr ? sample_in(*meta) : nullptr;
 }
 
+std::string confidence_problem(GstSample* confidence, const GstVideoInfo& disparity,
+                               GstVideoInfo& info) {
+  GstCaps* caps = gst_sample_get_caps(confidence);
+  if (caps == nullptr || gst_sample_get_buffer(confidence) == nullptr ||
+      !gst_video_info_from_caps(&info, caps) ||
+      GST_VIDEO_INFO_FORMAT(&info) != GST_VIDEO_FORMAT_GRAY8) {
+    return "it is not a GRAY8 frame with caps";
+  }
+  if (info.width == disparity.width && info.height == disparity.height) return {};
+  return "it has " + std::to_string(info.width) + "x" + std::to_string(info.height) +
+         " px, the disparity map has " + std::to_string(disparity.width) + "x" +
+         std::to_string(disparity.height) + " px";
+}
+
 }  // namespace mtstereo::plugin

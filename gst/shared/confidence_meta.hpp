@@ -3,6 +3,8 @@
 
 #include <gst/video/video.h>
 
+#include <string>
+
 #include "shared/ownership.hpp"
 
 // The confidence map of a disparity map. It is a custom meta of the buffer, so that applications
@@ -24,5 +26,10 @@ void set_confidence(GstBuffer* disparity, GstSample* confidence);
 
 /// The confidence map of a disparity map, or NULL if it has none. The buffer owns it.
 GstSample* confidence_of(GstBuffer* disparity);
+
+/// Why a confidence map does not match a disparity map; "" if it does. Sets the video info of the
+/// confidence map.
+std::string confidence_problem(GstSample* confidence, const GstVideoInfo& disparity,
+                               GstVideoInfo& info);
 
 }  // namespace mtstereo::plugin
