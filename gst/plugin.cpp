@@ -3,6 +3,7 @@
 
 #include "filters/mtcolor.hpp"
 #include "filters/mtconfidence.hpp"
+#include "filters/mtdepth.hpp"
 #include "matcher/mtstereo_element.hpp"
 #include "shared/confidence_meta.hpp"
 #include "shared/disparity_meta.hpp"
@@ -20,6 +21,7 @@ constexpr Element kElements[] = {
     {"mtstereo", gst_mtstereo_get_type},
     {"mtcolor", gst_mtstereo_color_get_type},
     {"mtconfidence", gst_mtstereo_confidence_get_type},
+    {"mtdepth", gst_mtstereo_depth_get_type},
 };
 
 gboolean plugin_init(GstPlugin* plugin) noexcept {

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "filters/disparity_filter.hpp"
 
-#include "shared/disparity_meta.hpp"
-#include "shared/frame_views.hpp"
+#include "shared/map_unit.hpp"
 
 namespace mtstereo::plugin {
-namespace {
+
+CapsPointer picture_caps(const GstCaps* caps, const char* other) {
+  const CapsPointer common(gst_caps_copy(caps));
+  for (guint i = 0; i < gst_caps_get_size(common.get()); ++i) {
+    GstStructure* fields = gst_caps_get_structure(common.get(), i);
+    remove_map_unit(fields);
+    gst_structure_remove_fields(fields, "format", "colorimetry", "chroma-site", nullptr);
+  }
+  const CapsPointer formats(gst_caps_from_string(other));
+  return CapsPointer(
+      gst_caps_intersect_full(common.get(), formats.get(), GST_CAPS_INTERSECT_FIRST));
+}
 
 GstFlowReturn refuse_frame(GstVideoFilter* filter, const char* source, const MappedFrame& frame) {
   GST_ELEMENT_ERROR(
@@ -13,20 +23,6 @@ GstFlowReturn refuse_frame(GstVideoFilter* filter, const char* source, const Map
       ("A frame from %s does not match its caps: %s.", source, frame.problem().c_str()),
       ("the fault is in the element that allocated the frame"));
   return GST_FLOW_ERROR;
-}
-
-}  // namespace
-
-CapsPointer picture_caps(const GstCaps* caps, const char* other) {
-  const CapsPointer common(gst_caps_copy(caps));
-  for (guint i = 0; i < gst_caps_get_size(common.get()); ++i) {
-    gst_structure_remove_fields(gst_caps_get_structure(common.get(), i), "format", "colorimetry",
-                                "chroma-site", kScaleField, kMaxDisparityField, kMinDisparityField,
-                                kOffsetField, nullptr);
-  }
-  const CapsPointer formats(gst_caps_from_string(other));
-  return CapsPointer(
-      gst_caps_intersect_full(common.get(), formats.get(), GST_CAPS_INTERSECT_FIRST));
 }
 
 GstFlowReturn transform_checked(GstBaseTransform* transform, GstBuffer* in, GstBuffer* out) {

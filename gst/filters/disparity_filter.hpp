@@ -4,6 +4,7 @@
 #include <gst/video/gstvideofilter.h>
 
 #include "shared/caps.hpp"
+#include "shared/frame_views.hpp"
 #include "shared/ownership.hpp"
 
 // The common part of the elements downstream of mtstereo: each one is a GstVideoFilter whose input
@@ -22,6 +23,9 @@ inline constexpr const char* kDisparityCaps =
 /// The caps of the other pad if the filter turns a map into an image: size and framerate are kept,
 /// the format is one of `other`, and the fields that define the meaning of a pixel are removed.
 CapsPointer picture_caps(const GstCaps* caps, const char* other);
+
+/// Posts the error of a frame that cannot be mapped. `source`: where it comes from.
+GstFlowReturn refuse_frame(GstVideoFilter* filter, const char* source, const MappedFrame& frame);
 
 /// The transform() of a filter, instead of that of GstVideoFilter. The latter trusts a frame whose
 /// meta contradicts its caps or its memory, and outputs an uninitialized frame if it cannot map

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "filters/mtdepth.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "filters/depth_report.hpp"
+#include "filters/disparity_filter.hpp"
+#include "shared/caps.hpp"
+#include "shared/depth_range.hpp"
+#include "shared/disparity_meta.hpp"
+#include "shared/exception_guard.hpp"
+#include "shared/frame_views.hpp"
+#include "shared/geometry_properties.hpp"
+
+namespace mtstereo::plugin {
+
+GST_DEBUG_CATEGORY_STATIC(mtdepth_debug);
+#define GST_CAT_DEFAULT mtdepth_debug
+
+namespace {
+
+enum Overflow : gint { kNone, kClamp };
+
+/// The values of the properties.
+struct DepthProperties {
+  double unit = 1;  ///< [mm]
+  DepthRange range;
+  gint overflow = kNone;
+  GeometryProperties geometry;
+};
+
+/// All data of one mtdepth element. Created in its init, deleted in its finalize.
+struct DepthState {
+  DepthProperties properties;  ///< guarded by the element's object lock
+  GeometrySource source;       ///< any thread
+
+  // Used by the streaming thread, and by start() while that thread does not run.
+  std::optional<MapUnit> caps_unit;  ///< of the input
+  StereoGeometry stream;             ///< what the output caps state
+  double unit = 0;                   ///< what the output caps state [m]
+  DepthRange range;                  ///< the last valid one
+  DepthGeometry geometry;            ///< of `converter`
+  DepthOptions options;              ///< of `converter`
+  std::optional<DepthConverter> converter;
+};
+
+struct GstMtStereoDepth {
+  GstVideoFilter parent;
+  DepthState* state;
+};
+
+struct GstMtStereoDepthClass {
+  GstVideoFilterClass parent_class;
+};
+
+enum Property : guint { kUnit = 1, kNear, kFar, kOverflow, kFirstGeometry };
+
+GType overflow_type() {
+  static const GEnumValue values[] = {
+      {kNone, "such pixels have no depth (0)", "none"},
+      {kClamp, "such pixels have the largest value (65535)", "clamp"},
+      {0, nullptr, nullptr}};
+  static const GType type = g_enum_register_static("GstMtStereoDepthOverflow", values);
+  return type;
+}
+
+}  // namespace
+
+G_DEFINE_TYPE(GstMtStereoDepth, gst_mtstereo_depth, GST_TYPE_VIDEO_FILTER)
+
+namespace {
+
+DepthState& state_of(gpointer element) {
+  return *reinterpret_cast<GstMtStereoDepth*>(element)->state;
+}
+
+/// Sets a property; false if there is none with this number.
+bool take_property(DepthProperties& properties, guint id, const GValue* value) {
+  switch (id) {
+    case kUnit:
+      properties.unit = g_value_get_double(value);
+      return true;
+    case kNear:
+      properties.range.near = g_value_get_double(value);
+      return true;
+    case kFar:
+      properties.range.far = g_value_get_double(value);
+      return true;
+    case kOverflow:
+      properties.overflow = g_value_get_enum(value);
+      return true;
+    default:
+      return set_geometry_property(properties.geometry, id - kFirstGeometry, value);
+  }
+}
+
+void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+  bool known = false;
+  {
+    const ObjectLock lock(object);
+    known = take_property(state_of(object).properties, id, value);
+  }
+  if (!known) {
+    G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  } else if (id == kUnit || id >= kFirstGeometry) {
+    // The caps of the output state the unit and the geometry.
+    gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
+  }
+}
+
+void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+  const ObjectLock lock(object);
+  const DepthProperties& properties = state_of(object).properties;
+  switch (id) {
+    case kUnit:
+      g_value_set_double(value, properties.unit);
+      break;
+    case kNear:
+      g_value_set_double(value, properties.range.near);
+      break;
+    case kFar:
+      g_value_set_double(value, properties.range.far);
+      break;
+    case kOverflow:
+      g_value_set_enum(value, properties.overflow);
+      break;
+    default:
+      if (!get_geometry_property(properties.geometry, id - kFirstGeometry, value)) {
+        G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+      }
+  }
+}
+
+DepthProperties properties_of(gpointer element) {
+  const ObjectLock lock(element);
+  return state_of(element).properties;
+}
+
+// --- caps ---
+
+bool has_fixed_size(const GstStructure* fields) {
+  int width = 0;
+  int height = 0;
+  return gst_structure_get_int(fields, "width", &width) &&
+         gst_structure_get_int(fields, "height", &height);
+}
+
+/// Removes what this element puts into the caps of its output. The input may state any geometry, or
+/// none: the properties may supply it.
+void remove_depth_fields(GstStructure* fields) {
+  gst_structure_remove_fields(fields, kDepthUnitField, kFocalLengthField, kBaselineField,
+                              kPrincipalOffsetField, kPrincipalXField, kPrincipalYField, nullptr);
+}
+
+/// From the fields of a disparity map to those of its depth map.
+void to_depth(GstStructure* fields, GeometrySource& source, const DepthProperties& properties) {
+  if (has_fixed_size(fields)) {
+    const Result<StereoGeometry> geometry = source.geometry(fields, properties.geometry);
+    // set_info() reports a geometry that is missing.
+    if (geometry) write_geometry(fields, *geometry);
+  }
+  gst_structure_set(fields, kDepthUnitField, G_TYPE_DOUBLE, properties.unit / 1000, nullptr);
+}
+
+GstCaps* transform_caps(GstBaseTransform* transform, GstPadDirection direction, GstCaps* caps,
+                        GstCaps* filter) {
+  const DepthProperties properties = properties_of(transform);
+  const CapsPointer possible(gst_caps_from_string(kDisparityCaps));
+  const CapsPointer common(gst_caps_intersect_full(caps, possible.get(), GST_CAPS_INTERSECT_FIRST));
+  CapsPointer other(gst_caps_copy(common.get()));
+  for (guint i = 0; i < gst_caps_get_size(other.get()); ++i) {
+    GstStructure* fields = gst_caps_get_structure(other.get(), i);
+    remove_map_unit(fields);
+    if (direction == GST_PAD_SINK) {
+      to_depth(fields, state_of(transform).source, properties);
+    } else {
+      remove_depth_fields(fields);
+    }
+  }
+  return filtered_caps(std::move(other), filter).release();
+}
+
+/// The base class puts the caps of downstream first where they are possible for the input as well.
+/// Here they are those of depths, which the input must not have.
+gboolean query(GstBaseTransform* transform, GstPadDirection direction, GstQuery* query) {
+  const auto base = GST_BASE_TRANSFORM_CLASS(gst_mtstereo_depth_parent_class)->query;
+  const gboolean answered = base(transform, direction, query);
+  if (direction != GST_PAD_SINK || GST_QUERY_TYPE(query) != GST_QUERY_CAPS || answered == FALSE) {
+    return answered;
+  }
+  GstCaps* result = nullptr;
+  gst_query_parse_caps_result(query, &result);
+  CapsPointer caps(gst_caps_copy(result));
+  for (guint i = 0; i < gst_caps_get_size(caps.get()); ++i) {
+    remove_depth_fields(gst_caps_get_structure(caps.get(), i));
+  }
+  caps.reset(gst_caps_simplify(caps.release()));
+  gst_query_set_caps_result(query, caps.get());
+  return TRUE;
+}
+
+void refuse_stream(GstVideoFilter* filter, const std::string& reason, const GstCaps* caps) {
+  GST_ELEMENT_ERROR(filter, STREAM, FORMAT,
+                    ("The disparity map cannot be turned into depths: %s.", reason.c_str()),
+                    ("caps: %s", caps_text(caps).c_str()));
+}
+
+gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCaps* out_caps,
+                  GstVideoInfo*) {
+  DepthState& state = state_of(filter);
+  const GstStructure* in = gst_caps_get_structure(in_caps, 0);
+  const GstStructure* out = gst_caps_get_structure(out_caps, 0);
+  const Result<std::optional<MapUnit>> unit = disparity_unit_in(in);
+  if (!unit) {
+    refuse_stream(filter, unit.error().message, in_caps);
+    return FALSE;
+  }
+  const Result<StereoGeometry> found = state.source.geometry(in, properties_of(filter).geometry);
+  if (!found) {
+    refuse_stream(filter, found.error().message, in_caps);
+    return FALSE;
+  }
+  // The negotiated caps decide: a property may have changed since then.
+  const std::optional<double> depth_unit = depth_unit_in(out);
+  const std::optional<StereoGeometry> stated = read_geometry(out);
+  if (!depth_unit || !stated) return FALSE;
+  state.caps_unit = *unit;
+  state.unit = *depth_unit;
+  state.stream = *stated;
+  return TRUE;
+}
+
+// --- frames ---
+
+/// Makes the converter for this frame unless it exists already; false after an error.
+bool prepare(GstVideoFilter* filter, const MapUnit& unit) {
+  DepthState& state = state_of(filter);
+  const DepthRange range = settle_range(filter, state.properties.range, state.range);
+  const DepthGeometry geometry = depth_geometry(state.stream, unit);
+  const DepthOptions options = {state.unit, range.near, range.end(),
+                                properties_of(filter).overflow == kClamp};
+  if (state.converter && geometry == state.geometry && options == state.options) return true;
+  Result<DepthConverter> converter = DepthConverter::create(geometry, options);
+  if (!converter) {
+    refuse_stream(filter, converter.error().message, nullptr);
+    return false;
+  }
+  state.converter = std::move(converter.value());
+  state.geometry = geometry;
+  state.options = options;
+  report_depths(filter, geometry, options);
+  GST_INFO_OBJECT(filter, "focal length %g px, baseline %g m, offset %g px, %d steps per px",
+                  geometry.focal_length, geometry.baseline, geometry.principal_offset, unit.scale);
+  return true;
+}
+
+/// True if the library can read and write the pixels as they are.
+bool is_native(const ImageView<std::uint16_t>& image) {
+  constexpr std::uintptr_t kMask = alignof(std::uint16_t) - 1;
+  return G_BYTE_ORDER == G_LITTLE_ENDIAN && ((reinterpret_cast<std::uintptr_t>(image.data) |
+                                              static_cast<std::uintptr_t>(image.stride)) &
+                                             kMask) == 0;
+}
+
+void convert(const DepthConverter& converter, MappedFrame& frame) {
+  const ImageView<std::uint16_t> image = frame.gray16();
+  if (is_native(image)) {
+    const ImageView<const std::uint16_t> in = {image.data, image.width, image.height, image.stride};
+    // MappedFrame has checked what it checks.
+    if (converter.convert(in, image)) return;
+  }
+  for (int y = 0; y < image.height; ++y) {
+    std::uint8_t* row = plane_row(*frame.frame(), y);
+    for (int x = 0; x < image.width; ++x, row += 2) {
+      GST_WRITE_UINT16_LE(row, converter.depth16_of(GST_READ_UINT16_LE(row)));
+    }
+  }
+}
+
+GstFlowReturn transform_ip(GstBaseTransform* transform, GstBuffer* buffer) {
+  auto* filter = reinterpret_cast<GstVideoFilter*>(transform);
+  const DepthState& state = state_of(filter);
+  const int property = properties_of(filter).geometry.disparity_scale;
+  if (!prepare(filter, map_unit(state.caps_unit, buffer, property))) return GST_FLOW_ERROR;
+  {
+    MappedFrame frame(filter->in_info, buffer, GST_MAP_READWRITE);
+    if (!frame.mapped()) return refuse_frame(filter, "the sink pad", frame);
+    convert(*state.converter, frame);
+  }
+  // The buffer keeps its metas, the confidence map among them; its values are no disparities.
+  if (GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, kDisparityMeta)) {
+    gst_buffer_remove_meta(buffer, &meta->meta);
+  }
+  return GST_FLOW_OK;
+}
+
+// --- life ---
+
+gboolean start(GstBaseTransform* transform) {
+  DepthState& state = state_of(transform);
+  state.source.forget();
+  state.converter.reset();  // reported again
+  const DepthRange range = properties_of(transform).range;
+  state.range = range;
+  return check_range_at_start(transform, range);
+}
+
+void finalize(GObject* object) noexcept {
+  delete &state_of(object);
+  G_OBJECT_CLASS(gst_mtstereo_depth_parent_class)->finalize(object);
+}
+
+void install_properties(GObjectClass* object_class) {
+  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
+                                                   GST_PARAM_MUTABLE_PLAYING);
+  g_object_class_install_property(
+      object_class, kUnit,
+      g_param_spec_double("unit", "unit",
+                          "Length of the value 1, in mm; the caps of the output state it in "
+                          "meters, as depth-unit (1: depths up to 65.535 m)",
+                          0.001, 1000, 1, kFlags));
+  g_object_class_install_property(
+      object_class, kNear,
+      g_param_spec_double("near", "near", "Nearer pixels have no depth (0), in meters", 0,
+                          kLargestDepthLimit, 0, kFlags));
+  g_object_class_install_property(
+      object_class, kFar,
+      g_param_spec_double("far", "far", "Farther pixels have no depth (0), in meters (0: no limit)",
+                          0, kLargestDepthLimit, 0, kFlags));
+  g_object_class_install_property(
+      object_class, kOverflow,
+      g_param_spec_enum("overflow", "overflow",
+                        "Depths that do not fit into 16 bits: more than 65535 units, or infinite",
+                        overflow_type(), kNone, kFlags));
+  gst_type_mark_as_plugin_api(overflow_type(), static_cast<GstPluginAPIFlags>(0));
+  install_geometry_properties(object_class, kFirstGeometry);
+}
+
+}  // namespace
+
+static void gst_mtstereo_depth_class_init(GstMtStereoDepthClass* klass) {
+  GST_DEBUG_CATEGORY_INIT(mtdepth_debug, "mtdepth", 0, "depth maps of disparity maps");
+  auto* object_class = G_OBJECT_CLASS(klass);
+  object_class->set_property = guarded<set_property>;
+  object_class->get_property = guarded<get_property>;
+  object_class->finalize = finalize;
+  install_properties(object_class);
+
+  auto* element_class = GST_ELEMENT_CLASS(klass);
+  add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);
+  add_pad_template(element_class, "src", GST_PAD_SRC, kDisparityCaps);
+  gst_element_class_set_static_metadata(
+      element_class, "Depth from disparity", "Filter/Converter/Video",
+      "Turns a disparity map into 16-bit depths, in millimeters by default: focal length x "
+      "baseline / disparity",
+      "the mtstereo authors");
+
+  auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
+  transform_class->start = guarded<start, FALSE>;
+  transform_class->transform_caps = guarded<transform_caps>;
+  transform_class->query = guarded<query, FALSE>;
+  transform_class->transform_ip = guarded<transform_ip, GST_FLOW_ERROR>;
+  GST_VIDEO_FILTER_CLASS(klass)->set_info = guarded<set_info, FALSE>;
+}
+
+static void gst_mtstereo_depth_init(GstMtStereoDepth* self) {
+  self->state = new_state<DepthState>();
+  // Frames that are not writable are copied by the base class.
+  gst_base_transform_set_in_place(GST_BASE_TRANSFORM(self), TRUE);
+}
+
+}  // namespace mtstereo::plugin
