@@ -4,15 +4,18 @@
 #include <gst/video/video.h>
 
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "filters/color_table.hpp"
 #include "filters/disparity_filter.hpp"
 #include "mtstereo/parameters.hpp"
 #include "shared/caps.hpp"
+#include "shared/depth_range.hpp"
 #include "shared/disparity_meta.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/frame_views.hpp"
+#include "shared/map_unit.hpp"
 
 namespace mtstereo::plugin {
 
@@ -23,8 +26,10 @@ namespace {
 
 constexpr int kFallbackMaxDisparity = 64;
 constexpr int kFallbackScale = 256;
+constexpr DepthRange kDefaultRange = {0.5, 50};
+constexpr double kSmallestDepthLimit = 0.001;  // [m]
 
-/// The input range of a color table.
+/// The input range of a color table of disparities.
 struct Range {
   int max_disparity = 0;  ///< [px]
   int scale = 0;          ///< [steps per px]
@@ -35,14 +40,18 @@ struct Range {
 /// All data of one mtcolor element. Created in its init, deleted in its finalize.
 struct ColorState {
   // Guarded by the element's object lock.
-  int max_disparity = 0;       ///< property; 0: from the caps [px]
-  int scale = kFallbackScale;  ///< property; used if the caps have no scale [steps per px]
+  int max_disparity = 0;              ///< property; 0: from the caps [px]
+  int scale = kFallbackScale;         ///< property; used if the caps have no scale [steps per px]
+  DepthRange depths = kDefaultRange;  ///< properties
+  gint color_scale = static_cast<gint>(ColorScale::kLog);  ///< property
 
   // Used by the streaming thread only.
-  int caps_max_disparity = 0;  ///< 0: not in the caps [px]
-  int caps_scale = 0;          ///< 0: not in the caps [steps per px]
-  int caps_offset = 0;         ///< smallest disparity, if it is negative [px]
-  Range range;                 ///< of `table`
+  int caps_max_disparity = 0;              ///< 0: not in the caps [px]
+  int caps_scale = 0;                      ///< 0: not in the caps [steps per px]
+  int caps_offset = 0;                     ///< smallest disparity, if it is negative [px]
+  std::optional<double> depth_unit;        ///< of the caps [m]; none: disparities
+  DepthRange last_depths = kDefaultRange;  ///< the last valid ones
+  std::variant<Range, DepthColors> range;  ///< of `table`
   std::vector<Rgb> table;
 };
 
@@ -55,7 +64,18 @@ struct GstMtStereoColorClass {
   GstVideoFilterClass parent_class;
 };
 
-enum Property : guint { kMaxDisparity = 1, kDisparityScale };
+enum Property : guint { kMaxDisparity = 1, kDisparityScale, kNear, kFar, kColorScale };
+
+GType color_scale_type() {
+  static const GEnumValue values[] = {
+      {static_cast<gint>(ColorScale::kInverse), "evenly over 1 / depth, as over disparities",
+       "inverse"},
+      {static_cast<gint>(ColorScale::kLinear), "evenly over the depth", "linear"},
+      {static_cast<gint>(ColorScale::kLog), "evenly over the logarithm of the depth", "log"},
+      {0, nullptr, nullptr}};
+  static const GType type = g_enum_register_static("GstMtStereoColorScale", values);
+  return type;
+}
 
 constexpr const char* kPictures =
     MTSTEREO_PICTURE_CAPS("{ RGB, BGR, RGBx, BGRx, xRGB, xBGR, RGBA, BGRA, ARGB, ABGR }");
@@ -79,6 +99,15 @@ void set_property(GObject* object, guint id, const GValue* value, GParamSpec* sp
     case kDisparityScale:
       state_of(object).scale = g_value_get_int(value);
       break;
+    case kNear:
+      state_of(object).depths.near = g_value_get_double(value);
+      break;
+    case kFar:
+      state_of(object).depths.far = g_value_get_double(value);
+      break;
+    case kColorScale:
+      state_of(object).color_scale = g_value_get_enum(value);
+      break;
     default:
       G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
   }
@@ -93,6 +122,15 @@ void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
     case kDisparityScale:
       g_value_set_int(value, state_of(object).scale);
       break;
+    case kNear:
+      g_value_set_double(value, state_of(object).depths.near);
+      break;
+    case kFar:
+      g_value_set_double(value, state_of(object).depths.far);
+      break;
+    case kColorScale:
+      g_value_set_enum(value, state_of(object).color_scale);
+      break;
     default:
       G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
   }
@@ -104,10 +142,24 @@ GstCaps* transform_caps(GstBaseTransform*, GstPadDirection direction, GstCaps* c
   return filtered_caps(picture_caps(caps, other), filter).release();
 }
 
+/// Reads the unit of depths; false after an error.
+bool take_depth_unit(GstVideoFilter* filter, const GstCaps* caps) {
+  ColorState& state = state_of(filter);
+  const GstStructure* structure = gst_caps_get_structure(caps, 0);
+  state.depth_unit = depth_unit_in(structure);
+  if (state.depth_unit || !gst_structure_has_field(structure, kDepthUnitField)) return true;
+  GST_ELEMENT_ERROR(filter, STREAM, FORMAT,
+                    ("The caps of the depth map have a depth-unit that is not a positive number of "
+                     "meters: correct it in the element that sets the caps."),
+                    ("caps: %s", caps_text(caps).c_str()));
+  return false;
+}
+
 gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCaps*,
                   GstVideoInfo*) {
   ColorState& state = state_of(filter);
   const GstStructure* structure = gst_caps_get_structure(in_caps, 0);
+  if (!take_depth_unit(filter, in_caps)) return FALSE;
   state.caps_scale = 0;
   state.caps_max_disparity = 0;
   state.caps_offset = 0;
@@ -178,15 +230,49 @@ void paint(const GstVideoFrame* in, const GstVideoFrame* out, const std::vector<
   }
 }
 
+void use_range(ColorState& state, const Range& range) {
+  const Range* current = std::get_if<Range>(&state.range);
+  if (current != nullptr && *current == range && !state.table.empty()) return;
+  state.table = color_table(range.max_disparity - range.offset, range.scale);
+  state.range = range;
+}
+
+void use_range(ColorState& state, const DepthColors& colors) {
+  const DepthColors* current = std::get_if<DepthColors>(&state.range);
+  if (current != nullptr && *current == colors) return;
+  state.table = depth_color_table(colors);
+  state.range = colors;
+}
+
+/// The range of depths by the properties.
+DepthColors depth_colors(GstVideoFilter* filter, double unit) {
+  ColorState& state = state_of(filter);
+  const DepthRange range = settle_range(filter, state.depths, state.last_depths);
+  const ObjectLock lock(filter);
+  return {unit, range.near, range.far, static_cast<ColorScale>(state.color_scale)};
+}
+
 GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVideoFrame* out) {
   ColorState& state = state_of(filter);
-  const Range range = effective_range(filter, disparity_unit_of(in->buffer));
-  if (range != state.range) {
-    state.table = color_table(range.max_disparity - range.offset, range.scale);
-    state.range = range;
+  if (state.depth_unit) {
+    use_range(state, depth_colors(filter, *state.depth_unit));
+  } else {
+    use_range(state, effective_range(filter, disparity_unit_of(in->buffer)));
   }
   paint(in, out, state.table);
   return GST_FLOW_OK;
+}
+
+gboolean start(GstBaseTransform* transform) {
+  ColorState& state = state_of(transform);
+  DepthRange range;
+  {
+    const ObjectLock lock(transform);
+    range = state.depths;
+  }
+  if (!check_range_at_start(transform, range)) return FALSE;
+  state.last_depths = range;
+  return TRUE;
 }
 
 void finalize(GObject* object) noexcept {
@@ -211,12 +297,29 @@ void install_properties(GObjectClass* object_class) {
                        "disparity-scale, for example downstream of a decoder; these take "
                        "precedence",
                        1, 65535, kFallbackScale, kFlags));
+  g_object_class_install_property(
+      object_class, kNear,
+      g_param_spec_double("near", "near",
+                          "For depth maps: depth of the last color (red), in meters; the range is "
+                          "the same in every frame",
+                          kSmallestDepthLimit, kLargestDepthLimit, kDefaultRange.near, kFlags));
+  g_object_class_install_property(
+      object_class, kFar,
+      g_param_spec_double("far", "far",
+                          "For depth maps: depth of the first color (blue), in meters",
+                          kSmallestDepthLimit, kLargestDepthLimit, kDefaultRange.far, kFlags));
+  g_object_class_install_property(
+      object_class, kColorScale,
+      g_param_spec_enum("color-scale", "color-scale",
+                        "For depth maps: how the colors are spread from near to far",
+                        color_scale_type(), static_cast<gint>(ColorScale::kLog), kFlags));
+  gst_type_mark_as_plugin_api(color_scale_type(), static_cast<GstPluginAPIFlags>(0));
 }
 
 }  // namespace
 
 static void gst_mtstereo_color_class_init(GstMtStereoColorClass* klass) {
-  GST_DEBUG_CATEGORY_INIT(mtcolor_debug, "mtcolor", 0, "color images of disparity maps");
+  GST_DEBUG_CATEGORY_INIT(mtcolor_debug, "mtcolor", 0, "color images of disparity and depth maps");
   auto* object_class = G_OBJECT_CLASS(klass);
   object_class->set_property = guarded<set_property>;
   object_class->get_property = guarded<get_property>;
@@ -227,12 +330,13 @@ static void gst_mtstereo_color_class_init(GstMtStereoColorClass* klass) {
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);
   add_pad_template(element_class, "src", GST_PAD_SRC, kPictures);
   gst_element_class_set_static_metadata(
-      element_class, "Disparity colorizer", "Filter/Converter/Video",
-      "Color image of a disparity map with a fixed range: blue is far, red is near, black is "
-      "unknown",
+      element_class, "Disparity and depth colorizer", "Filter/Converter/Video",
+      "Color image of a disparity or depth map with a fixed range: blue is far, red is near, black "
+      "is unknown",
       "the mtstereo authors");
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
+  transform_class->start = guarded<start, FALSE>;
   transform_class->transform_caps = guarded<transform_caps>;
   transform_class->transform = guarded<transform_checked, GST_FLOW_ERROR>;
   auto* filter_class = GST_VIDEO_FILTER_CLASS(klass);
