@@ -117,6 +117,27 @@ void miss_the_confidence() {
   EXPECT_NE(pipeline.run(), "");
 }
 
+void make_depths_and_clouds() {
+  const std::string folder = g_get_tmp_dir();
+  const std::string file = folder + "/mtstereo-leaks-" + std::to_string(getpid()) + ".ply";
+  std::string launch = noise_launch(4, "max-disparity=16");
+  launch.insert(launch.find("! appsink"),
+                "! tee name=d d. ! queue ! mtcloud name=c focal-length=100 baseline=0.1 location=" +
+                    file + " d. ! queue ! mtdepth focal-length=100 baseline=0.1 ");
+  launch += " t. ! queue ! c.sink_left";
+  for (const bool stop_early : {true, false}) {
+    Pipeline pipeline(launch);
+    if (stop_early) {
+      pipeline.set_state(GST_STATE_PAUSED);
+      EXPECT_TRUE(pipeline.wait_until_settled());
+    } else {
+      EXPECT_EQ(pipeline.run(), "");
+      EXPECT_EQ(pipeline.samples().size(), 4u);
+    }
+  }
+  EXPECT_EQ(unlink(file.c_str()), 0);
+}
+
 struct Scenario {
   const char* name;
   void (*run)();
@@ -128,7 +149,8 @@ constexpr std::array kScenarios = {Scenario{"LeaveABuffer", leave_a_buffer},
                                    Scenario{"GiveErrors", give_errors},
                                    Scenario{"MakeColors", make_colors},
                                    Scenario{"MakeConfidence", make_confidence},
-                                   Scenario{"MissTheConfidence", miss_the_confidence}};
+                                   Scenario{"MissTheConfidence", miss_the_confidence},
+                                   Scenario{"MakeDepthsAndClouds", make_depths_and_clouds}};
 
 struct Outcome {
   int status = 0;
@@ -188,7 +210,7 @@ TEST_P(NoLeaks, InScenario) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, NoLeaks,
                          testing::Values("PlayToTheEnd", "StopInTheMiddle", "DropFramesAndSendGaps",
                                          "GiveErrors", "MakeColors", "MakeConfidence",
-                                         "MissTheConfidence"),
+                                         "MissTheConfidence", "MakeDepthsAndClouds"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

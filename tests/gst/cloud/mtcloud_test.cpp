@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "cloud/cloud_harness.hpp"
+
+namespace mtstereo::test {
+namespace {
+
+constexpr std::size_t kPoints = std::size_t{kCloudWidth} * kCloudHeight - 1;
+
+std::string at(const CloudFolder& folder, const std::string& name = "cloud-%05d.ply") {
+  return "location=" + (folder / name).string();
+}
+
+/// Seconds since an earlier time.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+TEST(Cloud, HasThePointsOfTheMapInMeters) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder), false);
+  ASSERT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
+  EXPECT_EQ(folder.files(), "cloud-00000.ply");
+  const std::vector<PlyPoint> points = read_ply(folder / "cloud-00000.ply");
+  ASSERT_EQ(points.size(), kPoints);
+  // Depth 100 px * 0.5 m / 10 px = 5 m; the principal point is the center, (2.5, 1.5).
+  EXPECT_FLOAT_EQ(points.front().x, (1 - 2.5F) * 5 / 100);
+  EXPECT_FLOAT_EQ(points.front().y, -1.5F * 5 / 100);
+  EXPECT_FLOAT_EQ(points.front().z, 5);
+  EXPECT_FLOAT_EQ(points.back().x, 2.5F * 5 / 100);
+  EXPECT_FLOAT_EQ(points.back().y, 1.5F * 5 / 100);
+  EXPECT_EQ(points.front().red, 255) << "white without a left view";
+  EXPECT_EQ(points.front().confidence, 255);
+  EXPECT_FALSE(next_message(harness.bus(), GST_MESSAGE_WARNING));
+}
+
+TEST(Cloud, HasTheColorsOfTheLeftFrameOfTheSameTime) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder));
+  for (int i = 0; i < 4; ++i) {
+    ASSERT_EQ(harness.push_left(static_cast<GstClockTime>(i) * kFrame, 10 + i), GST_FLOW_OK);
+  }
+  ASSERT_EQ(harness.push_map(1 * kFrame), GST_FLOW_OK);
+  ASSERT_EQ(harness.push_map(3 * kFrame), GST_FLOW_OK);
+  EXPECT_EQ(folder.files(), "cloud-00000.ply cloud-00001.ply");
+  EXPECT_EQ(first_red(folder / "cloud-00000.ply"), 11);
+  EXPECT_EQ(first_red(folder / "cloud-00001.ply"), 13);
+  const PlyPoint point = read_ply(folder / "cloud-00001.ply").front();
+  EXPECT_EQ(point.green, 26);
+  EXPECT_EQ(point.blue, 39);
+}
+
+TEST(Cloud, WaitsForALeftFrameThatIsLate) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder));
+  std::thread later([&harness] {
+    g_usleep(100'000);
+    harness.push_left(0, 77);
+  });
+  EXPECT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
+  later.join();
+  EXPECT_EQ(first_red(folder / "cloud-00000.ply"), 77);
+}
+
+TEST(Cloud, AMissingLeftFrameCostsItsColorsOnly) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder));
+  harness.push_left(0, 1);
+  harness.push_left(2 * kFrame, 2);
+  const Stopwatch time;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(harness.push_map(static_cast<GstClockTime>(i) * kFrame), GST_FLOW_OK);
+  }
+  EXPECT_LT(time.seconds(), 3) << "a later frame shows that there is none";
+  EXPECT_EQ(first_red(folder / "cloud-00000.ply"), 1);
+  EXPECT_EQ(first_red(folder / "cloud-00001.ply"), 255);
+  EXPECT_EQ(first_red(folder / "cloud-00002.ply"), 2);
+  const std::string warning = text_of(next_message(harness.bus(), GST_MESSAGE_WARNING));
+  EXPECT_NE(warning.find("sink_left"), std::string::npos) << warning;
+}
+
+TEST(Cloud, ASilentLeftViewCostsOneTimeout) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder) + " timeout=200000000");
+  const Stopwatch time;
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(harness.push_map(static_cast<GstClockTime>(i) * kFrame), GST_FLOW_OK);
+  }
+  EXPECT_GT(time.seconds(), 0.19);
+  EXPECT_LT(time.seconds(), 0.9);
+  EXPECT_EQ(first_red(folder / "cloud-00004.ply"), 255);
+  harness.push_left(5 * kFrame, 9);
+  EXPECT_EQ(harness.push_map(5 * kFrame), GST_FLOW_OK);
+  EXPECT_EQ(first_red(folder / "cloud-00005.ply"), 9);
+}
+
+TEST(Cloud, TheEndAndGapsOfTheLeftViewDoNotBlock) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder));
+  const Stopwatch time;
+  gst_harness_push_event(harness.left(), gst_event_new_gap(0, 2 * kFrame));
+  EXPECT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
+  std::thread later([&harness] {
+    g_usleep(50'000);
+    gst_harness_push_event(harness.left(), gst_event_new_eos());
+  });
+  EXPECT_EQ(harness.push_map(5 * kFrame), GST_FLOW_OK);
+  later.join();
+  EXPECT_EQ(harness.push_map(6 * kFrame), GST_FLOW_OK);
+  EXPECT_LT(time.seconds(), 3);
+  EXPECT_EQ(folder.files(), "cloud-00000.ply cloud-00001.ply cloud-00002.ply");
+}
+
+TEST(Cloud, TheLeftViewWaitsForTheMaps) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder));
+  std::vector<GstClockTime> times;
+  for (int i = 0; i < 40; ++i) times.push_back(static_cast<GstClockTime>(i) * kFrame);
+  std::thread left = harness.push_left_later(times);
+  for (int i = 0; i < 40; ++i) {
+    g_usleep(2'000);
+    ASSERT_EQ(harness.push_map(times[static_cast<std::size_t>(i)]), GST_FLOW_OK);
+  }
+  left.join();
+  for (int i = 0; i < 40; ++i) {
+    char name[32];
+    std::snprintf(name, sizeof name, "cloud-%05d.ply", i);
+    EXPECT_EQ(first_red(folder / name), i);
+  }
+}
+
+TEST(Cloud, TheLeftViewDoesNotWaitForEverWithoutMaps) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder) + " timeout=100000000");
+  ASSERT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);  // prerolls without a left frame
+  const Stopwatch time;
+  for (int i = 1; i < 100; ++i) {
+    ASSERT_EQ(harness.push_left(static_cast<GstClockTime>(i) * kFrame, i), GST_FLOW_OK);
+  }
+  EXPECT_LT(time.seconds(), 2);
+  EXPECT_EQ(harness.push_map(99 * kFrame), GST_FLOW_OK);
+  EXPECT_EQ(first_red(folder / "cloud-00001.ply"), 99) << "the newest frames are kept";
+}
+
+TEST(Cloud, TheEndOfTheMapsReleasesTheLeftView) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder) + " timeout=60000000000");
+  std::thread left = harness.push_left_later(std::vector<GstClockTime>(100, kFrame));
+  g_usleep(50'000);
+  gst_harness_push_event(harness.maps(), gst_event_new_eos());
+  left.join();  // the watchdog of the tests would stop it
+  EXPECT_TRUE(next_message(harness.bus(), GST_MESSAGE_EOS, 5));
+}
+
+TEST(Cloud, FlushesAndStopsReleaseTheLeftView) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder) + " timeout=60000000000");
+  std::thread left = harness.push_left_later(std::vector<GstClockTime>(100, kFrame));
+  g_usleep(50'000);
+  gst_harness_push_event(harness.left(), gst_event_new_flush_start());
+  left.join();
+  gst_harness_push_event(harness.left(), gst_event_new_flush_stop(TRUE));
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  gst_harness_push_event(harness.left(), gst_event_new_segment(&segment));
+  left = harness.push_left_later(std::vector<GstClockTime>(100, kFrame));
+  g_usleep(50'000);
+  gst_element_set_state(harness.element(), GST_STATE_READY);
+  left.join();
+}
+
+TEST(Cloud, AFlushInterruptsTheWaitForALeftFrame) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder) + " timeout=60000000000");
+  GstFlowReturn flow = GST_FLOW_OK;
+  std::thread maps([&] { flow = harness.push_map(GstClockTime{0}); });
+  g_usleep(50'000);
+  gst_harness_push_event(harness.maps(), gst_event_new_flush_start());
+  maps.join();
+  EXPECT_EQ(flow, GST_FLOW_FLUSHING);
+  EXPECT_EQ(folder.files(), "");
+}
+
+TEST(Cloud, WritesEveryNthMap) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder) + " every-nth=3", false);
+  for (int i = 0; i < 7; ++i) harness.push_map(static_cast<GstClockTime>(i) * kFrame);
+  EXPECT_EQ(folder.files(), "cloud-00000.ply cloud-00003.ply cloud-00006.ply");
+}
+
+TEST(Cloud, WithoutANumberTheLastFileRemains) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder, "cloud.ply"));
+  for (int i = 0; i < 3; ++i) {
+    harness.push_left(static_cast<GstClockTime>(i) * kFrame, i);
+    EXPECT_EQ(harness.push_map(static_cast<GstClockTime>(i) * kFrame), GST_FLOW_OK);
+  }
+  EXPECT_EQ(folder.files(), "cloud.ply");
+  EXPECT_EQ(first_red(folder / "cloud.ply"), 2);
+}
+
+TEST(Cloud, LeavesOutPointsByTheProperties) {
+  const CloudFolder folder;
+  const auto count = [&](const std::string& properties, bool confidence) {
+    CloudHarness harness(at(folder, "cloud.ply") + " " + properties, false);
+    Map16 map = cloud_map();
+    map.values[1] = 256;  // 50 m
+    GstBuffer* buffer = map_buffer(map);
+    std::vector<std::uint8_t> sure(map.values.size(), 200);
+    sure[2] = 20;
+    if (confidence) attach_confidence(buffer, kCloudWidth, kCloudHeight, sure);
+    EXPECT_EQ(harness.push_map(buffer), GST_FLOW_OK);
+    return read_ply(folder / "cloud.ply").size();
+  };
+  EXPECT_EQ(count("", true), kPoints);
+  EXPECT_EQ(count("far=20", true), kPoints - 1);
+  EXPECT_EQ(count("near=6", true), 1u);
+  EXPECT_EQ(count("min-confidence=100", true), kPoints - 1);
+  EXPECT_EQ(count("step=2", false), 3u * 2 - 1);
+  EXPECT_EQ(count("focal-length=10 far=1", false), kPoints - 1) << "5 m become 0.5 m, 50 m 5 m";
+}
+
+TEST(Cloud, TheFormatIsThatOfTheExtensionOrOfTheProperty) {
+  const CloudFolder folder;
+  const auto begin_of = [&](const std::string& name, const std::string& properties) {
+    CloudHarness harness(at(folder, name) + properties, false);
+    EXPECT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
+    std::string word(4, ' ');
+    gchar* text = nullptr;
+    EXPECT_TRUE(g_file_get_contents((folder / name).c_str(), &text, nullptr, nullptr));
+    if (text != nullptr) word.assign(text, 4);
+    g_free(text);
+    return word;
+  };
+  EXPECT_EQ(begin_of("a.ply", ""), "ply\n");
+  EXPECT_EQ(begin_of("a.PCD", ""), "# .P");
+  EXPECT_EQ(begin_of("a.points", " format=pcd"), "# .P");
+  EXPECT_EQ(begin_of("b.pcd", " format=ply"), "ply\n");
+}
+
+TEST(Cloud, PostsAMessageForEachFile) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder));
+  harness.push_left(0, 3);
+  harness.push_map(GstClockTime{0});
+  harness.push_left(2 * kFrame, 3);
+  harness.push_map(2 * kFrame);
+  for (guint64 i = 0; i < 2; ++i) {
+    const MessagePointer message = next_message(harness.bus(), GST_MESSAGE_ELEMENT);
+    ASSERT_TRUE(message);
+    const GstStructure* fields = gst_message_get_structure(message.get());
+    EXPECT_STREQ(gst_structure_get_name(fields), "mtstereo-cloud");
+    const std::string name = gst_structure_get_string(fields, "filename");
+    EXPECT_EQ(name, (folder / ("cloud-0000" + std::to_string(i) + ".ply")).string());
+    guint64 points = 0;
+    guint64 frame = 0;
+    guint64 time = 0;
+    gboolean colored = FALSE;
+    EXPECT_TRUE(gst_structure_get(fields, "points", G_TYPE_UINT64, &points, "frame", G_TYPE_UINT64,
+                                  &frame, "running-time", G_TYPE_UINT64, &time, "colored",
+                                  G_TYPE_BOOLEAN, &colored, nullptr));
+    EXPECT_EQ(points, kPoints);
+    EXPECT_EQ(frame, i);
+    EXPECT_EQ(time, 2 * i * kFrame);
+    EXPECT_TRUE(colored);
+  }
+}
+
+TEST(Cloud, ReadsMapsAtOddAddresses) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder), false);
+  ASSERT_EQ(harness.push_map(map_buffer(cloud_map(), 0, 3, 1)), GST_FLOW_OK);
+  const std::vector<PlyPoint> points = read_ply(folder / "cloud-00000.ply");
+  ASSERT_EQ(points.size(), kPoints);
+  for (const PlyPoint& point : points) EXPECT_EQ(point.z, 5);
+}
+
+// --- errors ---
+
+/// The error of an mtcloud that does not start.
+std::string error_at_start(const std::string& properties) {
+  GstElement* element = make_element(properties, "mtcloud");
+  GstBus* bus = gst_bus_new();
+  gst_element_set_bus(element, bus);
+  EXPECT_EQ(gst_element_set_state(element, GST_STATE_PAUSED), GST_STATE_CHANGE_FAILURE);
+  const std::string error = text_of(next_message(bus, GST_MESSAGE_ERROR));
+  gst_element_set_state(element, GST_STATE_NULL);
+  gst_element_set_bus(element, nullptr);
+  gst_object_unref(element);
+  gst_object_unref(bus);
+  return error;
+}
+
+TEST(CloudErrors, NameALocationThatIsNotValid) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"", "location is not set"},
+      {"location=/tmp/a%s.ply", "%05d"},
+      {"location=/tmp/a%d-%d.ply", "%05d"},
+      {"location=/tmp/a%999d.ply", "%05d"},
+      {"location=/tmp/a%05.ply", "%05d"},
+      {"location=/tmp/cloud%05d", "property format"},
+      {"location=/tmp/cloud.xyz", "property format"},
+      {"location=/no/such/folder/%d.ply", "/no/such/folder"},
+      {"location=/tmp/a.ply near=3 far=2", "near=3"},
+  };
+  for (const auto& [properties, word] : cases) {
+    const std::string error = error_at_start(properties);
+    EXPECT_NE(error.find(word), std::string::npos) << properties << ": " << error;
+  }
+}
+
+/// The error of the first map.
+std::string error_of_map(CloudHarness& harness, GstBuffer* buffer) {
+  EXPECT_EQ(harness.push_map(buffer), GST_FLOW_ERROR);
+  return text_of(next_message(harness.bus(), GST_MESSAGE_ERROR));
+}
+
+TEST(CloudErrors, NameAFileThatCannotBeWritten) {
+  CloudFolder folder;
+  std::filesystem::create_directory(folder / "clouds");
+  CloudHarness harness(at(folder, "clouds/%d.ply"), false);
+  ASSERT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
+  std::filesystem::remove_all(folder / "clouds");
+  const std::string error = error_of_map(harness, map_buffer(cloud_map(), kFrame));
+  EXPECT_NE(error.find((folder / "clouds/1.ply").string()), std::string::npos) << error;
+  EXPECT_NE(error.find("No such file or directory"), std::string::npos) << error;
+}
+
+TEST(CloudErrors, NameTheSizesOfALeftViewThatDoesNotFit) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder));
+  gst_harness_set_src_caps_str(harness.left(), raw_caps("GRAY8", 32, 16).c_str());
+  gst_harness_push(harness.left(),
+                   frame_buffer({32, 16, std::vector<std::uint8_t>(512)}, 0, kFrame));
+  const std::string error = error_of_map(harness, map_buffer(cloud_map()));
+  EXPECT_NE(error.find("32x16"), std::string::npos) << error;
+  EXPECT_NE(error.find("6x4"), std::string::npos) << error;
+}
+
+TEST(CloudErrors, NameAMissingConfidence) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder) + " min-confidence=1", false);
+  const std::string error = error_of_map(harness, map_buffer(cloud_map()));
+  EXPECT_NE(error.find("confidence-map=true"), std::string::npos) << error;
+}
+
+TEST(CloudErrors, NameAConfidenceThatDoesNotFit) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder), false);
+  GstBuffer* buffer = map_buffer(cloud_map());
+  attach_confidence(buffer, 3, 3, std::vector<std::uint8_t>(9));
+  const std::string error = error_of_map(harness, buffer);
+  EXPECT_NE(error.find("3x3"), std::string::npos) << error;
+}
+
+TEST(CloudErrors, NameTheWaysToSupplyAGeometry) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder), false);
+  gst_harness_set_src_caps_str(harness.maps(),
+                               raw_caps("GRAY16_LE", kCloudWidth, kCloudHeight).c_str());
+  harness.push_map(GstClockTime{0});
+  const std::string error = text_of(next_message(harness.bus(), GST_MESSAGE_ERROR));
+  for (const char* word : {"mtrectify", "calibration=FILE", "focal-length=PX"}) {
+    EXPECT_NE(error.find(word), std::string::npos) << error;
+  }
+}
+
+TEST(CloudErrors, NameAStreamOfDepths) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder), false);
+  gst_harness_set_src_caps_str(
+      harness.maps(),
+      (raw_caps("GRAY16_LE", kCloudWidth, kCloudHeight) + ",depth-unit=0.001").c_str());
+  harness.push_map(GstClockTime{0});
+  const std::string error = text_of(next_message(harness.bus(), GST_MESSAGE_ERROR));
+  EXPECT_NE(error.find("depths, not disparities"), std::string::npos) << error;
+}
+
+}  // namespace
+}  // namespace mtstereo::test
