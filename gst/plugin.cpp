@@ -8,6 +8,7 @@
 #include "matcher/mtstereo_element.hpp"
 #include "shared/confidence_meta.hpp"
 #include "shared/disparity_meta.hpp"
+#include "shared/valid_columns_meta.hpp"
 
 namespace mtstereo::plugin {
 namespace {
@@ -27,7 +28,9 @@ constexpr Element kElements[] = {
 };
 
 gboolean plugin_init(GstPlugin* plugin) noexcept {
-  if (!register_confidence_meta() || !register_disparity_meta()) return FALSE;
+  if (!register_confidence_meta() || !register_disparity_meta() || !register_valid_columns_meta()) {
+    return FALSE;
+  }
   for (const Element& element : kElements) {
     if (!gst_element_register(plugin, element.name, GST_RANK_NONE, element.type())) return FALSE;
   }

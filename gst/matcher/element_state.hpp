@@ -18,6 +18,7 @@
 #include "matcher/pair_finder.hpp"
 #include "matcher/pair_times.hpp"
 #include "matcher/pairing.hpp"
+#include "matcher/view_borders.hpp"
 #include "matcher/watchdog.hpp"
 #include "mtstereo/matcher.hpp"
 #include "mtstereo/parameters.hpp"
@@ -70,6 +71,7 @@ struct Input {
   GstAggregatorPad* pad = nullptr;  ///< owned by the element
   bool has_caps = false;
   GstVideoInfo info{};  ///< of the frame at the head of the pad's queue; valid if has_caps
+  std::shared_ptr<const GstStructure> geometry;  ///< of the same frame; nullptr: no caps yet
 };
 
 /// How far the segment of the left stream has been sent downstream. The base class sends a segment
@@ -115,8 +117,11 @@ struct ElementState {
   double inspection_ms = 0;        ///< time for the conversion and the inspection of the last pair
   GstVideoInfo output{};           ///< of the disparity map; valid if the source pad has caps
   std::array<LumaReader, 2> luma;  ///< by side
+  Borders borders;                 ///< of the last pair
+  long border_pixels = 0;  ///< disparities that were removed from the last map, as in a border
+  bool geometry_compared = false;  ///< of the streams whose caps are adopted
   ConfidencePool confidence_pool;
-  std::array<std::shared_ptr<const GstVideoInfo>, 2> adopted_infos;     ///< that of Input::info
+  std::array<std::shared_ptr<const StreamInfo>, 2> adopted_infos;       ///< that of Input::info
   std::shared_ptr<const StreamSegment> output_segment;                  ///< that of the source pad
   std::array<std::shared_ptr<const StreamSegment>, 2> paired_segments;  ///< of the last frames
   SyncMode paired_mode = SyncMode::kRunningTime;

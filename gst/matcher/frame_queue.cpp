@@ -34,7 +34,7 @@ Nanoseconds cut_at_start(const QueuedFrame& frame) {
   if (start == 0 || GST_BUFFER_PTS(buffer) != start || !GST_BUFFER_DURATION_IS_VALID(buffer)) {
     return 0;
   }
-  const auto duration = frame.info ? frame_duration(*frame.info) : std::nullopt;
+  const auto duration = frame.info ? frame_duration(frame.info->video) : std::nullopt;
   if (!duration) return 0;
   return std::max<Nanoseconds>(*duration - bounded(GST_BUFFER_DURATION(buffer)), 0);
 }
@@ -62,7 +62,7 @@ std::optional<Nanoseconds> QueuedFrame::end_time() const {
   if (GST_BUFFER_DURATION_IS_VALID(buffer.get())) {
     duration = bounded(GST_BUFFER_DURATION(buffer.get()));
   } else if (info) {
-    duration = frame_duration(*info).value_or(0);
+    duration = frame_duration(info->video).value_or(0);
   }
   return bounded(*begin + bounded(static_cast<double>(duration) / segment->segment.rate));
 }

@@ -16,6 +16,12 @@
 
 namespace mtstereo::plugin {
 
+/// What the caps of a stream state.
+struct StreamInfo {
+  GstVideoInfo video{};
+  std::shared_ptr<const GstStructure> geometry;  ///< only the fields kGeometryFields
+};
+
 /// The segment of a stream and where it comes from.
 struct StreamSegment {
   GstSegment segment{};
@@ -53,7 +59,7 @@ std::optional<Nanoseconds> frame_duration(const GstVideoInfo& info);
 /// A frame, or a gap, in the order in which its stream delivers them.
 struct QueuedFrame {
   BufferPointer buffer{};
-  std::shared_ptr<const GstVideoInfo> info{};      ///< of the caps; nullptr: none arrived
+  std::shared_ptr<const StreamInfo> info{};        ///< of the caps; nullptr: none arrived
   std::shared_ptr<const StreamSegment> segment{};  ///< nullptr: none arrived
 
   bool is_gap() const { return GST_BUFFER_FLAG_IS_SET(buffer.get(), GST_BUFFER_FLAG_GAP); }
@@ -79,7 +85,7 @@ class FrameQueue {
   static constexpr std::size_t kCapacity = 16;
 
   /// What new frames belong to.
-  std::shared_ptr<const GstVideoInfo> info;
+  std::shared_ptr<const StreamInfo> info;
   std::shared_ptr<const StreamSegment> segment;
 
   /// The last gap.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/matching.hpp"
 
+#include <algorithm>
 #include <bit>
 
 #include "matcher/alignment_reports.hpp"
@@ -10,6 +11,7 @@
 #include "matcher/skipping.hpp"
 #include "shared/disparity_meta.hpp"
 #include "shared/frame_views.hpp"
+#include "shared/stereo_geometry.hpp"
 
 #define GST_CAT_DEFAULT mtstereo_debug
 
@@ -27,6 +29,30 @@ OutputTimes output_times(const ElementState& state, GstBuffer* left) {
   return times;
 }
 
+/// A warning if the caps of the streams state two rectifications: once for each change of the caps.
+void compare_geometry(ElementState& state) {
+  if (state.geometry_compared) return;
+  state.geometry_compared = true;
+  std::array<std::optional<StereoGeometry>, 2> sides;
+  for (const Side side : kSides) {
+    const auto& fields = state.input(side).geometry;
+    if (fields) sides[static_cast<std::size_t>(side)] = read_geometry(fields.get());
+  }
+  if (!sides[0] || !sides[1] || same_rectification(*sides[0], *sides[1])) return;
+  const auto text = [](const StereoGeometry& geometry) {
+    return "focal length " + std::to_string(geometry.focal_length) + " px, baseline " +
+           std::to_string(geometry.baseline) + " m, principal offset " +
+           std::to_string(geometry.principal_offset) + " px";
+  };
+  post_warning(
+      state,
+      "The two streams are not rectified as a pair: their caps state different focal "
+      "lengths, baselines or principal offsets. Give both mtrectify the same calibration "
+      "and the same alpha, size and zero-disparity. The values of the left stream are "
+      "used.",
+      "left: " + text(*sides[0]) + "; right: " + text(*sides[1]) + "; " + state.streams_text());
+}
+
 bool check_streams(ElementState& state) {
   const Input& left = state.input(Side::kLeft);
   const Input& right = state.input(Side::kRight);
@@ -38,7 +64,10 @@ bool check_streams(ElementState& state) {
                state.streams_text());
     return false;
   }
-  if (left.info.width == right.info.width && left.info.height == right.info.height) return true;
+  if (left.info.width == right.info.width && left.info.height == right.info.height) {
+    compare_geometry(state);
+    return true;
+  }
   const auto size = [](const GstVideoInfo& info) {
     return std::to_string(info.width) + "x" + std::to_string(info.height);
   };
@@ -115,6 +144,11 @@ GstFlowReturn compute(ElementState& state, GstBuffer* left, GstBuffer* right, Gs
                status.error().message, state.streams_text());
     return GST_FLOW_ERROR;
   }
+  state.borders.take(
+      left, right,
+      {state.output.width, state.output.height, border_margin(state.active.parameters.preset())});
+  state.border_pixels =
+      state.borders.any() ? state.borders.remove(map.gray16(), unit_of(state.active)) : 0;
   to_little_endian(map.gray16());
   return GST_FLOW_OK;
 }
@@ -122,11 +156,13 @@ GstFlowReturn compute(ElementState& state, GstBuffer* left, GstBuffer* right, Gs
 void count_pair(ElementState& state) {
   const FrameStatistics frame = state.matcher->statistics();
   const double milliseconds = state.inspection_ms + frame.milliseconds;
+  const double pixels = static_cast<double>(state.output.width) * state.output.height;
   const ObjectLock lock(state.element);
   ++state.statistics.pairs;
   state.statistics.last_ms = milliseconds;
   state.statistics.total_ms += milliseconds;
-  state.statistics.density = frame.density;
+  state.statistics.density =
+      std::max(frame.density - static_cast<double>(state.border_pixels) / pixels, 0.0);
 }
 
 void advance_position(const ElementState& state, GstBuffer* left) {

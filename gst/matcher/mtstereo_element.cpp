@@ -178,6 +178,7 @@ gboolean stop(GstAggregator* aggregator) {
   state.alignment = PairAlignment();
   state.confidence_pool.clear();
   for (LumaReader& luma : state.luma) luma.clear();
+  state.borders = {};
   const ObjectLock lock(aggregator);
   state.started = false;
   return TRUE;

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <memory>
+#include <utility>
 
 #include "matcher/settings.hpp"
 #include "matcher/streams.hpp"
 #include "shared/caps.hpp"
 #include "shared/luma.hpp"
+#include "shared/stereo_geometry.hpp"
 
 namespace mtstereo::plugin {
 namespace {
@@ -78,6 +81,14 @@ std::string refusal(const GstCaps* caps) {
   return {};
 }
 
+/// The fields of the geometry in the caps of a stream.
+std::shared_ptr<const GstStructure> geometry_fields(const GstCaps* caps) {
+  GstStructure* fields = gst_structure_new_empty("geometry");
+  copy_geometry_fields(gst_caps_get_structure(caps, 0), fields);
+  return {fields,
+          [](const GstStructure* owned) { gst_structure_free(const_cast<GstStructure*>(owned)); }};
+}
+
 }  // namespace
 
 CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
@@ -128,9 +139,10 @@ bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps) {
             caps_text(takes.get()) + "; " + state.streams_text());
     return false;
   }
-  GstVideoInfo info;
-  gst_video_info_from_caps(&info, caps);
-  take_stream_info(state, side, info);
+  StreamInfo info;
+  gst_video_info_from_caps(&info.video, caps);
+  info.geometry = geometry_fields(caps);
+  take_stream_info(state, side, std::move(info));
   return true;
 }
 
@@ -150,6 +162,8 @@ CapsPointer output_caps(const ElementState& state, const Settings& settings) {
   if (unit.offset != 0) {
     gst_caps_set_simple(caps.get(), kOffsetField, G_TYPE_INT, unit.offset, nullptr);
   }
+  const GstStructure* geometry = state.input(Side::kLeft).geometry.get();
+  if (geometry != nullptr) copy_geometry_fields(geometry, gst_caps_get_structure(caps.get(), 0));
   return caps;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/streams.hpp"
 
+#include <utility>
+
 #include "matcher/clock.hpp"
 #include "matcher/negotiation.hpp"
 #include "shared/exception_guard.hpp"
@@ -94,8 +96,8 @@ GstPadProbeReturn on_frame(GstPad* pad, GstPadProbeInfo* info, gpointer data) no
 
 bool only_newest(const ElementState& state) { return state.newest_pair && is_live(state); }
 
-void take_stream_info(ElementState& state, Side side, const GstVideoInfo& info) {
-  const auto shared = std::make_shared<const GstVideoInfo>(info);
+void take_stream_info(ElementState& state, Side side, StreamInfo info) {
+  const auto shared = std::make_shared<const StreamInfo>(std::move(info));
   bool now = false;
   {
     const std::lock_guard<std::mutex> lock(state.queue_mutex);
@@ -106,12 +108,14 @@ void take_stream_info(ElementState& state, Side side, const GstVideoInfo& info) 
   if (now || !state.adopted_infos[static_cast<std::size_t>(side)]) adopt_caps(state, side, shared);
 }
 
-void adopt_caps(ElementState& state, Side side, const std::shared_ptr<const GstVideoInfo>& info) {
+void adopt_caps(ElementState& state, Side side, const std::shared_ptr<const StreamInfo>& info) {
   auto& adopted = state.adopted_infos[static_cast<std::size_t>(side)];
   if (!info || info == adopted) return;
   adopted = info;
   Input& input = state.input(side);
-  input.info = *info;
+  input.info = info->video;
+  input.geometry = info->geometry;
+  state.geometry_compared = false;
   {
     const ObjectLock lock(state.element);
     (side == Side::kLeft ? state.caps_durations.left : state.caps_durations.right) =

@@ -12,9 +12,9 @@
 namespace mtstereo::plugin {
 
 /// New caps have arrived. They take effect at once if no older frame waits.
-void take_stream_info(ElementState& state, Side side, const GstVideoInfo& info);
+void take_stream_info(ElementState& state, Side side, StreamInfo info);
 /// The caps of a frame that is matched now.
-void adopt_caps(ElementState& state, Side side, const std::shared_ptr<const GstVideoInfo>& info);
+void adopt_caps(ElementState& state, Side side, const std::shared_ptr<const StreamInfo>& info);
 
 /// A new segment has arrived. That of the left stream takes effect at once if no older frame waits.
 void take_stream_segment(ElementState& state, Side side, const GstSegment& segment, guint32 seqnum);

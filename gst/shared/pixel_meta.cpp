@@ -3,6 +3,7 @@
 
 #include "shared/confidence_meta.hpp"
 #include "shared/disparity_meta.hpp"
+#include "shared/valid_columns_meta.hpp"
 
 namespace mtstereo::plugin {
 
@@ -25,6 +26,7 @@ bool keeps_pixels(GQuark type, gpointer data) {
 bool belongs_to_pixels(const GstMetaInfo& info) {
   return &info == gst_meta_get_info(kConfidenceMeta) ||
          &info == gst_meta_get_info(kDisparityMeta) ||
+         &info == gst_meta_get_info(kValidColumnsMeta) ||
          gst_meta_api_type_has_tag(info.api, _gst_meta_tag_memory) ||
          gst_meta_api_type_has_tag(info.api, _gst_meta_tag_memory_reference) ||
          gst_meta_api_type_has_tag(info.api,

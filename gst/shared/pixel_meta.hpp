@@ -3,7 +3,7 @@
 
 #include <gst/video/video.h>
 
-// What the custom metas of disparity maps have in common: they describe the pixels of their buffer.
+// What the custom metas of this plugin have in common: they describe the pixels of their buffer.
 
 namespace mtstereo::plugin {
 
@@ -16,7 +16,8 @@ bool register_pixel_meta(const char* name, GstCustomMetaTransformFunction transf
 bool keeps_pixels(GQuark type, gpointer data);
 
 /// True for a meta that describes the memory of a frame or the meaning of its pixels (colors,
-/// confidence, unit). Such a meta is invalid for another frame that is computed from this one.
+/// confidence, unit, border). Such a meta is invalid for another frame that is computed from this
+/// one.
 bool belongs_to_pixels(const GstMetaInfo& info);
 
 }  // namespace mtstereo::plugin

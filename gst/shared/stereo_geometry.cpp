@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "shared/stereo_geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mtstereo::plugin {
@@ -56,6 +57,16 @@ std::optional<StereoGeometry> read_geometry(const GstStructure* fields) {
   geometry.principal_y = any_number(fields, kPrincipalYField).value_or(center_of(fields, "height"));
   geometry.valid_region = rectangle(fields);
   return geometry;
+}
+
+bool same_rectification(const StereoGeometry& first, const StereoGeometry& second) {
+  constexpr double kRounding = 1e-6;
+  const auto equal = [](double a, double b) {
+    return std::abs(a - b) <= kRounding * std::max({std::abs(a), std::abs(b), 1.0});
+  };
+  return equal(first.focal_length, second.focal_length) &&
+         std::abs(first.baseline - second.baseline) <= kRounding * first.baseline &&
+         equal(first.principal_offset, second.principal_offset);
 }
 
 void write_geometry(GstStructure* fields, const StereoGeometry& geometry) {

@@ -43,6 +43,10 @@ struct StereoGeometry {
 /// point is the center of the image.
 std::optional<StereoGeometry> read_geometry(const GstStructure* fields);
 
+/// True if both views belong to one rectified pair: focal length, baseline and principal offset are
+/// equal but for rounding.
+bool same_rectification(const StereoGeometry& first, const StereoGeometry& second);
+
 /// Sets the fields.
 void write_geometry(GstStructure* fields, const StereoGeometry& geometry);
 

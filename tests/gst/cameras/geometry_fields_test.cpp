@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What mtrectify states of the frames arrives downstream of mtstereo.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cameras/camera_harness.hpp"
+#include "geometry/rigs.hpp"
+#include "shared/stereo_geometry.hpp"
+#include "shared/valid_columns_meta.hpp"
+#include "support/pipeline.hpp"
+
+namespace mtstereo::test {
+namespace {
+
+constexpr int kWidth = 128;
+constexpr int kHeight = 64;
+constexpr int kShift = 6;
+
+std::string caps_with(double focal_length, double baseline = 0.12) {
+  const CapsPointer caps(gst_caps_from_string(raw_caps("GRAY8", kWidth, kHeight).c_str()));
+  plugin::write_geometry(gst_caps_get_structure(caps.get(), 0),
+                         {focal_length, baseline, 1.5, 63, 31, PixelRectangle{2, 3, 100, 50}});
+  gchar* text = gst_caps_to_string(caps.get());
+  std::string result = text;
+  g_free(text);
+  return result;
+}
+
+Pair pair() { return noise_pair(kWidth, kHeight, kShift, 3); }
+
+std::optional<plugin::StereoGeometry> geometry_of(const GstCaps* caps) {
+  return caps != nullptr ? plugin::read_geometry(gst_caps_get_structure(caps, 0)) : std::nullopt;
+}
+
+TEST(GeometryFields, AreThoseOfTheLeftStream) {
+  StereoHarness harness;
+  harness.caps(caps_with(700));
+  harness.push_pair(pair(), 0);
+  ASSERT_TRUE(harness.pull());
+  const auto found = geometry_of(harness.output_caps().get());
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->focal_length, 700);
+  EXPECT_EQ(found->baseline, 0.12);
+  EXPECT_EQ(found->principal_offset, 1.5);
+  EXPECT_EQ(found->principal_x, 63);
+  EXPECT_EQ(found->valid_region, (PixelRectangle{2, 3, 100, 50}));
+}
+
+TEST(GeometryFields, ChangeOfThemAloneChangesTheOutput) {
+  StereoHarness harness;
+  harness.caps(caps_with(700));
+  harness.push_pair(pair(), 0);
+  ASSERT_TRUE(harness.pull());
+  harness.caps(caps_with(710));
+  harness.push_pair(pair(), kFrame);
+  ASSERT_TRUE(harness.pull());
+  EXPECT_EQ(geometry_of(harness.output_caps().get()).value().focal_length, 710);
+  harness.caps(raw_caps("GRAY8", kWidth, kHeight));
+  harness.push_pair(pair(), 2 * kFrame);
+  ASSERT_TRUE(harness.pull());
+  EXPECT_FALSE(geometry_of(harness.output_caps().get()));
+  EXPECT_TRUE(harness.warnings().empty());
+}
+
+TEST(GeometryFields, TwoRectificationsAreAWarning) {
+  StereoHarness harness;
+  harness.caps(caps_with(700), caps_with(701));
+  harness.push_pair(pair(), 0);
+  ASSERT_TRUE(harness.pull());
+  harness.push_pair(pair(), kFrame);
+  ASSERT_TRUE(harness.pull());
+  const auto warnings = harness.warnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].text.find("not rectified as a pair"), std::string::npos);
+  EXPECT_EQ(geometry_of(harness.output_caps().get()).value().focal_length, 700);
+}
+
+/// A frame that is black outside of these columns in every row, with the meta that says so.
+GstBuffer* bordered(Picture picture, ValidColumns columns, bool meta) {
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    if (i % kWidth >= columns.begin && i % kWidth < columns.end) continue;
+    picture.pixels[static_cast<std::size_t>(i)] = 0;
+  }
+  GstBuffer* frame = frame_buffer(picture, 0, kFrame);
+  if (!meta) return frame;
+  GBytes* bytes = plugin::pack_valid_columns(std::vector<ValidColumns>(kHeight, columns));
+  plugin::set_valid_columns(frame, bytes);
+  g_bytes_unref(bytes);
+  return frame;
+}
+
+class Border : public testing::Test {
+ protected:
+  void match(bool meta, const std::string& properties = "max-disparity=16 mode=dense") {
+    StereoHarness harness(properties);
+    harness.caps(raw_caps("GRAY8", kWidth, kHeight));
+    const Pair views = pair();
+    harness.push(Side::kLeft, bordered(views.left, {20, kWidth - 8}, meta));
+    harness.push(Side::kRight, bordered(views.right, {24, kWidth - 20}, meta));
+    const BufferPointer out = harness.pull();
+    ASSERT_TRUE(out);
+    map = map_of(out.get(), kWidth, kHeight);
+    confidence = confidence_of(out.get());
+    density = harness.stats().density;
+    EXPECT_EQ(plugin::valid_columns_of(out.get()), nullptr);  // it is of the view, not of the map
+  }
+  int answers(int begin, int end) const {
+    int count = 0;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (i % kWidth >= begin && i % kWidth < end && map[at] != 0) ++count;
+      EXPECT_TRUE(map[at] != 0 || confidence[at] == 0) << i % kWidth << " " << i / kWidth;
+    }
+    return count;
+  }
+
+  std::vector<std::uint16_t> map;
+  std::vector<std::uint8_t> confidence;
+  double density = 0;
+};
+
+TEST_F(Border, PixelsOfTheBorderHaveNoDisparity) {
+  match(true);
+  // The right view begins at 24: the left pixel of its first pixels is at 30.
+  EXPECT_EQ(answers(0, 24 + kShift), 0);
+  EXPECT_EQ(answers(kWidth - 20 + kShift, kWidth), 0);
+  EXPECT_EQ(answers(kWidth - 8, kWidth), 0);
+  const int inside = answers(0, kWidth);
+  EXPECT_GT(inside, 50 * kHeight);
+  EXPECT_NEAR(density, static_cast<double>(inside) / (kWidth * kHeight), 1e-6);
+}
+
+TEST_F(Border, FramesWithoutTheMetaAreNotChanged) {
+  match(false);
+  EXPECT_GT(answers(0, 24 + kShift), 0);
+}
+
+TEST_F(Border, AppliesWithNegativeDisparitiesToo) {
+  match(true, "min-disparity=-4 max-disparity=16 mode=dense");
+  EXPECT_EQ(answers(0, 24 + kShift), 0);
+  EXPECT_EQ(answers(kWidth - 20 + kShift, kWidth), 0);
+  EXPECT_GT(answers(0, kWidth), 50 * kHeight);
+}
+
+class ValidColumnsMeta : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(plugin::register_valid_columns_meta());
+    frame.reset(gst_buffer_new_allocate(nullptr, 96, nullptr));
+    columns.reset(plugin::pack_valid_columns({{1, 5}, {0, 7}, {0, 0}}));
+    plugin::set_valid_columns(frame.get(), columns.get());
+  }
+  struct BytesUnref {
+    void operator()(GBytes* bytes) const { g_bytes_unref(bytes); }
+  };
+  BufferPointer frame;
+  std::unique_ptr<GBytes, BytesUnref> columns;
+};
+
+TEST_F(ValidColumnsMeta, IsCopiedWithTheWholeBufferOnly) {
+  const BufferPointer copy(gst_buffer_copy(frame.get()));
+  const BufferPointer part(gst_buffer_copy_region(frame.get(), GST_BUFFER_COPY_ALL, 16, 32));
+  EXPECT_EQ(plugin::valid_columns_of(copy.get()), columns.get());
+  EXPECT_EQ(plugin::valid_columns_of(part.get()), nullptr);
+}
+
+TEST_F(ValidColumnsMeta, FitsOnlyItsSize) {
+  EXPECT_EQ(plugin::unpack_valid_columns(columns.get(), 7, 3),
+            (std::vector<ValidColumns>{{1, 5}, {0, 7}, {0, 0}}));
+  EXPECT_TRUE(plugin::unpack_valid_columns(columns.get(), 7, 4).empty());
+  EXPECT_TRUE(plugin::unpack_valid_columns(columns.get(), 6, 3).empty());
+  EXPECT_TRUE(plugin::unpack_valid_columns(columns.get(), 7, 0).empty());
+}
+
+TEST_F(ValidColumnsMeta, OthersReplaceIt) {
+  const std::unique_ptr<GBytes, BytesUnref> other(plugin::pack_valid_columns({{2, 3}}));
+  plugin::set_valid_columns(frame.get(), other.get());
+  EXPECT_EQ(plugin::valid_columns_of(frame.get()), other.get());
+  plugin::remove_valid_columns(frame.get());
+  EXPECT_EQ(plugin::valid_columns_of(frame.get()), nullptr);
+}
+
+}  // namespace
+}  // namespace mtstereo::test
