@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gst/gst.h>
 
+#include "cameras/mtrectify.hpp"
 #include "cloud/mtcloud.hpp"
 #include "filters/mtcolor.hpp"
 #include "filters/mtconfidence.hpp"
@@ -25,6 +26,7 @@ constexpr Element kElements[] = {
     {"mtconfidence", gst_mtstereo_confidence_get_type},
     {"mtdepth", gst_mtstereo_depth_get_type},
     {"mtcloud", gst_mtstereo_cloud_get_type},
+    {"mtrectify", gst_mtstereo_rectify_get_type},
 };
 
 gboolean plugin_init(GstPlugin* plugin) noexcept {

@@ -114,11 +114,7 @@ MappedFrame::~MappedFrame() {
   if (mapped_) gst_video_frame_unmap(&frame_);
 }
 
-GrayView MappedFrame::luma() const {
-  return {static_cast<const std::uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame_, 0)),
-          GST_VIDEO_FRAME_WIDTH(&frame_), GST_VIDEO_FRAME_HEIGHT(&frame_),
-          GST_VIDEO_FRAME_PLANE_STRIDE(&frame_, 0)};
-}
+GrayView MappedFrame::luma() const { return luma_of(frame_); }
 
 ImageView<std::uint16_t> MappedFrame::gray16() const {
   return {static_cast<std::uint16_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame_, 0)),

@@ -41,6 +41,13 @@ class MappedFrame {
   std::string problem_;
 };
 
+/// The first plane of a mapped frame of an 8-bit format.
+inline GrayView luma_of(const GstVideoFrame& frame) {
+  return {static_cast<const std::uint8_t*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0)),
+          GST_VIDEO_FRAME_WIDTH(&frame), GST_VIDEO_FRAME_HEIGHT(&frame),
+          GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0)};
+}
+
 /// The first byte of row y of the first plane of a mapped frame. Write to it only if the frame is
 /// mapped for writing.
 inline std::uint8_t* plane_row(const GstVideoFrame& frame, int y) {

@@ -114,11 +114,11 @@ void LumaReader::fit(const GstVideoInfo& input) {
   input_ = from;
 }
 
-GrayView LumaReader::read(const MappedFrame& frame) {
-  const GstVideoInfo& info = frame.frame()->info;
-  if (has_luma_plane(GST_VIDEO_INFO_FORMAT(&info))) return frame.luma();
+GrayView LumaReader::read(const GstVideoFrame& frame) {
+  const GstVideoInfo& info = frame.info;
+  if (has_luma_plane(GST_VIDEO_INFO_FORMAT(&info))) return luma_of(frame);
   fit(info);
-  const GstVideoFrame* source = frame.frame();
+  const GstVideoFrame* source = &frame;
   if (!is_aligned(*source)) {
     if (!aligned_.frame) aligned_.fit(input_);
     gst_video_frame_copy(aligned_.frame->frame(), source);

@@ -32,7 +32,8 @@ class LumaReader {
   /// The luma of a mapped frame of a readable format: its first plane (has_luma_plane()), or a
   /// converted copy in a buffer that is used again for the next frame. Valid while the frame is
   /// mapped and until the next call.
-  GrayView read(const MappedFrame& frame);
+  GrayView read(const GstVideoFrame& frame);
+  GrayView read(const MappedFrame& frame) { return read(*frame.frame()); }
   /// Frees the buffer.
   void clear();
 

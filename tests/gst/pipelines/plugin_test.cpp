@@ -65,8 +65,8 @@ bool has_prefix(GType type) { return g_str_has_prefix(g_type_name(type), "GstMtS
 TEST_F(Plugin, RegistersItsElements) {
   std::set<std::string> names;
   for (const auto& element : elements) names.insert(element->name());
-  EXPECT_EQ(names,
-            (std::set<std::string>{"mtstereo", "mtcolor", "mtconfidence", "mtdepth", "mtcloud"}));
+  EXPECT_EQ(names, (std::set<std::string>{"mtstereo", "mtcolor", "mtconfidence", "mtdepth",
+                                          "mtcloud", "mtrectify"}));
 }
 
 TEST_F(Plugin, GivesItsTypesOnePrefix) {
