@@ -2,6 +2,7 @@
 #include <gst/gst.h>
 
 #include "cameras/mtrectify.hpp"
+#include "cameras/mtsplit.hpp"
 #include "cloud/mtcloud.hpp"
 #include "filters/mtcolor.hpp"
 #include "filters/mtconfidence.hpp"
@@ -27,6 +28,7 @@ constexpr Element kElements[] = {
     {"mtdepth", gst_mtstereo_depth_get_type},
     {"mtcloud", gst_mtstereo_cloud_get_type},
     {"mtrectify", gst_mtstereo_rectify_get_type},
+    {"mtsplit", gst_mtstereo_split_get_type},
 };
 
 gboolean plugin_init(GstPlugin* plugin) noexcept {

@@ -143,6 +143,36 @@ TEST_F(Border, AppliesWithNegativeDisparitiesToo) {
   EXPECT_GT(answers(0, kWidth), 50 * kHeight);
 }
 
+TEST(Chain, RectifiedPairStatesItsGeometryAndHasNoDisparityInTheBorder) {
+  CalibrationFolder folder;
+  const StereoCalibration rig = plumb_bob_rig(320, 240);
+  const std::string file = folder.write(rig);
+  Pipeline pipeline(
+      "videotestsrc pattern=smpte75 num-buffers=3 ! video/x-raw,format=GRAY8,width=640,height=240 "
+      "! mtsplit name=s s.left ! queue ! mtrectify alpha=1 calibration=" +
+      file + " ! m.sink_left s.right ! queue ! mtrectify camera=right alpha=1 calibration=" + file +
+      " ! m.sink_right mtstereo name=m mode=dense max-disparity=32 ! appsink name=out "
+      "wait-on-eos=false sync=false");
+  EXPECT_EQ(pipeline.run(), "");
+  const auto samples = pipeline.samples();
+  ASSERT_EQ(samples.size(), 3u);
+  const Rectification r = rectify(rig, {.alpha = 1}).value();
+  const CapsPointer caps(gst_caps_from_string(samples[0].caps.c_str()));
+  EXPECT_NEAR(geometry_of(caps.get()).value().focal_length, r.focal_length, 1e-6);
+  const auto rectifier = std::move(Rectifier::create(rig, r, Rectifier::Side::kLeft).value());
+  int outside = 0;
+  for (int y = 0; y < 240; ++y) {
+    const ValidColumns& columns = rectifier.valid_columns()[static_cast<std::size_t>(y)];
+    for (int x = 0; x < 320; ++x) {
+      if (x >= columns.begin && x < columns.end) continue;
+      ++outside;
+      const std::size_t at = static_cast<std::size_t>(y * 320 + x) * 2;
+      ASSERT_EQ(samples[0].bytes[at] + samples[0].bytes[at + 1], 0) << x << " " << y;
+    }
+  }
+  EXPECT_GT(outside, 1000);
+}
+
 class ValidColumnsMeta : public testing::Test {
  protected:
   void SetUp() override {
