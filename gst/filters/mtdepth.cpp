@@ -45,6 +45,7 @@ struct DepthState {
   DepthGeometry geometry;            ///< of `converter`
   DepthOptions options;              ///< of `converter`
   std::optional<DepthConverter> converter;
+  bool refused = false;  ///< an error about the stream was posted
 };
 
 struct GstMtStereoDepth {
@@ -202,7 +203,9 @@ gboolean query(GstBaseTransform* transform, GstPadDirection direction, GstQuery*
   return TRUE;
 }
 
+/// Posts an error, once: a source may try to negotiate several times.
 void refuse_stream(GstVideoFilter* filter, const std::string& reason, const GstCaps* caps) {
+  if (std::exchange(state_of(filter).refused, true)) return;
   GST_ELEMENT_ERROR(filter, STREAM, FORMAT,
                     ("The disparity map cannot be turned into depths: %s.", reason.c_str()),
                     ("caps: %s", caps_text(caps).c_str()));
@@ -227,6 +230,7 @@ gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCa
   const std::optional<double> depth_unit = depth_unit_in(out);
   const std::optional<StereoGeometry> stated = read_geometry(out);
   if (!depth_unit || !stated) return FALSE;
+  state.refused = false;
   state.caps_unit = *unit;
   state.unit = *depth_unit;
   state.stream = *stated;
@@ -303,6 +307,7 @@ gboolean start(GstBaseTransform* transform) {
   DepthState& state = state_of(transform);
   state.source.forget();
   state.converter.reset();  // reported again
+  state.refused = false;
   const DepthRange range = properties_of(transform).range;
   state.range = range;
   return check_range_at_start(transform, range);

@@ -58,15 +58,14 @@ Result<StereoGeometry> read_file(const std::string& path, int width, int height)
 }
 
 Error missing(const GeometryProperties& properties) {
-  const char* what = properties.focal_length > 0 ? "the baseline"
-                     : properties.baseline > 0   ? "the focal length"
-                                                 : "the focal length and the baseline";
+  const char* what = properties.focal_length > 0 ? "the baseline of the cameras is"
+                     : properties.baseline > 0   ? "the focal length of the cameras is"
+                                                 : "the focal length and the baseline are";
   return {ErrorCode::kInvalidCalibration,
           std::string(what) +
-              " of the cameras must be known, and the caps of the disparity map do not state it. "
-              "Put mtrectify upstream of mtstereo, which puts the geometry into the caps; or set "
-              "calibration=FILE, the file that the views were rectified with; or set "
-              "focal-length=PX and baseline=METERS"};
+              " not known: the caps have no geometry. Put mtrectify upstream of mtstereo, which "
+              "puts the geometry into the caps; or set calibration=FILE, the file that the views "
+              "were rectified with; or set focal-length=PX and baseline=METERS"};
 }
 
 void install_double(GObjectClass* object_class, guint id, const char* name, const char* blurb,

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "support/map_harness.hpp"
+#include "support/pipeline.hpp"
 
 namespace mtstereo::test {
 namespace {
@@ -234,6 +235,21 @@ TEST(Depth, ReportsTheUncertaintyInASentence) {
   EXPECT_NE(text.find("At 65.535 m"), std::string::npos) << text;
 }
 
+TEST(Depth, ReportsAStreamThatItRefusesOnce) {
+  // The source tries to negotiate several times.
+  Pipeline pipeline(
+      "videotestsrc num-buffers=3 ! video/x-raw,format=GRAY16_LE,width=64,height=48 ! mtdepth "
+      "name=d ! fakesink");
+  int errors = 0;
+  GstBus* bus = gst_element_get_bus(pipeline.element());
+  gst_element_set_state(pipeline.element(), GST_STATE_PLAYING);
+  while (const MessagePointer message = next_message(bus, GST_MESSAGE_ERROR, 0.3)) {
+    if (GST_MESSAGE_SRC(message.get()) == GST_OBJECT(pipeline.named("d"))) ++errors;
+  }
+  gst_object_unref(bus);
+  EXPECT_EQ(errors, 1);
+}
+
 TEST(Depth, NamesTheWaysToSupplyAGeometry) {
   MapHarness harness("mtdepth", "");
   const std::string error = harness.error_of(kMap, kScale);
@@ -243,7 +259,8 @@ TEST(Depth, NamesTheWaysToSupplyAGeometry) {
   }
   MapHarness half("mtdepth", "focal-length=700");
   const std::string missing = half.error_of(kMap, kScale);
-  EXPECT_NE(missing.find(": the baseline of the cameras"), std::string::npos) << missing;
+  EXPECT_NE(missing.find(": the baseline of the cameras is not known"), std::string::npos)
+      << missing;
 }
 
 /// A calibration file as KITTI's odometry has it, removed by the destructor.
