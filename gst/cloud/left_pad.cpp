@@ -12,13 +12,6 @@ LeftStream& stream_of(GstPad* pad) {
   return *static_cast<LeftStream*>(gst_pad_get_element_private(pad));
 }
 
-GstClockTime running_time(const LeftStream& stream, GstClockTime time) {
-  if (stream.segment.format != GST_FORMAT_TIME || !GST_CLOCK_TIME_IS_VALID(time)) {
-    return GST_CLOCK_TIME_NONE;
-  }
-  return gst_segment_to_running_time(&stream.segment, GST_FORMAT_TIME, time);
-}
-
 // GstPad's functions have the pad as first argument; guarded<> reports to the element.
 
 GstFlowReturn chain(GstObject* parent, GstPad* pad, GstBuffer* buffer) {
@@ -33,10 +26,8 @@ GstFlowReturn chain(GstObject* parent, GstPad* pad, GstBuffer* buffer) {
     return GST_FLOW_NOT_NEGOTIATED;
   }
   frame.info = stream.info;
-  frame.time = running_time(stream, GST_BUFFER_PTS(buffer));
-  const bool outside = GST_BUFFER_PTS_IS_VALID(buffer) && !GST_CLOCK_TIME_IS_VALID(frame.time) &&
-                       stream.segment.format == GST_FORMAT_TIME;
-  return outside ? GST_FLOW_OK : stream.frames.push(std::move(frame));
+  frame.time = signed_running_time(stream.segment, GST_BUFFER_PTS(buffer));
+  return stream.frames.push(std::move(frame));
 }
 
 bool take_caps(LeftStream& stream, GstEvent* event) {
@@ -52,8 +43,8 @@ void take_gap(LeftStream& stream, GstEvent* event) {
   gst_event_parse_gap(event, &start, &duration);
   if (!GST_CLOCK_TIME_IS_VALID(start)) return;
   const GstClockTime end = GST_CLOCK_TIME_IS_VALID(duration) ? start + duration : start;
-  const GstClockTime time = running_time(stream, end);
-  if (GST_CLOCK_TIME_IS_VALID(time)) stream.frames.skip_to(time);
+  const GstClockTimeDiff time = signed_running_time(stream.segment, end);
+  if (GST_CLOCK_STIME_IS_VALID(time)) stream.frames.skip_to(time);
 }
 
 gboolean event(GstObject*, GstPad* pad, GstEvent* event) {

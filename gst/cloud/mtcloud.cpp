@@ -3,6 +3,7 @@
 
 #include <gst/base/gstbasesink.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -129,10 +130,7 @@ gboolean propose_allocation(GstBaseSink*, GstQuery* query) {
 GstFlowReturn find_left(GstBaseSink* sink, GstBuffer* map, std::optional<LeftFrame>& left) {
   CloudState& state = state_of(sink);
   if (!gst_pad_is_linked(state.left_pad)) return GST_FLOW_OK;
-  GstClockTime time = GST_CLOCK_TIME_NONE;
-  if (sink->segment.format == GST_FORMAT_TIME && GST_BUFFER_PTS_IS_VALID(map)) {
-    time = gst_segment_to_running_time(&sink->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(map));
-  }
+  const GstClockTimeDiff time = signed_running_time(sink->segment, GST_BUFFER_PTS(map));
   for (;;) {
     LeftFrame frame;
     switch (state.left.frames.find(time, frame)) {
@@ -146,7 +144,7 @@ GstFlowReturn find_left(GstBaseSink* sink, GstBuffer* map, std::optional<LeftFra
             ("The left view has no frame for a disparity map, so that the points "
              "are white: sink_left must get the frames that mtstereo gets on its "
              "sink_left, with the same time stamps. Further ones are not reported."),
-            ("running time %" GST_TIME_FORMAT, GST_TIME_ARGS(time)));
+            ("running time %" GST_STIME_FORMAT, GST_STIME_ARGS(time)));
         return GST_FLOW_OK;
       case LeftFrames::Outcome::kInterrupted: {
         state.left.frames.hold(true);
@@ -160,8 +158,10 @@ GstFlowReturn find_left(GstBaseSink* sink, GstBuffer* map, std::optional<LeftFra
 
 void post_file(GstBaseSink* sink, const std::string& path, GstBuffer* map, bool colored) {
   CloudState& state = state_of(sink);
-  const GstClockTime time =
-      gst_segment_to_running_time(&sink->segment, GST_FORMAT_TIME, GST_BUFFER_PTS(map));
+  const GstClockTimeDiff signed_time = signed_running_time(sink->segment, GST_BUFFER_PTS(map));
+  const GstClockTime time = GST_CLOCK_STIME_IS_VALID(signed_time)
+                                ? static_cast<GstClockTime>(std::max<gint64>(signed_time, 0))
+                                : GST_CLOCK_TIME_NONE;
   gst_element_post_message(
       GST_ELEMENT_CAST(sink),
       gst_message_new_element(

@@ -59,6 +59,23 @@ TEST(Cloud, HasTheColorsOfTheLeftFrameOfTheSameTime) {
   EXPECT_EQ(point.blue, 39);
 }
 
+TEST(Cloud, AFrameThatBeginsBeforeItsSegmentIsPairedByItsTimeToo) {
+  const CloudFolder folder;
+  CloudHarness harness(at(folder));
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.start = segment.time = segment.position = 5 * kFrame + kFrame / 2;
+  gst_harness_push_event(harness.left(), gst_event_new_segment(&segment));
+  gst_harness_push_event(harness.maps(), gst_event_new_segment(&segment));
+  for (int i = 4; i < 8; ++i) harness.push_left(static_cast<GstClockTime>(i) * kFrame, i);
+  for (int i = 5; i < 8; ++i) {
+    EXPECT_EQ(harness.push_map(static_cast<GstClockTime>(i) * kFrame), GST_FLOW_OK);
+  }
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(first_red(folder / ("cloud-0000" + std::to_string(i) + ".ply")), 5 + i);
+  }
+}
+
 TEST(Cloud, WaitsForALeftFrameThatIsLate) {
   const CloudFolder folder;
   CloudHarness harness(at(folder));
