@@ -63,7 +63,7 @@ ImageView<const std::uint16_t> CloudWriter::values(ImageView<std::uint16_t> imag
   std::uint16_t* to = values_.data();
   for (int y = 0; y < image.height; ++y) {
     const auto* row = reinterpret_cast<const std::uint8_t*>(image.data) + y * image.stride;
-    for (int x = 0; x < image.width; ++x, row += 2) *to++ = GST_READ_UINT16_LE(row);
+    for (int x = 0; x < image.width; ++x, row += 2) *to++ = read16(row);
   }
   return {values_.data(), image.width, image.height, static_cast<std::ptrdiff_t>(2 * width)};
 }

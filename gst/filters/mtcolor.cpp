@@ -221,7 +221,7 @@ void paint(const GstVideoFrame* in, const GstVideoFrame* out, const std::vector<
     const std::uint8_t* from = plane_row(*in, y);
     std::uint8_t* to = plane_row(*out, y);
     for (int x = 0; x < GST_VIDEO_FRAME_WIDTH(in); ++x, from += 2, to += layout.step) {
-      const Rgb& color = table[GST_READ_UINT16_LE(from)];
+      const Rgb& color = table[read16(from)];
       to[layout.red] = color.red;
       to[layout.green] = color.green;
       to[layout.blue] = color.blue;

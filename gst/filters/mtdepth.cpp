@@ -279,7 +279,7 @@ void convert(const DepthConverter& converter, MappedFrame& frame) {
   for (int y = 0; y < image.height; ++y) {
     std::uint8_t* row = plane_row(*frame.frame(), y);
     for (int x = 0; x < image.width; ++x, row += 2) {
-      GST_WRITE_UINT16_LE(row, converter.depth16_of(GST_READ_UINT16_LE(row)));
+      write16(row, converter.depth16_of(read16(row)));
     }
   }
 }

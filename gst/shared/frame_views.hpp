@@ -55,6 +55,17 @@ inline std::uint8_t* plane_row(const GstVideoFrame& frame, int y) {
          static_cast<std::ptrdiff_t>(y) * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
 }
 
+/// The 16-bit value at any address, even an odd one, with the least significant byte first.
+inline std::uint16_t read16(const std::uint8_t* from) {
+  return static_cast<std::uint16_t>(from[0] | from[1] << 8);
+}
+
+/// Writes such a value.
+inline void write16(std::uint8_t* to, std::uint16_t value) {
+  to[0] = static_cast<std::uint8_t>(value);
+  to[1] = static_cast<std::uint8_t>(value >> 8);
+}
+
 /// True if the first plane of the format is 8-bit luma with one byte per pixel, which the matcher
 /// reads in place.
 bool has_luma_plane(GstVideoFormat format);

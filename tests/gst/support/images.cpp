@@ -150,7 +150,9 @@ std::vector<std::uint16_t> map_of(GstBuffer* buffer, int width, int height) {
   for (int y = 0; y < height; ++y) {
     const auto* row = static_cast<const guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0)) +
                       static_cast<gssize>(y) * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0);
-    for (int x = 0; x < width; ++x) values.push_back(GST_READ_UINT16_LE(row + 2 * x));
+    for (int x = 0; x < width; ++x) {  // the address may be odd
+      values.push_back(static_cast<std::uint16_t>(row[2 * x] | row[2 * x + 1] << 8));
+    }
   }
   gst_video_frame_unmap(&frame);
   return values;

@@ -10,7 +10,9 @@ GstBuffer* map_buffer(const Map16& map, GstClockTime pts, int padding, int offse
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(offset + stride * map.height), 0xAB);
   for (int i = 0; i < map.width * map.height; ++i) {
     std::uint8_t* to = bytes.data() + offset + i / map.width * stride + i % map.width * 2;
-    GST_WRITE_UINT16_LE(to, map.values[static_cast<std::size_t>(i)]);
+    const unsigned value = map.values[static_cast<std::size_t>(i)];
+    to[0] = static_cast<std::uint8_t>(value);
+    to[1] = static_cast<std::uint8_t>(value >> 8);
   }
   GstBuffer* buffer = gst_buffer_new_memdup(bytes.data(), bytes.size());
   if (padding != 0 || offset != 0) {
