@@ -58,6 +58,10 @@ std::string CloudFolder::files() const {
   return text;
 }
 
+std::string location(const CloudFolder& folder, const std::string& name) {
+  return "location=" + (folder / name).string();
+}
+
 Map16 cloud_map() {
   Map16 map = {kCloudWidth, kCloudHeight,
                std::vector<std::uint16_t>(std::size_t{kCloudWidth} * kCloudHeight, 2560)};

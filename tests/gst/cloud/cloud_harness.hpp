@@ -45,6 +45,9 @@ class CloudFolder {
   std::filesystem::path path_;
 };
 
+/// The property location for a pattern in this folder.
+std::string location(const CloudFolder& folder, const std::string& name = "cloud-%05d.ply");
+
 /// Size of the maps of CloudHarness [px].
 inline constexpr int kCloudWidth = 6;
 inline constexpr int kCloudHeight = 4;

@@ -10,10 +10,6 @@ namespace {
 
 constexpr std::size_t kPoints = std::size_t{kCloudWidth} * kCloudHeight - 1;
 
-std::string at(const CloudFolder& folder, const std::string& name = "cloud-%05d.ply") {
-  return "location=" + (folder / name).string();
-}
-
 /// Seconds since an earlier time.
 class Stopwatch {
  public:
@@ -27,7 +23,7 @@ class Stopwatch {
 
 TEST(Cloud, HasThePointsOfTheMapInMeters) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder), false);
+  CloudHarness harness(location(folder), false);
   ASSERT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
   EXPECT_EQ(folder.files(), "cloud-00000.ply");
   const std::vector<PlyPoint> points = read_ply(folder / "cloud-00000.ply");
@@ -45,7 +41,7 @@ TEST(Cloud, HasThePointsOfTheMapInMeters) {
 
 TEST(Cloud, HasTheColorsOfTheLeftFrameOfTheSameTime) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder));
+  CloudHarness harness(location(folder));
   for (int i = 0; i < 4; ++i) {
     ASSERT_EQ(harness.push_left(static_cast<GstClockTime>(i) * kFrame, 10 + i), GST_FLOW_OK);
   }
@@ -61,7 +57,7 @@ TEST(Cloud, HasTheColorsOfTheLeftFrameOfTheSameTime) {
 
 TEST(Cloud, AFrameThatBeginsBeforeItsSegmentIsPairedByItsTimeToo) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder));
+  CloudHarness harness(location(folder));
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_TIME);
   segment.start = segment.time = segment.position = 5 * kFrame + kFrame / 2;
@@ -78,7 +74,7 @@ TEST(Cloud, AFrameThatBeginsBeforeItsSegmentIsPairedByItsTimeToo) {
 
 TEST(Cloud, WaitsForALeftFrameThatIsLate) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder));
+  CloudHarness harness(location(folder));
   std::thread later([&harness] {
     g_usleep(100'000);
     harness.push_left(0, 77);
@@ -90,7 +86,7 @@ TEST(Cloud, WaitsForALeftFrameThatIsLate) {
 
 TEST(Cloud, AMissingLeftFrameCostsItsColorsOnly) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder));
+  CloudHarness harness(location(folder));
   harness.push_left(0, 1);
   harness.push_left(2 * kFrame, 2);
   const Stopwatch time;
@@ -107,7 +103,7 @@ TEST(Cloud, AMissingLeftFrameCostsItsColorsOnly) {
 
 TEST(Cloud, ASilentLeftViewCostsOneTimeout) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder) + " timeout=200000000");
+  CloudHarness harness(location(folder) + " timeout=200000000");
   const Stopwatch time;
   for (int i = 0; i < 5; ++i) {
     EXPECT_EQ(harness.push_map(static_cast<GstClockTime>(i) * kFrame), GST_FLOW_OK);
@@ -122,7 +118,7 @@ TEST(Cloud, ASilentLeftViewCostsOneTimeout) {
 
 TEST(Cloud, TheEndAndGapsOfTheLeftViewDoNotBlock) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder));
+  CloudHarness harness(location(folder));
   const Stopwatch time;
   gst_harness_push_event(harness.left(), gst_event_new_gap(0, 2 * kFrame));
   EXPECT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
@@ -139,7 +135,7 @@ TEST(Cloud, TheEndAndGapsOfTheLeftViewDoNotBlock) {
 
 TEST(Cloud, TheLeftViewWaitsForTheMaps) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder));
+  CloudHarness harness(location(folder));
   std::vector<GstClockTime> times;
   for (int i = 0; i < 40; ++i) times.push_back(static_cast<GstClockTime>(i) * kFrame);
   std::thread left = harness.push_left_later(times);
@@ -157,7 +153,7 @@ TEST(Cloud, TheLeftViewWaitsForTheMaps) {
 
 TEST(Cloud, TheLeftViewDoesNotWaitForEverWithoutMaps) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder) + " timeout=100000000");
+  CloudHarness harness(location(folder) + " timeout=100000000");
   ASSERT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);  // prerolls without a left frame
   const Stopwatch time;
   for (int i = 1; i < 100; ++i) {
@@ -170,7 +166,7 @@ TEST(Cloud, TheLeftViewDoesNotWaitForEverWithoutMaps) {
 
 TEST(Cloud, TheEndOfTheMapsReleasesTheLeftView) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder) + " timeout=60000000000");
+  CloudHarness harness(location(folder) + " timeout=60000000000");
   std::thread left = harness.push_left_later(std::vector<GstClockTime>(100, kFrame));
   g_usleep(50'000);
   gst_harness_push_event(harness.maps(), gst_event_new_eos());
@@ -180,7 +176,7 @@ TEST(Cloud, TheEndOfTheMapsReleasesTheLeftView) {
 
 TEST(Cloud, FlushesAndStopsReleaseTheLeftView) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder) + " timeout=60000000000");
+  CloudHarness harness(location(folder) + " timeout=60000000000");
   std::thread left = harness.push_left_later(std::vector<GstClockTime>(100, kFrame));
   g_usleep(50'000);
   gst_harness_push_event(harness.left(), gst_event_new_flush_start());
@@ -197,7 +193,7 @@ TEST(Cloud, FlushesAndStopsReleaseTheLeftView) {
 
 TEST(Cloud, AFlushInterruptsTheWaitForALeftFrame) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder) + " timeout=60000000000");
+  CloudHarness harness(location(folder) + " timeout=60000000000");
   GstFlowReturn flow = GST_FLOW_OK;
   std::thread maps([&] { flow = harness.push_map(GstClockTime{0}); });
   g_usleep(50'000);
@@ -209,14 +205,14 @@ TEST(Cloud, AFlushInterruptsTheWaitForALeftFrame) {
 
 TEST(Cloud, WritesEveryNthMap) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder) + " every-nth=3", false);
+  CloudHarness harness(location(folder) + " every-nth=3", false);
   for (int i = 0; i < 7; ++i) harness.push_map(static_cast<GstClockTime>(i) * kFrame);
   EXPECT_EQ(folder.files(), "cloud-00000.ply cloud-00003.ply cloud-00006.ply");
 }
 
 TEST(Cloud, WithoutANumberTheLastFileRemains) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder, "cloud.ply"));
+  CloudHarness harness(location(folder, "cloud.ply"));
   for (int i = 0; i < 3; ++i) {
     harness.push_left(static_cast<GstClockTime>(i) * kFrame, i);
     EXPECT_EQ(harness.push_map(static_cast<GstClockTime>(i) * kFrame), GST_FLOW_OK);
@@ -228,7 +224,7 @@ TEST(Cloud, WithoutANumberTheLastFileRemains) {
 TEST(Cloud, LeavesOutPointsByTheProperties) {
   const CloudFolder folder;
   const auto count = [&](const std::string& properties, bool confidence) {
-    CloudHarness harness(at(folder, "cloud.ply") + " " + properties, false);
+    CloudHarness harness(location(folder, "cloud.ply") + " " + properties, false);
     Map16 map = cloud_map();
     map.values[1] = 256;  // 50 m
     GstBuffer* buffer = map_buffer(map);
@@ -249,7 +245,7 @@ TEST(Cloud, LeavesOutPointsByTheProperties) {
 TEST(Cloud, TheFormatIsThatOfTheExtensionOrOfTheProperty) {
   const CloudFolder folder;
   const auto begin_of = [&](const std::string& name, const std::string& properties) {
-    CloudHarness harness(at(folder, name) + properties, false);
+    CloudHarness harness(location(folder, name) + properties, false);
     EXPECT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
     std::string word(4, ' ');
     gchar* text = nullptr;
@@ -266,7 +262,7 @@ TEST(Cloud, TheFormatIsThatOfTheExtensionOrOfTheProperty) {
 
 TEST(Cloud, PostsAMessageForEachFile) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder));
+  CloudHarness harness(location(folder));
   harness.push_left(0, 3);
   harness.push_map(GstClockTime{0});
   harness.push_left(2 * kFrame, 3);
@@ -294,112 +290,11 @@ TEST(Cloud, PostsAMessageForEachFile) {
 
 TEST(Cloud, ReadsMapsAtOddAddresses) {
   const CloudFolder folder;
-  CloudHarness harness(at(folder), false);
+  CloudHarness harness(location(folder), false);
   ASSERT_EQ(harness.push_map(map_buffer(cloud_map(), 0, 3, 1)), GST_FLOW_OK);
   const std::vector<PlyPoint> points = read_ply(folder / "cloud-00000.ply");
   ASSERT_EQ(points.size(), kPoints);
   for (const PlyPoint& point : points) EXPECT_EQ(point.z, 5);
-}
-
-// --- errors ---
-
-/// The error of an mtcloud that does not start.
-std::string error_at_start(const std::string& properties) {
-  GstElement* element = make_element(properties, "mtcloud");
-  GstBus* bus = gst_bus_new();
-  gst_element_set_bus(element, bus);
-  EXPECT_EQ(gst_element_set_state(element, GST_STATE_PAUSED), GST_STATE_CHANGE_FAILURE);
-  const std::string error = text_of(next_message(bus, GST_MESSAGE_ERROR));
-  gst_element_set_state(element, GST_STATE_NULL);
-  gst_element_set_bus(element, nullptr);
-  gst_object_unref(element);
-  gst_object_unref(bus);
-  return error;
-}
-
-TEST(CloudErrors, NameALocationThatIsNotValid) {
-  const std::pair<const char*, const char*> cases[] = {
-      {"", "location is not set"},
-      {"location=/tmp/a%s.ply", "%05d"},
-      {"location=/tmp/a%d-%d.ply", "%05d"},
-      {"location=/tmp/a%999d.ply", "%05d"},
-      {"location=/tmp/a%05.ply", "%05d"},
-      {"location=/tmp/cloud%05d", "property format"},
-      {"location=/tmp/cloud.xyz", "property format"},
-      {"location=/no/such/folder/%d.ply", "/no/such/folder"},
-      {"location=/tmp/a.ply near=3 far=2", "near=3"},
-  };
-  for (const auto& [properties, word] : cases) {
-    const std::string error = error_at_start(properties);
-    EXPECT_NE(error.find(word), std::string::npos) << properties << ": " << error;
-  }
-}
-
-/// The error of the first map.
-std::string error_of_map(CloudHarness& harness, GstBuffer* buffer) {
-  EXPECT_EQ(harness.push_map(buffer), GST_FLOW_ERROR);
-  return text_of(next_message(harness.bus(), GST_MESSAGE_ERROR));
-}
-
-TEST(CloudErrors, NameAFileThatCannotBeWritten) {
-  CloudFolder folder;
-  std::filesystem::create_directory(folder / "clouds");
-  CloudHarness harness(at(folder, "clouds/%d.ply"), false);
-  ASSERT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
-  std::filesystem::remove_all(folder / "clouds");
-  const std::string error = error_of_map(harness, map_buffer(cloud_map(), kFrame));
-  EXPECT_NE(error.find((folder / "clouds/1.ply").string()), std::string::npos) << error;
-  EXPECT_NE(error.find("No such file or directory"), std::string::npos) << error;
-}
-
-TEST(CloudErrors, NameTheSizesOfALeftViewThatDoesNotFit) {
-  const CloudFolder folder;
-  CloudHarness harness(at(folder));
-  gst_harness_set_src_caps_str(harness.left(), raw_caps("GRAY8", 32, 16).c_str());
-  gst_harness_push(harness.left(),
-                   frame_buffer({32, 16, std::vector<std::uint8_t>(512)}, 0, kFrame));
-  const std::string error = error_of_map(harness, map_buffer(cloud_map()));
-  EXPECT_NE(error.find("32x16"), std::string::npos) << error;
-  EXPECT_NE(error.find("6x4"), std::string::npos) << error;
-}
-
-TEST(CloudErrors, NameAMissingConfidence) {
-  const CloudFolder folder;
-  CloudHarness harness(at(folder) + " min-confidence=1", false);
-  const std::string error = error_of_map(harness, map_buffer(cloud_map()));
-  EXPECT_NE(error.find("confidence-map=true"), std::string::npos) << error;
-}
-
-TEST(CloudErrors, NameAConfidenceThatDoesNotFit) {
-  const CloudFolder folder;
-  CloudHarness harness(at(folder), false);
-  GstBuffer* buffer = map_buffer(cloud_map());
-  attach_confidence(buffer, 3, 3, std::vector<std::uint8_t>(9));
-  const std::string error = error_of_map(harness, buffer);
-  EXPECT_NE(error.find("3x3"), std::string::npos) << error;
-}
-
-TEST(CloudErrors, NameTheWaysToSupplyAGeometry) {
-  const CloudFolder folder;
-  CloudHarness harness(at(folder), false);
-  gst_harness_set_src_caps_str(harness.maps(),
-                               raw_caps("GRAY16_LE", kCloudWidth, kCloudHeight).c_str());
-  harness.push_map(GstClockTime{0});
-  const std::string error = text_of(next_message(harness.bus(), GST_MESSAGE_ERROR));
-  for (const char* word : {"mtrectify", "calibration=FILE", "focal-length=PX"}) {
-    EXPECT_NE(error.find(word), std::string::npos) << error;
-  }
-}
-
-TEST(CloudErrors, NameAStreamOfDepths) {
-  const CloudFolder folder;
-  CloudHarness harness(at(folder), false);
-  gst_harness_set_src_caps_str(
-      harness.maps(),
-      (raw_caps("GRAY16_LE", kCloudWidth, kCloudHeight) + ",depth-unit=0.001").c_str());
-  harness.push_map(GstClockTime{0});
-  const std::string error = text_of(next_message(harness.bus(), GST_MESSAGE_ERROR));
-  EXPECT_NE(error.find("depths, not disparities"), std::string::npos) << error;
 }
 
 }  // namespace
