@@ -76,8 +76,12 @@ Result<Rotations> rotations_of(const StereoCalibration& calibration) {
 }
 
 cv::Mat matrix_of(const CameraCalibration& camera) {
-  return (cv::Mat_<double>(3, 3) << camera.focal_x, 0, camera.center_x, 0, camera.focal_y,
-          camera.center_y, 0, 0, 1);
+  cv::Mat matrix = cv::Mat::eye(3, 3, CV_64F);
+  matrix.at<double>(0, 0) = camera.focal_x;
+  matrix.at<double>(0, 2) = camera.center_x;
+  matrix.at<double>(1, 1) = camera.focal_y;
+  matrix.at<double>(1, 2) = camera.center_y;
+  return matrix;
 }
 
 cv::Mat distortion_of(const CameraCalibration& camera) {

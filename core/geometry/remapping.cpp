@@ -189,7 +189,8 @@ void remap(const PositionMap& map, ImageView<const std::uint8_t> in, ImageView<s
   int x = 0;
   const auto fill_row = [&](int end) {
     const auto offset = static_cast<std::ptrdiff_t>(x) * channels;
-    std::memset(out.row(y) + offset, border, static_cast<std::size_t>((end - x) * channels));
+    std::memset(out.row(y) + offset, border,
+                static_cast<std::size_t>(end - x) * static_cast<std::size_t>(channels));
     x = end;
   };
   const auto fill_to_row = [&](int row) {
