@@ -83,10 +83,23 @@ def make_data_sets(folder):
             shutil.copy(folder / f"clip/truth/{n:06d}.pfm", truth / f"{n + 1:04d}.pfm")
 
 
+CALIBRATION = """%YAML 1.0
+---
+image_size: [ 160, 120 ]
+K1: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
+D1: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
+K2: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
+D2: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
+R: { rows: 3, cols: 3, dt: d, data: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ] }
+T: { rows: 3, cols: 1, dt: d, data: [ -0.1, 0, 0 ] }
+"""
+
+
 def prepare(folder):
     """Creates all files that the examples name."""
     make_clip(folder)
     make_videos(folder)
+    (folder / "stereo.yaml").write_text(CALIBRATION)
     for name in ("pipelines", "tests", "docs"):
         (folder / name).symlink_to(SOURCE / name)
     (folder / "build").symlink_to(BUILD)
