@@ -173,6 +173,31 @@ TEST(Chain, RectifiedPairStatesItsGeometryAndHasNoDisparityInTheBorder) {
   EXPECT_GT(outside, 1000);
 }
 
+TEST(Chain, SeeksOfBothViewsAreOne) {
+  CalibrationFolder folder;
+  const std::string file = folder.write(plumb_bob_rig(160, 120));
+  Pipeline pipeline(
+      "videotestsrc num-buffers=200 ! video/x-raw,format=GRAY8,width=320,height=120,framerate=30/1 "
+      "! mtsplit name=s s.left ! queue ! mtrectify calibration=" +
+      file + " ! m.sink_left s.right ! queue ! mtrectify camera=right calibration=" + file +
+      " ! m.sink_right mtstereo name=m max-disparity=16 ! appsink name=out wait-on-eos=false "
+      "sync=false");
+  pipeline.set_state(GST_STATE_PAUSED);
+  ASSERT_TRUE(pipeline.wait_until_settled());
+  for (const int second : {2, 1, 3}) {
+    ASSERT_TRUE(
+        pipeline.seek(static_cast<GstClockTime>(second) * GST_SECOND,
+                      static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE)));
+    ASSERT_TRUE(pipeline.wait_until_settled());
+  }
+  EXPECT_EQ(pipeline.run(), "");
+  const auto samples = pipeline.samples();
+  ASSERT_GT(samples.size(), 10u);
+  EXPECT_NEAR(static_cast<double>(samples[0].pts), 3e9, 1e8);
+  const Stats stats = stats_of(pipeline.named("m"));
+  EXPECT_EQ(stats.dropped_left + stats.dropped_right, 0u);
+}
+
 class ValidColumnsMeta : public testing::Test {
  protected:
   void SetUp() override {
