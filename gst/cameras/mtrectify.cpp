@@ -160,6 +160,13 @@ bool take_back(GstBaseTransform* transform, const RectifySettings& refused, Fram
   return true;
 }
 
+Error refuse_format() {
+  return {
+      ErrorCode::kInvalidParameter,
+      "color=true keeps RGB formats of 8 bits and GRAY8. Put videoconvert upstream of mtrectify "
+      "and set color=true before the start, or set color=false."};
+}
+
 /// Called by the streaming thread for the caps of a new stream, and after a change of a property.
 GstCaps* fixate_caps(GstBaseTransform* transform, GstPadDirection direction, GstCaps* caps,
                      GstCaps* other) {
@@ -170,8 +177,10 @@ GstCaps* fixate_caps(GstBaseTransform* transform, GstPadDirection direction, Gst
   RectifyState& state = state_of(transform);
   RectifySettings settings = settings_of(transform);
   const FrameSize input = size_in(caps);
-  Result<CapsPointer> fixed =
-      negotiate(state, settings, input, CapsPointer(gst_caps_ref(possible.get())));
+  Result<CapsPointer> fixed = refuse_format();
+  if (!settings.color || has_color_format(caps)) {
+    fixed = negotiate(state, settings, input, CapsPointer(gst_caps_ref(possible.get())));
+  }
   if (!fixed && take_back(transform, settings, input, fixed.error())) {
     const CapsPointer last = rectified_caps(caps, state.plan->settings);
     CapsPointer peer(gst_pad_peer_query_caps(GST_BASE_TRANSFORM_SRC_PAD(transform), last.get()));

@@ -36,13 +36,15 @@ void remove_format(GstStructure* fields) {
 }  // namespace
 
 CapsPointer rectified_caps(const GstCaps* sink, const RectifySettings& settings) {
-  CapsPointer result =
-      settings.color ? with_formats(sink, kColorFormats) : CapsPointer(gst_caps_copy(sink));
+  CapsPointer result = with_formats(sink, kColorFormats);
+  // Without a format to keep, the caps say gray: fixed caps are then refused with a reason.
+  const bool color = settings.color && !gst_caps_is_empty(result.get());
+  if (!color) result.reset(gst_caps_copy(sink));
   result.reset(gst_caps_make_writable(result.release()));
   for (guint i = 0; i < gst_caps_get_size(result.get()); ++i) {
     GstStructure* fields = gst_caps_get_structure(result.get(), i);
     remove_geometry(fields);
-    if (!settings.color) {
+    if (!color) {
       remove_format(fields);
       gst_structure_set(fields, "format", G_TYPE_STRING, "GRAY8", nullptr);
     }
@@ -76,6 +78,10 @@ CapsPointer unrectified_caps(const GstCaps* source, const RectifySettings& setti
   }
   gst_caps_append(best.get(), result.release());
   return best;
+}
+
+bool has_color_format(const GstCaps* caps) {
+  return !gst_caps_is_empty(with_formats(caps, kColorFormats).get());
 }
 
 CapsPointer fixed_caps(CapsPointer caps, FrameSize size) {

@@ -21,6 +21,9 @@ CapsPointer rectified_caps(const GstCaps* sink, const RectifySettings& settings)
 CapsPointer unrectified_caps(const GstCaps* source, const RectifySettings& settings,
                              const std::optional<FrameSize>& preferred);
 
+/// True if frames with these caps can be rectified in color.
+bool has_color_format(const GstCaps* caps);
+
 /// The first structure of `caps` with the size that is nearest to this one, all else fixed too.
 CapsPointer fixed_caps(CapsPointer caps, FrameSize size);
 

@@ -256,6 +256,17 @@ TEST_F(MtRectify, ColorKeepsTheFormat) {
   }
 }
 
+TEST_F(MtRectify, ColorOfVideoWithoutRgbIsRefused) {
+  const Picture image = picture();
+  const Layout layout{.format = "I420"};
+  make().caps(raw_caps("I420", kWidth, kHeight));
+  const auto before = output(frame_buffer(image, 0, kFrame, layout));
+  g_object_set(harness->element(), "color", TRUE, nullptr);
+  EXPECT_EQ(output(frame_buffer(image, kFrame, kFrame, layout)), before);
+  const std::string text = harness->report(GST_MESSAGE_WARNING);
+  EXPECT_NE(text.find("videoconvert"), std::string::npos) << text;
+}
+
 TEST_F(MtRectify, FramesCarryTheirValidColumns) {
   make("alpha=1").caps(raw_caps("GRAY8", kWidth, kHeight));
   const BufferPointer first = harness->pass(frame_buffer(picture(), 0, kFrame));
