@@ -37,8 +37,8 @@ inline constexpr double kKeepScale = -1;
 
 /// The rectification of a calibration. Two polynomial lenses (kNone, kPlumbBob) get the result of
 /// OpenCV's stereoRectify(). Fails with kInvalidCalibration if the cameras cannot be rectified (a
-/// baseline along the optical axis, a vertical or reversed one, with alpha >= 0 also a field of view
-/// of 170 degrees or more), and with kInvalidParameter if an option is out of range.
+/// baseline along the optical axis, a vertical or reversed one, with alpha >= 0 also a field of
+/// view of 170 degrees or more), and with kInvalidParameter if an option is out of range.
 MTSTEREO_API Result<Rectification> rectify(const StereoCalibration& calibration,
                                            const RectificationOptions& options = {}) noexcept;
 
