@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -87,7 +88,8 @@ bool all_digits(const std::string& name) {
 
 // Removes only the files of a clip, so that a wrong folder name does no other damage.
 void remove_clip(const fs::path& folder) {
-  for (const char* name : {"left", "right", "truth", "mask", "calib.txt"}) {
+  for (const char* name :
+       {"left", "right", "truth", "mask", "calib.txt", "poses.txt", "truth-calibration.yml"}) {
     fs::remove_all(folder / name);
   }
   std::vector<fs::path> frames;
@@ -117,6 +119,22 @@ void write_pfm(const fs::path& file, const cv::Mat& image) {
   write_bytes(file, data.data(), data.size());
 }
 
+void write_poses(const fs::path& file, const std::vector<FramePose>& poses) {
+  std::ostringstream text;
+  text.precision(12);
+  text << "# frame at-rest rx ry rz tx ty tz\n"
+          "# From the board to the left camera: rotation vector [rad], center of the board [m]\n";
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::AngleAxisd turn(poses[i].pose.linear());
+    text << i << ' ' << (poses[i].rests ? 1 : 0);
+    for (const double v : Eigen::Vector3d(turn.angle() * turn.axis())) text << ' ' << v;
+    for (const double v : poses[i].pose.translation()) text << ' ' << v;
+    text << '\n';
+  }
+  const std::string bytes = text.str();
+  write_bytes(file, bytes.data(), bytes.size());
+}
+
 ClipWriter::ClipWriter(fs::path folder, Layout layout, bool overwrite)
     : folder_(std::move(folder)), layout_(layout) {
   std::error_code error;
@@ -133,12 +151,18 @@ ClipWriter::ClipWriter(fs::path folder, Layout layout, bool overwrite)
   } catch (const fs::filesystem_error& e) {
     cannot("write into", folder_, e.code().message());
   }
-  if (layout_ == Layout::kClip) {
-    for (const char* name : {"left", "right", "truth", "mask"}) make_folder(folder_ / name);
-  }
+  if (layout_ == Layout::kMiddlebury) return;
+  for (const char* name : {"left", "right"}) make_folder(folder_ / name);
+  if (layout_ == Layout::kViews) return;
+  for (const char* name : {"truth", "mask"}) make_folder(folder_ / name);
 }
 
-void ClipWriter::write(int number, const StereoFrame& frame, const Settings& settings) {
+void ClipWriter::write(int number, const StereoFrame& frame, const Rectification& rectification) {
+  if (layout_ == Layout::kViews) {
+    write_png(folder_ / "left" / numbered(number, ".png"), frame.left);
+    write_png(folder_ / "right" / numbered(number, ".png"), frame.right);
+    return;
+  }
   const double largest = largest_disparity(frame.truth);
   largest_ = std::max(largest_, largest);
   if (layout_ == Layout::kClip) {
@@ -154,13 +178,13 @@ void ClipWriter::write(int number, const StereoFrame& frame, const Settings& set
   write_png(folder / "im1.png", frame.right);
   write_pfm(folder / "disp0GT.pfm", frame.truth);
   write_png(folder / "mask0nocc.png", mask_of(frame));
-  const std::string text = calibration_text(settings, range_for(largest));
+  const std::string text = calibration_text(rectification, range_for(largest));
   write_bytes(folder / "calib.txt", text.data(), text.size());
 }
 
-void ClipWriter::finish(const Settings& settings) {
-  if (layout_ != Layout::kClip) return;  // each frame has its own calib.txt
-  const std::string text = calibration_text(settings, disparities());
+void ClipWriter::finish(const Rectification& rectification) {
+  if (layout_ != Layout::kClip) return;  // in Middlebury's, each frame has its own calib.txt
+  const std::string text = calibration_text(rectification, disparities());
   write_bytes(folder_ / "calib.txt", text.data(), text.size());
 }
 

@@ -114,11 +114,11 @@ int run(Options& o) {
   ClipWriter writer(o.folder, o.layout, o.overwrite);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   for (int i = 0; i < o.frames; ++i) {
-    writer.write(i, render(scene, o.start + i / o.rate, settings), settings);
+    writer.write(i, render(scene, o.start + i / o.rate, settings), rectification_of(settings));
     if (terminal) std::fprintf(stderr, "\rframe %d of %d", i + 1, o.frames);
   }
   if (terminal) std::fputc('\n', stderr);
-  writer.finish(settings);
+  writer.finish(rectification_of(settings));
   std::cout << o.folder << ": " << o.frames << " frames of " << settings.width << "x"
             << settings.height << ", focal length " << settings.focal << " px, baseline "
             << settings.baseline << " m, disparities below " << writer.disparities() << " px\n";

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
+#include "render/raw.hpp"
 #include "render/sensor.hpp"
 #include "render/view.hpp"
 
@@ -32,69 +34,115 @@ void for_rows(int height, int threads, const std::function<void(int)>& work) {
   run();
 }
 
-class Painter {
- public:
-  Painter(const View& view, const Settings& settings, const Sensor& sensor, bool is_right)
-      : view_(view), settings_(settings), sensor_(sensor), is_right_(is_right) {}
+// The light of a pixel: the mean of its rays.
+Eigen::Vector3f light_at(const View& view, int samples, int x, int y) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (int j = 0; j < samples; ++j) {
+    for (int i = 0; i < samples; ++i) {
+      const double sx = x + (i + 0.5) / samples - 0.5, sy = y + (j + 0.5) / samples - 0.5;
+      const auto seen = view.look(sx, sy);
+      sum += seen ? Eigen::Vector3f(seen->gray * seen->object->texture.color)
+                  : Eigen::Vector3f(view.sky(sx, sy) * Eigen::Vector3f(1.0f, 0.97f, 0.93f));
+    }
+  }
+  return sum / static_cast<float>(samples * samples);
+}
 
-  void row(int y, cv::Mat& image) const {
-    auto* out = image.ptr<std::uint8_t>(y);
-    for (int x = 0; x < settings_.width; ++x) {
-      const Eigen::Vector3f color = pixel(x, y);
-      if (settings_.color) {
-        for (int c = 0; c < 3; ++c) *out++ = sensor_.gray(color[c], x, y, c);
+// The light that reaches the sensor, in one channel (gray) or three.
+cv::Mat light_of(const View& view, const Settings& settings) {
+  const int channels = settings.color ? 3 : 1;
+  cv::Mat light(settings.height, settings.width, CV_32FC(channels));
+  for_rows(settings.height, settings.threads, [&](int y) {
+    auto* out = light.ptr<float>(y);
+    for (int x = 0; x < settings.width; ++x) {
+      const Eigen::Vector3f color = light_at(view, settings.samples, x, y);
+      if (settings.color) {
+        for (int c = 0; c < 3; ++c) *out++ = color[c];
       } else {
         // ITU-R BT.601 luma
-        const float luma = 0.114f * color[0] + 0.587f * color[1] + 0.299f * color[2];
-        *out++ = sensor_.gray(luma, x, y, 0);
+        *out++ = 0.114f * color[0] + 0.587f * color[1] + 0.299f * color[2];
       }
     }
+  });
+  if (settings.blur > 0) {
+    cv::GaussianBlur(light, light, cv::Size(), settings.blur, settings.blur, cv::BORDER_REPLICATE);
   }
+  return light;
+}
 
- private:
-  Eigen::Vector3f pixel(int x, int y) const {
-    const int n = settings_.samples;
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < n; ++i) {
-        const double sx = x + (i + 0.5) / n - 0.5, sy = y + (j + 0.5) / n - 0.5;
-        const auto seen = view_.look(sx, sy);
-        sum += seen ? Eigen::Vector3f(seen->gray * seen->object->texture.color) : sky(sx, sy);
-      }
+cv::Mat image_of(const cv::Mat& light, const Settings& settings, const Sensor& sensor) {
+  const int channels = light.channels();
+  cv::Mat image(light.size(), CV_8UC(channels));
+  for_rows(settings.height, settings.threads, [&](int y) {
+    const auto* in = light.ptr<float>(y);
+    auto* out = image.ptr<std::uint8_t>(y);
+    for (int x = 0; x < settings.width; ++x) {
+      for (int c = 0; c < channels; ++c) *out++ = sensor.gray(*in++, x, y, c);
     }
-    return sum / static_cast<float>(n * n);
-  }
+  });
+  return settings.jpeg > 0 ? after_jpeg(image, settings.jpeg) : image;
+}
 
-  Eigen::Vector3f sky(double x, double y) const {
-    const cv::Point2d at = is_right_ ? ideal_pixel(settings_, x, y) : cv::Point2d(x, y);
-    return view_.sky(at.x, at.y) * Eigen::Vector3f(1.0f, 0.97f, 0.93f);
-  }
+enum class Side { kLeft, kRight };
 
-  const View& view_;
-  const Settings& settings_;
-  const Sensor& sensor_;
-  bool is_right_;
-};
+// What a camera of this side sees; the size of the settings is that of its image.
+cv::Mat paint(const Scene& scene, double time, const Settings& settings, const Camera& camera,
+              Side side) {
+  const bool is_right = side == Side::kRight;
+  const View view(scene, time, settings, camera);
+  const auto moment = std::bit_cast<std::uint64_t>(time);
+  const std::uint32_t number = hash(settings.seed, static_cast<std::uint32_t>(moment),
+                                    static_cast<std::uint32_t>(moment >> 32));
+  const Sensor sensor(settings, hash(number, is_right ? 1 : 0, 0),
+                      is_right ? settings.light * settings.exposure : settings.light);
+  return image_of(light_of(view, settings), settings, sensor);
+}
 
-// Whether the right camera sees the point at (x, y) of the left image with this depth.
-bool hidden(const View& right, double x, double y, double depth, const Settings& settings) {
-  const double x_right = x - settings.focal * settings.baseline / depth;
-  if (x_right < -0.5 || x_right >= settings.width - 0.5) return true;
+// Whether the right camera does not see the point of column x_right of its row y with this depth.
+bool hidden(const View& right, double x_right, double y, double depth, int width) {
+  if (x_right < -0.5 || x_right >= width - 0.5) return true;
   const auto other = right.depth(x_right, y);
   // The ray hits the point's own surface at a depth that differs by rounding errors.
   return other && *other < depth * (1 - 1e-6);
 }
 
-void truth_row(int y, const View& left, const View& right, const Settings& settings,
-               StereoFrame& frame) {
-  auto* truth = frame.truth.ptr<float>(y);
-  auto* occluded = frame.occluded.ptr<std::uint8_t>(y);
-  for (int x = 0; x < settings.width; ++x) {
+void truth_row(int y, const View& left, const View& right, const Rectification& rectification,
+               Truth& truth) {
+  constexpr float kNothing = std::numeric_limits<float>::infinity();
+  auto* disparities = truth.disparity.ptr<float>(y);
+  auto* depths = truth.depth.ptr<float>(y);
+  auto* occluded = truth.occluded.ptr<std::uint8_t>(y);
+  for (int x = 0; x < rectification.width; ++x) {
     const auto depth = left.depth(x, y);
-    truth[x] = depth ? static_cast<float>(settings.focal * settings.baseline / *depth)
-                     : std::numeric_limits<float>::infinity();
-    occluded[x] = depth && hidden(right, x, y, *depth, settings) ? 255 : 0;
+    if (!depth) {
+      disparities[x] = depths[x] = kNothing;
+      occluded[x] = 0;
+      continue;
+    }
+    const double disparity = rectification.focal_length * rectification.baseline / *depth -
+                             rectification.principal_offset();
+    disparities[x] = static_cast<float>(disparity);
+    depths[x] = static_cast<float>(*depth);
+    occluded[x] = hidden(right, x - disparity, y, *depth, rectification.width) ? 255 : 0;
   }
+}
+
+void require_valid(const Settings& settings) {
+  if (const std::string wrong = check(settings); !wrong.empty()) throw std::invalid_argument(wrong);
+}
+
+// The settings for a camera with this image.
+Settings sized(Settings settings, int width, int height, double focal) {
+  settings.width = width, settings.height = height, settings.focal = focal;
+  return settings;
+}
+
+Settings sized(const Settings& settings, const Rectification& r) {
+  return sized(settings, r.width, r.height, r.focal_length);
+}
+
+Settings sized(const Settings& settings, const CameraCalibration& c) {
+  return sized(settings, c.width, c.height, c.focal_x);
 }
 
 struct Limit {
@@ -126,6 +174,7 @@ std::string check(const Settings& s) {
       {"sky", s.sky, 0, 100, ""},
       {"sky-gradient", s.sky_gradient, 0, 1, ""},
       {"vignette", s.vignette, 0, 1, ""},
+      {"blur", s.blur, 0, 10, " px"},
       {"jpeg", static_cast<double>(s.jpeg), 0, 100, ""},
       {"roll", s.rig.roll, -10, 10, " degrees"},
       {"pitch", s.rig.pitch, -10, 10, " degrees"},
@@ -149,45 +198,56 @@ Settings complete(const Scene& scene, Settings settings) {
 }
 
 StereoFrame render(const Scene& scene, double time, const Settings& given) {
-  if (const std::string wrong = check(given); !wrong.empty()) throw std::invalid_argument(wrong);
+  require_valid(given);
   const Settings settings = complete(scene, given);
-  const int type = settings.color ? CV_8UC3 : CV_8UC1;
-  const cv::Size size(settings.width, settings.height);
-  StereoFrame frame{cv::Mat(size, type), cv::Mat(size, type), cv::Mat(size, CV_32FC1),
-                    cv::Mat(size, CV_8UC1)};
-
-  const View left(scene, time, settings, left_camera(settings));
-  const View ideal_right(scene, time, settings, ideal_right_camera(settings));
-  const View right(scene, time, settings, right_camera(settings));
-  const auto moment = std::bit_cast<std::uint64_t>(time);
-  const std::uint32_t number = hash(settings.seed, static_cast<std::uint32_t>(moment),
-                                    static_cast<std::uint32_t>(moment >> 32));
-  const Sensor left_sensor(settings, hash(number, 0, 0), settings.light);
-  const Sensor right_sensor(settings, hash(number, 1, 0), settings.light * settings.exposure);
-  const Painter paint_left(left, settings, left_sensor, false);
-  const Painter paint_right(right, settings, right_sensor, true);
-  for_rows(settings.height, settings.threads, [&](int y) {
-    paint_left.row(y, frame.left);
-    paint_right.row(y, frame.right);
-    truth_row(y, left, ideal_right, settings, frame);
-  });
-  if (settings.jpeg > 0) {
-    frame.left = after_jpeg(frame.left, settings.jpeg);
-    frame.right = after_jpeg(frame.right, settings.jpeg);
-  }
-  return frame;
+  const Truth truth = render_truth(scene, time, settings, rectification_of(settings));
+  return {paint(scene, time, settings, left_camera(settings), Side::kLeft),
+          paint(scene, time, settings, right_camera(settings), Side::kRight), truth.disparity,
+          truth.occluded};
 }
 
-std::string calibration_text(const Settings& s, int disparities) {
+RawFrame render_raw(const Scene& scene, double time, const Settings& settings, const RawRig& rig) {
+  require_valid(settings);
+  const Settings left = sized(settings, rig.calibration.left);
+  const Settings right = sized(settings, rig.calibration.right);
+  return {paint(scene, time, left, rig.left, Side::kLeft),
+          paint(scene, time, right, rig.right, Side::kRight)};
+}
+
+Truth render_truth(const Scene& scene, double time, const Settings& given,
+                   const Rectification& rectification) {
+  require_valid(given);
+  const Settings settings = sized(given, rectification);
+  const cv::Size size(settings.width, settings.height);
+  Truth truth{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1)};
+  const View left(scene, time, settings, rectified_left_camera(rectification));
+  const View right(scene, time, settings, rectified_right_camera(rectification));
+  for_rows(settings.height, settings.threads,
+           [&](int y) { truth_row(y, left, right, rectification, truth); });
+  return truth;
+}
+
+StereoFrame render_rectified(const Scene& scene, double time, const Settings& given,
+                             const Rectification& rectification) {
+  const Truth truth = render_truth(scene, time, given, rectification);
+  const Settings settings = sized(given, rectification);
+  return {paint(scene, time, settings, rectified_left_camera(rectification), Side::kLeft),
+          paint(scene, time, settings, rectified_right_camera(rectification), Side::kRight),
+          truth.disparity, truth.occluded};
+}
+
+std::string calibration_text(const Rectification& r, int disparities) {
   std::ostringstream text;
   text.precision(10);
-  for (const char* camera : {"cam0", "cam1"}) {
-    text << camera << "=[" << s.focal << " 0 " << (s.width - 1) / 2.0 << "; 0 " << s.focal << ' '
-         << (s.height - 1) / 2.0 << "; 0 0 1]\n";
+  const char* name = "cam0";
+  for (const double center_x : {r.left_center_x, r.right_center_x}) {
+    text << name << "=[" << r.focal_length << " 0 " << center_x << "; 0 " << r.focal_length << ' '
+         << r.center_y << "; 0 0 1]\n";
+    name = "cam1";
   }
   // Middlebury states the baseline in millimeters.
-  text << "doffs=0\nbaseline=" << 1000 * s.baseline << "\nwidth=" << s.width
-       << "\nheight=" << s.height << "\nndisp=" << disparities << "\n";
+  text << "doffs=" << r.principal_offset() << "\nbaseline=" << 1000 * r.baseline
+       << "\nwidth=" << r.width << "\nheight=" << r.height << "\nndisp=" << disparities << "\n";
   return text.str();
 }
 

@@ -26,6 +26,7 @@ struct Settings {
   double sky = 0.95;      ///< brightness of the sky at the bottom of the image; 1 = white
   double sky_gradient = 0.15;  ///< what it loses up to the top of the image; 0 = a flat sky
   double vignette = 0;         ///< fraction of the light that is lost in the corners
+  double blur = 0;             ///< standard deviation of the lens's blur, a Gaussian [px]
   int jpeg = 0;                ///< quality of JPEG compression, 1 to 100; 0 = no compression
   Rig rig;                     ///< errors of the right camera
   std::uint32_t seed = 1;      ///< seed of the noise
@@ -54,8 +55,8 @@ struct StereoFrame {
 /// threads. Throws std::invalid_argument with the sentence of check().
 StereoFrame render(const Scene& scene, double time, const Settings& settings);
 
-/// The camera of the settings in the format of Middlebury's calib.txt; `disparities` is the search
-/// range [px], which covers all disparities of the ground truth.
-std::string calibration_text(const Settings& completed, int disparities);
+/// A rectified pair in the format of Middlebury's calib.txt; `disparities` is the search range
+/// [px], which covers all disparities of the ground truth.
+std::string calibration_text(const Rectification& rectification, int disparities);
 
 }  // namespace mtstereo::render

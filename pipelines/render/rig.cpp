@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "render/lens.hpp"
 #include "render/render.hpp"
 
 namespace mtstereo::render {
@@ -15,12 +16,18 @@ bool Rig::aligned() const {
 }
 
 Vector3d Camera::direction(double x, double y) const {
+  if (lens) return lens->ray(x, y);
   return {(x - center_x) / focal, (y - center_y) / focal, 1};
 }
 
 cv::Point2d Camera::project(const Vector3d& direction) const {
+  if (lens) return lens->pixel(direction);
   return {center_x + focal * direction.x() / direction.z(),
           center_y + focal * direction.y() / direction.z()};
+}
+
+cv::Point2d Camera::pixel_of(const Vector3d& point) const {
+  return project(pose.linear().transpose() * (point - pose.translation()));
 }
 
 Camera left_camera(const Settings& settings) {
@@ -60,6 +67,36 @@ cv::Point2d ideal_pixel(const Settings& settings, double x, double y) {
   if (settings.rig.aligned()) return {x, y};
   const Camera ideal = ideal_right_camera(settings), real = right_camera(settings);
   return ideal.project(real.pose.linear() * real.direction(x, y));
+}
+
+Rectification rectification_of(const Settings& settings) {
+  const Camera left = left_camera(settings);
+  Rectification r;
+  r.width = settings.width, r.height = settings.height;
+  r.left_rotation = r.right_rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  r.focal_length = left.focal;
+  r.left_center_x = r.right_center_x = left.center_x;
+  r.center_y = left.center_y;
+  r.baseline = settings.baseline;
+  return r;
+}
+
+Camera rectified_left_camera(const Rectification& r) {
+  Camera camera;
+  camera.focal = r.focal_length;
+  camera.center_x = r.left_center_x;
+  camera.center_y = r.center_y;
+  const Eigen::Matrix3d rectified_from_left =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.left_rotation.data());
+  camera.pose.linear() = rectified_from_left.transpose();
+  return camera;
+}
+
+Camera rectified_right_camera(const Rectification& r) {
+  Camera camera = rectified_left_camera(r);
+  camera.center_x = r.right_center_x;
+  camera.pose.translate(Vector3d(r.baseline, 0, 0));
+  return camera;
 }
 
 }  // namespace mtstereo::render

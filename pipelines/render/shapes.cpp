@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "render/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -123,7 +124,41 @@ std::optional<Hit> hit_cylinder(const Object& o, const Eigen::Vector3d& origin,
 
 }  // namespace
 
+namespace {
+
+// A time on a path: the index of a pose, and the way to the next one, 0 .. 1.
+struct Place {
+  std::size_t index;
+  double along;
+};
+
+Place place_at(const Path& path, double time) {
+  constexpr double kRounding = 1e-9;  // [s]
+  const double period = path.rest + path.move;
+  const double passed = std::max(0.0, std::floor((time + kRounding) / period));
+  const auto index = static_cast<std::size_t>(passed);
+  if (index + 1 >= path.poses.size()) return {path.poses.size() - 1, 0};
+  const double moving = time - passed * period - path.rest;
+  return {index, moving <= kRounding ? 0 : std::min(moving / path.move, 1.0)};
+}
+
+}  // namespace
+
+Eigen::Isometry3d Path::at(double time) const {
+  const auto [index, along] = place_at(*this, time);
+  if (along == 0) return poses[index];
+  const Eigen::Isometry3d &from = poses[index], &to = poses[index + 1];
+  const double s = along * along * (3 - 2 * along);  // starts and stops softly
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translate((1 - s) * from.translation() + s * to.translation());
+  pose.rotate(Eigen::Quaterniond(from.linear()).slerp(s, Eigen::Quaterniond(to.linear())));
+  return pose;
+}
+
+bool Path::rests_at(double time) const { return place_at(*this, time).along == 0; }
+
 Eigen::Isometry3d Object::pose_at(double time) const {
+  if (motion.path) return motion.path->at(time);
   constexpr double kTurn = 2 * std::numbers::pi;
   const double sway = std::sin(kTurn * (motion.swing_rate * time + motion.swing_phase)) -
                       std::sin(kTurn * motion.swing_phase);

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "render/texture.hpp"
 
@@ -25,6 +27,18 @@ enum class Cutout {
   kLeaf,  ///< a pointed oval; everything outside is a hole
 };
 
+/// Poses that an object takes one after the other.
+struct Path {
+  std::vector<Eigen::Isometry3d> poses;  ///< transforms from object to world; at least one
+  double rest = 0;                       ///< time at each pose [s]
+  double move = 1;                       ///< time from pose to pose, more than 0 [s]
+
+  /// The pose at a time [s]; after the last pose, the object stays there.
+  Eigen::Isometry3d at(double time) const;
+  /// Whether the object rests at a time.
+  bool rests_at(double time) const;
+};
+
 /// The motion of an object; all zeros = at rest.
 struct Motion {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
@@ -32,6 +46,7 @@ struct Motion {
   double swing_rate = 0;                               ///< [1/s]
   double swing_phase = 0;                              ///< [periods]
   double spin = 0;                                     ///< about its own y axis [rad/s]
+  std::shared_ptr<const Path> path{};                  ///< replaces all of these and Object::pose
 };
 
 /// A solid object of the scene.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/picture.hpp"
+
 namespace mtstereo::render {
 namespace {
 
@@ -135,6 +137,7 @@ double hash_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 }
 
 double gray_value(const Texture& texture, double u, double v, double footprint) {
+  if (texture.picture) return texture.picture->mean(u, v, footprint);
   double value = texture.mean;
   double size = texture.noise_size, amplitude = texture.noise_contrast;
   for (int octave = 0; octave < texture.octaves; ++octave) {

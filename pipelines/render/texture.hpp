@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 
 namespace mtstereo::render {
+
+class Picture;
 
 /// The pattern on top of a texture's noise.
 enum class Pattern {
@@ -29,6 +32,7 @@ struct Texture {
   double period_v = 1;                ///< period of the pattern [m]
   Eigen::Vector3f color = {1, 1, 1};  ///< tint (blue, green, red)
   std::uint32_t seed = 0;
+  std::shared_ptr<const Picture> picture{};  ///< replaces all but the color
 };
 
 /// A hash of three numbers; the source of all random choices of the renderer.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/lens.hpp"
+
 namespace mtstereo::render {
 namespace {
 
@@ -17,15 +19,14 @@ constexpr int kTile = 16;       // [px]
 
 View::View(const Scene& scene, double time, const Settings& settings, const Camera& camera)
     : scene_(scene),
-      height_(settings.height),
       camera_(camera),
-      tiles_x_((settings.width + kTile - 1) / kTile),
-      tiles_y_((settings.height + kTile - 1) / kTile),
       ideal_(left_camera(settings)),
+      ideal_height_(settings.height),
       world_from_left_(scene.camera.pose_at(time).linear()),
       sky_(settings.sky),
       sky_gradient_(settings.sky_gradient),
-      tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)) {
+      samples_(settings.samples) {
+  choose_tiles(settings);
   const Eigen::Isometry3d camera_from_world = scene.camera.pose_at(time).inverse();
   if (scene.sun.brightness > 0) {
     const Vector3d to_sun = world_from_left_.transpose() * scene.sun.direction.normalized();
@@ -41,6 +42,31 @@ View::View(const Scene& scene, double time, const Settings& settings, const Came
       return placed_[a].nearest < placed_[b].nearest;
     });
   }
+}
+
+// Tiles are squares of the image of a pinhole. A lens has its own: its image is as wide as that of
+// the camera, and covers all rays of the camera; those through the border enclose the others.
+void View::choose_tiles(const Settings& settings) {
+  double width = settings.width, height = settings.height;
+  tiling_ = camera_;
+  if (camera_.lens) {
+    const double right = settings.width - 0.5, bottom = settings.height - 0.5;
+    Eigen::AlignedBox2d rays;
+    for (double x = -0.5; x <= right; x += 0.5) {
+      for (const double y : {-0.5, bottom}) rays.extend(camera_.direction(x, y).hnormalized());
+    }
+    for (double y = -0.5; y <= bottom; y += 0.5) {
+      for (const double x : {-0.5, right}) rays.extend(camera_.direction(x, y).hnormalized());
+    }
+    tiling_.lens = nullptr;
+    tiling_.focal = width / rays.sizes().x();
+    tiling_.center_x = -0.5 - rays.min().x() * tiling_.focal;
+    tiling_.center_y = -0.5 - rays.min().y() * tiling_.focal;
+    height = rays.sizes().y() * tiling_.focal;
+  }
+  tiles_x_ = static_cast<int>(std::ceil(width / kTile));
+  tiles_y_ = static_cast<int>(std::ceil(height / kTile));
+  tiles_.resize(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_));
 }
 
 void View::place(const Object& object, const Eigen::Isometry3d& camera_from_world, double time,
@@ -72,8 +98,8 @@ void View::sort_into_tiles(const Eigen::Isometry3d& eye_from_object, std::uint32
     nearest = std::min(nearest, p.z());
     farthest = std::max(farthest, p.z());
     const double z = std::max(p.z(), kNear);
-    const double x = p.x() / z * camera_.focal + camera_.center_x;
-    const double y = p.y() / z * camera_.focal + camera_.center_y;
+    const double x = p.x() / z * tiling_.focal + tiling_.center_x;
+    const double y = p.y() / z * tiling_.focal + tiling_.center_y;
     left = std::min(left, x), right = std::max(right, x);
     top = std::min(top, y), bottom = std::max(bottom, y);
   }
@@ -101,9 +127,10 @@ void View::sort_into_tiles(const Eigen::Isometry3d& eye_from_object, std::uint32
   }
 }
 
-View::Nearest View::nearest(const Vector3d& direction, double x, double y) const {
-  const int tile_x = std::clamp(static_cast<int>(x) / kTile, 0, tiles_x_ - 1);
-  const int tile_y = std::clamp(static_cast<int>(y) / kTile, 0, tiles_y_ - 1);
+View::Nearest View::nearest(const Vector3d& direction) const {
+  const cv::Point2d at = tiling_.project(direction);
+  const int tile_x = std::clamp(static_cast<int>(at.x) / kTile, 0, tiles_x_ - 1);
+  const int tile_y = std::clamp(static_cast<int>(at.y) / kTile, 0, tiles_y_ - 1);
   const auto& tile = tiles_[static_cast<std::size_t>(tile_y) * static_cast<std::size_t>(tiles_x_) +
                             static_cast<std::size_t>(tile_x)];
   Nearest best;
@@ -119,14 +146,14 @@ View::Nearest View::nearest(const Vector3d& direction, double x, double y) const
 }
 
 std::optional<double> View::depth(double x, double y) const {
-  const Nearest found = nearest(camera_.direction(x, y), x, y);
+  const Nearest found = nearest(camera_.direction(x, y));
   if (found.placed == nullptr) return std::nullopt;
   return found.hit.t;  // the z of the direction is 1, so t is the depth
 }
 
 std::optional<Seen> View::look(double x, double y) const {
   const Vector3d ray = camera_.direction(x, y);
-  const Nearest found = nearest(ray, x, y);
+  const Nearest found = nearest(ray);
   if (found.placed == nullptr) return std::nullopt;
   const Placed& placed = *found.placed;
   const Hit& hit = found.hit;
@@ -134,13 +161,22 @@ std::optional<Seen> View::look(double x, double y) const {
     return Seen{hit.t, static_cast<float>(placed.object->glow), placed.object};
   }
   const double facing = std::abs(hit.normal.dot(placed.object_from_camera * ray)) / ray.norm();
-  // A pixel covers more of a slanted surface in one direction; this is the mean of both directions.
-  const double footprint = hit.t / camera_.focal / std::sqrt(std::max(facing, 0.02));
   const double lit = std::abs(hit.normal.dot(placed.to_light));
   const double shade = scene_.ambient + (1 - scene_.ambient) * lit;
-  double gray = shade * gray_value(placed.object->texture, hit.u, hit.v, footprint);
+  const Texture& texture = placed.object->texture;
+  // Pictures are sharp: each ray has its own part of the pixel.
+  const double width = footprint(hit, ray, facing) / (texture.picture ? samples_ : 1);
+  double gray = shade * gray_value(texture, hit.u, hit.v, width);
   if (placed.object->wet > 0) gray += reflection(placed, hit, ray);
   return Seen{hit.t, static_cast<float>(gray), placed.object};
+}
+
+// The width of the part of a surface that a pixel covers [m]. A pixel covers more of a slanted
+// surface in one direction; this is the mean of both directions.
+double View::footprint(const Hit& hit, const Vector3d& ray, double facing) const {
+  const double slant = std::max(facing, 0.02);
+  if (!camera_.lens) return hit.t / camera_.focal / std::sqrt(slant);
+  return hit.t / std::sqrt(camera_.lens->magnification(ray) * ray.norm() * slant);
 }
 
 // The mirror images of the lamps in a surface with fine ripples: light is reflected best where the
@@ -161,8 +197,12 @@ double View::reflection(const Placed& placed, const Hit& hit, const Vector3d& ra
 }
 
 float View::sky(double x, double y) const {
-  const double plain = std::max(0.0, sky_ - sky_gradient_ * (1 - y / height_));
-  const Vector3d towards = world_from_left_ * ideal_.direction(x, y).normalized();
+  const Vector3d from_left = camera_.pose.linear() * camera_.direction(x, y);
+  double height = 1 - ideal_.project(from_left).y / ideal_height_;
+  // The wide views of lenses see more sky than the gradient is made for.
+  if (camera_.lens) height = std::clamp(height, 0.0, 1.0);
+  const double plain = std::max(0.0, sky_ - sky_gradient_ * height);
+  const Vector3d towards = world_from_left_ * from_left.normalized();
   return static_cast<float>(plain + scene_.sun.glare(towards));
 }
 

@@ -22,7 +22,8 @@ struct Seen {
 /// that each ray is tested against only a few of them.
 class View {
  public:
-  /// The scene must outlive the view; the settings are those of complete().
+  /// The scene must outlive the view. The settings are those of complete(); their size is that of
+  /// the camera's image.
   View(const Scene& scene, double time, const Settings& settings, const Camera& camera);
 
   /// Traces a ray through the point (x, y) of the image [px]; pixel centers have integer
@@ -32,7 +33,7 @@ class View {
   /// Only the depth, without shading [m].
   std::optional<double> depth(double x, double y) const;
 
-  /// Brightness of the sky where an ideal camera sees it at (x, y); 1 = white.
+  /// Brightness of the sky in the direction of the point (x, y) of the image; 1 = white.
   float sky(double x, double y) const;
 
  private:
@@ -55,17 +56,21 @@ class View {
 
   void place(const Object& object, const Eigen::Isometry3d& camera_from_world, double time,
              const Eigen::Vector3d& to_light);
+  void choose_tiles(const Settings& settings);
+  double footprint(const Hit& hit, const Eigen::Vector3d& ray, double facing) const;
   void sort_into_tiles(const Eigen::Isometry3d& eye_from_object, std::uint32_t index);
   double reflection(const Placed& placed, const Hit& hit, const Eigen::Vector3d& ray) const;
-  Nearest nearest(const Eigen::Vector3d& direction, double x, double y) const;
+  Nearest nearest(const Eigen::Vector3d& direction) const;
 
   const Scene& scene_;
-  int height_;
   Camera camera_;
-  int tiles_x_, tiles_y_;
-  Camera ideal_;  // without the errors of the rig
+  Camera tiling_;  // a pinhole whose image the tiles cover; it sees all that the camera sees
+  int tiles_x_ = 0, tiles_y_ = 0;
+  Camera ideal_;  // the left camera, without errors of the rig and without a lens
+  int ideal_height_;
   Eigen::Matrix3d world_from_left_;
   double sky_, sky_gradient_;
+  int samples_;
   std::vector<Lamp> lamps_;
   std::vector<Placed> placed_;
   std::vector<std::vector<std::uint32_t>> tiles_;

@@ -50,8 +50,8 @@ TEST(ClipWriter, WritesTheRenderedFrames) {
   TemporaryFolder folder;
   const Rendered r;
   ClipWriter writer(folder / "clip", Layout::kClip, false);
-  writer.write(7, r.frame, r.settings);
-  writer.finish(r.settings);
+  writer.write(7, r.frame, rectification_of(r.settings));
+  writer.finish(rectification_of(r.settings));
 
   const cv::Mat left = cv::imread((folder / "clip/left/000007.png").string(), cv::IMREAD_UNCHANGED);
   const cv::Mat right =
@@ -80,8 +80,8 @@ TEST(ClipWriter, CalibrationCoversEveryDisparity) {
   TemporaryFolder folder;
   const Rendered r;
   ClipWriter writer(folder / "clip", Layout::kClip, false);
-  writer.write(0, r.frame, r.settings);
-  writer.finish(r.settings);
+  writer.write(0, r.frame, rectification_of(r.settings));
+  writer.finish(rectification_of(r.settings));
   const std::string text = read_text(folder / "clip/calib.txt");
   EXPECT_NE(text.find("cam0=[54.4 0 31.5; 0 54.4 17.5; 0 0 1]\n"), std::string::npos) << text;
   EXPECT_NE(text.find("cam1=[54.4 0 31.5; 0 54.4 17.5; 0 0 1]\n"), std::string::npos) << text;
@@ -101,9 +101,9 @@ TEST(ClipWriter, MiddleburyLayoutHasOneFolderPerFrame) {
   TemporaryFolder folder;
   const Rendered r;
   ClipWriter writer(folder / "set", Layout::kMiddlebury, false);
-  writer.write(0, r.frame, r.settings);
-  writer.write(1, r.frame, r.settings);
-  writer.finish(r.settings);
+  writer.write(0, r.frame, rectification_of(r.settings));
+  writer.write(1, r.frame, rectification_of(r.settings));
+  writer.finish(rectification_of(r.settings));
   for (const char* frame : {"set/000000", "set/000001"}) {
     for (const char* name : {"im0.png", "im1.png", "disp0GT.pfm", "mask0nocc.png", "calib.txt"}) {
       EXPECT_TRUE(fs::is_regular_file(folder / frame / name)) << frame << "/" << name;
@@ -124,12 +124,13 @@ TEST(ClipWriter, RejectsAFolderThatIsNotEmpty) {
 TEST(ClipWriter, OverwriteRemovesOnlyTheClip) {
   TemporaryFolder folder;
   const Rendered r;
-  ClipWriter(folder.path(), Layout::kClip, false).write(5, r.frame, r.settings);
-  ClipWriter(folder.path(), Layout::kMiddlebury, true).write(3, r.frame, r.settings);
+  ClipWriter(folder.path(), Layout::kClip, false).write(5, r.frame, rectification_of(r.settings));
+  ClipWriter(folder.path(), Layout::kMiddlebury, true)
+      .write(3, r.frame, rectification_of(r.settings));
   EXPECT_FALSE(fs::exists(folder / "left"));
   write_text(folder / "diary.txt", "dear diary");
   fs::create_directory(folder / "000009");  // a number, but not a frame of a clip
-  ClipWriter(folder.path(), Layout::kClip, true).write(0, r.frame, r.settings);
+  ClipWriter(folder.path(), Layout::kClip, true).write(0, r.frame, rectification_of(r.settings));
   EXPECT_FALSE(fs::exists(folder / "000003"));
   EXPECT_TRUE(fs::exists(folder / "000009"));
   EXPECT_EQ(read_text(folder / "diary.txt"), "dear diary");
@@ -152,7 +153,8 @@ TEST(ClipWriter, NamesTheFileThatCannotBeWritten) {
   const Rendered r;
   ClipWriter writer(folder / "clip", Layout::kClip, false);
   fs::create_directory(folder / "clip/truth/000000.pfm");  // blocks the file
-  const std::string error = error_of([&] { writer.write(0, r.frame, r.settings); });
+  const std::string error =
+      error_of([&] { writer.write(0, r.frame, rectification_of(r.settings)); });
   EXPECT_NE(error.find("truth/000000.pfm"), std::string::npos) << error;
 }
 
