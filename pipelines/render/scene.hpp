@@ -60,6 +60,18 @@ Scene make_street(std::uint32_t seed, bool lights);
 Scene make_garden(std::uint32_t seed, bool lights);
 Scene make_room(std::uint32_t seed, bool lights);
 
+/// Walls at known distances.
+struct Wall {
+  /// Of the walls [m], which stand side by side from left to right across the left camera's axis.
+  std::vector<double> distances = {2};
+  /// The right side is farther [degrees]; for a single wall.
+  double slant = 0;
+};
+
+/// The scene with these walls, which fill every view. Throws std::invalid_argument, naming the
+/// setting.
+Scene make_wall(const Wall& wall, std::uint32_t seed);
+
 /// Collects the objects of a scene; each has its own texture seed.
 class SceneBuilder {
  public:
