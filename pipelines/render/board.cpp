@@ -116,7 +116,7 @@ std::vector<Isometry3d> choose_poses(const BoardPoses& options, double width, do
   return poses;
 }
 
-Scene make_board(std::shared_ptr<const Picture> picture, std::vector<Isometry3d> poses,
+Scene make_board(const std::shared_ptr<const Picture>& picture, std::vector<Isometry3d> poses,
                  const BoardTimes& times, std::uint32_t seed) {
   SceneBuilder b("board", seed);
   double farthest = 0;

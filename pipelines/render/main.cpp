@@ -5,125 +5,160 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
-#include <map>
+#include <memory>
 #include <new>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "mtstereo/geometry/calibration.hpp"
+#include "mtstereo/geometry/rectification.hpp"
+#include "options.hpp"
+#include "render/board.hpp"
 #include "render/clip_writer.hpp"
+#include "render/raw.hpp"
 #include "render/render.hpp"
 
 namespace {
 
+using namespace mtstereo;
 using namespace mtstereo::render;
 
-struct Options {
-  std::string folder;
-  std::string scene = "street";
-  std::string size = "640x360";
-  int frames = 48;
-  double rate = 24;
-  double start = 0;
-  Layout layout = Layout::kClip;
-  bool overwrite = false;
-  bool gray = false;
-  bool lights = false;
-  Settings settings;
+template <typename T>
+T value_of(Result<T> result) {
+  if (!result) throw std::invalid_argument(result.error().message);
+  return std::move(*result);
+}
+
+StereoCalibration read_raw(const Options& o) {
+  const int width = o.has_size ? o.settings.width : 0;
+  const int height = o.has_size ? o.settings.height : 0;
+  StereoCalibration c = value_of(read_calibration(o.raw, width, height));
+  if (o.has_size && (c.left.width != width || c.left.height != height)) {
+    c = value_of(scale_calibration(c, width, height));
+  }
+  return c;
+}
+
+// The raw cameras with their rectification; none for the cameras of the settings alone.
+std::optional<RawRig> rig_of(const Options& o, const Settings& settings) {
+  if (!o.has_raw_cameras() && o.scene != "board") return std::nullopt;
+  StereoCalibration c = !o.raw.empty()    ? read_raw(o)
+                        : !o.lens.empty() ? built_in_rig(o.lens, settings)
+                                          : calibration_of(settings);
+  if (!c.rectification) c.rectification = value_of(rectify(c));
+  return RawRig(c);
+}
+
+std::shared_ptr<const Picture> picture_of(const BoardOptions& board) {
+  if (board.picture.empty()) {
+    const auto [columns, rows] = parse_pair("--squares", board.squares, "10x7");
+    return std::make_shared<const Picture>(checkerboard(columns, rows, board.square));
+  }
+  const cv::Mat image = cv::imread(board.picture, cv::IMREAD_GRAYSCALE);
+  if (image.empty()) throw std::runtime_error("cannot read the picture " + board.picture);
+  std::vector<std::uint8_t> pixels(image.begin<std::uint8_t>(), image.end<std::uint8_t>());
+  return std::make_shared<const Picture>(image.cols, image.rows, pixels,
+                                         image.cols / board.picture_width);
+}
+
+Scene board_scene(const Options& o, const RawRig& rig) {
+  const auto picture = picture_of(o.board);
+  const BoardTimes times{(o.board.rest - 1) / o.rate, (o.board.move + 1) / o.rate};
+  return make_board(picture, choose_poses(o.board.poses, picture->width(), picture->height(), rig),
+                    times, o.settings.seed);
+}
+
+StereoFrame raw_frame(const Scene& scene, double time, const Settings& settings, const RawRig& rig,
+                      bool with_truth) {
+  const RawFrame raw = render_raw(scene, time, settings, rig);
+  if (!with_truth) return {raw.left, raw.right, {}, {}};
+  const Truth truth = render_truth(scene, time, settings, *rig.calibration.rectification);
+  return {raw.left, raw.right, truth.disparity, truth.occluded};
+}
+
+/// A clip while it is written.
+class Clip {
+ public:
+  explicit Clip(const Options& o) : o_(o), is_board_(o.scene == "board") {
+    if (o.scene == "wall") scene_ = make_wall(o.wall, o.settings.seed);
+    if (!is_board_ && o.scene != "wall") scene_ = make_scene(o.scene, o.settings.seed, o.lights);
+    settings_ = complete(scene_, o.settings);
+    rig_ = rig_of(o, settings_);
+    if (is_board_) scene_ = board_scene(o, *rig_);
+    rectification_ = rig_ ? *rig_->calibration.rectification : rectification_of(settings_);
+  }
+
+  void write() {
+    ClipWriter writer(o_.folder, o_.layout, o_.overwrite);
+    const bool terminal = isatty(STDERR_FILENO) != 0;
+    for (int i = 0; i < frames(); ++i) {
+      writer.write(i, frame(o_.start + i / o_.rate), rectification_);
+      if (terminal) std::fprintf(stderr, "\rframe %d of %d", i + 1, frames());
+    }
+    if (terminal) std::fputc('\n', stderr);
+    writer.finish(rectification_);
+    write_truth();
+    print(writer.disparities());
+  }
+
+ private:
+  int frames() const {
+    const BoardOptions& board = o_.board;
+    const int all = board.poses.count * (board.rest + board.move) - board.move;
+    return o_.frames.value_or(is_board_ ? all : 48);
+  }
+
+  StereoFrame frame(double time) const {
+    if (rig_) return raw_frame(scene_, time, settings_, *rig_, !is_board_);
+    return render::render(scene_, time, settings_);
+  }
+
+  void write_truth() const {
+    const std::filesystem::path folder = o_.folder;
+    if (rig_) {
+      StereoCalibration calibration = rig_->calibration;
+      // Not that of the day, so that the same options give the same bytes.
+      if (calibration.date.empty()) calibration.date = "2000-01-01";
+      const Status written =
+          write_calibration(calibration, (folder / "truth-calibration.yml").string());
+      if (!written) throw std::runtime_error(written.error().message);
+    }
+    if (!is_board_) return;
+    const Path& path = *scene_.objects.back().motion.path;
+    std::vector<FramePose> poses;
+    for (int i = 0; i < frames(); ++i) {
+      const double time = o_.start + i / o_.rate;
+      poses.push_back({path.rests_at(time), path.at(time)});
+    }
+    write_poses(folder / "poses.txt", poses);
+  }
+
+  void print(int disparities) const {
+    const Rectification& r = rectification_;
+    std::cout << o_.folder << ": " << frames() << " frames of ";
+    if (rig_) {
+      const CameraCalibration& left = rig_->calibration.left;
+      std::cout << left.width << "x" << left.height << "; rectified: ";
+    }
+    std::cout << r.width << "x" << r.height << ", focal length " << r.focal_length
+              << " px, baseline " << r.baseline << " m";
+    if (!is_board_) std::cout << ", disparities below " << disparities << " px";
+    std::cout << '\n';
+  }
+
+  const Options& o_;
+  bool is_board_;
+  Scene scene_;
+  Settings settings_;
+  std::optional<RawRig> rig_;
+  Rectification rectification_;
 };
-
-void define(CLI::App& app, Options& o) {
-  app.add_option("folder", o.folder, "output folder; created if missing")->required();
-  app.add_option("--scene", o.scene, "street, garden or room")->capture_default_str();
-  app.add_option("--size", o.size, "width and height of a view [px]")->capture_default_str();
-  app.add_option("--frames", o.frames, "number of frames")
-      ->check(CLI::Range(1, 999999))
-      ->capture_default_str();
-  app.add_option("--rate", o.rate, "frames per second of scene time")
-      ->check(CLI::Range(0.1, 1000.0))
-      ->capture_default_str();
-  app.add_option("--start", o.start, "scene time of the first frame [s]")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
-  app.add_option("--seed", o.settings.seed,
-                 "seed of the noise, the textures and the positions of small objects")
-      ->capture_default_str();
-  app.add_option("--baseline", o.settings.baseline,
-                 "distance between the cameras [m]; 0 = the scene's default")
-      ->capture_default_str();
-  app.add_option("--focal", o.settings.focal, "focal length [px]; 0 = 0.85 times the width")
-      ->capture_default_str();
-  app.add_option("--samples", o.settings.samples, "samples x samples rays per pixel")
-      ->capture_default_str();
-  app.add_option("--threads", o.settings.threads, "number of threads; 0 = one per processor")
-      ->capture_default_str();
-  const std::map<std::string, Layout> layouts = {{"clip", Layout::kClip},
-                                                 {"middlebury", Layout::kMiddlebury}};
-  app.add_option("--layout", o.layout,
-                 "clip: left/ right/ truth/ mask/ calib.txt; middlebury: one folder per frame")
-      ->transform(CLI::CheckedTransformer(layouts, CLI::ignore_case))
-      ->default_str("clip");
-  app.add_flag("--overwrite", o.overwrite, "replace an existing clip in the folder");
-  app.add_flag("--lights", o.lights, "sun, lamps, and ground that reflects them");
-  app.add_flag("--gray", o.gray, "gray images instead of color");
-}
-
-void define_sensor(CLI::App& app, Settings& s) {
-  const auto number = [&app](const char* name, auto& value, const char* help) {
-    app.add_option(name, value, help)->capture_default_str();
-  };
-  number("--noise", s.noise, "standard deviation of the constant sensor noise [gray values]");
-  number("--shot-noise", s.shot_noise, "variance of the shot noise per gray value of the signal");
-  number("--light", s.light, "light of both views; what exceeds white is clipped");
-  number("--gain", s.gain, "amplification of signal and noise in both views");
-  number("--exposure", s.exposure, "brightness of the right view relative to the left");
-  number("--sky", s.sky, "brightness of the sky at the bottom of the image; 1 = white");
-  number("--sky-gradient", s.sky_gradient,
-         "what the sky loses up to the top of the image; 0 = a flat sky");
-  number("--vignette", s.vignette, "fraction of the light that is lost in the corners");
-  number("--jpeg", s.jpeg, "quality of JPEG compression, 1 to 100; 0 = no compression");
-}
-
-void define_rig(CLI::App& app, Rig& rig) {
-  const auto number = [&app](const char* name, double& value, const char* help) {
-    app.add_option(name, value, help)->capture_default_str();
-  };
-  number("--roll", rig.roll, "error of the right camera: roll, clockwise [degrees]");
-  number("--pitch", rig.pitch, "error of the right camera: pitch, downwards [degrees]");
-  number("--yaw", rig.yaw, "error of the right camera: yaw, to the right [degrees]");
-  number("--focal-ratio", rig.focal_ratio, "focal length of the right camera / of the left");
-  number("--row-offset", rig.row_offset, "error of the right image: lower by this [px]");
-}
-
-void parse_size(const std::string& text, Settings& settings) {
-  int used = 0;
-  const int found =
-      std::sscanf(text.c_str(), "%5dx%5d%n", &settings.width, &settings.height, &used);
-  if (found != 2 || used != static_cast<int>(text.size())) {
-    throw std::invalid_argument("--size is '" + text + "'; expected WIDTHxHEIGHT, such as 640x360");
-  }
-}
-
-int run(Options& o) {
-  parse_size(o.size, o.settings);
-  o.settings.color = !o.gray;
-  if (const std::string wrong = check(o.settings); !wrong.empty()) {
-    throw std::invalid_argument(wrong);
-  }
-  const Scene scene = make_scene(o.scene, o.settings.seed, o.lights);
-  const Settings settings = complete(scene, o.settings);
-  ClipWriter writer(o.folder, o.layout, o.overwrite);
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  for (int i = 0; i < o.frames; ++i) {
-    writer.write(i, render(scene, o.start + i / o.rate, settings), rectification_of(settings));
-    if (terminal) std::fprintf(stderr, "\rframe %d of %d", i + 1, o.frames);
-  }
-  if (terminal) std::fputc('\n', stderr);
-  writer.finish(rectification_of(settings));
-  std::cout << o.folder << ": " << o.frames << " frames of " << settings.width << "x"
-            << settings.height << ", focal length " << settings.focal << " px, baseline "
-            << settings.baseline << " m, disparities below " << writer.disparities() << " px\n";
-  return 0;
-}
 
 }  // namespace
 
@@ -131,15 +166,15 @@ int main(int argc, char** argv) {
   try {
     CLI::App app("Renders a stereo clip with exact ground truth.", "mtstereo-render");
     Options options;
-    define(app, options);
-    define_sensor(app, options.settings);
-    define_rig(app, options.settings.rig);
+    define_options(app, options);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
       return app.exit(error) == 0 ? 0 : 2;
     }
-    return run(options);
+    complete_options(app, options);
+    Clip(options).write();
+    return 0;
   } catch (const std::invalid_argument& error) {
     std::cerr << "mtstereo-render: " << error.what() << '\n';
     return 2;

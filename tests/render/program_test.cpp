@@ -88,6 +88,64 @@ TEST_F(Program, WritesTheMiddleburyLayout) {
   EXPECT_TRUE(fs::is_regular_file(folder_ / "clip/000000/disp0GT.pfm"));
 }
 
+TEST_F(Program, RendersRawCamerasWithTheirCalibration) {
+  const Outcome r = run(out() + "--size 96x64 --frames 1 --scene room --lens wide");
+  EXPECT_EQ(r.status, 0) << r.errors;
+  for (const char* file : {"left/000000.png", "right/000000.png", "truth/000000.pfm",
+                           "mask/000000.png", "calib.txt", "truth-calibration.yml"}) {
+    EXPECT_TRUE(fs::is_regular_file(folder_ / "clip" / file)) << file;
+  }
+  const std::string view = read_text(folder_ / "clip/left/000000.png");
+  const std::string truth = read_text(folder_ / "clip/truth/000000.pfm");
+  fs::rename(folder_ / "clip/truth-calibration.yml", folder_ / "rig.yml");
+  // The calibration stands for the cameras.
+  std::ostringstream raw;
+  raw << "--frames 1 --scene room --overwrite --raw " << folder_ / "rig.yml";
+  const Outcome again = run(out() + raw.str());
+  EXPECT_EQ(again.status, 0) << again.errors;
+  EXPECT_EQ(view, read_text(folder_ / "clip/left/000000.png"));
+  EXPECT_EQ(truth, read_text(folder_ / "clip/truth/000000.pfm"));
+  EXPECT_EQ(read_text(folder_ / "rig.yml"), read_text(folder_ / "clip/truth-calibration.yml"));
+  const Outcome smaller = run(out() + raw.str() + " --size 48x32");
+  EXPECT_EQ(smaller.status, 0) << smaller.errors;
+  EXPECT_NE(smaller.output.find("48x32"), std::string::npos) << smaller.output;
+}
+
+TEST_F(Program, RendersABoardWithItsPoses) {
+  const Outcome r =
+      run(out() + "--size 96x72 --scene board --poses 2 --rest 2 --move 1 --samples 1");
+  EXPECT_EQ(r.status, 0) << r.errors;
+  EXPECT_NE(r.output.find("5 frames"), std::string::npos) << r.output;
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "clip/right/000004.png"));
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "clip/truth-calibration.yml"));
+  EXPECT_FALSE(fs::exists(folder_ / "clip/truth"));
+  const std::string poses = read_text(folder_ / "clip/poses.txt");
+  EXPECT_NE(poses.find("\n1 1 "), std::string::npos) << poses;
+  EXPECT_NE(poses.find("\n2 0 "), std::string::npos) << poses;
+  EXPECT_NE(poses.find("\n4 1 "), std::string::npos) << poses;
+}
+
+TEST_F(Program, ShowsAPictureOnTheBoard) {
+  ASSERT_EQ(run(out() + "--size 64x48 --frames 1").status, 0);
+  std::ostringstream picture;
+  picture << "--picture " << folder_ / "clip/left/000000.png"
+          << " --picture-width 0.4";
+  std::ostringstream board;
+  board << folder_ / "board"
+        << " --size 96x72 --scene board --poses 1 --samples 1 --lens wide ";
+  const Outcome r = run(board.str() + picture.str());
+  EXPECT_EQ(r.status, 0) << r.errors;
+  const Outcome missing = run(board.str() + "--overwrite --picture /dev/null/x --picture-width 1");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_NE(missing.errors.find("/dev/null/x"), std::string::npos) << missing.errors;
+}
+
+TEST_F(Program, RendersWalls) {
+  const Outcome r = run(out() + "--size 48x27 --frames 1 --scene wall --distance 1,2");
+  EXPECT_EQ(r.status, 0) << r.errors;
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "clip/truth/000000.pfm"));
+}
+
 struct Bad {
   const char* arguments;
   const char* says;
@@ -102,7 +160,7 @@ TEST_F(Program, RejectsInvalidOptionsByName) {
       {"--size 10x-4", "height"},
       {"--frames 0", "--frames"},
       {"--frames many", "--frames"},
-      {"--scene moon", "street, garden, room"},
+      {"--scene moon", "street, garden, room, board, wall"},
       {"--baseline -1", "baseline"},
       {"--focal nan", "focal"},
       {"--noise 1e9", "noise"},
@@ -124,6 +182,26 @@ TEST_F(Program, RejectsInvalidOptionsByName) {
       {"--focal-ratio 2", "focal-ratio"},
       {"--row-offset 1000", "row-offset"},
       {"--samples 99", "samples"},
+      {"--blur -1", "blur"},
+      {"--lens narrow", "wide, fisheye"},
+      {"--lens wide --raw x.yml", "combined"},
+      {"--lens wide --roll 1", "combined"},
+      {"--lens wide --focal 300", "focal"},
+      {"--raw x.yml --baseline 1", "baseline"},
+      {"--raw /dev/null/x.yml", "/dev/null/x.yml"},
+      {"--scene wall --distance 0", "distance"},
+      {"--scene wall --distance near", "--distance"},
+      {"--scene wall --slant 89", "slant"},
+      {"--scene board --squares 10", "--squares"},
+      {"--scene board --squares 1x1", "squares"},
+      {"--scene board --square 0", "square"},
+      {"--scene board --picture x.png", "picture-width"},
+      {"--scene board --poses 0", "poses"},
+      {"--scene board --rest 0", "rest"},
+      {"--scene board --move -1", "move"},
+      {"--scene board --tilt 80", "tilt"},
+      {"--scene board --visible 0", "visible"},
+      {"--scene board --layout middlebury", "layout"},
       {"--no-such-option", "--no-such-option"},
   };
   for (const Bad& bad : cases) {
