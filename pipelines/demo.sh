@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # demo.sh: the complete demo. Installs missing packages, builds, renders a stereo clip, encodes it to
 # two H.264 files, runs mtstereo on them, and prints accuracy and speed.
+# demo.sh --raw: the same with two cameras that are not rectified: renders views of a calibration
+# board, calibrates the cameras, rectifies, matches, and prints the errors of the depths in meters.
 # demo.sh LEFT RIGHT: the same with two rectified video files of your own (without ground truth).
 #
 # Options:
@@ -11,6 +13,7 @@
 #   --frames N          number of frames of the rendered clip (default 48)
 #   --size WxH          size of the rendered clip (default 640x360)
 #   --scene NAME        street (default), garden or room
+#   --raw               cameras with lens distortion, turned against each other
 #   --build DIR         build folder (default: build/, or $BUILD)
 #   --no-build          use the build folder as it is; install and build nothing
 set -euo pipefail
@@ -26,6 +29,8 @@ size=640x360
 scene=street
 rate=24
 build_first=yes
+raw=no
+odd_width=0 odd_height=0 # of the disparity, see odd()
 limit=900 # longest time of a pipeline [s]
 files=()
 
@@ -78,6 +83,7 @@ while [ $# -gt 0 ]; do
       exit 0
       ;;
     --no-build) build_first=no ;;
+    --raw) raw=yes ;;
     --*)
       [ $# -ge 2 ] || wrong_usage "$1 needs a value or is unknown"
       take_option "$1" "$2"
@@ -90,6 +96,7 @@ done
 case ${#files[@]} in
   0) ;;
   2)
+    [ "$raw" = no ] || wrong_usage "--raw renders its own videos; for yours, see from-files.sh --calibration"
     for file in "${files[@]}"; do
       [ -f "$file" ] || fail "no such file: $file"
       [ -r "$file" ] || fail "the file $file cannot be read"
@@ -126,13 +133,14 @@ build_all() {
     meson setup "$build" "$repository" >"$log" 2>&1 || { cat "$log" >&2 && fail "meson failed"; }
   fi
   ninja -C "$build" gst/libgstmtstereo.so pipelines/render/mtstereo-render \
-    pipelines/apps/mtstereo-compare >"$log" 2>&1 || { cat "$log" >&2 && fail "the build failed"; }
+    pipelines/apps/mtstereo-compare pipelines/calibrate/mtcalibrate >"$log" 2>&1 || { cat "$log" >&2 && fail "the build failed"; }
 }
 
+# Further arguments are options of mtstereo-render.
 render_clip() {
   step "Rendering $frames frames of the $scene, $size"
   "$build/pipelines/render/mtstereo-render" "$out/clip" --overwrite --scene "$scene" \
-    --frames "$frames" --size "$size" --rate "$rate" || fail "the clip could not be rendered"
+    --frames "$frames" --size "$size" --rate "$rate" "$@" || fail "the clip could not be rendered"
   local side
   for side in left right; do
     step "Encoding $out/$side.mp4 (H.264)"
@@ -246,7 +254,12 @@ elif [ ! -e "$build/gst/libgstmtstereo.so" ]; then
 fi
 export GST_PLUGIN_PATH=$build/gst
 
-if [ ${#files[@]} -eq 0 ]; then
+if [ "$raw" = yes ]; then
+  # shellcheck source=pipelines/demo-raw.sh
+  source "$here/demo-raw.sh"
+  demo_of_raw_cameras
+  written=(left.mp4 right.mp4 cameras/calibration.yml depth rectified "disparity-$mode.mkv")
+elif [ ${#files[@]} -eq 0 ]; then
   demo_of_clip
   written=(left.mp4 right.mp4 disparity-sparse.mkv disparity-semi-dense.mkv disparity-dense.mkv)
 else

@@ -67,6 +67,19 @@ cv::Mat mask_of(const StereoFrame& frame) {
   return mask;
 }
 
+// Infinity where the ray hits nothing.
+cv::Mat depth_of(const StereoFrame& frame, const Rectification& r) {
+  cv::Mat depth(frame.truth.size(), CV_32FC1);
+  for (int y = 0; y < depth.rows; ++y) {
+    for (int x = 0; x < depth.cols; ++x) {
+      const double disparity = frame.truth.at<float>(y, x) + r.principal_offset();
+      const double z = r.focal_length * r.baseline / disparity;
+      depth.at<float>(y, x) = std::isfinite(disparity) ? static_cast<float>(z) : INFINITY;
+    }
+  }
+  return depth;
+}
+
 double largest_disparity(const cv::Mat& truth) {
   double largest = 0;
   for (int y = 0; y < truth.rows; ++y) {
@@ -88,8 +101,8 @@ bool all_digits(const std::string& name) {
 
 // Removes only the files of a clip, so that a wrong folder name does no other damage.
 void remove_clip(const fs::path& folder) {
-  for (const char* name :
-       {"left", "right", "truth", "mask", "calib.txt", "poses.txt", "truth-calibration.yml"}) {
+  for (const char* name : {"left", "right", "truth", "mask", "depth", "calib.txt", "poses.txt",
+                           "truth-calibration.yml"}) {
     fs::remove_all(folder / name);
   }
   std::vector<fs::path> frames;
@@ -135,8 +148,8 @@ void write_poses(const fs::path& file, const std::vector<FramePose>& poses) {
   write_bytes(file, bytes.data(), bytes.size());
 }
 
-ClipWriter::ClipWriter(fs::path folder, Layout layout, bool overwrite)
-    : folder_(std::move(folder)), layout_(layout) {
+ClipWriter::ClipWriter(fs::path folder, Layout layout, bool overwrite, bool with_depth)
+    : folder_(std::move(folder)), layout_(layout), with_depth_(with_depth) {
   std::error_code error;
   if (fs::exists(folder_, error) && !fs::is_directory(folder_, error)) {
     cannot("write into", folder_, "it is not a folder");
@@ -155,6 +168,7 @@ ClipWriter::ClipWriter(fs::path folder, Layout layout, bool overwrite)
   for (const char* name : {"left", "right"}) make_folder(folder_ / name);
   if (layout_ == Layout::kViews) return;
   for (const char* name : {"truth", "mask"}) make_folder(folder_ / name);
+  if (with_depth_) make_folder(folder_ / "depth");
 }
 
 void ClipWriter::write(int number, const StereoFrame& frame, const Rectification& rectification) {
@@ -170,6 +184,9 @@ void ClipWriter::write(int number, const StereoFrame& frame, const Rectification
     write_png(folder_ / "right" / numbered(number, ".png"), frame.right);
     write_pfm(folder_ / "truth" / numbered(number, ".pfm"), frame.truth);
     write_png(folder_ / "mask" / numbered(number, ".png"), mask_of(frame));
+    if (with_depth_) {
+      write_pfm(folder_ / "depth" / numbered(number, ".pfm"), depth_of(frame, rectification));
+    }
     return;
   }
   const fs::path folder = folder_ / numbered(number, "");

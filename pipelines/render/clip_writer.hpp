@@ -23,8 +23,9 @@ enum class Layout {
 class ClipWriter {
  public:
   /// Creates the folder. A folder that is not empty is an error unless `overwrite` is set; then the
-  /// files of an earlier clip (the names above, nothing else) are removed first.
-  ClipWriter(std::filesystem::path folder, Layout layout, bool overwrite);
+  /// files of an earlier clip (the names above, nothing else) are removed first. `with_depth`: the
+  /// layout kClip also has depth/000000.pfm, the true depths [m].
+  ClipWriter(std::filesystem::path folder, Layout layout, bool overwrite, bool with_depth = false);
 
   /// Writes frame `number` (0, 1, ...); truth and mask are those of this rectified pair, and left
   /// out by kViews.
@@ -39,6 +40,7 @@ class ClipWriter {
  private:
   std::filesystem::path folder_;
   Layout layout_;
+  bool with_depth_;
   double largest_ = 0;  // largest disparity of all frames [px]
 };
 

@@ -74,11 +74,18 @@ Scene board_scene(const Options& o, const RawRig& rig) {
                     times, o.settings.seed);
 }
 
+// The rectified pair that the truth shows.
+Rectification truth_pair(const Options& o, const StereoCalibration& cameras) {
+  if (o.rectification.empty()) return *cameras.rectification;
+  const CameraCalibration& left = cameras.left;
+  return value_of(rectify(value_of(read_calibration(o.rectification, left.width, left.height))));
+}
+
 StereoFrame raw_frame(const Scene& scene, double time, const Settings& settings, const RawRig& rig,
-                      bool with_truth) {
+                      const Rectification* pair) {
   const RawFrame raw = render_raw(scene, time, settings, rig);
-  if (!with_truth) return {raw.left, raw.right, {}, {}};
-  const Truth truth = render_truth(scene, time, settings, *rig.calibration.rectification);
+  if (pair == nullptr) return {raw.left, raw.right, {}, {}};
+  const Truth truth = render_truth(scene, time, settings, *pair);
   return {raw.left, raw.right, truth.disparity, truth.occluded};
 }
 
@@ -91,11 +98,11 @@ class Clip {
     settings_ = complete(scene_, o.settings);
     rig_ = rig_of(o, settings_);
     if (is_board_) scene_ = board_scene(o, *rig_);
-    rectification_ = rig_ ? *rig_->calibration.rectification : rectification_of(settings_);
+    rectification_ = rig_ ? truth_pair(o, rig_->calibration) : rectification_of(settings_);
   }
 
   void write() {
-    ClipWriter writer(o_.folder, o_.layout, o_.overwrite);
+    ClipWriter writer(o_.folder, o_.layout, o_.overwrite, o_.depth);
     const bool terminal = isatty(STDERR_FILENO) != 0;
     for (int i = 0; i < frames(); ++i) {
       writer.write(i, frame(o_.start + i / o_.rate), rectification_);
@@ -115,7 +122,9 @@ class Clip {
   }
 
   StereoFrame frame(double time) const {
-    if (rig_) return raw_frame(scene_, time, settings_, *rig_, !is_board_);
+    if (rig_) {
+      return raw_frame(scene_, time, settings_, *rig_, is_board_ ? nullptr : &rectification_);
+    }
     return render::render(scene_, time, settings_);
   }
 

@@ -43,6 +43,7 @@ void define_clip(CLI::App& app, Options& o) {
                  "clip: left/ right/ truth/ mask/ calib.txt; middlebury: one folder per frame")
       ->transform(CLI::CheckedTransformer(layouts, CLI::ignore_case))
       ->default_str("clip");
+  app.add_flag("--depth", o.depth, "also write the true depths to depth/ (PFM) [m]");
   app.add_flag("--overwrite", o.overwrite, "replace an existing clip in the folder");
   app.add_flag("--lights", o.lights, "sun, lamps, and ground that reflects them");
   app.add_flag("--gray", o.gray, "gray images instead of color");
@@ -79,6 +80,10 @@ void define_rig(CLI::App& app, Options& o) {
       "--lens", o.lens,
       "built-in raw cameras with distortion and rotation: wide, or fisheye (120 degrees)");
   app.add_option("--raw", o.raw, "raw cameras of this calibration file");
+  app.add_option(
+      "--rectification", o.rectification,
+      "raw cameras: the truth is that of the rectified pair of this calibration, such as "
+      "one of mtcalibrate, instead of the exact one");
 }
 
 void define_scenes(CLI::App& app, Options& o) {
@@ -151,6 +156,9 @@ void complete_options(const CLI::App& app, Options& o) {
             "roll, pitch, yaw, focal-ratio and row-offset cannot be combined with raw or lens");
     require(o.settings.focal == 0, "focal cannot be combined with raw or lens");
   }
+  require(o.rectification.empty() || o.has_raw_cameras(), "rectification needs raw or lens");
+  require(!o.depth || (o.layout == Layout::kClip && o.scene != "board"),
+          "depth needs the layout clip, and another scene than board");
   require(o.raw.empty() || o.settings.baseline == 0, "baseline cannot be combined with raw");
   if (o.scene == "board") {
     check_board(o.board);

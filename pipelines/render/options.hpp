@@ -37,10 +37,12 @@ struct Options {
   double start = 0;               ///< scene time of the first frame [s]
   Layout layout = Layout::kClip;  ///< of the output folder
   bool overwrite = false;         ///< replace an existing clip
+  bool depth = false;             ///< also write the true depths
   bool gray = false;              ///< gray images
   bool lights = false;            ///< sun, lamps and ground that reflects them
   std::string raw;                ///< file of the calibration of raw cameras
   std::string lens;               ///< name of built-in raw cameras
+  std::string rectification;      ///< file of the calibration whose rectified pair the truth shows
   BoardOptions board;             ///< of the scene `board`
   Wall wall;                      ///< of the scene `wall`
   Settings settings;              ///< of the cameras

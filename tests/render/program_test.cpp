@@ -111,6 +111,29 @@ TEST_F(Program, RendersRawCamerasWithTheirCalibration) {
   EXPECT_NE(smaller.output.find("48x32"), std::string::npos) << smaller.output;
 }
 
+TEST_F(Program, ShowsTheTruthOfAnotherRectification) {
+  const std::string room = "--size 96x64 --frames 1 --scene room --depth";
+  const std::string options = room + " --lens wide";
+  ASSERT_EQ(run(out() + options).status, 0);
+  const std::string view = read_text(folder_ / "clip/left/000000.png");
+  const std::string truth = read_text(folder_ / "clip/truth/000000.pfm");
+  const std::string depth = read_text(folder_ / "clip/depth/000000.pfm");
+  EXPECT_EQ(depth.size(), truth.size());
+  fs::rename(folder_ / "clip/truth-calibration.yml", folder_ / "rig.yml");
+  std::ostringstream other;
+  other << options << " --overwrite --rectification " << folder_ / "rig.yml";
+  // The same pair: the truth is the same.
+  ASSERT_EQ(run(out() + other.str()).status, 0);
+  EXPECT_EQ(truth, read_text(folder_ / "clip/truth/000000.pfm"));
+  EXPECT_EQ(depth, read_text(folder_ / "clip/depth/000000.pfm"));
+  // Other cameras: another truth of the same views.
+  ASSERT_EQ(run(out() + room + " --overwrite --lens fisheye").status, 0);
+  fs::rename(folder_ / "clip/truth-calibration.yml", folder_ / "rig.yml");
+  ASSERT_EQ(run(out() + other.str()).status, 0);
+  EXPECT_EQ(view, read_text(folder_ / "clip/left/000000.png"));
+  EXPECT_NE(truth, read_text(folder_ / "clip/truth/000000.pfm"));
+}
+
 TEST_F(Program, RendersABoardWithItsPoses) {
   const Outcome r =
       run(out() + "--size 96x72 --scene board --poses 2 --rest 2 --move 1 --samples 1");
