@@ -49,6 +49,7 @@ struct CloudState {
   DepthRange range;         ///< the last valid one
   std::uint64_t frame = 0;  ///< number of the next map
   bool warned = false;      ///< of a missing left frame
+  bool refused = false;     ///< an error about the stream was posted
   CloudWriter writer;
 };
 
@@ -93,7 +94,9 @@ CloudProperties properties_of(gpointer element) {
 
 // --- caps ---
 
+/// Posts an error, once: a source may try to negotiate several times.
 void refuse_stream(GstBaseSink* sink, const std::string& reason, const GstCaps* caps) {
+  if (std::exchange(state_of(sink).refused, true)) return;
   GST_ELEMENT_ERROR(sink, STREAM, FORMAT,
                     ("The disparity map cannot be turned into points: %s.", reason.c_str()),
                     ("caps: %s", caps_text(caps).c_str()));
@@ -115,6 +118,7 @@ gboolean set_caps(GstBaseSink* sink, GstCaps* caps) {
   if (!gst_video_info_from_caps(&state.info, caps)) return FALSE;
   state.caps.reset(gst_caps_ref(caps));
   state.caps_unit = *unit;
+  state.refused = false;
   return TRUE;
 }
 
@@ -272,6 +276,7 @@ bool begin(GstElement* element) {
   state.range = properties.range;
   state.frame = 0;
   state.warned = false;
+  state.refused = false;
   state.source.forget();
   state.left.frames.hold(false);
   state.left.frames.finish(false);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cloud/cloud_harness.hpp"
+#include "support/pipeline.hpp"
 
 namespace mtstereo::test {
 namespace {
@@ -92,6 +93,23 @@ TEST(CloudErrors, NameTheWaysToSupplyAGeometry) {
   for (const char* word : {"mtrectify", "calibration=FILE", "focal-length=PX"}) {
     EXPECT_NE(error.find(word), std::string::npos) << error;
   }
+}
+
+TEST(CloudErrors, OfAStreamAreReportedOnce) {
+  // The source tries to negotiate several times.
+  const CloudFolder folder;
+  Pipeline pipeline(
+      "videotestsrc num-buffers=3 ! video/x-raw,format=GRAY16_LE,width=64,height=48 ! mtcloud "
+      "name=c " +
+      location(folder));
+  int errors = 0;
+  GstBus* bus = gst_element_get_bus(pipeline.element());
+  gst_element_set_state(pipeline.element(), GST_STATE_PLAYING);
+  while (const MessagePointer message = next_message(bus, GST_MESSAGE_ERROR, 0.3)) {
+    if (GST_MESSAGE_SRC(message.get()) == GST_OBJECT(pipeline.named("c"))) ++errors;
+  }
+  gst_object_unref(bus);
+  EXPECT_EQ(errors, 1);
 }
 
 TEST(CloudErrors, NameAStreamOfDepths) {
