@@ -26,7 +26,7 @@ calibrate_cameras() {
 # Two raw files -> disparities without loss, depths in mm as PNG files, and the rectified left view.
 measure() {
   local matcher=(mtstereo name=m "mode=$mode" "max-disparity=$max_disparity") folder
-  local to_png=(videoconvert '!' video/x-raw,format=GRAY16_BE '!' pngenc)
+  local to_png=(videoconvert '!' 'video/x-raw,format=GRAY16_BE' '!' pngenc)
   for folder in depth rectified; do
     rm -rf "${out:?}/$folder"
     mkdir -p "$out/$folder"
