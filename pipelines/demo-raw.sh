@@ -5,7 +5,6 @@
 # shellcheck disable=SC2154  # the variables are those of demo.sh
 
 raw_baseline=0.3 # [m]
-raw_far=40       # [m]
 
 # A board as mtcalibrate prints it, seen by two raw cameras, and the calibration that follows.
 calibrate_cameras() {
@@ -16,11 +15,12 @@ calibrate_cameras() {
   # The page is 594 mm wide.
   mtstereo-render "$out/board" --overwrite --scene board --lens wide --size "$size" \
     --baseline "$raw_baseline" --picture "$out/board.png" --picture-width 0.594 --poses 40 \
-    --noise 1 --gray >"$log" || fail "the board could not be rendered"
+    --visible 0.6 --noise 1 --gray >"$log" || fail "the board could not be rendered"
   step "Calibrating the cameras with mtcalibrate"
   mtcalibrate --left "$out/board/left" --right "$out/board/right" "${board[@]}" \
-    --out "$out/cameras" --overwrite || fail "the cameras could not be calibrated"
-  calibration=$out/cameras/calibration.yml
+    --out "$out/cameras" --overwrite | sed '/^view /d' ||
+    fail "the cameras could not be calibrated"
+  calibration=$out/cameras/calibration.yaml
 }
 
 # Two raw files -> disparities without loss, depths in mm as PNG files, and the rectified left view.
@@ -40,7 +40,7 @@ measure() {
     mtrectify camera=right "calibration=$calibration" '!' queue '!' m.sink_right \
     "${matcher[@]}" '!' watchdog timeout=60000 '!' tee name=maps \
     maps. '!' queue '!' avenc_ffv1 '!' matroskamux '!' filesink "location=$out/disparity-$mode.mkv" \
-    maps. '!' queue '!' mtdepth "far=$raw_far" '!' "${to_png[@]}" '!' \
+    maps. '!' queue '!' mtdepth '!' "${to_png[@]}" '!' \
     multifilesink "location=$out/depth/%06d.png"
 }
 
