@@ -23,7 +23,7 @@ DOCUMENTS = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
 NOT_RUN = re.compile(r"(sudo |apt|git |cd |meson |ninja |\./tests/|\./\.ci/|docs/update\.sh"
                      r"|\./docs/update\.sh|\./pipelines/install-packages\.sh)")
 RUN = re.compile(r"([A-Z_]+=\S+ +)*(gst-launch-1\.0|gst-inspect-1\.0|\./pipelines/|mtstereo-"
-                 r"|\./build/pipelines/|build/pipelines/|depth-of-center|mkdir |export )")
+                 r"|\./build/pipelines/|build/pipelines/|depth-of-center|mtcalibrate |mkdir |export )")
 
 
 class Command:
@@ -106,6 +106,13 @@ def prepare(folder):
     make_data_sets(folder)
 
 
+def make_boards(folder):
+    """Views of a calibration board, in place of cameras."""
+    if not (folder / "camera-boards").exists():
+        require(run([BUILD / "pipelines/render/mtstereo-render", "camera-boards", "--scene", "board",
+                     "--size", "320x240", "--poses", "12", "--rest", "1", "--samples", "1"], folder))
+
+
 def headless(text):
     """The command for a machine without a screen and with little time."""
     if text.startswith("./pipelines/demo.sh"):
@@ -119,6 +126,10 @@ def headless(text):
 
 def without_camera(text):
     """Test pictures instead of cameras, as JPEG if the camera is asked for it."""
+    if text.startswith("mtcalibrate "):
+        for side in ("left", "right"):
+            text = re.sub(rf"--{side} /dev/video\d+", f"--{side} camera-boards/{side}", text)
+        return text + " --pattern checkerboard --squares 10x7"
     text = re.sub(r"v4l2src device=\S+( ! |\s+!\s+)image/jpeg",
                   r"videotestsrc is-live=true num-buffers=20 ! jpegenc\1image/jpeg", text)
     text = re.sub(r"v4l2src( device=\S+)?", "videotestsrc is-live=true num-buffers=20", text)
@@ -163,6 +174,8 @@ class Documentation(unittest.TestCase):
             text = done.output.strip()
         if "camera" in command.needs and "needs" in command.needs:
             text = without_camera(text)
+        if "camera-boards/" in text:
+            make_boards(self.folder)
         text = headless(text)
         if "udpsrc" in text:
             self.check_receiver(command, text)

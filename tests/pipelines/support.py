@@ -36,7 +36,7 @@ def environment(folder):
     env["GST_DEBUG_NO_COLOR"] = "1"
     env["BUILD"] = str(BUILD)
     env["LC_ALL"] = "C.UTF-8"
-    programs = [BUILD / "pipelines" / part for part in ("apps", "eval", "render")]
+    programs = [BUILD / "pipelines" / part for part in ("apps", "calibrate", "eval", "render")]
     env["PATH"] = os.pathsep.join([*map(str, programs), env["PATH"]])
     env.pop("DISPLAY", None)
     env.pop("WAYLAND_DISPLAY", None)
