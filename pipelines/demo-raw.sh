@@ -20,7 +20,7 @@ calibrate_cameras() {
   mtcalibrate --left "$out/board/left" --right "$out/board/right" "${board[@]}" \
     --out "$out/cameras" --overwrite | sed '/^view /d' ||
     fail "the cameras could not be calibrated"
-  calibration=$out/cameras/calibration.yaml
+  calibration=$out/cameras/calibration.yml
 }
 
 # Two raw files -> disparities without loss, depths in mm as PNG files, and the rectified left view.

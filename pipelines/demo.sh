@@ -258,7 +258,7 @@ if [ "$raw" = yes ]; then
   # shellcheck source=pipelines/demo-raw.sh
   source "$here/demo-raw.sh"
   demo_of_raw_cameras
-  written=(left.mp4 right.mp4 cameras/calibration.yaml depth rectified "disparity-$mode.mkv")
+  written=(left.mp4 right.mp4 cameras/calibration.yml depth rectified "disparity-$mode.mkv")
 elif [ ${#files[@]} -eq 0 ]; then
   demo_of_clip
   written=(left.mp4 right.mp4 disparity-sparse.mkv disparity-semi-dense.mkv disparity-dense.mkv)

@@ -100,6 +100,8 @@ def prepare(folder):
     make_clip(folder)
     make_videos(folder)
     (folder / "stereo.yaml").write_text(CALIBRATION)
+    for side in ("left", "right"):
+        shutil.copy(folder / f"{side}.mp4", folder / f"raw-{side}.mp4")
     for name in ("pipelines", "tests", "docs"):
         (folder / name).symlink_to(SOURCE / name)
     (folder / "build").symlink_to(BUILD)
