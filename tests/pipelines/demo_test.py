@@ -5,7 +5,7 @@ import re
 import shutil
 import unittest
 
-from support import BUILD, ClipTest, count_frames
+from support import BUILD, ClipTest, SLOW, count_frames
 
 
 class Demo(ClipTest):
@@ -36,6 +36,20 @@ class Demo(ClipTest):
             self.assertGreater(speed, 0, f"{mode}: {row}")
         self.assertGreater(float(rows["semi-dense"][3]), float(rows["sparse"][3]), "density")
         self.assertGreater(float(rows["dense"][3]), float(rows["semi-dense"][3]), "density")
+
+    @unittest.skipIf(SLOW > 1, "40 views of a board take minutes in a sanitized build")
+    def test_raw_cameras_are_calibrated_and_measure_meters(self):
+        done = self.demo("--raw", "--out", "raw", "--frames", "2")
+        self.assert_succeeds(done)
+        out = self.folder / "raw"
+        for name in ("demo.png", "color.mp4", "cameras/calibration.yml", "depth/000001.png"):
+            self.assertGreater((out / name).stat().st_size, 0, name)
+        rows = {row.split()[0]: row.split() for row in done.output.splitlines()
+                if re.match(r" +\d+ \.\. \d+ ", row)}
+        for first, limit in (("0", 1.0), ("5", 2.0)):
+            density, error = float(rows[first][3]), float(rows[first][4])
+            self.assertGreater(density, 60, done.output)
+            self.assertLess(error, limit, done.output)
 
     def test_accepts_own_files(self):
         done = self.demo("left.mp4", "right.mkv", "--out", "own", "--mode", "sparse",
@@ -72,6 +86,9 @@ class Demo(ClipTest):
 
     def test_names_a_folder_that_cannot_be_created(self):
         self.assert_rejects(self.demo("--out", "/dev/null/out"), "/dev/null/out", 1)
+
+    def test_raw_takes_no_files(self):
+        self.assert_rejects(self.demo("--raw", "left.mp4", "right.mp4"), "--calibration", 2)
 
     def test_rejects_invalid_options(self):
         for words, says in ((["left.mp4"], "two video files"),

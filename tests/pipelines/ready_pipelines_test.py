@@ -43,6 +43,23 @@ class ReadyPipelines(ClipTest):
         self.assertLess(error, 3)
         self.assertGreater(density, 15)
 
+    def test_a_calibration_leads_to_depths_and_clouds(self):
+        # The calibration of the rendered clip, in Middlebury's format.
+        done = self.run_script("from-files.sh", "left.mp4", "right.mkv", "--calibration",
+                               "clip/calib.txt", "--depth", "20", "--cloud", "cloud%d.ply", "--out",
+                               "depth%d.png")
+        self.assert_succeeds(done)
+        self.assertEqual(len(list(self.folder.glob("cloud?.ply"))), 8)
+        header = (self.folder / "depth7.png").read_bytes()[24:26]
+        self.assertEqual(header, bytes([16, 0]), "16 bit, gray")
+        cloud = (self.folder / "cloud7.ply").read_bytes().split(b"end_header")[0]
+        self.assertGreater(int(re.search(rb"element vertex (\d+)", cloud)[1]), 1000)
+
+    def test_depths_are_shown_in_colors(self):
+        self.assert_succeeds(self.run_script(
+            "from-side-by-side.sh", "side-by-side.mp4", "--calibration", "clip/calib.txt",
+            "--depth", "20", *HEADLESS))
+
     def test_png_images_become_kitti_images(self):
         done = self.run_script("from-png.sh", "left/%06d.png", "right/%06d.png",
                                "new/folder/%06d.png")
@@ -186,7 +203,8 @@ class WrongUse(ClipTest):
                 (["from-files.sh", "left.mp4", "no.mp4"], "no.mp4"),
                 (["from-files.sh", "left.mp4", "left"], "folder"),
                 (["from-side-by-side.sh", "no.mp4"], "no.mp4"),
-                (["from-side-by-side.sh", "clip/calib.txt"], "no video"),
+                (["from-side-by-side.sh", "clip/calib.txt", *HEADLESS], "type of stream"),
+                (["from-files.sh", "left.mp4", "right.mkv", "--calibration", "no.yml"], "no.yml"),
                 (["from-cameras.sh", "/dev/video97", "/dev/video98"], "/dev/video97"),
                 (["from-side-by-side.sh", "/dev/video97"], "/dev/video97"),
                 (["network-sender.sh", "no.mp4", "left.mp4"], "no.mp4"),
@@ -214,6 +232,10 @@ class WrongUse(ClipTest):
                 (["from-files.sh", *files, "--seconds", "1.5"], "--seconds"),
                 (["from-files.sh", *files, "--seconds"], "--seconds"),
                 (["from-files.sh", *files, "--size", "3x3"], "--size"),
+                (["from-files.sh", *files, "--depth", "5"], "--calibration"),
+                (["from-files.sh", *files, "--calibration", "c", "--depth", "far"], "--depth"),
+                (["from-files.sh", *files, "--calibration", "c", "--cloud", "c.xyz"], "--cloud"),
+                (["from-side-by-side.sh", "both.mp4", "--layout", "mixed"], "--layout"),
                 (["from-cameras.sh", "/dev/video0"], "two cameras"),
                 (["from-cameras.sh", "/dev/video0", "/dev/video2", "--size", "big"], "--size"),
                 (["from-cameras.sh", "/dev/video0", "/dev/video2", "--rate", "fast"], "--rate"),
@@ -239,7 +261,7 @@ class WrongUse(ClipTest):
 
     def test_every_script_has_its_help(self):
         for script in sorted(PIPELINES.glob("*.sh")):
-            if script.name in ("common.sh", "install-packages.sh"):
+            if script.name in ("common.sh", "demo-raw.sh", "install-packages.sh"):
                 continue
             done = self.run_script(script.name, "--help")
             self.assert_succeeds(done)

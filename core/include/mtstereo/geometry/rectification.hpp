@@ -71,9 +71,12 @@ class MTSTEREO_API Rectifier {
   /// Computes the maps of one camera.
   static Result<Rectifier> create(const StereoCalibration& calibration,
                                   const Rectification& rectification, Side side) noexcept;
+  /// Releases the maps.
   ~Rectifier();
-  Rectifier(Rectifier&&) noexcept;
-  Rectifier& operator=(Rectifier&&) noexcept;
+  /// Moves; the other one can only be assigned to or destroyed then.
+  Rectifier(Rectifier&& other) noexcept;
+  /// Moves; the other one can only be assigned to or destroyed then.
+  Rectifier& operator=(Rectifier&& other) noexcept;
 
   /// Resamples one plane with `channels` interleaved 8-bit values per pixel (1, 3 or 4; widths and
   /// strides of the views count pixels and bytes). Bilinear, in fixed point. Pixels that the
