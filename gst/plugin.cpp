@@ -46,5 +46,6 @@ gboolean plugin_init(GstPlugin* plugin) noexcept {
 
 #define PACKAGE "mtstereo"
 GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, mtstereo,
-                  "Depth from two cameras: rectification, stereo matching (MTStereo 2.0), depths and point clouds",
+                  "Depth from two cameras: rectification, stereo matching (MTStereo 2.0), depths "
+                  "and point clouds",
                   mtstereo::plugin::plugin_init, MTSTEREO_VERSION, "LGPL", "mtstereo", "mtstereo")
