@@ -84,3 +84,39 @@ internal=$(c++filt <"$root/names.txt" | grep -vE "^mtstereo::($public)\\(" || tr
 [ -z "$internal" ] || fail "the library exports internal names:
 $internal"
 echo "exported names: $(wc -l <"$root/names.txt")"
+
+# The library of the geometry, if the build has it. OpenCV is inside, and not in its interface.
+[ -e "$library_path/pkgconfig/mtstereo-geometry.pc" ] || exit 0
+flags=$(pkg-config --cflags --libs mtstereo-geometry) || fail "pkg-config does not find mtstereo-geometry"
+for word in opencv eigen yaml; do
+  case $flags in
+    *$word*) fail "the flags of mtstereo-geometry require $word: $flags" ;;
+  esac
+done
+for header in "$root$prefix"/include/mtstereo/geometry/*.hpp; do
+  # shellcheck disable=SC2086
+  printf '#include <mtstereo/geometry/%s>\n' "$(basename "$header")" |
+    "$@" -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c++ - $flags ||
+    fail "geometry/$(basename "$header") cannot be included alone"
+done
+cat >"$root/geometry.cpp" <<'END'
+#include <cstdio>
+#include <mtstereo/geometry/calibration.hpp>
+int main() {
+  const auto calibration = mtstereo::read_calibration("no-such-file.yml");
+  std::puts(calibration ? "read" : calibration.error().message.c_str());
+}
+END
+# shellcheck disable=SC2086
+"$@" -Wall -Wextra -Wpedantic -Werror "$root/geometry.cpp" -o "$root/geometry" $flags ||
+  fail "a program of the geometry does not build with: $flags"
+output=$(LD_LIBRARY_PATH="$library_path${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$root/geometry") ||
+  fail "the program of the geometry exited with status $?"
+case $output in
+  *no-such-file.yml*) ;;
+  *) fail "the program of the geometry printed: $output" ;;
+esac
+nm -D --defined-only "$library_path/libmtstereo-geometry.so" | awk '{ print $NF }' >"$root/names.txt"
+foreign=$(grep -v '^_ZNK*8mtstereo' "$root/names.txt" | c++filt || true)
+[ -z "$foreign" ] || fail "libmtstereo-geometry exports names that are not its own:
+$foreign"

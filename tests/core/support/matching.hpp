@@ -29,6 +29,8 @@ inline const char* name_of(ErrorCode code) {
       return "kOutOfMemory";
     case ErrorCode::kSystem:
       return "kSystem";
+    case ErrorCode::kInvalidCalibration:
+      return "kInvalidCalibration";
   }
   return "an unknown code";
 }
