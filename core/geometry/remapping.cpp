@@ -32,15 +32,20 @@ std::uint16_t load_pair(const std::uint8_t* from) {
 }
 
 /// Interpolates in a row of two pixels: kBits fractional bits.
-std::uint16_t between(unsigned left, unsigned right, unsigned weight) {
-  return static_cast<std::uint16_t>(left * (kPositionSteps - weight) + right * weight);
+std::int16_t between(int left, int right, int weight) {
+  return static_cast<std::int16_t>(left * kPositionSteps + (right - left) * weight);
 }
 
-std::uint8_t between_rows(std::uint16_t top, std::uint16_t bottom, std::uint16_t weight) {
-  const auto rest = static_cast<std::uint16_t>(kPositionSteps - weight);
-  const std::uint32_t sum = static_cast<std::uint32_t>(top) * rest +
-                            static_cast<std::uint32_t>(bottom) * weight + (1U << (2 * kBits - 1));
-  return static_cast<std::uint8_t>(sum >> (2 * kBits));
+/// Rounds (top * (kPositionSteps - weight) + bottom * weight) to whole gray levels, in numbers of
+/// 16 bits: the upper half of the product is the difference times the weight, without kBits bits.
+/// What rounding down leaves out here does not change the result.
+std::uint8_t between_rows(std::int16_t top, std::int16_t bottom, int weight) {
+  constexpr int kUp = 2;
+  const auto difference = static_cast<std::int16_t>((bottom - top) << kUp);
+  const auto factor = static_cast<std::int16_t>(weight << (16 - kBits - kUp));
+  const auto part = static_cast<std::int16_t>(difference * factor >> 16);
+  constexpr int kHalf = 1 << (kBits - 1);
+  return static_cast<std::uint8_t>(static_cast<std::int16_t>(top + part + kHalf) >> kBits);
 }
 
 /// Gray images: the pixels are collected by a loop of loads and interpolated by a loop that the
@@ -58,8 +63,8 @@ void remap_gray(const Corner* corners, const Weights* weights, int count,
     }
     for (int i = 0; i < n; ++i) {
       const Weights weight = weights[first + i];
-      const std::uint16_t top = between(tops[i] & 255U, tops[i] >> 8U, weight.x);
-      const std::uint16_t bottom = between(bottoms[i] & 255U, bottoms[i] >> 8U, weight.x);
+      const std::int16_t top = between(tops[i] & 255, tops[i] >> 8, weight.x);
+      const std::int16_t bottom = between(bottoms[i] & 255, bottoms[i] >> 8, weight.x);
       out[first + i] = between_rows(top, bottom, weight.y);
     }
   }
