@@ -46,7 +46,10 @@ Rectification rectification_of(const Rig& rig, bool& keeps_scale) {
     options.alpha = kKeepScale;
     result = rectify(calibration, options);
   }
-  if (!result) throw CalibrationError("the cameras cannot be rectified: " + result.error().message);
+  if (!result) {
+    throw CalibrationError(result.error().message +
+                           " If they are, the views are too few, too similar or blurred.");
+  }
   return *result;
 }
 

@@ -142,12 +142,11 @@ Grade grade_of(const Calibrated& calibrated, const Quality& quality) {
   const Fit& fit = calibrated.held_out ? calibrated.held_out->fit : calibrated.fit;
   const double median = quantile(fit.rows, 0.5);
   const double tail = quantile(fit.rows, 0.95);
-  const double scale = limit_scale(calibrated);
-  if (median > kUsableRows * scale || !quality.uncertainty) return Grade::kPoor;
+  if (median > kUsableRows || !quality.uncertainty) return Grade::kPoor;
   const bool doubts =
       std::any_of(quality.warnings.begin(), quality.warnings.end(),
                   [](const Warning& each) { return each.name != "swapped-inputs"; });
-  const bool good = median <= kGoodRows * scale && tail <= kGoodTail * scale && !doubts;
+  const bool good = median <= kGoodRows && tail <= kGoodTail && !doubts;
   return good ? Grade::kGood : Grade::kUsable;
 }
 

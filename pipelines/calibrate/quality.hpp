@@ -29,7 +29,7 @@ struct DepthError {
 
 /// The error of a disparity that DepthError assumes [px]: what a matcher with sub-pixel
 /// disparities reaches on textured surfaces.
-inline constexpr double kDisparityError = 0.25;
+inline constexpr double kDisparityError = 0.3;
 
 /// How good a calibration is as a whole.
 enum class Grade {

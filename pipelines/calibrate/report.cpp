@@ -80,7 +80,7 @@ void print_depths(std::ostream& out, const Quality& quality) {
     out << (i > 0 ? ", " : "") << length(each.total()) << " at " << decimal(each.depth, 0) << " m";
   }
   out << "\n                  (standard deviation, for disparities that are off by "
-      << decimal(kDisparityError, 2) << " px)\n";
+      << decimal(kDisparityError, 1) << " px)\n";
 }
 
 ordered_json json_of(const Camera& camera, const std::optional<double>& deviation) {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "calibrate/calibration_error.hpp"
@@ -84,20 +85,63 @@ TEST(Quality, FewViewsAreNamed) {
   EXPECT_NE(found.quality.grade, Grade::kGood);
 }
 
-TEST(Quality, SimilarViewsAreNamed) {
-  const Rig truth = plumb_bob_rig();
+/// The board nearly parallel to the cameras, always at the same distance.
+std::vector<Pose> similar_poses(int count) {
   std::vector<Pose> poses;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < count; ++i) {
     Eigen::Matrix<double, 6, 1> step;
     step << 0.03 * std::sin(i), 0.03 * std::cos(2 * i), 0, 0, 0, 0;
     Pose pose = Pose().moved(step);
     pose.translation = {-0.1 + 0.01 * (i % 5), -0.08 + 0.01 * (i % 4), 0.6};
     poses.push_back(pose);
   }
-  const Judged found = judge_views(observe(truth, poses, kBoard, 0.1));
+  return poses;
+}
+
+TEST(Quality, SimilarViewsAreNamed) {
+  const Judged found = judge_views(observe(plumb_bob_rig(), similar_poses(20), kBoard, 0.1));
   EXPECT_THAT(names_of(found.quality), Contains("similar-views"));
   EXPECT_THAT(names_of(found.quality), Contains("uncovered-image"));
   EXPECT_THAT(names_of(found.quality), Contains("uncertain-focal-length"));
+}
+
+TEST(Quality, ResultsThatDependOnTheChoiceOfViewsAreNamed) {
+  const Judged found = judge_views(observe(plumb_bob_rig(), similar_poses(12), kBoard, 0.3));
+  EXPECT_THAT(names_of(found.quality), Contains("unstable"));
+  EXPECT_THAT(names_of(found.quality), Contains("uncertain-baseline"));
+}
+
+TEST(Quality, InaccurateCornersAreNamed) {
+  const Rig truth = plumb_bob_rig();
+  const Judged found = judge_views(observe(truth, board_poses(truth, kBoard, 15), kBoard, 1.5));
+  EXPECT_THAT(names_of(found.quality), Contains("high-reprojection-error"));
+  EXPECT_THAT(names_of(found.quality), Contains("high-row-error"));
+  EXPECT_EQ(found.quality.grade, Grade::kPoor);
+}
+
+TEST(Quality, CamerasThatMovedAreNamed) {
+  const Rig truth = plumb_bob_rig();
+  const auto poses = board_poses(truth, kBoard, 30);
+  auto views = observe(truth, poses, kBoard, 0.1);
+  Rig moved = truth;
+  moved.right_from_left.translation.y() += 0.01;
+  const auto later = observe(moved, poses, kBoard, 0.1);
+  std::copy(later.begin(), later.begin() + 9, views.begin());
+  const Judged found = judge_views(views);
+  EXPECT_THAT(names_of(found.quality), Contains("contradictory-views"));
+  EXPECT_NE(found.quality.grade, Grade::kGood);
+  EXPECT_NEAR(found.calibrated.solution.rig.baseline(), truth.baseline(), 0.001);
+}
+
+TEST(Quality, ParametersThatTheViewsDoNotDetermineAreNamed) {
+  const Rig truth = plumb_bob_rig();
+  const auto views = observe(truth, board_poses(truth, kBoard, 20), kBoard, 0.1);
+  Calibrated calibrated = calibrate(Model::kPlumbBob, kSize, kSize, views);
+  // What a solution has whose equations are singular.
+  calibrated.solution.result.covariance.resize(0, 0);
+  const Quality quality = judge(calibrated, Coverage(kBoard, kSize, kSize), std::nullopt);
+  EXPECT_THAT(names_of(quality), Contains("undetermined"));
+  EXPECT_EQ(quality.grade, Grade::kPoor);
 }
 
 TEST(Quality, HeldOutViewsChooseTheModel) {
