@@ -32,6 +32,7 @@ def run(*arguments, **environment):
                           text=True, timeout=280 * SLOW, env={**known, **environment})
 
 
+@unittest.skipIf(SLOW > 1, "the tests of the parts run the same code")
 class QuickRun(unittest.TestCase):
     """One run of all benchmarks, whose outputs all tests of this class check."""
 
