@@ -199,6 +199,12 @@ gboolean query(GstBaseTransform* transform, GstPadDirection direction, GstQuery*
     remove_depth_fields(gst_caps_get_structure(caps.get(), i));
   }
   caps.reset(gst_caps_simplify(caps.release()));
+  GstCaps* filter = nullptr;
+  gst_query_parse_caps(query, &filter);
+  // Fields that upstream has are part of what it offers, and remain.
+  if (filter != nullptr) {
+    caps.reset(gst_caps_intersect_full(caps.get(), filter, GST_CAPS_INTERSECT_FIRST));
+  }
   gst_query_set_caps_result(query, caps.get());
   return TRUE;
 }

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Any caps on the pads of the three elements. The first byte selects the element; the lines that
-// follow are the caps of its sink pad or pads, and the last one those that downstream accepts.
+// Any caps on the pads of the elements. The first byte selects the element; the lines that follow
+// are the caps of its sink pad or pads, and the last one those that downstream accepts.
 #include <gst/video/video.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
-#include <vector>
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 #include "fuzz_gst.hpp"
 #include "fuzz_input.hpp"
@@ -83,17 +87,118 @@ void test_matcher(const std::array<std::string, 3>& texts) {
   gst_harness_teardown(left);
 }
 
-void test_filter(const char* factory, const std::array<std::string, 3>& texts) {
-  TestedElement element(factory);
-  GstHarness* harness = gst_harness_new_with_element(element.get(), "sink", "src");
+void test_filter(TestedElement& element, const char* source,
+                 const std::array<std::string, 3>& texts) {
+  GstHarness* harness = gst_harness_new_with_element(element.get(), "sink", source);
   restrict_downstream(harness, texts[2]);
   query_with(element.get(), "sink", texts[0]);
-  query_with(element.get(), "src", texts[2]);
+  query_with(element.get(), source, texts[2]);
   start_stream(harness, "maps");
   send_caps(harness, texts[0], 1);
   send_caps(harness, texts[1], 2);
   gst_harness_push_event(harness, gst_event_new_eos());
   gst_harness_teardown(harness);
+}
+
+void test_filter(const char* factory, const std::array<std::string, 3>& texts) {
+  TestedElement element(factory);
+  test_filter(element, "src", texts);
+}
+
+/// A folder of this process with a calibration.
+class Folder {
+ public:
+  Folder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("mtstereo-fuzz-caps-" + std::to_string(getpid()))) {
+    std::filesystem::create_directory(path_);
+    std::ofstream(calibration()) << "%YAML:1.0\n---\n"
+                                 << matrix("M1", 3, "40, 0, 16, 0, 40, 8, 0, 0, 1")
+                                 << matrix("M2", 3, "40, 0, 17, 0, 40, 8, 0, 0, 1")
+                                 << matrix("D1", 1, "-0.1, 0.01, 0, 0")
+                                 << matrix("D2", 1, "-0.1, 0, 0.001, 0")
+                                 << matrix("R", 3, "1, 0, 0, 0, 1, 0, 0, 0, 1")
+                                 << matrix("T", 3, "-0.1, 0, 0");
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string calibration() const { return path_ / "calibration.yml"; }
+  std::string cloud() const { return path_ / "cloud.ply"; }
+
+ private:
+  static std::string matrix(const char* name, int rows, const char* numbers) {
+    const std::string text = numbers;
+    const auto count = std::count(text.begin(), text.end(), ',') + 1;
+    return std::string(name) + ": !!opencv-matrix\n   rows: " + std::to_string(rows) +
+           "\n   cols: " + std::to_string(count / rows) + "\n   dt: d\n   data: [ " + text + " ]\n";
+  }
+
+  std::filesystem::path path_;
+};
+
+const Folder& folder() {
+  static const Folder folder;
+  return folder;
+}
+
+void test_rectifier(const std::array<std::string, 3>& texts) {
+  TestedElement element("mtrectify");
+  g_object_set(element.get(), "calibration", folder().calibration().c_str(), "color", TRUE,
+               nullptr);
+  test_filter(element, "src", texts);
+}
+
+void test_splitter(const std::array<std::string, 3>& texts) {
+  TestedElement element("mtsplit");
+  GstHarness* right = gst_harness_new_with_element(element.get(), nullptr, "right");
+  query_with(element.get(), "right", texts[1]);
+  test_filter(element, "left", texts);
+  gst_harness_teardown(right);
+}
+
+/// The second line has the caps of the left view.
+void test_cloud(const std::array<std::string, 3>& texts) {
+  TestedElement element("mtcloud");
+  g_object_set(element.get(), "location", folder().cloud().c_str(), "focal-length", 40.0,
+               "baseline", 0.1, "timeout", GstClockTime{1'000'000}, nullptr);
+  GstHarness* left = gst_harness_new_with_element(element.get(), "sink_left", nullptr);
+  GstHarness* maps = gst_harness_new_with_element(element.get(), "sink", nullptr);
+  query_with(element.get(), "sink_left", texts[1]);
+  query_with(element.get(), "sink", texts[0]);
+  start_stream(left, "left");
+  start_stream(maps, "maps");
+  send_caps(left, texts[1], 1);
+  send_caps(maps, texts[0], 2);
+  send_caps(maps, texts[2], 3);
+  gst_harness_push_event(left, gst_event_new_eos());
+  gst_harness_push_event(maps, gst_event_new_eos());
+  gst_element_set_state(element.get(), GST_STATE_NULL);
+  gst_harness_teardown(maps);
+  gst_harness_teardown(left);
+}
+
+void test_element(int index, const std::array<std::string, 3>& texts) {
+  switch (index) {
+    case 0:
+      return test_matcher(texts);
+    case 1:
+      return test_filter("mtcolor", texts);
+    case 2:
+      return test_filter("mtconfidence", texts);
+    case 3:
+      return test_filter("mtdepth", texts);
+    case 4:
+      return test_rectifier(texts);
+    case 5:
+      return test_splitter(texts);
+    default:
+      return test_cloud(texts);
+  }
 }
 
 }  // namespace
@@ -102,17 +207,13 @@ void test_filter(const char* factory, const std::array<std::string, 3>& texts) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mtstereo::fuzz;
   FuzzInput input(data, size);
-  const int element = input.byte() % 3;
+  const int element = input.byte() % 7;
   std::array<std::string, 3> texts;
   for (std::string& text : texts) {
     // GStreamer's own functions do not take text that is not UTF-8.
     const std::string_view line = input.line();
     if (g_utf8_validate(line.data(), static_cast<gssize>(line.size()), nullptr)) text = line;
   }
-  if (element == 0) {
-    test_matcher(texts);
-  } else {
-    test_filter(element == 1 ? "mtcolor" : "mtconfidence", texts);
-  }
+  test_element(element, texts);
   return 0;
 }

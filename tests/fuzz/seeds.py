@@ -88,6 +88,15 @@ def caps():
     yield "color", b"\1" + disparity * 2 + b"video/x-raw,format={RGB,BGRx}"
     yield "color-range", b"\1" + disparity.replace(b"256", b"-1") + disparity.replace(b"=8", b"=0")
     yield "confidence", b"\2" + disparity + gray + b"video/x-raw"
+    geometry = b",focal-length=40.0,baseline=0.1,principal-offset=1.5,principal-x=16.0,principal-y=8.0"
+    yield "depth", b"\3" + disparity.replace(b"\n", geometry + b"\n") * 2 + b"video/x-raw"
+    yield "depth-wrong", b"\3" + disparity[:-1] + b",focal-length=-1.0,baseline=1e300\n" + gray
+    yield "rectify", b"\4" + gray * 2 + b"video/x-raw,format=GRAY8"
+    yield "rectify-color", b"\4" + gray.replace(b"GRAY8", b"BGR") * 2 + b"video/x-raw,width=[1,20]"
+    yield "rectify-sizes", b"\4" + gray + gray.replace(b"32", b"64") + b"video/x-raw"
+    yield "split", b"\5" + gray.replace(b"GRAY8", b"I420") + gray.replace(b"32", b"33") + b"video/x-raw"
+    yield "cloud", b"\6" + disparity + gray.replace(b"GRAY8", b"RGB") + disparity.replace(b"32", b"16")
+    yield "cloud-geometry", b"\6" + disparity.replace(b"\n", geometry + b"\n") + gray + disparity
 
 
 def streams():

@@ -314,6 +314,17 @@ TEST(Depth, RefusesAStreamOfDepths) {
   EXPECT_NE(error.find("depths, not disparities"), std::string::npos) << error;
 }
 
+TEST(Depth, AnswersTheCapsQueryOfASourceWithAGeometry) {
+  MapHarness harness("mtdepth", "");
+  const CapsPointer offered(gst_caps_from_string(
+      (std::string("video/x-raw,format=GRAY16_LE,width=5,height=3,framerate=30/1") + kScale + kRig)
+          .c_str()));
+  GstPad* pad = gst_element_get_static_pad(harness.element(), "sink");
+  const CapsPointer accepted(gst_pad_query_caps(pad, offered.get()));
+  gst_object_unref(pad);
+  EXPECT_TRUE(gst_caps_is_equal(accepted.get(), offered.get()));
+}
+
 TEST(Depth, ReportsInvalidCaps) {
   for (const char* caps :
        {",disparity-scale=0", ",disparity-scale=70000", ",disparity-scale=16,disparity-offset=3"}) {
