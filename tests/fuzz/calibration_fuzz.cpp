@@ -2,52 +2,17 @@
 // The readers of calibration files. The first byte selects the size of the video, the second what
 // follows '#' in the path, the rest is the file; a byte of 1 separates two files. What is accepted
 // must be equal after it was written and read again.
-#include <unistd.h>
-
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "fuzz_folder.hpp"
 #include "fuzz_input.hpp"
 #include "mtstereo/geometry/calibration.hpp"
 
 namespace mtstereo::fuzz {
 namespace {
-namespace fs = std::filesystem;
-
-/// A folder in memory if possible, removed at the end.
-class Folder {
- public:
-  Folder() {
-    const fs::path base = fs::exists("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
-    std::string pattern = (base / "mtstereo-fuzz-XXXXXX").string();
-    require(mkdtemp(pattern.data()) != nullptr, "a temporary folder can be created");
-    path_ = pattern;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string path(const char* name) const { return (path_ / name).string(); }
-  std::string write(const char* name, std::string_view bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return path(name);
-  }
-
- private:
-  fs::path path_;
-};
-
-const Folder& folder() {
-  static const Folder folder;
-  return folder;
-}
 
 struct Size {
   int width, height;
@@ -75,7 +40,7 @@ void check_accepted(const StereoCalibration& calibration) {
   require(calibration.baseline() > 0 && calibration.baseline() <= kLongestBaseline,
           "a baseline is in range");
   check_scaled(calibration);
-  const std::string file = folder().path("written.yml");
+  const std::string file = folder().path() / "written.yml";
   require(write_calibration(calibration, file).ok(), "what is read can be written");
   const Result<StereoCalibration> again = read_calibration(file);
   require(again.ok(), "what is written can be read");
@@ -104,7 +69,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t end = bytes.find('\1');
   std::string path = folder().write("first", bytes.substr(0, end));
   if (end != std::string_view::npos) {
-    path += "," + folder().write("second", bytes.substr(end + 1));
+    path += "," + folder().write("second", bytes.substr(end + 1)).string();
   }
   const Result<StereoCalibration> result =
       read_calibration(path + selection, video.width, video.height);

@@ -2,14 +2,11 @@
 // Any caps on the pads of the elements. The first byte selects the element; the lines that follow
 // are the caps of its sink pad or pads, and the last one those that downstream accepts.
 #include <gst/video/video.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "fuzz_folder.hpp"
 #include "fuzz_gst.hpp"
 #include "fuzz_input.hpp"
 
@@ -105,51 +102,25 @@ void test_filter(const char* factory, const std::array<std::string, 3>& texts) {
   test_filter(element, "src", texts);
 }
 
-/// A folder of this process with a calibration.
-class Folder {
- public:
-  Folder()
-      : path_(std::filesystem::temp_directory_path() /
-              ("mtstereo-fuzz-caps-" + std::to_string(getpid()))) {
-    std::filesystem::create_directory(path_);
-    std::ofstream(calibration()) << "%YAML:1.0\n---\n"
-                                 << matrix("M1", 3, "40, 0, 16, 0, 40, 8, 0, 0, 1")
-                                 << matrix("M2", 3, "40, 0, 17, 0, 40, 8, 0, 0, 1")
-                                 << matrix("D1", 1, "-0.1, 0.01, 0, 0")
-                                 << matrix("D2", 1, "-0.1, 0, 0.001, 0")
-                                 << matrix("R", 3, "1, 0, 0, 0, 1, 0, 0, 0, 1")
-                                 << matrix("T", 3, "-0.1, 0, 0");
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
+std::string matrix(const char* name, int rows, int columns, const char* numbers) {
+  return std::string(name) + ": !!opencv-matrix\n   rows: " + std::to_string(rows) +
+         "\n   cols: " + std::to_string(columns) + "\n   dt: d\n   data: [ " + numbers + " ]\n";
+}
 
-  std::string calibration() const { return path_ / "calibration.yml"; }
-  std::string cloud() const { return path_ / "cloud.ply"; }
-
- private:
-  static std::string matrix(const char* name, int rows, const char* numbers) {
-    const std::string text = numbers;
-    const auto count = std::count(text.begin(), text.end(), ',') + 1;
-    return std::string(name) + ": !!opencv-matrix\n   rows: " + std::to_string(rows) +
-           "\n   cols: " + std::to_string(count / rows) + "\n   dt: d\n   data: [ " + text + " ]\n";
-  }
-
-  std::filesystem::path path_;
-};
-
-const Folder& folder() {
-  static const Folder folder;
-  return folder;
+/// The file of a calibration that fits every size.
+const std::string& calibration_file() {
+  static const std::string file = folder().write(
+      "calibration.yml",
+      "%YAML:1.0\n---\n" + matrix("M1", 3, 3, "40, 0, 16, 0, 40, 8, 0, 0, 1") +
+          matrix("M2", 3, 3, "40, 0, 17, 0, 40, 8, 0, 0, 1") +
+          matrix("D1", 1, 4, "-0.1, 0.01, 0, 0") + matrix("D2", 1, 4, "-0.1, 0, 0.001, 0") +
+          matrix("R", 3, 3, "1, 0, 0, 0, 1, 0, 0, 0, 1") + matrix("T", 3, 1, "-0.1, 0, 0"));
+  return file;
 }
 
 void test_rectifier(const std::array<std::string, 3>& texts) {
   TestedElement element("mtrectify");
-  g_object_set(element.get(), "calibration", folder().calibration().c_str(), "color", TRUE,
-               nullptr);
+  g_object_set(element.get(), "calibration", calibration_file().c_str(), "color", TRUE, nullptr);
   test_filter(element, "src", texts);
 }
 
@@ -164,8 +135,8 @@ void test_splitter(const std::array<std::string, 3>& texts) {
 /// The second line has the caps of the left view.
 void test_cloud(const std::array<std::string, 3>& texts) {
   TestedElement element("mtcloud");
-  g_object_set(element.get(), "location", folder().cloud().c_str(), "focal-length", 40.0,
-               "baseline", 0.1, "timeout", GstClockTime{1'000'000}, nullptr);
+  g_object_set(element.get(), "location", (folder().path() / "cloud.ply").c_str(), "focal-length",
+               40.0, "baseline", 0.1, "timeout", GstClockTime{1'000'000}, nullptr);
   GstHarness* left = gst_harness_new_with_element(element.get(), "sink_left", nullptr);
   GstHarness* maps = gst_harness_new_with_element(element.get(), "sink", nullptr);
   query_with(element.get(), "sink_left", texts[1]);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The readers of mtstereo-eval. The first byte selects the reader, the rest is the file. A file
 // that cannot be used must give an InputError and nothing else.
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -13,43 +12,12 @@
 #include "eval/ground_truth.hpp"
 #include "eval/input_error.hpp"
 #include "eval/pfm.hpp"
+#include "fuzz_folder.hpp"
 #include "fuzz_input.hpp"
 
 namespace mtstereo::fuzz {
 namespace {
 namespace fs = std::filesystem;
-
-/// A folder in memory if possible, removed at the end.
-class Folder {
- public:
-  Folder() {
-    const fs::path base = fs::exists("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
-    std::string pattern = (base / "mtstereo-fuzz-XXXXXX").string();
-    require(mkdtemp(pattern.data()) != nullptr, "a temporary folder can be created");
-    path_ = pattern;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  /// Writes a file and returns its path.
-  fs::path write(const char* name, std::string_view bytes) const {
-    eval::write_bytes(path_ / name, std::string(bytes));
-    return path_ / name;
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-const Folder& folder() {
-  static const Folder folder;
-  return folder;
-}
 
 /// A PNG whose header is valid; its size is limited, since OpenCV allocates the size in the header.
 std::string png_of(FuzzInput& input) {
