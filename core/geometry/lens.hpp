@@ -9,7 +9,7 @@ namespace mtstereo {
 
 /// The lens model of one camera, in both directions, in double precision.
 ///
-/// A polynomial that was fitted to the image says nothing of directions outside of it: there it may
+/// A polynomial that was fitted to the image is undefined in directions outside of it: there it may
 /// turn back into the image. Such directions are not covered by the model.
 class Lens {
  public:

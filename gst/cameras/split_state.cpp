@@ -125,7 +125,7 @@ GstFlowReturn split_buffer(SplitState& state, GstBuffer* buffer) {
     SplitOutput& output = state.outputs[i];
     const GstFlowReturn flow = push_half(state, output, buffer, frame, position);
     combined = gst_flow_combiner_update_pad_flow(state.flows, output.pad, flow);
-    // One view may have ended, or may not be linked: the other one goes on.
+    // One view may have ended, or may not be linked: the other one continues.
     if (combined == GST_FLOW_FLUSHING || combined <= GST_FLOW_NOT_NEGOTIATED) break;
   }
   return combined;

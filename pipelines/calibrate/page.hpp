@@ -40,7 +40,7 @@ std::string pdf_of(const Page& page);
 /// The page as a PNG that states its resolution, with this many pixels per mm, at least.
 std::string png_of(const Page& page, double pixels_per_mm = 12);
 
-/// Writes the page as the extension of the file says, .pdf or .png. Throws CalibrationError.
+/// Writes the page in the format of the extension, .pdf or .png. Throws CalibrationError.
 void write_page(const Page& page, const std::filesystem::path& file);
 
 }  // namespace mtstereo::calibrate

@@ -60,7 +60,7 @@ class PairSource {
   virtual SourceState next(ImagePair& pair) = 0;
   /// Pictures, not video.
   virtual bool stills() const = 0;
-  /// It goes on for ever, and frames that are not taken are lost.
+  /// It never ends, and frames that are not taken are lost.
   virtual bool live() const { return false; }
 };
 

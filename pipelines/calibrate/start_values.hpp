@@ -12,7 +12,7 @@
 
 namespace mtstereo::calibrate {
 
-/// Fewer corners of a view say nothing.
+/// A view with fewer corners is not used.
 inline constexpr std::size_t kFewestCorners = 6;
 
 /// The pose of the board in front of a known camera. std::nullopt if too few corners are in front

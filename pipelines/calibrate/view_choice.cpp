@@ -13,7 +13,7 @@ constexpr double kRepetition = 0.02;        // of placements, in pictures
 constexpr double kStillSpeed = 0.04;        // of the diagonal of the image, per second
 constexpr double kStillDistance = 0.01;     // of the diagonal, between two images
 constexpr double kShortestStep = 1.0 / 60;  // [s]; corners jitter even if nothing moves
-constexpr double kLongestStep = 1;          // [s]; what was before says nothing
+constexpr double kLongestStep = 1;          // [s]; earlier movement does not count
 
 double diagonal(cv::Size size) { return std::hypot(size.width, size.height); }
 

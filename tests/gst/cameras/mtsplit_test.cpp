@@ -352,7 +352,7 @@ TEST(MtSplit, SeekOfBothViewsArrivesOnce) {
 
 TEST(MtSplit, FlowsOfBothPadsAreCombined) {
   const Picture image = noise_pair(64, 48, 0, 5).left;
-  // The right pad is not linked: the left view goes on.
+  // The right pad is not linked: the left view continues.
   CameraHarness single("mtsplit", "", "left");
   gst_harness_add_propose_allocation_meta(single.harness(), GST_VIDEO_META_API_TYPE, nullptr);
   single.caps(raw_caps("GRAY8", 64, 48));
