@@ -5,15 +5,6 @@
 
 namespace mtstereo::plugin {
 
-GstClockTimeDiff signed_running_time(const GstSegment& segment, GstClockTime time) {
-  if (segment.format != GST_FORMAT_TIME || !GST_CLOCK_TIME_IS_VALID(time)) {
-    return GST_CLOCK_STIME_NONE;
-  }
-  guint64 amount = 0;
-  const int sign = gst_segment_to_running_time_full(&segment, GST_FORMAT_TIME, time, &amount);
-  return sign == 0 ? GST_CLOCK_STIME_NONE : sign * static_cast<GstClockTimeDiff>(amount);
-}
-
 void LeftFrames::set_timeout(Duration timeout) {
   const std::lock_guard lock(mutex_);
   timeout_ = timeout;
@@ -41,7 +32,7 @@ GstFlowReturn LeftFrames::push(LeftFrame frame) {
   return GST_FLOW_OK;
 }
 
-void LeftFrames::skip_to(GstClockTimeDiff time) {
+void LeftFrames::skip_to(Nanoseconds time) {
   const std::lock_guard lock(mutex_);
   reached_ = time;
   changed_.notify_all();
@@ -57,32 +48,30 @@ void LeftFrames::set_flushing(bool flushing) {
   const std::lock_guard lock(mutex_);
   flushing_ = flushing;
   frames_.clear();
-  reached_ = GST_CLOCK_STIME_NONE;
+  reached_.reset();
   ended_ = no_frames_ = no_maps_ = false;
   changed_.notify_all();
 }
 
-void LeftFrames::drop_before(GstClockTimeDiff time) {
-  if (!GST_CLOCK_STIME_IS_VALID(time)) return;
+void LeftFrames::drop_before(Nanoseconds time) {
   const auto is_older = [&](const LeftFrame& frame) {
-    return GST_CLOCK_STIME_IS_VALID(frame.time) && frame.time + kSameTime < time;
+    return frame.time && *frame.time + kSameTime < time;
   };
   while (!frames_.empty() && is_older(frames_.front())) frames_.pop_front();
 }
 
-bool LeftFrames::none_will_come(GstClockTimeDiff time) const {
-  const bool in_gap = GST_CLOCK_STIME_IS_VALID(reached_) && GST_CLOCK_STIME_IS_VALID(time) &&
-                      reached_ > time + kSameTime;
+bool LeftFrames::none_will_come(std::optional<Nanoseconds> time) const {
+  const bool in_gap = reached_ && time && *reached_ > *time + kSameTime;
   return ended_ || in_gap || no_frames_;
 }
 
-LeftFrames::Outcome LeftFrames::find(GstClockTimeDiff time, LeftFrame& frame) {
+LeftFrames::Outcome LeftFrames::find(std::optional<Nanoseconds> time, LeftFrame& frame) {
   std::unique_lock lock(mutex_);
   ++maps_;
   no_maps_ = false;
   const auto end = std::chrono::steady_clock::now() + timeout_;
   for (;;) {
-    drop_before(time);
+    if (time) drop_before(*time);
     changed_.notify_all();
     if (interrupted_) return Outcome::kInterrupted;
     if (!frames_.empty()) break;
@@ -90,9 +79,8 @@ LeftFrames::Outcome LeftFrames::find(GstClockTimeDiff time, LeftFrame& frame) {
     const auto changed = [&] { return interrupted_ || !frames_.empty() || none_will_come(time); };
     if (!changed_.wait_until(lock, end, changed)) no_frames_ = true;
   }
-  const GstClockTimeDiff first = frames_.front().time;
-  const bool timed = GST_CLOCK_STIME_IS_VALID(time) && GST_CLOCK_STIME_IS_VALID(first);
-  if (timed && first > time + kSameTime) return Outcome::kNone;
+  const std::optional<Nanoseconds> first = frames_.front().time;
+  if (time && first && *first > *time + kSameTime) return Outcome::kNone;
   frame = std::move(frames_.front());
   frames_.pop_front();
   return Outcome::kFound;

@@ -7,8 +7,10 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 
 #include "shared/ownership.hpp"
+#include "shared/times.hpp"
 
 namespace mtstereo::plugin {
 
@@ -16,12 +18,8 @@ namespace mtstereo::plugin {
 struct LeftFrame {
   BufferPointer buffer;
   GstVideoInfo info{};
-  GstClockTimeDiff time = GST_CLOCK_STIME_NONE;  ///< running time
+  std::optional<Nanoseconds> time;  ///< running time
 };
-
-/// The running time of a buffer [ns]. It is negative for one that begins before its segment, as the
-/// first frame after a seek may. GST_CLOCK_STIME_NONE without a time or a segment of times.
-GstClockTimeDiff signed_running_time(const GstSegment& segment, GstClockTime time);
 
 /// The frames of the left view that wait for their disparity map. The left pad's thread adds them,
 /// that of the disparity maps takes them. A few frames wait; then the left pad blocks, which is
@@ -33,7 +31,7 @@ class LeftFrames {
   /// Frames that wait at most.
   static constexpr std::size_t kMost = 8;
   /// Frames whose times differ by less belong together [ns].
-  static constexpr GstClockTimeDiff kSameTime = GST_MSECOND;
+  static constexpr Nanoseconds kSameTime = 1'000'000;
 
   /// The longest time that either thread waits for the other one.
   void set_timeout(Duration timeout);
@@ -44,7 +42,7 @@ class LeftFrames {
   /// timeout the oldest frame is dropped.
   GstFlowReturn push(LeftFrame frame);
   /// There are no frames before this running time: the start of a gap that ended.
-  void skip_to(GstClockTimeDiff time);
+  void skip_to(Nanoseconds time);
   /// There are no more frames.
   void end();
   /// Discards all frames, and refuses new ones while it is true.
@@ -59,7 +57,7 @@ class LeftFrames {
   };
   /// Takes the frame of this running time, and drops all older ones. Without a time, the oldest
   /// frame.
-  Outcome find(GstClockTimeDiff time, LeftFrame& frame);
+  Outcome find(std::optional<Nanoseconds> time, LeftFrame& frame);
   /// While it is true, the sink is paused with a map: the left pad waits without a timeout.
   void hold(bool held);
   /// While it is true, find() does not wait.
@@ -69,16 +67,16 @@ class LeftFrames {
 
  private:
   bool full() const { return frames_.size() >= kMost; }
-  void drop_before(GstClockTimeDiff time);
-  bool none_will_come(GstClockTimeDiff time) const;
+  void drop_before(Nanoseconds time);
+  bool none_will_come(std::optional<Nanoseconds> time) const;
 
   std::mutex mutex_;
   std::condition_variable changed_;
   // All guarded by mutex_.
   std::deque<LeftFrame> frames_;
   Duration timeout_{};
-  GstClockTimeDiff reached_ = GST_CLOCK_STIME_NONE;  ///< end of the last gap
-  unsigned maps_ = 0;  ///< calls of find(): progress of the other thread
+  std::optional<Nanoseconds> reached_;  ///< end of the last gap
+  unsigned maps_ = 0;                   ///< calls of find(): progress of the other thread
   bool ended_ = false;
   bool flushing_ = true;
   bool held_ = false;

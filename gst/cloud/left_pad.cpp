@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "cloud/left_pad.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "shared/exception_guard.hpp"
+#include "shared/running_time.hpp"
 
 namespace mtstereo::plugin {
 namespace {
@@ -26,7 +28,7 @@ GstFlowReturn chain(GstObject* parent, GstPad* pad, GstBuffer* buffer) {
     return GST_FLOW_NOT_NEGOTIATED;
   }
   frame.info = stream.info;
-  frame.time = signed_running_time(stream.segment, GST_BUFFER_PTS(buffer));
+  frame.time = to_running_time(stream.segment, GST_BUFFER_PTS(buffer));
   return stream.frames.push(std::move(frame));
 }
 
@@ -42,9 +44,10 @@ void take_gap(LeftStream& stream, GstEvent* event) {
   GstClockTime duration = GST_CLOCK_TIME_NONE;
   gst_event_parse_gap(event, &start, &duration);
   if (!GST_CLOCK_TIME_IS_VALID(start)) return;
-  const GstClockTime end = GST_CLOCK_TIME_IS_VALID(duration) ? start + duration : start;
-  const GstClockTimeDiff time = signed_running_time(stream.segment, end);
-  if (GST_CLOCK_STIME_IS_VALID(time)) stream.frames.skip_to(time);
+  if (!GST_CLOCK_TIME_IS_VALID(duration)) duration = 0;
+  constexpr GstClockTime kLast = GST_CLOCK_TIME_NONE - 1;
+  const auto end = to_running_time(stream.segment, start + std::min(duration, kLast - start));
+  if (end) stream.frames.skip_to(*end);
 }
 
 gboolean event(GstObject*, GstPad* pad, GstEvent* event) {

@@ -16,6 +16,7 @@
 #include "cloud/left_pad.hpp"
 #include "filters/disparity_filter.hpp"
 #include "shared/exception_guard.hpp"
+#include "shared/running_time.hpp"
 
 // A GstBaseSink for the disparity maps: preroll, synchronization, the end of the stream, flushes
 // and state changes are those of every sink. The left view comes on a second pad of the element,
@@ -134,7 +135,7 @@ gboolean propose_allocation(GstBaseSink*, GstQuery* query) {
 GstFlowReturn find_left(GstBaseSink* sink, GstBuffer* map, std::optional<LeftFrame>& left) {
   CloudState& state = state_of(sink);
   if (!gst_pad_is_linked(state.left_pad)) return GST_FLOW_OK;
-  const GstClockTimeDiff time = signed_running_time(sink->segment, GST_BUFFER_PTS(map));
+  const auto time = to_running_time(sink->segment, GST_BUFFER_PTS(map));
   for (;;) {
     LeftFrame frame;
     switch (state.left.frames.find(time, frame)) {
@@ -148,7 +149,8 @@ GstFlowReturn find_left(GstBaseSink* sink, GstBuffer* map, std::optional<LeftFra
             ("The left view has no frame for a disparity map, so that the points "
              "are white: sink_left must get the frames that mtstereo gets on its "
              "sink_left, with the same time stamps. Further ones are not reported."),
-            ("running time %" GST_STIME_FORMAT, GST_STIME_ARGS(time)));
+            ("running time %" GST_STIME_FORMAT,
+             GST_STIME_ARGS(time.value_or(GST_CLOCK_STIME_NONE))));
         return GST_FLOW_OK;
       case LeftFrames::Outcome::kInterrupted: {
         state.left.frames.hold(true);
@@ -162,10 +164,9 @@ GstFlowReturn find_left(GstBaseSink* sink, GstBuffer* map, std::optional<LeftFra
 
 void post_file(GstBaseSink* sink, const std::string& path, GstBuffer* map, bool colored) {
   CloudState& state = state_of(sink);
-  const GstClockTimeDiff signed_time = signed_running_time(sink->segment, GST_BUFFER_PTS(map));
-  const GstClockTime time = GST_CLOCK_STIME_IS_VALID(signed_time)
-                                ? static_cast<GstClockTime>(std::max<gint64>(signed_time, 0))
-                                : GST_CLOCK_TIME_NONE;
+  const auto running = to_running_time(sink->segment, GST_BUFFER_PTS(map));
+  const GstClockTime time =
+      running ? static_cast<GstClockTime>(std::max<Nanoseconds>(*running, 0)) : GST_CLOCK_TIME_NONE;
   gst_element_post_message(
       GST_ELEMENT_CAST(sink),
       gst_message_new_element(

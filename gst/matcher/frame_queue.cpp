@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "shared/running_time.hpp"
+
 namespace mtstereo::plugin {
 namespace {
-
-std::optional<Nanoseconds> to_running_time(const GstSegment& segment, GstClockTime position) {
-  guint64 time = 0;
-  const int sign = gst_segment_to_running_time_full(&segment, GST_FORMAT_TIME, position, &time);
-  if (sign == 0) return std::nullopt;
-  return sign * bounded(time);
-}
 
 /// The running time at which a segment has this stream time, without the offset of the pad.
 std::optional<Nanoseconds> running_time_at(const StreamSegment& stream, guint64 stream_time) {
@@ -47,8 +42,7 @@ std::optional<Nanoseconds> frame_duration(const GstVideoInfo& info) {
 }
 
 std::optional<Nanoseconds> QueuedFrame::running_time() const {
-  if (!segment || segment->segment.format != GST_FORMAT_TIME) return std::nullopt;
-  if (!GST_BUFFER_PTS_IS_VALID(buffer.get())) return std::nullopt;
+  if (!segment) return std::nullopt;
   const auto time = to_running_time(segment->segment, GST_BUFFER_PTS(buffer.get()));
   if (!time) return std::nullopt;
   return bounded(*time - bounded(static_cast<double>(cut_at_start(*this)) / segment->segment.rate));
