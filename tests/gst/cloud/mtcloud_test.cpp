@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 
 #include "cloud/cloud_harness.hpp"
@@ -129,6 +130,18 @@ TEST(Cloud, TheEndAndGapsOfTheLeftViewDoNotBlock) {
   EXPECT_EQ(harness.push_map(5 * kFrame), GST_FLOW_OK);
   later.join();
   EXPECT_EQ(harness.push_map(6 * kFrame), GST_FLOW_OK);
+  EXPECT_LT(time.seconds(), 3);
+  EXPECT_EQ(folder.files(), "cloud-00000.ply cloud-00001.ply cloud-00002.ply");
+}
+
+TEST(Cloud, AGapWithoutAnEndDoesNotBlock) {
+  const CloudFolder folder;
+  CloudHarness harness(location(folder));
+  const Stopwatch time;
+  constexpr GstClockTime kLast = GST_CLOCK_TIME_NONE - 1;
+  gst_harness_push_event(harness.left(), gst_event_new_gap(kFrame, kLast));
+  constexpr std::array<GstClockTime, 3> kMaps = {0, kFrame, 3600 * GST_SECOND};
+  for (const GstClockTime map : kMaps) EXPECT_EQ(harness.push_map(map), GST_FLOW_OK);
   EXPECT_LT(time.seconds(), 3);
   EXPECT_EQ(folder.files(), "cloud-00000.ply cloud-00001.ply cloud-00002.ply");
 }
