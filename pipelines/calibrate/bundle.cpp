@@ -72,7 +72,7 @@ class Adjustment {
       : options_(options),
         left_(free_parameters(rig.left, options)),
         right_(free_parameters(rig.right, options)),
-        count_(free_count(rig, options)) {}
+        count_(std::max(free_count(rig, options), 1)) {}
 
   double cost(const Rig& rig, const std::vector<BoardView>& views) const {
     if (rig.left.focal() <= 0 || rig.right.focal() <= 0) {
@@ -152,17 +152,18 @@ class Adjustment {
 
   void accumulate(VectorXd rest, const std::vector<Observation>& seen, MatrixXd& global,
                   MatrixXd& local, Equations& equations) const {
+    VectorXd roots(rest.size());
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const auto row = 2 * static_cast<Eigen::Index>(i);
       const Loss loss = loss_of(rest.segment<2>(row).squaredNorm(), options_.robust_scale);
       equations.cost += seen[i].weight * loss.cost;
       // A point without an image has no derivative.
       const double finite = rest(row) < kFarAway ? 1 : 0;
-      const double root = std::sqrt(seen[i].weight * loss.weight) * finite;
-      global.middleRows<2>(row) *= root;
-      local.middleRows<2>(row) *= root;
-      rest.segment<2>(row) *= root;
+      roots.segment<2>(row).setConstant(std::sqrt(seen[i].weight * loss.weight) * finite);
     }
+    global.array().colwise() *= roots.array();
+    local.array().colwise() *= roots.array();
+    rest.array() *= roots.array();
     equations.u.noalias() += global.transpose() * global;
     equations.g.noalias() += global.transpose() * rest;
     equations.w.back().noalias() += global.transpose() * local;
@@ -172,6 +173,8 @@ class Adjustment {
 
   BundleOptions options_;
   std::vector<int> left_, right_;
+  // At least 1: Eigen does not allow for matrices without columns everywhere. No observation
+  // depends on a parameter that only fills it up, so it stays where it is.
   Eigen::Index count_;
 };
 
@@ -201,7 +204,7 @@ Step solve(const Equations& equations, double damping) {
     g -= equations.w[i] * inverse.back().solve(equations.h[i]);
   }
   Step step;
-  step.global = u.rows() > 0 ? VectorXd(u.ldlt().solve(g)) : g;
+  step.global = u.ldlt().solve(g);
   for (std::size_t i = 0; i < inverse.size(); ++i) {
     step.local.emplace_back(
         inverse[i].solve(equations.h[i] - equations.w[i].transpose() * step.global));
@@ -218,7 +221,7 @@ MatrixXd covariance_of(const Equations& equations, double variance) {
     schur -= equations.w[i] * v.ldlt().solve(equations.w[i].transpose());
   }
   const VectorXd diagonal = schur.diagonal();
-  if (schur.rows() == 0 || !(diagonal.minCoeff() > 0)) return {};
+  if (!(diagonal.minCoeff() > 0)) return {};
   const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
   const MatrixXd scaled = scale.asDiagonal() * schur * scale.asDiagonal();
   const Eigen::LLT<MatrixXd> factors(scaled);
