@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs every command of README.md and docs/*.md, headless and on a small clip.
+"""documentation_test.py PART PARTS: runs every command of README.md and docs/*.md, headless and on a small clip; with
+PARTS above 1 only those of every PARTS-th document, beginning with number PART.
 
 The commands are the lines of ```sh blocks. Each document runs in its own folder, which contains the
 files that its examples name. Only hardware that a test machine lacks is replaced: the screen by a
@@ -10,6 +11,7 @@ the loopback network.
 import pathlib
 import re
 import shutil
+import sys
 import tempfile
 import time
 import unittest
@@ -219,7 +221,8 @@ def add_test(document):
             lambda self: self.check(document))
 
 
-for each in DOCUMENTS:
+PARTS, PART = int(sys.argv.pop()), int(sys.argv.pop())
+for each in DOCUMENTS[PART - 1::PARTS]:
     add_test(each)
 
 
