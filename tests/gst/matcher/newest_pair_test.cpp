@@ -158,7 +158,8 @@ TEST(NewestPairOfCameras, BoundsTheAgeWhileMatchingItselfIsSlow) {
     matching_ms = stats_of(pipeline.named("m")).mean_ms;
   }
   const int framerate = std::clamp(static_cast<int>(3000 / matching_ms), 2, 300);
-  Pipeline pipeline(launch(framerate, framerate, true));
+  // Two seconds, so that a busy computer has enough maps.
+  Pipeline pipeline(launch(framerate, 2 * framerate, true));
   AgeProbe probe(pipeline);
   EXPECT_EQ(pipeline.run(), "");
   const std::vector<double> ages = probe.ages();
