@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # run.sh: installs what is missing, checks the style, builds, and runs all tests: the release build by
-# gcc, then the same tests built by clang with AddressSanitizer and UndefinedBehaviorSanitizer, then the
-# tests with threads under ThreadSanitizer. The last line reports how many tests and checks passed,
-# failed and were skipped in all runs.
+# gcc, then the tests built by clang with AddressSanitizer and UndefinedBehaviorSanitizer (those that
+# measure accuracy or time with fewer cases), then the tests with threads under ThreadSanitizer. The
+# last line reports how many tests and checks passed, failed and were skipped in all runs.
 #
 # Options:
 #   --quick             only the release build
