@@ -8,6 +8,7 @@
 #include "filters/mtconfidence.hpp"
 #include "filters/mtdepth.hpp"
 #include "matcher/mtstereo_element.hpp"
+#include "network/mtwhole.hpp"
 #include "shared/confidence_meta.hpp"
 #include "shared/disparity_meta.hpp"
 #include "shared/valid_columns_meta.hpp"
@@ -29,6 +30,7 @@ constexpr Element kElements[] = {
     {"mtcloud", gst_mtstereo_cloud_get_type},
     {"mtrectify", gst_mtstereo_rectify_get_type},
     {"mtsplit", gst_mtstereo_split_get_type},
+    {"mtwhole", gst_mtstereo_whole_get_type},
 };
 
 gboolean plugin_init(GstPlugin* plugin) noexcept {

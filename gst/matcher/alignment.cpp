@@ -33,6 +33,28 @@ void PairAlignment::switch_off() {
   report_.applied = {};
 }
 
+/// Whether there is a stored field for frames of this size: that of its first use.
+bool PairAlignment::field_fits(const AlignmentSettings& settings, Size size) {
+  if (settings.field_revision != field_revision_) {
+    field_revision_ = settings.field_revision;
+    field_size_ = {};
+  }
+  if (settings.field && field_size_ == Size{}) field_size_ = size;
+  return settings.field && field_size_ == size;
+}
+
+/// The correction that was set.
+ViewCorrection PairAlignment::held(const AlignmentSettings& settings, Size size) {
+  switch_off();
+  ViewCorrection correction;
+  if (field_fits(settings, size)) correction.rows = *settings.field;
+  correction.left_blur = settings.left_blur;
+  correction.right_blur = settings.right_blur;
+  report_.field = settings.field;
+  report_.roll_degrees = correction.rows.roll_degrees(size.width);
+  return correction;
+}
+
 /// Creates the tracker, and starts it over if the stream, the frame size or the stored field is a
 /// new one.
 Status PairAlignment::fit(const AlignmentSettings& settings, Size size) {
@@ -44,18 +66,12 @@ Status PairAlignment::fit(const AlignmentSettings& settings, Size size) {
     tracker_.emplace(std::move(made.value()));
   }
   if (new_field || size != size_) report_.field.reset();
-  if (new_field) {
-    field_revision_ = settings.field_revision;
-    field_size_ = {};
-  }
-  // A stored field belongs to the frame size of its first use.
-  if (settings.field && field_size_ == Size{}) field_size_ = size;
+  const bool restores = field_fits(settings, size);
   tracker_->reset();
   schedule_.restart();
   fresh_ = false;
   size_ = size;
-  if (settings.field && field_size_ == size) return tracker_->restore(*settings.field);
-  return {};
+  return restores ? tracker_->restore(*settings.field) : Status();
 }
 
 Status PairAlignment::inspect(const AlignmentSettings& settings, GrayView left, GrayView right,
@@ -99,6 +115,8 @@ Status PairAlignment::prepare(const AlignmentSettings& settings, GrayView left, 
   ViewCorrection correction;
   if (alignment == Alignment::kOff) {
     switch_off();
+  } else if (alignment == Alignment::kHold) {
+    correction = held(settings, {left.width, left.height});
   } else {
     const Status status = inspect(settings, left, right, parameters);
     if (!status) return status;

@@ -16,6 +16,7 @@ enum class Alignment {
   kOff,      ///< nothing; the views are not inspected
   kMonitor,  ///< the views are inspected and the findings are reported
   kCorrect,  ///< also, the views are corrected before they are matched
+  kHold,     ///< the views are not inspected, and the correction is the one that was set
 };
 
 /// The property `sharpness`: what is done if one view is sharper than the other.
@@ -31,6 +32,8 @@ struct AlignmentSettings {
   int interval = 0;                    ///< from one inspection to the next [pairs]; 0: automatic
   std::optional<RowField> field;       ///< to start with
   std::uint64_t field_revision = 0;    ///< incremented whenever `field` is set
+  float left_blur = 0;                 ///< with kHold: sigma of the blur of the left view [px]
+  float right_blur = 0;                ///< with kHold: sigma of the blur of the right view [px]
 
   /// The value in effect. The published method does not correct its input.
   Alignment effective_alignment(Preset preset) const;
@@ -72,10 +75,12 @@ class PairAlignment {
     int width = 0, height = 0;
     bool operator==(const Size&) const = default;
   };
+  bool field_fits(const AlignmentSettings& settings, Size size);
   Status fit(const AlignmentSettings& settings, Size size);
   Status inspect(const AlignmentSettings& settings, GrayView left, GrayView right,
                  const Parameters& parameters);
   void switch_off();
+  ViewCorrection held(const AlignmentSettings& settings, Size size);
   void update_report(int width);
 
   std::optional<AlignmentTracker> tracker_;

@@ -21,6 +21,9 @@ GType alignment_type() {
        "The views are inspected, and the findings are reported", "monitor"},
       {static_cast<gint>(Alignment::kCorrect),
        "The views are inspected, and corrected before they are matched", "correct"},
+      {static_cast<gint>(Alignment::kHold),
+       "The views are not inspected, and corrected by alignment-field, left-blur and right-blur",
+       "hold"},
       {0, nullptr, nullptr}};
   static const GType type = registered("GstMtStereoAlignment", values);
   return type;
@@ -48,11 +51,17 @@ Status set_field(AlignmentSettings& settings, const gchar* text) {
   return {};
 }
 
+constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
+                                                 GST_PARAM_MUTABLE_PLAYING);
+
+void install_blur(GObjectClass* object_class, guint id, const char* name, const char* blurb) {
+  g_object_class_install_property(
+      object_class, id, g_param_spec_double(name, name, blurb, 0, kLargestBlur, 0, kFlags));
+}
+
 }  // namespace
 
 void install_alignment_properties(GObjectClass* object_class) noexcept {
-  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
-                                                   GST_PARAM_MUTABLE_PLAYING);
   g_object_class_install_property(
       object_class, kAlignment,
       g_param_spec_enum("alignment", "alignment",
@@ -81,9 +90,13 @@ void install_alignment_properties(GObjectClass* object_class) noexcept {
                         "What to do if one view is sharper than the other; needs "
                         "alignment=correct (default: match; preset paper: keep)",
                         sharpness_type(), static_cast<gint>(Sharpness::kMatch), kFlags));
+  install_blur(object_class, kLeftBlur, "left-blur",
+               "With alignment=hold, sigma of the blur of the left view in px (0: none)");
+  install_blur(object_class, kRightBlur, "right-blur",
+               "With alignment=hold, sigma of the blur of the right view in px (0: none)");
 }
 
-bool is_alignment_property(guint id) { return id >= kAlignment && id <= kSharpness; }
+bool is_alignment_property(guint id) { return id >= kAlignment && id <= kRightBlur; }
 
 Status set_alignment_from_value(AlignmentSettings& settings, guint id, const GValue& value) {
   switch (id) {
@@ -95,6 +108,12 @@ Status set_alignment_from_value(AlignmentSettings& settings, guint id, const GVa
       return {};
     case kSharpness:
       settings.sharpness = static_cast<Sharpness>(g_value_get_enum(&value));
+      return {};
+    case kLeftBlur:
+      settings.left_blur = static_cast<float>(g_value_get_double(&value));
+      return {};
+    case kRightBlur:
+      settings.right_blur = static_cast<float>(g_value_get_double(&value));
       return {};
     default:
       return set_field(settings, g_value_get_string(&value));
@@ -112,6 +131,12 @@ void alignment_to_value(const AlignmentSettings& settings, Preset preset,
       return;
     case kSharpness:
       g_value_set_enum(&value, static_cast<gint>(settings.effective_sharpness(preset)));
+      return;
+    case kLeftBlur:
+      g_value_set_double(&value, static_cast<double>(settings.left_blur));
+      return;
+    case kRightBlur:
+      g_value_set_double(&value, static_cast<double>(settings.right_blur));
       return;
     default:
       break;

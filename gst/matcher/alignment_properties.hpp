@@ -14,6 +14,8 @@ enum AlignmentProperty : guint {
   kAlignmentInterval,
   kAlignmentField,
   kSharpness,
+  kLeftBlur,
+  kRightBlur,
 };
 
 /// Installs the properties on alignment.

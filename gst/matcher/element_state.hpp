@@ -126,6 +126,8 @@ struct ElementState {
   std::array<std::shared_ptr<const StreamSegment>, 2> paired_segments;  ///< of the last frames
   SyncMode paired_mode = SyncMode::kRunningTime;
   std::optional<SyncMode> working_mode;  ///< of the last pair
+  /// The running time of the first live frame without a reference time stamp since the last pair.
+  std::optional<Nanoseconds> unreferenced_since;
   PairFinder finder;
   PairClock clock;
   GstFlowReturn pending_flow = GST_FLOW_OK;  ///< of a failure outside of aggregate()

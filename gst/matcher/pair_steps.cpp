@@ -27,6 +27,10 @@ bool has_ended(const ElementState& state, Side side) {
   return gst_aggregator_pad_is_eos(state.input(side).pad) != FALSE;
 }
 
+/// How long frames of live streams may lack a reference time stamp: RTP has none until the first
+/// report of the sender, which comes after some seconds [ns of running time].
+constexpr Nanoseconds kReferenceWait = 10'000'000'000;
+
 /// The steps of two streams. Holds the lock of the queues.
 class Stepper {
  public:
@@ -138,8 +142,23 @@ class Stepper {
     if (changed) state_.restart_pairing();
   }
 
+  /// Drops the first frame of this side, which has no reference time stamp, if its stream is live
+  /// and may get one later.
+  std::optional<Step> drop_unreferenced(Side side) {
+    const bool live = state_.known_latency > 0;
+    const bool taken_back = state_.working_mode && *state_.working_mode != mode_;
+    const auto time = queue(side).front().running_time();
+    if (mode_ != SyncMode::kReferenceTimestamp || !live || taken_back || !time) return std::nullopt;
+    if (!state_.unreferenced_since) state_.unreferenced_since = time;
+    if (*time - *state_.unreferenced_since > kReferenceWait) return std::nullopt;
+    Step step = take(StepKind::kDrop, side);
+    step.without_message = true;
+    return step;
+  }
+
   Step pair() {
     state_.working_mode = mode_;
+    state_.unreferenced_since.reset();
     Step step = take(StepKind::kPair, Side::kLeft);
     step.right = queue(Side::kRight).take(pad(Side::kRight), 0);
     return step;
@@ -152,7 +171,9 @@ class Stepper {
     const bool needed = mode_ == SyncMode::kReferenceTimestamp;
     if (!left && !right && !needed) return pair();
     if (!left || !right) {
-      return Step{.kind = StepKind::kNoTime, .side = left ? Side::kRight : Side::kLeft};
+      const Side side = left ? Side::kRight : Side::kLeft;
+      if (auto step = drop_unreferenced(side)) return std::move(*step);
+      return Step{.kind = StepKind::kNoTime, .side = side};
     }
     std::array<WaitingFrames, 2> waiting;
     for (const Side side : kSides) {

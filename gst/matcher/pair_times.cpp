@@ -11,12 +11,20 @@ GstCaps* reference_of(const QueuedFrame& frame) {
   return meta != nullptr ? meta->reference : nullptr;
 }
 
+/// The latest reference time stamp of this clock. A frame can have several: where a picture is
+/// lost, an RTP depayloader puts what is left of it, with its time, in front of the next one.
 std::optional<Nanoseconds> reference_time(const QueuedFrame& frame, GstCaps* reference) {
   if (reference == nullptr) return std::nullopt;
-  const GstReferenceTimestampMeta* meta =
-      gst_buffer_get_reference_timestamp_meta(frame.buffer.get(), reference);
-  if (meta == nullptr) return std::nullopt;
-  return bounded(meta->timestamp);
+  std::optional<Nanoseconds> latest;
+  gpointer position = nullptr;
+  while (const GstMeta* each = gst_buffer_iterate_meta_filtered(
+             frame.buffer.get(), &position, GST_REFERENCE_TIMESTAMP_META_API_TYPE)) {
+    const auto* meta = reinterpret_cast<const GstReferenceTimestampMeta*>(each);
+    if (gst_caps_is_subset(meta->reference, reference) == FALSE) continue;
+    const Nanoseconds time = bounded(meta->timestamp);
+    if (!latest || time > *latest) latest = time;
+  }
+  return latest;
 }
 
 }  // namespace

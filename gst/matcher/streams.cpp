@@ -162,6 +162,7 @@ void clear_streams(ElementState& state) {
   for (const Side side : kSides) clear_stream(state, side);
   state.paired_segments = {};
   state.working_mode.reset();
+  state.unreferenced_since.reset();
   state.restart_pairing();
   state.pending_flow = GST_FLOW_OK;
 }

@@ -54,6 +54,8 @@ constexpr std::array kProperties = {"preset=fast",
                                     "confidence-map=false",
                                     "alignment=off",
                                     "alignment=correct",
+                                    "alignment=hold",
+                                    "right-blur=1.5",
                                     "alignment-field=1,0,0,0,0",
                                     "alignment-field=x",
                                     "alignment-interval=1"};

@@ -56,7 +56,7 @@ TEST_F(AlignmentProperties, DoNotFollowThePresetIfSet) {
 }
 
 TEST_F(AlignmentProperties, TakeChoicesByWord) {
-  for (const char* word : {"off", "monitor", "correct"}) {
+  for (const char* word : {"off", "monitor", "correct", "hold"}) {
     set("alignment", word);
     EXPECT_EQ(text("alignment"), word);
   }
@@ -67,12 +67,21 @@ TEST_F(AlignmentProperties, TakeChoicesByWord) {
 }
 
 TEST_F(AlignmentProperties, CanBeChangedWhilePlaying) {
-  for (const char* name : {"alignment", "alignment-interval", "alignment-field", "sharpness"}) {
+  for (const char* name : {"alignment", "alignment-interval", "alignment-field", "sharpness",
+                           "left-blur", "right-blur"}) {
     GParamSpec* spec = g_object_class_find_property(G_OBJECT_GET_CLASS(element), name);
     ASSERT_NE(spec, nullptr) << name;
     EXPECT_TRUE(spec->flags & GST_PARAM_MUTABLE_PLAYING) << name;
     EXPECT_EQ(spec->flags & G_PARAM_READWRITE, G_PARAM_READWRITE) << name;
   }
+}
+
+TEST_F(AlignmentProperties, BlurIsReadAsItWasSet) {
+  EXPECT_EQ(text("left-blur"), "0");
+  set("left-blur", "1.25");
+  set("right-blur", "0.5");
+  EXPECT_EQ(text("left-blur"), "1.25");
+  EXPECT_EQ(text("right-blur"), "0.5");
 }
 
 TEST_F(AlignmentProperties, FieldIsReadAsItWasSet) {

@@ -263,6 +263,41 @@ TEST(AlignmentField, SetWhilePlayingAppliesFromTheNextPair) {
   EXPECT_FALSE(flag_of(stats_structure(harness.element()).get(), "applied"));
 }
 
+// --- a correction that is held ---
+
+TEST(AlignmentHold, AppliesTheFieldThatWasSetToEveryPair) {
+  const std::string field = "alignment-field=1.5,-0.8,0,0,0 ";
+  StereoHarness harness(kRange + "alignment=hold alignment-interval=1 " + field);
+  harness.caps(rendered_caps());
+  const Maps whole = match_all(harness, crooked_pairs());
+  const StructurePointer stats = stats_structure(harness.element());
+  EXPECT_TRUE(flag_of(stats.get(), "applied"));
+  EXPECT_FALSE(flag_of(stats.get(), "trust"));
+  EXPECT_EQ(number_of(stats.get(), "inspections"), 0);
+  EXPECT_EQ(field_text(harness.element()), "1.5,-0.8,0,0,0");
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(maps_with("alignment=hold " + field, {crooked_pairs()[i]})[0], whole[i]) << i;
+  }
+  EXPECT_GT(density_of(whole[0]),
+            1.2 * density_of(maps_with("alignment=off", first(crooked_pairs(), 1))[0]));
+}
+
+TEST(AlignmentHold, DoesNothingByItself) {
+  EXPECT_EQ(maps_with("alignment=hold", first(crooked_pairs(), 2)),
+            maps_with("alignment=off", first(crooked_pairs(), 2)));
+}
+
+TEST(AlignmentHold, FieldOfAnotherFrameSizeIsNotUsed) {
+  StereoHarness harness(kRange + "alignment=hold alignment-field=6,0,0,0,0");
+  const Pair small = noise_pair(128, 96, 4, 3);
+  harness.caps(raw_caps("GRAY8", 128, 96));
+  match_all(harness, {small});
+  EXPECT_TRUE(flag_of(stats_structure(harness.element()).get(), "applied"));
+  harness.caps(rendered_caps());
+  match_all(harness, first(aligned_pairs(), 1), kFrame);
+  EXPECT_FALSE(flag_of(stats_structure(harness.element()).get(), "applied"));
+}
+
 TEST(AlignmentField, NotifiesWhenItChanges) {
   StereoHarness harness(kRange);
   harness.caps(rendered_caps());
@@ -326,6 +361,21 @@ TEST(Sharpness, OfTheSharperViewIsMatched) {
   EXPECT_EQ(number_of(stats.get(), "right-blur"), 0);
   const Maps kept = maps_with("sharpness=keep", {pair});
   EXPECT_GT(density_of(matched[0]), 1.1 * density_of(kept[0]));
+}
+
+TEST(Sharpness, OfAViewThatIsHeldIsThatWhichWasFound) {
+  const Pair pair = with_blurred_right(aligned_pairs()[0], 2);
+  StereoHarness harness(kRange);
+  harness.caps(rendered_caps());
+  const Maps matched = match_all(harness, {pair});
+  const double blur = number_of(stats_structure(harness.element()).get(), "left-blur");
+  const std::string held = "alignment=hold alignment-field=" + field_text(harness.element()) +
+                           " left-blur=" + std::to_string(blur);
+  StereoHarness next(kRange + held);
+  next.caps(rendered_caps());
+  const Maps again = match_all(next, {pair});
+  EXPECT_NEAR(number_of(stats_structure(next.element()).get(), "left-blur"), blur, 1e-5);
+  EXPECT_NEAR(density_of(again[0]), density_of(matched[0]), 1e-3);
 }
 
 TEST(Sharpness, IsKeptWithoutCorrection) {

@@ -185,7 +185,7 @@ TEST(WhilePlaying, ChangesFromAnotherThreadLoseNoPair) {
   std::thread changer([&] {
     for (int i = 0; !stop; ++i) {
       g_object_set(harness.element(), "max-disparity", 8 + i % 3 * 8, "gray-levels", 8 + i % 9,
-                   "disparity-scale", 16 + i % 2, "alignment", i % 3, "sharpness", i % 2,
+                   "disparity-scale", 16 + i % 2, "alignment", i % 4, "sharpness", i % 2,
                    "alignment-interval", 1 + i % 3, "alignment-field",
                    i % 2 == 0 ? "0.5,0,0,0,0" : "", nullptr);
     }

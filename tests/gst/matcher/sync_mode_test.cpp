@@ -104,5 +104,51 @@ TEST(SyncMode, ReferenceTimestampNamesThePadWithoutOne) {
   }
 }
 
+// An RTP depayloader puts the rest of a lost picture, with its time, in front of the next one.
+TEST(SyncMode, ReferenceTimestampIsTheLatestOfAFrame) {
+  auto lefts = with_reference(60, 0, 0, 1);
+  auto rights = with_reference(60, 0, 0, 2);
+  for (std::size_t i = 10; i < 60; i += 10) {
+    lefts[i].earlier_reference = lefts[i - 1].reference;
+    rights[i + 3].earlier_reference = rights[i + 2].reference;
+  }
+  expect_all_right(feed(lefts, rights, with_mode("reference-timestamp")), 60);
+}
+
+// RTP streams have no reference time stamps before the first report of their sender.
+TEST(SyncMode, ReferenceTimestampDropsLiveFramesWithoutOneAtTheStart) {
+  auto lefts = numbered_sequence(60);
+  auto rights = numbered_sequence(60);
+  for (std::size_t i = 0; i < 60; ++i) {
+    if (i >= 20) lefts[i].reference = lefts[i].pts;
+    if (i >= 10) rights[i].reference = rights[i].pts;
+  }
+  FeedOptions options = with_mode("reference-timestamp");
+  options.live = true;
+  const FeedResult result = feed(lefts, rights, options);
+  EXPECT_EQ(result.error, "");
+  EXPECT_GT(result.count.maps, 30) << summary(result);
+  EXPECT_LE(result.count.maps, 40) << summary(result);
+  EXPECT_EQ(result.count.wrong + result.count.unknown, 0) << summary(result);
+}
+
+TEST(SyncMode, ReferenceTimestampNamesTheLivePadWithoutOneForTenSeconds) {
+  auto lefts = numbered_sequence(60);
+  auto rights = numbered_sequence(60);
+  for (std::size_t i = 0; i < 60; ++i) {
+    lefts[i].reference = lefts[i].pts;
+    if (i < 20) continue;
+    for (NumberedFrame* frame : {&lefts[i], &rights[i]}) {
+      frame->arrival = frame->pts;
+      frame->pts += 11 * GST_SECOND;
+    }
+  }
+  FeedOptions options = with_mode("reference-timestamp");
+  options.live = true;
+  const FeedResult result = feed(lefts, rights, options);
+  EXPECT_NE(result.error.find("A frame of sink_right"), std::string::npos) << result.error;
+  EXPECT_EQ(result.count.maps, 0);
+}
+
 }  // namespace
 }  // namespace mtstereo::test

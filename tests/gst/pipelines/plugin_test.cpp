@@ -66,7 +66,7 @@ TEST_F(Plugin, RegistersItsElements) {
   std::set<std::string> names;
   for (const auto& element : elements) names.insert(element->name());
   EXPECT_EQ(names, (std::set<std::string>{"mtstereo", "mtcolor", "mtconfidence", "mtdepth",
-                                          "mtcloud", "mtrectify", "mtsplit"}));
+                                          "mtcloud", "mtrectify", "mtsplit", "mtwhole"}));
 }
 
 TEST_F(Plugin, GivesItsTypesOnePrefix) {

@@ -71,6 +71,7 @@ void push_all(const Pipeline& pipeline, Side side, const std::vector<NumberedFra
   auto* source = GST_APP_SRC(pipeline.named(side == Side::kLeft ? "left" : "right"));
   for (const NumberedFrame& frame : frames) {
     GstBuffer* buffer = numbered_frame(side, frame.number, frame.pts, options.duration);
+    add_reference(buffer, frame.earlier_reference);
     add_reference(buffer, frame.reference);
     const GstClockTime arrival = GST_CLOCK_TIME_IS_VALID(frame.arrival) ? frame.arrival : frame.pts;
     if (options.live && GST_CLOCK_TIME_IS_VALID(arrival) &&

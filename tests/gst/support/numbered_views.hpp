@@ -57,6 +57,8 @@ struct NumberedFrame {
   GstClockTime arrival = GST_CLOCK_TIME_NONE;  ///< running time of the push if live; default: pts
   /// The NTP time of a reference time stamp, which the frame has only if this is valid [ns].
   GstClockTime reference = GST_CLOCK_TIME_NONE;
+  /// The NTP time of another one in front of it [ns].
+  GstClockTime earlier_reference = GST_CLOCK_TIME_NONE;
 };
 
 /// `count` frames from the number `first` on. The time stamp of the frame i is offset + i *
