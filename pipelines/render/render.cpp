@@ -206,6 +206,13 @@ StereoFrame render(const Scene& scene, double time, const Settings& given) {
           truth.occluded};
 }
 
+cv::Mat render_view(const Scene& scene, double time, const Settings& given, bool right) {
+  require_valid(given);
+  const Settings settings = complete(scene, given);
+  return right ? paint(scene, time, settings, right_camera(settings), Side::kRight)
+               : paint(scene, time, settings, left_camera(settings), Side::kLeft);
+}
+
 RawFrame render_raw(const Scene& scene, double time, const Settings& settings, const RawRig& rig) {
   require_valid(settings);
   const Settings left = sized(settings, rig.calibration.left);

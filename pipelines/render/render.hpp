@@ -55,6 +55,10 @@ struct StereoFrame {
 /// threads. Throws std::invalid_argument with the sentence of check().
 StereoFrame render(const Scene& scene, double time, const Settings& settings);
 
+/// Only the left or the right image of render(), for clips whose cameras are not triggered
+/// together. The noise is that of the same time and view in render().
+cv::Mat render_view(const Scene& scene, double time, const Settings& settings, bool right);
+
 /// A rectified pair in the format of Middlebury's calib.txt; `disparities` is the search range
 /// [px], which covers all disparities of the ground truth.
 std::string calibration_text(const Rectification& rectification, int disparities);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "run/recording.hpp"
+
+namespace mtstereo::run {
+
+/// What may be the calibration of a recording, for read_calibration(), best first: files in the
+/// first of these folders, then in the next ones.
+std::vector<std::string> calibrations_in(const std::vector<std::filesystem::path>& folders);
+
+/// Sets the calibration of a recording whose views have this size, and whether the views are
+/// rectified. The calibration of the options is used, or the first of `beside` that can be read;
+/// one that cannot is a remark. Throws RunError for the one of the options.
+void choose_calibration(Recording& recording, const std::vector<std::string>& beside,
+                        const InputOptions& options, int width, int height);
+
+}  // namespace mtstereo::run

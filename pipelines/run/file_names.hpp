@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mtstereo::run {
+
+/// The order of numbered files: digits are compared as numbers, so that 9.png is before 10.png.
+bool numbered_less(std::string_view a, std::string_view b);
+
+/// The extension in lower case, with its dot.
+std::string extension_of(const std::filesystem::path& file);
+/// By its extension: a picture that OpenCV reads.
+bool is_picture(const std::filesystem::path& file);
+/// By its extension: a container with video.
+bool is_video(const std::filesystem::path& file);
+
+/// The files or the folders in a folder in the order of numbered files, without hidden ones; none
+/// if it cannot be read.
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
+std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folder);
+/// The pictures in a folder in the order of numbered files.
+std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);
+
+/// Whether a path is a pattern of numbered files, such as left/%04d.png.
+bool is_pattern(const std::string& path);
+/// The files that exist of a pattern, by their numbers. Throws RunError for a pattern that has not
+/// exactly one number.
+std::vector<std::filesystem::path> files_of_pattern(const std::string& pattern);
+
+}  // namespace mtstereo::run

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The reports of pieces and runs.
+
+#include "run/json.hpp"
+
+#include <gst/gst.h>
+
+#include <algorithm>
+
+#include "run/json_files.hpp"
+#include "run/matching_line.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+constexpr const char* kPieceKind = "piece of mtstereo-run";
+constexpr const char* kRunKind = "report of mtstereo-run";
+
+struct Means {
+  double density = 0, median_disparity = 0, matching_ms = 0;
+};
+
+Means means_of(const std::vector<FrameFigures>& frames) {
+  Means means;
+  for (const FrameFigures& frame : frames) {
+    means.density += frame.density;
+    means.median_disparity += frame.median_disparity;
+    means.matching_ms += frame.matching_ms;
+  }
+  const double count = std::max<double>(static_cast<double>(frames.size()), 1);
+  return {means.density / count, means.median_disparity / count, means.matching_ms / count};
+}
+
+Json source_summary(const Source& source, const FrameIndex& index) {
+  const bool video = !source.video.empty();
+  Json summary{{"file", video ? source.video.string() : ""},
+               {"pictures", source.pictures.size()},
+               {"first_picture", video ? "" : source.pictures.front().string()},
+               {"codec", index.codec},
+               {"width", index.width},
+               {"height", index.height},
+               {"frames", index.times.size()},
+               {"damage", index.damage}};
+  if (video) {
+    summary.erase("pictures");
+    summary.erase("first_picture");
+  } else {
+    summary.erase("file");
+  }
+  return summary;
+}
+
+Json object_of(const std::vector<std::pair<std::string, std::string>>& values) {
+  Json object = Json::object();
+  for (const auto& [name, value] : values) object[name] = value;
+  return object;
+}
+
+Json inputs_json(const Work& work) {
+  const Recording& recording = work.recording;
+  Json inputs{{"kind", recording.kind},
+              {"arrangement", arrangement_name(recording.arrangement)},
+              {"swapped", recording.swapped},
+              {"calibration", recording.calibration},
+              {"rectified", recording.rectified}};
+  if (recording.arrangement == Arrangement::kTwoSources) {
+    inputs["left"] = source_summary(recording.left, work.left);
+    inputs["right"] = source_summary(recording.right, work.right);
+  } else {
+    inputs["both"] = source_summary(recording.left, work.left);
+  }
+  return inputs;
+}
+
+Json run_json(const Work& work, const PieceReport& report, double seconds) {
+  const Means means = means_of(report.frames);
+  Json products = Json::array();
+  for (const Product product : work.options.products) products.push_back(product_name(product));
+  const auto pairs = static_cast<double>(report.frames.size());
+  g_autofree gchar* gstreamer = gst_version_string();
+  return {
+      {"kind", kRunKind},
+      {"version", kJsonVersion},
+      {"fingerprint", fingerprint(work)},
+      {"programs", {{"mtstereo", MTSTEREO_VERSION}, {"gstreamer", gstreamer}}},
+      {"recording", work.recording.name},
+      {"inputs", inputs_json(work)},
+      {"products", std::move(products)},
+      {"format", format_name(work.options.format)},
+      {"parameters", object_of(work.options.parameters)},
+      {"correction", object_of(work.correction)},
+      {"clocks", clocks_json(work.clocks)},
+      {"period_ns", work.period},
+      {"pairs", work.pairs.pairs.size()},
+      {"processed_pairs", report.frames.size()},
+      {"dropped_frames", {{"left", work.pairs.dropped_left}, {"right", work.pairs.dropped_right}}},
+      {"damage", report.damage},
+      {"remarks", work.remarks},
+      {"seconds", seconds},
+      {"pairs_per_second", seconds > 0 ? pairs / seconds : 0.0},
+      {"means",
+       {{"density", means.density},
+        {"median_disparity_px", means.median_disparity},
+        {"matching_ms", means.matching_ms}}},
+      {"files", report.files}};
+}
+
+}  // namespace
+
+void write_piece(const PieceReport& report, Range range, const std::filesystem::path& file) {
+  const Json head{{"kind", kPieceKind},   {"version", kJsonVersion}, {"first", range.first},
+                  {"count", range.count}, {"damage", report.damage}, {"files", report.files}};
+  write_whole(file, [&](std::ostream& out) { write_frames(out, head, report.frames); });
+}
+
+PieceReport read_piece(const std::filesystem::path& file, Range& range) {
+  PieceReport report;
+  const Json json = read_json(file, kPieceKind);
+  read_fields(file, [&] {
+    range.first = json.at("first").get<std::int64_t>();
+    range.count = json.at("count").get<std::int64_t>();
+    report.damage = json.at("damage").get<std::string>();
+    report.files = json.at("files").get<std::vector<std::string>>();
+    report.frames = read_frames(json);
+  });
+  return report;
+}
+
+void write_run_report(const Work& work, const PieceReport& report, double seconds,
+                      const std::filesystem::path& file) {
+  const Json head = run_json(work, report, seconds);
+  write_whole(file, [&](std::ostream& out) { write_frames(out, head, report.frames); });
+}
+
+std::string fingerprint_in(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const Json json = Json::parse(in, nullptr, false);
+  return json.is_object() ? json.value("fingerprint", "") : "";
+}
+
+}  // namespace mtstereo::run

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "run/map_files.hpp"
+
+#include <bit>
+#include <fstream>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "mtstereo/geometry/point_cloud.hpp"
+#include "run/run_error.hpp"
+#include "shared/confidence_meta.hpp"
+#include "shared/frame_views.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+constexpr std::size_t kValues = 65536;
+
+// A frame that is mapped for reading.
+class Frame {
+ public:
+  explicit Frame(GstSample* sample)
+      : info_(info_of(sample)), mapped_(info_, gst_sample_get_buffer(sample), GST_MAP_READ) {
+    if (!mapped_.mapped()) throw RunError("a frame cannot be read: " + mapped_.problem());
+  }
+  GrayView bytes() const { return mapped_.luma(); }
+  ImageView<const std::uint16_t> values() const {
+    const ImageView<std::uint16_t> view = mapped_.gray16();
+    return {view.data, view.width, view.height, view.stride};
+  }
+  GstVideoFormat format() const { return GST_VIDEO_INFO_FORMAT(&info_); }
+
+ private:
+  static GstVideoInfo info_of(GstSample* sample) {
+    GstVideoInfo info;
+    if (gst_video_info_from_caps(&info, gst_sample_get_caps(sample)) != FALSE) return info;
+    throw RunError("a frame has no valid caps");
+  }
+  GstVideoInfo info_;
+  plugin::MappedFrame mapped_;
+};
+
+plugin::MapUnit unit_of(GstSample* map) {
+  plugin::MapUnit unit{256, 0};
+  const GstStructure* const fields = gst_caps_get_structure(gst_sample_get_caps(map), 0);
+  gst_structure_get_int(fields, "disparity-scale", &unit.scale);
+  gst_structure_get_int(fields, "disparity-offset", &unit.offset);
+  return unit;
+}
+
+// The disparity of a value that is not 0 [px].
+double disparity_of(std::size_t value, const plugin::MapUnit& unit) {
+  return static_cast<double>(value) / unit.scale + unit.offset;
+}
+
+// Little-endian, the last row first.
+void write_pfm(ImageView<const std::uint16_t> map, const std::vector<float>& table,
+               const std::filesystem::path& file) {
+  std::string bytes =
+      "Pf\n" + std::to_string(map.width) + " " + std::to_string(map.height) + "\n-1.0\n";
+  for (int y = map.height - 1; y >= 0; --y) {
+    const std::uint16_t* row = map.row(y);
+    for (int x = 0; x < map.width; ++x) {
+      const auto value = std::bit_cast<std::uint32_t>(table[row[x]]);
+      for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xff);
+    }
+  }
+  std::ofstream out(file, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) throw RunError(file.string() + ": cannot be written");
+}
+
+}  // namespace
+
+void measure_map(GstSample* map, FrameFigures& figures) {
+  const Frame frame(map);
+  std::vector<std::int64_t> counts(kValues);
+  const ImageView<const std::uint16_t> values = frame.values();
+  for (int y = 0; y < values.height; ++y) {
+    const std::uint16_t* row = values.row(y);
+    for (int x = 0; x < values.width; ++x) ++counts[row[x]];
+  }
+  const std::int64_t pixels = static_cast<std::int64_t>(values.width) * values.height;
+  const std::int64_t known = pixels - counts[0];
+  figures.density = static_cast<double>(known) / static_cast<double>(pixels);
+  figures.median_disparity = 0;
+  if (known == 0) return;
+  std::int64_t below = 0;
+  std::size_t value = 0;
+  while (2 * below < known) below += counts[++value];
+  figures.median_disparity = disparity_of(value, unit_of(map));
+}
+
+MapGeometry::MapGeometry(const Recording& recording) {
+  if (recording.rectified) properties_.calibration = recording.calibration;
+}
+
+DepthGeometry MapGeometry::of(GstSample* map) {
+  const GstStructure* const fields = gst_caps_get_structure(gst_sample_get_caps(map), 0);
+  const Result<plugin::StereoGeometry> geometry = source_.geometry(fields, properties_);
+  if (!geometry) throw RunError(geometry.error().message);
+  return plugin::depth_geometry(*geometry, unit_of(map));
+}
+
+void write_png(GstSample* sample, const std::filesystem::path& file) {
+  const Frame frame(sample);
+  int type = CV_8UC1;
+  if (frame.format() == GST_VIDEO_FORMAT_GRAY16_LE) type = CV_16UC1;
+  if (frame.format() == GST_VIDEO_FORMAT_BGR) type = CV_8UC3;
+  const GrayView view = frame.bytes();
+  // The data is not written to.
+  const cv::Mat image(view.height, view.width, type, const_cast<std::uint8_t*>(view.data),
+                      static_cast<std::size_t>(view.stride));
+  bool written = false;
+  try {
+    written = cv::imwrite(file.string(), image);
+  } catch (const cv::Exception&) {
+    written = false;
+  }
+  if (!written) throw RunError(file.string() + ": cannot be written");
+}
+
+void write_disparity_pfm(GstSample* map, const std::filesystem::path& file) {
+  const plugin::MapUnit unit = unit_of(map);
+  std::vector<float> table(kValues, std::numeric_limits<float>::infinity());
+  for (std::size_t value = 1; value < kValues; ++value) {
+    table[value] = static_cast<float>(disparity_of(value, unit));
+  }
+  const Frame frame(map);
+  write_pfm(frame.values(), table, file);
+}
+
+void write_depth_pfm(GstSample* map, const DepthGeometry& geometry,
+                     const std::filesystem::path& file) {
+  std::vector<float> table(kValues);
+  for (std::size_t value = 0; value < kValues; ++value) {
+    table[value] = static_cast<float>(geometry.depth_of(static_cast<std::uint16_t>(value)));
+  }
+  const Frame frame(map);
+  write_pfm(frame.values(), table, file);
+}
+
+void write_points(GstSample* map, GstSample* view, const DepthGeometry& geometry,
+                  const std::filesystem::path& file) {
+  const Frame disparity(map);
+  const Frame color(view);
+  CloudInput input;
+  input.disparity = disparity.values();
+  input.color = color.bytes();
+  input.color_channels = 3;
+  std::optional<Frame> confidence;
+  if (GstSample* sample = plugin::confidence_of(gst_sample_get_buffer(map))) {
+    confidence.emplace(sample);
+    input.confidence = confidence->bytes();
+  }
+  std::vector<CloudPoint> points;
+  Status status = make_cloud(input, geometry, {}, points);
+  if (status) status = write_cloud(points, CloudFormat::kPly, file.string());
+  if (!status) throw RunError(file.string() + ": " + status.error().message);
+}
+
+}  // namespace mtstereo::run

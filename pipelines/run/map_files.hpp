@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "mtstereo/geometry/depth.hpp"
+#include "run/gst_objects.hpp"
+#include "run/piece.hpp"
+#include "shared/geometry_properties.hpp"
+
+// Files of one pair each, and the figures of a map.
+
+namespace mtstereo::run {
+
+/// The share of pixels with a disparity, and their median.
+void measure_map(GstSample* map, FrameFigures& figures);
+
+/// What turns the disparities of maps into depths: from their caps, or from the calibration of a
+/// recording whose views are rectified.
+class MapGeometry {
+ public:
+  explicit MapGeometry(const Recording& recording);
+  /// Throws RunError if it is not known.
+  DepthGeometry of(GstSample* map);
+
+ private:
+  plugin::GeometryProperties properties_;
+  plugin::GeometrySource source_;
+};
+
+/// Writes a frame (gray with 8 or 16 bits, or BGR) as PNG. Throws RunError.
+void write_png(GstSample* frame, const std::filesystem::path& file);
+
+/// Writes the disparities of a map as floating-point numbers [px]; infinity = none. Throws
+/// RunError.
+void write_disparity_pfm(GstSample* map, const std::filesystem::path& file);
+
+/// Writes the depths of a disparity map as floating-point numbers [m]; infinity = none. Throws
+/// RunError.
+void write_depth_pfm(GstSample* map, const DepthGeometry& geometry,
+                     const std::filesystem::path& file);
+
+/// Writes the points of a map with the colors of its left view (RGB) as PLY. Throws RunError.
+void write_points(GstSample* map, GstSample* view, const DepthGeometry& geometry,
+                  const std::filesystem::path& file);
+
+}  // namespace mtstereo::run

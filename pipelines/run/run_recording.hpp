@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "run/options.hpp"
+
+namespace mtstereo::run {
+
+/// Asks run_recording() to stop after the current pair. May be called by a signal handler.
+void request_stop() noexcept;
+/// Whether that was asked for.
+bool stop_requested() noexcept;
+
+/// Processes a recording into a folder, and prints remarks, progress and a summary. Returns the
+/// exit status: kDone, or kIncomplete if the input is damaged. Throws RunError.
+int run_recording(const Recording& recording, const Options& options,
+                  const std::filesystem::path& folder);
+
+/// The same in the processes of this program, or its preparation: prepare() with these options.
+Work prepare_recording(const Recording& recording, const Options& options);
+/// All options that prepare_recording() depends on, as text.
+std::string preparation_settings(const Options& options);
+
+}  // namespace mtstereo::run

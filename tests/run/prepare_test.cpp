@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What is decided once for a recording.
+#include <gtest/gtest.h>
+
+#include "mtstereo/alignment.hpp"
+#include "run/run_error.hpp"
+#include "run/work_options.hpp"
+#include "stereo_files.hpp"
+#include "video_files.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+using testing::constant_times;
+using testing::TemporaryFolder;
+using testing::View;
+using testing::write_view;
+
+std::string value_of(const Work& work, const std::string& name) {
+  for (const auto* list : {&work.correction, &work.options.parameters}) {
+    for (const auto& [each, value] : *list) {
+      if (each == name) return value;
+    }
+  }
+  return "";
+}
+
+class Preparation : public ::testing::Test {
+ protected:
+  // Two videos; the right view is `row_offset` px lower.
+  void write(int frames, int row_offset) {
+    const std::string coding = "avenc_ffv1 ! matroskamux";
+    recording_.name = "test";
+    recording_.left.video = folder_ / "left.mkv";
+    recording_.right.video = folder_ / "right.mkv";
+    write_view(recording_.left.video, View::kLeft, coding, constant_times(frames));
+    write_view(recording_.right.video, View::kRight, coding, constant_times(frames), row_offset);
+    options_.parameters = {{"max-disparity", "24"}};
+  }
+  Work prepared() const { return prepare(recording_, options_, std::nullopt, false); }
+  std::string refusal() const {
+    try {
+      prepared();
+    } catch (const RunError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryFolder folder_;
+  Recording recording_;
+  WorkOptions options_;
+};
+
+TEST_F(Preparation, MeasuresTheCorrectionOnce) {
+  write(20, 2);
+  const Work work = prepared();
+  EXPECT_EQ(value_of(work, "alignment"), "hold");
+  const Result<RowField> field = RowField::parse(value_of(work, "alignment-field"));
+  ASSERT_TRUE(field);
+  EXPECT_NEAR(field->offset, 2, 0.1);
+  ASSERT_EQ(work.remarks.size(), 1u);
+  EXPECT_NE(work.remarks[0].find("lower"), std::string::npos) << work.remarks[0];
+  EXPECT_EQ(prepared().correction, work.correction);
+}
+
+TEST_F(Preparation, CorrectsNothingWhereRowsAreRight) {
+  write(5, 0);
+  const Work work = prepared();
+  const Result<RowField> field = RowField::parse(value_of(work, "alignment-field"));
+  ASSERT_TRUE(field);
+  EXPECT_EQ(*field, RowField{});
+  EXPECT_TRUE(work.remarks.empty()) << work.remarks[0];
+}
+
+TEST_F(Preparation, DoesNotInspectIfThatIsSwitchedOff) {
+  write(3, 2);
+  options_.parameters.emplace_back("alignment", "off");
+  EXPECT_EQ(prepared().correction,
+            (std::vector<std::pair<std::string, std::string>>{{"alignment", "off"}}));
+  options_.parameters = {{"max-disparity", "24"}, {"preset", "paper"}};
+  EXPECT_EQ(value_of(prepared(), "alignment"), "off");
+}
+
+TEST_F(Preparation, ReportsSwappedViews) {
+  write(10, 0);
+  std::swap(recording_.left, recording_.right);
+  const Work work = prepared();
+  ASSERT_FALSE(work.remarks.empty());
+  EXPECT_EQ(work.remarks[0], problem_text(PairProblem::kSwapped));
+}
+
+TEST_F(Preparation, ReportsAViewThatEndsBeforeTheOther) {
+  write(40, 0);
+  EXPECT_TRUE(prepared().remarks.empty());
+  write_view(recording_.right.video, View::kRight, "avenc_ffv1 ! matroskamux", constant_times(10));
+  EXPECT_EQ(
+      prepared().remarks,
+      std::vector<std::string>{"The right view ends at 0.300 s, 1.000 s before the other one."});
+}
+
+TEST_F(Preparation, HasThePeriodOfTheFrames) {
+  write(10, 0);
+  EXPECT_EQ(prepared().period, 33'333'333);  // from time stamps in milliseconds
+}
+
+TEST_F(Preparation, TakesTheSearchRangeOfTheDataSet) {
+  write(3, 0);
+  options_.parameters.clear();
+  recording_.max_disparity = 40;
+  EXPECT_EQ(value_of(prepared(), "max-disparity"), "40");
+  options_.parameters = {{"max-disparity", "16"}};
+  EXPECT_EQ(value_of(prepared(), "max-disparity"), "16");
+}
+
+TEST(WorkOptions, ScaleFitsTheSearchRange) {
+  Work work;
+  work.left.width = 2000;
+  work.left.height = 1000;
+  work.options.parameters = {{"max-disparity", "600"}};
+  complete_options(work);
+  EXPECT_EQ(value_of(work, "disparity-scale"), "64");
+  work.options.parameters = {{"max-disparity", "600"}, {"disparity-scale", "256"}};
+  EXPECT_THROW(complete_options(work), RunError);
+}
+
+TEST_F(Preparation, RefusesWhatCannotBeMade) {
+  write(3, 0);
+  options_.products = {Product::kDepth};
+  EXPECT_NE(refusal().find("need a calibration"), std::string::npos);
+  options_.products = {Product::kCloud};
+  EXPECT_NE(refusal().find("need a calibration"), std::string::npos);
+  options_.products = {Product::kDisparity};
+  recording_.rectified = false;
+  EXPECT_NE(refusal().find("not rectified"), std::string::npos);
+}
+
+TEST_F(Preparation, RefusesParametersThatAreNotValid) {
+  write(3, 0);
+  for (const auto& [name, value, text] : {std::tuple{"max-disparity", "0", "max-disparity"},
+                                          {"no-such", "1", "no-such"},
+                                          {"mode", "best", "mode"},
+                                          {"alignment", "monitor", "alignment"},
+                                          {"disparity-scale", "1.5", "disparity-scale"},
+                                          {"max-disparity", "1000", "160"}}) {
+    options_.parameters = {{name, value}};
+    EXPECT_NE(refusal().find(text), std::string::npos) << name << '=' << value << ": " << refusal();
+  }
+}
+
+TEST_F(Preparation, RefusesViewsOfDifferentSizes) {
+  write(3, 0);
+  write_view(recording_.right.video, View::kBoth, "avenc_ffv1 ! matroskamux", constant_times(3));
+  EXPECT_NE(refusal().find("different sizes"), std::string::npos) << refusal();
+}
+
+}  // namespace
+}  // namespace mtstereo::run

@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The program mtstereo-run from outside: exit statuses, messages, interruptions."""
+
+import json
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = None  # set below
+FRAMES = 240
+SKIPPED = 77
+
+
+def run(*arguments):
+    return subprocess.run(
+        [PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, check=False
+    )
+
+
+def make_video(file, column, frames=FRAMES):
+    """A part of a moving test picture by ffmpeg: views whose columns differ are a stereo pair."""
+    subprocess.run(
+        ["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", "testsrc2=size=336x192:rate=30"]
+        + ["-frames:v", str(frames), "-vf", f"crop=320:192:{column}:0"]
+        + ["-c:v", "libx264", "-preset", "veryfast", "-bf", "2", "-g", "30", str(file)],
+        check=True,
+        stdin=subprocess.DEVNULL,
+    )
+
+
+class Program(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="mtstereo-run-"))
+        cls.left = cls.folder / "left.mp4"
+        cls.right = cls.folder / "right.mp4"
+        make_video(cls.left, 0)
+        make_video(cls.right, 8)
+        cls.whole = cls.folder / "whole"
+        cls.first = run(cls.left, cls.right, "--out", cls.whole, "--max-disparity", 32)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def out(self):
+        return self.folder / self.id().rsplit(".", 1)[1]
+
+    def command(self, *options):
+        return [self.left, self.right, "--out", self.out(), "--max-disparity", 32, *options]
+
+    def journal_lines(self):
+        journal = self.out() / "unfinished" / "journal"
+        return len(journal.read_text().splitlines()) if journal.exists() else 0
+
+    def start_and_send(self, number, options):
+        """Starts a run, and sends a signal in the middle. Returns the process after its end."""
+        command = [PROGRAM, *map(str, self.command(*options))]
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 60
+        while self.journal_lines() < 20 and time.monotonic() < deadline:
+            time.sleep(0.001)
+        process.send_signal(number)
+        _, process.messages = process.communicate(timeout=60)
+        return process
+
+    def assert_as_whole(self):
+        self.assertEqual(
+            (self.out() / "disparity.mkv").read_bytes(),
+            (self.whole / "disparity.mkv").read_bytes(),
+        )
+        self.assertEqual(
+            sorted(path.name for path in self.out().iterdir()), ["disparity.mkv", "run.json"]
+        )
+
+    def test_writes_results_and_report(self):
+        self.assertEqual(self.first.returncode, 0, self.first.stderr)
+        self.assertIn("240 pairs", self.first.stdout)
+        self.assertIn("240 of 240 pairs (100 %)", self.first.stderr)
+        report = json.loads((self.whole / "run.json").read_text())
+        self.assertEqual(report["processed_pairs"], FRAMES)
+        self.assertEqual(len(report["frames"]), FRAMES)
+        self.assertEqual(report["parameters"]["max-disparity"], "32")
+        self.assertEqual(report["files"], ["disparity.mkv"])
+        median = sorted(frame[4] for frame in report["frames"])[FRAMES // 2]
+        self.assertAlmostEqual(median, 8, delta=0.2)
+
+    def test_keeps_results(self):
+        before = (self.whole / "disparity.mkv").stat().st_mtime_ns
+        again = run(self.left, self.right, "--out", self.whole, "--max-disparity", 32)
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("has results already", again.stderr)
+        done = run(self.left, self.right, "--out", self.whole, "--max-disparity", 32, "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("was done before", done.stdout)
+        other = run(self.left, self.right, "--out", self.whole, "--resume")
+        self.assertEqual(other.returncode, 1)
+        self.assertIn("other options", other.stderr)
+        self.assertEqual((self.whole / "disparity.mkv").stat().st_mtime_ns, before)
+
+    def test_continues_after_a_kill(self):
+        process = self.start_and_send(signal.SIGKILL, [])
+        self.assertEqual(process.returncode, -signal.SIGKILL)
+        self.assertEqual([path.name for path in self.out().iterdir()], ["unfinished"])
+        done = self.journal_lines() - 1
+        self.assertGreater(done, 10)
+        resumed = run(*self.command("--resume"))
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        self.assert_as_whole()
+
+    def test_stops_at_an_interrupt(self):
+        process = self.start_and_send(signal.SIGINT, [])
+        self.assertEqual(process.returncode, 3)
+        self.assertIn("--resume continues", process.messages)
+        self.assertEqual([path.name for path in self.out().iterdir()], ["unfinished"])
+        self.assertEqual(run(*self.command("--resume")).returncode, 0)
+        self.assert_as_whole()
+
+    def test_names_broken_inputs_and_does_the_rest(self):
+        archive = self.folder / "archive"
+        for name in ("good", "bad"):
+            (archive / name).mkdir(parents=True)
+            for file in (self.left, self.right):
+                shutil.copy(file, archive / name)
+        (archive / "bad" / "right.mp4").write_text("no video")
+        result = run(archive, "--out", self.out(), "--max-disparity", 32)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("bad", result.stderr)
+        found = list(self.out().rglob("disparity.mkv"))
+        self.assertEqual(len(found), 1)
+        self.assertIn("good", str(found[0]))
+        self.assertEqual(found[0].read_bytes(), (self.whole / "disparity.mkv").read_bytes())
+
+    def test_processes_truncated_files(self):
+        for name in ("cut.mkv", "cut.mp4", "cut.ts"):
+            with self.subTest(name):
+                cut = self.folder / name
+                subprocess.run(
+                    ["ffmpeg", "-v", "error", "-y", "-i", self.right, "-frames:v", "90"]
+                    + ["-c", "copy", "-movflags", "faststart", cut],
+                    check=True,
+                )
+                # Within a packet of MPEG-TS: a cut between two packets cannot be seen for certain.
+                length = cut.stat().st_size * 2 // 3 // 188 * 188 + 100
+                cut.write_bytes(cut.read_bytes()[:length])
+                out = self.out() / name
+                result = run(self.left, cut, "--out", out, "--max-disparity", 32)
+                self.assertEqual(result.returncode, 3, result.stderr)
+                self.assertRegex(result.stderr, r"right view: the file is truncated after \d\.\d+ s")
+                report = json.loads((out / "run.json").read_text())
+                self.assertGreater(report["processed_pairs"], 30)
+                self.assertLess(report["processed_pairs"], 80)
+                self.assertIn("truncated", report["inputs"]["right"]["damage"])
+                self.assertEqual(len(report["frames"]), report["processed_pairs"])
+        out = self.out() / "in processes"
+        result = run(self.left, cut, "--out", out, "--max-disparity", 32, "--jobs", 2)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertRegex(result.stderr, r"cut\.ts: the file is truncated after \d\.\d+ s")
+
+    def test_with_processes_gives_the_same(self):
+        result = run(*self.command("--jobs", 2))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = list(self.out().rglob("recordings/**/disparity.mkv"))
+        self.assertEqual(len(found), 1)
+        self.assertEqual(found[0].read_bytes(), (self.whole / "disparity.mkv").read_bytes())
+
+    def test_refuses_invalid_commands(self):
+        for arguments in (
+            [],
+            [self.left, self.right],
+            self.command("--what", "nothing"),
+            self.command("--mode", "best"),
+            self.command("--max-disparity", "0"),
+            self.command("--alignment", "monitor"),
+            self.command("--drift", "3"),
+            self.command("--sync", "soon"),
+            self.command("--no-such-option"),
+        ):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertNotEqual(result.stderr, "", arguments)
+        self.assertFalse(self.out().exists())
+
+    def test_states_what_is_missing(self):
+        for arguments, text in (
+            ([self.left, self.folder / "missing.mp4", "--out", self.out()], "missing.mp4"),
+            (self.command("--what", "depth"), "calibration"),
+        ):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn(text, result.stderr)
+
+    def test_lists_recordings(self):
+        result = run(self.left, self.right, "--list")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("two video files", result.stdout)
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    if shutil.which("ffmpeg") is None:
+        print("ffmpeg is not installed")
+        sys.exit(SKIPPED)
+    unittest.main()

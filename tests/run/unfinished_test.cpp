@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Pieces that were interrupted, and recordings that end early.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "run/frame_reader.hpp"
+#include "run/json.hpp"
+#include "run/run_error.hpp"
+#include "stereo_files.hpp"
+#include "video_files.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::constant_times;
+using testing::contents_of;
+using testing::kBFrames;
+using testing::TemporaryFolder;
+using testing::View;
+using testing::whole;
+using testing::work_of;
+using testing::write_view;
+
+constexpr std::int64_t kFrames = 20;
+const Progress kNoProgress;
+
+class Interrupted : public ::testing::TestWithParam<MapFormat> {
+ protected:
+  void SetUp() override {
+    const std::string coding = kBFrames + std::string(" ! matroskamux");
+    write_view(folder_ / "left.mkv", View::kLeft, coding, constant_times(kFrames));
+    write_view(folder_ / "right.mkv", View::kRight, coding, constant_times(kFrames));
+    WorkOptions options;
+    options.products = {Product::kDisparity, Product::kConfidence};
+    options.format = GetParam();
+    work_ = work_of(folder_ / "left.mkv", folder_ / "right.mkv", options);
+    process(work_, whole(work_), folder_ / "whole", kNoProgress);
+  }
+
+  // Processes the pairs into the folder "piece"; returns the numbers of those that were done.
+  std::vector<std::int64_t> run(std::int64_t stop_after, Unfinished unfinished) {
+    std::vector<std::int64_t> done;
+    const Progress progress = [&](std::int64_t count, std::int64_t total, double) {
+      EXPECT_EQ(total, kFrames);
+      done.push_back(count);
+      return count < stop_after;
+    };
+    try {
+      process(work_, whole(work_), folder_ / "piece", progress, unfinished);
+      EXPECT_GT(stop_after, kFrames);
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find("stopped after"), std::string::npos) << error.what();
+    }
+    return done;
+  }
+
+  // Only the folder of unfinished files is in the folder.
+  void expect_no_results() {
+    for (const auto& entry : fs::directory_iterator(folder_ / "piece")) {
+      EXPECT_EQ(entry.path().filename(), "unfinished");
+    }
+  }
+  void expect_whole() {
+    EXPECT_EQ(contents_of(folder_ / "piece"), contents_of(folder_ / "whole"));
+    Range range;
+    const PieceReport report = read_piece(folder_ / "piece" / kPieceFile, range);
+    EXPECT_EQ(report.frames.size(), static_cast<std::size_t>(kFrames));
+    EXPECT_EQ(range.count, kFrames);
+  }
+
+  TemporaryFolder folder_;
+  Work work_;
+};
+
+TEST_P(Interrupted, ContinuesWhereItWas) {
+  EXPECT_EQ(run(7, Unfinished::kDiscard).size(), 7u);
+  expect_no_results();
+  EXPECT_EQ(run(12, Unfinished::kContinue), (std::vector<std::int64_t>{8, 9, 10, 11, 12}));
+  expect_no_results();
+  EXPECT_EQ(run(kFrames + 1, Unfinished::kContinue).front(), 13);
+  expect_whole();
+}
+
+TEST_P(Interrupted, StartsOverUnlessAskedToContinue) {
+  run(7, Unfinished::kDiscard);
+  EXPECT_EQ(run(kFrames + 1, Unfinished::kDiscard).front(), 1);
+  expect_whole();
+}
+
+TEST_P(Interrupted, StartsOverWithOtherParameters) {
+  run(7, Unfinished::kDiscard);
+  work_.options.parameters.emplace_back("mode", "sparse");
+  EXPECT_EQ(run(9, Unfinished::kContinue).front(), 1);
+}
+
+TEST_P(Interrupted, ContinuesAfterTheLastWholeFrame) {
+  run(7, Unfinished::kDiscard);
+  const fs::path unfinished = folder_ / "piece" / "unfinished";
+  // As if the program had been killed in the middle of a line, or of a frame.
+  std::ofstream(unfinished / "journal", std::ios::app) << "7 7 7 0.5";
+  std::int64_t next = 8;
+  if (GetParam() == MapFormat::kMatroska) {
+    const fs::path video = unfinished / "confidence.mkv";
+    fs::resize_file(video, fs::file_size(video) - 10);
+    next = 7;
+  }
+  EXPECT_EQ(run(kFrames + 1, Unfinished::kContinue).front(), next);
+  expect_whole();
+}
+
+TEST_P(Interrupted, AfterTheLastPairIsFinished) {
+  const Progress progress = [](std::int64_t count, std::int64_t, double) {
+    return count < kFrames;
+  };
+  EXPECT_THROW(process(work_, whole(work_), folder_ / "piece", progress), RunError);
+  EXPECT_TRUE(run(kFrames + 1, Unfinished::kContinue).empty());
+  expect_whole();
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, Interrupted,
+                         ::testing::Values(MapFormat::kMatroska, MapFormat::kPng),
+                         [](const auto& info) {
+                           return info.param == MapFormat::kPng ? "Png" : "Matroska";
+                         });
+
+class Truncated : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(Truncated, GivesWhatCanBeRead) {
+  const auto& [extension, muxer] = GetParam();
+  const TemporaryFolder folder;
+  const std::string coding = std::string(kBFrames) + " ! " + muxer;
+  const fs::path left = folder / (std::string("left.") + extension);
+  const fs::path right = folder / (std::string("right.") + extension);
+  const fs::path cut = folder / (std::string("cut.") + extension);
+  write_view(left, View::kLeft, coding, constant_times(60));
+  write_view(right, View::kRight, coding, constant_times(60));
+  testing::write_beginning(right, cut, 0.6);
+  const Work work = work_of(left, cut, {});
+  // A transport stream has no end that could be missing.
+  if (std::string(extension) != "ts") {
+    EXPECT_NE(work.right.damage, "");
+  }
+  ASSERT_GT(work.pairs.pairs.size(), 10u);
+  ASSERT_LT(work.pairs.pairs.size(), 60u);
+  const PieceReport report = process(work, whole(work), folder / "cut", kNoProgress);
+  EXPECT_EQ(report.frames.size(), work.pairs.pairs.size());
+  // What is there is as in the whole recording, but for the last frames.
+  const Work uncut = work_of(left, right, {});
+  const PieceReport all = process(uncut, whole(uncut), folder / "whole", kNoProgress);
+  for (std::size_t i = 0; i + 5 < report.frames.size(); ++i) {
+    EXPECT_EQ(report.frames[i].median_disparity, all.frames[i].median_disparity) << i;
+    EXPECT_EQ(report.frames[i].density, all.frames[i].density) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Truncated,
+                         ::testing::Values(std::pair{"mkv", "matroskamux"},
+                                           std::pair{"mp4", "mp4mux faststart=true"},
+                                           std::pair{"ts", "mpegtsmux"}),
+                         [](const auto& info) { return std::string(info.param.first); });
+
+// Replaced after they were indexed.
+TEST(DamagedPiece, OfFilesThatAreNoVideosSaysWhyAtOnce) {
+  const TemporaryFolder folder;
+  const fs::path whole = folder / "whole.mp4";
+  write_view(whole, View::kLeft, std::string(kBFrames) + " ! mp4mux", constant_times(10));
+  const FrameIndex index = index_frames({whole, {}, {}}, 0);
+  testing::write_text(folder / "empty.mp4", "");
+  testing::write_text(folder / "text.mkv", "This is no video.\n");
+  testing::write_text(folder / "noise.ts", std::string(100'000, 'x'));
+  testing::write_text(folder / "head.mkv", "\x1a\x45\xdf\xa3" + std::string(5'000, 'x'));
+  testing::write_beginning(whole, folder / "part.mp4", 0.5);
+  for (const char* name :
+       {"empty.mp4", "text.mkv", "noise.ts", "head.mkv", "part.mp4", "none.mp4"}) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto reader = open_video(folder / name, index);
+    EXPECT_EQ(reader->read(3).state, FrameState::kEnd) << name;
+    EXPECT_NE(reader->problem(), "") << name;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60)) << name;
+  }
+}
+
+TEST(DamagedPiece, EndsWhereItsFramesEndAndSaysWhy) {
+  const TemporaryFolder folder;
+  const std::string coding = kBFrames + std::string(" ! matroskamux");
+  write_view(folder / "left.mkv", View::kLeft, coding, constant_times(60));
+  write_view(folder / "right.mkv", View::kRight, coding, constant_times(60));
+  const Work work = work_of(folder / "left.mkv", folder / "right.mkv", {});
+  // Damaged after it was indexed.
+  fs::resize_file(folder / "right.mkv", fs::file_size(folder / "right.mkv") / 2);
+  const PieceReport report = process(work, whole(work), folder / "piece", kNoProgress);
+  EXPECT_GT(report.frames.size(), 5u);
+  EXPECT_LT(report.frames.size(), 50u);
+  EXPECT_NE(report.damage.find("of the right view"), std::string::npos) << report.damage;
+  EXPECT_NE(report.damage.find("cannot be decoded"), std::string::npos) << report.damage;
+}
+
+TEST(DamagedPiece, WithoutAnyFrameHasNoFile) {
+  const TemporaryFolder folder;
+  const std::string coding = kBFrames + std::string(" ! matroskamux");
+  write_view(folder / "left.mkv", View::kLeft, coding, constant_times(100));
+  write_view(folder / "right.mkv", View::kRight, coding, constant_times(100));
+  const Work work = work_of(folder / "left.mkv", folder / "right.mkv", {});
+  fs::resize_file(folder / "right.mkv", fs::file_size(folder / "right.mkv") / 2);
+  const PieceReport report = process(work, {90, 10}, folder / "piece", kNoProgress);
+  EXPECT_TRUE(report.frames.empty());
+  EXPECT_TRUE(report.files.empty());
+  EXPECT_NE(report.damage, "");
+  EXPECT_TRUE(fs::exists(folder / "piece" / kPieceFile));
+}
+
+}  // namespace
+}  // namespace mtstereo::run
