@@ -15,6 +15,7 @@ calibration=
 far=
 cloud=
 arguments=()
+status_of_limit=124 # of timeout, if --seconds are over
 
 fail() {
   echo "$(basename "$0"): $*" >&2
@@ -222,5 +223,5 @@ launch() {
   # The interrupt after --seconds is not a failure.
   local status=0
   timeout --signal=INT --kill-after=10 "$seconds" "${line[@]}" || status=$?
-  [ "$status" -eq 124 ] || return "$status"
+  [ "$status" -eq 124 ] || [ "$status" -eq "$status_of_limit" ] || return "$status"
 }

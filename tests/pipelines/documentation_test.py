@@ -5,19 +5,18 @@ PARTS above 1 only those of every PARTS-th document, beginning with number PART.
 
 The commands are the lines of ```sh blocks. Each document runs in its own folder, which contains the
 files that its examples name. Only hardware that a test machine lacks is replaced: the screen by a
-fakesink and cameras by test pictures. For commands after "# needs a sender", a sender is started on
-the loopback network.
+fakesink and cameras by test pictures. For commands after "# needs a sender" and "# needs a receiver",
+the other end is started on the loopback network.
 """
 import pathlib
 import re
 import shutil
 import sys
 import tempfile
-import time
 import unittest
 
-from support import BUILD, SLOW, SOURCE, free_ports, make_clip, make_videos, require, run
-from support import start, stop
+from network_support import is_receiver, is_sender, receive, send
+from support import BUILD, SOURCE, make_clip, make_videos, require, run
 
 DOCUMENTS = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
 
@@ -172,40 +171,24 @@ class Documentation(unittest.TestCase):
             return
         self.assertRegex(command.text, RUN, f"{command.where}: what is this command?")
         text = command.text
-        if text.startswith("./pipelines/from-") and "needs" in command.needs:
+        if re.match(r"\./pipelines/(from-|network-)", text) and "needs" in command.needs:
             done = run(["bash", "-c", text + " --dry-run"], self.folder)
             self.assertEqual(done.status, 0, f"{command.where}: {done}")
             text = done.output.strip()
-        if "camera" in command.needs and "needs" in command.needs:
+        if "camera" in command.needs and "needs" in command.needs or "v4l2src" in text:
             text = without_camera(text)
         if "camera-boards/" in text:
             make_boards(self.folder)
         text = headless(text)
-        if "udpsrc" in text:
-            self.check_receiver(command, text)
+        if is_receiver(text) or is_sender(text):
+            received, log = (receive if is_receiver(text) else send)(text, self.folder)
+            self.assertTrue(received, f"{command.where}: no maps of\n{text}\n{log}")
         elif "rtspsrc" in text:
             self.check_parses(command, text)
         else:
             done = run(["bash", "-c", text], self.folder, 120)
             self.assertEqual(done.status, 0, f"{command.where}: {done}")
             self.assertNotRegex(done.text, "CRITICAL|erroneous", f"{command.where}: {done}")
-
-    def check_receiver(self, command, text):
-        """Succeeds if the command outputs disparity frames while a sender runs."""
-        ports = free_ports(2)
-        for old, new in zip(re.findall(r"port=(\d+)", text), ports):
-            text = text.replace(f"port={old}", f"port={new}")
-        text = text.replace("fakesink sync=false", "fakesink sync=false num-buffers=3")
-        receiver = start(["bash", "-c", text], self.folder)
-        try:
-            deadline = time.monotonic() + 60 * SLOW
-            while receiver.poll() is None and time.monotonic() < deadline:
-                require(run([SOURCE / "pipelines/network-sender.sh", "left.mp4", "right.mp4",
-                             "--ports", "{},{}".format(*ports)], self.folder))
-            self.assertEqual(receiver.poll(), 0, f"{command.where}: no output of\n{text}")
-        finally:
-            stop(receiver)
-            receiver.communicate()
 
     def check_parses(self, command, text):
         """No server answers at the address, but the pipeline must be valid."""

@@ -2,6 +2,7 @@
 """Common parts of the tests of scripts and programs: small clips, and commands with time limits."""
 import os
 import pathlib
+import random
 import signal
 import socket
 import subprocess
@@ -36,7 +37,7 @@ def environment(folder):
     env["GST_DEBUG_NO_COLOR"] = "1"
     env["BUILD"] = str(BUILD)
     env["LC_ALL"] = "C.UTF-8"
-    programs = [BUILD / "pipelines" / part for part in ("apps", "calibrate", "eval", "render")]
+    programs = [BUILD / "pipelines" / part for part in ("apps", "calibrate", "eval", "render", "run")]
     env["PATH"] = os.pathsep.join([*map(str, programs), env["PATH"]])
     env.pop("DISPLAY", None)
     env.pop("WAYLAND_DISPLAY", None)
@@ -73,15 +74,30 @@ def launch(words, folder, seconds=60):
     return run(["gst-launch-1.0", "-q", "-e", *words.split()], folder, seconds)
 
 
-def free_ports(count):
-    """Unused UDP ports."""
-    sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(count)]
-    for s in sockets:
-        s.bind(("127.0.0.1", 0))
-    ports = [s.getsockname()[1] for s in sockets]
-    for s in sockets:
-        s.close()
-    return ports
+BLOCK = 4  # ports
+reservations = []
+
+
+def free_port(count=1):
+    """The first of some successive unused UDP ports. No other call returns or tests them, in any
+    process of these tests: a TCP socket with the number of the first one reserves its block."""
+    assert count <= BLOCK
+    while True:
+        first = random.randrange(20000, 32000, BLOCK)
+        reservation = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(count)]
+        try:
+            reservation.bind(("127.0.0.1", first))
+            for each, port in zip(sockets, range(first, first + count)):
+                each.bind(("127.0.0.1", port))
+        except OSError:
+            reservation.close()
+            continue
+        finally:
+            for each in sockets:
+                each.close()
+        reservations.append(reservation)
+        return first
 
 
 def require(outcome):
