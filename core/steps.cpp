@@ -31,6 +31,7 @@
 #include "stages/refine/map_shift.hpp"
 #include "stages/refine/map_smoothing.hpp"
 #include "stages/refine/speckle_removal.hpp"
+#include "step_conditions.hpp"
 #include "step_groups.hpp"
 
 namespace mtstereo {
@@ -232,8 +233,6 @@ void match_by_gradient(const StepContext& step, Costs& costs, Maps& maps) {
 
 // refine
 
-bool if_speckles(const Settings& s) { return s.speckle_size > 1; }
-
 /// Removes the areas of fewer than `size` px.
 void remove_areas(const StepContext& step, int size, Maps& maps) {
   step.bands.rows([&](int y0, int y1, int) {
@@ -330,25 +329,6 @@ void shift_map(const StepContext& step, const Maps& maps, const EnlargedMaps& en
                         output.disparity, output.confidence);
   });
 }
-
-bool always(const Settings&) { return true; }
-bool if_aligned(const Settings& s) { return s.aligned(); }
-bool if_blurred(const Settings& s) { return s.blurred(); }
-bool if_noise_filter(const Settings& s) { return s.noise_filter; }
-bool if_shifted(const Settings& s) { return s.shifted(); }
-bool if_half(const Settings& s) { return s.half(); }
-bool if_refined(const Settings& s) { return s.refined(); }
-bool if_census(const Settings& s) { return s.census(); }
-bool if_gradient(const Settings& s) { return !s.census(); }
-bool if_outliers(const Settings& s) { return s.outlier_radius > 0; }
-bool if_pixel_outliers(const Settings& s) {
-  return s.outlier_radius > 0 && s.outlier_removal == OutlierRemoval::kNodesAndPixels;
-}
-bool if_islands(const Settings& s) {
-  return if_speckles(s) && s.min_confidence > 0 && !s.keeps_only_ends();
-}
-bool if_gaps(const Settings& s) { return s.max_gap > 0; }
-bool if_smoothing(const Settings& s) { return s.smoothing_radius > 0; }
 
 // clang-format off
 constexpr Step kSteps[] = {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "settings.hpp"
+
+/// Internal to the list of steps: with which settings a step runs.
+
+namespace mtstereo {
+
+inline bool always(const Settings&) { return true; }
+inline bool if_aligned(const Settings& s) { return s.aligned(); }
+inline bool if_blurred(const Settings& s) { return s.blurred(); }
+inline bool if_noise_filter(const Settings& s) { return s.noise_filter; }
+inline bool if_shifted(const Settings& s) { return s.shifted(); }
+inline bool if_half(const Settings& s) { return s.half(); }
+inline bool if_refined(const Settings& s) { return s.refined(); }
+inline bool if_census(const Settings& s) { return s.census(); }
+inline bool if_gradient(const Settings& s) { return !s.census(); }
+inline bool if_outliers(const Settings& s) { return s.outlier_radius > 0; }
+inline bool if_pixel_outliers(const Settings& s) {
+  return s.outlier_radius > 0 && s.outlier_removal == OutlierRemoval::kNodesAndPixels;
+}
+inline bool if_speckles(const Settings& s) { return s.speckle_size > 1; }
+inline bool if_islands(const Settings& s) {
+  return if_speckles(s) && s.min_confidence > 0 && !s.keeps_only_ends();
+}
+inline bool if_gaps(const Settings& s) { return s.max_gap > 0; }
+inline bool if_smoothing(const Settings& s) { return s.smoothing_radius > 0; }
+
+}  // namespace mtstereo
