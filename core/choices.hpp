@@ -42,7 +42,8 @@ struct ChoiceOf<Preset> {
 template <>
 struct ChoiceOf<Mode> {
   static constexpr Parameter kParameter = Parameter::kMode;
-  static constexpr std::array<std::string_view, kModes> kWords = {"sparse", "semi-dense", "dense"};
+  static constexpr std::array<std::string_view, kModes> kWords = {"sparse", "semi-dense", "dense",
+                                                                  "full"};
 };
 
 template <>

@@ -50,6 +50,7 @@ void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observ
   confidence_ = {};
   resize({left.width, left.height});
   Views& views = memory_.views;
+  views.left = left;
   views.input = {left, right};
   views.matched = views.input;
   if (settings_.half()) views.matched = {views.halves[0].view(), views.halves[1].view()};
@@ -61,6 +62,7 @@ void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observ
     step.run(context, memory_);
     if (observer) observer(step, memory_);
   }
+  views.left = {};
   views.input = views.matched = {};  // the caller may free the input
   const bool shifted = settings_.shifted();
   const Maps& maps = memory_.maps;

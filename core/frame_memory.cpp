@@ -26,9 +26,11 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
       noise[side].resize(width, height);
       filtered[side].resize(width, height);
     }
-    preprocessed[side].resize(width, height);
+    if (!settings.full()) {
+      preprocessed[side].resize(width, height);
+      trees[side].resize(width, height);
+    }
     if (!settings.census()) preprocessed[side].resize_costs(width, height);
-    trees[side].resize(width, height);
     if (settings.census()) census[side].resize(width, height);
     if (settings.refined()) input_census[side].resize(size.frame.width, size.frame.height);
   }
@@ -45,6 +47,7 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
 }
 
 void Nodes::resize(const Settings& settings, const FrameSize& size) {
+  if (settings.full()) return;
   const auto [width, height] = size.matched;
   level_count = settings.node_levels.count;
   for (int i = 0; i < level_count; ++i) {
@@ -63,6 +66,7 @@ void Nodes::resize(const Settings& settings, const FrameSize& size) {
 
 void Costs::resize(const Settings& settings, const FrameSize& size) {
   const auto [width, height] = size.matched;
+  if (settings.full()) return;
   scratch.resize(size.threads);
   if (settings.census()) {
     for (Scratch& worker : scratch) worker.census.resize(width, settings.census_matching());
@@ -78,6 +82,29 @@ void Costs::resize(const Settings& settings, const FrameSize& size) {
   for (Scratch& worker : scratch) {
     worker.volume.resize(volume, kernel);
     worker.gradient.resize(width);
+  }
+}
+
+void Pyramid::resize(const Settings& settings, const FrameSize& size) {
+  if (!settings.full()) return;
+  scratch.resize(size.threads);
+  ImageSize reduced = size.matched;
+  const auto prepare_scratch = [&](int level) {
+    for (PathMatchingScratch& worker : scratch) {
+      worker.resize(reduced.width, reduced.height, settings.path_matching(level));
+    }
+  };
+  prepare_scratch(0);
+  for (int i = 0; i < kPyramidLevels; ++i) {
+    PyramidLevel& level = levels[i];
+    reduced = {half_of(reduced.width), half_of(reduced.height)};
+    prepare_scratch(i + 1);
+    for (int side = 0; side < 2; ++side) {
+      level.views[side].resize(reduced.width, reduced.height);
+      level.census[side].resize(reduced.width, reduced.height);
+    }
+    level.disparity.resize(reduced.width, reduced.height);
+    level.ratio.resize(reduced.width, reduced.height);
   }
 }
 
@@ -118,24 +145,22 @@ void OutputMaps::resize(const Settings& settings, const FrameSize& size) {
   confidence.resize(size.input.width, size.input.height);
 }
 
-const Image<std::int32_t>& last_disparity(const Settings& settings, const Maps& maps,
-                                          const EnlargedMaps& enlarged) {
-  if (settings.refined()) return enlarged.refined;
-  return settings.half() ? enlarged.disparity : maps.disparity;
-}
-
-const Image<std::uint8_t>& last_confidence(const Settings& settings, const Maps& maps,
-                                           const EnlargedMaps& enlarged) {
-  return settings.half() ? enlarged.confidence : maps.confidence;
+void Completion::resize(const Settings& settings, const FrameSize& size) {
+  if (!settings.full()) return;
+  edges.resize(size.input.width, size.input.height);
+  scratch.resize(size.threads);
+  for (EdgeScratch& worker : scratch) worker.resize(size.input.width);
 }
 
 void FrameMemory::resize(const Settings& settings, const FrameSize& size) {
   views.resize(settings, size);
   nodes.resize(settings, size);
   costs.resize(settings, size);
+  pyramid.resize(settings, size);
   maps.resize(settings, size);
   enlarged.resize(settings, size);
   output.resize(settings, size);
+  completion.resize(settings, size);
 }
 
 }  // namespace mtstereo

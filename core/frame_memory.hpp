@@ -13,6 +13,7 @@
 #include "stages/nodes/node_matching.hpp"
 #include "stages/nodes/outlier_removal.hpp"
 #include "stages/pixels/census_matching.hpp"
+#include "stages/pixels/path_matching.hpp"
 #include "stages/pixels/pixel_matching.hpp"
 #include "stages/prepare/census.hpp"
 #include "stages/prepare/cost_volume.hpp"
@@ -25,6 +26,7 @@
 #include "stages/prepare/view_blur.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/disparity_refinement.hpp"
+#include "stages/refine/edge_alignment.hpp"
 #include "stages/refine/map_smoothing.hpp"
 #include "stages/refine/speckle_removal.hpp"
 
@@ -52,6 +54,7 @@ struct FrameSize {
 
 /// The two views and what the stages in prepare/ compute from them. All arrays are indexed by Side.
 struct Views {
+  GrayView left;                    ///< the caller's left view
   std::array<GrayView, 2> input;    ///< the views of this frame: the caller's or corrected ones
   std::array<GrayView, 2> matched;  ///< those to match: the input, its halves, or these filtered
   Image<std::uint8_t> aligned;      ///< the right view with its rows aligned
@@ -125,6 +128,25 @@ struct Costs {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
+/// Number of reduced resolutions in mode full: 1/2, 1/4 and 1/8.
+inline constexpr int kPyramidLevels = 3;
+
+/// The views at 1 / 2^level of the matched resolution, and their disparity map.
+struct PyramidLevel {
+  std::array<Image<std::uint8_t>, 2> views;
+  std::array<CensusImage, 2> census;
+  Image<std::int32_t> disparity;
+  Image<std::uint8_t> ratio;
+};
+
+/// The matching along four paths of mode full.
+struct Pyramid {
+  std::array<PyramidLevel, kPyramidLevels> levels;  ///< fine to coarse, from 1/2 on
+  std::vector<PathMatchingScratch> scratch;         ///< one for each thread
+
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
 /// The disparity map of the matched views and the buffers of the stages that change it.
 struct Maps {
   Image<std::int32_t> disparity;
@@ -157,11 +179,16 @@ struct EnlargedMaps {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
-/// The result before the shift of the map: that of the last step that runs with these settings.
-const Image<std::int32_t>& last_disparity(const Settings& settings, const Maps& maps,
-                                          const EnlargedMaps& enlarged);
-const Image<std::uint8_t>& last_confidence(const Settings& settings, const Maps& maps,
-                                           const EnlargedMaps& enlarged);
+/// The map before its shift, with these settings. The arguments may be const.
+template <typename OfMaps, typename OfEnlarged>
+auto& last_disparity(const Settings& settings, OfMaps& maps, OfEnlarged& enlarged) {
+  if (settings.refined()) return enlarged.refined;
+  return settings.half() ? enlarged.disparity : maps.disparity;
+}
+template <typename OfMaps, typename OfEnlarged>
+auto& last_confidence(const Settings& settings, OfMaps& maps, OfEnlarged& enlarged) {
+  return settings.half() ? enlarged.confidence : maps.confidence;
+}
 
 /// The result, if the smallest disparity differs from 0: the size of the caller's views.
 struct OutputMaps {
@@ -171,14 +198,24 @@ struct OutputMaps {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
+/// What mode full needs to complete the result, which has the size of the caller's views.
+struct Completion {
+  EdgeMap edges;
+  std::vector<EdgeScratch> scratch;  ///< one for each thread
+
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
 /// All groups.
 struct FrameMemory {
   Views views;
   Nodes nodes;
   Costs costs;
+  Pyramid pyramid;
   Maps maps;
   EnlargedMaps enlarged;
   OutputMaps output;
+  Completion completion;
 
   void resize(const Settings& settings, const FrameSize& size);
 };

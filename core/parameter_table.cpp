@@ -14,12 +14,17 @@ using T = ParameterType;
 
 // clang-format off
 // The defaults of a row: those of the presets default, fast and paper, each in the modes sparse,
-// semi-dense and dense.
-#define MODES(sparse, semi_dense, dense) {{sparse, semi_dense, dense}}
+// semi-dense, dense and full.
+#define MODES(sparse, semi_dense, dense, full) {{sparse, semi_dense, dense, full}}
 #define BY_MODE(standard, fast, paper) {{standard, fast, paper}}
 // One default for each preset.
 #define EACH(standard, fast, paper) \
-  BY_MODE(MODES(standard, standard, standard), MODES(fast, fast, fast), MODES(paper, paper, paper))
+  BY_MODE(MODES(standard, standard, standard, standard), MODES(fast, fast, fast, fast), \
+          MODES(paper, paper, paper, paper))
+// The same, with other defaults of the presets default and fast in mode full.
+#define OR_FULL(standard, fast, paper, standard_full, fast_full) \
+  BY_MODE(MODES(standard, standard, standard, standard_full), MODES(fast, fast, fast, fast_full), \
+          MODES(paper, paper, paper, paper))
 // One default for every preset and mode.
 #define ALL(value) EACH(value, value, value)
 
@@ -28,10 +33,10 @@ constexpr ParameterInfo kTable[] = {
      "source of the defaults of all other parameters: the most accurate settings, the most accurate settings "
      "that take a third of the time, or the published method",
      {"the most accurate settings", "the most accurate settings that take a third of the time", "the published method"}},
-    {P::kMode, "mode", "", "", T::kChoice, 0, 2, "sparse|semi-dense|dense", BY_MODE(MODES("sparse", "semi-dense", "dense"), MODES("sparse", "semi-dense", "dense"), MODES("sparse", "semi-dense", "semi-dense")),
+    {P::kMode, "mode", "", "", T::kChoice, 0, 3, "sparse|semi-dense|dense|full", BY_MODE(MODES("sparse", "semi-dense", "dense", "full"), MODES("sparse", "semi-dense", "dense", "full"), MODES("sparse", "semi-dense", "semi-dense", "semi-dense")),
      "which pixels get a disparity: few and reliable ones at the ends of the finest nodes, all reliable ones, "
-     "or most pixels, with gaps filled",
-     {"few pixels with few errors, at the ends of the finest nodes", "all reliable disparities", "most pixels: less certain disparities too, and gaps filled"}},
+     "most pixels, with gaps filled, or every pixel",
+     {"few pixels with few errors, at the ends of the finest nodes", "all reliable disparities", "most pixels: less certain disparities too, and gaps filled", "every pixel: what cannot be matched is inferred"}},
     {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", ALL("64"),
      "the disparities min-disparity .. max-disparity - 1 are searched; the nearest measurable point is at "
      "focal length * baseline / max-disparity"},
@@ -47,9 +52,9 @@ constexpr ParameterInfo kTable[] = {
      "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
     {P::kNoiseFilter, "noise-filter", "", "", T::kBoolean, 0, 1, "", EACH("true", "false", "false"),
      "filter noise and compression artifacts from both views before they are matched, as much as the views have"},
-    {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, kLargestGrayLevels, "", BY_MODE(MODES("16", "16", "16"), MODES("16", "16", "16"), MODES("16", "8", "8")),
+    {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, kLargestGrayLevels, "", BY_MODE(MODES("16", "16", "16", "16"), MODES("16", "16", "16", "16"), MODES("16", "8", "8", "8")),
      "levels that the pre-processed image is quantized to: more levels result in deeper trees with smaller leaves"},
-    {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("3", "5", "5"), MODES("3", "3", "3"), MODES("0", "0", "0")),
+    {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("3", "5", "5", "5"), MODES("3", "3", "3", "3"), MODES("0", "0", "0", "0")),
      "finest nodes must be wider than this"},
     {P::kMaxNodeWidth, "max-node-width", "omega_beta", "image widths", T::kNumber, 0.001, 1, "", EACH("1", "1", "0.5"),
      "finest nodes must be narrower than this share of the image's width"},
@@ -77,25 +82,25 @@ constexpr ParameterInfo kTable[] = {
     {P::kOutlierRemoval, "outlier-removal", "", "", T::kChoice, 0, 1, "nodes|nodes-and-pixels", EACH("nodes", "nodes", "nodes-and-pixels"),
      "where outliers are removed: from the disparities of nodes only, or from those of pixels too",
      {"from the disparities of nodes only", "from the disparities of nodes and of pixels"}},
-    {P::kCensusScales, "census-scales", "", "", T::kInteger, 1, 2, "", EACH("2", "1", "1"),
+    {P::kCensusScales, "census-scales", "", "", T::kInteger, 1, 2, "", OR_FULL("2", "1", "1", "1", "1"),
      "scales of the census transform: 1 compares the pixels of a 5x5 window, 2 also those of a larger window in the "
      "smoothed view, which noise and compression change less"},
-    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, kLargestCensusKernel, "", EACH("5", "3", "5"),
+    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, kLargestCensusKernel, "", OR_FULL("5", "3", "5", "3", "3"),
      "side of the window that census costs are summed over: 1, 3 or 5"},
     {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", ALL("15"),
      "guided pixel matching expects disparities up to this much below and above the node's"},
     {P::kBetweenNodes, "between-nodes", "", "", T::kChoice, 0, 2, "none|span|all", EACH("all", "all", "none"),
      "what is expected of a pixel between two nodes: no disparity, the disparities that both nodes span, or any",
      {"no disparity is expected", "the disparities that the two nodes span are expected", "every disparity is expected"}},
-    {P::kRangePenalty, "range-penalty", "", "bits", T::kInteger, 0, kLargestRangePenalty, "", EACH("1", "1", "2"),
+    {P::kRangePenalty, "range-penalty", "", "bits", T::kInteger, 0, kLargestRangePenalty, "", OR_FULL("1", "1", "2", "2", "2"),
      "additional cost of a disparity that the nodes do not expect (census); with the gradient cost such a "
      "disparity is never selected"},
-    {P::kSmallStepPenalty, "small-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", ALL("4"),
+    {P::kSmallStepPenalty, "small-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", OR_FULL("4", "4", "4", "5", "5"),
      "cost of a step of one disparity from pixel to pixel of a scan-line (census)"},
     {P::kLargeStepPenalty, "large-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", ALL("30"),
      "cost of a larger step where the gray value is constant, less where it changes (census); "
      "0 = no optimization along the scan-line"},
-    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", BY_MODE(MODES("6", "6", "2"), MODES("6", "6", "2"), MODES("12", "4", "4")),
+    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", BY_MODE(MODES("6", "6", "2", "0"), MODES("6", "6", "2", "0"), MODES("12", "4", "4", "4")),
      "a pixel keeps its disparity if the cost of the second-best one exceeds that of the best by more than this"},
     {P::kRunnerUp, "runner-up", "", "", T::kChoice, 0, 1, "any|expected", EACH("any", "any", "expected"),
      "disparities from which the second-best one is selected: all, or only those that the nodes expect",
@@ -104,20 +109,21 @@ constexpr ParameterInfo kTable[] = {
      "largest difference between the disparity of a left pixel and that of its right one; -1 = no check"},
     {P::kSubpixel, "subpixel", "", "", T::kBoolean, 0, 1, "", ALL("true"),
      "refine the disparity between whole pixels: by a V through the costs (census) or a parabola (gradient)"},
-    {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", EACH("300", "75", "0"),
+    {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", OR_FULL("300", "75", "0", "100", "75"),
      "connected areas with fewer pixels than this are removed; 0 = none"},
-    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "153", "95"), MODES("183", "160", "101"), MODES("0", "0", "0")),
+    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "153", "95", "0"), MODES("183", "160", "101", "0"), MODES("0", "0", "0", "0")),
      "disparities of lower confidence (1 .. 255) are removed; 0 = none; a filled gap has half the "
      "confidence of its sides"},
     {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, kLargestNodeEnd, "", EACH("9", "9", "1"),
      "mode sparse: pixels that keep their disparity at each end of a finest node, an odd number"},
-    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "8", "30"), MODES("0", "4", "15"), MODES("0", "0", "0")),
+    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "8", "30", "0"), MODES("0", "4", "15", "0"), MODES("0", "0", "0", "0")),
      "gaps up to this width are filled if both sides differ by at most 1 px; 0 = none"},
     {P::kSmoothingRadius, "smoothing-radius", "", "px", T::kInteger, 0, kLargestSmoothingRadius, "", EACH("2", "3", "0"),
      "disparities are smoothed along each surface over this many pixels on both sides, in rows and in columns; "
      "0 = no smoothing"},
 };
 #undef ALL
+#undef OR_FULL
 #undef EACH
 #undef BY_MODE
 #undef MODES

@@ -12,6 +12,13 @@ namespace {
 
 using P = Parameter;
 
+/// Mode full at reduced resolutions, where the step penalties are higher, since surfaces have fewer
+/// pixels.
+constexpr int kHalvedTolerance = 2;     // of the left-right check [px]
+constexpr int kHalvedKernel = 3;        // [px]
+constexpr int kHalvedRangePenalty = 2;  // [bits]
+constexpr SmoothnessOptions kHalvedSmoothness = {12, 51};
+
 /// Converts a percentage to a fraction.
 double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
 
@@ -72,5 +79,20 @@ Settings::Settings(const Parameters& p)
       node_end_width(p.integer(P::kNodeEndWidth)),
       max_gap(p.integer(P::kMaxGap)),
       smoothing_radius(p.integer(P::kSmoothingRadius)) {}
+
+PathMatchingOptions Settings::path_matching(int level) const {
+  PathMatchingOptions options = {census_cost, smoothness, selection};
+  if (level == 0) return options;
+  for (int i = 0; i < level; ++i) {
+    options.cost.disparities = half_of(options.cost.disparities);
+  }
+  options.selection.disparities = options.cost.disparities;
+  options.selection.left_right_tolerance = kHalvedTolerance;
+  options.cost.kernel_size = kHalvedKernel;
+  options.cost.range_penalty = kHalvedRangePenalty;
+  options.cost.bytes = census_bytes(1);
+  options.smoothness = kHalvedSmoothness;
+  return options;
+}
 
 }  // namespace mtstereo

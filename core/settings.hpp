@@ -8,6 +8,7 @@
 #include "stages/pixels/census_cost.hpp"
 #include "stages/pixels/census_matching.hpp"
 #include "stages/pixels/disparity_selection.hpp"
+#include "stages/pixels/path_matching.hpp"
 #include "stages/pixels/scanline_optimization.hpp"
 #include "stages/pixels/search_range.hpp"
 
@@ -66,6 +67,11 @@ struct Settings {
   CensusMatchingOptions census_matching() const {
     return {search_range, census_cost, smoothness, selection};
   }
+  /// Whether every pixel gets a disparity: all are matched along four paths, without nodes, and the
+  /// rest is inferred. With the gradient cost, mode full is like semi-dense.
+  bool full() const { return mode == Mode::kFull && census(); }
+  /// The options of mode full for the views at 1 / 2^level of the matched resolution.
+  PathMatchingOptions path_matching(int level) const;
   /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost
   /// the nodes themselves are drawn at their ends only, see drawn_end_width().
   bool keeps_only_ends() const { return mode == Mode::kSparse && census(); }

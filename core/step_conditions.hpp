@@ -16,9 +16,13 @@ inline bool if_half(const Settings& s) { return s.half(); }
 inline bool if_refined(const Settings& s) { return s.refined(); }
 inline bool if_census(const Settings& s) { return s.census(); }
 inline bool if_gradient(const Settings& s) { return !s.census(); }
-inline bool if_outliers(const Settings& s) { return s.outlier_radius > 0; }
+inline bool if_full(const Settings& s) { return s.full(); }
+/// Whether nodes guide the matching of pixels.
+inline bool if_nodes(const Settings& s) { return !s.full(); }
+inline bool if_outliers(const Settings& s) { return if_nodes(s) && s.outlier_radius > 0; }
+inline bool if_guided_census(const Settings& s) { return if_nodes(s) && s.census(); }
 inline bool if_pixel_outliers(const Settings& s) {
-  return s.outlier_radius > 0 && s.outlier_removal == OutlierRemoval::kNodesAndPixels;
+  return if_outliers(s) && s.outlier_removal == OutlierRemoval::kNodesAndPixels;
 }
 inline bool if_speckles(const Settings& s) { return s.speckle_size > 1; }
 inline bool if_islands(const Settings& s) {

@@ -20,10 +20,14 @@ Group& group(FrameMemory& memory) {
     return memory.nodes;
   } else if constexpr (std::is_same_v<Plain, Costs>) {
     return memory.costs;
+  } else if constexpr (std::is_same_v<Plain, Pyramid>) {
+    return memory.pyramid;
   } else if constexpr (std::is_same_v<Plain, Maps>) {
     return memory.maps;
   } else if constexpr (std::is_same_v<Plain, EnlargedMaps>) {
     return memory.enlarged;
+  } else if constexpr (std::is_same_v<Plain, Completion>) {
+    return memory.completion;
   } else {
     static_assert(std::is_same_v<Plain, OutputMaps>, "FrameMemory has no such group");
     return memory.output;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "path_steps.hpp"
 #include "stages/nodes/disparity_drawing.hpp"
 #include "stages/nodes/node_extrapolation.hpp"
 #include "stages/nodes/node_levels.hpp"
@@ -86,8 +87,10 @@ void filter_noise(const StepContext& step, Views& views) {
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int) {
     measure_blocks(views.matched[side], y0, y1, views.noise[side]);
   });
-  const float threshold = std::max(noise_threshold(noise_level(views.noise[0])),
-                                   noise_threshold(noise_level(views.noise[1])));
+  const float levels[] = {noise_level(views.noise[0]), noise_level(views.noise[1])};
+  // The filter also removes fine texture, which the paths of mode full need more than nodes do.
+  if (step.settings.full() && std::max(levels[0], levels[1]) < kLeastNoiseOfFull) return;
+  const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
     mtstereo::filter_noise(views.matched[side], threshold, y0, y1,
                            views.scratch[worker].noise_filter, views.filtered[side]);
@@ -339,17 +342,19 @@ constexpr Step kSteps[] = {
     {"view-shift",          if_shifted,        on<shift_views, Views>},
     {"halving",             if_half,           on<halve, Views>},
     {"noise-filter",        if_noise_filter,   on<filter_noise, Views>},
-    {"preprocessing",       always,            on<preprocess, Views>},
-    {"max-trees",           always,            on<build_trees, Views, Nodes>},
+    {"preprocessing",       if_nodes,           on<preprocess, Views>},
+    {"max-trees",           if_nodes,           on<build_trees, Views, Nodes>},
     {"census",              if_census,         on<transform, Views>},
     {"cost-volume",         if_gradient,       on<compute_cost_volume, const Views, Costs>},
     // nodes
-    {"node-matching",       always,            on<match_levels, const Views, const Costs, Nodes>},
+    {"node-matching",       if_nodes,           on<match_levels, const Views, const Costs, Nodes>},
     {"node-drawing",        if_outliers,       on<draw_leaves, const Nodes, Maps>},
     {"node-outliers",       if_outliers,       on<remove_node_outliers, Nodes, Maps>},
-    {"node-extrapolation",  always,            on<extrapolate, Nodes, Maps>},
+    {"node-extrapolation",  if_nodes,           on<extrapolate, Nodes, Maps>},
     // pixels
-    {"census-matching",     if_census,         on<match_by_census, const Views, Costs, Maps>},
+    {"reduced-matching",    if_full,           on<match_reduced, Views, Pyramid>},
+    {"path-matching",       if_full,           on<match_by_paths, const Views, Pyramid, Maps>},
+    {"census-matching",     if_guided_census,  on<match_by_census, const Views, Costs, Maps>},
     {"gradient-matching",   if_gradient,       on<match_by_gradient, Costs, Maps>},
     // refine
     {"pixel-outliers",      if_pixel_outliers, on<remove_outliers, Maps>},
@@ -362,6 +367,8 @@ constexpr Step kSteps[] = {
     {"input-census",        if_refined,        on<transform_input, Views>},
     {"refinement",          if_refined,        on<refine, const Views, EnlargedMaps>},
     {"map-shift",           if_shifted,        on<shift_map, const Maps, const EnlargedMaps, OutputMaps>},
+    {"completion",          if_full,           on<complete_map, Maps, EnlargedMaps, OutputMaps>},
+    {"edge-alignment",      if_full,           on<align_map_edges, const Views, Maps, EnlargedMaps, OutputMaps, Completion>},
 };
 // clang-format on
 

@@ -22,6 +22,9 @@ class Bands {
   /// For images with this many rows. The pool must outlive the object.
   Bands(ThreadPool& pool, int height) : pool_(pool), height_(height) {}
 
+  /// The same for images with another number of rows.
+  Bands of_height(int rows) const { return {pool_, rows}; }
+
   int threads() const { return pool_.threads(); }
   int height() const { return height_; }
 

@@ -6,7 +6,7 @@
   mtstereo-figures --steps | architecture.py picture PICTURE.png
 
 The program prints the steps and the presets that run them. The memory that each step is given and
-the stages that it calls are read from core/steps.cpp. The exit status is 1 if the two do not fit
+the stages that it calls are read from core/steps.cpp and core/path_steps.cpp. The exit status is 1 if the two do not fit
 together or a stage has no test, and if the picture cannot be made.
 """
 import pathlib
@@ -15,7 +15,8 @@ import sys
 from dataclasses import dataclass
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-GROUPS = ("Views", "Nodes", "Costs", "Maps", "EnlargedMaps", "OutputMaps")
+STEPS = ("core/steps.cpp", "core/path_steps.cpp")  # the list is in the first one
+GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "EnlargedMaps", "OutputMaps", "Completion")
 INK, FAINT, GIVEN, EDGE = "#282828", "#767676", "#1464be", "#b4b4b4"
 GST, CORE, ROOM = "#fdf0dc", "#e4eefa", "#f4f4f4"
 
@@ -46,10 +47,14 @@ def printed_steps(text):
     return steps
 
 
+def sources():
+    return "\n".join((SOURCE / file).read_text() for file in STEPS)
+
+
 def declared_functions():
-    """{function: "room/stage"} of the headers that core/steps.cpp includes."""
+    """{function: "room/stage"} of the headers that the files of the steps include."""
     functions = {}
-    source = (SOURCE / "core/steps.cpp").read_text()
+    source = sources()
     for stage in re.findall(r'^#include "stages/(\w+/\w+)\.hpp"', source, re.MULTILINE):
         header = (SOURCE / f"core/stages/{stage}.hpp").read_text()
         for name in re.findall(r"^[a-z][\w:<>&*, ]* (\w+)\(", header, re.MULTILINE):
@@ -58,7 +63,7 @@ def declared_functions():
 
 
 def stages_of(function, bodies, declared, seen=()):
-    """The stages that a function of core/steps.cpp calls, itself or by another one of that file."""
+    """The stages that a function of the steps calls, itself or by another one of them."""
     stages = []
     for name in re.findall(r"\b(\w+)\(", bodies[function]):
         found = [declared[name]] if name in declared else []
@@ -71,7 +76,7 @@ def stages_of(function, bodies, declared, seen=()):
 def read_steps(text):
     """The list of core/steps.cpp, with the presets that the program has printed."""
     printed, declared = printed_steps(text), declared_functions()
-    source = (SOURCE / "core/steps.cpp").read_text()
+    source = sources()
     bodies = dict(re.findall(r"^void (\w+)\((const StepContext.*?)^}", source,
                              re.MULTILINE | re.DOTALL))
     rows = re.search(r"^constexpr Step kSteps\[\] = \{\n(.*?)^\};", source,
@@ -111,11 +116,15 @@ def check(steps, printed):
 
 def presets_of(step, steps):
     """Which presets run a step, in few words: "always", "default, fast", "mode dense"."""
-    everything = steps[[step.name for step in steps].index("preprocessing")].runs
+    everything = steps[[step.name for step in steps].index("confidence")].runs
     if step.runs == everything:
         return "always"
-    if step.runs and all(modes == ["dense"] for modes in step.runs.values()):
-        return "mode dense"
+    for mode in ("dense", "full"):
+        if step.runs and all(modes == [mode] for modes in step.runs.values()):
+            return f"mode {mode}"
+    if step.runs == {preset: [mode for mode in modes if mode != "full" or preset == "paper"]
+                     for preset, modes in everything.items()}:
+        return "all modes but full"
     return ", ".join(preset if modes == everything[preset] else f"{preset} {'/'.join(modes)}"
                      for preset, modes in step.runs.items()) or "on request"
 

@@ -56,6 +56,26 @@ TEST(Steps, FillGapsAfterConfidenceInModeDense) {
                {"census-matching", "speckle-removal", "confidence", "gap-filling"});
 }
 
+TEST(Steps, MatchAlongPathsInsteadOfNodesInModeFull) {
+  const Parameters full = test::parameters({{"mode", "full"}});
+  expect_order(full, {"noise-filter", "census", "reduced-matching", "path-matching",
+                      "speckle-removal", "confidence", "smoothing", "completion",
+                      "edge-alignment"});
+  expect_none_of(full, {"preprocessing", "max-trees", "node-matching", "node-extrapolation",
+                        "census-matching", "gap-filling", "island-removal"});
+}
+
+TEST(Steps, CompleteTheMapAfterItHasTheSizeOfTheViewsInModeFull) {
+  expect_order(test::parameters({{"mode", "full"}, {"preset", "fast"}, {"min-disparity", "3"}}),
+               {"halving", "path-matching", "enlarging", "refinement", "map-shift", "completion",
+                "edge-alignment"});
+}
+
+TEST(Steps, AreThoseOfSemiDenseInModeFullOfThePaper) {
+  EXPECT_EQ(test::names_of_steps(test::parameters({{"mode", "full"}, {"preset", "paper"}})),
+            test::names_of_steps(test::parameters({{"mode", "semi-dense"}, {"preset", "paper"}})));
+}
+
 TEST(Steps, MatchHalvedViewsInPresetFast) {
   expect_order(test::parameters({{"preset", "fast"}}),
                {"halving", "preprocessing", "max-trees", "census", "node-matching",

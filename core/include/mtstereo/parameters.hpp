@@ -12,14 +12,16 @@
 
 namespace mtstereo {
 
-/// How many pixels get a disparity (paper, section II-A "Disparity map"; kDense is an extension).
+/// How many pixels get a disparity (paper, section II-A "Disparity map"; kDense and kFull are
+/// extensions).
 enum class Mode {
   kSparse,     ///< only pixels at the ends of the finest nodes: few pixels, few errors
   kSemiDense,  ///< all pixels with a reliable disparity
   kDense,      ///< also less reliable disparities, and gaps whose two sides agree
+  kFull,       ///< all pixels: those that cannot be matched are inferred, at low confidence
 };
 /// Number of modes.
-inline constexpr int kModes = 3;
+inline constexpr int kModes = 4;
 
 /// A set of defaults for all parameters.
 enum class Preset {
@@ -77,7 +79,7 @@ enum class Parameter {
 };
 
 /// Largest number of choices of a ParameterType::kChoice.
-inline constexpr int kMostChoices = 3;
+inline constexpr int kMostChoices = 4;
 
 /// Number of parameters.
 inline constexpr int kParameters = static_cast<int>(Parameter::kSmoothingRadius) + 1;

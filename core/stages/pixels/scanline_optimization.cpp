@@ -11,52 +11,10 @@
 
 #define HWY_TARGET_INCLUDE "stages/pixels/scanline_optimization.cpp"
 #include "base/simd.hpp"
+#include "stages/pixels/path_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
-
-// Byte shifts work within blocks of 16 bytes. In vectors of two blocks one operation fetches the
-// neighboring block; wider ones have none for that.
-using Bytes = hn::CappedTag<std::uint8_t, 32>;
-
-/// The least of all lanes, in every lane.
-template <class V>
-V least_of_lanes(Bytes d8, V v) {
-#if HWY_TARGET == HWY_SSSE3
-  // SSSE3 has no minimum of unsigned words.
-  v = hn::Min(v, hn::ShiftRightBytes<8>(d8, v));
-  v = hn::Min(v, hn::ShiftRightBytes<4>(d8, v));
-  v = hn::Min(v, hn::ShiftRightBytes<2>(d8, v));
-  v = hn::Min(v, hn::ShiftRightBytes<1>(d8, v));
-  return hn::TableLookupBytes(v, hn::Zero(d8));
-#else
-  const hn::Repartition<std::uint16_t, Bytes> d16;
-  const auto pairs = hn::BitCast(d16, v);
-  const auto least =
-      hn::MinOfLanes(d16, hn::Min(hn::And(pairs, hn::Set(d16, 0xFF)), hn::ShiftRight<8>(pairs)));
-  return hn::BitCast(d8, hn::Or(least, hn::ShiftLeft<8>(least)));
-#endif
-}
-
-/// The lanes of `v` moved up by one; the first is the last lane of `before`.
-template <class V>
-HWY_INLINE V lanes_before(Bytes d8, V v, V before) {
-  if constexpr (hn::MaxLanes(d8) <= 16) {
-    return hn::CombineShiftRightBytes<15>(d8, v, before);
-  } else {
-    return hn::CombineShiftRightBytes<15>(d8, v, hn::ConcatLowerUpper(d8, v, before));
-  }
-}
-
-/// The lanes of `v` moved down by one; the last is the first lane of `after`.
-template <class V>
-HWY_INLINE V lanes_after(Bytes d8, V v, V after) {
-  if constexpr (hn::MaxLanes(d8) <= 16) {
-    return hn::CombineShiftRightBytes<1>(d8, after, v);
-  } else {
-    return hn::CombineShiftRightBytes<1>(d8, hn::ConcatLowerUpper(d8, after, v), v);
-  }
-}
 
 /// The state of one path along the row: the costs of its last pixel and the inputs of the next
 /// step.
@@ -92,9 +50,8 @@ class Path {
     auto same = hn::Load(d8, newest_);
     for (int d = 0; d < lanes_; d += step) {
       const auto after = hn::Load(d8, newest_ + d + step);
-      const auto adjacent = hn::Min(lanes_before(d8, same, before), lanes_after(d8, same, after));
-      const auto best = hn::Min(hn::Min(same, hn::SaturatedAdd(adjacent, small_step_)), any);
-      const auto path = hn::SaturatedAdd(hn::Load(d8, costs + d), hn::SaturatedSub(best, least_));
+      const auto path =
+          path_costs(d8, hn::Load(d8, costs + d), before, same, after, small_step_, any, least_);
       hn::Store(path, d8, other_ + d);
       least = hn::Min(least, path);
       before = same;
@@ -115,13 +72,22 @@ class Path {
 
   /// Writes the sums of the last pixel's costs and of those that the other path has stored for it.
   HWY_INLINE void add(const std::uint8_t* paths, int x, std::uint16_t* sums) const {
-    const std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
-    const hn::CappedTag<std::uint16_t, kCostStep> d16;
-    const hn::Rebind<std::uint8_t, decltype(d16)> d8;
-    for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(d16))) {
-      const auto one = hn::PromoteTo(d16, hn::Load(d8, newest_ + d));
-      const auto other = hn::PromoteTo(d16, hn::Load(d8, kept + d));
-      hn::Store(hn::Add(one, other), d16, sums + d);
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * lanes_;
+    for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(Sums()))) {
+      hn::Store(sum(paths + first, d), Sums(), sums + d);
+    }
+  }
+
+  /// The same with the paths along the columns: half the sums of all four.
+  HWY_INLINE void add_columns(const std::uint8_t* paths, const ColumnCosts& columns, int x,
+                              std::uint16_t* sums) const {
+    const hn::Rebind<std::uint8_t, Sums> d8;
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * lanes_;
+    for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(Sums()))) {
+      const auto above = hn::PromoteTo(Sums(), hn::Load(d8, columns.from_above + first + d));
+      const auto below = hn::PromoteTo(Sums(), hn::Load(d8, columns.from_below + first + d));
+      const auto all = hn::Add(sum(paths + first, d), hn::Add(above, below));
+      hn::Store(hn::ShiftRight<1>(all), Sums(), sums + d);
     }
   }
 
@@ -132,6 +98,14 @@ class Path {
   }
 
  private:
+  using Sums = hn::CappedTag<std::uint16_t, kCostStep>;
+
+  HWY_INLINE hn::Vec<Sums> sum(const std::uint8_t* kept, int d) const {
+    const hn::Rebind<std::uint8_t, Sums> d8;
+    return hn::Add(hn::PromoteTo(Sums(), hn::Load(d8, newest_ + d)),
+                   hn::PromoteTo(Sums(), hn::Load(d8, kept + d)));
+  }
+
   const std::uint8_t* costs_;
   const std::uint8_t* gray_;
   const std::uint8_t* large_step_;
@@ -169,13 +143,13 @@ void walk_to_middle(const ScanlineRow& row, ScanlineScratch& scratch) {
 }
 
 /// Advances both paths over their blocks: the left one over left_begin .. left_end - 1, the right
-/// one backwards from right_end - 1 to right_begin.
-void walk_block(const ScanlineRow& row, int left_begin, int left_end, int right_begin,
-                int right_end, ScanlineScratch& scratch) {
+/// one backwards from right_end - 1 to right_begin. `add` writes the sums of a path's column.
+template <class Add>
+HWY_INLINE void walk(const ScanlineRow& row, int left_begin, int left_end, int right_begin,
+                     int right_end, const Add& add, ScanlineScratch& scratch) {
   const int lanes = cost_lanes(row.disparities);
   Path from_left(row, lanes, kFromLeft, scratch);
   Path from_right(row, lanes, kFromRight, scratch);
-  const std::uint8_t* paths = scratch.paths.data();
   std::uint16_t* left_sums = scratch.sums.data();
   std::uint16_t* right_sums = left_sums + kScanlineBlock * lanes;
   const int left_steps = left_end - left_begin;
@@ -184,16 +158,32 @@ void walk_block(const ScanlineRow& row, int left_begin, int left_end, int right_
     if (i < left_steps) {
       const int x = left_begin + i;
       from_left.step(x, x == 0);
-      from_left.add(paths, x, left_sums + i * lanes);
+      add(from_left, x, left_sums + i * lanes);
     }
     if (i < right_steps) {
       const int x = right_end - 1 - i;
       from_right.step(x, false);
-      from_right.add(paths, x, right_sums + (x - right_begin) * lanes);
+      add(from_right, x, right_sums + (x - right_begin) * lanes);
     }
   }
   from_left.leave(kFromLeft, scratch);
   from_right.leave(kFromRight, scratch);
+}
+
+void walk_block(const ScanlineRow& row, int left_begin, int left_end, int right_begin,
+                int right_end, ScanlineScratch& scratch) {
+  const std::uint8_t* paths = scratch.paths.data();
+  if (row.columns.from_above == nullptr) {
+    const auto add = [&](const Path& path, int x, std::uint16_t* sums) {
+      path.add(paths, x, sums);
+    };
+    walk(row, left_begin, left_end, right_begin, right_end, add, scratch);
+  } else {
+    const auto add = [&](const Path& path, int x, std::uint16_t* sums) {
+      path.add_columns(paths, row.columns, x, sums);
+    };
+    walk(row, left_begin, left_end, right_begin, right_end, add, scratch);
+  }
 }
 
 }  // namespace mtstereo::HWY_NAMESPACE

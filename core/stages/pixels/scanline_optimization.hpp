@@ -25,6 +25,13 @@ struct SmoothnessOptions {
 using LargeStepTable = std::array<std::uint8_t, 256>;
 LargeStepTable large_step_table(const SmoothnessOptions& options);
 
+/// The path costs of a row along its columns, from above and from below: cells as those of
+/// ScanlineRow::costs; or nullptr.
+struct ColumnCosts {
+  const std::uint8_t* from_above = nullptr;
+  const std::uint8_t* from_below = nullptr;
+};
+
 /// The input of one row.
 struct ScanlineRow {
   const std::uint8_t* costs;  ///< cell [x][d] at x * cost_lanes(disparities) + d
@@ -33,12 +40,15 @@ struct ScanlineRow {
   int disparities;
   int small_step;
   const LargeStepTable* large_step;
+  ColumnCosts columns = {};
 };
 
 /// Pixels of a block.
 inline constexpr int kScanlineBlock = 16;
 
-/// The sums of both paths' costs of the columns begin .. end - 1, at (x - begin) * lanes + d.
+/// The sums of both paths' costs of the columns begin .. end - 1, at (x - begin) * lanes + d. With
+/// ScanlineRow::columns they are half the sums of four paths, rounded down: as large as those of
+/// two.
 struct ScanlineSums {
   int begin;
   int end;

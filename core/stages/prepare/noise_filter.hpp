@@ -21,6 +21,9 @@ inline constexpr int kNoiseWindow = 7;
 /// fine detail a codec has removed or replaced.
 float noise_threshold(float level);
 
+/// Mode full filters only views with at least this noise [gray values].
+inline constexpr float kLeastNoiseOfFull = 1.5F;
+
 /// Scratch memory of one thread.
 struct NoiseFilterScratch {
   Image<std::uint8_t> view;      ///< the rows of a band with their borders

@@ -131,7 +131,7 @@ TEST_F(Allocation, OfATrackerThatFailsIsAnError) {
 
 TEST_F(Allocation, NeverHappensInLaterFramesInAnyModeOfAnyPreset) {
   for (const char* const threads : {"1", "2"}) {
-    for (const char* const mode : {"sparse", "semi-dense", "dense"}) {
+    for (const char* const mode : {"sparse", "semi-dense", "dense", "full"}) {
       SCOPED_TRACE(testing::Message() << mode << ", threads " << threads);
       for (const char* const preset : {"fast", "paper"}) {
         expect_no_allocations({{"threads", threads}, {"preset", preset}, {"mode", mode}});

@@ -47,9 +47,11 @@ constexpr Golden kGolden[] = {
     {"default", "sparse", 0x28618abb18c13521},
     {"default", "semi-dense", 0xcfae0a1e708a4696},
     {"default", "dense", 0x329a9b54232d3192},
+    {"default", "full", 0x1a8ece87c389db9c},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0x1fb0f5218460c61a},
     {"fast", "dense", 0xc3004d6014848394},
+    {"fast", "full", 0x282804f27d8fb0e5},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -46,6 +46,10 @@ TEST(MatcherThreads, HaveTheSameResultForAnyNumber) {
         threads);
     expect_same_as_one_thread(pair, test::parameters({{"mode", "dense"}, {"min-confidence", "60"}}),
                               threads);
+    for (const char* const preset : {"default", "fast"}) {
+      expect_same_as_one_thread(pair, test::parameters({{"preset", preset}, {"mode", "full"}}),
+                                threads);
+    }
     for (const char* const preset : {"fast", "paper"}) {
       expect_same_as_one_thread(pair, test::parameters({{"preset", preset}}), threads);
     }

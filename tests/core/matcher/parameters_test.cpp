@@ -112,7 +112,7 @@ TEST(Parameters, AcceptEveryDefaultOfTheTable) {
 
 TEST(Parameters, HaveTheDefaultsOfPresetAndModeIfUnset) {
   const char* const presets[] = {"default", "fast", "paper"};
-  const char* const modes[] = {"sparse", "semi-dense", "dense"};
+  const char* const modes[] = {"sparse", "semi-dense", "dense", "full"};
   for (int preset = 0; preset < kPresets; ++preset) {
     for (int mode = 0; mode < kModes; ++mode) {
       const Parameters parameters =

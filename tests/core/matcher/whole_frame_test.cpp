@@ -28,7 +28,7 @@ Parameters random_parameters(int width, Random& random) {
   const int least = random.below(3) == 0 ? random.between(-12, most - 1) : 0;
   return test::parameters({
       {"preset", one_of(random, {"default", "fast", "paper"})},
-      {"mode", one_of(random, {"sparse", "semi-dense", "dense"})},
+      {"mode", one_of(random, {"sparse", "semi-dense", "dense", "full"})},
       {"max-disparity", std::to_string(most)},
       {"min-disparity", std::to_string(least)},
       {"resolution", one_of(random, {"full", "full", "half", "half-refined"})},

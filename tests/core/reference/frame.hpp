@@ -8,11 +8,14 @@
 
 #include "reference/nodes/node_extrapolation.hpp"
 #include "reference/nodes/outlier_removal.hpp"
+#include "reference/pixels/path_matching.hpp"
 #include "reference/pixels/pixel_matching.hpp"
 #include "reference/prepare/halving.hpp"
 #include "reference/prepare/noise_filter.hpp"
+#include "reference/refine/completion.hpp"
 #include "reference/refine/confidence.hpp"
 #include "reference/refine/disparity_refinement.hpp"
+#include "reference/refine/edge_alignment.hpp"
 #include "reference/refine/enlarging.hpp"
 #include "reference/refine/gap_filling.hpp"
 #include "reference/refine/map_smoothing.hpp"
@@ -24,10 +27,11 @@ namespace mtstereo::reference {
 
 /// The data that the scalar versions of the steps keep for one frame.
 struct Frame {
-  Frame(const GrayPlane& left, const GrayPlane& right, const Settings& s)
-      : settings(s), input{left, right}, views{left, right} {}
+  Frame(const GrayPlane& left_view, const GrayPlane& right, const Settings& s)
+      : settings(s), left(left_view), input{left_view, right}, views{left_view, right} {}
 
   const Settings settings;
+  const GrayPlane left;  ///< as the caller passes it
   std::array<GrayPlane, 2> input;
   std::array<GrayPlane, 2> views;  ///< the matched views
   std::array<GrayPlane, 2> medians;
@@ -36,7 +40,8 @@ struct Frame {
   Volume volume;
   Level leaves;
   Matches matches;
-  DisparityPlane nodes;  ///< the drawn leaves; without outliers after their removal
+  DisparityPlane half_map;  ///< of the views at half the matched resolution, for mode full
+  DisparityPlane nodes;     ///< the drawn leaves; without outliers after their removal
   DisparityPlane map;
   GrayPlane ratio;
   GrayPlane area;  ///< weights of the areas
@@ -80,8 +85,9 @@ inline void halve(Frame& f) {
 }
 
 inline void filter_noise(Frame& f) {
-  const float threshold =
-      std::max(noise_threshold(noise_level(f.views[0])), noise_threshold(noise_level(f.views[1])));
+  const float levels[] = {noise_level(f.views[0]), noise_level(f.views[1])};
+  if (f.settings.full() && std::max(levels[0], levels[1]) < kLeastNoiseOfFull) return;
+  const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
   for (GrayPlane& view : f.views) view = filter_noise(view, threshold);
 }
 
@@ -147,6 +153,22 @@ inline void match_by_gradient(Frame& f) {
   take(f, match_pixels(f.volume, {f.settings.search_range, f.settings.selection}, f.map));
 }
 
+inline void match_reduced(Frame& f) {
+  std::array<std::array<GrayPlane, 2>, 4> views = {f.views};
+  for (int i = 1; i < 4; ++i) {
+    for (int side = 0; side < 2; ++side) views[i][side] = halve(views[i - 1][side]);
+  }
+  for (int i = 3; i > 0; --i) {
+    f.half_map = match_along_paths(views[i][0], views[i][1], i == 3 ? nullptr : &f.half_map,
+                                   f.settings.path_matching(i))
+                     .map;
+  }
+}
+
+inline void match_by_paths(Frame& f) {
+  take(f, match_along_paths(f.views[0], f.views[1], &f.half_map, f.settings.path_matching(0)));
+}
+
 inline void remove_pixel_outliers(Frame& f) {
   f.map = remove_outliers(f.map, f.settings.outlier_radius);
 }
@@ -179,12 +201,22 @@ inline void remove_islands(Frame& f) {
   }
 }
 
+inline void take(Frame& f, const ConfidentMap& result) {
+  f.map = result.map;
+  f.confidence = result.confidence;
+}
+
 inline void fill_gaps(Frame& f) {
   ConfidentMap filled = {f.map, f.confidence};
   filled = fill_gaps(filled, f.settings.max_gap, 256, 1, 0);
   filled = fill_gaps(filled, f.settings.max_gap, 256, 0, 1);
-  f.map = filled.map;
-  f.confidence = filled.confidence;
+  take(f, filled);
+}
+
+inline void complete(Frame& f) { take(f, complete(ConfidentMap{f.map, f.confidence})); }
+
+inline void align_edges(Frame& f) {
+  take(f, align_edges(f.left, ConfidentMap{f.map, f.confidence}));
 }
 
 inline void smooth(Frame& f) { f.map = smooth(f.map, f.settings.smoothing_radius); }
@@ -216,6 +248,8 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"node-drawing", draw_nodes},
     {"node-outliers", remove_node_outliers},
     {"node-extrapolation", extrapolate},
+    {"reduced-matching", match_reduced},
+    {"path-matching", match_by_paths},
     {"census-matching", match_by_census},
     {"gradient-matching", match_by_gradient},
     {"pixel-outliers", remove_pixel_outliers},
@@ -228,6 +262,8 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"input-census", nothing},
     {"refinement", refine},
     {"map-shift", shift_map},
+    {"completion", complete},
+    {"edge-alignment", align_edges},
 };
 
 /// Runs the scalar version of a step. A step without one leaves the frame unchanged: if the step

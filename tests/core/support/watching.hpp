@@ -12,12 +12,16 @@
 
 namespace mtstereo::test {
 
-/// The disparity map after a step; empty if no step has written one yet.
+/// The disparity map after a step; empty if no step has written one yet, and after the last steps
+/// of mode full, which change the result in its place.
 inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
   static constexpr std::string_view kBefore[] = {
-      "row-alignment", "sharpness", "view-shift", "halving",     "noise-filter",
-      "preprocessing", "max-trees", "census",     "cost-volume", "node-matching"};
+      "row-alignment", "sharpness",     "view-shift",      "halving",
+      "noise-filter",  "preprocessing", "max-trees",       "census",
+      "cost-volume",   "node-matching", "reduced-matching"};
+  static constexpr std::string_view kInPlace[] = {"completion", "edge-alignment"};
   if (std::count(std::begin(kBefore), std::end(kBefore), step.name) > 0) return {};
+  if (std::count(std::begin(kInPlace), std::end(kInPlace), step.name) > 0) return {};
   if (step.name == "map-shift") return memory.output.disparity.view();
   if (step.name == "refinement") return memory.enlarged.refined.view();
   if (step.name == "enlarging" || step.name == "input-census") {
@@ -26,7 +30,7 @@ inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
   return memory.maps.disparity.view();
 }
 
-/// The map after each step that ran, if there is one.
+/// The map after each step that ran, if there is one, and the result.
 using StepMaps = std::vector<std::pair<std::string, DisparityPlane>>;
 
 inline StepMaps maps_after_steps(FrameMatcher& matcher, const GrayPlane& left,
@@ -36,6 +40,7 @@ inline StepMaps maps_after_steps(FrameMatcher& matcher, const GrayPlane& left,
     const DisparityView map = map_after(step, memory);
     if (map.width > 0) maps.emplace_back(step.name, copy_of(map));
   });
+  maps.emplace_back("result", copy_of(matcher.disparity()));
   return maps;
 }
 

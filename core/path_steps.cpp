@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The steps of mode full, for the list in steps.cpp. The build compiles the stages whose headers
+// are included here.
+#include "path_steps.hpp"
+
+#include "stages/pixels/path_matching.hpp"
+#include "stages/prepare/census.hpp"
+#include "stages/prepare/halving.hpp"
+#include "stages/refine/completion.hpp"
+#include "stages/refine/edge_alignment.hpp"
+
+namespace mtstereo {
+namespace {
+
+/// Writes the views of a level and their census transforms.
+void reduce(const StepContext& step, const std::array<GrayView, 2>& views,
+            std::vector<Views::Scratch>& scratch, PyramidLevel& level) {
+  const Bands bands = step.bands.of_height(level.views[0].height());
+  bands.rows_of_both_views(
+      [&](int side, int y0, int y1, int) { halve_rows(views[side], y0, y1, level.views[side]); });
+  bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
+    census_rows(level.views[side].view(), 1, y0, y1, scratch[worker].census, level.census[side]);
+  });
+}
+
+/// The maps that the caller gets.
+struct CallersMaps {
+  Image<std::int32_t>& disparity;
+  Image<std::uint8_t>& confidence;
+};
+
+CallersMaps callers_maps(const Settings& settings, Maps& maps, EnlargedMaps& enlarged,
+                         OutputMaps& output) {
+  if (settings.shifted()) return {output.disparity, output.confidence};
+  return {last_disparity(settings, maps, enlarged), last_confidence(settings, maps, enlarged)};
+}
+
+}  // namespace
+
+void match_reduced(const StepContext& step, Views& views, Pyramid& pyramid) {
+  std::array<GrayView, 2> finer = views.matched;
+  for (PyramidLevel& level : pyramid.levels) {
+    reduce(step, finer, views.scratch, level);
+    for (int side = 0; side < 2; ++side) finer[side] = level.views[side].view();
+  }
+  const Image<std::int32_t>* expected = nullptr;
+  for (int i = kPyramidLevels - 1; i >= 0; --i) {
+    PyramidLevel& level = pyramid.levels[i];
+    const PathMatchingOptions options = step.settings.path_matching(i + 1);
+    step.bands.blocks(level.disparity.height(), kPathRows, [&](int y0, int y1, int worker) {
+      match_along_paths(level.views[0].view(), level.census[0], level.census[1], expected, options,
+                        y0, y1, pyramid.scratch[worker], level.disparity, level.ratio);
+    });
+    expected = &level.disparity;
+  }
+}
+
+void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyramid, Maps& maps) {
+  const PathMatchingOptions options = step.settings.path_matching(0);
+  step.bands.blocks(maps.disparity.height(), kPathRows, [&](int y0, int y1, int worker) {
+    match_along_paths(views.matched[0], views.census[0], views.census[1],
+                      &pyramid.levels[0].disparity, options, y0, y1, pyramid.scratch[worker],
+                      maps.disparity, maps.ratio);
+  });
+}
+
+void complete_map(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output) {
+  const CallersMaps result = callers_maps(step.settings, maps, enlarged, output);
+  step.input_bands.rows(
+      [&](int y0, int y1, int) { complete_rows(y0, y1, result.disparity, result.confidence); });
+  complete_empty_rows(result.disparity, result.confidence);
+}
+
+void align_map_edges(const StepContext& step, const Views& views, Maps& maps,
+                     EnlargedMaps& enlarged, OutputMaps& output, Completion& completion) {
+  const CallersMaps result = callers_maps(step.settings, maps, enlarged, output);
+  step.input_bands.rows([&](int y0, int y1, int) {
+    find_jumps(views.left, result.disparity, y0, y1, completion.edges);
+  });
+  step.input_bands.rows([&](int y0, int y1, int worker) {
+    align_edges(completion.edges, y0, y1, completion.scratch[worker], result.disparity,
+                result.confidence);
+  });
+}
+
+}  // namespace mtstereo

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "frame_memory.hpp"
+#include "steps.hpp"
+
+/// Internal to the list of steps: those of mode full.
+
+namespace mtstereo {
+
+/// Matches the views at the reduced resolutions, coarse to fine. Each map is the expectation of the
+/// next one.
+void match_reduced(const StepContext& step, Views& views, Pyramid& pyramid);
+
+/// Matches the views at the matched resolution.
+void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyramid, Maps& maps);
+
+/// Gives the remaining pixels of the result a disparity.
+void complete_map(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output);
+
+/// Moves jumps of the complete result to the edges of the left view.
+void align_map_edges(const StepContext& step, const Views& views, Maps& maps,
+                     EnlargedMaps& enlarged, OutputMaps& output, Completion& completion);
+
+}  // namespace mtstereo

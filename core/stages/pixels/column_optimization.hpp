@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "stages/pixels/scanline_optimization.hpp"
+
+namespace mtstereo {
+
+/// Paths of semi-global matching along the columns, for path_matching: the counterpart of
+/// scanline_optimization. A path goes from row to row, upwards or downwards, so that one call
+/// advances the paths of all columns by one row.
+
+/// The input of one row.
+struct ColumnStep {
+  const std::uint8_t* costs;        ///< cell [x][d] at x * cost_lanes(disparities) + d
+  const std::uint8_t* gray;         ///< of the left view
+  const std::uint8_t* gray_before;  ///< of the paths' previous row
+  int width;
+  int disparities;
+  int small_step;
+  const LargeStepTable* large_step;
+};
+
+/// Advances the paths by one row: writes the path costs of its cells, as defined at
+/// start_scanline(), from those of the previous row. `before` may be `paths`; it is nullptr in the
+/// paths' first row. `least` holds the least path cost of each column of the previous row, and then
+/// that of this one.
+void step_columns(const ColumnStep& row, const std::uint8_t* before, std::uint8_t* paths,
+                  std::uint8_t* least);
+
+}  // namespace mtstereo

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "base/buffer.hpp"
+#include "mtstereo/image.hpp"
+#include "stages/pixels/census_cost.hpp"
+#include "stages/pixels/disparity_selection.hpp"
+#include "stages/pixels/scanline_optimization.hpp"
+#include "stages/prepare/census.hpp"
+
+namespace mtstereo {
+
+/// Matching of all pixels by the census cost and four paths, two along the row and two along the
+/// column: runs census_cost, column_optimization, scanline_optimization and disparity_selection.
+/// Instead of the nodes, the map of the views at half the resolution says which disparities are
+/// expected.
+
+/// Rows of a chunk, which is matched at once. Chunks begin at multiples of it.
+inline constexpr int kPathRows = 64;
+
+/// The paths along the columns start this many rows outside of a chunk, so that chunks do not
+/// depend on each other. What is further away has hardly any effect on them.
+inline constexpr int kPathMargin = 16;
+
+/// Reach of the expected range on both sides of twice the half map's disparity [px].
+inline constexpr int kPathReach = 3;
+
+struct PathMatchingOptions {
+  CensusCostOptions cost;
+  SmoothnessOptions smoothness;
+  SelectionOptions selection;
+};
+
+/// Scratch memory of one thread: the costs of a chunk and its margins, and the path costs from
+/// below of a chunk.
+struct PathMatchingScratch {
+  Buffer<std::uint16_t> low;
+  Buffer<std::uint16_t> high;
+  CensusCostScratch cost;
+  ScanlineScratch scanline;
+  SelectionScratch selection;
+  Buffer<std::uint8_t> costs;
+  Buffer<std::uint8_t> below;  ///< of the chunk's rows and the one after them
+  Buffer<std::uint8_t> above;  ///< of one row
+  Buffer<std::uint8_t> least;  ///< of a row's columns
+
+  /// For views of this size. match_along_paths() calls it as well, since one thread matches views
+  /// of different sizes in turn.
+  void resize(int width, int height, const PathMatchingOptions& options);
+};
+
+/// The disparities that are expected in row y: within kPathReach of twice the half map's disparity,
+/// and all where the half map has none, or without a half map (nullptr).
+void find_expected(const Image<std::int32_t>* half_map, int y, int width, int disparities,
+                   std::uint16_t* low, std::uint16_t* high);
+
+/// Writes the disparities and peak ratios of the rows y0 .. y1 - 1. y0 is a multiple of kPathRows,
+/// and y1 the next one or the height.
+void match_along_paths(GrayView left_image, const CensusImage& left, const CensusImage& right,
+                       const Image<std::int32_t>* half_map, const PathMatchingOptions& options,
+                       int y0, int y1, PathMatchingScratch& scratch, Image<std::int32_t>& map,
+                       Image<std::uint8_t>& ratio);
+
+}  // namespace mtstereo

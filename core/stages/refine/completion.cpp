@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/completion.hpp"
+
+#include <algorithm>
+
+#include "mtstereo/image.hpp"
+
+namespace mtstereo {
+namespace {
+
+/// A row's disparities and their confidence.
+struct Row {
+  std::int32_t* disparity;
+  std::uint8_t* confidence;
+  int width;
+};
+
+/// Fills the pixels begin .. end - 1. The pixels before and after them have disparities, or are
+/// outside of the row; not both are outside.
+void fill(const Row& row, int begin, int end) {
+  const bool rim = begin == 0 || end == row.width;
+  const std::int32_t before = row.disparity[begin == 0 ? end : begin - 1];
+  const std::int32_t after = row.disparity[end == row.width ? begin - 1 : end];
+  std::fill(row.disparity + begin, row.disparity + end, std::min(before, after));
+  for (int x = begin; x < end; ++x) {
+    const int from_left = x - begin, from_right = end - 1 - x;
+    const int distance = !rim         ? std::min(from_left, from_right)
+                         : begin == 0 ? from_right
+                                      : from_left;
+    row.confidence[x] =
+        static_cast<std::uint8_t>(std::max(kMostInferred - distance / kInferredStep, 1));
+  }
+}
+
+/// Whether the row has a disparity.
+bool complete(const Row& row) {
+  for (int x = 0; x < row.width; ++x) {
+    if (row.disparity[x] == kNoDisparity) continue;
+    row.confidence[x] = std::max<std::uint8_t>(row.confidence[x], kMostInferred + 1);
+  }
+  const std::int32_t* end = row.disparity + row.width;
+  for (std::int32_t* gap = std::find(row.disparity, row.disparity + row.width, kNoDisparity);
+       gap != end;) {
+    std::int32_t* after =
+        std::find_if(gap, row.disparity + row.width, [](auto d) { return d != kNoDisparity; });
+    const int begin = static_cast<int>(gap - row.disparity);
+    const int last = static_cast<int>(after - row.disparity);
+    if (begin == 0 && last == row.width) return false;
+    fill(row, begin, last);
+    gap = std::find(after, row.disparity + row.width, kNoDisparity);
+  }
+  return true;
+}
+
+}  // namespace
+
+void complete_rows(int y0, int y1, Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+  for (int y = y0; y < y1; ++y) complete({map.row(y), confidence.row(y), map.width()});
+}
+
+void complete_empty_rows(Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+  const int width = map.width(), height = map.height();
+  // Rows are complete or empty, so the first pixel says which.
+  const auto empty = [&](int y) { return map.row(y)[0] == kNoDisparity; };
+  const auto copy = [&](int from, int to) {
+    std::copy_n(map.row(from), width, map.row(to));
+    std::fill_n(confidence.row(to), width, std::uint8_t{1});
+  };
+  int last = -1;  // the last row that was not empty
+  for (int y = 0; y < height; ++y) {
+    if (!empty(y)) {
+      // The upper rows are nearest to the first one; in a gap the lower half to the one after it.
+      const int first = last < 0 ? 0 : last + 1 + (y - last - 1 + 1) / 2;
+      for (int to = first; to < y; ++to) copy(y, to);
+      for (int to = last + 1; last >= 0 && to < first; ++to) copy(last, to);
+      last = y;
+    }
+  }
+  if (last < 0) {
+    std::fill_n(map.row(0), width, std::int32_t{1});
+    std::fill_n(confidence.row(0), width, std::uint8_t{1});
+    last = 0;
+  }
+  for (int to = last + 1; to < height; ++to) copy(last, to);
+}
+
+}  // namespace mtstereo

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/edge_alignment.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include "mtstereo/image.hpp"
+#include "stages/refine/edge_window.hpp"
+
+#define HWY_TARGET_INCLUDE "stages/refine/edge_alignment.cpp"
+#include "base/simd.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo::HWY_NAMESPACE {
+
+using Words = hn::CappedTag<std::int16_t, kAlignment / sizeof(std::int16_t)>;
+using Vec = hn::Vec<Words>;
+
+constexpr int kSide = kEdgeSide;
+constexpr int kWindow = kSide * kSide;
+
+/// The weighted medians of the windows of the columns from x on: the least disparity such that it
+/// and all below it have half the weight.
+Vec medians_at(const EdgeWindow& rows, int x) {
+  const Words d16;
+  const hn::Rebind<std::uint8_t, Words> d8;
+  HWY_ALIGN std::int16_t weights[kWindow][hn::MaxLanes(Words())];
+  const auto gray = hn::PromoteTo(d16, hn::LoadU(d8, rows.middle + kEdgeRadius + x));
+  const auto one = hn::Set(d16, 1);
+  auto total = one;
+  auto low = hn::LoadU(d16, rows.disparity[0] + x);
+  auto high = low;
+  for (int i = 0; i < kWindow; ++i) {
+    const int column = x + i % kSide * 2;
+    const auto other = hn::PromoteTo(d16, hn::LoadU(d8, rows.gray[i / kSide] + column));
+    const auto likeness = hn::Sub(hn::Set(d16, kEdgeContrast), hn::Abs(hn::Sub(gray, other)));
+    const auto weight = hn::Add(hn::Max(likeness, hn::Zero(d16)), one);
+    hn::Store(weight, d16, weights[i]);
+    total = hn::Add(total, weight);
+    const auto disparity = hn::LoadU(d16, rows.disparity[i / kSide] + column);
+    low = hn::Min(low, disparity);
+    high = hn::Max(high, disparity);
+  }
+  const auto half = hn::ShiftRight<1>(total);
+  // Lanes after the end of the row hold any values; so the difference of the bounds cannot overflow.
+  low = hn::Max(low, hn::Zero(d16));
+  high = hn::Max(high, low);
+  while (!hn::AllFalse(d16, hn::Lt(low, high))) {
+    const auto middle = hn::Add(low, hn::ShiftRight<1>(hn::Sub(high, low)));
+    auto sum = hn::Zero(d16);
+    for (int i = 0; i < kWindow; ++i) {
+      const auto disparity = hn::LoadU(d16, rows.disparity[i / kSide] + x + i % kSide * 2);
+      const auto above = hn::Gt(disparity, middle);
+      sum = hn::Add(sum, hn::IfThenZeroElse(above, hn::Load(d16, weights[i])));
+    }
+    const auto less = hn::Lt(sum, half);
+    low = hn::IfThenElse(less, hn::Min(hn::Add(middle, one), high), low);
+    high = hn::IfThenElse(less, high, middle);
+  }
+  return low;
+}
+
+/// Aligns a row; `near` marks its pixels near a jump.
+void align_row(const EdgeWindow& rows, const std::uint8_t* near, int width, std::int32_t* map,
+               std::uint8_t* confidence) {
+  const Words d16;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Words()));
+  HWY_ALIGN std::int16_t medians[kLanes];
+  for (int x0 = 0; x0 < width; x0 += kLanes) {
+    const int count = std::min(kLanes, width - x0);
+    if (std::memchr(near + x0, 1, count) == nullptr) continue;
+    const std::int16_t* own = rows.disparity[kSide / 2] + kEdgeRadius + x0;
+    hn::Store(medians_at(rows, x0), d16, medians);
+    for (int i = 0; i < count; ++i) {
+      if (near[x0 + i] == 0 || std::abs(medians[i] - own[i]) < kEdgeKept) continue;
+      map[x0 + i] = std::max(medians[i] * (kDisparityOne / kEdgeOne), 1);
+      confidence[x0 + i] = std::min<std::uint8_t>(confidence[x0 + i], kMostInferred);
+    }
+  }
+}
+
+}  // namespace mtstereo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(align_row);
+
+namespace {
+
+/// Repeats the outermost of the `width` elements at row + kEdgeRadius on both sides.
+template <typename T>
+void repeat_ends(T* row, int width) {
+  std::fill_n(row, kEdgeRadius, row[kEdgeRadius]);
+  std::fill_n(row + kEdgeRadius + width, kEdgeRadius, row[kEdgeRadius + width - 1]);
+}
+
+/// Marks the columns within kEdgeRadius of a jump. `next` is the next row, or the row itself.
+void mark_row(const std::int32_t* row, const std::int32_t* next, int width, std::uint8_t* near) {
+  std::memset(near, 0, width);
+  for (int x = 0; x < width; ++x) {
+    const bool down = std::abs(row[x] - next[x]) > kJump;
+    const bool right = x + 1 < width && std::abs(row[x] - row[x + 1]) > kJump;
+    if (!down && !right) continue;
+    const int first = std::max(x - kEdgeRadius, 0);
+    const int last = std::min(x + kEdgeRadius + right, width - 1);
+    std::memset(near + first, 1, last + 1 - first);
+  }
+}
+
+}  // namespace
+
+void EdgeMap::resize(int width, int height) {
+  disparity.resize(width + 2 * kEdgeRadius, height);
+  gray.resize(width + 2 * kEdgeRadius, height);
+  near.resize(width, height);
+}
+
+void EdgeScratch::resize(int width) { near.resize(width); }
+
+void find_jumps(GrayView left_view, const Image<std::int32_t>& map, int y0, int y1,
+                EdgeMap& edges) {
+  const int width = map.width();
+  for (int y = y0; y < y1; ++y) {
+    const std::int32_t* row = map.row(y);
+    std::int16_t* disparity = edges.disparity.row(y);
+    for (int x = 0; x < width; ++x) {
+      disparity[kEdgeRadius + x] = static_cast<std::int16_t>(row[x] / (kDisparityOne / kEdgeOne));
+    }
+    repeat_ends(disparity, width);
+    std::memcpy(edges.gray.row(y) + kEdgeRadius, left_view.row(y), width);
+    repeat_ends(edges.gray.row(y), width);
+    mark_row(row, map.row(std::min(y + 1, map.height() - 1)), width, edges.near.row(y));
+  }
+}
+
+void align_edges(const EdgeMap& edges, int y0, int y1, EdgeScratch& scratch,
+                 Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+  const int width = map.width(), height = map.height();
+  for (int y = y0; y < y1; ++y) {
+    std::memcpy(scratch.near.data(), edges.near.row(y), width);
+    for (int other = std::max(y - kEdgeRadius, 0); other <= std::min(y + kEdgeRadius, height - 1);
+         ++other) {
+      const std::uint8_t* near = edges.near.row(other);
+      for (int x = 0; x < width; ++x) scratch.near[x] |= near[x];
+    }
+    EdgeWindow rows{};
+    rows.middle = edges.gray.row(y);
+    for (int i = 0; i <= kEdgeRadius; ++i) {
+      const int other = std::clamp(y + 2 * i - kEdgeRadius, 0, height - 1);
+      rows.disparity[i] = edges.disparity.row(other);
+      rows.gray[i] = edges.gray.row(other);
+    }
+    HWY_DYNAMIC_DISPATCH(align_row)
+    (rows, scratch.near.data(), width, map.row(y), confidence.row(y));
+  }
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE

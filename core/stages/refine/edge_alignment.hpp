@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "base/buffer.hpp"
+#include "mtstereo/image.hpp"
+
+namespace mtstereo {
+
+/// Moves jumps of a complete map to the edges of the image, for mode full. The windows of the
+/// matching cost reach over the edges of objects, so that objects become too wide. A pixel near a
+/// jump takes the weighted median of the disparities around it. Pixels of nearly its gray value
+/// have the most weight.
+///
+/// Call find_jumps() for all bands of rows, then align_edges() for all bands.
+
+/// Neighbors that differ by more are a jump [1 / kDisparityOne px].
+inline constexpr std::int32_t kJump = 2 * kDisparityOne;
+
+/// Half the side of the median's window, of which every second row and column counts, and the
+/// farthest that a pixel near a jump is from it [px].
+inline constexpr int kEdgeRadius = 6;
+
+/// Steps per px of the disparities that the median compares.
+inline constexpr int kEdgeOne = 16;
+
+/// The weight of a pixel: 1 + kEdgeContrast minus the difference of the gray values, at least 1.
+inline constexpr int kEdgeContrast = 24;
+
+/// A pixel keeps its disparity if the median differs by less [steps of 1 / kEdgeOne px].
+inline constexpr int kEdgeKept = kEdgeOne / 2;
+
+/// What find_jumps() writes for align_edges(). Its rows have borders of kEdgeRadius columns that
+/// repeat the outermost ones.
+struct EdgeMap {
+  Image<std::int16_t> disparity;  ///< [1 / kEdgeOne px]
+  Image<std::uint8_t> gray;       ///< of the left view
+  Image<std::uint8_t> near;       ///< without borders: 1 within kEdgeRadius columns of a jump
+
+  void resize(int width, int height);
+};
+
+/// Writes the rows y0 .. y1 - 1 of `edges`. A jump between two rows belongs to the upper one.
+void find_jumps(GrayView left_view, const Image<std::int32_t>& map, int y0, int y1, EdgeMap& edges);
+
+/// Scratch memory of one thread.
+struct EdgeScratch {
+  Buffer<std::uint8_t> near;  ///< a row
+
+  void resize(int width);
+};
+
+/// Aligns the rows y0 .. y1 - 1 of the map. A pixel that changes is inferred: its confidence
+/// becomes kMostInferred at most.
+void align_edges(const EdgeMap& edges, int y0, int y1, EdgeScratch& scratch,
+                 Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
+
+}  // namespace mtstereo

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/pixels/column_optimization.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference/pixels/path_matching.hpp"
+#include "support/compare.hpp"
+#include "support/random.hpp"
+#include "support/simd_targets.hpp"
+
+namespace mtstereo {
+namespace {
+
+using reference::RowCosts;
+using test::Random;
+
+/// Rows of random costs and gray values.
+struct Rows {
+  Rows(int width, int disparities, int count, std::uint64_t seed) {
+    Random random(seed);
+    for (int y = 0; y < count; ++y) {
+      costs.emplace_back(width, std::vector<int>(disparities));
+      gray.emplace_back(width);
+      for (std::vector<int>& pixel : costs.back()) {
+        for (int& cost : pixel) cost = random.below(4) == 0 ? 0 : random.below(256);
+      }
+      for (std::uint8_t& value : gray.back()) {
+        value = static_cast<std::uint8_t>(random.below(2) == 0 ? random.below(256) : 90);
+      }
+    }
+  }
+  std::vector<RowCosts> costs;
+  std::vector<std::vector<std::uint8_t>> gray;
+};
+
+/// Follows the paths downwards; each row's costs overwrite those of the row before, or not.
+std::vector<RowCosts> walked(const Rows& rows, const SmoothnessOptions& options, bool in_place) {
+  const int width = static_cast<int>(rows.costs[0].size());
+  const int disparities = static_cast<int>(rows.costs[0][0].size());
+  const int lanes = cost_lanes(disparities);
+  const std::size_t cells = static_cast<std::size_t>(width) * lanes;
+  const LargeStepTable large_step = large_step_table(options);
+  Buffer<std::uint8_t> costs, paths, least;
+  costs.resize(cells);
+  paths.resize(2 * cells);
+  least.resize(width);
+  std::vector<RowCosts> out;
+  const std::uint8_t* before = nullptr;
+  for (std::size_t y = 0; y < rows.costs.size(); ++y) {
+    std::fill_n(costs.data(), cells, std::uint8_t{kCensusNever});
+    for (int x = 0; x < width; ++x) {
+      std::copy(rows.costs[y][x].begin(), rows.costs[y][x].end(), costs.data() + x * lanes);
+    }
+    const ColumnStep step = {
+        costs.data(), rows.gray[y].data(), rows.gray[y == 0 ? 0 : y - 1].data(),
+        width,        disparities,         options.small_step,
+        &large_step};
+    std::uint8_t* to = paths.data() + (in_place ? 0 : y % 2 * cells);
+    step_columns(step, before, to, least.data());
+    before = to;
+    out.emplace_back(width);
+    for (int x = 0; x < width; ++x) {
+      out[y][x].assign(to + x * lanes, to + x * lanes + disparities);
+      EXPECT_EQ(least[x], *std::min_element(out[y][x].begin(), out[y][x].end()));
+    }
+  }
+  return out;
+}
+
+void expect_reference(int width, int disparities, const SmoothnessOptions& options) {
+  const Rows rows(width, disparities, 6, 100 * width + disparities);
+  const std::vector<RowCosts> in_place = walked(rows, options, true);
+  EXPECT_EQ(in_place, walked(rows, options, false)) << "the rows are written in place or not";
+  RowCosts expected;
+  for (std::size_t y = 0; y < rows.costs.size(); ++y) {
+    expected = reference::column_step(rows.costs[y], expected, rows.gray[y].data(),
+                                      rows.gray[y == 0 ? 0 : y - 1].data(), options);
+    EXPECT_EQ(expected, in_place[y])
+        << "row " << y << ", width " << width << ", " << disparities << " disparities, P1 "
+        << options.small_step << ", P2 " << options.large_step;
+  }
+}
+
+constexpr SmoothnessOptions kSteps[] = {{0, 0}, {4, 0}, {4, 30}, {15, 90}, {250, 250}, {300, 300}};
+
+TEST(ColumnOptimization, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    for (int disparities = 1; disparities <= 70; ++disparities) {
+      for (const SmoothnessOptions& steps : kSteps) {
+        expect_reference(1 + disparities % 9, disparities, steps);
+      }
+    }
+    for (const int disparities : {200, 1023, 1984}) expect_reference(5, disparities, {15, 90});
+  });
+}
+
+TEST(ColumnOptimization, TreatsColumnsApart) {
+  const SmoothnessOptions options = {5, 30};
+  Rows rows(9, 20, 8, 1);
+  const std::vector<RowCosts> before = walked(rows, options, true);
+  for (RowCosts& row : rows.costs) std::fill(row[4].begin(), row[4].end(), 7);
+  const std::vector<RowCosts> after = walked(rows, options, true);
+  for (std::size_t y = 0; y < before.size(); ++y) {
+    for (int x = 0; x < 9; ++x) {
+      if (x == 4) continue;
+      EXPECT_EQ(before[y][x], after[y][x]) << "column " << x << ", row " << y;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/pixels/path_matching.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference/pixels/path_matching.hpp"
+#include "support/census.hpp"
+#include "support/compare.hpp"
+#include "support/matching.hpp"
+#include "support/simd_targets.hpp"
+
+namespace mtstereo {
+namespace {
+
+using reference::RatedMap;
+using test::copy_of;
+using test::DisparityPlane;
+using test::Pair;
+using test::Random;
+
+/// Matches a pair, from the last chunk to the first.
+RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
+                 const PathMatchingOptions& options, PathMatchingScratch& scratch) {
+  const test::CensusPair census(pair.left.view(), pair.right.view(),
+                                options.cost.bytes == 3 ? 1 : 2);
+  const int width = pair.left.width, height = pair.left.height;
+  Image<std::int32_t> map, half;
+  Image<std::uint8_t> ratio;
+  map.resize(width, height);
+  ratio.resize(width, height);
+  test::poison(map);
+  test::poison(ratio);
+  if (half_map != nullptr) half = image_of(*half_map);
+  scratch.resize(width, height, options);
+  for (int i = (height - 1) / kPathRows; i >= 0; --i) {
+    match_along_paths(pair.left.view(), census.left, census.right,
+                      half_map == nullptr ? nullptr : &half, options, i * kPathRows,
+                      std::min((i + 1) * kPathRows, height), scratch, map, ratio);
+  }
+  RatedMap out(width, height);
+  out.map = copy_of(map);
+  out.ratio = copy_of(ratio);
+  return out;
+}
+
+PathMatchingOptions random_options(int disparities, Random& random) {
+  return {
+      {disparities, 2 * random.below(3) + 1, random.below(33), census_bytes(random.between(1, 2))},
+      {random.below(51), random.below(51)},
+      {disparities, 0.06 * random.below(2), false, random.between(-1, 2), random.below(2) == 0,
+       random.below(50)}};
+}
+
+/// A map of half the size with disparities near half of `around`, a third of it unknown.
+DisparityPlane half_map_of(const Pair& pair, int disparities, int around, Random& random) {
+  DisparityPlane half((pair.left.width + 1) / 2, (pair.left.height + 1) / 2);
+  for (std::int32_t& d : half.pixels) {
+    if (random.below(3) > 0) d = random.between(1, 256 * std::max((disparities + 1) / 2, 1) - 1);
+    if (random.below(3) == 0) d = 128 * around + 1;
+  }
+  return half;
+}
+
+void expect_reference(int width, int height, PathMatchingScratch& scratch) {
+  Random random(100 * width + height);
+  const int disparities = random.between(1, width);
+  const int shift = random.below(disparities);
+  const Pair pair = test::shifted_pair(width, height, shift, width);
+  const DisparityPlane half = half_map_of(pair, disparities, shift, random);
+  for (const DisparityPlane* half_map : {static_cast<const DisparityPlane*>(nullptr), &half}) {
+    const PathMatchingOptions options = random_options(disparities, random);
+    const RatedMap expected =
+        reference::match_along_paths(pair.left, pair.right, half_map, options);
+    const RatedMap actual = matched(pair, half_map, options, scratch);
+    EXPECT_TRUE(same_image(expected.map, actual.map)) << width << "x" << height;
+    EXPECT_TRUE(same_image(expected.ratio, actual.ratio)) << width << "x" << height;
+  }
+}
+
+TEST(PathMatching, EqualsReferenceAtEveryWidth) {
+  PathMatchingScratch scratch;
+  for (int width = 1; width <= 70; ++width) expect_reference(width, 1 + width % 7, scratch);
+}
+
+TEST(PathMatching, EqualsReferenceInSeveralChunks) {
+  test::for_each_simd_target([] {
+    PathMatchingScratch scratch;
+    for (const int height : {1, 63, 64, 65, 79, 80, 128, 150, 200}) {
+      expect_reference(11, height, scratch);
+    }
+  });
+}
+
+TEST(PathMatching, FindsTheDisparityOfEveryPixelThatBothViewsShow) {
+  PathMatchingScratch scratch;
+  const Pair pair = test::shifted_pair(120, 90, 17, 1);
+  const PathMatchingOptions options = {{40, 3, 2, 3}, {5, 30}, {40, 0, false, 1, true, 60}};
+  const RatedMap out = matched(pair, nullptr, options, scratch);
+  long right = 0;
+  for (int y = 0; y < 90; ++y) {
+    for (int x = 17; x < 120; ++x) right += std::abs(out.map(x, y) - 256 * 17) <= 128;
+  }
+  EXPECT_GT(right, 90 * 103 * 98 / 100);
+}
+
+TEST(PathMatching, PrefersWhatTheHalfMapExpects) {
+  // Stripes that repeat every 8 px fit at 3, 11, 19 ... px alike.
+  Pair pair = test::shifted_pair(120, 40, 0, 1);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 120; ++x) {
+      pair.left(x, y) = static_cast<std::uint8_t>((x + 5) % 8 < 4 ? 200 : 40);
+      pair.right(x, y) = static_cast<std::uint8_t>(x % 8 < 4 ? 200 : 40);
+    }
+  }
+  PathMatchingScratch scratch;
+  const PathMatchingOptions options = {{40, 3, 2, 3}, {5, 30}, {40, -1, false, -1, true, 60}};
+  const DisparityPlane expected(60, 20, 128 * 19);
+  const RatedMap out = matched(pair, &expected, options, scratch);
+  for (int y = 8; y < 32; ++y) {
+    for (int x = 48; x < 112; ++x) EXPECT_NEAR(out.map(x, y), 256 * 19, 256) << x << ", " << y;
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo

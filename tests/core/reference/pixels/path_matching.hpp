@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "reference/pixels/pixel_matching.hpp"
+#include "reference/pixels/scanline_optimization.hpp"
+#include "stages/pixels/path_matching.hpp"
+
+namespace mtstereo::reference {
+
+/// The path costs of a row along its columns, from those of the row `before`; an empty one is
+/// outside of the image.
+inline RowCosts column_step(const RowCosts& costs, const RowCosts& before, const std::uint8_t* gray,
+                            const std::uint8_t* gray_before, const SmoothnessOptions& options) {
+  if (before.empty()) return costs;
+  RowCosts paths;
+  for (std::size_t x = 0; x < costs.size(); ++x) {
+    // Two pixels of a row are a path as well.
+    const std::uint8_t pair[] = {gray_before[x], gray[x]};
+    RowCosts both = {before[x], costs[x]};
+    paths.push_back(path_costs(both, pair, options, 1)[1]);
+  }
+  return paths;
+}
+
+/// The disparities low .. high that are expected at a pixel.
+struct Expected {
+  int low, high;
+};
+
+inline Expected expected_at(const DisparityPlane* half_map, int x, int y, int disparities) {
+  const int half = half_map == nullptr ? 0 : (*half_map)(x / 2, y / 2);
+  if (half == 0) return {0, disparities - 1};
+  const int middle = (2 * half + 128) / 256;
+  return {std::min(std::max(middle - kPathReach, 0), disparities - 1),
+          std::min(middle + kPathReach, disparities - 1)};
+}
+
+/// Matches a view in chunks of kPathRows rows, in which the paths along the columns start
+/// kPathMargin rows before.
+inline RatedMap match_along_paths(const GrayPlane& left, const GrayPlane& right,
+                                  const DisparityPlane* half_map,
+                                  const PathMatchingOptions& options) {
+  const int scales = options.cost.bytes == 3 ? 1 : 2;
+  const int disparities = options.cost.disparities, width = left.width, height = left.height;
+  const CensusCosts census_costs{census(left, scales), census(right, scales), options.cost};
+  const int rows = options.cost.kernel_size;
+  const SmoothnessOptions steps = {options.smoothness.small_step * rows,
+                                   options.smoothness.large_step * rows};
+  std::vector<RowCosts> costs(height, RowCosts(width));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto [low, high] = expected_at(half_map, x, y, disparities);
+      for (int d = 0; d < disparities; ++d) {
+        costs[y][x].push_back(census_costs.cost(x, y, d, low, high));
+      }
+    }
+  }
+  RatedMap out(width, height);
+  for (int y = 0; y < height; ++y) {
+    const int y0 = y / kPathRows * kPathRows, y1 = std::min(y0 + kPathRows, height);
+    RowCosts above, below;
+    for (int row = std::max(y0 - kPathMargin, 0); row <= y; ++row) {
+      above = column_step(costs[row], above, &left(0, row), &left(0, std::max(row - 1, 0)), steps);
+    }
+    for (int row = std::min(y1 + kPathMargin, height) - 1; row >= y; --row) {
+      below = column_step(costs[row], below, &left(0, row), &left(0, std::min(row + 1, height - 1)),
+                          steps);
+    }
+    RowCosts sums = optimize_scanline(costs[y], &left(0, y), steps);
+    std::vector<int> low(width), high(width);
+    for (int x = 0; x < width; ++x) {
+      const Expected expected = expected_at(half_map, x, y, disparities);
+      low[x] = expected.low;
+      high[x] = expected.high;
+      for (int d = 0; d < disparities; ++d) {
+        sums[x][d] = (sums[x][d] + above[x][d] + below[x][d]) / 2;
+      }
+    }
+    const std::vector<Selected> selected = select_disparities(sums, options.selection, low, high);
+    for (int x = 0; x < width; ++x) out.set(x, y, selected[x]);
+  }
+  return out;
+}
+
+}  // namespace mtstereo::reference

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <map>
+
+#include "reference/refine/gap_filling.hpp"
+
+namespace mtstereo::reference {
+
+/// Whether a jump of more than 2 px is at most 6 columns and rows away. A jump to the next row
+/// belongs to the upper row, and one to the next column to both columns.
+inline bool near_jump(const DisparityPlane& map, int x, int y) {
+  for (int v = std::max(y - 6, 0); v <= std::min(y + 6, map.height - 1); ++v) {
+    for (int u = std::max(x - 7, 0); u <= std::min(x + 6, map.width - 1); ++u) {
+      const bool right = std::abs(map(u, v) - map.clamped(u + 1, v)) > 512;
+      const bool down = u >= x - 6 && std::abs(map(u, v) - map.clamped(u, v + 1)) > 512;
+      if (right || down) return true;
+    }
+  }
+  return false;
+}
+
+/// The weighted median of every second row and column of the 13x13 window, in 1/16 px.
+inline int weighted_median(const GrayPlane& gray, const DisparityPlane& map, int x, int y) {
+  std::map<int, int> weights;  // by disparity, ascending
+  int total = 0;
+  for (int dy = -6; dy <= 6; dy += 2) {
+    for (int dx = -6; dx <= 6; dx += 2) {
+      const int change = std::abs(gray(x, y) - gray.clamped(x + dx, y + dy));
+      const int weight = 1 + std::max(24 - change, 0);
+      weights[map.clamped(x + dx, y + dy) / 16] += weight;
+      total += weight;
+    }
+  }
+  int sum = 0;
+  for (const auto& [disparity, weight] : weights) {
+    sum += weight;
+    if (2 * sum >= total) return disparity;
+  }
+  return 0;
+}
+
+inline ConfidentMap align_edges(const GrayPlane& gray, const ConfidentMap& in) {
+  ConfidentMap out = in;
+  for (int y = 0; y < in.map.height; ++y) {
+    for (int x = 0; x < in.map.width; ++x) {
+      if (!near_jump(in.map, x, y)) continue;
+      const int median = weighted_median(gray, in.map, x, y);
+      if (std::abs(median - in.map(x, y) / 16) < 8) continue;
+      out.map(x, y) = std::max(16 * median, 1);
+      out.confidence(x, y) = std::min<std::uint8_t>(in.confidence(x, y), 15);
+    }
+  }
+  return out;
+}
+
+}  // namespace mtstereo::reference

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/edge_alignment.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference/refine/edge_alignment.hpp"
+#include "support/compare.hpp"
+#include "support/random_maps.hpp"
+#include "support/simd_targets.hpp"
+#include "support/stages.hpp"
+
+namespace mtstereo {
+namespace {
+
+using reference::ConfidentMap;
+using test::copy_of;
+using test::DisparityPlane;
+using test::GrayPlane;
+using test::Random;
+
+ConfidentMap aligned(const GrayPlane& gray, const ConfidentMap& in, int band = 1 << 20) {
+  const int width = in.map.width, height = in.map.height;
+  Image<std::int32_t> map = image_of(in.map);
+  Image<std::uint8_t> confidence = image_of(in.confidence);
+  EdgeMap edges;
+  EdgeScratch scratch;
+  edges.resize(width, height);
+  scratch.resize(width);
+  test::poison(edges.disparity);
+  test::poison(edges.gray);
+  test::poison(edges.near);
+  for (int y = 0; y < height; y += band) {
+    find_jumps(gray.view(), map, y, std::min(y + band, height), edges);
+  }
+  for (int y = 0; y < height; y += band) {
+    align_edges(edges, y, std::min(y + band, height), scratch, map, confidence);
+  }
+  return {copy_of(map), copy_of(confidence)};
+}
+
+GrayPlane random_gray(int width, int height, Random& random) {
+  GrayPlane gray(width, height);
+  for (std::uint8_t& value : gray.pixels) {
+    value = static_cast<std::uint8_t>(random.below(2) == 0 ? 100 + random.below(30)
+                                                           : random.below(256));
+  }
+  return gray;
+}
+
+/// A map without gaps.
+DisparityPlane whole_map(int width, int height, std::uint64_t seed) {
+  DisparityPlane map = test::patches(width, height, 0, seed);
+  for (std::int32_t& d : map.pixels) d = d == 0 ? 700 : d;
+  return map;
+}
+
+void expect_reference(int width, int height, const DisparityPlane& map) {
+  Random random(width);
+  const GrayPlane gray = random_gray(width, height, random);
+  ConfidentMap in = {map, GrayPlane(width, height)};
+  for (std::uint8_t& c : in.confidence.pixels)
+    c = static_cast<std::uint8_t>(random.between(1, 255));
+  const ConfidentMap expected = reference::align_edges(gray, in);
+  for (const int band : {1, 5, 1 << 20}) {
+    const ConfidentMap actual = aligned(gray, in, band);
+    EXPECT_TRUE(same_image(expected.map, actual.map)) << "bands of " << band << " rows";
+    EXPECT_TRUE(same_image(expected.confidence, actual.confidence)) << band;
+  }
+}
+
+TEST(EdgeAlignment, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 70; ++width) {
+      const int height = 1 + width % 23;
+      expect_reference(width, height, whole_map(width, height, width));
+    }
+  });
+}
+
+TEST(EdgeAlignment, EqualsReferenceWithTheLargestDisparities) {
+  DisparityPlane map = test::disparity_noise(40, 30, 0, 256 * 1984 - 1, 1);
+  map(3, 3) = 256 * 1984 - 1;
+  map(4, 3) = 1;
+  expect_reference(40, 30, map);
+}
+
+TEST(EdgeAlignment, LeavesSlantedSurfacesAlone) {
+  DisparityPlane map(60, 30);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 60; ++x) map(x, y) = 500 + 200 * x + 100 * y;
+  }
+  Random random(1);
+  const GrayPlane gray = random_gray(60, 30, random);
+  const ConfidentMap in = {map, GrayPlane(60, 30, 200)};
+  EXPECT_EQ(aligned(gray, in), in);
+}
+
+TEST(EdgeAlignment, MovesAJumpToTheEdgeOfTheImage) {
+  // The object of 20 px at columns 30 .. 49 has become 2 px wider on both sides.
+  GrayPlane gray(80, 40, 60);
+  DisparityPlane map(80, 40, 2560);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 30; x < 50; ++x) gray(x, y) = 160;
+    for (int x = 28; x < 52; ++x) map(x, y) = 7680;
+  }
+  const ConfidentMap out = aligned(gray, {map, GrayPlane(80, 40, 200)});
+  for (int x = 0; x < 80; ++x) {
+    const bool object = x >= 30 && x < 50, changed = !object && x >= 28 && x < 52;
+    EXPECT_EQ(out.map(x, 20), object ? 7680 : 2560) << "column " << x;
+    EXPECT_EQ(out.confidence(x, 20), changed ? kMostInferred : 200) << "column " << x;
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo
