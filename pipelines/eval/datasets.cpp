@@ -17,6 +17,10 @@ constexpr std::array<std::string_view, 8> kNames{"middlebury",   "kitti2015", "t
                                                  "trimbot-real", "driving",   "monkaa",
                                                  "flyingthings", "eth3d"};
 
+// How to continue with a file of the wrong size that an evaluation does not need.
+constexpr const char* kAdvice =
+    "; replace it with the one of this resolution, or remove it to evaluate without it";
+
 void require_folder(const fs::path& root) {
   std::error_code error;
   if (!fs::exists(root, error)) throw InputError(root, "no such folder");
@@ -113,6 +117,7 @@ DataSet find_pairs(const fs::path& root, Layout layout) {
     throw InputError(root, "holds no stereo pair in the layout of " +
                                std::string(layout_name(layout)) + " (see docs/evaluation.md)");
   }
+  for (StereoPair& pair : set.pairs) pair.layout = layout;
   std::sort(set.pairs.begin(), set.pairs.end(),
             [](const StereoPair& a, const StereoPair& b) { return a.name < b.name; });
   return set;
@@ -128,7 +133,7 @@ LoadedPair load_pair(const StereoPair& pair, DmapMeaning meaning) {
   require_size(pair.truth, loaded.truth.disparity, size);
   if (!pair.visible_mask.empty()) {
     loaded.truth.visible = read_visible_mask(pair.visible_mask);
-    require_size(pair.visible_mask, loaded.truth.visible, size);
+    require_size(pair.visible_mask, loaded.truth.visible, size, kAdvice);
   } else if (!pair.visible_truth.empty()) {
     const cv::Mat visible = read_png_disparity(pair.visible_truth);
     require_size(pair.visible_truth, visible, size);
@@ -136,6 +141,12 @@ LoadedPair load_pair(const StereoPair& pair, DmapMeaning meaning) {
     loaded.truth.visible = visible == visible;
   }
   return loaded;
+}
+
+void load_objects(const StereoPair& pair, LoadedPair& images) {
+  if (pair.object_map.empty()) return;
+  images.truth.objects = read_object_map(pair.object_map);
+  require_size(pair.object_map, images.truth.objects, images.left.size(), kAdvice);
 }
 
 }  // namespace mtstereo::eval

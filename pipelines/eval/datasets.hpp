@@ -37,6 +37,7 @@ std::vector<std::string> layout_names();
 /// The files of one pair and its properties in the data set. The files have not been read yet.
 struct StereoPair {
   std::string name;  ///< path relative to the data set's folder, without extension; unique
+  Layout layout = Layout::kMiddlebury;
   std::filesystem::path left;
   std::filesystem::path right;
   std::filesystem::path truth;  ///< .pfm, .png or _dmap.bin
@@ -44,6 +45,10 @@ struct StereoPair {
   std::filesystem::path visible_mask;
   /// ground truth of only the pixels that are visible in both views (KITTI); may be empty
   std::filesystem::path visible_truth;
+  /// `truth` itself has only the pixels that are visible in both views (KITTI)
+  bool truth_is_visible = false;
+  /// 0 = background, other values = foreground objects (KITTI); may be empty
+  std::filesystem::path object_map;
   /// *_cam.txt of left and right, for a depth map; may be empty
   std::pair<std::filesystem::path, std::filesystem::path> cameras;
   /// number of disparities to search [px]; none if the data set should state it and does not
@@ -90,6 +95,10 @@ struct LoadedPair {
 /// Reads a pair. Throws InputError, naming the file, if a file is missing or corrupt or has another
 /// size.
 LoadedPair load_pair(const StereoPair& pair, DmapMeaning meaning = DmapMeaning::kAuto);
+
+/// Reads the object map of a pair into `truth.objects`, if the pair has one. Throws InputError as
+/// load_pair().
+void load_objects(const StereoPair& pair, LoadedPair& images);
 
 /// The weight of a Middlebury training pair in the official mean (evaluation version 3), looked up
 /// by the name of its folder.

@@ -156,10 +156,20 @@ cv::Mat read_visible_mask(const fs::path& file) {
   return stored == 255;
 }
 
-void require_size(const fs::path& file, const cv::Mat& map, cv::Size image) {
+cv::Mat read_object_map(const fs::path& file) {
+  const cv::Mat stored = read_stored(file);
+  if (stored.channels() != 1) {
+    throw InputError(file, "is not an object map: it has " + std::to_string(stored.channels()) +
+                               " channels instead of one");
+  }
+  return stored != 0;
+}
+
+void require_size(const fs::path& file, const cv::Mat& map, cv::Size image,
+                  const std::string& advice) {
   if (map.size() == image) return;
   throw InputError(file, "is " + size_text(map.cols, map.rows) + ", the left image " +
-                             size_text(image.width, image.height));
+                             size_text(image.width, image.height) + advice);
 }
 
 }  // namespace mtstereo::eval

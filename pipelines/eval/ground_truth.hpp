@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <string>
 
 namespace mtstereo::eval {
 
@@ -10,6 +11,7 @@ namespace mtstereo::eval {
 struct GroundTruth {
   cv::Mat disparity;  ///< CV_32FC1 [px], NaN = unknown
   cv::Mat visible;    ///< CV_8UC1, nonzero = visible in both views; empty if unknown
+  cv::Mat objects{};  ///< CV_8UC1, nonzero = foreground; empty if unknown, see load_objects()
 };
 
 /// A camera of the TrimBot2020 gardens, read from its *_cam.txt.
@@ -55,8 +57,13 @@ cv::Mat read_gray(const std::filesystem::path& file);
 /// A mask as in Middlebury: 255 (visible in both views) stays 255, all other values become 0.
 cv::Mat read_visible_mask(const std::filesystem::path& file);
 
-/// Throws InputError, naming the file, unless its map has the size of the image.
-void require_size(const std::filesystem::path& file, const cv::Mat& map, cv::Size image);
+/// An object map as in KITTI: 0 (background) stays 0, all other values become 255.
+cv::Mat read_object_map(const std::filesystem::path& file);
+
+/// Throws InputError, naming the file, unless its map has the size of the image. The message ends
+/// with the advice.
+void require_size(const std::filesystem::path& file, const cv::Mat& map, cv::Size image,
+                  const std::string& advice = {});
 
 // All of these throw InputError, naming the file, if the file cannot be used.
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// KITTI 2015: training/image_2, image_3 and disp_occ_0, disp_noc_0, where a frame has the same
-// name.
+// KITTI 2015: training/image_2, image_3, disp_occ_0, disp_noc_0 and obj_map, where a frame has the
+// same name.
 
 #include <array>
 #include <string>
@@ -23,6 +23,7 @@ bool is_folder(const fs::path& path) {
 struct Folders {
   fs::path left, right;
   fs::path occ, noc;  // empty if the folder does not exist
+  fs::path objects;   // the same
 };
 
 fs::path first_folder(const fs::path& base, std::initializer_list<const char*> names) {
@@ -44,6 +45,7 @@ std::optional<Folders> folders_of(const fs::path& base) {
   }
   folders.occ = first_folder(base, {"disp_occ_0", "disp_occ"});
   folders.noc = first_folder(base, {"disp_noc_0", "disp_noc"});
+  folders.objects = first_folder(base, {"obj_map"});
   if (folders.left.empty() || (folders.occ.empty() && folders.noc.empty())) return std::nullopt;
   return folders;
 }
@@ -73,6 +75,9 @@ void add_frame(DataSet& set, const Folders& folders, const fs::path& left) {
       return;
     }
   }
+  pair.truth_is_visible = !has_occ;
+  const fs::path objects = folders.objects / left.filename();
+  if (!folders.objects.empty() && is_file(objects)) pair.object_map = objects;
   pair.max_disparity = kKittiRange;
   set.pairs.push_back(std::move(pair));
 }
