@@ -7,13 +7,10 @@
 
 #include "eval/flat_answers.hpp"
 #include "eval/input_error.hpp"
+#include "eval/weighted_mean.hpp"
 
 namespace mtstereo::eval {
 namespace {
-
-double percent(std::int64_t part, std::int64_t whole) {
-  return whole == 0 ? kNone : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
-}
 
 void require_same_size(const cv::Mat& estimate, const cv::Mat& truth) {
   if (estimate.size() == truth.size()) return;
@@ -66,21 +63,6 @@ double density_of(const cv::Mat& estimate) {
   return percent(predicted, static_cast<std::int64_t>(estimate.total()));
 }
 
-// A running weighted mean that ignores NaN.
-class Mean {
- public:
-  void add(double value, double weight) {
-    if (std::isnan(value)) return;
-    sum_ += value * weight;
-    weights_ += weight;
-  }
-  double value() const { return weights_ > 0 ? sum_ / weights_ : kNone; }
-
- private:
-  double sum_ = 0;
-  double weights_ = 0;
-};
-
 struct WeightedMetrics {
   const Metrics* metrics;
   double weight;
@@ -88,8 +70,8 @@ struct WeightedMetrics {
 
 Metrics mean_of(const std::vector<WeightedMetrics>& list) {
   Metrics result;
-  Mean avgerr, rms, d_all, known_density;
-  std::array<Mean, kBadThresholds.size()> bad;
+  WeightedMean avgerr, rms, d_all, known_density;
+  std::array<WeightedMean, kBadThresholds.size()> bad;
   for (const auto& [metrics, weight] : list) {
     result.known += metrics->known;
     result.compared += metrics->compared;
@@ -161,7 +143,7 @@ cv::Mat to_float(DisparityView disparity, int offset) {
 
 Evaluation mean(const std::vector<WeightedEvaluation>& pairs) {
   Evaluation result;
-  Mean density;
+  WeightedMean density;
   std::vector<WeightedMetrics> all, noc;
   for (const auto& [evaluation, weight] : pairs) {
     density.add(evaluation->density, 1);
