@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "eval/input_error.hpp"
+#include "eval/official_report.hpp"
 #include "eval/options.hpp"
 #include "eval/outputs.hpp"
 #include "eval/report.hpp"
@@ -73,6 +74,7 @@ Report start_report(const Options& options, const DataSet& set) {
   report.folder = set.folder;
   report.kinds = kinds_of(options.run);
   report.flicker = options.run.flicker;
+  report.official = options.run.official;
   report.warm_up = options.run.warm_up;
   report.repeat = options.run.repeat;
   for (const ParameterInfo& info : parameter_table()) {
@@ -162,6 +164,10 @@ int list_pairs(const DataSet& set) {
 
 void print(const Report& report) {
   print_table(std::cout, report);
+  if (report.official) {
+    std::cout << '\n';
+    print_official(std::cout, report);
+  }
   if (report.kinds.size() > 1) {
     std::cout << '\n';
     print_kinds(std::cout, report);

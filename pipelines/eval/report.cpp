@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/json_number.hpp"
+#include "eval/official_report.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -62,6 +63,7 @@ json pair_json(const PairReport& pair) {
               {"results", json::object()}};
   for (const MethodResult& method : pair.results) {
     json entry = evaluation_json(method.evaluation);
+    if (method.official) entry["official"] = official_json(*method.official);
     entry["seconds"] = json_number(method.seconds);
     entry["seconds_per_megapixel"] = json_number(method.seconds_per_megapixel);
     result["results"][method.method] = std::move(entry);
@@ -187,6 +189,7 @@ json to_json(const Report& report) {
                          {"frames", kFlickerFrames},
                          {"mean", flicker_json(summarize_flicker(report))}};
   }
+  if (report.official) result["official"] = official_means_json(report);
   add_kinds(report, result);
   for (const Problem& failure : report.failures) {
     result["failures"].push_back({{"pair", failure.pair}, {"reason", failure.reason}});
@@ -215,9 +218,11 @@ struct CsvLine {
   std::string kind, pair, method, width, height, max_disparity, weight;
   const Evaluation* evaluation;
   double seconds, seconds_per_megapixel;
+  std::string official_all, official_noc;  // the columns of --official, each with its comma
 };
 
-std::string csv_line(const CsvLine& line, const char* region, const Metrics& metrics) {
+std::string csv_line(const CsvLine& line, const char* region, const Metrics& metrics,
+                     const std::string& official) {
   std::vector<std::string> fields{csv_field(line.pair),
                                   csv_field(line.method),
                                   region,
@@ -240,20 +245,67 @@ std::string csv_line(const CsvLine& line, const char* region, const Metrics& met
   fields.push_back(csv_field(line.kind));
   std::string text;
   for (const std::string& field : fields) text += (text.empty() ? "" : ",") + field;
-  return text + "\n";
+  return text + official + "\n";
 }
 
 std::string csv_lines(const CsvLine& line) {
-  std::string text = csv_line(line, "all", line.evaluation->all);
-  if (line.evaluation->noc) text += csv_line(line, "noc", *line.evaluation->noc);
+  std::string text = csv_line(line, "all", line.evaluation->all, line.official_all);
+  if (line.evaluation->noc) {
+    text += csv_line(line, "noc", *line.evaluation->noc, line.official_noc);
+  }
+  return text;
+}
+
+// The official columns of the line `all`, which has the pixels of the ground truth, and of `noc`.
+void add_official(const MethodResult& result, CsvLine& line) {
+  line.official_all = line.official_noc = no_official_csv_fields();
+  if (!result.official) return;
+  const OfficialCounts& counts = *result.official;
+  const auto fields = [&](const RegionCounts& region) {
+    return official_csv_fields(counts.benchmark, figures_of(region));
+  };
+  if (counts.noc) line.official_noc = fields(*counts.noc);
+  line.official_all = counts.all ? fields(*counts.all) : line.official_noc;
+}
+
+// A line whose figures are only the official ones.
+std::string csv_official_line(const OfficialSummary& summary, const char* region,
+                              const OfficialFigures& figures) {
+  Evaluation evaluation;
+  evaluation.all.known = figures.pixels;
+  evaluation.all.compared = figures.answered;
+  evaluation.all.avgerr = figures.avgerr;
+  evaluation.all.known_density = figures.density;
+  const CsvLine line{kCleanKind,
+                     "mean of " + std::string(benchmark_name(summary.benchmark)),
+                     summary.method,
+                     "",
+                     "",
+                     "",
+                     "",
+                     &evaluation,
+                     kNone,
+                     kNone,
+                     "",
+                     ""};
+  return csv_line(line, region, evaluation.all, official_csv_fields(summary.benchmark, figures));
+}
+
+std::string csv_official_means(const Report& report) {
+  std::string text;
+  for (const OfficialSummary& summary : summarize_official(report)) {
+    if (summary.all) text += csv_official_line(summary, "all", *summary.all);
+    if (summary.noc) text += csv_official_line(summary, "noc", *summary.noc);
+  }
   return text;
 }
 
 std::string csv_means(const Report& report, const std::string& kind) {
+  const std::string official = report.official ? no_official_csv_fields() : "";
   std::string text;
   for (const Summary& summary : summarize(report, kind)) {
     text += csv_lines({kind, "mean", summary.method, "", "", "", "", &summary.evaluation, kNone,
-                       summary.seconds_per_megapixel});
+                       summary.seconds_per_megapixel, official, official});
   }
   return text;
 }
@@ -266,16 +318,28 @@ std::string to_csv(const Report& report) {
       "rms,"
       "d_all";
   for (const double threshold : kBadThresholds) text += "," + bad_name(threshold);
-  text += ",density,known_density,seconds,seconds_per_megapixel,flat_answers,kind\n";
+  text += ",density,known_density,seconds,seconds_per_megapixel,flat_answers,kind";
+  text += (report.official ? official_csv_header() : "") + "\n";
   for (const PairReport& pair : report.pairs) {
     for (const MethodResult& result : pair.results) {
-      text += csv_lines({pair.kind, pair.pair.name, result.method, std::to_string(pair.size.width),
-                         std::to_string(pair.size.height), std::to_string(pair.max_disparity),
-                         csv_number(pair.pair.weight), &result.evaluation, result.seconds,
-                         result.seconds_per_megapixel});
+      CsvLine line{pair.kind,
+                   pair.pair.name,
+                   result.method,
+                   std::to_string(pair.size.width),
+                   std::to_string(pair.size.height),
+                   std::to_string(pair.max_disparity),
+                   csv_number(pair.pair.weight),
+                   &result.evaluation,
+                   result.seconds,
+                   result.seconds_per_megapixel,
+                   "",
+                   ""};
+      if (report.official) add_official(result, line);
+      text += csv_lines(line);
     }
   }
   for (const std::string& kind : report.kinds) text += csv_means(report, kind);
+  if (report.official) text += csv_official_means(report);
   return text;
 }
 

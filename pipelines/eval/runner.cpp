@@ -111,6 +111,7 @@ PairReport Runner::load(const StereoPair& pair, LoadedPair& images) const {
   report.pair = pair;
   attempt(report, "", [&] {
     images = load_pair(pair, settings_.dmap);
+    if (settings_.official) load_objects(pair, images);
     report.size = images.left.size();
     report.max_disparity =
         search_range(pair, settings_.parameters, report.size.width, report.notes);
@@ -218,6 +219,7 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
   MethodResult result;
   result.method = method;
   result.evaluation = evaluate(disparity, images);
+  if (settings_.official) result.official = count_official(disparity, report.pair, images.truth);
   result.seconds = seconds;
   result.seconds_per_megapixel = seconds * 1e6 / static_cast<double>(images.left.total());
   report.results.push_back(std::move(result));

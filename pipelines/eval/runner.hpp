@@ -13,6 +13,7 @@
 #include "eval/flicker.hpp"
 #include "eval/html_pictures.hpp"
 #include "eval/metrics.hpp"
+#include "eval/official.hpp"
 #include "eval/pictures.hpp"
 #include "eval/rivals.hpp"
 #include "mtstereo/alignment.hpp"
@@ -36,6 +37,7 @@ struct RunSettings {
   std::optional<std::filesystem::path> disparity_folder;
   DisparityFormat disparity_format = DisparityFormat::kPfm;
   std::optional<std::filesystem::path> picture_folder;
+  bool official = false;                  ///< count as the benchmarks do
   bool curve = false;                     ///< sweep the confidence of every method
   std::vector<Degradation> degradations;  ///< evaluated in addition to the images as they are
   std::optional<double> flicker;          ///< standard deviation of its noise [gray values]
@@ -52,7 +54,8 @@ std::vector<std::string> kinds_of(const RunSettings& settings);
 struct MethodResult {
   std::string method;
   Evaluation evaluation;
-  double seconds = 0;                ///< wall time of one frame, median [s]
+  std::optional<OfficialCounts> official;  ///< with --official, if the data set has such measures
+  double seconds = 0;                      ///< wall time of one frame, median [s]
   double seconds_per_megapixel = 0;  ///< the same divided by the size of the left image [s/MP]
 };
 
