@@ -38,7 +38,7 @@ Options of every pipeline script:
   --cloud PATTERN     also write the points of each map, such as clouds/%05d.ply (needs --calibration)
   --out FILE.mkv      record the disparity or the depth losslessly instead of showing it; a pattern
                       such as depth/%06d.png writes 16-bit pictures
-  --mode MODE         sparse, semi-dense or dense
+  --mode MODE         sparse, semi-dense, dense or full
   --max-disparity N   search range [px]
   --set NAME=VALUE    any other property of mtstereo (gst-inspect-1.0 mtstereo lists them)
   --sink ELEMENT      sink for the color picture instead of autovideosink
@@ -106,8 +106,8 @@ common_option() {
       ;;
     --out) out=$2 ;;
     --mode)
-      [[ $2 == sparse || $2 == semi-dense || $2 == dense ]] ||
-        wrong_usage "--mode is '$2'; it must be sparse, semi-dense or dense"
+      [[ $2 == sparse || $2 == semi-dense || $2 == dense || $2 == full ]] ||
+        wrong_usage "--mode is '$2'; it must be sparse, semi-dense, dense or full"
       matcher+=("mode=$2")
       ;;
     --max-disparity)

@@ -8,7 +8,7 @@
 #
 # Options:
 #   --out DIR           output folder (default out/)
-#   --mode MODE         mode of the main result: sparse, semi-dense (default) or dense
+#   --mode MODE         mode of the main result: sparse, semi-dense (default), dense or full
 #   --max-disparity N   search range [px] (default: the clip's; the element's for your own files)
 #   --frames N          number of frames of the rendered clip (default 48)
 #   --size WxH          size of the rendered clip (default 640x360)
@@ -52,8 +52,8 @@ take_option() {
   case $1 in
     --out) out=$2 ;;
     --mode)
-      [[ $2 == sparse || $2 == semi-dense || $2 == dense ]] ||
-        wrong_usage "--mode is '$2'; it must be sparse, semi-dense or dense"
+      [[ $2 == sparse || $2 == semi-dense || $2 == dense || $2 == full ]] ||
+        wrong_usage "--mode is '$2'; it must be sparse, semi-dense, dense or full"
       mode=$2
       ;;
     --max-disparity)
@@ -202,7 +202,7 @@ compare() {
 demo_of_clip() {
   local table=() m seconds speed row
   render_clip
-  for m in sparse semi-dense dense; do
+  for m in sparse semi-dense dense full; do
     step "Matching the two files, mode $m"
     match "$m"
     seconds=$(played_seconds)
@@ -261,7 +261,8 @@ if [ "$raw" = yes ]; then
   written=(left.mp4 right.mp4 cameras/calibration.yml depth rectified "disparity-$mode.mkv")
 elif [ ${#files[@]} -eq 0 ]; then
   demo_of_clip
-  written=(left.mp4 right.mp4 disparity-sparse.mkv disparity-semi-dense.mkv disparity-dense.mkv)
+  written=(left.mp4 right.mp4 disparity-sparse.mkv disparity-semi-dense.mkv disparity-dense.mkv
+    disparity-full.mkv)
 else
   demo_of_files
   written=("disparity-$mode.mkv")
