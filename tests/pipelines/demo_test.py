@@ -17,14 +17,14 @@ class Demo(ClipTest):
         self.assert_succeeds(done)
         out = self.folder / "all of it"
         for name in ("left.mp4", "right.mp4", "disparity-sparse.mkv", "disparity-semi-dense.mkv",
-                     "disparity-dense.mkv", "color.mp4", "demo.png"):
+                     "disparity-dense.mkv", "disparity-full.mkv", "color.mp4", "demo.png"):
             self.assertGreater((out / name).stat().st_size, 0, name)
             self.assertIn(str(out / name), done.output)
         self.assertEqual(count_frames(out / "disparity-semi-dense.mkv", self.folder), 4)
         self.assertEqual(count_frames(out / "color.mp4", self.folder), 4)
         rows = {row.split()[0]: row.split()[1:] for row in done.output.splitlines()
-                if re.match(r"(sparse|semi-dense|dense) +\d", row)}
-        self.assertEqual(set(rows), {"sparse", "semi-dense", "dense"}, done.output)
+                if re.match(r"(sparse|semi-dense|dense|full) +\d", row)}
+        self.assertEqual(set(rows), {"sparse", "semi-dense", "dense", "full"}, done.output)
         for mode, row in rows.items():
             frames, error, outliers, density, seen_error, seen_outliers, speed = map(float, row)
             self.assertEqual(frames, 4, mode)
@@ -36,6 +36,7 @@ class Demo(ClipTest):
             self.assertGreater(speed, 0, f"{mode}: {row}")
         self.assertGreater(float(rows["semi-dense"][3]), float(rows["sparse"][3]), "density")
         self.assertGreater(float(rows["dense"][3]), float(rows["semi-dense"][3]), "density")
+        self.assertEqual(float(rows["full"][3]), 100, "density")
 
     @unittest.skipIf(SLOW > 1, "40 views of a board take minutes in a sanitized build")
     def test_raw_cameras_are_calibrated_and_measure_meters(self):
