@@ -122,11 +122,18 @@ def presets_of(step, steps):
     for mode in ("dense", "full"):
         if step.runs and all(modes == [mode] for modes in step.runs.values()):
             return f"mode {mode}"
-    if step.runs == {preset: [mode for mode in modes if mode != "full" or preset == "paper"]
-                     for preset, modes in everything.items()}:
+    def but_full(preset):
+        return [mode for mode in everything[preset] if mode != "full" or preset == "paper"]
+
+    if step.runs == {preset: but_full(preset) for preset in everything}:
         return "all modes but full"
-    return ", ".join(preset if modes == everything[preset] else f"{preset} {'/'.join(modes)}"
-                     for preset, modes in step.runs.items()) or "on request"
+    presets = {}  # which modes -> presets
+    for preset, modes in step.runs.items():
+        which = "" if modes == everything[preset] else \
+            " but full" if modes == but_full(preset) else " " + "/".join(modes)
+        presets.setdefault(which, []).append(preset)
+    return ", ".join(("/" if which else ", ").join(names) + which
+                     for which, names in presets.items()) or "on request"
 
 
 def table(steps):
@@ -158,9 +165,9 @@ AFTER = [
 
 class Drawing:
     """A picture in pixels, y downwards."""
-    WIDTH, HEIGHT, DPI = 1180, 900, 100
+    WIDTH, DPI = 1300, 100
 
-    def __init__(self):
+    def __init__(self, height):
         # pylint: disable=import-outside-toplevel
         import matplotlib
         from matplotlib import patches
@@ -168,10 +175,10 @@ class Drawing:
         from matplotlib.figure import Figure
         matplotlib.rcdefaults()
         self.patches = patches
-        figure = Figure(figsize=(self.WIDTH / self.DPI, self.HEIGHT / self.DPI), dpi=self.DPI)
+        figure = Figure(figsize=(self.WIDTH / self.DPI, height / self.DPI), dpi=self.DPI)
         self.canvas = FigureCanvasAgg(figure)
         self.axes = figure.add_axes((0, 0, 1, 1))
-        self.axes.set(xlim=(0, self.WIDTH), ylim=(self.HEIGHT, 0))
+        self.axes.set(xlim=(0, self.WIDTH), ylim=(height, 0))
         self.axes.axis("off")
 
     def box(self, x, y, width, height, color):
@@ -216,12 +223,12 @@ def draw_way(drawing, boxes, top):
 def draw_steps(drawing, steps, top):
     """The rooms with their steps and the memory of each. Returns the heights of the first and of
     the last room's middle."""
-    x, right, row, columns = 470, 1160, 25, 850
+    x, right, row, columns = 470, 1280, 25, 850
     spacing = (right - columns) / len(GROUPS)
     drawing.text(x, top, "core/steps: the list", 9.5, weight="bold")
     drawing.text(x + 205, top, "presets that run it")
     for i, group in enumerate(GROUPS):
-        drawing.text(columns + spacing * (i + 0.5), top, re.sub("([dt])Maps", r"\1-\nMaps", group), 8.5,
+        drawing.text(columns + spacing * (i + 0.5), top, re.sub("([dt])Maps", r"\1\nMaps", group), 8.5,
                      ha="center", linespacing=0.95)
     y, middles = top + 20, []
     rooms = list(dict.fromkeys(step.room for step in steps))
@@ -232,7 +239,7 @@ def draw_steps(drawing, steps, top):
         drawing.text(x + 12, y + 18, f"core/stages/{room}/", 9.5, weight="bold")
         for i, step in enumerate(inside):
             at = y + 18 + row * (i + 1)
-            default = "default" in step.runs and presets_of(step, steps) != "mode dense"
+            default = "semi-dense" in step.runs.get("default", [])
             drawing.text(x + 28, at, step.name, 9.5, INK if default else FAINT)
             drawing.text(x + 205, at, presets_of(step, steps), 9, INK if default else FAINT)
             for k, group in enumerate(GROUPS):
@@ -250,7 +257,8 @@ def draw_steps(drawing, steps, top):
 
 
 def picture(steps, path):
-    drawing = Drawing()
+    rooms = len({step.room for step in steps})
+    drawing = Drawing(115 + 25 * len(steps) + 47 * rooms)
     first_room, last_room = draw_steps(drawing, steps, 28)
     drawing.text(20, 28, "The path of a frame", 9.5, weight="bold")
     _, last = draw_way(drawing, BEFORE, 48)
