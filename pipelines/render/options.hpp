@@ -45,8 +45,11 @@ struct Options {
   std::string rectification;      ///< file of the calibration whose rectified pair the truth shows
   BoardOptions board;             ///< of the scene `board`
   Wall wall;                      ///< of the scene `wall`
+  Thin thin;                      ///< of the scene `thin`
   Settings settings;              ///< of the cameras
 
+  /// Whether make_scene() makes the scene.
+  bool is_built_in() const { return scene != "board" && scene != "wall" && scene != "thin"; }
   /// Whether the cameras are raw ones.
   bool has_raw_cameras() const { return !raw.empty() || !lens.empty(); }
 };

@@ -72,6 +72,27 @@ struct Wall {
 /// setting.
 Scene make_wall(const Wall& wall, std::uint32_t seed);
 
+/// What the things of the scene `thin` are.
+enum class ThinKind {
+  kPosts,    ///< upright bars
+  kLeaning,  ///< bars that lean by 0.2 to 0.6 px per row
+  kRails,    ///< level bars
+  kWires,    ///< nearly level bars: 0.06 to 0.2 rows per column
+  kFence,    ///< two fences of upright bars, with gaps of twice their width
+  kStems,    ///< stems of plants, with leaves
+};
+
+/// Thin things in front of a slanted wall.
+struct Thin {
+  ThinKind kind = ThinKind::kPosts;
+  double width = 3;  ///< of a bar along a row, or along a column [px of a view 640 px wide]
+};
+
+/// The scene with these things, at disparities 5 to 45 px above those of the wall in a view 640 px
+/// wide. Its first object is the wall; the others are the things. Throws std::invalid_argument,
+/// naming the setting.
+Scene make_thin(const Thin& thin, std::uint32_t seed);
+
 /// Collects the objects of a scene; each has its own texture seed.
 class SceneBuilder {
  public:

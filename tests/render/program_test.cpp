@@ -183,7 +183,7 @@ TEST_F(Program, RejectsInvalidOptionsByName) {
       {"--size 10x-4", "height"},
       {"--frames 0", "--frames"},
       {"--frames many", "--frames"},
-      {"--scene moon", "street, garden, room, board, wall"},
+      {"--scene moon", "street, garden, room, board, wall, thin"},
       {"--baseline -1", "baseline"},
       {"--focal nan", "focal"},
       {"--noise 1e9", "noise"},
