@@ -117,12 +117,19 @@ void Maps::resize(const Settings& settings, const FrameSize& size) {
   speckles.resize(width, height);
   if (settings.speckle_size > 1) area.resize(width, height);
   support.resize(width, height);
+  if (settings.thin_objects) {
+    thin.resize(width, height);
+    columns.resize(height, width);
+    withheld.resize(width, height);
+    if (settings.max_gap > 0) guarded.resize(width, height);
+  }
   if (settings.smoothing_radius > 0) smoothed.resize(width, height);
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
     worker.marks.resize(width);
     worker.support.resize(width);
     worker.columns.resize(Bands::kColumns);
+    if (settings.thin_objects) worker.thin.resize(width, height);
     worker.smoothing.resize(width, settings.smoothing_radius);
   }
 }

@@ -29,6 +29,8 @@
 #include "stages/refine/edge_alignment.hpp"
 #include "stages/refine/map_smoothing.hpp"
 #include "stages/refine/speckle_removal.hpp"
+#include "stages/refine/thin_chains.hpp"
+#include "stages/refine/withheld.hpp"
 
 namespace mtstereo {
 
@@ -156,12 +158,17 @@ struct Maps {
   SpeckleRuns speckles;
   Image<std::uint8_t> area;  ///< weights of the areas' sizes in the confidence
   SupportMap support;
+  ThinRuns thin;
+  Image<std::int32_t> columns;  ///< the map with its columns as rows
+  WithheldMap withheld;
+  Image<std::uint8_t> guarded;   ///< 1 where something nearer is in a gap
   Image<std::int32_t> smoothed;  ///< smoothed along the rows only
 
   struct Scratch {
     Buffer<std::uint8_t> marks;  ///< a row
     SupportScratch support;
     Buffer<std::int32_t> columns;  ///< a block of columns
+    ThinScratch thin;
     SmoothingScratch smoothing;
   };
   std::vector<Scratch> scratch;  ///< one for each thread

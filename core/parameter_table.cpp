@@ -114,6 +114,9 @@ constexpr ParameterInfo kTable[] = {
     {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "153", "95", "0"), MODES("183", "160", "101", "0"), MODES("0", "0", "0", "0")),
      "disparities of lower confidence (1 .. 255) are removed; 0 = none; a filled gap has half the "
      "confidence of its sides"},
+    {P::kThinObjects, "thin-objects", "", "", T::kBoolean, 0, 1, "", BY_MODE(MODES("false", "true", "true", "false"), MODES("false", "true", "true", "false"), MODES("false", "false", "false", "false")),
+     "keep posts, rails and wires that are too thin for speckle-size and min-confidence, and fill no gap over "
+     "something nearer"},
     {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, kLargestNodeEnd, "", EACH("9", "9", "1"),
      "mode sparse: pixels that keep their disparity at each end of a finest node, an odd number"},
     {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "8", "30", "0"), MODES("0", "4", "15", "0"), MODES("0", "0", "0", "0")),

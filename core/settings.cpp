@@ -76,6 +76,7 @@ Settings::Settings(const Parameters& p)
                 ratio_offset(p)},
       speckle_size(p.integer(P::kSpeckleSize)),
       min_confidence(p.integer(P::kMinConfidence)),
+      thin_objects(p.get(P::kThinObjects) != 0),
       node_end_width(p.integer(P::kNodeEndWidth)),
       max_gap(p.integer(P::kMaxGap)),
       smoothing_radius(p.integer(P::kSmoothingRadius)) {}

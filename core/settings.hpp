@@ -52,6 +52,7 @@ struct Settings {
   // refinement
   int speckle_size;      ///< [px]
   int min_confidence;    ///< 0 .. 255
+  bool thin_objects;     ///< whether they are kept, and gaps guarded
   int node_end_width;    ///< [px]
   int max_gap;           ///< [px]
   int smoothing_radius;  ///< [px]

@@ -28,7 +28,9 @@ inline bool if_speckles(const Settings& s) { return s.speckle_size > 1; }
 inline bool if_islands(const Settings& s) {
   return if_speckles(s) && s.min_confidence > 0 && !s.keeps_only_ends();
 }
+inline bool if_thin(const Settings& s) { return s.thin_objects; }
 inline bool if_gaps(const Settings& s) { return s.max_gap > 0; }
+inline bool if_guard(const Settings& s) { return if_thin(s) && if_gaps(s); }
 inline bool if_smoothing(const Settings& s) { return s.smoothing_radius > 0; }
 
 }  // namespace mtstereo

@@ -34,6 +34,7 @@
 #include "stages/refine/speckle_removal.hpp"
 #include "step_conditions.hpp"
 #include "step_groups.hpp"
+#include "thin_steps.hpp"
 
 namespace mtstereo {
 namespace {
@@ -358,10 +359,13 @@ constexpr Step kSteps[] = {
     {"gradient-matching",   if_gradient,       on<match_by_gradient, Costs, Maps>},
     // refine
     {"pixel-outliers",      if_pixel_outliers, on<remove_outliers, Maps>},
+    {"thin-search",         if_thin,           on<find_thin_objects, const Views, Maps>},
     {"speckle-removal",     if_speckles,       on<remove_speckles, Maps>},
     {"confidence",          always,            on<rate_confidence, const Nodes, Maps>},
     {"island-removal",      if_islands,        on<remove_islands, Maps>},
+    {"thin-restoring",      if_thin,           on<restore_thin_objects, Maps>},
     {"gap-filling",         if_gaps,           on<fill_gaps, Maps>},
+    {"gap-guard",           if_guard,          on<guard_gaps, Maps>},
     {"smoothing",           if_smoothing,      on<smooth, Maps>},
     {"enlarging",           if_half,           on<enlarge, const Maps, EnlargedMaps>},
     {"input-census",        if_refined,        on<transform_input, Views>},

@@ -6,7 +6,7 @@
   mtstereo-figures --steps | architecture.py picture PICTURE.png
 
 The program prints the steps and the presets that run them. The memory that each step is given and
-the stages that it calls are read from core/steps.cpp and core/path_steps.cpp. The exit status is 1 if the two do not fit
+the stages that it calls are read from the files of the steps. The exit status is 1 if the two do not fit
 together or a stage has no test, and if the picture cannot be made.
 """
 import pathlib
@@ -15,7 +15,7 @@ import sys
 from dataclasses import dataclass
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-STEPS = ("core/steps.cpp", "core/path_steps.cpp")  # the list is in the first one
+STEPS = ("core/steps.cpp", "core/path_steps.cpp", "core/thin_steps.cpp")  # the list is in the first one
 GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "EnlargedMaps", "OutputMaps", "Completion")
 INK, FAINT, GIVEN, EDGE = "#282828", "#767676", "#1464be", "#b4b4b4"
 GST, CORE, ROOM = "#fdf0dc", "#e4eefa", "#f4f4f4"

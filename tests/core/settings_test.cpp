@@ -87,6 +87,7 @@ const Mapping kMappings[] = {
     {"subpixel", "false", 0, [](const Settings& s) { return s.selection.subpixel; }},
     {"speckle-size", "123", 123, [](const Settings& s) { return s.speckle_size; }},
     {"min-confidence", "99", 99, [](const Settings& s) { return s.min_confidence; }},
+    {"thin-objects", "false", 0, [](const Settings& s) { return s.thin_objects; }},
     {"node-end-width", "15", 15, [](const Settings& s) { return s.node_end_width; }},
     {"max-gap", "44", 44, [](const Settings& s) { return s.max_gap; }},
     {"smoothing-radius", "3", 3, [](const Settings& s) { return s.smoothing_radius; }},

@@ -39,16 +39,18 @@ void expect_none_of(const Parameters& parameters, const Names& absent) {
 }
 
 TEST(Steps, RunInOrderWithTheDefaults) {
-  expect_order({}, {"noise-filter", "preprocessing", "max-trees", "census", "node-matching",
-                    "node-extrapolation", "census-matching", "speckle-removal", "confidence",
-                    "island-removal", "gap-filling", "smoothing"});
+  expect_order(
+      {}, {"noise-filter", "preprocessing", "max-trees", "census", "node-matching",
+           "node-extrapolation", "census-matching", "thin-search", "speckle-removal", "confidence",
+           "island-removal", "thin-restoring", "gap-filling", "gap-guard", "smoothing"});
   expect_none_of({},
                  {"halving", "cost-volume", "node-drawing", "node-outliers", "gradient-matching",
                   "pixel-outliers", "enlarging", "input-census", "refinement"});
 }
 
 TEST(Steps, LeaveTheEndsOfNodesAloneInModeSparse) {
-  expect_none_of(test::parameters({{"mode", "sparse"}}), {"island-removal", "gap-filling"});
+  expect_none_of(test::parameters({{"mode", "sparse"}}),
+                 {"thin-search", "island-removal", "thin-restoring", "gap-filling", "gap-guard"});
 }
 
 TEST(Steps, FillGapsAfterConfidenceInModeDense) {
@@ -58,9 +60,9 @@ TEST(Steps, FillGapsAfterConfidenceInModeDense) {
 
 TEST(Steps, MatchAlongPathsInsteadOfNodesInModeFull) {
   const Parameters full = test::parameters({{"mode", "full"}});
-  expect_order(full, {"noise-filter", "census", "reduced-matching", "path-matching",
-                      "speckle-removal", "confidence", "smoothing", "completion",
-                      "edge-alignment"});
+  expect_order(full,
+               {"noise-filter", "census", "reduced-matching", "path-matching", "speckle-removal",
+                "confidence", "smoothing", "completion", "edge-alignment"});
   expect_none_of(full, {"preprocessing", "max-trees", "node-matching", "node-extrapolation",
                         "census-matching", "gap-filling", "island-removal"});
 }
@@ -89,8 +91,8 @@ TEST(Steps, AreThoseOfThePaperInPresetPaper) {
                        "node-outliers", "node-extrapolation", "gradient-matching", "pixel-outliers",
                        "confidence"});
   expect_none_of(paper, {"halving", "noise-filter", "island-removal", "census", "census-matching",
-                         "speckle-removal", "gap-filling", "smoothing", "enlarging", "input-census",
-                         "refinement"});
+                         "thin-search", "speckle-removal", "gap-filling", "smoothing", "enlarging",
+                         "input-census", "refinement"});
 }
 
 TEST(Steps, AreEnabledBySettings) {
@@ -105,6 +107,11 @@ TEST(Steps, AreEnabledBySettings) {
   EXPECT_FALSE(runs("island-removal", "min-confidence", "0"));
   EXPECT_FALSE(runs("noise-filter", "noise-filter", "false"));
   EXPECT_TRUE(runs("gap-filling", "max-gap", "1"));
+  EXPECT_TRUE(runs("gap-guard", "max-gap", "1"));
+  EXPECT_FALSE(runs("gap-guard", "max-gap", "0"));
+  EXPECT_FALSE(runs("gap-guard", "thin-objects", "false"));
+  EXPECT_FALSE(runs("thin-search", "thin-objects", "false"));
+  EXPECT_FALSE(runs("thin-restoring", "thin-objects", "false"));
   EXPECT_TRUE(runs("smoothing", "smoothing-radius", "1"));
   EXPECT_TRUE(runs("node-outliers", "outlier-radius", "1"));
   EXPECT_FALSE(runs("pixel-outliers", "outlier-radius", "1"));

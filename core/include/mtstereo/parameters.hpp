@@ -73,6 +73,7 @@ enum class Parameter {
   kSubpixel,
   kSpeckleSize,
   kMinConfidence,
+  kThinObjects,
   kNodeEndWidth,
   kMaxGap,
   kSmoothingRadius,

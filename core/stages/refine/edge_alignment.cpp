@@ -43,7 +43,8 @@ Vec medians_at(const EdgeWindow& rows, int x) {
     high = hn::Max(high, disparity);
   }
   const auto half = hn::ShiftRight<1>(total);
-  // Lanes after the end of the row hold any values; so the difference of the bounds cannot overflow.
+  // Lanes after the end of the row hold any values; so the difference of the bounds cannot
+  // overflow.
   low = hn::Max(low, hn::Zero(d16));
   high = hn::Max(high, low);
   while (!hn::AllFalse(d16, hn::Lt(low, high))) {

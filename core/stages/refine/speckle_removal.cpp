@@ -120,7 +120,7 @@ std::uint32_t write_row_runs(const std::int32_t* row, std::int32_t tolerance, st
   std::uint16_t* begin = runs.begin.data() + run;
   std::uint16_t* end = runs.end.data() + run;
   std::uint32_t* link = runs.link.data() + run;
-  const int count = HWY_DYNAMIC_DISPATCH(find_row_runs)(row, runs.width, tolerance, begin, end);
+  const int count = find_runs_of_row(row, runs.width, tolerance, begin, end);
   for (int i = 0; i < count; ++i) {
     ++end[i];  // one past the last column
     link[i] = kRootRun + static_cast<std::uint32_t>(end[i] - begin[i]);
@@ -187,6 +187,11 @@ void SpeckleRuns::resize(int map_width, int map_height) {
   link.resize(pixels);
   width = map_width;
   height = map_height;
+}
+
+int find_runs_of_row(const std::int32_t* row, int width, std::int32_t tolerance,
+                     std::uint16_t* begin, std::uint16_t* last) {
+  return HWY_DYNAMIC_DISPATCH(find_row_runs)(row, width, tolerance, begin, last);
 }
 
 void find_runs(const Image<std::int32_t>& map, std::int32_t tolerance, int y0, int y1,

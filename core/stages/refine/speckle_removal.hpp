@@ -37,6 +37,11 @@ struct SpeckleRuns {
 /// of another run.
 inline constexpr std::uint32_t kRootRun = 1u << 31;
 
+/// Writes the first and the last column of each run of connected pixels of a row, and returns the
+/// number of runs. The row has the padding of an Image; `begin` and `last` hold `width` entries.
+int find_runs_of_row(const std::int32_t* row, int width, std::int32_t tolerance,
+                     std::uint16_t* begin, std::uint16_t* last);
+
 /// Finds the runs of the rows y0 .. y1 - 1 and connects them to one another. Disparities that
 /// differ by at most `tolerance` [1/256 px] are connected.
 void find_runs(const Image<std::int32_t>& map, std::int32_t tolerance, int y0, int y1,

@@ -114,6 +114,13 @@ Change change_of(Parameter id) {
       return {{{"min-confidence", "0"}, {"large-step-penalty", "0"}}, "24"};
     case Parameter::kPixelConfidence:
       return {{}, "60"};
+    case Parameter::kThinObjects:  // with wrong disparities in the gaps
+      return {{{"large-step-penalty", "0"},
+               {"range-penalty", "0"},
+               {"pixel-confidence", "0"},
+               {"left-right-tolerance", "-1"},
+               {"max-gap", "30"}},
+              "false"};
     case Parameter::kRunnerUp:
       return {{{"preset", "paper"}}, "any"};
     case Parameter::kLeftRightTolerance:

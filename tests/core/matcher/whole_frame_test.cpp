@@ -59,6 +59,7 @@ Parameters random_parameters(int width, Random& random) {
       {"subpixel", one_of(random, {"true", "false"})},
       {"speckle-size", one_of(random, {"0", "0", "1", "5", "20"})},
       {"min-confidence", one_of(random, {"0", "0", "0", "40", "90", "200"})},
+      {"thin-objects", one_of(random, {"true", "false"})},
       {"node-end-width", one_of(random, {"3", "1", "9", "31"})},
       {"max-gap", one_of(random, {"0", "1", "6", "30"})},
       {"smoothing-radius", one_of(random, {"0", "0", "1", "3", "31"})},
@@ -109,7 +110,8 @@ void expect_step(const reference::Frame& expected, const Step& step, const Frame
   if (map.width > 0) {
     EXPECT_TRUE(same_image(expected.map, map));
   }
-  if (step.name == "confidence" || step.name == "gap-filling") {
+  if (step.name == "confidence" || step.name == "thin-restoring" || step.name == "gap-guard" ||
+      step.name == "gap-filling") {
     EXPECT_TRUE(same_image(expected.confidence, memory.maps.confidence.view()));
   }
 }
@@ -169,7 +171,7 @@ TEST(WholeFrame, EqualsReferenceWithAnyParametersAndSizes) {
 }
 
 constexpr const char* kPresetNames[] = {"default", "fast", "paper"};
-constexpr const char* kModeNames[] = {"sparse", "semi-dense", "dense"};
+constexpr const char* kModeNames[] = {"sparse", "semi-dense", "dense", "full"};
 
 TEST(WholeFrame, EqualsReferenceWithTheDefaultsOfAllModes) {
   for (const char* const preset : kPresetNames) {
@@ -183,6 +185,37 @@ TEST(WholeFrame, EqualsReferenceWithTheDefaultsOfAllModes) {
           expect_reference(matcher, pair, pair.left.view(), pair.right.view());
       EXPECT_GT(test::known(map), 100);
     }
+  }
+}
+
+/// Posts in front of a background, 16 px nearer.
+test::Pair posts() {
+  test::Pair pair = test::shifted_pair(200, 90, 4, 21);
+  for (int y = 10; y < 85; ++y) {
+    for (int post = 0; post < 5; ++post) {
+      for (int i = 0; i < 4 + post; ++i) {
+        const int x = 36 + 32 * post + i + y / 8;
+        const auto gray = static_cast<std::uint8_t>(post % 2 == 0 ? 250 : 3);
+        pair.left(x, y) = pair.right(x - 20, y) = gray;
+      }
+    }
+  }
+  return pair;
+}
+
+TEST(WholeFrame, EqualsReferenceWithThinObjects) {
+  const test::Pair pair = posts();
+  const auto map_of = [&](const char* mode, const char* thin) {
+    const Parameters parameters =
+        test::parameters({{"mode", mode}, {"max-disparity", "40"}, {"thin-objects", thin}});
+    FrameMatcher matcher{Settings(parameters)};
+    return expect_reference(matcher, pair, pair.left.view(), pair.right.view());
+  };
+  const auto near = [](const test::DisparityPlane& map) {
+    return std::count_if(map.pixels.begin(), map.pixels.end(), [](int d) { return d > 18 * 256; });
+  };
+  for (const char* const mode : {"semi-dense", "dense"}) {
+    EXPECT_GT(near(map_of(mode, "true")), near(map_of(mode, "false")) + 300) << mode;
   }
 }
 

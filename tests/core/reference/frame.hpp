@@ -20,6 +20,8 @@
 #include "reference/refine/gap_filling.hpp"
 #include "reference/refine/map_smoothing.hpp"
 #include "reference/refine/speckle_removal.hpp"
+#include "reference/refine/thin_chains.hpp"
+#include "reference/refine/withheld.hpp"
 #include "settings.hpp"
 #include "stages/prepare/noise_filter.hpp"
 
@@ -43,6 +45,8 @@ struct Frame {
   DisparityPlane half_map;  ///< of the views at half the matched resolution, for mode full
   DisparityPlane nodes;     ///< the drawn leaves; without outliers after their removal
   DisparityPlane map;
+  DisparityPlane found;     ///< the map before the filters, negative at thin objects
+  DisparityPlane unfilled;  ///< the map before the gap filling
   GrayPlane ratio;
   GrayPlane area;  ///< weights of the areas
   GrayPlane confidence;
@@ -173,6 +177,8 @@ inline void remove_pixel_outliers(Frame& f) {
   f.map = remove_outliers(f.map, f.settings.outlier_radius);
 }
 
+inline void find_thin(Frame& f) { f.found = mark_thin(f.views[0], f.views[1], f.map); }
+
 inline void remove_speckles(Frame& f) {
   const Areas areas = remove_speckles(f.map, 256, f.settings.speckle_size);
   f.map = areas.map;
@@ -201,12 +207,17 @@ inline void remove_islands(Frame& f) {
   }
 }
 
+inline void restore_thin(Frame& f) {
+  restore_kept(f.found, f.settings.min_confidence, f.map, f.confidence);
+}
+
 inline void take(Frame& f, const ConfidentMap& result) {
   f.map = result.map;
   f.confidence = result.confidence;
 }
 
 inline void fill_gaps(Frame& f) {
+  f.unfilled = f.map;
   ConfidentMap filled = {f.map, f.confidence};
   filled = fill_gaps(filled, f.settings.max_gap, 256, 1, 0);
   filled = fill_gaps(filled, f.settings.max_gap, 256, 0, 1);
@@ -218,6 +229,8 @@ inline void complete(Frame& f) { take(f, complete(ConfidentMap{f.map, f.confiden
 inline void align_edges(Frame& f) {
   take(f, align_edges(f.left, ConfidentMap{f.map, f.confidence}));
 }
+
+inline void guard_gaps(Frame& f) { guard_gaps(f.found, f.unfilled, f.map, f.confidence); }
 
 inline void smooth(Frame& f) { f.map = smooth(f.map, f.settings.smoothing_radius); }
 
@@ -253,10 +266,13 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"census-matching", match_by_census},
     {"gradient-matching", match_by_gradient},
     {"pixel-outliers", remove_pixel_outliers},
+    {"thin-search", find_thin},
     {"speckle-removal", remove_speckles},
     {"confidence", rate_confidence},
     {"island-removal", remove_islands},
+    {"thin-restoring", restore_thin},
     {"gap-filling", fill_gaps},
+    {"gap-guard", guard_gaps},
     {"smoothing", smooth},
     {"enlarging", enlarge},
     {"input-census", nothing},

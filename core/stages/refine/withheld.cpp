@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/withheld.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "mtstereo/image.hpp"
+
+namespace mtstereo {
+namespace {
+
+/// Without branches, so that compilers vectorize the loops of these functions.
+void restore_row(std::uint8_t least, int width, std::int32_t* __restrict__ withheld,
+                 std::int32_t* __restrict__ map, std::uint8_t* __restrict__ confidence) {
+  for (int x = 0; x < width; ++x) {
+    const bool back = (withheld[x] < 0) & (map[x] == kNoDisparity);
+    map[x] = back ? -withheld[x] : map[x];
+    confidence[x] = back ? least : confidence[x];
+    withheld[x] = map[x] != kNoDisparity ? kKeptDisparity : withheld[x];
+  }
+}
+
+void guard_row(const std::int32_t* __restrict__ filled, const std::int32_t* __restrict__ withheld,
+               int width, std::uint8_t* __restrict__ guarded) {
+  for (int x = 0; x < width; ++x) {
+    guarded[x] = (filled[x] != kNoDisparity) & (withheld[x] - filled[x] > kGuardedStep);
+  }
+}
+
+}  // namespace
+
+void copy_map(const Image<std::int32_t>& map, int y0, int y1, WithheldMap& withheld) {
+  for (int y = y0; y < y1; ++y) std::copy_n(map.row(y), map.width(), withheld.row(y));
+}
+
+void restore_kept(int confidence, int y0, int y1, WithheldMap& withheld, Image<std::int32_t>& map,
+                  Image<std::uint8_t>& map_confidence) {
+  const auto least = static_cast<std::uint8_t>(std::max(confidence, 1));
+  for (int y = y0; y < y1; ++y) {
+    restore_row(least, map.width(), withheld.row(y), map.row(y), map_confidence.row(y));
+  }
+}
+
+void mark_guarded(const Image<std::int32_t>& filled, const WithheldMap& withheld, int y0, int y1,
+                  Image<std::uint8_t>& guarded) {
+  for (int y = y0; y < y1; ++y) {
+    guard_row(filled.row(y), withheld.row(y), filled.width(), guarded.row(y));
+  }
+}
+
+void remove_guarded(const WithheldMap& withheld, const Image<std::uint8_t>& guarded, int y0, int y1,
+                    Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+  const int width = map.width();
+  // Clears the filled ones of the pixels x - 1 .. x + 1 of row y.
+  const auto clear = [&](int x, int y) {
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i) {
+      if (withheld.row(y)[i] == kKeptDisparity) continue;
+      map.row(y)[i] = kNoDisparity;
+      confidence.row(y)[i] = 0;
+    }
+  };
+  for (int y = y0; y < y1; ++y) {
+    for (int near = std::max(y - 1, 0); near <= std::min(y + 1, map.height() - 1); ++near) {
+      // Few pixels are guarded.
+      const std::uint8_t* row = guarded.row(near);
+      for (int x = 0; x < width; ++x) {
+        const void* next = std::memchr(row + x, 1, static_cast<std::size_t>(width - x));
+        if (next == nullptr) break;
+        x = static_cast<int>(static_cast<const std::uint8_t*>(next) - row);
+        clear(x, y);
+      }
+    }
+  }
+}
+
+}  // namespace mtstereo

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "steps.hpp"
+
+/// Internal to the list of steps: the steps that keep thin objects. As in steps.cpp, the build
+/// compiles the stages whose headers thin_steps.cpp includes.
+
+namespace mtstereo {
+
+/// Finds thin objects in the map of the matching and keeps a copy of that map.
+void find_thin_objects(const StepContext& step, const Views& views, Maps& maps);
+
+/// Gives the pixels of thin objects that the filters have removed their disparities back.
+void restore_thin_objects(const StepContext& step, Maps& maps);
+
+/// Removes filled pixels where the matching had seen something nearer.
+void guard_gaps(const StepContext& step, Maps& maps);
+
+}  // namespace mtstereo

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/withheld.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference/refine/withheld.hpp"
+#include "support/compare.hpp"
+#include "support/random_maps.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::copy_of;
+using test::DisparityPlane;
+using test::GrayPlane;
+using test::Random;
+using test::same_image;
+
+/// A map with its confidence.
+struct Rated {
+  DisparityPlane map;
+  GrayPlane confidence;
+};
+
+/// A map of the matching with marked pixels, and what the filters leave of it.
+struct Filtered {
+  Filtered(int width, int height, std::uint64_t seed)
+      : found(test::patches(width, height, 1, seed)), left{found, GrayPlane(width, height)} {
+    Random random(seed);
+    for (std::size_t i = 0; i < found.pixels.size(); ++i) {
+      if (random.below(3) == 0) left.map.pixels[i] = 0;
+      if (left.map.pixels[i] != 0) left.confidence.pixels[i] = 90;
+      if (random.below(5) == 0) found.pixels[i] = -found.pixels[i];
+    }
+  }
+  DisparityPlane found;
+  Rated left;
+};
+
+/// Fills some unknown pixels.
+void fill(Rated& rated, std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t i = 0; i < rated.map.pixels.size(); ++i) {
+    if (rated.map.pixels[i] != 0 || random.below(3) == 0) continue;
+    rated.map.pixels[i] = random.between(256, 6 * 256);
+    rated.confidence.pixels[i] = 40;
+  }
+}
+
+void expect_reference(int width, int height, int least, int band, std::uint64_t seed) {
+  SCOPED_TRACE(testing::Message() << width << "x" << height << ", bands of " << band << " rows");
+  const Filtered filtered(width, height, seed);
+  Rated expected = filtered.left;
+  reference::restore_kept(filtered.found, least, expected.map, expected.confidence);
+
+  Image<std::int32_t> withheld, map = image_of(filtered.left.map);
+  withheld.resize(width, height);
+  Image<std::uint8_t> confidence = image_of(filtered.left.confidence);
+  const auto in_bands = [&](auto&& body) {
+    for (int y0 = (height - 1) / band * band; y0 >= 0; y0 -= band) {
+      body(y0, std::min(y0 + band, height));
+    }
+  };
+  const Image<std::int32_t> found = image_of(filtered.found);
+  in_bands([&](int y0, int y1) { copy_map(found, y0, y1, withheld); });
+  in_bands([&](int y0, int y1) { restore_kept(least, y0, y1, withheld, map, confidence); });
+  ASSERT_TRUE(same_image(expected.map, map));
+  ASSERT_TRUE(same_image(expected.confidence, confidence));
+
+  const DisparityPlane before = expected.map;
+  fill(expected, seed + 1);
+  map = image_of(expected.map);
+  confidence = image_of(expected.confidence);
+  reference::guard_gaps(filtered.found, before, expected.map, expected.confidence);
+  Image<std::uint8_t> guarded;
+  guarded.resize(width, height);
+  in_bands([&](int y0, int y1) { mark_guarded(map, withheld, y0, y1, guarded); });
+  in_bands([&](int y0, int y1) { remove_guarded(withheld, guarded, y0, y1, map, confidence); });
+  EXPECT_TRUE(same_image(expected.map, map));
+  EXPECT_TRUE(same_image(expected.confidence, confidence));
+}
+
+TEST(Withheld, EqualsReferenceAtEveryWidth) {
+  for (int width = 1; width <= 80; ++width) {
+    for (const int band : {1, 5, 1 << 20}) {
+      expect_reference(width, 1 + width % 37, width % 3 * 90, std::min(band, 1 + width % 37),
+                       width);
+    }
+  }
+}
+
+TEST(Withheld, KeepsAGapOpenAroundSomethingNearer) {
+  // A row: a kept pixel, a gap of 6 px in which a nearer one was seen, another kept pixel.
+  DisparityPlane found(8, 1);
+  found(0, 0) = found(7, 0) = 512;
+  found(3, 0) = 512 + kGuardedStep + 1;
+  Image<std::int32_t> withheld = image_of(found);
+  DisparityPlane start = found;
+  start(3, 0) = 0;
+  Image<std::int32_t> map = image_of(start);
+  Image<std::uint8_t> confidence = image_of(GrayPlane(8, 1, 50)), guarded;
+  guarded.resize(8, 1);
+  restore_kept(100, 0, 1, withheld, map, confidence);
+  std::fill_n(map.row(0), 8, 512);
+  mark_guarded(map, withheld, 0, 1, guarded);
+  remove_guarded(withheld, guarded, 0, 1, map, confidence);
+  for (int x = 0; x < 8; ++x) {
+    const bool open = x >= 2 && x <= 4;
+    EXPECT_EQ(open ? 0 : 512, map.row(0)[x]) << x;
+    EXPECT_EQ(open ? 0 : 50, confidence.row(0)[x]) << x;
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo
