@@ -18,7 +18,7 @@ import zlib
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
 SLOW = float(os.environ.get("MTSTEREO_SLOW", "1"))  # how much slower a sanitized build may be
 COMPARE = pathlib.Path(__file__).resolve().parent / "compare.py"
-METHODS = ("semi-dense", "fast", "sparse", "dense", "paper", "sgbm", "sgbm-3way", "bm")
+METHODS = ("semi-dense", "fast", "sparse", "dense", "full", "paper", "sgbm", "sgbm-3way", "bm")
 STAGES = ("preprocessing", "max-trees", "cost-volume", "node-matching",
           "node-drawing", "node-extrapolation", "census", "census-matching", "speckle-removal",
           "confidence", "gap-filling", "node-outliers", "gradient-matching",

@@ -16,6 +16,7 @@ constexpr Variant kVariants[] = {
     kDefaultVariant,
     {"sparse", "default", "sparse"},
     {"dense", "default", "dense"},
+    {"full", "default", "full"},
     {"paper", "paper", "semi-dense"},
     {"fast", "fast", "semi-dense"},
 };

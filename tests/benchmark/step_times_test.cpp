@@ -10,11 +10,9 @@
 namespace mtstereo::bench {
 namespace {
 
-constexpr std::pair<const char*, const char*> kVariants[] = {{"default", "semi-dense"},
-                                                             {"default", "sparse"},
-                                                             {"default", "dense"},
-                                                             {"fast", "semi-dense"},
-                                                             {"paper", "semi-dense"}};
+constexpr std::pair<const char*, const char*> kVariants[] = {
+    {"default", "semi-dense"}, {"default", "sparse"},  {"default", "dense"},
+    {"default", "full"},       {"fast", "semi-dense"}, {"paper", "semi-dense"}};
 
 // measure() compares with the matcher.
 TEST(StepTimes, HaveATimeForEachStepOfTheMatchersList) {

@@ -25,6 +25,7 @@ constexpr FrameVariant kVariants[] = {
     {{"fast", "fast", "semi-dense"}, true},
     {{"sparse", "default", "sparse"}, false},
     {{"dense", "default", "dense"}, false},
+    {{"full", "default", "full"}, true},
     {{"paper", "paper", "semi-dense"}, false},
 };
 constexpr eval::Rival kRivals[] = {eval::Rival::kSgbm, eval::Rival::kSgbm3Way, eval::Rival::kBm};

@@ -76,7 +76,7 @@ TEST_F(Properties, HaveTheDefaultsOfTheLibrary) {
 
 TEST_F(Properties, FollowPresetAndModeUnlessSet) {
   for (const char* const preset : {"paper", "fast", "default"}) {
-    for (const char* const mode : {"sparse", "dense", "semi-dense"}) {
+    for (const char* const mode : {"sparse", "dense", "full", "semi-dense"}) {
       Parameters expected;
       ASSERT_TRUE(expected.set(Parameter::kPreset, std::string_view(preset)).ok());
       ASSERT_TRUE(expected.set(Parameter::kMode, std::string_view(mode)).ok());
@@ -100,7 +100,7 @@ TEST_F(Properties, DoNotFollowTheModeIfSet) {
 }
 
 TEST_F(Properties, TakeChoicesByWord) {
-  for (const char* word : {"sparse", "semi-dense", "dense"}) {
+  for (const char* word : {"sparse", "semi-dense", "dense", "full"}) {
     gst_util_set_object_arg(G_OBJECT(element), "mode", word);
     EXPECT_EQ(text("mode"), word);
   }
