@@ -51,6 +51,7 @@ void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observ
   resize({left.width, left.height});
   Views& views = memory_.views;
   views.left = left;
+  views.noise_level = 0;
   views.input = {left, right};
   views.matched = views.input;
   if (settings_.half()) views.matched = {views.halves[0].view(), views.halves[1].view()};

@@ -64,6 +64,7 @@ struct Views {
   std::array<Image<std::uint8_t>, 2> extended;  ///< with more columns, for negative disparities
   std::array<Image<std::uint8_t>, 2> halves;
   std::array<NoiseBlocks, 2> noise;
+  float noise_level = 0;  ///< of the noisier view, before it was filtered; 0 without the filter
   std::array<Image<std::uint8_t>, 2> filtered;  ///< without noise
   std::array<PreprocessedView, 2> preprocessed;
   std::array<MaxTrees, 2> trees;

@@ -89,8 +89,9 @@ void filter_noise(const StepContext& step, Views& views) {
     measure_blocks(views.matched[side], y0, y1, views.noise[side]);
   });
   const float levels[] = {noise_level(views.noise[0]), noise_level(views.noise[1])};
+  views.noise_level = std::max(levels[0], levels[1]);
   // The filter also removes fine texture, which the paths of mode full need more than nodes do.
-  if (step.settings.full() && std::max(levels[0], levels[1]) < kLeastNoiseOfFull) return;
+  if (step.settings.full() && views.noise_level < kLeastNoiseOfFull) return;
   const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
     mtstereo::filter_noise(views.matched[side], threshold, y0, y1,

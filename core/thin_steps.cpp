@@ -28,6 +28,7 @@ void find_thin_objects(const StepContext& step, const Views& views, Maps& maps) 
     copy_map(maps.disparity, y0, y1, maps.withheld);
     find_thin_runs(maps.disparity, y0, y1, maps.scratch[worker].thin, maps.thin);
   });
+  if (views.noise_level > kMostThinNoise) return;
   follow_chains(
       views, [&](auto&& body) { step.bands.rows(body); }, maps);
 

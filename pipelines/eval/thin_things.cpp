@@ -14,10 +14,21 @@ double share(std::int64_t part, std::int64_t all) {
   return all == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(all);
 }
 
+/// 255 where there is no truth. OpenCV's comparisons do not find NaN.
+cv::Mat unknown_in(const cv::Mat& truth) {
+  cv::Mat unknown(truth.size(), CV_8UC1);
+  for (int y = 0; y < truth.rows; ++y) {
+    for (int x = 0; x < truth.cols; ++x) {
+      unknown.at<std::uint8_t>(y, x) = std::isnan(truth.at<float>(y, x)) ? 255 : 0;
+    }
+  }
+  return unknown;
+}
+
 /// The truth without what is narrower than a line of this size.
-cv::Mat opened(const cv::Mat& truth, cv::Size line) {
+cv::Mat opened(const cv::Mat& truth, const cv::Mat& unknown, cv::Size line) {
   constexpr float kFar = std::numeric_limits<float>::max();
-  const cv::Mat kernel = cv::Mat::ones(line, CV_8UC1), unknown = truth != truth;
+  const cv::Mat kernel = cv::Mat::ones(line, CV_8UC1);
   cv::Mat result = truth.clone();
   result.setTo(kFar, unknown);
   cv::erode(result, result, kernel);
@@ -46,9 +57,10 @@ ThinCounts& operator+=(ThinCounts& sum, const ThinCounts& counts) {
 
 cv::Mat background_of(const cv::Mat& truth) {
   constexpr int kLine = kMostThin + 1;
+  const cv::Mat unknown = unknown_in(truth);
   cv::Mat background;
-  cv::min(opened(truth, {kLine, 1}), opened(truth, {1, kLine}), background);
-  background.setTo(std::numeric_limits<float>::quiet_NaN(), truth != truth);
+  cv::min(opened(truth, unknown, {kLine, 1}), opened(truth, unknown, {1, kLine}), background);
+  background.setTo(std::numeric_limits<float>::quiet_NaN(), unknown);
   return background;
 }
 
@@ -57,7 +69,8 @@ ThinCounts measure_thin(const cv::Mat& estimate, const cv::Mat& truth) {
     throw InputError("the disparity map and the ground truth have different sizes");
   }
   const cv::Mat background = background_of(truth);
-  cv::Mat thin = truth - background > kThinStep, near;
+  const cv::Mat above = truth - background;
+  cv::Mat thin = above > kThinStep, near;
   constexpr int kRim = 2 * kThinRim + 1;
   cv::dilate(thin, near, cv::Mat::ones(kRim, kRim, CV_8UC1));
   ThinCounts counts;

@@ -31,6 +31,10 @@ inline constexpr int kMostThinWidth = 10;
 /// The background is at least this much farther [1/256 px].
 inline constexpr std::int32_t kThinStep = 2 * kDisparityOne;
 
+/// With more noise, chains are not searched: what the right view confirms is then by chance [gray
+/// values, of the views before they are filtered].
+inline constexpr float kMostThinNoise = 7.5F;
+
 /// A line of n px has at most n / kThinSpacing + 1 thin runs; further ones are not kept.
 inline constexpr int kThinSpacing = 8;
 

@@ -24,6 +24,7 @@
 #include "reference/refine/withheld.hpp"
 #include "settings.hpp"
 #include "stages/prepare/noise_filter.hpp"
+#include "stages/refine/thin_chains.hpp"
 
 namespace mtstereo::reference {
 
@@ -36,6 +37,7 @@ struct Frame {
   const GrayPlane left;  ///< as the caller passes it
   std::array<GrayPlane, 2> input;
   std::array<GrayPlane, 2> views;  ///< the matched views
+  float noise = 0;                 ///< of the noisier view, if the noise filter runs
   std::array<GrayPlane, 2> medians;
   std::array<GrayPlane, 2> levels;
   std::array<Trees, 2> trees;
@@ -90,7 +92,8 @@ inline void halve(Frame& f) {
 
 inline void filter_noise(Frame& f) {
   const float levels[] = {noise_level(f.views[0]), noise_level(f.views[1])};
-  if (f.settings.full() && std::max(levels[0], levels[1]) < kLeastNoiseOfFull) return;
+  f.noise = std::max(levels[0], levels[1]);
+  if (f.settings.full() && f.noise < kLeastNoiseOfFull) return;
   const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
   for (GrayPlane& view : f.views) view = filter_noise(view, threshold);
 }
@@ -177,7 +180,10 @@ inline void remove_pixel_outliers(Frame& f) {
   f.map = remove_outliers(f.map, f.settings.outlier_radius);
 }
 
-inline void find_thin(Frame& f) { f.found = mark_thin(f.views[0], f.views[1], f.map); }
+inline void find_thin(Frame& f) {
+  const bool clear = f.noise <= kMostThinNoise;
+  f.found = clear ? mark_thin(f.views[0], f.views[1], f.map) : f.map;
+}
 
 inline void remove_speckles(Frame& f) {
   const Areas areas = remove_speckles(f.map, 256, f.settings.speckle_size);
