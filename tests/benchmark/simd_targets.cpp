@@ -77,14 +77,15 @@ std::vector<eval::TableRow> target_table(const Frame& frame, const Summary& summ
   const auto avx2 = std::find_if(targets.begin(), targets.end(),
                                  [](const SimdTarget& target) { return target.name == "AVX2"; });
   const double of_avx2 = avx2 == targets.end() ? NAN : seconds_of(*avx2);
-  const double of_best = seconds_of(targets.front());
-  std::vector<eval::TableRow> rows = {
-      {"target", "ms", "time / AVX2", "time / " + targets.front().name}};
+  const SimdTarget& best = targets.front();
+  const bool has_better = best.name != "AVX2";
+  std::vector<eval::TableRow> rows = {{"target", "ms", "time / AVX2"}};
+  if (has_better) rows.front().push_back("time / " + best.name);
   for (const SimdTarget& target : targets) {
     const double seconds = seconds_of(target);
     if (std::isnan(seconds)) continue;
-    rows.push_back({target.name, fixed(seconds * 1e3, 1), fixed(seconds / of_avx2, 2),
-                    fixed(seconds / of_best, 2)});
+    rows.push_back({target.name, fixed(seconds * 1e3, 1), fixed(seconds / of_avx2, 2)});
+    if (has_better) rows.back().push_back(fixed(seconds / seconds_of(best), 2));
   }
   if (rows.size() == 1) rows.clear();
   return rows;
