@@ -152,11 +152,17 @@ void find_expected(const Image<std::int32_t>* half_map, int y, int width, int di
     return;
   }
   const std::int32_t* half = half_map->row(y / 2);
-  for (int x = 0; x < width; ++x) {
-    const bool known = half[x / 2] != kNoDisparity;
-    const int middle = (2 * half[x / 2] + kDisparityOne / 2) / kDisparityOne;
-    low[x] = static_cast<std::uint16_t>(known ? std::clamp(middle - kPathReach, 0, last) : 0);
-    high[x] = static_cast<std::uint16_t>(known ? std::min(middle + kPathReach, last) : last);
+  for (int x = 0; x < width; x += 2) {
+    const std::int32_t disparity = half[x / 2];
+    const bool known = disparity != kNoDisparity;
+    const int middle = (2 * disparity + kDisparityOne / 2) / kDisparityOne;
+    const int first = known ? std::clamp(middle - kPathReach, 0, last) : 0;
+    const int second = known ? std::min(middle + kPathReach, last) : last;
+    low[x] = static_cast<std::uint16_t>(first);
+    high[x] = static_cast<std::uint16_t>(second);
+    if (x + 1 == width) break;
+    low[x + 1] = low[x];
+    high[x + 1] = high[x];
   }
 }
 

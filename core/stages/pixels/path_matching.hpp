@@ -22,7 +22,7 @@ inline constexpr int kPathRows = 64;
 
 /// The paths along the columns start this many rows outside of a chunk, so that chunks do not
 /// depend on each other. What is further away has hardly any effect on them.
-inline constexpr int kPathMargin = 16;
+inline constexpr int kPathMargin = 8;
 
 /// Reach of the expected range on both sides of twice the half map's disparity [px].
 inline constexpr int kPathReach = 3;

@@ -20,42 +20,63 @@ using Vec = hn::Vec<Words>;
 constexpr int kSide = kEdgeSide;
 constexpr int kWindow = kSide * kSide;
 
+/// The weights of a window's pixels, for a vector of windows.
+struct Weights {
+  std::int16_t of[kWindow][hn::MaxLanes(Words())];
+};
+
+/// The sum of the weights of the disparities up to `most`.
+HWY_INLINE Vec weight_up_to(const EdgeWindow& rows, int x, const Weights& weights, Vec most) {
+  const Words d16;
+  auto sum = hn::Zero(d16);
+  for (int i = 0; i < kWindow; ++i) {
+    const auto disparity = hn::LoadU(d16, rows.disparity[i / kSide] + x + i % kSide * 2);
+    const auto above = hn::Gt(disparity, most);
+    sum = hn::Add(sum, hn::IfThenZeroElse(above, hn::Load(d16, weights.of[i])));
+  }
+  return sum;
+}
+
 /// The weighted medians of the windows of the columns from x on: the least disparity such that it
-/// and all below it have half the weight.
-Vec medians_at(const EdgeWindow& rows, int x) {
+/// and all below it have half the weight. For pixels that are not near a jump, or that differ from
+/// their median by less than kEdgeKept, their own disparities.
+Vec medians_at(const EdgeWindow& rows, const std::uint8_t* near, int x) {
   const Words d16;
   const hn::Rebind<std::uint8_t, Words> d8;
-  HWY_ALIGN std::int16_t weights[kWindow][hn::MaxLanes(Words())];
+  HWY_ALIGN Weights weights;
   const auto gray = hn::PromoteTo(d16, hn::LoadU(d8, rows.middle + kEdgeRadius + x));
-  const auto one = hn::Set(d16, 1);
+  const auto zero = hn::Zero(d16), one = hn::Set(d16, 1);
   auto total = one;
-  auto low = hn::LoadU(d16, rows.disparity[0] + x);
-  auto high = low;
+  auto least = hn::LoadU(d16, rows.disparity[0] + x);
+  auto most = least;
   for (int i = 0; i < kWindow; ++i) {
     const int column = x + i % kSide * 2;
     const auto other = hn::PromoteTo(d16, hn::LoadU(d8, rows.gray[i / kSide] + column));
     const auto likeness = hn::Sub(hn::Set(d16, kEdgeContrast), hn::Abs(hn::Sub(gray, other)));
-    const auto weight = hn::Add(hn::Max(likeness, hn::Zero(d16)), one);
-    hn::Store(weight, d16, weights[i]);
+    const auto weight = hn::Add(hn::Max(likeness, zero), one);
+    hn::Store(weight, d16, weights.of[i]);
     total = hn::Add(total, weight);
     const auto disparity = hn::LoadU(d16, rows.disparity[i / kSide] + column);
-    low = hn::Min(low, disparity);
-    high = hn::Max(high, disparity);
+    least = hn::Min(least, disparity);
+    most = hn::Max(most, disparity);
   }
   const auto half = hn::ShiftRight<1>(total);
+  const auto own = hn::LoadU(d16, rows.disparity[kSide / 2] + kEdgeRadius + x);
+  const auto below = hn::Sub(own, hn::Set(d16, kEdgeKept));
+  const auto above = hn::Add(own, hn::Set(d16, kEdgeKept));
+  const auto rises = hn::Lt(weight_up_to(rows, x, weights, hn::Sub(above, one)), half);
+  const auto stays = hn::Lt(weight_up_to(rows, x, weights, below), half);
+  const auto far = hn::Eq(hn::PromoteTo(d16, hn::LoadU(d8, near + x)), zero);
+  const auto kept = hn::Or(far, hn::AndNot(rises, stays));
+  auto low = hn::IfThenElse(kept, own, hn::IfThenElse(rises, above, least));
+  auto high = hn::IfThenElse(kept, own, hn::IfThenElse(rises, most, below));
   // Lanes after the end of the row hold any values; so the difference of the bounds cannot
   // overflow.
-  low = hn::Max(low, hn::Zero(d16));
+  low = hn::Max(low, zero);
   high = hn::Max(high, low);
   while (!hn::AllFalse(d16, hn::Lt(low, high))) {
     const auto middle = hn::Add(low, hn::ShiftRight<1>(hn::Sub(high, low)));
-    auto sum = hn::Zero(d16);
-    for (int i = 0; i < kWindow; ++i) {
-      const auto disparity = hn::LoadU(d16, rows.disparity[i / kSide] + x + i % kSide * 2);
-      const auto above = hn::Gt(disparity, middle);
-      sum = hn::Add(sum, hn::IfThenZeroElse(above, hn::Load(d16, weights[i])));
-    }
-    const auto less = hn::Lt(sum, half);
+    const auto less = hn::Lt(weight_up_to(rows, x, weights, middle), half);
     low = hn::IfThenElse(less, hn::Min(hn::Add(middle, one), high), low);
     high = hn::IfThenElse(less, high, middle);
   }
@@ -68,11 +89,14 @@ void align_row(const EdgeWindow& rows, const std::uint8_t* near, int width, std:
   const Words d16;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Words()));
   HWY_ALIGN std::int16_t medians[kLanes];
-  for (int x0 = 0; x0 < width; x0 += kLanes) {
+  // Each vector begins at a pixel near a jump.
+  const auto next_near = [&](int x) {
+    return static_cast<int>(std::find(near + std::min(x, width), near + width, 1) - near);
+  };
+  for (int x0 = next_near(0); x0 < width; x0 = next_near(x0 + kLanes)) {
     const int count = std::min(kLanes, width - x0);
-    if (std::memchr(near + x0, 1, count) == nullptr) continue;
     const std::int16_t* own = rows.disparity[kSide / 2] + kEdgeRadius + x0;
-    hn::Store(medians_at(rows, x0), d16, medians);
+    hn::Store(medians_at(rows, near, x0), d16, medians);
     for (int i = 0; i < count; ++i) {
       if (near[x0 + i] == 0 || std::abs(medians[i] - own[i]) < kEdgeKept) continue;
       map[x0 + i] = std::max(medians[i] * (kDisparityOne / kEdgeOne), 1);
@@ -98,15 +122,20 @@ void repeat_ends(T* row, int width) {
   std::fill_n(row + kEdgeRadius + width, kEdgeRadius, row[kEdgeRadius + width - 1]);
 }
 
-/// Marks the columns within kEdgeRadius of a jump. `next` is the next row, or the row itself.
+/// Adds the marks of another row; compilers vectorize the loop.
+void add_marks(const std::uint8_t* __restrict__ row, int width, std::uint8_t* __restrict__ near) {
+  for (int x = 0; x < width; ++x) near[x] |= row[x];
+}
+
+/// Marks the columns within kEdgeReach of a jump. `next` is the next row, or the row itself.
 void mark_row(const std::int32_t* row, const std::int32_t* next, int width, std::uint8_t* near) {
   std::memset(near, 0, width);
   for (int x = 0; x < width; ++x) {
     const bool down = std::abs(row[x] - next[x]) > kJump;
     const bool right = x + 1 < width && std::abs(row[x] - row[x + 1]) > kJump;
     if (!down && !right) continue;
-    const int first = std::max(x - kEdgeRadius, 0);
-    const int last = std::min(x + kEdgeRadius + right, width - 1);
+    const int first = std::max(x - kEdgeReach, 0);
+    const int last = std::min(x + kEdgeReach + right, width - 1);
     std::memset(near + first, 1, last + 1 - first);
   }
 }
@@ -142,10 +171,9 @@ void align_edges(const EdgeMap& edges, int y0, int y1, EdgeScratch& scratch,
   const int width = map.width(), height = map.height();
   for (int y = y0; y < y1; ++y) {
     std::memcpy(scratch.near.data(), edges.near.row(y), width);
-    for (int other = std::max(y - kEdgeRadius, 0); other <= std::min(y + kEdgeRadius, height - 1);
+    for (int other = std::max(y - kEdgeReach, 0); other <= std::min(y + kEdgeReach, height - 1);
          ++other) {
-      const std::uint8_t* near = edges.near.row(other);
-      for (int x = 0; x < width; ++x) scratch.near[x] |= near[x];
+      add_marks(edges.near.row(other), width, scratch.near.data());
     }
     EdgeWindow rows{};
     rows.middle = edges.gray.row(y);

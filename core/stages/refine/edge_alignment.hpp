@@ -18,8 +18,10 @@ namespace mtstereo {
 /// Neighbors that differ by more are a jump [1 / kDisparityOne px].
 inline constexpr std::int32_t kJump = 2 * kDisparityOne;
 
-/// Half the side of the median's window, of which every second row and column counts, and the
-/// farthest that a pixel near a jump is from it [px].
+/// A pixel is near a jump if it is at most this many columns and rows away [px].
+inline constexpr int kEdgeReach = 3;
+
+/// Half the side of the median's window, of which every second row and column counts [px].
 inline constexpr int kEdgeRadius = 6;
 
 /// Steps per px of the disparities that the median compares.
@@ -36,7 +38,7 @@ inline constexpr int kEdgeKept = kEdgeOne / 2;
 struct EdgeMap {
   Image<std::int16_t> disparity;  ///< [1 / kEdgeOne px]
   Image<std::uint8_t> gray;       ///< of the left view
-  Image<std::uint8_t> near;       ///< without borders: 1 within kEdgeRadius columns of a jump
+  Image<std::uint8_t> near;       ///< without borders: 1 within kEdgeReach columns of a jump
 
   void resize(int width, int height);
 };

@@ -47,11 +47,11 @@ constexpr Golden kGolden[] = {
     {"default", "sparse", 0x28618abb18c13521},
     {"default", "semi-dense", 0xcfae0a1e708a4696},
     {"default", "dense", 0x329a9b54232d3192},
-    {"default", "full", 0x1a8ece87c389db9c},
+    {"default", "full", 0xf73ebe94982573e1},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0xcbe3457c3f6fc940},
     {"fast", "dense", 0x49e1bc339e1856ef},
-    {"fast", "full", 0x282804f27d8fb0e5},
+    {"fast", "full", 0x29e736c12fb930a7},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -7,13 +7,13 @@
 
 namespace mtstereo::reference {
 
-/// Whether a jump of more than 2 px is at most 6 columns and rows away. A jump to the next row
+/// Whether a jump of more than 2 px is at most 3 columns and rows away. A jump to the next row
 /// belongs to the upper row, and one to the next column to both columns.
 inline bool near_jump(const DisparityPlane& map, int x, int y) {
-  for (int v = std::max(y - 6, 0); v <= std::min(y + 6, map.height - 1); ++v) {
-    for (int u = std::max(x - 7, 0); u <= std::min(x + 6, map.width - 1); ++u) {
+  for (int v = std::max(y - 3, 0); v <= std::min(y + 3, map.height - 1); ++v) {
+    for (int u = std::max(x - 4, 0); u <= std::min(x + 3, map.width - 1); ++u) {
       const bool right = std::abs(map(u, v) - map.clamped(u + 1, v)) > 512;
-      const bool down = u >= x - 6 && std::abs(map(u, v) - map.clamped(u, v + 1)) > 512;
+      const bool down = u >= x - 3 && std::abs(map(u, v) - map.clamped(u, v + 1)) > 512;
       if (right || down) return true;
     }
   }
