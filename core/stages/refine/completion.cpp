@@ -18,38 +18,34 @@ struct Row {
 /// Fills the pixels begin .. end - 1. The pixels before and after them have disparities, or are
 /// outside of the row; not both are outside.
 void fill(const Row& row, int begin, int end) {
-  const bool rim = begin == 0 || end == row.width;
-  const std::int32_t before = row.disparity[begin == 0 ? end : begin - 1];
-  const std::int32_t after = row.disparity[end == row.width ? begin - 1 : end];
+  const bool has_left = begin > 0, has_right = end < row.width;
+  const std::int32_t before = row.disparity[has_left ? begin - 1 : end];
+  const std::int32_t after = row.disparity[has_right ? end : begin - 1];
   std::fill(row.disparity + begin, row.disparity + end, std::min(before, after));
   for (int x = begin; x < end; ++x) {
-    const int from_left = x - begin, from_right = end - 1 - x;
-    const int distance = !rim         ? std::min(from_left, from_right)
-                         : begin == 0 ? from_right
-                                      : from_left;
+    const int from_left = has_left ? x - begin : row.width;
+    const int from_right = has_right ? end - 1 - x : row.width;
+    const int distance = std::min(from_left, from_right);
     row.confidence[x] =
         static_cast<std::uint8_t>(std::max(kMostInferred - distance / kInferredStep, 1));
   }
 }
 
-/// Whether the row has a disparity.
-bool complete(const Row& row) {
+/// Completes the row, unless it is empty.
+void complete(const Row& row) {
+  std::int32_t* const begin = row.disparity;
+  std::int32_t* const end = begin + row.width;
   for (int x = 0; x < row.width; ++x) {
-    if (row.disparity[x] == kNoDisparity) continue;
+    if (begin[x] == kNoDisparity) continue;
     row.confidence[x] = std::max<std::uint8_t>(row.confidence[x], kMostInferred + 1);
   }
-  const std::int32_t* end = row.disparity + row.width;
-  for (std::int32_t* gap = std::find(row.disparity, row.disparity + row.width, kNoDisparity);
-       gap != end;) {
-    std::int32_t* after =
-        std::find_if(gap, row.disparity + row.width, [](auto d) { return d != kNoDisparity; });
-    const int begin = static_cast<int>(gap - row.disparity);
-    const int last = static_cast<int>(after - row.disparity);
-    if (begin == 0 && last == row.width) return false;
-    fill(row, begin, last);
-    gap = std::find(after, row.disparity + row.width, kNoDisparity);
+  std::int32_t* gap = std::find(begin, end, kNoDisparity);
+  while (gap != end) {
+    std::int32_t* const after = std::find_if(gap, end, [](auto d) { return d != kNoDisparity; });
+    if (gap == begin && after == end) return;
+    fill(row, static_cast<int>(gap - begin), static_cast<int>(after - begin));
+    gap = std::find(after, end, kNoDisparity);
   }
-  return true;
 }
 
 }  // namespace
