@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # run.sh: installs what is missing, checks the style, builds, and runs all tests: the release build by
-# gcc, then the tests built by clang with AddressSanitizer and UndefinedBehaviorSanitizer (those that
-# measure accuracy or time with fewer cases), then the tests with threads under ThreadSanitizer. The
-# last line reports how many tests and checks passed, failed and were skipped in all runs.
+# gcc, then those of the library and the elements, built by clang with AddressSanitizer and
+# UndefinedBehaviorSanitizer, then the tests with threads under ThreadSanitizer. The last line reports
+# how many tests and checks passed, failed and were skipped in all runs.
 #
 # Options:
 #   --quick             only the release build
+#   --thorough          the sanitizers run all tests, the programs and scripts too (those that measure
+#                       accuracy or time with fewer cases), and clang-tidy checks the sources
 #   --summarize FILE... only add up the results in saved outputs of 'meson test'
 #
 # Builds into build/, build-clang-asan/ and build-clang-tsan/. With CI=true warnings are errors, and the tests
@@ -37,9 +39,10 @@ summary() {
   [ "$failed" -eq 0 ]
 }
 
-quick=no
+quick=no thorough=no
 case ${1:-} in
   --quick) quick=yes ;;
+  --thorough) thorough=yes ;;
   --summarize)
     shift
     [ $# -gt 0 ] || { echo "run.sh: --summarize needs a file" >&2 && exit 2; }
@@ -64,18 +67,17 @@ esac
 log=$(mktemp) || exit 1
 trap 'rm -f "$log"' EXIT
 
-# build FOLDER TARGETS OPTION...: configures and builds. A build that fails counts as a failed test.
-# TARGETS is a list of words, 'all' for everything.
+# build FOLDER TARGET OPTION...: configures and builds. A build that fails counts as a failed test. With the
+# target 'later' the tests build what they need.
 build() {
-  local folder=$1 targets again=()
-  read -ra targets <<<"$2"
+  local folder=$1 target=$2 again=()
   shift 2
   echo "== Building $folder"
   [ ! -e "$folder/build.ninja" ] || again=(--reconfigure)
   local werror=false
   [ "${CI:-}" != true ] || werror=true
   if meson setup "${again[@]}" "$folder" "$repository" -Dwerror="$werror" "$@" >"$log" 2>&1 &&
-    ninja -C "$folder" "${targets[@]}" >"$log" 2>&1; then
+    { [ "$target" = later ] || ninja -C "$folder" "$target" >"$log" 2>&1; }; then
     return 0
   fi
   cat "$log"
@@ -89,7 +91,7 @@ run_tests() {
   local folder=$1 status=0
   shift
   echo "== Testing $folder $*"
-  meson test -C "$folder" --no-rebuild --print-errorlogs "$@" 2>&1 | tee "$log" || status=$?
+  meson test -C "$folder" --print-errorlogs "$@" 2>&1 | tee "$log" || status=$?
   if ! add_results "$log" && [ "$status" -ne 0 ]; then
     echo "== meson test ended with $status and without results"
     failed=$((failed + 1))
@@ -111,7 +113,8 @@ check() {
 # Programs without a sanitizer, such as gst-launch-1.0, load libraries with one, so they have to load the
 # sanitizer's own library first. The test programs are checked for leaks; those programs are not.
 test_scripts_with_asan() {
-  LD_PRELOAD=$asan_library ASAN_OPTIONS=detect_leaks=0 run_tests build-clang-asan --suite pipelines -t 5
+  LD_PRELOAD=$asan_library ASAN_OPTIONS=detect_leaks=0 \
+    run_tests build-clang-asan --no-rebuild --suite pipelines -t 5
 }
 
 marks=()
@@ -126,7 +129,7 @@ if [ "$quick" = no ]; then
 fi
 
 if build build all -Dbuildtype=release; then
-  run_tests build
+  run_tests build --no-rebuild
 fi
 
 if [ "$quick" = no ]; then
@@ -138,23 +141,27 @@ if [ "$quick" = no ]; then
   # The sanitizer's library is shared, as the programs above need it.
   asan_library=$(clang++ -print-file-name=libclang_rt.asan-x86_64.so)
   shared_asan="-shared-libasan -Wl,-rpath,${asan_library%/*}"
-  if CC=clang CXX=clang++ build build-clang-asan all -Dbuildtype=debugoptimized \
+  target=later suites=(--suite core --suite geometry --suite gst --suite fuzz)
+  [ "$thorough" = no ] || target=all suites=(--no-suite pipelines)
+  if CC=clang CXX=clang++ build build-clang-asan "$target" -Dbuildtype=debugoptimized \
     -Db_sanitize=address,undefined -Db_lundef=false \
     -Dc_link_args="$shared_asan" -Dcpp_link_args="$shared_asan"; then
-    run_tests build-clang-asan --no-suite pipelines -t 5
-    test_scripts_with_asan
-    check tidy
+    run_tests build-clang-asan "${suites[@]}" -t 5
+    if [ "$thorough" = yes ]; then
+      test_scripts_with_asan
+      check tidy
+    fi
   fi
 
   if CC=clang CXX=clang++ build build-clang-tsan threads-tests -Dbuildtype=debugoptimized \
     -Db_sanitize=thread -Db_lundef=false \
     -Dgst=disabled -Dtools=disabled; then
-    run_tests build-clang-tsan --suite threads -t 5
+    run_tests build-clang-tsan --no-rebuild --suite threads -t 5
   fi
 
   if [ "${CI:-}" = true ] && build build-aarch64 all --cross-file tests/cross/aarch64.txt \
     -Dbuildtype=release -Dgst=disabled -Dtools=disabled; then
-    run_tests build-aarch64 -t 10
+    run_tests build-aarch64 --no-rebuild -t 10
   fi
 fi
 

@@ -84,12 +84,16 @@ def exchange(receiver, sender, port, receiver_waits, folder):
     return process.returncode == 0 and maps > 0, f"{output}{errors}\nlast sender:\n{log}"
 
 
-def attempts(times, attempt):
-    """A connection of a short clip can end before the first picture is received."""
+# A connection of a short clip can end before the first picture is received, more often with sanitizers.
+ATTEMPTS = 3 if SLOW == 1 else 10
+
+
+def attempts(attempt):
     received, log = attempt()
-    while not received and times > 1:
+    for _ in range(1, ATTEMPTS):
+        if received:
+            break
         received, log = attempt()
-        times -= 1
     return received, log
 
 
@@ -98,7 +102,7 @@ def receive(line, folder):
     here = Loopback(line.replace("fakesink sync=false", SINK))
     sender = [PIPELINES / "network-sender.sh", "left.mp4", "right.mp4", "--to", here.peer,
               "--latency", LATENCY, *passphrase_of(line)]
-    return attempts(3, lambda: exchange(["bash", "-c", here.line], sender, here.port, here.waits,
+    return attempts(lambda: exchange(["bash", "-c", here.line], sender, here.port, here.waits,
                                         folder))
 
 
@@ -107,5 +111,5 @@ def send(line, folder):
     here = Loopback(line)
     receiver = [PIPELINES / "from-network.sh", here.peer, "--sink", SINK, "--latency", LATENCY,
                 *passphrase_of(line)]
-    return attempts(3, lambda: exchange(receiver, ["bash", "-c", here.line], here.port,
+    return attempts(lambda: exchange(receiver, ["bash", "-c", here.line], here.port,
                                         not here.waits, folder))
