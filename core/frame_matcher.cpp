@@ -65,13 +65,9 @@ void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observ
   }
   views.left = {};
   views.input = views.matched = {};  // the caller may free the input
-  const bool shifted = settings_.shifted();
-  const Maps& maps = memory_.maps;
-  const EnlargedMaps& enlarged = memory_.enlarged;
-  disparity_ =
-      (shifted ? memory_.output.disparity : last_disparity(settings_, maps, enlarged)).view();
-  confidence_ =
-      (shifted ? memory_.output.confidence : last_confidence(settings_, maps, enlarged)).view();
+  const auto result = callers_maps(settings_, memory_.maps, memory_.enlarged, memory_.output);
+  disparity_ = result.disparity.view();
+  confidence_ = result.confidence.view();
 }
 
 double FrameMatcher::density() {

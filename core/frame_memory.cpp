@@ -26,7 +26,7 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
       noise[side].resize(width, height);
       filtered[side].resize(width, height);
     }
-    if (!settings.full()) {
+    if (!settings.by_paths()) {
       preprocessed[side].resize(width, height);
       trees[side].resize(width, height);
     }
@@ -47,7 +47,7 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
 }
 
 void Nodes::resize(const Settings& settings, const FrameSize& size) {
-  if (settings.full()) return;
+  if (settings.by_paths()) return;
   const auto [width, height] = size.matched;
   level_count = settings.node_levels.count;
   for (int i = 0; i < level_count; ++i) {
@@ -66,7 +66,7 @@ void Nodes::resize(const Settings& settings, const FrameSize& size) {
 
 void Costs::resize(const Settings& settings, const FrameSize& size) {
   const auto [width, height] = size.matched;
-  if (settings.full()) return;
+  if (settings.by_paths()) return;
   scratch.resize(size.threads);
   if (settings.census()) {
     for (Scratch& worker : scratch) worker.census.resize(width, settings.census_matching());
@@ -86,7 +86,7 @@ void Costs::resize(const Settings& settings, const FrameSize& size) {
 }
 
 void Pyramid::resize(const Settings& settings, const FrameSize& size) {
-  if (!settings.full()) return;
+  if (!settings.by_paths()) return;
   scratch.resize(size.threads);
   ImageSize reduced = size.matched;
   const auto prepare_scratch = [&](int level) {
@@ -122,6 +122,7 @@ void Maps::resize(const Settings& settings, const FrameSize& size) {
     columns.resize(height, width);
     withheld.resize(width, height);
     if (settings.max_gap > 0) guarded.resize(width, height);
+    if (settings.by_paths()) guarded.resize(size.input.width, size.input.height);
   }
   if (settings.smoothing_radius > 0) smoothed.resize(width, height);
   scratch.resize(size.threads);
@@ -153,10 +154,16 @@ void OutputMaps::resize(const Settings& settings, const FrameSize& size) {
 }
 
 void Completion::resize(const Settings& settings, const FrameSize& size) {
-  if (!settings.full()) return;
+  if (!settings.by_paths()) return;
   edges.resize(size.input.width, size.input.height);
   scratch.resize(size.threads);
   for (EdgeScratch& worker : scratch) worker.resize(size.input.width);
+  clues.resize(size.input.width, size.input.height);
+  reliability_scratch.resize(size.threads);
+  for (ReliabilityScratch& worker : reliability_scratch) worker.resize(size.input.width);
+  if (!settings.keeps_likely_only()) return;
+  islands.resize(size.input.width, size.input.height);
+  weight.resize(size.input.width, size.input.height);
 }
 
 void FrameMemory::resize(const Settings& settings, const FrameSize& size) {

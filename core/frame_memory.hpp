@@ -28,6 +28,7 @@
 #include "stages/refine/disparity_refinement.hpp"
 #include "stages/refine/edge_alignment.hpp"
 #include "stages/refine/map_smoothing.hpp"
+#include "stages/refine/reliability.hpp"
 #include "stages/refine/speckle_removal.hpp"
 #include "stages/refine/thin_chains.hpp"
 #include "stages/refine/withheld.hpp"
@@ -210,9 +211,24 @@ struct OutputMaps {
 struct Completion {
   EdgeMap edges;
   std::vector<EdgeScratch> scratch;  ///< one for each thread
+  ClueMaps clues;
+  std::vector<ReliabilityScratch> reliability_scratch;  ///< one for each thread
+  SpeckleRuns islands;                                  ///< of what the rejection leaves
+  Image<std::uint8_t> weight;  ///< weights of the islands' sizes, which nothing reads
 
   void resize(const Settings& settings, const FrameSize& size);
 };
+
+/// The maps that the caller gets. The arguments may be const.
+template <typename OfMaps, typename OfEnlarged, typename OfOutput>
+auto callers_maps(const Settings& settings, OfMaps& maps, OfEnlarged& enlarged, OfOutput& output) {
+  struct {
+    decltype((output.disparity)) disparity;
+    decltype((output.confidence)) confidence;
+  } result = {settings.shifted() ? output.disparity : last_disparity(settings, maps, enlarged),
+              settings.shifted() ? output.confidence : last_confidence(settings, maps, enlarged)};
+  return result;
+}
 
 /// All groups.
 struct FrameMemory {

@@ -21,9 +21,9 @@ using T = ParameterType;
 #define EACH(standard, fast, paper) \
   BY_MODE(MODES(standard, standard, standard, standard), MODES(fast, fast, fast, fast), \
           MODES(paper, paper, paper, paper))
-// The same, with other defaults of the presets default and fast in mode full.
-#define OR_FULL(standard, fast, paper, standard_full, fast_full) \
-  BY_MODE(MODES(standard, standard, standard, standard_full), MODES(fast, fast, fast, fast_full), \
+// The same, with other defaults of the presets default and fast in the modes dense and full, which match along paths.
+#define OR_PATHS(standard, fast, paper, standard_paths, fast_paths) \
+  BY_MODE(MODES(standard, standard, standard_paths, standard_paths), MODES(fast, fast, fast_paths, fast_paths), \
           MODES(paper, paper, paper, paper))
 // One default for every preset and mode.
 #define ALL(value) EACH(value, value, value)
@@ -35,8 +35,8 @@ constexpr ParameterInfo kTable[] = {
      {"the most accurate settings", "the most accurate settings that take a third of the time", "the published method"}},
     {P::kMode, "mode", "", "", T::kChoice, 0, 3, "sparse|semi-dense|dense|full", BY_MODE(MODES("sparse", "semi-dense", "dense", "full"), MODES("sparse", "semi-dense", "dense", "full"), MODES("sparse", "semi-dense", "semi-dense", "semi-dense")),
      "which pixels get a disparity: few and reliable ones at the ends of the finest nodes, all reliable ones, "
-     "most pixels, with gaps filled, or every pixel",
-     {"few pixels with few errors, at the ends of the finest nodes", "all reliable disparities", "most pixels: less certain disparities too, and gaps filled", "every pixel: what cannot be matched is inferred"}},
+     "most pixels, also inferred ones, or every pixel",
+     {"few pixels with few errors, at the ends of the finest nodes", "all reliable disparities", "most pixels: less certain and inferred disparities too", "every pixel: what cannot be matched is inferred"}},
     {P::kMaxDisparity, "max-disparity", "D", "px", T::kInteger, 1, kLargestMaxDisparity, "", ALL("64"),
      "the disparities min-disparity .. max-disparity - 1 are searched; the nearest measurable point is at "
      "focal length * baseline / max-disparity"},
@@ -82,25 +82,25 @@ constexpr ParameterInfo kTable[] = {
     {P::kOutlierRemoval, "outlier-removal", "", "", T::kChoice, 0, 1, "nodes|nodes-and-pixels", EACH("nodes", "nodes", "nodes-and-pixels"),
      "where outliers are removed: from the disparities of nodes only, or from those of pixels too",
      {"from the disparities of nodes only", "from the disparities of nodes and of pixels"}},
-    {P::kCensusScales, "census-scales", "", "", T::kInteger, 1, 2, "", OR_FULL("2", "1", "1", "1", "1"),
+    {P::kCensusScales, "census-scales", "", "", T::kInteger, 1, 2, "", OR_PATHS("2", "1", "1", "1", "1"),
      "scales of the census transform: 1 compares the pixels of a 5x5 window, 2 also those of a larger window in the "
      "smoothed view, which noise and compression change less"},
-    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, kLargestCensusKernel, "", OR_FULL("5", "3", "5", "3", "3"),
+    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, kLargestCensusKernel, "", OR_PATHS("5", "3", "5", "3", "3"),
      "side of the window that census costs are summed over: 1, 3 or 5"},
     {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", ALL("15"),
      "guided pixel matching expects disparities up to this much below and above the node's"},
     {P::kBetweenNodes, "between-nodes", "", "", T::kChoice, 0, 2, "none|span|all", EACH("all", "all", "none"),
      "what is expected of a pixel between two nodes: no disparity, the disparities that both nodes span, or any",
      {"no disparity is expected", "the disparities that the two nodes span are expected", "every disparity is expected"}},
-    {P::kRangePenalty, "range-penalty", "", "bits", T::kInteger, 0, kLargestRangePenalty, "", OR_FULL("1", "1", "2", "2", "2"),
+    {P::kRangePenalty, "range-penalty", "", "bits", T::kInteger, 0, kLargestRangePenalty, "", OR_PATHS("1", "1", "2", "2", "2"),
      "additional cost of a disparity that the nodes do not expect (census); with the gradient cost such a "
      "disparity is never selected"},
-    {P::kSmallStepPenalty, "small-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", OR_FULL("4", "4", "4", "5", "5"),
+    {P::kSmallStepPenalty, "small-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", OR_PATHS("4", "4", "4", "5", "5"),
      "cost of a step of one disparity from pixel to pixel of a scan-line (census)"},
     {P::kLargeStepPenalty, "large-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", ALL("30"),
      "cost of a larger step where the gray value is constant, less where it changes (census); "
      "0 = no optimization along the scan-line"},
-    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", BY_MODE(MODES("6", "6", "2", "0"), MODES("6", "6", "2", "0"), MODES("12", "4", "4", "4")),
+    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", BY_MODE(MODES("6", "6", "0", "0"), MODES("6", "6", "0", "0"), MODES("12", "4", "4", "4")),
      "a pixel keeps its disparity if the cost of the second-best one exceeds that of the best by more than this"},
     {P::kRunnerUp, "runner-up", "", "", T::kChoice, 0, 1, "any|expected", EACH("any", "any", "expected"),
      "disparities from which the second-best one is selected: all, or only those that the nodes expect",
@@ -109,24 +109,24 @@ constexpr ParameterInfo kTable[] = {
      "largest difference between the disparity of a left pixel and that of its right one; -1 = no check"},
     {P::kSubpixel, "subpixel", "", "", T::kBoolean, 0, 1, "", ALL("true"),
      "refine the disparity between whole pixels: by a V through the costs (census) or a parabola (gradient)"},
-    {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", OR_FULL("300", "75", "0", "100", "75"),
+    {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", OR_PATHS("300", "75", "0", "100", "75"),
      "connected areas with fewer pixels than this are removed; 0 = none"},
-    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "153", "95", "0"), MODES("183", "160", "101", "0"), MODES("0", "0", "0", "0")),
+    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "153", "104", "0"), MODES("183", "160", "104", "0"), MODES("0", "0", "0", "0")),
      "disparities of lower confidence (1 .. 255) are removed; 0 = none; a filled gap has half the "
-     "confidence of its sides"},
+     "confidence of its sides; in mode dense the threshold applies to the complete map"},
     {P::kThinObjects, "thin-objects", "", "", T::kBoolean, 0, 1, "", BY_MODE(MODES("false", "true", "true", "false"), MODES("false", "true", "true", "false"), MODES("false", "false", "false", "false")),
      "keep posts, rails and wires that are too thin for speckle-size and min-confidence, and fill no gap over "
      "something nearer"},
     {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, kLargestNodeEnd, "", EACH("9", "9", "1"),
      "mode sparse: pixels that keep their disparity at each end of a finest node, an odd number"},
-    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "8", "30", "0"), MODES("0", "4", "15", "0"), MODES("0", "0", "0", "0")),
+    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "8", "0", "0"), MODES("0", "4", "0", "0"), MODES("0", "0", "0", "0")),
      "gaps up to this width are filled if both sides differ by at most 1 px; 0 = none"},
     {P::kSmoothingRadius, "smoothing-radius", "", "px", T::kInteger, 0, kLargestSmoothingRadius, "", EACH("2", "3", "0"),
      "disparities are smoothed along each surface over this many pixels on both sides, in rows and in columns; "
      "0 = no smoothing"},
 };
 #undef ALL
-#undef OR_FULL
+#undef OR_PATHS
 #undef EACH
 #undef BY_MODE
 #undef MODES

@@ -3,11 +3,16 @@
 // are included here.
 #include "path_steps.hpp"
 
+#include <algorithm>
+
 #include "stages/pixels/path_matching.hpp"
 #include "stages/prepare/census.hpp"
 #include "stages/prepare/halving.hpp"
 #include "stages/refine/completion.hpp"
+#include "stages/refine/confidence.hpp"
 #include "stages/refine/edge_alignment.hpp"
+#include "stages/refine/reliability.hpp"
+#include "stages/refine/speckle_removal.hpp"
 
 namespace mtstereo {
 namespace {
@@ -21,18 +26,6 @@ void reduce(const StepContext& step, const std::array<GrayView, 2>& views,
   bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
     census_rows(level.views[side].view(), 1, y0, y1, scratch[worker].census, level.census[side]);
   });
-}
-
-/// The maps that the caller gets.
-struct CallersMaps {
-  Image<std::int32_t>& disparity;
-  Image<std::uint8_t>& confidence;
-};
-
-CallersMaps callers_maps(const Settings& settings, Maps& maps, EnlargedMaps& enlarged,
-                         OutputMaps& output) {
-  if (settings.shifted()) return {output.disparity, output.confidence};
-  return {last_disparity(settings, maps, enlarged), last_confidence(settings, maps, enlarged)};
 }
 
 }  // namespace
@@ -65,7 +58,7 @@ void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyrami
 }
 
 void complete_map(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output) {
-  const CallersMaps result = callers_maps(step.settings, maps, enlarged, output);
+  const auto result = callers_maps(step.settings, maps, enlarged, output);
   step.input_bands.rows(
       [&](int y0, int y1, int) { complete_rows(y0, y1, result.disparity, result.confidence); });
   complete_empty_rows(result.disparity, result.confidence);
@@ -73,13 +66,47 @@ void complete_map(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, O
 
 void align_map_edges(const StepContext& step, const Views& views, Maps& maps,
                      EnlargedMaps& enlarged, OutputMaps& output, Completion& completion) {
-  const CallersMaps result = callers_maps(step.settings, maps, enlarged, output);
+  const auto result = callers_maps(step.settings, maps, enlarged, output);
   step.input_bands.rows([&](int y0, int y1, int) {
     find_jumps(views.left, result.disparity, y0, y1, completion.edges);
   });
   step.input_bands.rows([&](int y0, int y1, int worker) {
     align_edges(completion.edges, y0, y1, completion.scratch[worker], result.disparity,
                 result.confidence);
+  });
+}
+
+void rate_map(const StepContext& step, const Views& views, Maps& maps, EnlargedMaps& enlarged,
+              OutputMaps& output, Completion& completion) {
+  const Settings& settings = step.settings;
+  const auto result = callers_maps(settings, maps, enlarged, output);
+  const RatedViews rated = {views.left, views.input[1], std::min(settings.min_disparity, 0),
+                            views.noise_level};
+  const Inferred inferred =
+      settings.keeps_likely_only() ? Inferred::kLikeMatched : Inferred::kApart;
+  step.input_bands.rows([&](int y0, int y1, int worker) {
+    gather_clues(rated, result.disparity, result.confidence, y0, y1,
+                 completion.reliability_scratch[worker], completion.clues);
+  });
+  step.input_bands.rows([&](int y0, int y1, int worker) {
+    rate_reliability(rated, result.disparity, completion.clues, inferred, y0, y1,
+                     completion.reliability_scratch[worker], result.confidence);
+  });
+}
+
+void reject_unlikely(const StepContext& step, Maps& maps, EnlargedMaps& enlarged,
+                     OutputMaps& output, Completion& completion) {
+  const Settings& settings = step.settings;
+  const auto result = callers_maps(settings, maps, enlarged, output);
+  step.input_bands.rows([&](int y0, int y1, int) {
+    remove_doubtful(settings.min_confidence, y0, y1, result.disparity, result.confidence);
+    find_runs(result.disparity, kDisparityOne, y0, y1, completion.islands);
+  });
+  join_bands(result.disparity, kDisparityOne, Bands::kRows, completion.islands);
+  step.input_bands.rows([&](int y0, int y1, int) {
+    remove_small(completion.islands, settings.speckle_size, y0, y1, result.disparity,
+                 completion.weight);
+    clear_unknown(result.disparity, y0, y1, result.confidence);
   });
 }
 

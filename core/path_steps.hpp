@@ -22,4 +22,12 @@ void complete_map(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, O
 void align_map_edges(const StepContext& step, const Views& views, Maps& maps,
                      EnlargedMaps& enlarged, OutputMaps& output, Completion& completion);
 
+/// Replaces the confidence of the complete result by its reliability.
+void rate_map(const StepContext& step, const Views& views, Maps& maps, EnlargedMaps& enlarged,
+              OutputMaps& output, Completion& completion);
+
+/// Removes what is less reliable than asked for from the result, and small islands that are left.
+void reject_unlikely(const StepContext& step, Maps& maps, EnlargedMaps& enlarged,
+                     OutputMaps& output, Completion& completion);
+
 }  // namespace mtstereo

@@ -68,10 +68,12 @@ struct Settings {
   CensusMatchingOptions census_matching() const {
     return {search_range, census_cost, smoothness, selection};
   }
-  /// Whether every pixel gets a disparity: all are matched along four paths, without nodes, and the
-  /// rest is inferred. With the gradient cost, mode full is like semi-dense.
-  bool full() const { return mode == Mode::kFull && census(); }
-  /// The options of mode full for the views at 1 / 2^level of the matched resolution.
+  /// Whether all pixels are matched along four paths, without nodes, and the rest is inferred. With
+  /// the gradient cost there are no such paths, and mode full is like semi-dense.
+  bool by_paths() const { return (mode == Mode::kDense || mode == Mode::kFull) && census(); }
+  /// Whether min_confidence applies to the complete map, and not to the matched one.
+  bool keeps_likely_only() const { return by_paths() && mode == Mode::kDense; }
+  /// The options of the paths for the views at 1 / 2^level of the matched resolution.
   PathMatchingOptions path_matching(int level) const;
   /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost
   /// the nodes themselves are drawn at their ends only, see drawn_end_width().

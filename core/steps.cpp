@@ -90,8 +90,7 @@ void filter_noise(const StepContext& step, Views& views) {
   });
   const float levels[] = {noise_level(views.noise[0]), noise_level(views.noise[1])};
   views.noise_level = std::max(levels[0], levels[1]);
-  // The filter also removes fine texture, which the paths of mode full need more than nodes do.
-  if (step.settings.full() && views.noise_level < kLeastNoiseOfFull) return;
+  if (step.settings.by_paths() && !paths_need_filter(views.noise_level)) return;
   const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
     mtstereo::filter_noise(views.matched[side], threshold, y0, y1,
@@ -266,7 +265,7 @@ void rate_confidence(const StepContext& step, const Nodes& nodes, Maps& maps) {
   step.bands.rows([&](int y0, int y1, int worker) {
     rate_support(maps.support, maps.ratio, y0, y1, maps.scratch[worker].support, maps.confidence);
     if (if_speckles(settings)) weigh_confidence(maps.area, y0, y1, maps.confidence);
-    if (settings.min_confidence > 0) {
+    if (settings.min_confidence > 0 && !settings.keeps_likely_only()) {
       remove_doubtful(settings.min_confidence, y0, y1, maps.disparity, maps.confidence);
     }
   });
@@ -354,8 +353,8 @@ constexpr Step kSteps[] = {
     {"node-outliers",       if_outliers,       on<remove_node_outliers, Nodes, Maps>},
     {"node-extrapolation",  if_nodes,           on<extrapolate, Nodes, Maps>},
     // pixels
-    {"reduced-matching",    if_full,           on<match_reduced, Views, Pyramid>},
-    {"path-matching",       if_full,           on<match_by_paths, const Views, Pyramid, Maps>},
+    {"reduced-matching",    if_paths,          on<match_reduced, Views, Pyramid>},
+    {"path-matching",       if_paths,          on<match_by_paths, const Views, Pyramid, Maps>},
     {"census-matching",     if_guided_census,  on<match_by_census, const Views, Costs, Maps>},
     {"gradient-matching",   if_gradient,       on<match_by_gradient, Costs, Maps>},
     // refine
@@ -364,7 +363,7 @@ constexpr Step kSteps[] = {
     {"speckle-removal",     if_speckles,       on<remove_speckles, Maps>},
     {"confidence",          always,            on<rate_confidence, const Nodes, Maps>},
     {"island-removal",      if_islands,        on<remove_islands, Maps>},
-    {"thin-restoring",      if_thin,           on<restore_thin_objects, Maps>},
+    {"thin-restoring",      if_thin_restoring, on<restore_thin_objects, Maps>},
     {"gap-filling",         if_gaps,           on<fill_gaps, Maps>},
     {"gap-guard",           if_guard,          on<guard_gaps, Maps>},
     {"smoothing",           if_smoothing,      on<smooth, Maps>},
@@ -372,8 +371,11 @@ constexpr Step kSteps[] = {
     {"input-census",        if_refined,        on<transform_input, Views>},
     {"refinement",          if_refined,        on<refine, const Views, EnlargedMaps>},
     {"map-shift",           if_shifted,        on<shift_map, const Maps, const EnlargedMaps, OutputMaps>},
-    {"completion",          if_full,           on<complete_map, Maps, EnlargedMaps, OutputMaps>},
-    {"edge-alignment",      if_full,           on<align_map_edges, const Views, Maps, EnlargedMaps, OutputMaps, Completion>},
+    {"completion",          if_paths,          on<complete_map, Maps, EnlargedMaps, OutputMaps>},
+    {"edge-alignment",      if_paths,          on<align_map_edges, const Views, Maps, EnlargedMaps, OutputMaps, Completion>},
+    {"reliability",         if_paths,          on<rate_map, const Views, Maps, EnlargedMaps, OutputMaps, Completion>},
+    {"rejection",           if_rejection,      on<reject_unlikely, Maps, EnlargedMaps, OutputMaps, Completion>},
+    {"thin-drawing",        if_thin_drawing,   on<draw_thin, Maps, EnlargedMaps, OutputMaps>},
 };
 // clang-format on
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "thin_steps.hpp"
 
+#include <algorithm>
+
 #include "stages/refine/thin_chains.hpp"
 #include "stages/refine/withheld.hpp"
 
@@ -54,6 +56,22 @@ void guard_gaps(const StepContext& step, Maps& maps) {
   });
   step.bands.rows([&](int y0, int y1, int) {
     remove_guarded(maps.withheld, maps.guarded, y0, y1, maps.disparity, maps.confidence);
+  });
+}
+
+void draw_thin(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output) {
+  const Settings& settings = step.settings;
+  const auto result = callers_maps(settings, maps, enlarged, output);
+  const WithheldPlace place = {settings.min_disparity, settings.half() ? 2 : 1,
+                               std::max(settings.min_disparity, 0) * kDisparityOne};
+  const int confidence = std::max(settings.min_confidence, kMostInferred + 1);
+  step.input_bands.rows([&](int y0, int y1, int) {
+    y1 = std::min(y1, result.disparity.height());
+    draw_thin_objects(maps.withheld, place, confidence, y0, y1, result.disparity,
+                      result.confidence);
+    if (!settings.keeps_likely_only()) return;
+    mark_covered(result.disparity, maps.withheld, place, y0, y1, maps.guarded);
+    remove_covered(maps.guarded, y0, y1, result.disparity, result.confidence);
   });
 }
 

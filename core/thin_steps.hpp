@@ -17,4 +17,7 @@ void restore_thin_objects(const StepContext& step, Maps& maps);
 /// Removes filled pixels where the matching had seen something nearer.
 void guard_gaps(const StepContext& step, Maps& maps);
 
+/// Draws the thin objects into the complete result.
+void draw_thin(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output);
+
 }  // namespace mtstereo

@@ -53,18 +53,27 @@ TEST(Steps, LeaveTheEndsOfNodesAloneInModeSparse) {
                  {"thin-search", "island-removal", "thin-restoring", "gap-filling", "gap-guard"});
 }
 
-TEST(Steps, FillGapsAfterConfidenceInModeDense) {
-  expect_order(test::parameters({{"mode", "dense"}}),
+TEST(Steps, FillGapsAfterConfidence) {
+  expect_order(test::parameters({}),
                {"census-matching", "speckle-removal", "confidence", "gap-filling"});
+}
+
+TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
+  const Parameters dense = test::parameters({{"mode", "dense"}});
+  expect_order(dense, {"path-matching", "thin-search", "speckle-removal", "completion",
+                       "edge-alignment", "reliability", "rejection", "thin-drawing"});
+  expect_none_of(dense, {"node-matching", "census-matching", "island-removal", "thin-restoring",
+                         "gap-filling", "gap-guard"});
+  expect_none_of(test::parameters({{"mode", "dense"}, {"min-confidence", "0"}}), {"rejection"});
 }
 
 TEST(Steps, MatchAlongPathsInsteadOfNodesInModeFull) {
   const Parameters full = test::parameters({{"mode", "full"}});
   expect_order(full,
                {"noise-filter", "census", "reduced-matching", "path-matching", "speckle-removal",
-                "confidence", "smoothing", "completion", "edge-alignment"});
-  expect_none_of(full, {"preprocessing", "max-trees", "node-matching", "node-extrapolation",
-                        "census-matching", "gap-filling", "island-removal"});
+                "confidence", "smoothing", "completion", "edge-alignment", "reliability"});
+  expect_none_of(full, {"rejection", "thin-drawing", "preprocessing", "max-trees", "node-matching",
+                        "node-extrapolation", "census-matching", "gap-filling", "island-removal"});
 }
 
 TEST(Steps, CompleteTheMapAfterItHasTheSizeOfTheViewsInModeFull) {

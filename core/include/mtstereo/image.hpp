@@ -40,7 +40,7 @@ inline constexpr std::int32_t kDisparityOne = 256;
 /// The value of a pixel without a disparity in a DisparityView.
 inline constexpr std::int32_t kNoDisparity = 0;
 
-/// The highest confidence of a disparity that was inferred and not matched (Mode::kFull): the
+/// The highest confidence of a disparity that was inferred and not matched in Mode::kFull: the
 /// confidence of matched ones is higher.
 inline constexpr int kMostInferred = 15;
 

@@ -17,7 +17,7 @@ namespace mtstereo {
 enum class Mode {
   kSparse,     ///< only pixels at the ends of the finest nodes: few pixels, few errors
   kSemiDense,  ///< all pixels with a reliable disparity
-  kDense,      ///< also less reliable disparities, and gaps whose two sides agree
+  kDense,      ///< also less reliable and inferred disparities, if they are likely to be right
   kFull,       ///< all pixels: those that cannot be matched are inferred, at low confidence
 };
 /// Number of modes.

@@ -21,8 +21,13 @@ inline constexpr int kNoiseWindow = 7;
 /// fine detail a codec has removed or replaced.
 float noise_threshold(float level);
 
-/// Mode full filters only views with at least this noise [gray values].
-inline constexpr float kLeastNoiseOfFull = 1.5F;
+/// Whether views with this noise [gray values] are filtered before they are matched along paths.
+/// These need fine texture more than nodes do; so only noise and compression are worth the filter.
+inline bool paths_need_filter(float level) {
+  constexpr float kLeastNoise = 1.5F;
+  constexpr float kMostOfCompressed = 0.25F;
+  return level >= kLeastNoise || level < kMostOfCompressed;
+}
 
 /// Scratch memory of one thread.
 struct NoiseFilterScratch {

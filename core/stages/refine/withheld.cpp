@@ -27,6 +27,16 @@ void guard_row(const std::int32_t* __restrict__ filled, const std::int32_t* __re
   }
 }
 
+/// Calls body(x, withheld disparity) for the pixels of a row of the complete map.
+template <typename Body>
+void for_row(const WithheldMap& withheld, const WithheldPlace& place, int y, int width,
+             Body&& body) {
+  const std::int32_t* row = withheld.row(std::min(y / place.scale, withheld.height() - 1));
+  const int first = std::max(place.shift, 0);
+  const int end = std::min(width, withheld.width() * place.scale + place.shift);
+  for (int x = first; x < end; ++x) body(x, row[(x - place.shift) / place.scale]);
+}
+
 }  // namespace
 
 void copy_map(const Image<std::int32_t>& map, int y0, int y1, WithheldMap& withheld) {
@@ -69,6 +79,45 @@ void remove_guarded(const WithheldMap& withheld, const Image<std::uint8_t>& guar
         x = static_cast<int>(static_cast<const std::uint8_t*>(next) - row);
         clear(x, y);
       }
+    }
+  }
+}
+
+void draw_thin_objects(const WithheldMap& withheld, const WithheldPlace& place, int confidence,
+                       int y0, int y1, Image<std::int32_t>& map,
+                       Image<std::uint8_t>& map_confidence) {
+  const auto least = static_cast<std::uint8_t>(std::max(confidence, 1));
+  for (int y = y0; y < y1; ++y) {
+    std::int32_t* row = map.row(y);
+    std::uint8_t* row_confidence = map_confidence.row(y);
+    for_row(withheld, place, y, map.width(), [&](int x, std::int32_t value) {
+      if (value >= 0) return;
+      row[x] = -value * place.scale + place.added;
+      row_confidence[x] = std::max(row_confidence[x], least);
+    });
+  }
+}
+
+void mark_covered(const Image<std::int32_t>& map, const WithheldMap& withheld,
+                  const WithheldPlace& place, int y0, int y1, Image<std::uint8_t>& guarded) {
+  for (int y = y0; y < y1; ++y) {
+    const std::int32_t* row = map.row(y);
+    std::uint8_t* marks = guarded.row(y);
+    std::memset(marks, 0, map.width());
+    for_row(withheld, place, y, map.width(), [&](int x, std::int32_t value) {
+      marks[x] = value > 0 && value * place.scale + place.added - row[x] > kGuardedStep;
+    });
+  }
+}
+
+void remove_covered(const Image<std::uint8_t>& guarded, int y0, int y1, Image<std::int32_t>& map,
+                    Image<std::uint8_t>& confidence) {
+  for (int y = y0; y < y1; ++y) {
+    const std::uint8_t* marks = guarded.row(y);
+    for (int x = 0; x < map.width(); ++x) {
+      if (marks[x] == 0) continue;
+      map.row(y)[x] = kNoDisparity;
+      confidence.row(y)[x] = 0;
     }
   }
 }

@@ -46,12 +46,12 @@ struct Golden {
 constexpr Golden kGolden[] = {
     {"default", "sparse", 0x28618abb18c13521},
     {"default", "semi-dense", 0xcfae0a1e708a4696},
-    {"default", "dense", 0x329a9b54232d3192},
-    {"default", "full", 0xf73ebe94982573e1},
+    {"default", "dense", 0x2d3202743f3f41f8},
+    {"default", "full", 0xb4ae25c8d3e94d28},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0xcbe3457c3f6fc940},
-    {"fast", "dense", 0x49e1bc339e1856ef},
-    {"fast", "full", 0x29e736c12fb930a7},
+    {"fast", "dense", 0xb897c9defdbbd5c6},
+    {"fast", "full", 0x8fd265a900e4f28c},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -135,7 +135,7 @@ Change change_of(Parameter id) {
     case Parameter::kNodeEndWidth:
       return {{{"mode", "sparse"}}, "1"};
     case Parameter::kMaxGap:
-      return {{{"mode", "dense"}}, "0"};
+      return {{}, "0"};
     case Parameter::kCensusKernelSize:
     case Parameter::kSmallStepPenalty:
     case Parameter::kLargeStepPenalty:

@@ -19,6 +19,7 @@
 #include "reference/refine/enlarging.hpp"
 #include "reference/refine/gap_filling.hpp"
 #include "reference/refine/map_smoothing.hpp"
+#include "reference/refine/reliability.hpp"
 #include "reference/refine/speckle_removal.hpp"
 #include "reference/refine/thin_chains.hpp"
 #include "reference/refine/withheld.hpp"
@@ -93,7 +94,7 @@ inline void halve(Frame& f) {
 inline void filter_noise(Frame& f) {
   const float levels[] = {noise_level(f.views[0]), noise_level(f.views[1])};
   f.noise = std::max(levels[0], levels[1]);
-  if (f.settings.full() && f.noise < kLeastNoiseOfFull) return;
+  if (f.settings.by_paths() && !paths_need_filter(f.noise)) return;
   const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
   for (GrayPlane& view : f.views) view = filter_noise(view, threshold);
 }
@@ -200,7 +201,8 @@ inline void rate_confidence(Frame& f) {
       if (!keep(i)) f.map.pixels[i] = f.confidence.pixels[i] = 0;
     }
   };
-  keep_where([&](std::size_t i) { return f.confidence.pixels[i] >= s.min_confidence; });
+  const int least = s.keeps_likely_only() ? 0 : s.min_confidence;
+  keep_where([&](std::size_t i) { return f.confidence.pixels[i] >= least; });
   if (!s.keeps_only_ends()) return;
   const Plane<int> ends = leaf_ends(f.leaves, f.nodes, s.max_neighbors, s.node_end_width);
   keep_where([&](std::size_t i) { return ends.pixels[i] != 0; });
@@ -234,6 +236,29 @@ inline void complete(Frame& f) { take(f, complete(ConfidentMap{f.map, f.confiden
 
 inline void align_edges(Frame& f) {
   take(f, align_edges(f.left, ConfidentMap{f.map, f.confidence}));
+}
+
+inline void rate_map(Frame& f) {
+  const RatedPair pair = {f.left, f.input[1], std::min(f.settings.min_disparity, 0), f.noise};
+  const bool apart = !f.settings.keeps_likely_only();
+  f.confidence = rate_reliability(pair, ConfidentMap{f.map, f.confidence}, apart);
+}
+
+inline void draw_thin(Frame& f) {
+  draw_thin(f.found, f.settings.min_disparity, f.settings.half() ? 2 : 1,
+            std::max(f.settings.min_confidence, 16), f.settings.keeps_likely_only(), f.map,
+            f.confidence);
+}
+
+inline void reject_unlikely(Frame& f) {
+  for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
+    if (f.confidence.pixels[i] >= f.settings.min_confidence) continue;
+    f.map.pixels[i] = f.confidence.pixels[i] = 0;
+  }
+  f.map = remove_speckles(f.map, 256, f.settings.speckle_size).map;
+  for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
+    if (f.map.pixels[i] == 0) f.confidence.pixels[i] = 0;
+  }
 }
 
 inline void guard_gaps(Frame& f) { guard_gaps(f.found, f.unfilled, f.map, f.confidence); }
@@ -286,6 +311,9 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"map-shift", shift_map},
     {"completion", complete},
     {"edge-alignment", align_edges},
+    {"reliability", rate_map},
+    {"rejection", reject_unlikely},
+    {"thin-drawing", draw_thin},
 };
 
 /// Runs the scalar version of a step. A step without one leaves the frame unchanged: if the step

@@ -13,13 +13,14 @@
 namespace mtstereo::test {
 
 /// The disparity map after a step; empty if no step has written one yet, and after the last steps
-/// of mode full, which change the result in its place.
+/// of the modes dense and full, which change the result in its place.
 inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
   static constexpr std::string_view kBefore[] = {
       "row-alignment", "sharpness",     "view-shift",      "halving",
       "noise-filter",  "preprocessing", "max-trees",       "census",
       "cost-volume",   "node-matching", "reduced-matching"};
-  static constexpr std::string_view kInPlace[] = {"completion", "edge-alignment"};
+  static constexpr std::string_view kInPlace[] = {"completion", "edge-alignment", "reliability",
+                                                  "rejection", "thin-drawing"};
   if (std::count(std::begin(kBefore), std::end(kBefore), step.name) > 0) return {};
   if (std::count(std::begin(kInPlace), std::end(kInPlace), step.name) > 0) return {};
   if (step.name == "map-shift") return memory.output.disparity.view();

@@ -41,4 +41,25 @@ inline void guard_gaps(const DisparityPlane& found, const DisparityPlane& before
   }
 }
 
+/// Draws thin objects into a complete map that may be larger and shifted, and with `guard` empties
+/// what is more than 2 px farther than something else that was found there.
+inline void draw_thin(const DisparityPlane& found, int shift, int scale, int least, bool guard,
+                      DisparityPlane& map, GrayPlane& confidence) {
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = std::max(shift, 0); x < map.width; ++x) {
+      const int column = (x - shift) / scale;
+      if (column >= found.width) continue;
+      const int value = found(column, y / scale);
+      const int there = std::abs(value) * scale + 256 * std::max(shift, 0);
+      if (value < 0) {
+        map(x, y) = there;
+        confidence(x, y) = std::max(confidence(x, y), static_cast<std::uint8_t>(least));
+      } else if (guard && value > 0 && there - map(x, y) > 512) {
+        map(x, y) = 0;
+        confidence(x, y) = 0;
+      }
+    }
+  }
+}
+
 }  // namespace mtstereo::reference

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "fit/samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "eval/degrade.hpp"
+#include "eval/metrics.hpp"
+#include "frame_matcher.hpp"
+#include "mtstereo/parameters.hpp"
+#include "render/render.hpp"
+#include "render/scene.hpp"
+#include "settings.hpp"
+#include "stages/refine/reliability.hpp"
+#include "steps.hpp"
+
+namespace mtstereo::fit {
+namespace {
+
+/// For data sets that do not state it.
+constexpr int kMaxDisparity = 128;
+
+GrayView view_of(const cv::Mat& image) {
+  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
+}
+
+std::string family_of(eval::Layout layout) {
+  switch (layout) {
+    case eval::Layout::kMiddlebury:
+      return "Middlebury";
+    case eval::Layout::kKitti2015:
+      return "KITTI";
+    case eval::Layout::kEth3d:
+      return "ETH3D";
+    default:
+      return "other";
+  }
+}
+
+/// The bins of all pixels of a complete map.
+class Bins {
+ public:
+  Bins(GrayView left, GrayView right, const FrameMemory& memory)
+      : views_{left, right, 0, memory.views.noise_level}, maps_(memory.maps) {
+    clues_.resize(left.width, left.height);
+    scratch_.resize(left.width);
+    gather_clues(views_, maps_.disparity, maps_.confidence, 0, left.height, scratch_, clues_);
+  }
+
+  std::array<std::uint8_t, kClues> at(int x, int y) {
+    if (y != row_) find_clue_bins(views_, maps_.disparity, maps_.confidence, clues_, y, scratch_);
+    row_ = y;
+    std::array<std::uint8_t, kClues> bins{};
+    for (int clue = 0; clue < kClues; ++clue) bins[clue] = scratch_.bins[clue][x];
+    return bins;
+  }
+
+ private:
+  RatedViews views_;
+  const Maps& maps_;
+  ClueMaps clues_;
+  ReliabilityScratch scratch_;
+  int row_ = -1;
+};
+
+/// Random pixels, row by row.
+std::vector<cv::Point> random_pixels(const std::string& seed, cv::Size size, int count) {
+  std::seed_seq sequence(seed.begin(), seed.end());
+  std::mt19937 random(sequence);
+  std::vector<cv::Point> pixels;
+  for (int i = 0; i < count; ++i) {
+    const auto index = static_cast<int>(random() % static_cast<unsigned>(size.area()));
+    pixels.emplace_back(index % size.width, index / size.width);
+  }
+  std::sort(pixels.begin(), pixels.end(),
+            [](cv::Point a, cv::Point b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  return pixels;
+}
+
+Settings settings_for(const TrainingPair& pair) {
+  Parameters parameters;
+  (void)parameters.set("mode", "full");
+  (void)parameters.set("max-disparity", std::to_string(pair.max_disparity));
+  return Settings(parameters);
+}
+
+}  // namespace
+
+std::vector<TrainingPair> pairs_in(const std::string& folder) {
+  std::vector<TrainingPair> pairs;
+  for (const eval::StereoPair& pair : eval::find_pairs(folder, eval::detect_layout(folder)).pairs) {
+    pairs.push_back({pair.name, family_of(pair.layout), pair.max_disparity.value_or(kMaxDisparity),
+                     eval::load_pair(pair)});
+  }
+  return pairs;
+}
+
+std::vector<TrainingPair> rendered_pairs() {
+  std::vector<TrainingPair> pairs;
+  for (const std::string scene : {"street", "garden", "room"}) {
+    for (const unsigned seed : {11U, 12U, 13U}) {
+      render::Settings settings;
+      settings.width = 640;
+      settings.height = 384;
+      const render::StereoFrame frame =
+          render::render(render::make_scene(scene, seed), 0.5 * seed, settings);
+      pairs.push_back({scene + std::to_string(seed),
+                       "rendered",
+                       96,
+                       {frame.left, frame.right, {frame.truth, {}}}});
+    }
+  }
+  return pairs;
+}
+
+PairSamples take_samples(const TrainingPair& pair, const std::string& kind, int count) {
+  eval::LoadedPair images = {pair.views.left.clone(), pair.views.right.clone(), pair.views.truth};
+  if (kind != eval::kCleanKind) {
+    eval::degrade(eval::parse_degradation(kind), images.left, images.right);
+  }
+  PairSamples taken{pair.family, kind, {}};
+  const cv::Mat& truth = images.truth.disparity;
+  const GrayView left = view_of(images.left), right = view_of(images.right);
+  const auto sample = [&](const Step& step, const FrameMemory& memory) {
+    if (step.name != "edge-alignment") return;
+    Bins bins(left, right, memory);
+    for (const cv::Point pixel : random_pixels(pair.name + kind, truth.size(), count)) {
+      const double expected = truth.at<float>(pixel);
+      const double found = memory.maps.disparity.row(pixel.y)[pixel.x] / double{kDisparityOne};
+      const bool known = std::isfinite(expected);
+      taken.samples.push_back({bins.at(pixel.x, pixel.y), known,
+                               known && eval::is_outlier(std::abs(found - expected), expected)});
+    }
+  };
+  FrameMatcher(settings_for(pair)).compute(left, right, sample);
+  return taken;
+}
+
+}  // namespace mtstereo::fit

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "reference/refine/gap_filling.hpp"
+#include "stages/refine/reliability_table.hpp"
+
+namespace mtstereo::reference {
+
+/// The views of a rated map.
+struct RatedPair {
+  const GrayPlane& left;
+  const GrayPlane& right;
+  int offset;  ///< of the disparities [px]
+  float noise;
+};
+
+/// The bins of the clues about one pixel, each found on its own.
+class PixelClues {
+ public:
+  PixelClues(const RatedPair& pair, const ConfidentMap& in, int x, int y)
+      : pair_(pair), in_(in), x_(x), y_(y) {}
+
+  int bin(int clue) const {
+    switch (clue) {
+      case kSupportClue:
+        return in_.confidence(x_, y_) / 8;
+      case kShareClue:
+        return share();
+      case kMismatchClue:
+        return bin_of(mismatch(), {3, 5, 7, 9, 14, 18, 23, 27, 36, 45, 54, 72, 90, 126, 180, 270});
+      case kNearerClue:
+        return first({1, 2, 3, 4, 6, 8, 10, 12, 15},
+                     [&](int k) { return steps(x_ - k, y_) > own() + 32; });
+      case kFartherClue:
+        return first({1, 2, 3, 4, 6, 8}, [&](int k) {
+          return std::min({steps(x_ - k, y_), steps(x_ + k, y_), steps(x_, y_ - k),
+                           steps(x_, y_ + k)}) < own() - 32;
+        });
+      case kPartnerClue:
+        return bin_of(std::floor(partner()), {-40, -20, -10, -5, 0, 3, 6, 10, 16, 24});
+      case kTextureClue:
+        return bin_of(texture(),
+                      {1, 3, 8, 14, 20, 27, 40, 54, 75, 100, 135, 175, 230, 300, 400, 500});
+      default:
+        return bin_of(pair_.noise, {.1F, .3F, .6F, 1, 1.5F, 2, 2.5F, 3, 4, 5, 7, 10});
+    }
+  }
+
+ private:
+  /// The number of ends up to the value.
+  static int bin_of(double value, const std::vector<float>& ends) {
+    return static_cast<int>(std::count_if(
+        ends.begin(), ends.end(), [&](float end) { return static_cast<float>(value) >= end; }));
+  }
+
+  template <typename Found>
+  static int first(const std::vector<int>& distances, Found&& found) {
+    for (const int k : distances) {
+      if (found(k)) return k;
+    }
+    return 16;
+  }
+
+  /// The disparity in 16ths of a pixel; the map's border is repeated outside.
+  int steps(int x, int y) const {
+    return in_.map(std::clamp(x, 0, in_.map.width - 1), std::clamp(y, 0, in_.map.height - 1)) / 16;
+  }
+  int own() const { return steps(x_, y_); }
+
+  double partner() const { return x_ - in_.map(x_, y_) / 256.0 - pair_.offset; }
+
+  /// The share of matched pixels in 16ths, by a factor that is rounded up.
+  int share() const {
+    std::uint64_t matched = 0, pixels = 0;
+    for (int y = std::max(y_ - 12, 0); y <= std::min(y_ + 12, in_.map.height - 1); ++y) {
+      for (int x = std::max(x_ - 12, 0); x <= std::min(x_ + 12, in_.map.width - 1); ++x) {
+        ++pixels;
+        matched += in_.confidence(x, y) > 15;
+      }
+    }
+    return static_cast<int>(matched * ((16 * 65536 + pixels - 1) / pixels) / 65536);
+  }
+
+  int mismatch() const {
+    int sum = 0;
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        const int x = std::clamp(x_ + i, 0, in_.map.width - 1);
+        const int y = std::clamp(y_ + j, 0, in_.map.height - 1);
+        const int partner =
+            static_cast<int>(std::floor(x - in_.map(x, y) / 256.0 - pair_.offset + 0.5));
+        int least = 85;
+        for (int k = -1; k <= 1; ++k) {
+          const int right = pair_.right(std::clamp(partner + k, 0, pair_.right.width - 1), y);
+          least = std::min(least, std::abs(pair_.left(x, y) - right));
+        }
+        sum += least;
+      }
+    }
+    return sum;
+  }
+
+  int texture() const {
+    int sum = 0;
+    for (const int row : {y_ - 4, y_, y_ + 4}) {
+      const int y = std::clamp(row, 0, in_.map.height - 1);
+      for (int x = std::max(x_ - 4, 1); x <= std::min(x_ + 4, in_.map.width - 1); ++x) {
+        sum += std::min(std::abs(pair_.left(x, y) - pair_.left(x - 1, y)), 28);
+      }
+    }
+    return sum;
+  }
+
+  const RatedPair& pair_;
+  const ConfidentMap& in_;
+  int x_, y_;
+};
+
+/// The confidence of each pixel; `apart` keeps that of inferred ones at 1 .. 15.
+inline GrayPlane rate_reliability(const RatedPair& pair, const ConfidentMap& in, bool apart) {
+  GrayPlane out(in.map.width, in.map.height);
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const PixelClues clues(pair, in, x, y);
+      int sum = 0;
+      for (int clue = 0; clue < kClues; ++clue) sum += kReliabilityTable[clue][clues.bin(clue)];
+      int rated = std::clamp(sum / 16, 1, 255);
+      if (apart)
+        rated = in.confidence(x, y) > 15 ? std::max(rated, 16) : 1 + (rated - 1) * 14 / 254;
+      out(x, y) = static_cast<std::uint8_t>(rated);
+    }
+  }
+  return out;
+}
+
+}  // namespace mtstereo::reference

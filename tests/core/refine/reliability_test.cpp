@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/reliability.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference/refine/reliability.hpp"
+#include "support/compare.hpp"
+#include "support/random_maps.hpp"
+
+namespace mtstereo {
+namespace {
+
+using reference::ConfidentMap;
+using reference::RatedPair;
+using test::copy_of;
+using test::DisparityPlane;
+using test::GrayPlane;
+using test::Random;
+
+/// A complete map with a confidence of each pixel, and views of its size.
+struct Rated {
+  Rated(int width, int height, std::uint64_t seed)
+      : left(width, height),
+        right(width, height),
+        in{test::patches(width, height, 0, seed), GrayPlane(width, height)} {
+    Random random(seed);
+    for (int& disparity : in.map.pixels) disparity = std::max(disparity, 1);
+    for (std::uint8_t& value : in.confidence.pixels)
+      value = static_cast<std::uint8_t>(random.between(1, 255));
+    // Flat on one side, with strong texture on the other.
+    const int contrast = random.between(1, 120);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        left(x, y) = static_cast<std::uint8_t>(x < width / 4 ? 90 : random.between(0, contrast));
+        right(x, y) = static_cast<std::uint8_t>(x < width / 4 ? 90 : random.between(0, contrast));
+      }
+    }
+  }
+  GrayPlane left, right;
+  ConfidentMap in;
+};
+
+GrayPlane rate(const Rated& rated, int offset, float noise, Inferred inferred, int band) {
+  const Image<std::int32_t> map = image_of(rated.in.map);
+  Image<std::uint8_t> confidence = image_of(rated.in.confidence);
+  const RatedViews views = {rated.left.view(), rated.right.view(), offset, noise};
+  ClueMaps clues;
+  clues.resize(map.width(), map.height());
+  ReliabilityScratch scratch;
+  scratch.resize(map.width());
+  for (int y = 0; y < map.height(); y += band) {
+    gather_clues(views, map, confidence, y, std::min(y + band, map.height()), scratch, clues);
+  }
+  for (int y = 0; y < map.height(); y += band) {
+    rate_reliability(views, map, clues, inferred, y, std::min(y + band, map.height()), scratch,
+                     confidence);
+  }
+  return copy_of(confidence);
+}
+
+TEST(Reliability, EqualsReferenceAtEveryWidth) {
+  for (int width = 1; width <= 90; ++width) {
+    const Rated rated(width, 1 + width % 41, width);
+    const float noise = 0.13F * static_cast<float>(width);
+    const int offset = width % 3 == 0 ? -5 : 0;
+    for (const Inferred inferred : {Inferred::kApart, Inferred::kLikeMatched}) {
+      const GrayPlane expected = reference::rate_reliability(
+          {rated.left, rated.right, offset, noise}, rated.in, inferred == Inferred::kApart);
+      for (const int band : {3, 1 << 20}) {
+        EXPECT_TRUE(same_image(expected, rate(rated, offset, noise, inferred, band)))
+            << width << " columns, bands of " << band << " rows";
+      }
+    }
+  }
+}
+
+TEST(Reliability, KeepsInferredDisparitiesApart) {
+  const Rated rated(60, 40, 7);
+  const GrayPlane out = rate(rated, 0, 1, Inferred::kApart, 1 << 20);
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+    EXPECT_EQ(out.pixels[i] <= kMostInferred, rated.in.confidence.pixels[i] <= kMostInferred);
+    EXPECT_GT(out.pixels[i], 0);
+  }
+}
+
+/// A surface with a nearer one on its left, in views that show it without any difference.
+Rated step_scene() {
+  Rated rated(80, 30, 1);
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      rated.in.map(x, y) = x < 40 ? 20 * 256 : 256;
+      rated.in.confidence(x, y) = 200;
+      rated.left(x, y) = static_cast<std::uint8_t>((x * 37 + y * 101) % 60);
+    }
+  }
+  for (int y = 0; y < 30; ++y) {
+    // With a little noise, as in real views.
+    for (int x = 0; x < 79; ++x) rated.right(x, y) = rated.left(x + 1, y) + x % 3;
+  }
+  return rated;
+}
+
+TEST(Reliability, DoubtsThePixelsBesideANearerSurface) {
+  const GrayPlane out = rate(step_scene(), 0, 1, Inferred::kLikeMatched, 1 << 20);
+  EXPECT_LT(out(42, 15), out(70, 15));
+}
+
+TEST(Reliability, DoubtsWhatTheViewsContradict) {
+  Rated rated = step_scene();
+  const int before = rate(rated, 0, 1, Inferred::kLikeMatched, 1 << 20)(65, 15);
+  for (int y = 13; y <= 17; ++y) {
+    for (int x = 60; x <= 70; ++x) rated.right(x, y) = 250;
+  }
+  EXPECT_LT(rate(rated, 0, 1, Inferred::kLikeMatched, 1 << 20)(65, 15), before);
+}
+
+TEST(Reliability, GrowsWithTheSupport) {
+  Rated rated = step_scene();
+  int last = 0;
+  for (const int support : {20, 90, 150, 220}) {
+    for (std::uint8_t& value : rated.in.confidence.pixels) {
+      value = static_cast<std::uint8_t>(support);
+    }
+    const int rating = rate(rated, 0, 1, Inferred::kLikeMatched, 1 << 20)(70, 15);
+    EXPECT_GE(rating, last) << support;
+    last = rating;
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo
