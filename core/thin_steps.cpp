@@ -66,7 +66,6 @@ void draw_thin(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, Outp
                                std::max(settings.min_disparity, 0) * kDisparityOne};
   const int confidence = std::max(settings.min_confidence, kMostInferred + 1);
   step.input_bands.rows([&](int y0, int y1, int) {
-    y1 = std::min(y1, result.disparity.height());
     draw_thin_objects(maps.withheld, place, confidence, y0, y1, result.disparity,
                       result.confidence);
     if (!settings.keeps_likely_only()) return;

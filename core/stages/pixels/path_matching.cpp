@@ -72,7 +72,10 @@ class ChunkMatching {
   std::uint8_t* costs(int y) const { return scratch_.costs.data() + (y - chunk_.first) * cells_; }
   std::uint8_t* below(int y) const { return scratch_.below.data() + (y - chunk_.y0) * cells_; }
 
-  void expect(int y) const {
+  /// Two rows have the same row of the half map.
+  void expect(int y) {
+    if (expected_ == y / 2) return;
+    expected_ = y / 2;
     find_expected(half_map_, y, image_.width, options_.cost.disparities, scratch_.low.data(),
                   scratch_.high.data());
   }
@@ -90,7 +93,7 @@ class ChunkMatching {
     step_columns(row, before, paths, scratch_.least.data());
   }
 
-  void select(int y, std::int32_t* disparity, std::uint8_t* ratio) const {
+  void select(int y, std::int32_t* disparity, std::uint8_t* ratio) {
     const int width = image_.width;
     const ScanlineRow row = {costs(y),
                              image_.row(y),
@@ -125,6 +128,7 @@ class ChunkMatching {
   int small_step_;
   LargeStepTable large_step_;
   RunnerUpTable runner_up_;
+  int expected_ = -1;  // the row of the half map that the expected range is of
 };
 
 }  // namespace

@@ -137,12 +137,13 @@ void find_mismatch(const RatedViews& views, const std::int32_t* map, int y, int 
   const std::uint8_t* left = views.left.row(y);
   const std::uint8_t* right = views.right.row(y);
   const int last = views.right.width - 1;
+  const int offset = views.disparity_offset;
   for (int x = 0; x < width; ++x) {
-    const int partner =
-        (partner_of(x, map[x], views.disparity_offset) + kDisparityOne / 2) >> kDisparityShift;
+    const int gray = left[x];
+    const int partner = (partner_of(x, map[x], offset) + kDisparityOne / 2) >> kDisparityShift;
     int least = kMostMismatch;
     for (int i = -1; i <= 1; ++i) {
-      least = std::min(least, std::abs(left[x] - right[std::clamp(partner + i, 0, last)]));
+      least = std::min(least, std::abs(gray - right[std::clamp(partner + i, 0, last)]));
     }
     mismatch[x + 1] = static_cast<std::uint8_t>(least);
   }
@@ -260,11 +261,14 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
                 scratch.bins[kTextureClue]);
   find_surface_bins(clues, y, width, scratch);
   const std::int32_t* row = map.row(y);
+  const std::uint8_t* row_confidence = confidence.row(y);
+  std::uint8_t* support = scratch.bins[kSupportClue].data();
+  std::uint8_t* column = scratch.bins[kPartnerClue].data();
+  for (int x = 0; x < width; ++x) support[x] = row_confidence[x] / 8;
   for (int x = 0; x < width; ++x) {
-    scratch.bins[kSupportClue][x] = confidence.row(y)[x] / 8;
     const int partner = partner_of(x, row[x], views.disparity_offset) >> kDisparityShift;
-    const int column = std::clamp(partner, kFirstPartner, kLastPartner);
-    scratch.bins[kPartnerClue][x] = kPartnerBins[column - kFirstPartner];
+    const int limited = std::clamp(partner, kFirstPartner, kLastPartner);
+    column[x] = kPartnerBins[limited - kFirstPartner];
   }
   std::memset(scratch.bins[kNoiseClue].data(), bin_of(views.noise_level, kNoiseEnds), width);
 }
@@ -272,14 +276,18 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
 void rate_reliability(const RatedViews& views, const Image<std::int32_t>& map,
                       const ClueMaps& clues, Inferred inferred, int y0, int y1,
                       ReliabilityScratch& scratch, Image<std::uint8_t>& confidence) {
+  // Locals, so that the compiler need not load them again after each pixel.
+  const std::uint8_t* bins[kClues];
+  for (int clue = 0; clue < kClues; ++clue) bins[clue] = scratch.bins[clue].data();
+  const int noise = kReliabilityTable[kNoiseClue][bin_of(views.noise_level, kNoiseEnds)];
+  static_assert(kNoiseClue == kClues - 1);
+  const int width = map.width();
   for (int y = y0; y < y1; ++y) {
     find_clue_bins(views, map, confidence, clues, y, scratch);
     std::uint8_t* row = confidence.row(y);
-    for (int x = 0; x < map.width(); ++x) {
-      int sum = 0;
-      for (int clue = 0; clue < kClues; ++clue) {
-        sum += kReliabilityTable[clue][scratch.bins[clue][x]];
-      }
+    for (int x = 0; x < width; ++x) {
+      int sum = noise;
+      for (int clue = 0; clue < kNoiseClue; ++clue) sum += kReliabilityTable[clue][bins[clue][x]];
       const int rated = std::clamp(sum / kReliabilityOne, 1, 255);
       row[x] =
           static_cast<std::uint8_t>(inferred == Inferred::kApart ? apart(row[x], rated) : rated);
