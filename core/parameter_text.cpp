@@ -88,9 +88,12 @@ namespace {
 std::string preset_defaults_text(Parameter id, Preset preset) {
   const std::string main = parameter_default(id, preset, Mode::kSemiDense);
   std::string text = main;
-  for (const Mode mode : {Mode::kSparse, Mode::kDense}) {
+  for (const Mode mode : {Mode::kSparse, Mode::kDense, Mode::kFull}) {
     const std::string other = parameter_default(id, preset, mode);
-    if (other != main) text += ", " + other + (mode == Mode::kSparse ? " sparse" : " dense");
+    if (other == main) continue;
+    const auto word = static_cast<int>(mode);
+    text += ", " + other + " ";
+    text += choice_word(parameter_info(Parameter::kMode).choices, word);
   }
   return text;
 }
