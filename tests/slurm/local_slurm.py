@@ -202,8 +202,9 @@ class LocalSlurm:
         return [line.split() for line in
                 self.call("squeue", "--array", "--noheader", "--format=%j %t").splitlines()]
 
-    def wait_for_jobs(self, timeout=300):
-        """Waits for the end of all jobs. Slurm may list one that was killed for minutes."""
+    def wait_for_jobs(self, timeout=600):
+        """Waits for the end of all jobs. Slurm may list one that was killed for minutes, and repeats
+        a task whose end a killed slurmctld did not store after some five."""
         self.wait(lambda: not self.jobs(), "jobs do not end", timeout)
 
     def state_of(self, job):
