@@ -141,7 +141,7 @@ if [ "$quick" = no ]; then
   # The sanitizer's library is shared, as the programs above need it.
   asan_library=$(clang++ -print-file-name=libclang_rt.asan-x86_64.so)
   shared_asan="-shared-libasan -Wl,-rpath,${asan_library%/*}"
-  target=later suites=(--suite core --suite geometry --suite gst --suite fuzz)
+  target=later suites=(--suite core --suite geometry --suite gst --suite fuzz --no-suite scenes)
   [ "$thorough" = no ] || target=all suites=(--no-suite pipelines)
   if CC=clang CXX=clang++ build build-clang-asan "$target" -Dbuildtype=debugoptimized \
     -Db_sanitize=address,undefined -Db_lundef=false \
