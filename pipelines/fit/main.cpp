@@ -94,6 +94,7 @@ int run(int argc, char** argv) {
   app.add_option("--out", out, "file of the table")->required();
   app.add_option("--samples", count, "pixels of each pair")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
+  if (!std::ofstream(out, std::ios::app)) throw eval::InputError("cannot write " + out);
   std::vector<TrainingPair> pairs = rendered_pairs();
   for (const std::string& folder : folders) {
     for (TrainingPair& pair : pairs_in(folder)) pairs.push_back(std::move(pair));
