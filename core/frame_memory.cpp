@@ -122,7 +122,6 @@ void Maps::resize(const Settings& settings, const FrameSize& size) {
     columns.resize(height, width);
     withheld.resize(width, height);
     if (settings.max_gap > 0) guarded.resize(width, height);
-    if (settings.by_paths()) guarded.resize(size.input.width, size.input.height);
   }
   if (settings.smoothing_radius > 0) smoothed.resize(width, height);
   scratch.resize(size.threads);

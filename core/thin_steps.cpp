@@ -69,8 +69,7 @@ void draw_thin(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, Outp
     draw_thin_objects(maps.withheld, place, confidence, y0, y1, result.disparity,
                       result.confidence);
     if (!settings.keeps_likely_only()) return;
-    mark_covered(result.disparity, maps.withheld, place, y0, y1, maps.guarded);
-    remove_covered(maps.guarded, y0, y1, result.disparity, result.confidence);
+    remove_covered(maps.withheld, place, y0, y1, result.disparity, result.confidence);
   });
 }
 

@@ -98,27 +98,16 @@ void draw_thin_objects(const WithheldMap& withheld, const WithheldPlace& place, 
   }
 }
 
-void mark_covered(const Image<std::int32_t>& map, const WithheldMap& withheld,
-                  const WithheldPlace& place, int y0, int y1, Image<std::uint8_t>& guarded) {
+void remove_covered(const WithheldMap& withheld, const WithheldPlace& place, int y0, int y1,
+                    Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
   for (int y = y0; y < y1; ++y) {
-    const std::int32_t* row = map.row(y);
-    std::uint8_t* marks = guarded.row(y);
-    std::memset(marks, 0, map.width());
+    std::int32_t* row = map.row(y);
+    std::uint8_t* row_confidence = confidence.row(y);
     for_row(withheld, place, y, map.width(), [&](int x, std::int32_t value) {
-      marks[x] = value > 0 && value * place.scale + place.added - row[x] > kGuardedStep;
+      if (value <= 0 || value * place.scale + place.added - row[x] <= kGuardedStep) return;
+      row[x] = kNoDisparity;
+      row_confidence[x] = 0;
     });
-  }
-}
-
-void remove_covered(const Image<std::uint8_t>& guarded, int y0, int y1, Image<std::int32_t>& map,
-                    Image<std::uint8_t>& confidence) {
-  for (int y = y0; y < y1; ++y) {
-    const std::uint8_t* marks = guarded.row(y);
-    for (int x = 0; x < map.width(); ++x) {
-      if (marks[x] == 0) continue;
-      map.row(y)[x] = kNoDisparity;
-      confidence.row(y)[x] = 0;
-    }
   }
 }
 

@@ -54,13 +54,9 @@ void draw_thin_objects(const WithheldMap& withheld, const WithheldPlace& place, 
                        int y0, int y1, Image<std::int32_t>& map,
                        Image<std::uint8_t>& map_confidence);
 
-/// Sets `guarded` to 1 in the rows y0 .. y1 - 1 of a complete map where something nearer than the
-/// map was matched and is not one of its thin objects, elsewhere to 0.
-void mark_covered(const Image<std::int32_t>& map, const WithheldMap& withheld,
-                  const WithheldPlace& place, int y0, int y1, Image<std::uint8_t>& guarded);
-
-/// Empties in the rows y0 .. y1 - 1 the pixels that are guarded.
-void remove_covered(const Image<std::uint8_t>& guarded, int y0, int y1, Image<std::int32_t>& map,
-                    Image<std::uint8_t>& confidence);
+/// Empties the pixels in the rows y0 .. y1 - 1 of a complete map where something nearer than the
+/// map was matched that is not one of its thin objects.
+void remove_covered(const WithheldMap& withheld, const WithheldPlace& place, int y0, int y1,
+                    Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
 
 }  // namespace mtstereo
