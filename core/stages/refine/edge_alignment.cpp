@@ -18,23 +18,68 @@ using Words = hn::CappedTag<std::int16_t, kAlignment / sizeof(std::int16_t)>;
 using Vec = hn::Vec<Words>;
 
 constexpr int kSide = kEdgeSide;
-constexpr int kWindow = kSide * kSide;
 
 /// The weights of a window's pixels, for a vector of windows.
 struct Weights {
-  std::int16_t of[kWindow][hn::MaxLanes(Words())];
+  std::int16_t of[kSide][kSide][hn::MaxLanes(Words())];
 };
 
 /// The sum of the weights of the disparities up to `most`.
 HWY_INLINE Vec weight_up_to(const EdgeWindow& rows, int x, const Weights& weights, Vec most) {
   const Words d16;
   auto sum = hn::Zero(d16);
-  for (int i = 0; i < kWindow; ++i) {
-    const auto disparity = hn::LoadU(d16, rows.disparity[i / kSide] + x + i % kSide * 2);
-    const auto above = hn::Gt(disparity, most);
-    sum = hn::Add(sum, hn::IfThenZeroElse(above, hn::Load(d16, weights.of[i])));
+  for (int row = 0; row < kSide; ++row) {
+    const std::int16_t* disparities = rows.disparity[row] + x;
+    for (int i = 0; i < kSide; ++i) {
+      const auto above = hn::Gt(hn::LoadU(d16, disparities + 2 * i), most);
+      sum = hn::Add(sum, hn::IfThenZeroElse(above, hn::Load(d16, weights.of[row][i])));
+    }
   }
   return sum;
+}
+
+/// What one pass over the windows of the columns from x on finds out.
+struct Weighed {
+  Vec half;               ///< half of a window's weight
+  Vec below;              ///< kEdgeKept less than the pixel's own disparity
+  Vec above;              ///< kEdgeKept more
+  Vec least;              ///< the least disparity of the window
+  Vec most;               ///< the largest
+  hn::Mask<Words> stays;  ///< the median is more than `below`
+  hn::Mask<Words> rises;  ///< it is `above` at least
+};
+
+/// Finds the weights of the windows, and where the medians are about.
+HWY_INLINE Weighed weigh(const EdgeWindow& rows, int x, Weights& weights) {
+  const Words d16;
+  const hn::Rebind<std::uint8_t, Words> d8;
+  const auto gray = hn::PromoteTo(d16, hn::LoadU(d8, rows.middle + kEdgeRadius + x));
+  const auto zero = hn::Zero(d16), one = hn::Set(d16, 1);
+  const auto own = hn::LoadU(d16, rows.disparity[kSide / 2] + kEdgeRadius + x);
+  const auto below = hn::Sub(own, hn::Set(d16, kEdgeKept));
+  const auto above = hn::Add(own, hn::Set(d16, kEdgeKept));
+  auto total = one, up_to_below = zero, less_than_above = zero, least = own, most = own;
+  for (int row = 0; row < kSide; ++row) {
+    const std::int16_t* disparities = rows.disparity[row] + x;
+    const std::uint8_t* grays = rows.gray[row] + x;
+    for (int i = 0; i < kSide; ++i) {
+      const auto other = hn::PromoteTo(d16, hn::LoadU(d8, grays + 2 * i));
+      const auto likeness = hn::Sub(hn::Set(d16, kEdgeContrast), hn::Abs(hn::Sub(gray, other)));
+      const auto weight = hn::Add(hn::Max(likeness, zero), one);
+      hn::Store(weight, d16, weights.of[row][i]);
+      total = hn::Add(total, weight);
+      const auto disparity = hn::LoadU(d16, disparities + 2 * i);
+      least = hn::Min(least, disparity);
+      most = hn::Max(most, disparity);
+      const auto larger = hn::Gt(disparity, below);
+      up_to_below = hn::Add(up_to_below, hn::IfThenZeroElse(larger, weight));
+      const auto less = hn::Gt(above, disparity);
+      less_than_above = hn::Add(less_than_above, hn::IfThenElseZero(less, weight));
+    }
+  }
+  const auto half = hn::ShiftRight<1>(total);
+  return {
+      half, below, above, least, most, hn::Lt(up_to_below, half), hn::Lt(less_than_above, half)};
 }
 
 /// The weighted medians of the windows of the columns from x on: the least disparity such that it
@@ -44,39 +89,21 @@ Vec medians_at(const EdgeWindow& rows, const std::uint8_t* near, int x) {
   const Words d16;
   const hn::Rebind<std::uint8_t, Words> d8;
   HWY_ALIGN Weights weights;
-  const auto gray = hn::PromoteTo(d16, hn::LoadU(d8, rows.middle + kEdgeRadius + x));
   const auto zero = hn::Zero(d16), one = hn::Set(d16, 1);
-  auto total = one;
-  auto least = hn::LoadU(d16, rows.disparity[0] + x);
-  auto most = least;
-  for (int i = 0; i < kWindow; ++i) {
-    const int column = x + i % kSide * 2;
-    const auto other = hn::PromoteTo(d16, hn::LoadU(d8, rows.gray[i / kSide] + column));
-    const auto likeness = hn::Sub(hn::Set(d16, kEdgeContrast), hn::Abs(hn::Sub(gray, other)));
-    const auto weight = hn::Add(hn::Max(likeness, zero), one);
-    hn::Store(weight, d16, weights.of[i]);
-    total = hn::Add(total, weight);
-    const auto disparity = hn::LoadU(d16, rows.disparity[i / kSide] + column);
-    least = hn::Min(least, disparity);
-    most = hn::Max(most, disparity);
-  }
-  const auto half = hn::ShiftRight<1>(total);
   const auto own = hn::LoadU(d16, rows.disparity[kSide / 2] + kEdgeRadius + x);
-  const auto below = hn::Sub(own, hn::Set(d16, kEdgeKept));
-  const auto above = hn::Add(own, hn::Set(d16, kEdgeKept));
-  const auto rises = hn::Lt(weight_up_to(rows, x, weights, hn::Sub(above, one)), half);
-  const auto stays = hn::Lt(weight_up_to(rows, x, weights, below), half);
+  const Weighed w = weigh(rows, x, weights);
   const auto far = hn::Eq(hn::PromoteTo(d16, hn::LoadU(d8, near + x)), zero);
-  const auto kept = hn::Or(far, hn::AndNot(rises, stays));
-  auto low = hn::IfThenElse(kept, own, hn::IfThenElse(rises, above, least));
-  auto high = hn::IfThenElse(kept, own, hn::IfThenElse(rises, most, below));
+  const auto kept = hn::Or(far, hn::AndNot(w.rises, w.stays));
+  if (hn::AllTrue(d16, kept)) return own;
+  auto low = hn::IfThenElse(kept, own, hn::IfThenElse(w.rises, w.above, w.least));
+  auto high = hn::IfThenElse(kept, own, hn::IfThenElse(w.rises, w.most, w.below));
   // Lanes after the end of the row hold any values; so the difference of the bounds cannot
   // overflow.
   low = hn::Max(low, zero);
   high = hn::Max(high, low);
   while (!hn::AllFalse(d16, hn::Lt(low, high))) {
     const auto middle = hn::Add(low, hn::ShiftRight<1>(hn::Sub(high, low)));
-    const auto less = hn::Lt(weight_up_to(rows, x, weights, middle), half);
+    const auto less = hn::Lt(weight_up_to(rows, x, weights, middle), w.half);
     low = hn::IfThenElse(less, hn::Min(hn::Add(middle, one), high), low);
     high = hn::IfThenElse(less, high, middle);
   }
