@@ -89,6 +89,8 @@ void Pyramid::resize(const Settings& settings, const FrameSize& size) {
   if (!settings.by_paths()) return;
   scratch.resize(size.threads);
   ImageSize reduced = size.matched;
+  votes.resize(reduced.width, reduced.height, cost_lanes(settings.disparities));
+  windows.resize(reduced.width, reduced.height);
   const auto prepare_scratch = [&](int level) {
     for (PathMatchingScratch& worker : scratch) {
       worker.resize(reduced.width, reduced.height, settings.path_matching(level));

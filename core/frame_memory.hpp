@@ -146,6 +146,8 @@ struct PyramidLevel {
 /// The matching along four paths of mode full.
 struct Pyramid {
   std::array<PyramidLevel, kPyramidLevels> levels;  ///< fine to coarse, from 1/2 on
+  WindowVotes votes;                                ///< of the level of 1/2
+  SearchWindows windows;                            ///< of full resolution
   std::vector<PathMatchingScratch> scratch;         ///< one for each thread
 
   void resize(const Settings& settings, const FrameSize& size);

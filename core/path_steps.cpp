@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "stages/pixels/path_matching.hpp"
+#include "stages/pixels/search_windows.hpp"
 #include "stages/prepare/census.hpp"
 #include "stages/prepare/halving.hpp"
 #include "stages/refine/completion.hpp"
@@ -37,23 +38,33 @@ void match_reduced(const StepContext& step, Views& views, Pyramid& pyramid) {
     for (int side = 0; side < 2; ++side) finer[side] = level.views[side].view();
   }
   const Image<std::int32_t>* expected = nullptr;
+  const SearchWindows all;
   for (int i = kPyramidLevels - 1; i >= 0; --i) {
     PyramidLevel& level = pyramid.levels[i];
     const PathMatchingOptions options = step.settings.path_matching(i + 1);
+    const PathMatchingInput input = {level.views[0].view(), level.census[0], level.census[1],
+                                     expected, all};
+    WindowVotes* votes = i == 0 ? &pyramid.votes : nullptr;
     step.bands.blocks(level.disparity.height(), kPathRows, [&](int y0, int y1, int worker) {
-      match_along_paths(level.views[0].view(), level.census[0], level.census[1], expected, options,
-                        y0, y1, pyramid.scratch[worker], level.disparity, level.ratio);
+      match_along_paths(input, options, y0, y1, pyramid.scratch[worker], level.disparity,
+                        level.ratio, votes);
     });
     expected = &level.disparity;
   }
 }
 
+void choose_search_windows(const StepContext&, Pyramid& pyramid) {
+  // A millisecond for a view of many megapixels.
+  choose_windows(pyramid.votes, pyramid.windows);
+}
+
 void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyramid, Maps& maps) {
   const PathMatchingOptions options = step.settings.path_matching(0);
+  const PathMatchingInput input = {views.matched[0], views.census[0], views.census[1],
+                                   &pyramid.levels[0].disparity, pyramid.windows};
   step.bands.blocks(maps.disparity.height(), kPathRows, [&](int y0, int y1, int worker) {
-    match_along_paths(views.matched[0], views.census[0], views.census[1],
-                      &pyramid.levels[0].disparity, options, y0, y1, pyramid.scratch[worker],
-                      maps.disparity, maps.ratio);
+    match_along_paths(input, options, y0, y1, pyramid.scratch[worker], maps.disparity, maps.ratio,
+                      nullptr);
   });
 }
 

@@ -4,13 +4,16 @@
 #include "frame_memory.hpp"
 #include "steps.hpp"
 
-/// Internal to the list of steps: those of mode full.
+/// Internal to the list of steps: those of the modes dense and full.
 
 namespace mtstereo {
 
 /// Matches the views at the reduced resolutions, coarse to fine. Each map is the expectation of the
 /// next one.
 void match_reduced(const StepContext& step, Views& views, Pyramid& pyramid);
+
+/// Chooses the disparities at which the pixels are matched at the matched resolution.
+void choose_search_windows(const StepContext& step, Pyramid& pyramid);
 
 /// Matches the views at the matched resolution.
 void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyramid, Maps& maps);

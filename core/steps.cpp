@@ -354,6 +354,7 @@ constexpr Step kSteps[] = {
     {"node-extrapolation",  if_nodes,           on<extrapolate, Nodes, Maps>},
     // pixels
     {"reduced-matching",    if_paths,          on<match_reduced, Views, Pyramid>},
+    {"search-windows",      if_paths,          on<choose_search_windows, Pyramid>},
     {"path-matching",       if_paths,          on<match_by_paths, const Views, Pyramid, Maps>},
     {"census-matching",     if_guided_census,  on<match_by_census, const Views, Costs, Maps>},
     {"gradient-matching",   if_gradient,       on<match_by_gradient, Costs, Maps>},

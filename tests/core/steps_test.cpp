@@ -69,9 +69,9 @@ TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
 
 TEST(Steps, MatchAlongPathsInsteadOfNodesInModeFull) {
   const Parameters full = test::parameters({{"mode", "full"}});
-  expect_order(full,
-               {"noise-filter", "census", "reduced-matching", "path-matching", "speckle-removal",
-                "confidence", "smoothing", "completion", "edge-alignment", "reliability"});
+  expect_order(full, {"noise-filter", "census", "reduced-matching", "search-windows",
+                      "path-matching", "speckle-removal", "confidence", "smoothing", "completion",
+                      "edge-alignment", "reliability"});
   expect_none_of(full, {"rejection", "thin-drawing", "preprocessing", "max-trees", "node-matching",
                         "node-extrapolation", "census-matching", "gap-filling", "island-removal"});
 }

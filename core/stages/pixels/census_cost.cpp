@@ -18,19 +18,11 @@ using Narrow = hn::CappedTag<std::uint8_t, kCostStep>;
 using Wide = hn::CappedTag<std::uint8_t, 2 * kCostStep>;
 
 /// Whether each pixel's costs fill whole wide vectors.
-bool is_wide(int lanes) {
+bool is_wide(const CensusWindow& window) {
   const int wide = static_cast<int>(hn::MaxLanes(Wide()));
-  return wide > static_cast<int>(hn::MaxLanes(Narrow())) && lanes % wide == 0;
+  return wide > static_cast<int>(hn::MaxLanes(Narrow())) && window.lanes % wide == 0 &&
+         window.matched == nullptr;
 }
-
-/// Whether the bits of the row that leaves the window are counted again instead of being stored.
-/// This is cheaper where counting is one instruction and vectors are short, and needs less of the
-/// cache.
-#if HWY_TARGET == HWY_NEON
-constexpr bool kCountTwice = true;
-#else
-constexpr bool kCountTwice = false;
-#endif
 
 /// Counts the differing bits of one left pixel and its right pixels at all disparities. kBytes: 3
 /// or 4 planes.
@@ -66,102 +58,148 @@ class Difference {
   const std::uint8_t* right3_;
 };
 
-/// Advances the sums of column x by one row.
-template <int kBytes, class D8>
-HWY_INLINE void move_sums(const CensusWindow& window, int x) {
-  const D8 d8;
-  const int step = static_cast<int>(hn::Lanes(d8));
-  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
-  std::uint8_t* sums = window.sums + first;
-  const Difference<kBytes, D8> in(window.in, window.width, x);
-  if (kCountTwice) {
-    const Difference<kBytes, D8> out(window.out, window.width, x);
-    for (int d = 0; d < window.lanes; d += step) {
-      const auto sum = hn::Sub(hn::Load(d8, sums + d), out.count(d));
-      hn::Store(hn::Add(sum, in.count(d)), d8, sums + d);
-    }
-    return;
-  }
-  std::uint8_t* kept = window.kept + first;
-  for (int d = 0; d < window.lanes; d += step) {
-    const auto count = in.count(d);
-    const auto sum = hn::Sub(hn::Load(d8, sums + d), hn::Load(d8, kept + d));
-    hn::Store(hn::Add(sum, count), d8, sums + d);
-    hn::Store(count, d8, kept + d);
+/// Calls `vector(d)` for each vector of a window; kVectors: their number, or 0 if it is not known.
+template <int kVectors, class D8, class Vector>
+HWY_INLINE void for_each_vector(CostWindow window, const Vector& vector) {
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(D8()));
+  if constexpr (kVectors > 0) {
+    for (int i = 0; i < kVectors; ++i) vector(window.begin + i * kLanes);
+  } else {
+    for (int d = window.begin; d < window.end; d += kLanes) vector(d);
   }
 }
 
-/// Resets the sums to those of a window without rows.
-void clear_sums(const CensusWindow& window, int rows) {
-  const std::size_t cells = static_cast<std::size_t>(window.width) * window.lanes;
-  std::memset(window.sums, 0, cells);
-  if (!kCountTwice) std::memset(window.kept, 0, cells * rows);
+/// Calls `work` with the number of vectors of a window, if it is a common one, else with 0.
+template <class D8, class Work>
+HWY_INLINE void with_vectors(CostWindow window, const Work& work) {
+  switch ((window.end - window.begin) / static_cast<int>(hn::MaxLanes(D8()))) {
+    case 1:
+      return work(std::integral_constant<int, 1>());
+    case 2:
+      return work(std::integral_constant<int, 2>());
+    case 3:
+      return work(std::integral_constant<int, 3>());
+    case 4:
+      return work(std::integral_constant<int, 4>());
+    default:
+      return work(std::integral_constant<int, 0>());
+  }
 }
 
-/// Adds one of the window's first rows; no row leaves the window yet.
-void add_row(const CensusWindow& window) {
-  for (int x = 0; x < window.width; ++x) {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
-    const Narrow d8;
+/// Counts the differing bits of the columns x0 .. x1 - 1 of one of the window's first rows.
+void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
+  const Narrow d8;
+  for (int x = x0; x < x1; ++x) {
+    std::uint8_t* counts = window.rows[0] + static_cast<std::ptrdiff_t>(x) * window.lanes;
+    std::uint8_t* sums = window.sums_of(x);
     const Difference<kCensusBytes, Narrow> in(window.in, window.width, x);
-    for (int d = 0; d < window.lanes; d += static_cast<int>(hn::Lanes(d8))) {
+    for_each_vector<0, Narrow>(lanes, [&](int d) HWY_ATTR {
       const auto count = in.count(d);
-      std::uint8_t* sums = window.sums + first + d;
-      hn::Store(hn::Add(hn::Load(d8, sums), count), d8, sums);
-      if (!kCountTwice) hn::Store(count, d8, window.kept + first + d);
-    }
+      hn::StoreU(count, d8, counts + d);
+      if (window.running()) hn::StoreU(hn::Add(hn::LoadU(d8, sums + d), count), d8, sums + d);
+    });
   }
 }
 
-/// The binomially weighted mean of 1, 3 or 5 cells along the row; `offsets` are those of the outer
-/// cells from the middle one.
+/// Counts those of the row that enters the window, and sums the counts of all its rows.
+template <int kBytes, int kSize, bool kRunning, class D8>
+void sum_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
+  with_vectors<D8>(lanes, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+    for (int x = x0; x < x1; ++x) {
+      const D8 d8;
+      const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
+      std::uint8_t* sums = window.sums_of(x);
+      const Difference<kBytes, D8> in(window.in, window.width, x);
+      for_each_vector<kVectors, D8>(lanes, [&](int d) HWY_ATTR {
+        std::uint8_t* counts = window.rows[0] + first + d;
+        const auto count = in.count(d);
+        auto sum = count;
+        if constexpr (kRunning) {
+          // The entering row takes the place of the leaving one.
+          sum = hn::Add(hn::Sub(hn::LoadU(d8, sums + d), hn::LoadU(d8, counts)), count);
+        } else {
+          for (int i = 1; i < kSize; ++i) {
+            sum = hn::Add(sum, hn::LoadU(d8, window.rows[i] + first + d));
+          }
+        }
+        hn::StoreU(count, d8, counts);
+        hn::StoreU(sum, d8, sums + d);
+      });
+    }
+  });
+}
+
+/// Divides the columns x0 .. x1 - 1 by the lanes that must be counted for the costs of the columns
+/// up to `reach` away, and calls `count(lanes, begin, end)`.
+template <class Count>
+HWY_INLINE void for_counted_lanes(const CensusWindow& window, int reach, int x0, int x1,
+                                  const Count& count) {
+  const auto tile_of = [&](int x) {
+    return std::clamp(x, 0, window.width - 1) / kWindowTile * kWindowTile;
+  };
+  while (x0 < x1) {
+    const int left = tile_of(x0 - reach), right = tile_of(x0 + reach);
+    // Up to here both tiles stay the same.
+    const int left_end = left + kWindowTile + reach, right_end = right + kWindowTile - reach;
+    const int end = right + kWindowTile < window.width ? std::min(left_end, right_end) : left_end;
+    const int begin = std::exchange(x0, std::min(end, x1));
+    count(joined(window_at(window.counted, window.lanes, left),
+                 window_at(window.counted, window.lanes, right)),
+          begin, x0);
+  }
+}
+
+/// Counts one of the window's first rows.
+void add_row(const CensusWindow& of_window, int reach) {
+  const CensusWindow window = of_window;
+  for_counted_lanes(window, reach, 0, window.width, [&](CostWindow lanes, int x0, int x1) {
+    count_columns(window, lanes, x0, x1);
+  });
+}
+
+/// The binomially weighted mean of 1, 3 or 5 columns' sums at disparity d.
 template <int kSize, class D8>
-HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const std::uint8_t* sums,
-                                      const std::ptrdiff_t* offsets) {
-  const auto middle = hn::Load(d8, sums);
+HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const ColumnSums& sums, int d) {
+  const auto middle = hn::LoadU(d8, sums.of[2] + d);
   if (kSize == 1) return middle;
-  const auto near =
-      hn::AverageRound(hn::Load(d8, sums + offsets[1]), hn::Load(d8, sums + offsets[2]));
+  const auto near = hn::AverageRound(hn::LoadU(d8, sums.of[1] + d), hn::LoadU(d8, sums.of[3] + d));
   if (kSize == 3) return hn::AverageRound(near, middle);
   // Weights 1 4 6 4 1, in sixteenths.
-  const auto far =
-      hn::AverageRound(hn::Load(d8, sums + offsets[0]), hn::Load(d8, sums + offsets[3]));
+  const auto far = hn::AverageRound(hn::LoadU(d8, sums.of[0] + d), hn::LoadU(d8, sums.of[4] + d));
   const auto rest = hn::AverageRound(middle, hn::AverageRound(far, middle));
   return hn::AverageRound(near, rest);
 }
 
-/// Writes the costs of column x, where the disparities low .. high are expected.
-template <int kSize, class D8>
-HWY_INLINE void write_costs(const CensusWindow& window, int disparities, int x, int low, int high,
-                            const CensusTables& tables, std::uint8_t* costs) {
+/// Writes the costs of column x in its window, where the disparities low .. high are expected.
+template <int kSize, int kVectors, class D8>
+HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int disparities, int x,
+                            int low, int high, const CensusTables& tables, std::uint8_t* costs) {
   const D8 d8;
-  const int step = static_cast<int>(hn::Lanes(d8));
   const int last = window.width - 1;
-  const std::ptrdiff_t lanes = window.lanes;
-  const std::ptrdiff_t offsets[4] = {
-      (std::max(x - 2, 0) - x) * lanes, (std::max(x - 1, 0) - x) * lanes,
-      (std::min(x + 1, last) - x) * lanes, (std::min(x + 2, last) - x) * lanes};
-  const std::uint8_t* sums = window.sums + x * lanes;
-  std::uint8_t* out = costs + x * lanes;
-  const auto mean = [&](int d) { return mean_along_row<kSize>(d8, sums + d, offsets); };
+  const int lanes = window.lanes;
+  const ColumnSums sums = {{window.sums_of(std::max(x - 2, 0)), window.sums_of(std::max(x - 1, 0)),
+                            window.sums_of(x), window.sums_of(std::min(x + 1, last)),
+                            window.sums_of(std::min(x + 2, last))}};
+  std::uint8_t* out = costs + static_cast<std::ptrdiff_t>(x) * lanes;
+  const auto mean = [&](int d) HWY_ATTR { return mean_along_row<kSize>(d8, sums, d); };
   if (low > high || (low == 0 && high == disparities - 1)) {
-    for (int d = 0; d < lanes; d += step) {
-      hn::Store(hn::Max(mean(d), hn::Load(d8, tables.never + d)), d8, out + d);
-    }
+    for_each_vector<kVectors, D8>(matched, [&](int d) HWY_ATTR {
+      hn::StoreU(hn::Max(mean(d), hn::LoadU(d8, tables.never + d)), d8, out + d);
+    });
     return;
   }
   // Views into tables of two halves, shifted such that disparities below `low` and above `high` get
   // the penalty.
   const std::uint8_t* below = tables.below + lanes - low;
   const std::uint8_t* above = tables.above + lanes - 1 - high;
-  for (int d = 0; d < lanes; d += step) {
+  for_each_vector<kVectors, D8>(matched, [&](int d) HWY_ATTR {
     const auto penalty = hn::Max(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d));
     const auto cost = hn::SaturatedAdd(mean(d), penalty);
-    hn::Store(hn::Max(cost, hn::Load(d8, tables.never + d)), d8, out + d);
-  }
+    hn::StoreU(hn::Max(cost, hn::LoadU(d8, tables.never + d)), d8, out + d);
+  });
 }
 
-/// Advances the sums by one row and writes its costs, column by column, while the sums of the
+/// Counts the row that enters the window and writes the costs, tile by tile, while the sums of the
 /// adjacent columns are in the cache.
 template <int kBytes, int kSize, class D8>
 void write_row_of(const CensusWindow& of_window, int disparities, const std::uint16_t* low,
@@ -170,11 +208,25 @@ void write_row_of(const CensusWindow& of_window, int disparities, const std::uin
   const CensusWindow window = of_window;
   const CensusTables tables = of_tables;
   constexpr int kReach = kSize / 2;
-  const int width = window.width;
-  for (int x = 0; x < std::min(kReach, width); ++x) move_sums<kBytes, D8>(window, x);
-  for (int x = 0; x < width; ++x) {
-    if (x + kReach < width) move_sums<kBytes, D8>(window, x + kReach);
-    write_costs<kSize, D8>(window, disparities, x, low[x], high[x], tables, costs);
+  int summed = 0;
+  for (int x0 = 0; x0 < window.width; x0 += kWindowTile) {
+    const int x1 = std::min(x0 + kWindowTile, window.width);
+    const int needed = std::min(x1 + kReach, window.width);
+    for_counted_lanes(window, kReach, summed, needed, [&](CostWindow lanes, int begin, int end) {
+      if (window.running()) {
+        sum_columns<kBytes, kSize, true, D8>(window, lanes, begin, end);
+      } else {
+        sum_columns<kBytes, kSize, false, D8>(window, lanes, begin, end);
+      }
+    });
+    summed = needed;
+    const CostWindow matched = window_at(window.matched, window.lanes, x0);
+    with_vectors<D8>(matched, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+      for (int x = x0; x < x1; ++x) {
+        write_costs<kSize, kVectors, D8>(window, matched, disparities, x, low[x], high[x], tables,
+                                         costs);
+      }
+    });
   }
 }
 
@@ -190,7 +242,7 @@ void write_row(const CensusWindow& window, const CensusCostOptions& options,
     return options.bytes == 3 ? by_size(std::integral_constant<int, 3>(), d8)
                               : by_size(std::integral_constant<int, 4>(), d8);
   };
-  const auto write = is_wide(window.lanes) ? by_bytes(Wide()) : by_bytes(Narrow());
+  const auto write = is_wide(window) ? by_bytes(Wide()) : by_bytes(Narrow());
   write(window, options.disparities, low, high, tables, costs);
 }
 
@@ -200,23 +252,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mtstereo {
 
-HWY_EXPORT(clear_sums);
 HWY_EXPORT(add_row);
 HWY_EXPORT(write_row);
 
 namespace {
 
-/// The number of rows whose planes are stored: those of the window, and the one that enters it.
-int rows_apart(const CensusCostOptions& options) { return options.kernel_size + 1; }
-
 int wrapped(int i, int count) { return (i % count + count) % count; }
 
-/// The planes of row y, which may be outside of the image.
-CensusRow place_of(int y, int width, const CensusCostOptions& options, CensusCostScratch& scratch) {
-  const int right_width = width + cost_lanes(options.disparities);
-  std::uint8_t* bytes =
-      scratch.planes.data() + static_cast<std::ptrdiff_t>(wrapped(y, rows_apart(options))) *
-                                  kCensusBytes * (width + right_width);
+/// The planes of the row that enters the window.
+CensusRow planes_of(int width, int lanes, CensusCostScratch& scratch) {
+  const int right_width = width + lanes;
+  std::uint8_t* bytes = scratch.planes.data();
   CensusRow row{};
   for (std::uint8_t*& plane : row.left) plane = std::exchange(bytes, bytes + width);
   for (std::uint8_t*& plane : row.right) plane = std::exchange(bytes, bytes + right_width);
@@ -225,31 +271,35 @@ CensusRow place_of(int y, int width, const CensusCostOptions& options, CensusCos
 
 /// Prepares row y to enter the window. Rows outside of the image repeat the border's row.
 CensusWindow window_with(const CensusImage& left, const CensusImage& right,
-                         const CensusCostOptions& options, int y, CensusCostScratch& scratch) {
+                         const SearchWindows& windows, const CensusCostOptions& options, int y,
+                         CensusCostScratch& scratch) {
   const int width = left.bits.width();
   const int lanes = cost_lanes(options.disparities);
   const int inside = std::clamp(y, 0, left.bits.height() - 1);
-  const CensusRow in = place_of(y, width, options, scratch);
+  const CensusRow in = planes_of(width, lanes, scratch);
   split_census_row(left.bits.row(inside), width, RowOrder::kForward, 0, in.left);
   split_census_row(right.bits.row(inside), width, RowOrder::kMirrored, lanes, in.right);
-  const std::ptrdiff_t kept =
-      static_cast<std::ptrdiff_t>(wrapped(y, options.kernel_size)) * width * lanes;
-  return {width,
-          lanes,
-          in,
-          place_of(y - options.kernel_size, width, options, scratch),
-          scratch.kept.data() + kept,
-          scratch.sums.data()};
+  CensusWindow window = {width,
+                         lanes,
+                         in,
+                         {},
+                         windows.row(inside),
+                         windows.around(y, options.kernel_size / 2),
+                         scratch.sums.data()};
+  for (int i = 0; i < options.kernel_size; ++i) {
+    const std::ptrdiff_t row = wrapped(y - i, options.kernel_size);
+    window.rows[i] = scratch.counts.data() + row * width * lanes;
+  }
+  return window;
 }
 
 }  // namespace
 
 void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
   const std::size_t lanes = cost_lanes(options.disparities);
-  planes.resize(kCensusBytes * (2 * width + lanes) * rows_apart(options));
-  std::memset(planes.data(), 0, planes.size());
-  kept.resize(width * lanes * options.kernel_size);
-  sums.resize(width * lanes);
+  planes.resize(kCensusBytes * (2 * width + lanes));
+  counts.resize(width * lanes * options.kernel_size);
+  sums.resize(std::max(width, kSummedColumns) * lanes);
   tables.resize(5 * lanes);
   const int penalty = std::min(options.range_penalty * cost_scale(options), 255);
   std::uint8_t* below = tables.data();
@@ -264,29 +314,28 @@ void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
 }
 
 void start_census_costs(const CensusImage& left, const CensusImage& right,
-                        const CensusCostOptions& options, int y, CensusCostScratch& scratch) {
+                        const SearchWindows& windows, const CensusCostOptions& options, int y,
+                        CensusCostScratch& scratch) {
   const int reach = options.kernel_size / 2;
-  const int width = left.bits.width();
-  const int lanes = cost_lanes(options.disparities);
-  HWY_DYNAMIC_DISPATCH(clear_sums)
-  ({width, lanes, {}, {}, scratch.kept.data(), scratch.sums.data()}, options.kernel_size);
-  // The first row that leaves the window precedes all others. Its planes are equal in both views,
-  // so that its costs are 0.
-  const CensusRow none = place_of(y - reach - 1, width, options, scratch);
-  std::memset(none.left[0], 0, kCensusBytes * (2 * width + lanes));
+  std::memset(scratch.counts.data(), 0, scratch.counts.size());
+  std::memset(scratch.sums.data(), 0, scratch.sums.size());
   for (int i = -reach; i < reach; ++i) {
-    HWY_DYNAMIC_DISPATCH(add_row)(window_with(left, right, options, y + i, scratch));
+    HWY_DYNAMIC_DISPATCH(add_row)
+    (window_with(left, right, windows, options, y + i, scratch), reach);
   }
 }
 
 void census_cost_row(const CensusImage& left, const CensusImage& right,
-                     const CensusCostOptions& options, int y, const std::uint16_t* low,
-                     const std::uint16_t* high, CensusCostScratch& scratch, std::uint8_t* costs) {
+                     const SearchWindows& windows, const CensusCostOptions& options, int y,
+                     const std::uint16_t* low, const std::uint16_t* high,
+                     CensusCostScratch& scratch, std::uint8_t* costs) {
   const std::size_t lanes = cost_lanes(options.disparities);
   const std::uint8_t* tables = scratch.tables.data();
+  const int entering = y + options.kernel_size / 2;
+  CensusWindow window = window_with(left, right, windows, options, entering, scratch);
+  window.matched = windows.row(y);
   HWY_DYNAMIC_DISPATCH(write_row)
-  (window_with(left, right, options, y + options.kernel_size / 2, scratch), options, low, high,
-   {tables, tables + 2 * lanes, tables + 4 * lanes}, costs);
+  (window, options, low, high, {tables, tables + 2 * lanes, tables + 4 * lanes}, costs);
 }
 
 }  // namespace mtstereo

@@ -26,11 +26,13 @@ void match_pixels_by_census(GrayView left_image, const CensusImage& left, const 
   const RunnerUpTable runner_up = runner_up_table(options.selection.confidence);
   const std::uint16_t* low = scratch.low.data();
   const std::uint16_t* high = scratch.high.data();
-  start_census_costs(left, right, options.cost, y0, scratch.cost);
+  const SearchWindows all;
+  start_census_costs(left, right, all, options.cost, y0, scratch.cost);
   for (int y = y0; y < y1; ++y) {
     find_search_ranges(map.row(y), width, options.range, scratch.low.data(), scratch.high.data());
     exclude_flat(left, y, scratch.texture, scratch.low.data(), scratch.high.data());
-    census_cost_row(left, right, options.cost, y, low, high, scratch.cost, scratch.costs.data());
+    census_cost_row(left, right, all, options.cost, y, low, high, scratch.cost,
+                    scratch.costs.data());
     const ScanlineRow row = {scratch.costs.data(),     left_image.row(y), width,
                              options.cost.disparities, small_step,        &large_step};
     start_scanline(row, scratch.scanline);
@@ -38,7 +40,7 @@ void match_pixels_by_census(GrayView left_image, const CensusImage& left, const 
     for (int block = 0; block < scanline_blocks(width); ++block) {
       for (const ScanlineSums& part : scanline_block(row, block, scratch.scanline)) {
         offer_costs(part.sums, part.begin, part.end, width, options.selection, low, high,
-                    scratch.selection);
+                    all.row(y), scratch.selection);
       }
     }
     finish_selection(width, options.selection, low, high, runner_up, scratch.selection, map.row(y),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <type_traits>
 
 #include "stages/pixels/census_cost.hpp"
 
@@ -20,42 +21,73 @@ void begin_columns(const ColumnStep& row, std::uint8_t* paths, std::uint8_t* lea
   const int lanes = cost_lanes(row.disparities);
   const std::uint8_t* costs = row.costs;
   for (int x = 0; x < row.width; ++x, costs += lanes, paths += lanes) {
+    const CostWindow window = window_at(row.windows, lanes, x);
     auto lowest = hn::Set(d8, 255);
-    for (int d = 0; d < lanes; d += static_cast<int>(hn::Lanes(d8))) {
-      const auto cost = hn::Load(d8, costs + d);
-      hn::Store(cost, d8, paths + d);
+    for (int d = window.begin; d < window.end; d += static_cast<int>(hn::Lanes(d8))) {
+      const auto cost = hn::LoadU(d8, costs + d);
+      hn::StoreU(cost, d8, paths + d);
       lowest = hn::Min(lowest, cost);
     }
     least[x] = hn::GetLane(least_of_lanes(d8, lowest));
   }
 }
 
-void continue_columns(const ColumnStep& row, const std::uint8_t* before, std::uint8_t* paths,
-                      std::uint8_t* least) {
+/// Advances the paths of the columns x0 .. x1 - 1, which have the same window.
+template <class StepPixel>
+HWY_INLINE void continue_tile(const ColumnStep& row, int x0, int x1, const std::uint8_t* before,
+                              std::uint8_t* paths, std::uint8_t* least,
+                              const StepPixel& step_pixel) {
   const Bytes d8;
-  const int step = static_cast<int>(hn::Lanes(d8));
-  const int lanes = cost_lanes(row.disparities);
+  const std::ptrdiff_t lanes = cost_lanes(row.disparities);
   const auto small_step = hn::Set(d8, static_cast<std::uint8_t>(std::min(row.small_step, 255)));
-  const auto never = hn::Set(d8, 255);
   const std::uint8_t* large_step = row.large_step->data();
+  const std::uint8_t* gray = row.gray;
+  const std::uint8_t* gray_before = row.gray_before;
   const std::uint8_t* costs = row.costs;
-  for (int x = 0; x < row.width; ++x, costs += lanes, before += lanes, paths += lanes) {
-    const int change = std::abs(row.gray[x] - row.gray_before[x]);
-    const auto lowest_before = hn::Set(d8, least[x]);
-    const auto any = hn::SaturatedAdd(lowest_before, hn::Set(d8, large_step[change]));
-    auto lowest = never;
-    auto previous = never;
-    auto same = hn::Load(d8, before);
-    for (int d = 0; d < lanes; d += step) {
-      const auto after = d + step < lanes ? hn::Load(d8, before + d + step) : never;
-      const auto path = path_costs(d8, hn::Load(d8, costs + d), previous, same, after, small_step,
-                                   any, lowest_before);
-      hn::Store(path, d8, paths + d);
-      lowest = hn::Min(lowest, path);
-      previous = same;
-      same = after;
+  for (std::ptrdiff_t x = x0; x < x1; ++x) {
+    const auto lowest = hn::Set(d8, least[x]);
+    const int change = std::abs(gray[x] - gray_before[x]);
+    const StepCosts steps = {small_step, lowest,
+                             hn::SaturatedAdd(lowest, hn::Set(d8, large_step[change]))};
+    least[x] =
+        hn::GetLane(step_pixel(costs + x * lanes, before + x * lanes, steps, paths + x * lanes));
+  }
+}
+
+void continue_columns(const ColumnStep& of_row, std::uint8_t* before, std::uint8_t* paths,
+                      std::uint8_t* least) {
+  // A copy: the compiler knows that no store of bytes changes it.
+  const ColumnStep row = of_row;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
+  const std::ptrdiff_t lanes = cost_lanes(row.disparities);
+  for (int x0 = 0; x0 < row.width; x0 += kWindowTile) {
+    const int x1 = std::min(x0 + kWindowTile, row.width);
+    const CostWindow window = window_at(row.windows, static_cast<int>(lanes), x0);
+    const CostWindow last = window_at(row.windows_before, static_cast<int>(lanes), x0);
+    for (int x = x0; x < x1 && last != window; ++x) {
+      extend_lanes(last, window, before + x * lanes);
     }
-    least[x] = hn::GetLane(least_of_lanes(d8, lowest));
+    const auto step_by = [&](auto&& step_pixel) HWY_ATTR {
+      continue_tile(row, x0, x1, before, paths, least, step_pixel);
+    };
+    const auto vectors = [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+      step_by([&](const std::uint8_t* costs, const std::uint8_t* from, const StepCosts& steps,
+                  std::uint8_t* to) HWY_ATTR {
+        return step_vectors<kVectors>(window.begin, costs, from, steps, to);
+      });
+    };
+    switch ((window.end - window.begin) / kLanes) {
+      case 1:
+        vectors(std::integral_constant<int, 1>());
+        break;
+      case 2:
+        vectors(std::integral_constant<int, 2>());
+        break;
+      default:
+        step_by([&](const std::uint8_t* costs, const std::uint8_t* from, const StepCosts& steps,
+                    std::uint8_t* to)
+                    HWY_ATTR { return step_window(window, costs, from, steps, to); });
+    }
   }
 }
 
@@ -68,7 +100,7 @@ namespace mtstereo {
 HWY_EXPORT(begin_columns);
 HWY_EXPORT(continue_columns);
 
-void step_columns(const ColumnStep& row, const std::uint8_t* before, std::uint8_t* paths,
+void step_columns(const ColumnStep& row, std::uint8_t* before, std::uint8_t* paths,
                   std::uint8_t* least) {
   if (before == nullptr) {
     HWY_DYNAMIC_DISPATCH(begin_columns)(row, paths, least);

@@ -20,13 +20,15 @@ struct ColumnStep {
   int disparities;
   int small_step;
   const LargeStepTable* large_step;
+  const CostWindow* windows = nullptr;         ///< of the row's tiles; nullptr = all lanes
+  const CostWindow* windows_before = nullptr;  ///< of the paths' previous row
 };
 
 /// Advances the paths by one row: writes the path costs of its cells, as defined at
 /// start_scanline(), from those of the previous row. `before` may be `paths`; it is nullptr in the
-/// paths' first row. `least` holds the least path cost of each column of the previous row, and then
-/// that of this one.
-void step_columns(const ColumnStep& row, const std::uint8_t* before, std::uint8_t* paths,
+/// paths' first row. Overwrites cells of `before` outside of the windows. `least` holds the least
+/// path cost of each column of the previous row, and then that of this one.
+void step_columns(const ColumnStep& row, std::uint8_t* before, std::uint8_t* paths,
                   std::uint8_t* least);
 
 }  // namespace mtstereo

@@ -12,14 +12,14 @@
 
 #define HWY_TARGET_INCLUDE "stages/pixels/disparity_selection.cpp"
 #include "base/simd.hpp"
+#include "stages/pixels/selection_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
-constexpr std::int16_t kNone = SelectionScratch::kNone;
 constexpr int kGroup = SelectionScratch::kGroup;
 
-using Words = hn::CappedTag<std::int16_t, kCostStep>;
+using Words = hn::CappedTag<std::int16_t, kWindowStep>;
 using WordsVector = hn::Vec<Words>;
 
 /// The words of the disparities d, d + 1 ... of a pixel; kNone from `count` on.
@@ -28,8 +28,8 @@ HWY_INLINE WordsVector load_words(const std::uint16_t* costs, const std::int16_t
                                   int count) {
   const Words d16;
   const hn::RebindToUnsigned<Words> du16;
-  const auto cost = hn::BitCast(d16, hn::Load(du16, costs + d));
-  const auto words = hn::Add(hn::ShiftLeft<kDisparityBits>(cost), hn::Load(d16, index + d));
+  const auto cost = hn::BitCast(d16, hn::LoadU(du16, costs + d));
+  const auto words = hn::Add(hn::ShiftLeft<kDisparityBits>(cost), hn::LoadU(d16, index + d));
   if (!kAtBorder) return words;
   const auto place = hn::Add(hn::Iota(d16, 0), hn::Set(d16, static_cast<std::int16_t>(d)));
   const auto exists = hn::Lt(place, hn::Set(d16, static_cast<std::int16_t>(count)));
@@ -44,7 +44,7 @@ struct Leasts {
 };
 
 /// Finds the least words of the disparities d0 .. d1 - 1. Each word also replaces the least word of
-/// its right pixel, at right[d - d0], if it is less.
+/// its right pixel, at right[d], if it is less.
 template <bool kAtBorder>
 HWY_INLINE Leasts compete(const std::uint16_t* costs, const std::int16_t* index, int d0, int d1,
                           int count, std::int16_t* right) {
@@ -52,7 +52,7 @@ HWY_INLINE Leasts compete(const std::uint16_t* costs, const std::int16_t* index,
   Leasts leasts = {hn::Set(d16, kNone), hn::Set(d16, kNone)};
   for (int d = d0; d < d1; d += static_cast<int>(hn::Lanes(d16))) {
     const auto words = load_words<kAtBorder>(costs, index, d, count);
-    std::int16_t* shown = right + (d - d0);
+    std::int16_t* shown = right + d;
     hn::StoreU(hn::Min(words, hn::LoadU(d16, shown)), d16, shown);
     leasts.second = hn::Min(leasts.second, hn::Max(leasts.least, words));
     leasts.least = hn::Min(leasts.least, words);
@@ -119,6 +119,7 @@ struct Batch {
   int lanes;
   int disparities;
   int width;
+  const CostWindow* windows;  // of the row's tiles
 };
 
 template <bool kAtBorder>
@@ -126,7 +127,6 @@ HWY_INLINE void compete_in_group(const Batch& batch, int group, SelectionScratch
                                  BatchGroup& out) {
   const Words d16;
   const int d0 = group * kGroup;
-  const int d1 = std::min(d0 + kGroup, batch.lanes);
   const int groups = (batch.lanes + kGroup - 1) / kGroup;
   // Copies: the compiler knows that no store of words changes them.
   const std::ptrdiff_t stride = scratch.right_stride;
@@ -135,10 +135,12 @@ HWY_INLINE void compete_in_group(const Batch& batch, int group, SelectionScratch
   for (int i = 0; i < batch.pixels; ++i) {
     const int x = batch.x + i;
     const std::ptrdiff_t competition = (x % SelectionScratch::kTurns * groups + group) * stride;
-    std::int16_t* right = first + competition + (batch.width - 1 - x) + d0;
+    std::int16_t* right = first + competition + (batch.width - 1 - x);
     const int count = std::min(batch.disparities, x + 1);  // disparities with a right pixel
+    const CostWindow window = window_at(batch.windows, batch.lanes, x);
     const Leasts leasts =
-        compete<kAtBorder>(batch.costs + i * batch.lanes, index, d0, d1, count, right);
+        compete<kAtBorder>(batch.costs + i * batch.lanes, index, std::max<int>(window.begin, d0),
+                           std::min<int>(window.end, d0 + kGroup), count, right);
     hn::Store(leasts.least, d16, out.least[i]);
     hn::Store(leasts.second, d16, out.second[i]);
   }
@@ -202,10 +204,10 @@ HWY_INLINE void offer_batch(const Batch& batch, SelectionScratch& scratch) {
 }
 
 void offer(const std::uint16_t* costs, int begin, int end, int width, int disparities,
-           SelectionScratch& scratch) {
+           const CostWindow* windows, SelectionScratch& scratch) {
   const int lanes = cost_lanes(disparities);
   for (int x = begin; x < end; x += kBatch, costs += kBatch * lanes) {
-    const Batch batch = {costs, x, std::min(kBatch, end - x), lanes, disparities, width};
+    const Batch batch = {costs, x, std::min(kBatch, end - x), lanes, disparities, width, windows};
     if (x + 1 < disparities) {
       offer_batch<true>(batch, scratch);
     } else {
@@ -239,6 +241,19 @@ void decide_right(int width, int groups, SelectionScratch& scratch) {
   }
 }
 
+void finish(int width, const SelectionOptions& options, const std::uint16_t* low,
+            const std::uint16_t* high, const SelectionScratch& scratch, std::int32_t* disparity,
+            std::uint8_t* ratio) {
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Finished()));
+  for (int x = 0; x + kLanes <= width; x += kLanes) {
+    finish_at(x, options, low, high, scratch, disparity, ratio);
+  }
+  // The last vector ends with the row. It may repeat some pixels.
+  if (width % kLanes != 0) {
+    finish_at(width - kLanes, options, low, high, scratch, disparity, ratio);
+  }
+}
+
 }  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -247,6 +262,7 @@ namespace mtstereo {
 
 HWY_EXPORT(offer);
 HWY_EXPORT(decide_right);
+HWY_EXPORT(finish);
 
 namespace {
 
@@ -285,7 +301,14 @@ void SelectionScratch::resize(int width, int disparities) {
   // Pixels offer all their lanes, including those past the end of the row.
   right_stride = (width + lanes + 2 * kVector - 1) / kVector * kVector;
   right.resize(right_stride * groups_of(disparities) * kTurns);
-  for (Buffer<std::int16_t>* row : {&best, &least, &second, &before, &after}) row->resize(width);
+  const int padded = std::max(width, kFinishedTogether);
+  for (Buffer<std::int16_t>* row : {&best, &least, &second, &before, &after, &other}) {
+    row->resize(padded);
+    // The pixels after the end are finished as well.
+    std::fill_n(row->data() + width, padded - width, std::int16_t{0});
+  }
+  sufficient.resize(padded);
+  std::fill_n(sufficient.data() + width, padded - width, std::uint16_t{0});
 }
 
 void start_selection(SelectionScratch& scratch) {
@@ -294,20 +317,22 @@ void start_selection(SelectionScratch& scratch) {
 
 void offer_costs(const std::uint16_t* costs, int begin, int end, int width,
                  const SelectionOptions& options, const std::uint16_t* low,
-                 const std::uint16_t* high, SelectionScratch& scratch) {
-  HWY_DYNAMIC_DISPATCH(offer)(costs, begin, end, width, options.disparities, scratch);
+                 const std::uint16_t* high, const CostWindow* windows, SelectionScratch& scratch) {
+  HWY_DYNAMIC_DISPATCH(offer)(costs, begin, end, width, options.disparities, windows, scratch);
   const int lanes = cost_lanes(options.disparities);
   for (int x = begin; x < end; ++x, costs += lanes) {
     const int best = scratch.best[x];
-    const int last = std::min(options.disparities, x + 1) - 1;
-    const bool inside = best > 0 && best < last;
+    const CostWindow window = window_at(windows, lanes, x);
+    const int first = window.begin;
+    const int last = std::min<int>(std::min(options.disparities, x + 1), window.end) - 1;
+    const bool inside = best > first && best < last;
     scratch.before[x] =
         inside ? static_cast<std::int16_t>(costs[best - 1]) : SelectionScratch::kNone;
     scratch.after[x] =
         inside ? static_cast<std::int16_t>(costs[best + 1]) : SelectionScratch::kNone;
     if (options.runner_up_in_range) {
-      scratch.second[x] = static_cast<std::int16_t>(
-          runner_up_of_range(costs, best, low[x], std::min<int>(high[x], last)));
+      scratch.second[x] = static_cast<std::int16_t>(runner_up_of_range(
+          costs, best, std::max<int>(low[x], first), std::min<int>(high[x], last)));
     }
   }
 }
@@ -320,25 +345,26 @@ void finish_selection(int width, const SelectionOptions& options, const std::uin
     HWY_DYNAMIC_DISPATCH(decide_right)(width, groups_of(options.disparities), scratch);
   }
   for (int x = 0; x < width; ++x) {
-    disparity[x] = kNoDisparity;
-    ratio[x] = 0;
-    const int least = scratch.least[x];
-    const int second = scratch.second[x];
-    if (low[x] > high[x] || second == SelectionScratch::kNone || second < runner_up[least]) {
-      continue;
-    }
     const int best = scratch.best[x];
-    if (tolerance >= 0 && std::abs(scratch.right[width - 1 - x + best] - best) > tolerance) {
-      continue;
-    }
-    int refined = best * kDisparityOne;
-    if (options.subpixel && scratch.before[x] != SelectionScratch::kNone) {
-      refined += symmetric_v_offset(scratch.before[x], least, scratch.after[x]);
-    }
-    disparity[x] = std::max(refined, 1);
-    ratio[x] =
-        static_cast<std::uint8_t>(std::max(peak_ratio(least, second, options.ratio_offset), 1));
+    const int least = scratch.least[x];
+    // Costs without a disparity have no runner-up.
+    scratch.sufficient[x] = runner_up[std::min(least, kCostLimit - 1)];
+    scratch.other[x] = scratch.right[width - 1 - x + best];
   }
+  if (width >= kFinishedTogether) {
+    HWY_DYNAMIC_DISPATCH(finish)(width, options, low, high, scratch, disparity, ratio);
+    return;
+  }
+  // Too few pixels for a vector.
+  std::uint16_t padded_low[kFinishedTogether] = {}, padded_high[kFinishedTogether] = {};
+  std::int32_t disparities[kFinishedTogether];
+  std::uint8_t ratios[kFinishedTogether];
+  std::copy_n(low, width, padded_low);
+  std::copy_n(high, width, padded_high);
+  HWY_DYNAMIC_DISPATCH(finish)
+  (kFinishedTogether, options, padded_low, padded_high, scratch, disparities, ratios);
+  std::copy_n(disparities, width, disparity);
+  std::copy_n(ratios, width, ratio);
 }
 
 }  // namespace mtstereo

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/buffer.hpp"
+#include "stages/pixels/cost_lanes.hpp"
 
 namespace mtstereo {
 
@@ -51,6 +52,8 @@ struct SelectionScratch {
   /// Per left pixel: its disparity of least cost, that cost, the runner-up's cost, and the costs of
   /// the disparities before and after the best one.
   Buffer<std::int16_t> best, least, second, before, after;
+  Buffer<std::int16_t> other;        ///< per left pixel: the disparity of its right pixel
+  Buffer<std::uint16_t> sufficient;  ///< per left pixel: the least cost for its runner-up
 
   void resize(int width, int disparities);
 };
@@ -60,10 +63,11 @@ void start_selection(SelectionScratch& scratch);
 
 /// Passes the costs of the columns begin .. end - 1: that of column x and disparity d is at
 /// (x - begin) * cost_lanes() + d. Costs are below kCostLimit; those of the cells d >= D are
-/// kCostLimit - 1. Pixels with low > high have no expected range.
+/// kCostLimit - 1. Pixels with low > high have no expected range. `windows` are those of the row's
+/// tiles, nullptr = all lanes; disparities outside of them do not exist.
 void offer_costs(const std::uint16_t* costs, int begin, int end, int width,
                  const SelectionOptions& options, const std::uint16_t* low,
-                 const std::uint16_t* high, SelectionScratch& scratch);
+                 const std::uint16_t* high, const CostWindow* windows, SelectionScratch& scratch);
 
 /// Writes the row of the disparity map [1 / kDisparityOne px] and of the peak ratios (0 for pixels
 /// without a disparity). Of equal costs the smallest disparity is the best. The runner-up is the

@@ -9,8 +9,10 @@
 #endif
 
 #include <cstdint>
+#include <cstring>
 
 #include "base/simd.hpp"
+#include "stages/pixels/cost_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -67,6 +69,90 @@ HWY_INLINE V path_costs(Bytes d8, V costs, V before, V same, V after, V small_st
   const auto adjacent = hn::Min(lanes_before(d8, same, before), lanes_after(d8, same, after));
   const auto best = hn::Min(hn::Min(same, hn::SaturatedAdd(adjacent, small_step)), any);
   return hn::SaturatedAdd(costs, hn::SaturatedSub(best, least));
+}
+
+/// The inputs of a path's step, in every lane: the cost of a small step, and the previous pixel's
+/// least cost without and with that of a large step.
+struct StepCosts {
+  hn::Vec<Bytes> small_step, least, any;
+};
+
+/// Writes the path costs of a pixel from disparity `begin` on, in so many vectors, and returns the
+/// least one, in every lane. Steps come from the previous pixel's costs at the same disparities.
+/// May overwrite them.
+template <int kVectors>
+HWY_INLINE hn::Vec<Bytes> step_vectors(int begin, const std::uint8_t* costs,
+                                       const std::uint8_t* before, const StepCosts& steps,
+                                       std::uint8_t* paths) {
+  const Bytes d8;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
+  const auto never = hn::Set(d8, 255);
+  auto least = never;
+  auto previous = never;
+  auto same = hn::LoadU(d8, before + begin);
+  for (int i = 0; i < kVectors; ++i) {
+    const int d = begin + i * kLanes;
+    // Loads whole vectors only: a load that spans two recent stores would wait for both.
+    const auto after = i + 1 < kVectors ? hn::LoadU(d8, before + d + kLanes) : never;
+    const auto path = path_costs(d8, hn::LoadU(d8, costs + d), previous, same, after,
+                                 steps.small_step, steps.any, steps.least);
+    hn::StoreU(path, d8, paths + d);
+    least = hn::Min(least, path);
+    previous = same;
+    same = after;
+  }
+  return least_of_lanes(d8, least);
+}
+
+/// The same for any window.
+HWY_INLINE hn::Vec<Bytes> step_lanes(CostWindow window, const std::uint8_t* costs,
+                                     const std::uint8_t* before, const StepCosts& steps,
+                                     std::uint8_t* paths) {
+  const Bytes d8;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
+  const auto never = hn::Set(d8, 255);
+  auto least = never;
+  auto previous = never;
+  auto same = hn::LoadU(d8, before + window.begin);
+  for (int d = window.begin; d < window.end; d += kLanes) {
+    const auto after = d + kLanes < window.end ? hn::LoadU(d8, before + d + kLanes) : never;
+    const auto path = path_costs(d8, hn::LoadU(d8, costs + d), previous, same, after,
+                                 steps.small_step, steps.any, steps.least);
+    hn::StoreU(path, d8, paths + d);
+    least = hn::Min(least, path);
+    previous = same;
+    same = after;
+  }
+  return least_of_lanes(d8, least);
+}
+
+/// Calls step_vectors() for the common sizes of windows, else step_lanes().
+HWY_INLINE hn::Vec<Bytes> step_window(CostWindow window, const std::uint8_t* costs,
+                                      const std::uint8_t* before, const StepCosts& steps,
+                                      std::uint8_t* paths) {
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
+  switch ((window.end - window.begin) / kLanes) {
+    case 1:
+      return step_vectors<1>(window.begin, costs, before, steps, paths);
+    case 2:
+      return step_vectors<2>(window.begin, costs, before, steps, paths);
+    case 3:
+      return step_vectors<3>(window.begin, costs, before, steps, paths);
+    case 4:
+      return step_vectors<4>(window.begin, costs, before, steps, paths);
+    default:
+      return step_lanes(window, costs, before, steps, paths);
+  }
+}
+
+/// Between pixels of different windows: makes the costs of the pixel before never the least where
+/// only the next pixel has disparities.
+inline void extend_lanes(CostWindow before, CostWindow next, std::uint8_t* paths) {
+  if (before == next) return;
+  for (int d = next.begin; d < next.end; d += kWindowStep) {
+    if (before.begin <= d && d < before.end) continue;
+    std::memset(paths + d, 255, kWindowStep);
+  }
 }
 
 }  // namespace mtstereo::HWY_NAMESPACE

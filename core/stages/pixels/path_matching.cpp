@@ -8,6 +8,9 @@
 namespace mtstereo {
 namespace {
 
+/// Largest difference between the disparities of left and right pixel by their costs alone [px].
+constexpr int kCostTolerance = 1;
+
 /// A chunk y0 .. y1 - 1, and the rows first .. last - 1 that its paths read.
 struct Chunk {
   Chunk(int begin, int end, int height)
@@ -22,35 +25,34 @@ struct Chunk {
 /// The matching of one chunk.
 class ChunkMatching {
  public:
-  ChunkMatching(GrayView image, const CensusImage& left, const CensusImage& right,
-                const Image<std::int32_t>* half_map, const PathMatchingOptions& options,
+  ChunkMatching(const PathMatchingInput& input, const PathMatchingOptions& options,
                 const Chunk& chunk, PathMatchingScratch& scratch)
-      : image_(image),
-        left_(left),
-        right_(right),
-        half_map_(half_map),
+      : input_(input),
         options_(options),
         chunk_(chunk),
         scratch_(scratch),
-        cells_(static_cast<std::ptrdiff_t>(image.width) * cost_lanes(options.cost.disparities)),
+        width_(input.image.width),
+        cells_(static_cast<std::ptrdiff_t>(width_) * cost_lanes(options.cost.disparities)),
         small_step_(options.smoothness.small_step * cost_scale(options.cost)),
         large_step_(large_step_table(
             {small_step_, options.smoothness.large_step * cost_scale(options.cost)})),
-        runner_up_(runner_up_table(options.selection.confidence)) {}
+        runner_up_(runner_up_table(options.selection.confidence)),
+        any_runner_up_(runner_up_table(0)) {}
 
   /// The costs of the chunk and its margins.
   void find_costs() {
-    start_census_costs(left_, right_, options_.cost, chunk_.first, scratch_.cost);
+    start_census_costs(input_.left, input_.right, input_.windows, options_.cost, chunk_.first,
+                       scratch_.cost);
     for (int y = chunk_.first; y < chunk_.last; ++y) {
       expect(y);
-      census_cost_row(left_, right_, options_.cost, y, scratch_.low.data(), scratch_.high.data(),
-                      scratch_.cost, costs(y));
+      census_cost_row(input_.left, input_.right, input_.windows, options_.cost, y,
+                      scratch_.low.data(), scratch_.high.data(), scratch_.cost, costs(y));
     }
   }
 
   /// The paths from below. Outside of the chunk only the state is kept.
   void walk_up() {
-    const std::uint8_t* before = nullptr;
+    std::uint8_t* before = nullptr;
     for (int y = chunk_.last - 1; y >= chunk_.y0; --y) {
       std::uint8_t* paths = below(std::min(y, chunk_.y1));
       step(y, y + 1, before, paths);
@@ -59,12 +61,17 @@ class ChunkMatching {
   }
 
   /// The paths from above, those along the rows, and the results.
-  void walk_down(Image<std::int32_t>& map, Image<std::uint8_t>& ratio) {
-    const std::uint8_t* before = nullptr;
+  void walk_down(Image<std::int32_t>& map, Image<std::uint8_t>& ratio, WindowVotes* votes) {
+    if (votes != nullptr) clear_votes(chunk_.y0, chunk_.y1, *votes);
+    std::uint8_t* before = nullptr;
     for (int y = chunk_.first; y < chunk_.y1; ++y) {
       step(y, y - 1, before, scratch_.above.data());
       before = scratch_.above.data();
-      if (y >= chunk_.y0) select(y, map.row(y), ratio.row(y));
+      if (y < chunk_.y0) continue;
+      select(y, map.row(y), ratio.row(y));
+      if (votes == nullptr) continue;
+      select_by_cost(y);
+      count_votes(map.row(y), scratch_.by_cost.data(), width_, y, *votes);
     }
   }
 
@@ -76,58 +83,73 @@ class ChunkMatching {
   void expect(int y) {
     if (expected_ == y / 2) return;
     expected_ = y / 2;
-    find_expected(half_map_, y, image_.width, options_.cost.disparities, scratch_.low.data(),
+    find_expected(input_.half_map, y, width_, options_.cost.disparities, scratch_.low.data(),
                   scratch_.high.data());
   }
 
   /// Advances paths along the columns from the row `from` to row y.
-  void step(int y, int from, const std::uint8_t* before, std::uint8_t* paths) const {
-    const std::uint8_t* gray = image_.row(y);
-    const ColumnStep row = {costs(y),
-                            gray,
-                            before == nullptr ? gray : image_.row(from),
-                            image_.width,
-                            options_.cost.disparities,
-                            small_step_,
-                            &large_step_};
+  void step(int y, int from, std::uint8_t* before, std::uint8_t* paths) const {
+    const int last = before == nullptr ? y : from;
+    const ColumnStep row = {costs(y),     input_.image.row(y),       input_.image.row(last),
+                            width_,       options_.cost.disparities, small_step_,
+                            &large_step_, input_.windows.row(y),     input_.windows.row(last)};
     step_columns(row, before, paths, scratch_.least.data());
   }
 
   void select(int y, std::int32_t* disparity, std::uint8_t* ratio) {
-    const int width = image_.width;
+    const CostWindow* windows = input_.windows.row(y);
     const ScanlineRow row = {costs(y),
-                             image_.row(y),
-                             width,
+                             input_.image.row(y),
+                             width_,
                              options_.cost.disparities,
                              small_step_,
                              &large_step_,
-                             {scratch_.above.data(), below(y)}};
+                             {scratch_.above.data(), below(y)},
+                             windows};
     const std::uint16_t* low = scratch_.low.data();
     const std::uint16_t* high = scratch_.high.data();
     expect(y);
     start_scanline(row, scratch_.scanline);
     start_selection(scratch_.selection);
-    for (int block = 0; block < scanline_blocks(width); ++block) {
+    for (int block = 0; block < scanline_blocks(width_); ++block) {
       for (const ScanlineSums& part : scanline_block(row, block, scratch_.scanline)) {
-        offer_costs(part.sums, part.begin, part.end, width, options_.selection, low, high,
+        offer_costs(part.sums, part.begin, part.end, width_, options_.selection, low, high, windows,
                     scratch_.selection);
       }
     }
-    finish_selection(width, options_.selection, low, high, runner_up_, scratch_.selection,
+    finish_selection(width_, options_.selection, low, high, runner_up_, scratch_.selection,
                      disparity, ratio);
   }
 
-  GrayView image_;
-  const CensusImage& left_;
-  const CensusImage& right_;
-  const Image<std::int32_t>* half_map_;
+  /// The disparities of row y by its costs alone.
+  void select_by_cost(int y) {
+    const SelectionOptions options = {
+        options_.cost.disparities, 0, false, kCostTolerance, false, 0};
+    const std::uint8_t* row = costs(y);
+    // Twice the costs have the range of the sums of paths.
+    std::uint16_t* twice = scratch_.twice.data();
+    for (std::ptrdiff_t i = 0; i < cells_; ++i) {
+      twice[i] = static_cast<std::uint16_t>(2 * row[i]);
+    }
+    const std::uint16_t* low = scratch_.low.data();
+    const std::uint16_t* high = scratch_.high.data();
+    start_selection(scratch_.selection);
+    offer_costs(twice, 0, width_, width_, options, low, high, input_.windows.row(y),
+                scratch_.selection);
+    finish_selection(width_, options, low, high, any_runner_up_, scratch_.selection,
+                     scratch_.by_cost.data(), scratch_.by_cost_ratio.data());
+  }
+
+  const PathMatchingInput& input_;
   const PathMatchingOptions& options_;
   Chunk chunk_;
   PathMatchingScratch& scratch_;
+  int width_;
   std::ptrdiff_t cells_;  // of a row
   int small_step_;
   LargeStepTable large_step_;
   RunnerUpTable runner_up_;
+  RunnerUpTable any_runner_up_;
   int expected_ = -1;  // the row of the half map that the expected range is of
 };
 
@@ -145,6 +167,9 @@ void PathMatchingScratch::resize(int width, int height, const PathMatchingOption
   below.resize(cells * (std::min(height, kPathRows) + 1));
   above.resize(cells);
   least.resize(width);
+  twice.resize(cells);
+  by_cost.resize(width);
+  by_cost_ratio.resize(width);
 }
 
 void find_expected(const Image<std::int32_t>* half_map, int y, int width, int disparities,
@@ -170,16 +195,14 @@ void find_expected(const Image<std::int32_t>* half_map, int y, int width, int di
   }
 }
 
-void match_along_paths(GrayView left_image, const CensusImage& left, const CensusImage& right,
-                       const Image<std::int32_t>* half_map, const PathMatchingOptions& options,
-                       int y0, int y1, PathMatchingScratch& scratch, Image<std::int32_t>& map,
-                       Image<std::uint8_t>& ratio) {
-  scratch.resize(left_image.width, left_image.height, options);
-  ChunkMatching matching(left_image, left, right, half_map, options,
-                         Chunk(y0, y1, left_image.height), scratch);
+void match_along_paths(const PathMatchingInput& input, const PathMatchingOptions& options, int y0,
+                       int y1, PathMatchingScratch& scratch, Image<std::int32_t>& map,
+                       Image<std::uint8_t>& ratio, WindowVotes* votes) {
+  scratch.resize(input.image.width, input.image.height, options);
+  ChunkMatching matching(input, options, Chunk(y0, y1, input.image.height), scratch);
   matching.find_costs();
   matching.walk_up();
-  matching.walk_down(map, ratio);
+  matching.walk_down(map, ratio, votes);
 }
 
 }  // namespace mtstereo

@@ -8,6 +8,7 @@
 #include "stages/pixels/census_cost.hpp"
 #include "stages/pixels/disparity_selection.hpp"
 #include "stages/pixels/scanline_optimization.hpp"
+#include "stages/pixels/search_windows.hpp"
 #include "stages/prepare/census.hpp"
 
 namespace mtstereo {
@@ -27,6 +28,15 @@ inline constexpr int kPathMargin = 8;
 /// Reach of the expected range on both sides of twice the half map's disparity [px].
 inline constexpr int kPathReach = 3;
 
+/// What the views at one resolution are matched from.
+struct PathMatchingInput {
+  GrayView image;  ///< the left view
+  const CensusImage& left;
+  const CensusImage& right;
+  const Image<std::int32_t>* half_map;  ///< of half the resolution, or nullptr
+  const SearchWindows& windows;
+};
+
 struct PathMatchingOptions {
   CensusCostOptions cost;
   SmoothnessOptions smoothness;
@@ -42,9 +52,12 @@ struct PathMatchingScratch {
   ScanlineScratch scanline;
   SelectionScratch selection;
   Buffer<std::uint8_t> costs;
-  Buffer<std::uint8_t> below;  ///< of the chunk's rows and the one after them
-  Buffer<std::uint8_t> above;  ///< of one row
-  Buffer<std::uint8_t> least;  ///< of a row's columns
+  Buffer<std::uint8_t> below;    ///< of the chunk's rows and the one after them
+  Buffer<std::uint8_t> above;    ///< of one row
+  Buffer<std::uint8_t> least;    ///< of a row's columns
+  Buffer<std::uint16_t> twice;   ///< twice the costs of a row
+  Buffer<std::int32_t> by_cost;  ///< the disparities of a row by its costs alone
+  Buffer<std::uint8_t> by_cost_ratio;
 
   /// For views of this size. match_along_paths() calls it as well, since one thread matches views
   /// of different sizes in turn.
@@ -57,10 +70,9 @@ void find_expected(const Image<std::int32_t>* half_map, int y, int width, int di
                    std::uint16_t* low, std::uint16_t* high);
 
 /// Writes the disparities and peak ratios of the rows y0 .. y1 - 1. y0 is a multiple of kPathRows,
-/// and y1 the next one or the height.
-void match_along_paths(GrayView left_image, const CensusImage& left, const CensusImage& right,
-                       const Image<std::int32_t>* half_map, const PathMatchingOptions& options,
-                       int y0, int y1, PathMatchingScratch& scratch, Image<std::int32_t>& map,
-                       Image<std::uint8_t>& ratio);
+/// and y1 the next one or the height. Counts the votes of these rows, unless `votes` is nullptr.
+void match_along_paths(const PathMatchingInput& input, const PathMatchingOptions& options, int y0,
+                       int y1, PathMatchingScratch& scratch, Image<std::int32_t>& map,
+                       Image<std::uint8_t>& ratio, WindowVotes* votes);
 
 }  // namespace mtstereo

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "stages/pixels/census_cost.hpp"
@@ -24,6 +25,8 @@ class Path {
       : costs_(row.costs),
         gray_(row.gray),
         large_step_(row.large_step->data()),
+        windows_(row.windows),
+        width_(row.width),
         lanes_(lanes),
         back_(path == kFromLeft ? -1 : 1),
         small_step_(hn::Set(Bytes(), static_cast<std::uint8_t>(std::min(row.small_step, 255)))),
@@ -37,57 +40,70 @@ class Path {
     least_ = hn::Zero(Bytes());
   }
 
-  /// Advances to column x, the next one; `first` for the path's first pixel.
-  HWY_INLINE void step(int x, bool first) {
+  /// Enters the tile of column x, the next one.
+  HWY_INLINE void enter(int x) {
+    window_ = window_at(windows_, lanes_, x);
+    const int last = x + back_;
+    if (last < 0 || last >= width_) return;
+    extend_lanes(window_at(windows_, lanes_, last), window_, newest_);
+  }
+
+  /// The number of the window's vectors.
+  int vectors() const {
+    return (window_.end - window_.begin) / static_cast<int>(hn::MaxLanes(Bytes()));
+  }
+
+  /// Advances to column x, the next one.
+  template <int kVectors>
+  HWY_INLINE void step(int x) {
     const Bytes d8;
-    const int step = static_cast<int>(hn::Lanes(d8));
-    const int change = first ? 0 : std::abs(gray_[x] - gray_[x + back_]);
-    const auto any = hn::SaturatedAdd(least_, hn::Set(d8, large_step_[change]));
+    const int last = x + back_;
+    const bool first = last < 0 || last >= width_;
+    const int change = first ? 0 : std::abs(gray_[x] - gray_[last]);
+    const StepCosts steps = {small_step_, least_,
+                             hn::SaturatedAdd(least_, hn::Set(d8, large_step_[change]))};
     const std::uint8_t* costs = costs_ + static_cast<std::ptrdiff_t>(x) * lanes_;
-    auto least = hn::Set(d8, 255);
-    // Loads whole vectors only: a load that spans two recent stores would wait for both.
-    auto before = hn::Load(d8, newest_ - step);
-    auto same = hn::Load(d8, newest_);
-    for (int d = 0; d < lanes_; d += step) {
-      const auto after = hn::Load(d8, newest_ + d + step);
-      const auto path =
-          path_costs(d8, hn::Load(d8, costs + d), before, same, after, small_step_, any, least_);
-      hn::Store(path, d8, other_ + d);
-      least = hn::Min(least, path);
-      before = same;
-      same = after;
+    if constexpr (kVectors > 0) {
+      least_ = step_vectors<kVectors>(window_.begin, costs, newest_, steps, other_);
+    } else {
+      least_ = step_window(window_, costs, newest_, steps, other_);
     }
-    least_ = least_of_lanes(d8, least);
     std::swap(newest_, other_);
   }
 
   /// Stores the last pixel's costs for the other path.
+  template <int kVectors>
   HWY_INLINE void keep(std::uint8_t* paths, int x) const {
     std::uint8_t* kept = paths + static_cast<std::ptrdiff_t>(x) * lanes_;
     const Bytes d8;
-    for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(d8))) {
-      hn::Store(hn::Load(d8, newest_ + d), d8, kept + d);
+    const int end = last_lane<kVectors>();
+    for (int d = window_.begin; d < end; d += static_cast<int>(hn::MaxLanes(d8))) {
+      hn::StoreU(hn::LoadU(d8, newest_ + d), d8, kept + d);
     }
   }
 
   /// Writes the sums of the last pixel's costs and of those that the other path has stored for it.
+  template <int kVectors>
   HWY_INLINE void add(const std::uint8_t* paths, int x, std::uint16_t* sums) const {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * lanes_;
-    for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(Sums()))) {
-      hn::Store(sum(paths + first, d), Sums(), sums + d);
+    const int end = last_lane<kVectors>();
+    for (int d = window_.begin; d < end; d += static_cast<int>(hn::Lanes(Sums()))) {
+      hn::StoreU(sum(paths + first, d), Sums(), sums + d);
     }
   }
 
   /// The same with the paths along the columns: half the sums of all four.
+  template <int kVectors>
   HWY_INLINE void add_columns(const std::uint8_t* paths, const ColumnCosts& columns, int x,
                               std::uint16_t* sums) const {
     const hn::Rebind<std::uint8_t, Sums> d8;
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * lanes_;
-    for (int d = 0; d < lanes_; d += static_cast<int>(hn::Lanes(Sums()))) {
-      const auto above = hn::PromoteTo(Sums(), hn::Load(d8, columns.from_above + first + d));
-      const auto below = hn::PromoteTo(Sums(), hn::Load(d8, columns.from_below + first + d));
+    const int end = last_lane<kVectors>();
+    for (int d = window_.begin; d < end; d += static_cast<int>(hn::Lanes(Sums()))) {
+      const auto above = hn::PromoteTo(Sums(), hn::LoadU(d8, columns.from_above + first + d));
+      const auto below = hn::PromoteTo(Sums(), hn::LoadU(d8, columns.from_below + first + d));
       const auto all = hn::Add(sum(paths + first, d), hn::Add(above, below));
-      hn::Store(hn::ShiftRight<1>(all), Sums(), sums + d);
+      hn::StoreU(hn::ShiftRight<1>(all), Sums(), sums + d);
     }
   }
 
@@ -98,24 +114,57 @@ class Path {
   }
 
  private:
+  /// The end of the window, in a form that compilers unroll loops by.
+  template <int kVectors>
+  HWY_INLINE int last_lane() const {
+    return kVectors > 0 ? window_.begin + kVectors * static_cast<int>(hn::MaxLanes(Bytes()))
+                        : window_.end;
+  }
+
   using Sums = hn::CappedTag<std::uint16_t, kCostStep>;
 
   HWY_INLINE hn::Vec<Sums> sum(const std::uint8_t* kept, int d) const {
     const hn::Rebind<std::uint8_t, Sums> d8;
-    return hn::Add(hn::PromoteTo(Sums(), hn::Load(d8, newest_ + d)),
-                   hn::PromoteTo(Sums(), hn::Load(d8, kept + d)));
+    return hn::Add(hn::PromoteTo(Sums(), hn::LoadU(d8, newest_ + d)),
+                   hn::PromoteTo(Sums(), hn::LoadU(d8, kept + d)));
   }
 
   const std::uint8_t* costs_;
   const std::uint8_t* gray_;
   const std::uint8_t* large_step_;
+  const CostWindow* windows_;
+  int width_;
   int lanes_;
   int back_;  // offset from a column to the path's previous one
   hn::Vec<Bytes> small_step_;
   hn::Vec<Bytes> least_;  // of the last pixel's costs, in every lane
   std::uint8_t* newest_;
   std::uint8_t* other_;
+  CostWindow window_{};  // of the last pixel
 };
+
+/// Calls `steps` with the number of vectors of both paths' windows, or with 0 if they differ or
+/// have more than four.
+template <class Steps>
+HWY_INLINE void with_vectors(const Path& from_left, const Path& from_right, const Steps& steps) {
+  const int vectors = from_left.vectors();
+  switch (vectors == from_right.vectors() ? vectors : 0) {
+    case 1:
+      return steps(std::integral_constant<int, 1>());
+    case 2:
+      return steps(std::integral_constant<int, 2>());
+    case 3:
+      return steps(std::integral_constant<int, 3>());
+    case 4:
+      return steps(std::integral_constant<int, 4>());
+    default:
+      return steps(std::integral_constant<int, 0>());
+  }
+}
+
+/// The columns of a tile from x on, and back from x.
+int steps_right(int x) { return kWindowTile - x % kWindowTile; }
+int steps_left(int x) { return x % kWindowTile + 1; }
 
 /// Each step of a path depends on the previous one, but the two paths are independent. So their
 /// steps alternate.
@@ -127,16 +176,25 @@ void walk_to_middle(const ScanlineRow& row, ScanlineScratch& scratch) {
   from_left.begin();
   from_right.begin();
   std::uint8_t* paths = scratch.paths.data();
-  for (int i = 0; i < middle; ++i) {
-    const int x = row.width - 1 - i;
-    from_left.step(i, i == 0);
-    from_left.keep(paths, i);
-    from_right.step(x, i == 0);
-    from_right.keep(paths, x);
+  const auto mirrored = [&](int i) { return row.width - 1 - i; };
+  for (int begin = 0, end = 0; begin < middle; begin = end) {
+    end = std::min({begin + steps_right(begin), begin + steps_left(mirrored(begin)), middle});
+    from_left.enter(begin);
+    from_right.enter(mirrored(begin));
+    const auto steps = [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+      for (int i = begin; i < end; ++i) {
+        from_left.step<kVectors>(i);
+        from_left.keep<kVectors>(paths, i);
+        from_right.step<kVectors>(mirrored(i));
+        from_right.keep<kVectors>(paths, mirrored(i));
+      }
+    };
+    with_vectors(from_left, from_right, steps);
   }
   if (row.width % 2 != 0) {
-    from_right.step(middle, middle == 0);
-    from_right.keep(paths, middle);
+    from_right.enter(middle);
+    from_right.step<0>(middle);
+    from_right.keep<0>(paths, middle);
   }
   from_left.leave(kFromLeft, scratch);
   from_right.leave(kFromRight, scratch);
@@ -152,19 +210,36 @@ HWY_INLINE void walk(const ScanlineRow& row, int left_begin, int left_end, int r
   Path from_right(row, lanes, kFromRight, scratch);
   std::uint16_t* left_sums = scratch.sums.data();
   std::uint16_t* right_sums = left_sums + kScanlineBlock * lanes;
-  const int left_steps = left_end - left_begin;
-  const int right_steps = right_end - right_begin;
-  for (int i = 0; i < std::max(left_steps, right_steps); ++i) {
-    if (i < left_steps) {
-      const int x = left_begin + i;
-      from_left.step(x, x == 0);
-      add(from_left, x, left_sums + i * lanes);
-    }
-    if (i < right_steps) {
-      const int x = right_end - 1 - i;
-      from_right.step(x, false);
-      add(from_right, x, right_sums + (x - right_begin) * lanes);
-    }
+  const auto step_left = [&]<int kVectors>(std::integral_constant<int, kVectors>, int x) HWY_ATTR {
+    from_left.step<kVectors>(x);
+    add(std::integral_constant<int, kVectors>(), from_left, x,
+        left_sums + (x - left_begin) * lanes);
+  };
+  const auto step_right = [&]<int kVectors>(std::integral_constant<int, kVectors>, int x) HWY_ATTR {
+    from_right.step<kVectors>(x);
+    add(std::integral_constant<int, kVectors>(), from_right, x,
+        right_sums + (x - right_begin) * lanes);
+  };
+  int left = left_begin, right = right_end - 1;
+  while (left < left_end && right >= right_begin) {
+    const int steps =
+        std::min({steps_right(left), left_end - left, steps_left(right), right + 1 - right_begin});
+    from_left.enter(left);
+    from_right.enter(right);
+    with_vectors(from_left, from_right, [&](auto vectors) HWY_ATTR {
+      for (int i = 0; i < steps; ++i) {
+        step_left(vectors, left++);
+        step_right(vectors, right--);
+      }
+    });
+  }
+  for (; left < left_end; ++left) {
+    from_left.enter(left);
+    step_left(std::integral_constant<int, 0>(), left);
+  }
+  for (; right >= right_begin; --right) {
+    from_right.enter(right);
+    step_right(std::integral_constant<int, 0>(), right);
   }
   from_left.leave(kFromLeft, scratch);
   from_right.leave(kFromRight, scratch);
@@ -174,14 +249,14 @@ void walk_block(const ScanlineRow& row, int left_begin, int left_end, int right_
                 int right_end, ScanlineScratch& scratch) {
   const std::uint8_t* paths = scratch.paths.data();
   if (row.columns.from_above == nullptr) {
-    const auto add = [&](const Path& path, int x, std::uint16_t* sums) {
-      path.add(paths, x, sums);
-    };
+    const auto add = [&]<int kVectors>(std::integral_constant<int, kVectors>, const Path& path,
+                                       int x, std::uint16_t* sums)
+                         HWY_ATTR { path.add<kVectors>(paths, x, sums); };
     walk(row, left_begin, left_end, right_begin, right_end, add, scratch);
   } else {
-    const auto add = [&](const Path& path, int x, std::uint16_t* sums) {
-      path.add_columns(paths, row.columns, x, sums);
-    };
+    const auto add = [&]<int kVectors>(std::integral_constant<int, kVectors>, const Path& path,
+                                       int x, std::uint16_t* sums)
+                         HWY_ATTR { path.add_columns<kVectors>(paths, row.columns, x, sums); };
     walk(row, left_begin, left_end, right_begin, right_end, add, scratch);
   }
 }
@@ -208,9 +283,7 @@ void ScanlineScratch::resize(int width, int disparities) {
   const std::size_t lanes = cost_lanes(disparities);
   paths.resize(width * lanes);
   sums.resize(2 * kScanlineBlock * lanes);
-  ends.resize(4 * (lanes + kEndMargin) + kEndMargin);
-  // The margins keep this value, so that no step comes from there.
-  std::memset(ends.data(), 255, ends.size());
+  ends.resize(4 * lanes);
 }
 
 int scanline_blocks(int width) { return (width - width / 2 + kScanlineBlock - 1) / kScanlineBlock; }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/buffer.hpp"
+#include "stages/pixels/cost_lanes.hpp"
 
 namespace mtstereo {
 
@@ -41,6 +42,7 @@ struct ScanlineRow {
   int small_step;
   const LargeStepTable* large_step;
   ColumnCosts columns = {};
+  const CostWindow* windows = nullptr;  ///< of the row's tiles; nullptr = all lanes
 };
 
 /// Pixels of a block.
@@ -58,7 +60,7 @@ struct ScanlineSums {
 /// Scratch memory of one thread, and its state between blocks.
 struct ScanlineScratch {
   Buffer<std::uint8_t> paths;   ///< per pixel: the costs of the path that reached it first
-  Buffer<std::uint8_t> ends;    ///< the costs of each path's last two pixels, with margins
+  Buffer<std::uint8_t> ends;    ///< the costs of each path's last two pixels
   Buffer<std::uint16_t> sums;   ///< of two blocks
   std::array<int, 2> least{};   ///< per path: the least cost of its last pixel
   std::array<int, 2> newest{};  ///< per path: which of the two pixels in `ends` is its last one
@@ -71,7 +73,8 @@ int scanline_blocks(int width);
 
 /// Follows both paths from their ends to the middle. The path cost of a cell is its cost, plus the
 /// least sum of a path cost of the previous pixel and the cost of the step from there, minus the
-/// least path cost of the previous pixel; it saturates at 255.
+/// least path cost of the previous pixel; it saturates at 255. A step of 0 or 1 disparities comes
+/// from a disparity that is in the windows of both pixels, a larger one from any.
 void start_scanline(const ScanlineRow& row, ScanlineScratch& scratch);
 
 /// The sums of the next columns of both paths: first those of the path from the left, then those of

@@ -7,7 +7,8 @@
 #include "mtstereo/parameters.hpp"
 #include "stages/pixels/disparity_selection.hpp"
 
-/// Internal to disparity_selection.cpp: the limits of the words described at SelectionScratch.
+/// Internal to disparity_selection.cpp: the limits of its kernels and of the words described at
+/// SelectionScratch.
 
 namespace mtstereo {
 
@@ -18,5 +19,8 @@ static_assert(SelectionScratch::kGroup == 1 << kDisparityBits);
 inline constexpr int kLowestWord = std::numeric_limits<std::int16_t>::min();
 inline constexpr int kMostCost = (kCostLimit - 1) << kDisparityBits;
 static_assert(kLowestWord + kMostCost + SelectionScratch::kGroup - 1 < SelectionScratch::kNone);
+
+/// Pixels that are finished together, at most.
+inline constexpr int kFinishedTogether = 8;
 
 }  // namespace mtstereo

@@ -46,12 +46,12 @@ struct Golden {
 constexpr Golden kGolden[] = {
     {"default", "sparse", 0x28618abb18c13521},
     {"default", "semi-dense", 0xcfae0a1e708a4696},
-    {"default", "dense", 0x2d3202743f3f41f8},
-    {"default", "full", 0xb4ae25c8d3e94d28},
+    {"default", "dense", 0xb02646b211ed148a},
+    {"default", "full", 0xfca05d22aa4cd81a},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0xcbe3457c3f6fc940},
-    {"fast", "dense", 0xb897c9defdbbd5c6},
-    {"fast", "full", 0x8fd265a900e4f28c},
+    {"fast", "dense", 0xf249df6af0b7aa6b},
+    {"fast", "full", 0x88b35bd96dba53f6},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -7,6 +7,7 @@
 #include "support/census.hpp"
 #include "support/compare.hpp"
 #include "support/simd_targets.hpp"
+#include "support/windows.hpp"
 
 namespace mtstereo {
 namespace {
@@ -40,37 +41,42 @@ Ranges nothing_known(int width) {
 
 /// The costs of the rows y0 .. y1 - 1, one row of cells after another.
 std::vector<std::uint8_t> costs_of(const CensusPair& pair, const CensusCostOptions& options, int y0,
-                                   int y1, const Ranges& ranges, CensusCostScratch& scratch) {
+                                   int y1, const Ranges& ranges, CensusCostScratch& scratch,
+                                   const SearchWindows& windows = {}) {
   const int width = pair.left.bits.width();
   const std::size_t cells = static_cast<std::size_t>(width) * cost_lanes(options.disparities);
   scratch.resize(width, options);
   Buffer<std::uint8_t> row;
   row.resize(cells);
   std::vector<std::uint8_t> costs;
-  start_census_costs(pair.left, pair.right, options, y0, scratch);
+  start_census_costs(pair.left, pair.right, windows, options, y0, scratch);
   for (int y = y0; y < y1; ++y) {
     std::fill_n(row.data(), cells, std::uint8_t{0xA5});
-    census_cost_row(pair.left, pair.right, options, y, ranges.low.data(), ranges.high.data(),
-                    scratch, row.data());
+    census_cost_row(pair.left, pair.right, windows, options, y, ranges.low.data(),
+                    ranges.high.data(), scratch, row.data());
     costs.insert(costs.end(), row.data(), row.data() + cells);
   }
   return costs;
 }
 
-/// Compares every cell of the rows y0 .. y1 - 1; the padding cells after D must never be the least.
+/// Compares every cell of the rows y0 .. y1 - 1; the padding cells after D must never be the least,
+/// and those outside of the windows must stay as they were.
 void expect_reference(const Pair& views, const CensusCostOptions& options, int y0, int y1,
-                      const Ranges& ranges, CensusCostScratch& scratch) {
+                      const Ranges& ranges, CensusCostScratch& scratch,
+                      const SearchWindows& windows = {}) {
   const int scales = options.bytes == 3 ? 1 : 2;
   const CensusPair pair(views.left.view(), views.right.view(), scales);
-  const std::vector<std::uint8_t> costs = costs_of(pair, options, y0, y1, ranges, scratch);
+  const std::vector<std::uint8_t> costs = costs_of(pair, options, y0, y1, ranges, scratch, windows);
   const reference::CensusCosts plain{reference::census(views.left, scales),
                                      reference::census(views.right, scales), options};
   const int lanes = cost_lanes(options.disparities);
   const int width = views.left.width;
+  const reference::Windows matched = test::copy_of(windows, width, views.left.height);
   for (int y = y0; y < y1; ++y) {
     EXPECT_TRUE(test::same_pixels(
         lanes, width,
         [&](int d, int x) {
+          if (!matched.contain(x, y, d)) return 0xA5;
           return d < options.disparities ? plain.cost(x, y, d, ranges.low[x], ranges.high[x])
                                          : kCensusNever;
         },
@@ -142,6 +148,23 @@ TEST(CensusCost, DoesNotDependOnTheFirstRow) {
   }
 }
 
+TEST(CensusCost, EqualsReferenceInWindowsOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    CensusCostScratch scratch;
+    for (int i = 0; i < 40; ++i) {
+      Random random(i);
+      const int width = random.between(1, 90), height = random.between(1, 50);
+      const int disparities = random.between(1, 200);
+      const int y0 = random.below(height);
+      expect_reference(
+          noise_pair(width, height, i),
+          {disparities, 2 * random.below(3) + 1, 2, census_bytes(random.between(1, 2))}, y0, height,
+          random_ranges(width, disparities, random), scratch,
+          test::random_windows(width, height, cost_lanes(disparities), random));
+    }
+  });
+}
+
 TEST(CensusCost, IsZeroAtDisparityZeroForAnIdenticalPair) {
   const GrayPlane image = test::noise(50, 5, 3);
   const CensusPair pair(image.view(), image.view());
@@ -172,8 +195,8 @@ TEST(CensusCost, CountsAllBitsOfAllRowsForInvertedViews) {
     std::vector<std::uint16_t> low(20, 5), high(20, 8);
     Buffer<std::uint8_t> row;
     row.resize(20 * 32);
-    start_census_costs(left, right, options, 0, scratch);
-    census_cost_row(left, right, options, 0, low.data(), high.data(), scratch, row.data());
+    start_census_costs(left, right, {}, options, 0, scratch);
+    census_cost_row(left, right, {}, options, 0, low.data(), high.data(), scratch, row.data());
     for (int d = 0; d < 20; ++d) {
       const int bits = d >= 5 && d <= 8 ? 32 : 48;
       EXPECT_EQ(bits * cost_scale(options), row[10 * 32 + d]) << "window " << size << ", d " << d;

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/pixels/disparity_selection.hpp"
 #include "reference/pixels/path_matching.hpp"
 #include "support/compare.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
+#include "support/windows.hpp"
 
 namespace mtstereo {
 namespace {
@@ -34,7 +36,8 @@ struct Rows {
 };
 
 /// Follows the paths downwards; each row's costs overwrite those of the row before, or not.
-std::vector<RowCosts> walked(const Rows& rows, const SmoothnessOptions& options, bool in_place) {
+std::vector<RowCosts> walked(const Rows& rows, const SmoothnessOptions& options, bool in_place,
+                             const SearchWindows& windows = {}) {
   const int width = static_cast<int>(rows.costs[0].size());
   const int disparities = static_cast<int>(rows.costs[0][0].size());
   const int lanes = cost_lanes(disparities);
@@ -45,23 +48,39 @@ std::vector<RowCosts> walked(const Rows& rows, const SmoothnessOptions& options,
   paths.resize(2 * cells);
   least.resize(width);
   std::vector<RowCosts> out;
-  const std::uint8_t* before = nullptr;
+  std::uint8_t* before = nullptr;
+  const auto row_before = [](std::size_t y) { return static_cast<int>(y == 0 ? 0 : y - 1); };
   for (std::size_t y = 0; y < rows.costs.size(); ++y) {
     std::fill_n(costs.data(), cells, std::uint8_t{kCensusNever});
     for (int x = 0; x < width; ++x) {
-      std::copy(rows.costs[y][x].begin(), rows.costs[y][x].end(), costs.data() + x * lanes);
+      for (int d = 0; d < disparities; ++d) {
+        // Outside of the window a cost that would be the least.
+        const int cost = rows.costs[y][x][d];
+        costs[x * lanes + d] = static_cast<std::uint8_t>(std::max(cost, 0));
+      }
     }
-    const ColumnStep step = {
-        costs.data(), rows.gray[y].data(), rows.gray[y == 0 ? 0 : y - 1].data(),
-        width,        disparities,         options.small_step,
-        &large_step};
+    const ColumnStep step = {costs.data(),
+                             rows.gray[y].data(),
+                             rows.gray[row_before(y)].data(),
+                             width,
+                             disparities,
+                             options.small_step,
+                             &large_step,
+                             windows.row(static_cast<int>(y)),
+                             windows.row(row_before(y))};
     std::uint8_t* to = paths.data() + (in_place ? 0 : y % 2 * cells);
     step_columns(step, before, to, least.data());
     before = to;
     out.emplace_back(width);
     for (int x = 0; x < width; ++x) {
       out[y][x].assign(to + x * lanes, to + x * lanes + disparities);
-      EXPECT_EQ(least[x], *std::min_element(out[y][x].begin(), out[y][x].end()));
+    }
+    reference::leave_out(test::copy_of(windows, width, static_cast<int>(rows.costs.size())),
+                         static_cast<int>(y), out[y]);
+    for (int x = 0; x < width; ++x) {
+      const int best = reference::first_least(out[y][x]);
+      if (best < 0) continue;
+      EXPECT_EQ(least[x], out[y][x][best]);
     }
   }
   return out;
@@ -81,6 +100,24 @@ void expect_reference(int width, int disparities, const SmoothnessOptions& optio
   }
 }
 
+/// Rows of several tiles, in windows.
+void expect_reference_in_windows(int width, int disparities, const SmoothnessOptions& options,
+                                 Random& random) {
+  Rows rows(width, disparities, 40, 100 * width + disparities);
+  const SearchWindows windows = test::random_windows(width, 40, cost_lanes(disparities), random);
+  const reference::Windows copy = test::copy_of(windows, width, 40);
+  for (int y = 0; y < 40; ++y) reference::leave_out(copy, y, rows.costs[y]);
+  const std::vector<RowCosts> in_place = walked(rows, options, true, windows);
+  EXPECT_EQ(in_place, walked(rows, options, false, windows)) << "the rows are written in place";
+  RowCosts expected;
+  for (int y = 0; y < 40; ++y) {
+    expected = reference::column_step(rows.costs[y], expected, rows.gray[y].data(),
+                                      rows.gray[std::max(y - 1, 0)].data(), options);
+    EXPECT_EQ(expected, in_place[y]) << "row " << y << ", width " << width << ", " << disparities
+                                     << " disparities, P1 " << options.small_step;
+  }
+}
+
 constexpr SmoothnessOptions kSteps[] = {{0, 0}, {4, 0}, {4, 30}, {15, 90}, {250, 250}, {300, 300}};
 
 TEST(ColumnOptimization, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstructionSet) {
@@ -91,6 +128,17 @@ TEST(ColumnOptimization, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstru
       }
     }
     for (const int disparities : {200, 1023, 1984}) expect_reference(5, disparities, {15, 90});
+  });
+}
+
+TEST(ColumnOptimization, EqualsReferenceInWindowsOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    Random random(1);
+    for (int i = 0; i < 40; ++i) {
+      // Windows without any disparity below D have no least cost, so D fills its lanes.
+      expect_reference_in_windows(random.between(1, 60), 32 * random.between(1, 8),
+                                  kSteps[i % std::size(kSteps)], random);
+    }
   });
 }
 

@@ -7,6 +7,7 @@
 #include "support/compare.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
+#include "support/windows.hpp"
 
 namespace mtstereo {
 namespace {
@@ -54,7 +55,8 @@ RowCosts random_sums(int width, int disparities, int largest, Random& random) {
 
 /// Selects one row, with `scratch` from an earlier row.
 std::vector<Selected> selected(const RowCosts& sums, const SelectionOptions& options,
-                               const Ranges& ranges, SelectionScratch& scratch) {
+                               const Ranges& ranges, SelectionScratch& scratch,
+                               const CostWindow* windows = nullptr) {
   constexpr int kNever = 510;
   const int width = static_cast<int>(sums.size());
   const int lanes = cost_lanes(options.disparities);
@@ -62,7 +64,11 @@ std::vector<Selected> selected(const RowCosts& sums, const SelectionOptions& opt
   cells.resize(static_cast<std::size_t>(width) * lanes);
   std::fill_n(cells.data(), cells.size(), std::uint16_t{kNever});
   for (int x = 0; x < width; ++x) {
-    std::copy(sums[x].begin(), sums[x].end(), cells.data() + static_cast<std::size_t>(x) * lanes);
+    for (int d = 0; d < options.disparities; ++d) {
+      // Outside of the window a cost that would be the least.
+      cells[static_cast<std::size_t>(x) * lanes + d] =
+          static_cast<std::uint16_t>(std::max(sums[x][d], 0));
+    }
   }
   std::vector<std::int32_t> disparity(width, -77);
   std::vector<std::uint8_t> ratio(width, 77);
@@ -71,7 +77,7 @@ std::vector<Selected> selected(const RowCosts& sums, const SelectionOptions& opt
   // In parts, in arbitrary order.
   const auto offer = [&](int begin, int end) {
     offer_costs(cells.data() + static_cast<std::ptrdiff_t>(begin) * lanes, begin, end, width,
-                options, ranges.low.data(), ranges.high.data(), scratch);
+                options, ranges.low.data(), ranges.high.data(), windows, scratch);
   };
   const int third = width / 3;
   offer(2 * third, width);
@@ -86,10 +92,10 @@ std::vector<Selected> selected(const RowCosts& sums, const SelectionOptions& opt
 
 /// Compares disparities and peak ratios; returns the number of disparities.
 long expect_reference(const RowCosts& sums, const SelectionOptions& options, const Ranges& ranges,
-                      SelectionScratch& scratch) {
+                      SelectionScratch& scratch, const CostWindow* windows = nullptr) {
   const std::vector<Selected> expected =
       reference::select_disparities(sums, options, ranges.low, ranges.high);
-  const std::vector<Selected> actual = selected(sums, options, ranges, scratch);
+  const std::vector<Selected> actual = selected(sums, options, ranges, scratch, windows);
   const auto value = [](const std::vector<Selected>& row) {
     return [&row](int x, int y) { return y == 0 ? row[x].disparity : row[x].ratio; };
   };
@@ -117,6 +123,24 @@ long expect_reference_with_all_options(int width, int disparities, Random& rando
     }
   }
   return known;
+}
+
+TEST(DisparitySelection, EqualsReferenceInWindowsOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    SelectionScratch scratch;
+    Random random(1);
+    long known = 0;
+    for (int i = 0; i < 150; ++i) {
+      const int width = random.between(1, 300), disparities = random.between(1, 400);
+      const SearchWindows windows = test::random_windows(width, 1, cost_lanes(disparities), random);
+      RowCosts sums = random_sums(width, disparities, 510, random);
+      reference::leave_out(test::copy_of(windows, width, 1), 0, sums);
+      known += expect_reference(
+          sums, {disparities, 0.06, i % 2 == 0, random.between(-1, 1), i % 3 > 0, random.below(50)},
+          random_ranges(width, disparities, random), scratch, windows.row(0));
+    }
+    EXPECT_GT(known, 500);
+  });
 }
 
 TEST(DisparitySelection, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstructionSet) {

@@ -8,6 +8,7 @@
 #include "support/compare.hpp"
 #include "support/matching.hpp"
 #include "support/simd_targets.hpp"
+#include "support/windows.hpp"
 
 namespace mtstereo {
 namespace {
@@ -20,7 +21,8 @@ using test::Random;
 
 /// Matches a pair, from the last chunk to the first.
 RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
-                 const PathMatchingOptions& options, PathMatchingScratch& scratch) {
+                 const PathMatchingOptions& options, PathMatchingScratch& scratch,
+                 const SearchWindows& windows = {}, WindowVotes* votes = nullptr) {
   const test::CensusPair census(pair.left.view(), pair.right.view(),
                                 options.cost.bytes == 3 ? 1 : 2);
   const int width = pair.left.width, height = pair.left.height;
@@ -32,10 +34,11 @@ RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
   test::poison(ratio);
   if (half_map != nullptr) half = image_of(*half_map);
   scratch.resize(width, height, options);
+  const PathMatchingInput input = {pair.left.view(), census.left, census.right,
+                                   half_map == nullptr ? nullptr : &half, windows};
   for (int i = (height - 1) / kPathRows; i >= 0; --i) {
-    match_along_paths(pair.left.view(), census.left, census.right,
-                      half_map == nullptr ? nullptr : &half, options, i * kPathRows,
-                      std::min((i + 1) * kPathRows, height), scratch, map, ratio);
+    match_along_paths(input, options, i * kPathRows, std::min((i + 1) * kPathRows, height), scratch,
+                      map, ratio, votes);
   }
   RatedMap out(width, height);
   out.map = copy_of(map);
@@ -69,9 +72,12 @@ void expect_reference(int width, int height, PathMatchingScratch& scratch) {
   const DisparityPlane half = half_map_of(pair, disparities, shift, random);
   for (const DisparityPlane* half_map : {static_cast<const DisparityPlane*>(nullptr), &half}) {
     const PathMatchingOptions options = random_options(disparities, random);
-    const RatedMap expected =
-        reference::match_along_paths(pair.left, pair.right, half_map, options);
-    const RatedMap actual = matched(pair, half_map, options, scratch);
+    const SearchWindows windows =
+        half_map == nullptr ? SearchWindows()
+                            : test::random_windows(width, height, cost_lanes(disparities), random);
+    const RatedMap expected = reference::match_along_paths(
+        {pair.left, pair.right, half_map, test::copy_of(windows, width, height)}, options);
+    const RatedMap actual = matched(pair, half_map, options, scratch, windows);
     EXPECT_TRUE(same_image(expected.map, actual.map)) << width << "x" << height;
     EXPECT_TRUE(same_image(expected.ratio, actual.ratio)) << width << "x" << height;
   }
@@ -89,6 +95,29 @@ TEST(PathMatching, EqualsReferenceInSeveralChunks) {
       expect_reference(11, height, scratch);
     }
   });
+}
+
+TEST(PathMatching, EqualsReferenceInManyWindows) {
+  PathMatchingScratch scratch;
+  for (const int width : {130, 160, 201}) expect_reference(width, 36, scratch);
+}
+
+TEST(PathMatching, CountsTheVotesOfPathsAndCosts) {
+  PathMatchingScratch scratch;
+  const int width = 70, height = 90;
+  const Pair pair = test::shifted_pair(width, height, 9, 3);
+  const PathMatchingOptions options = {{24, 3, 2, 3}, {12, 51}, {24, 0, false, 2, true, 60}};
+  WindowVotes votes;
+  votes.resize(2 * width, 2 * height, 64);
+  const RatedMap out = matched(pair, nullptr, options, scratch, {}, &votes);
+  SearchWindows windows;
+  windows.resize(2 * width, 2 * height);
+  choose_windows(votes, windows);
+  const DisparityPlane by_cost =
+      reference::match_by_cost({pair.left, pair.right, nullptr}, options);
+  const reference::Windows expected =
+      reference::choose_windows(out.map, by_cost, 2 * width, 2 * height, 64);
+  EXPECT_EQ(expected.tiles, test::copy_of(windows, 2 * width, 2 * height).tiles);
 }
 
 TEST(PathMatching, FindsTheDisparityOfEveryPixelThatBothViewsShow) {

@@ -8,6 +8,7 @@
 #include "support/compare.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
+#include "support/windows.hpp"
 
 namespace mtstereo {
 namespace {
@@ -43,7 +44,8 @@ std::vector<std::uint8_t> random_gray(int width, Random& random) {
 
 /// The sums of a row, with `scratch` from an earlier row.
 RowCosts optimized(const RowCosts& costs, const std::vector<std::uint8_t>& gray,
-                   const SmoothnessOptions& options, ScanlineScratch& scratch) {
+                   const SmoothnessOptions& options, ScanlineScratch& scratch,
+                   const CostWindow* windows = nullptr) {
   const int width = static_cast<int>(costs.size());
   const int disparities = static_cast<int>(costs[0].size());
   const int lanes = cost_lanes(disparities);
@@ -51,12 +53,16 @@ RowCosts optimized(const RowCosts& costs, const std::vector<std::uint8_t>& gray,
   cells.resize(static_cast<std::size_t>(width) * lanes);
   std::fill_n(cells.data(), cells.size(), std::uint8_t{kCensusNever});
   for (int x = 0; x < width; ++x) {
-    std::copy(costs[x].begin(), costs[x].end(), cells.data() + static_cast<std::size_t>(x) * lanes);
+    for (int d = 0; d < disparities; ++d) {
+      // Outside of the window a cost that would be the least.
+      cells[static_cast<std::size_t>(x) * lanes + d] =
+          static_cast<std::uint8_t>(std::max(costs[x][d], 0));
+    }
   }
   scratch.resize(width, disparities);
   const LargeStepTable large_step = large_step_table(options);
-  const ScanlineRow row = {cells.data(), gray.data(),        width,
-                           disparities,  options.small_step, &large_step};
+  const ScanlineRow row = {cells.data(),       gray.data(), width, disparities,
+                           options.small_step, &large_step, {},    windows};
   RowCosts out(width);
   start_scanline(row, scratch);
   for (int block = 0; block < scanline_blocks(width); ++block) {
@@ -89,6 +95,19 @@ void expect_reference(int width, int disparities, int largest, const SmoothnessO
       << ", P2 " << options.large_step;
 }
 
+void expect_reference_in_windows(int width, int disparities, const SmoothnessOptions& options,
+                                 Random& random, ScanlineScratch& scratch) {
+  const SearchWindows windows = test::random_windows(width, 1, cost_lanes(disparities), random);
+  const reference::Windows copy = test::copy_of(windows, width, 1);
+  RowCosts costs = random_costs(width, disparities, 120, random);
+  reference::leave_out(copy, 0, costs);
+  const std::vector<std::uint8_t> gray = random_gray(width, random);
+  RowCosts actual = optimized(costs, gray, options, scratch, windows.row(0));
+  reference::leave_out(copy, 0, actual);
+  EXPECT_TRUE(same_costs(reference::optimize_scanline(costs, gray.data(), options), actual))
+      << "cells (disparity, column), P1 " << options.small_step << ", P2 " << options.large_step;
+}
+
 constexpr SmoothnessOptions kSteps[] = {{0, 0},   {0, 1},   {1, 0},    {4, 0},     {4, 30},
                                         {20, 20}, {30, 4},  {20, 150}, {250, 250}, {0, 250},
                                         {250, 0}, {255, 1}, {300, 20}, {300, 300}};
@@ -118,6 +137,17 @@ TEST(ScanlineOptimization, EqualsReferenceAtEveryWidth) {
     expect_reference(width, 33, 120, {20, 150}, random, scratch);
     expect_reference(width, 7, 255, {20, 150}, random, scratch);
   }
+}
+
+TEST(ScanlineOptimization, EqualsReferenceInWindowsOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    ScanlineScratch scratch;
+    Random random(1);
+    for (int i = 0; i < 200; ++i) {
+      expect_reference_in_windows(random.between(1, 200), 32 * random.between(1, 8),
+                                  kSteps[i % std::size(kSteps)], random, scratch);
+    }
+  });
 }
 
 TEST(ScanlineOptimization, IsTwiceTheCostsForEqualCosts) {

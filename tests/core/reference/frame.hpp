@@ -45,8 +45,10 @@ struct Frame {
   Volume volume;
   Level leaves;
   Matches matches;
-  DisparityPlane half_map;  ///< of the views at half the matched resolution, for mode full
-  DisparityPlane nodes;     ///< the drawn leaves; without outliers after their removal
+  DisparityPlane half_map;          ///< of the views at half the matched resolution, for mode full
+  DisparityPlane half_map_by_cost;  ///< the same without paths
+  Windows windows;                  ///< of the views
+  DisparityPlane nodes;             ///< the drawn leaves; without outliers after their removal
   DisparityPlane map;
   DisparityPlane found;     ///< the map before the filters, negative at thin objects
   DisparityPlane unfilled;  ///< the map before the gap filling
@@ -167,14 +169,21 @@ inline void match_reduced(Frame& f) {
     for (int side = 0; side < 2; ++side) views[i][side] = halve(views[i - 1][side]);
   }
   for (int i = 3; i > 0; --i) {
-    f.half_map = match_along_paths(views[i][0], views[i][1], i == 3 ? nullptr : &f.half_map,
-                                   f.settings.path_matching(i))
-                     .map;
+    const DisparityPlane coarser = f.half_map;
+    const PathInput input = {views[i][0], views[i][1], i == 3 ? nullptr : &coarser};
+    f.half_map = match_along_paths(input, f.settings.path_matching(i)).map;
+    if (i == 1) f.half_map_by_cost = match_by_cost(input, f.settings.path_matching(i));
   }
 }
 
+inline void choose_windows(Frame& f) {
+  f.windows = choose_windows(f.half_map, f.half_map_by_cost, f.views[0].width, f.views[0].height,
+                             cost_lanes(f.settings.disparities));
+}
+
 inline void match_by_paths(Frame& f) {
-  take(f, match_along_paths(f.views[0], f.views[1], &f.half_map, f.settings.path_matching(0)));
+  const PathInput input = {f.views[0], f.views[1], &f.half_map, f.windows};
+  take(f, match_along_paths(input, f.settings.path_matching(0)));
 }
 
 inline void remove_pixel_outliers(Frame& f) {
@@ -293,6 +302,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"node-outliers", remove_node_outliers},
     {"node-extrapolation", extrapolate},
     {"reduced-matching", match_reduced},
+    {"search-windows", choose_windows},
     {"path-matching", match_by_paths},
     {"census-matching", match_by_census},
     {"gradient-matching", match_by_gradient},

@@ -16,9 +16,9 @@ namespace mtstereo::test {
 /// of the modes dense and full, which change the result in its place.
 inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
   static constexpr std::string_view kBefore[] = {
-      "row-alignment", "sharpness",     "view-shift",      "halving",
-      "noise-filter",  "preprocessing", "max-trees",       "census",
-      "cost-volume",   "node-matching", "reduced-matching"};
+      "row-alignment", "sharpness",     "view-shift",       "halving",
+      "noise-filter",  "preprocessing", "max-trees",        "census",
+      "cost-volume",   "node-matching", "reduced-matching", "search-windows"};
   static constexpr std::string_view kInPlace[] = {"completion", "edge-alignment", "reliability",
                                                   "rejection", "thin-drawing"};
   if (std::count(std::begin(kBefore), std::end(kBefore), step.name) > 0) return {};

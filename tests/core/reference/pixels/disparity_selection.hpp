@@ -27,9 +27,13 @@ inline int refined(Refinement curve, int before, int after) {
   return scale > 0 ? 128 * (before - after) / scale : 0;
 }
 
-/// The index of the first least value.
+/// The index of the first least value inside of the window, or -1.
 inline int first_least(const std::vector<int>& values) {
-  return static_cast<int>(std::min_element(values.begin(), values.end()) - values.begin());
+  int best = -1;
+  for (int i = 0; i < static_cast<int>(values.size()); ++i) {
+    if (values[i] != kOutside && (best < 0 || values[i] < values[best])) best = i;
+  }
+  return best;
 }
 
 /// Accepts or rejects the disparity `best` of a pixel by its own costs, which are those of all
@@ -41,13 +45,14 @@ inline Selected judge(const std::vector<int>& costs, int best, int low, int high
   std::vector<int> others;
   for (int d = 0; d <= last; ++d) {
     const bool counts = !options.runner_up_in_range || (low <= d && d <= high);
-    if (std::abs(d - best) > 1 && counts) others.push_back(costs[d]);
+    if (std::abs(d - best) > 1 && counts && costs[d] != kOutside) others.push_back(costs[d]);
   }
   if (others.empty()) return {};
   const int other = *std::min_element(others.begin(), others.end());
   if (!(other > cost * (1 + options.confidence))) return {};
   int disparity = 256 * best;
-  if (options.subpixel && best > 0 && best < last) {
+  const auto inside = [&](int d) { return d >= 0 && d <= last && costs[d] != kOutside; };
+  if (options.subpixel && inside(best - 1) && inside(best + 1)) {
     const int before = costs[best - 1] - cost;
     const int after = costs[best + 1] - cost;
     if (before >= 0 && after >= 0) disparity += refined(curve, before, after);
@@ -85,6 +90,7 @@ std::vector<Selected> select_disparities(const RowCosts& sums, const SelectionOp
     std::vector<int> costs = sums[x];
     costs.resize(std::min(options.disparities, x + 1));
     const int best = first_least(costs);
+    if (best < 0) continue;
     const auto cost = [&](int column, int d) { return sums[column][d]; };
     if (!right_agrees(x, best, width, options, cost)) continue;
     row[x] = judge(costs, best, low[x], high[x], options, Refinement::kSymmetricV);

@@ -3,6 +3,7 @@
 
 #include "reference/pixels/pixel_matching.hpp"
 #include "reference/pixels/scanline_optimization.hpp"
+#include "reference/pixels/search_windows.hpp"
 #include "stages/pixels/path_matching.hpp"
 
 namespace mtstereo::reference {
@@ -35,26 +36,67 @@ inline Expected expected_at(const DisparityPlane* half_map, int x, int y, int di
           std::min(middle + kPathReach, disparities - 1)};
 }
 
-/// Matches a view in chunks of kPathRows rows, in which the paths along the columns start
-/// kPathMargin rows before.
-inline RatedMap match_along_paths(const GrayPlane& left, const GrayPlane& right,
-                                  const DisparityPlane* half_map,
-                                  const PathMatchingOptions& options) {
+/// What a view is matched from.
+struct PathInput {
+  const GrayPlane& left;
+  const GrayPlane& right;
+  const DisparityPlane* half_map;
+  Windows windows = {};
+};
+
+/// The costs of all rows.
+inline std::vector<RowCosts> path_matching_costs(const PathInput& input,
+                                                 const PathMatchingOptions& options) {
   const int scales = options.cost.bytes == 3 ? 1 : 2;
-  const int disparities = options.cost.disparities, width = left.width, height = left.height;
-  const CensusCosts census_costs{census(left, scales), census(right, scales), options.cost};
-  const int rows = options.cost.kernel_size;
-  const SmoothnessOptions steps = {options.smoothness.small_step * rows,
-                                   options.smoothness.large_step * rows};
+  const int width = input.left.width, height = input.left.height;
+  const CensusCosts census_costs{census(input.left, scales), census(input.right, scales),
+                                 options.cost};
   std::vector<RowCosts> costs(height, RowCosts(width));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const auto [low, high] = expected_at(half_map, x, y, disparities);
-      for (int d = 0; d < disparities; ++d) {
+      const auto [low, high] = expected_at(input.half_map, x, y, options.cost.disparities);
+      for (int d = 0; d < options.cost.disparities; ++d) {
         costs[y][x].push_back(census_costs.cost(x, y, d, low, high));
       }
     }
+    leave_out(input.windows, y, costs[y]);
   }
+  return costs;
+}
+
+/// Selects the disparities of row y.
+inline std::vector<Selected> select_row(const PathInput& input, int y, const RowCosts& sums,
+                                        const SelectionOptions& options) {
+  const int width = input.left.width;
+  std::vector<int> low(width), high(width);
+  for (int x = 0; x < width; ++x) {
+    const Expected expected = expected_at(input.half_map, x, y, options.disparities);
+    low[x] = expected.low;
+    high[x] = expected.high;
+  }
+  return select_disparities(sums, options, low, high);
+}
+
+/// Matches a view by its costs alone.
+inline DisparityPlane match_by_cost(const PathInput& input, const PathMatchingOptions& options) {
+  const std::vector<RowCosts> costs = path_matching_costs(input, options);
+  const SelectionOptions selection = {options.cost.disparities, 0, false, 1, false, 0};
+  DisparityPlane out(input.left.width, input.left.height);
+  for (int y = 0; y < out.height; ++y) {
+    const std::vector<Selected> selected = select_row(input, y, costs[y], selection);
+    for (int x = 0; x < out.width; ++x) out(x, y) = selected[x].disparity;
+  }
+  return out;
+}
+
+/// Matches a view in chunks of kPathRows rows, in which the paths along the columns start
+/// kPathMargin rows before.
+inline RatedMap match_along_paths(const PathInput& input, const PathMatchingOptions& options) {
+  const GrayPlane& left = input.left;
+  const int width = left.width, height = left.height, rows = options.cost.kernel_size;
+  const SmoothnessOptions steps = {options.smoothness.small_step * rows,
+                                   options.smoothness.large_step * rows};
+  const std::vector<RowCosts> costs = path_matching_costs(input, options);
   RatedMap out(width, height);
   for (int y = 0; y < height; ++y) {
     const int y0 = y / kPathRows * kPathRows, y1 = std::min(y0 + kPathRows, height);
@@ -67,16 +109,13 @@ inline RatedMap match_along_paths(const GrayPlane& left, const GrayPlane& right,
                           steps);
     }
     RowCosts sums = optimize_scanline(costs[y], &left(0, y), steps);
-    std::vector<int> low(width), high(width);
     for (int x = 0; x < width; ++x) {
-      const Expected expected = expected_at(half_map, x, y, disparities);
-      low[x] = expected.low;
-      high[x] = expected.high;
-      for (int d = 0; d < disparities; ++d) {
+      for (int d = 0; d < options.cost.disparities; ++d) {
+        if (sums[x][d] == kOutside) continue;
         sums[x][d] = (sums[x][d] + above[x][d] + below[x][d]) / 2;
       }
     }
-    const std::vector<Selected> selected = select_disparities(sums, options.selection, low, high);
+    const std::vector<Selected> selected = select_row(input, y, sums, options.selection);
     for (int x = 0; x < width; ++x) out.set(x, y, selected[x]);
   }
   return out;

@@ -23,12 +23,20 @@ inline RowCosts path_costs(const RowCosts& costs, const std::uint8_t* gray,
   for (int i = 1; i < width; ++i) {
     const int x = direction > 0 ? i : width - 1 - i;
     const std::vector<int>& before = path[x - direction];
-    const int least = *std::min_element(before.begin(), before.end());
+    int least = 255;
+    for (const int cost : before) {
+      if (cost != kOutside) least = std::min(least, cost);
+    }
+    // A step comes from a disparity in the windows of both pixels.
+    const auto from = [&](int d) {
+      const bool exists = d >= 0 && d < disparities && before[d] != kOutside;
+      return exists && costs[x][d] != kOutside ? before[d] : 255;
+    };
     const int jump = least + large_step(options, std::abs(gray[x] - gray[x - direction]));
     for (int d = 0; d < disparities; ++d) {
-      int best = std::min(before[d], jump);
-      if (d > 0) best = std::min(best, before[d - 1] + options.small_step);
-      if (d + 1 < disparities) best = std::min(best, before[d + 1] + options.small_step);
+      if (costs[x][d] == kOutside) continue;
+      const int adjacent = std::min(from(d - 1), from(d + 1)) + options.small_step;
+      const int best = std::min({from(d), adjacent, jump});
       path[x][d] = std::min(costs[x][d] + best - least, 255);
     }
   }
@@ -41,7 +49,9 @@ inline RowCosts optimize_scanline(const RowCosts& costs, const std::uint8_t* gra
   RowCosts sums = path_costs(costs, gray, options, 1);
   const RowCosts from_right = path_costs(costs, gray, options, -1);
   for (std::size_t x = 0; x < sums.size(); ++x) {
-    for (std::size_t d = 0; d < sums[x].size(); ++d) sums[x][d] += from_right[x][d];
+    for (std::size_t d = 0; d < sums[x].size(); ++d) {
+      if (sums[x][d] != kOutside) sums[x][d] += from_right[x][d];
+    }
   }
   return sums;
 }

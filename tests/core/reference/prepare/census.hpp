@@ -71,6 +71,9 @@ struct CensusPair {
 /// Costs of one row: those of pixel x at disparity d are [x][d].
 using RowCosts = std::vector<std::vector<int>>;
 
+/// In place of a cost: the disparity is outside of the pixel's window.
+inline constexpr int kOutside = -1;
+
 /// The census costs of a pair of views.
 struct CensusCosts {
   Plane<std::uint32_t> left, right;

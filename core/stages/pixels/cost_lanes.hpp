@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace mtstereo {
+
+/// How the costs of a pixel are stored: one byte ("lane") for each disparity, in whole vectors.
+
+/// The number of a pixel's costs is a multiple of this. It is also the size of the widest vectors
+/// that every step on costs can use [bytes]; some steps use wider ones if they divide that number.
+inline constexpr int kCostStep = 32;
+
+/// Number of a pixel's costs: D rounded up to whole vectors.
+inline int cost_lanes(int disparities) {
+  return (disparities + kCostStep - 1) / kCostStep * kCostStep;
+}
+
+/// The disparities at which a pixel is matched: begin .. end - 1. Both are multiples of
+/// kWindowStep, and their difference is one of kCostStep. All other cells of the pixel are
+/// undefined.
+struct CostWindow {
+  std::uint16_t begin;
+  std::uint16_t end;
+
+  bool operator==(const CostWindow&) const = default;
+};
+
+inline constexpr int kWindowStep = 16;
+
+/// Side of the tiles whose pixels have the same window [px].
+inline constexpr int kWindowTile = 16;
+
+/// The window of column x, given those of the row's tiles; nullptr = all lanes.
+inline CostWindow window_at(const CostWindow* windows, int lanes, int x) {
+  if (windows == nullptr) return {0, static_cast<std::uint16_t>(lanes)};
+  return windows[x / kWindowTile];
+}
+
+/// The smallest window that contains both.
+inline CostWindow joined(CostWindow a, CostWindow b) {
+  CostWindow both = {std::min(a.begin, b.begin), std::max(a.end, b.end)};
+  if ((both.end - both.begin) % kCostStep == 0) return both;
+  // All lanes are a multiple of kCostStep, so that there is room on one side.
+  if (both.begin > 0) {
+    both.begin -= kWindowStep;
+  } else {
+    both.end += kWindowStep;
+  }
+  return both;
+}
+
+}  // namespace mtstereo
