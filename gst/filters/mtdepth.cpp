@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "filters/mtdepth.hpp"
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "filters/depth_frame.hpp"
+#include "filters/depth_properties.hpp"
 #include "filters/depth_report.hpp"
 #include "filters/disparity_filter.hpp"
 #include "shared/caps.hpp"
@@ -22,16 +23,6 @@ GST_DEBUG_CATEGORY_STATIC(mtdepth_debug);
 
 namespace {
 
-enum Overflow : gint { kNone, kClamp };
-
-/// The values of the properties.
-struct DepthProperties {
-  double unit = 1;  ///< [mm]
-  DepthRange range;
-  gint overflow = kNone;
-  GeometryProperties geometry;
-};
-
 /// All data of one mtdepth element. Created in its init, deleted in its finalize.
 struct DepthState {
   DepthProperties properties;  ///< guarded by the element's object lock
@@ -45,6 +36,7 @@ struct DepthState {
   DepthGeometry geometry;            ///< of `converter`
   DepthOptions options;              ///< of `converter`
   std::optional<DepthConverter> converter;
+  FrameBounds bounds;
   bool refused = false;  ///< an error about the stream was posted
 };
 
@@ -57,17 +49,6 @@ struct GstMtStereoDepthClass {
   GstVideoFilterClass parent_class;
 };
 
-enum Property : guint { kUnit = 1, kNear, kFar, kOverflow, kFirstGeometry };
-
-GType overflow_type() {
-  static const GEnumValue values[] = {
-      {kNone, "such pixels have no depth (0)", "none"},
-      {kClamp, "such pixels have the largest value (65535)", "clamp"},
-      {0, nullptr, nullptr}};
-  static const GType type = g_enum_register_static("GstMtStereoDepthOverflow", values);
-  return type;
-}
-
 }  // namespace
 
 G_DEFINE_TYPE(GstMtStereoDepth, gst_mtstereo_depth, GST_TYPE_VIDEO_FILTER)
@@ -78,35 +59,15 @@ DepthState& state_of(gpointer element) {
   return *reinterpret_cast<GstMtStereoDepth*>(element)->state;
 }
 
-/// Sets a property; false if there is none with this number.
-bool take_property(DepthProperties& properties, guint id, const GValue* value) {
-  switch (id) {
-    case kUnit:
-      properties.unit = g_value_get_double(value);
-      return true;
-    case kNear:
-      properties.range.near = g_value_get_double(value);
-      return true;
-    case kFar:
-      properties.range.far = g_value_get_double(value);
-      return true;
-    case kOverflow:
-      properties.overflow = g_value_get_enum(value);
-      return true;
-    default:
-      return set_geometry_property(properties.geometry, id - kFirstGeometry, value);
-  }
-}
-
 void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
   bool known = false;
   {
     const ObjectLock lock(object);
-    known = take_property(state_of(object).properties, id, value);
+    known = set_depth_property(state_of(object).properties, id, value);
   }
   if (!known) {
     G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  } else if (id == kUnit || id >= kFirstGeometry) {
+  } else if (is_in_depth_caps(id)) {
     // The caps of the output state the unit and the geometry.
     gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
   }
@@ -114,24 +75,8 @@ void set_property(GObject* object, guint id, const GValue* value, GParamSpec* sp
 
 void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
   const ObjectLock lock(object);
-  const DepthProperties& properties = state_of(object).properties;
-  switch (id) {
-    case kUnit:
-      g_value_set_double(value, properties.unit);
-      break;
-    case kNear:
-      g_value_set_double(value, properties.range.near);
-      break;
-    case kFar:
-      g_value_set_double(value, properties.range.far);
-      break;
-    case kOverflow:
-      g_value_set_enum(value, properties.overflow);
-      break;
-    default:
-      if (!get_geometry_property(properties.geometry, id - kFirstGeometry, value)) {
-        G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-      }
+  if (!get_depth_property(state_of(object).properties, id, value)) {
+    G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
   }
 }
 
@@ -250,8 +195,7 @@ bool prepare(GstVideoFilter* filter, const MapUnit& unit) {
   DepthState& state = state_of(filter);
   const DepthRange range = settle_range(filter, state.properties.range, state.range);
   const DepthGeometry geometry = depth_geometry(state.stream, unit);
-  const DepthOptions options = {state.unit, range.near, range.end(),
-                                properties_of(filter).overflow == kClamp};
+  const DepthOptions options = {state.unit, range.near, range.end(), properties_of(filter).clamp};
   if (state.converter && geometry == state.geometry && options == state.options) return true;
   Result<DepthConverter> converter = DepthConverter::create(geometry, options);
   if (!converter) {
@@ -267,38 +211,32 @@ bool prepare(GstVideoFilter* filter, const MapUnit& unit) {
   return true;
 }
 
-/// True if the library can read and write the pixels as they are.
-bool is_native(const ImageView<std::uint16_t>& image) {
-  constexpr std::uintptr_t kMask = alignof(std::uint16_t) - 1;
-  return G_BYTE_ORDER == G_LITTLE_ENDIAN && ((reinterpret_cast<std::uintptr_t>(image.data) |
-                                              static_cast<std::uintptr_t>(image.stride)) &
-                                             kMask) == 0;
-}
-
-void convert(const DepthConverter& converter, MappedFrame& frame) {
-  const ImageView<std::uint16_t> image = frame.gray16();
-  if (is_native(image)) {
-    const ImageView<const std::uint16_t> in = {image.data, image.width, image.height, image.stride};
-    // MappedFrame has checked what it checks.
-    if (converter.convert(in, image)) return;
-  }
-  for (int y = 0; y < image.height; ++y) {
-    std::uint8_t* row = plane_row(*frame.frame(), y);
-    for (int x = 0; x < image.width; ++x, row += 2) {
-      write16(row, converter.depth16_of(read16(row)));
+/// Turns the disparities of a frame into depths; false after an error.
+bool convert(GstVideoFilter* filter, MappedFrame& frame, bool free_space) {
+  DepthState& state = state_of(filter);
+  if (free_space) {
+    if (const Status status = state.bounds.write(frame); !status) {
+      GST_ELEMENT_ERROR(filter, RESOURCE, NO_SPACE_LEFT,
+                        ("There is not enough memory for the free space of a map of %dx%d px.",
+                         filter->in_info.width, filter->in_info.height),
+                        ("%s", status.error().message.c_str()));
+      return false;
     }
   }
+  write_depths(*state.converter, frame);
+  return true;
 }
 
 GstFlowReturn transform_ip(GstBaseTransform* transform, GstBuffer* buffer) {
   auto* filter = reinterpret_cast<GstVideoFilter*>(transform);
-  const DepthState& state = state_of(filter);
-  const int property = properties_of(filter).geometry.disparity_scale;
-  if (!prepare(filter, map_unit(state.caps_unit, buffer, property))) return GST_FLOW_ERROR;
+  const DepthProperties properties = properties_of(filter);
+  const MapUnit unit =
+      map_unit(state_of(filter).caps_unit, buffer, properties.geometry.disparity_scale);
+  if (!prepare(filter, unit)) return GST_FLOW_ERROR;
   {
     MappedFrame frame(filter->in_info, buffer, GST_MAP_READWRITE);
     if (!frame.mapped()) return refuse_frame(filter, "the sink pad", frame);
-    convert(*state.converter, frame);
+    if (!convert(filter, frame, properties.free_space)) return GST_FLOW_ERROR;
   }
   // The buffer keeps its metas, the confidence map among them; its values are no disparities.
   if (GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, kDisparityMeta)) {
@@ -324,32 +262,6 @@ void finalize(GObject* object) noexcept {
   G_OBJECT_CLASS(gst_mtstereo_depth_parent_class)->finalize(object);
 }
 
-void install_properties(GObjectClass* object_class) {
-  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
-                                                   GST_PARAM_MUTABLE_PLAYING);
-  g_object_class_install_property(
-      object_class, kUnit,
-      g_param_spec_double("unit", "unit",
-                          "Length of the value 1, in mm; the caps of the output state it in "
-                          "meters, as depth-unit (1: depths up to 65.535 m)",
-                          0.001, 1000, 1, kFlags));
-  g_object_class_install_property(
-      object_class, kNear,
-      g_param_spec_double("near", "near", "Nearer pixels have no depth (0), in meters", 0,
-                          kLargestDepthLimit, 0, kFlags));
-  g_object_class_install_property(
-      object_class, kFar,
-      g_param_spec_double("far", "far", "Farther pixels have no depth (0), in meters (0: no limit)",
-                          0, kLargestDepthLimit, 0, kFlags));
-  g_object_class_install_property(
-      object_class, kOverflow,
-      g_param_spec_enum("overflow", "overflow",
-                        "Depths that do not fit into 16 bits: more than 65535 units, or infinite",
-                        overflow_type(), kNone, kFlags));
-  gst_type_mark_as_plugin_api(overflow_type(), static_cast<GstPluginAPIFlags>(0));
-  install_geometry_properties(object_class, kFirstGeometry);
-}
-
 }  // namespace
 
 static void gst_mtstereo_depth_class_init(GstMtStereoDepthClass* klass) {
@@ -358,7 +270,7 @@ static void gst_mtstereo_depth_class_init(GstMtStereoDepthClass* klass) {
   object_class->set_property = guarded<set_property>;
   object_class->get_property = guarded<get_property>;
   object_class->finalize = finalize;
-  install_properties(object_class);
+  install_depth_properties(object_class);
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);
