@@ -52,7 +52,9 @@ void bound_row(const std::uint16_t* row, const Neighbors& near, int width, std::
   for (int x = 0; x < width; ++x) {
     // Where there is a disparity, all four are equal to it.
     left = row[x] != 0 ? row[x] : left;
-    bounds[x] = std::max(std::max(left, near.right[x]), std::max(near.above[x], near.below[x]));
+    const bool between = left != 0 && near.right[x] != 0;
+    const std::uint16_t in_row = std::max(left, near.right[x]);
+    bounds[x] = between ? std::max({in_row, near.above[x], near.below[x]}) : std::uint16_t{0};
   }
 }
 

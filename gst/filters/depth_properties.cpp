@@ -51,7 +51,8 @@ void install_depth_properties(GObjectClass* object_class) {
       g_param_spec_boolean("free-space", "free-space",
                            "Pixels without a disparity have the distance up to which their rays "
                            "are free, by the nearest disparities to the left, to the right, above "
-                           "and below; not guaranteed (false: no depth)",
+                           "and below, if there are some to the left and right; not guaranteed "
+                           "(false: no depth)",
                            FALSE, kFlags));
   gst_type_mark_as_plugin_api(overflow_type(), static_cast<GstPluginAPIFlags>(0));
   install_geometry_properties(object_class, kFirstGeometry);

@@ -22,6 +22,7 @@ constexpr std::pair<int, int> kDirections[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}}
 std::uint16_t reference(const Map& map, int x, int y) {
   if (map(x, y) != 0) return map(x, y);
   std::uint16_t bound = 0;
+  int in_row = 0;
   for (const auto& [dx, dy] : kDirections) {
     int u = x + dx;
     int v = y + dy;
@@ -31,8 +32,9 @@ std::uint16_t reference(const Map& map, int x, int y) {
     }
     if (u < 0 || u == map.width || v < 0 || v == map.height) continue;
     bound = std::max(bound, map(u, v));
+    in_row += dy == 0;
   }
-  return bound;
+  return in_row == 2 ? bound : std::uint16_t{0};
 }
 
 Map reference(const Map& map) {
@@ -80,23 +82,23 @@ TEST(FreeSpace, IsBoundedByTheNearestDisparitiesInFourDirections) {
                                 0, 0, 5, 0, 0,  //
                                 9, 0, 8, 0, 9});
   const Map bounds = map_of(5, 5, {9, 9, 1, 9, 9,  //
-                                   9, 2, 2, 2, 9,  //
+                                   0, 0, 2, 0, 0,  //
                                    3, 4, 5, 4, 4,  //
-                                   9, 5, 5, 5, 9,  //
+                                   0, 0, 5, 0, 0,  //
                                    9, 9, 8, 9, 9});
   EXPECT_TRUE(test::same_image(bounds, bounds_of(map)));
   EXPECT_TRUE(test::same_image(bounds, reference(map)));
 }
 
-TEST(FreeSpace, HasNoBoundWithoutADisparityInAnyDirection) {
-  const Map map = map_of(3, 3,
-                         {7, 0, 0,  //
-                          0, 0, 0,  //
-                          0, 0, 0});
-  const Map bounds = map_of(3, 3,
-                            {7, 7, 7,  //
-                             7, 0, 0,  //
-                             7, 0, 0});
+TEST(FreeSpace, HasNoBoundWithoutADisparityOnBothSides) {
+  const Map map = map_of(4, 3,
+                         {7, 0, 0, 0,  //
+                          0, 0, 0, 6,  //
+                          8, 0, 9, 0});
+  const Map bounds = map_of(4, 3,
+                            {7, 0, 0, 0,  //
+                             0, 0, 0, 6,  //
+                             8, 9, 9, 0});
   EXPECT_TRUE(test::same_image(bounds, bounds_of(map)));
 }
 

@@ -26,9 +26,10 @@ class MTSTEREO_API FreeSpace {
 
   /// Copies the disparities of a map, and gives each pixel without one (0) its bound: the largest
   /// of the nearest disparities to the left, to the right, above and below, each up to the border
-  /// of the image; 0 if there is none in all four directions. As far as the surroundings tell, the
-  /// ray of the pixel is free up to the depth of the bound. That is an estimate: what stands free
-  /// in a gap is not in the map.
+  /// of the image. As far as the surroundings tell, the ray of the pixel is free up to the depth of
+  /// the bound. That is an estimate: what stands free in a gap is not in the map. A pixel has no
+  /// bound (0) if there is no disparity to its left or none to its right: what is beyond the last
+  /// disparity of a row is often nearer.
   ///
   /// The values are those of the map, in its scale and with its offset; DepthConverter turns both
   /// maps into depths. `disparity` and `bounds` may be the same image. The time is proportional to
