@@ -72,9 +72,8 @@ void continue_columns(const ColumnStep& of_row, std::uint8_t* before, std::uint8
     };
     const auto vectors = [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
       step_by([&](const std::uint8_t* costs, const std::uint8_t* from, const StepCosts& steps,
-                  std::uint8_t* to) HWY_ATTR {
-        return step_vectors<kVectors>(window.begin, costs, from, steps, to);
-      });
+                  std::uint8_t* to)
+                  HWY_ATTR { return step_vectors<kVectors>(window, costs, from, steps, to); });
     };
     switch ((window.end - window.begin) / kLanes) {
       case 1:

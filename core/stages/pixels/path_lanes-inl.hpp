@@ -77,45 +77,24 @@ struct StepCosts {
   hn::Vec<Bytes> small_step, least, any;
 };
 
-/// Writes the path costs of a pixel from disparity `begin` on, in so many vectors, and returns the
-/// least one, in every lane. Steps come from the previous pixel's costs at the same disparities.
-/// May overwrite them.
+/// Writes the path costs of a pixel in its window, and returns the least one, in every lane. Steps
+/// come from the previous pixel's costs in the same window. May overwrite them. kVectors: the
+/// number of the window's vectors, or 0 if it is not known.
 template <int kVectors>
-HWY_INLINE hn::Vec<Bytes> step_vectors(int begin, const std::uint8_t* costs,
+HWY_INLINE hn::Vec<Bytes> step_vectors(CostWindow window, const std::uint8_t* costs,
                                        const std::uint8_t* before, const StepCosts& steps,
                                        std::uint8_t* paths) {
   const Bytes d8;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
-  const auto never = hn::Set(d8, 255);
-  auto least = never;
-  auto previous = never;
-  auto same = hn::LoadU(d8, before + begin);
-  for (int i = 0; i < kVectors; ++i) {
-    const int d = begin + i * kLanes;
-    // Loads whole vectors only: a load that spans two recent stores would wait for both.
-    const auto after = i + 1 < kVectors ? hn::LoadU(d8, before + d + kLanes) : never;
-    const auto path = path_costs(d8, hn::LoadU(d8, costs + d), previous, same, after,
-                                 steps.small_step, steps.any, steps.least);
-    hn::StoreU(path, d8, paths + d);
-    least = hn::Min(least, path);
-    previous = same;
-    same = after;
-  }
-  return least_of_lanes(d8, least);
-}
-
-/// The same for any window.
-HWY_INLINE hn::Vec<Bytes> step_lanes(CostWindow window, const std::uint8_t* costs,
-                                     const std::uint8_t* before, const StepCosts& steps,
-                                     std::uint8_t* paths) {
-  const Bytes d8;
-  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
+  const int vectors = kVectors > 0 ? kVectors : (window.end - window.begin) / kLanes;
   const auto never = hn::Set(d8, 255);
   auto least = never;
   auto previous = never;
   auto same = hn::LoadU(d8, before + window.begin);
-  for (int d = window.begin; d < window.end; d += kLanes) {
-    const auto after = d + kLanes < window.end ? hn::LoadU(d8, before + d + kLanes) : never;
+  for (int i = 0; i < vectors; ++i) {
+    const int d = window.begin + i * kLanes;
+    // Loads whole vectors only: a load that spans two recent stores would wait for both.
+    const auto after = i + 1 < vectors ? hn::LoadU(d8, before + d + kLanes) : never;
     const auto path = path_costs(d8, hn::LoadU(d8, costs + d), previous, same, after,
                                  steps.small_step, steps.any, steps.least);
     hn::StoreU(path, d8, paths + d);
@@ -126,22 +105,22 @@ HWY_INLINE hn::Vec<Bytes> step_lanes(CostWindow window, const std::uint8_t* cost
   return least_of_lanes(d8, least);
 }
 
-/// Calls step_vectors() for the common sizes of windows, else step_lanes().
+/// step_vectors() for the window's number of vectors.
 HWY_INLINE hn::Vec<Bytes> step_window(CostWindow window, const std::uint8_t* costs,
                                       const std::uint8_t* before, const StepCosts& steps,
                                       std::uint8_t* paths) {
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
   switch ((window.end - window.begin) / kLanes) {
     case 1:
-      return step_vectors<1>(window.begin, costs, before, steps, paths);
+      return step_vectors<1>(window, costs, before, steps, paths);
     case 2:
-      return step_vectors<2>(window.begin, costs, before, steps, paths);
+      return step_vectors<2>(window, costs, before, steps, paths);
     case 3:
-      return step_vectors<3>(window.begin, costs, before, steps, paths);
+      return step_vectors<3>(window, costs, before, steps, paths);
     case 4:
-      return step_vectors<4>(window.begin, costs, before, steps, paths);
+      return step_vectors<4>(window, costs, before, steps, paths);
     default:
-      return step_lanes(window, costs, before, steps, paths);
+      return step_vectors<0>(window, costs, before, steps, paths);
   }
 }
 

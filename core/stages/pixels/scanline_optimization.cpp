@@ -64,7 +64,7 @@ class Path {
                              hn::SaturatedAdd(least_, hn::Set(d8, large_step_[change]))};
     const std::uint8_t* costs = costs_ + static_cast<std::ptrdiff_t>(x) * lanes_;
     if constexpr (kVectors > 0) {
-      least_ = step_vectors<kVectors>(window_.begin, costs, newest_, steps, other_);
+      least_ = step_vectors<kVectors>(window_, costs, newest_, steps, other_);
     } else {
       least_ = step_window(window_, costs, newest_, steps, other_);
     }
