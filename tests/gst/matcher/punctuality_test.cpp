@@ -4,6 +4,7 @@
 // which takes three minutes and needs an idle computer.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -54,10 +55,16 @@ struct Shown {
   }
 };
 
-/// Plays `seconds` of video in which `ratio` frames last one matching time.
+/// The first maps may be late, until the matcher knows how long it takes. So that they do not
+/// decide, also where matching is slow, a video has at least this many matching times.
+constexpr int kLeastMaps = 40;
+
+/// Plays `seconds` of video, or more, in which `ratio` frames last one matching time.
 Shown play(const Video& video, bool live, double ratio, double seconds) {
-  const double rate = ratio / matching_time(video.size);
-  Pipeline pipeline(launch(video, live, static_cast<int>(rate * seconds), rate));
+  const double time = matching_time(video.size);
+  const double rate = ratio / time;
+  const double played = std::max(seconds, kLeastMaps * time);
+  Pipeline pipeline(launch(video, live, static_cast<int>(rate * played), rate));
   EXPECT_EQ(pipeline.run(), "");
   const Stats stats = stats_of(pipeline.named("m"));
   GstStructure* structure = nullptr;
