@@ -10,6 +10,7 @@
 
 #define HWY_TARGET_INCLUDE "stages/pixels/census_cost.cpp"
 #include "base/simd.hpp"
+#include "stages/pixels/window_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -69,23 +70,6 @@ HWY_INLINE void for_each_vector(CostWindow window, const Vector& vector) {
   }
 }
 
-/// Calls `work` with the number of vectors of a window, if it is a common one, else with 0.
-template <class D8, class Work>
-HWY_INLINE void with_vectors(CostWindow window, const Work& work) {
-  switch ((window.end - window.begin) / static_cast<int>(hn::MaxLanes(D8()))) {
-    case 1:
-      return work(std::integral_constant<int, 1>());
-    case 2:
-      return work(std::integral_constant<int, 2>());
-    case 3:
-      return work(std::integral_constant<int, 3>());
-    case 4:
-      return work(std::integral_constant<int, 4>());
-    default:
-      return work(std::integral_constant<int, 0>());
-  }
-}
-
 /// Counts the differing bits of the columns x0 .. x1 - 1 of one of the window's first rows.
 void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
   const Narrow d8;
@@ -104,29 +88,30 @@ void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1)
 /// Counts those of the row that enters the window, and sums the counts of all its rows.
 template <int kBytes, int kSize, bool kRunning, class D8>
 void sum_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
-  with_vectors<D8>(lanes, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-    for (int x = x0; x < x1; ++x) {
-      const D8 d8;
-      const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
-      std::uint8_t* sums = window.sums_of(x);
-      const Difference<kBytes, D8> in(window.in, window.width, x);
-      for_each_vector<kVectors, D8>(lanes, [&](int d) HWY_ATTR {
-        std::uint8_t* counts = window.rows[0] + first + d;
-        const auto count = in.count(d);
-        auto sum = count;
-        if constexpr (kRunning) {
-          // The entering row takes the place of the leaving one.
-          sum = hn::Add(hn::Sub(hn::LoadU(d8, sums + d), hn::LoadU(d8, counts)), count);
-        } else {
-          for (int i = 1; i < kSize; ++i) {
-            sum = hn::Add(sum, hn::LoadU(d8, window.rows[i] + first + d));
-          }
+  with_vectors(
+      vectors_of(D8(), lanes), [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+        for (int x = x0; x < x1; ++x) {
+          const D8 d8;
+          const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
+          std::uint8_t* sums = window.sums_of(x);
+          const Difference<kBytes, D8> in(window.in, window.width, x);
+          for_each_vector<kVectors, D8>(lanes, [&](int d) HWY_ATTR {
+            std::uint8_t* counts = window.rows[0] + first + d;
+            const auto count = in.count(d);
+            auto sum = count;
+            if constexpr (kRunning) {
+              // The entering row takes the place of the leaving one.
+              sum = hn::Add(hn::Sub(hn::LoadU(d8, sums + d), hn::LoadU(d8, counts)), count);
+            } else {
+              for (int i = 1; i < kSize; ++i) {
+                sum = hn::Add(sum, hn::LoadU(d8, window.rows[i] + first + d));
+              }
+            }
+            hn::StoreU(count, d8, counts);
+            hn::StoreU(sum, d8, sums + d);
+          });
         }
-        hn::StoreU(count, d8, counts);
-        hn::StoreU(sum, d8, sums + d);
       });
-    }
-  });
 }
 
 /// Divides the columns x0 .. x1 - 1 by the lanes that must be counted for the costs of the columns
@@ -221,12 +206,13 @@ void write_row_of(const CensusWindow& of_window, int disparities, const std::uin
     });
     summed = needed;
     const CostWindow matched = window_at(window.matched, window.lanes, x0);
-    with_vectors<D8>(matched, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-      for (int x = x0; x < x1; ++x) {
-        write_costs<kSize, kVectors, D8>(window, matched, disparities, x, low[x], high[x], tables,
-                                         costs);
-      }
-    });
+    with_vectors(vectors_of(D8(), matched),
+                 [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+                   for (int x = x0; x < x1; ++x) {
+                     write_costs<kSize, kVectors, D8>(window, matched, disparities, x, low[x],
+                                                      high[x], tables, costs);
+                   }
+                 });
   }
 }
 

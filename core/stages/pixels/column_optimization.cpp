@@ -33,10 +33,10 @@ void begin_columns(const ColumnStep& row, std::uint8_t* paths, std::uint8_t* lea
 }
 
 /// Advances the paths of the columns x0 .. x1 - 1, which have the same window.
-template <class StepPixel>
-HWY_INLINE void continue_tile(const ColumnStep& row, int x0, int x1, const std::uint8_t* before,
-                              std::uint8_t* paths, std::uint8_t* least,
-                              const StepPixel& step_pixel) {
+template <int kVectors>
+HWY_INLINE void continue_tile(const ColumnStep& row, CostWindow window, int x0, int x1,
+                              const std::uint8_t* before, std::uint8_t* paths,
+                              std::uint8_t* least) {
   const Bytes d8;
   const std::ptrdiff_t lanes = cost_lanes(row.disparities);
   const auto small_step = hn::Set(d8, static_cast<std::uint8_t>(std::min(row.small_step, 255)));
@@ -49,8 +49,8 @@ HWY_INLINE void continue_tile(const ColumnStep& row, int x0, int x1, const std::
     const int change = std::abs(gray[x] - gray_before[x]);
     const StepCosts steps = {small_step, lowest,
                              hn::SaturatedAdd(lowest, hn::Set(d8, large_step[change]))};
-    least[x] =
-        hn::GetLane(step_pixel(costs + x * lanes, before + x * lanes, steps, paths + x * lanes));
+    least[x] = hn::GetLane(step_vectors<kVectors>(window, costs + x * lanes, before + x * lanes,
+                                                  steps, paths + x * lanes));
   }
 }
 
@@ -58,7 +58,6 @@ void continue_columns(const ColumnStep& of_row, std::uint8_t* before, std::uint8
                       std::uint8_t* least) {
   // A copy: the compiler knows that no store of bytes changes it.
   const ColumnStep row = of_row;
-  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
   const std::ptrdiff_t lanes = cost_lanes(row.disparities);
   for (int x0 = 0; x0 < row.width; x0 += kWindowTile) {
     const int x1 = std::min(x0 + kWindowTile, row.width);
@@ -67,26 +66,10 @@ void continue_columns(const ColumnStep& of_row, std::uint8_t* before, std::uint8
     for (int x = x0; x < x1 && last != window; ++x) {
       extend_lanes(last, window, before + x * lanes);
     }
-    const auto step_by = [&](auto&& step_pixel) HWY_ATTR {
-      continue_tile(row, x0, x1, before, paths, least, step_pixel);
-    };
-    const auto vectors = [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-      step_by([&](const std::uint8_t* costs, const std::uint8_t* from, const StepCosts& steps,
-                  std::uint8_t* to)
-                  HWY_ATTR { return step_vectors<kVectors>(window, costs, from, steps, to); });
-    };
-    switch ((window.end - window.begin) / kLanes) {
-      case 1:
-        vectors(std::integral_constant<int, 1>());
-        break;
-      case 2:
-        vectors(std::integral_constant<int, 2>());
-        break;
-      default:
-        step_by([&](const std::uint8_t* costs, const std::uint8_t* from, const StepCosts& steps,
-                    std::uint8_t* to)
-                    HWY_ATTR { return step_window(window, costs, from, steps, to); });
-    }
+    with_vectors(vectors_of(Bytes(), window),
+                 [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+                   continue_tile<kVectors>(row, window, x0, x1, before, paths, least);
+                 });
   }
 }
 

@@ -13,6 +13,7 @@
 
 #include "base/simd.hpp"
 #include "stages/pixels/cost_lanes.hpp"
+#include "stages/pixels/window_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -86,7 +87,7 @@ HWY_INLINE hn::Vec<Bytes> step_vectors(CostWindow window, const std::uint8_t* co
                                        std::uint8_t* paths) {
   const Bytes d8;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
-  const int vectors = kVectors > 0 ? kVectors : (window.end - window.begin) / kLanes;
+  const int vectors = kVectors > 0 ? kVectors : vectors_of(d8, window);
   const auto never = hn::Set(d8, 255);
   auto least = never;
   auto previous = never;
@@ -109,19 +110,10 @@ HWY_INLINE hn::Vec<Bytes> step_vectors(CostWindow window, const std::uint8_t* co
 HWY_INLINE hn::Vec<Bytes> step_window(CostWindow window, const std::uint8_t* costs,
                                       const std::uint8_t* before, const StepCosts& steps,
                                       std::uint8_t* paths) {
-  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
-  switch ((window.end - window.begin) / kLanes) {
-    case 1:
-      return step_vectors<1>(window, costs, before, steps, paths);
-    case 2:
-      return step_vectors<2>(window, costs, before, steps, paths);
-    case 3:
-      return step_vectors<3>(window, costs, before, steps, paths);
-    case 4:
-      return step_vectors<4>(window, costs, before, steps, paths);
-    default:
-      return step_vectors<0>(window, costs, before, steps, paths);
-  }
+  return with_vectors(vectors_of(Bytes(), window),
+                      [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+                        return step_vectors<kVectors>(window, costs, before, steps, paths);
+                      });
 }
 
 /// Between pixels of different windows: makes the costs of the pixel before never the least where

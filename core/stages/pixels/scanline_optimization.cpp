@@ -49,9 +49,7 @@ class Path {
   }
 
   /// The number of the window's vectors.
-  int vectors() const {
-    return (window_.end - window_.begin) / static_cast<int>(hn::MaxLanes(Bytes()));
-  }
+  int vectors() const { return vectors_of(Bytes(), window_); }
 
   /// Advances to column x, the next one.
   template <int kVectors>
@@ -143,23 +141,9 @@ class Path {
   CostWindow window_{};  // of the last pixel
 };
 
-/// Calls `steps` with the number of vectors of both paths' windows, or with 0 if they differ or
-/// have more than four.
-template <class Steps>
-HWY_INLINE void with_vectors(const Path& from_left, const Path& from_right, const Steps& steps) {
-  const int vectors = from_left.vectors();
-  switch (vectors == from_right.vectors() ? vectors : 0) {
-    case 1:
-      return steps(std::integral_constant<int, 1>());
-    case 2:
-      return steps(std::integral_constant<int, 2>());
-    case 3:
-      return steps(std::integral_constant<int, 3>());
-    case 4:
-      return steps(std::integral_constant<int, 4>());
-    default:
-      return steps(std::integral_constant<int, 0>());
-  }
+/// The number of vectors of both paths' windows, or 0 if they differ.
+int common_vectors(const Path& from_left, const Path& from_right) {
+  return from_left.vectors() == from_right.vectors() ? from_left.vectors() : 0;
 }
 
 /// The columns of a tile from x on, and back from x.
@@ -189,7 +173,7 @@ void walk_to_middle(const ScanlineRow& row, ScanlineScratch& scratch) {
         from_right.keep<kVectors>(paths, mirrored(i));
       }
     };
-    with_vectors(from_left, from_right, steps);
+    with_vectors(common_vectors(from_left, from_right), steps);
   }
   if (row.width % 2 != 0) {
     from_right.enter(middle);
@@ -226,7 +210,7 @@ HWY_INLINE void walk(const ScanlineRow& row, int left_begin, int left_end, int r
         std::min({steps_right(left), left_end - left, steps_left(right), right + 1 - right_begin});
     from_left.enter(left);
     from_right.enter(right);
-    with_vectors(from_left, from_right, [&](auto vectors) HWY_ATTR {
+    with_vectors(common_vectors(from_left, from_right), [&](auto vectors) HWY_ATTR {
       for (int i = 0; i < steps; ++i) {
         step_left(vectors, left++);
         step_right(vectors, right--);

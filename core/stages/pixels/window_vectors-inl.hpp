@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Internal to the kernels on costs: code for each common size of windows. Every SIMD target
+// includes this header again, after base/simd.hpp.
+#if defined(MTSTEREO_WINDOW_VECTORS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef MTSTEREO_WINDOW_VECTORS_INL_HPP
+#undef MTSTEREO_WINDOW_VECTORS_INL_HPP
+#else
+#define MTSTEREO_WINDOW_VECTORS_INL_HPP
+#endif
+
+#include <type_traits>
+
+#include "base/simd.hpp"
+#include "stages/pixels/cost_lanes.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo::HWY_NAMESPACE {
+
+/// The number of a window's vectors.
+template <class D8>
+HWY_INLINE int vectors_of(D8, CostWindow window) {
+  return (window.end - window.begin) / static_cast<int>(hn::MaxLanes(D8()));
+}
+
+/// Calls `work` with a number of vectors as a constant if it is at most four, else with 0.
+template <class Work>
+HWY_INLINE auto with_vectors(int vectors, const Work& work) {
+  switch (vectors) {
+    case 1:
+      return work(std::integral_constant<int, 1>());
+    case 2:
+      return work(std::integral_constant<int, 2>());
+    case 3:
+      return work(std::integral_constant<int, 3>());
+    case 4:
+      return work(std::integral_constant<int, 4>());
+    default:
+      return work(std::integral_constant<int, 0>());
+  }
+}
+
+}  // namespace mtstereo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard of each target
