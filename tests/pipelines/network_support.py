@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Receivers and senders of the documentation, on the loopback network."""
-import pathlib
 import re
 import time
 
-from support import PIPELINES, SLOW, free_port, start, stop
+from support import PIPELINES, SLOW, free_port, open_udp_ports, start, stop
 
 # A connection that ends loses the last pictures, as long as the latency, and the clips are short [ms].
 LATENCY = 40
@@ -22,10 +21,8 @@ def wait_for_port(port, process):
     """Waits until a UDP port is open, or the process that is to open it has ended."""
     deadline = time.monotonic() + 30 * SLOW
     while process.poll() is None and time.monotonic() < deadline:
-        for table in ("/proc/net/udp", "/proc/net/udp6"):
-            lines = pathlib.Path(table).read_text().splitlines()[1:]
-            if any(line.split()[1].endswith(f":{port:04X}") for line in lines):
-                return
+        if port in open_udp_ports():
+            return
         time.sleep(0.02)
 
 

@@ -78,26 +78,30 @@ BLOCK = 4  # ports
 reservations = []
 
 
+def open_udp_ports():
+    """The numbers of the UDP ports that are open on this machine."""
+    lines = [line for table in ("/proc/net/udp", "/proc/net/udp6") if os.path.exists(table)
+             for line in pathlib.Path(table).read_text().splitlines()[1:]]
+    return {int(line.split()[1].rpartition(":")[2], 16) for line in lines}
+
+
 def free_port(count=1):
-    """The first of some successive unused UDP ports. No other call returns or tests them, in any
-    process of these tests: a TCP socket with the number of the first one reserves its block."""
+    """The first of some successive unused UDP ports. No other call returns them, in any process of
+    these tests: a TCP socket with the number of the first one reserves its block. They are never
+    opened here: a process that another thread starts would keep them open for a while."""
     assert count <= BLOCK
     while True:
         first = random.randrange(20000, 32000, BLOCK)
         reservation = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-        sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(count)]
         try:
             reservation.bind(("127.0.0.1", first))
-            for each, port in zip(sockets, range(first, first + count)):
-                each.bind(("127.0.0.1", port))
         except OSError:
             reservation.close()
             continue
-        finally:
-            for each in sockets:
-                each.close()
-        reservations.append(reservation)
-        return first
+        if open_udp_ports().isdisjoint(range(first, first + count)):
+            reservations.append(reservation)
+            return first
+        reservation.close()
 
 
 def require(outcome):
