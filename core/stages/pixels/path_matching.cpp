@@ -69,9 +69,7 @@ class ChunkMatching {
       before = scratch_.above.data();
       if (y < chunk_.y0) continue;
       select(y, map.row(y), ratio.row(y));
-      if (votes == nullptr) continue;
-      select_by_cost(y);
-      count_votes(map.row(y), scratch_.by_cost.data(), width_, y, *votes);
+      if (votes != nullptr) vote(y, map.row(y), *votes);
     }
   }
 
@@ -119,6 +117,12 @@ class ChunkMatching {
     }
     finish_selection(width_, options_.selection, low, high, runner_up_, scratch_.selection,
                      disparity, ratio);
+  }
+
+  void vote(int y, const std::int32_t* by_path, WindowVotes& votes) {
+    const bool by_cost = y % kCostVotingRows == 0;
+    if (by_cost) select_by_cost(y);
+    count_votes(by_path, by_cost ? scratch_.by_cost.data() : nullptr, width_, y, votes);
   }
 
   /// The disparities of row y by its costs alone.

@@ -28,6 +28,9 @@ inline constexpr int kPathMargin = 8;
 /// Reach of the expected range on both sides of twice the half map's disparity [px].
 inline constexpr int kPathReach = 3;
 
+/// Every so many rows vote by their costs alone.
+inline constexpr int kCostVotingRows = 2;
+
 /// What the views at one resolution are matched from.
 struct PathMatchingInput {
   GrayView image;  ///< the left view

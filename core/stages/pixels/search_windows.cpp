@@ -115,7 +115,7 @@ void count_votes(const std::int32_t* by_path, const std::int32_t* by_cost, int w
       ++votes.known[tile];
       vote(by_path[x], votes.bins, votes.by_path.data() + tile * votes.bins);
     }
-    if (by_cost[x] != kNoDisparity) {
+    if (by_cost != nullptr && by_cost[x] != kNoDisparity) {
       vote(by_cost[x], votes.bins, votes.by_cost.data() + tile * votes.bins);
     }
   }

@@ -35,7 +35,7 @@ inline constexpr int kVotingRows = kWindowTile / 2;
 
 /// A bin is in the window if it has this many votes by one of both kinds.
 inline constexpr int kLeastPathVotes = 12;
-inline constexpr int kLeastCostVotes = 5;
+inline constexpr int kLeastCostVotes = 3;
 
 /// A pixel votes for disparities up to this far from its own [px of the views].
 inline constexpr int kVoteReach = 2;
@@ -48,7 +48,8 @@ inline constexpr int kLeastKnownShare = 10;
 void clear_votes(int y0, int y1, WindowVotes& votes);
 
 /// Counts the votes of row y at half the resolution, the result of its paths and of its costs alone
-/// [1 / kDisparityOne px of half the resolution].
+/// [1 / kDisparityOne px of half the resolution]; `by_cost` is nullptr in rows that are not matched
+/// by their costs alone.
 void count_votes(const std::int32_t* by_path, const std::int32_t* by_cost, int width, int y,
                  WindowVotes& votes);
 

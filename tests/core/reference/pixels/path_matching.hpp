@@ -77,12 +77,12 @@ inline std::vector<Selected> select_row(const PathInput& input, int y, const Row
   return select_disparities(sums, options, low, high);
 }
 
-/// Matches a view by its costs alone.
+/// Matches every second row of a view by its costs alone.
 inline DisparityPlane match_by_cost(const PathInput& input, const PathMatchingOptions& options) {
   const std::vector<RowCosts> costs = path_matching_costs(input, options);
   const SelectionOptions selection = {options.cost.disparities, 0, false, 1, false, 0};
   DisparityPlane out(input.left.width, input.left.height);
-  for (int y = 0; y < out.height; ++y) {
+  for (int y = 0; y < out.height; y += 2) {
     const std::vector<Selected> selected = select_row(input, y, costs[y], selection);
     for (int x = 0; x < out.width; ++x) out(x, y) = selected[x].disparity;
   }

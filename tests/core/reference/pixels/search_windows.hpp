@@ -74,7 +74,7 @@ inline Windows choose_windows(const test::DisparityPlane& by_path,
         }
       };
       elect(votes_in(by_path, x0, x1, y0, y1), 12);
-      elect(votes_in(by_cost, x0, x1, y0, y1), 5);
+      elect(votes_in(by_cost, x0, x1, y0, y1), 3);
       if (10 * known < 64 * tiles || last < 0) {
         first = 0;
         last = lanes;
