@@ -27,6 +27,44 @@ void guard_row(const std::int32_t* __restrict__ filled, const std::int32_t* __re
   }
 }
 
+/// Columns that are looked at together.
+constexpr int kBlock = 32;
+
+/// Whether a value of a block is negative; compilers vectorize the loop.
+bool any_negative(const std::int32_t* values) {
+  std::int32_t bits = 0;
+  for (int i = 0; i < kBlock; ++i) bits |= values[i];
+  return bits < 0;
+}
+
+/// Calls body(x, withheld disparity) for the negative ones of a row of the complete map.
+template <typename Body>
+void for_negative(const WithheldMap& withheld, const WithheldPlace& place, int y, int width,
+                  Body&& body) {
+  const std::int32_t* row = withheld.row(std::min(y / place.scale, withheld.height() - 1));
+  for (int begin = 0; begin < withheld.width(); begin += kBlock) {
+    const int end = std::min(begin + kBlock, withheld.width());
+    // Thin objects are rare.
+    if (begin + kBlock == end && !any_negative(row + begin)) continue;
+    for (int i = begin; i < end; ++i) {
+      if (row[i] >= 0) continue;
+      const int first = i * place.scale + place.shift;
+      const int last = std::min(first + place.scale, width);
+      for (int x = std::max(first, 0); x < last; ++x) body(x, row[i]);
+    }
+  }
+}
+
+/// Without branches, as above. All rows begin at the same pixel of the map.
+void clear_covered(const std::int32_t* __restrict__ withheld, std::int32_t added, int width,
+                   std::int32_t* __restrict__ map, std::uint8_t* __restrict__ confidence) {
+  for (int x = 0; x < width; ++x) {
+    const bool covered = (withheld[x] > 0) & (withheld[x] + added - map[x] > kGuardedStep);
+    map[x] = covered ? kNoDisparity : map[x];
+    confidence[x] = covered ? std::uint8_t{0} : confidence[x];
+  }
+}
+
 /// Calls body(x, withheld disparity) for the pixels of a row of the complete map.
 template <typename Body>
 void for_row(const WithheldMap& withheld, const WithheldPlace& place, int y, int width,
@@ -90,8 +128,7 @@ void draw_thin_objects(const WithheldMap& withheld, const WithheldPlace& place, 
   for (int y = y0; y < y1; ++y) {
     std::int32_t* row = map.row(y);
     std::uint8_t* row_confidence = map_confidence.row(y);
-    for_row(withheld, place, y, map.width(), [&](int x, std::int32_t value) {
-      if (value >= 0) return;
+    for_negative(withheld, place, y, map.width(), [&](int x, std::int32_t value) {
       row[x] = -value * place.scale + place.added;
       row_confidence[x] = std::max(row_confidence[x], least);
     });
@@ -103,6 +140,14 @@ void remove_covered(const WithheldMap& withheld, const WithheldPlace& place, int
   for (int y = y0; y < y1; ++y) {
     std::int32_t* row = map.row(y);
     std::uint8_t* row_confidence = confidence.row(y);
+    if (place.scale == 1) {
+      const int first = std::max(place.shift, 0);
+      const int end = std::min(map.width(), withheld.width() + place.shift);
+      const std::int32_t* seen = withheld.row(std::min(y, withheld.height() - 1));
+      clear_covered(seen + first - place.shift, place.added, end - first, row + first,
+                    row_confidence + first);
+      continue;
+    }
     for_row(withheld, place, y, map.width(), [&](int x, std::int32_t value) {
       if (value <= 0 || value * place.scale + place.added - row[x] <= kGuardedStep) return;
       row[x] = kNoDisparity;

@@ -24,13 +24,13 @@ struct Rated {
 
 /// A map of the matching with marked pixels, and what the filters leave of it.
 struct Filtered {
-  Filtered(int width, int height, std::uint64_t seed)
+  Filtered(int width, int height, std::uint64_t seed, int marked = 5)
       : found(test::patches(width, height, 1, seed)), left{found, GrayPlane(width, height)} {
     Random random(seed);
     for (std::size_t i = 0; i < found.pixels.size(); ++i) {
       if (random.below(3) == 0) left.map.pixels[i] = 0;
       if (left.map.pixels[i] != 0) left.confidence.pixels[i] = 90;
-      if (random.below(5) == 0) found.pixels[i] = -found.pixels[i];
+      if (random.below(marked) == 0) found.pixels[i] = -found.pixels[i];
     }
   }
   DisparityPlane found;
@@ -112,11 +112,12 @@ TEST(Withheld, KeepsAGapOpenAroundSomethingNearer) {
 }
 
 /// Compares the drawing into a complete map of this size.
-void expect_drawn_reference(int width, int height, const WithheldPlace& place, int band) {
+void expect_drawn_reference(int width, int height, const WithheldPlace& place, int band,
+                            int marked = 5) {
   SCOPED_TRACE(testing::Message() << width << "x" << height << ", shift " << place.shift
                                   << ", scale " << place.scale);
   const int columns = std::max((width - place.shift + place.scale - 1) / place.scale, 1);
-  const Filtered filtered(columns, (height + place.scale - 1) / place.scale, width);
+  const Filtered filtered(columns, (height + place.scale - 1) / place.scale, width, marked);
   Rated expected = {test::patches(width, height, 0, 2), GrayPlane(width, height, 100)};
   Image<std::int32_t> map = image_of(expected.map);
   Image<std::uint8_t> confidence = image_of(expected.confidence);
@@ -138,6 +139,17 @@ TEST(Withheld, DrawsThinObjectsIntoACompleteMap) {
       for (const int shift : {-7, 0, 3}) {
         const std::int32_t added = std::max(shift, 0) * kDisparityOne;
         expect_drawn_reference(width, 1 + width % 13, {shift, scale, added}, 1 + width % 6);
+      }
+    }
+  }
+}
+
+TEST(Withheld, DrawsTheFewThinObjectsOfAWideMap) {
+  for (int width = 95; width <= 200; ++width) {
+    for (const int scale : {1, 2}) {
+      for (const int shift : {-7, 0, 3}) {
+        const std::int32_t added = std::max(shift, 0) * kDisparityOne;
+        expect_drawn_reference(width, 5, {shift, scale, added}, 3, 60);
       }
     }
   }
