@@ -6,7 +6,55 @@
 
 #include "stages/refine/speckle_removal.hpp"
 
+#define HWY_TARGET_INCLUDE "stages/refine/thin_chains.cpp"
+#include "base/simd.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo::HWY_NAMESPACE {
+
+/// Transposes four columns of four rows each: the elements at `x` become the rows of `out`.
+HWY_INLINE void transpose_four(const std::int32_t* const* rows, int x, std::int32_t* const* out,
+                               int y) {
+  const hn::FixedTag<std::int32_t, 4> d32;
+  const hn::FixedTag<std::int64_t, 2> d64;
+  const auto a = hn::LoadU(d32, rows[0] + x), b = hn::LoadU(d32, rows[1] + x);
+  const auto c = hn::LoadU(d32, rows[2] + x), d = hn::LoadU(d32, rows[3] + x);
+  const auto ab0 = hn::BitCast(d64, hn::InterleaveLower(d32, a, b));
+  const auto ab2 = hn::BitCast(d64, hn::InterleaveUpper(d32, a, b));
+  const auto cd0 = hn::BitCast(d64, hn::InterleaveLower(d32, c, d));
+  const auto cd2 = hn::BitCast(d64, hn::InterleaveUpper(d32, c, d));
+  hn::StoreU(hn::BitCast(d32, hn::InterleaveLower(d64, ab0, cd0)), d32, out[0] + y);
+  hn::StoreU(hn::BitCast(d32, hn::InterleaveUpper(d64, ab0, cd0)), d32, out[1] + y);
+  hn::StoreU(hn::BitCast(d32, hn::InterleaveLower(d64, ab2, cd2)), d32, out[2] + y);
+  hn::StoreU(hn::BitCast(d32, hn::InterleaveUpper(d64, ab2, cd2)), d32, out[3] + y);
+}
+
+/// Writes the columns x0 .. x1 - 1 of the map as rows, where their number is a multiple of four.
+/// May write three elements after the end of a row.
+void transpose_columns(const Image<std::int32_t>& map, int x0, int x1,
+                       Image<std::int32_t>& columns) {
+  constexpr int kBlock = 16;  // a cache line
+  const int last = map.height() - 1;
+  for (int y0 = 0; y0 <= last; y0 += kBlock) {
+    const std::int32_t* rows[kBlock];
+    for (int i = 0; i < kBlock; ++i) rows[i] = map.row(y0 + i < last ? y0 + i : last);
+    const int end = map.height() - y0 < kBlock ? map.height() - y0 : kBlock;
+    for (int x = x0; x < x1; x += 4) {
+      std::int32_t* const out[4] = {columns.row(x) + y0, columns.row(x + 1) + y0,
+                                    columns.row(x + 2) + y0, columns.row(x + 3) + y0};
+      for (int i = 0; i < end; i += 4) transpose_four(rows + i, x, out, i);
+    }
+  }
+}
+
+}  // namespace mtstereo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace mtstereo {
+
+HWY_EXPORT(transpose_columns);
+
 namespace {
 
 bool connected(std::int32_t a, std::int32_t b) { return std::abs(a - b) <= kDisparityOne; }
@@ -168,13 +216,10 @@ void ThinScratch::resize(int width, int height) {
 }
 
 void transpose(const Image<std::int32_t>& map, int x0, int x1, Image<std::int32_t>& columns) {
-  constexpr int kBlock = 16;  // a cache line
-  for (int y0 = 0; y0 < map.height(); y0 += kBlock) {
-    const int y1 = std::min(y0 + kBlock, map.height());
-    for (int x = x0; x < x1; ++x) {
-      std::int32_t* column = columns.row(x);
-      for (int y = y0; y < y1; ++y) column[y] = map.row(y)[x];
-    }
+  const int fours = x0 + (x1 - x0) / 4 * 4;
+  HWY_DYNAMIC_DISPATCH(transpose_columns)(map, x0, fours, columns);
+  for (int x = fours; x < x1; ++x) {
+    for (int y = 0; y < map.height(); ++y) columns.row(x)[y] = map.row(y)[x];
   }
 }
 
@@ -272,3 +317,4 @@ void mark_thin_pixels(const ThinRuns& runs, int line0, int line1, Image<std::int
 }
 
 }  // namespace mtstereo
+#endif  // HWY_ONCE

@@ -188,5 +188,21 @@ TEST(ThinChains, TrimWhatTheMatchingHasWidened) {
   EXPECT_LT(found(41, 20), 0);
 }
 
+TEST(ThinChains, TransposeAnyColumnsOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 40; ++width) {
+      const int height = 1 + width * 7 % 37, x0 = width % 3, x1 = width - width % 2;
+      const DisparityPlane map = disparity_noise(width, height, 10, 999, width);
+      Image<std::int32_t> columns = image_of(DisparityPlane(height, width, -7));
+      transpose(image_of(map), x0, x1, columns);
+      for (int x = 0; x < width; ++x) {
+        for (int y = 0; y < height; ++y) {
+          EXPECT_EQ(x >= x0 && x < x1 ? map(x, y) : -7, columns.row(x)[y]) << width << " columns";
+        }
+      }
+    }
+  });
+}
+
 }  // namespace
 }  // namespace mtstereo
