@@ -132,6 +132,29 @@ void align_row(const EdgeWindow& rows, const std::uint8_t* near, int width, std:
   }
 }
 
+/// Marks the columns within kEdgeReach of a jump. `next` is the next row, or the row itself.
+void mark_row(const std::int32_t* row, const std::int32_t* next, int width, std::uint8_t* near) {
+  const hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)> d32;
+  const int lanes = static_cast<int>(hn::Lanes(d32));
+  const auto jump = hn::Set(d32, kJump);
+  std::memset(near, 0, width);
+  for (int x0 = 0; x0 < width; x0 += lanes) {
+    // There are few jumps. The padding of the rows may hold some, too.
+    const auto own = hn::LoadU(d32, row + x0);
+    const auto down = hn::Abs(hn::Sub(own, hn::LoadU(d32, next + x0)));
+    const auto right = hn::Abs(hn::Sub(own, hn::LoadU(d32, row + x0 + 1)));
+    if (hn::AllFalse(d32, hn::Gt(hn::Max(down, right), jump))) continue;
+    for (int x = x0; x < std::min(x0 + lanes, width); ++x) {
+      const bool is_down = std::abs(row[x] - next[x]) > kJump;
+      const bool is_right = x + 1 < width && std::abs(row[x] - row[x + 1]) > kJump;
+      if (!is_down && !is_right) continue;
+      const int first = std::max(x - kEdgeReach, 0);
+      const int last = std::min(x + kEdgeReach + is_right, width - 1);
+      std::memset(near + first, 1, last + 1 - first);
+    }
+  }
+}
+
 }  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -139,6 +162,7 @@ HWY_AFTER_NAMESPACE();
 namespace mtstereo {
 
 HWY_EXPORT(align_row);
+HWY_EXPORT(mark_row);
 
 namespace {
 
@@ -152,19 +176,6 @@ void repeat_ends(T* row, int width) {
 /// Adds the marks of another row; compilers vectorize the loop.
 void add_marks(const std::uint8_t* __restrict__ row, int width, std::uint8_t* __restrict__ near) {
   for (int x = 0; x < width; ++x) near[x] |= row[x];
-}
-
-/// Marks the columns within kEdgeReach of a jump. `next` is the next row, or the row itself.
-void mark_row(const std::int32_t* row, const std::int32_t* next, int width, std::uint8_t* near) {
-  std::memset(near, 0, width);
-  for (int x = 0; x < width; ++x) {
-    const bool down = std::abs(row[x] - next[x]) > kJump;
-    const bool right = x + 1 < width && std::abs(row[x] - row[x + 1]) > kJump;
-    if (!down && !right) continue;
-    const int first = std::max(x - kEdgeReach, 0);
-    const int last = std::min(x + kEdgeReach + right, width - 1);
-    std::memset(near + first, 1, last + 1 - first);
-  }
 }
 
 }  // namespace
@@ -189,7 +200,8 @@ void find_jumps(GrayView left_view, const Image<std::int32_t>& map, int y0, int 
     repeat_ends(disparity, width);
     std::memcpy(edges.gray.row(y) + kEdgeRadius, left_view.row(y), width);
     repeat_ends(edges.gray.row(y), width);
-    mark_row(row, map.row(std::min(y + 1, map.height() - 1)), width, edges.near.row(y));
+    const std::int32_t* next = map.row(std::min(y + 1, map.height() - 1));
+    HWY_DYNAMIC_DISPATCH(mark_row)(row, next, width, edges.near.row(y));
   }
 }
 
