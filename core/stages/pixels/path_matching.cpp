@@ -2,6 +2,8 @@
 #include "stages/pixels/path_matching.hpp"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "stages/pixels/column_optimization.hpp"
 
@@ -177,7 +179,7 @@ void PathMatchingScratch::resize(int width, int height, const PathMatchingOption
 }
 
 void find_expected(const Image<std::int32_t>* half_map, int y, int width, int disparities,
-                   std::uint16_t* low, std::uint16_t* high) {
+                   std::uint16_t* __restrict__ low, std::uint16_t* __restrict__ high) {
   const int last = disparities - 1;
   if (half_map == nullptr) {
     std::fill_n(low, width, std::uint16_t{0});
@@ -185,18 +187,20 @@ void find_expected(const Image<std::int32_t>* half_map, int y, int width, int di
     return;
   }
   const std::int32_t* half = half_map->row(y / 2);
-  for (int x = 0; x < width; x += 2) {
-    const std::int32_t disparity = half[x / 2];
+  const auto range = [last](std::int32_t disparity) {
     const bool known = disparity != kNoDisparity;
     const int middle = (2 * disparity + kDisparityOne / 2) / kDisparityOne;
     const int first = known ? std::clamp(middle - kPathReach, 0, last) : 0;
     const int second = known ? std::min(middle + kPathReach, last) : last;
-    low[x] = static_cast<std::uint16_t>(first);
-    high[x] = static_cast<std::uint16_t>(second);
-    if (x + 1 == width) break;
-    low[x + 1] = low[x];
-    high[x + 1] = high[x];
+    return std::pair(static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(second));
+  };
+  // Pairs of columns, so that compilers vectorize the loop.
+  for (int i = 0; i < width / 2; ++i) {
+    const auto [first, second] = range(half[i]);
+    low[2 * i] = low[2 * i + 1] = first;
+    high[2 * i] = high[2 * i + 1] = second;
   }
+  if (width % 2 != 0) std::tie(low[width - 1], high[width - 1]) = range(half[width / 2]);
 }
 
 void match_along_paths(const PathMatchingInput& input, const PathMatchingOptions& options, int y0,
