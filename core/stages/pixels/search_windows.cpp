@@ -18,12 +18,20 @@ constexpr int kMostBins = (kLargestMaxDisparity + kCostStep) / kWindowStep;
 
 using BinVotes = std::array<int, kMostBins>;
 
-/// Votes for all bins within kVoteReach of twice the disparity.
-void vote(std::int32_t disparity, int bins, std::uint8_t* votes) {
-  const int full = (2 * disparity + kDisparityOne / 2) / kDisparityOne;
-  const int first = std::max(full - kVoteReach, 0) / kWindowStep;
-  const int last = std::min((full + kVoteReach) / kWindowStep, bins - 1);
-  for (int bin = first; bin <= last; ++bin) ++votes[bin];
+/// Votes for all bins within kVoteReach of twice each known disparity. Returns the number of those.
+int vote(const std::int32_t* disparities, int count, int bins, std::uint8_t* votes) {
+  int known = 0;
+  for (int i = 0; i < count; ++i) {
+    if (disparities[i] == kNoDisparity) continue;
+    ++known;
+    const int full = (2 * disparities[i] + kDisparityOne / 2) / kDisparityOne;
+    const int first = std::max(full - kVoteReach, 0) / kWindowStep;
+    const int last = std::min((full + kVoteReach) / kWindowStep, bins - 1);
+    static_assert(2 * kVoteReach < kWindowStep);  // so it is one bin, or two
+    if (first <= last) ++votes[first];
+    if (first < last) ++votes[last];
+  }
+  return known;
 }
 
 /// The votes in a tile and those around it.
@@ -108,16 +116,14 @@ void clear_votes(int y0, int y1, WindowVotes& votes) {
 
 void count_votes(const std::int32_t* by_path, const std::int32_t* by_cost, int width, int y,
                  WindowVotes& votes) {
-  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(y / kVotingRows) * votes.columns;
-  for (int x = 0; x < width; ++x) {
-    const std::ptrdiff_t tile = first + x / kVotingRows;
-    if (by_path[x] != kNoDisparity) {
-      ++votes.known[tile];
-      vote(by_path[x], votes.bins, votes.by_path.data() + tile * votes.bins);
-    }
-    if (by_cost != nullptr && by_cost[x] != kNoDisparity) {
-      vote(by_cost[x], votes.bins, votes.by_cost.data() + tile * votes.bins);
-    }
+  const int bins = votes.bins;
+  std::ptrdiff_t tile = static_cast<std::ptrdiff_t>(y / kVotingRows) * votes.columns;
+  for (int x = 0; x < width; x += kVotingRows, ++tile) {
+    const int count = std::min(kVotingRows, width - x);
+    const int known = vote(by_path + x, count, bins, votes.by_path.data() + tile * bins);
+    votes.known[tile] = static_cast<std::uint8_t>(votes.known[tile] + known);
+    if (by_cost == nullptr) continue;
+    vote(by_cost + x, count, bins, votes.by_cost.data() + tile * bins);
   }
 }
 
