@@ -2,6 +2,7 @@
 #include "stages/refine/reliability.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <cstring>
 
@@ -70,6 +71,98 @@ void add_columns(const std::uint8_t* row, int count, int width, std::uint8_t* su
   }
 }
 
+/// In loops that compilers vectorize for the target: the place of the pixel left of each pixel's
+/// partner, in a row whose border is 2 pixels wide.
+void find_partners(const std::int32_t* __restrict__ map, int width, int right_width, int offset,
+                   std::uint32_t* __restrict__ places) {
+  for (int x = 0; x < width; ++x) {
+    const int partner = ((x - offset) * kDisparityOne - map[x] + kDisparityOne / 2) >> 8;
+    const int least = partner < -1 ? -1 : partner;
+    places[x] = static_cast<std::uint32_t>((least > right_width ? right_width : least) + 1);
+  }
+}
+
+/// The least difference from the first three of the four gray values in each of `partners`.
+void find_least(const std::uint8_t* __restrict__ left, const std::uint32_t* __restrict__ partners,
+                int width, std::uint8_t* __restrict__ mismatch) {
+  constexpr int kFirst = std::endian::native == std::endian::big ? 8 : 0;
+  for (int x = 0; x < width; ++x) {
+    int least = kMostMismatch;
+    for (int i = 0; i < 3; ++i) {
+      const int other = static_cast<int>(partners[x] >> (kFirst + 8 * i) & 255);
+      const int difference = left[x] > other ? left[x] - other : other - left[x];
+      least = difference < least ? difference : least;
+    }
+    mismatch[x] = static_cast<std::uint8_t>(least);
+  }
+}
+
+/// The bins of the clue about the columns that show the pixels.
+void find_partner_bins(const std::int32_t* __restrict__ map, int width, int offset,
+                       std::uint8_t* __restrict__ bins) {
+  constexpr int kLeast = kPartnerEnds[0] - 1, kMost = 24;
+  for (int x = 0; x < width; ++x) {
+    const int partner = ((x - offset) * kDisparityOne - map[x]) >> 8;
+    const int limited = partner < kLeast ? kLeast : partner;
+    bins[x] = static_cast<std::uint8_t>(limited > kMost ? kMost : limited);
+  }
+  // Bytes, which take a quarter of the vectors.
+  for (int x = 0; x < width; ++x) {
+    const auto partner = static_cast<std::int8_t>(bins[x]);
+    std::uint8_t bin = 0;
+    for (const int end : kPartnerEnds) bin += partner >= end;
+    bins[x] = bin;
+  }
+}
+
+using Sixteen = hn::FixedTag<std::uint8_t, 16>;
+using Eight = hn::FixedTag<std::int16_t, 8>;
+
+/// One of 32 bytes for each of the bins.
+HWY_INLINE hn::Vec<Sixteen> look_up(const std::uint8_t* bytes, hn::Vec<Sixteen> bins) {
+  const Sixteen d8;
+  const auto most = hn::Set(d8, 15);
+  const auto place = hn::And(bins, most);
+  return hn::IfThenElse(hn::Gt(bins, most), hn::TableLookupBytes(hn::Load(d8, bytes + 16), place),
+                        hn::TableLookupBytes(hn::Load(d8, bytes), place));
+}
+
+/// The confidence by the sum of the entries.
+HWY_INLINE hn::Vec<Eight> rated(hn::Vec<Eight> sum, hn::Vec<Eight> before, bool apart) {
+  const Eight d16;
+  static_assert(kReliabilityOne == 1 << 4);
+  const auto one = hn::Set(d16, 1), most = hn::Set(d16, kMostInferred);
+  const auto rating = hn::Min(hn::Max(hn::ShiftRight<4>(sum), one), hn::Set(d16, 255));
+  if (!apart) return rating;
+  // A division by 254, exact for these values.
+  const auto product = hn::Mul(hn::Sub(rating, one), hn::Set(d16, kMostInferred - 1));
+  const auto low = hn::ShiftRight<4>(hn::MulHigh(product, hn::Set(d16, 4129)));
+  return hn::IfThenElse(hn::Gt(before, most), hn::Max(rating, hn::Add(most, one)),
+                        hn::Add(low, one));
+}
+
+/// Replaces the confidence of a row.
+void rate_row(const RatedBins& row, int width, std::uint8_t* confidence) {
+  const Sixteen d8;
+  const hn::Half<Sixteen> half;
+  const Eight d16;
+  for (int x = 0; x < width; x += 16) {
+    auto lower = hn::Set(d16, static_cast<std::int16_t>(row.noise)), upper = lower;
+    for (int clue = 0; clue < kNoiseClue; ++clue) {
+      const auto bins = hn::LoadU(d8, row.bins[clue] + x);
+      const auto first = look_up(row.entries[clue].of[0], bins);
+      const auto second = look_up(row.entries[clue].of[1], bins);
+      lower = hn::Add(lower, hn::BitCast(d16, hn::InterleaveLower(d8, first, second)));
+      upper = hn::Add(upper, hn::BitCast(d16, hn::InterleaveUpper(d8, first, second)));
+    }
+    std::uint8_t* out = confidence + x;
+    const auto before = hn::PromoteTo(d16, hn::LoadU(half, out));
+    hn::StoreU(hn::DemoteTo(half, rated(lower, before, row.apart)), half, out);
+    const auto next = hn::PromoteTo(d16, hn::LoadU(half, out + 8));
+    hn::StoreU(hn::DemoteTo(half, rated(upper, next, row.apart)), half, out + 8);
+  }
+}
+
 }  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -79,6 +172,10 @@ namespace mtstereo {
 HWY_EXPORT(find_surfaces);
 HWY_EXPORT(add_rows);
 HWY_EXPORT(add_columns);
+HWY_EXPORT(find_partners);
+HWY_EXPORT(find_least);
+HWY_EXPORT(find_partner_bins);
+HWY_EXPORT(rate_row);
 
 namespace {
 
@@ -89,7 +186,6 @@ constexpr int kVector = static_cast<int>(kAlignment);
 /// number of ends up to it.
 constexpr int kMismatchEnds[] = {3, 5, 7, 9, 14, 18, 23, 27, 36, 45, 54, 72, 90, 126, 180, 270};
 constexpr int kTextureEnds[] = {1, 3, 8, 14, 20, 27, 40, 54, 75, 100, 135, 175, 230, 300, 400, 500};
-constexpr int kPartnerEnds[] = {-40, -20, -10, -5, 0, 3, 6, 10, 16, 24};
 constexpr float kNoiseEnds[] = {.1F, .3F, .6F, 1, 1.5F, 2, 2.5F, 3, 4, 5, 7, 10};
 
 template <typename Value, std::size_t kEnds>
@@ -110,12 +206,6 @@ constexpr std::array<std::uint8_t, kCount> bins_from(int first, const int (&ends
 constexpr auto kMismatchBins = bins_from<9 * kMostMismatch + 1>(0, kMismatchEnds);
 constexpr auto kTextureBins = bins_from<3 * kTextureSide * kMostChange + 1>(0, kTextureEnds);
 
-/// The bins of the partner's columns, from kPartnerEnds[0] - 1 on.
-constexpr int kFirstPartner = kPartnerEnds[0] - 1;
-constexpr int kLastPartner = 24;
-constexpr auto kPartnerBins =
-    bins_from<kLastPartner - kFirstPartner + 1>(kFirstPartner, kPartnerEnds);
-
 void copy_disparities(const std::int32_t* map, int width, std::int16_t* out) {
   for (int x = 0; x < width; ++x) {
     out[kClueBorder + x] = static_cast<std::int16_t>(map[x] / (kDisparityOne / kClueOne));
@@ -124,46 +214,51 @@ void copy_disparities(const std::int32_t* map, int width, std::int16_t* out) {
   std::fill_n(out + kClueBorder + width, kClueBorder, out[kClueBorder + width - 1]);
 }
 
-/// The column of the right view that shows the pixel [1 / kDisparityOne px].
-int partner_of(int x, std::int32_t disparity, int offset) {
-  return (x - offset) * kDisparityOne - disparity;
-}
-
-constexpr int kDisparityShift = 8;
-static_assert(1 << kDisparityShift == kDisparityOne);
+static_assert(1 << 8 == kDisparityOne);
 
 void find_mismatch(const RatedViews& views, const std::int32_t* map, int y, int width,
-                   std::uint8_t* mismatch) {
-  const std::uint8_t* left = views.left.row(y);
-  const std::uint8_t* right = views.right.row(y);
-  const int last = views.right.width - 1;
-  const int offset = views.disparity_offset;
-  for (int x = 0; x < width; ++x) {
-    const int gray = left[x];
-    const int partner = (partner_of(x, map[x], offset) + kDisparityOne / 2) >> kDisparityShift;
-    int least = kMostMismatch;
-    for (int i = -1; i <= 1; ++i) {
-      least = std::min(least, std::abs(gray - right[std::clamp(partner + i, 0, last)]));
-    }
-    mismatch[x + 1] = static_cast<std::uint8_t>(least);
-  }
+                   ReliabilityScratch& scratch) {
+  const int right_width = views.right.width;
+  std::uint8_t* right = scratch.right.data();
+  std::memcpy(right + 2, views.right.row(y), right_width);
+  std::memset(right, right[2], 2);
+  std::memset(right + 2 + right_width, right[1 + right_width], 3);
+  std::uint32_t* partner = scratch.partner.data();
+  HWY_DYNAMIC_DISPATCH(find_partners)(map, width, right_width, views.disparity_offset, partner);
+  for (int x = 0; x < width; ++x) std::memcpy(partner + x, right + partner[x], sizeof *partner);
+  std::uint8_t* mismatch = scratch.values.data();
+  HWY_DYNAMIC_DISPATCH(find_least)(views.left.row(y), partner, width, mismatch + 1);
   mismatch[0] = mismatch[1];
   mismatch[width + 1] = mismatch[width];
 }
 
 /// The changes from pixel to pixel; those outside of the row are 0.
-void find_changes(const std::uint8_t* row, int width, std::uint8_t* changes) {
+void find_changes(const std::uint8_t* __restrict__ row, int width,
+                  std::uint8_t* __restrict__ changes) {
   constexpr int kBorder = kTextureSide / 2;
-  std::memset(changes, 0, width + kTextureSide);
+  std::memset(changes, 0, kBorder + 1);
   for (int x = 1; x < width; ++x) {
-    changes[kBorder + x] =
-        static_cast<std::uint8_t>(std::min(std::abs(row[x] - row[x - 1]), kMostChange));
+    const int change = std::max(row[x], row[x - 1]) - std::min(row[x], row[x - 1]);
+    changes[kBorder + x] = std::min<std::uint8_t>(static_cast<std::uint8_t>(change), kMostChange);
   }
+  std::memset(changes + kBorder + width, 0, kTextureSide - kBorder);
+}
+
+/// Marks the matched pixels.
+void mark_matched(const std::uint8_t* __restrict__ confidence, int width,
+                  std::uint8_t* __restrict__ marks) {
+  for (int x = 0; x < width; ++x) marks[x] = confidence[x] > kMostInferred;
 }
 
 /// The number of the rows or columns of a window of kShareSide that are inside of the image.
 int inside(int middle, int size) {
   return std::min(middle + kShareReach, size - 1) - std::max(middle - kShareReach, 0) + 1;
+}
+
+/// The products with the fraction `share` of 2^16.
+void share_out(const std::uint16_t* __restrict__ sum, std::uint32_t share, int count,
+               std::uint8_t* __restrict__ bins) {
+  for (int i = 0; i < count; ++i) bins[i] = static_cast<std::uint8_t>(sum[i] * share >> 16);
 }
 
 /// The share of matched pixels in 16ths.
@@ -174,27 +269,36 @@ void find_share_bins(const ClueMaps& clues, int y, int width, ReliabilityScratch
   const std::uint8_t* lines[kShareSide];
   for (int i = 0; i < rows; ++i) lines[i] = clues.matched.row(first + i);
   HWY_DYNAMIC_DISPATCH(add_rows)(lines, rows, width, scratch.sum.data());
-  // Entry i: 16 / (rows * (i + 1)) as a fraction of 2^16, rounded up.
-  std::array<std::uint32_t, kShareSide> shares{};
-  for (int i = 0; i < kShareSide; ++i) {
-    const std::uint32_t pixels = static_cast<std::uint32_t>(rows * (i + 1));
-    shares[i] = ((16U << 16) + pixels - 1) / pixels;
-  }
+  const std::uint16_t* sum = scratch.sum.data();
   std::uint8_t* bins = scratch.bins[kShareClue].data();
-  for (int x = 0; x < width; ++x) {
-    bins[x] = static_cast<std::uint8_t>(scratch.sum[x] * shares[inside(x, width) - 1] >> 16);
-  }
+  // All windows of the columns first .. end - 1 have as many columns.
+  const auto divide = [&](int begin, int end) {
+    // 16 / pixels as a fraction of 2^16, rounded up.
+    const std::uint32_t pixels = static_cast<std::uint32_t>(rows * inside(begin, width));
+    const std::uint32_t share = ((16U << 16) + pixels - 1) / pixels;
+    share_out(sum + begin, share, end - begin, bins + begin);
+  };
+  const int left = std::min(kShareReach, width);
+  const int right = std::max(left, width - kShareReach);
+  for (int x = 0; x < left; ++x) divide(x, x + 1);
+  if (left < right) divide(left, right);
+  for (int x = right; x < width; ++x) divide(x, x + 1);
 }
 
 /// The bins of the sums of three rows, `step` rows apart.
 template <std::size_t kCount>
 void find_sum_bins(const Image<std::uint8_t>& rows, int step, int y,
                    const std::array<std::uint8_t, kCount>& bin_of_sum, int width,
-                   Buffer<std::uint16_t>& sum, Buffer<std::uint8_t>& bins) {
+                   std::uint16_t* __restrict__ sum, std::uint8_t* __restrict__ bins) {
   const std::uint8_t* lines[] = {rows.row(std::max(y - step, 0)), rows.row(y),
                                  rows.row(std::min(y + step, rows.height() - 1))};
-  HWY_DYNAMIC_DISPATCH(add_rows)(lines, 3, width, sum.data());
-  for (int x = 0; x < width; ++x) bins[x] = bin_of_sum[sum[x]];
+  HWY_DYNAMIC_DISPATCH(add_rows)(lines, 3, width, sum);
+  int x = 0;
+  // Eight at once, because the speed of a loop that short depends on its place in memory.
+  for (; x + 8 <= width; x += 8) {
+    for (int i = x; i < x + 8; ++i) bins[i] = bin_of_sum[sum[i]];
+  }
+  for (; x < width; ++x) bins[x] = bin_of_sum[sum[x]];
 }
 
 void find_surface_bins(const ClueMaps& clues, int y, int width, ReliabilityScratch& scratch) {
@@ -209,10 +313,17 @@ void find_surface_bins(const ClueMaps& clues, int y, int width, ReliabilityScrat
   (rows, width, scratch.bins[kNearerClue].data(), scratch.bins[kFartherClue].data());
 }
 
-/// Keeps the confidence of inferred and matched disparities apart.
-int apart(int before, int rated) {
-  if (before > kMostInferred) return std::max(rated, kMostInferred + 1);
-  return 1 + (rated - 1) * (kMostInferred - 1) / 254;
+/// The columns of the table for rate_row().
+std::array<EntryBytes, kNoiseClue> entry_bytes() {
+  std::array<EntryBytes, kNoiseClue> columns;
+  for (int clue = 0; clue < kNoiseClue; ++clue) {
+    for (int bin = 0; bin < kClueBins; ++bin) {
+      std::uint8_t bytes[2];
+      std::memcpy(bytes, &kReliabilityTable[clue][bin], 2);
+      for (int i = 0; i < 2; ++i) columns[clue].of[i][bin] = bytes[i];
+    }
+  }
+  return columns;
 }
 
 }  // namespace
@@ -228,6 +339,8 @@ void ReliabilityScratch::resize(int width) {
   marks.resize(width + 2 * kShareReach + kVector);
   values.resize(width + kTextureSide + kVector);
   sum.resize(width + kVector);
+  right.resize(width + 5);  // two pixels before, three after
+  partner.resize(width);
   for (Buffer<std::uint8_t>& row : bins) row.resize(width + kVector);
 }
 
@@ -239,10 +352,9 @@ void gather_clues(const RatedViews& views, const Image<std::int32_t>& map,
   std::memset(marks, 0, width + 2 * kShareReach);
   for (int y = y0; y < y1; ++y) {
     copy_disparities(map.row(y), width, clues.disparity.row(y));
-    const std::uint8_t* row = confidence.row(y);
-    for (int x = 0; x < width; ++x) marks[kShareReach + x] = row[x] > kMostInferred;
+    mark_matched(confidence.row(y), width, marks + kShareReach);
     HWY_DYNAMIC_DISPATCH(add_columns)(marks, kShareSide, width, clues.matched.row(y));
-    find_mismatch(views, map.row(y), y, width, scratch.values.data());
+    find_mismatch(views, map.row(y), y, width, scratch);
     HWY_DYNAMIC_DISPATCH(add_columns)(scratch.values.data(), 3, width, clues.mismatch.row(y));
     find_changes(views.left.row(y), width, scratch.values.data());
     HWY_DYNAMIC_DISPATCH(add_columns)
@@ -255,43 +367,32 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
                     ReliabilityScratch& scratch) {
   const int width = map.width();
   find_share_bins(clues, y, width, scratch);
-  find_sum_bins(clues.mismatch, 1, y, kMismatchBins, width, scratch.sum,
-                scratch.bins[kMismatchClue]);
-  find_sum_bins(clues.texture, kTextureStep, y, kTextureBins, width, scratch.sum,
-                scratch.bins[kTextureClue]);
+  find_sum_bins(clues.mismatch, 1, y, kMismatchBins, width, scratch.sum.data(),
+                scratch.bins[kMismatchClue].data());
+  find_sum_bins(clues.texture, kTextureStep, y, kTextureBins, width, scratch.sum.data(),
+                scratch.bins[kTextureClue].data());
   find_surface_bins(clues, y, width, scratch);
-  const std::int32_t* row = map.row(y);
   const std::uint8_t* row_confidence = confidence.row(y);
   std::uint8_t* support = scratch.bins[kSupportClue].data();
-  std::uint8_t* column = scratch.bins[kPartnerClue].data();
   for (int x = 0; x < width; ++x) support[x] = row_confidence[x] / 8;
-  for (int x = 0; x < width; ++x) {
-    const int partner = partner_of(x, row[x], views.disparity_offset) >> kDisparityShift;
-    const int limited = std::clamp(partner, kFirstPartner, kLastPartner);
-    column[x] = kPartnerBins[limited - kFirstPartner];
-  }
+  HWY_DYNAMIC_DISPATCH(find_partner_bins)
+  (map.row(y), width, views.disparity_offset, scratch.bins[kPartnerClue].data());
   std::memset(scratch.bins[kNoiseClue].data(), bin_of(views.noise_level, kNoiseEnds), width);
 }
 
 void rate_reliability(const RatedViews& views, const Image<std::int32_t>& map,
                       const ClueMaps& clues, Inferred inferred, int y0, int y1,
                       ReliabilityScratch& scratch, Image<std::uint8_t>& confidence) {
-  // Locals, so that the compiler need not load them again after each pixel.
-  const std::uint8_t* bins[kClues];
-  for (int clue = 0; clue < kClues; ++clue) bins[clue] = scratch.bins[clue].data();
-  const int noise = kReliabilityTable[kNoiseClue][bin_of(views.noise_level, kNoiseEnds)];
   static_assert(kNoiseClue == kClues - 1);
-  const int width = map.width();
+  const std::array<EntryBytes, kNoiseClue> entries = entry_bytes();
+  RatedBins row{};
+  for (int clue = 0; clue < kNoiseClue; ++clue) row.bins[clue] = scratch.bins[clue].data();
+  row.entries = entries.data();
+  row.noise = kReliabilityTable[kNoiseClue][bin_of(views.noise_level, kNoiseEnds)];
+  row.apart = inferred == Inferred::kApart;
   for (int y = y0; y < y1; ++y) {
     find_clue_bins(views, map, confidence, clues, y, scratch);
-    std::uint8_t* row = confidence.row(y);
-    for (int x = 0; x < width; ++x) {
-      int sum = noise;
-      for (int clue = 0; clue < kNoiseClue; ++clue) sum += kReliabilityTable[clue][bins[clue][x]];
-      const int rated = std::clamp(sum / kReliabilityOne, 1, 255);
-      row[x] =
-          static_cast<std::uint8_t>(inferred == Inferred::kApart ? apart(row[x], rated) : rated);
-    }
+    HWY_DYNAMIC_DISPATCH(rate_row)(row, map.width(), confidence.row(y));
   }
 }
 

@@ -59,8 +59,11 @@ struct ReliabilityScratch {
   Buffer<std::uint8_t> marks;   ///< of a row, with borders of kShareReach
   Buffer<std::uint8_t> values;  ///< of a row, with the borders of its sums
   Buffer<std::uint16_t> sum;
+  Buffer<std::uint8_t> right;     ///< a row of the right view with borders
+  Buffer<std::uint32_t> partner;  ///< of a row's pixels: its place in `right`, then the gray values
   std::array<Buffer<std::uint8_t>, kClues> bins;  ///< per clue, of a row
 
+  /// For maps and right views of at most this width.
   void resize(int width);
 };
 

@@ -12,6 +12,23 @@ namespace mtstereo {
 /// The bin of the clues about other surfaces where there is none.
 inline constexpr std::int16_t kNoSurface = 16;
 
+/// The bins of the clue about the partner's column end at these columns: the bin of a column is the
+/// number of ends up to it.
+inline constexpr int kPartnerEnds[] = {-40, -20, -10, -5, 0, 3, 6, 10, 16, 24};
+
+/// A column of the table: the first bytes of the entries in memory, then the second ones.
+struct EntryBytes {
+  alignas(16) std::uint8_t of[2][kClueBins];
+};
+
+/// What the rating of a row reads.
+struct RatedBins {
+  const std::uint8_t* bins[kNoiseClue];
+  const EntryBytes* entries;  ///< per clue
+  int noise;                  ///< the entry of the noise
+  bool apart;                 ///< Inferred::kApart
+};
+
 /// The rows that the clues about other surfaces read; column x of the map is at x.
 struct SurfaceRows {
   const std::int16_t* middle;

@@ -6,6 +6,7 @@
 #include "reference/refine/reliability.hpp"
 #include "support/compare.hpp"
 #include "support/random_maps.hpp"
+#include "support/simd_targets.hpp"
 
 namespace mtstereo {
 namespace {
@@ -19,9 +20,10 @@ using test::Random;
 
 /// A complete map with a confidence of each pixel, and views of its size.
 struct Rated {
-  Rated(int width, int height, std::uint64_t seed)
+  Rated(int width, int height, std::uint64_t seed) : Rated(width, height, width, seed) {}
+  Rated(int width, int height, int right_width, std::uint64_t seed)
       : left(width, height),
-        right(width, height),
+        right(right_width, height),
         in{test::patches(width, height, 0, seed), GrayPlane(width, height)} {
     Random random(seed);
     for (int& disparity : in.map.pixels) disparity = std::max(disparity, 1);
@@ -32,6 +34,8 @@ struct Rated {
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         left(x, y) = static_cast<std::uint8_t>(x < width / 4 ? 90 : random.between(0, contrast));
+      }
+      for (int x = 0; x < right_width; ++x) {
         right(x, y) = static_cast<std::uint8_t>(x < width / 4 ? 90 : random.between(0, contrast));
       }
     }
@@ -47,7 +51,7 @@ GrayPlane rate(const Rated& rated, int offset, float noise, Inferred inferred, i
   ClueMaps clues;
   clues.resize(map.width(), map.height());
   ReliabilityScratch scratch;
-  scratch.resize(map.width());
+  scratch.resize(std::max(map.width(), rated.right.width));
   for (int y = 0; y < map.height(); y += band) {
     gather_clues(views, map, confidence, y, std::min(y + band, map.height()), scratch, clues);
   }
@@ -58,19 +62,40 @@ GrayPlane rate(const Rated& rated, int offset, float noise, Inferred inferred, i
   return copy_of(confidence);
 }
 
-TEST(Reliability, EqualsReferenceAtEveryWidth) {
-  for (int width = 1; width <= 90; ++width) {
-    const Rated rated(width, 1 + width % 41, width);
-    const float noise = 0.13F * static_cast<float>(width);
-    const int offset = width % 3 == 0 ? -5 : 0;
-    for (const Inferred inferred : {Inferred::kApart, Inferred::kLikeMatched}) {
-      const GrayPlane expected = reference::rate_reliability(
-          {rated.left, rated.right, offset, noise}, rated.in, inferred == Inferred::kApart);
-      for (const int band : {3, 1 << 20}) {
-        EXPECT_TRUE(same_image(expected, rate(rated, offset, noise, inferred, band)))
-            << width << " columns, bands of " << band << " rows";
+void expect_reference(const Rated& rated, int offset, float noise) {
+  for (const Inferred inferred : {Inferred::kApart, Inferred::kLikeMatched}) {
+    const GrayPlane expected = reference::rate_reliability({rated.left, rated.right, offset, noise},
+                                                           rated.in, inferred == Inferred::kApart);
+    for (const int band : {3, 1 << 20}) {
+      EXPECT_TRUE(same_image(expected, rate(rated, offset, noise, inferred, band)))
+          << rated.left.width << " columns, bands of " << band << " rows";
+    }
+  }
+}
+
+TEST(Reliability, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    for (int width = 1; width <= 90; ++width) {
+      const Rated rated(width, 1 + width % 41, width);
+      expect_reference(rated, width % 3 == 0 ? -5 : 0, 0.13F * static_cast<float>(width));
+    }
+  });
+}
+
+TEST(Reliability, EqualsReferenceWithPartnersOutsideOfTheRightView) {
+  test::for_each_simd_target([] {
+    for (const int right_width : {1, 2, 40, 61, 90}) {
+      for (const int offset : {-100, -30, 0, 25}) {
+        expect_reference(Rated(61, 9, right_width, 3), offset, 1);
       }
     }
+  });
+}
+
+/// So the sums of entries fit into 16 bits.
+TEST(Reliability, HasSmallEntries) {
+  for (const auto& column : kReliabilityTable) {
+    for (const int entry : column) EXPECT_LT(std::abs(entry), (1 << 15) / kClues);
   }
 }
 
