@@ -161,7 +161,9 @@ void Completion::resize(const Settings& settings, const FrameSize& size) {
   for (EdgeScratch& worker : scratch) worker.resize(size.input.width);
   clues.resize(size.input.width, size.input.height);
   reliability_scratch.resize(size.threads);
-  for (ReliabilityScratch& worker : reliability_scratch) worker.resize(size.input.width);
+  // With a negative min-disparity, the right view is wider than the map.
+  const int widest = std::max(size.input.width, size.frame.width);
+  for (ReliabilityScratch& worker : reliability_scratch) worker.resize(widest);
   if (!settings.keeps_likely_only()) return;
   islands.resize(size.input.width, size.input.height);
   weight.resize(size.input.width, size.input.height);

@@ -35,6 +35,14 @@ TEST(FrameMemory, HasTheBuffersOfTheDefaultSteps) {
   EXPECT_EQ(2u, memory.maps.scratch.size());
 }
 
+TEST(FrameMemory, HoldsRightViewsThatAreWiderThanTheMap) {
+  FrameMemory memory;
+  memory.resize(settings_of({{"mode", "dense"}, {"min-disparity", "-700"}}),
+                {{101, 51}, {801, 51}, {801, 51}, 1});
+  EXPECT_GE(memory.completion.reliability_scratch[0].right.size(), 801u);
+  EXPECT_EQ(801, memory.views.extended[1].width());
+}
+
 TEST(FrameMemory, HasACostVolumeForTheGradientCostOnly) {
   FrameMemory memory;
   memory.resize(settings_of({{"preset", "paper"}}), kFull);

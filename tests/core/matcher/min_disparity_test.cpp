@@ -92,6 +92,16 @@ TEST(MinDisparity, IsAppliedAfterTheCorrection) {
   }
 }
 
+TEST(MinDisparity, MayBeFarBelowMinusTheWidth) {
+  const Pair pair = test::shifted_pair(60, 40, 3, 7);
+  for (const char* const mode : {"sparse", "semi-dense", "dense", "full"}) {
+    Matcher matcher =
+        test::matcher({{"mode", mode}, {"min-disparity", "-700"}, {"max-disparity", "20"}});
+    const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+    EXPECT_EQ(60, map.width) << mode;
+  }
+}
+
 TEST(MinDisparity, IsTheSmallestOneAndEveryPartnerIsInTheRightView) {
   for (const char* const preset : kPresetNames) {
     for (const int least : {-60, -1, 1, 33}) {
