@@ -15,6 +15,9 @@ namespace mtstereo {
 /// Resolution at which the views are matched.
 enum class Resolution { kFull, kHalfRefined, kHalf };
 
+/// What says which disparities are expected of a pixel.
+enum class Guide { kNodes, kPyramid };
+
 /// Matching cost of nodes and pixels.
 enum class Cost { kCensus, kGradient };
 
@@ -50,6 +53,12 @@ template <>
 struct ChoiceOf<Resolution> {
   static constexpr Parameter kParameter = Parameter::kResolution;
   static constexpr std::array<std::string_view, 3> kWords = {"full", "half-refined", "half"};
+};
+
+template <>
+struct ChoiceOf<Guide> {
+  static constexpr Parameter kParameter = Parameter::kGuide;
+  static constexpr std::array<std::string_view, 2> kWords = {"nodes", "pyramid"};
 };
 
 template <>

@@ -91,6 +91,7 @@ void Pyramid::resize(const Settings& settings, const FrameSize& size) {
   ImageSize reduced = size.matched;
   votes.resize(reduced.width, reduced.height, cost_lanes(settings.disparities));
   windows.resize(reduced.width, reduced.height);
+  agreement.resize(votes.columns, votes.rows);
   const auto prepare_scratch = [&](int level) {
     for (PathMatchingScratch& worker : scratch) {
       worker.resize(reduced.width, reduced.height, settings.path_matching(level));
@@ -161,9 +162,11 @@ void Completion::resize(const Settings& settings, const FrameSize& size) {
   for (EdgeScratch& worker : scratch) worker.resize(size.input.width);
   clues.resize(size.input.width, size.input.height);
   reliability_scratch.resize(size.threads);
+  for (ReliabilityScratch& worker : reliability_scratch) worker.resize(size.input.width);
+  clue_scratch.resize(size.threads);
   // With a negative min-disparity, the right view is wider than the map.
   const int widest = std::max(size.input.width, size.frame.width);
-  for (ReliabilityScratch& worker : reliability_scratch) worker.resize(widest);
+  for (ClueScratch& worker : clue_scratch) worker.resize(widest);
   if (!settings.keeps_likely_only()) return;
   islands.resize(size.input.width, size.input.height);
   weight.resize(size.input.width, size.input.height);

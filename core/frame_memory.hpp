@@ -132,7 +132,7 @@ struct Costs {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
-/// Number of reduced resolutions in mode full: 1/2, 1/4 and 1/8.
+/// Number of reduced resolutions with guide=pyramid: 1/2, 1/4 and 1/8.
 inline constexpr int kPyramidLevels = 3;
 
 /// The views at 1 / 2^level of the matched resolution, and their disparity map.
@@ -143,11 +143,12 @@ struct PyramidLevel {
   Image<std::uint8_t> ratio;
 };
 
-/// The matching along four paths of mode full.
+/// The matching along paths, with guide=pyramid.
 struct Pyramid {
   std::array<PyramidLevel, kPyramidLevels> levels;  ///< fine to coarse, from 1/2 on
   WindowVotes votes;                                ///< of the level of 1/2
   SearchWindows windows;                            ///< of full resolution
+  Image<std::uint8_t> agreement;                    ///< a pixel for each tile of the votes
   std::vector<PathMatchingScratch> scratch;         ///< one for each thread
 
   void resize(const Settings& settings, const FrameSize& size);
@@ -209,11 +210,13 @@ struct OutputMaps {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
-/// What mode full needs to complete the result, which has the size of the caller's views.
+/// What guide=pyramid needs to complete and rate the result, which has the size of the caller's
+/// views.
 struct Completion {
   EdgeMap edges;
   std::vector<EdgeScratch> scratch;  ///< one for each thread
   ClueMaps clues;
+  std::vector<ClueScratch> clue_scratch;                ///< one for each thread
   std::vector<ReliabilityScratch> reliability_scratch;  ///< one for each thread
   SpeckleRuns islands;                                  ///< of what the rejection leaves
   Image<std::uint8_t> weight;  ///< weights of the islands' sizes, which nothing reads

@@ -21,9 +21,9 @@ using T = ParameterType;
 #define EACH(standard, fast, paper) \
   BY_MODE(MODES(standard, standard, standard, standard), MODES(fast, fast, fast, fast), \
           MODES(paper, paper, paper, paper))
-// The same, with other defaults of the presets default and fast in the modes dense and full, which match along paths.
-#define OR_PATHS(standard, fast, paper, standard_paths, fast_paths) \
-  BY_MODE(MODES(standard, standard, standard_paths, standard_paths), MODES(fast, fast, fast_paths, fast_paths), \
+// The same, with other defaults where the guide is the pyramid.
+#define BY_GUIDE(standard, fast, paper, standard_pyramid, fast_pyramid) \
+  BY_MODE(MODES(standard, standard_pyramid, standard_pyramid, standard_pyramid), MODES(fast, fast, fast_pyramid, fast_pyramid), \
           MODES(paper, paper, paper, paper))
 // One default for every preset and mode.
 #define ALL(value) EACH(value, value, value)
@@ -52,6 +52,9 @@ constexpr ParameterInfo kTable[] = {
      "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
     {P::kNoiseFilter, "noise-filter", "", "", T::kBoolean, 0, 1, "", EACH("true", "false", "false"),
      "filter noise and compression artifacts from both views before they are matched, as much as the views have"},
+    {P::kGuide, "guide", "", "", T::kChoice, 0, 1, "nodes|pyramid", BY_MODE(MODES("nodes", "pyramid", "pyramid", "pyramid"), MODES("nodes", "nodes", "pyramid", "pyramid"), MODES("nodes", "nodes", "nodes", "nodes")),
+     "what says which disparities are expected of a pixel; mode sparse and the gradient cost always have nodes",
+     {"the matched nodes of the Max-trees", "the maps at 1/2, 1/4 and 1/8 of the resolution; no Max-trees are built"}},
     {P::kGrayLevels, "gray-levels", "q", "", T::kInteger, 2, kLargestGrayLevels, "", BY_MODE(MODES("16", "16", "16", "16"), MODES("16", "16", "16", "16"), MODES("16", "8", "8", "8")),
      "levels that the pre-processed image is quantized to: more levels result in deeper trees with smaller leaves"},
     {P::kMinNodeWidth, "min-node-width", "omega_alpha", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("3", "5", "5", "5"), MODES("3", "3", "3", "3"), MODES("0", "0", "0", "0")),
@@ -82,51 +85,51 @@ constexpr ParameterInfo kTable[] = {
     {P::kOutlierRemoval, "outlier-removal", "", "", T::kChoice, 0, 1, "nodes|nodes-and-pixels", EACH("nodes", "nodes", "nodes-and-pixels"),
      "where outliers are removed: from the disparities of nodes only, or from those of pixels too",
      {"from the disparities of nodes only", "from the disparities of nodes and of pixels"}},
-    {P::kCensusScales, "census-scales", "", "", T::kInteger, 1, 2, "", OR_PATHS("2", "1", "1", "1", "1"),
+    {P::kCensusScales, "census-scales", "", "", T::kInteger, 1, 2, "", BY_GUIDE("2", "1", "1", "1", "1"),
      "scales of the census transform: 1 compares the pixels of a 5x5 window, 2 also those of a larger window in the "
      "smoothed view, which noise and compression change less"},
-    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, kLargestCensusKernel, "", OR_PATHS("5", "3", "5", "3", "3"),
+    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, kLargestCensusKernel, "", BY_GUIDE("5", "3", "5", "3", "3"),
      "side of the window that census costs are summed over: 1, 3 or 5"},
     {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", ALL("15"),
      "guided pixel matching expects disparities up to this much below and above the node's"},
     {P::kBetweenNodes, "between-nodes", "", "", T::kChoice, 0, 2, "none|span|all", EACH("all", "all", "none"),
      "what is expected of a pixel between two nodes: no disparity, the disparities that both nodes span, or any",
      {"no disparity is expected", "the disparities that the two nodes span are expected", "every disparity is expected"}},
-    {P::kRangePenalty, "range-penalty", "", "bits", T::kInteger, 0, kLargestRangePenalty, "", OR_PATHS("1", "1", "2", "2", "2"),
-     "additional cost of a disparity that the nodes do not expect (census); with the gradient cost such a "
+    {P::kRangePenalty, "range-penalty", "", "bits", T::kInteger, 0, kLargestRangePenalty, "", BY_MODE(MODES("1", "1", "2", "2"), MODES("1", "1", "2", "2"), MODES("2", "2", "2", "2")),
+     "additional cost of a disparity that the guide does not expect (census); with the gradient cost such a "
      "disparity is never selected"},
-    {P::kSmallStepPenalty, "small-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", OR_PATHS("4", "4", "4", "5", "5"),
+    {P::kSmallStepPenalty, "small-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", BY_GUIDE("4", "4", "4", "5", "5"),
      "cost of a step of one disparity from pixel to pixel of a scan-line (census)"},
-    {P::kLargeStepPenalty, "large-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", ALL("30"),
+    {P::kLargeStepPenalty, "large-step-penalty", "", "bits", T::kInteger, 0, kLargestStepPenalty, "", BY_MODE(MODES("30", "16", "30", "30"), MODES("30", "30", "30", "30"), MODES("30", "30", "30", "30")),
      "cost of a larger step where the gray value is constant, less where it changes (census); "
      "0 = no optimization along the scan-line"},
-    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", BY_MODE(MODES("6", "6", "0", "0"), MODES("6", "6", "0", "0"), MODES("12", "4", "4", "4")),
+    {P::kPixelConfidence, "pixel-confidence", "omega_Pi, pixels", "%", T::kNumber, 0, 1000, "", BY_MODE(MODES("6", "0", "0", "0"), MODES("6", "6", "0", "0"), MODES("12", "4", "4", "4")),
      "a pixel keeps its disparity if the cost of the second-best one exceeds that of the best by more than this"},
     {P::kRunnerUp, "runner-up", "", "", T::kChoice, 0, 1, "any|expected", EACH("any", "any", "expected"),
-     "disparities from which the second-best one is selected: all, or only those that the nodes expect",
-     {"among all disparities", "among the disparities that the nodes expect"}},
+     "disparities from which the second-best one is selected: all, or only those that the guide expects",
+     {"among all disparities", "among the disparities that the guide expects"}},
     {P::kLeftRightTolerance, "left-right-tolerance", "", "px", T::kInteger, -1, kLargestMaxDisparity, "", EACH("1", "1", "-1"),
      "largest difference between the disparity of a left pixel and that of its right one; -1 = no check"},
     {P::kSubpixel, "subpixel", "", "", T::kBoolean, 0, 1, "", ALL("true"),
      "refine the disparity between whole pixels: by a V through the costs (census) or a parabola (gradient)"},
-    {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", OR_PATHS("300", "75", "0", "100", "75"),
+    {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", BY_GUIDE("300", "75", "0", "100", "75"),
      "connected areas with fewer pixels than this are removed; 0 = none"},
-    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "153", "104", "0"), MODES("183", "160", "104", "0"), MODES("0", "0", "0", "0")),
+    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "134", "106", "0"), MODES("183", "160", "92", "0"), MODES("0", "0", "0", "0")),
      "disparities of lower confidence (1 .. 255) are removed; 0 = none; a filled gap has half the "
-     "confidence of its sides; in mode dense the threshold applies to the complete map"},
+     "confidence of its sides; in the modes semi-dense and dense with the pyramid the threshold applies to the complete map"},
     {P::kThinObjects, "thin-objects", "", "", T::kBoolean, 0, 1, "", BY_MODE(MODES("false", "true", "true", "false"), MODES("false", "true", "true", "false"), MODES("false", "false", "false", "false")),
      "keep posts, rails and wires that are too thin for speckle-size and min-confidence, and fill no gap over "
      "something nearer"},
     {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, kLargestNodeEnd, "", EACH("9", "9", "1"),
      "mode sparse: pixels that keep their disparity at each end of a finest node, an odd number"},
-    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "8", "0", "0"), MODES("0", "4", "0", "0"), MODES("0", "0", "0", "0")),
+    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "0", "0", "0"), MODES("0", "4", "0", "0"), MODES("0", "0", "0", "0")),
      "gaps up to this width are filled if both sides differ by at most 1 px; 0 = none"},
     {P::kSmoothingRadius, "smoothing-radius", "", "px", T::kInteger, 0, kLargestSmoothingRadius, "", EACH("2", "3", "0"),
      "disparities are smoothed along each surface over this many pixels on both sides, in rows and in columns; "
      "0 = no smoothing"},
 };
 #undef ALL
-#undef OR_PATHS
+#undef BY_GUIDE
 #undef EACH
 #undef BY_MODE
 #undef MODES

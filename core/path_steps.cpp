@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The steps of mode full, for the list in steps.cpp. The build compiles the stages whose headers
-// are included here.
+// The steps with guide=pyramid, for the list in steps.cpp. The build compiles the stages whose
+// headers are included here.
 #include "path_steps.hpp"
 
 #include <algorithm>
 
+#include "stages/pixels/agreement.hpp"
 #include "stages/pixels/path_matching.hpp"
 #include "stages/pixels/search_windows.hpp"
 #include "stages/prepare/census.hpp"
 #include "stages/prepare/halving.hpp"
+#include "stages/refine/clues.hpp"
 #include "stages/refine/completion.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/edge_alignment.hpp"
+#include "stages/refine/gray_mapping.hpp"
 #include "stages/refine/reliability.hpp"
 #include "stages/refine/speckle_removal.hpp"
 
@@ -56,6 +59,7 @@ void match_reduced(const StepContext& step, Views& views, Pyramid& pyramid) {
 void choose_search_windows(const StepContext&, Pyramid& pyramid) {
   // A millisecond for a view of many megapixels.
   choose_windows(pyramid.votes, pyramid.windows);
+  share_agreement(pyramid.votes, pyramid.agreement);
 }
 
 void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyramid, Maps& maps) {
@@ -87,20 +91,31 @@ void align_map_edges(const StepContext& step, const Views& views, Maps& maps,
   });
 }
 
-void rate_map(const StepContext& step, const Views& views, Maps& maps, EnlargedMaps& enlarged,
-              OutputMaps& output, Completion& completion) {
+RatedViews rated_views(const Settings& settings, const Views& views, const Pyramid& pyramid) {
+  return {views.left,
+          views.input[1],
+          std::min(settings.min_disparity, 0),
+          views.noise_level,
+          &pyramid.agreement,
+          settings.half() ? 2 * kWindowTile : kWindowTile,
+          -settings.min_disparity};
+}
+
+void rate_map(const StepContext& step, const Views& views, const Pyramid& pyramid, Maps& maps,
+              EnlargedMaps& enlarged, OutputMaps& output, Completion& completion) {
   const Settings& settings = step.settings;
   const auto result = callers_maps(settings, maps, enlarged, output);
-  const RatedViews rated = {views.left, views.input[1], std::min(settings.min_disparity, 0),
-                            views.noise_level};
-  const Inferred inferred =
-      settings.keeps_likely_only() ? Inferred::kLikeMatched : Inferred::kApart;
+  const RatedViews rated = rated_views(settings, views, pyramid);
+  const ReliabilityTable& table = kReliabilityTables[static_cast<int>(settings.rated_map())];
+  const Inferred inferred = settings.keeps_inferred() ? Inferred::kLikeMatched : Inferred::kApart;
+  // Few rows: a part of a millisecond for a view of many megapixels.
+  const GrayMapping grays = find_gray_mapping(rated, result.disparity, result.confidence);
   step.input_bands.rows([&](int y0, int y1, int worker) {
-    gather_clues(rated, result.disparity, result.confidence, y0, y1,
-                 completion.reliability_scratch[worker], completion.clues);
+    gather_clues(rated, grays, result.disparity, result.confidence, y0, y1,
+                 completion.clue_scratch[worker], completion.clues);
   });
   step.input_bands.rows([&](int y0, int y1, int worker) {
-    rate_reliability(rated, result.disparity, completion.clues, inferred, y0, y1,
+    rate_reliability(rated, result.disparity, completion.clues, table, inferred, y0, y1,
                      completion.reliability_scratch[worker], result.confidence);
   });
 }
@@ -110,7 +125,7 @@ void reject_unlikely(const StepContext& step, Maps& maps, EnlargedMaps& enlarged
   const Settings& settings = step.settings;
   const auto result = callers_maps(settings, maps, enlarged, output);
   step.input_bands.rows([&](int y0, int y1, int) {
-    remove_doubtful(settings.min_confidence, y0, y1, result.disparity, result.confidence);
+    remove_doubtful(settings.least_reliability(), y0, y1, result.disparity, result.confidence);
     find_runs(result.disparity, kDisparityOne, y0, y1, completion.islands);
   });
   join_bands(result.disparity, kDisparityOne, Bands::kRows, completion.islands);

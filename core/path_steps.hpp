@@ -4,7 +4,7 @@
 #include "frame_memory.hpp"
 #include "steps.hpp"
 
-/// Internal to the list of steps: those of the modes dense and full.
+/// Internal to the list of steps: those with guide=pyramid, which match along paths without nodes.
 
 namespace mtstereo {
 
@@ -25,9 +25,12 @@ void complete_map(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, O
 void align_map_edges(const StepContext& step, const Views& views, Maps& maps,
                      EnlargedMaps& enlarged, OutputMaps& output, Completion& completion);
 
+/// What the clues of the reliability are about; `views` and `pyramid` must exist as long.
+RatedViews rated_views(const Settings& settings, const Views& views, const Pyramid& pyramid);
+
 /// Replaces the confidence of the complete result by its reliability.
-void rate_map(const StepContext& step, const Views& views, Maps& maps, EnlargedMaps& enlarged,
-              OutputMaps& output, Completion& completion);
+void rate_map(const StepContext& step, const Views& views, const Pyramid& pyramid, Maps& maps,
+              EnlargedMaps& enlarged, OutputMaps& output, Completion& completion);
 
 /// Removes what is less reliable than asked for from the result, and small islands that are left.
 void reject_unlikely(const StepContext& step, Maps& maps, EnlargedMaps& enlarged,

@@ -12,7 +12,7 @@ namespace {
 
 using P = Parameter;
 
-/// Mode full at reduced resolutions, where the step penalties are higher, since surfaces have fewer
+/// The paths at reduced resolutions, where the step penalties are higher, since surfaces have fewer
 /// pixels.
 constexpr int kHalvedTolerance = 2;     // of the left-right check [px]
 constexpr int kHalvedKernel = 3;        // [px]
@@ -52,6 +52,7 @@ Settings::Settings(const Parameters& p)
       view_disparities(mtstereo::view_disparities(p)),
       disparities(matched_disparities(p)),
       noise_filter(p.get(P::kNoiseFilter) != 0),
+      guide(choice<Guide>(p)),
       gray_levels(p.integer(P::kGrayLevels)),
       min_node_width(p.integer(P::kMinNodeWidth)),
       max_node_width(p.get(P::kMaxNodeWidth)),
@@ -82,7 +83,7 @@ Settings::Settings(const Parameters& p)
       smoothing_radius(p.integer(P::kSmoothingRadius)) {}
 
 PathMatchingOptions Settings::path_matching(int level) const {
-  PathMatchingOptions options = {census_cost, smoothness, selection};
+  PathMatchingOptions options = {census_cost, smoothness, selection, mode != Mode::kSemiDense};
   if (level == 0) return options;
   for (int i = 0; i < level; ++i) {
     options.cost.disparities = half_of(options.cost.disparities);
@@ -93,6 +94,7 @@ PathMatchingOptions Settings::path_matching(int level) const {
   options.cost.range_penalty = kHalvedRangePenalty;
   options.cost.bytes = census_bytes(1);
   options.smoothness = kHalvedSmoothness;
+  options.column_paths = true;
   return options;
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "choices.hpp"
 #include "mtstereo/alignment.hpp"
+#include "mtstereo/image.hpp"
 #include "mtstereo/parameters.hpp"
 #include "stages/nodes/node_matching.hpp"
 #include "stages/pixels/census_cost.hpp"
@@ -11,6 +14,7 @@
 #include "stages/pixels/path_matching.hpp"
 #include "stages/pixels/scanline_optimization.hpp"
 #include "stages/pixels/search_range.hpp"
+#include "stages/refine/reliability_table.hpp"
 
 namespace mtstereo {
 
@@ -28,6 +32,8 @@ struct Settings {
   int view_disparities;  ///< D, from the smallest one on [px of the views]
   int disparities;       ///< D [px]
   bool noise_filter;
+
+  Guide guide;
 
   // nodes
   int gray_levels;                 ///< q
@@ -68,11 +74,22 @@ struct Settings {
   CensusMatchingOptions census_matching() const {
     return {search_range, census_cost, smoothness, selection};
   }
-  /// Whether all pixels are matched along four paths, without nodes, and the rest is inferred. With
-  /// the gradient cost there are no such paths, and mode full is like semi-dense.
-  bool by_paths() const { return (mode == Mode::kDense || mode == Mode::kFull) && census(); }
+  /// Whether all pixels are matched along paths, without nodes, and the rest is inferred. With
+  /// nodes, the modes dense and full run the steps of semi-dense.
+  bool by_paths() const { return guide == Guide::kPyramid && mode != Mode::kSparse && census(); }
   /// Whether min_confidence applies to the complete map, and not to the matched one.
-  bool keeps_likely_only() const { return by_paths() && mode == Mode::kDense; }
+  bool keeps_likely_only() const { return by_paths() && mode != Mode::kFull; }
+  /// Whether min_confidence applies to inferred disparities as to matched ones.
+  bool keeps_inferred() const { return by_paths() && mode == Mode::kDense; }
+  /// The least confidence of a pixel of the complete map that is kept.
+  int least_reliability() const {
+    return keeps_inferred() ? min_confidence : std::max(min_confidence, kMostInferred + 1);
+  }
+  /// The kind of the complete map, for its reliability.
+  RatedMap rated_map() const {
+    if (!keeps_inferred() && keeps_likely_only()) return RatedMap::kMatched;
+    return half() ? RatedMap::kEnlarged : RatedMap::kComplete;
+  }
   /// The options of the paths for the views at 1 / 2^level of the matched resolution.
   PathMatchingOptions path_matching(int level) const;
   /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost

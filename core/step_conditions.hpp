@@ -35,7 +35,7 @@ inline bool if_thin_drawing(const Settings& s) { return if_thin(s) && s.by_paths
 inline bool if_gaps(const Settings& s) { return s.max_gap > 0; }
 inline bool if_guard(const Settings& s) { return if_thin_restoring(s) && if_gaps(s); }
 inline bool if_rejection(const Settings& s) {
-  return s.keeps_likely_only() && s.min_confidence > 0;
+  return s.keeps_likely_only() && s.least_reliability() > 0;
 }
 inline bool if_smoothing(const Settings& s) { return s.smoothing_radius > 0; }
 

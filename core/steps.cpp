@@ -90,8 +90,11 @@ void filter_noise(const StepContext& step, Views& views) {
   });
   const float levels[] = {noise_level(views.noise[0]), noise_level(views.noise[1])};
   views.noise_level = std::max(levels[0], levels[1]);
-  if (step.settings.by_paths() && !paths_need_filter(views.noise_level)) return;
-  const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
+  float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
+  if (step.settings.by_paths() && !paths_need_filter(views.noise_level)) {
+    if (step.settings.path_matching(0).column_paths) return;
+    threshold = kSmoothingOnly;
+  }
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
     mtstereo::filter_noise(views.matched[side], threshold, y0, y1,
                            views.scratch[worker].noise_filter, views.filtered[side]);
@@ -374,7 +377,7 @@ constexpr Step kSteps[] = {
     {"map-shift",           if_shifted,        on<shift_map, const Maps, const EnlargedMaps, OutputMaps>},
     {"completion",          if_paths,          on<complete_map, Maps, EnlargedMaps, OutputMaps>},
     {"edge-alignment",      if_paths,          on<align_map_edges, const Views, Maps, EnlargedMaps, OutputMaps, Completion>},
-    {"reliability",         if_paths,          on<rate_map, const Views, Maps, EnlargedMaps, OutputMaps, Completion>},
+    {"reliability",         if_paths,          on<rate_map, const Views, const Pyramid, Maps, EnlargedMaps, OutputMaps, Completion>},
     {"rejection",           if_rejection,      on<reject_unlikely, Maps, EnlargedMaps, OutputMaps, Completion>},
     {"thin-drawing",        if_thin_drawing,   on<draw_thin, Maps, EnlargedMaps, OutputMaps>},
 };

@@ -165,7 +165,7 @@ AFTER = [
 
 class Drawing:
     """A picture in pixels, y downwards."""
-    WIDTH, DPI = 1300, 100
+    WIDTH, DPI = 1415, 100
 
     def __init__(self, height):
         # pylint: disable=import-outside-toplevel
@@ -223,7 +223,7 @@ def draw_way(drawing, boxes, top):
 def draw_steps(drawing, steps, top):
     """The rooms with their steps and the memory of each. Returns the heights of the first and of
     the last room's middle."""
-    x, right, row, columns = 470, 1280, 25, 850
+    x, right, row, columns = 470, 1395, 25, 965
     spacing = (right - columns) / len(GROUPS)
     drawing.text(x, top, "core/steps: the list", 9.5, weight="bold")
     drawing.text(x + 205, top, "presets that run it")

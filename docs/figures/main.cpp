@@ -47,13 +47,17 @@ GrayView view_of(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
 }
 
-FrameMatcher matcher_of(std::string_view preset, std::string_view mode) {
+Parameters parameters_of(std::string_view preset, std::string_view mode) {
   Parameters parameters;
   for (const Status& status : {parameters.set("preset", preset), parameters.set("mode", mode),
                                parameters.set(Parameter::kMaxDisparity, kDisparities)}) {
     if (!status) throw std::runtime_error(status.error().message);
   }
-  return FrameMatcher(Settings(parameters));
+  return parameters;
+}
+
+FrameMatcher matcher_of(std::string_view preset, std::string_view mode) {
+  return FrameMatcher(Settings(parameters_of(preset, mode)));
 }
 
 using Drawing = std::function<void(const FrameMemory& memory)>;
@@ -90,7 +94,7 @@ cv::Mat cheapest_disparity(const CostVolume& volume, cv::Size size) {
   return map;
 }
 
-/// The nodes of level 1, the parents, which the default does not match.
+/// The nodes of level 1, the parents, which preset default does not match.
 NodeLevel parents(const MaxTrees& trees, const Settings& settings) {
   const WidthRange widths = {1.0 * settings.min_node_width, settings.max_node_width * trees.width};
   NodeLevel level;
@@ -99,7 +103,7 @@ NodeLevel parents(const MaxTrees& trees, const Settings& settings) {
   return level;
 }
 
-/// The map of the matched leaves, which the default does not draw.
+/// The map of the matched leaves, which preset default does not draw.
 cv::Mat matched_leaves(const Nodes& nodes) {
   const NodeLevelMatches& leaves = nodes.leaves();
   Image<std::int32_t> map;
@@ -108,7 +112,7 @@ cv::Mat matched_leaves(const Nodes& nodes) {
   return eval::to_float(map.view());
 }
 
-/// The maps after the steps whose pictures show both modes.
+/// The maps after the steps whose pictures show two modes with the guidance of nodes.
 using Maps = std::map<std::string, cv::Mat>;
 
 Maps maps_of_steps(const char* mode, const render::StereoFrame& frame,
@@ -117,15 +121,32 @@ Maps maps_of_steps(const char* mode, const render::StereoFrame& frame,
   drawings["node-matching"] = [&](const FrameMemory& memory) {
     maps["node-matching"] = matched_leaves(memory.nodes);
   };
-  for (const auto& [step, name] : {std::pair{"node-extrapolation", "extrapolated"},
-                                   {"census-matching", "pixel-matching"},
-                                   {"confidence", "final"}}) {
+  for (const auto& [step, name] :
+       {std::pair{"node-extrapolation", "extrapolated"}, {"census-matching", "pixel-matching"}}) {
     drawings[step] = [&maps, name = name](const FrameMemory& memory) {
       maps[name] = eval::to_float(memory.maps.disparity.view());
     };
   }
-  match(matcher_of("default", mode), frame, drawings);
+  Parameters parameters = parameters_of("default", mode);
+  if (!parameters.set("guide", "nodes")) throw std::runtime_error("there is no guide=nodes");
+  match(FrameMatcher(Settings(parameters)), frame, drawings);
   return maps;
+}
+
+/// The map after path-matching, with the defaults.
+cv::Mat matched_along_paths(const char* mode, const render::StereoFrame& frame) {
+  cv::Mat map;
+  match(matcher_of("default", mode), frame, {{"path-matching", [&](const FrameMemory& memory) {
+                                                map = eval::to_float(memory.maps.disparity.view());
+                                              }}});
+  return map;
+}
+
+/// The result with the defaults.
+cv::Mat result_of(const char* mode, const render::StereoFrame& frame) {
+  FrameMatcher matcher = matcher_of("default", mode);
+  matcher.compute(view_of(frame.left), view_of(frame.right));
+  return eval::to_float(matcher.disparity());
 }
 
 void draw_pictures(const fs::path& folder) {
@@ -156,6 +177,11 @@ void draw_pictures(const fs::path& folder) {
     write((name + ".png").c_str(),
           figures::side_by_side(colored(semi_dense.at(name)), colored(map)));
   }
+  write("path-matching.png",
+        figures::side_by_side(colored(matched_along_paths("semi-dense", frame)),
+                              colored(matched_along_paths("full", frame))));
+  write("final.png", figures::side_by_side(colored(result_of("semi-dense", frame)),
+                                           colored(result_of("sparse", frame))));
   const Drawing volume = [&](const FrameMemory& memory) {
     const cv::Mat cheapest = cheapest_disparity(memory.costs.volume, frame.left.size());
     write("cost-volume.png", figures::side_by_side(colored(cheapest), colored(frame.truth)));

@@ -275,7 +275,7 @@ void set_aggregator_functions(GstAggregatorClass* aggregator_class) {
 }  // namespace
 
 static void gst_mtstereo_class_init(GstMtStereoClass* klass) {
-  GST_DEBUG_CATEGORY_INIT(mtstereo_debug, "mtstereo", 0, "stereo matching with Max-trees");
+  GST_DEBUG_CATEGORY_INIT(mtstereo_debug, "mtstereo", 0, "stereo matching");
   auto* object_class = G_OBJECT_CLASS(klass);
   object_class->set_property = guarded_or_failed<set_property>;
   object_class->get_property = guarded_or_failed<get_property>;
@@ -286,10 +286,10 @@ static void gst_mtstereo_class_init(GstMtStereoClass* klass) {
   auto* element_class = GST_ELEMENT_CLASS(klass);
   element_class->change_state = guarded_or_failed<change_state, GST_STATE_CHANGE_FAILURE>;
   add_pad_templates(element_class);
-  gst_element_class_set_static_metadata(
-      element_class, "Stereo matcher", "Filter/Analyzer/Video",
-      "Disparity of two rectified video streams by MTStereo 2.0 (Max-trees of scan-lines)",
-      "the mtstereo authors");
+  gst_element_class_set_static_metadata(element_class, "Stereo matcher", "Filter/Analyzer/Video",
+                                        "Disparity of two rectified video streams by Max-trees of "
+                                        "scan-lines (MTStereo 2.0) and along paths",
+                                        "the mtstereo authors");
   set_aggregator_functions(GST_AGGREGATOR_CLASS(klass));
 }
 

@@ -18,13 +18,20 @@
 namespace mtstereo::fit {
 namespace {
 
-const std::vector<std::string> kKinds = {eval::kCleanKind, "noise=5",    "jpeg=20",
-                                         "dark=0.15",      "bright=1.8", "blur-right=1.5"};
+const std::vector<std::string> kKinds = {eval::kCleanKind, "noise=5",       "noise=10",
+                                         "jpeg=50",        "jpeg=20",       "dark=0.15",
+                                         "bright=1.8",     "blur-right=1.5"};
 
-std::vector<PairSamples> sample_all(const std::vector<TrainingPair>& pairs, int count) {
+/// Clean views count this much more than each kind of degraded ones.
+constexpr int kCleanShare = 3;
+
+std::vector<PairSamples> sample_all(const std::vector<TrainingPair>& pairs, RatedMap rated,
+                                    int count) {
   std::vector<PairSamples> samples(pairs.size() * kKinds.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i] = take_samples(pairs[i % pairs.size()], kKinds[i / pairs.size()], count);
+    const std::string& kind = kKinds[i / pairs.size()];
+    const int wanted = kind == eval::kCleanKind ? kCleanShare * count : count;
+    samples[i] = take_samples(pairs[i % pairs.size()], kind, rated, wanted);
   }
   return samples;
 }
@@ -67,22 +74,38 @@ void report(const std::vector<PairSamples>& samples, const ReliabilityTable& own
   }
 }
 
-void write_table(const ReliabilityTable& table, const std::string& path) {
+void write_tables(const std::array<ReliabilityTable, kRatedMaps>& tables, const std::string& path) {
   std::ofstream file(path);
   file << "// SPDX-License-Identifier: LGPL-2.1-or-later\n"
           "// Written by mtstereo-fit-confidence; do not change it by hand.\n"
           "#include \"stages/refine/reliability_table.hpp\"\n\nnamespace mtstereo {\n\n"
-          "// clang-format off\nconst ReliabilityTable kReliabilityTable = {{\n";
-  for (const auto& clue : table) {
-    file << "    {{";
-    for (int bin = 0; bin < kClueBins; ++bin) {
-      if (bin > 0) file << (bin % 16 == 0 ? ",\n      " : ", ");
-      file << clue[bin];
+          "// clang-format off\n"
+          "const std::array<ReliabilityTable, kRatedMaps> kReliabilityTables = {{\n";
+  for (const ReliabilityTable& table : tables) {
+    file << "    {{\n";
+    for (const auto& clue : table) {
+      file << "        {{";
+      for (int bin = 0; bin < kClueBins; ++bin) {
+        if (bin > 0) file << (bin % 16 == 0 ? ",\n          " : ", ");
+        file << clue[bin];
+      }
+      file << "}},\n";
     }
-    file << "}},\n";
+    file << "    }},\n";
   }
   file << "}};\n// clang-format on\n\n}  // namespace mtstereo\n";
   if (!file.flush()) throw eval::InputError("cannot write " + path);
+}
+
+/// Fits the table of these pixels.
+ReliabilityTable fitted(const std::vector<TrainingPair>& pairs, RatedMap rated, int count) {
+  const std::vector<PairSamples> samples = sample_all(pairs, rated, count);
+  const ReliabilityTable table = library_table(fit(without(samples, "")));
+  constexpr std::array kTitles = {"Mode full", "Mode full of preset fast",
+                                  "Matched pixels of mode semi-dense"};
+  std::printf("%s\n", kTitles[static_cast<int>(rated)]);
+  report(samples, table);
+  return table;
 }
 
 int run(int argc, char** argv) {
@@ -99,10 +122,11 @@ int run(int argc, char** argv) {
   for (const std::string& folder : folders) {
     for (TrainingPair& pair : pairs_in(folder)) pairs.push_back(std::move(pair));
   }
-  const std::vector<PairSamples> samples = sample_all(pairs, count);
-  const ReliabilityTable table = library_table(fit(without(samples, "")));
-  report(samples, table);
-  write_table(table, out);
+  std::array<ReliabilityTable, kRatedMaps> tables;
+  for (int i = 0; i < kRatedMaps; ++i) {
+    tables[i] = fitted(pairs, static_cast<RatedMap>(i), count);
+  }
+  write_tables(tables, out);
   return 0;
 }
 

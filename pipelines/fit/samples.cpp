@@ -9,9 +9,11 @@
 #include "eval/metrics.hpp"
 #include "frame_matcher.hpp"
 #include "mtstereo/parameters.hpp"
+#include "path_steps.hpp"
 #include "render/render.hpp"
 #include "render/scene.hpp"
 #include "settings.hpp"
+#include "stages/refine/gray_mapping.hpp"
 #include "stages/refine/reliability.hpp"
 #include "steps.hpp"
 
@@ -41,24 +43,39 @@ std::string family_of(eval::Layout layout) {
 /// The bins of all pixels of a complete map.
 class Bins {
  public:
-  Bins(GrayView left, GrayView right, const FrameMemory& memory)
-      : views_{left, right, 0, memory.views.noise_level}, maps_(memory.maps) {
-    clues_.resize(left.width, left.height);
-    scratch_.resize(left.width);
-    gather_clues(views_, maps_.disparity, maps_.confidence, 0, left.height, scratch_, clues_);
+  Bins(const Settings& settings, const FrameMemory& memory)
+      : views_(rated_views(settings, memory.views, memory.pyramid)),
+        disparity_(callers_maps(settings, memory.maps, memory.enlarged, memory.output).disparity),
+        confidence_(
+            callers_maps(settings, memory.maps, memory.enlarged, memory.output).confidence) {
+    const auto [data, width, height, stride] = views_.left;
+    ClueScratch gathering;
+    gathering.resize(width);
+    clues_.resize(width, height);
+    scratch_.resize(width);
+    gather_clues(views_, find_gray_mapping(views_, disparity_, confidence_), disparity_,
+                 confidence_, 0, height, gathering, clues_);
   }
 
   std::array<std::uint8_t, kClues> at(int x, int y) {
-    if (y != row_) find_clue_bins(views_, maps_.disparity, maps_.confidence, clues_, y, scratch_);
+    if (y != row_) find_clue_bins(views_, disparity_, confidence_, clues_, y, scratch_);
     row_ = y;
     std::array<std::uint8_t, kClues> bins{};
     for (int clue = 0; clue < kClues; ++clue) bins[clue] = scratch_.bins[clue][x];
     return bins;
   }
 
+  double disparity(cv::Point pixel) const {
+    return disparity_.row(pixel.y)[pixel.x] / double{kDisparityOne};
+  }
+  bool is_matched(cv::Point pixel) const {
+    return confidence_.row(pixel.y)[pixel.x] > kMostInferred;
+  }
+
  private:
   RatedViews views_;
-  const Maps& maps_;
+  const Image<std::int32_t>& disparity_;
+  const Image<std::uint8_t>& confidence_;
   ClueMaps clues_;
   ReliabilityScratch scratch_;
   int row_ = -1;
@@ -78,9 +95,10 @@ std::vector<cv::Point> random_pixels(const std::string& seed, cv::Size size, int
   return pixels;
 }
 
-Settings settings_for(const TrainingPair& pair) {
+Settings settings_for(const TrainingPair& pair, RatedMap rated) {
   Parameters parameters;
-  (void)parameters.set("mode", "full");
+  (void)parameters.set("preset", rated == RatedMap::kEnlarged ? "fast" : "default");
+  (void)parameters.set("mode", rated == RatedMap::kMatched ? "semi-dense" : "full");
   (void)parameters.set("max-disparity", std::to_string(pair.max_disparity));
   return Settings(parameters);
 }
@@ -114,7 +132,8 @@ std::vector<TrainingPair> rendered_pairs() {
   return pairs;
 }
 
-PairSamples take_samples(const TrainingPair& pair, const std::string& kind, int count) {
+PairSamples take_samples(const TrainingPair& pair, const std::string& kind, RatedMap rated,
+                         int count) {
   eval::LoadedPair images = {pair.views.left.clone(), pair.views.right.clone(), pair.views.truth};
   if (kind != eval::kCleanKind) {
     eval::degrade(eval::parse_degradation(kind), images.left, images.right);
@@ -122,18 +141,20 @@ PairSamples take_samples(const TrainingPair& pair, const std::string& kind, int 
   PairSamples taken{pair.family, kind, {}};
   const cv::Mat& truth = images.truth.disparity;
   const GrayView left = view_of(images.left), right = view_of(images.right);
+  const Settings settings = settings_for(pair, rated);
   const auto sample = [&](const Step& step, const FrameMemory& memory) {
     if (step.name != "edge-alignment") return;
-    Bins bins(left, right, memory);
+    Bins bins(settings, memory);
     for (const cv::Point pixel : random_pixels(pair.name + kind, truth.size(), count)) {
+      if (rated == RatedMap::kMatched && !bins.is_matched(pixel)) continue;
       const double expected = truth.at<float>(pixel);
-      const double found = memory.maps.disparity.row(pixel.y)[pixel.x] / double{kDisparityOne};
+      const double found = bins.disparity(pixel);
       const bool known = std::isfinite(expected);
       taken.samples.push_back({bins.at(pixel.x, pixel.y), known,
                                known && eval::is_outlier(std::abs(found - expected), expected)});
     }
   };
-  FrameMatcher(settings_for(pair)).compute(left, right, sample);
+  FrameMatcher(settings).compute(left, right, sample);
   return taken;
 }
 

@@ -37,8 +37,9 @@ struct TrainingPair {
 std::vector<TrainingPair> pairs_in(const std::string& folder);
 std::vector<TrainingPair> rendered_pairs();
 
-/// Matches the views, degraded by `kind` or eval::kCleanKind, and takes `count` random pixels. The
-/// choice depends on the arguments only.
-PairSamples take_samples(const TrainingPair& pair, const std::string& kind, int count);
+/// Matches the views, degraded by `kind` or eval::kCleanKind, and takes the rated ones of `count`
+/// random pixels. The choice depends on the arguments only.
+PairSamples take_samples(const TrainingPair& pair, const std::string& kind, RatedMap rated,
+                         int count);
 
 }  // namespace mtstereo::fit

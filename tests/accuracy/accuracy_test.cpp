@@ -58,15 +58,15 @@ TEST_P(RenderedScenes, KeepTheirAccuracy) {
   expect_kept(mean_of(evaluations), GetParam().limit);
 }
 
-// Measured: 0.144 px, 0.05 %, 14.7 %; 0.249, 1.36, 72.0; 0.369, 2.59, 88.0; 0.513, 4.45, 100; with
-// preset fast 0.221, 0.18, 11.1; 0.268, 1.42, 68.0; 0.467, 3.74, 90.9; 0.609, 5.38, 100 (full
+// Measured: 0.144 px, 0.05 %, 14.7 %; 0.220, 0.85, 74.2; 0.366, 2.52, 87.5; 0.514, 4.43, 100; with
+// preset fast 0.221, 0.18, 11.1; 0.270, 1.44, 68.1; 0.480, 3.79, 92.8; 0.610, 5.39, 100 (full
 // follows dense); with the paper's parameters
 // 0.641, 6.06, 12.2 and 1.09, 10.9, 44.8.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RenderedScenes,
     testing::Values(Gate{"Sparse", "mode=sparse", {0.16, 0.12, 13.5}},
-                    Gate{"SemiDense", "mode=semi-dense", {0.265, 1.55, 70.0}},
-                    Gate{"Dense", "mode=dense", {0.385, 2.75, 87.0}},
+                    Gate{"SemiDense", "mode=semi-dense", {0.235, 1.0, 73.0}},
+                    Gate{"Dense", "mode=dense", {0.385, 2.7, 86.7}},
                     Gate{"Full", "mode=full", {0.53, 4.6, 100}},
                     Gate{"FastFull", "preset=fast mode=full", {0.63, 5.6, 100}},
                     Gate{"FastSparse", "preset=fast mode=sparse", {0.235, 0.28, 10.0}},
@@ -112,15 +112,15 @@ void raise_gamma(cv::Mat& image) {
 
 TEST_P(RealPairs, KeepTheirAccuracy) { expect_kept(evaluate_all(keep_as_it_is), GetParam().limit); }
 
-// Measured: 0.225 px, 0.05 %, 16.2 %; 0.298, 0.46, 67.6; 0.606, 2.13, 80.2; 1.381, 5.60, 100; with
-// preset fast 0.258, 0.10, 13.1; 0.314, 0.59, 65.3; 0.643, 2.42, 84.4; 1.413, 6.66, 100; with the
+// Measured: 0.225 px, 0.05 %, 16.2 %; 0.294, 0.43, 71.7; 0.514, 1.55, 82.7; 1.360, 5.54, 100; with
+// preset fast 0.258, 0.10, 13.1; 0.314, 0.59, 65.3; 0.612, 2.39, 84.3; 1.426, 6.66, 100; with the
 // paper's parameters
 // 0.834, 4.18, 10.3 and 1.78, 10.5, 45.9.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RealPairs,
     testing::Values(Gate{"Sparse", "mode=sparse", {0.235, 0.08, 15.5}},
-                    Gate{"SemiDense", "mode=semi-dense", {0.31, 0.47, 67.0}},
-                    Gate{"Dense", "mode=dense", {0.55, 1.62, 81.9}},
+                    Gate{"SemiDense", "mode=semi-dense", {0.305, 0.45, 71.0}},
+                    Gate{"Dense", "mode=dense", {0.535, 1.6, 82.2}},
                     Gate{"Full", "mode=full", {1.42, 5.75, 100}},
                     Gate{"FastFull", "preset=fast mode=full", {1.45, 6.85, 100}},
                     Gate{"FastSparse", "preset=fast mode=sparse", {0.27, 0.13, 12.5}},

@@ -96,8 +96,8 @@ TEST_P(ThinPosts, AreFoundAndNotPaintedOver) {
 INSTANTIATE_TEST_SUITE_P(
     Modes, ThinPosts,
     testing::Values(Gate{"Sparse", "mode=sparse", 0, 0, 0.5, 0.05, 0.05},
-                    Gate{"SemiDense", "mode=semi-dense", 60, 66, 5, 1.8, 0.06},
-                    Gate{"Dense", "mode=dense", 61, 70, 10, 1.4, 0.13},
+                    Gate{"SemiDense", "mode=semi-dense", 62, 68, 3, 1.5, 0.06},
+                    Gate{"Dense", "mode=dense", 62, 71, 10, 1.8, 0.16},
                     Gate{"FastSemiDense", "preset=fast mode=semi-dense", 15, 43, 15, 2.7, 0.17}),
     [](const testing::TestParamInfo<Gate>& info) { return std::string(info.param.name); });
 

@@ -15,9 +15,9 @@ Settings settings_of(std::initializer_list<std::pair<const char*, std::string>> 
 constexpr FrameSize kFull = {{101, 51}, {101, 51}, {101, 51}, 2};
 constexpr FrameSize kHalf = {{101, 51}, {101, 51}, {51, 26}, 3};
 
-TEST(FrameMemory, HasTheBuffersOfTheDefaultSteps) {
+TEST(FrameMemory, HasTheBuffersOfNodesAndPixels) {
   FrameMemory memory;
-  memory.resize(settings_of({}), kFull);
+  memory.resize(settings_of({{"guide", "nodes"}}), kFull);
   for (int side = 0; side < 2; ++side) {
     EXPECT_EQ(101, memory.views.preprocessed[side].level.width());
     EXPECT_EQ(51, memory.views.census[side].bits.height());
@@ -39,7 +39,7 @@ TEST(FrameMemory, HoldsRightViewsThatAreWiderThanTheMap) {
   FrameMemory memory;
   memory.resize(settings_of({{"mode", "dense"}, {"min-disparity", "-700"}}),
                 {{101, 51}, {801, 51}, {801, 51}, 1});
-  EXPECT_GE(memory.completion.reliability_scratch[0].right.size(), 801u);
+  EXPECT_GE(memory.completion.clue_scratch[0].right.size(), 801u);
   EXPECT_EQ(801, memory.views.extended[1].width());
 }
 

@@ -26,9 +26,17 @@ const Mapping kMappings[] = {
     {"mode", "full", 3, [](const Settings& s) { return static_cast<int>(s.mode); }},
     {"mode", "full", 1, [](const Settings& s) { return s.by_paths(); }},
     {"mode", "dense", 1, [](const Settings& s) { return s.by_paths(); }},
-    {"mode", "semi-dense", 0, [](const Settings& s) { return s.by_paths(); }},
+    {"mode", "semi-dense", 1, [](const Settings& s) { return s.by_paths(); }},
+    {"mode", "sparse", 0, [](const Settings& s) { return s.by_paths(); }},
+    {"guide", "nodes", 0, [](const Settings& s) { return s.by_paths(); }},
+    {"cost", "gradient", 0, [](const Settings& s) { return s.by_paths(); }},
+    {"preset", "fast", 0, [](const Settings& s) { return s.by_paths(); }},
+    {"mode", "semi-dense", 0, [](const Settings& s) { return s.path_matching(0).column_paths; }},
+    {"mode", "dense", 1, [](const Settings& s) { return s.path_matching(0).column_paths; }},
+    {"mode", "semi-dense", 1, [](const Settings& s) { return s.path_matching(1).column_paths; }},
     {"mode", "full", 0, [](const Settings& s) { return s.keeps_likely_only(); }},
     {"mode", "dense", 1, [](const Settings& s) { return s.keeps_likely_only(); }},
+    {"mode", "semi-dense", 1, [](const Settings& s) { return s.keeps_likely_only(); }},
     {"max-disparity", "77", 77,
      [](const Settings& s) { return s.path_matching(0).selection.disparities; }},
     {"max-disparity", "77", 10,
@@ -123,6 +131,18 @@ TEST(Settings, HalveTheDisparitiesAtHalfResolutionAndRoundUp) {
     EXPECT_EQ(matched, settings.disparities);
     EXPECT_EQ(matched, settings.selection.disparities);
   }
+}
+
+TEST(Settings, KeepInferredPixelsInModeDenseOnly) {
+  const auto least = [](const char* mode, const char* confidence) {
+    return Settings(test::parameters({{"mode", mode}, {"min-confidence", confidence}}))
+        .least_reliability();
+  };
+  EXPECT_EQ(0, least("dense", "0"));
+  EXPECT_EQ(7, least("dense", "7"));
+  EXPECT_EQ(kMostInferred + 1, least("semi-dense", "0"));
+  EXPECT_EQ(kMostInferred + 1, least("semi-dense", "7"));
+  EXPECT_EQ(150, least("semi-dense", "150"));
 }
 
 TEST(Settings, DrawOnlyTheEndsOfNodesInModeSparseWithTheGradientCost) {

@@ -39,13 +39,23 @@ void expect_none_of(const Parameters& parameters, const Names& absent) {
 }
 
 TEST(Steps, RunInOrderWithTheDefaults) {
-  expect_order(
-      {}, {"noise-filter", "preprocessing", "max-trees", "census", "node-matching",
-           "node-extrapolation", "census-matching", "thin-search", "speckle-removal", "confidence",
-           "island-removal", "thin-restoring", "gap-filling", "gap-guard", "smoothing"});
-  expect_none_of({},
-                 {"halving", "cost-volume", "node-drawing", "node-outliers", "gradient-matching",
-                  "pixel-outliers", "enlarging", "input-census", "refinement"});
+  expect_order({}, {"noise-filter", "census", "reduced-matching", "search-windows", "path-matching",
+                    "thin-search", "speckle-removal", "confidence", "smoothing", "completion",
+                    "edge-alignment", "reliability", "rejection", "thin-drawing"});
+  expect_none_of({}, {"halving", "preprocessing", "max-trees", "node-matching", "census-matching",
+                      "island-removal", "thin-restoring", "gap-filling", "gap-guard", "enlarging",
+                      "input-census", "refinement"});
+}
+
+TEST(Steps, RunInOrderWithNodes) {
+  const Parameters nodes = test::parameters({{"guide", "nodes"}, {"max-gap", "8"}});
+  expect_order(nodes, {"noise-filter", "preprocessing", "max-trees", "census", "node-matching",
+                       "node-extrapolation", "census-matching", "thin-search", "speckle-removal",
+                       "confidence", "island-removal", "thin-restoring", "gap-filling", "gap-guard",
+                       "smoothing"});
+  expect_none_of(nodes, {"halving", "cost-volume", "node-drawing", "node-outliers",
+                         "gradient-matching", "pixel-outliers", "enlarging", "input-census",
+                         "refinement", "reduced-matching", "completion", "rejection"});
 }
 
 TEST(Steps, LeaveTheEndsOfNodesAloneInModeSparse) {
@@ -54,7 +64,7 @@ TEST(Steps, LeaveTheEndsOfNodesAloneInModeSparse) {
 }
 
 TEST(Steps, FillGapsAfterConfidence) {
-  expect_order(test::parameters({}),
+  expect_order(test::parameters({{"guide", "nodes"}, {"max-gap", "1"}}),
                {"census-matching", "speckle-removal", "confidence", "gap-filling"});
 }
 
@@ -106,7 +116,8 @@ TEST(Steps, AreThoseOfThePaperInPresetPaper) {
 
 TEST(Steps, AreEnabledBySettings) {
   const auto runs = [](const char* step, const char* parameter, const char* value) {
-    const Names names = test::names_of_steps(test::parameters({{parameter, value}}));
+    const Names names =
+        test::names_of_steps(test::parameters({{"guide", "nodes"}, {parameter, value}}));
     return std::count(names.begin(), names.end(), step) > 0;
   };
   EXPECT_FALSE(runs("speckle-removal", "speckle-size", "0"));
@@ -126,6 +137,9 @@ TEST(Steps, AreEnabledBySettings) {
   EXPECT_FALSE(runs("pixel-outliers", "outlier-radius", "1"));
   EXPECT_TRUE(runs("enlarging", "resolution", "half"));
   EXPECT_FALSE(runs("refinement", "resolution", "half"));
+  EXPECT_TRUE(runs("reduced-matching", "guide", "pyramid"));
+  EXPECT_FALSE(runs("max-trees", "guide", "pyramid"));
+  EXPECT_FALSE(runs("rejection", "guide", "nodes"));
 }
 
 TEST(Steps, CorrectTheViewsFirst) {

@@ -212,8 +212,8 @@ TEST_F(Products, OfRawViewsAreThoseOfRectifiedOnes) {
       calibration,
       "%YAML:1.0\n---\nimage_width: 160\nimage_height: 96\nM1: " + camera + "D1: " + lens +
           "M2: " + camera + "D2: " + lens +
-          "R: !!opencv-matrix\n  rows: 3\n  cols: 3\n  dt: d\n  data: [1, 0, 0, 0, 0.9998, "
-          "0.0199987, 0, -0.0199987, 0.9998]\nT: !!opencv-matrix\n  rows: 3\n  cols: 1\n  dt: "
+          "R: !!opencv-matrix\n  rows: 3\n  cols: 3\n  dt: d\n  data: [1, 0, 0, 0, 0.999998, "
+          "0.002, 0, -0.002, 0.999998]\nT: !!opencv-matrix\n  rows: 3\n  cols: 1\n  dt: "
           "d\n  data: [-0.1, 0, 0]\n");
   WorkOptions options;
   options.products = {Product::kDisparity, Product::kDepth, Product::kCloud};

@@ -2,11 +2,12 @@
 #pragma once
 
 /// @mainpage
-/// The library finds the disparity of the left image of a rectified pair by MTStereo 2.0, matching
-/// on the Max-trees of the scan-lines. mtstereo::Matcher does that, mtstereo::Parameters configures
-/// it, and mtstereo::parameter_table() describes every parameter. mtstereo::AlignmentTracker finds
-/// what is wrong with the rows and the sharpness of the views. Include <mtstereo/mtstereo.hpp>,
-/// and compile and link with the flags of `pkg-config --cflags --libs mtstereo`.
+/// The library finds the disparity of the left image of a rectified pair: by MTStereo 2.0, which
+/// matches the Max-trees of the scan-lines, or, as the default does, along paths through the costs
+/// of all pixels. mtstereo::Matcher does that, mtstereo::Parameters configures it, and
+/// mtstereo::parameter_table() describes every parameter. mtstereo::AlignmentTracker finds what is
+/// wrong with the rows and the sharpness of the views. Include <mtstereo/mtstereo.hpp>, and compile
+/// and link with the flags of `pkg-config --cflags --libs mtstereo`.
 ///
 /// A complete program:
 /// @include installed_program.cpp

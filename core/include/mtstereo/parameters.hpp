@@ -48,6 +48,7 @@ enum class Parameter {
   kResolution,
   kThreads,
   kNoiseFilter,
+  kGuide,
   kGrayLevels,
   kMinNodeWidth,
   kMaxNodeWidth,

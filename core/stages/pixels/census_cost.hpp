@@ -11,9 +11,9 @@
 namespace mtstereo {
 
 /// The costs of guided pixel matching, row by row: differing bits of the census transforms, summed
-/// over a small window, plus a penalty for disparities that the nodes do not expect. A row's costs
-/// are stored pixel by pixel: cell [x][d] at x * lanes + d. Cells without a right pixel (d > x) use
-/// the first pixel of the right row, so that they cost nothing where the image is flat.
+/// over a small window, plus a penalty for disparities that the guide does not expect. The costs of
+/// a row are stored pixel by pixel: cell [x][d] at x * lanes + d. Cells without a right pixel
+/// (d > x) use the first pixel of the right row, so that they cost nothing where the image is flat.
 
 struct CensusCostOptions {
   int disparities;           ///< D

@@ -15,11 +15,11 @@ constexpr int kCostTolerance = 1;
 
 /// A chunk y0 .. y1 - 1, and the rows first .. last - 1 that its paths read.
 struct Chunk {
-  Chunk(int begin, int end, int height)
+  Chunk(int begin, int end, int margin, int height)
       : y0(begin),
         y1(end),
-        first(std::max(begin - kPathMargin, 0)),
-        last(std::min(end + kPathMargin, height)) {}
+        first(std::max(begin - margin, 0)),
+        last(std::min(end + margin, height)) {}
 
   int y0, y1, first, last;
 };
@@ -54,6 +54,7 @@ class ChunkMatching {
 
   /// The paths from below. Outside of the chunk only the state is kept.
   void walk_up() {
+    if (!options_.column_paths) return;
     std::uint8_t* before = nullptr;
     for (int y = chunk_.last - 1; y >= chunk_.y0; --y) {
       std::uint8_t* paths = below(std::min(y, chunk_.y1));
@@ -67,7 +68,7 @@ class ChunkMatching {
     if (votes != nullptr) clear_votes(chunk_.y0, chunk_.y1, *votes);
     std::uint8_t* before = nullptr;
     for (int y = chunk_.first; y < chunk_.y1; ++y) {
-      step(y, y - 1, before, scratch_.above.data());
+      if (options_.column_paths) step(y, y - 1, before, scratch_.above.data());
       before = scratch_.above.data();
       if (y < chunk_.y0) continue;
       select(y, map.row(y), ratio.row(y));
@@ -98,14 +99,9 @@ class ChunkMatching {
 
   void select(int y, std::int32_t* disparity, std::uint8_t* ratio) {
     const CostWindow* windows = input_.windows.row(y);
-    const ScanlineRow row = {costs(y),
-                             input_.image.row(y),
-                             width_,
-                             options_.cost.disparities,
-                             small_step_,
-                             &large_step_,
-                             {scratch_.above.data(), below(y)},
-                             windows};
+    const ScanlineRow row = {
+        costs(y),    input_.image.row(y), width_,     options_.cost.disparities,
+        small_step_, &large_step_,        columns(y), windows};
     const std::uint16_t* low = scratch_.low.data();
     const std::uint16_t* high = scratch_.high.data();
     expect(y);
@@ -119,6 +115,11 @@ class ChunkMatching {
     }
     finish_selection(width_, options_.selection, low, high, runner_up_, scratch_.selection,
                      disparity, ratio);
+  }
+
+  ColumnCosts columns(int y) const {
+    if (!options_.column_paths) return {};
+    return {scratch_.above.data(), below(y)};
   }
 
   void vote(int y, const std::int32_t* by_path, WindowVotes& votes) {
@@ -207,7 +208,8 @@ void match_along_paths(const PathMatchingInput& input, const PathMatchingOptions
                        int y1, PathMatchingScratch& scratch, Image<std::int32_t>& map,
                        Image<std::uint8_t>& ratio, WindowVotes* votes) {
   scratch.resize(input.image.width, input.image.height, options);
-  ChunkMatching matching(input, options, Chunk(y0, y1, input.image.height), scratch);
+  const int margin = options.column_paths ? kPathMargin : 0;
+  ChunkMatching matching(input, options, Chunk(y0, y1, margin, input.image.height), scratch);
   matching.find_costs();
   matching.walk_up();
   matching.walk_down(map, ratio, votes);

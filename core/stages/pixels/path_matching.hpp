@@ -14,9 +14,9 @@
 namespace mtstereo {
 
 /// Matching of all pixels by the census cost and four paths, two along the row and two along the
-/// column: runs census_cost, column_optimization, scanline_optimization and disparity_selection.
-/// Instead of the nodes, the map of the views at half the resolution says which disparities are
-/// expected.
+/// column, or by those along the row only: runs census_cost, column_optimization,
+/// scanline_optimization and disparity_selection. Instead of the nodes, the map of the views at
+/// half the resolution says which disparities are expected.
 
 /// Rows of a chunk, which is matched at once. Chunks begin at multiples of it.
 inline constexpr int kPathRows = 64;
@@ -44,6 +44,7 @@ struct PathMatchingOptions {
   CensusCostOptions cost;
   SmoothnessOptions smoothness;
   SelectionOptions selection;
+  bool column_paths;  ///< whether there are paths along the columns beside those along the rows
 };
 
 /// Scratch memory of one thread: the costs of a chunk and its margins, and the path costs from

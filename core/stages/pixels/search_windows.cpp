@@ -34,6 +34,18 @@ int vote(const std::int32_t* disparities, int count, int bins, std::uint8_t* vot
   return known;
 }
 
+/// The number of pixels whose disparities agree.
+int count_agreeing(const std::int32_t* by_path, const std::int32_t* by_cost, int count) {
+  constexpr int kMost = kMostDisagreement * kDisparityOne;
+  int agreeing = 0;
+  for (int i = 0; i < count; ++i) {
+    const int difference = by_path[i] - by_cost[i];
+    const bool known = by_path[i] != kNoDisparity && by_cost[i] != kNoDisparity;
+    agreeing += known && difference <= kMost && difference >= -kMost ? 1 : 0;
+  }
+  return agreeing;
+}
+
 /// The votes in a tile and those around it.
 class Surroundings {
  public:
@@ -102,13 +114,17 @@ void WindowVotes::resize(int width, int height, int lanes) {
   known.resize(tiles);
   by_path.resize(tiles * bins);
   by_cost.resize(tiles * bins);
+  compared.resize(tiles);
+  agreeing.resize(tiles);
 }
 
 void clear_votes(int y0, int y1, WindowVotes& votes) {
   const std::size_t first = static_cast<std::size_t>(y0 / kVotingRows) * votes.columns;
   const std::size_t last =
       static_cast<std::size_t>((y1 + kVotingRows - 1) / kVotingRows) * votes.columns;
-  std::memset(votes.known.data() + first, 0, last - first);
+  for (Buffer<std::uint8_t>* count : {&votes.known, &votes.compared, &votes.agreeing}) {
+    std::memset(count->data() + first, 0, last - first);
+  }
   for (Buffer<std::uint8_t>* kind : {&votes.by_path, &votes.by_cost}) {
     std::memset(kind->data() + first * votes.bins, 0, (last - first) * votes.bins);
   }
@@ -124,6 +140,9 @@ void count_votes(const std::int32_t* by_path, const std::int32_t* by_cost, int w
     votes.known[tile] = static_cast<std::uint8_t>(votes.known[tile] + known);
     if (by_cost == nullptr) continue;
     vote(by_cost + x, count, bins, votes.by_cost.data() + tile * bins);
+    const int agreeing = count_agreeing(by_path + x, by_cost + x, count);
+    votes.compared[tile] = static_cast<std::uint8_t>(votes.compared[tile] + count);
+    votes.agreeing[tile] = static_cast<std::uint8_t>(votes.agreeing[tile] + agreeing);
   }
 }
 

@@ -28,6 +28,8 @@ struct WindowVotes {
   Buffer<std::uint8_t> known;    ///< [row][column]: pixels with a disparity
   Buffer<std::uint8_t> by_path;  ///< [row][column][bin]
   Buffer<std::uint8_t> by_cost;
+  Buffer<std::uint8_t> compared;  ///< [row][column]: pixels in rows that are matched in both ways
+  Buffer<std::uint8_t> agreeing;  ///< those of them with about the same disparity in both ways
 };
 
 /// Rows of the views at half the resolution in a tile.
@@ -40,6 +42,9 @@ inline constexpr int kLeastCostVotes = 3;
 /// A pixel votes for disparities up to this far from its own [px of the views].
 inline constexpr int kVoteReach = 2;
 
+/// Two disparities at half the resolution agree if they differ by at most this [px].
+inline constexpr int kMostDisagreement = 1;
+
 /// With disparities in less than one of so many pixels, a window has all disparities.
 inline constexpr int kLeastKnownShare = 10;
 
@@ -47,9 +52,9 @@ inline constexpr int kLeastKnownShare = 10;
 /// multiple of kVotingRows, and y1 the next one or the height.
 void clear_votes(int y0, int y1, WindowVotes& votes);
 
-/// Counts the votes of row y at half the resolution, the result of its paths and of its costs alone
-/// [1 / kDisparityOne px of half the resolution]; `by_cost` is nullptr in rows that are not matched
-/// by their costs alone.
+/// Counts the votes and the agreeing pixels of row y at half the resolution, the result of its
+/// paths and of its costs alone [1 / kDisparityOne px of half the resolution]; `by_cost` is nullptr
+/// in rows that are not matched by their costs alone.
 void count_votes(const std::int32_t* by_path, const std::int32_t* by_cost, int width, int y,
                  WindowVotes& votes);
 

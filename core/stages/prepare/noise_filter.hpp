@@ -29,6 +29,10 @@ inline bool paths_need_filter(float level) {
   return level >= kLeastNoise || level < kMostOfCompressed;
 }
 
+/// A threshold with which nothing counts as noise: the weights 1 6 1 alone. Paths along the rows
+/// only need that much, since they have no neighbors in other rows.
+inline constexpr float kSmoothingOnly = 0;
+
 /// Scratch memory of one thread.
 struct NoiseFilterScratch {
   Image<std::uint8_t> view;      ///< the rows of a band with their borders

@@ -7,9 +7,9 @@
 
 namespace mtstereo {
 
-/// Gives every pixel a disparity, for mode full: a gap in a row gets the smaller disparity of its
-/// two sides, since what one camera does not see is part of the background. The rims of the row
-/// continue its first and its last disparity.
+/// Gives every pixel a disparity: a gap in a row gets the smaller disparity of its two sides, since
+/// what one camera does not see is part of the background. The rims of the row continue its first
+/// and its last disparity. Mode semi-dense drops the inferred ones again, after the rating.
 ///
 /// Call complete_rows() for all bands of rows, then complete_empty_rows() once.
 

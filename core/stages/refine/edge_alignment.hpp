@@ -8,10 +8,10 @@
 
 namespace mtstereo {
 
-/// Moves jumps of a complete map to the edges of the image, for mode full. The windows of the
-/// matching cost reach over the edges of objects, so that objects become too wide. A pixel near a
-/// jump takes the weighted median of the disparities around it. Pixels of nearly its gray value
-/// have the most weight.
+/// Moves jumps of a complete map to the edges of the image. The windows of the matching cost reach
+/// over the edges of objects, so that objects become too wide. A pixel near a jump takes the
+/// weighted median of the disparities around it. Pixels of nearly its gray value have the most
+/// weight.
 ///
 /// Call find_jumps() for all bands of rows, then align_edges() for all bands.
 

@@ -2,7 +2,6 @@
 #include "stages/refine/reliability.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 #include <cstring>
 
@@ -58,42 +57,6 @@ void add_rows(const std::uint8_t* const* rows, int count, int width, std::uint16
       total = hn::Add(total, hn::PromoteTo(du16, hn::LoadU(d8, rows[i] + x)));
     }
     hn::StoreU(total, du16, sum + x);
-  }
-}
-
-/// Adds up the bytes x .. x + count - 1 of each column x; the sums fit into bytes.
-void add_columns(const std::uint8_t* row, int count, int width, std::uint8_t* sum) {
-  const hn::CappedTag<std::uint8_t, kAlignment> d8;
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d8))) {
-    auto total = hn::LoadU(d8, row + x);
-    for (int i = 1; i < count; ++i) total = hn::Add(total, hn::LoadU(d8, row + x + i));
-    hn::StoreU(total, d8, sum + x);
-  }
-}
-
-/// In loops that compilers vectorize for the target: the place of the pixel left of each pixel's
-/// partner, in a row whose border is 2 pixels wide.
-void find_partners(const std::int32_t* __restrict__ map, int width, int right_width, int offset,
-                   std::uint32_t* __restrict__ places) {
-  for (int x = 0; x < width; ++x) {
-    const int partner = ((x - offset) * kDisparityOne - map[x] + kDisparityOne / 2) >> 8;
-    const int least = partner < -1 ? -1 : partner;
-    places[x] = static_cast<std::uint32_t>((least > right_width ? right_width : least) + 1);
-  }
-}
-
-/// The least difference from the first three of the four gray values in each of `partners`.
-void find_least(const std::uint8_t* __restrict__ left, const std::uint32_t* __restrict__ partners,
-                int width, std::uint8_t* __restrict__ mismatch) {
-  constexpr int kFirst = std::endian::native == std::endian::big ? 8 : 0;
-  for (int x = 0; x < width; ++x) {
-    int least = kMostMismatch;
-    for (int i = 0; i < 3; ++i) {
-      const int other = static_cast<int>(partners[x] >> (kFirst + 8 * i) & 255);
-      const int difference = left[x] > other ? left[x] - other : other - left[x];
-      least = difference < least ? difference : least;
-    }
-    mismatch[x] = static_cast<std::uint8_t>(least);
   }
 }
 
@@ -171,9 +134,6 @@ namespace mtstereo {
 
 HWY_EXPORT(find_surfaces);
 HWY_EXPORT(add_rows);
-HWY_EXPORT(add_columns);
-HWY_EXPORT(find_partners);
-HWY_EXPORT(find_least);
 HWY_EXPORT(find_partner_bins);
 HWY_EXPORT(rate_row);
 
@@ -205,50 +165,6 @@ constexpr std::array<std::uint8_t, kCount> bins_from(int first, const int (&ends
 
 constexpr auto kMismatchBins = bins_from<9 * kMostMismatch + 1>(0, kMismatchEnds);
 constexpr auto kTextureBins = bins_from<3 * kTextureSide * kMostChange + 1>(0, kTextureEnds);
-
-void copy_disparities(const std::int32_t* map, int width, std::int16_t* out) {
-  for (int x = 0; x < width; ++x) {
-    out[kClueBorder + x] = static_cast<std::int16_t>(map[x] / (kDisparityOne / kClueOne));
-  }
-  std::fill_n(out, kClueBorder, out[kClueBorder]);
-  std::fill_n(out + kClueBorder + width, kClueBorder, out[kClueBorder + width - 1]);
-}
-
-static_assert(1 << 8 == kDisparityOne);
-
-void find_mismatch(const RatedViews& views, const std::int32_t* map, int y, int width,
-                   ReliabilityScratch& scratch) {
-  const int right_width = views.right.width;
-  std::uint8_t* right = scratch.right.data();
-  std::memcpy(right + 2, views.right.row(y), right_width);
-  std::memset(right, right[2], 2);
-  std::memset(right + 2 + right_width, right[1 + right_width], 3);
-  std::uint32_t* partner = scratch.partner.data();
-  HWY_DYNAMIC_DISPATCH(find_partners)(map, width, right_width, views.disparity_offset, partner);
-  for (int x = 0; x < width; ++x) std::memcpy(partner + x, right + partner[x], sizeof *partner);
-  std::uint8_t* mismatch = scratch.values.data();
-  HWY_DYNAMIC_DISPATCH(find_least)(views.left.row(y), partner, width, mismatch + 1);
-  mismatch[0] = mismatch[1];
-  mismatch[width + 1] = mismatch[width];
-}
-
-/// The changes from pixel to pixel; those outside of the row are 0.
-void find_changes(const std::uint8_t* __restrict__ row, int width,
-                  std::uint8_t* __restrict__ changes) {
-  constexpr int kBorder = kTextureSide / 2;
-  std::memset(changes, 0, kBorder + 1);
-  for (int x = 1; x < width; ++x) {
-    const int change = std::max(row[x], row[x - 1]) - std::min(row[x], row[x - 1]);
-    changes[kBorder + x] = std::min<std::uint8_t>(static_cast<std::uint8_t>(change), kMostChange);
-  }
-  std::memset(changes + kBorder + width, 0, kTextureSide - kBorder);
-}
-
-/// Marks the matched pixels.
-void mark_matched(const std::uint8_t* __restrict__ confidence, int width,
-                  std::uint8_t* __restrict__ marks) {
-  for (int x = 0; x < width; ++x) marks[x] = confidence[x] > kMostInferred;
-}
 
 /// The number of the rows or columns of a window of kShareSide that are inside of the image.
 int inside(int middle, int size) {
@@ -313,13 +229,28 @@ void find_surface_bins(const ClueMaps& clues, int y, int width, ReliabilityScrat
   (rows, width, scratch.bins[kNearerClue].data(), scratch.bins[kFartherClue].data());
 }
 
+/// The bins of the clue about the agreement: a pixel of the image is a tile of the views.
+void find_agreement_bins(const RatedViews& views, int y, int width, std::uint8_t* bins) {
+  const Image<std::uint8_t>& shares = *views.agreement;
+  const int tile = views.agreement_tile;
+  const std::uint8_t* row = shares.row(std::min(y / tile, shares.height() - 1));
+  for (int x = 0; x < width;) {
+    const int column = std::clamp(x + views.agreement_offset, 0, shares.width() * tile - 1) / tile;
+    // The first and the last tile reach to the ends of the row.
+    const bool last = column == shares.width() - 1;
+    const int end = last ? width : std::min((column + 1) * tile - views.agreement_offset, width);
+    std::memset(bins + x, row[column], end - x);
+    x = end;
+  }
+}
+
 /// The columns of the table for rate_row().
-std::array<EntryBytes, kNoiseClue> entry_bytes() {
+std::array<EntryBytes, kNoiseClue> entry_bytes(const ReliabilityTable& table) {
   std::array<EntryBytes, kNoiseClue> columns;
   for (int clue = 0; clue < kNoiseClue; ++clue) {
     for (int bin = 0; bin < kClueBins; ++bin) {
       std::uint8_t bytes[2];
-      std::memcpy(bytes, &kReliabilityTable[clue][bin], 2);
+      std::memcpy(bytes, &table[clue][bin], 2);
       for (int i = 0; i < 2; ++i) columns[clue].of[i][bin] = bytes[i];
     }
   }
@@ -328,38 +259,9 @@ std::array<EntryBytes, kNoiseClue> entry_bytes() {
 
 }  // namespace
 
-void ClueMaps::resize(int width, int height) {
-  disparity.resize(width + 2 * kClueBorder, height);
-  matched.resize(width, height);
-  mismatch.resize(width, height);
-  texture.resize(width, height);
-}
-
 void ReliabilityScratch::resize(int width) {
-  marks.resize(width + 2 * kShareReach + kVector);
-  values.resize(width + kTextureSide + kVector);
   sum.resize(width + kVector);
-  right.resize(width + 5);  // two pixels before, three after
-  partner.resize(width);
   for (Buffer<std::uint8_t>& row : bins) row.resize(width + kVector);
-}
-
-void gather_clues(const RatedViews& views, const Image<std::int32_t>& map,
-                  const Image<std::uint8_t>& confidence, int y0, int y1,
-                  ReliabilityScratch& scratch, ClueMaps& clues) {
-  const int width = map.width();
-  std::uint8_t* marks = scratch.marks.data();
-  std::memset(marks, 0, width + 2 * kShareReach);
-  for (int y = y0; y < y1; ++y) {
-    copy_disparities(map.row(y), width, clues.disparity.row(y));
-    mark_matched(confidence.row(y), width, marks + kShareReach);
-    HWY_DYNAMIC_DISPATCH(add_columns)(marks, kShareSide, width, clues.matched.row(y));
-    find_mismatch(views, map.row(y), y, width, scratch);
-    HWY_DYNAMIC_DISPATCH(add_columns)(scratch.values.data(), 3, width, clues.mismatch.row(y));
-    find_changes(views.left.row(y), width, scratch.values.data());
-    HWY_DYNAMIC_DISPATCH(add_columns)
-    (scratch.values.data(), kTextureSide, width, clues.texture.row(y));
-  }
 }
 
 void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
@@ -377,18 +279,20 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
   for (int x = 0; x < width; ++x) support[x] = row_confidence[x] / 8;
   HWY_DYNAMIC_DISPATCH(find_partner_bins)
   (map.row(y), width, views.disparity_offset, scratch.bins[kPartnerClue].data());
+  find_agreement_bins(views, y, width, scratch.bins[kAgreementClue].data());
   std::memset(scratch.bins[kNoiseClue].data(), bin_of(views.noise_level, kNoiseEnds), width);
 }
 
 void rate_reliability(const RatedViews& views, const Image<std::int32_t>& map,
-                      const ClueMaps& clues, Inferred inferred, int y0, int y1,
-                      ReliabilityScratch& scratch, Image<std::uint8_t>& confidence) {
+                      const ClueMaps& clues, const ReliabilityTable& table, Inferred inferred,
+                      int y0, int y1, ReliabilityScratch& scratch,
+                      Image<std::uint8_t>& confidence) {
   static_assert(kNoiseClue == kClues - 1);
-  const std::array<EntryBytes, kNoiseClue> entries = entry_bytes();
+  const std::array<EntryBytes, kNoiseClue> entries = entry_bytes(table);
   RatedBins row{};
   for (int clue = 0; clue < kNoiseClue; ++clue) row.bins[clue] = scratch.bins[clue].data();
   row.entries = entries.data();
-  row.noise = kReliabilityTable[kNoiseClue][bin_of(views.noise_level, kNoiseEnds)];
+  row.noise = table[kNoiseClue][bin_of(views.noise_level, kNoiseEnds)];
   row.apart = inferred == Inferred::kApart;
   for (int y = y0; y < y1; ++y) {
     find_clue_bins(views, map, confidence, clues, y, scratch);

@@ -4,22 +4,23 @@
 #include <array>
 #include <cstdint>
 
-/// The clues about a pixel and the fitted table of reliability.cpp.
+/// The clues about a pixel and the fitted tables of reliability.cpp.
 
 namespace mtstereo {
 
 /// What is known of a disparity.
 enum Clue : int {
-  kSupportClue,   ///< its confidence so far
-  kShareClue,     ///< the share of matched pixels around it
-  kMismatchClue,  ///< the difference of the gray values of the two views
-  kNearerClue,    ///< the distance of the next nearer surface to the left
-  kFartherClue,   ///< the distance of the next farther surface
-  kPartnerClue,   ///< how far inside of the right view its partner is
-  kTextureClue,   ///< the gray values' changes along the rows around it
-  kNoiseClue,     ///< the noise of the views, the same for all pixels
+  kSupportClue,    ///< its confidence so far
+  kShareClue,      ///< the share of matched pixels around it
+  kMismatchClue,   ///< the difference of the gray values of the two views
+  kNearerClue,     ///< the distance of the next nearer surface to the left
+  kFartherClue,    ///< the distance of the next farther surface
+  kPartnerClue,    ///< how far inside of the right view its partner is
+  kTextureClue,    ///< the gray values' changes along the rows around it
+  kAgreementClue,  ///< how often the costs alone agree with the paths around it
+  kNoiseClue,      ///< the noise of the views, the same for all pixels
 };
-inline constexpr int kClues = 8;
+inline constexpr int kClues = 9;
 inline constexpr int kClueBins = 32;
 
 /// Steps per 1 of the table's entries.
@@ -27,7 +28,15 @@ inline constexpr int kReliabilityOne = 16;
 
 using ReliabilityTable = std::array<std::array<std::int16_t, kClueBins>, kClues>;
 
-/// The fitted table.
-extern const ReliabilityTable kReliabilityTable;
+/// The kinds of maps whose pixels are rated, each by a table of its own.
+enum class RatedMap {
+  kComplete,  ///< any pixel may be kept
+  kEnlarged,  ///< the same, matched at half the resolution
+  kMatched,   ///< only matched pixels are kept
+};
+inline constexpr int kRatedMaps = 3;
+
+/// The fitted tables, by RatedMap.
+extern const std::array<ReliabilityTable, kRatedMaps> kReliabilityTables;
 
 }  // namespace mtstereo

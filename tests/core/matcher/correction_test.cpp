@@ -52,10 +52,12 @@ constexpr ViewCorrection kCorrections[] = {
 
 TEST(Correction, IsAppliedBeforeAllOtherSteps) {
   for (const char* const preset : kPresetNames) {
-    for (const char* const threads : {"1", "3"}) {
-      Matcher corrects = test::matcher({{"preset", preset}, {"threads", threads}});
-      Matcher plain = test::matcher({{"preset", preset}});
+    for (const char* const guide : {"nodes", "pyramid"}) {
+      Matcher corrects = test::matcher({{"preset", preset}, {"guide", guide}, {"threads", "3"}});
+      Matcher plain = test::matcher({{"preset", preset}, {"guide", guide}});
       for (const ViewCorrection& correction : kCorrections) {
+        // Edges follow the caller's left view.
+        if (guide == std::string("pyramid") && correction.left_blur > 0) continue;
         ASSERT_TRUE(corrects.set_correction(correction).ok());
         EXPECT_EQ(correction, corrects.correction());
         GrayPlane left = pair().left, right = pair().right;

@@ -45,13 +45,13 @@ struct Golden {
 // clang-format off
 constexpr Golden kGolden[] = {
     {"default", "sparse", 0x28618abb18c13521},
-    {"default", "semi-dense", 0xcfae0a1e708a4696},
-    {"default", "dense", 0xb02646b211ed148a},
-    {"default", "full", 0xfca05d22aa4cd81a},
+    {"default", "semi-dense", 0x75f3874dd45541b7},
+    {"default", "dense", 0x6f8f6f7e3c09802c},
+    {"default", "full", 0x0b695e921df5222b},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0xcbe3457c3f6fc940},
-    {"fast", "dense", 0xf249df6af0b7aa6b},
-    {"fast", "full", 0x88b35bd96dba53f6},
+    {"fast", "dense", 0x3cd91c9def7b3d68},
+    {"fast", "full", 0x5cd83ab05197ed84},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -281,11 +281,24 @@ TEST(Invariants, ExactlyKnownPixelsHaveAConfidence) {
   }
 }
 
+TEST(Invariants, ModeSemiDenseHasNoInferredPixels) {
+  const Pair pair = test::slanted_pair(200, 90, 30, 11);
+  for (const char* const least : {"0", "5"}) {
+    Matcher matcher = test::matcher({{"min-confidence", least}});
+    const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+    EXPECT_GT(test::known(map), 1000);
+    EXPECT_LT(test::known(map), 200 * 90);
+    for (const std::uint8_t value : copy_of(matcher.confidence()).pixels) {
+      ASSERT_TRUE(value == 0 || value > kMostInferred);
+    }
+  }
+}
+
 TEST(Invariants, NoDisparityHasLessThanTheMinimumConfidence) {
   const Pair pair = test::slanted_pair(200, 90, 30, 11);
   Matcher matcher = test::matcher({{"min-confidence", "0"}, {"max-gap", "0"}});
   long before = test::known(test::compute(matcher, pair.left, pair.right));
-  for (const int least : {60, 120, 180}) {
+  for (const int least : {120, 160, 200}) {
     Parameters parameters = matcher.parameters();
     test::set_all(parameters, {{"min-confidence", std::to_string(least)}});
     ASSERT_TRUE(matcher.set_parameters(parameters).ok());

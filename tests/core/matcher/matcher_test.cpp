@@ -104,12 +104,14 @@ Change change_of(Parameter id) {
                {"pixel-confidence", "0"},
                {"between-nodes", "all"}},
               "nodes"};
+    case Parameter::kGuide:
+      return {{}, "nodes"};
     case Parameter::kCost:
       return {{}, "gradient"};
     case Parameter::kPixelSearchRange:
       return {{{"preset", "paper"}}, "90"};
     case Parameter::kBetweenNodes:
-      return {{}, "none"};
+      return {{{"guide", "nodes"}}, "none"};
     case Parameter::kRangePenalty:
       return {{{"min-confidence", "0"}, {"large-step-penalty", "0"}}, "24"};
     case Parameter::kPixelConfidence:
@@ -126,7 +128,9 @@ Change change_of(Parameter id) {
     case Parameter::kLeftRightTolerance:
       return {{}, "0"};
     case Parameter::kCensusScales:
-      return {{}, "1"};
+      return {{}, "2"};
+    case Parameter::kCensusKernelSize:
+      return {{}, "5"};
     case Parameter::kNoiseFilter:
     case Parameter::kSubpixel:
       return {{}, "false"};
@@ -135,8 +139,7 @@ Change change_of(Parameter id) {
     case Parameter::kNodeEndWidth:
       return {{{"mode", "sparse"}}, "1"};
     case Parameter::kMaxGap:
-      return {{}, "0"};
-    case Parameter::kCensusKernelSize:
+      return {{{"guide", "nodes"}}, "8"};
     case Parameter::kSmallStepPenalty:
     case Parameter::kLargeStepPenalty:
     case Parameter::kMinConfidence:

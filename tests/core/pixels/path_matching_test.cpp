@@ -51,7 +51,8 @@ PathMatchingOptions random_options(int disparities, Random& random) {
       {disparities, 2 * random.below(3) + 1, random.below(33), census_bytes(random.between(1, 2))},
       {random.below(51), random.below(51)},
       {disparities, 0.06 * random.below(2), false, random.between(-1, 2), random.below(2) == 0,
-       random.below(50)}};
+       random.below(50)},
+      random.below(2) == 0};
 }
 
 /// A map of half the size with disparities near half of `around`, a third of it unknown.
@@ -106,7 +107,7 @@ TEST(PathMatching, CountsTheVotesOfPathsAndCosts) {
   PathMatchingScratch scratch;
   const int width = 70, height = 90;
   const Pair pair = test::shifted_pair(width, height, 9, 3);
-  const PathMatchingOptions options = {{24, 3, 2, 3}, {12, 51}, {24, 0, false, 2, true, 60}};
+  const PathMatchingOptions options = {{24, 3, 2, 3}, {12, 51}, {24, 0, false, 2, true, 60}, true};
   WindowVotes votes;
   votes.resize(2 * width, 2 * height, 64);
   const RatedMap out = matched(pair, nullptr, options, scratch, {}, &votes);
@@ -123,7 +124,7 @@ TEST(PathMatching, CountsTheVotesOfPathsAndCosts) {
 TEST(PathMatching, FindsTheDisparityOfEveryPixelThatBothViewsShow) {
   PathMatchingScratch scratch;
   const Pair pair = test::shifted_pair(120, 90, 17, 1);
-  const PathMatchingOptions options = {{40, 3, 2, 3}, {5, 30}, {40, 0, false, 1, true, 60}};
+  const PathMatchingOptions options = {{40, 3, 2, 3}, {5, 30}, {40, 0, false, 1, true, 60}, true};
   const RatedMap out = matched(pair, nullptr, options, scratch);
   long right = 0;
   for (int y = 0; y < 90; ++y) {
@@ -142,7 +143,7 @@ TEST(PathMatching, PrefersWhatTheHalfMapExpects) {
     }
   }
   PathMatchingScratch scratch;
-  const PathMatchingOptions options = {{40, 3, 2, 3}, {5, 30}, {40, -1, false, -1, true, 60}};
+  const PathMatchingOptions options = {{40, 3, 2, 3}, {5, 30}, {40, -1, false, -1, true, 60}, true};
   const DisparityPlane expected(60, 20, 128 * 19);
   const RatedMap out = matched(pair, &expected, options, scratch);
   for (int y = 8; y < 32; ++y) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/half_maps.hpp"
 #include "support/windows.hpp"
 
 namespace mtstereo {
@@ -10,25 +11,6 @@ namespace {
 
 using test::DisparityPlane;
 using test::Random;
-
-/// A map of half the size: areas with disparities near a few values, single outliers, and gaps.
-DisparityPlane random_half_map(int width, int height, int disparities, int known, Random& random) {
-  DisparityPlane map((width + 1) / 2, (height + 1) / 2);
-  const int most = 256 * std::max((disparities + 1) / 2, 1) - 1;
-  const int tile = random.between(4, 30);
-  std::map<int, int> areas;
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      if (random.below(100) >= known) continue;
-      const int area = y / tile * 1000 + x / tile;
-      if (!areas.contains(area)) areas[area] = random.between(1, most);
-      const int d =
-          random.below(20) == 0 ? random.between(1, most) : areas[area] + random.between(-300, 300);
-      map(x, y) = std::clamp(d, 1, most);
-    }
-  }
-  return map;
-}
 
 /// The windows by the votes of both maps, counted in bands.
 SearchWindows chosen(const DisparityPlane& by_path, const DisparityPlane& by_cost, int width,
@@ -58,9 +40,9 @@ TEST(SearchWindows, EqualReferenceAtEverySize) {
     const int width = random.between(1, 120), height = random.between(1, 150);
     const int disparities = random.between(1, 300), lanes = cost_lanes(disparities);
     const DisparityPlane by_path =
-        random_half_map(width, height, disparities, random.below(101), random);
+        test::random_half_map(width, height, disparities, random.below(101), random);
     const DisparityPlane by_cost =
-        random_half_map(width, height, disparities, random.below(40), random);
+        test::random_half_map(width, height, disparities, random.below(40), random);
     const reference::Windows expected =
         reference::choose_windows(by_path, by_cost, width, height, lanes);
     const SearchWindows actual = chosen(by_path, by_cost, width, height, lanes);

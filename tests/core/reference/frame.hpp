@@ -8,6 +8,7 @@
 
 #include "reference/nodes/node_extrapolation.hpp"
 #include "reference/nodes/outlier_removal.hpp"
+#include "reference/pixels/agreement.hpp"
 #include "reference/pixels/path_matching.hpp"
 #include "reference/pixels/pixel_matching.hpp"
 #include "reference/prepare/halving.hpp"
@@ -25,6 +26,7 @@
 #include "reference/refine/withheld.hpp"
 #include "settings.hpp"
 #include "stages/prepare/noise_filter.hpp"
+#include "stages/refine/gray_mapping.hpp"
 #include "stages/refine/thin_chains.hpp"
 
 namespace mtstereo::reference {
@@ -45,9 +47,10 @@ struct Frame {
   Volume volume;
   Level leaves;
   Matches matches;
-  DisparityPlane half_map;          ///< of the views at half the matched resolution, for mode full
+  DisparityPlane half_map;          ///< of the views at half the matched resolution
   DisparityPlane half_map_by_cost;  ///< the same without paths
   Windows windows;                  ///< of the views
+  GrayPlane agreement;              ///< of the tiles of the views
   DisparityPlane nodes;             ///< the drawn leaves; without outliers after their removal
   DisparityPlane map;
   DisparityPlane found;     ///< the map before the filters, negative at thin objects
@@ -96,8 +99,11 @@ inline void halve(Frame& f) {
 inline void filter_noise(Frame& f) {
   const float levels[] = {noise_level(f.views[0]), noise_level(f.views[1])};
   f.noise = std::max(levels[0], levels[1]);
-  if (f.settings.by_paths() && !paths_need_filter(f.noise)) return;
-  const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
+  float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
+  if (f.settings.by_paths() && !paths_need_filter(f.noise)) {
+    if (f.settings.mode != Mode::kSemiDense) return;
+    threshold = 0;
+  }
   for (GrayPlane& view : f.views) view = filter_noise(view, threshold);
 }
 
@@ -179,6 +185,8 @@ inline void match_reduced(Frame& f) {
 inline void choose_windows(Frame& f) {
   f.windows = choose_windows(f.half_map, f.half_map_by_cost, f.views[0].width, f.views[0].height,
                              cost_lanes(f.settings.disparities));
+  f.agreement =
+      share_agreement(f.half_map, f.half_map_by_cost, f.views[0].width, f.views[0].height);
 }
 
 inline void match_by_paths(Frame& f) {
@@ -248,9 +256,17 @@ inline void align_edges(Frame& f) {
 }
 
 inline void rate_map(Frame& f) {
-  const RatedPair pair = {f.left, f.input[1], std::min(f.settings.min_disparity, 0), f.noise};
-  const bool apart = !f.settings.keeps_likely_only();
-  f.confidence = rate_reliability(pair, ConfidentMap{f.map, f.confidence}, apart);
+  const int least = f.settings.min_disparity;
+  const int tile = f.settings.half() ? 32 : 16;
+  const RatedViews views = {
+      f.left.view(), f.input[1].view(), std::min(least, 0), f.noise, nullptr, tile, -least};
+  const GrayMapping grays = find_gray_mapping(views, image_of(f.map), image_of(f.confidence));
+  const RatedPair pair = {f.left, f.input[1], std::min(least, 0), f.noise, f.agreement, tile,
+                          -least, grays};
+  const bool apart = !f.settings.keeps_inferred();
+  const auto table = static_cast<int>(f.settings.rated_map());
+  f.confidence =
+      rate_reliability(pair, ConfidentMap{f.map, f.confidence}, kReliabilityTables[table], apart);
 }
 
 inline void draw_thin(Frame& f) {
@@ -261,7 +277,7 @@ inline void draw_thin(Frame& f) {
 
 inline void reject_unlikely(Frame& f) {
   for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
-    if (f.confidence.pixels[i] >= f.settings.min_confidence) continue;
+    if (f.confidence.pixels[i] >= f.settings.least_reliability()) continue;
     f.map.pixels[i] = f.confidence.pixels[i] = 0;
   }
   f.map = remove_speckles(f.map, 256, f.settings.speckle_size).map;

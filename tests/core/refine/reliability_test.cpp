@@ -4,70 +4,46 @@
 #include <gtest/gtest.h>
 
 #include "reference/refine/reliability.hpp"
-#include "support/compare.hpp"
-#include "support/random_maps.hpp"
+#include "support/random_ratings.hpp"
 #include "support/simd_targets.hpp"
 
 namespace mtstereo {
 namespace {
 
-using reference::ConfidentMap;
-using reference::RatedPair;
 using test::copy_of;
-using test::DisparityPlane;
 using test::GrayPlane;
-using test::Random;
+using Rated = test::RandomRating;
 
-/// A complete map with a confidence of each pixel, and views of its size.
-struct Rated {
-  Rated(int width, int height, std::uint64_t seed) : Rated(width, height, width, seed) {}
-  Rated(int width, int height, int right_width, std::uint64_t seed)
-      : left(width, height),
-        right(right_width, height),
-        in{test::patches(width, height, 0, seed), GrayPlane(width, height)} {
-    Random random(seed);
-    for (int& disparity : in.map.pixels) disparity = std::max(disparity, 1);
-    for (std::uint8_t& value : in.confidence.pixels)
-      value = static_cast<std::uint8_t>(random.between(1, 255));
-    // Flat on one side, with strong texture on the other.
-    const int contrast = random.between(1, 120);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        left(x, y) = static_cast<std::uint8_t>(x < width / 4 ? 90 : random.between(0, contrast));
-      }
-      for (int x = 0; x < right_width; ++x) {
-        right(x, y) = static_cast<std::uint8_t>(x < width / 4 ? 90 : random.between(0, contrast));
-      }
-    }
-  }
-  GrayPlane left, right;
-  ConfidentMap in;
-};
-
-GrayPlane rate(const Rated& rated, int offset, float noise, Inferred inferred, int band) {
+GrayPlane rate(const Rated& rated, int offset, float noise, Inferred inferred, int band,
+               const ReliabilityTable& table = kReliabilityTables[0]) {
   const Image<std::int32_t> map = image_of(rated.in.map);
   Image<std::uint8_t> confidence = image_of(rated.in.confidence);
-  const RatedViews views = {rated.left.view(), rated.right.view(), offset, noise};
+  const RatedViews views = rated.views(offset, noise);
   ClueMaps clues;
   clues.resize(map.width(), map.height());
   ReliabilityScratch scratch;
-  scratch.resize(std::max(map.width(), rated.right.width));
+  scratch.resize(map.width());
+  ClueScratch gathering;
+  gathering.resize(std::max(map.width(), rated.right.width));
   for (int y = 0; y < map.height(); y += band) {
-    gather_clues(views, map, confidence, y, std::min(y + band, map.height()), scratch, clues);
+    gather_clues(views, rated.grays, map, confidence, y, std::min(y + band, map.height()),
+                 gathering, clues);
   }
   for (int y = 0; y < map.height(); y += band) {
-    rate_reliability(views, map, clues, inferred, y, std::min(y + band, map.height()), scratch,
-                     confidence);
+    rate_reliability(views, map, clues, table, inferred, y, std::min(y + band, map.height()),
+                     scratch, confidence);
   }
   return copy_of(confidence);
 }
 
 void expect_reference(const Rated& rated, int offset, float noise) {
   for (const Inferred inferred : {Inferred::kApart, Inferred::kLikeMatched}) {
-    const GrayPlane expected = reference::rate_reliability({rated.left, rated.right, offset, noise},
-                                                           rated.in, inferred == Inferred::kApart);
+    const bool apart = inferred == Inferred::kApart;
+    const ReliabilityTable& table = kReliabilityTables[apart ? 2 : 0];
+    const GrayPlane expected =
+        reference::rate_reliability(rated.pair(offset, noise), rated.in, table, apart);
     for (const int band : {3, 1 << 20}) {
-      EXPECT_TRUE(same_image(expected, rate(rated, offset, noise, inferred, band)))
+      EXPECT_TRUE(same_image(expected, rate(rated, offset, noise, inferred, band, table)))
           << rated.left.width << " columns, bands of " << band << " rows";
     }
   }
@@ -94,8 +70,10 @@ TEST(Reliability, EqualsReferenceWithPartnersOutsideOfTheRightView) {
 
 /// So the sums of entries fit into 16 bits.
 TEST(Reliability, HasSmallEntries) {
-  for (const auto& column : kReliabilityTable) {
-    for (const int entry : column) EXPECT_LT(std::abs(entry), (1 << 15) / kClues);
+  for (const ReliabilityTable& table : kReliabilityTables) {
+    for (const auto& column : table) {
+      for (const int entry : column) EXPECT_LT(std::abs(entry), (1 << 15) / kClues);
+    }
   }
 }
 
@@ -111,6 +89,7 @@ TEST(Reliability, KeepsInferredDisparitiesApart) {
 /// A surface with a nearer one on its left, in views that show it without any difference.
 Rated step_scene() {
   Rated rated(80, 30, 1);
+  rated.grays = {};
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 80; ++x) {
       rated.in.map(x, y) = x < 40 ? 20 * 256 : 256;

@@ -13,7 +13,7 @@
 namespace mtstereo::test {
 
 /// The disparity map after a step; empty if no step has written one yet, and after the last steps
-/// of the modes dense and full, which change the result in its place.
+/// with guide=pyramid, which change the result in its place.
 inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
   static constexpr std::string_view kBefore[] = {
       "row-alignment", "sharpness",     "view-shift",       "halving",

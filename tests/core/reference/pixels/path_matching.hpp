@@ -89,32 +89,39 @@ inline DisparityPlane match_by_cost(const PathInput& input, const PathMatchingOp
   return out;
 }
 
-/// Matches a view in chunks of kPathRows rows, in which the paths along the columns start
-/// kPathMargin rows before.
-inline RatedMap match_along_paths(const PathInput& input, const PathMatchingOptions& options) {
+/// Half the sums of four paths: `sums` are those of the paths along row y, and those along the
+/// columns start kPathMargin rows before and after the row's chunk of kPathRows rows.
+inline void add_column_paths(const PathInput& input, const std::vector<RowCosts>& costs,
+                             const SmoothnessOptions& steps, int y, RowCosts& sums) {
   const GrayPlane& left = input.left;
-  const int width = left.width, height = left.height, rows = options.cost.kernel_size;
+  const int height = left.height;
+  const int y0 = y / kPathRows * kPathRows, y1 = std::min(y0 + kPathRows, height);
+  RowCosts above, below;
+  for (int row = std::max(y0 - kPathMargin, 0); row <= y; ++row) {
+    above = column_step(costs[row], above, &left(0, row), &left(0, std::max(row - 1, 0)), steps);
+  }
+  for (int row = std::min(y1 + kPathMargin, height) - 1; row >= y; --row) {
+    below = column_step(costs[row], below, &left(0, row), &left(0, std::min(row + 1, height - 1)),
+                        steps);
+  }
+  for (std::size_t x = 0; x < sums.size(); ++x) {
+    for (std::size_t d = 0; d < sums[x].size(); ++d) {
+      if (sums[x][d] == kOutside) continue;
+      sums[x][d] = (sums[x][d] + above[x][d] + below[x][d]) / 2;
+    }
+  }
+}
+
+/// Matches a view along two or four paths.
+inline RatedMap match_along_paths(const PathInput& input, const PathMatchingOptions& options) {
+  const int width = input.left.width, height = input.left.height, rows = options.cost.kernel_size;
   const SmoothnessOptions steps = {options.smoothness.small_step * rows,
                                    options.smoothness.large_step * rows};
   const std::vector<RowCosts> costs = path_matching_costs(input, options);
   RatedMap out(width, height);
   for (int y = 0; y < height; ++y) {
-    const int y0 = y / kPathRows * kPathRows, y1 = std::min(y0 + kPathRows, height);
-    RowCosts above, below;
-    for (int row = std::max(y0 - kPathMargin, 0); row <= y; ++row) {
-      above = column_step(costs[row], above, &left(0, row), &left(0, std::max(row - 1, 0)), steps);
-    }
-    for (int row = std::min(y1 + kPathMargin, height) - 1; row >= y; --row) {
-      below = column_step(costs[row], below, &left(0, row), &left(0, std::min(row + 1, height - 1)),
-                          steps);
-    }
-    RowCosts sums = optimize_scanline(costs[y], &left(0, y), steps);
-    for (int x = 0; x < width; ++x) {
-      for (int d = 0; d < options.cost.disparities; ++d) {
-        if (sums[x][d] == kOutside) continue;
-        sums[x][d] = (sums[x][d] + above[x][d] + below[x][d]) / 2;
-      }
-    }
+    RowCosts sums = optimize_scanline(costs[y], &input.left(0, y), steps);
+    if (options.column_paths) add_column_paths(input, costs, steps, y, sums);
     const std::vector<Selected> selected = select_row(input, y, sums, options.selection);
     for (int x = 0; x < width; ++x) out.set(x, y, selected[x]);
   }

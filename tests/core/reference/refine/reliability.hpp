@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/refine/gap_filling.hpp"
+#include "stages/refine/clues.hpp"
 #include "stages/refine/reliability_table.hpp"
 
 namespace mtstereo::reference {
@@ -17,6 +18,10 @@ struct RatedPair {
   const GrayPlane& right;
   int offset;  ///< of the disparities [px]
   float noise;
+  const GrayPlane& agreement;  ///< of tiles of the matched views
+  int tile;                    ///< [px]
+  int added;                   ///< columns on the left of the matched views
+  const GrayMapping& grays;    ///< of the right view
 };
 
 /// The bins of the clues about one pixel, each found on its own.
@@ -32,7 +37,8 @@ class PixelClues {
       case kShareClue:
         return share();
       case kMismatchClue:
-        return bin_of(mismatch(), {3, 5, 7, 9, 14, 18, 23, 27, 36, 45, 54, 72, 90, 126, 180, 270});
+        return bin_of(mismatch(-1) + mismatch(0) + mismatch(1),
+                      {3, 5, 7, 9, 14, 18, 23, 27, 36, 45, 54, 72, 90, 126, 180, 270});
       case kNearerClue:
         return first({1, 2, 3, 4, 6, 8, 10, 12, 15},
                      [&](int k) { return steps(x_ - k, y_) > own() + 32; });
@@ -44,11 +50,45 @@ class PixelClues {
       case kPartnerClue:
         return bin_of(std::floor(partner()), {-40, -20, -10, -5, 0, 3, 6, 10, 16, 24});
       case kTextureClue:
-        return bin_of(texture(),
+        return bin_of(texture(-4) + texture(0) + texture(4),
                       {1, 3, 8, 14, 20, 27, 40, 54, 75, 100, 135, 175, 230, 300, 400, 500});
+      case kAgreementClue:
+        return pair_.agreement(
+            std::clamp((x_ + pair_.added) / pair_.tile, 0, pair_.agreement.width - 1),
+            std::min(y_ / pair_.tile, pair_.agreement.height - 1));
       default:
         return bin_of(pair_.noise, {.1F, .3F, .6F, 1, 1.5F, 2, 2.5F, 3, 4, 5, 7, 10});
     }
+  }
+
+  /// The differences of the gray values of three pixels in the row `row` rows below; the map's
+  /// border is repeated outside.
+  int mismatch(int row) const {
+    const int y = std::clamp(y_ + row, 0, in_.map.height - 1);
+    int sum = 0;
+    for (int i = -1; i <= 1; ++i) {
+      const int x = std::clamp(x_ + i, 0, in_.map.width - 1);
+      const int partner =
+          static_cast<int>(std::floor(x - in_.map(x, y) / 256.0 - pair_.offset + 0.5));
+      int least = 85;
+      for (int k = -1; k <= 1; ++k) {
+        const int right = pair_.right(std::clamp(partner + k, 0, pair_.right.width - 1), y);
+        const int seen = pair_.grays.is_identity ? right : pair_.grays.left_of_right[right];
+        least = std::min(least, std::abs(pair_.left(x, y) - seen));
+      }
+      sum += least;
+    }
+    return sum;
+  }
+
+  /// The changes of the gray value along nine pixels of that row.
+  int texture(int row) const {
+    const int y = std::clamp(y_ + row, 0, in_.map.height - 1);
+    int sum = 0;
+    for (int x = std::max(x_ - 4, 1); x <= std::min(x_ + 4, in_.map.width - 1); ++x) {
+      sum += std::min(std::abs(pair_.left(x, y) - pair_.left(x - 1, y)), 28);
+    }
+    return sum;
   }
 
  private:
@@ -86,49 +126,20 @@ class PixelClues {
     return static_cast<int>(matched * ((16 * 65536 + pixels - 1) / pixels) / 65536);
   }
 
-  int mismatch() const {
-    int sum = 0;
-    for (int j = -1; j <= 1; ++j) {
-      for (int i = -1; i <= 1; ++i) {
-        const int x = std::clamp(x_ + i, 0, in_.map.width - 1);
-        const int y = std::clamp(y_ + j, 0, in_.map.height - 1);
-        const int partner =
-            static_cast<int>(std::floor(x - in_.map(x, y) / 256.0 - pair_.offset + 0.5));
-        int least = 85;
-        for (int k = -1; k <= 1; ++k) {
-          const int right = pair_.right(std::clamp(partner + k, 0, pair_.right.width - 1), y);
-          least = std::min(least, std::abs(pair_.left(x, y) - right));
-        }
-        sum += least;
-      }
-    }
-    return sum;
-  }
-
-  int texture() const {
-    int sum = 0;
-    for (const int row : {y_ - 4, y_, y_ + 4}) {
-      const int y = std::clamp(row, 0, in_.map.height - 1);
-      for (int x = std::max(x_ - 4, 1); x <= std::min(x_ + 4, in_.map.width - 1); ++x) {
-        sum += std::min(std::abs(pair_.left(x, y) - pair_.left(x - 1, y)), 28);
-      }
-    }
-    return sum;
-  }
-
   const RatedPair& pair_;
   const ConfidentMap& in_;
   int x_, y_;
 };
 
 /// The confidence of each pixel; `apart` keeps that of inferred ones at 1 .. 15.
-inline GrayPlane rate_reliability(const RatedPair& pair, const ConfidentMap& in, bool apart) {
+inline GrayPlane rate_reliability(const RatedPair& pair, const ConfidentMap& in,
+                                  const ReliabilityTable& table, bool apart) {
   GrayPlane out(in.map.width, in.map.height);
   for (int y = 0; y < out.height; ++y) {
     for (int x = 0; x < out.width; ++x) {
       const PixelClues clues(pair, in, x, y);
       int sum = 0;
-      for (int clue = 0; clue < kClues; ++clue) sum += kReliabilityTable[clue][clues.bin(clue)];
+      for (int clue = 0; clue < kClues; ++clue) sum += table[clue][clues.bin(clue)];
       int rated = std::clamp(sum / 16, 1, 255);
       if (apart)
         rated = in.confidence(x, y) > 15 ? std::max(rated, 16) : 1 + (rated - 1) * 14 / 254;

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/gray_mapping.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "support/compare.hpp"
+#include "support/plane.hpp"
+#include "support/random.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::DisparityPlane;
+using test::GrayPlane;
+
+constexpr int kShift = 7;
+
+/// Views that are shifted by kShift px, and differ by `response`, `noise` at most on both sides.
+GrayMapping mapping_of(const std::function<double(double)>& response, int noise,
+                       std::uint8_t confidence = 200, int width = 320, int offset = 0) {
+  GrayPlane left(width, 200), right(width, 200);
+  test::Random random(1);
+  for (int y = 0; y < 200; ++y) {
+    int gray = 100;
+    for (int x = 0; x < width; ++x) {
+      gray = std::clamp(gray + random.between(-25, 25), 10, 230);
+      left(x, y) = static_cast<std::uint8_t>(gray);
+      const int partner = x - kShift;
+      if (partner < 0) continue;
+      const double seen = response(gray) + random.between(-noise, noise);
+      right(partner, y) = static_cast<std::uint8_t>(std::clamp(std::lround(seen), 0L, 255L));
+    }
+  }
+  const Image<std::int32_t> map =
+      image_of(DisparityPlane(width, 200, (kShift - offset) * kDisparityOne));
+  const Image<std::uint8_t> confident = image_of(GrayPlane(width, 200, confidence));
+  return find_gray_mapping({left.view(), right.view(), offset, 1, nullptr, 16, 0}, map, confident);
+}
+
+void expect_identity(const GrayMapping& mapping) { EXPECT_TRUE(mapping.is_identity); }
+
+TEST(GrayMapping, IsNoneForEqualCamerasWithNoise) {
+  expect_identity(mapping_of([](double gray) { return gray; }, 0));
+  expect_identity(mapping_of([](double gray) { return gray; }, 8));
+  expect_identity(mapping_of([](double gray) { return gray + 2; }, 3));
+}
+
+TEST(GrayMapping, UndoesAnExposureAndAResponse) {
+  const auto darker = [](double gray) { return 0.7 * gray; };
+  const auto gamma = [](double gray) { return 255 * std::pow(gray / 255, 1.3); };
+  for (const auto& response : {std::function<double(double)>(darker), {gamma}}) {
+    for (const int offset : {0, -5}) {
+      const GrayMapping mapping = mapping_of(response, 1, 200, 320, offset);
+      EXPECT_FALSE(mapping.is_identity);
+      for (int gray = 20; gray <= 220; gray += 10) {
+        EXPECT_NEAR(gray, mapping.left_of_right[std::lround(response(gray))], 3) << gray;
+      }
+    }
+  }
+}
+
+TEST(GrayMapping, NeverDecreases) {
+  const GrayMapping mapping = mapping_of([](double gray) { return 0.6 * gray + 30; }, 1);
+  for (int gray = 1; gray < 256; ++gray) {
+    EXPECT_GE(mapping.left_of_right[gray], mapping.left_of_right[gray - 1]) << gray;
+  }
+}
+
+TEST(GrayMapping, TakesOverSmallDifferencesInPart) {
+  const GrayMapping mapping = mapping_of([](double gray) { return gray - 4.5; }, 0);
+  EXPECT_NEAR(102, mapping.left_of_right[100], 1);
+}
+
+TEST(GrayMapping, IsNoneWithoutMatchedPixels) {
+  const auto darker = [](double gray) { return 0.7 * gray; };
+  expect_identity(mapping_of(darker, 0, kMostInferred));
+  expect_identity(mapping_of(darker, 0, 200, 8));
+}
+
+}  // namespace
+}  // namespace mtstereo

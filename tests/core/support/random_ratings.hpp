@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+
+#include "reference/refine/reliability.hpp"
+#include "stages/refine/reliability.hpp"
+#include "support/compare.hpp"
+#include "support/random_maps.hpp"
+
+namespace mtstereo::test {
+
+/// A complete map with a confidence of each pixel, and views of its size.
+struct RandomRating {
+  RandomRating(int width, int height, std::uint64_t seed)
+      : RandomRating(width, height, width, seed) {}
+  RandomRating(int width, int height, int right_width, std::uint64_t seed)
+      : left(width, height),
+        right(right_width, height),
+        in{patches(width, height, 0, seed), GrayPlane(width, height)} {
+    Random random(seed);
+    for (int& disparity : in.map.pixels) disparity = std::max(disparity, 1);
+    for (std::uint8_t& value : in.confidence.pixels)
+      value = static_cast<std::uint8_t>(random.between(1, 255));
+    // Flat on one side, with strong texture on the other.
+    const int contrast = random.between(1, 120);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        left(x, y) = static_cast<std::uint8_t>(x < width / 4 ? 90 : random.between(0, contrast));
+      }
+      for (int x = 0; x < right_width; ++x) {
+        right(x, y) = static_cast<std::uint8_t>(x < width / 4 ? 90 : random.between(0, contrast));
+      }
+    }
+    tile = random.below(2) == 0 ? 16 : 32;
+    added = random.between(-40, 40);
+    agreement =
+        GrayPlane(std::max((width + added + tile - 1) / tile, 1), (height + tile - 1) / tile);
+    for (std::uint8_t& share : agreement.pixels) {
+      share = static_cast<std::uint8_t>(random.between(0, 31));
+    }
+    tiles = image_of(agreement);
+    grays.is_identity = random.below(2) == 0;
+    for (int gray = 0; gray < 256; ++gray) {
+      const int mapped = grays.is_identity ? gray : random.between(0, 255);
+      grays.left_of_right[gray] = static_cast<std::uint8_t>(mapped);
+    }
+  }
+  GrayPlane left, right;
+  reference::ConfidentMap in;
+  GrayPlane agreement{1, 1};  ///< of tiles
+  Image<std::uint8_t> tiles;  ///< the same
+  GrayMapping grays;
+  int tile = 16, added = 0;
+
+  RatedViews views(int offset, float noise) const {
+    return {left.view(), right.view(), offset, noise, &tiles, tile, added};
+  }
+  reference::RatedPair pair(int offset, float noise) const {
+    return {left, right, offset, noise, agreement, tile, added, grays};
+  }
+};
+
+}  // namespace mtstereo::test
