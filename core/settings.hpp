@@ -87,7 +87,7 @@ struct Settings {
   }
   /// The kind of the complete map, for its reliability.
   RatedMap rated_map() const {
-    if (!keeps_inferred() && keeps_likely_only()) return RatedMap::kMatched;
+    if (mode == Mode::kSemiDense) return RatedMap::kMatched;
     return half() ? RatedMap::kEnlarged : RatedMap::kComplete;
   }
   /// The options of the paths for the views at 1 / 2^level of the matched resolution.

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
 #include "stages/pixels/search_windows.hpp"
 

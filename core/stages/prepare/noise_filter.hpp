@@ -29,8 +29,8 @@ inline bool paths_need_filter(float level) {
   return level >= kLeastNoise || level < kMostOfCompressed;
 }
 
-/// A threshold with which nothing counts as noise: the weights 1 6 1 alone. Paths along the rows
-/// only need that much, since they have no neighbors in other rows.
+/// A threshold with which nothing counts as noise: the weights 1 6 1 alone. Paths that run
+/// along the rows only need that much, since no other rows average the noise.
 inline constexpr float kSmoothingOnly = 0;
 
 /// Scratch memory of one thread.
