@@ -124,7 +124,7 @@ void Maps::resize(const Settings& settings, const FrameSize& size) {
     thin.resize(width, height);
     columns.resize(height, width);
     withheld.resize(width, height);
-    if (settings.max_gap > 0) guarded.resize(width, height);
+    if (!settings.by_paths() && settings.max_gap > 0) guarded.resize(width, height);
   }
   if (settings.smoothing_radius > 0) smoothed.resize(width, height);
   scratch.resize(size.threads);

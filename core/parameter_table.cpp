@@ -114,16 +114,17 @@ constexpr ParameterInfo kTable[] = {
      "refine the disparity between whole pixels: by a V through the costs (census) or a parabola (gradient)"},
     {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", BY_GUIDE("300", "75", "0", "100", "75"),
      "connected areas with fewer pixels than this are removed; 0 = none"},
-    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "134", "106", "0"), MODES("183", "160", "92", "0"), MODES("0", "0", "0", "0")),
-     "disparities of lower confidence (1 .. 255) are removed; 0 = none; a filled gap has half the "
-     "confidence of its sides; in the modes semi-dense and dense with the pyramid the threshold applies to the complete map"},
+    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "136", "106", "0"), MODES("183", "160", "92", "0"), MODES("0", "0", "0", "0")),
+     "disparities of lower confidence (1 .. 255) are removed; 0 = none; a filled gap has less "
+     "confidence than its sides; in the modes semi-dense and dense with the pyramid the threshold applies to the complete map"},
     {P::kThinObjects, "thin-objects", "", "", T::kBoolean, 0, 1, "", BY_MODE(MODES("false", "true", "true", "false"), MODES("false", "true", "true", "false"), MODES("false", "false", "false", "false")),
      "keep posts, rails and wires that are too thin for speckle-size and min-confidence, and fill no gap over "
      "something nearer"},
     {P::kNodeEndWidth, "node-end-width", "", "px", T::kInteger, 1, kLargestNodeEnd, "", EACH("9", "9", "1"),
      "mode sparse: pixels that keep their disparity at each end of a finest node, an odd number"},
-    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "0", "0", "0"), MODES("0", "4", "0", "0"), MODES("0", "0", "0", "0")),
-     "gaps up to this width are filled if both sides differ by at most 1 px; 0 = none"},
+    {P::kMaxGap, "max-gap", "", "px", T::kInteger, 0, kLargestImageSide, "", BY_MODE(MODES("0", "3", "0", "0"), MODES("0", "4", "0", "0"), MODES("0", "0", "0", "0")),
+     "gaps up to this width are filled if both sides differ by at most 1 px; 0 = none; with the pyramid after "
+     "min-confidence and with a confidence of at most 15"},
     {P::kSmoothingRadius, "smoothing-radius", "", "px", T::kInteger, 0, kLargestSmoothingRadius, "", EACH("2", "3", "0"),
      "disparities are smoothed along each surface over this many pixels on both sides, in rows and in columns; "
      "0 = no smoothing"},

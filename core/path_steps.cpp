@@ -14,6 +14,7 @@
 #include "stages/refine/completion.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/edge_alignment.hpp"
+#include "stages/refine/gap_filling.hpp"
 #include "stages/refine/gray_mapping.hpp"
 #include "stages/refine/reliability.hpp"
 #include "stages/refine/speckle_removal.hpp"
@@ -48,10 +49,11 @@ void match_reduced(const StepContext& step, Views& views, Pyramid& pyramid) {
     const PathMatchingInput input = {level.views[0].view(), level.census[0], level.census[1],
                                      expected, all};
     WindowVotes* votes = i == 0 ? &pyramid.votes : nullptr;
-    step.bands.blocks(level.disparity.height(), kPathRows, [&](int y0, int y1, int worker) {
-      match_along_paths(input, options, y0, y1, pyramid.scratch[worker], level.disparity,
-                        level.ratio, votes);
-    });
+    step.bands.blocks(level.disparity.height(), path_rows(options.column_paths),
+                      [&](int y0, int y1, int worker) {
+                        match_along_paths(input, options, y0, y1, pyramid.scratch[worker],
+                                          level.disparity, level.ratio, votes);
+                      });
     expected = &level.disparity;
   }
 }
@@ -66,10 +68,11 @@ void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyrami
   const PathMatchingOptions options = step.settings.path_matching(0);
   const PathMatchingInput input = {views.matched[0], views.census[0], views.census[1],
                                    &pyramid.levels[0].disparity, pyramid.windows};
-  step.bands.blocks(maps.disparity.height(), kPathRows, [&](int y0, int y1, int worker) {
-    match_along_paths(input, options, y0, y1, pyramid.scratch[worker], maps.disparity, maps.ratio,
-                      nullptr);
-  });
+  step.bands.blocks(maps.disparity.height(), path_rows(options.column_paths),
+                    [&](int y0, int y1, int worker) {
+                      match_along_paths(input, options, y0, y1, pyramid.scratch[worker],
+                                        maps.disparity, maps.ratio, nullptr);
+                    });
 }
 
 void complete_map(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output) {
@@ -133,6 +136,21 @@ void reject_unlikely(const StepContext& step, Maps& maps, EnlargedMaps& enlarged
     remove_small(completion.islands, settings.speckle_size, y0, y1, result.disparity,
                  completion.weight);
     clear_unknown(result.disparity, y0, y1, result.confidence);
+  });
+}
+
+/// What it fills is inferred, not matched.
+void close_gaps(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output) {
+  const Settings& settings = step.settings;
+  const auto result = callers_maps(settings, maps, enlarged, output);
+  const GapFilling gaps = {settings.max_gap * (settings.half() ? 2 : 1), kDisparityOne,
+                           kMostInferred};
+  step.input_bands.rows([&](int y0, int y1, int) {
+    fill_gaps_along_rows(gaps, y0, y1, result.disparity, result.confidence);
+  });
+  step.input_bands.columns(result.disparity.width(), [&](int x0, int x1, int worker) {
+    fill_gaps_along_columns(gaps, x0, x1, maps.scratch[worker].columns, result.disparity,
+                            result.confidence);
   });
 }
 

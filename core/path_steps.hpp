@@ -36,4 +36,7 @@ void rate_map(const StepContext& step, const Views& views, const Pyramid& pyrami
 void reject_unlikely(const StepContext& step, Maps& maps, EnlargedMaps& enlarged,
                      OutputMaps& output, Completion& completion);
 
+/// Fills small gaps that the rejection has left in a surface.
+void close_gaps(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output);
+
 }  // namespace mtstereo

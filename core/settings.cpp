@@ -83,7 +83,9 @@ Settings::Settings(const Parameters& p)
       smoothing_radius(p.integer(P::kSmoothingRadius)) {}
 
 PathMatchingOptions Settings::path_matching(int level) const {
-  PathMatchingOptions options = {census_cost, smoothness, selection, mode != Mode::kSemiDense};
+  const bool complete = mode != Mode::kSemiDense;
+  PathMatchingOptions options = {census_cost, smoothness, selection,
+                                 complete ? ColumnPaths::kBoth : ColumnPaths::kNone};
   if (level == 0) return options;
   for (int i = 0; i < level; ++i) {
     options.cost.disparities = half_of(options.cost.disparities);
@@ -94,7 +96,8 @@ PathMatchingOptions Settings::path_matching(int level) const {
   options.cost.range_penalty = kHalvedRangePenalty;
   options.cost.bytes = census_bytes(1);
   options.smoothness = kHalvedSmoothness;
-  options.column_paths = true;
+  // Thin posts need other rows, but not those on both sides.
+  options.column_paths = complete ? ColumnPaths::kBoth : ColumnPaths::kFromAbove;
   return options;
 }
 

@@ -32,11 +32,13 @@ inline bool if_thin(const Settings& s) { return s.thin_objects; }
 /// Where the thin objects come back: into the matched map, or into the complete one.
 inline bool if_thin_restoring(const Settings& s) { return if_thin(s) && !s.by_paths(); }
 inline bool if_thin_drawing(const Settings& s) { return if_thin(s) && s.by_paths(); }
-inline bool if_gaps(const Settings& s) { return s.max_gap > 0; }
+/// Where gaps are filled: in the matched map, or in what the rejection leaves of the complete one.
+inline bool if_gaps(const Settings& s) { return s.max_gap > 0 && !s.by_paths(); }
 inline bool if_guard(const Settings& s) { return if_thin_restoring(s) && if_gaps(s); }
 inline bool if_rejection(const Settings& s) {
   return s.keeps_likely_only() && s.least_reliability() > 0;
 }
+inline bool if_closing(const Settings& s) { return if_rejection(s) && s.max_gap > 0; }
 inline bool if_smoothing(const Settings& s) { return s.smoothing_radius > 0; }
 
 }  // namespace mtstereo

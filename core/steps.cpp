@@ -90,14 +90,16 @@ void filter_noise(const StepContext& step, Views& views) {
   });
   const float levels[] = {noise_level(views.noise[0]), noise_level(views.noise[1])};
   views.noise_level = std::max(levels[0], levels[1]);
-  float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
-  if (step.settings.by_paths() && !paths_need_filter(views.noise_level)) {
-    if (step.settings.path_matching(0).column_paths) return;
-    threshold = kSmoothingOnly;
-  }
+  const bool lightly = step.settings.by_paths() && !paths_need_filter(views.noise_level);
+  if (lightly && step.settings.path_matching(0).column_paths != ColumnPaths::kNone) return;
+  const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
-    mtstereo::filter_noise(views.matched[side], threshold, y0, y1,
-                           views.scratch[worker].noise_filter, views.filtered[side]);
+    NoiseFilterScratch& scratch = views.scratch[worker].noise_filter;
+    if (lightly) {
+      smooth_lightly(views.matched[side], y0, y1, scratch, views.filtered[side]);
+    } else {
+      mtstereo::filter_noise(views.matched[side], threshold, y0, y1, scratch, views.filtered[side]);
+    }
   });
   for (int side = 0; side < 2; ++side) views.matched[side] = views.filtered[side].view();
 }
@@ -283,13 +285,13 @@ void remove_islands(const StepContext& step, Maps& maps) {
 }
 
 void fill_gaps(const StepContext& step, Maps& maps) {
-  const int max_gap = step.settings.max_gap;
+  const GapFilling gaps = {step.settings.max_gap, kDisparityOne};
   step.bands.rows([&](int y0, int y1, int) {
-    fill_gaps_along_rows(max_gap, kDisparityOne, y0, y1, maps.disparity, maps.confidence);
+    fill_gaps_along_rows(gaps, y0, y1, maps.disparity, maps.confidence);
   });
   step.bands.columns(maps.disparity.width(), [&](int x0, int x1, int worker) {
-    fill_gaps_along_columns(max_gap, kDisparityOne, x0, x1, maps.scratch[worker].columns,
-                            maps.disparity, maps.confidence);
+    fill_gaps_along_columns(gaps, x0, x1, maps.scratch[worker].columns, maps.disparity,
+                            maps.confidence);
   });
 }
 
@@ -379,6 +381,7 @@ constexpr Step kSteps[] = {
     {"edge-alignment",      if_paths,          on<align_map_edges, const Views, Maps, EnlargedMaps, OutputMaps, Completion>},
     {"reliability",         if_paths,          on<rate_map, const Views, const Pyramid, Maps, EnlargedMaps, OutputMaps, Completion>},
     {"rejection",           if_rejection,      on<reject_unlikely, Maps, EnlargedMaps, OutputMaps, Completion>},
+    {"gap-closing",         if_closing,        on<close_gaps, Maps, EnlargedMaps, OutputMaps>},
     {"thin-drawing",        if_thin_drawing,   on<draw_thin, Maps, EnlargedMaps, OutputMaps>},
 };
 // clang-format on

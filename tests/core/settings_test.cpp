@@ -20,6 +20,10 @@ struct Mapping {
   std::function<double(const Settings&)> field;
 };
 
+double column_paths(const Settings& settings, int level) {
+  return static_cast<int>(settings.path_matching(level).column_paths);
+}
+
 const Mapping kMappings[] = {
     {"mode", "sparse", 0, [](const Settings& s) { return static_cast<int>(s.mode); }},
     {"mode", "dense", 2, [](const Settings& s) { return static_cast<int>(s.mode); }},
@@ -31,9 +35,10 @@ const Mapping kMappings[] = {
     {"guide", "nodes", 0, [](const Settings& s) { return s.by_paths(); }},
     {"cost", "gradient", 0, [](const Settings& s) { return s.by_paths(); }},
     {"preset", "fast", 0, [](const Settings& s) { return s.by_paths(); }},
-    {"mode", "semi-dense", 0, [](const Settings& s) { return s.path_matching(0).column_paths; }},
-    {"mode", "dense", 1, [](const Settings& s) { return s.path_matching(0).column_paths; }},
-    {"mode", "semi-dense", 1, [](const Settings& s) { return s.path_matching(1).column_paths; }},
+    {"mode", "semi-dense", 0, [](const Settings& s) { return column_paths(s, 0); }},
+    {"mode", "semi-dense", 1, [](const Settings& s) { return column_paths(s, 1); }},
+    {"mode", "dense", 2, [](const Settings& s) { return column_paths(s, 0); }},
+    {"mode", "full", 2, [](const Settings& s) { return column_paths(s, 1); }},
     {"mode", "full", 0, [](const Settings& s) { return s.keeps_likely_only(); }},
     {"mode", "dense", 1, [](const Settings& s) { return s.keeps_likely_only(); }},
     {"mode", "semi-dense", 1, [](const Settings& s) { return s.keeps_likely_only(); }},

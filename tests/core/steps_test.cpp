@@ -41,7 +41,7 @@ void expect_none_of(const Parameters& parameters, const Names& absent) {
 TEST(Steps, RunInOrderWithTheDefaults) {
   expect_order({}, {"noise-filter", "census", "reduced-matching", "search-windows", "path-matching",
                     "thin-search", "speckle-removal", "confidence", "smoothing", "completion",
-                    "edge-alignment", "reliability", "rejection", "thin-drawing"});
+                    "edge-alignment", "reliability", "rejection", "gap-closing", "thin-drawing"});
   expect_none_of({}, {"halving", "preprocessing", "max-trees", "node-matching", "census-matching",
                       "island-removal", "thin-restoring", "gap-filling", "gap-guard", "enlarging",
                       "input-census", "refinement"});
@@ -68,12 +68,23 @@ TEST(Steps, FillGapsAfterConfidence) {
                {"census-matching", "speckle-removal", "confidence", "gap-filling"});
 }
 
+TEST(Steps, CloseGapsOfTheCompleteMapAfterTheRejection) {
+  const Parameters dense = test::parameters({{"mode", "dense"}, {"max-gap", "1"}});
+  expect_order(dense, {"completion", "rejection", "gap-closing", "thin-drawing"});
+  expect_none_of(dense, {"gap-filling", "gap-guard"});
+  for (const char* const mode : {"semi-dense", "dense"}) {
+    expect_none_of(test::parameters({{"mode", mode}, {"max-gap", "0"}}), {"gap-closing"});
+  }
+  expect_none_of(test::parameters({{"mode", "full"}, {"max-gap", "9"}}),
+                 {"gap-closing", "gap-filling"});
+}
+
 TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
   const Parameters dense = test::parameters({{"mode", "dense"}});
   expect_order(dense, {"path-matching", "thin-search", "speckle-removal", "completion",
                        "edge-alignment", "reliability", "rejection", "thin-drawing"});
   expect_none_of(dense, {"node-matching", "census-matching", "island-removal", "thin-restoring",
-                         "gap-filling", "gap-guard"});
+                         "gap-filling", "gap-guard", "gap-closing"});
   expect_none_of(test::parameters({{"mode", "dense"}, {"min-confidence", "0"}}), {"rejection"});
 }
 

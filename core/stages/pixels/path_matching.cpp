@@ -15,11 +15,11 @@ constexpr int kCostTolerance = 1;
 
 /// A chunk y0 .. y1 - 1, and the rows first .. last - 1 that its paths read.
 struct Chunk {
-  Chunk(int begin, int end, int margin, int height)
+  Chunk(int begin, int end, ColumnPaths paths, int height)
       : y0(begin),
         y1(end),
-        first(std::max(begin - margin, 0)),
-        last(std::min(end + margin, height)) {}
+        first(paths == ColumnPaths::kNone ? y0 : std::max(y0 - kPathMargin, 0)),
+        last(paths == ColumnPaths::kBoth ? std::min(y1 + kPathMargin, height) : y1) {}
 
   int y0, y1, first, last;
 };
@@ -41,34 +41,19 @@ class ChunkMatching {
         runner_up_(runner_up_table(options.selection.confidence)),
         any_runner_up_(runner_up_table(0)) {}
 
-  /// The costs of the chunk and its margins.
-  void find_costs() {
+  /// Writes the results. Paths from below walk through the whole chunk first.
+  void run(Image<std::int32_t>& map, Image<std::uint8_t>& ratio, WindowVotes* votes) {
     start_census_costs(input_.left, input_.right, input_.windows, options_.cost, chunk_.first,
                        scratch_.cost);
-    for (int y = chunk_.first; y < chunk_.last; ++y) {
-      expect(y);
-      census_cost_row(input_.left, input_.right, input_.windows, options_.cost, y,
-                      scratch_.low.data(), scratch_.high.data(), scratch_.cost, costs(y));
+    if (from_below()) {
+      for (int y = chunk_.first; y < chunk_.last; ++y) find_costs(y);
+      walk_up();
     }
-  }
-
-  /// The paths from below. Outside of the chunk only the state is kept.
-  void walk_up() {
-    if (!options_.column_paths) return;
-    std::uint8_t* before = nullptr;
-    for (int y = chunk_.last - 1; y >= chunk_.y0; --y) {
-      std::uint8_t* paths = below(std::min(y, chunk_.y1));
-      step(y, y + 1, before, paths);
-      before = paths;
-    }
-  }
-
-  /// The paths from above, those along the rows, and the results.
-  void walk_down(Image<std::int32_t>& map, Image<std::uint8_t>& ratio, WindowVotes* votes) {
     if (votes != nullptr) clear_votes(chunk_.y0, chunk_.y1, *votes);
     std::uint8_t* before = nullptr;
     for (int y = chunk_.first; y < chunk_.y1; ++y) {
-      if (options_.column_paths) step(y, y - 1, before, scratch_.above.data());
+      if (!from_below()) find_costs(y);
+      if (from_above()) step(y, y - 1, before, scratch_.above.data());
       before = scratch_.above.data();
       if (y < chunk_.y0) continue;
       select(y, map.row(y), ratio.row(y));
@@ -77,7 +62,14 @@ class ChunkMatching {
   }
 
  private:
-  std::uint8_t* costs(int y) const { return scratch_.costs.data() + (y - chunk_.first) * cells_; }
+  bool from_above() const { return options_.column_paths != ColumnPaths::kNone; }
+  bool from_below() const { return options_.column_paths == ColumnPaths::kBoth; }
+
+  /// Without paths from below, each row replaces the one before it.
+  std::uint8_t* costs(int y) const {
+    return scratch_.costs.data() + (from_below() ? (y - chunk_.first) * cells_ : 0);
+  }
+
   std::uint8_t* below(int y) const { return scratch_.below.data() + (y - chunk_.y0) * cells_; }
 
   /// Two rows have the same row of the half map.
@@ -86,6 +78,22 @@ class ChunkMatching {
     expected_ = y / 2;
     find_expected(input_.half_map, y, width_, options_.cost.disparities, scratch_.low.data(),
                   scratch_.high.data());
+  }
+
+  void find_costs(int y) {
+    expect(y);
+    census_cost_row(input_.left, input_.right, input_.windows, options_.cost, y,
+                    scratch_.low.data(), scratch_.high.data(), scratch_.cost, costs(y));
+  }
+
+  /// Outside of the chunk only the state is kept.
+  void walk_up() {
+    std::uint8_t* before = nullptr;
+    for (int y = chunk_.last - 1; y >= chunk_.y0; --y) {
+      std::uint8_t* paths = below(std::min(y, chunk_.y1));
+      step(y, y + 1, before, paths);
+      before = paths;
+    }
   }
 
   /// Advances paths along the columns from the row `from` to row y.
@@ -118,8 +126,8 @@ class ChunkMatching {
   }
 
   ColumnCosts columns(int y) const {
-    if (!options_.column_paths) return {};
-    return {scratch_.above.data(), below(y)};
+    if (!from_above()) return {};
+    return {scratch_.above.data(), from_below() ? below(y) : scratch_.above.data()};
   }
 
   void vote(int y, const std::int32_t* by_path, WindowVotes& votes) {
@@ -170,8 +178,9 @@ void PathMatchingScratch::resize(int width, int height, const PathMatchingOption
   cost.resize(width, options.cost);
   scanline.resize(width, disparities);
   selection.resize(width, disparities);
-  costs.resize(cells * std::min(height, kPathRows + 2 * kPathMargin));
-  below.resize(cells * (std::min(height, kPathRows) + 1));
+  const bool from_below = options.column_paths == ColumnPaths::kBoth;
+  costs.resize(cells * (from_below ? std::min(height, kPathRows + 2 * kPathMargin) : 1));
+  below.resize(from_below ? cells * (std::min(height, kPathRows) + 1) : 0);
   above.resize(cells);
   least.resize(width);
   twice.resize(cells);
@@ -208,11 +217,8 @@ void match_along_paths(const PathMatchingInput& input, const PathMatchingOptions
                        int y1, PathMatchingScratch& scratch, Image<std::int32_t>& map,
                        Image<std::uint8_t>& ratio, WindowVotes* votes) {
   scratch.resize(input.image.width, input.image.height, options);
-  const int margin = options.column_paths ? kPathMargin : 0;
-  ChunkMatching matching(input, options, Chunk(y0, y1, margin, input.image.height), scratch);
-  matching.find_costs();
-  matching.walk_up();
-  matching.walk_down(map, ratio, votes);
+  const Chunk chunk(y0, y1, options.column_paths, input.image.height);
+  ChunkMatching(input, options, chunk, scratch).run(map, ratio, votes);
 }
 
 }  // namespace mtstereo

@@ -13,10 +13,10 @@
 
 namespace mtstereo {
 
-/// Matching of all pixels by the census cost and four paths, two along the row and two along the
-/// column, or by those along the row only: runs census_cost, column_optimization,
-/// scanline_optimization and disparity_selection. Instead of the nodes, the map of the views at
-/// half the resolution says which disparities are expected.
+/// Matching of all pixels by the census cost and paths, two along the row and up to two along the
+/// column: runs census_cost, column_optimization, scanline_optimization and disparity_selection.
+/// Instead of the nodes, the map of the views at half the resolution says which disparities are
+/// expected.
 
 /// Rows of a chunk, which is matched at once. Chunks begin at multiples of it.
 inline constexpr int kPathRows = 64;
@@ -40,15 +40,28 @@ struct PathMatchingInput {
   const SearchWindows& windows;
 };
 
+/// The paths along the columns beside those along the rows.
+enum class ColumnPaths {
+  kNone,
+  kFromAbove,  ///< counts twice, for the one from below as well
+  kBoth
+};
+
 struct PathMatchingOptions {
   CensusCostOptions cost;
   SmoothnessOptions smoothness;
   SelectionOptions selection;
-  bool column_paths;  ///< whether there are paths along the columns beside those along the rows
+  ColumnPaths column_paths;
 };
 
-/// Scratch memory of one thread: the costs of a chunk and its margins, and the path costs from
-/// below of a chunk.
+/// Rows that are best matched at once: without paths along the columns, chunks of any rows give the
+/// same result.
+inline int path_rows(ColumnPaths paths) {
+  return paths == ColumnPaths::kNone ? kPathRows / 2 : kPathRows;
+}
+
+/// Scratch memory of one thread. With paths from below, the costs of a chunk and its margins and
+/// the path costs from below of a chunk, otherwise the costs of one row.
 struct PathMatchingScratch {
   Buffer<std::uint16_t> low;
   Buffer<std::uint16_t> high;
@@ -73,8 +86,9 @@ struct PathMatchingScratch {
 void find_expected(const Image<std::int32_t>* half_map, int y, int width, int disparities,
                    std::uint16_t* low, std::uint16_t* high);
 
-/// Writes the disparities and peak ratios of the rows y0 .. y1 - 1. y0 is a multiple of kPathRows,
-/// and y1 the next one or the height. Counts the votes of these rows, unless `votes` is nullptr.
+/// Writes the disparities and peak ratios of the rows y0 .. y1 - 1. y0 is a multiple of
+/// path_rows(), and y1 the next one or the height. Counts the votes of these rows, unless `votes`
+/// is nullptr.
 void match_along_paths(const PathMatchingInput& input, const PathMatchingOptions& options, int y0,
                        int y1, PathMatchingScratch& scratch, Image<std::int32_t>& map,
                        Image<std::uint8_t>& ratio, WindowVotes* votes);

@@ -114,6 +114,25 @@ void pad_row(const std::uint8_t* row, int width, std::uint8_t* padded) {
   std::memset(padded + kReach + width, row[width - 1], kReach);
 }
 
+/// The columns of three rows with weights 1 6 1, with a border of one column that repeats the
+/// outermost ones. Compilers vectorize both loops.
+void smooth_columns(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below,
+                    int width, std::uint16_t* __restrict__ columns) {
+  for (int x = 0; x < width; ++x) {
+    columns[x + 1] = static_cast<std::uint16_t>(above[x] + 6 * row[x] + below[x]);
+  }
+  columns[0] = columns[1];
+  columns[width + 1] = columns[width];
+}
+
+void smooth_row(const std::uint16_t* columns, int width, std::uint8_t* __restrict__ filtered) {
+  for (int x = 0; x < width; ++x) {
+    const auto sum =
+        static_cast<std::uint16_t>(columns[x] + 6 * columns[x + 1] + columns[x + 2] + 32);
+    filtered[x] = static_cast<std::uint8_t>(sum >> 6);
+  }
+}
+
 }  // namespace
 
 float noise_threshold(float level) {
@@ -156,6 +175,17 @@ void filter_noise(GrayView view, float threshold, int y0, int y1, NoiseFilterScr
     HWY_DYNAMIC_DISPATCH(filter_columns)(lines, padded, scratch);
     HWY_DYNAMIC_DISPATCH(filter_row)
     (scratch, noise, width, filtered.row(y0 + i - kNoiseWindow + 1));
+  }
+}
+
+void smooth_lightly(GrayView view, int y0, int y1, NoiseFilterScratch& scratch,
+                    Image<std::uint8_t>& filtered) {
+  const std::size_t columns = static_cast<std::size_t>(view.width) + 2;
+  if (scratch.columns.size() < columns) scratch.columns.resize(columns);
+  for (int y = y0; y < y1; ++y) {
+    smooth_columns(view.row(std::max(y - 1, 0)), view.row(y),
+                   view.row(std::min(y + 1, view.height - 1)), view.width, scratch.columns.data());
+    smooth_row(scratch.columns.data(), view.width, filtered.row(y));
   }
 }
 

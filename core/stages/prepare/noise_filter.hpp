@@ -29,18 +29,15 @@ inline bool paths_need_filter(float level) {
   return level >= kLeastNoise || level < kMostOfCompressed;
 }
 
-/// A threshold with which nothing counts as noise: the weights 1 6 1 alone. Paths that run
-/// along the rows only need that much, since no other rows average the noise.
-inline constexpr float kSmoothingOnly = 0;
-
 /// Scratch memory of one thread.
 struct NoiseFilterScratch {
-  Image<std::uint8_t> view;      ///< the rows of a band with their borders
-  Buffer<std::uint16_t> narrow;  ///< a row's columns, filtered by weights 1 6 1,
-  Buffer<std::uint16_t> wide;    ///< and by weights 1 4 6 4 1
-  Buffer<std::uint16_t> sums;    ///< of the window's columns,
-  Buffer<std::int32_t> squares;  ///< and of their squares
-  Buffer<std::uint8_t> no_row;   ///< zeros
+  Image<std::uint8_t> view;       ///< the rows of a band with their borders
+  Buffer<std::uint16_t> narrow;   ///< a row's columns, filtered by weights 1 6 1,
+  Buffer<std::uint16_t> wide;     ///< and by weights 1 4 6 4 1
+  Buffer<std::uint16_t> sums;     ///< of the window's columns,
+  Buffer<std::int32_t> squares;   ///< and of their squares
+  Buffer<std::uint8_t> no_row;    ///< zeros
+  Buffer<std::uint16_t> columns;  ///< of smooth_lightly()
 
   /// For bands of up to `rows` rows of views of up to this width.
   void resize(int width, int rows);
@@ -52,5 +49,10 @@ struct NoiseFilterScratch {
 /// `scratch` is resized if it is too small for the band.
 void filter_noise(GrayView view, float threshold, int y0, int y1, NoiseFilterScratch& scratch,
                   Image<std::uint8_t>& filtered);
+
+/// The same with a threshold of 0: the weights 1 6 1 alone. Paths that run along the rows only need
+/// that much in every view, since no other rows average the noise.
+void smooth_lightly(GrayView view, int y0, int y1, NoiseFilterScratch& scratch,
+                    Image<std::uint8_t>& filtered);
 
 }  // namespace mtstereo

@@ -45,7 +45,7 @@ struct Golden {
 // clang-format off
 constexpr Golden kGolden[] = {
     {"default", "sparse", 0x28618abb18c13521},
-    {"default", "semi-dense", 0x75f3874dd45541b7},
+    {"default", "semi-dense", 0x541411231131de07},
     {"default", "dense", 0x6f8f6f7e3c09802c},
     {"default", "full", 0x0b695e921df5222b},
     {"fast", "sparse", 0x551fbc1754b1b581},

@@ -284,12 +284,31 @@ TEST(Invariants, ExactlyKnownPixelsHaveAConfidence) {
 TEST(Invariants, ModeSemiDenseHasNoInferredPixels) {
   const Pair pair = test::slanted_pair(200, 90, 30, 11);
   for (const char* const least : {"0", "5"}) {
-    Matcher matcher = test::matcher({{"min-confidence", least}});
+    Matcher matcher = test::matcher({{"min-confidence", least}, {"max-gap", "0"}});
     const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
     EXPECT_GT(test::known(map), 1000);
     EXPECT_LT(test::known(map), 200 * 90);
     for (const std::uint8_t value : copy_of(matcher.confidence()).pixels) {
       ASSERT_TRUE(value == 0 || value > kMostInferred);
+    }
+  }
+}
+
+TEST(Invariants, ModeSemiDenseClosesGapsWithInferredPixels) {
+  const Pair pair = test::slanted_pair(200, 90, 30, 11);
+  Matcher open = test::matcher({{"max-gap", "0"}});
+  Matcher closed = test::matcher({{"max-gap", "5"}});
+  const DisparityPlane before = test::compute(open, pair.left, pair.right);
+  const GrayPlane matched = copy_of(open.confidence());
+  const DisparityPlane after = test::compute(closed, pair.left, pair.right);
+  const GrayPlane confidence = copy_of(closed.confidence());
+  EXPECT_GT(test::known(after), test::known(before));
+  for (std::size_t i = 0; i < after.pixels.size(); ++i) {
+    if (before.pixels[i] == kNoDisparity) {
+      ASSERT_LE(confidence.pixels[i], kMostInferred);
+    } else {
+      ASSERT_EQ(before.pixels[i], after.pixels[i]);
+      ASSERT_EQ(matched.pixels[i], confidence.pixels[i]);
     }
   }
 }

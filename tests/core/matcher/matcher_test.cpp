@@ -139,7 +139,7 @@ Change change_of(Parameter id) {
     case Parameter::kNodeEndWidth:
       return {{{"mode", "sparse"}}, "1"};
     case Parameter::kMaxGap:
-      return {{{"guide", "nodes"}}, "8"};
+      return {{}, "0"};
     case Parameter::kSmallStepPenalty:
     case Parameter::kLargeStepPenalty:
     case Parameter::kMinConfidence:

@@ -36,9 +36,10 @@ RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
   scratch.resize(width, height, options);
   const PathMatchingInput input = {pair.left.view(), census.left, census.right,
                                    half_map == nullptr ? nullptr : &half, windows};
-  for (int i = (height - 1) / kPathRows; i >= 0; --i) {
-    match_along_paths(input, options, i * kPathRows, std::min((i + 1) * kPathRows, height), scratch,
-                      map, ratio, votes);
+  const int rows = path_rows(options.column_paths);
+  for (int i = (height - 1) / rows; i >= 0; --i) {
+    match_along_paths(input, options, i * rows, std::min((i + 1) * rows, height), scratch, map,
+                      ratio, votes);
   }
   RatedMap out(width, height);
   out.map = copy_of(map);
@@ -52,7 +53,7 @@ PathMatchingOptions random_options(int disparities, Random& random) {
       {random.below(51), random.below(51)},
       {disparities, 0.06 * random.below(2), false, random.between(-1, 2), random.below(2) == 0,
        random.below(50)},
-      random.below(2) == 0};
+      static_cast<ColumnPaths>(random.below(3))};
 }
 
 /// A map of half the size with disparities near half of `around`, a third of it unknown.
@@ -107,7 +108,8 @@ TEST(PathMatching, CountsTheVotesOfPathsAndCosts) {
   PathMatchingScratch scratch;
   const int width = 70, height = 90;
   const Pair pair = test::shifted_pair(width, height, 9, 3);
-  const PathMatchingOptions options = {{24, 3, 2, 3}, {12, 51}, {24, 0, false, 2, true, 60}, true};
+  const PathMatchingOptions options = {
+      {24, 3, 2, 3}, {12, 51}, {24, 0, false, 2, true, 60}, ColumnPaths::kBoth};
   WindowVotes votes;
   votes.resize(2 * width, 2 * height, 64);
   const RatedMap out = matched(pair, nullptr, options, scratch, {}, &votes);
@@ -124,7 +126,8 @@ TEST(PathMatching, CountsTheVotesOfPathsAndCosts) {
 TEST(PathMatching, FindsTheDisparityOfEveryPixelThatBothViewsShow) {
   PathMatchingScratch scratch;
   const Pair pair = test::shifted_pair(120, 90, 17, 1);
-  const PathMatchingOptions options = {{40, 3, 2, 3}, {5, 30}, {40, 0, false, 1, true, 60}, true};
+  const PathMatchingOptions options = {
+      {40, 3, 2, 3}, {5, 30}, {40, 0, false, 1, true, 60}, ColumnPaths::kBoth};
   const RatedMap out = matched(pair, nullptr, options, scratch);
   long right = 0;
   for (int y = 0; y < 90; ++y) {
@@ -143,7 +146,8 @@ TEST(PathMatching, PrefersWhatTheHalfMapExpects) {
     }
   }
   PathMatchingScratch scratch;
-  const PathMatchingOptions options = {{40, 3, 2, 3}, {5, 30}, {40, -1, false, -1, true, 60}, true};
+  const PathMatchingOptions options = {
+      {40, 3, 2, 3}, {5, 30}, {40, -1, false, -1, true, 60}, ColumnPaths::kBoth};
   const DisparityPlane expected(60, 20, 128 * 19);
   const RatedMap out = matched(pair, &expected, options, scratch);
   for (int y = 8; y < 32; ++y) {

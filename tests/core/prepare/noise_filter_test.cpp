@@ -50,6 +50,22 @@ TEST(NoiseFilter, EqualsReferenceAtExtremes) {
   }
 }
 
+TEST(NoiseFilter, SmoothsLightlyAsWithAThresholdOfZero) {
+  for (int width = 1; width <= 140; width += 1 + width / 20) {
+    for (const int height : {1, 2, 9}) {
+      const GrayPlane view = test::noise(width, height, 100 * width + height, 255);
+      const test::PaddedImage<std::uint8_t> padded(view, width % 70, height % 5);
+      Image<std::uint8_t> out = test::image_of(GrayPlane(width, height, 77));
+      NoiseFilterScratch scratch;
+      for (int y = height - 1; y >= 0; --y) {
+        smooth_lightly(padded.view(), y, y + 1, scratch, out);
+      }
+      EXPECT_TRUE(same_image(reference::filter_noise(view, 0), test::copy_of(out)))
+          << width << "x" << height;
+    }
+  }
+}
+
 TEST(NoiseFilter, LeavesAFlatViewAlone) {
   for (const int gray : {0, 1, 100, 255}) {
     const GrayPlane view(50, 20, static_cast<std::uint8_t>(gray));

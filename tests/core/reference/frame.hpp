@@ -286,6 +286,12 @@ inline void reject_unlikely(Frame& f) {
   }
 }
 
+inline void close_gaps(Frame& f) {
+  const int max_gap = f.settings.max_gap * (f.settings.half() ? 2 : 1);
+  const ConfidentMap rows = fill_gaps({f.map, f.confidence}, max_gap, 256, 1, 0, 15);
+  take(f, fill_gaps(rows, max_gap, 256, 0, 1, 15));
+}
+
 inline void guard_gaps(Frame& f) { guard_gaps(f.found, f.unfilled, f.map, f.confidence); }
 
 inline void smooth(Frame& f) { f.map = smooth(f.map, f.settings.smoothing_radius); }
@@ -339,6 +345,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"edge-alignment", align_edges},
     {"reliability", rate_map},
     {"rejection", reject_unlikely},
+    {"gap-closing", close_gaps},
     {"thin-drawing", draw_thin},
 };
 

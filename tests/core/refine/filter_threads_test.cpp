@@ -66,11 +66,11 @@ TEST(FilterThreads, FillTheSameGapsForAnyNumber) {
       Image<std::int32_t> image = image_of(map);
       Image<std::uint8_t> image_confidence = image_of(confidence);
       for_parts(pool, map.height, kBand, [&](int y0, int y1, int) {
-        fill_gaps_along_rows(9, 500, y0, y1, image, image_confidence);
+        fill_gaps_along_rows({9, 500}, y0, y1, image, image_confidence);
       });
       // Blocks that share cache lines and words, the harder case.
       for_parts(pool, map.width, 7, [&](int x0, int x1, int worker) {
-        fill_gaps_along_columns(9, 500, x0, x1, scratch[worker], image, image_confidence);
+        fill_gaps_along_columns({9, 500}, x0, x1, scratch[worker], image, image_confidence);
       });
       const reference::ConfidentMap rows = reference::fill_gaps({map, confidence}, 9, 500, 1, 0);
       const reference::ConfidentMap expected = reference::fill_gaps(rows, 9, 500, 0, 1);

@@ -40,7 +40,8 @@ ConfidentMap filled_along_rows(const ConfidentMap& in, int max_gap, int toleranc
   Image<std::int32_t> map = image_of(in.map);
   Image<std::uint8_t> confidence = image_of(in.confidence);
   for (int y = 0; y < map.height(); y += band) {
-    fill_gaps_along_rows(max_gap, tolerance, y, std::min(y + band, map.height()), map, confidence);
+    fill_gaps_along_rows({max_gap, tolerance}, y, std::min(y + band, map.height()), map,
+                         confidence);
   }
   return {copy_of(map), copy_of(confidence)};
 }
@@ -52,7 +53,7 @@ ConfidentMap filled_along_columns(const ConfidentMap& in, int max_gap, int toler
   Image<std::uint8_t> confidence = image_of(in.confidence);
   Buffer<std::int32_t> scratch;
   for (int x = 0; x < map.width(); x += block) {
-    fill_gaps_along_columns(max_gap, tolerance, x, std::min(x + block, map.width()), scratch, map,
+    fill_gaps_along_columns({max_gap, tolerance}, x, std::min(x + block, map.width()), scratch, map,
                             confidence);
   }
   return {copy_of(map), copy_of(confidence)};
@@ -110,6 +111,17 @@ TEST(GapFilling, EqualsReferenceAtExtremes) {
     for (const int tolerance : {-1, 0, 1, test::kLargestDisparity, kMost}) {
       expect_reference(confident(map), max_gap, tolerance);
     }
+  }
+}
+
+TEST(GapFilling, LimitsTheConfidence) {
+  const ConfidentMap in = confident(disparity_noise(50, 40, 6, 900, 201));
+  for (const int most : {1, 15, 254}) {
+    const ConfidentMap expected = reference::fill_gaps(in, 8, 500, 1, 0, most);
+    Image<std::int32_t> map = image_of(in.map);
+    Image<std::uint8_t> confidence = image_of(in.confidence);
+    fill_gaps_along_rows({8, 500, static_cast<std::uint8_t>(most)}, 0, 40, map, confidence);
+    EXPECT_TRUE(same(expected, {copy_of(map), copy_of(confidence)})) << most;
   }
 }
 

@@ -90,9 +90,10 @@ inline DisparityPlane match_by_cost(const PathInput& input, const PathMatchingOp
 }
 
 /// Half the sums of four paths: `sums` are those of the paths along row y, and those along the
-/// columns start kPathMargin rows before and after the row's chunk of kPathRows rows.
+/// columns start kPathMargin rows before and after the row's chunk of kPathRows rows. The path from
+/// above alone counts twice.
 inline void add_column_paths(const PathInput& input, const std::vector<RowCosts>& costs,
-                             const SmoothnessOptions& steps, int y, RowCosts& sums) {
+                             const SmoothnessOptions& steps, bool both, int y, RowCosts& sums) {
   const GrayPlane& left = input.left;
   const int height = left.height;
   const int y0 = y / kPathRows * kPathRows, y1 = std::min(y0 + kPathRows, height);
@@ -104,6 +105,7 @@ inline void add_column_paths(const PathInput& input, const std::vector<RowCosts>
     below = column_step(costs[row], below, &left(0, row), &left(0, std::min(row + 1, height - 1)),
                         steps);
   }
+  if (!both) below = above;
   for (std::size_t x = 0; x < sums.size(); ++x) {
     for (std::size_t d = 0; d < sums[x].size(); ++d) {
       if (sums[x][d] == kOutside) continue;
@@ -112,7 +114,7 @@ inline void add_column_paths(const PathInput& input, const std::vector<RowCosts>
   }
 }
 
-/// Matches a view along two or four paths.
+/// Matches a view along two, three or four paths.
 inline RatedMap match_along_paths(const PathInput& input, const PathMatchingOptions& options) {
   const int width = input.left.width, height = input.left.height, rows = options.cost.kernel_size;
   const SmoothnessOptions steps = {options.smoothness.small_step * rows,
@@ -121,7 +123,9 @@ inline RatedMap match_along_paths(const PathInput& input, const PathMatchingOpti
   RatedMap out(width, height);
   for (int y = 0; y < height; ++y) {
     RowCosts sums = optimize_scanline(costs[y], &input.left(0, y), steps);
-    if (options.column_paths) add_column_paths(input, costs, steps, y, sums);
+    if (options.column_paths != ColumnPaths::kNone) {
+      add_column_paths(input, costs, steps, options.column_paths == ColumnPaths::kBoth, y, sums);
+    }
     const std::vector<Selected> selected = select_row(input, y, sums, options.selection);
     for (int x = 0; x < width; ++x) out.set(x, y, selected[x]);
   }

@@ -29,7 +29,8 @@ inline int steps_to_known(const DisparityPlane& map, int x, int y, int dx, int d
 }
 
 /// Searches from each unknown pixel in both directions of (dx, dy): one of them is 0, the other 1.
-inline ConfidentMap fill_gaps(const ConfidentMap& in, int max_gap, int tolerance, int dx, int dy) {
+inline ConfidentMap fill_gaps(const ConfidentMap& in, int max_gap, int tolerance, int dx, int dy,
+                              int most_confidence = 255) {
   ConfidentMap out = in;
   for (int y = 0; y < in.map.height; ++y) {
     for (int x = 0; x < in.map.width; ++x) {
@@ -48,7 +49,8 @@ inline ConfidentMap fill_gaps(const ConfidentMap& in, int max_gap, int tolerance
       out.map(x, y) =
           static_cast<std::int32_t>((2 * (first * ahead + second * back) + steps) / (2 * steps));
       const int weaker = std::min(in.confidence(x0, y0), in.confidence(x1, y1));
-      out.confidence(x, y) = static_cast<std::uint8_t>(weaker < 2 ? 1 : weaker / 2);
+      out.confidence(x, y) =
+          static_cast<std::uint8_t>(std::min(weaker < 2 ? 1 : weaker / 2, most_confidence));
     }
   }
   return out;
