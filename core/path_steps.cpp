@@ -16,6 +16,7 @@
 #include "stages/refine/edge_alignment.hpp"
 #include "stages/refine/gap_filling.hpp"
 #include "stages/refine/gray_mapping.hpp"
+#include "stages/refine/left_strip.hpp"
 #include "stages/refine/reliability.hpp"
 #include "stages/refine/speckle_removal.hpp"
 
@@ -120,6 +121,15 @@ void rate_map(const StepContext& step, const Views& views, const Pyramid& pyrami
   step.input_bands.rows([&](int y0, int y1, int worker) {
     rate_reliability(rated, result.disparity, completion.clues, table, inferred, y0, y1,
                      completion.reliability_scratch[worker], result.confidence);
+  });
+}
+
+void correct_strip(const StepContext& step, Maps& maps, EnlargedMaps& enlarged,
+                   OutputMaps& output) {
+  const auto result = callers_maps(step.settings, maps, enlarged, output);
+  const int strip = step.settings.min_disparity + step.settings.view_disparities;
+  step.input_bands.rows([&](int y0, int y1, int) {
+    correct_left_strip(strip, y0, y1, result.disparity, result.confidence);
   });
 }
 

@@ -32,6 +32,9 @@ RatedViews rated_views(const Settings& settings, const Views& views, const Pyram
 void rate_map(const StepContext& step, const Views& views, const Pyramid& pyramid, Maps& maps,
               EnlargedMaps& enlarged, OutputMaps& output, Completion& completion);
 
+/// Corrects what the right camera may not see at the left of the complete, rated result.
+void correct_strip(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output);
+
 /// Removes what is less reliable than asked for from the result, and small islands that are left.
 void reject_unlikely(const StepContext& step, Maps& maps, EnlargedMaps& enlarged,
                      OutputMaps& output, Completion& completion);

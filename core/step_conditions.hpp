@@ -35,6 +35,8 @@ inline bool if_thin_drawing(const Settings& s) { return if_thin(s) && s.by_paths
 /// Where gaps are filled: in the matched map, or in what the rejection leaves of the complete one.
 inline bool if_gaps(const Settings& s) { return s.max_gap > 0 && !s.by_paths(); }
 inline bool if_guard(const Settings& s) { return if_thin_restoring(s) && if_gaps(s); }
+/// Other modes reject what is corrected there.
+inline bool if_left_strip(const Settings& s) { return s.by_paths() && s.mode == Mode::kFull; }
 inline bool if_rejection(const Settings& s) {
   return s.keeps_likely_only() && s.least_reliability() > 0;
 }

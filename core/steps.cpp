@@ -380,6 +380,7 @@ constexpr Step kSteps[] = {
     {"completion",          if_paths,          on<complete_map, Maps, EnlargedMaps, OutputMaps>},
     {"edge-alignment",      if_paths,          on<align_map_edges, const Views, Maps, EnlargedMaps, OutputMaps, Completion>},
     {"reliability",         if_paths,          on<rate_map, const Views, const Pyramid, Maps, EnlargedMaps, OutputMaps, Completion>},
+    {"left-strip",          if_left_strip,     on<correct_strip, Maps, EnlargedMaps, OutputMaps>},
     {"rejection",           if_rejection,      on<reject_unlikely, Maps, EnlargedMaps, OutputMaps, Completion>},
     {"gap-closing",         if_closing,        on<close_gaps, Maps, EnlargedMaps, OutputMaps>},
     {"thin-drawing",        if_thin_drawing,   on<draw_thin, Maps, EnlargedMaps, OutputMaps>},

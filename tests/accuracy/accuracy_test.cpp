@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Gate{"Sparse", "mode=sparse", {0.235, 0.08, 15.5}},
                     Gate{"SemiDense", "mode=semi-dense", {0.305, 0.45, 71.0}},
                     Gate{"Dense", "mode=dense", {0.535, 1.6, 82.2}},
-                    Gate{"Full", "mode=full", {1.42, 5.75, 100}},
+                    Gate{"Full", "mode=full", {1.40, 5.7, 100}},
                     Gate{"FastFull", "preset=fast mode=full", {1.45, 6.85, 100}},
                     Gate{"FastSparse", "preset=fast mode=sparse", {0.27, 0.13, 12.5}},
                     Gate{"FastSemiDense", "preset=fast mode=semi-dense", {0.325, 0.65, 64.8}},

@@ -83,8 +83,8 @@ TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
   const Parameters dense = test::parameters({{"mode", "dense"}});
   expect_order(dense, {"path-matching", "thin-search", "speckle-removal", "completion",
                        "edge-alignment", "reliability", "rejection", "thin-drawing"});
-  expect_none_of(dense, {"node-matching", "census-matching", "island-removal", "thin-restoring",
-                         "gap-filling", "gap-guard", "gap-closing"});
+  expect_none_of(dense, {"left-strip", "node-matching", "census-matching", "island-removal",
+                         "thin-restoring", "gap-filling", "gap-guard", "gap-closing"});
   expect_none_of(test::parameters({{"mode", "dense"}, {"min-confidence", "0"}}), {"rejection"});
 }
 
@@ -92,7 +92,7 @@ TEST(Steps, MatchAlongPathsInsteadOfNodesInModeFull) {
   const Parameters full = test::parameters({{"mode", "full"}});
   expect_order(full, {"noise-filter", "census", "reduced-matching", "search-windows",
                       "path-matching", "speckle-removal", "confidence", "smoothing", "completion",
-                      "edge-alignment", "reliability"});
+                      "edge-alignment", "reliability", "left-strip"});
   expect_none_of(full, {"rejection", "thin-drawing", "preprocessing", "max-trees", "node-matching",
                         "node-extrapolation", "census-matching", "gap-filling", "island-removal"});
 }

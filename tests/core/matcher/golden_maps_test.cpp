@@ -47,7 +47,7 @@ constexpr Golden kGolden[] = {
     {"default", "sparse", 0x28618abb18c13521},
     {"default", "semi-dense", 0x541411231131de07},
     {"default", "dense", 0x6f8f6f7e3c09802c},
-    {"default", "full", 0x0b695e921df5222b},
+    {"default", "full", 0x197ca04d857bd78b},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0xcbe3457c3f6fc940},
     {"fast", "dense", 0x3cd91c9def7b3d68},

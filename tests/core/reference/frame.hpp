@@ -19,6 +19,7 @@
 #include "reference/refine/edge_alignment.hpp"
 #include "reference/refine/enlarging.hpp"
 #include "reference/refine/gap_filling.hpp"
+#include "reference/refine/left_strip.hpp"
 #include "reference/refine/map_smoothing.hpp"
 #include "reference/refine/reliability.hpp"
 #include "reference/refine/speckle_removal.hpp"
@@ -269,6 +270,11 @@ inline void rate_map(Frame& f) {
       rate_reliability(pair, ConfidentMap{f.map, f.confidence}, kReliabilityTables[table], apart);
 }
 
+inline void correct_strip(Frame& f) {
+  const int strip = f.settings.min_disparity + f.settings.view_disparities;
+  take(f, correct_left_strip(ConfidentMap{f.map, f.confidence}, strip));
+}
+
 inline void draw_thin(Frame& f) {
   draw_thin(f.found, f.settings.min_disparity, f.settings.half() ? 2 : 1,
             std::max(f.settings.min_confidence, 16), f.settings.keeps_likely_only(), f.map,
@@ -344,6 +350,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"completion", complete},
     {"edge-alignment", align_edges},
     {"reliability", rate_map},
+    {"left-strip", correct_strip},
     {"rejection", reject_unlikely},
     {"gap-closing", close_gaps},
     {"thin-drawing", draw_thin},

@@ -19,8 +19,9 @@ inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
       "row-alignment", "sharpness",     "view-shift",       "halving",
       "noise-filter",  "preprocessing", "max-trees",        "census",
       "cost-volume",   "node-matching", "reduced-matching", "search-windows"};
-  static constexpr std::string_view kInPlace[] = {"completion", "edge-alignment", "reliability",
-                                                  "rejection",  "gap-closing",    "thin-drawing"};
+  static constexpr std::string_view kInPlace[] = {"completion",  "edge-alignment", "reliability",
+                                                  "left-strip",  "rejection",      "gap-closing",
+                                                  "thin-drawing"};
   if (std::count(std::begin(kBefore), std::end(kBefore), step.name) > 0) return {};
   if (std::count(std::begin(kInPlace), std::end(kInPlace), step.name) > 0) return {};
   if (step.name == "map-shift") return memory.output.disparity.view();
