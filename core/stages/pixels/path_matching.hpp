@@ -18,7 +18,8 @@ namespace mtstereo {
 /// Instead of the nodes, the map of the views at half the resolution says which disparities are
 /// expected.
 
-/// Rows of a chunk, which is matched at once. Chunks begin at multiples of it.
+/// Rows of a chunk with paths along the columns, which is matched at once. Chunks begin at
+/// multiples of it.
 inline constexpr int kPathRows = 64;
 
 /// The paths along the columns start this many rows outside of a chunk, so that chunks do not

@@ -12,7 +12,7 @@ namespace mtstereo {
 /// points to. This takes less than half the time and changes hardly any pixel.
 ///
 /// The views at half the resolution vote, pixel by pixel, for disparities: with the result of their
-/// four paths, and with that of their costs alone, which also finds objects that are too thin for
+/// paths, and with that of their costs alone, which also finds objects that are too thin for
 /// the paths. The pixels of a tile are matched in one window, which contains all disparities that
 /// got votes in this tile and the eight around it.
 
