@@ -82,6 +82,9 @@ struct StereoCalibration {
   std::string format;
   /// The date of the calibration in ISO 8601, if the file states it; otherwise empty.
   std::string date;
+  /// What the user should know about the calibration, such as that its cameras were exchanged: one
+  /// sentence each.
+  std::vector<std::string> remarks;
 
   /// The distance of the cameras [m].
   MTSTEREO_API double baseline() const noexcept;
