@@ -1,217 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Reads a file, recognises the syntax and then the format from the content, and calls the reader
-// of the format.
+// Splits the path into files, and calls the reader of their format.
 #include "geometry/calibration_file.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <cerrno>
-#include <new>
-#include <system_error>
 #include <utility>
 
 #include "base/guard.hpp"
+#include "geometry/formats/document.hpp"
 #include "geometry/formats/readers.hpp"
-#include "geometry/formats/syntax.hpp"
 
 namespace mtstereo {
 namespace {
 
+using formats::Document;
 using formats::Entry;
 using formats::FileError;
-using formats::Value;
-
-/// A file that is closed at the end.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return number_; }
-
- private:
-  int number_;
-};
-
-std::string system_text(int error) { return std::generic_category().message(error); }
-
-std::string read_bytes(const std::string& file) {
-  if (file.empty()) throw FileError("the name of the calibration file is empty");
-  // Without O_NONBLOCK, opening a pipe would wait for its other end.
-  const Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (opened.get() < 0) throw FileError(file + ": cannot be read: " + system_text(errno));
-  struct stat status {};
-  if (fstat(opened.get(), &status) != 0) {
-    throw FileError(file + ": cannot be read: " + system_text(errno));
-  }
-  if (S_ISDIR(status.st_mode)) throw FileError(file + ": is a folder, a file is needed");
-  if (!S_ISREG(status.st_mode)) throw FileError(file + ": is not a regular file");
-  if (static_cast<std::size_t>(status.st_size) > kLargestCalibrationFile) {
-    throw FileError(file + ": has " + std::to_string(status.st_size) +
-                    " bytes, more than any calibration");
-  }
-  std::string bytes;
-  std::array<char, 65536> block{};
-  while (bytes.size() <= kLargestCalibrationFile) {
-    const ssize_t count = ::read(opened.get(), block.data(), block.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw FileError(file + ": cannot be read: " + system_text(errno));
-    if (count == 0) return bytes;
-    bytes.append(block.data(), static_cast<std::size_t>(count));
-  }
-  throw FileError(file + ": grows while it is read");
-}
-
-/// The text of a file, without the mark of UTF-8.
-std::string read_text(const std::string& file) {
-  std::string text = read_bytes(file);
-  if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw FileError(file + ": the file is empty");
-  }
-  if (text.compare(0, 2, "\x1f\x8b") == 0) {
-    throw FileError(file + ": is compressed; decompress it with gunzip");
-  }
-  const bool binary = std::any_of(text.begin(), text.end(), [](char byte) {
-    return byte >= 0 && byte < ' ' && byte != '\t' && byte != '\r' && byte != '\n' && byte != '\f';
-  });
-  if (binary) throw FileError(file + ": is a binary file, not a calibration");
-  return text;
-}
-
-/// The formats. The names are those of messages.
-enum class Format {
-  kOpenCv,
-  kCameraInfo,
-  kKalibr,
-  kEuroc,
-  kKittiRaw,
-  kKittiOdometry,
-  kMiddlebury,
-  kDepthAi,
-  kZed,
-};
-
-const char* name_of(Format format) {
-  constexpr std::array<const char*, 9> kNames = {
-      "an OpenCV file",         "a ROS camera_info",        "a Kalibr camchain",
-      "a EuRoC sensor.yaml",    "KITTI's calib_cam_to_cam", "KITTI's calib.txt",
-      "a Middlebury calib.txt", "a DepthAI JSON",           "a ZED .conf"};
-  return kNames[static_cast<std::size_t>(format)];
-}
-
-/// A file after parsing.
-struct Document {
-  std::string file;
-  Value root;
-  Format format = Format::kOpenCv;
-
-  Entry entry() const { return {root, file, {}}; }
-};
-
-bool starts_with(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
-}
-
-/// Whether the name before a separator is one of these, as in "P0: 1 0 0".
-bool has_name(std::string_view line, char separator,
-              std::initializer_list<std::string_view> names) {
-  const std::size_t end = line.find(separator);
-  if (end == std::string_view::npos) return false;
-  std::string_view name = line.substr(0, end);
-  while (!name.empty() && name.back() == ' ') name.remove_suffix(1);
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// Whether a line has twelve numbers and nothing else.
-bool is_projection(std::string_view line) {
-  int count = 0;
-  while (!line.empty()) {
-    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
-    line.remove_prefix(std::min(word.size() + 1, line.size()));
-    if (word.empty()) continue;
-    if (!formats::parse_number(word)) return false;
-    ++count;
-  }
-  constexpr int kValues = 12;
-  return count == kValues;
-}
-
-/// Recognises the formats that are lines of text, by the first line that belongs to one.
-bool parse_as_lines(std::string_view text, Document& document) {
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    const std::string_view line = formats::take_line(rest);
-    if (line.empty() || line.front() == '#') continue;
-    if (has_name(line, '=', {"cam0", "cam1", "doffs", "baseline", "width", "height", "ndisp"})) {
-      document.format = Format::kMiddlebury;
-      document.root = formats::parse_lines(text, '=', document.file);
-      return true;
-    }
-    if (has_name(line, ':', {"P0", "P1", "P2", "P3"})) {
-      document.format = Format::kKittiOdometry;
-      document.root = formats::parse_lines(text, ':', document.file);
-      return true;
-    }
-    if (has_name(line, ':',
-                 {"calib_time", "corner_dist", "S_00", "S_01", "S_02", "S_03", "K_00"})) {
-      document.format = Format::kKittiRaw;
-      document.root = formats::parse_lines(text, ':', document.file);
-      return true;
-    }
-    if (line.front() == '[' && line.back() == ']' &&
-        line.find_first_of(",: ") == std::string_view::npos) {
-      document.format = Format::kZed;
-      document.root = formats::parse_sections(text, document.file);
-      return true;
-    }
-    if (is_projection(line)) {
-      document.format = Format::kKittiOdometry;
-      document.root = formats::parse_number_lines(text);
-      return true;
-    }
-    return false;
-  }
-  return false;
-}
-
-Format format_of(const Entry& root) {
-  const std::optional<Entry> camera = root.find("cam0");
-  if (root.find("cameraData")) return Format::kDepthAi;
-  if ((camera && camera->is_map()) || root.find("cam1")) return Format::kKalibr;
-  if (root.find("T_BS")) return Format::kEuroc;
-  if (formats::is_camera_info(root)) return Format::kCameraInfo;
-  if (formats::is_opencv(root)) return Format::kOpenCv;
-  root.fail(
-      "is not a calibration of a known format: none of M1 (OpenCV), projection_matrix "
-      "(ROS), cam0 (Kalibr, Middlebury), T_BS (EuRoC), P0 or K_00 (KITTI), cameraData "
-      "(DepthAI), [LEFT_CAM_...] (ZED) is in it");
-}
-
-Document parse(const std::string& file) {
-  const std::string text = read_text(file);
-  Document document;
-  document.file = file;
-  const std::string_view start = std::string_view(text).substr(text.find_first_not_of(" \t\r\n"));
-  if (start.front() == '<') {
-    document.root = formats::parse_xml(text, file);
-  } else if (start.front() == '{') {
-    document.root = formats::parse_json(text, file);
-  } else if (!starts_with(start, "%YAML") && parse_as_lines(text, document)) {
-    return document;
-  } else {
-    document.root = formats::parse_yaml(text, file);
-  }
-  document.format = format_of(document.entry());
-  return document;
-}
+using formats::Format;
 
 StereoCalibration read_one(const Document& document, const formats::Request& request) {
   const Entry entry = document.entry();
@@ -260,12 +65,12 @@ StereoCalibration read_two(const Document& first, const Document& second,
 StereoCalibration read_files(const std::string& path, int width, int height) {
   const CalibrationPath parts = split_calibration_path(path);
   const formats::Request request = {width, height, parts.selection};
-  const Document first = parse(parts.files[0]);
+  const Document first = formats::parse_document(parts.files[0]);
   StereoCalibration calibration;
   if (parts.files.size() == 1) {
     calibration = read_one(first, request);
   } else {
-    calibration = read_two(first, parse(parts.files[1]), request);
+    calibration = read_two(first, formats::parse_document(parts.files[1]), request);
   }
   if (const Status status = check_calibration(calibration); !status) {
     throw FileError(path + ": " + status.error().message);

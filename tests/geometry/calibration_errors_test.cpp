@@ -155,11 +155,16 @@ TEST_F(BrokenFile, WithMissingEntries) {
   EXPECT_THAT(read_refused(stored("intrinsics.yml")),
               AllOf(HasSubstr("there is no entry R (rotation between the cameras)"),
                     HasSubstr("give both, separated by a comma")));
-  EXPECT_THAT(opencv("M2:", "M3:"), HasSubstr("there is no entry M2 (K of the right camera)"));
-  EXPECT_THAT(opencv("D1:", "E1:"), HasSubstr("there is no entry D1"));
+  const std::string k = "[ 500., 0., 320., 0., 500., 240., 0., 0., 1. ]";
+  EXPECT_THAT(refused("M1: " + k + "\nD1: [ 0., 0., 0., 0. ]\nT: [ -0.1, 0., 0. ]\n"),
+              AllOf(HasSubstr("there is no entry M2 (K of the right camera)"),
+                    HasSubstr("Matrices found: M1 (9 values), D1 (4 values), T (3 values)"),
+                    HasSubstr("Names needed: M1, D1, M2, D2, R, T")));
+  EXPECT_THAT(opencv("D1:", "Other:"), HasSubstr("there is no entry D1"));
   EXPECT_THAT(changed("camchain.yaml", "cam1:", "cam7:"), HasSubstr("no entry cam1 (the right"));
   EXPECT_THAT(changed("camchain.yaml", "T_cn_cnm1", "T_other"),
-              HasSubstr("cam1 has no entry T_cn_cnm1"));
+              AllOf(HasSubstr("cam1 has no entry T_cn_cnm1"),
+                    HasSubstr("cam0 and cam1 have no T_cam_imu or T_imu_cam")));
   EXPECT_THAT(changed("middlebury_calib.txt", "cam1=", "cam2="), HasSubstr("no entry cam1"));
   EXPECT_THAT(refused("width=465\nheight=370\nndisp=85\n"), HasSubstr("no entry cam0"));
   EXPECT_THAT(changed("calib_cam_to_cam.txt", "R_rect_03", "R_rekt_03"),

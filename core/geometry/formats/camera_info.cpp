@@ -79,11 +79,8 @@ StereoCalibration read_camera_info(const Entry& left_file, const Entry& right_fi
   calibration.format = "ROS camera_info";
   calibration.left = left.calibration;
   calibration.right = right.calibration;
-  // The files have no R and T: both rectified cameras have the same axes, and the right one is
-  // at the baseline.
-  Motion motion;
-  motion.rotation = right.rotation.transpose() * left.rotation;
-  motion.translation = right.rotation.transpose() * Eigen::Vector3d(-rectification.baseline, 0, 0);
+  // The files have no R and T.
+  const Motion motion = motion_of(rectification);
   check_translation(motion.translation, p2,
                     ": divide the fourth value of projection_matrix by 1000");
   set_motion(calibration, motion);

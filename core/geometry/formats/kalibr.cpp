@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Kalibr's camchain: cam0, cam1 and so on; T_cn_cnm1 moves points from the camera before.
+// Kalibr's camchain, also that of open_vins: cam0, cam1 and so on. T_cn_cnm1 moves points from the
+// camera before, T_cam_imu from the IMU to the camera, T_imu_cam from the camera to the IMU.
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -36,15 +40,64 @@ int camera_number(const Entry& file, const std::string& name) {
   file.fail("there is no camera " + printable(name));
 }
 
-/// From the axes of camera `from` to those of camera `to`, along the chain.
-Motion motion_between(const Entry& file, int from, int to) {
-  if (from > to) return motion_between(file, to, from).inverse();
+/// From the axes of camera `from` to those of camera `to`, along the chain, if it is complete.
+std::optional<Motion> motion_along_chain(const Entry& file, int from, int to) {
+  if (from > to) {
+    const std::optional<Motion> motion = motion_along_chain(file, to, from);
+    return motion ? std::optional(motion->inverse()) : std::nullopt;
+  }
   Motion motion;
   for (int n = from + 1; n <= to; ++n) {
-    const Entry camera = file.at("cam" + std::to_string(n), "a camera of the chain");
-    motion = motion_from(camera.at("T_cn_cnm1", "position after the camera before")).after(motion);
+    const std::optional<Entry> camera = file.find("cam" + std::to_string(n));
+    const std::optional<Entry> link = camera ? camera->find("T_cn_cnm1") : std::nullopt;
+    if (!link) return std::nullopt;
+    motion = motion_from(*link).after(motion);
   }
   return motion;
+}
+
+/// From the axes of a camera to those of the IMU: T_imu_cam, or the inverse of T_cam_imu.
+std::optional<Motion> motion_to_imu(const Entry& camera) {
+  if (const std::optional<Entry> pose = camera.find("T_cam_imu")) {
+    return motion_from(*pose).inverse();
+  }
+  const std::optional<Entry> pose = camera.find("T_imu_cam");
+  return pose ? std::optional(motion_from(*pose)) : std::nullopt;
+}
+
+/// Fails if the chain and the IMU put the right camera to different places.
+void check_agreement(const Entry& right, const Motion& chain, const Motion& imu) {
+  constexpr double kLargestAngle = 1;     // [degrees]
+  constexpr double kLargestShare = 0.05;  // of the baseline
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(chain.rotation.transpose() * imu.rotation));
+  const double angle = std::abs(turn.angle()) * 180 / std::numbers::pi;
+  const double length = chain.translation.norm();
+  const double distance = (chain.translation - imu.translation).norm();
+  if (angle <= kLargestAngle && distance <= kLargestShare * length) return;
+  const auto rounded = [](double value) { return number_text(std::round(value * 1e4) / 1e4); };
+  right.fail("states two positions that contradict each other: T_cn_cnm1 a baseline of " +
+             rounded(length) + " m, the positions to the IMU " + rounded(imu.translation.norm()) +
+             " m and a rotation that differs by " + rounded(angle) +
+             " degrees; remove the wrong ones");
+}
+
+/// From the axes of the left camera to those of the right one.
+Motion motion_between(const Entry& file, int left, int right) {
+  const Entry left_camera = file.at("cam" + std::to_string(left));
+  const Entry right_camera = file.at("cam" + std::to_string(right));
+  const std::optional<Motion> chain = motion_along_chain(file, left, right);
+  const std::optional<Motion> left_to_imu = motion_to_imu(left_camera);
+  const std::optional<Motion> right_to_imu = motion_to_imu(right_camera);
+  if (!left_to_imu || !right_to_imu) {
+    if (chain) return *chain;
+    right_camera.fail("has no entry T_cn_cnm1 (position after the camera before), and " +
+                      left_camera.name() + " and " + right_camera.name() +
+                      " have no T_cam_imu or T_imu_cam (position to the IMU)");
+  }
+  const Motion imu = right_to_imu->inverse().after(*left_to_imu);
+  if (!chain) return imu;
+  check_agreement(right_camera, *chain, imu);
+  return *chain;
 }
 
 }  // namespace

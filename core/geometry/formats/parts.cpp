@@ -90,6 +90,11 @@ void set_camera_matrix(CameraCalibration& camera, const Entry& entry,
   if (std::abs(k[1]) > kRelativeFocalDifference * k[0]) {
     entry.fail("has the skew " + number_text(k[1]) + "; only cameras without skew are supported");
   }
+  if (k[2] == 0 && k[5] == 0 && k[6] > 0 && k[7] > 0) {
+    entry.fail(
+        "is transposed, as MATLAB states it; transpose it, and the rotation of the right camera "
+        "as well");
+  }
   if (k[3] != 0 || k[6] != 0 || k[7] != 0 || std::abs(k[8] - 1) > 1e-9) {
     entry.fail("is not a camera matrix: fx 0 cx, 0 fy cy, 0 0 1 is needed");
   }
@@ -212,6 +217,14 @@ Rectification rectification_from(const RectifiedViews& views, const Entry& left,
     right.fail("states cameras above one another; only pairs side by side are supported");
   }
   return rectification;
+}
+
+Motion motion_of(const Rectification& rectification) {
+  const Eigen::Matrix3d right = to_eigen(rectification.right_rotation);
+  Motion motion;
+  motion.rotation = right.transpose() * to_eigen(rectification.left_rotation);
+  motion.translation = right.transpose() * Eigen::Vector3d(-rectification.baseline, 0, 0);
+  return motion;
 }
 
 void check_translation(const Eigen::Vector3d& translation, const Entry& entry,

@@ -68,6 +68,10 @@ struct RectifiedViews {
 Rectification rectification_from(const RectifiedViews& views, const Entry& left, const Entry& right,
                                  double unit = 1);
 
+/// How cameras stand to each other whose views are rectified so: both rectified cameras have the
+/// same axes, and the right one is at the baseline.
+Motion motion_of(const Rectification& rectification);
+
 /// Checks T as read_calibration() documents it. `hint` is what to do about a length that is in
 /// another unit.
 void check_translation(const Eigen::Vector3d& translation, const Entry& entry,

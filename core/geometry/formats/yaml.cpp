@@ -4,6 +4,7 @@
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <map>
 #include <new>
 #include <sstream>
@@ -13,6 +14,11 @@
 
 namespace mtstereo::formats {
 namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+/// What the names of OpenCV's entries consist of.
+constexpr std::string_view kNameLetters =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.";
 
 /// Builds the tree of one document. An alias becomes a copy of what it refers to; copies count
 /// like any value, so that aliases of aliases end in an error.
@@ -76,12 +82,31 @@ class Handler : public YAML::EventHandler {
   std::map<YAML::anchor_t, Value> anchors_;
 };
 
+/// Adds the blank that YAML needs after the colon of "data:[" or "size:2", which OpenCV does not.
+std::string with_separated_values(std::string_view text) {
+  std::string separated;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end);
+    const std::size_t begin = line.find_first_not_of(' ');
+    const std::size_t colon = line.find_first_not_of(kNameLetters, std::min(begin, line.size()));
+    const bool glued = colon != std::string_view::npos && colon > begin && line[colon] == ':' &&
+                       colon + 1 < line.size() &&
+                       kBlanks.find(line[colon + 1]) == std::string_view::npos;
+    separated += glued ? line.substr(0, colon + 1) : line;
+    if (glued) separated.append(" ").append(line.substr(colon + 1));
+  }
+  return separated;
+}
+
 }  // namespace
 
 Value parse_yaml(const std::string& text, const std::string& file) {
   // "%YAML:1.0" is no directive of YAML. A comment in its place keeps the numbers of the lines.
-  std::string yaml = text;
-  if (yaml.compare(0, 6, "%YAML:") == 0) yaml[0] = '#';
+  const bool opencv = text.compare(0, 5, "%YAML") == 0;
+  std::string yaml = opencv ? with_separated_values(text) : text;
+  if (text.compare(0, 6, "%YAML:") == 0) yaml[0] = '#';
   Handler handler(file);
   try {
     std::istringstream stream(yaml);

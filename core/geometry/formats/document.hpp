@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/value.hpp"
+
+// A file of a calibration, parsed and recognised.
+
+namespace mtstereo::formats {
+
+/// The formats.
+enum class Format {
+  kOpenCv,
+  kCameraInfo,
+  kKalibr,
+  kEuroc,
+  kKittiRaw,
+  kKittiOdometry,
+  kMiddlebury,
+  kDepthAi,
+  kZed,
+};
+
+/// The name of a format in messages, with its article.
+const char* name_of(Format format);
+
+/// A file after parsing.
+struct Document {
+  std::string file;
+  Value root;
+  Format format = Format::kOpenCv;
+
+  Entry entry() const { return {root, file, {}}; }
+};
+
+/// Reads a file and recognises the syntax, and then the format, from its content.
+Document parse_document(const std::string& file);
+
+}  // namespace mtstereo::formats

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "geometry/formats/opencv_entries.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "geometry/formats/opencv_structure.hpp"
+
+namespace mtstereo::formats {
+namespace {
+
+constexpr Names kLeftMatrix =
+    "m1 k1 cameramatrix1 camera1matrix cm1 intrinsics1 mtx1 cameramatrixl "
+    "cameramatrixleft leftcameramatrix kl kleft leftk ml mleft mtxl mtxleft";
+constexpr Names kRightMatrix =
+    "m2 k2 cameramatrix2 camera2matrix cm2 intrinsics2 mtx2 cameramatrixr "
+    "cameramatrixright rightcameramatrix kr kright rightk mr mright mtxr mtxright";
+constexpr Names kLeftLens =
+    "d1 distcoeffs1 distcoeff1 distortioncoefficients1 distortion1 dist1 distcoeffsl "
+    "distcoeffsleft leftdistcoeffs leftdistortioncoefficients dl dleft leftd distl "
+    "distleft dleftfe";
+constexpr Names kRightLens =
+    "d2 distcoeffs2 distcoeff2 distortioncoefficients2 distortion2 dist2 distcoeffsr "
+    "distcoeffsright rightdistcoeffs rightdistortioncoefficients dr dright rightd distr "
+    "distright drightfe";
+
+bool is_one_of(std::string_view plain, Names names) {
+  while (!names.empty()) {
+    const std::string_view name = names.substr(0, names.find(' '));
+    if (name == plain) return true;
+    names.remove_prefix(std::min(name.size() + 1, names.size()));
+  }
+  return false;
+}
+
+bool is_matrix(const Value& value) {
+  return std::find(value.names.begin(), value.names.end(), "data") != value.names.end();
+}
+
+/// Adds the entries of a map, and instead of a map in it that is no matrix those of that map.
+void flatten(const Entry& map, std::vector<Entry>& entries) {
+  const Value& value = map.value();
+  for (std::size_t i = 0; i < value.names.size() && i < value.items.size(); ++i) {
+    std::string name = map.name().empty() ? "" : map.name() + ".";
+    name += printable(value.names[i]);
+    entries.emplace_back(value.items[i], map.file(), std::move(name));
+    const Entry& entry = entries.back();
+    if (!entry.is_map() || is_matrix(entry.value())) continue;
+    const Entry inner = entry;
+    entries.pop_back();
+    flatten(inner, entries);
+  }
+}
+
+}  // namespace
+
+std::string plain_name(std::string_view name) {
+  std::string plain;
+  for (const char letter : name) {
+    if (letter == '_' || letter == '-' || letter == '.') continue;
+    plain += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  }
+  return plain;
+}
+
+OpenCvEntries::OpenCvEntries(const std::vector<Entry>& files) : files_(files) {
+  for (const Entry& file : files_) {
+    if (file.is_map()) flatten(file, entries_);
+  }
+}
+
+std::optional<Entry> OpenCvEntries::find(Names names) const {
+  std::optional<Entry> found;
+  for (const Entry& entry : entries_) {
+    if (!is_one_of(plain_name(entry.name()), names)) continue;
+    if (found && found->file() == entry.file()) {
+      entry.fail(found->name() == entry.name()
+                     ? "is there twice; remove one of them"
+                     : "states the same as " + found->name() + "; remove one of them");
+    }
+    if (found && !(found->value() == entry.value())) {
+      entry.fail("has another value in " + found->file() + "; remove one of them");
+    }
+    if (!found) found = entry;
+  }
+  return found;
+}
+
+std::optional<Entry> OpenCvEntries::find_matrix(Names names) const {
+  std::optional<Entry> found = find(names);
+  const bool single =
+      found && found->is_scalar() && found->text().find_first_of(" \t\n") == std::string::npos;
+  return single ? std::nullopt : found;
+}
+
+PairEntries OpenCvEntries::find_pair() const {
+  PairEntries pair;
+  pair.left_matrix = find(kLeftMatrix);
+  pair.right_matrix = find(kRightMatrix);
+  pair.left_lens = find(kLeftLens);
+  pair.right_lens = find(kRightLens);
+  pair.rotation = find_matrix(kRotationNames);
+  pair.translation = find_matrix(kTranslationNames);
+  complete_by_structure(entries_, pair);
+  return pair;
+}
+
+bool OpenCvEntries::both_have(Names names) const {
+  return files_.size() == 2 && std::all_of(files_.begin(), files_.end(), [&](const Entry& file) {
+           return OpenCvEntries({file}).find(names).has_value();
+         });
+}
+
+bool OpenCvEntries::is_opencv() const {
+  const auto is_known = [&](const Entry& entry) {
+    const std::string name = plain_name(entry.name());
+    for (const Names& names : {kLeftMatrix, kRightMatrix, kLeftLens, kRightLens, kOneCamera}) {
+      if (is_one_of(name, names)) return true;
+    }
+    const Value& value = entry.value();
+    return is_matrix(value) && entry.find("rows") && entry.find("dt");
+  };
+  if (std::any_of(entries_.begin(), entries_.end(), is_known)) return true;
+  if (find(kRotationNames) && find(kTranslationNames)) return true;
+  return has_camera_matrix(entries_);
+}
+
+void OpenCvEntries::fail_without(const char* name, const char* meaning) const {
+  std::string what = std::string("there is no entry ") + name + " (" + meaning + ")";
+  if (files_.size() == 1) {
+    what += "; if it is in another file, give both, separated by a comma";
+  } else {
+    what += ", nor in " + files_[1].file();
+  }
+  const std::string found = matrices_text(entries_);
+  what += found.empty() ? ". No matrices were found" : ". Matrices found: " + found;
+  files_.front().fail(what + ". Names needed: M1, D1, M2, D2, R, T");
+}
+
+}  // namespace mtstereo::formats

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/formats/value.hpp"
+
+// The entries of OpenCV's FileStorage. Programs give the same matrices many names, and some put
+// them into maps.
+
+namespace mtstereo::formats {
+
+/// Names of one entry with blanks between them: without upper case, '_', '-' and '.'.
+using Names = std::string_view;
+
+/// K of a file with one camera.
+inline constexpr Names kOneCamera = "cameramatrix k mtx intrinsicmatrix";
+
+/// The name without upper case and the characters that programs put between words.
+std::string plain_name(std::string_view name);
+
+/// What a pair of cameras needs, as far as it is there.
+struct PairEntries {
+  std::optional<Entry> left_matrix, right_matrix;  ///< K
+  std::optional<Entry> left_lens, right_lens;      ///< distortion coefficients
+  std::optional<Entry> rotation, translation;      ///< from the left to the right camera
+};
+
+/// The entries of one or two files. Those of maps have the names of both: left.K.
+class OpenCvEntries {
+ public:
+  explicit OpenCvEntries(const std::vector<Entry>& files);
+
+  std::optional<Entry> find(Names names) const;
+  /// A matrix; a single number or word with such a name has another meaning.
+  std::optional<Entry> find_matrix(Names names) const;
+  /// The matrices of a pair by their names, and what has other names by its structure, where that
+  /// is unambiguous.
+  PairEntries find_pair() const;
+  /// Fails because an entry is missing; names what is there and what is needed.
+  [[noreturn]] void fail_without(const char* name, const char* meaning) const;
+
+  const Entry& file() const { return files_.front(); }
+  /// Whether both of two files have an entry with one of the names.
+  bool both_have(Names names) const;
+  /// Whether the files have a matrix of OpenCV, or a camera matrix.
+  bool is_opencv() const;
+
+ private:
+  std::vector<Entry> files_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace mtstereo::formats

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "geometry/formats/opencv_structure.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "geometry/calibration_checks.hpp"
+
+namespace mtstereo::formats {
+namespace {
+
+/// What the values of an entry can be.
+enum class Shape { kOther, kCamera, kLens, kRotation, kVector };
+
+/// An entry with numbers.
+struct Numbers {
+  Entry entry;
+  std::vector<double> values;
+  Shape shape = Shape::kOther;
+};
+
+/// K has a last row of 0 0 1 and focal lengths that no rotation has.
+bool is_camera_matrix(const std::vector<double>& v) {
+  constexpr double kShortestFocal = 10;  // [px]
+  return v.size() == 9 && v[0] > kShortestFocal && v[4] > kShortestFocal && v[3] == 0 &&
+         v[6] == 0 && v[7] == 0 && v[8] == 1;
+}
+
+bool is_rotation(const std::vector<double>& v) {
+  if (v.size() != 9) return false;
+  Matrix3 matrix{};
+  std::copy(v.begin(), v.end(), matrix.begin());
+  return rotation_problem(matrix).empty();
+}
+
+/// P1 and P2 have as many values as a lens can have coefficients.
+bool is_projection(const std::vector<double>& v) {
+  return v.size() == 12 && v[8] == 0 && v[9] == 0 && v[10] == 1;
+}
+
+Shape shape_of(const std::vector<double>& v) {
+  if (is_camera_matrix(v)) return Shape::kCamera;
+  if (is_rotation(v)) return Shape::kRotation;
+  if (is_projection(v)) return Shape::kOther;
+  if (is_coefficient_count(LensModel::kPlumbBob, v.size())) return Shape::kLens;
+  return v.size() == 3 ? Shape::kVector : Shape::kOther;
+}
+
+/// The entries that are lists of numbers or matrices.
+std::vector<Numbers> numbers_of(const std::vector<Entry>& entries) {
+  std::vector<Numbers> numbers;
+  for (const Entry& entry : entries) {
+    try {
+      std::vector<double> values = entry.numbers();
+      if (values.size() < 2) continue;
+      const Shape shape = shape_of(values);
+      numbers.push_back({entry, std::move(values), shape});
+    } catch (const FileError&) {
+      continue;  // a text
+    }
+  }
+  return numbers;
+}
+
+std::string last_part(const std::string& name) {
+  return plain_name(name.substr(name.rfind('.') + 1));
+}
+
+bool contains(Names names, const std::string& name) {
+  return (" " + std::string(names) + " ").find(" " + name + " ") != std::string::npos;
+}
+
+/// Of several candidates those that a word in their names distinguishes.
+template <typename Preferred>
+void keep_preferred(std::vector<Entry>& candidates, std::size_t count, const Preferred& preferred) {
+  if (candidates.size() <= count) return;
+  std::vector<Entry> kept;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(kept), preferred);
+  if (kept.size() == count) candidates = std::move(kept);
+}
+
+/// The side that a name states: 0 left, 1 right, or -1.
+int stated_side(const std::string& name) {
+  const std::string plain = plain_name(name);
+  const bool left = plain.find("left") != std::string::npos;
+  const bool right = plain.find("right") != std::string::npos;
+  if (left != right) return right ? 1 : 0;
+  return -1;
+}
+
+/// The first number in a name, or -1.
+int number_in(const std::string& name) {
+  const std::size_t at = name.find_first_of("0123456789");
+  return at == std::string::npos ? -1 : name[at] - '0';
+}
+
+/// Puts two candidates into the order left, right; false if their names do not state it.
+bool put_in_order(std::vector<Entry>& two) {
+  const auto order = [&](int a, int b) {
+    if (a < 0 || b < 0 || a == b) return false;
+    if (a > b) std::swap(two[0], two[1]);
+    return true;
+  };
+  const std::string& a = two[0].name();
+  const std::string& b = two[1].name();
+  if (order(stated_side(a), stated_side(b)) || order(number_in(a), number_in(b))) return true;
+  // The same names in two files: LEFT,RIGHT.
+  return a == b && two[0].file() != two[1].file();
+}
+
+std::vector<Entry> of_shape(const std::vector<Numbers>& numbers, Shape shape) {
+  std::vector<Entry> entries;
+  for (const Numbers& candidate : numbers) {
+    if (candidate.shape == shape) entries.push_back(candidate.entry);
+  }
+  return entries;
+}
+
+/// Sets the entries of both cameras, if one is missing and there are two of the shape.
+void complete_both(std::vector<Entry> candidates, std::optional<Entry>& left,
+                   std::optional<Entry>& right) {
+  if ((left && right) || candidates.size() != 2 || !put_in_order(candidates)) return;
+  left.emplace(candidates[0]);
+  right.emplace(candidates[1]);
+}
+
+void complete_one(std::vector<Entry> candidates, Names names, std::optional<Entry>& entry) {
+  if (entry) return;
+  keep_preferred(candidates, 1, [&](const Entry& candidate) {
+    return contains(names, last_part(candidate.name()));
+  });
+  if (candidates.size() == 1) entry.emplace(candidates[0]);
+}
+
+}  // namespace
+
+void complete_by_structure(const std::vector<Entry>& entries, PairEntries& pair) {
+  if (pair.left_matrix && pair.right_matrix && pair.left_lens && pair.right_lens && pair.rotation &&
+      pair.translation) {
+    return;
+  }
+  const std::vector<Numbers> numbers = numbers_of(entries);
+  complete_both(of_shape(numbers, Shape::kCamera), pair.left_matrix, pair.right_matrix);
+  std::vector<Entry> lenses = of_shape(numbers, Shape::kLens);
+  keep_preferred(lenses, 2, [](const Entry& candidate) {
+    const std::string name = plain_name(candidate.name());
+    return name.find("dist") != std::string::npos || name.find("coef") != std::string::npos ||
+           last_part(candidate.name()).substr(0, 1) == "d";
+  });
+  complete_both(lenses, pair.left_lens, pair.right_lens);
+  // R1 and R2 turn the views: without R they are no rotation between the cameras.
+  complete_one(of_shape(numbers, Shape::kRotation), kRotationNames, pair.rotation);
+  complete_one(of_shape(numbers, Shape::kVector), kTranslationNames, pair.translation);
+}
+
+bool has_camera_matrix(const std::vector<Entry>& entries) {
+  return !of_shape(numbers_of(entries), Shape::kCamera).empty();
+}
+
+std::string matrices_text(const std::vector<Entry>& entries) {
+  constexpr std::size_t kMost = 8;
+  std::string text;
+  std::size_t count = 0;
+  for (const Numbers& numbers : numbers_of(entries)) {
+    if (++count > kMost) return text + " and others";
+    text += (text.empty() ? "" : ", ") + printable(numbers.entry.name()) + " (" +
+            std::to_string(numbers.values.size()) + " values)";
+  }
+  return text;
+}
+
+}  // namespace mtstereo::formats

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// OpenCV files as programs write them by hand: other names, maps, and syntax that only OpenCV
+// takes.
+#include <utility>
+
+#include "calibration_support.hpp"
+
+namespace mtstereo::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr const char* kLeftK = "[ 500.5, 0., 321., 0., 501.5, 243., 0., 0., 1. ]";
+constexpr const char* kRightK = "[ 510.5, 0., 319., 0., 511.5, 241., 0., 0., 1. ]";
+constexpr const char* kLeftD = "[ -0.25, 0.125, 0.001, 0.002, 0.5 ]";
+constexpr const char* kRightD = "[ -0.5, 0.0625, 0.003, 0.004, 0.25 ]";
+constexpr const char* kR = "[ 0.96, 0., 0.28, 0., 1., 0., -0.28, 0., 0.96 ]";
+constexpr const char* kT = "[ -0.12, 0.001, 0.002 ]";
+
+class Layout : public ::testing::Test {
+ protected:
+  std::string write(const std::string& text) { return folder_.write("pair.yml", text); }
+  void expect_pair(const std::string& text) {
+    const StereoCalibration calibration = read_valid(write(text), 640, 480);
+    EXPECT_EQ(calibration.format, "OpenCV") << text;
+    EXPECT_DOUBLE_EQ(calibration.left.focal_x, 500.5);
+    EXPECT_DOUBLE_EQ(calibration.right.center_y, 241);
+    EXPECT_EQ(calibration.left.coefficients,
+              (std::vector<double>{-0.25, 0.125, 0.001, 0.002, 0.5}));
+    EXPECT_EQ(calibration.right.coefficients,
+              (std::vector<double>{-0.5, 0.0625, 0.003, 0.004, 0.25}));
+    expect_near(calibration.rotation, Matrix3{0.96, 0, 0.28, 0, 1, 0, -0.28, 0, 0.96}, 1e-12);
+    expect_near(calibration.translation, Vector3{-0.12, 0.001, 0.002}, 1e-12);
+  }
+  std::string refused(const std::string& text) { return read_refused(write(text), 640, 480); }
+  CalibrationFolder folder_;
+};
+
+/// An entry per line: NAME, VALUE.
+std::string lines(const std::vector<std::pair<std::string, std::string>>& entries) {
+  std::string text;
+  for (const auto& [name, value] : entries) text += name + ": " + value + "\n";
+  return text;
+}
+
+TEST_F(Layout, MapsPerCameraHaveTheNamesOfBoth) {
+  expect_pair(std::string("left: {K: ") + kLeftK + ", D: " + kLeftD + "}\nright: {K: " + kRightK +
+              ", D: " + kRightD + "}\nR: " + kR + "\nT: " + kT + "\n");
+  expect_pair(std::string("Left_Camera:\n  Camera_Matrix: ") + kLeftK +
+              "\n  Distortion_Coefficients: " + kLeftD + "\nRight_Camera:\n  Camera_Matrix: " +
+              kRightK + "\n  Distortion_Coefficients: " + kRightD +
+              "\nStereo_Parameters:\n  R: " + kR + "\n  T: " + kT + "\n");
+}
+
+TEST_F(Layout, UnknownNamesAreRecognisedByStructure) {
+  expect_pair(lines({{"Camera_Matrix_0", kLeftK},
+                     {"Dist_0", kLeftD},
+                     {"Camera_Matrix_1", kRightK},
+                     {"Dist_1", kRightD},
+                     {"RotationOfRight", kR},
+                     {"PositionOfRight", kT}}));
+  // The order of the file has no meaning, and the results of a rectification do no harm.
+  expect_pair(lines({{"rightIntrinsics", kRightK},
+                     {"leftIntrinsics", kLeftK},
+                     {"rightCoefficients", kRightD},
+                     {"leftCoefficients", kLeftD},
+                     {"R_rect", "[ 1, 0, 0, 0, 1, 0, 0, 0, 1 ]"},
+                     {"stereo", "{R: " + std::string(kR) + ", t: " + kT + "}"}}));
+}
+
+TEST_F(Layout, OfTwoFilesWithTheSameNamesTheFirstIsTheLeftCamera) {
+  const std::string left = folder_.write(
+      "left.yml",
+      lines({{"intrinsics", kLeftK}, {"distortion", kLeftD}, {"stereo_R", kR}, {"stereo_T", kT}}));
+  const std::string right =
+      folder_.write("right.yml", lines({{"intrinsics", kRightK}, {"distortion", kRightD}}));
+  const StereoCalibration calibration = read_valid(left + "," + right, 640, 480);
+  EXPECT_DOUBLE_EQ(calibration.left.focal_x, 500.5);
+  EXPECT_DOUBLE_EQ(calibration.right.focal_x, 510.5);
+}
+
+TEST_F(Layout, WithAChoiceIsRefusedAndTheNamesAreListed) {
+  // Nothing states which one is the left camera.
+  EXPECT_THAT(refused(lines({{"alpha", kLeftK},
+                             {"beta", kRightK},
+                             {"alpha_dist", kLeftD},
+                             {"beta_dist", kRightD},
+                             {"R", kR},
+                             {"T", kT}})),
+              AllOf(HasSubstr("there is no entry M1 (K of the left camera)"),
+                    HasSubstr("Matrices found: alpha (9 values), beta (9 values)"),
+                    HasSubstr("Names needed: M1, D1, M2, D2, R, T")));
+  // Two vectors: one of them may be the rotation.
+  EXPECT_THAT(refused(lines({{"K1", kLeftK},
+                             {"D1", kLeftD},
+                             {"K2", kRightK},
+                             {"D2", kRightD},
+                             {"u", "[ 0.1, 0.2, 0.3 ]"},
+                             {"v", kT}})),
+              HasSubstr("there is no entry R (rotation between the cameras)"));
+}
+
+TEST_F(Layout, OfMatlabIsNamed) {
+  EXPECT_THAT(refused(lines({{"K1", "[ 500., 0., 0., 0., 501., 0., 321., 243., 1. ]"},
+                             {"D1", kLeftD},
+                             {"K2", kRightK},
+                             {"D2", kRightD},
+                             {"R", kR},
+                             {"T", kT}})),
+              HasSubstr("K1 is transposed, as MATLAB states it; transpose it"));
+}
+
+/// A file of ORB-SLAM2 with the rectification of raw views, as people write it: without blanks.
+std::string with_projections(const std::string& fourth) {
+  const auto matrix = [](const char* name, const char* shape, const std::string& data) {
+    return std::string(name) + ":  !!opencv-matrix\n   rows: 3\n   cols: " + shape +
+           "\n   dt: d\n   data:" + data + "\n";
+  };
+  const std::string row = "   rows: 1\n   cols: 5\n   dt: d\n   data:";
+  return "%YAML:1.0\n\nCamera.fx: 440.\nCamera.bf: 52.8\nViewer.PointSize:2\nViewer.Size: 3\n"
+         "LEFT.height: 480\nLEFT.width: 640\n"
+         "LEFT.D: !!opencv-matrix\n" +
+         row + kLeftD + "\n" + matrix("LEFT.K", "3", kLeftK) +
+         matrix("LEFT.R", "3", "[0.8, 0., 0.6, 0., 1., 0., -0.6, 0., 0.8]") +
+         matrix("LEFT.P", "4", "[440., 0, 330., 0, 0, 440., 240., 0, 0, 0, 1, 0]") +
+         "RIGHT.height: 480\nRIGHT.width: 640\nRIGHT.D: !!opencv-matrix\n" + row + kRightD + "\n" +
+         matrix("RIGHT.K", "3", kRightK) +
+         matrix("RIGHT.R", "3", "[1., 0., 0., 0., 1., 0., 0., 0., 1.]") +
+         matrix("RIGHT.P", "4", "[440., 0, 330., " + fourth + ", 0, 440., 240., 0, 0, 0, 1, 0]");
+}
+
+TEST_F(Layout, WithRectifiedProjectionsNeedsNoRAndT) {
+  const StereoCalibration calibration = read_valid(write(with_projections("-52.8")));
+  EXPECT_EQ(calibration.left.width, 640);
+  EXPECT_DOUBLE_EQ(calibration.left.focal_x, 500.5);
+  EXPECT_DOUBLE_EQ(calibration.rectification->focal_length, 440);
+  EXPECT_NEAR(calibration.rectification->baseline, 0.12, 1e-12);
+  expect_near(calibration.rotation, Matrix3{0.8, 0, 0.6, 0, 1, 0, -0.6, 0, 0.8}, 1e-12);
+  expect_near(calibration.translation, Vector3{-0.12, 0, 0}, 1e-12);
+  EXPECT_THAT(refused(with_projections("0")), HasSubstr("RIGHT.P states a baseline of 0 m"));
+  EXPECT_THAT(refused(with_projections("-52800")), HasSubstr("add the line 'length_unit: mm'"));
+}
+
+}  // namespace
+}  // namespace mtstereo::test
