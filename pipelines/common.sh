@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # shellcheck shell=bash
-# Common parts of the pipeline scripts: options, the plugin path, and the run itself. Sourced only.
+# Common parts of the pipeline scripts: options and the run itself. Sourced only.
 
 # shellcheck disable=SC2034  # the variables are read by the scripts that source this file
-repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build=${BUILD:-$repository/build}
 dry_run=no
 seconds=
 out=
@@ -16,6 +14,9 @@ far=
 cloud=
 arguments=()
 status_of_limit=124 # of timeout, if --seconds are over
+
+# shellcheck source=pipelines/plugin.sh
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/plugin.sh"
 
 fail() {
   echo "$(basename "$0"): $*" >&2
@@ -29,7 +30,7 @@ wrong_usage() {
 
 # Prints the comment at the top of the calling script as its help.
 show_help() {
-  sed -n -e '1,2d' -e '/^#/!q' -e 's/^# \{0,1\}//p' "$0"
+  sed -n -e '1,2d' -e '/^#/!q' -e 's/^# \{0,1\}//p' "$0" | with_command_names
   cat <<'END'
 
 Options of every pipeline script:
@@ -43,7 +44,9 @@ Options of every pipeline script:
   --set NAME=VALUE    any other property of mtstereo (gst-inspect-1.0 mtstereo lists them)
   --sink ELEMENT      sink for the color picture instead of autovideosink
   --seconds N         stop after N seconds
-  --build DIR         build folder of mtstereo (default: build/, or $BUILD)
+END
+  plugin_help
+  cat <<'END'
   --dry-run           print the gst-launch-1.0 command without running it
 END
   exit 0
@@ -57,6 +60,11 @@ is_number() {
   [[ $1 =~ ^[0-9]{1,9}$ ]]
 }
 
+# Replaced by scripts with options of their own.
+own_option() {
+  return 1
+}
+
 # Parses the command line. Arguments other than options go to `arguments`. Options that only the
 # calling script has are passed to its function own_option OPTION VALUE, whose status states whether
 # the option exists (each of them takes a value).
@@ -65,15 +73,14 @@ parse_options() {
     case $1 in
       --help | -h) show_help ;;
       --dry-run) dry_run=yes ;;
-      --calibration | --depth | --cloud | --out | --mode | --max-disparity | --set | --sink | --seconds | --build)
+      --calibration | --depth | --cloud | --out | --mode | --max-disparity | --set | --sink | --seconds)
         require_value "$@"
         common_option "$1" "$2"
         shift
         ;;
       --*)
-        declare -F own_option >/dev/null || wrong_usage "unknown option $1"
+        plugin_option "$1" "${2-}" || own_option "$1" "${2-}" || wrong_usage "unknown option $1"
         require_value "$@"
-        own_option "$1" "$2" || wrong_usage "unknown option $1"
         shift
         ;;
       *) arguments+=("$1") ;;
@@ -125,7 +132,6 @@ common_option() {
       is_number "$2" || wrong_usage "--seconds is '$2'; it must be an integer"
       seconds=$2
       ;;
-    --build) build=$2 ;;
   esac
 }
 
@@ -187,15 +193,6 @@ output_of() {
   fi
 }
 
-use_plugin() {
-  local plugin=$build/gst/libgstmtstereo.so
-  if [ ! -e "$plugin" ]; then
-    fail "the plugin is not built ($plugin does not exist); build it with" \
-      "'meson setup $build && ninja -C $build', or set the build folder with --build"
-  fi
-  export GST_PLUGIN_PATH=$build/gst${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
-}
-
 # A word in shell syntax, quoted if it has special characters.
 quoted() {
   if [[ $1 =~ ^[A-Za-z0-9_./:=,%@+!-]+$ ]]; then
@@ -210,12 +207,14 @@ launch() {
   local line=(gst-launch-1.0 -e "$@")
   if [ "$dry_run" = yes ]; then
     local word
-    printf 'GST_PLUGIN_PATH=%q' "$build/gst"
-    for word in "${line[@]}"; do quoted "$word"; done
+    [ -z "$plugin_folder" ] || printf 'GST_PLUGIN_PATH=%q ' "$plugin_folder"
+    printf '%s' "${line[0]}"
+    for word in "${line[@]:1}"; do quoted "$word"; done
     printf '\n'
     return
   fi
-  use_plugin
+  require_plugin
+  [ -z "$plugin_folder" ] || export GST_PLUGIN_PATH=$plugin_folder${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
   if [ -z "$seconds" ]; then
     "${line[@]}"
     return

@@ -15,7 +15,7 @@
 #   --rate N            requested frames per second (default 30)
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 size=640x480
 rate=30

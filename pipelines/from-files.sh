@@ -10,7 +10,7 @@
 # paired by their time stamps, so both files must start at the same time.
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 parse_options "$@"
 [ ${#arguments[@]} -eq 2 ] || wrong_usage "two files are required, LEFT and RIGHT"
 for file in "${arguments[@]}"; do require_file "$file"; done

@@ -21,9 +21,9 @@
 #   --passphrase TEXT   decrypt SRT with this text of 10 to 79 characters, the same as at the sender
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 # shellcheck source=pipelines/network.sh
-source "$(dirname "${BASH_SOURCE[0]}")/network.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/network.sh"
 
 latency=
 # shellcheck disable=SC2034  # common.sh reads it

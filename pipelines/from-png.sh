@@ -13,7 +13,7 @@
 #   --rate N            frames per second of the sequences (default 24)
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 first=0
 rate=24

@@ -14,7 +14,7 @@
 #   --size WxH          requested size of the whole image of a camera (default: 2560x720)
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 
 layout=side-by-side
 size=2560x720

@@ -11,7 +11,7 @@
 # sends each in a session of its own, with RTCP and the time of this computer's clock in each frame.
 # Every picture is H.264 that is decoded without any other one, so that a lost packet costs one frame.
 #
-# Options of this script (of the common ones below, only --seconds, --build and --dry-run apply):
+# Options of this script (of the common ones below, those of matching and of the result have no effect):
 #   --to ADDRESS        srt://[HOST]:PORT or rtp://HOST:PORT (default srt://127.0.0.1:7001)
 #   --bitrate N         of each video [kbit/s] (default 8000)
 #   --size WxH          requested image size of cameras (default 640x480)
@@ -21,9 +21,9 @@
 #   --passphrase TEXT   encrypt SRT (AES-256) with this text of 10 to 79 characters
 set -euo pipefail
 # shellcheck source=pipelines/common.sh
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/common.sh"
 # shellcheck source=pipelines/network.sh
-source "$(dirname "${BASH_SOURCE[0]}")/network.sh"
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/network.sh"
 
 to=srt://127.0.0.1:7001
 bitrate=8000

@@ -12,6 +12,7 @@
 
 #include "run/cluster_commands.hpp"
 #include "run/options.hpp"
+#include "run/own_plugin.hpp"
 #include "run/run_error.hpp"
 #include "run/run_recording.hpp"
 
@@ -106,6 +107,7 @@ int run(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   try {
+    mtstereo::run::use_own_plugin();
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     return mtstereo::run::run(argc, argv);
   } catch (const std::exception& error) {

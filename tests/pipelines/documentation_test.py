@@ -224,6 +224,12 @@ class Programs(unittest.TestCase):
         compiled = (SOURCE / "tests/gst/support/confidence_reader.c").read_text()
         self.assertIn(shown[0], compiled)
 
+    def test_the_program_of_the_library_is_the_installed_example(self):
+        shown = blocks_of(SOURCE / "docs/library.md", "cpp")
+        self.assertEqual(len(shown), 1)
+        built = (SOURCE / "pipelines/apps/match_pair.cpp").read_text()
+        self.assertTrue(built.endswith(shown[0]), "docs/library.md shows another program")
+
     def test_python_runs_and_finds_the_confidence(self):
         shown = blocks_of(self.element, "python")
         self.assertEqual(len(shown), 1)

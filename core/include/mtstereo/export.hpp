@@ -7,3 +7,7 @@
 #else
 #define MTSTEREO_API __attribute__((visibility("default")))
 #endif
+
+#if __cplusplus < 202002L
+#error "mtstereo needs C++20 or later: compile with -std=c++20"
+#endif

@@ -7,10 +7,10 @@
 /// of all pixels. mtstereo::Matcher does that, mtstereo::Parameters configures it, and
 /// mtstereo::parameter_table() describes every parameter. mtstereo::AlignmentTracker finds what is
 /// wrong with the rows and the sharpness of the views. Include <mtstereo/mtstereo.hpp>, and compile
-/// and link with the flags of `pkg-config --cflags --libs mtstereo`.
+/// with -std=c++20 or later and the flags of `pkg-config --cflags --libs mtstereo`.
 ///
-/// A complete program:
-/// @include installed_program.cpp
+/// A complete program, which matches two pictures:
+/// @include match_pair.cpp
 
 /// @namespace mtstereo
 /// The whole library.

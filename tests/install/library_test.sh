@@ -4,22 +4,11 @@
 # Installs the build to a temporary folder, builds a program against that folder with pkg-config
 # alone, runs it, and checks the exported names of the library.
 #
-# usage: install_test.sh BUILD PROGRAM.cpp VERSION PREFIX LIBDIR SANITIZE MESON... -- COMPILER...
+# usage: library_test.sh PROGRAM.cpp VERSION PREFIX LIBRARY_FOLDER INSTALL_TO BUILD MESON -- COMPILER...
 set -eu
 
-build=$1 program=$2 version=$3 prefix=$4 libdir=$5 sanitize=$6
-shift 6
-meson=
-while [ "$1" != -- ]; do
-  meson="$meson $1"
-  shift
-done
-shift
-
-if [ "$sanitize" != none ]; then
-  echo "skipped: built with -Db_sanitize=$sanitize, whose runtime the test program does not link"
-  exit 77
-fi
+program=$1 version=$2 prefix=$3 library_folder=$4 install_to=$5 build=$6 meson=$7
+shift 8
 
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
@@ -28,11 +17,10 @@ fail() {
   exit 1
 }
 
-$meson install --no-rebuild --quiet -C "$build" --destdir "$root" >"$root/install.log" 2>&1 ||
-  { cat "$root/install.log"; fail "meson install"; }
+"$install_to" "$build" "$meson" "$root" || fail "meson install"
 
 # Only the installed files: the headers are those of the sysroot, and its library has precedence.
-library_path="$root$prefix/$libdir"
+library_path="$root$library_folder"
 export PKG_CONFIG_PATH="$library_path/pkgconfig"
 export PKG_CONFIG_SYSROOT_DIR="$root"
 flags=$(pkg-config --cflags --libs mtstereo) || fail "pkg-config does not find mtstereo"
@@ -41,23 +29,35 @@ case $flags in
   *"$root$prefix"*) ;;
   *) fail "the flags do not refer to the installed files: $flags" ;;
 esac
-for word in opencv hwy eigen; do
+# The program chooses the standard of the language.
+for word in opencv hwy eigen -std; do
   case $flags in
-    *$word*) fail "the flags require $word: $flags" ;;
+    *$word*) fail "the flags have $word: $flags" ;;
   esac
 done
 
 # The flags are split into words on purpose.
 # shellcheck disable=SC2086
-"$@" -Wall -Wextra -Wpedantic -Werror "$program" -o "$root/program" $flags ||
+"$@" -std=c++20 -Wall -Wextra -Wpedantic -Werror "$program" -o "$root/program" $flags ||
   fail "the program does not build with: $flags"
-# Every header can be included alone.
-for header in "$root$prefix"/include/mtstereo/*.hpp; do
-  # shellcheck disable=SC2086
-  printf '#include <mtstereo/%s>\n' "$(basename "$header")" |
-    "$@" -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c++ - $flags ||
-    fail "$(basename "$header") cannot be included alone"
-done
+# include_alone HEADER...: every header can be included alone, by C++20 and by C++23.
+include_alone() {
+  for header in "$@"; do
+    for standard in c++20 c++23; do
+      # shellcheck disable=SC2086
+      printf '#include <%s>\n' "${header#"$root$prefix/include/"}" |
+        $compiler "-std=$standard" -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c++ - $flags ||
+        fail "$header cannot be included alone with -std=$standard"
+    done
+  done
+}
+compiler=$*
+include_alone "$root$prefix"/include/mtstereo/*.hpp
+# An older standard ends with one clear message.
+# shellcheck disable=SC2086
+! echo '#include <mtstereo/mtstereo.hpp>' |
+  "$@" -std=c++17 -fsyntax-only -x c++ - $flags 2>"$root/errors" || fail "C++17 is accepted"
+grep -q 'needs C++20.*-std=c++20' "$root/errors" || { cat "$root/errors"; fail "C++17 is not named"; }
 
 output=$(LD_LIBRARY_PATH="$library_path${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$root/program") ||
   fail "the program exited with status $?"
@@ -88,17 +88,12 @@ echo "exported names: $(wc -l <"$root/names.txt")"
 # The library of the geometry, if the build has it. OpenCV is inside, and not in its interface.
 [ -e "$library_path/pkgconfig/mtstereo-geometry.pc" ] || exit 0
 flags=$(pkg-config --cflags --libs mtstereo-geometry) || fail "pkg-config does not find mtstereo-geometry"
-for word in opencv eigen yaml; do
+for word in opencv eigen yaml -std; do
   case $flags in
-    *$word*) fail "the flags of mtstereo-geometry require $word: $flags" ;;
+    *$word*) fail "the flags of mtstereo-geometry have $word: $flags" ;;
   esac
 done
-for header in "$root$prefix"/include/mtstereo/geometry/*.hpp; do
-  # shellcheck disable=SC2086
-  printf '#include <mtstereo/geometry/%s>\n' "$(basename "$header")" |
-    "$@" -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c++ - $flags ||
-    fail "geometry/$(basename "$header") cannot be included alone"
-done
+include_alone "$root$prefix"/include/mtstereo/geometry/*.hpp
 cat >"$root/geometry.cpp" <<'END'
 #include <cstdio>
 #include <mtstereo/geometry/calibration.hpp>
@@ -108,7 +103,7 @@ int main() {
 }
 END
 # shellcheck disable=SC2086
-"$@" -Wall -Wextra -Wpedantic -Werror "$root/geometry.cpp" -o "$root/geometry" $flags ||
+"$@" -std=c++20 -Wall -Wextra -Wpedantic -Werror "$root/geometry.cpp" -o "$root/geometry" $flags ||
   fail "a program of the geometry does not build with: $flags"
 output=$(LD_LIBRARY_PATH="$library_path${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$root/geometry") ||
   fail "the program of the geometry exited with status $?"
