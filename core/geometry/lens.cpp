@@ -169,8 +169,14 @@ Vector3 Lens::direction(double u, double v) const {
     const Point point = undistort({x, y});
     ray = {point[0], point[1], 1};
   }
+  // Eigen's normalize() leaves a vector as it is if its length is NaN.
+  if (!ray.allFinite()) return {kNone, kNone, kNone};
   ray.normalize();
   return {ray[0], ray[1], ray[2]};
+}
+
+double Lens::widest_angle() const {
+  return camera_.lens == LensModel::kFisheye ? limit_ : std::atan(limit_);
 }
 
 }  // namespace mtstereo

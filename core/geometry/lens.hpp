@@ -22,6 +22,9 @@ class Lens {
   /// The direction of a position in the image, of length 1; NaN if there is none.
   Vector3 direction(double u, double v) const;
 
+  /// The angle from the optical axis up to which the model covers directions [rad].
+  double widest_angle() const;
+
  private:
   using Point = std::array<double, 2>;
   Point distort(double x, double y) const;

@@ -14,6 +14,7 @@
 #include "geometry/calibration_problem.hpp"
 #include "geometry/lens.hpp"
 #include "geometry/rectified_frame.hpp"
+#include "geometry/view_coverage.hpp"
 
 // If both lenses are polynomials that OpenCV inverts correctly, the result is that of
 // cv::stereoRectify(), so that other programs get the same pair from the same calibration. For all
@@ -182,17 +183,19 @@ Result<Rectification> compute(const StereoCalibration& calibration,
   if (suits_opencv(calibration)) {
     frame = opencv_frame(calibration, options, result);
   }
-  if (!frame) frame = frame_views(calibration, result, options);
   if (!frame) {
-    return unusable(
-        "The calibration cannot be rectified: the cameras see no common part of the scene in the "
-        "rectified image, or a field of view of 170 degrees or more. alpha=-1 keeps the focal "
-        "length of the cameras instead.");
+    const Result<RectifiedFrame> framed = frame_views(calibration, result, options);
+    if (!framed) return framed.error();
+    frame = *framed;
   }
   result.focal_length = frame->focal_length;
   result.left_center_x = frame->left_center_x;
   result.right_center_x = frame->right_center_x;
   result.center_y = frame->center_y;
+  if (!shows_anything(calibration, result, Rectifier::Side::kLeft) ||
+      !shows_anything(calibration, result, Rectifier::Side::kRight)) {
+    return unusable(std::string("The calibration cannot be rectified: ") + kNoCommonPart + ".");
+  }
   return result;
 }
 

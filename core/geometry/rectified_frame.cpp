@@ -13,9 +13,13 @@ namespace mtstereo {
 namespace {
 
 constexpr int kSamples = 64;  // per side of an image
-/// A direction that is farther from the optical axis is taken for one at this angle: the tangent of
-/// 90 degrees is infinite.
-constexpr double kWidestAngle = 85 * std::numbers::pi / 180;  // [rad]
+constexpr double kDegree = std::numbers::pi / 180;
+/// No direction that is farther from the rectified axis is shown: the tangent of 90 degrees is
+/// infinite.
+constexpr double kWidestAngle = 85 * kDegree;  // [rad]
+/// With alpha = 0, no side of the images is farther from the axis. Wider images would show the
+/// middle at less than half of the camera's scale.
+constexpr double kWidestCrop = 70 * kDegree;  // [rad]
 
 /// A rectangle of the plane at the distance 1.
 struct Bounds {
@@ -30,61 +34,100 @@ struct Bounds {
   double center_y() const { return (top + bottom) / 2; }
 };
 
-/// A point of the plane, and whether the view shows it.
+/// A point of the plane at the distance 1.
 struct PlanePoint {
   double x = 0;
   double y = 0;
-  bool too_wide = false;
 };
 
+/// The border of the part of an image that can be rectified: where the lens model knows the
+/// directions, and these are not too far from the rectified axis.
 class ViewBorder {
  public:
   ViewBorder(const CameraCalibration& camera, const Matrix3& rotation)
-      : lens_(camera), rotation_(rotation), width_(camera.width - 1), height_(camera.height - 1) {}
+      : lens_(camera),
+        rotation_(rotation),
+        width_(camera.width - 1),
+        height_(camera.height - 1),
+        start_x_(std::clamp(camera.center_x, 0.0, width_)),
+        start_y_(std::clamp(camera.center_y, 0.0, height_)) {}
 
-  PlanePoint at(double u, double v) const {
+  /// The point of the plane that a position of the image shows, if it can be rectified.
+  std::optional<PlanePoint> at(double u, double v) const {
     const Vector3 ray = rotate(rotation_, lens_.direction(u, v));
-    const double radius = std::hypot(ray[0], ray[1]);
-    const double angle = std::atan2(radius, ray[2]);
-    const bool too_wide = !(angle < kWidestAngle);
-    const double tangent = std::tan(too_wide ? kWidestAngle : angle);
-    if (!(radius > 0)) return {0, 0, too_wide};
-    return {ray[0] / radius * tangent, ray[1] / radius * tangent, too_wide};
+    const double angle = std::atan2(std::hypot(ray[0], ray[1]), ray[2]);
+    if (!(angle < kWidestAngle)) return std::nullopt;  // also NaN
+    return PlanePoint{ray[0] / ray[2], ray[1] / ray[2]};
   }
-  PlanePoint middle() const { return at(width_ / 2, height_ / 2); }
+  /// The point for a position of the image, or the farthest one on the way from the principal point
+  /// to it that can be rectified.
+  PlanePoint nearest_to(double u, double v) const;
+  PlanePoint middle() const { return nearest_to(width_ / 2, height_ / 2); }
 
-  /// The rectangles inside of and around the border; false if the middle of a side is too far from
-  /// the axis, or the lens model does not cover it. A corner that it does not cover is left out.
-  bool measure(Bounds& inner, Bounds& outer) const;
+  /// Why not even the principal point can be rectified, or an empty text. Nothing else may be asked
+  /// for then.
+  std::string problem() const;
+  /// The rectangles inside of and around the border.
+  void measure(Bounds& inner, Bounds& outer) const;
 
  private:
   Lens lens_;
   Matrix3 rotation_;
   double width_;
   double height_;
+  double start_x_;  ///< the principal point, or what is nearest to it in the image
+  double start_y_;
 };
 
-bool ViewBorder::measure(Bounds& inner, Bounds& outer) const {
+std::string ViewBorder::problem() const {
+  if (at(start_x_, start_y_)) return {};
+  const Vector3 ray = rotate(rotation_, lens_.direction(start_x_, start_y_));
+  const double angle = std::atan2(std::hypot(ray[0], ray[1]), ray[2]);
+  if (std::isnan(angle)) {
+    return "has a lens model that cannot be inverted, not even at the principal point: the "
+           "coefficients are wrong, or those of another model";
+  }
+  return "looks " + std::to_string(std::lround(angle / kDegree)) +
+         " degrees away from the common direction of both cameras; both must look in about the "
+         "same direction";
+}
+
+PlanePoint ViewBorder::nearest_to(double u, double v) const {
+  if (const auto point = at(u, v)) return *point;
+  PlanePoint last = *at(start_x_, start_y_);
+  double inside = 0;
+  double outside = 1;
+  constexpr int kHalvings = 40;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double part = (inside + outside) / 2;
+    if (const auto point = at(start_x_ + (u - start_x_) * part, start_y_ + (v - start_y_) * part)) {
+      last = *point;
+      inside = part;
+    } else {
+      outside = part;
+    }
+  }
+  return last;
+}
+
+void ViewBorder::measure(Bounds& inner, Bounds& outer) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  inner = {-kFar, -kFar, kFar, kFar};
+  const double crop = std::tan(kWidestCrop);
+  inner = {-crop, -crop, crop, crop};
   outer = {kFar, kFar, -kFar, -kFar};
   for (int i = 0; i <= kSamples; ++i) {
     const double part = static_cast<double>(i) / kSamples;
-    const PlanePoint left = at(0, height_ * part);
-    const PlanePoint right = at(width_, height_ * part);
-    const PlanePoint top = at(width_ * part, 0);
-    const PlanePoint bottom = at(width_ * part, height_);
+    const PlanePoint left = nearest_to(0, height_ * part);
+    const PlanePoint right = nearest_to(width_, height_ * part);
+    const PlanePoint top = nearest_to(width_ * part, 0);
+    const PlanePoint bottom = nearest_to(width_ * part, height_);
     for (const PlanePoint& point : {left, right, top, bottom}) {
-      const bool known = !std::isnan(point.x);
-      if (i == kSamples / 2 && (!known || point.too_wide)) return false;
-      // The minimum of a number and NaN is the number.
-      outer = {std::fmin(outer.left, point.x), std::fmin(outer.top, point.y),
-               std::fmax(outer.right, point.x), std::fmax(outer.bottom, point.y)};
+      outer = {std::min(outer.left, point.x), std::min(outer.top, point.y),
+               std::max(outer.right, point.x), std::max(outer.bottom, point.y)};
     }
-    inner = {std::fmax(inner.left, left.x), std::fmax(inner.top, top.y),
-             std::fmin(inner.right, right.x), std::fmin(inner.bottom, bottom.y)};
+    inner = {std::max(inner.left, left.x), std::max(inner.top, top.y),
+             std::min(inner.right, right.x), std::min(inner.bottom, bottom.y)};
   }
-  return true;
 }
 
 /// Both views show the same rows; with a common principal point, also the same columns.
@@ -123,24 +166,13 @@ RectifiedFrame keep_scale(const StereoCalibration& calibration, const Rectificat
   return frame;
 }
 
-}  // namespace
-
-std::optional<RectifiedFrame> frame_views(const StereoCalibration& calibration,
-                                          const Rectification& rotations,
-                                          const RectificationOptions& options) {
-  const std::array<ViewBorder, 2> views = {ViewBorder(calibration.left, rotations.left_rotation),
-                                           ViewBorder(calibration.right, rotations.right_rotation)};
-  RectifiedFrame frame;
-  if (options.alpha == kKeepScale) {
-    frame = keep_scale(calibration, rotations, {views[0].middle(), views[1].middle()},
-                       options.zero_disparity);
-    return frame.is_usable() ? std::optional(frame) : std::nullopt;
-  }
+/// The frame for an alpha of 0 to 1; std::nullopt if the views have no common rectangle.
+std::optional<RectifiedFrame> crop_views(const std::array<ViewBorder, 2>& views,
+                                         const Rectification& rotations,
+                                         const RectificationOptions& options) {
   std::array<Bounds, 2> inner;
   std::array<Bounds, 2> outer;
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (!views[i].measure(inner[i], outer[i])) return std::nullopt;
-  }
+  for (std::size_t i = 0; i < 2; ++i) views[i].measure(inner[i], outer[i]);
   unite(inner, outer, options.zero_disparity);
   const double width = rotations.width - 1;
   const double height = rotations.height - 1;
@@ -152,6 +184,7 @@ std::optional<RectifiedFrame> frame_views(const StereoCalibration& calibration,
     all = std::min({all, width / outer[i].width(), height / outer[i].height()});
   }
   const double alpha = options.alpha;
+  RectifiedFrame frame;
   frame.focal_length = crop * (1 - alpha) + all * alpha;
   const auto center = [&](double in_crop, double in_all, double length) {
     return length / 2 - frame.focal_length * (in_crop * (1 - alpha) + in_all * alpha);
@@ -159,7 +192,35 @@ std::optional<RectifiedFrame> frame_views(const StereoCalibration& calibration,
   frame.left_center_x = center(inner[0].center_x(), outer[0].center_x(), width);
   frame.right_center_x = center(inner[1].center_x(), outer[1].center_x(), width);
   frame.center_y = center(inner[0].center_y(), outer[0].center_y(), height);
-  return frame.is_usable() ? std::optional(frame) : std::nullopt;
+  return frame;
+}
+
+}  // namespace
+
+Result<RectifiedFrame> frame_views(const StereoCalibration& calibration,
+                                   const Rectification& rotations,
+                                   const RectificationOptions& options) {
+  const auto refused = [](const std::string& reason) {
+    return Error{ErrorCode::kInvalidCalibration,
+                 "The calibration cannot be rectified: " + reason + "."};
+  };
+  const std::array<ViewBorder, 2> views = {ViewBorder(calibration.left, rotations.left_rotation),
+                                           ViewBorder(calibration.right, rotations.right_rotation)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string problem = views[i].problem();
+    if (!problem.empty())
+      return refused(i == 0 ? "the left camera " + problem : "the right camera " + problem);
+  }
+  std::optional<RectifiedFrame> frame;
+  if (options.alpha == kKeepScale) {
+    frame = keep_scale(calibration, rotations, {views[0].middle(), views[1].middle()},
+                       options.zero_disparity);
+  } else {
+    frame = crop_views(views, rotations, options);
+  }
+  if (!frame) return refused(kNoCommonPart);
+  if (!frame->is_usable()) return refused("its values are too large or too small");
+  return *frame;
 }
 
 }  // namespace mtstereo

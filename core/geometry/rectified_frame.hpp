@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
 
 #include "mtstereo/geometry/rectification.hpp"
 
@@ -21,11 +20,18 @@ struct RectifiedFrame {
   }
 };
 
+/// Why views are refused that show nothing of what the other one shows.
+inline constexpr const char* kNoCommonPart =
+    "the cameras see no common part of the scene in the rectified images. The rotation or the lens "
+    "coefficients are wrong, or the cameras look in different directions";
+
 /// Chooses the frame of views whose rotations and size are known, for any lens: the borders of both
 /// images are projected to the rectified plane. With alpha = 0 the images are as large as fits into
-/// both, with alpha = 1 both fit into the images. std::nullopt if there is no such frame.
-std::optional<RectifiedFrame> frame_views(const StereoCalibration& calibration,
-                                          const Rectification& rotations,
-                                          const RectificationOptions& options);
+/// both, with alpha = 1 both fit into the images. What the lens model does not cover is left out,
+/// and so are directions that are too far from the axis for a plane. Fails with
+/// kInvalidCalibration.
+Result<RectifiedFrame> frame_views(const StereoCalibration& calibration,
+                                   const Rectification& rotations,
+                                   const RectificationOptions& options);
 
 }  // namespace mtstereo

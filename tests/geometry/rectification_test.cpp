@@ -6,6 +6,7 @@
 #include "geometry/lens.hpp"
 #include "opencv_camera.hpp"
 #include "rigs.hpp"
+#include "seen_border.hpp"
 #include "support/random.hpp"
 
 namespace mtstereo::test {
@@ -84,23 +85,6 @@ TEST_P(WithOpenCv, PolynomialLensesGetTheResultOfStereoRectify) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Alphas, WithOpenCv, testing::Values(0, 0.4, 1, kKeepScale));
-
-/// The part of the rectified pixels on the border of the image that the camera sees.
-double seen_border(const StereoCalibration& rig, const Rectification& r, Rectifier::Side side) {
-  const auto rectifier = Rectifier::create(rig, r, side);
-  EXPECT_TRUE(rectifier.ok());
-  const CameraCalibration& camera = side == Rectifier::Side::kLeft ? rig.left : rig.right;
-  int seen = 0;
-  int all = 0;
-  for (int y = 0; y < r.height; ++y) {
-    for (int x = 0; x < r.width; x += y == 0 || y == r.height - 1 ? 1 : r.width - 1) {
-      const auto [u, v] = rectifier->source_of(x, y);
-      ++all;
-      if (u > -0.5 && v > -0.5 && u < camera.width - 0.5 && v < camera.height - 0.5) ++seen;
-    }
-  }
-  return static_cast<double>(seen) / all;
-}
 
 TEST(Rectify, CropsFisheyeViewsToWhatBothCamerasSee) {
   const StereoCalibration rig = fisheye_rig();
@@ -203,20 +187,16 @@ TEST(Rectify, RefusesCamerasThatAreNotSideBySide) {
   EXPECT_NE(refusal(rig).find("baseline of zero"), std::string::npos) << refusal(rig);
 }
 
-TEST(Rectify, RefusesAFieldOfViewOf180Degrees) {
-  StereoCalibration rig = fisheye_rig();
-  for (CameraCalibration* camera : {&rig.left, &rig.right}) {
-    camera->coefficients = {0, 0, 0, 0};
-    camera->focal_x = camera->focal_y = 640 / std::numbers::pi;
-  }
-  EXPECT_NE(refusal(rig).find("field of view"), std::string::npos) << refusal(rig);
-  EXPECT_TRUE(rectify(rig, {.alpha = kKeepScale}).ok());
-}
-
 TEST(Rectify, RefusesViewsThatShareNothing) {
-  StereoCalibration rig = fisheye_rig();
-  rig.rotation = rotation_of(0, 140, 0);
-  EXPECT_NE(refusal(rig), "");
+  for (StereoCalibration rig : {fisheye_rig(), plumb_bob_rig(), pinhole_rig()}) {
+    rig.rotation = rotation_of(0, 140, 0);
+    for (const double alpha : {0.0, 1.0, kKeepScale}) {
+      EXPECT_NE(refusal(rig, {.alpha = alpha}), "") << alpha;
+    }
+    // Half of it for each camera.
+    rig.rotation = rotation_of(174, 0, 0);
+    EXPECT_NE(refusal(rig).find("degrees"), std::string::npos) << refusal(rig);
+  }
 }
 
 TEST(Rectify, RefusesWrongValues) {

@@ -82,6 +82,35 @@ inline StereoCalibration fisheye_rig(int width = 640, int height = 480) {
       camera(width, height, focal * 0.995, LensModel::kFisheye, {-0.011, 0.003, -0.002, 0.0004}));
 }
 
+/// Two equal cameras side by side that look in nearly the same direction.
+inline StereoCalibration wide_rig(const CameraCalibration& one) {
+  StereoCalibration rig = rig_of(one, one);
+  rig.rotation = rotation_of(0.4, -0.3, 0.7);
+  rig.translation = {-0.08, 0.001, 0.0005};
+  return rig;
+}
+
+/// Rational lenses with a pole where numerator and denominator are nearly zero: at a radius of
+/// about 0.8, which is at the sides of the image. Behind it, the model returns to the image.
+inline StereoCalibration pole_rig() {
+  const std::vector<double> coefficients = {-7.98, 55.4, 0.0003, -0.0002, -67.9, -8.06, 55.6,
+                                            -68.0, 0,    0,      0,       0,     0,     0};
+  return wide_rig(camera(1280, 800, 805, LensModel::kPlumbBob, coefficients));
+}
+
+/// Lenses whose polynomial turns back in front of the corners of the image.
+inline StereoCalibration turning_rig() {
+  const std::vector<double> coefficients = {-0.058, 0.035, -0.0003, 0.0002, -0.0152};
+  return wide_rig(camera(1280, 720, 530, LensModel::kPlumbBob, coefficients));
+}
+
+/// Fisheye lenses of this field of view from left to right [degrees].
+inline StereoCalibration fisheye_rig_of(double field, int width = 640, int height = 480) {
+  const double focal = width / (field * std::numbers::pi / 180);
+  return wide_rig(
+      camera(width, height, focal, LensModel::kFisheye, {0.004, 0.003, -0.004, 0.0006}));
+}
+
 inline StereoCalibration pinhole_rig(int width = 640, int height = 480) {
   const CameraCalibration one = camera(width, height, 0.9 * width, LensModel::kNone, {});
   return rig_of(one, one);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "mtstereo/export.hpp"
@@ -36,11 +37,27 @@ struct RectificationOptions {
 inline constexpr double kKeepScale = -1;
 
 /// The rectification of a calibration. Two polynomial lenses (kNone, kPlumbBob) get the result of
-/// OpenCV's stereoRectify(). Fails with kInvalidCalibration if the cameras cannot be rectified (a
-/// baseline along the optical axis, a vertical or reversed one, with alpha >= 0 also a field of
-/// view of 170 degrees or more), and with kInvalidParameter if an option is out of range.
+/// OpenCV's stereoRectify() if OpenCV can invert them everywhere in the image. For all others, what
+/// the lens model does not cover is left out (a polynomial turns back far from its axis), and so is
+/// what is 85 degrees or more away from the axis of the rectified views; with alpha = 0 their sides
+/// are at most 70 degrees away. rectification_remarks() states that. Fails with kInvalidCalibration
+/// if the cameras cannot be rectified (a baseline along the optical axis, a vertical or reversed
+/// one, views that have nothing in common), and with kInvalidParameter if an option is out of
+/// range.
 MTSTEREO_API Result<Rectification> rectify(const StereoCalibration& calibration,
                                            const RectificationOptions& options = {}) noexcept;
+
+/// What the user should know about a rectification.
+struct RectificationRemark {
+  std::string text;      ///< one sentence or two
+  bool warning = false;  ///< the rectified views are hardly of use
+};
+
+/// What is unusual about the rectified views: parts of the images that the lens model does not
+/// cover, fields of view that are too wide for a plane, and, as a warning, a view that the camera
+/// fills by less than a quarter. Both must belong to the same size of images.
+MTSTEREO_API Result<std::vector<RectificationRemark>> rectification_remarks(
+    const StereoCalibration& calibration, const Rectification& rectification) noexcept;
 
 /// The columns of one row whose pixels are inside of the camera's image: begin .. end - 1. Empty
 /// rows have begin = end.
