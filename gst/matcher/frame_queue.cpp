@@ -9,17 +9,6 @@
 namespace mtstereo::plugin {
 namespace {
 
-/// The running time at which a segment has this stream time, without the offset of the pad.
-std::optional<Nanoseconds> running_time_at(const StreamSegment& stream, guint64 stream_time) {
-  guint64 position = 0;
-  const int sign = gst_segment_position_from_stream_time_full(&stream.segment, GST_FORMAT_TIME,
-                                                              stream_time, &position);
-  if (sign <= 0) return std::nullopt;
-  const auto time = to_running_time(stream.segment, position);
-  if (!time) return std::nullopt;
-  return bounded(*time - bounded(stream.pad_offset));
-}
-
 /// What a decoder has cut from the beginning of a frame that begins before its segment: it sets the
 /// time stamp to the start of the segment and shortens the duration [stream time]. At its true time
 /// the frame cannot be mistaken for its successor, of which little or nothing is cut.
@@ -98,17 +87,6 @@ void FrameQueue::clear() {
   passed.reset();
 }
 
-Nanoseconds seek_correction(const StreamSegment& left, const StreamSegment& right) {
-  const bool same_seek = (left.seqnum != GST_SEQNUM_INVALID && left.seqnum == right.seqnum) ||
-                         (left.seek != 0 && left.seek == right.seek);
-  if (!same_seek || left.segment.rate != right.segment.rate) return 0;
-  const guint64 stream_time = left.segment.time;
-  if (!GST_CLOCK_TIME_IS_VALID(stream_time)) return 0;
-  const auto left_time = running_time_at(left, stream_time);
-  const auto right_time = running_time_at(right, stream_time);
-  return left_time && right_time ? bounded(*left_time - *right_time) : 0;
-}
-
 void SeekHistory::add(guint32 seqnum) {
   // A seek arrives once from each sink.
   if (number_of(seqnum) == 0) seqnums_[count_++ % seqnums_.size()] = seqnum;
@@ -125,19 +103,6 @@ bool is_outdated(const StreamSegment& segment, const StreamSegment& other) {
   // Not every source names the seek in its segment.
   const guint64 last = segment.known_seek != 0 ? segment.known_seek : segment.seeks_before;
   return last < other.known_seek;
-}
-
-bool is_in_gap(const QueuedFrame& frame, Side side, const FrameQueue& others,
-               Nanoseconds tolerance) {
-  const auto& gap = others.passed;
-  if (!gap || gap->segment != others.segment || !gap->segment || !frame.segment) return false;
-  const auto time = frame.running_time();
-  if (!time) return false;
-  const bool left = side == Side::kLeft;
-  const Nanoseconds correction =
-      seek_correction(left ? *frame.segment : *gap->segment, left ? *gap->segment : *frame.segment);
-  // The correction is added to right times.
-  return *time + tolerance < gap->end + (left ? correction : -correction);
 }
 
 }  // namespace mtstereo::plugin

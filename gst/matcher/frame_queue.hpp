@@ -112,18 +112,8 @@ class FrameQueue {
   bool in_pad_ = false;  // the last frame is still at the head of the pad
 };
 
-/// What must be added to the running times of the right stream so that frames of the same stream
-/// time are a pair, if both segments follow the same seek: a seek to key frames starts each file at
-/// another time, and in reverse each at its own end. 0 for other segments.
-Nanoseconds seek_correction(const StreamSegment& left, const StreamSegment& right);
-
 /// True if a segment is from before a seek that the other stream has carried out. Without a flush,
 /// each stream ends its old segment elsewhere.
 bool is_outdated(const StreamSegment& segment, const StreamSegment& other);
-
-/// True if all frames that are at most `tolerance` from this frame would be in a gap of the other
-/// stream.
-bool is_in_gap(const QueuedFrame& frame, Side side, const FrameQueue& others,
-               Nanoseconds tolerance);
 
 }  // namespace mtstereo::plugin

@@ -60,6 +60,7 @@ void PairFinder::Stream::passed(Nanoseconds time) {
 void PairFinder::update_periods(const WaitingFrames& left, const WaitingFrames& right,
                                 Nanoseconds tolerance) {
   const auto period_of = [](const Stream& stream, const WaitingFrames& frames) {
+    if (frames.skipping && frames.period > 0) return frames.period;
     const Nanoseconds measured = stream.period(frames.times);
     // Jitter and loss do not prove that the caps are wrong.
     const bool plausible =

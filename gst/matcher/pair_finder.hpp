@@ -17,6 +17,7 @@ struct WaitingFrames {
   std::span<const Nanoseconds> times;  ///< in the order of arrival
   Nanoseconds period = 0;              ///< frame duration; 0: not known
   bool complete = false;               ///< no further frame is worth waiting for
+  bool skipping = false;  ///< frames are left out on purpose: their steps state no frame duration
 };
 
 /// What is to be done with the frames at the heads of the two streams.

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "matcher/pair_axis.hpp"
 #include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
@@ -25,6 +26,13 @@ std::optional<Nanoseconds> longest_duration(const FrameQueue& queue) {
 
 bool has_ended(const ElementState& state, Side side) {
   return gst_aggregator_pad_is_eos(state.input(side).pad) != FALSE;
+}
+
+/// True if a trick mode lets the elements upstream leave out frames.
+bool skips_frames(const QueuedFrame& frame) {
+  constexpr int kModes = GST_SEGMENT_FLAG_TRICKMODE | GST_SEGMENT_FLAG_TRICKMODE_KEY_UNITS |
+                         GST_SEGMENT_FLAG_TRICKMODE_FORWARD_PREDICTED;
+  return frame.segment && (frame.segment->segment.flags & kModes) != 0;
 }
 
 /// How long frames of live streams may lack a reference time stamp: RTP has none until the first
@@ -182,7 +190,8 @@ class Stepper {
       const auto period = duration ? duration : longest_duration(queue(side));
       const bool full = queue(side).size() >= FrameQueue::kCapacity;
       waiting[index] = {found.times[index], period.value_or(0),
-                        found.complete[index] || deadline_ || full || has_ended(state_, side)};
+                        found.complete[index] || deadline_ || full || has_ended(state_, side),
+                        skips_frames(queue(side).front())};
     }
     const Nanoseconds allowed = tolerance();
     const PairStep decision = state_.finder.next(waiting[0], waiting[1], allowed);

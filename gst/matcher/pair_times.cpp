@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/pair_times.hpp"
 
+#include "matcher/pair_axis.hpp"
+
 namespace mtstereo::plugin {
 namespace {
 
@@ -33,27 +35,30 @@ PairTimes PairClock::times(const FrameQueue& left, const FrameQueue& right, Sync
   PairTimes result;
   if (mode == SyncMode::kArrival) return result;
   GstCaps* const reference = reference_of(left.front());
-  const bool segments = left.front().segment && right.front().segment;
-  const Nanoseconds correction =
-      segments ? seek_correction(*left.front().segment, *right.front().segment) : 0;
-  const auto time_of = [&](const QueuedFrame& frame,
-                           std::size_t side) -> std::optional<Nanoseconds> {
-    if (mode == SyncMode::kReferenceTimestamp) return reference_time(frame, reference);
-    auto time = frame.running_time();
-    if (!time) return time;
-    if (mode == SyncMode::kRunningTime) return side == 0 ? *time : bounded(*time + correction);
-    if (!first_[side]) first_[side] = time;
-    return bounded(*time - *first_[side]);
+  const PairAxis axis(left.front().segment, right.front().segment);
+  const auto time_of = [&](const QueuedFrame& frame, Side side) -> std::optional<Nanoseconds> {
+    if (mode == SyncMode::kReferenceTimestamp) {
+      const auto time = reference_time(frame, reference);
+      return time && axis.reverse() ? -*time : time;
+    }
+    const auto running_time = frame.running_time();
+    if (!running_time) return std::nullopt;
+    const Nanoseconds time = axis.time(side, *running_time);
+    if (mode == SyncMode::kRunningTime) return time;
+    auto& first = first_[static_cast<std::size_t>(side)];
+    if (!first) first = time;
+    return bounded(time - *first);
   };
-  for (const std::size_t side : {0u, 1u}) {
-    const FrameQueue& queue = side == 0 ? left : right;
+  for (const Side side : kSides) {
+    const FrameQueue& queue = side == Side::kLeft ? left : right;
+    const auto index = static_cast<std::size_t>(side);
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const auto time = queue[i].is_gap() ? std::nullopt : time_of(queue[i], side);
       if (!time || (i > 0 && queue[i].segment != queue.front().segment)) {
-        result.complete[side] = true;
+        result.complete[index] = true;
         break;
       }
-      result.times[side].push_back(*time);
+      result.times[index].push_back(*time);
     }
   }
   return result;

@@ -27,7 +27,7 @@ class PairClock {
   void reset() { *this = PairClock(); }
 
  private:
-  std::array<std::optional<Nanoseconds>, 2> first_;  // running times of the first frames
+  std::array<std::optional<Nanoseconds>, 2> first_;  // times of the first frames on the axis
 };
 
 }  // namespace mtstereo::plugin

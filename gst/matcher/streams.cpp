@@ -5,6 +5,7 @@
 
 #include "matcher/clock.hpp"
 #include "matcher/negotiation.hpp"
+#include "matcher/pair_axis.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/ownership.hpp"
 

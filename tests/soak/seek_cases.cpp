@@ -40,7 +40,8 @@ std::string file_of(Side side) {
 std::string launch_text(const char* tail) {
   const auto source = [](Side side, const char* pad) {
     return " filesrc location=" + file_of(side) +
-           " ! matroskademux ! h264parse ! avdec_h264 max-threads=1 ! queue ! m." + pad;
+           " ! matroskademux ! h264parse ! avdec_h264 max-threads=1 ! identity name=" + pad +
+           "-loss ! queue ! m." + pad;
   };
   return std::string("mtstereo name=m max-disparity=64 threads=1 ! ") + tail +
          source(Side::kLeft, "sink_left") + source(Side::kRight, "sink_right");
@@ -57,6 +58,9 @@ GstSeekFlags random_flags(Random& random, bool flush) {
   int flags = random.one_of(kChoices);
   if (flush) flags |= GST_SEEK_FLAG_FLUSH;
   if (random.chance(0.15)) flags |= GST_SEEK_FLAG_SEGMENT;
+  constexpr std::array kTrickModes = {GST_SEEK_FLAG_TRICKMODE, GST_SEEK_FLAG_TRICKMODE_KEY_UNITS,
+                                      GST_SEEK_FLAG_TRICKMODE_NO_AUDIO};
+  if (random.chance(0.4)) flags |= random.one_of(kTrickModes);
   return static_cast<GstSeekFlags>(flags);
 }
 
@@ -83,7 +87,7 @@ void play_second_half(Soak& soak, CheckedPipeline& pipeline) {
 /// follows in any case: after the end of a segment nothing does.
 bool seek_somewhere(Soak& soak, CheckedPipeline& pipeline, bool flows) {
   Random& random = soak.random;
-  constexpr std::array kRates = {1.0, 1.0, 1.0, 2.0, 0.5, -1.0, -1.0, -2.0};
+  constexpr std::array kRates = {1.0, 1.0, 2.0, 0.5, 4.0, 8.0, 16.0, -0.5, -1.0, -2.0, -4.0, -8.0};
   const double rate = random.one_of(kRates);
   const bool flush = !flows || random.chance(0.5);
   auto from = static_cast<GstClockTime>(random.between(0, static_cast<std::int64_t>(kEnd)));
@@ -125,6 +129,10 @@ void seek_in_files(Soak& soak) {
                                                           : "queue ! fakesink name=out sync=true"),
                            true);
   soak.count(kind, [](Counts& counts) { ++counts.cases; });
+  // The frames of one side are lost at random.
+  const double loss = random.chance(0.4) ? 0.3 : 0;
+  const char* lossy = random.chance(0.5) ? "sink_left-loss" : "sink_right-loss";
+  g_object_set(pipeline.named(lossy), "drop-probability", loss, nullptr);
   bool playing = random.chance(0.5);
   pipeline.set_state(playing ? GST_STATE_PLAYING : GST_STATE_PAUSED);
   if (!pipeline.settle("preroll")) return;
@@ -141,6 +149,7 @@ void seek_in_files(Soak& soak) {
       soak.count(kind, [](Counts& counts) { ++counts.operations; });
     }
   }
+  g_object_set(pipeline.named(lossy), "drop-probability", 0.0, nullptr);
   if (!pipeline.failed()) play_second_half(soak, pipeline);
   if (pipeline.failed()) soak.fail(kind, pipeline.error());
 }
