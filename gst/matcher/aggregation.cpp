@@ -166,10 +166,7 @@ GstFlowReturn step_through(ElementState& state, Occasion occasion) {
 }  // namespace
 
 GstFlowReturn aggregate(ElementState& state, bool timeout) {
-  {
-    const ObjectLock lock(state.element);
-    if (state.failed) return GST_FLOW_ERROR;
-  }
+  if (has_failed(state)) return GST_FLOW_ERROR;
   if (state.pending_flow != GST_FLOW_OK) return state.pending_flow;
   const GstClockTime latency = gst_aggregator_get_latency(state.element);
   state.known_latency = GST_CLOCK_TIME_IS_VALID(latency) ? latency : 0;

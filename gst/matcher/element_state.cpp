@@ -50,6 +50,11 @@ void post_error(ElementState& state, GQuark domain, gint code, const std::string
   post(state, GST_MESSAGE_ERROR, domain, code, text, details);
 }
 
+bool has_failed(const ElementState& state) {
+  const ObjectLock lock(state.element);
+  return state.failed;
+}
+
 void post_warning(ElementState& state, const std::string& text, const std::string& details) {
   post(state, GST_MESSAGE_WARNING, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED, text, details);
 }

@@ -176,6 +176,9 @@ struct ElementState {
 void post_error(ElementState& state, GQuark domain, gint code, const std::string& text,
                 const std::string& details);
 
+/// True if an error was posted since the start or the last flush. Takes the object lock.
+bool has_failed(const ElementState& state);
+
 /// Posts a warning message. Call it without locks.
 void post_warning(ElementState& state, const std::string& text, const std::string& details);
 /// The same for a value of a property, or several, that is refused.

@@ -47,13 +47,16 @@ bool take_segment(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
 bool take_end(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   const guint32 seqnum = gst_event_get_seqnum(event);
   const bool taken = state.base_class->sink_event(state.element, pad, event) != FALSE;
-  {
-    const ObjectLock lock(state.element);
-    if (state.failed) return taken;  // aggregate() ends both streams with the error
+  const Side other = other_side(state.side_of(pad));
+  if (has_failed(state)) {
+    // The base class returns the error to both sources after downstream has taken the end. For that
+    // a sink may need an application that waits for the other source, as gst-launch-1.0 -e does.
+    refuse_frames(state, other);
+    return taken;
   }
   // Frames that wait may still get partners from the other stream.
   if (finish_stream(state, state.side_of(pad))) {
-    refuse_frames(state, other_side(state.side_of(pad)));
+    refuse_frames(state, other);
     end_output(state, seqnum);
   }
   return taken;

@@ -87,12 +87,8 @@ gboolean source_query(GstAggregator* aggregator, GstQuery* query) {
 
 gboolean negotiate(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
-  {
-    const ObjectLock lock(aggregator);
-    // aggregate() returns the error, which also ends the stream downstream.
-    if (state.failed) return TRUE;
-  }
-  return negotiate_output(state);
+  // aggregate() returns the error, which also ends the stream downstream.
+  return has_failed(state) || negotiate_output(state);
 }
 
 GstFlowReturn update_source_caps(GstAggregator* aggregator, GstCaps* downstream, GstCaps** result) {

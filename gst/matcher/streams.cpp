@@ -82,7 +82,7 @@ GstPadProbeReturn on_frame(GstPad* pad, GstPadProbeInfo* info, gpointer data) no
     GstBuffer* const buffer = GST_PAD_PROBE_INFO_BUFFER(info);
     if (state.ended) {
       gst_buffer_unref(buffer);
-      GST_PAD_PROBE_INFO_FLOW_RETURN(info) = GST_FLOW_EOS;
+      GST_PAD_PROBE_INFO_FLOW_RETURN(info) = has_failed(state) ? GST_FLOW_ERROR : GST_FLOW_EOS;
       return GST_PAD_PROBE_HANDLED;
     }
     if (buffer != nullptr && drop_in_gap(state, side, buffer)) return GST_PAD_PROBE_DROP;

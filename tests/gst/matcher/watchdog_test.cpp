@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 
 #include "support/pipeline.hpp"
 #include "support/stereo_harness.hpp"
@@ -128,6 +130,20 @@ TEST(UnlinkedPad, EndsTheOtherStream) {
   std::sort(ends.begin(), ends.end());
   EXPECT_EQ(ends[0], "") << "of the sink";
   EXPECT_NE(ends[1].find("reason error"), std::string::npos) << ends[1] << ", of the source";
+}
+
+TEST(UnlinkedPad, DoesNotBlockTheEndThatIsSentToTheSources) {
+  // gst-launch-1.0 -e sends it while the pipeline prerolls. A source takes it between two frames.
+  Pipeline pipeline(
+      "videotestsrc ! video/x-raw,format=GRAY8 ! m.sink_left mtstereo name=m timeout=300000000 ! "
+      "fakesink");
+  pipeline.set_state(GST_STATE_PAUSED);
+  g_usleep(100'000);
+  std::future<void> sent = std::async(
+      std::launch::async, [&] { gst_element_send_event(pipeline.element(), gst_event_new_eos()); });
+  EXPECT_NE(pipeline.wait_for_end(10).find("sink_right is not linked"), std::string::npos);
+  EXPECT_EQ(sent.wait_for(std::chrono::seconds(10)), std::future_status::ready);
+  pipeline.set_state(GST_STATE_NULL);
 }
 
 /// An mtstereo whose streams come from two appsrc, for frames at any time.
