@@ -46,7 +46,7 @@ constexpr ParameterInfo kTable[] = {
     {P::kResolution, "resolution", "", "", T::kChoice, 0, 2, "full|half-refined|half", EACH("full", "half-refined", "full"),
      "resolution at which the views are matched: half is several times as fast, and half-refined refines its "
      "disparities at full resolution; the disparity map always has the size of the views and counts their px; "
-     "all parameters below count px of the matched resolution",
+     "lengths of all other parameters count px of the matched resolution",
      {"matched at full resolution", "matched at half resolution, refined at full resolution", "matched at half resolution only"}},
     {P::kThreads, "threads", "", "", T::kInteger, 0, 256, "", ALL("0"),
      "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},

@@ -83,19 +83,20 @@ std::string size_text(int width, int height) {
 
 namespace {
 
-/// The defaults of one preset: that of mode semi-dense, then those of the modes that differ from
-/// it.
+/// The defaults of one preset: that of mode semi-dense, and in parentheses those of the modes that
+/// differ from it.
 std::string preset_defaults_text(Parameter id, Preset preset) {
   const std::string main = parameter_default(id, preset, Mode::kSemiDense);
-  std::string text = main;
+  std::string others;
   for (const Mode mode : {Mode::kSparse, Mode::kDense, Mode::kFull}) {
     const std::string other = parameter_default(id, preset, mode);
     if (other == main) continue;
     const auto word = static_cast<int>(mode);
-    text += ", " + other + " ";
-    text += choice_word(parameter_info(Parameter::kMode).choices, word);
+    others += others.empty() ? "" : ", ";
+    others += choice_word(parameter_info(Parameter::kMode).choices, word);
+    others += " " + other;
   }
-  return text;
+  return others.empty() ? main : main + " (" + others + ")";
 }
 
 }  // namespace

@@ -47,7 +47,9 @@ gboolean plugin_init(GstPlugin* plugin) noexcept {
 }  // namespace mtstereo::plugin
 
 #define PACKAGE "mtstereo"
+// The origin is a required field; this is GStreamer's own text where there is no address.
 GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, mtstereo,
                   "Depth from two cameras: rectification, stereo matching (MTStereo 2.0), depths "
                   "and point clouds",
-                  mtstereo::plugin::plugin_init, MTSTEREO_VERSION, "LGPL", "mtstereo", "mtstereo")
+                  mtstereo::plugin::plugin_init, MTSTEREO_VERSION, "LGPL", "mtstereo",
+                  "Unknown package origin")

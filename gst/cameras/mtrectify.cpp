@@ -288,7 +288,7 @@ static void gst_mtstereo_rectify_class_init(GstMtStereoRectifyClass* klass) {
       element_class, "Camera rectification", "Filter/Effect/Video",
       "Rectifies the video of the left or the right one of two calibrated cameras, for mtstereo: "
       "removes the lens distortion and aligns the rows of both views",
-      "the mtstereo authors");
+      "The mtstereo authors");
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
   transform_class->start = guarded<start, FALSE>;

@@ -31,9 +31,9 @@ constexpr const char* kNames[] = {"left", "right"};
 
 GType layout_type() {
   static const GEnumValue values[] = {{static_cast<int>(SplitLayout::kSideBySide),
-                                       "the left half and the right half", "side-by-side"},
+                                       "The left half and the right half", "side-by-side"},
                                       {static_cast<int>(SplitLayout::kTopBottom),
-                                       "the upper half and the lower half", "top-bottom"},
+                                       "The upper half and the lower half", "top-bottom"},
                                       {0, nullptr, nullptr}};
   static const GType type = g_enum_register_static("GstMtStereoSplitLayout", values);
   return type;
@@ -300,7 +300,7 @@ static void gst_mtstereo_split_class_init(GstMtStereoSplitClass* klass) {
       element_class, "Stereo frame splitter", "Filter/Video",
       "Splits frames with both views of a stereo camera, side by side or one above the other, into "
       "a left and a right stream, without copying pixels",
-      "the mtstereo authors");
+      "The mtstereo authors");
 }
 
 static void gst_mtstereo_split_init(GstMtStereoSplit* self) {

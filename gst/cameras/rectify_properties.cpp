@@ -25,8 +25,8 @@ constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STA
 enum CameraValue : gint { kLeftCamera, kRightCamera };
 
 GType camera_type() {
-  static const GEnumValue values[] = {{kLeftCamera, "the left camera", "left"},
-                                      {kRightCamera, "the right camera", "right"},
+  static const GEnumValue values[] = {{kLeftCamera, "The left camera", "left"},
+                                      {kRightCamera, "The right camera", "right"},
                                       {0, nullptr, nullptr}};
   static const GType type = g_enum_register_static("GstMtStereoCamera", values);
   return type;
@@ -49,7 +49,7 @@ void install_rectify_properties(GObjectClass* object_class) {
       g_param_spec_string("calibration", "calibration",
                           "File with the calibration of both cameras: of OpenCV, ROS, Kalibr, "
                           "EuRoC, KITTI, Middlebury, DepthAI, ZED or mtcalibrate, which is "
-                          "recognised from the content. Two files are separated by a comma: left "
+                          "recognized from the content. Two files are separated by a comma: left "
                           "and right, or intrinsics and extrinsics",
                           nullptr, kFlags));
   g_object_class_install_property(

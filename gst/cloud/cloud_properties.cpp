@@ -19,7 +19,7 @@ enum Property : guint {
 enum FormatChoice : gint { kAuto, kPly, kPcd };
 
 GType format_type() {
-  static const GEnumValue values[] = {{kAuto, "by the extension of the location", "auto"},
+  static const GEnumValue values[] = {{kAuto, "By the extension of the location", "auto"},
                                       {kPly, "PLY, binary", "ply"},
                                       {kPcd, "PCD of the Point Cloud Library, binary", "pcd"},
                                       {0, nullptr, nullptr}};

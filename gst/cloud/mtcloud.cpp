@@ -321,7 +321,7 @@ static void gst_mtstereo_cloud_class_init(GstMtStereoCloudClass* klass) {
       element_class, "Point cloud writer", "Sink/File/Video",
       "Writes disparity maps as files of points in meters (PLY or PCD), with the colors of the "
       "left view and the confidence",
-      "the mtstereo authors");
+      "The mtstereo authors");
 
   auto* sink_class = GST_BASE_SINK_CLASS(klass);
   sink_class->set_caps = guarded<set_caps, FALSE>;

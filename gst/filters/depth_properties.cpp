@@ -10,8 +10,8 @@ enum Overflow : gint { kNone, kClamp };
 
 GType overflow_type() {
   static const GEnumValue values[] = {
-      {kNone, "such pixels have no depth (0)", "none"},
-      {kClamp, "such pixels have the largest value (65535)", "clamp"},
+      {kNone, "Such pixels have no depth (0)", "none"},
+      {kClamp, "Such pixels have the largest value (65535)", "clamp"},
       {0, nullptr, nullptr}};
   static const GType type = g_enum_register_static("GstMtStereoDepthOverflow", values);
   return type;

@@ -68,10 +68,10 @@ enum Property : guint { kMaxDisparity = 1, kDisparityScale, kNear, kFar, kColorS
 
 GType color_scale_type() {
   static const GEnumValue values[] = {
-      {static_cast<gint>(ColorScale::kInverse), "evenly over 1 / depth, as over disparities",
+      {static_cast<gint>(ColorScale::kInverse), "Evenly over 1 / depth, as over disparities",
        "inverse"},
-      {static_cast<gint>(ColorScale::kLinear), "evenly over the depth", "linear"},
-      {static_cast<gint>(ColorScale::kLog), "evenly over the logarithm of the depth", "log"},
+      {static_cast<gint>(ColorScale::kLinear), "Evenly over the depth", "linear"},
+      {static_cast<gint>(ColorScale::kLog), "Evenly over the logarithm of the depth", "log"},
       {0, nullptr, nullptr}};
   static const GType type = g_enum_register_static("GstMtStereoColorScale", values);
   return type;
@@ -333,7 +333,7 @@ static void gst_mtstereo_color_class_init(GstMtStereoColorClass* klass) {
       element_class, "Disparity and depth colorizer", "Filter/Converter/Video",
       "Color image of a disparity or depth map with a fixed range: blue is far, red is near, black "
       "is unknown",
-      "the mtstereo authors");
+      "The mtstereo authors");
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
   transform_class->start = guarded<start, FALSE>;

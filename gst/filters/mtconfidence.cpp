@@ -47,8 +47,8 @@ constexpr const char* kOutputs = MTSTEREO_PICTURE_CAPS("{ GRAY16_LE, GRAY8 }");
 
 GType output_type() {
   static const GEnumValue values[] = {
-      {kDisparity, "disparities of sufficient confidence (GRAY16_LE)", "disparity"},
-      {kConfidence, "the confidence as an image (GRAY8)", "confidence"},
+      {kDisparity, "Disparities of sufficient confidence (GRAY16_LE)", "disparity"},
+      {kConfidence, "The confidence as an image (GRAY8)", "confidence"},
       {0, nullptr, nullptr}};
   static const GType type = g_enum_register_static("GstMtStereoConfidenceOutput", values);
   return type;
@@ -272,7 +272,7 @@ static void gst_mtstereo_confidence_class_init(GstMtStereoConfidenceClass* klass
   gst_element_class_set_static_metadata(
       element_class, "Disparity confidence filter", "Filter/Video",
       "Removes disparities of low confidence from the maps of mtstereo, or outputs the confidence",
-      "the mtstereo authors");
+      "The mtstereo authors");
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
   transform_class->stop = guarded<stop, FALSE>;

@@ -279,7 +279,7 @@ static void gst_mtstereo_depth_class_init(GstMtStereoDepthClass* klass) {
       element_class, "Depth from disparity", "Filter/Converter/Video",
       "Turns a disparity map into 16-bit depths, in millimeters by default: focal length x "
       "baseline / disparity",
-      "the mtstereo authors");
+      "The mtstereo authors");
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
   transform_class->start = guarded<start, FALSE>;

@@ -283,9 +283,10 @@ static void gst_mtstereo_class_init(GstMtStereoClass* klass) {
   element_class->change_state = guarded_or_failed<change_state, GST_STATE_CHANGE_FAILURE>;
   add_pad_templates(element_class);
   gst_element_class_set_static_metadata(element_class, "Stereo matcher", "Filter/Analyzer/Video",
-                                        "Disparity of two rectified video streams by Max-trees of "
-                                        "scan-lines (MTStereo 2.0) and along paths",
-                                        "the mtstereo authors");
+                                        "Disparity of two rectified video streams, with the "
+                                        "confidence of each value. Set max-disparity and mode "
+                                        "first; those marked Expert rarely need a change",
+                                        "The mtstereo authors");
   set_aggregator_functions(GST_AGGREGATOR_CLASS(klass));
 }
 

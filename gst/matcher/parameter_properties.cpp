@@ -3,8 +3,10 @@
 
 #include <gst/gst.h>
 
+#include <algorithm>
 #include <cctype>
 #include <deque>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +17,7 @@ namespace {
 /// The strings and values to which the type system keeps pointers until the program ends.
 struct EnumType {
   std::string type_name;
-  std::deque<std::string> words;
+  std::deque<std::string> words, help;
   std::vector<GEnumValue> values;  // terminated by an entry of zeros
 };
 
@@ -34,6 +36,23 @@ std::string enum_type_name(std::string_view parameter) {
   return name;
 }
 
+/// Others rarely need a change. gst-inspect-1.0 lists properties by their names, so it cannot list
+/// those for experts last.
+bool is_for_experts(Parameter id) {
+  constexpr Parameter kMain[] = {
+      Parameter::kPreset,       Parameter::kMode,        Parameter::kMaxDisparity,
+      Parameter::kMinDisparity, Parameter::kResolution,  Parameter::kThreads,
+      Parameter::kNoiseFilter,  Parameter::kSpeckleSize, Parameter::kMinConfidence,
+      Parameter::kThinObjects,  Parameter::kMaxGap};
+  return std::find(std::begin(kMain), std::end(kMain), id) == std::end(kMain);
+}
+
+/// The text with a capital as its first letter.
+std::string sentence(std::string text) {
+  if (!text.empty()) text.front() = g_ascii_toupper(text.front());
+  return text;
+}
+
 /// Registers the enumeration of a parameter: the nick of a value is its word, the name its
 /// description.
 GType choice_type(const ParameterInfo& info) {
@@ -48,7 +67,9 @@ GType choice_type(const ParameterInfo& info) {
     rest = bar == std::string_view::npos ? std::string_view() : rest.substr(bar + 1);
   }
   for (std::size_t i = 0; i < made->words.size(); ++i) {
-    made->values.push_back({static_cast<gint>(i), info.choice_help[i], made->words[i].c_str()});
+    made->help.push_back(sentence(info.choice_help[i]));
+    made->values.push_back(
+        {static_cast<gint>(i), made->help.back().c_str(), made->words[i].c_str()});
   }
   made->values.push_back({0, nullptr, nullptr});
   const GType type = g_enum_register_static(made->type_name.c_str(), made->values.data());
@@ -57,17 +78,13 @@ GType choice_type(const ParameterInfo& info) {
 }
 
 std::string blurb_of(const ParameterInfo& info) {
-  std::string text = info.help;
-  std::string notes;
-  const auto note = [&notes](const std::string& words) {
-    if (!notes.empty()) notes += "; ";
-    notes += words;
-  };
-  if (*info.unit != '\0') note(std::string("unit: ") + info.unit);
-  if (*info.symbol != '\0') note(std::string("symbol in the paper: ") + info.symbol);
+  std::string text =
+      is_for_experts(info.id) ? std::string("Expert: ") + info.help : sentence(info.help);
+  if (*info.unit != '\0') text += std::string(". Unit: ") + info.unit;
   const std::string defaults = parameter_defaults_text(info.id);
-  if (defaults != Parameters().text(info.id)) note("default: " + defaults);
-  return notes.empty() ? text : text + " (" + notes + ")";
+  if (defaults != Parameters().text(info.id)) text += ". Default: " + defaults;
+  if (*info.symbol != '\0') text += std::string(". Symbol in the paper: ") + info.symbol;
+  return text;
 }
 
 GParamSpec* make_property(const ParameterInfo& info) {

@@ -49,7 +49,7 @@ static void gst_mtstereo_whole_class_init(GstMtStereoWholeClass* element_class) 
   gst_element_class_set_static_metadata(
       element, "Whole pictures", "Filter/Video/Network",
       "Drops H.264 pictures whose end h264parse has not seen, which may be truncated",
-      "the mtstereo authors");
+      "The mtstereo authors");
   gst_element_class_add_static_pad_template(element, &sink_template);
   gst_element_class_add_static_pad_template(element, &src_template);
   auto* transform = reinterpret_cast<GstBaseTransformClass*>(element_class);

@@ -124,8 +124,8 @@ MTSTEREO_API const ParameterInfo& parameter_info(Parameter id) noexcept;
 /// The default of one parameter as text. The string is static.
 MTSTEREO_API const char* parameter_default(Parameter id, Preset preset, Mode mode) noexcept;
 
-/// All defaults of one parameter for people to read, as in "6, 2 dense; preset paper: 4, 12
-/// sparse". The first value is that of all modes that are not named.
+/// All defaults of one parameter for people to read, as in "6 (dense 2); preset paper: 4 (sparse
+/// 12)". The first value is that of all modes that are not named.
 MTSTEREO_API std::string parameter_defaults_text(Parameter id);
 
 /// The row of the parameter with this name, or nullptr if there is none.

@@ -152,9 +152,9 @@ TEST(ParameterTable, HasTheDefaultsAsText) {
   EXPECT_EQ("semi-dense", parameter_defaults_text(Parameter::kMode));
   EXPECT_EQ("full; preset fast: half-refined", parameter_defaults_text(Parameter::kResolution));
   EXPECT_EQ(
-      "3, 0 sparse, 0 dense, 0 full; preset fast: 4, 0 sparse, 0 dense, 0 full; preset paper: 0",
+      "3 (sparse 0, dense 0, full 0); preset fast: 4 (sparse 0, dense 0, full 0); preset paper: 0",
       parameter_defaults_text(Parameter::kMaxGap));
-  EXPECT_EQ("16; preset paper: 8, 16 sparse", parameter_defaults_text(Parameter::kGrayLevels));
+  EXPECT_EQ("16; preset paper: 8 (sparse 16)", parameter_defaults_text(Parameter::kGrayLevels));
   EXPECT_EQ("census; preset paper: gradient", parameter_defaults_text(Parameter::kCost));
 }
 

@@ -60,6 +60,11 @@ class Plugin : public testing::Test {
   std::vector<std::unique_ptr<ElementClass>> elements;
 };
 
+/// Begins with a capital letter, or with a number, and ends without a period.
+bool is_sentence(const std::string& text) {
+  return !text.empty() && g_ascii_islower(text.front()) == FALSE && text.back() != '.';
+}
+
 bool has_prefix(GType type) { return g_str_has_prefix(g_type_name(type), "GstMtStereo"); }
 
 TEST_F(Plugin, RegistersItsElements) {
@@ -90,6 +95,7 @@ TEST_F(Plugin, DescribesEveryEnumerationValue) {
         const std::string nick = type->values[i].value_nick;
         EXPECT_NE(name, "") << element->name() << " " << spec->name << "=" << nick;
         EXPECT_NE(name, nick) << element->name() << " " << spec->name;
+        EXPECT_TRUE(is_sentence(name)) << element->name() << " " << spec->name << ": " << name;
       }
     }
   }
@@ -102,8 +108,25 @@ TEST_F(Plugin, DescribesEveryProperty) {
       const gchar* blurb = g_param_spec_get_blurb(spec);
       ASSERT_NE(blurb, nullptr) << spec->name;
       EXPECT_STRNE(blurb, spec->name) << element->name();
+      EXPECT_TRUE(is_sentence(blurb)) << element->name() << " " << spec->name << ": " << blurb;
     }
   }
+}
+
+TEST_F(Plugin, DescribesItselfInSentenceCaseAndWithoutAMadeUpAddress) {
+  for (const auto& element : elements) {
+    GstElementFactory* factory = gst_element_factory_find(element->name().c_str());
+    for (const char* key : {GST_ELEMENT_METADATA_LONGNAME, GST_ELEMENT_METADATA_DESCRIPTION}) {
+      EXPECT_TRUE(is_sentence(gst_element_factory_get_metadata(factory, key))) << element->name();
+    }
+    EXPECT_STREQ("The mtstereo authors",
+                 gst_element_factory_get_metadata(factory, GST_ELEMENT_METADATA_AUTHOR));
+    gst_object_unref(factory);
+  }
+  GstPlugin* plugin = gst_registry_find_plugin(gst_registry_get(), "mtstereo");
+  const std::string origin = gst_plugin_get_origin(plugin);
+  EXPECT_TRUE(origin == "Unknown package origin" || origin.rfind("https://", 0) == 0) << origin;
+  gst_object_unref(plugin);
 }
 
 }  // namespace
