@@ -17,16 +17,43 @@ using formats::Document;
 using formats::Entry;
 using formats::FileError;
 using formats::Format;
+using formats::Value;
+
+[[noreturn]] void fail_as_one_camera(const Document& document) {
+  document.entry().fail(std::string("is ") + name_of(document.format) +
+                        ", which has one camera; give two files, separated by a comma: LEFT,RIGHT");
+}
+
+/// The INI of ROS may have both cameras in one file.
+StereoCalibration read_one_camera_info(const Document& document, const formats::Request& request) {
+  if (!document.entry().is_list()) fail_as_one_camera(document);
+  const std::vector<Value>& cameras = document.root.items;
+  if (cameras.size() != 2) {
+    document.entry().fail("has " + std::to_string(cameras.size()) + " cameras, 2 are needed");
+  }
+  return formats::read_camera_info(Entry(cameras[0], document.file, {}),
+                                   Entry(cameras[1], document.file, {}), request);
+}
 
 StereoCalibration read_one(const Document& document, const formats::Request& request) {
   const Entry entry = document.entry();
   switch (document.format) {
     case Format::kOpenCv:
       return formats::read_opencv({entry}, request);
-    case Format::kCameraInfo:
-    case Format::kEuroc:
+    case Format::kOrbSlam:
+      return formats::read_orbslam(entry, request);
+    case Format::kVins:
+      return formats::read_vins(entry, request);
+    case Format::kBasalt:
+      return formats::read_basalt(entry, request);
+    case Format::kVinsCamera:
       entry.fail(std::string("is ") + name_of(document.format) +
-                 ", which has one camera; give two files, separated by a comma: LEFT,RIGHT");
+                 "; give the file that names both cameras as cam0_calib and cam1_calib");
+    case Format::kCameraInfo:
+      return read_one_camera_info(document, request);
+    case Format::kEuroc:
+    case Format::kMrcal:
+      fail_as_one_camera(document);
     case Format::kKalibr:
       return formats::read_kalibr(entry, request);
     case Format::kKittiRaw:
@@ -53,9 +80,18 @@ StereoCalibration read_two(const Document& first, const Document& second,
     case Format::kOpenCv:
       return formats::read_opencv({first.entry(), second.entry()}, request);
     case Format::kCameraInfo:
+      for (const Document* document : {&first, &second}) {
+        if (document->entry().is_list()) {
+          document->entry().fail("has several cameras; give this file alone");
+        }
+      }
       return formats::read_camera_info(first.entry(), second.entry(), request);
     case Format::kEuroc:
       return formats::read_euroc(first.entry(), second.entry(), request);
+    case Format::kMrcal:
+      return formats::read_mrcal(first.entry(), second.entry(), request);
+    case Format::kVinsCamera:
+      return read_one(first, request);
     default:
       throw FileError(first.file + " is " + name_of(first.format) +
                       ", which has both cameras in one file; give one file");

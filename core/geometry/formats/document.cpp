@@ -113,7 +113,7 @@ bool parse_as_lines(std::string_view text, Document& document) {
   std::string_view rest = text;
   while (!rest.empty()) {
     const std::string_view line = take_line(rest);
-    if (line.empty() || line.front() == '#') continue;
+    if (line.empty() || line.front() == '#' || line.front() == ';') continue;
     if (has_name(line, '=', {"cam0", "cam1", "doffs", "baseline", "width", "height", "ndisp"})) {
       document.format = Format::kMiddlebury;
       document.root = parse_lines(text, '=', document.file);
@@ -128,6 +128,11 @@ bool parse_as_lines(std::string_view text, Document& document) {
                  {"calib_time", "corner_dist", "S_00", "S_01", "S_02", "S_03", "K_00"})) {
       document.format = Format::kKittiRaw;
       document.root = parse_lines(text, ':', document.file);
+      return true;
+    }
+    if (line == "[image]") {
+      document.format = Format::kCameraInfo;
+      document.root = parse_camera_ini(text, document.file);
       return true;
     }
     if (line.front() == '[' && line.back() == ']' &&
@@ -148,24 +153,43 @@ bool parse_as_lines(std::string_view text, Document& document) {
 
 Format format_of(const Entry& root) {
   const std::optional<Entry> camera = root.find("cam0");
+  const bool chain = camera && camera->find_any({"intrinsics", "camera_model"});
   if (root.find("cameraData")) return Format::kDepthAi;
-  if ((camera && camera->is_map()) || root.find("cam1")) return Format::kKalibr;
+  if (is_basalt(root)) return Format::kBasalt;
+  if (root.find("lensmodel")) return Format::kMrcal;
+  if (root.find("cam0_calib")) return Format::kVins;
+  if (root.find("model_type")) return Format::kVinsCamera;
+  if (chain || (root.find("cam1") && !is_opencv(root))) return Format::kKalibr;
   if (root.find("T_BS")) return Format::kEuroc;
   if (is_camera_info(root)) return Format::kCameraInfo;
+  if (is_orbslam(root)) return Format::kOrbSlam;
   if (is_opencv(root)) return Format::kOpenCv;
   root.fail(
       "is not a calibration of a known format: none of M1 (OpenCV), projection_matrix "
       "(ROS), cam0 (Kalibr, Middlebury), T_BS (EuRoC), P0 or K_00 (KITTI), cameraData "
-      "(DepthAI), [LEFT_CAM_...] (ZED) is in it");
+      "(DepthAI), [LEFT_CAM_...] (ZED), Camera1.fx (ORB-SLAM), cam0_calib (VINS-Fusion), "
+      "value0 (Basalt), lensmodel (mrcal) is in it");
+}
+
+/// Whether a text is a Python literal of mrcal; it may begin with comments.
+bool is_mrcal(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    if (line.empty() || line.front() == '#') continue;
+    return line.front() == '{' && text.find("'lensmodel'") != std::string_view::npos;
+  }
+  return false;
 }
 
 }  // namespace
 
 const char* name_of(Format format) {
-  constexpr std::array<const char*, 9> kNames = {
-      "an OpenCV file",         "a ROS camera_info",        "a Kalibr camchain",
-      "a EuRoC sensor.yaml",    "KITTI's calib_cam_to_cam", "KITTI's calib.txt",
-      "a Middlebury calib.txt", "a DepthAI JSON",           "a ZED .conf"};
+  constexpr std::array<const char*, 14> kNames = {
+      "an OpenCV file",          "a ROS camera_info",        "a Kalibr camchain",
+      "a EuRoC sensor.yaml",     "KITTI's calib_cam_to_cam", "KITTI's calib.txt",
+      "a Middlebury calib.txt",  "a DepthAI JSON",           "a ZED .conf",
+      "a file of ORB-SLAM",      "a file of VINS-Fusion",    "a camera of VINS-Fusion",
+      "a calibration of Basalt", "a .cameramodel of mrcal"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -176,6 +200,8 @@ Document parse_document(const std::string& file) {
   const std::string_view start = std::string_view(text).substr(text.find_first_not_of(" \t\r\n"));
   if (start.front() == '<') {
     document.root = parse_xml(text, file);
+  } else if (is_mrcal(text)) {
+    document.root = parse_mrcal(text, file);
   } else if (start.front() == '{') {
     document.root = parse_json(text, file);
   } else if (!starts_with(start, "%YAML") && parse_as_lines(text, document)) {

@@ -20,6 +20,11 @@ enum class Format {
   kMiddlebury,
   kDepthAi,
   kZed,
+  kOrbSlam,
+  kVins,
+  kVinsCamera,
+  kBasalt,
+  kMrcal,
 };
 
 /// The name of a format in messages, with its article.

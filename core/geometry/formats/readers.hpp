@@ -37,10 +37,22 @@ StereoCalibration read_middlebury(const Entry& file, const Request& request);
 StereoCalibration read_depthai(const Entry& file, const Request& request);
 /// A ZED camera's SN....conf.
 StereoCalibration read_zed(const Entry& file, const Request& request);
+/// A file of ORB-SLAM2 or ORB-SLAM3.
+StereoCalibration read_orbslam(const Entry& file, const Request& request);
+/// A file of VINS-Fusion, and those of its cameras, which it names.
+StereoCalibration read_vins(const Entry& file, const Request& request);
+/// A calibration of Basalt.
+StereoCalibration read_basalt(const Entry& file, const Request& request);
+/// The .cameramodel files of mrcal, left and right.
+StereoCalibration read_mrcal(const Entry& left, const Entry& right, const Request& request);
 
 /// Whether a file is one of OpenCV's FileStorage: it has an entry with a name that read_opencv()
 /// knows, or a matrix.
 bool is_opencv(const Entry& file);
+/// Whether a file is one of ORB-SLAM, without the matrices of OpenCV for raw views.
+bool is_orbslam(const Entry& file);
+/// Whether a file is one of Basalt.
+bool is_basalt(const Entry& file);
 /// Whether a file is a camera_info of ROS.
 bool is_camera_info(const Entry& file);
 

@@ -58,6 +58,11 @@ Value parse_xml(std::string_view text, const std::string& file);
 Value parse_lines(std::string_view text, char separator, const std::string& file);
 /// Lines of NAME=VALUE below lines of [SECTION], as a map of maps.
 Value parse_sections(std::string_view text, const std::string& file);
+/// The INI of ROS: names, and the lines of numbers after each. A map with the names of the YAML
+/// files of ROS, or a list of maps where there are several cameras.
+Value parse_camera_ini(std::string_view text, const std::string& file);
+/// A Python literal as mrcal writes it.
+Value parse_mrcal(std::string text, const std::string& file);
 /// Lines of numbers, as a list of texts.
 Value parse_number_lines(std::string_view text);
 

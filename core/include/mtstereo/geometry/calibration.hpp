@@ -96,8 +96,8 @@ inline constexpr double kLongestBaseline = 10;
 /// Reads a calibration. The format is recognised from the content: OpenCV FileStorage (YAML, XML or
 /// JSON, also with intrinsics and extrinsics in two files), ROS camera_info (one file per camera),
 /// Kalibr camchain, EuRoC sensor.yaml (one file per camera), KITTI calib_cam_to_cam.txt and
-/// odometry calib.txt, Middlebury calib.txt, DepthAI JSON, ZED .conf, and the file of
-/// write_calibration().
+/// odometry calib.txt, Middlebury calib.txt, DepthAI JSON, ZED .conf, ORB-SLAM, VINS-Fusion,
+/// Basalt, mrcal .cameramodel (one file per camera), and the file of write_calibration().
 ///
 /// `path`: a file, or two files separated by a comma where the format has one file per camera
 /// (left, right) or one for intrinsics and one for extrinsics. "FILE#CHOICE" selects: "#gray" or

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// VINS-Fusion: a file that names those of its cameras, which are beside it. body_T_cam0 moves
+// points from the camera to the body.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/formats/document.hpp"
+#include "geometry/formats/parts.hpp"
+#include "geometry/formats/readers.hpp"
+
+namespace mtstereo::formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<double> numbers_of(const Entry& map, std::initializer_list<const char*> names) {
+  std::vector<double> values;
+  for (const char* name : names) values.push_back(map.at(name).number());
+  return values;
+}
+
+CameraCalibration read_camera(const Entry& file) {
+  CameraCalibration camera;
+  set_size(camera, file.at("image_width"), file.at("image_height"));
+  const Entry type = file.at("model_type", "the lens model");
+  const std::string model = type.text();
+  const Entry projection = file.at("projection_parameters");
+  if (model == "PINHOLE") {
+    const std::vector<double> k = numbers_of(projection, {"fx", "fy", "cx", "cy"});
+    set_camera_matrix(camera, projection, {k[0], 0, k[2], 0, k[1], k[3], 0, 0, 1});
+    camera.lens = LensModel::kPlumbBob;
+    camera.coefficients = numbers_of(file.at("distortion_parameters"), {"k1", "k2", "p1", "p2"});
+    return camera;
+  }
+  if (model == "KANNALA_BRANDT") {
+    const std::vector<double> k = numbers_of(projection, {"mu", "mv", "u0", "v0"});
+    set_camera_matrix(camera, projection, {k[0], 0, k[2], 0, k[1], k[3], 0, 0, 1});
+    camera.lens = LensModel::kFisheye;
+    camera.coefficients = numbers_of(projection, {"k2", "k3", "k4", "k5"});
+    return camera;
+  }
+  type.fail("is '" + printable(model) +
+            "', which is not supported; calibrate both cameras as PINHOLE or KANNALA_BRANDT, or as "
+            "pinhole-radtan or pinhole-equi with Kalibr");
+}
+
+/// The camera of a file that an entry names.
+CameraCalibration read_named(const Entry& name) {
+  const fs::path path = name.text();
+  bool outside = path.empty() || path.is_absolute();
+  for (const fs::path& part : path) outside = outside || part == "..";
+  if (outside) {
+    name.fail("is '" + printable(path.string()) +
+              "'; the name of a file in the same folder is needed");
+  }
+  const Document document = parse_document((fs::path(name.file()).parent_path() / path).string());
+  if (document.format != Format::kVinsCamera) {
+    name.fail("names " + document.file + ", which is " + name_of(document.format) +
+              "; the file of a camera with model_type is needed");
+  }
+  return read_camera(document.entry());
+}
+
+}  // namespace
+
+StereoCalibration read_vins(const Entry& file, const Request& request) {
+  no_selection(file, request.selection);
+  StereoCalibration calibration;
+  calibration.format = "VINS-Fusion";
+  calibration.left = read_named(file.at("cam0_calib", "the file of the left camera"));
+  calibration.right = read_named(file.at("cam1_calib", "the file of the right camera"));
+  const Entry right = file.at("body_T_cam1", "position of the right camera");
+  const Motion left_to_body = motion_from(file.at("body_T_cam0", "position of the left camera"));
+  const Motion motion = motion_from(right).inverse().after(left_to_body);
+  check_translation(motion.translation, right, "; it must be in meters");
+  set_motion(calibration, motion);
+  return calibration;
+}
+
+}  // namespace mtstereo::formats
