@@ -8,6 +8,7 @@
 
 #include "base/guard.hpp"
 #include "geometry/calibration_checks.hpp"
+#include "geometry/calibration_remarks.hpp"
 #include "geometry/formats/value.hpp"
 #include "mtstereo/parameters.hpp"
 
@@ -48,9 +49,11 @@ std::string size_problem(int width, int height) {
          size_text(kLargestImageSide, kLargestImageSide) + " is needed";
 }
 
-/// A center far outside of the image is that of another size.
-bool is_center_plausible(double center, int side) {
-  return side == 0 || (center > -0.5 * side && center < 1.5 * side);
+/// A center outside of the image is that of another size. Rectified views, which have no
+/// distortion, may be shifted by more.
+bool is_center_plausible(double center, int side, LensModel lens) {
+  const double outside = (lens == LensModel::kNone ? 0.5 : 0.05) * side;
+  return side == 0 || (center > -outside && center < side + outside);
 }
 
 std::string camera_problem(const CameraCalibration& camera) {
@@ -64,11 +67,13 @@ std::string camera_problem(const CameraCalibration& camera) {
   if (!std::isfinite(camera.center_x) || !std::isfinite(camera.center_y)) {
     return "has a principal point that is not finite";
   }
-  if (!is_center_plausible(camera.center_x, camera.width) ||
-      !is_center_plausible(camera.center_y, camera.height)) {
+  if (!is_center_plausible(camera.center_x, camera.width, camera.lens) ||
+      !is_center_plausible(camera.center_y, camera.height, camera.lens)) {
     return "has the principal point (" + number_text(camera.center_x) + ", " +
-           number_text(camera.center_y) + ") far outside of its image of " +
-           size_text(camera.width, camera.height) + "; K is that of another image size";
+           number_text(camera.center_y) + ") outside of its image of " +
+           size_text(camera.width, camera.height) +
+           "; K is that of another image size. State that size in the file (image_size: [ WIDTH, "
+           "HEIGHT ]), and the calibration is scaled";
   }
   if (!is_coefficient_count(camera.lens, camera.coefficients.size())) {
     return "has " + std::to_string(camera.coefficients.size()) + " coefficients, " +
@@ -120,6 +125,10 @@ std::string calibration_problem(const StereoCalibration& calibration) {
   if (!problem.empty()) return "the rotation between the cameras " + problem;
   problem = translation_problem(calibration.translation);
   if (!problem.empty()) return "the cameras have " + problem;
+  if (calibration.translation[0] > 0) {
+    return "the right camera is " + number_text(calibration.translation[0]) +
+           " m to the left of the left one: the views are swapped";
+  }
   if (!calibration.rectification) return {};
   problem = rectification_problem(*calibration.rectification, calibration);
   return problem.empty() ? problem : "the rectification " + problem;
@@ -181,6 +190,7 @@ Result<StereoCalibration> scaled(StereoCalibration calibration, int width, int h
       calibration.rectification->height = height;
     }
     if (const Status status = check_calibration(calibration); !status) return status.error();
+    note_centers(calibration);
     return calibration;
   }
   for (const CameraCalibration* camera : {&left, &right}) {
@@ -248,10 +258,6 @@ std::string translation_problem(const Vector3& translation) {
   }
   if (std::abs(translation[1]) > std::abs(translation[0])) {
     return length + " that is vertical; only pairs side by side are supported";
-  }
-  if (translation[0] > 0) {
-    return "a baseline of " + number_text(-translation[0]) +
-           " m, with the right camera to the left of the left one: the views are swapped";
   }
   return {};
 }

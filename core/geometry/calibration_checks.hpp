@@ -19,7 +19,7 @@ const char* coefficient_counts(LensModel lens) noexcept;
 /// "is not a rotation ..." if rows are not orthonormal to 1e-3, or the matrix mirrors.
 std::string rotation_problem(const Matrix3& matrix);
 
-/// "a baseline of ..." if it is zero, reversed, vertical or too long.
+/// "a baseline of ..." if it is zero, vertical or too long.
 std::string translation_problem(const Vector3& translation);
 
 }  // namespace mtstereo

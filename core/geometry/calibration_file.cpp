@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/guard.hpp"
+#include "geometry/calibration_remarks.hpp"
 #include "geometry/formats/document.hpp"
 #include "geometry/formats/readers.hpp"
 
@@ -108,9 +109,11 @@ StereoCalibration read_files(const std::string& path, int width, int height) {
   } else {
     calibration = read_two(first, formats::parse_document(parts.files[1]), request);
   }
+  put_in_order(calibration);
   if (const Status status = check_calibration(calibration); !status) {
     throw FileError(path + ": " + status.error().message);
   }
+  note_centers(calibration);
   return calibration;
 }
 

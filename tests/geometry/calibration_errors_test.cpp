@@ -199,23 +199,17 @@ TEST_F(BrokenFile, WithABaselineThatCannotBe) {
   const std::string t = "-1.2153000000000000e-01";
   EXPECT_THAT(opencv(t, "-121.53"), AllOf(HasSubstr("T states a baseline of 121.53"),
                                           HasSubstr("most likely in millimeters")));
-  EXPECT_THAT(opencv(t, "1.2153e-01"), HasSubstr("the views are swapped"));
+  EXPECT_THAT(opencv(t, "1.2153e-01"), HasSubstr("the rectification has the baseline -0.12"));
   EXPECT_THAT(changed("middlebury_calib.txt", "baseline=193.001", "baseline=0"),
               HasSubstr("baseline states a baseline of 0 m"));
-  EXPECT_THAT(changed("middlebury_calib.txt", "baseline=193.001", "baseline=-193"),
-              HasSubstr("the views are swapped"));
   EXPECT_THAT(changed("middlebury_calib.txt", "baseline=193.001", "baseline=60000"),
               HasSubstr("baseline states a baseline of 60 m, more than 10 m"));
   EXPECT_THAT(changed("SN12345.conf", "Baseline=119.933", "Baseline=0", 1280, 720),
               HasSubstr("STEREO.Baseline states"));
   const std::string left = stored("camera_info_left.yaml");
-  const std::string swapped = stored("camera_info_right.yaml") + "," + left;
-  EXPECT_THAT(read_refused(swapped), HasSubstr("this is the left camera; swap the two files"));
   EXPECT_THAT(read_refused(left + "," + left), HasSubstr("calibrate both cameras together"));
   EXPECT_THAT(right("camera_info_left.yaml", "camera_info_right.yaml", "-64.455658", "-64455.6"),
               HasSubstr("more than 10 m: the length is most likely in millimeters"));
-  EXPECT_THAT(read_refused(stored("euroc_cam1.yaml") + "," + stored("euroc_cam0.yaml")),
-              HasSubstr("swap the two files"));
   const std::string kitti = stored_text("kitti_calib.txt");
   const std::size_t p2 = kitti.find("P2:");
   const std::size_t p3 = kitti.find("P3:");
@@ -281,7 +275,7 @@ TEST_F(BrokenFile, WithAProjectionThatIsNotRectified) {
 
 TEST_F(BrokenFile, WithSizesThatContradict) {
   EXPECT_THAT(changed("camchain.yaml", "[848, 480]", "[212, 120]"),
-              HasSubstr("(418.66517, 239.12264) far outside of its image of 212x120"));
+              HasSubstr("(418.66517, 239.12264) outside of its image of 212x120"));
   EXPECT_THAT(read_refused(stored("SN12345.conf"), 640, 480),
               AllOf(HasSubstr("no calibration for video of 640x480"), HasSubstr("HD (1280x720)")));
   EXPECT_THAT(read_refused(stored("SN12345.conf")), HasSubstr("as in '#HD'"));

@@ -103,7 +103,7 @@ TEST(OpenCvUnits, OtherThanMetersAreStatedOrRefused) {
   expect_near(read_valid(write("mm.yml", 0.001, "mm"), 640, 480), plumb_bob_pair(), 1e-12, false);
   expect_near(read_valid(write("cm.yml", 0.01, "cm"), 640, 480), plumb_bob_pair(), 1e-12, false);
   EXPECT_THAT(read_refused(write("ell.yml", 1, "ell"), 640, 480),
-              HasSubstr("length_unit is 'ell'; m, cm, mm or in is needed"));
+              HasSubstr("length_unit is 'ell'; m, cm, mm, in or the positive"));
 }
 
 TEST(OpenCvLens, IsFisheyeIfTheFileStatesIt) {

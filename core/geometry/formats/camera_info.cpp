@@ -68,10 +68,6 @@ StereoCalibration read_camera_info(const Entry& left_file, const Entry& right_fi
     p2.fail("states a baseline of 0: its fourth value is that of " + left_file.file() +
             "; calibrate both cameras together as a pair");
   }
-  if (rectification.baseline < 0) {
-    p2.fail("states a baseline of " + number_text(rectification.baseline) +
-            " m: this is the left camera; swap the two files");
-  }
   rectification.width = left.calibration.width;
   rectification.height = left.calibration.height;
 

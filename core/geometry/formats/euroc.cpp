@@ -36,10 +36,6 @@ StereoCalibration read_euroc(const Entry& left, const Entry& right, const Reques
   const Entry pose = right.at("T_BS", "the position on the body");
   const Motion left_to_body = motion_from(left.at("T_BS", "the position on the body"));
   const Motion motion = motion_from(pose).inverse().after(left_to_body);
-  if (motion.translation.x() > 0) {
-    pose.fail("is to the left of that in " + left.file() +
-              ": the views are swapped; swap the two files");
-  }
   check_translation(motion.translation, pose, ": T_BS must be in meters");
   set_motion(calibration, motion);
   return calibration;

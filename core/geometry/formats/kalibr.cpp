@@ -114,10 +114,6 @@ StereoCalibration read_kalibr(const Entry& file, const Request& request) {
   const Entry right_camera = file.at(pair.right, "the right camera");
   calibration.right = read_camera(right_camera);
   const Motion motion = motion_between(file, left, right);
-  if (motion.translation.x() > 0) {
-    right_camera.fail("is to the left of " + pair.left + ": the views are swapped; add '#" +
-                      pair.right + "-" + pair.left + "' to the path to swap them");
-  }
   check_translation(motion.translation, right_camera.find("T_cn_cnm1").value_or(right_camera),
                     ": the size of the target must be in meters");
   set_motion(calibration, motion);

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "geometry/calibration_remarks.hpp"
 #include "geometry/formats/opencv_entries.hpp"
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"
@@ -57,10 +58,10 @@ LensModel stated_lens(const OpenCvEntries& files, Names names, const Entry& coef
   return fisheye ? LensModel::kFisheye : LensModel::kPlumbBob;
 }
 
-/// The unit of T and of the fourth columns of P1 and P2 [m].
-double unit_of(const OpenCvEntries& files) {
+/// The unit of T and of the fourth columns of P1 and P2 [m], if it is stated.
+std::optional<double> unit_of(const OpenCvEntries& files) {
   const std::optional<Entry> entry = files.find("lengthunit units unit");
-  if (!entry) return 1;
+  if (!entry) return std::nullopt;
   const std::string word = entry->text();
   constexpr std::array<std::pair<std::string_view, double>, 9> kUnits = {{{"m", 1},
                                                                           {"meter", 1},
@@ -74,7 +75,10 @@ double unit_of(const OpenCvEntries& files) {
   for (const auto& [name, unit] : kUnits) {
     if (word == name) return unit;
   }
-  entry->fail("is '" + printable(word) + "'; m, cm, mm or in is needed");
+  const std::optional<double> meters = parse_number(word);
+  if (meters && *meters > 0 && std::isfinite(*meters)) return *meters;
+  entry->fail("is '" + printable(word) +
+              "'; m, cm, mm, in or the positive number of meters of the length 1 is needed");
 }
 
 /// The rectification, if all four matrices are there.
@@ -171,9 +175,10 @@ StereoCalibration read_opencv(const std::vector<Entry>& documents, const Request
   const PairEntries pair = files.find_pair();
   read_cameras(files, pair, calibration);
   read_sizes(files, request, calibration);
-  const double unit = unit_of(files);
-  read_rectification(files, unit, calibration);
-  read_motion(files, pair, unit, calibration);
+  const std::optional<double> unit = unit_of(files);
+  read_rectification(files, unit.value_or(1), calibration);
+  read_motion(files, pair, unit.value_or(1), calibration);
+  if (!unit) note_length(calibration);
   calibration.date = date_of(files);
   return calibration;
 }

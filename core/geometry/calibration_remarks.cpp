@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "geometry/calibration_remarks.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mtstereo {
+namespace {
+
+using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+/// Baselines of usual pairs of cameras [m]: from a borescope to a vehicle.
+constexpr double kShortBaseline = 0.005;
+constexpr double kLongBaseline = 1.5;
+/// How far from the middle of the image a principal point is without a word, as a part of the side.
+constexpr double kUsualShift = 0.2;
+
+std::string digits(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", number);
+  return text;
+}
+
+/// How far a center is from the middle, as a part of the side.
+double shift_of(double center, int side) { return std::abs(center - (side - 1) / 2.0) / side; }
+
+void exchange(Rectification& rectification) {
+  std::swap(rectification.left_rotation, rectification.right_rotation);
+  std::swap(rectification.left_center_x, rectification.right_center_x);
+  rectification.baseline = -rectification.baseline;
+}
+
+void note_center(const CameraCalibration& camera, const char* name,
+                 std::vector<std::string>& remarks) {
+  if (camera.width < 1 || camera.height < 1) return;
+  const double shift =
+      std::max(shift_of(camera.center_x, camera.width), shift_of(camera.center_y, camera.height));
+  if (!(shift > kUsualShift)) return;
+  remarks.push_back(
+      std::string("The principal point of the ") + name + " camera, (" + digits(camera.center_x) +
+      ", " + digits(camera.center_y) + "), is " + std::to_string(std::lround(100 * shift)) +
+      " % of a side away from the middle of its image of " + std::to_string(camera.width) + "x" +
+      std::to_string(camera.height) +
+      " px: unless the image is a crop, the calibration is that of another size. State the size of "
+      "the calibration in its file (image_size: [ WIDTH, HEIGHT ]), and it is scaled.");
+}
+
+}  // namespace
+
+void put_in_order(StereoCalibration& calibration) {
+  const Vector3& t = calibration.translation;
+  if (!(t[0] > 0) || std::abs(t[1]) > t[0]) return;
+  Eigen::Map<Matrix> rotation(calibration.rotation.data());
+  Eigen::Map<Eigen::Vector3d> translation(calibration.translation.data());
+  const Eigen::Vector3d back = -(rotation.transpose() * translation);
+  // An exchange must leave a pair in order; large rotations would not.
+  if (!(back[0] < 0)) return;
+  translation = back;
+  rotation.transposeInPlace();
+  std::swap(calibration.left, calibration.right);
+  if (calibration.rectification) exchange(*calibration.rectification);
+  calibration.remarks.emplace_back(
+      "By its translation, the first camera of the calibration is to the right of the second one: "
+      "they are exchanged, and the left view must be that of the second camera. If it is that of "
+      "the first one, exchange the views.");
+}
+
+void note_length(StereoCalibration& calibration) {
+  const double baseline = calibration.baseline();
+  if (!std::isfinite(baseline) || (baseline >= kShortBaseline && baseline <= kLongBaseline)) return;
+  calibration.remarks.push_back(
+      "The baseline is " + digits(baseline) + " m, which is unusually " +
+      (baseline < kShortBaseline ? "short" : "long") +
+      ", and the file states no unit: depths are wrong unless its lengths are in meters. Otherwise "
+      "add the line 'length_unit: mm' (or cm, in, or the meters that the length 1 has, such as the "
+      "side of a square of the board: 'length_unit: 0.025').");
+}
+
+void note_centers(StereoCalibration& calibration) {
+  note_center(calibration.left, "left", calibration.remarks);
+  note_center(calibration.right, "right", calibration.remarks);
+}
+
+}  // namespace mtstereo
