@@ -10,6 +10,8 @@
 
 #include "run/json_files.hpp"
 #include "run/matching_line.hpp"
+#include "run/work_facts.hpp"
+#include "run/work_options.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -51,10 +53,20 @@ Json source_summary(const Source& source, const FrameIndex& index) {
   return summary;
 }
 
-Json object_of(const std::vector<std::pair<std::string, std::string>>& values) {
+Json object_of(const NamedTexts& values) {
   Json object = Json::object();
   for (const auto& [name, value] : values) object[name] = value;
   return object;
+}
+
+// The disparities that are searched, and what the values of the maps count.
+Json disparity_json(const WorkOptions& options) {
+  const Parameters parameters = matcher_parameters(options);
+  const MapUnits units = map_units(options);
+  return {{"smallest_px", parameters.integer(Parameter::kMinDisparity)},
+          {"largest_px", parameters.integer(Parameter::kMaxDisparity) - 1},
+          {"scale", units.scale},
+          {"offset_px", units.offset}};
 }
 
 Json inputs_json(const Work& work) {
@@ -88,10 +100,14 @@ Json run_json(const Work& work, const PieceReport& report, double seconds) {
       {"inputs", inputs_json(work)},
       {"products", std::move(products)},
       {"format", format_name(work.options.format)},
-      {"parameters", object_of(work.options.parameters)},
+      {"parameters", object_of(effective_parameters(work.options))},
+      {"threads", work.options.threads},
+      {"disparity", disparity_json(work.options)},
+      {"geometry", geometry_json(work.geometry)},
       {"correction", object_of(work.correction)},
       {"clocks", clocks_json(work.clocks)},
       {"period_ns", work.period},
+      {"frame_rate", frame_rate(work)},
       {"pairs", work.pairs.pairs.size()},
       {"processed_pairs", report.frames.size()},
       {"dropped_frames", {{"left", work.pairs.dropped_left}, {"right", work.pairs.dropped_right}}},

@@ -18,7 +18,7 @@ namespace mtstereo::run {
 using Json = nlohmann::ordered_json;
 
 /// The version of the files that processes exchange.
-inline constexpr int kJsonVersion = 1;
+inline constexpr int kJsonVersion = 2;
 
 /// Writes a file aside and renames it. Throws RunError.
 void write_whole(const std::filesystem::path& file,
@@ -34,6 +34,8 @@ void read_fields(const std::filesystem::path& file, const std::function<void()>&
 Json work_json(const Work& work);
 Json recording_json(const Recording& recording);
 Json options_json(const WorkOptions& options);
+/// The rectified pair and the calibration that it comes from; null without one.
+Json geometry_json(const std::optional<ViewGeometry>& geometry);
 /// How the clocks differ, and how sure it is; null if the frames' times count as they are.
 Json clocks_json(const std::optional<ClockEstimate>& clocks);
 /// Writes the figures of pairs as the last member of an object: one line per pair, without a copy

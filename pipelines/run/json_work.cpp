@@ -164,6 +164,21 @@ PairList read_pairs(const Json& json, const Work& work) {
   return list;
 }
 
+std::optional<ViewGeometry> read_geometry(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  ViewGeometry geometry;
+  Rectification& views = geometry.views;
+  views.width = json.at("width").get<int>();
+  views.height = json.at("height").get<int>();
+  views.focal_length = json.at("focal_length_px").get<double>();
+  views.baseline = json.at("baseline_m").get<double>();
+  views.left_center_x = json.at("principal_x_px").get<double>();
+  views.right_center_x = json.at("right_principal_x_px").get<double>();
+  views.center_y = json.at("principal_y_px").get<double>();
+  geometry.format = json.at("calibration_format").get<std::string>();
+  return geometry;
+}
+
 WorkOptions read_options(const Json& json) {
   WorkOptions options;
   options.products.clear();
@@ -185,6 +200,7 @@ Work work_of(const Json& json) {
   work.pairs = read_pairs(json.at("pairs"), work);
   work.options = read_options(json.at("options"));
   work.period = json.at("period").get<Nanoseconds>();
+  work.geometry = read_geometry(json.at("geometry"));
   work.correction = json.at("correction").get<decltype(work.correction)>();
   work.remarks = json.at("remarks").get<std::vector<std::string>>();
   return work;
@@ -239,6 +255,20 @@ Json options_json(const WorkOptions& options) {
           {"threads", options.threads}};
 }
 
+Json geometry_json(const std::optional<ViewGeometry>& geometry) {
+  if (!geometry) return nullptr;
+  const Rectification& views = geometry->views;
+  return {{"width", views.width},
+          {"height", views.height},
+          {"focal_length_px", views.focal_length},
+          {"baseline_m", views.baseline},
+          {"principal_x_px", views.left_center_x},
+          {"principal_y_px", views.center_y},
+          {"right_principal_x_px", views.right_center_x},
+          {"principal_offset_px", views.principal_offset()},
+          {"calibration_format", geometry->format}};
+}
+
 Json clocks_json(const std::optional<ClockEstimate>& clocks) {
   if (!clocks) return nullptr;
   Json json{{"offset_s", clocks->relation.offset},
@@ -265,6 +295,7 @@ Json work_json(const Work& work) {
           {"pairs", pairs_json(work.pairs)},
           {"options", options_json(work.options)},
           {"period", work.period},
+          {"geometry", geometry_json(work.geometry)},
           {"correction", work.correction},
           {"remarks", work.remarks}};
 }

@@ -7,13 +7,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "run/recording.hpp"
 
 // Matroska files with one video in FFV1. Muxers write random ids and dates into them; these files
-// depend on their frames only, so that pieces that are joined are equal to one file that was
-// written at once. Each frame is a key frame in a cluster of its own.
+// depend on their frames and tags only, so that pieces that are joined are equal to one file that
+// was written at once. Each frame is a key frame in a cluster of its own.
 
 namespace mtstereo::run {
 
@@ -22,6 +23,8 @@ struct MatroskaTrack {
   int width = 0, height = 0;  ///< [px]
   Nanoseconds period = 0;     ///< of its frames [ns]
   std::string codec_private;  ///< the configuration of the decoder
+  /// What describes the file: names in capitals with their texts, in UTF-8.
+  std::vector<std::pair<std::string, std::string>> tags;
   bool operator==(const MatroskaTrack&) const = default;
 };
 

@@ -37,6 +37,8 @@ enum Id : std::uint32_t {
   kPixelWidth = 0xB0,
   kPixelHeight = 0xBA,
   kTimestamp = 0xE7,
+  kTag = 0x7373,
+  kTargets = 0x63C0,
   kSimpleBlock = 0xA3,
 };
 
@@ -78,6 +80,16 @@ std::string tracks_of(const MatroskaTrack& track) {
                              number(kDefaultDuration, static_cast<std::uint64_t>(track.period)) +
                              element(kCodecId, "V_FFV1") +
                              element(kCodecPrivate, track.codec_private) + element(kVideo, video)));
+}
+
+// Tags of the whole file.
+std::string tags_of(const MatroskaTrack& track) {
+  if (track.tags.empty()) return {};
+  std::string tag = element(kTargets, "");
+  for (const auto& [name, text] : track.tags) {
+    tag += element(kSimpleTag, element(kTagName, name) + element(kTagString, text));
+  }
+  return element(kTags, element(kTag, tag));
 }
 
 }  // namespace
@@ -138,7 +150,7 @@ Head head_of(const MatroskaTrack& track) {
   head.cues = head.bytes.size() - 8;
   head.bytes += info;
   head.duration = head.bytes.size() - 8;
-  head.bytes += tracks;
+  head.bytes += tracks + tags_of(track);
   return head;
 }
 

@@ -14,6 +14,10 @@ namespace mtstereo::run::ebml {
 
 inline constexpr std::uint32_t kCluster = 0x1F43B675;
 inline constexpr std::uint32_t kCues = 0x1C53BB6B;
+inline constexpr std::uint32_t kTags = 0x1254C367;
+inline constexpr std::uint32_t kSimpleTag = 0x67C8;
+inline constexpr std::uint32_t kTagName = 0x45A3;
+inline constexpr std::uint32_t kTagString = 0x4487;
 inline constexpr Nanoseconds kTimeStep = 1000;  ///< of time stamps in the file [ns]
 
 /// A number of the file's format: big-endian.

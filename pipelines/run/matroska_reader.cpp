@@ -58,22 +58,42 @@ void read_track(std::string_view content, MatroskaTrack& track) {
   }
 }
 
+// Reads names and texts from the elements of the tags.
+void read_tags(std::string_view content, MatroskaTrack& track) {
+  constexpr std::uint32_t kTag = 0x7373;
+  for (std::size_t at = 0; const std::optional<Element> found = element_at(content, at);) {
+    const std::string_view value = content.substr(found->content, found->length);
+    if (found->id == ebml::kSimpleTag) track.tags.emplace_back();
+    if (found->id == kTag || found->id == ebml::kSimpleTag) read_tags(value, track);
+    if (!track.tags.empty()) {
+      if (found->id == ebml::kTagName) track.tags.back().first = value;
+      if (found->id == ebml::kTagString) track.tags.back().second = value;
+    }
+    at = found->content + found->length;
+  }
+}
+
 // Reads everything before the first cluster and returns its length; 0 if it is not whole.
 std::size_t read_head(std::string_view bytes, MatroskaTrack& track) {
   constexpr std::uint32_t kSegment = 0x18538067, kTracks = 0x1654AE6B;
   std::size_t at = 0;
+  bool whole = false;
   while (const std::optional<Element> found = element_at(bytes, at)) {
+    if (found->id == ebml::kCluster || found->id == ebml::kCues) break;
     if (found->id == kSegment) {
       at = found->content;
       continue;
     }
     if (found->length > bytes.size() - found->content) return 0;
     at = found->content + found->length;
-    if (found->id != kTracks) continue;
-    read_track(bytes.substr(found->content, found->length), track);
-    return at;
+    const std::string_view content = bytes.substr(found->content, found->length);
+    if (found->id == kTracks) {
+      read_track(content, track);
+      whole = true;
+    }
+    if (found->id == ebml::kTags) read_tags(content, track);
   }
-  return 0;
+  return whole ? at : 0;
 }
 
 }  // namespace

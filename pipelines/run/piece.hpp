@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mtstereo/geometry/calibration.hpp"
 #include "run/frame_pairs.hpp"
 
 namespace mtstereo::run {
@@ -32,6 +33,13 @@ struct WorkOptions {
   int threads = 0;  ///< of mtstereo; 0: all
 };
 
+/// The rectified pair that is matched, as the calibration gives it.
+struct ViewGeometry {
+  Rectification views;  ///< without its rotations
+  std::string format;   ///< of the calibration: StereoCalibration::format
+  bool operator==(const ViewGeometry&) const = default;
+};
+
 /// A recording with all that decides the results: whoever processes a piece of it, and on which
 /// machine, gets the same bytes.
 struct Work {
@@ -42,6 +50,7 @@ struct Work {
   PairList pairs;
   WorkOptions options;
   Nanoseconds period = 0;  ///< of the output; the n-th pair has the time n * period [ns]
+  std::optional<ViewGeometry> geometry;  ///< none: without a calibration
   /// The correction of the views, measured once on pairs from the whole recording, as properties
   /// of mtstereo. It does not change within the recording.
   std::vector<std::pair<std::string, std::string>> correction;

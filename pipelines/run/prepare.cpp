@@ -12,6 +12,7 @@
 #include "run/piece.hpp"
 #include "run/run_error.hpp"
 #include "run/view_correction.hpp"
+#include "run/view_geometry.hpp"
 #include "run/work_options.hpp"
 
 namespace mtstereo::run {
@@ -137,6 +138,7 @@ Work prepare(const Recording& recording, const WorkOptions& options,
   matcher_parameters(options);
   check_products(recording, options);
   work.left = index_frames(recording.left, recording.frame_rate);
+  find_geometry(work);
   complete_options(work);
   find_pairs(work, relation, estimate);
   work.period = period_of(work);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "run/run_error.hpp"
+#include "run/work_facts.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -22,13 +23,14 @@ std::string codec_private(GstSample* sample) {
   return bytes;
 }
 
-MatroskaTrack track_of(GstSample* sample, Nanoseconds period) {
+MatroskaTrack track_of(GstSample* sample, const Work& work, Product product) {
   const GstStructure* const fields = gst_caps_get_structure(gst_sample_get_caps(sample), 0);
   MatroskaTrack track;
   gst_structure_get_int(fields, "width", &track.width);
   gst_structure_get_int(fields, "height", &track.height);
-  track.period = period;
+  track.period = work.period;
   track.codec_private = codec_private(sample);
+  track.tags = matroska_tags(work, product);
   return track;
 }
 
@@ -71,7 +73,7 @@ void ProductFiles::write_video(Product product, GstSample* sample, std::int64_t 
   std::unique_ptr<MatroskaWriter>& video = videos_[product];
   if (!video) {
     video = std::make_unique<MatroskaWriter>(folder_ / product_path(work_.options, product),
-                                             track_of(sample, work_.period));
+                                             track_of(sample, work_, product));
   }
   GstMapInfo map;
   GstBuffer* const buffer = gst_sample_get_buffer(sample);

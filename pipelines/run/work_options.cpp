@@ -8,6 +8,7 @@
 
 #include "run/matching_line.hpp"
 #include "run/run_error.hpp"
+#include "run/view_geometry.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -99,11 +100,11 @@ void complete_options(Work& work) {
     work.remarks.push_back("The values of the maps count 1/" + std::to_string(*fitting) +
                            " px, so that the search range fits into 16 bits.");
   }
-  if (!work.recording.rectified) return;  // the rectification decides the size
-  const Arrangement arrangement = work.recording.arrangement;
-  check(
-      parameters.check_frame(work.left.width / (arrangement == Arrangement::kSideBySide ? 2 : 1),
-                             work.left.height / (arrangement == Arrangement::kTopBottom ? 2 : 1)));
+  // The rectification decides the size.
+  const ViewSize size = work.geometry
+                            ? ViewSize{work.geometry->views.width, work.geometry->views.height}
+                            : view_size(work);
+  check(parameters.check_frame(size.width, size.height));
 }
 
 }  // namespace mtstereo::run

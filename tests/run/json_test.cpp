@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "mtstereo/parameters.hpp"
 #include "run/run_error.hpp"
 #include "stereo_files.hpp"
 #include "video_files.hpp"
@@ -39,6 +40,15 @@ Work example() {
   work.options.parameters = {{"mode", "dense"}, {"max-disparity", "96"}};
   work.options.threads = 3;
   work.period = 33'333'333;
+  work.geometry.emplace();
+  work.geometry->views.width = 600;
+  work.geometry->views.height = 400;
+  work.geometry->views.focal_length = 500.25;
+  work.geometry->views.baseline = 0.12;
+  work.geometry->views.left_center_x = 300.5;
+  work.geometry->views.right_center_x = 310.5;
+  work.geometry->views.center_y = 200;
+  work.geometry->format = "OpenCV";
   work.correction = {{"alignment", "hold"}, {"alignment-field", "1,0,0,0,0"}};
   work.remarks = {"another one"};
   return work;
@@ -101,6 +111,7 @@ TEST(WorkJson, IsReadAsItWasWritten) {
   EXPECT_EQ(read.options.parameters, work.options.parameters);
   EXPECT_EQ(read.options.threads, 3);
   EXPECT_EQ(read.correction, work.correction);
+  EXPECT_EQ(read.geometry, work.geometry);
   EXPECT_EQ(read.remarks, work.remarks);
   write_work(read, folder / "again.json");
   EXPECT_EQ(bytes_of(folder / "again.json"), bytes_of(folder / "work.json"));
@@ -116,6 +127,15 @@ TEST(WorkJson, FingerprintIsThatOfTheResults) {
   EXPECT_NE(fingerprint(work), first);
 }
 
+TEST(WorkJson, WithoutAGeometryIsReadAsItWasWritten) {
+  const TemporaryFolder folder;
+  Work work = example();
+  work.geometry.reset();
+  write_work(work, folder / "work.json");
+  EXPECT_FALSE(read_work(folder / "work.json").geometry);
+  EXPECT_NE(fingerprint(work), fingerprint(example()));
+}
+
 TEST(WorkJson, ThatIsDamagedIsRefused) {
   const TemporaryFolder folder;
   const fs::path file = folder / "work.json";
@@ -129,9 +149,10 @@ TEST(WorkJson, ThatIsDamagedIsRefused) {
   };
   for (const std::string& text :
        {std::string(), bytes.substr(0, bytes.size() / 2), replaced("\"period\"", "\"other\""),
-        replaced("\"version\":1", "\"version\":99"), replaced("work of", "piece of"),
+        replaced("\"version\":2", "\"version\":99"), replaced("work of", "piece of"),
         replaced("\"pfm\"", "\"gif\""), replaced("[0,1,2]", "[0,1,9]"),
-        replaced("[0,1,2]", "[\"a\",1,2]")}) {
+        replaced("[0,1,2]", "[\"a\",1,2]"),
+        replaced("\"baseline_m\":0.12", "\"baseline_m\":\"x\"")}) {
     write_text(file, text);
     EXPECT_THROW(read_work(file), RunError) << text;
   }
@@ -179,6 +200,37 @@ TEST(RunJson, HasParametersFiguresAndMeans) {
   EXPECT_EQ(json.at("frames").size(), 3u);
   EXPECT_EQ(json.at("frames")[1][0], 1);
   EXPECT_EQ(fingerprint_in(file), fingerprint(example()));
+}
+
+TEST(RunJson, StatesWhatWasUsed) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "run.json";
+  write_run_report(example(), example_report(), 2, file);
+  const nlohmann::json json = nlohmann::json::parse(bytes_of(file));
+  // Every parameter, also those that were not set.
+  const nlohmann::json& parameters = json.at("parameters");
+  Parameters set;
+  ASSERT_TRUE(set.set("mode", "dense"));
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.id == Parameter::kThreads || info.id == Parameter::kMaxDisparity) continue;
+    EXPECT_EQ(parameters.at(info.name), set.text(info.id)) << info.name;
+  }
+  EXPECT_EQ(parameters.at("max-disparity"), "96");
+  EXPECT_EQ(parameters.at("disparity-scale"), "256");
+  EXPECT_EQ(parameters.at("sharpness"), "match");
+  EXPECT_FALSE(parameters.contains("threads"));
+  EXPECT_EQ(json.at("threads"), 3);
+  EXPECT_EQ(json.at("disparity").at("smallest_px"), 0);
+  EXPECT_EQ(json.at("disparity").at("largest_px"), 95);
+  EXPECT_EQ(json.at("disparity").at("scale"), 256);
+  EXPECT_EQ(json.at("geometry").at("focal_length_px"), 500.25);
+  EXPECT_EQ(json.at("geometry").at("baseline_m"), 0.12);
+  EXPECT_EQ(json.at("geometry").at("principal_offset_px"), 10);
+  EXPECT_EQ(json.at("geometry").at("calibration_format"), "OpenCV");
+  EXPECT_NEAR(json.at("frame_rate").get<double>(), 30, 1e-6);
+  EXPECT_EQ(json.at("inputs").at("kind"), "two video files");
+  EXPECT_EQ(json.at("inputs").at("calibration"), "/a/calibration.yml");
+  EXPECT_EQ(json.at("inputs").at("rectified"), false);
 }
 
 TEST(RunJson, ThatIsMissingHasNoFingerprint) {

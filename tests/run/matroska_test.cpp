@@ -19,7 +19,13 @@ using testing::TemporaryFolder;
 
 constexpr Nanoseconds kPeriod = 40'000'000;
 
-MatroskaTrack track() { return {160, 96, kPeriod, std::string(200, 'c')}; }
+MatroskaTrack track() {
+  return {160,
+          96,
+          kPeriod,
+          std::string(200, 'c'),
+          {{"MTSTEREO_A", "1"}, {"MTSTEREO_B", std::string(300, 'b')}}};
+}
 
 std::string frame(int number) {
   return std::string(1000 + static_cast<std::size_t>(number), static_cast<char>('a' + number % 26));
@@ -87,6 +93,33 @@ TEST(Matroska, WithTooFewFramesIsNotContinued) {
   const TemporaryFolder folder;
   write(folder / "a.mkv", 0, 10);
   EXPECT_THROW(MatroskaWriter(folder / "a.mkv", 11), RunError);
+}
+
+TEST(Matroska, WithoutTagsIsReadBack) {
+  const TemporaryFolder folder;
+  MatroskaTrack plain = track();
+  plain.tags.clear();
+  {
+    MatroskaWriter writer(folder / "a.mkv", plain);
+    append(writer, 0, 3);
+    writer.finish();
+  }
+  MatroskaReader reader(folder / "a.mkv");
+  EXPECT_EQ(reader.track(), plain);
+  EXPECT_TRUE(reader.next());
+}
+
+TEST(Matroska, ThatEndsInItsHeadIsRefused) {
+  const TemporaryFolder folder;
+  const std::string bytes = bytes_of(write(folder / "a.mkv", 0, 1));
+  const std::size_t head = bytes.find("\x1f\x43\xb6\x75");
+  ASSERT_NE(head, std::string::npos);
+  testing::write_text(folder / "cut.mkv", bytes.substr(0, head));
+  EXPECT_FALSE(MatroskaReader(folder / "cut.mkv").next());
+  for (const std::size_t length : {head - 1, head - 150, head - 400, std::size_t{60}}) {
+    testing::write_text(folder / "cut.mkv", bytes.substr(0, length));
+    EXPECT_THROW(MatroskaReader(folder / "cut.mkv"), RunError) << length;
+  }
 }
 
 TEST(Matroska, OfAnotherProgramIsRefused) {

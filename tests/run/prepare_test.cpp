@@ -4,6 +4,7 @@
 
 #include "mtstereo/alignment.hpp"
 #include "run/run_error.hpp"
+#include "run/view_geometry.hpp"
 #include "run/work_options.hpp"
 #include "stereo_files.hpp"
 #include "video_files.hpp"
@@ -122,6 +123,33 @@ TEST(WorkOptions, ScaleFitsTheSearchRange) {
   EXPECT_EQ(value_of(work, "disparity-scale"), "64");
   work.options.parameters = {{"max-disparity", "600"}, {"disparity-scale", "256"}};
   EXPECT_THROW(complete_options(work), RunError);
+}
+
+TEST_F(Preparation, FindsTheGeometry) {
+  write(3, 0);
+  EXPECT_FALSE(prepared().geometry);
+  recording_.calibration = testing::write_stereo_calibration(folder_.path()).string();
+  const Work work = prepared();
+  ASSERT_TRUE(work.geometry);
+  EXPECT_EQ(work.geometry->views.focal_length, 100);
+  EXPECT_EQ(work.geometry->views.width, 160);
+  EXPECT_NE(measures_text(work).find("baseline 0.100 m"), std::string::npos) << measures_text(work);
+  EXPECT_NE(measures_text(work).find("(23 px)"), std::string::npos) << measures_text(work);
+}
+
+TEST_F(Preparation, RefusesACalibrationThatGivesNoMetersIfTheyAreNeeded) {
+  write(3, 0);
+  recording_.calibration = (folder_ / "calib.txt").string();
+  testing::write_text(recording_.calibration, "cam0=[100 0 79.5; 0 100 47.5; 0 0 1]\n");
+  const Work work = prepared();
+  EXPECT_FALSE(work.geometry);
+  ASSERT_FALSE(work.remarks.empty());
+  EXPECT_NE(work.remarks[0].find("calib.txt"), std::string::npos) << work.remarks[0];
+  options_.products = {Product::kDepth};
+  EXPECT_NE(refusal().find("calib.txt"), std::string::npos) << refusal();
+  options_.products = {Product::kDisparity};
+  recording_.rectified = false;
+  EXPECT_NE(refusal().find("calib.txt"), std::string::npos) << refusal();
 }
 
 TEST_F(Preparation, RefusesWhatCannotBeMade) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
+#include "run/view_geometry.hpp"
 #include "stereo_files.hpp"
 #include "video_files.hpp"
 
@@ -118,6 +119,30 @@ TEST_F(Products, VideosAreReadByFfmpeg) {
   ASSERT_EQ(times.size(), static_cast<std::size_t>(kFrames));
   for (std::size_t i = 0; i < times.size(); ++i) {
     EXPECT_NEAR(times[i], static_cast<double>(i) / 30, 1e-5);
+  }
+}
+
+TEST_F(Products, VideosStateWhatWasUsed) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  WorkOptions options;
+  options.products = {Product::kDepth};
+  Work work = work_of(file("left.mkv"), file("right.mkv"), options);
+  work.recording.calibration = file("calib.txt").string();
+  find_geometry(work);
+  process(work, whole(work), file("tags"), kNoProgress);
+  const fs::path text = file("tags.txt");
+  run_command("ffprobe -v error -show_entries format_tags " +
+              (file("tags") / "depth.mkv").string() + " > " + text.string());
+  const std::string tags = bytes_of(text);
+  for (const char* const tag :
+       {"MTSTEREO_PRODUCT=depth\n", "MTSTEREO_INPUT_KIND=two video files\n",
+        "MTSTEREO_INPUT_RECTIFIED=yes\n", "MTSTEREO_DISPARITY_SCALE=256\n",
+        "MTSTEREO_DEPTH_UNIT_M=0.001\n", "MTSTEREO_FOCAL_LENGTH_PX=100\n",
+        "MTSTEREO_BASELINE_M=0.1\n", "MTSTEREO_PRINCIPAL_X_PX=79.5\n",
+        "MTSTEREO_PRINCIPAL_Y_PX=47.5\n", "MTSTEREO_PRINCIPAL_OFFSET_PX=0\n",
+        "MTSTEREO_CALIBRATION=calib.txt\n", "MTSTEREO_CALIBRATION_FORMAT=Middlebury",
+        "mode=semi-dense max-disparity=24 ", " alignment=hold\n"}) {
+    EXPECT_NE(tags.find(tag), std::string::npos) << tag << "in\n" << tags;
   }
 }
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "run/view_geometry.hpp"
+
+#include "mtstereo/geometry/rig.hpp"
+#include "run/matching_line.hpp"
+#include "run/run_error.hpp"
+#include "run/work_options.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+Result<ViewGeometry> read_geometry(const Recording& recording, ViewSize size) {
+  const Result<StereoCalibration> read =
+      read_calibration(recording.calibration, size.width, size.height);
+  if (!read) return read.error();
+  const Result<StereoCalibration> scaled = scale_calibration(*read, size.width, size.height);
+  if (!scaled) return scaled.error();
+  const Result<Rectification> views = rectify(*scaled);
+  if (!views) return views.error();
+  ViewGeometry geometry{*views, read->format};
+  geometry.views.left_rotation = {};
+  geometry.views.right_rotation = {};
+  return geometry;
+}
+
+bool needs_meters(const WorkOptions& options) {
+  return makes(options, Product::kDepth) || makes(options, Product::kCloud);
+}
+
+}  // namespace
+
+ViewSize view_size(const Work& work) {
+  const Arrangement arrangement = work.recording.arrangement;
+  return {work.left.width / (arrangement == Arrangement::kSideBySide ? 2 : 1),
+          work.left.height / (arrangement == Arrangement::kTopBottom ? 2 : 1)};
+}
+
+void find_geometry(Work& work) {
+  const Recording& recording = work.recording;
+  if (recording.calibration.empty()) return;
+  const ViewSize size = view_size(work);
+  Result<ViewGeometry> geometry = read_geometry(recording, size);
+  if (geometry && recording.rectified &&
+      (geometry->views.width != size.width || geometry->views.height != size.height)) {
+    geometry = Error{ErrorCode::kInvalidCalibration,
+                     recording.calibration + " describes rectified views of " +
+                         std::to_string(geometry->views.width) + "x" +
+                         std::to_string(geometry->views.height) + " px; the views have " +
+                         std::to_string(size.width) + "x" + std::to_string(size.height) + " px"};
+  }
+  if (geometry) {
+    work.geometry = std::move(*geometry);
+  } else if (!recording.rectified || needs_meters(work.options)) {
+    throw RunError(recording.name + ": " + geometry.error().message);
+  } else {
+    work.remarks.push_back("Focal length and baseline are not known: " + geometry.error().message);
+  }
+}
+
+std::string measures_text(const Work& work) {
+  if (!work.geometry) return {};
+  const Parameters parameters = matcher_parameters(work.options);
+  DisparityRange range;
+  range.smallest = parameters.get(Parameter::kMinDisparity);
+  range.largest = parameters.get(Parameter::kMaxDisparity) - 1;
+  return rig_text(rig_figures(work.geometry->views, range));
+}
+
+}  // namespace mtstereo::run
