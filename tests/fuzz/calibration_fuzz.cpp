@@ -66,10 +66,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Size video = input.one_of(kSizes);
   const std::string selection = input.one_of(kSelections);
   const std::string_view bytes = input.rest();
-  const std::size_t end = bytes.find('\1');
+  const std::size_t end = bytes.find_first_of("\1\2");
   std::string path = folder().write("first", bytes.substr(0, end));
   if (end != std::string_view::npos) {
-    path += "," + folder().write("second", bytes.substr(end + 1)).string();
+    const std::string second = folder().write("second", bytes.substr(end + 1));
+    if (bytes[end] == '\1') path += "," + second;
   }
   const Result<StereoCalibration> result =
       read_calibration(path + selection, video.width, video.height);

@@ -125,6 +125,56 @@ def streams():
         yield f"property-{index}", b"\0\1" + pairs[:20] + bytes([24, index]) + pairs[20:]
 
 
+def matrix(name, rows, columns, values, gap=" "):
+    return f"{name}: !!opencv-matrix\n   rows: {rows}\n   cols: {columns}\n   dt: d\n   data:{gap}{values}\n"
+
+
+def calibrations_of_slam():
+    pose = "[1, 0, 0, {}, 0, 1, 0, 0, 0, 0, 1, 0.01, 0, 0, 0, 1]"
+    camera = ("  camera_model: pinhole\n  intrinsics: [310, 311, 322, 241]\n  distortion_model: equidistant\n"
+              "  distortion_coeffs: [0.01, 0, 0, 0]\n  resolution: [640, 480]\n")
+    yield "imu-chain", ("\0\0%YAML:1.0\n" + "".join(
+        f"cam{i}:\n{camera}  T_imu_cam: {pose.format(0.12 * i)}\n" for i in range(2))).encode()
+    names = "".join(f"Camera{i}.{name}: {value}\n" for i in (1, 2)
+                    for name, value in (("fx", 310), ("fy", 311), ("cx", 322), ("cy", 241), ("k1", 0.1), ("k2", 0)))
+    size = "Camera.width: 640\nCamera.height: 480\n"
+    for kind in ("PinHole", "KannalaBrandt8"):
+        yield "orbslam-" + kind, (f"\0\0%YAML:1.0\nCamera.type: {kind}\n{names}{size}" +
+                                  matrix("Stereo.T_c1_c2", 4, 4, pose.format(0.12), "")).encode()
+    yield "orbslam-rectified", ("\0\0%YAML:1.0\nCamera.type: Rectified\n" + names[:names.index("Camera1.k1")].replace(
+        "311", "310") + size + "Stereo.b: 0.12\n").encode()
+    k, d, r = "[310, 0, 322, 0, 311, 241, 0, 0, 1]", "[0.1, 0, 0, 0]", "[1, 0, 0, 0, 1, 0, 0, 0, 1]"
+    p = "[310, 0, 322, {}, 0, 310, 241, 0, 0, 0, 1, 0]"
+    yield "projections", ("\1\0%YAML:1.0\n" + "".join(
+        matrix(side + ".K", 3, 3, k, "") + matrix(side + ".D", 1, 4, d) + matrix(side + ".R", 3, 3, r) +
+        matrix(side + ".P", 3, 4, p.format(fourth)) for side, fourth in (("LEFT", 0), ("RIGHT", -31)))).encode()
+    yield "structure", (f"\1\0left: {{A: {k}, B: {d}}}\nright: {{A: {k}, B: {d}}}\nrot: {r}\n"
+                        "pos: [-0.12, 0, 0]\n").encode()
+    # A byte of 2 separates the file that this one names.
+    yield "vins", ("\0\0%YAML:1.0\ncam0_calib: second\ncam1_calib: second\n" +
+                   matrix("body_T_cam0", 4, 4, pose.format(0)) + matrix("body_T_cam1", 4, 4, pose.format(0.12)) +
+                   "\2%YAML:1.0\nmodel_type: PINHOLE\nimage_width: 640\nimage_height: 480\ndistortion_parameters:\n"
+                   "   {k1: 0.1, k2: 0, p1: 0, p2: 0}\nprojection_parameters: {fx: 310, fy: 311, cx: 322, cy: 241}\n"
+                   ).encode()
+    yield "basalt", b"\0\0" + json.dumps({"value0": {
+        "T_imu_cam": [{"px": x, "py": 0, "pz": 0, "qx": 0, "qy": 0, "qz": 0, "qw": 1} for x in (0, 0.12)],
+        "intrinsics": [{"camera_type": kind, "intrinsics": dict(
+            fx=310, fy=311, cx=322, cy=241, k1=0.1, k2=0, k3=0, k4=0, k5=0, k6=0, p1=0, p2=0)}
+            for kind in ("kb4", "pinhole-radtan8")], "resolution": [[640, 480], [640, 480]]}}).encode()
+    yield "mrcal", b"\0\0" + b"\1".join(
+        b"# by hand\n{ 'lensmodel': '%b', 'intrinsics': [ 310, 311, 322, 241, %b],\n  # rt\n"
+        b"'extrinsics': [ 0, 0.1, 0, %b, 0, 0,],\n'imagersize': [ 640, 480,],\n'optimization_inputs': b'P){0',\n}\n" %
+        case for case in ((b"LENSMODEL_PINHOLE", b"", b"0"), (b"LENSMODEL_OPENCV4", b"0.1, 0, 0, 0,", b"-0.12")))
+    ini = "[image]\nwidth\n640\nheight\n480\n[c]\n" + "".join(
+        f"{name}\n{values.replace(',', '')[1:-1]}\n" for name, values in
+        (("camera matrix", k), ("distortion", "[0.1, 0, 0, 0, 0]"), ("rectification", r), ("projection", p)))
+    yield "ost.txt", ("\0\0# oST\n" + ini.format(0) + ini.format(-31)).encode()
+    yield "ini", ("\0\0" + ini.format(0) + "\1" + ini.format(-31)).encode()
+    info = ("height: 480\nwidth: 640\ndistortion_model: plumb_bob\nd: [0.1, 0, 0, 0, 0]\nk: " + k + "\nr: " + r +
+            "\np: {}\nbinning_x: 2\nbinning_y: 2\nroi: {{x_offset: 4, y_offset: 6, height: 360, width: 560}}\n")
+    yield "region", ("\0\0" + info.format(p.format(0)) + "\1" + info.format(p.format(-31))).encode()
+
+
 def calibration():
     folder = pathlib.Path(__file__).parent.parent / "geometry" / "files"
     pairs = (("intrinsics.yml", "extrinsics.yml"), ("camera_info_left.yaml", "camera_info_right.yaml"),
@@ -137,6 +187,7 @@ def calibration():
         yield name, bytes([size, selection]) + (folder / name).read_bytes()
     board = json.loads((folder / "depthai.json").read_text())
     yield "depthai.json", b"\0\0" + json.dumps(board, separators=(",", ":")).encode()
+    yield from calibrations_of_slam()
     yield "opencv.xml", (b"\1\0<?xml version=\"1.0\"?>\n<opencv_storage>\n<M1 type_id=\"opencv-matrix\">\n"
                          b"  <rows>1</rows>\n  <cols>2</cols>\n  <dt>d</dt>\n  <data>\n    1. 2e3</data></M1>\n"
                          b"<size>640 480</size><s>&lt;</s><l><_>1</_><_>2</_></l></opencv_storage>\n")

@@ -231,6 +231,9 @@ TEST_F(SlamFile, OfMrcalHasOneCameraOfThePair) {
   EXPECT_EQ(calibration.right.lens, LensModel::kNone);
   EXPECT_EQ(calibration.right.height, 480);
   EXPECT_THAT(read_refused(left), HasSubstr("has one camera; give two files"));
+  const std::string text = read_text(right);
+  const std::string dense = replaced(text.substr(text.find('{')), "{\n    ", "{ ");
+  expect_position(read_valid(left + "," + write(dense)));
 }
 
 TEST_F(SlamFile, OfMrcalWithOtherModelsIsRefused) {

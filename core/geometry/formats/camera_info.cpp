@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // ROS: the camera_info files of camera_calibration, one per camera, and the message sensor_msgs/
 // CameraInfo as "ros2 topic echo" and "rostopic echo" print it.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"
+#include "mtstereo/parameters.hpp"
 
 namespace mtstereo::formats {
 namespace {
-
-/// One camera of the pair.
-struct Camera {
-  CameraCalibration calibration;
-  Eigen::Matrix3d rotation;
-  std::vector<double> projection;
-  Entry projection_entry;
-};
 
 /// The entry with one of the names: of the file, of the message of ROS 2, of that of ROS 1.
 Entry any_of(const Entry& file, std::string_view name, std::string_view ros2,
@@ -26,22 +20,77 @@ Entry any_of(const Entry& file, std::string_view name, std::string_view ros2,
   file.fail("there is no entry " + std::string(name));
 }
 
+/// The part of the image that the video shows: the region of interest, and pixels that are one.
+struct Region {
+  double x = 0, y = 0;        ///< its first pixel [px of the whole image]
+  int width = 0, height = 0;  ///< [px of the whole image]; 0: all of it
+  int binning = 1;            ///< so many pixels along each axis are one
+};
+
+Region read_region(const Entry& file) {
+  const auto integer = [](const std::optional<Entry>& map, const char* name) {
+    const std::optional<Entry> entry = map ? map->find(name) : std::nullopt;
+    return entry ? entry->integer(0, kLargestImageSide) : 0;
+  };
+  const std::optional<Entry> roi = file.find("roi");
+  Region region;
+  region.x = integer(roi, "x_offset");
+  region.y = integer(roi, "y_offset");
+  region.width = integer(roi, "width");
+  region.height = integer(roi, "height");
+  // 0 means 1.
+  region.binning = std::max(1, integer(file, "binning_x"));
+  const int rows = std::max(1, integer(file, "binning_y"));
+  if (rows != region.binning) {
+    file.fail("binning_x is " + std::to_string(region.binning) + " and binning_y " +
+              std::to_string(rows) + "; they must be equal");
+  }
+  return region;
+}
+
+/// K of the region. The corner of the first pixel stays where it is.
+void apply_region(const Region& region, CameraCalibration& camera) {
+  const double scale = 1.0 / region.binning;
+  camera.focal_x *= scale;
+  camera.focal_y *= scale;
+  camera.center_x = (camera.center_x - region.x + 0.5) * scale - 0.5;
+  camera.center_y = (camera.center_y - region.y + 0.5) * scale - 0.5;
+  if (region.width > 0) camera.width = region.width;
+  if (region.height > 0) camera.height = region.height;
+  camera.width = std::max(1, camera.width / region.binning);
+  camera.height = std::max(1, camera.height / region.binning);
+}
+
+/// The same for the rectified views. Both get the region of the left camera, so that rows stay
+/// rows.
+void apply_region(const Region& region, Rectification& rectification) {
+  const double scale = 1.0 / region.binning;
+  rectification.focal_length *= scale;
+  for (double* center : {&rectification.left_center_x, &rectification.right_center_x}) {
+    *center = (*center - region.x + 0.5) * scale - 0.5;
+  }
+  rectification.center_y = (rectification.center_y - region.y + 0.5) * scale - 0.5;
+}
+
+/// One camera of the pair.
+struct Camera {
+  CameraCalibration calibration;  ///< of the region
+  Eigen::Matrix3d rotation;
+  std::vector<double> projection;  ///< of the whole image
+  Entry projection_entry;
+  Region region;
+};
+
 Camera read_camera(const Entry& file) {
   const Entry projection = any_of(file, "projection_matrix", "p", "P");
-  Camera camera{{}, {}, projection.numbers(12, "a 3x4 projection"), projection};
+  Camera camera{{}, {}, projection.numbers(12, "a 3x4 projection"), projection, read_region(file)};
   set_size(camera.calibration, any_of(file, "image_width", "width", "width"),
            any_of(file, "image_height", "height", "height"));
-  for (const char* name : {"binning_x", "binning_y"}) {
-    const std::optional<Entry> binning = file.find(name);
-    if (binning && binning->number() > 1) {
-      binning->fail("is " + number_text(binning->number()) +
-                    "; only calibrations of the whole image are supported");
-    }
-  }
   set_camera_matrix(camera.calibration, any_of(file, "camera_matrix", "k", "K"));
   const Entry coefficients = any_of(file, "distortion_coefficients", "d", "D");
   set_lens(camera.calibration, lens_model(file.at("distortion_model")), coefficients);
   camera.rotation = rotation_from(any_of(file, "rectification_matrix", "r", "R"));
+  apply_region(camera.region, camera.calibration);
   return camera;
 }
 
@@ -68,6 +117,10 @@ StereoCalibration read_camera_info(const Entry& left_file, const Entry& right_fi
     p2.fail("states a baseline of 0: its fourth value is that of " + left_file.file() +
             "; calibrate both cameras together as a pair");
   }
+  if (left.region.binning != right.region.binning) {
+    right_file.fail("binning_x is not that of " + left_file.file() + "; they must be equal");
+  }
+  apply_region(left.region, rectification);
   rectification.width = left.calibration.width;
   rectification.height = left.calibration.height;
 

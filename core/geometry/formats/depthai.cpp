@@ -91,6 +91,15 @@ CameraCalibration read_camera(const Entry& entry) {
   return camera;
 }
 
+/// A sensor of 16:10 that gives video of 16:9 leaves out rows at the top and at the bottom.
+void crop_to_video(CameraCalibration& camera, const Request& request) {
+  const int rows = camera.width * 9 / 16;
+  const bool tall = camera.width * 10 == camera.height * 16 && camera.width % 16 == 0;
+  if (!tall || request.width * 9 != request.height * 16) return;
+  camera.center_y -= (camera.height - rows) / 2.0;
+  camera.height = rows;
+}
+
 /// The motion that the extrinsics of a camera state.
 Motion read_extrinsics(const Entry& extrinsics) {
   Motion motion;
@@ -148,6 +157,9 @@ StereoCalibration read_depthai(const Entry& file, const Request& request) {
   calibration.left = read_camera(camera_of(file, sockets, left, "left"));
   const Entry& right_camera = camera_of(file, sockets, right, "right");
   calibration.right = read_camera(right_camera);
+  for (CameraCalibration* camera : {&calibration.left, &calibration.right}) {
+    if (request.width > 0) crop_to_video(*camera, request);
+  }
   const Motion motion = motion_between(file, sockets, left, right);
   check_translation(motion.translation, camera_of(file, sockets, left, "left").at("extrinsics"),
                     "; translations are in centimeters");

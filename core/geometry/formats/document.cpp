@@ -173,8 +173,9 @@ Format format_of(const Entry& root) {
 
 /// Whether a text is a Python literal of mrcal; it may begin with comments.
 bool is_mrcal(std::string_view text) {
-  while (!text.empty()) {
-    const std::string_view line = take_line(text);
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const std::string_view line = take_line(rest);
     if (line.empty() || line.front() == '#') continue;
     return line.front() == '{' && text.find("'lensmodel'") != std::string_view::npos;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Stereolabs ZED: SNnnnn.conf, with one section per camera and resolution. Lengths are in
 // millimeters; the rotation is the vector (RX, CV, RZ).
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -56,8 +57,14 @@ Resolution choose_resolution(const Entry& file, const Request& request) {
         "path, as in '#HD': " +
         known);
   }
+  const bool side_by_side =
+      std::any_of(kResolutions.begin(), kResolutions.end(), [&](const Resolution& resolution) {
+        return request.width == 2 * resolution.width && request.height == resolution.height;
+      });
   file.fail("there is no calibration for video of " + std::to_string(request.width) + "x" +
-            std::to_string(request.height) + "; there are " + known);
+            std::to_string(request.height) +
+            (side_by_side ? ", which has both views side by side: separate them first" : "") +
+            "; there are " + known);
 }
 
 double number_or_zero(const Entry& section, const std::string& name) {
