@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/guard.hpp"
 #include "geometry/lens.hpp"
 #include "geometry/view_coverage.hpp"
-#include "mtstereo/geometry/rectification.hpp"
 #include "mtstereo/geometry/rig.hpp"
 
 namespace mtstereo {
@@ -43,44 +43,76 @@ double angle_between(const Lens& lens, double u0, double v0, double u1, double v
   return std::isnan(angle) ? 0 : angle;
 }
 
-void note_lens(std::vector<RectificationRemark>& remarks, const CameraCalibration& camera,
-               const std::string& name) {
-  const double part = uncovered_part(camera);
+/// Collects the remarks on the views of one rectification.
+class Remarks {
+ public:
+  Remarks(const StereoCalibration& calibration, const Rectification& rectification)
+      : calibration_(calibration), rectification_(rectification) {}
+
+  std::vector<RectificationRemark> all() {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      note_lens(side);
+      note_field(side);
+      note_empty(side);
+    }
+    return std::move(remarks_);
+  }
+
+ private:
+  using Side = Rectifier::Side;
+
+  const CameraCalibration& camera(Side side) const {
+    return side == Side::kLeft ? calibration_.left : calibration_.right;
+  }
+  static std::string name_of(Side side) { return side == Side::kLeft ? "left" : "right"; }
+  void note_lens(Side side);
+  void note_field(Side side);
+  void note_empty(Side side);
+
+  const StereoCalibration& calibration_;
+  const Rectification& rectification_;
+  std::vector<RectificationRemark> remarks_;
+};
+
+void Remarks::note_lens(Side side) {
+  const double part = uncovered_part(camera(side));
   if (part < kFewPixels) return;
-  remarks.push_back({"The lens model of the " + name + " camera ends " +
-                         whole(Lens(camera).widest_angle() / kDegree) +
-                         " degrees from its axis, where it turns back: " + percent(part) +
-                         " of its image is beyond that and is left out.",
-                     false});
+  remarks_.push_back({side,
+                      "The lens model of the " + name_of(side) + " camera ends " +
+                          whole(Lens(camera(side)).widest_angle() / kDegree) +
+                          " degrees from its axis, where it turns back: " + percent(part) +
+                          " of its image is beyond that and is left out.",
+                      false});
 }
 
-void note_field(std::vector<RectificationRemark>& remarks, const CameraCalibration& camera,
-                const Rectification& rectification) {
-  const Lens lens(camera);
-  const double right = camera.width - 1;
-  const double bottom = camera.height - 1;
+void Remarks::note_field(Side side) {
+  const Lens lens(camera(side));
+  const double right = camera(side).width - 1;
+  const double bottom = camera(side).height - 1;
   const double across = angle_between(lens, 0, bottom / 2, right, bottom / 2);
   const double down = angle_between(lens, right / 2, 0, right / 2, bottom);
-  const RigFigures figures = rig_figures(rectification);
+  const RigFigures figures = rig_figures(rectification_);
   const bool wider = across > kWideField && across > figures.horizontal_field + 1;
   const bool higher = down > kWideField && down > figures.vertical_field + 1;
   if (!wider && !higher) return;
-  remarks.push_back({"The cameras see " + whole(across) + " x " + whole(down) +
-                         " degrees, the rectified views show " + whole(figures.horizontal_field) +
-                         " x " + whole(figures.vertical_field) +
-                         "; what is farther from the axis is cut off.",
-                     false});
+  remarks_.push_back({side,
+                      "The " + name_of(side) + " camera sees " + whole(across) + " x " +
+                          whole(down) + " degrees, the rectified views show " +
+                          whole(figures.horizontal_field) + " x " + whole(figures.vertical_field) +
+                          "; what is farther from the axis is cut off.",
+                      false});
 }
 
-void note_empty(std::vector<RectificationRemark>& remarks, double part, int width,
-                const std::string& name) {
+void Remarks::note_empty(Side side) {
+  const double part = seen_part(calibration_, rectification_, side);
   if (part >= kNearlyEmpty) return;
-  remarks.push_back({"The " + name + " camera fills only " + percent(part) +
-                         " of its rectified view (" + whole(part * width) + " of " +
-                         std::to_string(width) +
-                         " columns on average): nothing can be matched in the rest. Unless alpha "
-                         "is near 1, the calibration is that of other cameras or of another size.",
-                     true});
+  remarks_.push_back(
+      {side,
+       "The " + name_of(side) + " camera fills only " + percent(part) + " of its rectified view (" +
+           whole(part * rectification_.width) + " of " + std::to_string(rectification_.width) +
+           " columns on average): nothing can be matched in the rest. Unless alpha is near 1, the "
+           "calibration is that of other cameras or of another size.",
+       true});
 }
 
 }  // namespace
@@ -88,15 +120,7 @@ void note_empty(std::vector<RectificationRemark>& remarks, double part, int widt
 Result<std::vector<RectificationRemark>> rectification_remarks(
     const StereoCalibration& calibration, const Rectification& rectification) noexcept {
   return guarded([&]() -> Result<std::vector<RectificationRemark>> {
-    std::vector<RectificationRemark> remarks;
-    note_lens(remarks, calibration.left, "left");
-    note_lens(remarks, calibration.right, "right");
-    note_field(remarks, calibration.left, rectification);
-    note_empty(remarks, seen_part(calibration, rectification, Rectifier::Side::kLeft),
-               rectification.width, "left");
-    note_empty(remarks, seen_part(calibration, rectification, Rectifier::Side::kRight),
-               rectification.width, "right");
-    return remarks;
+    return Remarks(calibration, rectification).all();
   });
 }
 

@@ -6,8 +6,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cameras/rectification_plan.hpp"
+#include "cameras/rectification_report.hpp"
 #include "cameras/rectify_caps.hpp"
 #include "cameras/rectify_properties.hpp"
 #include "filters/disparity_filter.hpp"
@@ -41,6 +43,7 @@ struct RectifyState {
   std::optional<RectificationPlan> plan;  ///< of the negotiated caps
   std::optional<Rectifier> rectifier;     ///< of `plan`
   BytesPointer columns;                   ///< of `rectifier`
+  std::vector<std::string> posted;        ///< warnings about `plan`
   LumaReader luma;
 };
 
@@ -186,7 +189,12 @@ GstCaps* fixate_caps(GstBaseTransform* transform, GstPadDirection direction, Gst
     CapsPointer peer(gst_pad_peer_query_caps(GST_BASE_TRANSFORM_SRC_PAD(transform), last.get()));
     fixed = negotiate(state, RectifySettings(state.plan->settings), input, std::move(peer));
   }
-  if (fixed) return fixed->release();
+  if (fixed) {
+    if (state.plan && state.rectifier) {
+      report_rectification(GST_ELEMENT(transform), GST_CAT_DEFAULT, *state.plan, state.posted);
+    }
+    return fixed->release();
+  }
   post_failure(transform, settings, input, fixed.error());
   return gst_caps_new_empty();
 }
@@ -252,6 +260,7 @@ gboolean stop(GstBaseTransform* transform) {
   state.plan.reset();
   state.rectifier.reset();
   state.columns.reset();
+  state.posted.clear();
   state.luma.clear();
   const ObjectLock lock(transform);
   state.calibrated_for.reset();

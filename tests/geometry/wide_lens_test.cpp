@@ -122,7 +122,7 @@ TEST(WideLenses, RemarksStateWhatIsCutOff) {
   EXPECT_NE(left_out.find("right camera ends"), std::string::npos) << left_out;
   const StereoCalibration fisheye = fisheye_rig_of(178);
   const std::string cut = remarks_of(fisheye, rectified(fisheye, 0));
-  EXPECT_NE(cut.find("The cameras see 17"), std::string::npos) << cut;
+  EXPECT_NE(cut.find("The left camera sees 17"), std::string::npos) << cut;
   EXPECT_NE(cut.find("show 140 x "), std::string::npos) << cut;
   for (const StereoCalibration& usual : all_rigs()) {
     EXPECT_EQ(remarks_of(usual, rectified(usual, 0)), "");

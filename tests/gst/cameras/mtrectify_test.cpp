@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 
 #include "cameras/camera_harness.hpp"
 #include "geometry/rigs.hpp"
@@ -134,6 +137,41 @@ TEST_F(MtRectify, SizeOfTheCalibrationIsPreferred) {
   ASSERT_EQ(samples.size(), 2u);
   EXPECT_NE(samples[0].caps.find("width=(int)200, height=(int)150"), std::string::npos)
       << samples[0].caps;
+}
+
+TEST_F(MtRectify, RemarksOnTheCalibrationAreWarningsOfTheLeftElement) {
+  StereoCalibration long_rig = plumb_bob_rig(kWidth, kHeight);
+  long_rig.translation[0] = -3.3;
+  std::ifstream in(folder.write(long_rig));
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  text.replace(text.find("length_unit: m"), std::strlen("length_unit: m"), "no_unit: 1");
+  std::ofstream(folder.path("rig.yml")) << text;
+  for (const bool left : {true, false}) {
+    CameraHarness element("mtrectify", "calibration=" + folder.path("rig.yml") +
+                                           (left ? " camera=left" : " camera=right"));
+    element.caps(raw_caps("GRAY8", kWidth, kHeight));
+    ASSERT_TRUE(element.pass(frame_buffer(picture(), 0, kFrame)));
+    const std::string warning = element.report(GST_MESSAGE_WARNING);
+    EXPECT_EQ(warning.find("The baseline is 3.3") == 0, left) << warning;
+    // Another value of another property is no reason to repeat it.
+    g_object_set(element.element(), "alpha", 0.5, nullptr);
+    ASSERT_TRUE(element.pass(frame_buffer(picture(), kFrame, kFrame)));
+    EXPECT_EQ(element.report(GST_MESSAGE_WARNING), "");
+  }
+}
+
+TEST_F(MtRectify, AViewThatIsNearlyEmptyIsAWarning) {
+  StereoCalibration shifted = plumb_bob_rig(kWidth, kHeight);
+  shifted.rectification = rectify(shifted).value();
+  shifted.rectification->right_center_x += 0.9 * kWidth;
+  make("camera=left", shifted).caps(raw_caps("GRAY8", kWidth, kHeight));
+  ASSERT_TRUE(harness->pass(frame_buffer(picture(), 0, kFrame)));
+  EXPECT_EQ(harness->report(GST_MESSAGE_WARNING), "");
+  make("camera=right", shifted).caps(raw_caps("GRAY8", kWidth, kHeight));
+  ASSERT_TRUE(harness->pass(frame_buffer(picture(), 0, kFrame)));
+  const std::string warning = harness->report(GST_MESSAGE_WARNING);
+  EXPECT_NE(warning.find("right camera fills only 1"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("of 160 columns"), std::string::npos) << warning;
 }
 
 TEST_F(MtRectify, VideoOfAnotherShapeIsAnError) {

@@ -108,8 +108,8 @@ inline constexpr double kLongestBaseline = 10;
 ///
 /// Prints nothing. Fails with kInvalidCalibration, and a message that names the file, the entry and
 /// what to do: a file that cannot be read or is not recognised, a missing camera or entry, a
-/// baseline that is zero or longer than kLongestBaseline, values that are not finite. Cameras in the
-/// other order are exchanged; StereoCalibration::remarks states that, and what else is unusual.
+/// baseline that is zero or longer than kLongestBaseline, values that are not finite. Cameras in
+/// the other order are exchanged; StereoCalibration::remarks states that, and what else is unusual.
 MTSTEREO_API Result<StereoCalibration> read_calibration(const std::string& path, int width = 0,
                                                         int height = 0) noexcept;
 

@@ -47,18 +47,6 @@ inline constexpr double kKeepScale = -1;
 MTSTEREO_API Result<Rectification> rectify(const StereoCalibration& calibration,
                                            const RectificationOptions& options = {}) noexcept;
 
-/// What the user should know about a rectification.
-struct RectificationRemark {
-  std::string text;      ///< one sentence or two
-  bool warning = false;  ///< the rectified views are hardly of use
-};
-
-/// What is unusual about the rectified views: parts of the images that the lens model does not
-/// cover, fields of view that are too wide for a plane, and, as a warning, a view that the camera
-/// fills by less than a quarter. Both must belong to the same size of images.
-MTSTEREO_API Result<std::vector<RectificationRemark>> rectification_remarks(
-    const StereoCalibration& calibration, const Rectification& rectification) noexcept;
-
 /// The columns of one row whose pixels are inside of the camera's image: begin .. end - 1. Empty
 /// rows have begin = end.
 struct ValidColumns {
@@ -116,5 +104,18 @@ class MTSTEREO_API Rectifier {
   explicit Rectifier(std::unique_ptr<State> state) noexcept;
   std::unique_ptr<State> state_;
 };
+
+/// What the user should know about a rectification.
+struct RectificationRemark {
+  Rectifier::Side side = Rectifier::Side::kLeft;  ///< of the view that it is about
+  std::string text;                               ///< one sentence or two
+  bool warning = false;                           ///< the rectified views are hardly of use
+};
+
+/// What is unusual about the rectified views: parts of the images that the lens model does not
+/// cover, fields of view that are too wide for a plane, and, as a warning, a view that the camera
+/// fills by less than a quarter. Both must belong to the same size of images.
+MTSTEREO_API Result<std::vector<RectificationRemark>> rectification_remarks(
+    const StereoCalibration& calibration, const Rectification& rectification) noexcept;
 
 }  // namespace mtstereo
