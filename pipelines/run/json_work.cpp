@@ -20,8 +20,6 @@ constexpr double kMillion = 1e6;
 constexpr std::array kArrangements{Arrangement::kTwoSources, Arrangement::kSideBySide,
                                    Arrangement::kTopBottom};
 constexpr std::array kFormats{MapFormat::kMatroska, MapFormat::kPng, MapFormat::kPfm};
-constexpr std::array kProducts{Product::kDisparity, Product::kDepth, Product::kColor,
-                               Product::kConfidence, Product::kCloud};
 
 // The enumerator with a name.
 template <typename Choices, typename Name>
@@ -183,7 +181,7 @@ WorkOptions read_options(const Json& json) {
   WorkOptions options;
   options.products.clear();
   for (const Json& product : json.at("products")) {
-    options.products.push_back(choice_of(kProducts, product_name, product.get<std::string>()));
+    options.products.push_back(choice_of(kAllProducts, product_name, product.get<std::string>()));
   }
   options.format = choice_of(kFormats, format_name, json.at("format").get<std::string>());
   options.parameters = json.at("parameters").get<decltype(options.parameters)>();

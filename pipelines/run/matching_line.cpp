@@ -2,6 +2,8 @@
 #include "run/matching_line.hpp"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "run/run_error.hpp"
 
@@ -12,7 +14,7 @@ namespace {
 constexpr int kMostLanes = 8;
 
 // Every frame is coded by itself, so that lanes can share a file and pieces can be joined.
-constexpr const char* kEncoder = " ! avenc_ffv1 gop-size=1 slices=4 threads=1";
+constexpr const char* kEncoder = "avenc_ffv1 gop-size=1 slices=4 threads=1";
 constexpr const char* kSource = " format=time block=true max-buffers=2 max-bytes=0 max-time=0";
 constexpr const char* kSink = " sync=false qos=false max-buffers=4 enable-last-sample=false";
 // More frames than wait in the matcher: the left views of clouds must not stop them.
@@ -43,14 +45,42 @@ class LaneLine {
     return rectifies(work_.recording) ? "mtrectify " + named(name) + " ! " : "";
   }
 
-  // From the pad of a view to the matcher, and to the sink for clouds.
+  // A branch with a view as it is matched, in color.
+  std::string copy(const char* formats, const char* element, const std::string& sink) const {
+    return std::string(" ! ") + kDeepQueue + " ! videoconvert ! video/x-raw,format=" + formats +
+           " ! " + rectifier(element) + sink + kSink;
+  }
+
+  std::vector<std::string> copies(const std::string& side) const {
+    const bool left = side == "left", video = work_.options.format == MapFormat::kMatroska;
+    const Product product = left ? Product::kRectifiedLeft : Product::kRectifiedRight;
+    std::vector<std::string> branches;
+    if (left && makes(work_.options, Product::kCloud)) {
+      branches.push_back(copy("RGB", "rectify_view", "appsink " + named(kViewSink)));
+    }
+    if (makes(work_.options, product)) {
+      const std::string encoder = video ? std::string(kEncoder) + " ! " : "";
+      branches.push_back(copy(video ? "{BGRx,GRAY8}" : "{BGR,GRAY8}",
+                              left ? "rectify_left_copy" : "rectify_right_copy",
+                              encoder + "appsink " + named(product_name(product))));
+    }
+    return branches;
+  }
+
+  // From the pad of a view to the matcher, and to the sinks of its copies.
   std::string view(const std::string& pad, const std::string& side) const {
     std::string line = " " + pad;
-    if (side == "left" && makes(work_.options, Product::kCloud)) {
-      const std::string tee = lane_name("views", lane_);
-      line += " ! tee name=" + tee + "  " + tee + ". ! " + kDeepQueue +
-              " ! videoconvert ! video/x-raw,format=RGB ! " + rectifier("rectify_view") +
-              "appsink " + named(kViewSink) + kSink + "  " + tee + ".";
+    const std::vector<std::string> branches = copies(side);
+    if (!branches.empty()) {
+      const std::string tee = lane_name("views_" + side, lane_);
+      line += " ! tee name=" + tee;
+      for (const std::string& branch : branches) {
+        line += "  ";
+        line += tee;
+        line += ".";
+        line += branch;
+      }
+      line += "  " + tee + ".";
     }
     return line + " ! " + kQueue + " ! " + rectifier("rectify_" + side) + lane_name("m", lane_) +
            ".sink_" + side + " ";
@@ -88,10 +118,13 @@ class LaneLine {
         line = " ! mtconfidence output=confidence";
         break;
       case Product::kCloud:
-        return {};
+      case Product::kRectifiedLeft:
+      case Product::kRectifiedRight:
+        return {};  // of the views
     }
-    return "  " + lane_name("t", lane_) + ". ! " + kQueue + line + (video ? kEncoder : "") +
-           " ! appsink " + named(product_name(product)) + kSink;
+    return "  " + lane_name("t", lane_) + ". ! " + kQueue + line +
+           (video ? std::string(" ! ") + kEncoder : "") + " ! appsink " +
+           named(product_name(product)) + kSink;
   }
 
   const Work& work_;
@@ -118,11 +151,16 @@ class LaneSettings {
       set("depths", "calibration", recording.calibration);
       return;
     }
-    for (const char* const name : {"rectify_left", "rectify_right", "rectify_view"}) {
+    constexpr std::array kCopies{"rectify_view", "rectify_left_copy", "rectify_right_copy"};
+    for (const char* const name : {"rectify_left", "rectify_right"}) {
       set(name, "calibration", recording.calibration);
     }
+    for (const char* const name : kCopies) {
+      set(name, "calibration", recording.calibration);
+      set(name, "color", "true");
+    }
     set("rectify_right", "camera", "right");
-    set("rectify_view", "color", "true");
+    set("rectify_right_copy", "camera", "right");
   }
 
   void set_parameters(const Work& work, int threads) const {
@@ -148,6 +186,10 @@ const char* product_name(Product product) {
       return "color";
     case Product::kConfidence:
       return "confidence";
+    case Product::kRectifiedLeft:
+      return "rectified-left";
+    case Product::kRectifiedRight:
+      return "rectified-right";
     case Product::kCloud:
       break;
   }

@@ -2,7 +2,6 @@
 #include "run/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -10,6 +9,7 @@
 
 #include "mtstereo/parameters.hpp"
 #include "run/help_format.hpp"
+#include "run/matching_line.hpp"
 #include "run/run_error.hpp"
 #include "run/work_options.hpp"
 
@@ -21,11 +21,13 @@ constexpr int kMostJobs = 1024;
 
 const std::map<std::string, Arrangement> kLayouts{{"side-by-side", Arrangement::kSideBySide},
                                                   {"top-bottom", Arrangement::kTopBottom}};
-const std::map<std::string, Product> kProducts{{"disparity", Product::kDisparity},
-                                               {"depth", Product::kDepth},
-                                               {"color", Product::kColor},
-                                               {"confidence", Product::kConfidence},
-                                               {"cloud", Product::kCloud}};
+const std::map<std::string, std::vector<Product>> kProducts{
+    {"disparity", {Product::kDisparity}},
+    {"depth", {Product::kDepth}},
+    {"color", {Product::kColor}},
+    {"confidence", {Product::kConfidence}},
+    {"cloud", {Product::kCloud}},
+    {"rectified", {Product::kRectifiedLeft, Product::kRectifiedRight}}};
 const std::map<std::string, MapFormat> kFormats{
     {"mkv", MapFormat::kMatroska}, {"png", MapFormat::kPng}, {"pfm", MapFormat::kPfm}};
 // The figures of each frame; run.json always has them.
@@ -99,7 +101,8 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
       ->type_name("DIR")
       ->group(group);
   app.add_option("--what", texts.what,
-                 "results of each pair: disparity, depth, color, confidence, cloud, stats. The "
+                 "results of each pair: disparity, depth, color, confidence, cloud, rectified (the "
+                 "views that are matched), stats. The "
                  "figures of each pair (stats) are always written")
       ->type_name("NAME,...")
       ->delimiter(',')
@@ -192,10 +195,8 @@ void apply(const Texts& texts, Options& options) {
   work.products.clear();
   for (const std::string& name : texts.what) {
     if (name == kStats) continue;
-    const Product product = kProducts.at(name);
-    const auto& known = work.products;
-    if (std::find(known.begin(), known.end(), product) == known.end()) {
-      work.products.push_back(product);
+    for (const Product product : kProducts.at(name)) {
+      if (!makes(work, product)) work.products.push_back(product);
     }
   }
   work.format = kFormats.at(texts.format);

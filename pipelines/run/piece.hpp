@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -15,7 +16,19 @@
 namespace mtstereo::run {
 
 /// What is written of each pair.
-enum class Product { kDisparity, kDepth, kColor, kConfidence, kCloud };
+enum class Product {
+  kDisparity,
+  kDepth,
+  kColor,
+  kConfidence,
+  kCloud,
+  kRectifiedLeft,   ///< the left view as it is matched, in color if the input is
+  kRectifiedRight,  ///< the right view
+};
+/// All of them.
+inline constexpr std::array kAllProducts{
+    Product::kDisparity, Product::kDepth,         Product::kColor,         Product::kConfidence,
+    Product::kCloud,     Product::kRectifiedLeft, Product::kRectifiedRight};
 
 /// How maps are stored.
 enum class MapFormat {

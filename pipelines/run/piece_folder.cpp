@@ -2,7 +2,6 @@
 #include "run/piece_folder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cinttypes>
 #include <cstdio>
 #include <utility>
@@ -17,16 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kProducts{Product::kDisparity, Product::kDepth, Product::kColor,
-                               Product::kConfidence, Product::kCloud};
-
 // All names that products can have.
 std::vector<std::string> product_paths() {
   std::vector<std::string> paths;
   for (const MapFormat format : {MapFormat::kMatroska, MapFormat::kPng}) {
     WorkOptions options;
     options.format = format;
-    for (const Product product : kProducts) paths.push_back(product_path(options, product));
+    for (const Product product : kAllProducts) paths.push_back(product_path(options, product));
   }
   return paths;
 }

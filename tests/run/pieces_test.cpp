@@ -88,7 +88,8 @@ TEST_P(Pieces, JoinedAreEqualToTheWhole) {
   write(right_, View::kRight);
   WorkOptions options;
   if (GetParam().all_products) {
-    options.products = {Product::kDisparity, Product::kColor, Product::kConfidence};
+    options.products = {Product::kDisparity, Product::kColor, Product::kConfidence,
+                        Product::kRectifiedLeft, Product::kRectifiedRight};
   }
   const Work work = work_of(left_, right_, options);
   const auto pairs = static_cast<std::int64_t>(work.pairs.pairs.size());

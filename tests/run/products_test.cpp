@@ -224,9 +224,8 @@ TEST_F(Products, CloudsAreThoseOfTheElement) {
   }
 }
 
-TEST_F(Products, OfRawViewsAreThoseOfRectifiedOnes) {
-  // A lens with distortion; the right camera is turned.
-  const fs::path calibration = file("raw.yml");
+// A lens with distortion; the right camera is turned.
+void write_raw_calibration(const fs::path& calibration) {
   const std::string camera =
       "!!opencv-matrix\n  rows: 3\n  cols: 3\n  dt: d\n  data: "
       "[150, 0, 80, 0, 150, 48, 0, 0, 1]\n";
@@ -240,6 +239,11 @@ TEST_F(Products, OfRawViewsAreThoseOfRectifiedOnes) {
           "R: !!opencv-matrix\n  rows: 3\n  cols: 3\n  dt: d\n  data: [1, 0, 0, 0, 0.999998, "
           "0.002, 0, -0.002, 0.999998]\nT: !!opencv-matrix\n  rows: 3\n  cols: 1\n  dt: "
           "d\n  data: [-0.1, 0, 0]\n");
+}
+
+TEST_F(Products, OfRawViewsAreThoseOfRectifiedOnes) {
+  const fs::path calibration = file("raw.yml");
+  write_raw_calibration(calibration);
   WorkOptions options;
   options.products = {Product::kDisparity, Product::kDepth, Product::kCloud};
   Work work = work_of(file("left.mkv"), file("right.mkv"), options);
@@ -260,6 +264,51 @@ TEST_F(Products, OfRawViewsAreThoseOfRectifiedOnes) {
   EXPECT_GT(fs::file_size(results / "clouds" / "000004.ply"), kPixels);
 }
 
+TEST_F(Products, RectifiedViewsAreThoseOfTheElement) {
+  const fs::path calibration = file("raw.yml");
+  write_raw_calibration(calibration);
+  WorkOptions options;
+  options.products = {Product::kRectifiedLeft, Product::kRectifiedRight, Product::kCloud};
+  Work work = work_of(file("left.mkv"), file("right.mkv"), options);
+  work.recording.rectified = false;
+  work.recording.calibration = calibration.string();
+  const fs::path results = file("rectified");
+  process(work, whole(work), results, kNoProgress);
+  work.options.products = {Product::kRectifiedLeft, Product::kRectifiedRight};
+  work.options.format = MapFormat::kPng;
+  process(work, whole(work), file("pictures"), kNoProgress);
+  for (const std::string side : {"left", "right"}) {
+    const std::vector<std::string> frames = frames_of(
+        "filesrc location=" + file(side + ".mkv").string() +
+        " ! decodebin ! videoconvert ! video/x-raw,format=BGR ! mtrectify color=true calibration=" +
+        calibration.string() + " camera=" + side + " ! appsink name=out sync=false");
+    ASSERT_EQ(frames.size(), static_cast<std::size_t>(kFrames));
+    const fs::path video = results / ("rectified-" + side + ".mkv");
+    EXPECT_EQ(by_gstreamer(video, "BGR"), joined(frames)) << side;
+    const fs::path picture = file("pictures") / ("rectified-" + side) / "000004.png";
+    const cv::Mat image = cv::imread(picture.string(), cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(image.total() * image.elemSize(), frames[4].size()) << picture;
+    EXPECT_EQ(std::memcmp(image.data, frames[4].data(), frames[4].size()), 0) << picture;
+  }
+}
+
+TEST_F(Products, RectifiedViewsOfGrayRectifiedInputAreTheInput) {
+  const std::string coding = "video/x-raw,format=GRAY8 ! avenc_ffv1 ! matroskamux";
+  write_view(file("gray-l.mkv"), View::kLeft, coding, constant_times(kFrames));
+  write_view(file("gray-r.mkv"), View::kRight, coding, constant_times(kFrames));
+  WorkOptions options;
+  options.products = {Product::kRectifiedLeft, Product::kRectifiedRight};
+  const Work work = work_of(file("gray-l.mkv"), file("gray-r.mkv"), options);
+  const fs::path results = file("as matched");
+  process(work, whole(work), results, kNoProgress);
+  EXPECT_EQ(joined(frames_of("filesrc location=\"" + (results / "rectified-left.mkv").string() +
+                             "\" ! matroskademux ! avdec_ffv1 ! appsink name=out sync=false")),
+            by_gstreamer(file("gray-l.mkv")));
+  EXPECT_EQ(joined(frames_of("filesrc location=\"" + (results / "rectified-right.mkv").string() +
+                             "\" ! matroskademux ! avdec_ffv1 ! appsink name=out sync=false")),
+            by_gstreamer(file("gray-r.mkv")));
+}
+
 TEST_F(Products, OfAPairDoNotDependOnTheOthers) {
   const fs::path together =
       make({Product::kDisparity, Product::kConfidence, Product::kCloud}, MapFormat::kMatroska);
@@ -269,10 +318,11 @@ TEST_F(Products, OfAPairDoNotDependOnTheOthers) {
 }
 
 TEST_F(Products, OfAnotherRunAreReplaced) {
-  make({Product::kDisparity, Product::kConfidence}, MapFormat::kMatroska);
+  make({Product::kDisparity, Product::kConfidence, Product::kRectifiedLeft}, MapFormat::kMatroska);
   const fs::path results = make({Product::kDisparity}, MapFormat::kPng);
   EXPECT_FALSE(fs::exists(results / "disparity.mkv"));
   EXPECT_FALSE(fs::exists(results / "confidence.mkv"));
+  EXPECT_FALSE(fs::exists(results / "rectified-left.mkv"));
   EXPECT_FALSE(fs::exists(results / "unfinished"));
   EXPECT_TRUE(fs::exists(results / "disparity" / "000000.png"));
 }
