@@ -30,8 +30,26 @@ bool refuse_segment(ElementState& state, Side side, GstEvent* event, GstFormat f
   return false;
 }
 
+/// With a longer offset, the clock of a sink cannot wait for the running times of the maps.
+constexpr gint64 kLongestOffset = gint64{1} << 61;  // 73 years [ns]
+
+bool refuse_offset(ElementState& state, Side side, GstEvent* event, gint64 offset) {
+  post_error(state, GST_LIBRARY_ERROR, GST_LIBRARY_ERROR_SETTINGS,
+             std::string(pad_name(side)) + "::offset is " + std::to_string(offset) +
+                 " ns, but an offset must be between -" + std::to_string(kLongestOffset) + " and " +
+                 std::to_string(kLongestOffset) +
+                 " ns: set it to the delay of one stream to the other, 0 if there is none.",
+             state.streams_text());
+  gst_event_unref(event);
+  return false;
+}
+
 bool take_segment(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   const Side side = state.side_of(pad);
+  const gint64 offset = gst_pad_get_offset(GST_PAD_CAST(pad));
+  if (offset < -kLongestOffset || offset > kLongestOffset) {
+    return refuse_offset(state, side, event, offset);
+  }
   const GstSegment* segment = nullptr;
   gst_event_parse_segment(event, &segment);
   if (segment->format != GST_FORMAT_TIME) {

@@ -74,6 +74,13 @@ std::string refusal(const GstCaps* caps) {
   if (!gst_video_info_from_caps(&info, caps)) {
     return "its caps are incomplete: a known format, width and height are required";
   }
+  if (info.width < 1 || info.height < 1 || info.width > kLargestImageSide ||
+      info.height > kLargestImageSide) {
+    return "its frames have " + std::to_string(info.width) + "x" + std::to_string(info.height) +
+           " px, but 1 to " + std::to_string(kLargestImageSide) +
+           " px per side are required: correct the size in its source, or put videoscale upstream "
+           "of it";
+  }
   if (!is_readable(GST_VIDEO_INFO_FORMAT(&info))) {
     return std::string("its format ") + gst_video_format_to_string(GST_VIDEO_INFO_FORMAT(&info)) +
            " is not supported: put videoconvert upstream of it";

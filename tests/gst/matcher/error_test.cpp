@@ -82,6 +82,25 @@ TEST_F(Refusal, ReportsInterlacedVideo) {
                    {"interlace-mode=(string)interleaved", "sink_left: GRAY8 64x48"});
 }
 
+TEST_F(Refusal, ReportsAnOffsetThatNoClockCanWaitFor) {
+  for (const char* pad : {"sink_left", "sink_right"}) {
+    for (const gint64 offset : {G_MAXINT64, gint64{4600000000000000000}, G_MININT64}) {
+      StereoHarness offset_harness;
+      GstPad* sink = gst_element_get_static_pad(offset_harness.element(), pad);
+      gst_pad_set_offset(sink, offset);
+      gst_object_unref(sink);
+      offset_harness.caps(raw_caps("GRAY8", 64, 48));
+      const Pair pair = noise_pair(64, 48, 4, 1);
+      for (const Side side : {Side::kLeft, Side::kRight}) {
+        offset_harness.push(side, frame_buffer(pair.left, 0, kFrame));
+      }
+      const std::string text = std::string(pad) + "::offset is " + std::to_string(offset);
+      expect_one_error_of(offset_harness, {text.c_str(), "2305843009213693952"},
+                          {"sink_left: GRAY8 64x48"});
+    }
+  }
+}
+
 TEST_F(Refusal, ReportsVideoThatMayBeInterlaced) {
   harness.caps(raw_caps("NV12", 64, 48) + ",interlace-mode=mixed", raw_caps("GRAY8", 64, 48));
   expect_one_error({"sink_left", "mixed", "deinterlace"}, {"NV12"});
@@ -120,6 +139,20 @@ TEST_F(Refusal, ReportsVideoOfAlternatingFields) {
 TEST_F(Refusal, ReportsCapsWithoutASize) {
   harness.caps("video/x-raw,format=GRAY8", raw_caps("GRAY8", 64, 48));
   expect_one_error({"sink_left", "width and height"}, {"GRAY8"});
+}
+
+TEST_F(Refusal, ReportsVideoWithoutPixels) {
+  for (const auto& [width, height] : {std::pair{0, 0}, std::pair{0, 48}, std::pair{64, 0}}) {
+    StereoHarness empty;
+    empty.caps(raw_caps("GRAY8", width, height), raw_caps("GRAY8", 64, 48));
+    const std::string size = std::to_string(width) + "x" + std::to_string(height) + " px";
+    expect_one_error_of(empty, {"sink_left", size.c_str()}, {"GRAY8"});
+  }
+}
+
+TEST_F(Refusal, ReportsVideoThatIsTooLarge) {
+  harness.caps(raw_caps("GRAY8", 64, 48), raw_caps("GRAY8", 16385, 48));
+  expect_one_error({"sink_right", "16385x48 px", "16384", "videoscale"}, {"GRAY8"});
 }
 
 TEST_F(Refusal, ReportsTwoInvalidStreamsOnce) {
