@@ -14,6 +14,7 @@
 #include "cameras/rectify_properties.hpp"
 #include "filters/disparity_filter.hpp"
 #include "shared/caps.hpp"
+#include "shared/caps_check.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/frame_views.hpp"
 #include "shared/luma.hpp"
@@ -300,6 +301,7 @@ static void gst_mtstereo_rectify_class_init(GstMtStereoRectifyClass* klass) {
       "The mtstereo authors");
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
+  check_sink_caps<FrameKind::kView>(transform_class);
   transform_class->start = guarded<start, FALSE>;
   transform_class->stop = guarded<stop, FALSE>;
   transform_class->transform_caps = guarded<transform_caps>;

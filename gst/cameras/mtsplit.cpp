@@ -6,6 +6,7 @@
 #include "cameras/split_layout.hpp"
 #include "cameras/split_state.hpp"
 #include "shared/caps.hpp"
+#include "shared/caps_check.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/ownership.hpp"
 
@@ -153,6 +154,10 @@ gboolean start_streams(SplitState& state, GstEvent* event) {
 
 gboolean sink_event(GstPad* pad, GstObject* parent, GstEvent* event) noexcept {
   return at_pad(parent, FALSE, [&](SplitState& state) -> gboolean {
+    if (!allows_caps(parent, pad, event, FrameKind::kView)) {
+      gst_event_unref(event);
+      return FALSE;
+    }
     switch (GST_EVENT_TYPE(event)) {
       case GST_EVENT_STREAM_START:
         return start_streams(state, event);
@@ -181,6 +186,10 @@ gboolean sink_query(GstPad* pad, GstObject* parent, GstQuery* query) noexcept {
         gst_query_parse_caps(query, &filter);
         return answer_caps(query, sink_caps(state, filter));
       }
+      case GST_QUERY_ACCEPT_CAPS:
+        // Caps that cannot be split arrive as an event, and the error says why.
+        gst_query_set_accept_caps_result(query, TRUE);
+        return TRUE;
       case GST_QUERY_ALLOCATION:
         // Any stride and offset is read.
         gst_query_add_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr);
@@ -311,8 +320,6 @@ static void gst_mtstereo_split_init(GstMtStereoSplit* self) {
   gst_pad_set_chain_function(state.sink, sink_chain);
   gst_pad_set_event_function(state.sink, sink_event);
   gst_pad_set_query_function(state.sink, sink_query);
-  // Caps that cannot be split arrive as an event, and the error says why.
-  GST_PAD_SET_ACCEPT_TEMPLATE(state.sink);
   for (std::size_t i = 0; i < state.outputs.size(); ++i) {
     SplitOutput& output = state.outputs[i];
     output.name = kNames[i];

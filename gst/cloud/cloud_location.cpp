@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "cloud/cloud_location.hpp"
 
+#include <glib.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
@@ -85,6 +87,23 @@ std::string CloudLocation::path(std::uint64_t number) const {
   const auto digits = static_cast<std::size_t>(*digits_);
   if (text.size() < digits) text.insert(0, digits - text.size(), fill_);
   return before_ + text + after_;
+}
+
+std::string utf8_path(const std::string& path) {
+  if (g_utf8_validate(path.c_str(), -1, nullptr)) return path;
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text;
+  for (const char* position = path.c_str(); *position != '\0';) {
+    const char* end = position;
+    g_utf8_validate(position, -1, &end);
+    for (; position < end; ++position) {
+      text += *position == '\\' ? std::string("\\x5c") : std::string(1, *position);
+    }
+    if (*position == '\0') break;
+    const auto byte = static_cast<unsigned char>(*position++);
+    text += std::string("\\x") + kDigits[byte / 16] + kDigits[byte % 16];
+  }
+  return text;
 }
 
 }  // namespace mtstereo::plugin

@@ -31,4 +31,8 @@ class CloudLocation {
   CloudFormat format_ = CloudFormat::kPly;
 };
 
+/// A path as the text of a message, which must be UTF-8: if it is not, its other bytes and its
+/// backslashes are written as \xff with their two hexadecimal digits.
+std::string utf8_path(const std::string& path);
+
 }  // namespace mtstereo::plugin

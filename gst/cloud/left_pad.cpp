@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "shared/caps_check.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/running_time.hpp"
 
@@ -50,9 +51,13 @@ void take_gap(LeftStream& stream, GstEvent* event) {
   if (end) stream.frames.skip_to(*end);
 }
 
-gboolean event(GstObject*, GstPad* pad, GstEvent* event) {
+gboolean event(GstObject* parent, GstPad* pad, GstEvent* event) {
   LeftStream& stream = stream_of(pad);
   gboolean taken = TRUE;
+  if (!allows_caps(parent, pad, event, FrameKind::kView)) {
+    gst_event_unref(event);
+    return FALSE;
+  }
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_CAPS:
       taken = take_caps(stream, event);
@@ -81,6 +86,10 @@ gboolean event(GstObject*, GstPad* pad, GstEvent* event) {
 }
 
 gboolean query(GstObject* parent, GstPad* pad, GstQuery* query) {
+  if (GST_QUERY_TYPE(query) == GST_QUERY_ACCEPT_CAPS) {
+    gst_query_set_accept_caps_result(query, TRUE);
+    return TRUE;
+  }
   if (GST_QUERY_TYPE(query) != GST_QUERY_ALLOCATION) {
     return gst_pad_query_default(pad, parent, query);
   }

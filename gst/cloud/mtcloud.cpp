@@ -15,6 +15,7 @@
 #include "cloud/cloud_writer.hpp"
 #include "cloud/left_pad.hpp"
 #include "filters/disparity_filter.hpp"
+#include "shared/caps_check.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/running_time.hpp"
 
@@ -171,9 +172,9 @@ void post_file(GstBaseSink* sink, const std::string& path, GstBuffer* map, bool 
       GST_ELEMENT_CAST(sink),
       gst_message_new_element(
           GST_OBJECT_CAST(sink),
-          gst_structure_new(kCloudMessage, "filename", G_TYPE_STRING, path.c_str(), "points",
-                            G_TYPE_UINT64, static_cast<guint64>(state.writer.points()), "frame",
-                            G_TYPE_UINT64, static_cast<guint64>(state.frame), "timestamp",
+          gst_structure_new(kCloudMessage, "filename", G_TYPE_STRING, utf8_path(path).c_str(),
+                            "points", G_TYPE_UINT64, static_cast<guint64>(state.writer.points()),
+                            "frame", G_TYPE_UINT64, static_cast<guint64>(state.frame), "timestamp",
                             G_TYPE_UINT64, GST_BUFFER_PTS(map), "running-time", G_TYPE_UINT64, time,
                             "colored", G_TYPE_BOOLEAN, colored ? TRUE : FALSE, nullptr)));
   GST_DEBUG_OBJECT(sink, "%s: %" G_GSIZE_FORMAT " points", path.c_str(), state.writer.points());
@@ -234,7 +235,19 @@ gboolean unlock_stop(GstBaseSink* sink) {
   return TRUE;
 }
 
+gboolean query(GstBaseSink* sink, GstQuery* query) {
+  if (GST_QUERY_TYPE(query) == GST_QUERY_ACCEPT_CAPS) {
+    gst_query_set_accept_caps_result(query, TRUE);
+    return TRUE;
+  }
+  return GST_BASE_SINK_CLASS(gst_mtstereo_cloud_parent_class)->query(sink, query);
+}
+
 gboolean event(GstBaseSink* sink, GstEvent* event) {
+  if (!allows_caps(sink, GST_BASE_SINK_PAD(sink), event, FrameKind::kMap)) {
+    gst_event_unref(event);
+    return FALSE;
+  }
   LeftFrames& frames = state_of(sink).left.frames;
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_EOS:
@@ -331,6 +344,7 @@ static void gst_mtstereo_cloud_class_init(GstMtStereoCloudClass* klass) {
   sink_class->unlock = guarded<unlock, FALSE>;
   sink_class->unlock_stop = guarded<unlock_stop, FALSE>;
   sink_class->event = guarded<event, FALSE>;
+  sink_class->query = guarded<query, FALSE>;
 }
 
 static void gst_mtstereo_cloud_init(GstMtStereoCloud* self) {

@@ -11,6 +11,7 @@
 #include "filters/disparity_filter.hpp"
 #include "mtstereo/parameters.hpp"
 #include "shared/caps.hpp"
+#include "shared/caps_check.hpp"
 #include "shared/depth_range.hpp"
 #include "shared/disparity_meta.hpp"
 #include "shared/exception_guard.hpp"
@@ -336,6 +337,7 @@ static void gst_mtstereo_color_class_init(GstMtStereoColorClass* klass) {
       "The mtstereo authors");
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
+  check_sink_caps<FrameKind::kMap>(transform_class);
   transform_class->start = guarded<start, FALSE>;
   transform_class->transform_caps = guarded<transform_caps>;
   transform_class->transform = guarded<transform_checked, GST_FLOW_ERROR>;

@@ -5,6 +5,7 @@
 
 #include "filters/disparity_filter.hpp"
 #include "shared/caps.hpp"
+#include "shared/caps_check.hpp"
 #include "shared/confidence_meta.hpp"
 #include "shared/confidence_pool.hpp"
 #include "shared/disparity_meta.hpp"
@@ -275,6 +276,7 @@ static void gst_mtstereo_confidence_class_init(GstMtStereoConfidenceClass* klass
       "The mtstereo authors");
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
+  check_sink_caps<FrameKind::kMap>(transform_class);
   transform_class->stop = guarded<stop, FALSE>;
   transform_class->transform_caps = guarded<transform_caps>;
   transform_class->transform_meta = guarded<transform_meta, FALSE>;

@@ -10,6 +10,7 @@
 #include "filters/depth_report.hpp"
 #include "filters/disparity_filter.hpp"
 #include "shared/caps.hpp"
+#include "shared/caps_check.hpp"
 #include "shared/depth_range.hpp"
 #include "shared/disparity_meta.hpp"
 #include "shared/exception_guard.hpp"
@@ -282,6 +283,7 @@ static void gst_mtstereo_depth_class_init(GstMtStereoDepthClass* klass) {
       "The mtstereo authors");
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
+  check_sink_caps<FrameKind::kMap>(transform_class);
   transform_class->start = guarded<start, FALSE>;
   transform_class->transform_caps = guarded<transform_caps>;
   transform_class->query = guarded<query, FALSE>;

@@ -9,7 +9,7 @@
 #include "matcher/settings.hpp"
 #include "matcher/streams.hpp"
 #include "shared/caps.hpp"
-#include "shared/luma.hpp"
+#include "shared/caps_check.hpp"
 #include "shared/stereo_geometry.hpp"
 
 namespace mtstereo::plugin {
@@ -35,57 +35,6 @@ CapsPointer with_fields(const GstCaps* base, const GstCaps* wish,
 
 CapsPointer intersection(GstCaps* first, GstCaps* second) {
   return CapsPointer(gst_caps_intersect_full(first, second, GST_CAPS_INTERSECT_FIRST));
-}
-
-/// True if frames with these features are in system memory. Metas of frames do not matter.
-bool in_system_memory(const GstCapsFeatures* features) {
-  if (features == nullptr) return true;
-  if (gst_caps_features_is_any(features)) return false;
-  for (guint i = 0; i < gst_caps_features_get_size(features); ++i) {
-    const gchar* feature = gst_caps_features_get_nth(features, i);
-    if (!g_str_has_prefix(feature, "meta:") &&
-        std::string(feature) != GST_CAPS_FEATURE_MEMORY_SYSTEM_MEMORY) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Why a stream is not supported, and how to correct it; "" if it is supported.
-std::string refusal(const GstCaps* caps) {
-  const GstStructure* structure = gst_caps_get_structure(caps, 0);
-  if (!gst_structure_has_name(structure, "video/x-raw")) {
-    return std::string("it is ") + gst_structure_get_name(structure) +
-           ", but raw video is required: put a decoder (such as decodebin) upstream of it";
-  }
-  const gchar* interlacing = gst_structure_get_string(structure, "interlace-mode");
-  if (interlacing != nullptr && std::string(interlacing) != "progressive") {
-    return std::string("it is interlaced (interlace-mode=") + interlacing +
-           "), and its two fields are from different times: put deinterlace upstream of it";
-  }
-  const GstCapsFeatures* features = gst_caps_get_features(caps, 0);
-  if (!in_system_memory(features)) {
-    const TextPointer text(gst_caps_features_to_string(features));
-    return std::string("its frames are in ") + text.get() +
-           ", but system memory is required: put a download element (such as gldownload) upstream "
-           "of it";
-  }
-  GstVideoInfo info;
-  if (!gst_video_info_from_caps(&info, caps)) {
-    return "its caps are incomplete: a known format, width and height are required";
-  }
-  if (info.width < 1 || info.height < 1 || info.width > kLargestImageSide ||
-      info.height > kLargestImageSide) {
-    return "its frames have " + std::to_string(info.width) + "x" + std::to_string(info.height) +
-           " px, but 1 to " + std::to_string(kLargestImageSide) +
-           " px per side are required: correct the size in its source, or put videoscale upstream "
-           "of it";
-  }
-  if (!is_readable(GST_VIDEO_INFO_FORMAT(&info))) {
-    return std::string("its format ") + gst_video_format_to_string(GST_VIDEO_INFO_FORMAT(&info)) +
-           " is not supported: put videoconvert upstream of it";
-  }
-  return {};
 }
 
 /// The fields of the geometry in the caps of a stream.
@@ -135,10 +84,10 @@ CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
 
 bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps) {
   Input& input = state.input(side);
-  const std::string reason = refusal(caps);
+  const CapsPointer takes = template_caps(GST_PAD_CAST(input.pad));
+  const std::string reason = caps_problem(caps, takes.get(), FrameKind::kView);
   if (!reason.empty()) {
     input.has_caps = false;
-    const CapsPointer takes = template_caps(GST_PAD_CAST(input.pad));
     post_error(
         state, GST_STREAM_ERROR, GST_STREAM_ERROR_FORMAT,
         std::string("The stream on ") + pad_name(side) + " cannot be matched: " + reason + ".",

@@ -45,5 +45,11 @@ TEST(CloudLocation, RefusesOtherPatterns) {
   }
 }
 
+TEST(CloudLocation, IsAlwaysUtf8InMessages) {
+  EXPECT_EQ(utf8_path("/tmp/Größe \\x/a.ply"), "/tmp/Größe \\x/a.ply");
+  EXPECT_EQ(utf8_path("/tmp/\xff\\ß\xc3.ply"), "/tmp/\\xff\\x5cß\\xc3.ply");
+  EXPECT_EQ(utf8_path("\xe2\x82"), "\\xe2\\x82");
+}
+
 }  // namespace
 }  // namespace mtstereo::plugin

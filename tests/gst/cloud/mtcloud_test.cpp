@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "cloud/cloud_harness.hpp"
+#include "support/pipeline.hpp"
 
 namespace mtstereo::test {
 namespace {
@@ -299,6 +300,23 @@ TEST(Cloud, PostsAMessageForEachFile) {
     EXPECT_EQ(time, 2 * i * kFrame);
     EXPECT_TRUE(colored);
   }
+}
+
+TEST(Cloud, NamesAFileThatIsNotUtf8) {
+  const CloudFolder folder;
+  std::filesystem::create_directory(folder / "bad\xff");
+  Pipeline pipeline("videotestsrc num-buffers=1 ! " + raw_caps("GRAY16_LE", 64, 48) +
+                    " ! mtcloud name=c focal-length=100 baseline=0.1");
+  g_object_set(pipeline.named("c"), "location", (folder / "bad\xff/a-%d.ply").c_str(), nullptr);
+  GstBus* bus = gst_element_get_bus(pipeline.element());
+  pipeline.set_state(GST_STATE_PLAYING);
+  const MessagePointer message = next_message(bus, GST_MESSAGE_ELEMENT, 20);
+  gst_object_unref(bus);
+  ASSERT_TRUE(message);
+  const GstStructure* fields = gst_message_get_structure(message.get());
+  const char* name = gst_structure_get_string(fields, "filename");
+  ASSERT_NE(name, nullptr);
+  EXPECT_EQ(name, (folder / "bad\\xff/a-0.ply").string());
 }
 
 TEST(Cloud, ReadsMapsAtOddAddresses) {
