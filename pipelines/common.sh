@@ -213,8 +213,7 @@ launch() {
     printf '\n'
     return
   fi
-  require_plugin
-  [ -z "$plugin_folder" ] || export GST_PLUGIN_PATH=$plugin_folder${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
+  use_plugin
   if [ -z "$seconds" ]; then
     "${line[@]}"
     return

@@ -19,7 +19,10 @@ plugin_option() {
   return 1
 }
 
-require_plugin() {
+# What the user has set comes first.
+use_plugin() {
+  [ -n "$plugin_folder" ] || return 0
   local plugin=$plugin_folder/libgstmtstereo.so
-  [ -z "$plugin_folder" ] || [ -e "$plugin" ] || fail "the plugin is missing ($plugin): install mtstereo again"
+  [ -e "$plugin" ] || fail "the plugin is missing ($plugin): install mtstereo again"
+  export GST_PLUGIN_PATH=${GST_PLUGIN_PATH:+$GST_PLUGIN_PATH:}$plugin_folder
 }

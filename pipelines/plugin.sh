@@ -22,9 +22,10 @@ plugin_option() {
   set_build_folder "$2"
 }
 
-require_plugin() {
+use_plugin() {
   local plugin=$plugin_folder/libgstmtstereo.so
   [ -e "$plugin" ] ||
     fail "the plugin is not built ($plugin does not exist); build it with" \
       "'meson setup $build && ninja -C $build', or set the build folder with --build"
+  export GST_PLUGIN_PATH=$plugin_folder${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
 }

@@ -81,10 +81,12 @@ class Installed(Installation):
         self.assertEqual(loaded, {str(PLUGINS / "libgstmtstereo.so")}, str(done))
 
     def test_a_plugin_path_of_the_user_comes_first(self):
-        done = self.use("mtstereo-run", "left.mp4", "right.mp4", "--out", "other",
-                        GST_DEBUG="GST_PLUGIN_LOADING:4", GST_PLUGIN_PATH=os.environ["MTSTEREO_BUILD"] + "/gst")
-        self.assert_succeeds(done)
-        self.assertIn(os.environ["MTSTEREO_BUILD"] + "/gst/libgstmtstereo.so", done.errors)
+        folder = os.environ["MTSTEREO_BUILD"] + "/gst"
+        for command, out in (("mtstereo-run", "other"), ("mtstereo-from-files", "other.mkv")):
+            done = self.use(command, "left.mp4", "right.mp4", "--out", out, GST_DEBUG="GST_PLUGIN_LOADING:4",
+                            GST_PLUGIN_PATH=folder)
+            self.assert_succeeds(done)
+            self.assertIn(f'plugin "{folder}/libgstmtstereo.so"', done.errors)
 
     def test_every_element_is_found_in_the_plugin_folder(self):
         for element in ELEMENTS:
