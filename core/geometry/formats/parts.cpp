@@ -88,7 +88,8 @@ void set_camera_matrix(CameraCalibration& camera, const Entry& entry,
                "; they must be positive");
   }
   if (std::abs(k[1]) > kRelativeFocalDifference * k[0]) {
-    entry.fail("has the skew " + number_text(k[1]) + "; only cameras without skew are supported");
+    entry.fail("has the skew " + number_text(k[1]) +
+               "; calibrate without skew, or set it to 0 if it is small");
   }
   if (k[2] == 0 && k[5] == 0 && k[6] > 0 && k[7] > 0) {
     entry.fail(
