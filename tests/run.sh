@@ -12,7 +12,8 @@
 #   --summarize FILE... only add up the results in saved outputs of 'meson test'
 #
 # Builds into build/, build-clang-asan/ and build-clang-tsan/. With CI=true warnings are errors, and the tests
-# of the core also run on 64-bit ARM, emulated by QEMU, in build-aarch64/.
+# of the core also run on 64-bit ARM, emulated by QEMU, in build-aarch64/. Compilers run through ccache if it
+# is installed.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 repository=$PWD
@@ -63,6 +64,10 @@ case ${1:-} in
     exit 2
     ;;
 esac
+
+# Meson looks for ccache itself unless a compiler is named.
+clang=clang
+[ -z "$(command -v ccache)" ] || clang='ccache clang'
 
 log=$(mktemp) || exit 1
 trap 'rm -f "$log"' EXIT
@@ -143,7 +148,7 @@ if [ "$quick" = no ]; then
   shared_asan="-shared-libasan -Wl,-rpath,${asan_library%/*}"
   target=later suites=(--suite core --suite geometry --suite gst --suite fuzz --no-suite scenes)
   [ "$thorough" = no ] || target=all suites=(--no-suite pipelines)
-  if CC=clang CXX=clang++ build build-clang-asan "$target" -Dbuildtype=debugoptimized \
+  if CC=$clang CXX=$clang++ build build-clang-asan "$target" -Dbuildtype=debugoptimized \
     -Db_sanitize=address,undefined -Db_lundef=false \
     -Dc_link_args="$shared_asan" -Dcpp_link_args="$shared_asan"; then
     run_tests build-clang-asan "${suites[@]}" -t 5
@@ -153,7 +158,7 @@ if [ "$quick" = no ]; then
     fi
   fi
 
-  if CC=clang CXX=clang++ build build-clang-tsan threads-tests -Dbuildtype=debugoptimized \
+  if CC=$clang CXX=$clang++ build build-clang-tsan threads-tests -Dbuildtype=debugoptimized \
     -Db_sanitize=thread -Db_lundef=false \
     -Dgst=disabled -Dtools=disabled; then
     run_tests build-clang-tsan --no-rebuild --suite threads -t 5
