@@ -18,6 +18,7 @@ CapsPointer with_formats(const GstCaps* caps, const std::string& formats) {
 
 void remove_geometry(GstStructure* fields) {
   for (const char* field : kGeometryFields) gst_structure_remove_field(fields, field);
+  gst_structure_remove_field(fields, kCameraField);
 }
 
 void set_size(GstStructure* fields, const char* name, int size) {
@@ -111,7 +112,10 @@ void write_plan(GstCaps* caps, const RectificationPlan& plan, PixelRectangle reg
   geometry.principal_x = rectification.left_center_x;
   geometry.principal_y = rectification.center_y;
   geometry.valid_region = region;
-  write_geometry(gst_caps_get_structure(caps, 0), geometry);
+  GstStructure* fields = gst_caps_get_structure(caps, 0);
+  write_geometry(fields, geometry);
+  const bool left = plan.settings.side == Rectifier::Side::kLeft;
+  gst_structure_set(fields, kCameraField, G_TYPE_STRING, left ? "left" : "right", nullptr);
 }
 
 }  // namespace mtstereo::plugin

@@ -37,6 +37,19 @@ CapsPointer intersection(GstCaps* first, GstCaps* second) {
   return CapsPointer(gst_caps_intersect_full(first, second, GST_CAPS_INTERSECT_FIRST));
 }
 
+/// Why a stream belongs on the other pad; "" if its caps do not say so.
+std::string camera_problem(const GstCaps* caps, Side side) {
+  const gchar* camera = gst_structure_get_string(gst_caps_get_structure(caps, 0), kCameraField);
+  const std::string other = side == Side::kLeft ? "right" : "left";
+  if (camera == nullptr || other != camera) return {};
+  const std::string here = pad_name(side);
+  return "The view on " + here + " is that of the " + other +
+         " camera, as its caps state. If both cameras are linked to the wrong pads, exchange the "
+         "links. If both mtrectify have camera=" +
+         other + ", set camera=" + (side == Side::kLeft ? "left" : "right") +
+         " of the one upstream of " + here + ".";
+}
+
 /// The fields of the geometry in the caps of a stream.
 std::shared_ptr<const GstStructure> geometry_fields(const GstCaps* caps) {
   GstStructure* fields = gst_structure_new_empty("geometry");
@@ -86,13 +99,14 @@ bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps) {
   Input& input = state.input(side);
   const CapsPointer takes = template_caps(GST_PAD_CAST(input.pad));
   const std::string reason = caps_problem(caps, takes.get(), FrameKind::kView);
-  if (!reason.empty()) {
+  const std::string problem = reason.empty() ? camera_problem(caps, side)
+                                             : std::string("The stream on ") + pad_name(side) +
+                                                   " cannot be matched: " + reason + ".";
+  if (!problem.empty()) {
     input.has_caps = false;
-    post_error(
-        state, GST_STREAM_ERROR, GST_STREAM_ERROR_FORMAT,
-        std::string("The stream on ") + pad_name(side) + " cannot be matched: " + reason + ".",
-        std::string(pad_name(side)) + " received " + caps_text(caps) + "; it accepts " +
-            caps_text(takes.get()) + "; " + state.streams_text());
+    post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FORMAT, problem,
+               std::string(pad_name(side)) + " received " + caps_text(caps) + "; it accepts " +
+                   caps_text(takes.get()) + "; " + state.streams_text());
     return false;
   }
   StreamInfo info;

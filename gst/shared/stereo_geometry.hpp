@@ -22,7 +22,10 @@ inline constexpr const char* kPrincipalYField = "principal-y";            ///< d
 /// Array of four integers: x, y, width, height of the largest rectangle without a border [px].
 inline constexpr const char* kValidRegionField = "valid-region";
 
-/// The fields in that order, for copying them.
+/// Of a rectified view only, not of a map: "left" or "right".
+inline constexpr const char* kCameraField = "camera";
+
+/// The fields in that order but for the camera, for copying them.
 inline constexpr const char* kGeometryFields[] = {
     kFocalLengthField, kBaselineField,   kPrincipalOffsetField,
     kPrincipalXField,  kPrincipalYField, kValidRegionField,
