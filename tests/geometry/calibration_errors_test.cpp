@@ -281,7 +281,7 @@ TEST_F(BrokenFile, WithSizesThatContradict) {
               AllOf(HasSubstr("no calibration for video of 640x480"), HasSubstr("HD (1280x720)")));
   EXPECT_THAT(read_refused(stored("SN12345.conf")), HasSubstr("as in '#HD'"));
   EXPECT_THAT(opencv("M1:", "image_size: [ 640, 480 ]\nimage_size_1: [ 320, 240 ]\nM1:"),
-              HasSubstr("image_size_1 states the same as image_size; remove one of them"));
+              HasSubstr("image_size_1 has another value than image_size; remove one of them"));
   const std::string other = folder_.write(
       "other.yml", replaced(stored_text("extrinsics.yml"), "R:", "image_width: 1280\nR:"));
   const std::string one = folder_.write(

@@ -101,6 +101,41 @@ TEST_F(Layout, WithAChoiceIsRefusedAndTheNamesAreListed) {
               HasSubstr("there is no entry R (rotation between the cameras)"));
 }
 
+TEST_F(Layout, NamesOfPythonProgramsStateTheUnitAndTheSize) {
+  const auto json = [](const std::string& name) {
+    return std::string("{\"left_camera_matrix\": ") + kLeftK + ", \"left_dist\": " + kLeftD +
+           ", \"right_camera_matrix\": " + kRightK + ", \"right_dist\": " + kRightD +
+           ", \"rotation\": " + kR + ", \"" + name +
+           "\": [-120, 1, 2], \"roi_left\": [0, 0, 640, 480],"
+           " \"image_size\": {\"width\": 640, \"height\": 480},"
+           " \"resolution\": {\"width\": 640, \"height\": 480}}";
+  };
+  // JSON has no numbers such as "0.".
+  const auto plain = [](std::string text) {
+    for (std::size_t at = text.find(".,"); at != std::string::npos; at = text.find(".,")) {
+      text.erase(at, 1);
+    }
+    for (std::size_t at = text.find(". "); at != std::string::npos; at = text.find(". ")) {
+      text.erase(at, 1);
+    }
+    return text;
+  };
+  const StereoCalibration calibration = read_valid(write(plain(json("translation_mm"))));
+  expect_near(calibration.translation, Vector3{-0.12, 0.001, 0.002}, 1e-12);
+  EXPECT_EQ(calibration.left.width, 640);
+  EXPECT_THAT(refused(plain(json("translation"))), HasSubstr("add the line 'length_unit: mm'"));
+}
+
+TEST_F(Layout, ARotationVectorIsNoTranslation) {
+  EXPECT_THAT(refused(lines({{"K1", kLeftK},
+                             {"D1", kLeftD},
+                             {"K2", kRightK},
+                             {"D2", kRightD},
+                             {"R", kR},
+                             {"rvec", kT}})),
+              HasSubstr("there is no entry T (translation between the cameras)"));
+}
+
 TEST_F(Layout, OfMatlabIsNamed) {
   EXPECT_THAT(refused(lines({{"K1", "[ 500., 0., 0., 0., 501., 0., 321., 243., 1. ]"},
                              {"D1", kLeftD},
@@ -128,6 +163,18 @@ std::string with_projections(const std::string& fourth) {
          matrix("RIGHT.K", "3", kRightK) +
          matrix("RIGHT.R", "3", "[1., 0., 0., 0., 1., 0., 0., 0., 1.]") +
          matrix("RIGHT.P", "4", "[440., 0, 330., " + fourth + ", 0, 440., 240., 0, 0, 0, 1, 0]");
+}
+
+TEST_F(Layout, OfRawViewsIsUsedWhereOrbSlamStatesTheRectifiedOnesToo) {
+  expect_pair(
+      "%YAML:1.0\nCamera.fx: 440.\nCamera.fy: 440.\nCamera.cx: 330.\nCamera.cy: 240.\n"
+      "Camera.bf: 52.8\n" +
+      lines({{"K1", kLeftK},
+             {"K2", kRightK},
+             {"D1", kLeftD},
+             {"D2", kRightD},
+             {"R", kR},
+             {"T", kT}}));
 }
 
 TEST_F(Layout, WithRectifiedProjectionsNeedsNoRAndT) {

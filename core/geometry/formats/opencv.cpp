@@ -19,14 +19,17 @@ namespace {
 constexpr Names kSize =
     "imagesize imagesize1 size imgsize framesize resolution leftsize "
     "leftimagesize leftresolution";
+constexpr Names kWidth = "imagewidth width leftwidth leftimagewidth imagesizewidth resolutionwidth";
+constexpr Names kHeight =
+    "imageheight height leftheight leftimageheight imagesizeheight resolutionheight";
 constexpr Names kRightProjection = "p2 pr pright rightp";
 
 /// The size that the files state, or that of the caller.
 void read_sizes(const OpenCvEntries& files, const Request& request,
                 StereoCalibration& calibration) {
   CameraCalibration& left = calibration.left;
-  const std::optional<Entry> width = files.find("imagewidth width leftwidth leftimagewidth");
-  const std::optional<Entry> height = files.find("imageheight height leftheight leftimageheight");
+  const std::optional<Entry> width = files.find(kWidth);
+  const std::optional<Entry> height = files.find(kHeight);
   if (const std::optional<Entry> both = files.find(kSize)) {
     set_size(left, *both);
   } else if (width && height) {
@@ -58,10 +61,19 @@ LensModel stated_lens(const OpenCvEntries& files, Names names, const Entry& coef
   return fisheye ? LensModel::kFisheye : LensModel::kPlumbBob;
 }
 
+/// The unit at the end of a name such as translation_mm [m].
+std::optional<double> unit_in_name(const std::optional<Entry>& entry) {
+  const std::string name = entry ? entry->name() : std::string();
+  const std::string end = name.substr(std::min(name.rfind('_'), name.size()));
+  if (end == "_mm") return 0.001;
+  if (end == "_cm") return 0.01;
+  return end == "_m" ? std::optional(1.0) : std::nullopt;
+}
+
 /// The unit of T and of the fourth columns of P1 and P2 [m], if it is stated.
-std::optional<double> unit_of(const OpenCvEntries& files) {
+std::optional<double> unit_of(const OpenCvEntries& files, const std::optional<Entry>& translation) {
   const std::optional<Entry> entry = files.find("lengthunit units unit");
-  if (!entry) return std::nullopt;
+  if (!entry) return unit_in_name(translation);
   const std::string word = entry->text();
   constexpr std::array<std::pair<std::string_view, double>, 9> kUnits = {{{"m", 1},
                                                                           {"meter", 1},
@@ -175,7 +187,7 @@ StereoCalibration read_opencv(const std::vector<Entry>& documents, const Request
   const PairEntries pair = files.find_pair();
   read_cameras(files, pair, calibration);
   read_sizes(files, request, calibration);
-  const std::optional<double> unit = unit_of(files);
+  const std::optional<double> unit = unit_of(files, pair.translation);
   read_rectification(files, unit.value_or(1), calibration);
   read_motion(files, pair, unit.value_or(1), calibration);
   if (!unit) note_length(calibration);

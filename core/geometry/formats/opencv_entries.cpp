@@ -74,13 +74,13 @@ std::optional<Entry> OpenCvEntries::find(Names names) const {
   std::optional<Entry> found;
   for (const Entry& entry : entries_) {
     if (!is_one_of(plain_name(entry.name()), names)) continue;
-    if (found && found->file() == entry.file()) {
-      entry.fail(found->name() == entry.name()
-                     ? "is there twice; remove one of them"
-                     : "states the same as " + found->name() + "; remove one of them");
+    const bool same_file = found && found->file() == entry.file();
+    if (same_file && found->name() == entry.name()) {
+      entry.fail("is there twice; remove one of them");
     }
     if (found && !(found->value() == entry.value())) {
-      entry.fail("has another value in " + found->file() + "; remove one of them");
+      entry.fail(same_file ? "has another value than " + found->name() + "; remove one of them"
+                           : "has another value in " + found->file() + "; remove one of them");
     }
     if (!found) found = entry;
   }

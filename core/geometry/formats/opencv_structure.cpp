@@ -152,7 +152,16 @@ void complete_by_structure(const std::vector<Entry>& entries, PairEntries& pair)
   complete_both(lenses, pair.left_lens, pair.right_lens);
   // R1 and R2 turn the views: without R they are no rotation between the cameras.
   complete_one(of_shape(numbers, Shape::kRotation), kRotationNames, pair.rotation);
-  complete_one(of_shape(numbers, Shape::kVector), kTranslationNames, pair.translation);
+  std::vector<Entry> vectors = of_shape(numbers, Shape::kVector);
+  // A rotation vector is no translation, even if it is the only vector.
+  vectors.erase(std::remove_if(vectors.begin(), vectors.end(),
+                               [](const Entry& vector) {
+                                 const std::string name = last_part(vector.name());
+                                 return name.find("rot") != std::string::npos ||
+                                        name.find("rvec") != std::string::npos;
+                               }),
+                vectors.end());
+  complete_one(vectors, kTranslationNames, pair.translation);
 }
 
 bool has_camera_matrix(const std::vector<Entry>& entries) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/formats/opencv_entries.hpp"
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"
 
@@ -102,8 +103,9 @@ Motion read_motion(const Entry& file, const Entry& pose) {
 }  // namespace
 
 bool is_orbslam(const Entry& file) {
-  const bool raw = file.find("LEFT.K") && file.find("RIGHT.K");
-  return !raw && file.find_any({"Camera1.fx", "Camera.fx"}).has_value();
+  if (!file.find_any({"Camera1.fx", "Camera.fx"})) return false;
+  const PairEntries raw = OpenCvEntries({file}).find_pair();
+  return !raw.left_matrix || !raw.right_matrix;
 }
 
 StereoCalibration read_orbslam(const Entry& file, const Request& request) {
