@@ -10,6 +10,7 @@
 
 #include "run/json_files.hpp"
 #include "run/matching_line.hpp"
+#include "run/view_geometry.hpp"
 #include "run/work_facts.hpp"
 #include "run/work_options.hpp"
 
@@ -69,6 +70,17 @@ Json disparity_json(const WorkOptions& options) {
           {"offset_px", units.offset}};
 }
 
+// The depths of maps and clouds; 0 = no limit.
+Json limits_json(const Work& work) {
+  const std::optional<double>& far = work.options.far;
+  const double of_clouds =
+      work.geometry ? default_far(work.geometry->views.focal_length, work.geometry->views.baseline)
+                    : 0;
+  return {{"near_m", work.options.near},
+          {"far_m", far.value_or(0)},
+          {"far_of_clouds_m", far.value_or(of_clouds)}};
+}
+
 Json inputs_json(const Work& work) {
   const Recording& recording = work.recording;
   Json inputs{{"kind", recording.kind},
@@ -102,6 +114,7 @@ Json run_json(const Work& work, const PieceReport& report, double seconds) {
       {"format", format_name(work.options.format)},
       {"parameters", object_of(effective_parameters(work.options))},
       {"threads", work.options.threads},
+      {"limits", limits_json(work)},
       {"disparity", disparity_json(work.options)},
       {"geometry", geometry_json(work.geometry)},
       {"correction", object_of(work.correction)},

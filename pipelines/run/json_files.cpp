@@ -3,23 +3,12 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <charconv>
 
 #include "run/run_error.hpp"
+#include "run/work_facts.hpp"
 
 namespace mtstereo::run {
-namespace {
-
-// The shortest text that is read as the same number.
-std::string number_text(double number) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
-  return {text.data(), end};
-}
-
-}  // namespace
 
 void write_whole(const std::filesystem::path& file,
                  const std::function<void(std::ostream& out)>& write) {

@@ -185,6 +185,8 @@ WorkOptions read_options(const Json& json) {
   }
   options.format = choice_of(kFormats, format_name, json.at("format").get<std::string>());
   options.parameters = json.at("parameters").get<decltype(options.parameters)>();
+  options.near = json.at("near_m").get<double>();
+  if (!json.at("far_m").is_null()) options.far = json.at("far_m").get<double>();
   options.threads = json.at("threads").get<int>();
   return options;
 }
@@ -250,6 +252,8 @@ Json options_json(const WorkOptions& options) {
   return {{"products", std::move(products)},
           {"format", format_name(options.format)},
           {"parameters", options.parameters},
+          {"near_m", options.near},
+          {"far_m", options.far ? Json(*options.far) : Json(nullptr)},
           {"threads", options.threads}};
 }
 

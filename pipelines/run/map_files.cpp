@@ -133,18 +133,21 @@ void write_disparity_pfm(GstSample* map, const std::filesystem::path& file) {
   write_pfm(frame.values(), table, file);
 }
 
-void write_depth_pfm(GstSample* map, const DepthGeometry& geometry,
+void write_depth_pfm(GstSample* map, const DepthGeometry& geometry, DepthLimits limits,
                      const std::filesystem::path& file) {
   std::vector<float> table(kValues);
   for (std::size_t value = 0; value < kValues; ++value) {
-    table[value] = static_cast<float>(geometry.depth_of(static_cast<std::uint16_t>(value)));
+    const double depth = geometry.depth_of(static_cast<std::uint16_t>(value));
+    table[value] = depth >= limits.near && depth <= limits.far
+                       ? static_cast<float>(depth)
+                       : std::numeric_limits<float>::infinity();
   }
   const Frame frame(map);
   write_pfm(frame.values(), table, file);
 }
 
 void write_points(GstSample* map, GstSample* view, const DepthGeometry& geometry,
-                  const std::filesystem::path& file) {
+                  DepthLimits limits, const std::filesystem::path& file) {
   const Frame disparity(map);
   const Frame color(view);
   CloudInput input;
@@ -157,7 +160,10 @@ void write_points(GstSample* map, GstSample* view, const DepthGeometry& geometry
     input.confidence = confidence->bytes();
   }
   std::vector<CloudPoint> points;
-  Status status = make_cloud(input, geometry, {}, points);
+  CloudOptions options;
+  options.near = limits.near;
+  options.far = limits.far;
+  Status status = make_cloud(input, geometry, options, points);
   if (status) status = write_cloud(points, CloudFormat::kPly, file.string());
   if (!status) throw RunError(file.string() + ": " + status.error().message);
 }

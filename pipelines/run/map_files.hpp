@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 
 #include "mtstereo/geometry/depth.hpp"
 #include "run/gst_objects.hpp"
@@ -28,6 +29,12 @@ class MapGeometry {
   plugin::GeometrySource source_;
 };
 
+/// Depths outside of them are left out [m].
+struct DepthLimits {
+  double near = 0;
+  double far = std::numeric_limits<double>::infinity();
+};
+
 /// Writes a frame (gray with 8 or 16 bits, or BGR) as PNG. Throws RunError.
 void write_png(GstSample* frame, const std::filesystem::path& file);
 
@@ -35,13 +42,14 @@ void write_png(GstSample* frame, const std::filesystem::path& file);
 /// RunError.
 void write_disparity_pfm(GstSample* map, const std::filesystem::path& file);
 
-/// Writes the depths of a disparity map as floating-point numbers [m]; infinity = none. Throws
-/// RunError.
-void write_depth_pfm(GstSample* map, const DepthGeometry& geometry,
+/// Writes the depths of a disparity map in a range as floating-point numbers [m]; infinity = none.
+/// Throws RunError.
+void write_depth_pfm(GstSample* map, const DepthGeometry& geometry, DepthLimits limits,
                      const std::filesystem::path& file);
 
-/// Writes the points of a map with the colors of its left view (RGB) as PLY. Throws RunError.
+/// Writes the points of a map in a range of depths, with the colors of its left view (RGB), as PLY.
+/// Throws RunError.
 void write_points(GstSample* map, GstSample* view, const DepthGeometry& geometry,
-                  const std::filesystem::path& file);
+                  DepthLimits limits, const std::filesystem::path& file);
 
 }  // namespace mtstereo::run

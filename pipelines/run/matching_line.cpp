@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "run/run_error.hpp"
+#include "run/work_facts.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -166,6 +167,8 @@ class LaneSettings {
   void set_parameters(const Work& work, int threads) const {
     for (const auto& [name, value] : work.options.parameters) set("m", name.c_str(), value);
     for (const auto& [name, value] : work.correction) set("m", name.c_str(), value);
+    if (work.options.near > 0) set("depths", "near", number_text(work.options.near));
+    if (work.options.far) set("depths", "far", number_text(*work.options.far));
     if (threads > 0) set("m", "threads", std::to_string(threads));
   }
 

@@ -91,6 +91,21 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
       ->group(group);
 }
 
+void add_limits(CLI::App& app, WorkOptions& work, const std::string& group) {
+  constexpr double kFarthest = 1e6;  // of mtdepth [m]
+  app.add_option("--near", work.near, "nearer depths and points are left out")
+      ->type_name("METERS")
+      ->check(CLI::Range(0.0, kFarthest))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--far", work.far,
+                 "farther depths and points are left out, 0 = no limit [default: clouds end where "
+                 "the disparity is 4 px, depth maps have no limit]")
+      ->type_name("METERS")
+      ->check(CLI::Range(0.0, kFarthest))
+      ->group(group);
+}
+
 void add_outputs(CLI::App& app, Texts& texts, Options& options) {
   const std::string group = "Results";
   std::vector<std::string> products = names_of(kProducts);
@@ -124,6 +139,7 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
                             : "replace the results in the folder")
       ->group(group);
   app.add_flag("--quiet", options.quiet, "print no progress")->group(group);
+  add_limits(app, options.work, group);
 }
 
 std::string value_name(const ParameterInfo& info) {
@@ -198,6 +214,9 @@ void apply(const Texts& texts, Options& options) {
     for (const Product product : kProducts.at(name)) {
       if (!makes(work, product)) work.products.push_back(product);
     }
+  }
+  if (work.far && *work.far > 0 && work.near >= *work.far) {
+    throw CLI::ValidationError("--near", "must be less than --far");
   }
   work.format = kFormats.at(texts.format);
   for (const auto& [name, value] : texts.parameters) {

@@ -43,7 +43,9 @@ struct WorkOptions {
   MapFormat format = MapFormat::kMatroska;
   /// Properties of mtstereo, such as {"mode", "dense"}, checked before the run.
   std::vector<std::pair<std::string, std::string>> parameters;
-  int threads = 0;  ///< of mtstereo; 0: all
+  double near = 0;            ///< nearer depths and points are left out [m]
+  std::optional<double> far;  ///< farther ones [m], 0: no limit; none: default_far() for clouds
+  int threads = 0;            ///< of mtstereo; 0: all
 };
 
 /// The rectified pair that is matched, as the calibration gives it.

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "run/run_error.hpp"
+#include "run/view_geometry.hpp"
 #include "run/work_facts.hpp"
 
 namespace mtstereo::run {
@@ -32,6 +34,11 @@ MatroskaTrack track_of(GstSample* sample, const Work& work, Product product) {
   track.codec_private = codec_private(sample);
   track.tags = matroska_tags(work, product);
   return track;
+}
+
+// `far` = 0: no limit.
+DepthLimits limits_of(double near, double far) {
+  return {near, far > 0 ? far : std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace
@@ -94,14 +101,16 @@ void ProductFiles::write_file(Product product, const PairResult& result) {
       folder_ / product_path(options, product) / pair_file(options, product, result.pair);
   GstSample* const map = result.map.get();
   if (product == Product::kCloud) {
-    write_points(map, result.view.get(), geometry_.of(map), file);
+    const DepthGeometry geometry = geometry_.of(map);
+    const double far = options.far.value_or(default_far(geometry.focal_length, geometry.baseline));
+    write_points(map, result.view.get(), geometry, limits_of(options.near, far), file);
   } else if (file.extension() == ".png") {
     const auto found = result.products.find(product);
     write_png(found != result.products.end() ? found->second.get() : map, file);
   } else if (product == Product::kDisparity) {
     write_disparity_pfm(map, file);
   } else {
-    write_depth_pfm(map, geometry_.of(map), file);
+    write_depth_pfm(map, geometry_.of(map), limits_of(options.near, options.far.value_or(0)), file);
   }
 }
 

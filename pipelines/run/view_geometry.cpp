@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "run/view_geometry.hpp"
 
+#include <cmath>
+
 #include "mtstereo/geometry/rig.hpp"
 #include "run/matching_line.hpp"
 #include "run/run_error.hpp"
+#include "run/work_facts.hpp"
 #include "run/work_options.hpp"
 
 namespace mtstereo::run {
@@ -25,6 +28,16 @@ Result<ViewGeometry> read_geometry(const Recording& recording, ViewSize size) {
 
 bool needs_meters(const WorkOptions& options) {
   return makes(options, Product::kDepth) || makes(options, Product::kCloud);
+}
+
+// --far is not less than --near; the default of clouds may be.
+void check_limits(const Work& work) {
+  const Rectification& views = work.geometry->views;
+  const double far = default_far(views.focal_length, views.baseline);
+  if (!makes(work.options, Product::kCloud) || work.options.far || work.options.near < far) return;
+  throw RunError(work.recording.name + ": clouds end at " + number_text(std::round(far)) +
+                 " m, where the disparity is 4 px, and --near is " +
+                 number_text(work.options.near) + " m: set --far, 0 for no limit");
 }
 
 }  // namespace
@@ -50,11 +63,17 @@ void find_geometry(Work& work) {
   }
   if (geometry) {
     work.geometry = std::move(*geometry);
+    check_limits(work);
   } else if (!recording.rectified || needs_meters(work.options)) {
     throw RunError(recording.name + ": " + geometry.error().message);
   } else {
     work.remarks.push_back("Focal length and baseline are not known: " + geometry.error().message);
   }
+}
+
+double default_far(double focal_length, double baseline) {
+  constexpr double kLeastDisparity = 4;  // [px]
+  return focal_length * baseline / kLeastDisparity;
 }
 
 std::string measures_text(const Work& work) {

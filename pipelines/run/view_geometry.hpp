@@ -18,6 +18,10 @@ struct ViewSize {
 };
 ViewSize view_size(const Work& work);
 
+/// The farthest points of clouds, unless --far is given [m]: where the disparity, after the
+/// principal offset, is 4 px, so that one px more or less is about a quarter of the distance.
+double default_far(double focal_length, double baseline);
+
 /// What the cameras can measure in the range of disparities of the work, as rig_text() states it;
 /// empty without a geometry.
 std::string measures_text(const Work& work);

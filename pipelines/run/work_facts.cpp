@@ -15,12 +15,6 @@ namespace {
 
 constexpr const char* kDepthUnit = "0.001";  // of mtdepth [m]
 
-// The shortest text that is read as the same number.
-std::string text_of(double number) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
-}
-
 // "FILE" or "FILE,FILE" without the folders, which differ from machine to machine.
 std::string names_of(const std::string& calibration) {
   std::error_code error;
@@ -48,7 +42,7 @@ std::string joined(const NamedTexts& values) {
 void add_geometry(const ViewGeometry& geometry, NamedTexts& tags) {
   const Rectification& views = geometry.views;
   const auto add = [&tags](const char* name, double value) {
-    tags.emplace_back(name, text_of(value));
+    tags.emplace_back(name, number_text(value));
   };
   add("FOCAL_LENGTH_PX", views.focal_length);
   add("BASELINE_M", views.baseline);
@@ -59,6 +53,11 @@ void add_geometry(const ViewGeometry& geometry, NamedTexts& tags) {
 }
 
 }  // namespace
+
+std::string number_text(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
 
 NamedTexts effective_parameters(const WorkOptions& options) {
   const Parameters parameters = matcher_parameters(options);
@@ -89,7 +88,7 @@ NamedTexts matroska_tags(const Work& work, Product product) {
   NamedTexts tags{{"PRODUCT", product_name(product)},
                   {"VERSION", MTSTEREO_VERSION},
                   {"INPUT_KIND", recording.kind},
-                  {"FRAME_RATE", text_of(frame_rate(work))}};
+                  {"FRAME_RATE", number_text(frame_rate(work))}};
   const MapUnits units = map_units(options);
   tags.emplace_back("DISPARITY_SCALE", std::to_string(units.scale));
   tags.emplace_back("DISPARITY_OFFSET_PX", std::to_string(units.offset));

@@ -13,6 +13,9 @@ namespace mtstereo::run {
 
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
+/// The shortest text that is read as the same number.
+std::string number_text(double number);
+
 /// Every parameter of the matcher with the value in effect, after the defaults of preset and mode,
 /// and the properties disparity-scale and sharpness of mtstereo. The number of threads is none of
 /// them: it changes no result.

@@ -39,6 +39,8 @@ Work example() {
   work.options.format = MapFormat::kPfm;
   work.options.parameters = {{"mode", "dense"}, {"max-disparity", "96"}};
   work.options.threads = 3;
+  work.options.near = 0.5;
+  work.options.far = 40;
   work.period = 33'333'333;
   work.geometry.emplace();
   work.geometry->views.width = 600;
@@ -110,6 +112,8 @@ TEST(WorkJson, IsReadAsItWasWritten) {
   EXPECT_EQ(read.options.format, work.options.format);
   EXPECT_EQ(read.options.parameters, work.options.parameters);
   EXPECT_EQ(read.options.threads, 3);
+  EXPECT_EQ(read.options.near, 0.5);
+  EXPECT_EQ(read.options.far, 40);
   EXPECT_EQ(read.correction, work.correction);
   EXPECT_EQ(read.geometry, work.geometry);
   EXPECT_EQ(read.remarks, work.remarks);
@@ -220,6 +224,8 @@ TEST(RunJson, StatesWhatWasUsed) {
   EXPECT_EQ(parameters.at("sharpness"), "match");
   EXPECT_FALSE(parameters.contains("threads"));
   EXPECT_EQ(json.at("threads"), 3);
+  EXPECT_EQ(json.at("limits").at("near_m"), 0.5);
+  EXPECT_EQ(json.at("limits").at("far_of_clouds_m"), 40);
   EXPECT_EQ(json.at("disparity").at("smallest_px"), 0);
   EXPECT_EQ(json.at("disparity").at("largest_px"), 95);
   EXPECT_EQ(json.at("disparity").at("scale"), 256);
@@ -231,6 +237,16 @@ TEST(RunJson, StatesWhatWasUsed) {
   EXPECT_EQ(json.at("inputs").at("kind"), "two video files");
   EXPECT_EQ(json.at("inputs").at("calibration"), "/a/calibration.yml");
   EXPECT_EQ(json.at("inputs").at("rectified"), false);
+}
+
+TEST(RunJson, StatesTheDefaultEndOfClouds) {
+  const TemporaryFolder folder;
+  Work work = example();
+  work.options.far.reset();
+  write_run_report(work, example_report(), 2, folder / "run.json");
+  nlohmann::json json = nlohmann::json::parse(bytes_of(folder / "run.json"));
+  EXPECT_EQ(json.at("limits").at("far_m"), 0);
+  EXPECT_EQ(json.at("limits").at("far_of_clouds_m"), 500.25 * 0.12 / 4);
 }
 
 TEST(RunJson, ThatIsMissingHasNoFingerprint) {

@@ -137,6 +137,16 @@ TEST_F(Preparation, FindsTheGeometry) {
   EXPECT_NE(measures_text(work).find("(23 px)"), std::string::npos) << measures_text(work);
 }
 
+TEST_F(Preparation, RefusesCloudsThatBeginBeyondTheirEnd) {
+  write(3, 0);
+  recording_.calibration = testing::write_stereo_calibration(folder_.path()).string();
+  options_.products = {Product::kCloud};
+  options_.near = 3;
+  EXPECT_NE(refusal().find("set --far"), std::string::npos) << refusal();
+  options_.far = 0;
+  EXPECT_EQ(refusal(), "");
+}
+
 TEST_F(Preparation, RefusesACalibrationThatGivesNoMetersIfTheyAreNeeded) {
   write(3, 0);
   recording_.calibration = (folder_ / "calib.txt").string();

@@ -2,6 +2,7 @@
 // Every product in every format, read by other programs, is what the elements give.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
@@ -85,7 +86,7 @@ std::string by_ffmpeg(const fs::path& video, const std::string& format) {
 
 std::string by_gstreamer(const fs::path& video, const std::string& format = "") {
   return joined(
-      frames_of("filesrc location=" + video.string() + " ! matroskademux ! avdec_ffv1 ! " +
+      frames_of("filesrc location=\"" + video.string() + "\" ! matroskademux ! avdec_ffv1 ! " +
                 (format.empty() ? "" : "videoconvert ! video/x-raw,format=" + format + " ! ") +
                 "appsink name=out sync=false"));
 }
@@ -241,6 +242,72 @@ void write_raw_calibration(const fs::path& calibration) {
           "d\n  data: [-0.1, 0, 0]\n");
 }
 
+// The coordinates z of the points of a file.
+std::vector<float> depths_of(const fs::path& cloud) {
+  const std::string bytes = bytes_of(cloud), end = "end_header\n";
+  constexpr std::size_t kPoint = 16;  // three numbers, three colors, the confidence
+  std::vector<float> depths;
+  for (std::size_t at = bytes.find(end) + end.size(); at < bytes.size(); at += kPoint) {
+    depths.emplace_back();
+    std::memcpy(&depths.back(), bytes.data() + at + 8, 4);
+  }
+  return depths;
+}
+
+TEST_F(Products, DepthsOutsideOfTheLimitsAreLeftOut) {
+  // The disparities are 6 and 11 px: 1.67 and 0.91 m.
+  WorkOptions options;
+  options.products = {Product::kCloud, Product::kDepth};
+  Work work = work_of(file("left.mkv"), file("right.mkv"), options);
+  work.recording.calibration = file("calib.txt").string();
+  process(work, whole(work), file("all"), kNoProgress);
+  work.options.near = 1.2;
+  process(work, whole(work), file("far part"), kNoProgress);
+  work.options.near = 0;
+  work.options.far = 1.2;
+  process(work, whole(work), file("near part"), kNoProgress);
+  const auto depths = [&](const char* part) {
+    return depths_of(file(part) / "clouds" / "000000.ply");
+  };
+  const std::vector<float> all = depths("all"), far = depths("far part"),
+                           near = depths("near part");
+  EXPECT_EQ(all.size(), far.size() + near.size());
+  EXPECT_GT(*std::min_element(far.begin(), far.end()), 1.2);
+  EXPECT_LT(*std::max_element(near.begin(), near.end()), 1.2);
+  // Without a limit the default of clouds applies: 100 px * 0.1 m / 4 px.
+  EXPECT_LE(*std::max_element(all.begin(), all.end()), 2.5);
+  work.options.products = {Product::kDepth};
+  work.options.format = MapFormat::kPfm;
+  process(work, whole(work), file("near maps"), kNoProgress);
+  int known = 0;
+  for (const float depth : read_pfm(file("near maps") / "depth" / "000000.pfm")) {
+    if (std::isinf(depth)) continue;
+    ++known;
+    ASSERT_LE(depth, 1.2);
+  }
+  EXPECT_EQ(known, static_cast<int>(near.size()));
+  const std::string video = by_gstreamer(file("near part") / "depth.mkv");
+  for (std::size_t at = 0; at < video.size(); at += 2) {
+    std::uint16_t value = 0;
+    std::memcpy(&value, video.data() + at, 2);
+    ASSERT_LE(value, 1200);
+  }
+}
+
+TEST_F(Products, EveryPointIsKeptWithoutALimit) {
+  WorkOptions options;
+  options.products = {Product::kCloud};
+  options.parameters = {{"min-disparity", "-2"}};
+  Work work = work_of(file("left.mkv"), file("left.mkv"), options);
+  work.recording.calibration = file("calib.txt").string();
+  process(work, whole(work), file("default"), kNoProgress);
+  work.options.far = 0;
+  process(work, whole(work), file("all"), kNoProgress);
+  // Equal views: everything is at a disparity of 0, or of some hundredths of a px.
+  EXPECT_TRUE(depths_of(file("default") / "clouds" / "000000.ply").empty());
+  EXPECT_FALSE(depths_of(file("all") / "clouds" / "000000.ply").empty());
+}
+
 TEST_F(Products, OfRawViewsAreThoseOfRectifiedOnes) {
   const fs::path calibration = file("raw.yml");
   write_raw_calibration(calibration);
@@ -301,12 +368,8 @@ TEST_F(Products, RectifiedViewsOfGrayRectifiedInputAreTheInput) {
   const Work work = work_of(file("gray-l.mkv"), file("gray-r.mkv"), options);
   const fs::path results = file("as matched");
   process(work, whole(work), results, kNoProgress);
-  EXPECT_EQ(joined(frames_of("filesrc location=\"" + (results / "rectified-left.mkv").string() +
-                             "\" ! matroskademux ! avdec_ffv1 ! appsink name=out sync=false")),
-            by_gstreamer(file("gray-l.mkv")));
-  EXPECT_EQ(joined(frames_of("filesrc location=\"" + (results / "rectified-right.mkv").string() +
-                             "\" ! matroskademux ! avdec_ffv1 ! appsink name=out sync=false")),
-            by_gstreamer(file("gray-r.mkv")));
+  EXPECT_EQ(by_gstreamer(results / "rectified-left.mkv"), by_gstreamer(file("gray-l.mkv")));
+  EXPECT_EQ(by_gstreamer(results / "rectified-right.mkv"), by_gstreamer(file("gray-r.mkv")));
 }
 
 TEST_F(Products, OfAPairDoNotDependOnTheOthers) {

@@ -181,6 +181,9 @@ class Program(unittest.TestCase):
             self.command("--drift", "3"),
             self.command("--sync", "soon"),
             self.command("--no-such-option"),
+            self.command("--far", "-1"),
+            self.command("--far", "far"),
+            self.command("--near", "5", "--far", "3"),
         ):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
