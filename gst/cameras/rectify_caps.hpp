@@ -30,7 +30,8 @@ CapsPointer fixed_caps(CapsPointer caps, FrameSize size);
 /// The size in fixed caps.
 FrameSize size_in(const GstCaps* caps);
 
-/// Sets the geometry and the camera of the rectified view in fixed caps. `region`: the rectangle without a border.
+/// Sets the geometry and the camera of the rectified view in fixed caps. `region`: the rectangle
+/// without a border.
 void write_plan(GstCaps* caps, const RectificationPlan& plan, PixelRectangle region);
 
 }  // namespace mtstereo::plugin
