@@ -5,6 +5,7 @@
 #include "matcher/alignment_reports.hpp"
 #include "matcher/negotiation.hpp"
 #include "matcher/parameter_properties.hpp"
+#include "matcher/settings.hpp"
 #include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
@@ -35,6 +36,7 @@ Status set_or_keep_problem(ElementState& state, guint id, const Set& set) {
   Settings& settings = state.settings;
   const Status status = set(settings);
   if (!status && state.started) return status;
+  fit_scale(settings);
   ++settings.revision;
   if (!status) {
     settings.problem = status.error().message;
@@ -111,16 +113,17 @@ GType sync_mode_type() {
   return type;
 }
 
-GstStructure* statistics_structure(const Statistics& statistics, const AlignmentReport& alignment) {
+GstStructure* statistics_structure(const Statistics& statistics, const AlignmentReport& alignment,
+                                   int scale) {
   const double mean =
       statistics.pairs > 0 ? statistics.total_ms / static_cast<double>(statistics.pairs) : 0.0;
   GstStructure* structure = gst_structure_new(
-      "mtstereo-stats", "pairs", G_TYPE_UINT64, statistics.pairs, "dropped-left", G_TYPE_UINT64,
-      statistics.dropped[0], "dropped-right", G_TYPE_UINT64, statistics.dropped[1], "skipped",
-      G_TYPE_UINT64, statistics.skipped, "last-ms", G_TYPE_DOUBLE, statistics.last_ms, "mean-ms",
-      G_TYPE_DOUBLE, mean, "density", G_TYPE_DOUBLE, statistics.density, "wrong-times",
-      G_TYPE_UINT64, statistics.wrong_times, "difference-ms", G_TYPE_DOUBLE,
-      statistics.difference.mean * 1e-6, "difference-spread-ms", G_TYPE_DOUBLE,
+      "mtstereo-stats", "disparity-scale", G_TYPE_INT, scale, "pairs", G_TYPE_UINT64,
+      statistics.pairs, "dropped-left", G_TYPE_UINT64, statistics.dropped[0], "dropped-right",
+      G_TYPE_UINT64, statistics.dropped[1], "skipped", G_TYPE_UINT64, statistics.skipped, "last-ms",
+      G_TYPE_DOUBLE, statistics.last_ms, "mean-ms", G_TYPE_DOUBLE, mean, "density", G_TYPE_DOUBLE,
+      statistics.density, "wrong-times", G_TYPE_UINT64, statistics.wrong_times, "difference-ms",
+      G_TYPE_DOUBLE, statistics.difference.mean * 1e-6, "difference-spread-ms", G_TYPE_DOUBLE,
       statistics.difference.spread * 1e-6, "difference-drift", G_TYPE_DOUBLE,
       statistics.difference.drift * 1e-6, nullptr);
   add_alignment_fields(structure, alignment);
@@ -182,7 +185,8 @@ void install_properties(GObjectClass* object_class) noexcept {
           "disparity-scale", "disparity-scale",
           "Steps per px of the output: disparity in px = value / disparity-scale, "
           "0 = none; plus min-disparity if that is negative; the number of disparities "
-          "times this value must fit in 16 bits (256: KITTI, 16: OpenCV)",
+          "times this value must fit in 16 bits (256: KITTI, 16: OpenCV). If it is not set "
+          "and 256 does not fit: the next of 128, 64, ... that does",
           1, 65535, 256, kFlags));
   g_object_class_install_property(
       object_class, kConfidenceMap,
@@ -231,6 +235,7 @@ void set_element_property(ElementState& state, guint id, const GValue* value, GP
     switch (id) {
       case kDisparityScale:
         state.settings.disparity_scale = g_value_get_int(value);
+        state.settings.scale_is_set = true;
         ++state.settings.revision;
         return;
       case kConfidenceMap:
@@ -299,7 +304,8 @@ void get_element_property(ElementState& state, guint id, GValue* value, GParamSp
       g_value_set_boolean(value, state.newest_pair);
       return;
     case kStats:
-      g_value_take_boxed(value, statistics_structure(state.statistics, state.alignment_report));
+      g_value_take_boxed(value, statistics_structure(state.statistics, state.alignment_report,
+                                                     state.settings.disparity_scale));
       return;
     default:
       G_OBJECT_WARN_INVALID_PROPERTY_ID(state.element, id, spec);

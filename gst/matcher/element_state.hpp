@@ -38,6 +38,7 @@ struct Settings {
   Parameters parameters;
   AlignmentSettings alignment;
   int disparity_scale = 256;   ///< [steps per px]
+  bool scale_is_set = false;   ///< otherwise it follows the search range, see fit_scale()
   gint64 sync_tolerance = -1;  ///< [ns]; -1: see effective_tolerance()
   bool confidence_map = true;  ///< attach a confidence map to every disparity map
   SyncMode sync_mode = SyncMode::kRunningTime;
@@ -109,7 +110,8 @@ struct ElementState {
   std::array<Input, 2> inputs;
   Settings active;               ///< the copy in use
   guint64 matcher_revision = 0;  ///< Settings::revision of the matcher's parameters; 0: none
-  int checked_width = 0;         ///< the frame size for which `active` was checked [px]
+  std::optional<guint64> logged_revision;  ///< Settings::revision of the settings in the log
+  int checked_width = 0;                   ///< the frame size for which `active` was checked [px]
   int checked_height = 0;
   std::optional<Matcher> matcher;
   PairAlignment alignment;
@@ -130,6 +132,7 @@ struct ElementState {
   std::optional<Nanoseconds> unreferenced_since;
   PairFinder finder;
   PairClock clock;
+  std::optional<Nanoseconds> logged_offset;  ///< of the streams
   GstFlowReturn pending_flow = GST_FLOW_OK;  ///< of a failure outside of aggregate()
   OutputSegment segment = OutputSegment::kNone;
   bool segment_repeats = false;                 ///< the base class is about to send it once more
@@ -160,6 +163,7 @@ struct ElementState {
   void restart_pairing() {
     finder.reset();
     clock.reset();
+    logged_offset.reset();
   }
   GstPad* source_pad() const { return GST_AGGREGATOR_SRC_PAD(element); }
 

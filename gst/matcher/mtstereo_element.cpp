@@ -16,6 +16,8 @@
 #include "shared/luma.hpp"
 #include "shared/ownership.hpp"
 
+#define GST_CAT_DEFAULT mtstereo_debug
+
 namespace mtstereo::plugin {
 namespace {
 
@@ -97,6 +99,7 @@ GstFlowReturn update_source_caps(GstAggregator* aggregator, GstCaps* downstream,
 }
 
 gboolean negotiated_source_caps(GstAggregator* aggregator, GstCaps* caps) {
+  GST_DEBUG_OBJECT(aggregator, "maps %" GST_PTR_FORMAT, static_cast<void*>(caps));
   return gst_video_info_from_caps(&state_of(aggregator).output, caps);
 }
 
@@ -171,6 +174,7 @@ gboolean stop(GstAggregator* aggregator) {
   state.adopted_infos = {};
   for (FrameQueue& queue : state.queues) queue = {};
   state.matcher.reset();
+  state.logged_revision.reset();
   state.alignment = PairAlignment();
   state.confidence_pool.clear();
   for (LumaReader& luma : state.luma) luma.clear();

@@ -7,8 +7,12 @@
 #include "shared/caps.hpp"
 #include "shared/ownership.hpp"
 
+#define GST_CAT_DEFAULT mtstereo_debug
+
 namespace mtstereo::plugin {
 namespace {
+
+constexpr int kDefaultScale = 256;  // [steps per px]
 
 std::string scale_text(const Settings& settings) {
   return " disparity-scale=" + std::to_string(settings.disparity_scale);
@@ -110,6 +114,7 @@ void restore(ElementState& state, const Settings& refused, const Status& status)
     if (state.settings.revision != refused.revision) return;
     state.settings.parameters = state.active.parameters;
     state.settings.disparity_scale = state.active.disparity_scale;
+    state.settings.scale_is_set = state.active.scale_is_set;
     state.complete = state.active = state.settings;
     state.matcher_revision = state.settings.revision;  // the matcher has these parameters
   }
@@ -123,6 +128,17 @@ void restore(ElementState& state, const Settings& refused, const Status& status)
       "refused:" + changes.refused + "; in use:" + changes.kept + "; " + state.streams_text());
 }
 
+/// Logs settings that are in effect from now on.
+void log_settings(ElementState& state) {
+  const Settings& now = state.active;
+  if (state.logged_revision == now.revision) return;
+  state.logged_revision = now.revision;
+  GST_DEBUG_OBJECT(state.element, "settings in effect:%s", settings_text(now).c_str());
+  if (now.disparity_scale == kDefaultScale || now.scale_is_set) return;
+  GST_INFO_OBJECT(state.element, "disparity-scale=%d, with which max-disparity=%s fits in 16 bits",
+                  now.disparity_scale, now.parameters.text(Parameter::kMaxDisparity).c_str());
+}
+
 }  // namespace
 
 DisparityUnit unit_of(const Settings& settings) {
@@ -130,6 +146,14 @@ DisparityUnit unit_of(const Settings& settings) {
           .max_disparity = settings.parameters.integer(Parameter::kMaxDisparity),
           .min_disparity = settings.parameters.integer(Parameter::kMinDisparity),
           .offset = settings.parameters.disparity_offset()};
+}
+
+void fit_scale(Settings& settings) {
+  if (settings.scale_is_set) return;
+  int scale = kDefaultScale;
+  while (scale > 1 && !settings.parameters.check_scale16(scale)) scale /= 2;
+  // A range that fits at no scale is refused with the default.
+  settings.disparity_scale = settings.parameters.check_scale16(scale) ? scale : kDefaultScale;
 }
 
 bool apply_settings(ElementState& state) {
@@ -151,6 +175,7 @@ bool apply_settings(ElementState& state) {
   const Status status = activate(state, next);
   if (status) {
     state.active = next;
+    log_settings(state);
   } else if (started && activate(state, state.active)) {
     restore(state, next, status);
   } else {

@@ -14,6 +14,10 @@ namespace mtstereo::plugin {
 /// match with: an error is posted, and false is returned.
 bool apply_settings(ElementState& state);
 
+/// Chooses the disparity scale if none was set: 256, or the largest smaller power of two with which
+/// the search range fits into 16 bits. To be called after every change of a parameter.
+void fit_scale(Settings& settings);
+
 /// The unit of the disparity maps with these settings.
 DisparityUnit unit_of(const Settings& settings);
 

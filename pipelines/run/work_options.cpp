@@ -14,8 +14,8 @@ namespace mtstereo::run {
 namespace {
 
 constexpr const char* kScale = "disparity-scale";
-// From the finest to the coarsest; docs/element.md.
-constexpr std::array kScales{256, 64, 33, 16, 8, 4, 2, 1};
+// From the finest to the coarsest, as mtstereo chooses it; docs/element.md.
+constexpr std::array kScales{256, 128, 64, 32, 16, 8, 4, 2, 1};
 
 // Properties of mtstereo that are not parameters of the matcher.
 void check_property(const std::string& name, const std::string& value) {

@@ -121,6 +121,9 @@ TEST(WorkOptions, ScaleFitsTheSearchRange) {
   work.options.parameters = {{"max-disparity", "600"}};
   complete_options(work);
   EXPECT_EQ(value_of(work, "disparity-scale"), "64");
+  work.options.parameters = {{"max-disparity", "300"}};
+  complete_options(work);
+  EXPECT_EQ(value_of(work, "disparity-scale"), "128");
   work.options.parameters = {{"max-disparity", "600"}, {"disparity-scale", "256"}};
   EXPECT_THROW(complete_options(work), RunError);
 }
