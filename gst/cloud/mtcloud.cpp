@@ -177,7 +177,7 @@ void post_file(GstBaseSink* sink, const std::string& path, GstBuffer* map, bool 
                             "frame", G_TYPE_UINT64, static_cast<guint64>(state.frame), "timestamp",
                             G_TYPE_UINT64, GST_BUFFER_PTS(map), "running-time", G_TYPE_UINT64, time,
                             "colored", G_TYPE_BOOLEAN, colored ? TRUE : FALSE, nullptr)));
-  GST_DEBUG_OBJECT(sink, "%s: %" G_GSIZE_FORMAT " points", path.c_str(), state.writer.points());
+  GST_LOG_OBJECT(sink, "%s: %" G_GSIZE_FORMAT " points", path.c_str(), state.writer.points());
 }
 
 GstFlowReturn write_map(GstBaseSink* sink, GstBuffer* map, const CloudProperties& properties) {

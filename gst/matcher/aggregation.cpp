@@ -40,9 +40,9 @@ void send_gap_for_left(ElementState& state, const QueuedFrame& left) {
 /// Counts and reports a dropped frame.
 void after_drop(ElementState& state, Step& step) {
   const QueuedFrame& frame = step.frame();
-  GST_DEBUG_OBJECT(state.input(step.side).pad, "%s, dropping %" GST_PTR_FORMAT,
-                   step.wrong_time ? "wrong time stamp" : "no partner",
-                   static_cast<void*>(frame.buffer.get()));
+  GST_LOG_OBJECT(state.input(step.side).pad, "%s, dropping %" GST_PTR_FORMAT,
+                 step.wrong_time ? "wrong time stamp" : "no partner",
+                 static_cast<void*>(frame.buffer.get()));
   {
     const ObjectLock lock(state.element);
     ++state.statistics.dropped[static_cast<std::size_t>(step.side)];
@@ -69,6 +69,7 @@ void skip(ElementState& state) {
 
 GstFlowReturn match(ElementState& state, const Step& pair) {
   state.unpaired_warning.paired();
+  log_offset(state);
   adopt_caps(state, Side::kLeft, pair.left.info);
   adopt_caps(state, Side::kRight, pair.right.info);
   adopt_segment(state, pair.left.segment);

@@ -12,6 +12,8 @@
 #include "shared/caps_check.hpp"
 #include "shared/stereo_geometry.hpp"
 
+#define GST_CAT_DEFAULT mtstereo_debug
+
 namespace mtstereo::plugin {
 namespace {
 
@@ -109,6 +111,7 @@ bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps) {
                    caps_text(takes.get()) + "; " + state.streams_text());
     return false;
   }
+  GST_DEBUG_OBJECT(input.pad, "caps %" GST_PTR_FORMAT, static_cast<const void*>(caps));
   StreamInfo info;
   gst_video_info_from_caps(&info.video, caps);
   info.geometry = geometry_fields(caps);
@@ -169,6 +172,8 @@ void update_pairing_latency(ElementState& state) {
     wait = std::max(frame, effective_tolerance(state.settings.sync_tolerance, state.caps_durations,
                                                FrameDurations{}));
   }
+  GST_DEBUG_OBJECT(state.element, "a frame of a live stream waits %.2f ms for a partner",
+                   static_cast<double>(wait) / 1e6);
   // The pad of a live stream holds two frames, which limits the wait.
   const Nanoseconds room = std::max(wait, 2 * frame);
   gst_aggregator_set_latency(state.element, static_cast<GstClockTime>(wait),

@@ -2,6 +2,9 @@
 #include "matcher/pairing_reports.hpp"
 
 #include <cstdio>
+#include <cstdlib>
+
+#define GST_CAT_DEFAULT mtstereo_debug
 
 namespace mtstereo::plugin {
 namespace {
@@ -73,6 +76,19 @@ void report_doubt(ElementState& state, PairDoubt doubt) {
                    ": their time stamps cannot prove that they belong together. " + kIfTriggered,
                "standard deviation " + milliseconds(static_cast<Nanoseconds>(statistics.spread)) +
                    "; " + state.streams_text());
+}
+
+void log_offset(ElementState& state) {
+  const StreamOffset& offset = state.finder.offset();
+  const DifferenceStatistics statistics = offset.line().statistics();
+  if (statistics.pairs == 0) return;
+  const auto mean = static_cast<Nanoseconds>(statistics.mean);
+  const Nanoseconds period = state.finder.period();
+  if (state.logged_offset && std::llabs(mean - *state.logged_offset) <= period / 10) return;
+  state.logged_offset = mean;
+  GST_DEBUG_OBJECT(state.element,
+                   "the right frames are %.2f ms after the left ones, of a frame of %.2f ms",
+                   static_cast<double>(mean) / 1e6, static_cast<double>(period) / 1e6);
 }
 
 GstFlowReturn refuse_mixed_stamping(ElementState& state, bool left_has_time) {

@@ -24,4 +24,7 @@ GstFlowReturn refuse_missing_reference(ElementState& state, Side side);
 /// A change to sync-mode=reference-timestamp was taken back.
 void warn_of_missing_reference(ElementState& state, Side side);
 
+/// Logs the difference of the streams' times at the first pair and when it has changed.
+void log_offset(ElementState& state);
+
 }  // namespace mtstereo::plugin

@@ -4,6 +4,8 @@
 #include "matcher/clock.hpp"
 #include "shared/ownership.hpp"
 
+#define GST_CAT_DEFAULT mtstereo_debug
+
 namespace mtstereo::plugin {
 namespace {
 
@@ -45,14 +47,17 @@ bool skip_late_pair(ElementState& state, GstBuffer* left, const OutputTimes& tim
 void note_sent_map(ElementState& state, const OutputTimes& times, double milliseconds) {
   const auto now = running_time_now(state);
   bool changed = false;
+  double reported = 0;
   {
     const ObjectLock lock(state.element);
     changed = state.processing.measured(milliseconds);
+    reported = state.processing.reported_ms();
     if (now && GST_CLOCK_TIME_IS_VALID(times.running)) {
       state.lateness.sent(bounded(times.running), *now);
     }
   }
   if (changed && is_live(state)) {
+    GST_DEBUG_OBJECT(state.element, "the latency has a matching time of %.2f ms", reported);
     gst_element_post_message(GST_ELEMENT_CAST(state.element),
                              gst_message_new_latency(GST_OBJECT_CAST(state.element)));
   }

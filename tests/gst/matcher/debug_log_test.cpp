@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What GST_DEBUG=mtstereo:5 shows.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "support/numbered_views.hpp"
+
+namespace mtstereo::test {
+namespace {
+
+/// The lines of the category mtstereo up to this level while it lives.
+class DebugLog {
+ public:
+  explicit DebugLog(GstDebugLevel level) {
+    active_ = gst_debug_is_active();
+    gst_debug_set_active(TRUE);
+    gst_debug_set_threshold_for_name("mtstereo", level);
+    // The macros of these names compare pointers of two kinds.
+    (gst_debug_remove_log_function)(gst_debug_log_default);
+    (gst_debug_add_log_function)(note, this, nullptr);
+  }
+  ~DebugLog() {
+    gst_debug_remove_log_function_by_data(this);
+    gst_debug_unset_threshold_for_name("mtstereo");
+    (gst_debug_add_log_function)(gst_debug_log_default, nullptr, nullptr);
+    gst_debug_set_active(active_);
+  }
+  DebugLog(const DebugLog&) = delete;
+  DebugLog& operator=(const DebugLog&) = delete;
+
+  int lines_with(const std::string& text) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return static_cast<int>(std::count_if(lines_.begin(), lines_.end(), [&](const auto& line) {
+      return line.find(text) != std::string::npos;
+    }));
+  }
+  int lines() { return lines_with(""); }
+
+ private:
+  static void note(GstDebugCategory* category, GstDebugLevel, const gchar*, const gchar*, gint,
+                   GObject*, GstDebugMessage* message, gpointer self) noexcept {
+    if (std::string(gst_debug_category_get_name(category)) != "mtstereo") return;
+    auto& log = *static_cast<DebugLog*>(self);
+    const std::lock_guard<std::mutex> lock(log.mutex_);
+    log.lines_.emplace_back(gst_debug_message_get(message));
+  }
+
+  gboolean active_ = FALSE;
+  std::mutex mutex_;
+  std::vector<std::string> lines_;
+};
+
+void play(int frames, const FeedOptions& options = {}) {
+  const FeedResult result =
+      feed(numbered_sequence(frames, kFrame, kFrame),
+           numbered_sequence(frames, kFrame, kFrame + 4 * GST_MSECOND), options);
+  EXPECT_EQ(result.error, "");
+  EXPECT_GE(result.count.maps, frames - 2);
+}
+
+TEST(DebugLog, ShowsCapsSettingsOffsetAndLatency) {
+  DebugLog log(GST_LEVEL_DEBUG);
+  play(30);
+  EXPECT_EQ(log.lines_with("caps video/x-raw, format=(string)GRAY8"), 2);
+  EXPECT_EQ(log.lines_with("maps video/x-raw, format=(string)GRAY16_LE"), 1);
+  EXPECT_EQ(log.lines_with("settings in effect: preset=default mode=semi-dense"), 1);
+  EXPECT_GE(log.lines_with("max-disparity=64"), 1);
+  EXPECT_GE(log.lines_with("the right frames are 4.00 ms after the left ones"), 1);
+  EXPECT_GE(log.lines_with("waits 33.33 ms for a partner"), 1);
+}
+
+TEST(DebugLog, ShowsTheMatchingTimeOfLiveStreams) {
+  DebugLog log(GST_LEVEL_DEBUG);
+  FeedOptions options;
+  options.live = true;
+  play(8, options);
+  EXPECT_GE(log.lines_with("matching time"), 1);
+}
+
+TEST(DebugLog, HasNoLineForEachFrame) {
+  DebugLog log(GST_LEVEL_DEBUG);
+  play(20);
+  const int few = log.lines();
+  play(120);
+  EXPECT_LE(log.lines() - few, few + 6);
+}
+
+TEST(DebugLog, HasALineForEachFrameAtLevelLog) {
+  DebugLog log(GST_LEVEL_LOG);
+  play(20);
+  EXPECT_GE(log.lines_with("matched"), 18);
+}
+
+TEST(DebugLog, StatesAScaleThatWasChosen) {
+  DebugLog log(GST_LEVEL_INFO);
+  StereoHarness harness("max-disparity=300");
+  harness.caps(raw_caps("GRAY8", 320, 40));
+  harness.push_pair(noise_pair(320, 40, 4, 1), 0);
+  EXPECT_TRUE(harness.pull());
+  EXPECT_EQ(log.lines(), 1);
+  EXPECT_EQ(log.lines_with("disparity-scale=128, with which max-disparity=300 fits"), 1);
+}
+
+}  // namespace
+}  // namespace mtstereo::test
