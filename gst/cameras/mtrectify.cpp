@@ -48,23 +48,23 @@ struct RectifyState {
   LumaReader luma;
 };
 
-struct GstMtStereoRectify {
+struct GstMtRectify {
   GstVideoFilter parent;
   RectifyState* state;
 };
 
-struct GstMtStereoRectifyClass {
+struct GstMtRectifyClass {
   GstVideoFilterClass parent_class;
 };
 
 }  // namespace
 
-G_DEFINE_TYPE(GstMtStereoRectify, gst_mtstereo_rectify, GST_TYPE_VIDEO_FILTER)
+G_DEFINE_TYPE(GstMtRectify, gst_mtstereo_rectify, GST_TYPE_VIDEO_FILTER)
 
 namespace {
 
 RectifyState& state_of(gpointer element) {
-  return *reinterpret_cast<GstMtStereoRectify*>(element)->state;
+  return *reinterpret_cast<GstMtRectify*>(element)->state;
 }
 
 RectifySettings settings_of(gpointer element) {
@@ -284,7 +284,7 @@ void add_pads(GstElementClass* element_class) noexcept {
 
 }  // namespace
 
-static void gst_mtstereo_rectify_class_init(GstMtStereoRectifyClass* klass) {
+static void gst_mtstereo_rectify_class_init(GstMtRectifyClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtrectify_debug, "mtrectify", 0, "rectification of a camera");
   auto* object_class = G_OBJECT_CLASS(klass);
   object_class->set_property = guarded<set_property>;
@@ -311,7 +311,7 @@ static void gst_mtstereo_rectify_class_init(GstMtStereoRectifyClass* klass) {
   GST_VIDEO_FILTER_CLASS(klass)->transform_frame = guarded<transform_frame, GST_FLOW_ERROR>;
 }
 
-static void gst_mtstereo_rectify_init(GstMtStereoRectify* self) {
+static void gst_mtstereo_rectify_init(GstMtRectify* self) {
   self->state = new_state<RectifyState>();
   // mtstereo skips pairs that are late. Frames that were dropped on one side only would cost more.
   gst_base_transform_set_qos_enabled(reinterpret_cast<GstBaseTransform*>(self), FALSE);

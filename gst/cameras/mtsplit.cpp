@@ -17,12 +17,12 @@ GST_DEBUG_CATEGORY_STATIC(mtsplit_debug);
 
 namespace {
 
-struct GstMtStereoSplit {
+struct GstMtSplit {
   GstElement parent;
   SplitState* state;
 };
 
-struct GstMtStereoSplitClass {
+struct GstMtSplitClass {
   GstElementClass parent_class;
 };
 
@@ -42,13 +42,11 @@ GType layout_type() {
 
 }  // namespace
 
-G_DEFINE_TYPE(GstMtStereoSplit, gst_mtstereo_split, GST_TYPE_ELEMENT)
+G_DEFINE_TYPE(GstMtSplit, gst_mtstereo_split, GST_TYPE_ELEMENT)
 
 namespace {
 
-SplitState& state_of(gpointer element) {
-  return *reinterpret_cast<GstMtStereoSplit*>(element)->state;
-}
+SplitState& state_of(gpointer element) { return *reinterpret_cast<GstMtSplit*>(element)->state; }
 
 /// Runs a function of a pad. No exception may reach GStreamer: it becomes an error message.
 template <typename Result, typename Body>
@@ -294,7 +292,7 @@ GstPad* add_pad(GstElement* element, const char* name) {
 
 }  // namespace
 
-static void gst_mtstereo_split_class_init(GstMtStereoSplitClass* klass) {
+static void gst_mtstereo_split_class_init(GstMtSplitClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtsplit_debug, "mtsplit", 0, "splitting of stereo frames");
   auto* object_class = G_OBJECT_CLASS(klass);
   object_class->set_property = guarded<set_property>;
@@ -312,7 +310,7 @@ static void gst_mtstereo_split_class_init(GstMtStereoSplitClass* klass) {
       "The mtstereo authors");
 }
 
-static void gst_mtstereo_split_init(GstMtStereoSplit* self) {
+static void gst_mtstereo_split_init(GstMtSplit* self) {
   auto* element = GST_ELEMENT_CAST(self);
   self->state = new_state<SplitState>(element);
   SplitState& state = *self->state;

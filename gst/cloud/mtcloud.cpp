@@ -55,24 +55,22 @@ struct CloudState {
   CloudWriter writer;
 };
 
-struct GstMtStereoCloud {
+struct GstMtCloud {
   GstBaseSink parent;
   CloudState* state;
 };
 
-struct GstMtStereoCloudClass {
+struct GstMtCloudClass {
   GstBaseSinkClass parent_class;
 };
 
 }  // namespace
 
-G_DEFINE_TYPE(GstMtStereoCloud, gst_mtstereo_cloud, GST_TYPE_BASE_SINK)
+G_DEFINE_TYPE(GstMtCloud, gst_mtstereo_cloud, GST_TYPE_BASE_SINK)
 
 namespace {
 
-CloudState& state_of(gpointer element) {
-  return *reinterpret_cast<GstMtStereoCloud*>(element)->state;
-}
+CloudState& state_of(gpointer element) { return *reinterpret_cast<GstMtCloud*>(element)->state; }
 
 void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
   bool known = false;
@@ -318,7 +316,7 @@ void finalize(GObject* object) noexcept {
 
 }  // namespace
 
-static void gst_mtstereo_cloud_class_init(GstMtStereoCloudClass* klass) {
+static void gst_mtstereo_cloud_class_init(GstMtCloudClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtcloud_debug, "mtcloud", 0, "point clouds of disparity maps");
   auto* object_class = G_OBJECT_CLASS(klass);
   object_class->set_property = guarded<set_property>;
@@ -347,7 +345,7 @@ static void gst_mtstereo_cloud_class_init(GstMtStereoCloudClass* klass) {
   sink_class->query = guarded<query, FALSE>;
 }
 
-static void gst_mtstereo_cloud_init(GstMtStereoCloud* self) {
+static void gst_mtstereo_cloud_init(GstMtCloud* self) {
   self->state = new_state<CloudState>();
   self->state->left_pad = add_left_pad(GST_ELEMENT(self), self->state->left);
   gst_base_sink_set_sync(GST_BASE_SINK(self), FALSE);

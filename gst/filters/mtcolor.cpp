@@ -56,12 +56,12 @@ struct ColorState {
   std::vector<Rgb> table;
 };
 
-struct GstMtStereoColor {
+struct GstMtColor {
   GstVideoFilter parent;
   ColorState* state;
 };
 
-struct GstMtStereoColorClass {
+struct GstMtColorClass {
   GstVideoFilterClass parent_class;
 };
 
@@ -83,13 +83,11 @@ constexpr const char* kPictures =
 
 }  // namespace
 
-G_DEFINE_TYPE(GstMtStereoColor, gst_mtstereo_color, GST_TYPE_VIDEO_FILTER)
+G_DEFINE_TYPE(GstMtColor, gst_mtstereo_color, GST_TYPE_VIDEO_FILTER)
 
 namespace {
 
-ColorState& state_of(gpointer element) {
-  return *reinterpret_cast<GstMtStereoColor*>(element)->state;
-}
+ColorState& state_of(gpointer element) { return *reinterpret_cast<GstMtColor*>(element)->state; }
 
 void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
   const ObjectLock lock(object);
@@ -319,7 +317,7 @@ void install_properties(GObjectClass* object_class) {
 
 }  // namespace
 
-static void gst_mtstereo_color_class_init(GstMtStereoColorClass* klass) {
+static void gst_mtstereo_color_class_init(GstMtColorClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtcolor_debug, "mtcolor", 0, "color images of disparity and depth maps");
   auto* object_class = G_OBJECT_CLASS(klass);
   object_class->set_property = guarded<set_property>;
@@ -346,8 +344,6 @@ static void gst_mtstereo_color_class_init(GstMtStereoColorClass* klass) {
   filter_class->transform_frame = guarded<transform_frame, GST_FLOW_ERROR>;
 }
 
-static void gst_mtstereo_color_init(GstMtStereoColor* self) {
-  self->state = new_state<ColorState>();
-}
+static void gst_mtstereo_color_init(GstMtColor* self) { self->state = new_state<ColorState>(); }
 
 }  // namespace mtstereo::plugin

@@ -32,12 +32,12 @@ struct ConfidenceState {
   ConfidencePool pool;
 };
 
-struct GstMtStereoConfidence {
+struct GstMtConfidence {
   GstVideoFilter parent;
   ConfidenceState* state;
 };
 
-struct GstMtStereoConfidenceClass {
+struct GstMtConfidenceClass {
   GstVideoFilterClass parent_class;
 };
 
@@ -57,12 +57,12 @@ GType output_type() {
 
 }  // namespace
 
-G_DEFINE_TYPE(GstMtStereoConfidence, gst_mtstereo_confidence, GST_TYPE_VIDEO_FILTER)
+G_DEFINE_TYPE(GstMtConfidence, gst_mtstereo_confidence, GST_TYPE_VIDEO_FILTER)
 
 namespace {
 
 ConfidenceState& state_of(gpointer element) {
-  return *reinterpret_cast<GstMtStereoConfidence*>(element)->state;
+  return *reinterpret_cast<GstMtConfidence*>(element)->state;
 }
 
 void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
@@ -259,7 +259,7 @@ void install_properties(GObjectClass* object_class) {
 
 }  // namespace
 
-static void gst_mtstereo_confidence_class_init(GstMtStereoConfidenceClass* klass) {
+static void gst_mtstereo_confidence_class_init(GstMtConfidenceClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtconfidence_debug, "mtconfidence", 0, "confidence of disparity maps");
   auto* object_class = G_OBJECT_CLASS(klass);
   object_class->set_property = guarded<set_property>;
@@ -284,7 +284,7 @@ static void gst_mtstereo_confidence_class_init(GstMtStereoConfidenceClass* klass
   GST_VIDEO_FILTER_CLASS(klass)->transform_frame = guarded<transform_frame, GST_FLOW_ERROR>;
 }
 
-static void gst_mtstereo_confidence_init(GstMtStereoConfidence* self) {
+static void gst_mtstereo_confidence_init(GstMtConfidence* self) {
   self->state = new_state<ConfidenceState>();
 }
 

@@ -41,24 +41,22 @@ struct DepthState {
   bool refused = false;  ///< an error about the stream was posted
 };
 
-struct GstMtStereoDepth {
+struct GstMtDepth {
   GstVideoFilter parent;
   DepthState* state;
 };
 
-struct GstMtStereoDepthClass {
+struct GstMtDepthClass {
   GstVideoFilterClass parent_class;
 };
 
 }  // namespace
 
-G_DEFINE_TYPE(GstMtStereoDepth, gst_mtstereo_depth, GST_TYPE_VIDEO_FILTER)
+G_DEFINE_TYPE(GstMtDepth, gst_mtstereo_depth, GST_TYPE_VIDEO_FILTER)
 
 namespace {
 
-DepthState& state_of(gpointer element) {
-  return *reinterpret_cast<GstMtStereoDepth*>(element)->state;
-}
+DepthState& state_of(gpointer element) { return *reinterpret_cast<GstMtDepth*>(element)->state; }
 
 void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
   bool known = false;
@@ -265,7 +263,7 @@ void finalize(GObject* object) noexcept {
 
 }  // namespace
 
-static void gst_mtstereo_depth_class_init(GstMtStereoDepthClass* klass) {
+static void gst_mtstereo_depth_class_init(GstMtDepthClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtdepth_debug, "mtdepth", 0, "depth maps of disparity maps");
   auto* object_class = G_OBJECT_CLASS(klass);
   object_class->set_property = guarded<set_property>;
@@ -291,7 +289,7 @@ static void gst_mtstereo_depth_class_init(GstMtStereoDepthClass* klass) {
   GST_VIDEO_FILTER_CLASS(klass)->set_info = guarded<set_info, FALSE>;
 }
 
-static void gst_mtstereo_depth_init(GstMtStereoDepth* self) {
+static void gst_mtstereo_depth_init(GstMtDepth* self) {
   self->state = new_state<DepthState>();
   // Frames that are not writable are copied by the base class.
   gst_base_transform_set_in_place(GST_BASE_TRANSFORM(self), TRUE);

@@ -10,11 +10,11 @@ GST_DEBUG_CATEGORY_STATIC(mtwhole_debug);
 
 namespace {
 
-struct GstMtStereoWhole {
+struct GstMtWhole {
   GstBaseTransform parent;
 };
 
-struct GstMtStereoWholeClass {
+struct GstMtWholeClass {
   GstBaseTransformClass parent_class;
 };
 
@@ -22,7 +22,7 @@ constexpr const char* kCaps = "video/x-h264, alignment = au, parsed = true";
 
 }  // namespace
 
-G_DEFINE_TYPE(GstMtStereoWhole, gst_mtstereo_whole, GST_TYPE_BASE_TRANSFORM)
+G_DEFINE_TYPE(GstMtWhole, gst_mtstereo_whole, GST_TYPE_BASE_TRANSFORM)
 
 namespace {
 
@@ -41,9 +41,9 @@ GstStaticPadTemplate src_template =
 
 }  // namespace
 
-static void gst_mtstereo_whole_init(GstMtStereoWhole*) {}
+static void gst_mtstereo_whole_init(GstMtWhole*) {}
 
-static void gst_mtstereo_whole_class_init(GstMtStereoWholeClass* element_class) {
+static void gst_mtstereo_whole_class_init(GstMtWholeClass* element_class) {
   GST_DEBUG_CATEGORY_INIT(mtwhole_debug, "mtwhole", 0, "whole pictures");
   auto* element = reinterpret_cast<GstElementClass*>(element_class);
   gst_element_class_set_static_metadata(

@@ -23,7 +23,7 @@ bool elements_are_settled(GstElement* bin) {
 
 bool is_of_plugin(GstObject* source) {
   const std::string type = G_OBJECT_TYPE_NAME(source);
-  return type.starts_with("GstMtStereo") || type.starts_with("GstMt");
+  return type.starts_with("GstMt");
 }
 
 }  // namespace

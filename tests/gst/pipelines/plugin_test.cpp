@@ -65,8 +65,6 @@ bool is_sentence(const std::string& text) {
   return !text.empty() && g_ascii_islower(text.front()) == FALSE && text.back() != '.';
 }
 
-bool has_prefix(GType type) { return g_str_has_prefix(g_type_name(type), "GstMtStereo"); }
-
 TEST_F(Plugin, RegistersItsElements) {
   std::set<std::string> names;
   for (const auto& element : elements) names.insert(element->name());
@@ -74,12 +72,24 @@ TEST_F(Plugin, RegistersItsElements) {
                                           "mtcloud", "mtrectify", "mtsplit", "mtwhole"}));
 }
 
+TEST_F(Plugin, NamesElementsLikeTheirFactories) {
+  for (const auto& element : elements) {
+    GstElement* made = gst_element_factory_make(element->name().c_str(), nullptr);
+    const std::string name = GST_OBJECT_NAME(made);
+    gst_object_unref(made);
+    const auto digits = name.find_first_of("0123456789");
+    EXPECT_EQ(name.substr(0, digits), element->name());
+    EXPECT_NE(digits, std::string::npos) << name;
+  }
+}
+
 TEST_F(Plugin, GivesItsTypesOnePrefix) {
   for (const auto& element : elements) {
-    EXPECT_TRUE(has_prefix(element->type())) << g_type_name(element->type());
+    EXPECT_TRUE(g_str_has_prefix(g_type_name(element->type()), "GstMt"));
     for (const GParamSpec* spec : element->properties()) {
       if (!G_IS_PARAM_SPEC_ENUM(spec)) continue;
-      EXPECT_TRUE(has_prefix(spec->value_type)) << g_type_name(spec->value_type);
+      EXPECT_TRUE(g_str_has_prefix(g_type_name(spec->value_type), "GstMtStereo"))
+          << g_type_name(spec->value_type);
     }
   }
 }
