@@ -170,7 +170,7 @@ class Examples(Installation):
         expected = self.pixels("element-000000.png")
         self.assertEqual(len(expected), 320 * 240 * 2)
         opencv = ["-isystem", "/usr/include/opencv4", "-lopencv_core", "-lopencv_imgcodecs"]
-        for standard in ("c++20", "c++23"):
+        for standard in os.environ["CPP_STANDARDS"].split():
             program = self.build("match_pair.cpp", standard, *self.flags("mtstereo"), *opencv)
             done = self.use(program, "gray/left/000000.png", "gray/right/000000.png", "48", f"{standard}.png",
                             "confidence.png", LD_LIBRARY_PATH=LIBRARIES)

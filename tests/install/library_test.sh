@@ -4,6 +4,8 @@
 # Installs the build to a temporary folder, builds a program against that folder with pkg-config
 # alone, runs it, and checks the exported names of the library.
 #
+# CPP_STANDARDS has the standards of the language to compile for.
+#
 # usage: library_test.sh PROGRAM.cpp VERSION PREFIX LIBRARY_FOLDER INSTALL_TO BUILD MESON -- COMPILER...
 set -eu
 
@@ -43,7 +45,7 @@ done
 # include_alone HEADER...: every header can be included alone, by C++20 and by C++23.
 include_alone() {
   for header in "$@"; do
-    for standard in c++20 c++23; do
+    for standard in $CPP_STANDARDS; do
       # shellcheck disable=SC2086
       printf '#include <%s>\n' "${header#"$root$prefix/include/"}" |
         $compiler "-std=$standard" -Wall -Wextra -Wpedantic -Werror -fsyntax-only -x c++ - $flags ||
