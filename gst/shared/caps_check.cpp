@@ -30,7 +30,8 @@ bool agree(const GstStructure* fields, const GstStructure* accepted, const char*
 }
 
 std::string text_of(const GstStructure* fields, const char* field) {
-  return TextPointer(gst_value_serialize(gst_structure_get_value(fields, field))).get();
+  const TextPointer text(gst_value_serialize(gst_structure_get_value(fields, field)));
+  return text ? text.get() : "of an unknown type";
 }
 
 std::string size_problem(const GstStructure* fields, const GstStructure* accepted) {
