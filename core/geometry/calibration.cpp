@@ -218,6 +218,8 @@ bool is_coefficient_count(LensModel lens, std::size_t count) noexcept {
       return count == 4 || count == 5 || count == 8 || count == 12 || count == 14;
     case LensModel::kFisheye:
       return count == 4;
+    case LensModel::kOmnidirectional:
+      return count == 5;
   }
   return false;
 }
@@ -230,6 +232,8 @@ const char* coefficient_counts(LensModel lens) noexcept {
       return "4, 5, 8, 12 or 14";
     case LensModel::kFisheye:
       return "4";
+    case LensModel::kOmnidirectional:
+      return "5";
   }
   return "none";
 }

@@ -23,6 +23,8 @@ bool has_known_count(const CameraCalibration& camera) {
       return count == 0;
     case LensModel::kFisheye:
       return count == 4;
+    case LensModel::kOmnidirectional:
+      return count == 5;
     case LensModel::kPlumbBob:
       return count == 4 || count == 5 || count == 8 || count == 12 || count == 14;
   }
@@ -44,7 +46,8 @@ std::string camera_problem(const CameraCalibration& camera) {
   }
   if (!has_known_count(camera) || !all_finite(camera.coefficients)) {
     return "states " + std::to_string(camera.coefficients.size()) +
-           " distortion coefficients; its lens model needs finite ones, 4 (fisheye) or 4, 5, 8, 12 "
+           " distortion coefficients; its lens model needs finite ones, 4 (fisheye), 5 "
+           "(omnidirectional) or 4, 5, 8, 12 "
            "or 14 (polynomial).";
   }
   return {};

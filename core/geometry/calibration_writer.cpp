@@ -61,6 +61,8 @@ const char* lens_name(LensModel lens) {
       return "plumb_bob";
     case LensModel::kFisheye:
       return "fisheye";
+    case LensModel::kOmnidirectional:
+      return "omnidirectional";
   }
   return "none";
 }

@@ -32,7 +32,33 @@ Lens::Lens(const CameraCalibration& camera) : camera_(camera) {
     std::copy_n(camera.coefficients.begin(), count, k_.begin());
   }
   if (camera.lens == LensModel::kPlumbBob && (k_[12] != 0 || k_[13] != 0)) set_tilt(k_[12], k_[13]);
+  if (camera.lens == LensModel::kOmnidirectional) {
+    xi_ = k_[0];
+    std::rotate(k_.begin(), k_.begin() + 1, k_.end());
+    k_.back() = 0;
+    camera_.focal_x *= 1 + xi_;
+    camera_.focal_y *= 1 + xi_;
+  }
   limit_ = largest_radius();
+}
+
+// The unified projection: a direction is a point of the unit sphere, which is seen from a point
+// that is xi behind the center of the sphere. The half of the sphere that is seen ends at its
+// outline, or where the plane through that point is reached.
+Lens::Point Lens::on_plane(const Vector3& direction) const {
+  const auto [x, y, z] = direction;
+  const double length = std::hypot(x, y, z);
+  if (!(z > -std::min(xi_, 1 / xi_) * length)) return {kNone, kNone};
+  const double depth = z + xi_ * length;
+  return {x / depth, y / depth};
+}
+
+Vector3 Lens::off_plane(const Point& point) const {
+  const double r2 = point[0] * point[0] + point[1] * point[1];
+  // 0 on the outline of the sphere, where rounding may make it negative.
+  const double root = std::sqrt(std::max(0.0, 1 + (1 - xi_ * xi_) * r2));
+  const double scale = (xi_ + root) / (1 + r2);
+  return {scale * point[0], scale * point[1], scale - xi_};
 }
 
 // The sensor is not perpendicular to the optical axis: OpenCV's model of 14 coefficients.
@@ -62,7 +88,8 @@ double Lens::radial(double radius) const {
 // The radius up to which the distorted radius grows with it.
 double Lens::largest_radius() const {
   const bool fisheye = camera_.lens == LensModel::kFisheye;
-  const double widest = fisheye ? std::numbers::pi : kLargestTangent;
+  double widest = fisheye ? std::numbers::pi : kLargestTangent;
+  if (xi_ > 1) widest = std::min(widest, 1 / std::sqrt(xi_ * xi_ - 1));
   if (camera_.lens == LensModel::kNone) return std::numeric_limits<double>::infinity();
   double before = 0;
   double last = 0;
@@ -110,6 +137,10 @@ std::array<double, 2> Lens::project(const Vector3& direction) const {
     if (angle > limit_) return point;
     const double scale = radius > 0 ? radial(angle) / radius : 0;
     point = {x * scale, y * scale};
+  } else if (camera_.lens == LensModel::kOmnidirectional) {
+    const Point plane = on_plane(direction);
+    if (!(std::hypot(plane[0], plane[1]) <= limit_)) return point;
+    point = distort(plane[0], plane[1]);
   } else {
     if (!(z > 0) || std::hypot(x, y) > limit_ * z) return point;
     point = camera_.lens == LensModel::kNone ? Point{x / z, y / z} : distort(x / z, y / z);
@@ -168,6 +199,8 @@ Vector3 Lens::direction(double u, double v) const {
   } else if (camera_.lens == LensModel::kPlumbBob) {
     const Point point = undistort({x, y});
     ray = {point[0], point[1], 1};
+  } else if (camera_.lens == LensModel::kOmnidirectional) {
+    ray = Eigen::Vector3d(off_plane(undistort({x, y})).data());
   }
   // Eigen's normalize() leaves a vector as it is if its length is NaN.
   if (!ray.allFinite()) return {kNone, kNone, kNone};
@@ -176,6 +209,10 @@ Vector3 Lens::direction(double u, double v) const {
 }
 
 double Lens::widest_angle() const {
+  if (camera_.lens == LensModel::kOmnidirectional) {
+    const Vector3 ray = off_plane({limit_, 0});
+    return std::atan2(ray[0], ray[2]);
+  }
   return camera_.lens == LensModel::kFisheye ? limit_ : std::atan(limit_);
 }
 

@@ -29,6 +29,8 @@ class Lens {
   using Point = std::array<double, 2>;
   Point distort(double x, double y) const;
   Point undistort(const Point& distorted) const;
+  Point on_plane(const Vector3& direction) const;
+  Vector3 off_plane(const Point& point) const;
   double radial(double radius) const;
   double inverse_radial(double distorted) const;
   void set_tilt(double x, double y);
@@ -38,7 +40,9 @@ class Lens {
   std::array<double, 14> k_{};  // as in CameraCalibration::coefficients, absent ones are 0
   Matrix3 tilt_{1, 0, 0, 0, 1, 0, 0, 0, 1};
   bool tilted_ = false;
-  double limit_ = 0;  // of the radius: tangent, or angle [rad] of a fisheye lens
+  double xi_ = 0;  // of an omnidirectional lens: the distance of its center from that of the sphere
+  double limit_ = 0;  // of the radius: tangent, or angle [rad] of a fisheye lens, or on the plane
+                      // at the distance 1 from the center of an omnidirectional lens
 };
 
 }  // namespace mtstereo

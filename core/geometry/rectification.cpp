@@ -93,7 +93,7 @@ cv::Mat distortion_of(const CameraCalibration& camera) {
 /// True if OpenCV finds the directions of the border of the image correctly. The limit is far above
 /// what its iterations leave for a lens that they suit.
 bool opencv_inverts(const CameraCalibration& camera) {
-  if (camera.lens == LensModel::kFisheye) return false;
+  if (camera.lens != LensModel::kNone && camera.lens != LensModel::kPlumbBob) return false;
   constexpr int kSteps = 8;
   constexpr double kLargestError = 2;  // [px]
   std::vector<cv::Point2d> positions;

@@ -131,6 +131,7 @@ void check_camera(const CameraCalibration& c, const std::string& name) {
                     [](double v) { return std::isfinite(v); }),
         "the distortion coefficients must be finite");
   const std::size_t count = c.coefficients.size();
+  check(c.lens != LensModel::kOmnidirectional, "omnidirectional lenses are not rendered");
   if (c.lens == LensModel::kNone) check(count == 0, "a pinhole has no distortion coefficients");
   if (c.lens == LensModel::kFisheye) check(count == 4, "a fisheye has 4 distortion coefficients");
   if (c.lens == LensModel::kPlumbBob) {

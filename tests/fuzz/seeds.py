@@ -156,6 +156,9 @@ def calibrations_of_slam():
                    "\2%YAML:1.0\nmodel_type: PINHOLE\nimage_width: 640\nimage_height: 480\ndistortion_parameters:\n"
                    "   {k1: 0.1, k2: 0, p1: 0, p2: 0}\nprojection_parameters: {fx: 310, fy: 311, cx: 322, cy: 241}\n"
                    ).encode()
+    yield "omni", ("\0\0%YAML:1.0\n" + "".join(f"cam{i}:\n{camera}" for i in range(2)) +
+                   f"  T_cn_cnm1: {pose.format(-0.12)}\n").replace("pinhole", "omni").replace(
+                       "[310, 311", "[0.8, 834, 831").replace("equidistant", "radtan").encode()
     yield "basalt", b"\0\0" + json.dumps({"value0": {
         "T_imu_cam": [{"px": x, "py": 0, "pz": 0, "qx": 0, "qy": 0, "qz": 0, "qw": 1} for x in (0, 0.12)],
         "intrinsics": [{"camera_type": kind, "intrinsics": dict(

@@ -81,6 +81,26 @@ TEST_F(Chain, IsRefusedWhereItsPositionsContradictEachOther) {
   EXPECT_THAT(contradiction(kLeftToRight, "T_imu_cam", kImuToRight), HasSubstr("contradict"));
 }
 
+TEST_F(Chain, KnowsOmnidirectionalCameras) {
+  const auto omni = [&](const std::string& from, const std::string& to) {
+    std::string text = chain("", pose("T_cn_cnm1", kLeftToRight));
+    text = replaced(text, "camera_model: pinhole", "camera_model: omni");
+    text = replaced(text, "[310.5, 311.5", "[1.5, 775, 780");
+    text = replaced(text, "equidistant", "radtan");
+    return folder_.write("omni.yaml", replaced(text, from, to));
+  };
+  const StereoCalibration calibration = read_valid(omni("radtan", "radtan"));
+  EXPECT_EQ(calibration.left.lens, LensModel::kOmnidirectional);
+  EXPECT_DOUBLE_EQ(calibration.left.focal_x, 310);
+  EXPECT_DOUBLE_EQ(calibration.left.center_x, 322.25);
+  EXPECT_EQ(calibration.left.coefficients, (std::vector<double>{1.5, 0.01, -0.02, 0.003, -0.004}));
+  EXPECT_EQ(calibration.right.lens, LensModel::kFisheye);
+  EXPECT_THAT(read_refused(omni("radtan", "equidistant")), HasSubstr("calibrate with omni-radtan"));
+  EXPECT_THAT(read_refused(omni("[1.5, ", "[")),
+              HasSubstr("cam0.intrinsics has 4 values, 5 are needed: xi, fu, fv, pu, pv"));
+  EXPECT_THAT(read_refused(omni("[1.5, ", "[-1.5, ")), HasSubstr("xi must not be negative"));
+}
+
 TEST_F(Chain, WithOnePositionOnlyNamesWhatIsMissing) {
   EXPECT_THAT(read_refused(write(pose("T_imu_cam", kLeftToImu), "")),
               AllOf(HasSubstr("cam1 has no entry T_cn_cnm1"),

@@ -233,8 +233,8 @@ TEST_F(BrokenFile, WithValuesThatCannotBe) {
               HasSubstr("cam0.distortion_coeffs has 3 coefficients, 4 are needed"));
   EXPECT_THAT(changed("camchain.yaml", "[848, 480]", "[848.5, 480]"),
               HasSubstr("cam0.resolution is 848.5x480, integers from 1"));
-  EXPECT_THAT(changed("camchain.yaml", "pinhole", "omni"),
-              HasSubstr("cam0.camera_model is 'omni', which is not supported"));
+  EXPECT_THAT(changed("camchain.yaml", "pinhole", "eucm"),
+              HasSubstr("cam0.camera_model is 'eucm', which is not supported"));
   EXPECT_THAT(changed("depthai.json", "\"cameraType\": 0", "\"cameraType\": 2"),
               HasSubstr("cameraType is 2; only 0 (perspective) and 1 (fisheye)"));
   EXPECT_THAT(right("camera_info_left.yaml", "camera_info_right.yaml", "plumb_bob", "fov"),

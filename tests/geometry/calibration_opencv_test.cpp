@@ -122,8 +122,8 @@ TEST(OpenCvLens, IsFisheyeIfTheFileStatesIt) {
   EXPECT_EQ(read_valid(path).left.lens, LensModel::kFisheye);
   write("");
   EXPECT_EQ(read_valid(path).left.lens, LensModel::kPlumbBob);
-  write("omnidirectional");
-  EXPECT_THAT(read_refused(path), HasSubstr("distortion_model is 'omnidirectional', a lens model "
+  write("fov");
+  EXPECT_THAT(read_refused(path), HasSubstr("distortion_model is 'fov', a lens model "
                                             "that is not supported"));
 }
 

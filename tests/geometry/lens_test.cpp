@@ -50,6 +50,76 @@ TEST(Lens, FisheyeSeesToTheSide) {
   EXPECT_NEAR(direction[2], std::cos(angle), 1e-9);
 }
 
+/// gamma of Mei's model for the focal lengths of the middle.
+CameraCalibration omnidirectional(double gamma_x, double gamma_y, double center_x, double center_y,
+                                  std::vector<double> coefficients) {
+  CameraCalibration result =
+      camera(752, 480, 1, LensModel::kOmnidirectional, std::move(coefficients));
+  result.focal_x = gamma_x / (1 + result.coefficients[0]);
+  result.focal_y = gamma_y / (1 + result.coefficients[0]);
+  result.center_x = center_x;
+  result.center_y = center_y;
+  return result;
+}
+
+TEST(Lens, OmnidirectionalProjectsAsOmnidirOfOpenCv) {
+  // The positions are those of cv::omnidir::projectPoints().
+  const struct {
+    CameraCalibration camera;
+    std::array<std::array<double, 2>, 5> positions;
+  } cases[] = {
+      {omnidirectional(2138.76, 2131.58, 361.2, 248.28,
+                       {3.6313, 1.17577, 15.4913, -0.000812, 0.000673}),
+       {{{361.2, 248.28},
+         {452.06427482, 202.99810832},
+         {155.85653138, 411.99481628},
+         {472.22453441, 580.0848554},
+         {-23.34955543, 324.88767381}}}},
+      {omnidirectional(834.06, 831.41, 374.32, 254.22,
+                       {0.81262, -0.34248, 0.17109, -0.00066653, 0.00072311}),
+       {{{374.32, 254.22},
+         {464.90977987, 209.06524771},
+         {169.59269268, 417.47370026},
+         {485.13524889, 585.13740339},
+         {-9.01851645, 330.53188696}}}},
+  };
+  constexpr Vector3 kPoints[] = {
+      {0, 0, 1}, {0.2, -0.1, 1}, {-0.5, 0.4, 1}, {0.3, 0.9, 1}, {-1, 0.2, 0.9}};
+  for (const auto& [camera, positions] : cases) {
+    const Lens lens(camera);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const auto at = lens.project(kPoints[i]);
+      EXPECT_NEAR(at[0], positions[i][0], 1e-7);
+      EXPECT_NEAR(at[1], positions[i][1], 1e-7);
+      const Vector3 back = lens.direction(at[0], at[1]);
+      const double scale = kPoints[i][2] / back[2];
+      EXPECT_NEAR(back[0] * scale, kPoints[i][0], 1e-9);
+      EXPECT_NEAR(back[1] * scale, kPoints[i][1], 1e-9);
+    }
+  }
+}
+
+TEST(Lens, OmnidirectionalSeesToTheSideUpToItsOutline) {
+  const auto at = [](double xi, double angle) {
+    const double radians = angle * std::numbers::pi / 180;
+    const Lens lens(omnidirectional(300, 300, 376, 240, {xi, 0, 0, 0, 0}));
+    const auto position = lens.project({std::sin(radians), 0, std::cos(radians)});
+    if (std::isnan(position[0])) return -1.0;
+    const Vector3 back = lens.direction(position[0], position[1]);
+    return std::atan2(back[0], back[2]) * 180 / std::numbers::pi;
+  };
+  EXPECT_NEAR(at(0.8, 100), 100, 1e-6);
+  // The plane of xi is reached at acos(-0.8) = 143 degrees; the model ends a little before.
+  EXPECT_EQ(at(0.8, 144), -1);
+  // From outside of the sphere, its outline is at acos(-1 / 2) = 120 degrees.
+  EXPECT_NEAR(at(2, 119), 119, 1e-6);
+  EXPECT_EQ(at(2, 121), -1);
+  EXPECT_NEAR(Lens(omnidirectional(300, 300, 376, 240, {2, 0, 0, 0, 0})).widest_angle(),
+              120 * std::numbers::pi / 180, 1e-3);
+  EXPECT_NEAR(at(0, 60), 60, 1e-9);
+  EXPECT_EQ(at(0, 91), -1);
+}
+
 TEST(Lens, DirectionsBehindAPolynomialLensHaveNoPosition) {
   const Lens lens(plumb_bob_rig().left);
   EXPECT_TRUE(std::isnan(lens.project({0.1, 0.1, -1})[0]));

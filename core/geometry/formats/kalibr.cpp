@@ -15,14 +15,36 @@ namespace {
 
 constexpr int kMostCameras = 32;
 
+/// The omni-radtan model: xi, fu, fv, pu, pv.
+CameraCalibration read_omni(const Entry& entry, CameraCalibration camera) {
+  const Entry intrinsics = entry.at("intrinsics");
+  const std::vector<double> v = intrinsics.numbers(5, "xi, fu, fv, pu, pv");
+  set_camera_matrix(camera, intrinsics, {v[1], 0, v[3], 0, v[2], v[4], 0, 0, 1});
+  const Entry model = entry.at("distortion_model");
+  const LensModel lens = lens_model(model);
+  if (lens == LensModel::kFisheye) {
+    model.fail("does not fit camera_model omni; calibrate with omni-radtan");
+  }
+  std::vector<double> distortion(4, 0.0);
+  if (lens != LensModel::kNone) {
+    distortion = entry.at("distortion_coeffs").numbers(4, "k1, k2, p1, p2");
+  }
+  Value xi;
+  xi.text = number_text(v[0]);
+  set_omnidirectional(camera, Entry(xi, entry.file(), intrinsics.name() + "[0]"), distortion);
+  return camera;
+}
+
 CameraCalibration read_camera(const Entry& entry) {
   CameraCalibration camera;
   const Entry model = entry.at("camera_model");
+  set_size(camera, entry.at("resolution"));
+  if (model.text() == "omni") return read_omni(entry, camera);
   if (model.text() != "pinhole") {
     model.fail("is '" + printable(model.text()) +
-               "', which is not supported; calibrate with pinhole-radtan or pinhole-equi");
+               "', which is not supported; calibrate with pinhole-radtan, pinhole-equi or "
+               "omni-radtan");
   }
-  set_size(camera, entry.at("resolution"));
   set_intrinsics(camera, entry.at("intrinsics"));
   const LensModel lens = lens_model(entry.at("distortion_model"));
   const std::optional<Entry> coefficients = entry.find("distortion_coeffs");

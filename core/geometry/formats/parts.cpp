@@ -110,6 +110,17 @@ void set_intrinsics(CameraCalibration& camera, const Entry& entry) {
   set_camera_matrix(camera, entry, {v[0], 0, v[2], 0, v[1], v[3], 0, 0, 1});
 }
 
+void set_omnidirectional(CameraCalibration& camera, const Entry& xi,
+                         const std::vector<double>& distortion) {
+  const double value = xi.number();
+  if (value < 0) xi.fail("is " + number_text(value) + "; xi must not be negative");
+  camera.focal_x /= 1 + value;
+  camera.focal_y /= 1 + value;
+  camera.lens = LensModel::kOmnidirectional;
+  camera.coefficients = {value};
+  camera.coefficients.insert(camera.coefficients.end(), distortion.begin(), distortion.end());
+}
+
 LensModel lens_model(const Entry& entry) {
   constexpr std::array<std::string_view, 9> kPlumbBobWords = {
       "plumb_bob",           "radtan",   "radial-tangential",
@@ -128,6 +139,7 @@ LensModel lens_model(const Entry& entry) {
   if (std::find(kFisheyeWords.begin(), kFisheyeWords.end(), word) != kFisheyeWords.end()) {
     return LensModel::kFisheye;
   }
+  if (word == "omnidirectional") return LensModel::kOmnidirectional;
   entry.fail("is '" + printable(word) +
              "', a lens model that is not supported; calibrate with plumb_bob, "
              "rational_polynomial or equidistant");

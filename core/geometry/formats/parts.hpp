@@ -41,6 +41,10 @@ void set_intrinsics(CameraCalibration& camera, const Entry& entry);
 /// K from a value that is read already.
 void set_camera_matrix(CameraCalibration& camera, const Entry& entry, const std::vector<double>& k);
 
+/// Makes a camera whose K has gamma1 and gamma2 one of Mei's model, with k1, k2, p1, p2.
+void set_omnidirectional(CameraCalibration& camera, const Entry& xi,
+                         const std::vector<double>& distortion);
+
 /// The lens model that a word of any of the formats means.
 LensModel lens_model(const Entry& entry);
 /// Sets lens and coefficients, and checks their number. No coefficients mean no distortion.

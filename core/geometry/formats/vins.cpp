@@ -41,9 +41,15 @@ CameraCalibration read_camera(const Entry& file) {
     camera.coefficients = numbers_of(projection, {"k2", "k3", "k4", "k5"});
     return camera;
   }
+  if (model == "MEI") {
+    const std::vector<double> k = numbers_of(projection, {"gamma1", "gamma2", "u0", "v0"});
+    set_camera_matrix(camera, projection, {k[0], 0, k[2], 0, k[1], k[3], 0, 0, 1});
+    set_omnidirectional(camera, file.at("mirror_parameters").at("xi"),
+                        numbers_of(file.at("distortion_parameters"), {"k1", "k2", "p1", "p2"}));
+    return camera;
+  }
   type.fail("is '" + printable(model) +
-            "', which is not supported; calibrate both cameras as PINHOLE or KANNALA_BRANDT, or as "
-            "pinhole-radtan or pinhole-equi with Kalibr");
+            "', which is not supported; calibrate both cameras as PINHOLE, KANNALA_BRANDT or MEI");
 }
 
 /// The camera of a file that an entry names.

@@ -23,9 +23,10 @@ using Vector3 = std::array<double, 3>;
 
 /// How a lens maps directions to the image.
 enum class LensModel {
-  kNone,      ///< a pinhole: no distortion
-  kPlumbBob,  ///< polynomial, rational, thin prism and tilted sensor as in OpenCV's calib3d
-  kFisheye,   ///< equidistant: OpenCV's fisheye, Kalibr's equidistant
+  kNone,             ///< a pinhole: no distortion
+  kPlumbBob,         ///< polynomial, rational, thin prism and tilted sensor as in OpenCV's calib3d
+  kFisheye,          ///< equidistant: OpenCV's fisheye, Kalibr's equidistant
+  kOmnidirectional,  ///< unified projection: Mei's model, OpenCV's omnidir, Kalibr's omni-radtan
 };
 
 /// One camera and its lens.
@@ -38,7 +39,8 @@ struct CameraCalibration {
   double center_y = 0;                ///< cy of K, the row of the principal point [px]
   LensModel lens = LensModel::kNone;  ///< the meaning of `coefficients`
   /// The distortion: none for kNone; 4, 5, 8, 12 or 14 of k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tx ty
-  /// for kPlumbBob; k1 k2 k3 k4 for kFisheye.
+  /// for kPlumbBob; k1 k2 k3 k4 for kFisheye; xi k1 k2 p1 p2 for kOmnidirectional, with the focal
+  /// lengths of the middle of the image: gamma / (1 + xi).
   std::vector<double> coefficients;
 
   /// True if all values are equal.
