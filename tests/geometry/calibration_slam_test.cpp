@@ -317,5 +317,46 @@ TEST_F(SlamFile, OfRosAsIniThatIsBrokenIsRefused) {
   EXPECT_THAT(right("300.5 240.5", "302.5 240.5"), HasSubstr("calibrate again with square pixels"));
 }
 
+// All of them
+
+TEST_F(SlamFile, ThatIsTruncatedIsRefused) {
+  write(kVinsPinhole, "left.yaml");
+  const std::string left = write(camera_ini("left", "0.0"), "left.ini");
+  const std::string reference =
+      write(mrcal("LENSMODEL_PINHOLE", "", "0, 0, 0, 0, 0, 0"), "left.cameramodel");
+  const std::string pose = replaced(kPose, "1.0]", "1.00]");
+  const struct {
+    std::string before, text;
+    std::size_t optional;  // bytes at the end that are not needed
+  } cases[] = {{"", orbslam("PinHole", std::string(kSecond) + pose), 3},
+               {"", orbslam("Rectified", "Stereo.b: 0.12\n"), 5},
+               {"", vins("left.yaml", "left.yaml"), 4},
+               {"", basalt("kb4", "kb4"), 1},
+               {left + ",", camera_ini("right", "-36.06"), 10},
+               {reference + ",", mrcal("LENSMODEL_PINHOLE", "", "0, 0, 0, -0.1, 0, 0"), 2}};
+  for (const auto& [before, text, optional] : cases) {
+    for (std::size_t size = 1; size + optional < text.size(); size += 1 + text.size() / 80) {
+      const std::string path = before + write(text.substr(0, size), "broken");
+      const Result<StereoCalibration> result = read_calibration(path, 640, 480);
+      EXPECT_FALSE(result.ok()) << text.substr(0, 60) << " up to byte " << size;
+    }
+  }
+}
+
+TEST_F(SlamFile, WithImpossibleNumbersIsRefused) {
+  write(kVinsPinhole, "left.yaml");
+  const std::string texts[] = {orbslam("PinHole", std::string(kSecond) + kPose),
+                               orbslam("Rectified", "Stereo.b: 0.12\n"),
+                               basalt("kb4", "pinhole-radtan8"), vins("left.yaml", "left.yaml")};
+  for (const std::string& text : texts) {
+    for (const char* number : {".nan", ".inf", "1e999", "[]", "{}", "\"\"", "-1e30"}) {
+      // The first number that matters: fx, or the pose.
+      const std::string from = text.find("310.5") != std::string::npos ? "310.5" : "0.02";
+      const std::string message = refused(replaced(text, from, number));
+      EXPECT_THAT(message, HasSubstr("config.yaml")) << message;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mtstereo::test
