@@ -60,6 +60,7 @@ struct Source {
 struct Rules {
   Nanoseconds tolerance = kPeriod / 2;
   std::array<Nanoseconds, 2> periods{kPeriod, kPeriod};
+  bool skipping = false;
 };
 
 class Run {
@@ -88,7 +89,8 @@ class Run {
     std::array<std::vector<Nanoseconds>, 2> times{sources_[0].times(), sources_[1].times()};
     std::array<WaitingFrames, 2> waiting;
     for (std::size_t i = 0; i < 2; ++i) {
-      waiting[i] = {times[i], rules_.periods[i], sources_[i].next == sources_[i].all.size()};
+      waiting[i] = {times[i], rules_.periods[i], sources_[i].next == sources_[i].all.size(),
+                    rules_.skipping};
     }
     const PairStep step = finder_.next(waiting[0], waiting[1], rules_.tolerance);
     const PairDoubt doubt = finder_.new_doubt();
@@ -366,6 +368,19 @@ TEST(PairFinder, ReportsMeanSpreadAndDrift) {
   EXPECT_NEAR(statistics.drift, 1e6, 1e5);
   EXPECT_NEAR(statistics.spread, 4e6 / std::sqrt(12.0), 2e5);
   EXPECT_NEAR(statistics.mean, 33.3e6, 1e6);
+}
+
+TEST(PairFinder, PairsNoNeighborsOfKeyFramesWithALargeTolerance) {
+  // Every 12th frame is a key frame on the left, every 25th on the right: 24 and 25 are neighbors.
+  const auto key_frames = [](int interval) {
+    Frames frames;
+    for (int i = 0; i <= 1200; i += interval) frames.push_back({i, i * kPeriod});
+    return frames;
+  };
+  const Outcome outcome =
+      run(key_frames(12), key_frames(25), {.tolerance = 100 * kMs, .skipping = true});
+  EXPECT_EQ(outcome.wrong, 0);
+  EXPECT_EQ(outcome.pairs, 5);  // 0, 300, 600, ...
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 // Seeks at every rate, with and without trick modes and lost frames: no pair is wrong.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
 #include <ostream>
+#include <thread>
 
 #include "support/file_player.hpp"
 
@@ -59,6 +61,12 @@ TEST_P(Rates, PairTheSameFrames) {
   }
 }
 
+TEST_P(Rates, PairNoNeighborsWithALargeTolerance) {
+  g_object_set(player->matcher(), "sync-tolerance", gint64{100} * GST_MSECOND, nullptr);
+  player->lose(Side::kLeft, 0.3);
+  for (const double rate : {1.0, 4.0, 16.0, -4.0}) play_at(rate, 0.3);
+}
+
 const Mode kPlain = {"Plain", 0, 1};
 const Mode kTrickmode = {"Trickmode", GST_SEEK_FLAG_TRICKMODE, 1};
 const Mode kNoAudio = {"NoAudio", GST_SEEK_FLAG_TRICKMODE_NO_AUDIO, 1};
@@ -77,6 +85,43 @@ TEST_P(Skew, IsThatOfTheCamerasAtEveryRate) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, Skew, testing::Values(kPlain, kTrickmode),
                          [](const auto& info) { return info.param.name; });
+
+/// Both streams of a source that plays at a rate by itself: the time stamps count its output.
+void send_segments(StereoHarness& harness, double applied_rate) {
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.applied_rate = applied_rate;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    harness.event(side, gst_event_new_segment(&segment));
+  }
+}
+
+TEST(AppliedRate, PairsTheSameFrames) {
+  for (const int rate : {1, 4, -8}) {
+    StereoHarness harness("max-disparity=64 threads=1");
+    harness.caps(raw_caps("GRAY8", kNumberedWidth, kNumberedHeight));
+    send_segments(harness, rate);
+    const auto push = [&](Side side, int lost) {
+      for (int i = 0; i < 40; ++i) {
+        const auto pts =
+            static_cast<GstClockTime>(i) * kFrame / static_cast<unsigned>(std::abs(rate));
+        if (i % 3 != lost) harness.push(side, numbered_frame(side, i, pts));
+      }
+      harness.end(side);
+    };
+    std::thread left([&] { push(Side::kLeft, 3); });
+    push(Side::kRight, 1);
+    left.join();
+    DifferenceCounter count;
+    while (count.maps < 27) {
+      const BufferPointer map = harness.pull(5);
+      ASSERT_TRUE(map) << "rate " << rate << ", after " << count.maps << " maps";
+      count.add(frame_difference(map.get()));
+    }
+    EXPECT_EQ(count.wrong + count.unknown, 0) << "rate " << rate;
+    EXPECT_TRUE(harness.silent()) << "rate " << rate;
+  }
+}
 
 }  // namespace
 }  // namespace mtstereo::test

@@ -65,6 +65,7 @@ class FilePlayer {
   FilePlayer(const FilePlayer&) = delete;
   FilePlayer& operator=(const FilePlayer&) = delete;
 
+  GstElement* matcher() const { return pipeline_.named("m"); }
   /// Seeks, and plays at least `maps` maps or to the end of the segment. Maps after a warning are
   /// not counted as wrong.
   DifferenceCounter play(const Seek& seek, int maps = 1000);
