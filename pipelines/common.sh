@@ -10,6 +10,8 @@ sink='videoconvert ! autovideosink'
 matcher=(mtstereo name=m)
 color=(mtcolor)
 calibration=
+alpha=
+rectified_size=
 far=
 cloud=
 arguments=()
@@ -35,6 +37,9 @@ show_help() {
 
 Options of every pipeline script:
   --calibration FILE  rectify the views of these cameras first, and take f and the baseline from it
+  --alpha A           of the rectification: 0 = only what both cameras see (the default), 1 = all
+                      pixels of both, between = between, -1 = the focal length of the cameras
+  --rectified-size WxH  size of the rectified views [px]
   --depth METERS      output depths up to this distance, in millimeters, instead of disparities
   --cloud PATTERN     also write the points of each map, such as clouds/%05d.ply (needs --calibration)
   --out FILE.mkv      record the disparity or the depth losslessly instead of showing it; a pattern
@@ -73,7 +78,7 @@ parse_options() {
     case $1 in
       --help | -h) show_help ;;
       --dry-run) dry_run=yes ;;
-      --calibration | --depth | --cloud | --out | --mode | --max-disparity | --set | --sink | --seconds)
+      --calibration | --alpha | --rectified-size | --depth | --cloud | --out | --mode | --max-disparity | --set | --sink | --seconds)
         require_value "$@"
         common_option "$1" "$2"
         shift
@@ -90,6 +95,9 @@ parse_options() {
   if [[ -z $calibration && -n $far$cloud ]]; then
     wrong_usage "--depth and --cloud need --calibration: without it the focal length and the baseline are unknown"
   fi
+  if [[ -z $calibration && -n $alpha$rectified_size ]]; then
+    wrong_usage "--alpha and --rectified-size need --calibration: without it nothing is rectified"
+  fi
   [ "$dry_run" = yes ] || [ -z "$calibration" ] || require_calibration
   local input
   for input in "${arguments[@]}"; do
@@ -100,6 +108,15 @@ parse_options() {
 common_option() {
   case $1 in
     --calibration) calibration=$2 ;;
+    --alpha)
+      [[ $2 =~ ^(0(\.[0-9]+)?|1(\.0+)?|-1)$ ]] || wrong_usage "--alpha is '$2'; it must be 0 to 1, or -1"
+      alpha=$2
+      ;;
+    --rectified-size)
+      [[ $2 =~ ^[0-9]{1,5}x[0-9]{1,5}$ ]] ||
+        wrong_usage "--rectified-size is '$2'; expected WIDTHxHEIGHT, such as 640x480"
+      rectified_size=$2
+      ;;
     --depth)
       [[ $2 =~ ^[0-9]+(\.[0-9]+)?$ && $2 =~ [1-9] ]] ||
         wrong_usage "--depth is '$2'; it must be a distance in meters, such as 20"
@@ -165,7 +182,8 @@ view_to() {
     printf '%s\n' '!' queue '!' "m.sink_$1"
     return
   fi
-  local rectify=(mtrectify "camera=$1" "calibration=$calibration")
+  local rectify=(mtrectify "camera=$1" "calibration=$calibration" ${alpha:+"alpha=$alpha"})
+  [ -z "$rectified_size" ] || rectify+=("width=${rectified_size%x*}" "height=${rectified_size#*x}")
   if [[ -n $cloud && $1 == left ]]; then
     printf '%s\n' '!' "${rectify[@]}" color=true '!' tee name=view '!' queue '!' m.sink_left
   else

@@ -120,6 +120,7 @@ std::vector<std::string> calibrations_in(const std::vector<fs::path>& folders) {
 void choose_calibration(Recording& recording, const std::vector<std::string>& beside,
                         const InputOptions& options, int width, int height) {
   recording.rectified = options.rectified.value_or(true);
+  recording.shape = options.shape;
   if (!options.calibration.empty()) {
     const std::string problem = use(recording, options.calibration, options, width, height);
     if (!problem.empty()) throw RunError(problem);

@@ -83,11 +83,10 @@ Json limits_json(const Work& work) {
 
 Json inputs_json(const Work& work) {
   const Recording& recording = work.recording;
-  Json inputs{{"kind", recording.kind},
-              {"arrangement", arrangement_name(recording.arrangement)},
-              {"swapped", recording.swapped},
-              {"calibration", recording.calibration},
-              {"rectified", recording.rectified}};
+  Json inputs{
+      {"kind", recording.kind},           {"arrangement", arrangement_name(recording.arrangement)},
+      {"swapped", recording.swapped},     {"calibration", recording.calibration},
+      {"rectified", recording.rectified}, {"alpha", recording.shape.alpha}};
   if (recording.arrangement == Arrangement::kTwoSources) {
     inputs["left"] = source_summary(recording.left, work.left);
     inputs["right"] = source_summary(recording.right, work.right);

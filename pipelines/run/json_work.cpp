@@ -103,6 +103,9 @@ Recording read_recording(const Json& json) {
   recording.right = read_source(json.at("right"));
   recording.calibration = json.at("calibration").get<std::string>();
   recording.rectified = json.at("rectified").get<bool>();
+  recording.shape.alpha = json.at("alpha").get<double>();
+  recording.shape.width = json.at("rectified_size").at(0).get<int>();
+  recording.shape.height = json.at("rectified_size").at(1).get<int>();
   recording.frame_rate = json.at("frame_rate").get<double>();
   const int max_disparity = json.at("max_disparity").get<int>();
   if (max_disparity > 0) recording.max_disparity = max_disparity;
@@ -241,6 +244,8 @@ Json recording_json(const Recording& recording) {
           {"right", source_json(recording.right)},
           {"calibration", recording.calibration},
           {"rectified", recording.rectified},
+          {"alpha", recording.shape.alpha},
+          {"rectified_size", {recording.shape.width, recording.shape.height}},
           {"frame_rate", recording.frame_rate},
           {"max_disparity", recording.max_disparity.value_or(0)},
           {"remarks", recording.remarks}};

@@ -160,8 +160,18 @@ class LaneSettings {
       set(name, "calibration", recording.calibration);
       set(name, "color", "true");
     }
+    set_shape(recording.shape);
     set("rectify_right", "camera", "right");
     set("rectify_right_copy", "camera", "right");
+  }
+
+  void set_shape(const RectifiedShape& shape) const {
+    for (const char* const name : {"rectify_left", "rectify_right", "rectify_view",
+                                   "rectify_left_copy", "rectify_right_copy"}) {
+      set(name, "alpha", number_text(shape.alpha));
+      set(name, "width", std::to_string(shape.width));
+      set(name, "height", std::to_string(shape.height));
+    }
   }
 
   void set_parameters(const Work& work, int threads) const {

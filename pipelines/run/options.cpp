@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "mtstereo/geometry/rectification.hpp"
 #include "mtstereo/parameters.hpp"
 #include "run/help_format.hpp"
 #include "run/matching_line.hpp"
@@ -35,7 +36,7 @@ constexpr const char* kStats = "stats";
 
 // The option texts before validation.
 struct Texts {
-  std::string layout, rectified, sync = "none", format = "mkv";
+  std::string layout, rectified, size, sync = "none", format = "mkv";
   std::vector<std::string> what{"disparity"};
   double drift = 0;  // [ppm]
   std::map<std::string, std::string> parameters;
@@ -46,6 +47,39 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& choices) {
   std::vector<std::string> names;
   for (const auto& [name, value] : choices) names.push_back(name);
   return names;
+}
+
+void add_shape(CLI::App& app, Texts& texts, RectifiedShape& shape) {
+  const std::string group = "Inputs";
+  app.add_option("--alpha", shape.alpha,
+                 "of the rectification: 0: only what both cameras see; 1: all pixels of both; "
+                 "between: between; -1: the focal length of the cameras")
+      ->type_name("NUMBER")
+      ->check(CLI::Range(-1.0, 1.0).description(""))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--rectified-size", texts.size,
+                 "size of the rectified views [px] [default: that of the views, or of the "
+                 "rectification in the calibration]")
+      ->type_name("WxH")
+      ->group(group);
+}
+
+void apply_size(const std::string& text, RectifiedShape& shape) {
+  if (text.empty()) return;
+  const std::size_t mark = text.find('x');
+  const bool valid =
+      mark != std::string::npos && CLI::detail::lexical_cast(text.substr(0, mark), shape.width) &&
+      CLI::detail::lexical_cast(text.substr(mark + 1), shape.height) && shape.width >= 1 &&
+      shape.height >= 1 && shape.width <= kLargestImageSide && shape.height <= kLargestImageSide;
+  if (valid) return;
+  throw CLI::ValidationError("--rectified-size", "'" + text + "' is not a size such as 640x480");
+}
+
+void apply_shape(const Texts& texts, RectifiedShape& shape) {
+  apply_size(texts.size, shape);
+  if (shape.alpha == kKeepScale || (shape.alpha >= 0 && shape.alpha <= 1)) return;
+  throw CLI::ValidationError("--alpha", "must be 0 to 1, or -1");
 }
 
 void add_inputs(CLI::App& app, Texts& texts, Options& options) {
@@ -72,6 +106,7 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
                  "rectifies them [default: by the input]")
       ->check(CLI::IsMember({"yes", "no"}))
       ->group(group);
+  add_shape(app, texts, options.input.shape);
   app.add_option("--rate", options.input.frame_rate, "frames per second of pictures without times")
       ->type_name("N")
       ->check(CLI::Range(0.001, 100000.0))
@@ -206,6 +241,7 @@ void apply_sync(const Texts& texts, Options& options) {
 void apply(const Texts& texts, Options& options) {
   if (!texts.layout.empty()) options.input.arrangement = kLayouts.at(texts.layout);
   if (!texts.rectified.empty()) options.input.rectified = texts.rectified == "yes";
+  apply_shape(texts, options.input.shape);
   apply_sync(texts, options);
   WorkOptions& work = options.work;
   work.products.clear();

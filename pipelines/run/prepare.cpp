@@ -140,6 +140,8 @@ Work prepare(const Recording& recording, const WorkOptions& options,
   work.left = index_frames(recording.left, recording.frame_rate);
   find_geometry(work);
   complete_options(work);
+  const std::string measures = measures_text(work);
+  if (!measures.empty()) work.remarks.push_back("The rectified cameras: " + measures + ".");
   find_pairs(work, relation, estimate);
   work.period = period_of(work);
   measure_correction(work);

@@ -30,6 +30,13 @@ struct Source {
   bool empty() const { return video.empty() && pictures.empty(); }
 };
 
+/// How views are rectified, as the properties of mtrectify with these names.
+struct RectifiedShape {
+  double alpha = 0;
+  int width = 0, height = 0;  ///< [px]; 0: those of the views, or of the calibration
+  bool operator==(const RectifiedShape&) const = default;
+};
+
 /// A recording of two cameras: what was recognised, before any frame is decoded.
 struct Recording {
   std::string name;  ///< of its folder of results; unique in an archive
@@ -42,6 +49,7 @@ struct Recording {
   std::string calibration;
   /// The views are rectified. The calibration, if there is one, only gives the meters.
   bool rectified = true;
+  RectifiedShape shape;              ///< of views that are rectified by the calibration
   double frame_rate = 0;             ///< of pictures without times [1/s]; 0 for videos
   std::optional<int> max_disparity;  ///< that the data set states [px]
   std::vector<std::string> remarks;  ///< what was guessed, as sentences for the user
@@ -53,7 +61,8 @@ struct InputOptions {
   bool swap = false;              ///< exchange left and right
   std::string calibration;        ///< for read_calibration(); empty = what lies beside the input
   std::optional<bool> rectified;  ///< none: recognised
-  double frame_rate = 30;         ///< of pictures without times [1/s]
+  RectifiedShape shape;
+  double frame_rate = 30;  ///< of pictures without times [1/s]
 };
 
 /// An input that cannot be used, found while a folder is searched.

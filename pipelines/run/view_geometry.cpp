@@ -2,6 +2,7 @@
 #include "run/view_geometry.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include "mtstereo/geometry/rig.hpp"
 #include "run/matching_line.hpp"
@@ -12,18 +13,42 @@
 namespace mtstereo::run {
 namespace {
 
-Result<ViewGeometry> read_geometry(const Recording& recording, ViewSize size) {
+// What is worth a sentence about a calibration and what it makes of the views.
+void note(const StereoCalibration& calibration, const Rectification& views, bool rectifies,
+          std::vector<std::string>& remarks) {
+  remarks.insert(remarks.end(), calibration.remarks.begin(), calibration.remarks.end());
+  if (!rectifies) return;
+  const auto found = rectification_remarks(calibration, views);
+  if (!found) return;
+  for (const RectificationRemark& remark : *found) remarks.push_back(remark.text);
+}
+
+RectificationOptions options_of(const RectifiedShape& shape) {
+  return {.alpha = shape.alpha, .width = shape.width, .height = shape.height};
+}
+
+Result<ViewGeometry> read_geometry(const Recording& recording, ViewSize size,
+                                   std::vector<std::string>& remarks) {
   const Result<StereoCalibration> read =
       read_calibration(recording.calibration, size.width, size.height);
   if (!read) return read.error();
   const Result<StereoCalibration> scaled = scale_calibration(*read, size.width, size.height);
   if (!scaled) return scaled.error();
-  const Result<Rectification> views = rectify(*scaled);
+  const Result<Rectification> views = rectify(*scaled, options_of(recording.shape));
   if (!views) return views.error();
+  note(*scaled, *views, !recording.rectified, remarks);
   ViewGeometry geometry{*views, read->format};
   geometry.views.left_rotation = {};
   geometry.views.right_rotation = {};
   return geometry;
+}
+
+// alpha and the size need views that are rectified here.
+void check_shape(const Recording& recording) {
+  if (recording.shape == RectifiedShape{} || !recording.rectified) return;
+  throw RunError(recording.name +
+                 ": the views are rectified already, so --alpha and --rectified-size have no "
+                 "meaning; omit them, or state --rectified no");
 }
 
 bool needs_meters(const WorkOptions& options) {
@@ -50,9 +75,10 @@ ViewSize view_size(const Work& work) {
 
 void find_geometry(Work& work) {
   const Recording& recording = work.recording;
+  check_shape(recording);
   if (recording.calibration.empty()) return;
   const ViewSize size = view_size(work);
-  Result<ViewGeometry> geometry = read_geometry(recording, size);
+  Result<ViewGeometry> geometry = read_geometry(recording, size, work.remarks);
   if (geometry && recording.rectified &&
       (geometry->views.width != size.width || geometry->views.height != size.height)) {
     geometry = Error{ErrorCode::kInvalidCalibration,

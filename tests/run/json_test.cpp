@@ -27,6 +27,7 @@ Work example() {
   work.recording.right.times = {5, 1000, 2000, 3001, 4000};
   work.recording.calibration = "/a/calibration.yml";
   work.recording.rectified = false;
+  work.recording.shape = {.alpha = 0.3, .width = 600, .height = 400};
   work.recording.frame_rate = 29.97;
   work.recording.max_disparity = 128;
   work.recording.remarks = {"a remark"};

@@ -2,7 +2,10 @@
 // What is decided once for a recording.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mtstereo/alignment.hpp"
+#include "run/json.hpp"
 #include "run/run_error.hpp"
 #include "run/view_geometry.hpp"
 #include "run/work_options.hpp"
@@ -148,6 +151,39 @@ TEST_F(Preparation, RefusesCloudsThatBeginBeyondTheirEnd) {
   EXPECT_NE(refusal().find("set --far"), std::string::npos) << refusal();
   options_.far = 0;
   EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(Preparation, RectifiesInTheShapeThatIsStated) {
+  write(3, 0);
+  recording_.calibration = testing::write_stereo_calibration(folder_.path()).string();
+  recording_.shape = {.alpha = 1, .width = 80, .height = 48};
+  EXPECT_NE(refusal().find("--alpha and --rectified-size have no meaning"), std::string::npos)
+      << refusal();
+  recording_.rectified = false;
+  const Work work = prepared();
+  ASSERT_TRUE(work.geometry);
+  EXPECT_EQ(work.geometry->views.width, 80);
+  EXPECT_EQ(work.geometry->views.height, 48);
+  EXPECT_NEAR(work.geometry->views.focal_length, 50, 1);
+  recording_.shape.alpha = 0.5;
+  EXPECT_NE(fingerprint(prepared()), fingerprint(work));
+}
+
+TEST_F(Preparation, StatesWhatTheCamerasMeasureAndWhatIsUnusual) {
+  write(3, 0);
+  recording_.calibration = testing::write_stereo_calibration(folder_.path()).string();
+  const auto stated = [this](const char* text) {
+    const Work work = prepared();
+    return std::any_of(work.remarks.begin(), work.remarks.end(), [&](const std::string& remark) {
+      return remark.find(text) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(stated("focal length 100.0 px, baseline 0.100 m"));
+  EXPECT_FALSE(stated("exchanged"));
+  testing::write_text(recording_.calibration,
+                      "cam0=[100 0 79.5; 0 100 47.5; 0 0 1]\ncam1=[100 0 79.5; 0 100 47.5; 0 0 1]\n"
+                      "doffs=0\nbaseline=-100\nwidth=160\nheight=96\nndisp=24\n");
+  EXPECT_TRUE(stated("they are exchanged"));
 }
 
 TEST_F(Preparation, RefusesACalibrationThatGivesNoMetersIfTheyAreNeeded) {

@@ -179,6 +179,12 @@ class Program(unittest.TestCase):
             self.command("--max-disparity", "0"),
             self.command("--alignment", "monitor"),
             self.command("--drift", "3"),
+            self.command("--alpha", "1.5"),
+            self.command("--alpha", "-0.5"),
+            self.command("--alpha", "nan"),
+            self.command("--rectified-size", "640"),
+            self.command("--rectified-size", "0x480"),
+            self.command("--rectified-size", "640x480x3"),
             self.command("--sync", "soon"),
             self.command("--no-such-option"),
             self.command("--far", "-1"),
@@ -194,6 +200,7 @@ class Program(unittest.TestCase):
         for arguments, text in (
             ([self.left, self.folder / "missing.mp4", "--out", self.out()], "missing.mp4"),
             (self.command("--what", "depth"), "calibration"),
+            (self.command("--alpha", "1"), "--rectified no"),
         ):
             result = run(*arguments)
             self.assertEqual(result.returncode, 1, result.stderr)
