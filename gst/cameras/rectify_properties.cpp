@@ -48,9 +48,10 @@ void install_rectify_properties(GObjectClass* object_class) {
       object_class, kCalibration,
       g_param_spec_string("calibration", "calibration",
                           "File with the calibration of both cameras: of OpenCV, ROS, Kalibr, "
-                          "EuRoC, KITTI, Middlebury, DepthAI, ZED or mtcalibrate, which is "
-                          "recognized from the content. Two files are separated by a comma: left "
-                          "and right, or intrinsics and extrinsics",
+                          "EuRoC, KITTI, Middlebury, DepthAI, ZED, ORB-SLAM, VINS-Fusion, "
+                          "Basalt, mrcal or mtcalibrate, which is recognized from the content. Two "
+                          "files are separated by a comma: left and right, or intrinsics and "
+                          "extrinsics",
                           nullptr, kFlags));
   g_object_class_install_property(
       object_class, kAlpha,
