@@ -14,12 +14,6 @@ namespace {
 constexpr std::size_t kKept = 8;  // pictures
 constexpr int kFewestRows = 16;   // of a picture [px]
 
-template <typename T>
-T value_of(Result<T> result) {
-  if (!result) throw RunError("the views cannot be rectified: " + result.error().message);
-  return std::move(*result);
-}
-
 }  // namespace
 
 GrayFrames::GrayFrames(const Source& source, const FrameIndex& index, int width)
@@ -64,26 +58,7 @@ cv::Mat GrayFrames::convert(const DecodedFrame& frame) {
 }
 
 void GrayFrames::rectify_as(const StereoCalibration& calibration, Rectifier::Side side) {
-  calibration_ = calibration;
-  side_ = side;
-  rectifier_.reset();
-}
-
-cv::Mat GrayFrames::rectified(const cv::Mat& picture) {
-  if (!calibration_ || picture.empty()) return picture;
-  if (!rectifier_) {
-    const StereoCalibration scaled =
-        value_of(scale_calibration(*calibration_, picture.cols, picture.rows));
-    const Rectification rectification = value_of(rectify(scaled));
-    rectifier_ = value_of(Rectifier::create(scaled, rectification, side_));
-    rectified_width_ = rectification.width, rectified_height_ = rectification.height;
-  }
-  cv::Mat result(rectified_height_, rectified_width_, CV_8UC1);
-  const Status status = rectifier_->apply(
-      {picture.data, picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step)},
-      {result.data, result.cols, result.rows, static_cast<std::ptrdiff_t>(result.step)});
-  if (!status) throw RunError("the views cannot be rectified: " + status.error().message);
-  return result;
+  rectifier_.emplace(calibration, side);
 }
 
 cv::Mat GrayFrames::at(std::int64_t number) {
@@ -91,7 +66,8 @@ cv::Mat GrayFrames::at(std::int64_t number) {
   const auto known = kept_.find(number);
   if (known != kept_.end()) return known->second;
   const DecodedFrame frame = reader_->read(number);
-  cv::Mat picture = frame.state == FrameState::kDecoded ? rectified(convert(frame)) : cv::Mat();
+  cv::Mat picture = frame.state == FrameState::kDecoded ? convert(frame) : cv::Mat();
+  if (rectifier_) picture = rectifier_->apply(picture);
   if (kept_.size() >= kKept) {
     // Frames are asked for in increasing order, so the farthest one is the oldest.
     const bool first =

@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "mtstereo/geometry/rectification.hpp"
 #include "run/frame_reader.hpp"
+#include "run/view_rectifier.hpp"
 
 namespace mtstereo::run {
 
@@ -36,7 +36,6 @@ class GrayFrames {
 
   cv::Mat convert(const DecodedFrame& frame);
   void prepare(GstCaps* caps);
-  cv::Mat rectified(const cv::Mat& picture);
 
   const FrameIndex& index_;
   int width_;
@@ -45,10 +44,7 @@ class GrayFrames {
   GstVideoInfo in_{}, out_{};
   std::unique_ptr<GstVideoConverter, FreeConverter> converter_;
   std::map<std::int64_t, cv::Mat> kept_;
-  std::optional<StereoCalibration> calibration_;
-  Rectifier::Side side_ = Rectifier::Side::kLeft;
-  std::optional<Rectifier> rectifier_;
-  int rectified_width_ = 0, rectified_height_ = 0;
+  std::optional<ViewRectifier> rectifier_;
 };
 
 }  // namespace mtstereo::run

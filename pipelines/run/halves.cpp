@@ -4,52 +4,15 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "mtstereo/matcher.hpp"
-#include "run/run_error.hpp"
+#include "run/view_match.hpp"
+#include "run/view_rectifier.hpp"
 
 namespace mtstereo::run {
-
 namespace {
 
-constexpr int kWidth = 480;     // of a view that is matched, at most [px]
-constexpr int kRange = 96;      // of disparities [px]
-constexpr double kLeast = 0.1;  // density of views that match
-constexpr double kFactor = 2;   // between densities that differ clearly
-
-GrayView view_of(const cv::Mat& image) {
-  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
-}
-
-template <typename T>
-T value_of(Result<T> result) {
-  if (!result) throw RunError("the halves cannot be matched: " + result.error().message);
-  return std::move(*result);
-}
-
-double density(Matcher& matcher, const cv::Mat& left, const cv::Mat& right) {
-  value_of(matcher.compute(view_of(left), view_of(right)));
-  return matcher.statistics().density;
-}
-
-cv::Mat half_of(const cv::Mat& frame, Arrangement arrangement, int number) {
-  const bool beside = arrangement == Arrangement::kSideBySide;
-  const cv::Size size(beside ? frame.cols / 2 : frame.cols, beside ? frame.rows : frame.rows / 2);
-  const cv::Mat half = frame({number * (beside ? size.width : 0),
-                              number * (beside ? 0 : size.height), size.width, size.height});
-  const double scale = std::min(1.0, static_cast<double>(kWidth) / size.width);
-  cv::Mat small;
-  cv::resize(half, small, {}, scale, scale, cv::INTER_AREA);
-  return small;
-}
+constexpr double kRangeShare = 0.4;  // of the width: near things in close views too
 
 }  // namespace
-
-bool HalvesMatch::confirmed() const {
-  const double best = std::max(forward, backward);
-  return best >= kLeast && best >= kFactor * unrelated;
-}
-
-bool HalvesMatch::swapped() const { return backward >= kFactor * forward; }
 
 std::optional<Arrangement> arrangement_by_shape(int width, int height) {
   // Halves of a side-by-side frame are at least square, views of one camera at most 16:9.
@@ -58,24 +21,37 @@ std::optional<Arrangement> arrangement_by_shape(int width, int height) {
   return std::nullopt;
 }
 
-HalvesMatch match_halves(const std::vector<cv::Mat>& frames, Arrangement arrangement) {
-  Parameters parameters;
-  if (!parameters.set(Parameter::kMaxDisparity, kRange)) {
-    throw RunError("the halves cannot be matched: the range of disparities is refused");
+cv::Mat half_of(const cv::Mat& frame, Arrangement arrangement, int number) {
+  const bool beside = arrangement == Arrangement::kSideBySide;
+  const cv::Size size(beside ? frame.cols / 2 : frame.cols, beside ? frame.rows : frame.rows / 2);
+  const cv::Mat half = frame({number * (beside ? size.width : 0),
+                              number * (beside ? 0 : size.height), size.width, size.height});
+  const double scale = std::min(1.0, static_cast<double>(kMatchedWidth) / size.width);
+  cv::Mat small;
+  cv::resize(half, small, {}, scale, scale, cv::INTER_AREA);
+  return small;
+}
+
+HalvesMatch match_halves(const std::vector<cv::Mat>& frames, Arrangement arrangement,
+                         const std::optional<StereoCalibration>& calibration) {
+  std::optional<ViewRectifier> left, right;
+  if (calibration) {
+    left.emplace(*calibration, Rectifier::Side::kLeft);
+    right.emplace(*calibration, Rectifier::Side::kRight);
   }
-  Matcher matcher = value_of(Matcher::create(parameters));
-  HalvesMatch match;
+  ViewMatcher matcher;
+  ViewMatch forward, backward;
   for (const cv::Mat& frame : frames) {
     const cv::Mat first = half_of(frame, arrangement, 0), second = half_of(frame, arrangement, 1);
-    cv::Mat upside_down;
-    cv::flip(second, upside_down, 0);
-    match.forward += density(matcher, first, second);
-    match.backward += density(matcher, second, first);
-    match.unrelated += density(matcher, first, upside_down);
+    const DisparityRange range{0, static_cast<int>(kRangeShare * first.cols)};
+    const auto add = [&](const cv::Mat& a, const cv::Mat& b, ViewMatch& match) {
+      matcher.add(left ? left->apply(a) : a, right ? right->apply(b) : b, range, match);
+    };
+    add(first, second, forward);
+    add(second, first, backward);
   }
-  const auto count = static_cast<double>(std::max<std::size_t>(frames.size(), 1));
-  for (double* sum : {&match.forward, &match.backward, &match.unrelated}) *sum /= count;
-  return match;
+  return {forward.share(), backward.share(), forward.confirmed() || backward.confirmed(),
+          is_better_order(backward, forward)};
 }
 
 }  // namespace mtstereo::run

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "mtstereo/geometry/calibration.hpp"
 #include "run/calibration_choice.hpp"
 #include "run/file_names.hpp"
 #include "run/halves.hpp"
@@ -172,33 +173,48 @@ const char* name_of(Arrangement arrangement) {
   return arrangement == Arrangement::kSideBySide ? "side by side" : "one above the other";
 }
 
-// The arrangement that the shape of a frame suggests, if its halves match.
-void guess_arrangement(Recording& recording, cv::Size size) {
-  const std::string file = file_of(recording.left).string();
+// The arrangement that the shape of a frame suggests.
+Arrangement guess_arrangement(const Recording& recording, cv::Size size) {
   const std::optional<Arrangement> shape = arrangement_by_shape(size.width, size.height);
-  if (!shape) {
-    throw RunError(file + ": " + size_text(size) +
-                   " is the shape of one view: give the other view too, or state the arrangement "
-                   "(--layout)");
-  }
+  if (shape) return *shape;
+  throw RunError(file_of(recording.left).string() + ": " + size_text(size) +
+                 " is the shape of one view: give the other view too, or state the arrangement "
+                 "(--layout)");
+}
+
+// The calibration that rectifies the halves, if one does.
+std::optional<StereoCalibration> rectifying_calibration(const Recording& recording, cv::Size half) {
+  if (recording.rectified || recording.calibration.empty()) return std::nullopt;
+  const auto read = read_calibration(recording.calibration, half.width, half.height);
+  if (!read) throw RunError(read.error().message);
+  return *read;
+}
+
+// Checks that the halves match, and finds which one is the left view unless the user states it.
+void confirm_arrangement(Recording& recording, cv::Size size, cv::Size half, bool swap) {
   constexpr int kSamples = 3;  // frames
-  const HalvesMatch match = match_halves(sample_frames(recording.left, kSamples), *shape);
-  const std::string text = size_text(size) + ", " + name_of(*shape) + ": " +
+  const std::vector<cv::Mat> frames = sample_frames(recording.left, kSamples);
+  const std::optional<StereoCalibration> calibration = rectifying_calibration(recording, half);
+  HalvesMatch match = match_halves(frames, recording.arrangement, calibration);
+  // Views that only match before they are rectified keep their order: the calibration is wrong.
+  if (!match.confirmed && calibration) {
+    match = match_halves(frames, recording.arrangement, std::nullopt);
+    match.swapped = false;
+  }
+  const std::string text = size_text(size) + ", " + name_of(recording.arrangement) + ": " +
                            percent(std::max(match.forward, match.backward)) +
-                           " of the pixels match, " + percent(match.unrelated) +
-                           " do in pictures that do not belong together";
-  if (!match.confirmed()) {
-    throw RunError(file + ": by its shape it may have both views, but its halves do not match (" +
-                   text + "): give the other view too, or state the arrangement (--layout)");
+                           " of the points of one half are in the other one";
+  if (!match.confirmed) {
+    throw RunError(file_of(recording.left).string() +
+                   ": by its shape it may have both views, but its halves do not match (" + text +
+                   "): give the other view too, or state the arrangement (--layout)");
   }
-  recording.arrangement = *shape;
   recording.remarks.push_back("Both views are in one frame (" + text + ").");
-  if (match.swapped()) {
-    recording.swapped = true;
-    recording.remarks.push_back("The first half is the right view: the other order matches " +
-                                percent(match.backward) + " instead of " + percent(match.forward) +
-                                " of the pixels.");
-  }
+  if (swap || !match.swapped) return;
+  recording.swapped = true;
+  recording.remarks.push_back("The first half is the right view: in the other order " +
+                              percent(match.backward) + " of the points match instead of " +
+                              percent(match.forward) + ". --layout keeps the order.");
 }
 
 cv::Size half_size(cv::Size size, Arrangement arrangement, const fs::path& file) {
@@ -220,15 +236,16 @@ cv::Size size_of_two(const Recording& recording) {
                  size_text(right));
 }
 
-cv::Size size_of_one(Recording& recording, const InputOptions& options) {
+// One source: the calibration is for a half, and decides how the halves match.
+void complete_one(FoundRecording& found, const InputOptions& options) {
+  Recording& recording = found.recording;
   const cv::Size size = first_frame(recording.left).size();
-  if (options.arrangement) {
-    recording.arrangement = *options.arrangement;
-  } else {
-    guess_arrangement(recording, size);
-  }
-  if (options.swap) recording.swapped = !recording.swapped;
-  return half_size(size, recording.arrangement, file_of(recording.left));
+  recording.arrangement = options.arrangement.value_or(Arrangement::kTwoSources);
+  if (!options.arrangement) recording.arrangement = guess_arrangement(recording, size);
+  recording.swapped = options.swap;
+  const cv::Size half = half_size(size, recording.arrangement, file_of(recording.left));
+  choose_calibration(recording, found.calibrations, options, half.width, half.height);
+  if (!options.arrangement) confirm_arrangement(recording, size, half, options.swap);
 }
 
 }  // namespace
@@ -239,9 +256,12 @@ FolderContents search_folder(const fs::path& folder, const InputOptions& options
 
 Recording completed(FoundRecording found, const InputOptions& options) {
   Recording& recording = found.recording;
-  const bool two = !recording.right.empty();
-  if (two && options.swap) std::swap(recording.left, recording.right);
-  const cv::Size size = two ? size_of_two(recording) : size_of_one(recording, options);
+  if (recording.right.empty()) {
+    complete_one(found, options);
+    return std::move(recording);
+  }
+  if (options.swap) std::swap(recording.left, recording.right);
+  const cv::Size size = size_of_two(recording);
   choose_calibration(recording, found.calibrations, options, size.width, size.height);
   return std::move(recording);
 }
