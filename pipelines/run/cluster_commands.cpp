@@ -140,6 +140,11 @@ int report(const fs::path& folder, const Plan& plan, const MergeResult& result,
               << " missing: " << array_text(result.missing) << "; " << next << '\n';
   }
   if (result.missing.size() == plan.tasks.size()) return kFailed;
+  for (const Problem& problem : result.doubtful) {
+    std::cerr << "mtstereo-run: " << problem.input
+              << ": the results are of no use: " << problem.reason << '\n';
+  }
+  if (!result.doubtful.empty()) return kWorthless;
   const bool complete = plan.problems.empty() && result.problems.empty() && result.missing.empty();
   const bool whole = plan.damaged.empty() && result.damaged.empty();
   return complete && whole ? kDone : kIncomplete;

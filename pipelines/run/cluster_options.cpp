@@ -125,7 +125,7 @@ std::optional<int> parse_merge(int argc, const char* const* argv, MergeCommand& 
   app.footer(
       "Exit status: 0 = all recordings are joined, 1 = nothing could be done, and the reason is "
       "printed, 2 = the command is invalid, 3 = tasks are missing, or inputs cannot be used or are "
-      "damaged.");
+      "damaged, 4 = the results of a recording are of no use.");
   add_folder(app, command.folder);
   app.add_option("--jobs", command.jobs, "recordings that are joined at the same time")
       ->type_name("N")

@@ -7,6 +7,7 @@
 #include <gst/gst.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "run/json_files.hpp"
 #include "run/matching_line.hpp"
@@ -96,6 +97,13 @@ Json inputs_json(const Work& work) {
   return inputs;
 }
 
+// A text in a report; empty if there is none.
+std::string text_in(const std::filesystem::path& file, const char* name) {
+  std::ifstream in(file, std::ios::binary);
+  const Json json = Json::parse(in, nullptr, false);
+  return json.is_object() ? json.value(name, "") : "";
+}
+
 Json run_json(const Work& work, const PieceReport& report, double seconds) {
   const Means means = means_of(report.frames);
   Json products = Json::array();
@@ -125,6 +133,7 @@ Json run_json(const Work& work, const PieceReport& report, double seconds) {
       {"dropped_frames", {{"left", work.pairs.dropped_left}, {"right", work.pairs.dropped_right}}},
       {"damage", report.damage},
       {"remarks", work.remarks},
+      {"doubt", verdict(work, report)},
       {"seconds", seconds},
       {"pairs_per_second", seconds > 0 ? pairs / seconds : 0.0},
       {"means",
@@ -161,10 +170,24 @@ void write_run_report(const Work& work, const PieceReport& report, double second
   write_whole(file, [&](std::ostream& out) { write_frames(out, head, report.frames); });
 }
 
-std::string fingerprint_in(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const Json json = Json::parse(in, nullptr, false);
-  return json.is_object() ? json.value("fingerprint", "") : "";
+std::string verdict(const Work& work, const PieceReport& report) {
+  constexpr double kLeastDensity = 0.05;
+  const double density = means_of(report.frames).density;
+  if (!work.doubt.empty() || report.frames.empty() || density >= kLeastDensity) return work.doubt;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "Only %.1f %% of the pixels have a disparity. Check the order of the views (--swap), "
+      "their times (--sync auto), the search range (--max-disparity N) and the "
+      "rectification (--calibration FILE).",
+      100 * density);
+  return text;
 }
+
+std::string fingerprint_in(const std::filesystem::path& file) {
+  return text_in(file, "fingerprint");
+}
+
+std::string verdict_in(const std::filesystem::path& file) { return text_in(file, "doubt"); }
 
 }  // namespace mtstereo::run

@@ -31,6 +31,11 @@ inline constexpr const char* kRunFile = "run.json";
 /// frames, remarks.
 void write_run_report(const Work& work, const PieceReport& report, double seconds,
                       const std::filesystem::path& file);
+/// Why the results of a work are of no use: Work::doubt, or a mean density below 5 %. Empty if they
+/// can be used.
+std::string verdict(const Work& work, const PieceReport& report);
+/// The verdict in such a report; empty if there is none.
+std::string verdict_in(const std::filesystem::path& file);
 /// The fingerprint() of the work of such a report; empty if the file does not exist or is none.
 std::string fingerprint_in(const std::filesystem::path& file);
 

@@ -206,6 +206,7 @@ Work work_of(const Json& json) {
   work.geometry = read_geometry(json.at("geometry"));
   work.correction = json.at("correction").get<decltype(work.correction)>();
   work.remarks = json.at("remarks").get<std::vector<std::string>>();
+  work.doubt = json.at("doubt").get<std::string>();
   return work;
 }
 
@@ -304,7 +305,8 @@ Json work_json(const Work& work) {
           {"period", work.period},
           {"geometry", geometry_json(work.geometry)},
           {"correction", work.correction},
-          {"remarks", work.remarks}};
+          {"remarks", work.remarks},
+          {"doubt", work.doubt}};
 }
 
 void write_work(const Work& work, const std::filesystem::path& file) {
@@ -323,6 +325,7 @@ std::string fingerprint(const Work& work) {
   Json json = work_json(work);
   // None of them changes the results; the pairs contain what the clocks decide.
   json.erase("remarks");
+  json.erase("doubt");
   json.erase("clocks");
   json.at("options").erase("threads");
   std::uint64_t sum = kStart;

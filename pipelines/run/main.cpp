@@ -2,6 +2,7 @@
 
 // mtstereo-run: disparities, depths, clouds and figures of recordings.
 
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <filesystem>
@@ -53,15 +54,16 @@ int run_all(const std::vector<Recording>& recordings, const std::vector<Problem>
             const Options& options) {
   for (const Problem& problem : problems) print_problem(problem);
   std::size_t failed = 0;
-  bool complete = problems.empty();
+  int status = problems.empty() ? kDone : kIncomplete;
   for (const Recording& recording : recordings) {
     if (stop_requested()) break;
     try {
       const bool one = recordings.size() == 1 && problems.empty();
       const fs::path folder = one ? options.folder : options.folder / recording.name;
-      complete = run_recording(recording, options, folder) == kDone && complete;
+      status = std::max(status, run_recording(recording, options, folder));
     } catch (const RunError& error) {
       std::cerr << "mtstereo-run: " << error.what() << '\n';
+      status = std::max<int>(status, kIncomplete);
       ++failed;
     }
   }
@@ -70,7 +72,7 @@ int run_all(const std::vector<Recording>& recordings, const std::vector<Problem>
     return kIncomplete;
   }
   if (failed == recordings.size()) return kFailed;
-  return complete && failed == 0 ? kDone : kIncomplete;
+  return status;
 }
 
 int run(const Options& options) {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <fstream>
 #include <limits>
+#include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
@@ -55,6 +56,18 @@ double disparity_of(std::size_t value, const plugin::MapUnit& unit) {
   return static_cast<double>(value) / unit.scale + unit.offset;
 }
 
+// How many pixels have each value.
+std::vector<std::int64_t> count_values(GstSample* map) {
+  const Frame frame(map);
+  std::vector<std::int64_t> counts(kValues);
+  const ImageView<const std::uint16_t> values = frame.values();
+  for (int y = 0; y < values.height; ++y) {
+    const std::uint16_t* row = values.row(y);
+    for (int x = 0; x < values.width; ++x) ++counts[row[x]];
+  }
+  return counts;
+}
+
 // Little-endian, the last row first.
 void write_pfm(ImageView<const std::uint16_t> map, const std::vector<float>& table,
                const std::filesystem::path& file) {
@@ -76,14 +89,8 @@ void write_pfm(ImageView<const std::uint16_t> map, const std::vector<float>& tab
 }  // namespace
 
 void measure_map(GstSample* map, FrameFigures& figures) {
-  const Frame frame(map);
-  std::vector<std::int64_t> counts(kValues);
-  const ImageView<const std::uint16_t> values = frame.values();
-  for (int y = 0; y < values.height; ++y) {
-    const std::uint16_t* row = values.row(y);
-    for (int x = 0; x < values.width; ++x) ++counts[row[x]];
-  }
-  const std::int64_t pixels = static_cast<std::int64_t>(values.width) * values.height;
+  const std::vector<std::int64_t> counts = count_values(map);
+  const std::int64_t pixels = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
   const std::int64_t known = pixels - counts[0];
   figures.density = static_cast<double>(known) / static_cast<double>(pixels);
   figures.median_disparity = 0;
@@ -92,6 +99,17 @@ void measure_map(GstSample* map, FrameFigures& figures) {
   std::size_t value = 0;
   while (2 * below < known) below += counts[++value];
   figures.median_disparity = disparity_of(value, unit_of(map));
+}
+
+double share_from(GstSample* map, double disparity) {
+  const std::vector<std::int64_t> counts = count_values(map);
+  const plugin::MapUnit unit = unit_of(map);
+  std::int64_t known = 0, beyond = 0;
+  for (std::size_t value = 1; value < counts.size(); ++value) {
+    known += counts[value];
+    if (disparity_of(value, unit) >= disparity) beyond += counts[value];
+  }
+  return known > 0 ? static_cast<double>(beyond) / static_cast<double>(known) : 0;
 }
 
 MapGeometry::MapGeometry(const Recording& recording) {

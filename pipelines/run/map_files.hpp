@@ -16,6 +16,9 @@ namespace mtstereo::run {
 /// The share of pixels with a disparity, and their median.
 void measure_map(GstSample* map, FrameFigures& figures);
 
+/// The share of the pixels with a disparity that have at least this one [0 .. 1].
+double share_from(GstSample* map, double disparity);
+
 /// What turns the disparities of maps into depths: from their caps, or from the calibration of a
 /// recording whose views are rectified.
 class MapGeometry {

@@ -20,6 +20,7 @@ constexpr int kVersion = 1;
 // What became of a recording.
 struct Joined {
   std::optional<Figures> figures;  // if it is whole
+  std::string doubt;               // why its results are of no use
   std::vector<std::size_t> missing;
   std::vector<Problem> problems;
 };
@@ -45,6 +46,7 @@ class Joiner {
         join_pieces(recording, tasks, origin);
       }
       result.figures = read_figures(files_.recording(recording));
+      result.doubt = verdict_in(files_.recording(recording) / kRunFile);
       if (options_.remove_pieces) {
         for (const std::size_t task : tasks) discard(files_.piece(task), files_.unfinished());
       }
@@ -121,6 +123,7 @@ json to_json(const std::string& name, const Joined& joined) {
     recording["median_disparity"] = joined.figures->median_disparity;
     recording["seconds"] = joined.figures->seconds;
     recording["damage"] = joined.figures->damage;
+    recording["doubt"] = joined.doubt;
   }
   return recording;
 }
@@ -185,6 +188,7 @@ MergeResult merge(const fs::path& folder, const MergeOptions& options) {
     if (!recording.figures) continue;
     ++result.joined;
     add(*recording.figures, result.sum);
+    if (!recording.doubt.empty()) result.doubtful.push_back({plan.recordings[i], recording.doubt});
     if (!recording.figures->damage.empty()) {
       result.damaged.push_back({plan.recordings[i], recording.figures->damage});
     }

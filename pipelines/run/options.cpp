@@ -95,7 +95,10 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
                  "where the views of one file are [default: by the size and the pictures]")
       ->check(CLI::IsMember(names_of(kLayouts)))
       ->group(group);
-  app.add_flag("--swap", options.input.swap, "exchange left and right")->group(group);
+  app.add_flag(
+         "--swap", options.input.swap,
+         "exchange the views: the second input, or the second half of the frames, is the left one")
+      ->group(group);
   app.add_option("--calibration", options.input.calibration,
                  "calibration of the cameras; two files are separated by a comma [default: what "
                  "lies beside the input]")
@@ -286,7 +289,9 @@ void describe(CLI::App& app, bool plan) {
                        : "") +
       "Exit status: 0 = everything was done, 1 = nothing was done, and the reason is printed, 2 = "
       "the command is invalid, 3 = a part was done: inputs that cannot be used, or that are "
-      "damaged, were printed.");
+      "damaged, were printed, 4 = the results are of no use: views exchanged, at other times or "
+      "not "
+      "rectified, or disparities for less than 5 % of the pixels; the remedy was printed.");
 }
 
 }  // namespace

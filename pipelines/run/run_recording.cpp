@@ -56,6 +56,15 @@ void print_summary(const Work& work, const PieceReport& report, const fs::path& 
   std::cout << ", in " << folder.string() << std::endl;
 }
 
+// The exit status of a recording whose results are in the folder.
+int status_of(const Recording& recording, const fs::path& folder, bool whole) {
+  const std::string doubt = verdict_in(folder / kRunFile);
+  if (doubt.empty()) return whole ? kDone : kIncomplete;
+  std::cerr << "mtstereo-run: " << recording.name << ": the results are of no use: " << doubt
+            << '\n';
+  return kWorthless;
+}
+
 }  // namespace
 
 void request_stop() noexcept { stop = true; }
@@ -87,7 +96,7 @@ int run_recording(const Recording& recording, const Options& options, const fs::
   }
   if (is_done(work, options, folder)) {
     std::cout << recording.name << ": was done before, in " << folder.string() << std::endl;
-    return kDone;
+    return status_of(recording, folder, true);
   }
   const Range all{0, static_cast<std::int64_t>(work.pairs.pairs.size())};
   const int lanes = lanes_for(work.options.threads).count;
@@ -107,7 +116,7 @@ int run_recording(const Recording& recording, const Options& options, const fs::
     std::cerr << "mtstereo-run: " << recording.name << ": " << report.damage << '\n';
   }
   const bool whole = report.damage.empty() && work.left.damage.empty() && work.right.damage.empty();
-  return whole ? kDone : kIncomplete;
+  return status_of(recording, folder, whole);
 }
 
 }  // namespace mtstereo::run

@@ -14,7 +14,7 @@ void request_stop() noexcept;
 bool stop_requested() noexcept;
 
 /// Processes a recording into a folder, and prints remarks, progress and a summary. Returns the
-/// exit status: kDone, or kIncomplete if the input is damaged. Throws RunError.
+/// exit status: kDone, kIncomplete if the input is damaged, or kWorthless. Throws RunError.
 int run_recording(const Recording& recording, const Options& options,
                   const std::filesystem::path& folder);
 

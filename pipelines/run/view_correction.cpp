@@ -6,8 +6,11 @@
 #include <string>
 
 #include "mtstereo/alignment.hpp"
+#include "run/map_files.hpp"
 #include "run/matching_run.hpp"
 #include "run/run_error.hpp"
+#include "run/view_geometry.hpp"
+#include "run/view_samples.hpp"
 #include "run/work_options.hpp"
 
 namespace mtstereo::run {
@@ -23,21 +26,26 @@ std::vector<std::int64_t> samples(std::int64_t pairs) {
   return numbers;
 }
 
-// What mtstereo has found.
+// What mtstereo has found on the samples.
 struct Findings {
   std::string field;
-  double offset = 0, left_blur = 0, right_blur = 0;
+  double left_blur = 0, right_blur = 0;
   bool trusted = false;
   std::string problems;
+  double density = 0, median = 0;  // mean of the maps; [px]
+  double near_end = 0;             // share of the disparities in the last tenth of the range
+
+  bool has(PairProblem problem) const {
+    return ("," + problems + ",").find(std::string(",") + problem_name(problem) + ",") !=
+           std::string::npos;
+  }
 };
 
-Findings findings_of(GstElement* matcher) {
-  Findings findings;
+void add_findings(GstElement* matcher, Findings& findings) {
   g_autofree gchar* field = nullptr;
   GstStructure* stats = nullptr;
   g_object_get(matcher, "alignment-field", &field, "stats", &stats, nullptr);
   findings.field = field != nullptr ? field : "";
-  gst_structure_get_double(stats, "offset", &findings.offset);
   gst_structure_get_double(stats, "left-blur", &findings.left_blur);
   gst_structure_get_double(stats, "right-blur", &findings.right_blur);
   gboolean trusted = FALSE;
@@ -46,7 +54,6 @@ Findings findings_of(GstElement* matcher) {
   const gchar* const problems = gst_structure_get_string(stats, "problem");
   findings.problems = problems != nullptr ? problems : "";
   gst_structure_free(stats);
-  return findings;
 }
 
 Findings inspect(const Work& work) {
@@ -54,35 +61,107 @@ Findings inspect(const Work& work) {
   inspected.options.products.clear();
   inspected.correction = {{"alignment", "correct"}, {"alignment-interval", "1"}};
   const auto pairs = static_cast<std::int64_t>(work.pairs.pairs.size());
+  const Parameters parameters = matcher_parameters(work.options);
+  const int least = parameters.integer(Parameter::kMinDisparity);
+  const int most = parameters.integer(Parameter::kMaxDisparity);
   MatchingRun run(inspected, samples(pairs), map_pipeline(inspected), 1);
-  bool any = false;
-  while (run.next()) any = true;
-  if (!any) throw RunError(work.recording.name + ": " + run.damage());
-  return findings_of(run.matcher());
+  Findings findings;
+  int maps = 0;
+  while (const std::optional<PairResult> result = run.next()) {
+    FrameFigures figures;
+    measure_map(result->map.get(), figures);
+    findings.density += figures.density;
+    findings.median += figures.median_disparity;
+    findings.near_end += share_from(result->map.get(), most - 0.1 * (most - least));
+    ++maps;
+  }
+  if (maps == 0) throw RunError(work.recording.name + ": " + run.damage());
+  for (double* sum : {&findings.density, &findings.median, &findings.near_end}) *sum /= maps;
+  add_findings(run.matcher(), findings);
+  return findings;
 }
 
-void note_problems(Work& work, const std::string& problems) {
-  const std::string list = "," + problems + ",";
-  for (int i = 0; i < kPairProblems; ++i) {
-    const auto problem = static_cast<PairProblem>(i);
-    const std::string name = std::string(",") + problem_name(problem) + ",";
-    if (list.find(name) != std::string::npos) work.remarks.emplace_back(problem_text(problem));
+// What was seen in the views directly.
+void note_seen(Work& work, const Findings& findings) {
+  for (const PairProblem problem :
+       {PairProblem::kSharpnessDiffers, PairProblem::kLeftBlank, PairProblem::kRightBlank,
+        PairProblem::kLeftFrozen, PairProblem::kRightFrozen}) {
+    if (findings.has(problem)) work.remarks.emplace_back(problem_text(problem));
   }
+}
+
+bool is_suspicious(const Findings& findings) {
+  constexpr double kLowDensity = 0.3;
+  constexpr double kPile = 0.02;  // of the disparities
+  constexpr double kFar = 0.5;    // [px]
+  const bool blank =
+      findings.has(PairProblem::kLeftBlank) || findings.has(PairProblem::kRightBlank);
+  return !blank && (findings.has(PairProblem::kSwapped) || findings.has(PairProblem::kNotAPair) ||
+                    findings.has(PairProblem::kOutOfStep) || findings.density < kLowDensity ||
+                    findings.near_end >= kPile || std::abs(findings.median) < kFar);
+}
+
+// Tests what is wrong with the views, if the maps of the samples are a reason to.
+void note_diagnosis(Work& work, const Findings& findings) {
+  if (!is_suspicious(findings)) return;
+  ViewSamples views = read_view_samples(work);
+  views.rows_corrected = findings.trusted;
+  if (views.samples.empty()) return;
+  const ViewDiagnosis found = diagnose(views);
+  // Clocks that were compared already are no remedy.
+  const bool two = work.recording.arrangement == Arrangement::kTwoSources && !work.clocks;
+  std::string text = diagnosis_text(found, work.recording.calibration, two);
+  if (text.empty() && findings.has(PairProblem::kOutOfStep)) {
+    text = problem_text(PairProblem::kOutOfStep);
+  }
+  if (text.empty()) return;
+  work.remarks.push_back(text);
+  if (found.worthless()) work.doubt = text;
+}
+
+// "0.9 px higher", "0.9 to 2.8 px higher", "0.9 px higher to 2.8 px lower"
+std::string rows_text(double least, double most) {
+  const auto side = [](double rows) { return rows < 0 ? "higher" : "lower"; };
+  constexpr double kEqual = 0.05;  // [px]
+  char text[100];
+  if (most - least < kEqual) {
+    std::snprintf(text, sizeof text, "%.1f px %s", std::abs(most), side(most));
+  } else if (least * most < 0) {
+    std::snprintf(text, sizeof text, "%.1f px higher to %.1f px lower", -least, most);
+  } else {
+    const double a = std::abs(least), b = std::abs(most);
+    std::snprintf(text, sizeof text, "%.1f to %.1f px %s", std::min(a, b), std::max(a, b),
+                  side(least + most));
+  }
+  return text;
+}
+
+// The extreme displacements of the rows of a view.
+std::string field_text(const RowField& field, ViewSize size) {
+  constexpr int kPoints = 5;
+  double least = 0, most = 0;
+  for (int i = 0; i < kPoints * kPoints; ++i) {
+    const double rows = field.displacement((size.width - 1.0) * (i % kPoints) / (kPoints - 1),
+                                           (size.height - 1.0) * (i / kPoints) / (kPoints - 1),
+                                           size.width, size.height);
+    least = i == 0 ? rows : std::min(least, rows);
+    most = i == 0 ? rows : std::max(most, rows);
+  }
+  constexpr double kVisible = 0.1;  // [px]
+  if (std::max(-least, most) < kVisible) return "";
+  return "The rows of the right view are " + rows_text(least, most) +
+         (rows_text(least, most).find(" to ") != std::string::npos ? " over the image" : "") +
+         ": corrected in all pairs.";
 }
 
 void note_correction(Work& work, const Findings& findings) {
-  char text[160];
   const RowField field =
       RowField::parse(findings.field).ok() ? *RowField::parse(findings.field) : RowField{};
-  if (!(field == RowField{})) {
-    std::snprintf(
-        text, sizeof text,
-        "The rows of the right view are %.2f px %s at the center: corrected in all pairs.",
-        std::abs(findings.offset), findings.offset < 0 ? "higher" : "lower");
-    work.remarks.emplace_back(text);
-  }
+  const std::string rows = field_text(field, view_size(work));
+  if (!rows.empty()) work.remarks.push_back(rows);
   const double blur = std::max(findings.left_blur, findings.right_blur);
   if (blur == 0) return;
+  char text[160];
   std::snprintf(text, sizeof text,
                 "The %s view is sharper: blurred like the other one (sigma %.2f px) in all pairs.",
                 findings.left_blur > 0 ? "left" : "right", blur);
@@ -105,7 +184,8 @@ void measure_correction(Work& work) {
     return;
   }
   Findings findings = inspect(work);
-  note_problems(work, findings.problems);
+  note_seen(work, findings);
+  note_diagnosis(work, findings);
   if (!findings.trusted) findings.field.clear();
   note_correction(work, findings);
   work.correction = {{"alignment", "hold"},

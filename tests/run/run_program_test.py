@@ -137,6 +137,33 @@ class Program(unittest.TestCase):
         self.assertIn("good", str(found[0]))
         self.assertEqual(found[0].read_bytes(), (self.whole / "disparity.mkv").read_bytes())
 
+    def test_says_that_results_are_of_no_use(self):
+        remedy = r"results are of no use: The left and the right view are exchanged: .*--swap"
+        result = run(self.right, self.left, "--out", self.out(), "--max-disparity", 32)
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertRegex(result.stderr, remedy)
+        self.assertIn("exchanged", json.loads((self.out() / "run.json").read_text())["doubt"])
+        again = run(self.right, self.left, "--out", self.out(), "--max-disparity", 32, "--resume")
+        self.assertEqual(again.returncode, 4, again.stderr)
+        self.assertRegex(again.stderr, remedy)
+        options = ["--overwrite", "--swap", "--max-disparity", 32]
+        swapped = run(self.right, self.left, "--out", self.out(), *options)
+        self.assertEqual(swapped.returncode, 0, swapped.stderr)
+        self.assertEqual(json.loads((self.out() / "run.json").read_text())["doubt"], "")
+
+    def test_says_that_results_of_an_archive_are_of_no_use(self):
+        archive = self.folder / "exchanged-archive"
+        for name, left, right in (("good", "left", "right"), ("bad", "right", "left")):
+            (archive / name).mkdir(parents=True)
+            shutil.copy(self.left, archive / name / (left + ".mp4"))
+            shutil.copy(self.right, archive / name / (right + ".mp4"))
+        for jobs in (1, 2):
+            out = self.out() / str(jobs)
+            result = run(archive, "--out", out, "--max-disparity", 32, "--jobs", jobs)
+            self.assertEqual(result.returncode, 4, result.stderr)
+            self.assertRegex(result.stderr, "mtstereo-run: bad: the results are of no use")
+            self.assertNotIn("good: the results", result.stderr)
+
     def test_processes_truncated_files(self):
         for name in ("cut.mkv", "cut.mp4", "cut.ts"):
             with self.subTest(name):
