@@ -82,7 +82,7 @@ void Remarks::note_lens(Side side) {
                           whole(Lens(camera(side)).widest_angle() / kDegree) +
                           " degrees from its axis, where it turns back: " + percent(part) +
                           " of its image is beyond that and is left out.",
-                      false});
+                      false, true});
 }
 
 void Remarks::note_field(Side side) {

@@ -33,24 +33,25 @@ void swap_sides(std::vector<BoardView>& views) {
   for (BoardView& view : views) std::swap(view.left, view.right);
 }
 
-Rectification rectification_of(const Rig& rig, bool& keeps_scale) {
+Rectification rectification_of(const Rig& rig) {
   const StereoCalibration calibration = calibration_of(rig);
   if (const Status status = check_calibration(calibration); !status) {
     throw CalibrationError("the solution makes no sense: " + status.error().message +
                            " (is the square size, in mm, right?)");
   }
   Result<Rectification> result = rectify(calibration);
-  keeps_scale = !result.ok();
-  if (keeps_scale) {
-    RectificationOptions options;
-    options.alpha = kKeepScale;
-    result = rectify(calibration, options);
-  }
   if (!result) {
     throw CalibrationError(result.error().message +
                            " If they are, the views are too few, too similar or blurred.");
   }
   return *result;
+}
+
+// Whether a lens model that was found turns back within the image.
+bool is_wild(const Rig& rig, const Rectification& rectification) {
+  const auto remarks = rectification_remarks(calibration_of(rig), rectification);
+  return remarks && std::any_of(remarks->begin(), remarks->end(),
+                                [](const RectificationRemark& each) { return each.lens_limit; });
 }
 
 double relative_change(double before, double after) { return std::abs(after - before) / after; }
@@ -78,9 +79,7 @@ struct Trial {
 
 Trial try_model(Model model, const Calibrated& sizes, const Division& division) {
   Trial trial{solve(model, sizes.left_size, sizes.right_size, division.used), {}};
-  bool keeps_scale = false;
-  trial.fit = fit_of(trial.solution.rig, rectification_of(trial.solution.rig, keeps_scale),
-                     division.held_out);
+  trial.fit = fit_of(trial.solution.rig, rectification_of(trial.solution.rig), division.held_out);
   return trial;
 }
 
@@ -129,7 +128,8 @@ Calibrated calibrate(std::optional<Model> model, cv::Size left, cv::Size right,
     result.solution = solve(result.model, result.left_size, result.right_size, views);
   }
   const Solution& all = result.solution;
-  result.rectification = rectification_of(all.rig, result.keeps_scale);
+  result.rectification = rectification_of(all.rig);
+  result.wild = is_wild(all.rig, result.rectification);
   result.fit = fit_of(all.rig, result.rectification, all.views);
   if (!division.held_out.empty()) {
     const Trial trial = try_model(result.model, result, division);

@@ -27,8 +27,8 @@ struct Calibrated {
   /// The first source is the right camera. Views, sizes and solution are in the right order.
   bool swapped = false;
   Solution solution;
-  Rectification rectification;  ///< with the default options of rectify(), or:
-  bool keeps_scale = false;     ///< the default options fail; `rectification` has kKeepScale
+  Rectification rectification;  ///< with the default options of rectify()
+  bool wild = false;            ///< a lens model turns back within the image
   Fit fit;                      ///< of the views in use
   /// Figures of a calibration of four fifths of the views, on the others.
   struct HeldOut {

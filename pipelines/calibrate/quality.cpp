@@ -71,11 +71,11 @@ void warn_about_fit(const Calibrated& calibrated, std::vector<Warning>& warnings
                             " px is high: is the board flat, are the images sharp, does the lens "
                             "model fit (--model auto), is the number of squares right?"});
   }
-  if (calibrated.keeps_scale) {
+  if (calibrated.wild) {
     warnings.push_back({"wild-distortion",
-                        "the distortion that was found leaves no image without empty borders: "
-                        "take views with the board in all parts of the image, or choose another "
-                        "--model. Until then, mtrectify needs alpha=-1"});
+                        "the lens model that was found turns back within the image, and what is "
+                        "beyond that is lost: take views with the board in all parts of the "
+                        "image, or choose another --model"});
   }
   if (!calibrated.held_out) {
     warnings.push_back(

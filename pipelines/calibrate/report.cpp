@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibrate/calibration_error.hpp"
+#include "mtstereo/geometry/rig.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -42,7 +43,8 @@ void print_cameras(std::ostream& out, const Report& report) {
   line("right camera  ", rig.right, known.right_focal);
   const Eigen::Vector3d turn = rotation_degrees(rig);
   out << "  baseline        " << with_deviation(1000 * rig.baseline(), 1000 * known.baseline, 2)
-      << " mm; the right camera is turned by " << decimal(turn.norm(), 2) << " degrees\n";
+      << " mm; the right camera is turned by " << decimal(turn.norm(), 2) << " degrees\n"
+      << "  rectified       " << rig_text(rig_figures(report.calibrated->rectification)) << '\n';
 }
 
 void print_fit(std::ostream& out, const Report& report) {

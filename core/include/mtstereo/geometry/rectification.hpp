@@ -110,6 +110,8 @@ struct RectificationRemark {
   Rectifier::Side side = Rectifier::Side::kLeft;  ///< of the view that it is about
   std::string text;                               ///< one sentence or two
   bool warning = false;                           ///< the rectified views are hardly of use
+  bool lens_limit =
+      false;  ///< it is about the part of the image that the lens model does not cover
 };
 
 /// What is unusual about the rectified views: parts of the images that the lens model does not
