@@ -232,12 +232,16 @@ launch() {
     return
   fi
   use_plugin
+  local status=0 is_new=no
+  [[ -z $out || -e $out ]] || is_new=yes
   if [ -z "$seconds" ]; then
-    "${line[@]}"
-    return
+    "${line[@]}" || status=$?
+  else
+    # The interrupt after --seconds is not a failure.
+    timeout --signal=INT --kill-after=10 "$seconds" "${line[@]}" || status=$?
+    [ "$status" -ne 124 ] && [ "$status" -ne "$status_of_limit" ] || status=0
   fi
-  # The interrupt after --seconds is not a failure.
-  local status=0
-  timeout --signal=INT --kill-after=10 "$seconds" "${line[@]}" || status=$?
-  [ "$status" -eq 124 ] || [ "$status" -eq "$status_of_limit" ] || return "$status"
+  # A pipeline that fails at its start has created an empty file.
+  if [[ $status -ne 0 && $is_new = yes && -f $out && ! -s $out ]]; then rm -f -- "$out"; fi
+  return "$status"
 }

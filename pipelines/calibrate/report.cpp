@@ -217,7 +217,13 @@ std::string too_few_views(const PairCounts& counts, std::size_t views, const Boa
     std::string text = "no board was found in " + std::to_string(counts.pairs) +
                        " pairs of images. Is it a " + describe(board) + "?";
     if (board.kind == BoardKind::kCheckerboard) {
-      return text + " All of it must be visible in both images, with a white margin";
+      const std::string counted_as =
+          std::to_string(board.columns) + "x" + std::to_string(board.rows);
+      const std::string squares =
+          std::to_string(board.columns + 1) + "x" + std::to_string(board.rows + 1);
+      return text + " All of it must be visible in both images, with a white margin. --squares " +
+             "counts squares: if " + counted_as +
+             " are its inner corners, as OpenCV counts them, " + "set --squares " + squares;
     }
     text += counts.with_markers > 0
                 ? " Its markers were seen in " + std::to_string(counts.with_markers) +

@@ -117,10 +117,13 @@ void Session::take(const ImagePair& images, bool video) {
     names_.push_back(images.name);
     last_view_ = Clock::now();
     if (status_ != nullptr) *status_ << "\r\033[K" << std::flush;
+    // Of finished pictures, nobody holds the board any more.
     const std::string missing = choice_->coverage().missing();
+    const std::string next = missing.empty() ? "; all is covered"
+                             : video         ? "; next, " + missing
+                                             : "";
     out_ << "view " << views_.size() << ": " << images.name << ", " << corners.left.ids.size()
-         << " and " << corners.right.ids.size() << " corners"
-         << (missing.empty() ? "; all is covered" : "; next, " + missing) << std::endl;
+         << " and " << corners.right.ids.size() << " corners" << next << std::endl;
   }
   show_status(verdict);
 }

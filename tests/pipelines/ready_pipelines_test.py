@@ -229,6 +229,14 @@ class WrongUse(ClipTest):
         self.assertNotEqual(done.status, 0, str(done))
         self.assertIn("speed", done.errors)
 
+    def test_failure_leaves_no_empty_file(self):
+        (self.folder / "kept.mkv").write_bytes(b"")
+        for out in ("new.mkv", "kept.mkv"):
+            done = self.run_script("from-side-by-side.sh", "clip/calib.txt", "--out", out)
+            self.assert_rejects(done, "type of stream", 1)
+        self.assertFalse((self.folder / "new.mkv").exists())
+        self.assertTrue((self.folder / "kept.mkv").exists())
+
     def test_missing_build_is_reported(self):
         done = self.run_script("from-files.sh", "left.mp4", "right.mp4", "--build", "nowhere")
         self.assert_rejects(done, "nowhere", 1)
