@@ -7,6 +7,7 @@
 
 #include "calibrate/charuco.hpp"
 #include "calibrate/page.hpp"
+#include "options/failure_message.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -182,6 +183,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       "Exit status: 0 = the calibration was written, 1 = it was not, and the reason is printed, 2 "
       "= the command is invalid, 3 = it was written with warnings (only with --strict).");
   app.get_formatter()->column_width(36);
+  app.failure_message(options::failure_message);
   Texts texts;
   Options options;
   add_sources(app, texts, options);

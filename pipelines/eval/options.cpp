@@ -9,6 +9,7 @@
 
 #include "eval/files.hpp"
 #include "eval/input_error.hpp"
+#include "options/failure_message.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -239,6 +240,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       "not be written (each is named), 2 = the command is invalid or there is nothing to "
       "evaluate.");
   app.get_formatter()->column_width(36);
+  app.failure_message(options::failure_message);
   Texts texts;
   Options options;
   add_options(app, texts, options);

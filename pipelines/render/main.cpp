@@ -19,6 +19,7 @@
 #include "mtstereo/geometry/calibration.hpp"
 #include "mtstereo/geometry/rectification.hpp"
 #include "options.hpp"
+#include "options/failure_message.hpp"
 #include "render/board.hpp"
 #include "render/clip_writer.hpp"
 #include "render/raw.hpp"
@@ -177,6 +178,7 @@ int main(int argc, char** argv) {
     CLI::App app("Renders a stereo clip with exact ground truth.", "mtstereo-render");
     Options options;
     define_options(app, options);
+    app.failure_message(options::failure_message);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

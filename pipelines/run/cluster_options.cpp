@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "options/failure_message.hpp"
 #include "run/archive.hpp"
 #include "run/help_format.hpp"
 
@@ -44,6 +45,7 @@ void add_merge_options(CLI::App& app, bool& remove_pieces) {
 // Parses, then calls `check`. Prints help and errors. The exit status, if the program ends here.
 template <typename Check>
 std::optional<int> parse(CLI::App& app, int argc, const char* const* argv, const Check& check) {
+  app.failure_message(options::failure_message);
   try {
     app.parse(argc, argv);
     check();

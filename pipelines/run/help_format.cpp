@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "run/help_format.hpp"
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -17,12 +18,16 @@ std::string wrapped(const std::string& text, std::size_t width) {
   std::string result;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
-    std::size_t length = 0;
+    // The indentation is kept.
+    std::size_t length = std::min(line.find_first_not_of(' '), line.size());
     if (!result.empty()) result += '\n';
+    result.append(length, ' ');
+    bool first = true;
     for (std::string word; words >> word;) {
       const bool fits = length + 1 + word.size() <= width;
-      if (length > 0) result += fits ? ' ' : '\n';
-      length = length > 0 && fits ? length + 1 + word.size() : word.size();
+      if (!first) result += fits ? ' ' : '\n';
+      length = first ? length + word.size() : fits ? length + 1 + word.size() : word.size();
+      first = false;
       result += word;
     }
   }

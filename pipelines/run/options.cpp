@@ -9,6 +9,7 @@
 
 #include "mtstereo/geometry/rectification.hpp"
 #include "mtstereo/parameters.hpp"
+#include "options/failure_message.hpp"
 #include "run/help_format.hpp"
 #include "run/matching_line.hpp"
 #include "run/run_error.hpp"
@@ -206,12 +207,12 @@ void add_parameters(CLI::App& app, Texts& texts) {
           "NUMBER");
       continue;
     }
-    const std::string range =
-        info.id == Parameter::kMaxDisparity ? ", or that of the data set" : "";
+    const bool is_range = info.id == Parameter::kMaxDisparity;
+    const std::string range = is_range ? ", or that of the data set; auto: by the recording" : "";
     add_parameter(
         app, texts, info.name,
         std::string(info.help) + " [default: " + parameter_defaults_text(info.id) + range + "]",
-        value_name(info));
+        is_range ? "px|auto" : value_name(info));
   }
   add_parameter(app, texts, "disparity-scale",
                 "steps per px of the maps [default: 256, or as many as fit the search range]",
@@ -276,14 +277,31 @@ void apply(const Texts& texts, Options& options) {
   }
 }
 
+std::string examples(bool plan) {
+  if (plan) {
+    return "Examples:\n"
+           "  mtstereo-run plan archive --out results --what disparity,depth\n"
+           "  mtstereo-run plan archive --out results --resume\n\n";
+  }
+  return "Examples:\n"
+         "  mtstereo-run left.mp4 right.mp4 --out result\n"
+         "  mtstereo-run left.mp4 right.mp4 --max-disparity auto --sync auto --out result\n"
+         "  mtstereo-run both.mp4 --calibration stereo.yaml --what depth,cloud --far 40 --out "
+         "meters\n"
+         "  mtstereo-run left right --rate 24 --format png --what disparity,rectified --out "
+         "pictures\n\n";
+}
+
 void describe(CLI::App& app, bool plan) {
   app.set_version_flag("--version", MTSTEREO_VERSION);
+  app.failure_message(options::failure_message);
   app.formatter(std::make_shared<HelpFormatter>(
       plan ? "mtstereo-run plan INPUT [INPUT] --out DIR [OPTIONS]"
            : "mtstereo-run INPUT [INPUT] --out DIR [OPTIONS]\n"
              "       mtstereo-run plan|task|merge|slurm ...    (archives with many machines; each "
              "has its own --help)"));
   app.footer(
+      examples(plan) +
       std::string(plan ? "An interrupted call can be repeated: recordings that are prepared are "
                          "kept.\n"
                        : "") +
