@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "mtstereo/geometry/calibration.hpp"
 #include "run/file_names.hpp"
@@ -31,16 +32,14 @@ bool may_be_calibration(const fs::path& file) {
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
-// Lower is better; 0 if the name is not that of a calibration of both cameras.
-int rank_of(const fs::path& file) {
+// Whether the name is that of a calibration of both cameras.
+bool is_calibration_name(const fs::path& file) {
   const std::string stem = lower_stem(file);
-  if (stem == "calibration" || stem == "calib") return 1;
-  if (stem == "calib_cam_to_cam") return 2;
-  if (stem.find("camchain") != std::string::npos) return 3;
-  if (extension_of(file) == ".conf" && stem.starts_with("sn")) return 4;
-  if (stem.find("stereo") != std::string::npos) return 5;
-  if (stem.find("calib") != std::string::npos) return 6;
-  return 0;
+  if (extension_of(file) == ".conf" && stem.starts_with("sn")) return true;
+  constexpr std::array<std::string_view, 3> kWords{"calib", "stereo", "camchain"};
+  return std::any_of(kWords.begin(), kWords.end(), [&stem](std::string_view word) {
+    return stem.find(word) != std::string::npos;
+  });
 }
 
 void add_pairs(std::vector<std::string>& found, std::vector<fs::path> files) {
@@ -79,20 +78,39 @@ bool is_rectified(const StereoCalibration& calibration) {
          std::abs(calibration.translation[2]) < sideways;
 }
 
-// Why a calibration does not fit, or "".
-std::string use(Recording& recording, const std::string& path, const InputOptions& options,
-                int width, int height) {
+// A calibration for views of this size.
+Result<StereoCalibration> fitting(const std::string& path, int width, int height) {
   const Result<StereoCalibration> read = read_calibration(path, width, height);
-  if (!read) return read.error().message;
-  const Result<StereoCalibration> scaled = scale_calibration(*read, width, height);
-  if (!scaled) return scaled.error().message;
+  return read ? scale_calibration(*read, width, height) : read;
+}
+
+void use(Recording& recording, const std::string& path, const StereoCalibration& calibration,
+         const InputOptions& options) {
   recording.calibration = path;
-  recording.rectified = options.rectified.value_or(is_rectified(*scaled));
-  if (!recording.rectified && !options.rectified) {
-    recording.remarks.push_back("By " + path + " (" + read->format +
-                                "), the views are not rectified: they are rectified first.");
+  recording.rectified = options.rectified.value_or(is_rectified(calibration));
+  recording.remarks.push_back(
+      "Calibration: " + path + " (" + calibration.format + "). " +
+      (recording.rectified ? "The views are taken as rectified; it gives the meters."
+                           : "The views are not rectified: they are rectified by it first."));
+}
+
+// The files that can be used of those beside the input.
+struct Usable {
+  std::vector<std::pair<std::string, StereoCalibration>> calibrations;
+  std::string first_problem;
+};
+
+Usable usable_of(const std::vector<std::string>& beside, int width, int height) {
+  Usable usable;
+  for (const std::string& path : beside) {
+    Result<StereoCalibration> calibration = fitting(path, width, height);
+    if (calibration) {
+      usable.calibrations.emplace_back(path, std::move(*calibration));
+    } else if (usable.first_problem.empty()) {
+      usable.first_problem = calibration.error().message;
+    }
   }
-  return "";
+  return usable;
 }
 
 }  // namespace
@@ -102,12 +120,9 @@ std::vector<std::string> calibrations_in(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     std::vector<fs::path> files = files_in(folder);
     std::erase_if(files, [](const fs::path& file) { return !may_be_calibration(file); });
-    std::vector<fs::path> whole;
-    std::copy_if(files.begin(), files.end(), std::back_inserter(whole),
-                 [](const fs::path& file) { return rank_of(file) > 0; });
-    std::stable_sort(whole.begin(), whole.end(),
-                     [](const fs::path& a, const fs::path& b) { return rank_of(a) < rank_of(b); });
-    for (const fs::path& file : whole) found.push_back(file.string());
+    for (const fs::path& file : files) {
+      if (is_calibration_name(file)) found.push_back(file.string());
+    }
     add_pairs(found, files);
   }
   std::vector<std::string> unique;
@@ -122,18 +137,24 @@ void choose_calibration(Recording& recording, const std::vector<std::string>& be
   recording.rectified = options.rectified.value_or(true);
   recording.shape = options.shape;
   if (!options.calibration.empty()) {
-    const std::string problem = use(recording, options.calibration, options, width, height);
-    if (!problem.empty()) throw RunError(problem);
+    const Result<StereoCalibration> given = fitting(options.calibration, width, height);
+    if (!given) throw RunError(given.error().message);
+    use(recording, options.calibration, *given, options);
     return;
   }
-  std::string first_problem;
-  for (const std::string& path : beside) {
-    const std::string problem = use(recording, path, options, width, height);
-    if (problem.empty()) return;
-    if (first_problem.empty()) first_problem = problem;
+  const Usable usable = usable_of(beside, width, height);
+  if (usable.calibrations.size() > 1) {
+    throw RunError("there are several calibrations beside the input, such as " +
+                   usable.calibrations[0].first + " and " + usable.calibrations[1].first +
+                   ": choose one by --calibration");
   }
-  if (!first_problem.empty()) {
-    recording.remarks.push_back("No calibration is used: " + first_problem);
+  if (usable.calibrations.size() == 1) {
+    const auto& [path, calibration] = usable.calibrations.front();
+    use(recording, path, calibration, options);
+    return;
+  }
+  if (!usable.first_problem.empty()) {
+    recording.remarks.push_back("No calibration is used: " + usable.first_problem);
   }
   if (options.rectified == false) {
     throw RunError(recording.name + ": raw views need a calibration (--calibration)");

@@ -315,7 +315,9 @@ FoundRecording recording_of(const Source& left, const Source& right, const Input
   std::vector<fs::path> beside{folder};
   if (two && folder_of(right) != folder) {
     beside.push_back(folder_of(right));
-    beside.push_back((folder / "..").lexically_normal());
+    // The folder that has those of both views.
+    const fs::path both = (folder / "..").lexically_normal();
+    if (both == (folder_of(right) / "..").lexically_normal()) beside.push_back(both);
   }
   found.calibrations = calibrations_in(beside);
   return found;

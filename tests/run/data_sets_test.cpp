@@ -70,7 +70,7 @@ TEST_F(DataSets, KittiOdometry) {
   EXPECT_EQ(recording.right.times, recording.left.times);
   EXPECT_EQ(recording.calibration, path("00/calib.txt"));
   EXPECT_TRUE(recording.rectified);
-  EXPECT_THAT(recording.remarks, IsEmpty());
+  EXPECT_THAT(recording.remarks, ElementsAre(HasSubstr("calib.txt (KITTI odometry)")));
 }
 
 TEST_F(DataSets, KittiOdometryInGray) {
@@ -81,7 +81,8 @@ TEST_F(DataSets, KittiOdometryInGray) {
   const Recording recording = recognized("00");
   EXPECT_EQ(recording.calibration, path("00/calib.txt") + "#gray");
   EXPECT_EQ(recording.frame_rate, 10);
-  EXPECT_THAT(recording.remarks, ElementsAre(HasSubstr("times.txt is missing or damaged")));
+  EXPECT_THAT(recording.remarks, ElementsAre(HasSubstr("times.txt is missing or damaged"),
+                                             HasSubstr("calib.txt#gray (KITTI odometry)")));
 }
 
 TEST_F(DataSets, KittiOdometryWithTooFewTimes) {
@@ -170,10 +171,55 @@ TEST_F(DataSets, CalibrationBesideTheInput) {
   const Recording recording = recognized("");
   EXPECT_EQ(recording.calibration, path("camchain.yaml"));
   EXPECT_FALSE(recording.rectified);
-  EXPECT_THAT(recording.remarks, Contains(HasSubstr("the views are not rectified")));
+  EXPECT_THAT(recording.remarks, Contains(HasSubstr("The views are not rectified")));
   InputOptions options;
   options.rectified = true;
   EXPECT_TRUE(recognize({path("")}, options).rectified);
+}
+
+TEST_F(DataSets, TwoCalibrationsBesideTheInputAreRefused) {
+  write_pictures("left", {"0.png"}, {848, 480});
+  write_pictures("right", {"0.png"}, {848, 480});
+  copy_calibration("camchain.yaml", "camchain.yaml");
+  copy_calibration("camchain.yaml", "left/calibration.yaml");
+  try {
+    recognize({path("left"), path("right")}, {});
+    FAIL() << "not refused";
+  } catch (const RunError& error) {
+    for (const char* const part : {"camchain.yaml", "left/calibration.yaml", "--calibration"}) {
+      EXPECT_THAT(error.what(), HasSubstr(part));
+    }
+  }
+  InputOptions options;
+  options.calibration = path("camchain.yaml");
+  EXPECT_EQ(recognize({path("left"), path("right")}, options).calibration, path("camchain.yaml"));
+  // One that cannot be read, or is of another size, is none.
+  write_text(folder_ / "left/calibration.yaml", "nonsense");
+  EXPECT_EQ(recognize({path("left"), path("right")}, {}).calibration, path("camchain.yaml"));
+  fs::remove(path("left/calibration.yaml"));
+  copy_calibration("middlebury_calib.txt", "calib.txt");
+  EXPECT_EQ(recognize({path("left"), path("right")}, {}).calibration, path("camchain.yaml"));
+}
+
+TEST_F(DataSets, CalibrationOutsideOfTheInputIsNotUsed) {
+  write_pictures("rig/left", {"0.png"}, {848, 480});
+  write_pictures("rig/right", {"0.png"}, {848, 480});
+  write_pictures("other/right", {"0.png"}, {848, 480});
+  copy_calibration("camchain.yaml", "camchain.yaml");
+  EXPECT_THAT(recognize({path("rig/left"), path("rig/right")}, {}).calibration, IsEmpty());
+  // Not that of one view only, if the folders of the views do not lie side by side.
+  fs::rename(path("camchain.yaml"), path("rig/camchain.yaml"));
+  EXPECT_THAT(recognize({path("rig/left"), path("other/right")}, {}).calibration, IsEmpty());
+  EXPECT_THAT(recognize({path("rig/left"), path("rig/right")}, {}).calibration,
+              HasSubstr("camchain.yaml"));
+}
+
+TEST_F(DataSets, CalibrationWithAnotherNameIsNotUsed) {
+  write_pictures("left", {"0.png"}, {848, 480});
+  write_pictures("right", {"0.png"}, {848, 480});
+  copy_calibration("camchain.yaml", "rig.yaml");
+  copy_calibration("camchain.yaml", "camchain.bak");
+  EXPECT_THAT(recognized("").calibration, IsEmpty());
 }
 
 TEST_F(DataSets, BrokenCalibrationIsNamed) {
