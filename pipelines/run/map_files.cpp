@@ -2,6 +2,7 @@
 #include "run/map_files.hpp"
 
 #include <bit>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <numeric>
@@ -86,19 +87,30 @@ void write_pfm(ImageView<const std::uint16_t> map, const std::vector<float>& tab
   if (!out) throw RunError(file.string() + ": cannot be written");
 }
 
+// The smallest value that so many of the known ones do not exceed; 0 without any.
+std::size_t value_below(const std::vector<std::int64_t>& counts, double share) {
+  const std::int64_t known = std::accumulate(counts.begin() + 1, counts.end(), std::int64_t{0});
+  if (known == 0) return 0;
+  const auto wanted = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(known)));
+  std::int64_t below = 0;
+  std::size_t value = 0;
+  while (below < wanted) below += counts[++value];
+  return value;
+}
+
 }  // namespace
 
 void measure_map(GstSample* map, FrameFigures& figures) {
   const std::vector<std::int64_t> counts = count_values(map);
   const std::int64_t pixels = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
-  const std::int64_t known = pixels - counts[0];
-  figures.density = static_cast<double>(known) / static_cast<double>(pixels);
-  figures.median_disparity = 0;
-  if (known == 0) return;
-  std::int64_t below = 0;
-  std::size_t value = 0;
-  while (2 * below < known) below += counts[++value];
-  figures.median_disparity = disparity_of(value, unit_of(map));
+  figures.density = static_cast<double>(pixels - counts[0]) / static_cast<double>(pixels);
+  const std::size_t value = value_below(counts, 0.5);
+  figures.median_disparity = value == 0 ? 0 : disparity_of(value, unit_of(map));
+}
+
+double disparity_below(GstSample* map, double share) {
+  const std::size_t value = value_below(count_values(map), share);
+  return value == 0 ? 0 : disparity_of(value, unit_of(map));
 }
 
 double share_from(GstSample* map, double disparity) {

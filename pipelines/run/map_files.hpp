@@ -19,6 +19,10 @@ void measure_map(GstSample* map, FrameFigures& figures);
 /// The share of the pixels with a disparity that have at least this one [0 .. 1].
 double share_from(GstSample* map, double disparity);
 
+/// The disparity [px] that a share of the known disparities of a map does not exceed. 0 without
+/// any.
+double disparity_below(GstSample* map, double share);
+
 /// What turns the disparities of maps into depths: from their caps, or from the calibration of a
 /// recording whose views are rectified.
 class MapGeometry {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "run/piece.hpp"
+#include "run/range_search.hpp"
 #include "run/run_error.hpp"
 #include "run/view_correction.hpp"
 #include "run/view_geometry.hpp"
@@ -139,11 +140,15 @@ Work prepare(const Recording& recording, const WorkOptions& options,
   check_products(recording, options);
   work.left = index_frames(recording.left, recording.frame_rate);
   find_geometry(work);
-  complete_options(work);
-  const std::string measures = measures_text(work);
-  if (!measures.empty()) work.remarks.push_back("The rectified cameras: " + measures + ".");
+  if (!finds_range(options)) complete_options(work);
   find_pairs(work, relation, estimate);
   work.period = period_of(work);
+  if (finds_range(options)) {
+    find_range(work);
+    complete_options(work);
+  }
+  const std::string measures = measures_text(work);
+  if (!measures.empty()) work.remarks.push_back("The rectified cameras: " + measures + ".");
   measure_correction(work);
   return work;
 }

@@ -13,6 +13,7 @@
 #include "run/piece_folder.hpp"
 #include "run/progress_line.hpp"
 #include "run/run_error.hpp"
+#include "run/work_text.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -91,6 +92,11 @@ int run_recording(const Recording& recording, const Options& options, const fs::
   }
   ProgressLine progress(recording.name, options.quiet);
   const Work work = prepare_recording(with_absolute_paths(recording), options);
+  if (!options.quiet) {
+    for (const std::string& line : recognized(work)) {
+      std::cerr << recording.name << ": " << line << '\n';
+    }
+  }
   for (const std::string& remark : work.remarks) {
     std::cerr << recording.name << ": " << remark << '\n';
   }

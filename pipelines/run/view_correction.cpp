@@ -18,14 +18,6 @@ namespace {
 
 constexpr std::int64_t kMostPairs = 12;
 
-// Pairs that are spread evenly over the recording.
-std::vector<std::int64_t> samples(std::int64_t pairs) {
-  const std::int64_t count = std::min(pairs, kMostPairs);
-  std::vector<std::int64_t> numbers;
-  for (std::int64_t i = 0; i < count; ++i) numbers.push_back((2 * i + 1) * pairs / (2 * count));
-  return numbers;
-}
-
 // What mtstereo has found on the samples.
 struct Findings {
   std::string field;
@@ -64,7 +56,7 @@ Findings inspect(const Work& work) {
   const Parameters parameters = matcher_parameters(work.options);
   const int least = parameters.integer(Parameter::kMinDisparity);
   const int most = parameters.integer(Parameter::kMaxDisparity);
-  MatchingRun run(inspected, samples(pairs), map_pipeline(inspected), 1);
+  MatchingRun run(inspected, sample_pairs(pairs), map_pipeline(inspected), 1);
   Findings findings;
   int maps = 0;
   while (const std::optional<PairResult> result = run.next()) {
@@ -175,6 +167,13 @@ std::string text_of(double number) {
 }
 
 }  // namespace
+
+std::vector<std::int64_t> sample_pairs(std::int64_t pairs) {
+  const std::int64_t count = std::min(pairs, kMostPairs);
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t i = 0; i < count; ++i) numbers.push_back((2 * i + 1) * pairs / (2 * count));
+  return numbers;
+}
 
 void measure_correction(Work& work) {
   const std::string wanted = property_of(work.options, "alignment");

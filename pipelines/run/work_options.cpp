@@ -44,9 +44,12 @@ void check(const Status& status) {
 
 }  // namespace
 
+bool is_range_to_find(const std::string& value) { return value == "auto" || value == "0"; }
+
 Parameters matcher_parameters(const WorkOptions& options) {
   Parameters parameters;
   for (const auto& [name, value] : options.parameters) {
+    if (name == parameter_info(Parameter::kMaxDisparity).name && is_range_to_find(value)) continue;
     if (find_parameter(name) == nullptr) {
       check_property(name, value);
     } else {

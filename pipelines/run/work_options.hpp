@@ -9,8 +9,11 @@
 namespace mtstereo::run {
 
 /// The values of WorkOptions::parameters that are parameters of the matcher; the others are
-/// properties of the element. Throws RunError if one is not valid.
+/// properties of the element. A max-disparity that is to be found counts as not set. Throws
+/// RunError if one is not valid.
 Parameters matcher_parameters(const WorkOptions& options);
+/// Whether a value of max-disparity asks for find_range(): "auto" or "0".
+bool is_range_to_find(const std::string& value);
 /// The value of a property; empty if it is not set.
 std::string property_of(const WorkOptions& options, const std::string& name);
 

@@ -214,6 +214,22 @@ def blocks_of(document, language):
     return re.findall(rf"^```{language}\n(.*?)^```$", document.read_text(), re.MULTILINE | re.DOTALL)
 
 
+# Appended to the program of docs/recordings.md: every way of reading gives the same.
+CHECK_OF_RESULTS = """
+assert np.array_equal(values, read_frames("pictures/disparity/%06d.png"))
+assert np.array_equal(values, np.stack(list(frames_by_gstreamer("result/disparity.mkv"))))
+floats = np.stack([read_pfm(f"floats/disparity/{n:06d}.pfm") for n in range(len(values))])
+assert np.array_equal(np.where(np.isinf(floats), np.nan, floats), disparity.astype("f4"), equal_nan=True)
+meters = np.stack([read_pfm(f"floats/depth/{n:06d}.pfm") for n in range(len(values))])
+known = (depth > 0) & np.isfinite(meters)
+assert known.any() and np.abs(depth - meters)[known].max() < 0.0006
+assert np.array_equal(confidence > 0, values > 0)
+assert views.shape == (*values.shape, 3) and views.std() > 10
+assert np.array_equal(views, read_frames("pictures/rectified-left/%06d.png", "bgr24"))
+print("all formats are equal")
+"""
+
+
 class Programs(unittest.TestCase):
     """The programs in the documents are compiled or run too."""
     element = SOURCE / "docs/element.md"
@@ -245,6 +261,29 @@ class Programs(unittest.TestCase):
         self.assertEqual(len(counts), 3, str(done))
         for count in counts:
             self.assertTrue(0 < int(count) <= 322 * 240, str(done))
+
+
+    def test_python_reads_the_results_of_recordings(self):
+        shown = blocks_of(SOURCE / "docs/recordings.md", "python")
+        self.assertEqual(len(shown), 1)
+        needs = "import numpy, gi; gi.require_version('GstApp', '1.0')"
+        with tempfile.TemporaryDirectory(prefix="mtstereo-") as folder:
+            if run(["/usr/bin/python3", "-c", needs], folder).status != 0 or not shutil.which("ffmpeg"):
+                self.skipTest("NumPy, python3-gi or ffmpeg is not installed")
+            folder = pathlib.Path(folder)
+            make_clip(folder)
+            make_videos(folder)
+            (folder / "stereo.yaml").write_text(CALIBRATION)
+            what = "disparity,depth,confidence,rectified"
+            for out, form in (("result", "mkv"), ("pictures", "png"), ("floats", "pfm")):
+                require(run([BUILD / "pipelines/run/mtstereo-run", "left.mp4", "right.mp4", "--calibration",
+                             "stereo.yaml", "--what", what, "--format", form, "--out", out], folder))
+            program = folder / "program.py"
+            program.write_text(shown[0] + CHECK_OF_RESULTS)
+            done = run(["/usr/bin/python3", program], folder, 120)
+        self.assertEqual(done.status, 0, str(done))
+        self.assertRegex(done.output, r"^\d+ maps, median \d+\.\d+ px, \d+\.\d+ m\n")
+        self.assertIn("all formats are equal", done.output)
 
 
 class Extraction(unittest.TestCase):

@@ -9,6 +9,7 @@
 #include "run/run_error.hpp"
 #include "run/view_geometry.hpp"
 #include "run/work_options.hpp"
+#include "run/work_text.hpp"
 #include "stereo_files.hpp"
 #include "video_files.hpp"
 
@@ -119,6 +120,61 @@ TEST_F(Preparation, TakesTheSearchRangeOfTheDataSet) {
   EXPECT_EQ(value_of(prepared(), "max-disparity"), "16");
 }
 
+TEST_F(Preparation, FindsTheSearchRange) {
+  write(12, 0);  // disparities of 6 and 11 px
+  for (const char* const value : {"auto", "0"}) {
+    options_.parameters = {{"max-disparity", value}};
+    const Work work = prepared();
+    EXPECT_EQ(value_of(work, "max-disparity"), "16") << value;
+    ASSERT_FALSE(work.remarks.empty());
+    EXPECT_NE(work.remarks[0].find("max-disparity is 16"), std::string::npos) << work.remarks[0];
+    EXPECT_EQ(fingerprint(work), fingerprint(prepared()));  // --resume finds the same
+  }
+}
+
+TEST_F(Preparation, FindsTheSearchRangeInsteadOfThatOfTheDataSet) {
+  write(3, 2);  // rows that are out of place do not matter
+  recording_.max_disparity = 100;
+  options_.parameters = {{"max-disparity", "auto"}, {"mode", "sparse"}};
+  const Work work = prepared();
+  EXPECT_EQ(value_of(work, "max-disparity"), "16");
+  EXPECT_EQ(value_of(work, "mode"), "sparse");
+}
+
+TEST_F(Preparation, KeepsTheDefaultRangeIfNothingMatches) {
+  write(6, 0);
+  // Flat pictures.
+  const std::string flat =
+      "videobalance contrast=0 ! videoconvert ! video/x-raw,format=GRAY8 ! avenc_ffv1 ! "
+      "matroskamux";
+  write_view(recording_.right.video, View::kRight, flat, constant_times(6));
+  options_.parameters = {{"max-disparity", "auto"}};
+  const Work work = prepared();
+  EXPECT_EQ(value_of(work, "max-disparity"), "");
+  ASSERT_FALSE(work.remarks.empty());
+  EXPECT_NE(work.remarks[0].find("cannot be found"), std::string::npos) << work.remarks[0];
+}
+
+TEST_F(Preparation, IsDescribed) {
+  write(10, 0);
+  recording_.kind = "two video files";
+  std::vector<std::string> lines = recognized(prepared());
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[0], "Input: two video files, 160x96 px, 10 pairs, 30 per second.");
+  EXPECT_EQ(lines[1], "Views: taken as rectified, without a calibration: no distances.");
+  EXPECT_EQ(lines[2], "Matching: mode semi-dense, disparities 0 to 23 px.");
+  EXPECT_EQ(lines[3], "Results: disparity (mkv).");
+  recording_.calibration = testing::write_stereo_calibration(folder_.path()).string();
+  options_.parameters = {{"max-disparity", "24"}, {"preset", "fast"}, {"mode", "dense"}};
+  options_.products = {Product::kDepth, Product::kRectifiedLeft};
+  lines = recognized(prepared());
+  EXPECT_NE(lines[1].find("taken as rectified; the calibration gives the meters"),
+            std::string::npos)
+      << lines[1];
+  EXPECT_EQ(lines[2], "Matching: preset fast, mode dense, disparities 0 to 23 px.");
+  EXPECT_EQ(lines[3], "Results: depth, rectified-left (mkv).");
+}
+
 TEST(WorkOptions, ScaleFitsTheSearchRange) {
   Work work;
   work.left.width = 2000;
@@ -216,7 +272,8 @@ TEST_F(Preparation, RefusesWhatCannotBeMade) {
 
 TEST_F(Preparation, RefusesParametersThatAreNotValid) {
   write(3, 0);
-  for (const auto& [name, value, text] : {std::tuple{"max-disparity", "0", "max-disparity"},
+  for (const auto& [name, value, text] : {std::tuple{"max-disparity", "-1", "max-disparity"},
+                                          {"max-disparity", "automatic", "max-disparity"},
                                           {"no-such", "1", "no-such"},
                                           {"mode", "best", "mode"},
                                           {"alignment", "monitor", "alignment"},

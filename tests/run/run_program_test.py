@@ -203,7 +203,7 @@ class Program(unittest.TestCase):
             [self.left, self.right],
             self.command("--what", "nothing"),
             self.command("--mode", "best"),
-            self.command("--max-disparity", "0"),
+            self.command("--max-disparity", "automatic"),
             self.command("--alignment", "monitor"),
             self.command("--drift", "3"),
             self.command("--alpha", "1.5"),
@@ -222,6 +222,31 @@ class Program(unittest.TestCase):
             self.assertEqual(result.returncode, 2, arguments)
             self.assertNotEqual(result.stderr, "", arguments)
         self.assertFalse(self.out().exists())
+        for mistyped, nearest in (("--max-disparty", "--max-disparity"), ("--formt", "--format")):
+            self.assertIn(f"Did you mean {nearest}", run(*self.command(mistyped, "3")).stderr)
+
+    def test_help_has_examples_and_defaults(self):
+        for command in ([], ["plan"]):
+            help_text = run(*command, "--help").stdout
+            self.assertRegex(help_text, r"Examples:\n  mtstereo-run ")
+            self.assertIn("default: 64", help_text)
+            self.assertLessEqual(max(map(len, help_text.splitlines())), 110)
+
+    def test_states_what_was_recognized(self):
+        self.assertIn("Input: two video files, 320x192 px, 240 pairs, 30 per second.", self.first.stderr)
+        self.assertIn("Matching: mode semi-dense, disparities 0 to 31 px.", self.first.stderr)
+        self.assertIn("Results: disparity (mkv).", self.first.stderr)
+        quiet = run(*self.command("--max-disparity", 16, "--what", "stats", "--quiet"))
+        self.assertNotIn("Input:", quiet.stderr)
+
+    def test_finds_the_range(self):
+        command = [self.left, self.right, "--out", self.out(), "--max-disparity", "auto"]
+        result = run(*command)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("max-disparity is 16", result.stderr)
+        report = json.loads((self.out() / "run.json").read_text())
+        self.assertEqual(report["parameters"]["max-disparity"], "16")
+        self.assertIn("was done before", run(*command, "--resume").stdout)
 
     def test_states_what_is_missing(self):
         for arguments, text in (
