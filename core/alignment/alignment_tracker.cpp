@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The public class AlignmentTracker, and the texts of its enums.
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -71,11 +72,13 @@ const char* problem_text(PairProblem problem) noexcept {
     case PairProblem::kSwapped:
       return "The left and the right view are swapped: exchange the two streams.";
     case PairProblem::kNotAPair:
-      return "The two views do not show the same scene: check which streams are connected, and "
-             "that "
-             "neither is upside down or mirrored.";
+      return "Few points of the left view are found in the right one. Possible causes: streams of "
+             "different cameras, a view that is upside down or mirrored, views that are not "
+             "rectified or rectified for other cameras, a search range that is too small.";
     case PairProblem::kOutOfStep:
-      return "The two views were not taken at the same time: synchronize the cameras.";
+      return "Points of the two views disagree about the rows. Possible causes: views that were "
+             "not taken at the same time, that are not rectified or rectified for other cameras, a "
+             "search range that is too small.";
     case PairProblem::kSharpnessDiffers:
       return "One view is less sharp than the other: clean and focus its lens.";
     case PairProblem::kLeftBlank:
@@ -94,10 +97,12 @@ const char* problem_text(PairProblem problem) noexcept {
 /// class.
 struct __attribute__((visibility("hidden"))) AlignmentTracker::State {
   PairInspector inspector;
+  std::unique_ptr<PairInspector> exchanged;  ///< created when views look swapped
   PairFindings findings;
   CorrectionPolicy policy;
   PairWatch watch;
 
+  void test_order(GrayView left, GrayView right, int max_disparity, int min_disparity);
   bool shows(PairProblem problem) const;
   bool explained(PairProblem problem) const;
 };
@@ -147,6 +152,9 @@ Status AlignmentTracker::inspect(GrayView left, GrayView right, int max_disparit
     }
     state_->inspector.inspect(left, right, max_disparity, std::min(min_disparity, 0));
     state_->findings = state_->inspector.findings();
+    if (state_->findings.status == FieldStatus::kSwapped) {
+      state_->test_order(left, right, max_disparity, std::min(min_disparity, 0));
+    }
     state_->policy.add(state_->findings, state_->inspector.matches(), left.width, left.height);
     return {};
   });
@@ -161,6 +169,25 @@ const ViewCorrection& AlignmentTracker::correction() const noexcept {
 bool AlignmentTracker::trusted() const noexcept { return state_->policy.trusted(); }
 
 int AlignmentTracker::views() const noexcept { return state_->policy.views(); }
+
+/// Views are swapped only if they are aligned in the other order. The disparities of views that are
+/// not rectified can have either sign, but their rows differ over the image.
+void AlignmentTracker::State::test_order(GrayView left, GrayView right, int max_disparity,
+                                         int min_disparity) {
+  if (!exchanged) exchanged = std::make_unique<PairInspector>();
+  exchanged->inspect(right, left, max_disparity, min_disparity);
+  const PairFindings& other = exchanged->findings();
+  double least = 0, most = 0;
+  for_extreme_points(left.width, left.height, [&](double x, double y) {
+    const double rows =
+        other.field.displacement(x, y, left.width, left.height) - other.field.offset;
+    least = std::min(least, rows);
+    most = std::max(most, rows);
+  });
+  constexpr double kRows = 0.008;  // of the width
+  if (other.status == FieldStatus::kTrusted && most - least <= kRows * left.width) return;
+  findings.status = FieldStatus::kTooScattered;
+}
 
 bool AlignmentTracker::State::shows(PairProblem problem) const {
   switch (problem) {

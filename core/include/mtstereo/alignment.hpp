@@ -75,7 +75,9 @@ enum class FieldStatus {
   kTooScattered,     ///< the matches scatter too much about the field
   kTooConcentrated,  ///< the matches cover too small a part of the image
   kTooUncertain,     ///< the predicted error of the field is too large
-  kSwapped,  ///< most disparities are below the smallest one: the left view is the right one
+  /// The left view is the right one: most disparities are below the smallest one, and the views are
+  /// aligned in the other order.
+  kSwapped,
 };
 
 /// A short English text for a status, as in "too few matches". The string is static.
@@ -106,8 +108,8 @@ struct PairFindings {
 /// What can be wrong with the two streams of views.
 enum class PairProblem {
   kSwapped,           ///< the left view is the right one
-  kNotAPair,          ///< the views do not show the same scene, or one of them is upside down
-  kOutOfStep,         ///< the views were not taken at the same time
+  kNotAPair,          ///< hardly any point matches, as in views of different scenes
+  kOutOfStep,         ///< the matches disagree about rows, as in views of different times
   kSharpnessDiffers,  ///< one view is less sharp: focus, or dirt on the lens
   kLeftBlank,         ///< the left view has one gray value only, as with a covered lens
   kRightBlank,        ///< the right view has one gray value only

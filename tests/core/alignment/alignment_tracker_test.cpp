@@ -85,6 +85,19 @@ TEST(AlignmentTracker, ReportsSwappedAndUnrelatedViews) {
   EXPECT_FALSE(alignment.has(PairProblem::kNotAPair));
 }
 
+TEST(AlignmentTracker, DoesNotTakeViewsThatAreNotRectifiedForSwappedOnes) {
+  // All disparities are negative, and rows differ by 6 px over the image: cameras that converge.
+  FieldPair options;
+  options.field = {1, 3, 0, 1.5, 0};
+  const Pair pair = test::taken_as(options);
+  AlignmentTracker alignment = tracker();
+  for (int i = 0; i < 3; ++i) inspect(alignment, {pair.right, pair.left});
+  EXPECT_GT(alignment.findings().negative_share, 0.5);
+  EXPECT_NE(alignment.findings().status, FieldStatus::kSwapped);
+  EXPECT_FALSE(alignment.has(PairProblem::kSwapped));
+  EXPECT_EQ(ViewCorrection(), alignment.correction());
+}
+
 TEST(AlignmentTracker, ReportsBlankAndFrozenViews) {
   const Pair pair = test::taken_as({});
   AlignmentTracker alignment = tracker();
