@@ -2,11 +2,13 @@
 #include "run/archive.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "outputs/printable.hpp"
 #include "run/in_parallel.hpp"
 #include "run/json.hpp"
 #include "run/plan_folder.hpp"
@@ -78,8 +80,8 @@ std::optional<Work> try_to_prepare(const Recording& recording, const ArchiveOpti
     Work work = options.prepare(recording);
     if (!work.pairs.pairs.empty()) return work;
     problem = "no frames of the two views belong together";
-  } catch (const RunError& error) {
-    problem = error.what();
+  } catch (const std::exception& error) {
+    problem = outputs::printable(error.what());
   }
   return std::nullopt;
 }

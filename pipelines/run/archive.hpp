@@ -52,8 +52,6 @@ enum class PlanMatch {
 PlanMatch compare(const Plan& plan, const std::vector<Recording>& recordings,
                   const ArchiveOptions& options);
 
-/// Removes a plan with its pieces and results; other files in the folder stay. Throws RunError.
-void remove_plan(const std::filesystem::path& folder);
 /// Writes plan.json. Its works must be there. Throws RunError.
 void write_plan_file(const Plan& plan, const std::filesystem::path& folder);
 /// Names become those of files and folders: throws RunError if they are not, or are not unique.

@@ -12,6 +12,7 @@
 #include "run/file_names.hpp"
 #include "run/run_error.hpp"
 #include "run/view_names.hpp"
+#include "run/work_key.hpp"
 
 namespace mtstereo::run {
 
@@ -78,6 +79,17 @@ bool is_rectified(const StereoCalibration& calibration) {
          std::abs(calibration.translation[2]) < sideways;
 }
 
+// Reading a pipe or a device may never end.
+void check_regular(const std::string& calibration) {
+  Recording recording;
+  recording.calibration = calibration;
+  for (const fs::path& file : recording_files(recording)) {
+    std::error_code error;
+    if (!fs::exists(file, error) || fs::is_regular_file(file, error)) continue;
+    throw RunError(file.string() + ": a calibration is a file, and no folder, pipe or device");
+  }
+}
+
 // A calibration for views of this size.
 Result<StereoCalibration> fitting(const std::string& path, int width, int height) {
   const Result<StereoCalibration> read = read_calibration(path, width, height);
@@ -137,6 +149,7 @@ void choose_calibration(Recording& recording, const std::vector<std::string>& be
   recording.rectified = options.rectified.value_or(true);
   recording.shape = options.shape;
   if (!options.calibration.empty()) {
+    check_regular(options.calibration);
     const Result<StereoCalibration> given = fitting(options.calibration, width, height);
     if (!given) throw RunError(given.error().message);
     use(recording, options.calibration, *given, options);

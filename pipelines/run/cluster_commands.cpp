@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "run/cluster_commands.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
+#include "outputs/folder_lock.hpp"
+#include "outputs/printable.hpp"
 #include "run/archive.hpp"
+#include "run/interruption.hpp"
 #include "run/json.hpp"
 #include "run/local.hpp"
-#include "run/piece_folder.hpp"
+#include "run/plan_contents.hpp"
 #include "run/plan_folder.hpp"
 #include "run/program.hpp"
+#include "run/results.hpp"
 #include "run/run_error.hpp"
 #include "run/slurm.hpp"
+#include "run/work_key.hpp"
 
 namespace mtstereo::run {
 namespace {
 
 namespace fs = std::filesystem;
+using outputs::FolderLock;
+using outputs::Sharing;
 using Clock = std::chrono::steady_clock;
 
 // Between two lines of progress.
@@ -33,32 +37,24 @@ constexpr std::chrono::seconds kProgressPeriod{10};
 // Tasks of each process of --jobs: short ones at the end keep all processes busy.
 constexpr int kTasksPerJob = 4;
 
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
-
-// The first signal stops the task and removes what is unfinished, the second one ends the program.
-void request_stop(int number) {
-  stop_requested = true;
-  std::signal(number, SIG_DFL);
-}
-
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr std::string_view kInterrupted = "mtstereo-run: interrupted; --resume continues\n";
+// Tasks and merges use a plan at the same time, but not while it is made or removed.
+class SharedPlan {
+ public:
+  explicit SharedPlan(const fs::path& folder) {
+    std::error_code error;
+    if (fs::exists(PlanFolder(folder).plan(), error)) lock_.emplace(folder, Sharing::kShared);
+  }
 
-// Planning and --jobs end at once: what is whole is kept, and tasks of this process are terminated
-// with it.
-void end_now(int /*number*/) {
-  const ssize_t written = write(STDERR_FILENO, kInterrupted.data(), kInterrupted.size());
-  static_cast<void>(written);
-  _exit(kIncomplete);
-}
+ private:
+  std::optional<FolderLock> lock_;
+};
 
 void end_at_signals() {
-  std::signal(SIGINT, end_now);
-  std::signal(SIGTERM, end_now);
+  run::end_at_signals("mtstereo-run: interrupted; --resume continues\n", kIncomplete);
 }
 
 // "1 task", "2 tasks"
@@ -86,13 +82,15 @@ void print_damage(const TaskCommand& command) {
   if (!fs::exists(piece, error)) return;  // its recording is joined
   const std::string damage = read_figures(piece).damage;
   if (!damage.empty()) {
-    std::cerr << "mtstereo-run: task " << command.number << ": " << damage << '\n';
+    std::cerr << "mtstereo-run: task " << command.number << ": " << outputs::printable(damage)
+              << '\n';
   }
 }
 
 int run(const TaskCommand& command, const PieceFunctions& functions) {
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  run::end_at_signals("mtstereo-run: interrupted; do the task again\n", kFailed);
+  const OrderlyStop orderly;
+  const SharedPlan lock(command.folder);
   const Clock::time_point start = Clock::now();
   Clock::time_point last = start;
   std::int64_t pairs = 0;
@@ -103,7 +101,7 @@ int run(const TaskCommand& command, const PieceFunctions& functions) {
       std::cerr << "task " << command.number << ": " << done << " of " << total << " pairs, "
                 << speed(done, total, seconds_since(start)) << std::endl;
     }
-    return !stop_requested;
+    return !stop_requested();
   };
   const TaskResult result =
       do_task(command.folder, command.number, TaskOptions{functions, command.threads}, progress);
@@ -122,7 +120,8 @@ int run(const TaskCommand& command, const PieceFunctions& functions) {
 // Problems in lines of their own.
 void print(const std::vector<Problem>& problems) {
   for (const Problem& problem : problems) {
-    std::cerr << "mtstereo-run: " << problem.input << ": " << problem.reason << '\n';
+    std::cerr << "mtstereo-run: " << outputs::printable(problem.input + ": " + problem.reason)
+              << '\n';
   }
 }
 
@@ -133,7 +132,8 @@ int report(const fs::path& folder, const Plan& plan, const MergeResult& result,
     print(*list);
   }
   std::cout << result.joined << " of " << counted(plan.recordings.size(), "recording")
-            << " joined, " << result.sum.pairs << " pairs, in " << folder.string() << '\n';
+            << " joined, " << result.sum.pairs << " pairs, in "
+            << outputs::printable(folder.string()) << '\n';
   if (!result.missing.empty()) {
     std::cerr << "mtstereo-run: " << counted(result.missing.size(), "task")
               << (result.missing.size() == 1 ? " is" : " are")
@@ -151,6 +151,8 @@ int report(const fs::path& folder, const Plan& plan, const MergeResult& result,
 }
 
 int run(const MergeCommand& command, const PieceFunctions& functions) {
+  run::end_at_signals("mtstereo-run: interrupted; merge again\n", kIncomplete);
+  const SharedPlan lock(command.folder);
   const MergeResult result =
       merge(command.folder, MergeOptions{functions, command.jobs, command.remove_pieces});
   return report(command.folder / "recordings", read_plan(command.folder), result,
@@ -174,7 +176,7 @@ int run(const SlurmCommand& command, const PieceFunctions& /*functions*/) {
 
 void print_planned(const PlannedRecording& recording, bool quiet) {
   for (const std::string& remark : recording.remarks) {
-    std::cerr << recording.name << ": " << remark << '\n';
+    std::cerr << recording.name << ": " << outputs::printable(remark) << '\n';
   }
   if (!recording.problem.empty()) {
     std::cerr << recording.name << ": left out: " << recording.problem << std::endl;
@@ -222,6 +224,45 @@ bool has_grown(const ArchiveInput& input, const ArchiveOptions& options, const f
   return match == PlanMatch::kGrown;
 }
 
+outputs::FileSet inputs_of(const ArchiveInput& input) {
+  std::vector<fs::path> files;
+  for (const Recording& recording : input.recordings) {
+    const std::vector<fs::path> more = recording_files(recording);
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  return outputs::FileSet(files);
+}
+
+// What is in the way of a plan, or of the results of a recording, is refused before the first task.
+// If some recordings cannot be planned, the results of the last one may be in `folder` itself.
+void check_folders(const ArchiveInput& input, const fs::path& folder, Existing existing) {
+  std::error_code error;
+  const PlanFolder files(folder / "plan");
+  const fs::file_status status = fs::symlink_status(files.path(), error);
+  if (fs::exists(status) && !fs::is_directory(status)) {
+    throw RunError(files.path().string() + " is in the way: move it, or choose another folder");
+  }
+  check_plan_folder(files.path(), inputs_of(input));
+  for (const Recording& found : input.recordings) {
+    const Recording recording = with_absolute_paths(found);
+    check_results_folder(folder, recording, input.options, existing);
+    if (input.recordings.size() == 1) continue;
+    check_results_folder(folder / recording.name, recording, input.options, existing);
+  }
+}
+
+// Results of another work are not continued.
+void check_continued(const Plan& plan, const PlanFolder& files, const fs::path& folder) {
+  for (const std::string& name : plan.recordings) {
+    const fs::path results = plan.recordings.size() == 1 ? folder : folder / name;
+    const std::string found = fingerprint_in(results / kRunFile);
+    if (found.empty() || found == fingerprint(read_work(files.work(name)))) continue;
+    throw RunError(results.string() +
+                   ": has results of another input or other options; choose another folder by "
+                   "--out, or --overwrite");
+  }
+}
+
 // Links the files of a recording, if it is joined: its report last, as that of a run.
 void link_results(const fs::path& joined, const fs::path& folder) {
   std::error_code error;
@@ -245,6 +286,8 @@ int run_plan_command(const ArchiveInput& input, const PlanOptions& options, Exis
   end_at_signals();
   ArchiveOptions archive = archive_options(input, options.folder, options.jobs);
   archive.pairs_per_task = options.pairs_per_task > 0 ? options.pairs_per_task : kPairsPerTask;
+  const FolderLock lock(options.folder);
+  check_plan_folder(options.folder, inputs_of(input));
   std::error_code error;
   if (existing == Existing::kRefuse && fs::exists(PlanFolder(options.folder).plan(), error)) {
     throw RunError(options.folder.string() +
@@ -258,7 +301,8 @@ int run_plan_command(const ArchiveInput& input, const PlanOptions& options, Exis
   print(plan.damaged);
   const std::string folder = quoted(options.folder.string());
   std::cout << counted(plan.recordings.size(), "recording") << ", " << pairs_of(plan) << " pairs, "
-            << counted(plan.tasks.size(), "task") << " in " << options.folder.string()
+            << counted(plan.tasks.size(), "task") << " in "
+            << outputs::printable(options.folder.string())
             << "\nWith Slurm:  mtstereo-run slurm --plan " << folder
             << "\nOtherwise:   mtstereo-run task N --plan " << folder << ", N from 0 to "
             << plan.tasks.size() - 1 << ", then mtstereo-run merge --plan " << folder << '\n';
@@ -268,23 +312,27 @@ int run_plan_command(const ArchiveInput& input, const PlanOptions& options, Exis
 int run_with_jobs(const ArchiveInput& input, const fs::path& folder, int jobs, Existing existing,
                   const PieceFunctions& functions) {
   end_at_signals();
+  const FolderLock lock(folder);
   const PlanFolder files(folder / "plan");
   std::error_code error;
   bool planned = fs::exists(files.plan(), error);
-  if (existing == Existing::kRefuse && (planned || fs::exists(folder / kRunFile, error))) {
+  if (existing == Existing::kRefuse && planned) {
     throw RunError(folder.string() +
                    ": has results already; choose another folder by --out, or --resume or "
                    "--overwrite");
   }
+  check_folders(input, folder, existing);
   if (existing == Existing::kReplace) {
-    discard(files.path(), folder);
+    remove_plan(files.path());
     planned = false;
   }
   ArchiveOptions archive = archive_options(input, files.path(), jobs);
   archive.least_tasks = kTasksPerJob * jobs;
   if (!planned || has_grown(input, archive, folder)) {
+    const FolderLock planning(files.path());
     plan_archive(input.recordings, input.problems, archive);
   }
+  if (existing == Existing::kContinue) check_continued(read_plan(files.path()), files, folder);
   const MergeResult result =
       run_local(files.path(), LocalOptions{functions, this_program(), jobs,
                                            [quiet = input.quiet](const LocalProgress& done) {

@@ -24,15 +24,9 @@ struct ArchiveInput {
   std::vector<Recording> recordings;
   std::vector<Problem> problems;
   std::function<Work(const Recording&)> prepare;  ///< throws RunError
-  std::string settings;  ///< all that `prepare` depends on besides the recording
-  bool quiet = false;    ///< print remarks and failures only
-};
-
-/// What is done with a plan or with results that are in the folder already.
-enum class Existing {
-  kRefuse,    ///< throws RunError
-  kContinue,  ///< keeps what is prepared and done
-  kReplace,   ///< starts over
+  std::string settings;   ///< all that `prepare` depends on besides the recording
+  bool quiet = false;     ///< print remarks and failures only
+  WorkOptions options{};  ///< for the names of the results
 };
 
 /// mtstereo-run plan: writes a plan, and prints what to do with it. Returns the exit status. Throws

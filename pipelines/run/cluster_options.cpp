@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "options/failure_message.hpp"
+#include "outputs/parse_error.hpp"
 #include "run/archive.hpp"
 #include "run/help_format.hpp"
 
@@ -51,7 +52,7 @@ std::optional<int> parse(CLI::App& app, int argc, const char* const* argv, const
     check();
   } catch (const CLI::ParseError& error) {
     const bool asked_for = error.get_exit_code() == 0;  // --help
-    app.exit(error);
+    outputs::print_parse_error(app, error);
     return asked_for ? kDone : kWrongUsage;
   }
   return std::nullopt;

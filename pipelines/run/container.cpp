@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "outputs/printable.hpp"
+
 namespace mtstereo::run {
 
 namespace fs = std::filesystem;
@@ -76,7 +78,7 @@ std::string missing_of_mp4(Bytes& bytes) {
     }
     if (length < 8) return "it has a box with an impossible length";
     if (exceeds(start, length, bytes.size())) {
-      return lacks(length - (bytes.size() - start), "its box '" + name + "'");
+      return lacks(length - (bytes.size() - start), "its box '" + outputs::printable(name) + "'");
     }
     start += length;
   }

@@ -115,7 +115,7 @@ PieceReport join(const Work& work, const std::vector<Range>& ranges,
   const std::vector<Piece> pieces = read_pieces(work, ranges, folders);
   try {
     PieceFolder whole(work, {0, static_cast<std::int64_t>(work.pairs.pairs.size())}, folder,
-                      Unfinished::kDiscard);
+                      Existing::kReplace);
     for (const Piece& piece : pieces) check_files(work.options, piece);
     for (const Product product : work.options.products) {
       const std::string name = product_path(work.options, product);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "outputs/printable.hpp"
 #include "run/json_files.hpp"
 #include "run/matching_line.hpp"
 #include "run/view_geometry.hpp"
@@ -38,9 +39,9 @@ Means means_of(const std::vector<FrameFigures>& frames) {
 
 Json source_summary(const Source& source, const FrameIndex& index) {
   const bool video = !source.video.empty();
-  Json summary{{"file", video ? source.video.string() : ""},
+  Json summary{{"file", video ? outputs::escaped(source.video.string()) : ""},
                {"pictures", source.pictures.size()},
-               {"first_picture", video ? "" : source.pictures.front().string()},
+               {"first_picture", video ? "" : outputs::escaped(source.pictures.front().string())},
                {"codec", index.codec},
                {"width", index.width},
                {"height", index.height},
@@ -86,7 +87,7 @@ Json inputs_json(const Work& work) {
   const Recording& recording = work.recording;
   Json inputs{
       {"kind", recording.kind},           {"arrangement", arrangement_name(recording.arrangement)},
-      {"swapped", recording.swapped},     {"calibration", recording.calibration},
+      {"swapped", recording.swapped},     {"calibration", outputs::escaped(recording.calibration)},
       {"rectified", recording.rectified}, {"alpha", recording.shape.alpha}};
   if (recording.arrangement == Arrangement::kTwoSources) {
     inputs["left"] = source_summary(recording.left, work.left);
@@ -95,13 +96,6 @@ Json inputs_json(const Work& work) {
     inputs["both"] = source_summary(recording.left, work.left);
   }
   return inputs;
-}
-
-// A text in a report; empty if there is none.
-std::string text_in(const std::filesystem::path& file, const char* name) {
-  std::ifstream in(file, std::ios::binary);
-  const Json json = Json::parse(in, nullptr, false);
-  return json.is_object() ? json.value(name, "") : "";
 }
 
 Json run_json(const Work& work, const PieceReport& report, double seconds) {
@@ -140,14 +134,34 @@ Json run_json(const Work& work, const PieceReport& report, double seconds) {
        {{"density", means.density},
         {"median_disparity_px", means.median_disparity},
         {"matching_ms", means.matching_ms}}},
-      {"files", report.files}};
+      {"files", report.files},
+      {"file_bytes", report.file_bytes}};
+}
+
+Json read_report(const std::filesystem::path& file) {
+  std::error_code error;  // a pipe would be read without an end
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error))) return {};
+  std::ifstream in(file, std::ios::binary);
+  return Json::parse(in, nullptr, false);
+}
+
+// A text in the report of a run; empty if there is none.
+std::string text_in(const std::filesystem::path& file, const char* name) {
+  const Json json = read_report(file);
+  const bool ours = json.is_object() && json.value("kind", Json()) == kRunKind;
+  return ours ? json.value(name, "") : "";
 }
 
 }  // namespace
 
 void write_piece(const PieceReport& report, Range range, const std::filesystem::path& file) {
-  const Json head{{"kind", kPieceKind},   {"version", kJsonVersion}, {"first", range.first},
-                  {"count", range.count}, {"damage", report.damage}, {"files", report.files}};
+  const Json head{{"kind", kPieceKind},
+                  {"version", kJsonVersion},
+                  {"first", range.first},
+                  {"count", range.count},
+                  {"damage", report.damage},
+                  {"files", report.files},
+                  {"file_bytes", report.file_bytes}};
   write_whole(file, [&](std::ostream& out) { write_frames(out, head, report.frames); });
 }
 
@@ -159,6 +173,7 @@ PieceReport read_piece(const std::filesystem::path& file, Range& range) {
     range.count = json.at("count").get<std::int64_t>();
     report.damage = json.at("damage").get<std::string>();
     report.files = json.at("files").get<std::vector<std::string>>();
+    report.file_bytes = json.value("file_bytes", report.file_bytes);
     report.frames = read_frames(json);
   });
   return report;
@@ -182,6 +197,25 @@ std::string verdict(const Work& work, const PieceReport& report) {
       "rectification (--calibration FILE).",
       100 * density);
   return text;
+}
+
+std::optional<outputs::WrittenFiles> files_listed_in(const std::filesystem::path& file) {
+  const Json json = read_report(file);
+  const bool ours = json.is_object() && (json.value("kind", Json()) == kRunKind ||
+                                         json.value("kind", Json()) == kPieceKind);
+  if (!ours) return std::nullopt;
+  outputs::WrittenFiles listed;
+  try {
+    const auto names = json.value("files", std::vector<std::string>());
+    const auto bytes = json.value("file_bytes", std::vector<std::uintmax_t>());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const bool known = bytes.size() == names.size();
+      listed.add(names[i], known ? std::optional(bytes[i]) : std::nullopt);
+    }
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+  return listed;
 }
 
 std::string fingerprint_in(const std::filesystem::path& file) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "outputs/written_files.hpp"
 #include "run/piece.hpp"
 
 // The JSON of mtstereo-run: a Work in the folder of a plan, a PieceReport beside its files, and the
@@ -36,6 +38,9 @@ void write_run_report(const Work& work, const PieceReport& report, double second
 std::string verdict(const Work& work, const PieceReport& report);
 /// The verdict in such a report; empty if there is none.
 std::string verdict_in(const std::filesystem::path& file);
+/// The files that such a report, or that of a piece, lists; std::nullopt if it does not exist or is
+/// none.
+std::optional<outputs::WrittenFiles> files_listed_in(const std::filesystem::path& file);
 /// The fingerprint() of the work of such a report; empty if the file does not exist or is none.
 std::string fingerprint_in(const std::filesystem::path& file);
 

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "outputs/json_text.hpp"
 #include "run/run_error.hpp"
 #include "run/work_facts.hpp"
 
@@ -32,8 +33,10 @@ void write_whole(const std::filesystem::path& file,
 }
 
 Json read_json(const std::filesystem::path& file, const char* kind) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw RunError(file.string() + ": cannot be read");
+  std::error_code error;
+  std::ifstream in;
+  if (std::filesystem::is_regular_file(file, error)) in.open(file, std::ios::binary);
+  if (!in.is_open()) throw RunError(file.string() + ": cannot be read");
   const Json json = Json::parse(in, nullptr, false);
   if (!json.is_object() || json.value("kind", "") != kind) {
     throw RunError(file.string() + ": is damaged, or is not a " + kind);
@@ -55,7 +58,7 @@ void read_fields(const std::filesystem::path& file, const std::function<void()>&
 }
 
 void write_frames(std::ostream& out, const Json& object, const std::vector<FrameFigures>& frames) {
-  std::string text = object.dump(2);
+  std::string text = outputs::text_of(object, 2);
   text.resize(text.rfind('}'));
   while (text.back() == '\n' || text.back() == ' ') text.pop_back();
   out << text

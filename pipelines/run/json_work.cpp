@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "outputs/json_text.hpp"
 #include "run/json.hpp"
 #include "run/json_files.hpp"
 #include "run/matching_line.hpp"
@@ -54,17 +55,18 @@ std::vector<Nanoseconds> sums(const Json& list) {
 
 Json source_json(const Source& source) {
   Json pictures = Json::array();
-  for (const auto& picture : source.pictures) pictures.push_back(picture.string());
-  return {{"video", source.video.string()},
+  for (const auto& picture : source.pictures)
+    pictures.push_back(outputs::escaped(picture.string()));
+  return {{"video", outputs::escaped(source.video.string())},
           {"pictures", std::move(pictures)},
           {"times", differences(source.times)}};
 }
 
 Source read_source(const Json& json) {
   Source source;
-  source.video = json.at("video").get<std::string>();
+  source.video = outputs::unescaped(json.at("video").get<std::string>());
   for (const Json& picture : json.at("pictures")) {
-    source.pictures.emplace_back(picture.get<std::string>());
+    source.pictures.emplace_back(outputs::unescaped(picture.get<std::string>()));
   }
   source.times = sums(json.at("times"));
   return source;
@@ -101,7 +103,7 @@ Recording read_recording(const Json& json) {
   recording.swapped = json.at("swapped").get<bool>();
   recording.left = read_source(json.at("left"));
   recording.right = read_source(json.at("right"));
-  recording.calibration = json.at("calibration").get<std::string>();
+  recording.calibration = outputs::unescaped(json.at("calibration").get<std::string>());
   recording.rectified = json.at("rectified").get<bool>();
   recording.shape.alpha = json.at("alpha").get<double>();
   recording.shape.width = json.at("rectified_size").at(0).get<int>();
@@ -243,7 +245,7 @@ Json recording_json(const Recording& recording) {
           {"swapped", recording.swapped},
           {"left", source_json(recording.left)},
           {"right", source_json(recording.right)},
-          {"calibration", recording.calibration},
+          {"calibration", outputs::escaped(recording.calibration)},
           {"rectified", recording.rectified},
           {"alpha", recording.shape.alpha},
           {"rectified_size", {recording.shape.width, recording.shape.height}},
@@ -310,7 +312,8 @@ Json work_json(const Work& work) {
 }
 
 void write_work(const Work& work, const std::filesystem::path& file) {
-  write_whole(file, [&work](std::ostream& out) { out << work_json(work).dump() << '\n'; });
+  write_whole(file,
+              [&work](std::ostream& out) { out << outputs::text_of(work_json(work)) << '\n'; });
 }
 
 Work read_work(const std::filesystem::path& file) {
@@ -329,7 +332,8 @@ std::string fingerprint(const Work& work) {
   json.erase("clocks");
   json.at("options").erase("threads");
   std::uint64_t sum = kStart;
-  for (const char each : json.dump()) sum = (sum ^ static_cast<unsigned char>(each)) * kFactor;
+  for (const char each : outputs::text_of(std::move(json)))
+    sum = (sum ^ static_cast<unsigned char>(each)) * kFactor;
   char text[24];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
   return text;

@@ -40,7 +40,7 @@ std::string failure_of(std::size_t task, const ProgramResult& result) {
   }
   if (!message.empty()) return message;
   return "task " + std::to_string(task) + " ended with status " + std::to_string(result.status) +
-         ": " + result.errors;
+         ": " + in_one_line(result.errors);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 // mtstereo-run: disparities, depths, clouds and figures of recordings.
 
 #include <algorithm>
-#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -11,7 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "outputs/folder_lock.hpp"
+#include "outputs/printable.hpp"
 #include "run/cluster_commands.hpp"
+#include "run/interruption.hpp"
 #include "run/options.hpp"
 #include "run/own_plugin.hpp"
 #include "run/run_error.hpp"
@@ -22,14 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first signal stops after the current pair, the second one ends the program.
-void on_signal(int number) {
-  request_stop();
-  std::signal(number, SIG_DFL);
-}
+constexpr const char* kInterrupted = "mtstereo-run: interrupted; --resume continues\n";
 
 void print_problem(const Problem& problem) {
-  std::cerr << "mtstereo-run: " << problem.input << ": " << problem.reason << '\n';
+  std::cerr << "mtstereo-run: " << outputs::printable(problem.input + ": " + problem.reason)
+            << '\n';
 }
 
 // One recording, or those in a folder.
@@ -46,13 +45,16 @@ std::vector<Recording> find(const Options& options, std::vector<Problem>& proble
 void print_list(const std::vector<Recording>& recordings) {
   for (const Recording& recording : recordings) {
     std::cout << recording.name << ": " << recording.kind << '\n';
-    for (const std::string& remark : recording.remarks) std::cout << "  " << remark << '\n';
+    for (const std::string& remark : recording.remarks) {
+      std::cout << "  " << outputs::printable(remark) << '\n';
+    }
   }
 }
 
 int run_all(const std::vector<Recording>& recordings, const std::vector<Problem>& problems,
             const Options& options) {
   for (const Problem& problem : problems) print_problem(problem);
+  const outputs::FolderLock lock(options.folder);
   std::size_t failed = 0;
   int status = problems.empty() ? kDone : kIncomplete;
   for (const Recording& recording : recordings) {
@@ -61,14 +63,14 @@ int run_all(const std::vector<Recording>& recordings, const std::vector<Problem>
       const bool one = recordings.size() == 1 && problems.empty();
       const fs::path folder = one ? options.folder : options.folder / recording.name;
       status = std::max(status, run_recording(recording, options, folder));
-    } catch (const RunError& error) {
+    } catch (const std::exception& error) {
       std::cerr << "mtstereo-run: " << error.what() << '\n';
       status = std::max<int>(status, kIncomplete);
       ++failed;
     }
   }
   if (stop_requested()) {
-    std::cerr << "mtstereo-run: interrupted; --resume continues\n";
+    std::cerr << kInterrupted;
     return kIncomplete;
   }
   if (failed == recordings.size()) return kFailed;
@@ -87,19 +89,16 @@ int run(const Options& options) {
   const auto prepare = [&options](const Recording& recording) {
     return prepare_recording(recording, options);
   };
-  const ArchiveInput input{recordings, problems, prepare, preparation_settings(options),
-                           options.quiet};
-  const Existing existing = options.resume      ? Existing::kContinue
-                            : options.overwrite ? Existing::kReplace
-                                                : Existing::kRefuse;
+  const ArchiveInput input{recordings,    problems,    prepare, preparation_settings(options),
+                           options.quiet, options.work};
+  const Existing existing = options.existing();
   if (options.plan) return run_plan_command(input, options.plan_options, existing);
   return run_with_jobs(input, options.folder, options.jobs, existing);
 }
 
 int run(int argc, const char* const* argv) {
+  end_at_signals(kInterrupted, kIncomplete);
   if (const std::optional<int> status = run_cluster_command(argc, argv)) return *status;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
   const ParsedOptions parsed = parse_options(argc, argv);
   return parsed.options ? run(*parsed.options) : parsed.exit_status;
 }

@@ -3,14 +3,16 @@
 
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mtstereo/geometry/point_cloud.hpp"
+#include "outputs/output_error.hpp"
+#include "outputs/write_file.hpp"
 #include "run/run_error.hpp"
 #include "shared/confidence_meta.hpp"
 #include "shared/frame_views.hpp"
@@ -69,6 +71,14 @@ std::vector<std::int64_t> count_values(GstSample* map) {
   return counts;
 }
 
+void write_bytes(const std::filesystem::path& file, std::string_view bytes) {
+  try {
+    outputs::write_file(file, bytes);
+  } catch (const outputs::OutputError& error) {
+    throw WriteError(error.what());
+  }
+}
+
 // Little-endian, the last row first.
 void write_pfm(ImageView<const std::uint16_t> map, const std::vector<float>& table,
                const std::filesystem::path& file) {
@@ -81,10 +91,7 @@ void write_pfm(ImageView<const std::uint16_t> map, const std::vector<float>& tab
       for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xff);
     }
   }
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) throw RunError(file.string() + ": cannot be written");
+  write_bytes(file, bytes);
 }
 
 // The smallest value that so many of the known ones do not exceed; 0 without any.
@@ -144,13 +151,10 @@ void write_png(GstSample* sample, const std::filesystem::path& file) {
   // The data is not written to.
   const cv::Mat image(view.height, view.width, type, const_cast<std::uint8_t*>(view.data),
                       static_cast<std::size_t>(view.stride));
-  bool written = false;
-  try {
-    written = cv::imwrite(file.string(), image);
-  } catch (const cv::Exception&) {
-    written = false;
-  }
-  if (!written) throw RunError(file.string() + ": cannot be written");
+  // Encoded in memory: OpenCV does not state why a file cannot be written.
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", image, bytes)) throw RunError(file.string() + ": cannot be encoded");
+  write_bytes(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 void write_disparity_pfm(GstSample* map, const std::filesystem::path& file) {
@@ -194,8 +198,9 @@ void write_points(GstSample* map, GstSample* view, const DepthGeometry& geometry
   options.near = limits.near;
   options.far = limits.far;
   Status status = make_cloud(input, geometry, options, points);
-  if (status) status = write_cloud(points, CloudFormat::kPly, file.string());
   if (!status) throw RunError(file.string() + ": " + status.error().message);
+  status = write_cloud(points, CloudFormat::kPly, file.string());
+  if (!status) throw WriteError(status.error().message);
 }
 
 }  // namespace mtstereo::run

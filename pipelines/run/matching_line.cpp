@@ -140,10 +140,15 @@ class LaneSettings {
   void set(const char* element, const char* property, const std::string& value) const {
     const ElementPointer found = element_of(pipeline_, lane_name(element, lane_));
     if (!found) return;
-    if (g_object_class_find_property(G_OBJECT_GET_CLASS(found.get()), property) == nullptr) {
-      throw RunError(std::string("mtstereo has no property ") + property);
+    GParamSpec* const known =
+        g_object_class_find_property(G_OBJECT_GET_CLASS(found.get()), property);
+    if (known == nullptr) throw RunError(std::string("mtstereo has no property ") + property);
+    // Names of files may have any bytes.
+    if (G_PARAM_SPEC_VALUE_TYPE(known) == G_TYPE_STRING) {
+      g_object_set(found.get(), property, value.c_str(), nullptr);
+    } else {
+      gst_util_set_object_arg(G_OBJECT(found.get()), property, value.c_str());
     }
-    gst_util_set_object_arg(G_OBJECT(found.get()), property, value.c_str());
   }
 
   void set_calibration(const Recording& recording) const {

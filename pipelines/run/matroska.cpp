@@ -2,8 +2,6 @@
 #include "run/matroska.hpp"
 
 #include <bit>
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "run/matroska_format.hpp"
@@ -58,7 +56,7 @@ MatroskaWriter::MatroskaWriter(std::filesystem::path file, std::int64_t frames)
 
 void MatroskaWriter::check() const {
   if (stream_.good()) return;
-  throw RunError(file_.string() + ": cannot be written: " + std::strerror(errno));
+  throw write_error(file_);
 }
 
 void MatroskaWriter::write(std::string_view bytes) {

@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "outputs/json_text.hpp"
 #include "run/in_parallel.hpp"
 #include "run/json.hpp"
+#include "run/plan_contents.hpp"
 #include "run/run_error.hpp"
 #include "run/task.hpp"
 
@@ -153,7 +155,8 @@ void write_summary(const PlanFolder& files, const Plan& plan, const std::vector<
                      {"missing_tasks", result.missing},
                      {"problems", to_json({&plan.problems, &result.problems})},
                      {"damaged", to_json({&plan.damaged, &result.damaged})}};
-  write_aside(files.summary(), summary.dump(1) + "\n");
+  check_plan_file(files.summary());
+  write_aside(files.summary(), outputs::text_of(summary, 1) + "\n");
 }
 
 }  // namespace
@@ -198,8 +201,7 @@ MergeResult merge(const fs::path& folder, const MergeOptions& options) {
   write_summary(files, plan, recordings, result);
   if (result.joined == recordings.size()) {
     // What killed tasks left. A process that still does one of them finds that it is done.
-    std::error_code error;
-    fs::remove_all(files.unfinished(), error);
+    remove_unfinished(folder);
   }
   return result;
 }

@@ -10,6 +10,8 @@
 #include "mtstereo/geometry/rectification.hpp"
 #include "mtstereo/parameters.hpp"
 #include "options/failure_message.hpp"
+#include "outputs/finite_range.hpp"
+#include "outputs/parse_error.hpp"
 #include "run/help_format.hpp"
 #include "run/matching_line.hpp"
 #include "run/run_error.hpp"
@@ -113,7 +115,7 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
   add_shape(app, texts, options.input.shape);
   app.add_option("--rate", options.input.frame_rate, "frames per second of pictures without times")
       ->type_name("N")
-      ->check(CLI::Range(0.001, 100000.0))
+      ->check(outputs::finite_range(0.001, 100000))
       ->capture_default_str()
       ->group(group);
   app.add_option("--sync", texts.sync,
@@ -126,7 +128,7 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
   app.add_option("--drift", texts.drift,
                  "with --sync SECONDS: how much faster the clock of the right recorder is")
       ->type_name("PPM")
-      ->check(CLI::Range(-1e5, 1e5))
+      ->check(outputs::finite_range(-1e5, 1e5))
       ->group(group);
 }
 
@@ -134,14 +136,14 @@ void add_limits(CLI::App& app, WorkOptions& work, const std::string& group) {
   constexpr double kFarthest = 1e6;  // of mtdepth [m]
   app.add_option("--near", work.near, "nearer depths and points are left out")
       ->type_name("METERS")
-      ->check(CLI::Range(0.0, kFarthest))
+      ->check(outputs::finite_range(0, kFarthest))
       ->capture_default_str()
       ->group(group);
   app.add_option("--far", work.far,
                  "farther depths and points are left out, 0 = no limit [default: clouds end where "
                  "the disparity is 4 px, depth maps have no limit]")
       ->type_name("METERS")
-      ->check(CLI::Range(0.0, kFarthest))
+      ->check(outputs::finite_range(0, kFarthest))
       ->group(group);
 }
 
@@ -169,13 +171,15 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
       ->check(CLI::IsMember(names_of(kFormats)))
       ->capture_default_str()
       ->group(group);
-  app.add_flag("--resume", options.resume,
-               options.plan ? "plan again, and keep what is prepared and done"
-                            : "continue a run that was interrupted")
-      ->group(group);
+  CLI::Option* const resume =
+      app.add_flag("--resume", options.resume,
+                   options.plan ? "plan again, and keep what is prepared and done"
+                                : "continue a run that was interrupted")
+          ->group(group);
   app.add_flag("--overwrite", options.overwrite,
                options.plan ? "remove the plan in the folder and its results"
                             : "replace the results in the folder")
+      ->excludes(resume)
       ->group(group);
   app.add_flag("--quiet", options.quiet, "print no progress")->group(group);
   add_limits(app, options.work, group);
@@ -342,7 +346,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     if (options.folder.empty() && !options.list) throw CLI::RequiredError("--out");
   } catch (const CLI::ParseError& error) {
     const bool asked_for = error.get_exit_code() == 0;  // --help, --version
-    app.exit(error);
+    outputs::print_parse_error(app, error);
     return {std::nullopt, asked_for ? kDone : kWrongUsage};
   }
   options.plan_options.folder = options.folder;

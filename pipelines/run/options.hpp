@@ -23,6 +23,10 @@ struct Options {
   bool overwrite = false;
   bool list = false;
   bool quiet = false;
+  /// Of resume and overwrite.
+  Existing existing() const {
+    return resume ? Existing::kContinue : overwrite ? Existing::kReplace : Existing::kRefuse;
+  }
   int jobs = 1;  ///< processes; 1: this one
   bool plan = false;
   PlanOptions plan_options;

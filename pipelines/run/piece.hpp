@@ -90,8 +90,9 @@ struct FrameFigures {
 /// What became of a piece.
 struct PieceReport {
   std::vector<FrameFigures> frames;
-  std::vector<std::string> files;  ///< relative to the folder of results, sorted
-  std::string damage;              ///< where the input ended early; empty if it did not
+  std::vector<std::string> files;          ///< relative to the folder of results, sorted
+  std::vector<std::uintmax_t> file_bytes;  ///< their sizes
+  std::string damage;                      ///< where the input ended early; empty if it did not
 };
 
 /// Called from the processing thread after each pair; returns false to stop the run.
@@ -106,17 +107,19 @@ Work prepare(const Recording& recording, const WorkOptions& options,
 /// has it is whole.
 inline constexpr const char* kPieceFile = "piece.json";
 
-/// What process() does with the results of an earlier call that was interrupted.
-enum class Unfinished {
-  kDiscard,   ///< starts over
-  kContinue,  ///< keeps the pairs that were done, if they were made of an equal work and range
+/// What is done with results, or with a plan, that are in the folder already. Only files that this
+/// program wrote are ever replaced; for anything else in the way, RunError is thrown.
+enum class Existing {
+  kRefuse,    ///< throws RunError
+  kContinue,  ///< keeps what was done of an equal work; throws RunError if it is another one
+  kReplace,   ///< starts over
 };
 
 /// Processes pairs and writes the files of this piece and its report, kPieceFile, into `folder`,
 /// which is created. Files are written into a folder in it and renamed when they are whole. Throws
 /// RunError, also if `progress` stops the run; what is in `folder` itself then is whole.
 PieceReport process(const Work& work, Range range, const std::filesystem::path& folder,
-                    const Progress& progress, Unfinished unfinished = Unfinished::kDiscard);
+                    const Progress& progress, Existing existing = Existing::kRefuse);
 
 /// Joins pieces, which must cover the recording without a gap, into `folder`: the same bytes as one
 /// piece that covers all, and the same report, kPieceFile. Throws RunError.

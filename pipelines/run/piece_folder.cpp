@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
+#include "outputs/output_error.hpp"
+#include "outputs/write_file.hpp"
 #include "run/json.hpp"
 #include "run/matroska.hpp"
 #include "run/product_files.hpp"
@@ -15,17 +18,6 @@ namespace mtstereo::run {
 namespace {
 
 namespace fs = std::filesystem;
-
-// All names that products can have.
-std::vector<std::string> product_paths() {
-  std::vector<std::string> paths;
-  for (const MapFormat format : {MapFormat::kMatroska, MapFormat::kPng}) {
-    WorkOptions options;
-    options.format = format;
-    for (const Product product : kAllProducts) paths.push_back(product_path(options, product));
-  }
-  return paths;
-}
 
 std::string line_of(const FrameFigures& figures) {
   char text[160];
@@ -55,18 +47,34 @@ std::size_t frames_in(const fs::path& file) {
 
 }  // namespace
 
-PieceFolder::PieceFolder(const Work& work, Range range, fs::path folder, Unfinished unfinished)
+PieceFolder::PieceFolder(const Work& work, Range range, fs::path folder, Existing existing)
     : work_(work), range_(range), folder_(std::move(folder)) {
   const std::string head = "mtstereo-run journal 1 " + fingerprint(work) + " " +
                            std::to_string(range.first) + " " + std::to_string(range.count) + "\n";
+  check_results_folder(folder_, work.recording, work.options, existing, head);
   try {
-    if (unfinished == Unfinished::kContinue && read_journal(head)) keep_whole_frames();
-    if (done_.empty()) fs::remove_all(this->unfinished());
+    if (existing == Existing::kContinue && read_journal(head) && !read_whole()) keep_whole_frames();
+    if (done_.empty() && !whole_) outputs::remove_written(folder_, unfinished_files_in(folder_));
     fs::create_directories(this->unfinished());
     write_journal(head);
+    any_done_ = whole_ || !done_.empty();
   } catch (const fs::filesystem_error& error) {
     throw RunError(error.path1().string() + ": " + error.code().message());
   }
+}
+
+PieceFolder::~PieceFolder() {
+  if (!any_done_) outputs::remove_written(folder_, unfinished_files_in(folder_));
+}
+
+// Whether all pairs were done, and only their files have to be published.
+bool PieceFolder::read_whole() {
+  std::error_code error;
+  const fs::path report = unfinished() / kPieceFile;
+  if (!fs::exists(report, error)) return false;
+  Range range;
+  whole_ = read_piece(report, range);
+  return true;
 }
 
 // False if it belongs to another work.
@@ -97,54 +105,50 @@ void PieceFolder::write_journal(const std::string& head) {
   stream << head;
   for (const FrameFigures& figures : done_) stream << line_of(figures);
   stream.close();
-  if (!stream) throw RunError(aside.string() + ": cannot be written");
+  if (!stream) throw write_error(aside);
   fs::rename(aside, journal());
   stream_.open(journal(), std::ios::binary | std::ios::app);
 }
 
 void PieceFolder::note(const FrameFigures& figures) {
   stream_ << line_of(figures) << std::flush;
-  if (!stream_) throw RunError(journal().string() + ": cannot be written");
+  if (!stream_) throw write_error(journal());
+  any_done_ = true;
+}
+
+// The files of the report, and their sizes.
+void PieceFolder::complete(PieceReport& report) const {
+  report.files = result_files(work_.options, unfinished());
+  report.file_bytes.clear();
+  for (const std::string& file : report.files) {
+    report.file_bytes.push_back(fs::file_size(unfinished() / file));
+  }
+  write_piece(report, range_, unfinished() / kPieceFile);
+}
+
+void PieceFolder::publish(const PieceReport& report) {
+  std::vector<std::string> published;
+  std::copy_if(report.files.begin(), report.files.end(), std::back_inserter(published),
+               [this](const std::string& file) { return !fs::exists(unfinished() / file); });
+  remove_results(folder_, published);
+  for (const Product product : work_.options.products) {
+    const std::string path = product_path(work_.options, product);
+    if (fs::exists(unfinished() / path)) outputs::move_file(unfinished() / path, folder_ / path);
+  }
+  outputs::move_file(unfinished() / kPieceFile, folder_ / kPieceFile);
+  outputs::remove_written(folder_, unfinished_files_in(folder_));
 }
 
 void PieceFolder::finish(PieceReport& report) {
   stream_.close();
   try {
-    fs::remove(journal());
-    report.files = result_files(work_.options, unfinished());
-    remove_results(folder_);
-    for (const Product product : work_.options.products) {
-      const std::string path = product_path(work_.options, product);
-      if (fs::exists(unfinished() / path)) fs::rename(unfinished() / path, folder_ / path);
-    }
-    fs::remove_all(unfinished());
+    if (!whole_) complete(report);
+    publish(report);
   } catch (const fs::filesystem_error& error) {
     throw RunError(error.path1().string() + ": " + error.code().message());
+  } catch (const outputs::OutputError& error) {
+    throw RunError(error.what());
   }
-  write_piece(report, range_, folder_ / kPieceFile);
-}
-
-std::vector<std::string> result_files(const WorkOptions& options, const fs::path& folder) {
-  std::vector<std::string> files;
-  for (const Product product : options.products) {
-    const std::string path = product_path(options, product);
-    if (in_one_file(options, product)) {
-      if (fs::exists(folder / path)) files.push_back(path);
-      continue;
-    }
-    if (!fs::is_directory(folder / path)) continue;
-    for (const auto& entry : fs::directory_iterator(folder / path)) {
-      files.push_back(path + "/" + entry.path().filename().string());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-void remove_results(const fs::path& folder) {
-  fs::remove(folder / kPieceFile);
-  fs::remove(folder / kRunFile);
-  for (const std::string& path : product_paths()) fs::remove_all(folder / path);
 }
 
 }  // namespace mtstereo::run

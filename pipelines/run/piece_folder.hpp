@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "run/piece.hpp"
+#include "run/results.hpp"
 
 namespace mtstereo::run {
 
@@ -14,37 +16,42 @@ namespace mtstereo::run {
 /// and a journal there has the figures of the pairs that are done.
 class PieceFolder {
  public:
-  /// Prepares the folder. Results of the same work and range that were interrupted are kept if
-  /// `unfinished` says so. Throws RunError.
-  PieceFolder(const Work& work, Range range, std::filesystem::path folder, Unfinished unfinished);
+  /// Prepares the folder. With Existing::kContinue, the pairs of an interrupted run are kept.
+  /// Throws RunError if something is in the way.
+  PieceFolder(const Work& work, Range range, std::filesystem::path folder, Existing existing);
+  /// Removes the unfinished files unless a pair is done.
+  ~PieceFolder();
+  PieceFolder(const PieceFolder&) = delete;
+  PieceFolder& operator=(const PieceFolder&) = delete;
 
   /// The folder of unfinished files.
-  std::filesystem::path unfinished() const { return folder_ / "unfinished"; }
+  std::filesystem::path unfinished() const { return unfinished_in(folder_); }
+  /// The report of an interrupted run that had done all pairs, for finish().
+  const std::optional<PieceReport>& whole() const { return whole_; }
   /// The figures of the pairs that were done before.
   const std::vector<FrameFigures>& done() const { return done_; }
   /// Notes a pair whose files are written.
   void note(const FrameFigures& figures);
-  /// Replaces the files of the folder by the unfinished ones, and writes the report, whose files it
-  /// lists.
+  /// Replaces the results in the folder by the unfinished ones, and writes the report, whose files
+  /// it lists. If it is interrupted, the next run with Existing::kContinue does the rest.
   void finish(PieceReport& report);
 
  private:
   bool read_journal(const std::string& head);
+  bool read_whole();
   void keep_whole_frames();
   void write_journal(const std::string& head);
-  std::filesystem::path journal() const { return unfinished() / "journal"; }
+  std::filesystem::path journal() const { return journal_in(folder_); }
+  void complete(PieceReport& report) const;
+  void publish(const PieceReport& report);
 
   const Work& work_;
   Range range_;
   std::filesystem::path folder_;
   std::vector<FrameFigures> done_;
+  std::optional<PieceReport> whole_;
   std::ofstream stream_;
+  bool any_done_ = false;
 };
-
-/// The files below a folder that are results, relative to it and sorted.
-std::vector<std::string> result_files(const WorkOptions& options,
-                                      const std::filesystem::path& folder);
-/// Removes results from a folder, and its report first, so that it is not taken for whole.
-void remove_results(const std::filesystem::path& folder);
 
 }  // namespace mtstereo::run

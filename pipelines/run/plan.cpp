@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "outputs/json_text.hpp"
 #include "run/archive.hpp"
 #include "run/json.hpp"
+#include "run/plan_contents.hpp"
 #include "run/plan_folder.hpp"
 #include "run/run_error.hpp"
 #include "run/whole_folder.hpp"
@@ -130,28 +132,20 @@ void write_plan(const Plan& plan, const std::vector<Work>& works, const fs::path
   write_plan_file(plan, folder);
 }
 
-void remove_plan(const fs::path& folder) {
-  const PlanFolder files(folder);
-  std::error_code error;
-  // plan.json first: what is left is no plan then.
-  for (const fs::path& each : {files.plan(), files.summary(), files.works(), files.pieces(),
-                               files.recordings(), files.unfinished(), files.logs()}) {
-    fs::remove_all(each, error);
-    if (error) throw RunError(each.string() + ": cannot be removed: " + error.message());
-  }
-}
-
 void check_recording_names(const std::vector<std::string>& recordings) { check_names(recordings); }
 
 void write_plan_file(const Plan& plan, const fs::path& folder) {
   check_plan(plan);
-  write_aside(PlanFolder(folder).plan(), to_json(plan).dump(1) + "\n");
+  check_plan_file(PlanFolder(folder).plan());
+  write_aside(PlanFolder(folder).plan(), outputs::text_of(to_json(plan), 1) + "\n");
 }
 
 Plan read_plan(const fs::path& folder) {
   const fs::path file = PlanFolder(folder).plan();
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
+  std::error_code error;
+  std::ifstream in;
+  if (fs::is_regular_file(file, error)) in.open(file, std::ios::binary);
+  if (!in.is_open()) {
     throw RunError(file.string() +
                    ": there is no plan; 'mtstereo-run plan' writes one, and --plan states its "
                    "folder");

@@ -31,9 +31,13 @@ std::vector<std::int64_t> numbers(std::int64_t first, std::int64_t end) {
 }  // namespace
 
 PieceReport process(const Work& work, Range range, const std::filesystem::path& folder,
-                    const Progress& progress, Unfinished unfinished) {
+                    const Progress& progress, Existing existing) {
   check_range(work, range);
-  PieceFolder piece(work, range, folder, unfinished);
+  PieceFolder piece(work, range, folder, existing);
+  if (std::optional<PieceReport> whole = piece.whole()) {
+    piece.finish(*whole);
+    return *whole;
+  }
   PieceReport report;
   // All memory is taken at the start, and does not grow with the pairs.
   report.frames.resize(static_cast<std::size_t>(range.count));

@@ -52,6 +52,16 @@ std::string product_path(const WorkOptions& options, Product product) {
   return std::string(product_name(product)) + (in_one_file(options, product) ? ".mkv" : "");
 }
 
+std::vector<std::string> product_paths() {
+  std::vector<std::string> paths;
+  for (const MapFormat format : {MapFormat::kMatroska, MapFormat::kPng}) {
+    WorkOptions options;
+    options.format = format;
+    for (const Product product : kAllProducts) paths.push_back(product_path(options, product));
+  }
+  return paths;
+}
+
 std::string pair_file(const WorkOptions& options, Product product, std::int64_t pair) {
   // Confidences and colors have no format of floating-point numbers.
   const bool pfm = options.format == MapFormat::kPfm &&

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "run/map_files.hpp"
 #include "run/matching_run.hpp"
@@ -15,6 +16,8 @@ namespace mtstereo::run {
 
 /// The file or the folder of a product: "disparity.mkv", "disparity", "clouds".
 std::string product_path(const WorkOptions& options, Product product);
+/// All names that products can have.
+std::vector<std::string> product_paths();
 /// The file of one pair in the folder of a product: "000012.png".
 std::string pair_file(const WorkOptions& options, Product product, std::int64_t pair);
 /// Whether a product is one file with all pairs.

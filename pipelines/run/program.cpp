@@ -5,6 +5,7 @@
 #include <sys/prctl.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <csignal>
 #include <system_error>
 
@@ -48,6 +49,12 @@ ProgramResult run_program(const std::vector<std::string>& arguments) {
     throw RunError(arguments.front() + ": " + reason);
   }
   return {exit_status(wait_status), take(output), take(errors)};
+}
+
+std::string in_one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
 }
 
 std::filesystem::path this_program() {

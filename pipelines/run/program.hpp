@@ -18,6 +18,9 @@ struct ProgramResult {
 /// the calling thread ends. Throws RunError if it cannot be started.
 ProgramResult run_program(const std::vector<std::string>& arguments);
 
+/// What a program printed, as one line of a message.
+std::string in_one_line(std::string text);
+
 /// The file of this program.
 std::filesystem::path this_program();
 

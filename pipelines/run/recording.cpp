@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "run/recording.hpp"
 
+#include <linux/magic.h>
+#include <sys/vfs.h>
+
 #include <algorithm>
 #include <system_error>
 #include <utility>
 
+#include "outputs/printable.hpp"
 #include "run/file_names.hpp"
 #include "run/run_error.hpp"
 #include "run/search.hpp"
@@ -18,6 +22,13 @@ namespace {
 bool is_folder(const fs::path& path) {
   std::error_code error;
   return fs::is_directory(path, error);
+}
+
+// Folders such as /proc never end.
+bool is_of_kernel(const fs::path& folder) {
+  struct statfs found = {};
+  if (statfs(folder.c_str(), &found) != 0) return false;
+  return found.f_type == PROC_SUPER_MAGIC || found.f_type == SYSFS_MAGIC;
 }
 
 // What a folder has that is not the recording.
@@ -46,10 +57,10 @@ std::string name_in(const fs::path& archive, const fs::path& folder, const std::
   std::string result;
   for (const fs::path& part : below) {
     if (part == "." || part.empty()) continue;
-    result += (result.empty() ? "" : "-") + part.string();
+    result += (result.empty() ? "" : "-") + outputs::printable(part.string());
   }
   if (result.empty()) return name;
-  return name == folder_name(folder) ? result : result + "-" + name;
+  return name == outputs::printable(folder_name(folder)) ? result : result + "-" + name;
 }
 
 class ArchiveSearch {
@@ -59,6 +70,10 @@ class ArchiveSearch {
 
   void enter(const fs::path& folder) {
     std::error_code error;
+    if (is_of_kernel(folder)) {
+      problems_.push_back({folder.string(), "has files of the kernel, and no recordings"});
+      return;
+    }
     const fs::path real = fs::canonical(folder, error);
     const bool is_new = std::find(entered_.begin(), entered_.end(), real) == entered_.end();
     if (error || !is_new || is_result(folder)) return;
@@ -90,8 +105,12 @@ class ArchiveSearch {
   }
 
   void make_names_unique() {
+    constexpr std::size_t kLongest = 200;  // of 255 that file systems allow
     std::vector<std::string> names;
     for (Recording& recording : recordings_) {
+      if (recording.name.size() > kLongest) {
+        recording.name = outputs::printable(recording.name.substr(0, kLongest));
+      }
       const std::string name = recording.name;
       for (int i = 2; std::find(names.begin(), names.end(), recording.name) != names.end(); ++i) {
         recording.name = name + "-" + std::to_string(i);
@@ -129,6 +148,9 @@ std::vector<Recording> find_recordings(const fs::path& archive, const InputOptio
   std::error_code error;
   const fs::directory_iterator readable(archive, error);
   if (error) throw RunError(archive.string() + ": the folder cannot be read: " + error.message());
+  if (is_of_kernel(archive)) {
+    throw RunError(archive.string() + ": has files of the kernel, and no recordings");
+  }
   ArchiveSearch search(archive, options, problems);
   search.enter(archive);
   return search.take();

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "run/run_recording.hpp"
 
-#include <atomic>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <string>
 
+#include "outputs/folder_lock.hpp"
+#include "outputs/json_text.hpp"
+#include "outputs/printable.hpp"
 #include "run/archive.hpp"
+#include "run/interruption.hpp"
 #include "run/json.hpp"
 #include "run/json_files.hpp"
 #include "run/matching_line.hpp"
-#include "run/piece_folder.hpp"
 #include "run/progress_line.hpp"
+#include "run/results.hpp"
 #include "run/run_error.hpp"
 #include "run/work_text.hpp"
 
@@ -20,19 +24,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::atomic<bool> stop{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
-
-// Whether the folder has results of this work. Throws if they are others, and may not be replaced.
-bool is_done(const Work& work, const Options& options, const fs::path& folder) {
-  const std::string existing = fingerprint_in(folder / kRunFile);
-  if (existing.empty() || options.overwrite) return false;
-  if (!options.resume) {
-    throw RunError(folder.string() +
-                   ": has results already; choose another folder by --out, or --resume or "
-                   "--overwrite");
+// Whether the folder has results of this work that are whole. Throws if they are of another one.
+bool is_done(const Work& work, Existing existing, const fs::path& folder) {
+  const std::string found = fingerprint_in(folder / kRunFile);
+  if (found.empty() || existing == Existing::kReplace) return false;
+  if (found == fingerprint(work)) {
+    const std::string defect = defect_of_results(folder);
+    if (defect.empty()) return true;
+    std::cerr << "mtstereo-run: " << work.recording.name << ": " << outputs::printable(defect)
+              << ", in " << outputs::printable(folder.string()) << ": it is done again\n";
+    return false;
   }
-  if (existing == fingerprint(work)) return true;
   throw RunError(folder.string() +
                  ": has results of another input or other options; choose another folder by --out, "
                  "or --overwrite");
@@ -54,23 +56,43 @@ void print_summary(const Work& work, const PieceReport& report, const fs::path& 
     std::cout << ", " << work.pairs.dropped_left << " left and " << work.pairs.dropped_right
               << " right frames without a partner";
   }
-  std::cout << ", in " << folder.string() << std::endl;
+  std::cout << ", in " << outputs::printable(folder.string()) << std::endl;
+}
+
+PieceReport process_all(const Work& work, const fs::path& folder, Existing existing,
+                        ProgressLine& progress) {
+  const Range all{0, static_cast<std::int64_t>(work.pairs.pairs.size())};
+  const int lanes = lanes_for(work.options.threads).count;
+  const auto show = [&progress, lanes](std::int64_t done, std::int64_t total, double milliseconds) {
+    progress.show(done, total, milliseconds / lanes);
+    return !stop_requested() || done == total;
+  };
+  PieceReport report = process(work, all, folder, show, existing);
+  progress.finish();
+  write_run_report(work, report, progress.seconds(), folder / kRunFile);
+  std::error_code ignored;
+  fs::remove(folder / kPieceFile, ignored);
+  return report;
+}
+
+bool is_whole(const Work& work, const PieceReport& report) {
+  if (!report.damage.empty()) {
+    std::cerr << "mtstereo-run: " << work.recording.name << ": "
+              << outputs::printable(report.damage) << '\n';
+  }
+  return report.damage.empty() && work.left.damage.empty() && work.right.damage.empty();
 }
 
 // The exit status of a recording whose results are in the folder.
 int status_of(const Recording& recording, const fs::path& folder, bool whole) {
   const std::string doubt = verdict_in(folder / kRunFile);
   if (doubt.empty()) return whole ? kDone : kIncomplete;
-  std::cerr << "mtstereo-run: " << recording.name << ": the results are of no use: " << doubt
-            << '\n';
+  std::cerr << "mtstereo-run: " << recording.name
+            << ": the results are of no use: " << outputs::printable(doubt) << '\n';
   return kWorthless;
 }
 
 }  // namespace
-
-void request_stop() noexcept { stop = true; }
-
-bool stop_requested() noexcept { return stop; }
 
 Work prepare_recording(const Recording& recording, const Options& options) {
   const bool two = recording.arrangement == Arrangement::kTwoSources;
@@ -83,46 +105,40 @@ std::string preparation_settings(const Options& options) {
   json.erase("threads");  // they do not change the results
   json["estimate"] = options.estimate;
   if (options.relation) json["relation"] = {options.relation->offset, options.relation->drift};
-  return json.dump();
+  return outputs::text_of(std::move(json));
 }
 
-int run_recording(const Recording& recording, const Options& options, const fs::path& folder) {
-  if (!options.resume && !options.overwrite && !fingerprint_in(folder / kRunFile).empty()) {
-    is_done({}, options, folder);
-  }
+int run_recording(const Recording& found, const Options& options, const fs::path& folder) {
+  std::optional<outputs::FolderLock> lock;
+  if (folder != options.folder) lock.emplace(folder);
+  const Existing existing = options.existing();
+  const Recording recording = with_absolute_paths(found);
+  check_results_folder(folder, recording, options.work, existing);
   ProgressLine progress(recording.name, options.quiet);
-  const Work work = prepare_recording(with_absolute_paths(recording), options);
+  const Work work = prepare_recording(recording, options);
   if (!options.quiet) {
     for (const std::string& line : recognized(work)) {
-      std::cerr << recording.name << ": " << line << '\n';
+      std::cerr << recording.name << ": " << outputs::printable(line) << '\n';
     }
   }
   for (const std::string& remark : work.remarks) {
-    std::cerr << recording.name << ": " << remark << '\n';
+    std::cerr << recording.name << ": " << outputs::printable(remark) << '\n';
   }
-  if (is_done(work, options, folder)) {
-    std::cout << recording.name << ": was done before, in " << folder.string() << std::endl;
+  if (is_done(work, existing, folder)) {
+    std::cout << recording.name << ": was done before, in " << outputs::printable(folder.string())
+              << std::endl;
     return status_of(recording, folder, true);
   }
-  const Range all{0, static_cast<std::int64_t>(work.pairs.pairs.size())};
-  const int lanes = lanes_for(work.options.threads).count;
-  const PieceReport report = process(
-      work, all, folder,
-      [&progress, lanes](std::int64_t done, std::int64_t total, double milliseconds) {
-        progress.show(done, total, milliseconds / lanes);
-        return !stop || done == total;
-      },
-      options.resume ? Unfinished::kContinue : Unfinished::kDiscard);
-  progress.finish();
-  write_run_report(work, report, progress.seconds(), folder / kRunFile);
-  std::error_code ignored;
-  fs::remove(folder / kPieceFile, ignored);
-  print_summary(work, report, folder);
-  if (!report.damage.empty()) {
-    std::cerr << "mtstereo-run: " << recording.name << ": " << report.damage << '\n';
+  const OrderlyStop orderly;
+  try {
+    const PieceReport report = process_all(work, folder, existing, progress);
+    print_summary(work, report, folder);
+    return status_of(recording, folder, is_whole(work, report));
+  } catch (const WriteError& error) {
+    if (!is_interrupted(folder)) throw;
+    std::cerr << "mtstereo-run: " << error.what() << "; --resume continues\n";
+    return kIncomplete;
   }
-  const bool whole = report.damage.empty() && work.left.damage.empty() && work.right.damage.empty();
-  return status_of(recording, folder, whole);
 }
 
 }  // namespace mtstereo::run

@@ -8,13 +8,9 @@
 
 namespace mtstereo::run {
 
-/// Asks run_recording() to stop after the current pair. May be called by a signal handler.
-void request_stop() noexcept;
-/// Whether that was asked for.
-bool stop_requested() noexcept;
-
 /// Processes a recording into a folder, and prints remarks, progress and a summary. Returns the
-/// exit status: kDone, kIncomplete if the input is damaged, or kWorthless. Throws RunError.
+/// exit status: kDone, kIncomplete if the input is damaged or a full disk, for example, stopped the
+/// run, or kWorthless. Throws RunError.
 int run_recording(const Recording& recording, const Options& options,
                   const std::filesystem::path& folder);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mtstereo/geometry/calibration.hpp"
+#include "outputs/printable.hpp"
 #include "run/calibration_choice.hpp"
 #include "run/file_names.hpp"
 #include "run/halves.hpp"
@@ -62,6 +63,14 @@ std::string name_of_two(const Source& left, const Source& right) {
     if (partner.right == right.video.filename().string()) return name_of(partner.common, folder);
   }
   return left.video.stem().string();
+}
+
+// Whether both views have the same files, also by links.
+bool are_same(const Source& left, const Source& right) {
+  const std::vector<fs::path>&a = left.pictures, &b = right.pictures;
+  std::error_code error;
+  if (a.size() != b.size() || !fs::equivalent(file_of(left), file_of(right), error)) return false;
+  return a.empty() || fs::equivalent(a.back(), b.back(), error);
 }
 
 class FolderSearch {
@@ -256,6 +265,7 @@ FolderContents search_folder(const fs::path& folder, const InputOptions& options
 
 Recording completed(FoundRecording found, const InputOptions& options) {
   Recording& recording = found.recording;
+  recording.name = outputs::printable(recording.name);  // it becomes that of a folder
   if (recording.right.empty()) {
     complete_one(found, options);
     return std::move(recording);
@@ -279,6 +289,8 @@ Source source_of(const std::string& input) {
     if (source.empty()) throw RunError(input + ": the folder has neither pictures nor one video");
   } else if (!fs::exists(input, error)) {
     throw RunError(input + ": no such file or folder");
+  } else if (!fs::is_regular_file(input, error)) {
+    throw RunError(input + ": is a pipe or a device, which may never end: record it into a file");
   } else if (is_picture(input)) {
     source.pictures = {input};
   } else {
@@ -298,6 +310,10 @@ FoundRecording recording_of(const Source& left, const Source& right, const Input
   if (two ? options.arrangement && !one_arrangement : one_arrangement) {
     throw RunError(file_of(left).string() + ": the arrangement that is stated needs " +
                    (two ? "one source, not two" : "two sources"));
+  }
+  if (two && are_same(left, right)) {
+    throw RunError(file_of(left).string() + " and " + file_of(right).string() +
+                   " are the same file: give the left view and the right one");
   }
   FoundRecording found;
   Recording& recording = found.recording;

@@ -57,7 +57,7 @@ std::string run_slurm(const SlurmOptions& options, const std::vector<std::string
   const ProgramResult result = start(arguments, options);
   if (result.status == 0) return result.output;
   throw RunError(arguments.front() + " ended with status " + std::to_string(result.status) + ": " +
-                 without_line_end(result.errors));
+                 in_one_line(result.errors));
 }
 
 // Array indexes have to be below this value.

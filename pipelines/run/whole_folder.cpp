@@ -14,6 +14,8 @@
 #include <random>
 #include <system_error>
 
+#include "outputs/json_text.hpp"
+#include "run/plan_contents.hpp"
 #include "run/run_error.hpp"
 
 namespace mtstereo::run {
@@ -80,6 +82,8 @@ std::string host_name() {
 }
 
 json read_contents(const fs::path& folder) {
+  std::error_code error;  // a pipe would be read without an end
+  if (!fs::is_regular_file(folder / kContents, error)) return {};
   std::ifstream in(folder / kContents, std::ios::binary);
   return json::parse(in);
 }
@@ -198,7 +202,7 @@ bool NewFolder::publish(const fs::path& target, const Origin& origin, const Figu
                         {"seconds", figures.seconds},
                         {"damage", figures.damage},
                         {"files", std::move(files)}};
-    write_aside(path_ / kContents, contents.dump(1) + "\n");
+    write_aside(path_ / kContents, outputs::text_of(contents, 1) + "\n");
     synchronize(path_, names);
     fs::create_directories(target.parent_path());
     while (!rename_folder(path_, target)) {
@@ -270,12 +274,20 @@ Figures read_figures(const fs::path& folder) {
 }
 
 void discard(const fs::path& folder, const fs::path& parent) {
+  const outputs::WrittenFiles files = whole_files_in(folder);
+  outputs::Intent intent{{folder.filename().string()}, {}, {}};
+  for (const auto& [name, bytes] : files.files()) {
+    intent.written.add((folder.filename() / name).generic_string());
+  }
+  const std::string obstacle = outputs::obstacle_in(folder.parent_path(), intent);
+  if (!obstacle.empty()) throw RunError(obstacle);
   const fs::path aside = unused_name(parent, "discarded");
   std::error_code error;
   fs::create_directories(parent, error);
   fs::rename(folder, aside, error);
   if (!error) {
-    fs::remove_all(aside, error);
+    outputs::remove_written(aside, files);
+    fs::remove(aside, error);  // unless a file has appeared in it meanwhile
   } else if (error != std::errc::no_such_file_or_directory) {
     throw RunError(folder.string() + ": cannot be replaced: " + error.message());
   }

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "outputs/printable.hpp"
 #include "run/matching_line.hpp"
 #include "run/work_options.hpp"
 
@@ -20,7 +21,7 @@ std::string names_of(const std::string& calibration) {
   std::error_code error;
   const std::size_t comma = calibration.find(',');
   if (comma == std::string::npos || std::filesystem::exists(calibration, error)) {
-    return std::filesystem::path(calibration).filename().string();
+    return outputs::printable(std::filesystem::path(calibration).filename().string());
   }
   return names_of(calibration.substr(0, comma)) + "," + names_of(calibration.substr(comma + 1));
 }

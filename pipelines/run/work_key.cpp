@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "outputs/json_text.hpp"
 #include "run/json_files.hpp"
 #include "run/whole_folder.hpp"
 
@@ -30,16 +31,6 @@ void add_calibration(const std::string& calibration, std::vector<fs::path>& file
   }
 }
 
-std::vector<fs::path> files_of(const Recording& recording) {
-  std::vector<fs::path> files;
-  for (const Source* source : {&recording.left, &recording.right}) {
-    if (!source->video.empty()) files.push_back(source->video);
-    files.insert(files.end(), source->pictures.begin(), source->pictures.end());
-  }
-  add_calibration(recording.calibration, files);
-  return files;
-}
-
 std::string checksum_of(const std::string& text) {
   char* const sum = g_compute_checksum_for_string(G_CHECKSUM_SHA256, text.c_str(), -1);
   std::string result = sum;
@@ -55,11 +46,23 @@ std::int64_t size_of(const fs::path& file) {
 
 }  // namespace
 
+std::vector<fs::path> recording_files(const Recording& recording) {
+  std::vector<fs::path> files;
+  for (const Source* source : {&recording.left, &recording.right}) {
+    if (!source->video.empty()) files.push_back(source->video);
+    files.insert(files.end(), source->pictures.begin(), source->pictures.end());
+  }
+  add_calibration(recording.calibration, files);
+  return files;
+}
+
 WorkKey work_key(const Recording& recording, const std::string& settings) {
   WorkKey key;
   std::ostringstream all;
-  all << MTSTEREO_VERSION << '\n' << settings << '\n' << recording_json(recording).dump() << '\n';
-  for (const fs::path& file : files_of(recording)) {
+  all << MTSTEREO_VERSION << '\n'
+      << settings << '\n'
+      << outputs::text_of(recording_json(recording)) << '\n';
+  for (const fs::path& file : recording_files(recording)) {
     key.sizes.push_back(size_of(file));
     std::error_code missing;
     const fs::file_time_type time = fs::last_write_time(file, missing);
@@ -70,7 +73,7 @@ WorkKey work_key(const Recording& recording, const std::string& settings) {
 }
 
 fs::path changed_file(const Recording& recording, const WorkKey& key) {
-  const std::vector<fs::path> files = files_of(recording);
+  const std::vector<fs::path> files = recording_files(recording);
   const std::size_t known = std::min(files.size(), key.sizes.size());
   for (std::size_t i = 0; i < known; ++i) {
     if (size_of(files[i]) != key.sizes[i]) return files[i];

@@ -22,6 +22,9 @@ struct WorkKey {
   bool operator==(const WorkKey& other) const = default;
 };
 
+/// The files that a recording is read from, with those of its calibration.
+std::vector<std::filesystem::path> recording_files(const Recording& recording);
+
 /// The key of a recording. Its files are not read.
 WorkKey work_key(const Recording& recording, const std::string& settings);
 

@@ -194,7 +194,7 @@ class Program(unittest.TestCase):
             time.sleep(0.05)
 
     def test_a_task_that_fails_does_not_stop_the_others(self):
-        (self.plan / "works/a.json").write_text("{}")
+        (self.plan / "works/a.json").write_text('{"kind":"work of mtstereo-run"')  # cut off
         done = self.run_program("jobs", self.folder, 2, expected=3)
         self.assertRegex(done.stderr, r"(?m)^mtstereo-run: task 0 \(a\): .*works/a.json: is damaged")
         self.assertIn("mtstereo-run: 3 tasks are missing: 0-2; --resume does them", done.stderr)

@@ -73,7 +73,8 @@ class Inputs : public ::testing::Test {
     options.parameters = {{"max-disparity", "24"}, {"alignment", "off"}};
     if (with_depth) options.products.push_back(Product::kDepth);
     const Work work = prepare(recording, options, std::nullopt, false);
-    const PieceReport report = process(work, testing::whole(work), path("out"), kNoProgress);
+    const PieceReport report =
+        process(work, testing::whole(work), path("out"), kNoProgress, Existing::kReplace);
     EXPECT_EQ(report.frames.size(), static_cast<std::size_t>(kFrames));
     EXPECT_EQ(report.damage, "");
     return recording;
@@ -221,7 +222,7 @@ TEST_F(Inputs, PairFolders) {
     options.products = {Product::kDisparity, Product::kDepth};
     options.parameters = {{"max-disparity", "24"}, {"alignment", "off"}};
     const Work work = prepare(recording, options, std::nullopt, false);
-    process(work, testing::whole(work), path("out"), kNoProgress);
+    process(work, testing::whole(work), path("out"), kNoProgress, Existing::kReplace);
     const auto source = [this, &folder](const std::string& file) {
       return " filesrc location=" + path(folder + "/" + file) + " ! pngdec ! queue ! m.sink_";
     };

@@ -11,6 +11,7 @@
 #include "fake_pieces.hpp"
 #include "run/archive.hpp"
 #include "run/json.hpp"
+#include "run/plan_contents.hpp"
 #include "run/plan_folder.hpp"
 #include "run/run_error.hpp"
 

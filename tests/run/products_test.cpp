@@ -55,7 +55,7 @@ class Products : public ::testing::Test {
     Work work = work_of(file("left.mkv"), file("right.mkv"), options);
     work.recording.calibration = file("calib.txt").string();
     const fs::path results = file("results");
-    process(work, whole(work), results, kNoProgress);
+    process(work, whole(work), results, kNoProgress, Existing::kReplace);
     return results;
   }
   // What the elements give: the frames downstream of the matcher.
@@ -300,12 +300,12 @@ TEST_F(Products, EveryPointIsKeptWithoutALimit) {
   options.parameters = {{"min-disparity", "-2"}};
   Work work = work_of(file("left.mkv"), file("left.mkv"), options);
   work.recording.calibration = file("calib.txt").string();
-  process(work, whole(work), file("default"), kNoProgress);
+  process(work, whole(work), file("limited"), kNoProgress);
   work.options.far = 0;
-  process(work, whole(work), file("all"), kNoProgress);
+  process(work, whole(work), file("unlimited"), kNoProgress);
   // Equal views: everything is at a disparity of 0, or of some hundredths of a px.
-  EXPECT_TRUE(depths_of(file("default") / "clouds" / "000000.ply").empty());
-  EXPECT_FALSE(depths_of(file("all") / "clouds" / "000000.ply").empty());
+  EXPECT_TRUE(depths_of(file("limited") / "clouds" / "000000.ply").empty());
+  EXPECT_FALSE(depths_of(file("unlimited") / "clouds" / "000000.ply").empty());
 }
 
 TEST_F(Products, OfRawViewsAreThoseOfRectifiedOnes) {
@@ -317,7 +317,7 @@ TEST_F(Products, OfRawViewsAreThoseOfRectifiedOnes) {
   work.recording.rectified = false;
   work.recording.calibration = calibration.string();
   const fs::path results = file("raw");
-  process(work, whole(work), results, kNoProgress);
+  process(work, whole(work), results, kNoProgress, Existing::kReplace);
   const auto source = [&](const char* side) {
     return " filesrc location=" + file(std::string(side) + ".mkv").string() +
            " ! decodebin ! queue ! mtrectify calibration=" + calibration.string() +
@@ -340,7 +340,7 @@ TEST_F(Products, RectifiedViewsAreThoseOfTheElement) {
   work.recording.rectified = false;
   work.recording.calibration = calibration.string();
   const fs::path results = file("rectified");
-  process(work, whole(work), results, kNoProgress);
+  process(work, whole(work), results, kNoProgress, Existing::kReplace);
   work.options.products = {Product::kRectifiedLeft, Product::kRectifiedRight};
   work.options.format = MapFormat::kPng;
   process(work, whole(work), file("pictures"), kNoProgress);
@@ -367,7 +367,7 @@ TEST_F(Products, RectifiedViewsOfGrayRectifiedInputAreTheInput) {
   options.products = {Product::kRectifiedLeft, Product::kRectifiedRight};
   const Work work = work_of(file("gray-l.mkv"), file("gray-r.mkv"), options);
   const fs::path results = file("as matched");
-  process(work, whole(work), results, kNoProgress);
+  process(work, whole(work), results, kNoProgress, Existing::kReplace);
   EXPECT_EQ(by_gstreamer(results / "rectified-left.mkv"), by_gstreamer(file("gray-l.mkv")));
   EXPECT_EQ(by_gstreamer(results / "rectified-right.mkv"), by_gstreamer(file("gray-r.mkv")));
 }

@@ -138,7 +138,9 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   write_text(folder_ / "broken.mp4", "no video");
   fs::create_directory(path("empty"));
   EXPECT_THAT(error_of({"none.mp4", "left"}), HasSubstr(path("none.mp4") + ": no such file"));
-  EXPECT_THAT(error_of({"broken.mp4", "broken.mp4"}), HasSubstr(path("broken.mp4") + ": "));
+  write_text(folder_ / "other.mp4", "no video");
+  EXPECT_THAT(error_of({"broken.mp4", "other.mp4"}), HasSubstr(path("broken.mp4") + ": "));
+  EXPECT_THAT(error_of({"broken.mp4", "broken.mp4"}), HasSubstr("are the same file"));
   EXPECT_THAT(error_of({"empty", "left"}), HasSubstr(path("empty") + ": "));
   EXPECT_THAT(error_of({"empty"}), HasSubstr(path("empty") + ": no recording"));
   EXPECT_THAT(error_of({"left/%03d.png", "left"}), HasSubstr("no file has such a name"));

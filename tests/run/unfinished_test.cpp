@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Pieces that were interrupted, and recordings that end early.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -15,8 +16,10 @@ namespace mtstereo::run {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using testing::constant_times;
 using testing::contents_of;
+using ::testing::HasSubstr;
 using testing::kBFrames;
 using testing::TemporaryFolder;
 using testing::View;
@@ -41,20 +44,32 @@ class Interrupted : public ::testing::TestWithParam<MapFormat> {
   }
 
   // Processes the pairs into the folder "piece"; returns the numbers of those that were done.
-  std::vector<std::int64_t> run(std::int64_t stop_after, Unfinished unfinished) {
+  std::vector<std::int64_t> run(std::int64_t stop_after, Existing existing) {
     std::vector<std::int64_t> done;
     const Progress progress = [&](std::int64_t count, std::int64_t total, double) {
       EXPECT_EQ(total, kFrames);
       done.push_back(count);
+      const fs::path journal = folder_ / "piece" / "unfinished" / "journal";
+      if (count == kFrames) fs::copy_file(journal, folder_ / "journal");
       return count < stop_after;
     };
     try {
-      process(work_, whole(work_), folder_ / "piece", progress, unfinished);
+      process(work_, whole(work_), folder_ / "piece", progress, existing);
       EXPECT_GT(stop_after, kFrames);
     } catch (const RunError& error) {
       EXPECT_NE(std::string(error.what()).find("stopped after"), std::string::npos) << error.what();
     }
     return done;
+  }
+
+  // Why nothing is processed into the folder "piece".
+  std::string refusal(Existing existing) {
+    try {
+      process(work_, whole(work_), folder_ / "piece", kNoProgress, existing);
+    } catch (const RunError& error) {
+      return error.what();
+    }
+    return "no error";
   }
 
   // Only the folder of unfinished files is in the folder.
@@ -76,28 +91,85 @@ class Interrupted : public ::testing::TestWithParam<MapFormat> {
 };
 
 TEST_P(Interrupted, ContinuesWhereItWas) {
-  EXPECT_EQ(run(7, Unfinished::kDiscard).size(), 7u);
+  EXPECT_EQ(run(7, Existing::kReplace).size(), 7u);
   expect_no_results();
-  EXPECT_EQ(run(12, Unfinished::kContinue), (std::vector<std::int64_t>{8, 9, 10, 11, 12}));
+  EXPECT_EQ(run(12, Existing::kContinue), (std::vector<std::int64_t>{8, 9, 10, 11, 12}));
   expect_no_results();
-  EXPECT_EQ(run(kFrames + 1, Unfinished::kContinue).front(), 13);
+  EXPECT_EQ(run(kFrames + 1, Existing::kContinue).front(), 13);
   expect_whole();
 }
 
 TEST_P(Interrupted, StartsOverUnlessAskedToContinue) {
-  run(7, Unfinished::kDiscard);
-  EXPECT_EQ(run(kFrames + 1, Unfinished::kDiscard).front(), 1);
+  run(7, Existing::kReplace);
+  EXPECT_EQ(run(kFrames + 1, Existing::kReplace).front(), 1);
   expect_whole();
 }
 
-TEST_P(Interrupted, StartsOverWithOtherParameters) {
-  run(7, Unfinished::kDiscard);
+TEST_P(Interrupted, IsKeptFromAnotherWorkUnlessItIsReplaced) {
+  run(7, Existing::kReplace);
   work_.options.parameters.emplace_back("mode", "sparse");
-  EXPECT_EQ(run(9, Unfinished::kContinue).front(), 1);
+  EXPECT_THAT(refusal(Existing::kContinue), HasSubstr("interrupted run of another input or other"));
+  EXPECT_THAT(refusal(Existing::kRefuse), HasSubstr("has a run that was interrupted: --resume"));
+  EXPECT_EQ(run(9, Existing::kReplace).front(), 1);
+}
+
+TEST_P(Interrupted, WhileItsFilesArePublishedIsFinished) {
+  run(kFrames + 1, Existing::kReplace);
+  // As if the program had been killed before the last steps.
+  const fs::path piece = folder_ / "piece", unfinished = piece / "unfinished";
+  const std::string journal = testing::bytes_of(folder_ / "journal");
+  fs::create_directories(unfinished);
+  fs::rename(piece / kPieceFile, unfinished / kPieceFile);
+  const char* const last = GetParam() == MapFormat::kMatroska ? "confidence.mkv" : "confidence";
+  fs::rename(piece / last, unfinished / last);
+  testing::write_text(unfinished / "journal", journal);
+  EXPECT_TRUE(run(kFrames + 1, Existing::kContinue).empty());
+  expect_whole();
+}
+
+TEST_P(Interrupted, RemovesNoForeignFile) {
+  const fs::path piece = folder_ / "piece", unfinished = piece / "unfinished";
+  run(7, Existing::kReplace);
+  for (const char* name : {"notes.txt", "disparity/notes.png", "000000.png"}) {
+    fs::create_directories((unfinished / name).parent_path());
+    testing::write_text(unfinished / name, "mine");
+    for (const Existing existing : {Existing::kContinue, Existing::kReplace}) {
+      EXPECT_THAT(refusal(existing), AllOf(HasSubstr(name), HasSubstr("no earlier run wrote it")));
+    }
+    EXPECT_EQ(testing::bytes_of(unfinished / name), "mine");
+    fs::remove(unfinished / name);
+  }
+  EXPECT_EQ(run(kFrames + 1, Existing::kContinue).front(), 8);
+}
+
+TEST_P(Interrupted, TakesNoForeignFolderForItsOwn) {
+  const fs::path unfinished = folder_ / "piece" / "unfinished";
+  fs::create_directories(unfinished);
+  testing::write_text(unfinished / "journal", "Dear diary\n");
+  for (const Existing existing : {Existing::kRefuse, Existing::kContinue, Existing::kReplace}) {
+    EXPECT_THAT(refusal(existing), AllOf(HasSubstr("unfinished"), HasSubstr("no journal")));
+  }
+  EXPECT_EQ(testing::bytes_of(unfinished / "journal"), "Dear diary\n");
+}
+
+TEST_P(Interrupted, ResultsAreReplacedOnlyIfTheyAreListedAndUnchanged) {
+  run(kFrames + 1, Existing::kReplace);
+  EXPECT_THAT(refusal(Existing::kRefuse), HasSubstr("has results already"));
+  const bool video = GetParam() == MapFormat::kMatroska;
+  const fs::path file = folder_ / "piece" / (video ? "disparity.mkv" : "disparity/000003.png");
+  testing::write_text(file, "mine");
+  EXPECT_THAT(refusal(Existing::kReplace), HasSubstr("was changed since it was written"));
+  EXPECT_EQ(testing::bytes_of(file), "mine");
+  fs::remove(file);
+  const fs::path other = folder_ / "piece" / (video ? "disparity.mkv/mine" : "disparity/mine");
+  fs::create_directories(other.parent_path());
+  testing::write_text(other, "mine");
+  EXPECT_THAT(refusal(Existing::kReplace), HasSubstr("no earlier run wrote it"));
+  EXPECT_EQ(testing::bytes_of(other), "mine");
 }
 
 TEST_P(Interrupted, ContinuesAfterTheLastWholeFrame) {
-  run(7, Unfinished::kDiscard);
+  run(7, Existing::kReplace);
   const fs::path unfinished = folder_ / "piece" / "unfinished";
   // As if the program had been killed in the middle of a line, or of a frame.
   std::ofstream(unfinished / "journal", std::ios::app) << "7 7 7 0.5";
@@ -107,7 +179,7 @@ TEST_P(Interrupted, ContinuesAfterTheLastWholeFrame) {
     fs::resize_file(video, fs::file_size(video) - 10);
     next = 7;
   }
-  EXPECT_EQ(run(kFrames + 1, Unfinished::kContinue).front(), next);
+  EXPECT_EQ(run(kFrames + 1, Existing::kContinue).front(), next);
   expect_whole();
 }
 
@@ -116,7 +188,7 @@ TEST_P(Interrupted, AfterTheLastPairIsFinished) {
     return count < kFrames;
   };
   EXPECT_THROW(process(work_, whole(work_), folder_ / "piece", progress), RunError);
-  EXPECT_TRUE(run(kFrames + 1, Unfinished::kContinue).empty());
+  EXPECT_TRUE(run(kFrames + 1, Existing::kContinue).empty());
   expect_whole();
 }
 
