@@ -5,13 +5,16 @@
 #include <stdexcept>
 #include <string>
 
+#include "outputs/printable.hpp"
+
 namespace mtstereo::calibrate {
 
 /// A source, a board or a set of views that cannot be used. The message names it, and states the
 /// reason and what to do.
 class CalibrationError : public std::runtime_error {
  public:
-  explicit CalibrationError(const std::string& what) : std::runtime_error(what) {}
+  explicit CalibrationError(const std::string& what)
+      : std::runtime_error(outputs::printable(what)) {}
 };
 
 /// A number with this many decimals.

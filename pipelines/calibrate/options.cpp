@@ -8,6 +8,8 @@
 #include "calibrate/charuco.hpp"
 #include "calibrate/page.hpp"
 #include "options/failure_message.hpp"
+#include "outputs/finite_range.hpp"
+#include "outputs/parse_error.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -51,11 +53,11 @@ void add_sources(CLI::App& app, Texts& texts, Options& options) {
   app.add_option("--size", texts.size, "size that devices are asked for, such as 1280x720")
       ->group(group);
   app.add_option("--rate", options.source.rate, "frame rate that devices are asked for")
-      ->check(CLI::Range(0.1, 1000.0))
+      ->check(outputs::finite_range(0.1, 1000))
       ->group(group);
   app.add_option("--timeout", options.source.timeout,
                  "stop with an error if a source delivers no frame for this time [s]")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(outputs::finite_range(0.1, 3600))
       ->capture_default_str()
       ->group(group);
 }
@@ -85,9 +87,11 @@ void add_board(CLI::App& app, Texts& texts, Options& options) {
       ->capture_default_str()
       ->group(group);
   app.add_option("--square", texts.square, "side of a square, as measured on the board [mm]")
+      ->check(outputs::finite())
       ->capture_default_str()
       ->group(group);
   app.add_option("--marker", texts.marker, "side of a marker [mm]; 0 = 3/4 of a square")
+      ->check(outputs::finite())
       ->capture_default_str()
       ->group(group);
   app.add_option("--dictionary", options.board.dictionary, "dictionary of the markers")
@@ -117,7 +121,7 @@ void add_rest(CLI::App& app, Texts& texts, Options& options) {
   app.add_option("--give-up", options.give_up,
                  "stop live video if there is no new view for this time [s], and use what there "
                  "is; 0 = never")
-      ->check(CLI::Range(0.0, 86400.0))
+      ->check(outputs::finite_range(0, 86400))
       ->capture_default_str();
   app.add_flag("--strict", options.strict, "exit status 3 if there are warnings");
 }
@@ -144,7 +148,8 @@ void apply_source(const Texts& texts, SourceOptions& source) {
     source.left = across ? texts.side_by_side : texts.top_bottom;
   } else if (source.left.empty() || source.right.empty()) {
     throw CLI::ValidationError("sources", "both --left and --right are needed");
-  } else if (source.left == source.right) {
+  } else if (std::error_code error; source.left == source.right ||
+                                    std::filesystem::equivalent(source.left, source.right, error)) {
     throw CLI::ValidationError("sources", "--left and --right are the same source");
   }
   source.pairing = texts.pairing == "index" ? Pairing::kIndex : Pairing::kTime;
@@ -194,7 +199,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     apply(texts, options);
   } catch (const CLI::ParseError& error) {
     const bool asked_for = error.get_exit_code() == 0;  // --help, --version
-    app.exit(error);
+    outputs::print_parse_error(app, error);
     return {std::nullopt, asked_for ? kWritten : kWrongUsage};
   }
   return {std::move(options), kWritten};

@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "calibrate/detection.hpp"
 #include "calibrate/source.hpp"
+#include "outputs/listed_folder.hpp"
 
 namespace mtstereo::calibrate {
 
@@ -13,24 +15,29 @@ namespace mtstereo::calibrate {
 /// that can be calibrated again (left/, right/), and pictures.
 class OutputFolder {
  public:
-  /// Creates the folder, and removes the views of an earlier calibration. Throws CalibrationError
-  /// if there is a calibration already and `overwrite` is false.
-  OutputFolder(std::filesystem::path folder, bool overwrite);
+  /// Creates and locks the folder. Throws CalibrationError if there is a calibration already and
+  /// `overwrite` is false, and OutputError if files that mtcalibrate did not write, or `inputs`,
+  /// are in the way. The files of an earlier calibration are removed when the first view is taken.
+  OutputFolder(std::filesystem::path folder, bool overwrite,
+               const std::vector<std::filesystem::path>& inputs);
 
   /// Writes both images of a view, and a picture of them with their corners.
-  void write_view(std::size_t index, const ImagePair& images, const CornerPair& corners) const;
+  void write_view(std::size_t index, const ImagePair& images, const CornerPair& corners);
   /// Reads the image of a view.
   cv::Mat view(std::size_t index, bool left) const;
   /// left/ and right/ change their names: the sources were given in the wrong order.
-  void swap_sides() const;
+  void swap_sides();
 
   /// Writes a picture, unless it is empty.
-  void write_picture(const std::string& name, const cv::Mat& picture) const;
-  void write_text(const std::string& name, const std::string& text) const;
-  std::filesystem::path calibration() const { return folder_ / "calibration.yml"; }
+  void write_picture(const std::string& name, const cv::Mat& picture);
+  void write_text(const std::string& name, const std::string& text);
+  /// The file of the calibration, which is about to be written.
+  std::filesystem::path calibration();
 
  private:
   std::filesystem::path folder_;
+  outputs::ListedFolder files_;
+  std::size_t views_ = 0;
 };
 
 }  // namespace mtstereo::calibrate

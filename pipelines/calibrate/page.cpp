@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "calibrate/calibration_error.hpp"
+#include "outputs/write_file.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -193,16 +195,33 @@ std::string png_of(const Page& page, double pixels_per_mm) {
          std::string(middle, bytes.end());
 }
 
+namespace {
+
+// Whether a file has these bytes, or is a page of this program. PNG files do not state that.
+bool is_page(const std::filesystem::path& file, const std::string& bytes) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error))) return false;
+  std::ifstream in(file, std::ios::binary);
+  const std::string found{std::istreambuf_iterator<char>(in), {}};
+  return found == bytes ||
+         (found.starts_with("%PDF") && found.find("(mtcalibrate: ") < found.size());
+}
+
+}  // namespace
+
 void write_page(const Page& page, const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
   if (extension != ".pdf" && extension != ".png") {
     throw CalibrationError(file.string() + ": a board is a .pdf or .png file");
   }
   const std::string bytes = extension == ".pdf" ? pdf_of(page) : png_of(page);
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) throw CalibrationError(file.string() + ": cannot be written");
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(file, error);
+  if (std::filesystem::exists(status) && !is_page(file, bytes)) {
+    throw CalibrationError(file.string() +
+                           " is in the way, and is no board of mtcalibrate: choose another name");
+  }
+  outputs::write_file(file, bytes);
 }
 
 }  // namespace mtstereo::calibrate

@@ -108,17 +108,70 @@ cv::Mat read(const fs::path& file) {
   return image;
 }
 
+// The last number in a name, such as 12 of "left_0012.png"; empty if there is none.
+std::string number_of(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const std::size_t end = stem.find_last_of("0123456789");
+  if (end == std::string::npos) return {};
+  const std::size_t before = stem.find_last_not_of("0123456789", end);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  const std::size_t first = std::min(stem.find_first_not_of('0', begin), end);
+  return stem.substr(first, end - first + 1);
+}
+
+// The first picture whose number the others do not have; empty if numbers do not tell.
+fs::path without_partner(const std::vector<fs::path>& pictures,
+                         const std::vector<fs::path>& others) {
+  for (const fs::path& picture : pictures) {
+    const std::string number = number_of(picture);
+    if (number.empty()) return {};
+    const bool found = std::any_of(others.begin(), others.end(), [&](const fs::path& other) {
+      return number_of(other) == number;
+    });
+    if (!found) return picture;
+  }
+  return {};
+}
+
+[[noreturn]] void refuse_counts(const SourceOptions& options, const std::vector<fs::path>& left,
+                                const std::vector<fs::path>& right) {
+  fs::path alone = without_partner(left, right);
+  if (alone.empty()) alone = without_partner(right, left);
+  throw CalibrationError(options.left + " has " + counted(left.size(), "picture") + ", but " +
+                         options.right + " has " + std::to_string(right.size()) +
+                         ": they are paired in order" +
+                         (alone.empty() ? "" : "; " + alone.string() + " has no partner"));
+}
+
+bool is_line(const std::string& source) {
+  return source.find('!') != std::string::npos || source.find("://") != std::string::npos;
+}
+
+bool is_picture_pattern(const std::string& source) {
+  return std::regex_search(source, number_pattern()) ||
+         source.find_first_of("*?[") != std::string::npos;
+}
+
+// Names of elements have no dot and no slash.
+void check_exists(const std::string& source) {
+  if (is_line(source) || source.starts_with("/dev/") || is_picture_pattern(source)) return;
+  const fs::file_status status = fs::status(source);
+  if (!fs::exists(status)) {
+    const bool is_name = source.find_first_of("./") != std::string::npos;
+    if (!is_name || source.find(' ') != std::string::npos) return;
+    throw CalibrationError(source + ": no such file or folder");
+  }
+  if (fs::is_regular_file(status) || fs::is_directory(status)) return;
+  throw CalibrationError(source + ": is a pipe or a device, which may never end: record it first");
+}
+
 class Pictures : public PairSource {
  public:
   explicit Pictures(const SourceOptions& options)
       : arrangement_(options.arrangement), left_(list_pictures(options.left)) {
     if (arrangement_ != Arrangement::kTwoSources) return;
     right_ = list_pictures(options.right);
-    if (left_.size() != right_.size()) {
-      throw CalibrationError(options.left + " has " + counted(left_.size(), "picture") + ", but " +
-                             options.right + " has " + std::to_string(right_.size()) +
-                             ": they are paired in order");
-    }
+    if (left_.size() != right_.size()) refuse_counts(options, left_, right_);
   }
 
   SourceState next(ImagePair& pair) override {
@@ -146,9 +199,7 @@ class Pictures : public PairSource {
 }  // namespace
 
 bool is_pictures(const std::string& source) {
-  if (source.find('!') != std::string::npos || source.find("://") != std::string::npos) {
-    return false;
-  }
+  if (is_line(source)) return false;
   return fs::is_directory(source) || has_picture_name(source);
 }
 
@@ -168,6 +219,18 @@ void split(const cv::Mat& image, Arrangement arrangement, ImagePair& pair) {
 
 std::unique_ptr<PairSource> open_pictures(const SourceOptions& options) {
   return std::make_unique<Pictures>(options);
+}
+
+std::vector<fs::path> input_files(const SourceOptions& options) {
+  std::vector<fs::path> files;
+  for (const std::string& source : {options.left, options.right}) {
+    if (source.empty()) continue;
+    check_exists(source);
+    const std::vector<fs::path> pictures =
+        is_pictures(source) ? list_pictures(source) : std::vector<fs::path>{source};
+    files.insert(files.end(), pictures.begin(), pictures.end());
+  }
+  return files;
 }
 
 std::unique_ptr<PairSource> open_source(const SourceOptions& options) {

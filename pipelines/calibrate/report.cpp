@@ -6,6 +6,7 @@
 
 #include "calibrate/calibration_error.hpp"
 #include "mtstereo/geometry/rig.hpp"
+#include "outputs/json_text.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -207,7 +208,7 @@ std::string json_of(const Report& report) {
         {"removed", removed}}},
       {"quality", json_of(*report.quality)}};
   if (known) json["baseline_deviation"] = known->baseline;
-  return json.dump(2) + "\n";
+  return outputs::text_of(std::move(json), 2) + "\n";
 }
 
 std::string too_few_views(const PairCounts& counts, std::size_t views, const BoardOptions& board,

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <ctime>
 
 #include "calibrate/calibration_error.hpp"
@@ -52,13 +53,16 @@ Session::Session(const Options& options, std::ostream& out, std::ostream* status
       status_(status),
       stop_(stop),
       finder_(options.board),
-      folder_(options.out, options.overwrite) {}
+      folder_(options.out, options.overwrite, input_files(options.source)) {}
 
 int Session::run() {
   const std::unique_ptr<PairSource> source = open_source(options_.source);
   const bool video = !source->stills();
   collect(*source);
   if (status_ != nullptr) *status_ << "\r\033[K" << std::flush;
+  // From here on, there is nothing to finish: a signal ends the program.
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
   if (views_.size() < kFewestViews) {
     throw CalibrationError(too_few_views(counts_, views_.size(), options_.board, video));
   }

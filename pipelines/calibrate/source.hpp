@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
+#include <vector>
 
 namespace mtstereo::calibrate {
 
@@ -66,6 +68,10 @@ class PairSource {
 
 /// Opens a source. Throws CalibrationError.
 std::unique_ptr<PairSource> open_source(const SourceOptions& options);
+
+/// The files of a source: pictures, or a video; none for others. Throws CalibrationError if a file
+/// or folder does not exist, or never ends.
+std::vector<std::filesystem::path> input_files(const SourceOptions& options);
 
 /// Whether a source is a folder, a pattern or a file of pictures.
 bool is_pictures(const std::string& source);

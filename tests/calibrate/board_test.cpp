@@ -16,6 +16,7 @@
 #include "calibrate/detection.hpp"
 #include "calibrate/page.hpp"
 #include "calibrate/start_values.hpp"
+#include "outputs/output_error.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -184,7 +185,7 @@ TEST(Page, ABoardThatDoesNotFitIsRefused) {
   EXPECT_EQ(make_page(board, "A3").width, 420);
   const Page fit = make_page(board, "fit");
   EXPECT_NEAR(fit.width, 372, 1e-9);
-  EXPECT_THROW(write_page(fit, "/nonexistent/board.pdf"), CalibrationError);
+  EXPECT_THROW(write_page(fit, "/nonexistent/board.pdf"), outputs::OutputError);
   EXPECT_THROW(write_page(fit, "board.bmp"), CalibrationError);
 }
 

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -197,6 +198,36 @@ class Refusal(Program):
         self.assertEqual((folder / "calibration.yml").read_bytes(), before)
         self.assertEqual(self.run_program(*self.both, "--out", folder, "--overwrite").returncode, 0)
 
+    def test_foreign_pictures_and_inputs_stay(self):
+        folder = FOLDER / "foreign"
+        (folder / "left").mkdir(parents=True)
+        picture = folder / "left/000.png"
+        picture.write_text("mine")
+        done = self.run_program(*self.both, "--out", folder, "--overwrite")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "left/000.png is in the way, and no earlier run wrote it")
+        self.assertEqual(picture.read_text(), "mine")
+        _, _, folder = self.calibrate(*self.both)
+        before = {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+        done = self.run_program("--left", folder / "left", "--right", folder / "right", "--out",
+                                folder, "--overwrite")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "left/000.png is an input")
+        after = {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+        self.assertEqual(after, before)
+
+    def test_missing_files_are_named_and_leave_no_folder(self):
+        pictures = FOLDER / "one-less"
+        shutil.copytree(FOLDER / "stills/right", pictures)
+        (pictures / "003.png").unlink()
+        for right, text in ((pictures, "stills/left/003.png has no partner"),
+                            ("stills/none", "stills/none: no such file or folder"),
+                            ("none.png", "none.png: no such file or folder")):
+            done = self.run_program("--left", "stills/left", "--right", right, "--out", "new/out")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(text, done.stderr)
+            self.assertFalse((FOLDER / "new").exists())
+
     def test_a_folder_that_cannot_be_written(self):
         done = self.run_program(*self.both, "--out", "/proc/nothing")
         self.assertEqual(done.returncode, 1)
@@ -210,6 +241,8 @@ class Refusal(Program):
                 ((*self.both, "--side-by-side", "a"), "give --left and --right"),
                 ((*self.both, "--squares", "9"), "not of the form"),
                 ((*self.both, "--square", "0.028"), "the unit is mm"),
+                ((*self.both, "--square", "nan"), "'nan' is no number"),
+                ((*self.both, "--timeout", "nan"), "'nan' is no number"),
                 ((*self.both, "--model", "pinhole"), "pinhole"),
                 (("--board", "a.bmp"), "must end in .pdf or .png")):
             with self.subTest(words):
@@ -225,6 +258,12 @@ class Board(Program):
                                     "A3")
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertRegex(done.stdout, r"8x6 squares of 30 mm, markers of 22.5 mm")
+        for name in ("board.pdf", "board.png"):  # replaced only if it is a board
+            (FOLDER / f"my-{name}").write_text("mine")
+            done = self.run_program("--board", f"my-{name}")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("is in the way", done.stderr)
+            self.assertEqual((FOLDER / f"my-{name}").read_text(), "mine")
         self.assertTrue((FOLDER / "board.pdf").read_bytes().startswith(b"%PDF-1.4"))
         self.assertTrue((FOLDER / "board.png").read_bytes().startswith(b"\x89PNG"))
 
