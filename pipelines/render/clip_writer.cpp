@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 #include <vector>
+
+#include "outputs/write_file.hpp"
 
 namespace mtstereo::render {
 namespace {
@@ -30,29 +28,10 @@ std::string numbered(int number, const char* ending) {
   throw std::runtime_error(std::string("cannot ") + what + " " + path.string() + ": " + reason);
 }
 
-std::string reason_of(int error) { return std::generic_category().message(error); }
-
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) cannot("create the folder", folder, error.message());
-}
-
-void write_bytes(const fs::path& file, const char* data, std::size_t size) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary);
-  out.write(data, static_cast<std::streamsize>(size));
-  out.close();
-  if (!out) cannot("write", file, reason_of(errno));
-}
-
-void write_png(const fs::path& file, const cv::Mat& image) {
-  // Encoded in memory, so that a full disk is detected: OpenCV's own writer does not report it.
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-    cannot("encode", file, "OpenCV's PNG encoder failed");
-  }
-  write_bytes(file, reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 cv::Mat mask_of(const StereoFrame& frame) {
@@ -94,29 +73,20 @@ double largest_disparity(const cv::Mat& truth) {
 // Rounds up to a multiple of 16, with a margin for disparities that are slightly too large.
 int range_for(double largest) { return (static_cast<int>(std::ceil(largest)) + 1 + 15) / 16 * 16; }
 
-bool all_digits(const std::string& name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(),
-                                      [](unsigned char c) { return std::isdigit(c) != 0; });
+fs::path checked_folder(const fs::path& folder, bool overwrite) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::exists(status)) return folder;
+  if (!fs::is_directory(status)) cannot("write into", folder, "it is not a folder");
+  const bool empty = fs::is_empty(folder, error);
+  if (error) cannot("write into", folder, error.message());
+  if (!empty && !overwrite) {
+    cannot("write into", folder, "it is not empty; choose another folder or add --overwrite");
+  }
+  return folder;
 }
 
-// Removes only the files of a clip, so that a wrong folder name does no other damage.
-void remove_clip(const fs::path& folder) {
-  for (const char* name : {"left", "right", "truth", "mask", "depth", "calib.txt", "poses.txt",
-                           "truth-calibration.yml"}) {
-    fs::remove_all(folder / name);
-  }
-  std::vector<fs::path> frames;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const bool is_frame = entry.is_directory() && all_digits(entry.path().filename().string()) &&
-                          fs::exists(entry.path() / "disp0GT.pfm");
-    if (is_frame) frames.push_back(entry.path());
-  }
-  for (const auto& frame : frames) fs::remove_all(frame);
-}
-
-}  // namespace
-
-void write_pfm(const fs::path& file, const cv::Mat& image) {
+std::string pfm_of(const cv::Mat& image) {
   if (image.type() != CV_32FC1) throw std::runtime_error("a PFM holds one float per pixel");
   std::string data = "Pf\n" + std::to_string(image.cols) + " " + std::to_string(image.rows) +
                      "\n-1.0\n";               // a negative scale means little-endian
@@ -129,7 +99,13 @@ void write_pfm(const fs::path& file, const cv::Mat& image) {
       }
     }
   }
-  write_bytes(file, data.data(), data.size());
+  return data;
+}
+
+}  // namespace
+
+void write_pfm(const fs::path& file, const cv::Mat& image) {
+  outputs::write_file(file, pfm_of(image));
 }
 
 void write_poses(const fs::path& file, const std::vector<FramePose>& poses) {
@@ -144,65 +120,63 @@ void write_poses(const fs::path& file, const std::vector<FramePose>& poses) {
     for (const double v : poses[i].pose.translation()) text << ' ' << v;
     text << '\n';
   }
-  const std::string bytes = text.str();
-  write_bytes(file, bytes.data(), bytes.size());
+  outputs::write_file(file, text.str());
 }
 
-ClipWriter::ClipWriter(fs::path folder, Layout layout, bool overwrite, bool with_depth)
-    : folder_(std::move(folder)), layout_(layout), with_depth_(with_depth) {
-  std::error_code error;
-  if (fs::exists(folder_, error) && !fs::is_directory(folder_, error)) {
-    cannot("write into", folder_, "it is not a folder");
+ClipWriter::ClipWriter(fs::path folder, Layout layout, bool overwrite, bool with_depth,
+                       const std::vector<fs::path>& inputs)
+    : layout_(layout),
+      with_depth_(with_depth),
+      files_(checked_folder(folder, overwrite), "mtstereo-render") {
+  std::vector<std::string> folders{"left", "right"};
+  if (layout_ != Layout::kViews) folders.insert(folders.end(), {"truth", "mask"});
+  if (with_depth_) folders.emplace_back("depth");
+  if (layout_ == Layout::kMiddlebury) folders.clear();
+  std::vector<std::string> targets = folders;
+  targets.insert(targets.end(), {"calib.txt", "poses.txt", "truth-calibration.yml"});
+  files_.check(targets, outputs::FileSet(inputs));
+  files_.clear();
+  for (const std::string& name : folders) make_folder(folder / name);
+}
+
+void ClipWriter::write_png(const std::string& name, const cv::Mat& image) {
+  // Encoded in memory, so that a full disk is detected: OpenCV's own writer does not report it.
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
+    cannot("encode", name, "OpenCV's PNG encoder failed");
   }
-  make_folder(folder_);
-  try {
-    if (overwrite) {
-      remove_clip(folder_);
-    } else if (!fs::is_empty(folder_)) {
-      cannot("write into", folder_, "it is not empty; choose another folder or add --overwrite");
-    }
-  } catch (const fs::filesystem_error& e) {
-    cannot("write into", folder_, e.code().message());
-  }
-  if (layout_ == Layout::kMiddlebury) return;
-  for (const char* name : {"left", "right"}) make_folder(folder_ / name);
-  if (layout_ == Layout::kViews) return;
-  for (const char* name : {"truth", "mask"}) make_folder(folder_ / name);
-  if (with_depth_) make_folder(folder_ / "depth");
+  files_.write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 void ClipWriter::write(int number, const StereoFrame& frame, const Rectification& rectification) {
   if (layout_ == Layout::kViews) {
-    write_png(folder_ / "left" / numbered(number, ".png"), frame.left);
-    write_png(folder_ / "right" / numbered(number, ".png"), frame.right);
+    write_png("left/" + numbered(number, ".png"), frame.left);
+    write_png("right/" + numbered(number, ".png"), frame.right);
     return;
   }
   const double largest = largest_disparity(frame.truth);
   largest_ = std::max(largest_, largest);
   if (layout_ == Layout::kClip) {
-    write_png(folder_ / "left" / numbered(number, ".png"), frame.left);
-    write_png(folder_ / "right" / numbered(number, ".png"), frame.right);
-    write_pfm(folder_ / "truth" / numbered(number, ".pfm"), frame.truth);
-    write_png(folder_ / "mask" / numbered(number, ".png"), mask_of(frame));
+    write_png("left/" + numbered(number, ".png"), frame.left);
+    write_png("right/" + numbered(number, ".png"), frame.right);
+    files_.write("truth/" + numbered(number, ".pfm"), pfm_of(frame.truth));
+    write_png("mask/" + numbered(number, ".png"), mask_of(frame));
     if (with_depth_) {
-      write_pfm(folder_ / "depth" / numbered(number, ".pfm"), depth_of(frame, rectification));
+      files_.write("depth/" + numbered(number, ".pfm"), pfm_of(depth_of(frame, rectification)));
     }
     return;
   }
-  const fs::path folder = folder_ / numbered(number, "");
-  make_folder(folder);
-  write_png(folder / "im0.png", frame.left);
-  write_png(folder / "im1.png", frame.right);
-  write_pfm(folder / "disp0GT.pfm", frame.truth);
-  write_png(folder / "mask0nocc.png", mask_of(frame));
-  const std::string text = calibration_text(rectification, range_for(largest));
-  write_bytes(folder / "calib.txt", text.data(), text.size());
+  const std::string folder = numbered(number, "/");
+  write_png(folder + "im0.png", frame.left);
+  write_png(folder + "im1.png", frame.right);
+  files_.write(folder + "disp0GT.pfm", pfm_of(frame.truth));
+  write_png(folder + "mask0nocc.png", mask_of(frame));
+  files_.write(folder + "calib.txt", calibration_text(rectification, range_for(largest)));
 }
 
 void ClipWriter::finish(const Rectification& rectification) {
   if (layout_ != Layout::kClip) return;  // in Middlebury's, each frame has its own calib.txt
-  const std::string text = calibration_text(rectification, disparities());
-  write_bytes(folder_ / "calib.txt", text.data(), text.size());
+  files_.write("calib.txt", calibration_text(rectification, disparities()));
 }
 
 int ClipWriter::disparities() const { return range_for(largest_); }

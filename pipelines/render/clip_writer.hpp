@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "outputs/listed_folder.hpp"
 #include "render/render.hpp"
 
 namespace mtstereo::render {
@@ -19,13 +20,15 @@ enum class Layout {
 
 /// Writes rendered frames to disk. Masks have Middlebury's values: 255 = visible in both views, 128
 /// = only in the left one, 0 = no ground truth. Every call throws std::runtime_error, naming the
-/// file and the reason, if something cannot be written.
+/// file and the reason, if something cannot be written or is in the way.
 class ClipWriter {
  public:
   /// Creates the folder. A folder that is not empty is an error unless `overwrite` is set; then the
-  /// files of an earlier clip (the names above, nothing else) are removed first. `with_depth`: the
-  /// layout kClip also has depth/000000.pfm, the true depths [m].
-  ClipWriter(std::filesystem::path folder, Layout layout, bool overwrite, bool with_depth = false);
+  /// files that this program wrote into it before, and nothing else, are removed first.
+  /// `with_depth`: the layout kClip also has depth/000000.pfm, the true depths [m]. `inputs`: files
+  /// that must stay.
+  ClipWriter(std::filesystem::path folder, Layout layout, bool overwrite, bool with_depth = false,
+             const std::vector<std::filesystem::path>& inputs = {});
 
   /// Writes frame `number` (0, 1, ...); truth and mask are those of this rectified pair, and left
   /// out by kViews.
@@ -34,13 +37,18 @@ class ClipWriter {
   /// Writes the clip's calib.txt, whose range covers all frames written.
   void finish(const Rectification& rectification);
 
+  /// The path of another file of the clip, such as "poses.txt", which the caller writes next.
+  std::filesystem::path listed(const std::string& name) { return files_.listed(name); }
+
   /// The search range that covers all frames written so far [px].
   int disparities() const;
 
  private:
-  std::filesystem::path folder_;
+  void write_png(const std::string& name, const cv::Mat& image);
+
   Layout layout_;
   bool with_depth_;
+  outputs::ListedFolder files_;
   double largest_ = 0;  // largest disparity of all frames [px]
 };
 

@@ -20,6 +20,8 @@
 #include "mtstereo/geometry/rectification.hpp"
 #include "options.hpp"
 #include "options/failure_message.hpp"
+#include "outputs/parse_error.hpp"
+#include "outputs/printable.hpp"
 #include "render/board.hpp"
 #include "render/clip_writer.hpp"
 #include "render/raw.hpp"
@@ -104,7 +106,8 @@ class Clip {
   }
 
   void write() {
-    ClipWriter writer(o_.folder, o_.layout, o_.overwrite, o_.depth);
+    ClipWriter writer(o_.folder, o_.layout, o_.overwrite, o_.depth,
+                      {o_.raw, o_.rectification, o_.board.picture});
     const bool terminal = isatty(STDERR_FILENO) != 0;
     for (int i = 0; i < frames(); ++i) {
       writer.write(i, frame(o_.start + i / o_.rate), rectification_);
@@ -112,7 +115,7 @@ class Clip {
     }
     if (terminal) std::fputc('\n', stderr);
     writer.finish(rectification_);
-    write_truth();
+    write_truth(writer);
     print(writer.disparities());
   }
 
@@ -130,14 +133,13 @@ class Clip {
     return render::render(scene_, time, settings_);
   }
 
-  void write_truth() const {
-    const std::filesystem::path folder = o_.folder;
+  void write_truth(ClipWriter& writer) const {
     if (rig_) {
       StereoCalibration calibration = rig_->calibration;
       // Not that of the day, so that the same options give the same bytes.
       if (calibration.date.empty()) calibration.date = "2000-01-01";
       const Status written =
-          write_calibration(calibration, (folder / "truth-calibration.yml").string());
+          write_calibration(calibration, writer.listed("truth-calibration.yml").string());
       if (!written) throw std::runtime_error(written.error().message);
     }
     if (!is_board_) return;
@@ -147,7 +149,7 @@ class Clip {
       const double time = o_.start + i / o_.rate;
       poses.push_back({path.rests_at(time), path.at(time)});
     }
-    write_poses(folder / "poses.txt", poses);
+    write_poses(writer.listed("poses.txt"), poses);
   }
 
   void print(int disparities) const {
@@ -182,18 +184,19 @@ int main(int argc, char** argv) {
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-      return app.exit(error) == 0 ? 0 : 2;
+      outputs::print_parse_error(app, error);
+      return error.get_exit_code() == 0 ? 0 : 2;
     }
     complete_options(app, options);
     Clip(options).write();
     return 0;
   } catch (const std::invalid_argument& error) {
-    std::cerr << "mtstereo-render: " << error.what() << '\n';
+    std::cerr << "mtstereo-render: " << outputs::printable(error.what()) << '\n';
     return 2;
   } catch (const std::bad_alloc&) {
     std::cerr << "mtstereo-render: out of memory for this size\n";
   } catch (const std::exception& error) {
-    std::cerr << "mtstereo-render: " << error.what() << '\n';
+    std::cerr << "mtstereo-render: " << outputs::printable(error.what()) << '\n';
   } catch (...) {
     std::cerr << "mtstereo-render: unknown error\n";
   }

@@ -256,6 +256,29 @@ TEST_F(Program, KeepsAnEarlierClipWithoutOverwrite) {
   EXPECT_FALSE(fs::exists(folder_ / "clip/left/000001.png"));
 }
 
+TEST_F(Program, OverwriteKeepsForeignFilesAndInputs) {
+  const std::string board = "--scene board --lens wide --poses 1 --size 64x48 ";
+  ASSERT_EQ(run(out() + board).status, 0);
+  const Outcome input = run(out() + "--scene board --poses 1 --overwrite --raw " +
+                            (folder_ / "clip/truth-calibration.yml").string());
+  EXPECT_EQ(input.status, 1);
+  EXPECT_NE(input.errors.find("is an input"), std::string::npos) << input.errors;
+  write_text(folder_ / "clip/left/mine.png", "mine");
+  const Outcome refused = run(out() + board + "--overwrite");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.errors.find("left/mine.png is in the way"), std::string::npos)
+      << refused.errors;
+  EXPECT_EQ(read_text(folder_ / "clip/left/mine.png"), "mine");
+}
+
+TEST_F(Program, NumbersAreFinite) {
+  for (const char* option : {"--rate", "--start", "--baseline", "--focal", "--noise", "--roll"}) {
+    for (const char* value : {" nan", " inf"}) {
+      EXPECT_EQ(run(out() + "--size 8x8 --frames 1 " + option + value).status, 2) << option;
+    }
+  }
+}
+
 TEST_F(Program, HelpSucceeds) {
   const Outcome r = run("--help");
   EXPECT_EQ(r.status, 0);
