@@ -8,6 +8,8 @@
 #include <system_error>
 
 #include "eval/input_error.hpp"
+#include "outputs/output_error.hpp"
+#include "outputs/write_file.hpp"
 
 namespace mtstereo::eval {
 namespace fs = std::filesystem;
@@ -40,10 +42,11 @@ void make_parent_folder(const fs::path& file) {
 
 void write_bytes(const fs::path& file, const std::string& bytes) {
   make_parent_folder(file);
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  if (!stream) throw InputError(file, "cannot be written");
+  try {
+    outputs::write_file(file, bytes);
+  } catch (const outputs::OutputError& error) {
+    throw InputError(file, std::string("cannot be written: ") + error.what());
+  }
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) {

@@ -5,15 +5,17 @@
 #include <stdexcept>
 #include <string>
 
+#include "outputs/printable.hpp"
+
 namespace mtstereo::eval {
 
 /// A file or folder that cannot be used. The message names it and states the reason. The program
 /// reports the error, skips the pair and continues with the next one.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& what) : std::runtime_error(what) {}
+  explicit InputError(const std::string& what) : std::runtime_error(outputs::printable(what)) {}
   InputError(const std::filesystem::path& file, const std::string& what)
-      : std::runtime_error(file.string() + ": " + what) {}
+      : InputError(file.string() + ": " + what) {}
 };
 
 }  // namespace mtstereo::eval

@@ -10,6 +10,8 @@
 #include "eval/files.hpp"
 #include "eval/input_error.hpp"
 #include "options/failure_message.hpp"
+#include "outputs/finite_range.hpp"
+#include "outputs/parse_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -123,7 +125,7 @@ void add_methods(CLI::App& app, Texts& texts, Options& options) {
                  "also measure how the disparities of " + std::to_string(kFlickerFrames) +
                      " frames differ that have fresh noise of this standard deviation")
       ->type_name("SIGMA")
-      ->check(CLI::Range(0.1, 100.0));
+      ->check(outputs::finite_range(0.1, 100));
 }
 
 std::string is_png(const std::string& file) {
@@ -252,7 +254,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
     apply(texts, options);
   } catch (const CLI::ParseError& error) {
     const bool asked_for = error.get_exit_code() == 0;  // --help, --version
-    app.exit(error);
+    outputs::print_parse_error(app, error);
     return {std::nullopt, asked_for ? kAllFine : kWrongUsage};
   }
   return {std::move(options), kAllFine};

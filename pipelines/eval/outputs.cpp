@@ -5,11 +5,13 @@
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "eval/files.hpp"
 #include "eval/html_report.hpp"
 #include "eval/input_error.hpp"
 #include "eval/plot.hpp"
+#include "outputs/json_text.hpp"
 
 namespace mtstereo::eval {
 namespace fs = std::filesystem;
@@ -26,6 +28,25 @@ void refuse_inputs(const fs::path& file, const DataSet& set) {
       }
     }
   }
+}
+
+// A report of this program begins, or for pictures is marked, in this way.
+void refuse_foreign(const fs::path& file, const std::string& mark) {
+  constexpr std::size_t kHead = 512;  // bytes
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(file, error);
+  if (!fs::exists(status)) return;
+  if (!fs::is_regular_file(status)) {
+    throw InputError(file, "is a folder, a link, a pipe or a device: choose another output file");
+  }
+  std::ifstream in(file, std::ios::binary);
+  std::string head(kHead, '\0');
+  in.read(head.data(), kHead);
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  if (head.empty() || head.find(mark) != std::string::npos) return;
+  throw InputError(file,
+                   "is in the way, and mtstereo-eval did not write it: move it, or choose "
+                   "another output file");
 }
 
 // Leaves no new file, because the evaluation may still fail.
@@ -59,10 +80,15 @@ void write_curve(const fs::path& file, const Report& report) {
 }  // namespace
 
 void check_outputs(const Options& options, const DataSet& set) {
-  for (const std::optional<fs::path>& file :
-       {options.json, options.csv, options.curve, options.report}) {
+  const std::pair<std::optional<fs::path>, const char*> files[] = {
+      {options.json, "{\n  \"compared_methods\""},
+      {options.csv, "pair,method,region,"},
+      {options.curve, "mtstereo-eval"},
+      {options.report, "<title>mtstereo-eval"}};
+  for (const auto& [file, mark] : files) {
     if (!file) continue;
     refuse_inputs(*file, set);
+    refuse_foreign(*file, mark);
     require_writable(*file);
   }
 }
@@ -79,9 +105,7 @@ bool check_plotting(const Options& options) {
 bool write_outputs(const Options& options, bool can_plot, const Report& report) {
   bool fine = true;
   if (options.json) {
-    // File names need not be UTF-8; invalid bytes become replacement characters.
-    constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
-    const std::string text = to_json(report).dump(2, ' ', false, kReplace) + "\n";
+    const std::string text = outputs::text_of(to_json(report), 2) + "\n";
     fine &= attempt([&] { write_bytes(*options.json, text); });
   }
   if (options.csv) fine &= attempt([&] { write_bytes(*options.csv, to_csv(report)); });

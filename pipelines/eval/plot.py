@@ -100,7 +100,7 @@ class Canvas:
 
     def write(self, picture):
         data = io.BytesIO()
-        self.figure.savefig(data, format="png", dpi=DPI, metadata={"Software": None})
+        self.figure.savefig(data, format="png", dpi=DPI, metadata={"Software": "mtstereo-eval"})
         try:
             pathlib.Path(picture).write_bytes(data.getvalue())
         except OSError as error:

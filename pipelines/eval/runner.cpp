@@ -46,11 +46,11 @@ bool attempt(PairReport& report, const std::string& who, Step step) {
 
 // The library's own files go directly into the folder, as the benchmark servers require. Each
 // degradation and each rival has a subfolder.
-fs::path output_file(const fs::path& folder, const std::string& method, const PairReport& report,
-                     const char* extension) {
-  fs::path base = report.kind == kCleanKind ? folder : folder / report.kind;
+std::string output_name(const std::string& method, const PairReport& report,
+                        const char* extension) {
+  fs::path base = report.kind == kCleanKind ? fs::path() : fs::path(report.kind);
   if (method != kOwnMethod) base /= method;
-  return base / (report.pair.name + extension);
+  return (base / (report.pair.name + extension)).generic_string();
 }
 
 }  // namespace
@@ -95,7 +95,19 @@ bool aligns(const RunSettings& settings) {
   return settings.align.value_or(settings.parameters.preset() != Preset::kPaper);
 }
 
-Runner::Runner(RunSettings settings) : settings_(std::move(settings)) {}
+Runner::Runner(RunSettings settings) : settings_(std::move(settings)) {
+  for (const auto& folder : {settings_.disparity_folder, settings_.picture_folder}) {
+    if (folder) listed(*folder);
+  }
+}
+
+// Maps and pictures may be in the same folder.
+outputs::ListedFolder& Runner::listed(const fs::path& folder) {
+  std::unique_ptr<outputs::ListedFolder>& files =
+      folders_[fs::weakly_canonical(fs::absolute(folder))];
+  if (!files) files = std::make_unique<outputs::ListedFolder>(folder, "mtstereo-eval");
+  return *files;
+}
 
 std::vector<std::string> kinds_of(const RunSettings& settings) {
   std::vector<std::string> kinds{kCleanKind};
@@ -215,7 +227,7 @@ void Runner::run_rival(Rival rival, const LoadedPair& images, PairReport& report
 }
 
 void Runner::finish(const std::string& method, const cv::Mat& disparity, double seconds,
-                    const LoadedPair& images, PairReport& report) const {
+                    const LoadedPair& images, PairReport& report) {
   MethodResult result;
   result.method = method;
   result.evaluation = evaluate(disparity, images);
@@ -226,12 +238,17 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
 
   if (settings_.disparity_folder) {
     const char* extension = extension_of(settings_.disparity_format);
-    write_disparity(output_file(*settings_.disparity_folder, method, report, extension), disparity,
-                    settings_.disparity_format);
+    const std::string name = output_name(method, report, extension);
+    outputs::ListedFolder& files = listed(*settings_.disparity_folder);
+    write_disparity(files.listed(name), disparity, settings_.disparity_format);
+    files.measure(name);
   }
   if (settings_.picture_folder) {
-    write_picture(output_file(*settings_.picture_folder, method, report, ".png"),
+    const std::string name = output_name(method, report, ".png");
+    outputs::ListedFolder& files = listed(*settings_.picture_folder);
+    write_picture(files.listed(name),
                   overview(images.left, disparity, images.truth.disparity, report.max_disparity));
+    files.measure(name);
   }
 }
 

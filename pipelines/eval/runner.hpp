@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "eval/rivals.hpp"
 #include "mtstereo/alignment.hpp"
 #include "mtstereo/matcher.hpp"
+#include "outputs/listed_folder.hpp"
 
 namespace mtstereo::eval {
 
@@ -91,6 +94,7 @@ double median_seconds(int warm_up, int repeat, const std::function<void()>& fram
 /// Runs the library and the rivals on each pair.
 class Runner {
  public:
+  /// Creates and locks the folders of maps and pictures. Throws OutputError.
   explicit Runner(RunSettings settings);
 
   /// The images as they are. Does not throw for a pair that cannot be used: `failures` has the
@@ -102,6 +106,7 @@ class Runner {
   std::vector<PairReport> run_kinds(const StereoPair& pair);
 
  private:
+  outputs::ListedFolder& listed(const std::filesystem::path& folder);
   PairReport load(const StereoPair& pair, LoadedPair& images) const;
   void run_methods(const LoadedPair& images, PairReport& report);
   void run_own(const LoadedPair& images, PairReport& report);
@@ -110,9 +115,10 @@ class Runner {
   void prepare_matcher(const LoadedPair& images, int max_disparity);
   int warm_up(const PairReport& report) const;
   void finish(const std::string& method, const cv::Mat& disparity, double seconds,
-              const LoadedPair& images, PairReport& report) const;
+              const LoadedPair& images, PairReport& report);
 
   RunSettings settings_;
+  std::map<std::filesystem::path, std::unique_ptr<outputs::ListedFolder>> folders_;
   std::optional<Matcher> matcher_;
   std::optional<AlignmentTracker> tracker_;
 };

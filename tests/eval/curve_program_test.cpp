@@ -130,7 +130,7 @@ TEST_F(CurveProgram, RejectsAnUnwritablePictureBeforeTheEvaluation) {
   EXPECT_EQ(run.out, "");
   fs::create_directories(folder_ / "folder.png");
   EXPECT_THAT(run_eval({set(), "--curve", folder_ / "folder.png"}).err,
-              HasSubstr("folder.png: cannot be written"));
+              HasSubstr("folder.png: is a folder"));
 }
 
 TEST_F(CurveProgram, WritesTheFiguresWithoutAPictureIfMatplotlibIsMissing) {
@@ -210,10 +210,19 @@ TEST_F(CurveProgram, NeverOverwritesAnInput) {
 }
 
 TEST_F(CurveProgram, ReplacesAnEarlierPicture) {
-  testing::write_file(picture(), "an earlier picture");
+  for (int i = 0; i < 2; ++i) {
+    const Outcome run = run_eval({set(), "--only", "B", "--curve", picture()});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_FALSE(cv::imread(picture()).empty());
+  }
+}
+
+TEST_F(CurveProgram, KeepsAForeignPicture) {
+  testing::write_file(picture(), "a picture of the user");
   const Outcome run = run_eval({set(), "--only", "B", "--curve", picture()});
-  ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_FALSE(cv::imread(picture()).empty());
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("did not write it"));
+  EXPECT_EQ(read_file(picture()), "a picture of the user");
 }
 
 TEST_F(CurveProgram, HasNoCurveByDefault) {

@@ -179,6 +179,28 @@ TEST_F(Program, NeverOverwritesAnInput) {
   }
 }
 
+TEST_F(Program, ReplacesOnlyItsOwnFiles) {
+  const std::pair<const char*, const char*> kOutputs[] = {{"--json", "a.json"}, {"--csv", "a.csv"}};
+  for (const auto& [option, name] : kOutputs) {
+    write_file(folder_ / name, "mine");
+    const Outcome refused = run_eval({set(), "--only", "A", option, folder_ / name});
+    EXPECT_EQ(refused.status, 2) << option;
+    EXPECT_THAT(refused.err, HasSubstr("mtstereo-eval did not write it")) << option;
+    EXPECT_EQ(read_file(folder_ / name), "mine") << option;
+    write_file(folder_ / name, "");
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_EQ(run_eval({set(), "--only", "A", option, folder_ / name}).status, 0) << option;
+    }
+  }
+  EXPECT_EQ(run_eval({set(), "--only", "A", "--json", "/dev/null"}).status, 2);
+  write_file(folder_ / "maps/A.pfm", "mine");
+  const Outcome maps = run_eval({set(), "--write-disparity", folder_ / "maps"});
+  EXPECT_EQ(maps.status, 1);
+  EXPECT_THAT(maps.err, HasSubstr("A.pfm is in the way"));
+  EXPECT_EQ(read_file(folder_ / "maps/A.pfm"), "mine");
+  EXPECT_EQ(read_pfm(folder_ / "maps/B.pfm").size(), cv::Size(200, 100));
+}
+
 TEST_F(Program, ListsWithoutRunning) {
   const Outcome run = run_eval({set(), "--list"});
   EXPECT_EQ(run.status, 0);
