@@ -223,6 +223,8 @@ std::string missing_of_transport_stream(Bytes& bytes, const Packets& kind) {
 
 bool is_avi(const fs::path& file) { return Bytes(file).at(0, 4) == "RIFF"; }
 
+bool is_matroska(const fs::path& file) { return Bytes(file).at(0, 4) == "\x1a\x45\xdf\xa3"; }
+
 bool may_lack_end(const fs::path& file) {
   Bytes bytes(file);
   const std::optional<Packets> kind = packets_of(bytes);

@@ -13,6 +13,8 @@ std::string missing_end(const std::filesystem::path& file);
 
 /// Whether a file is an AVI file.
 bool is_avi(const std::filesystem::path& file);
+/// Whether a file is one of Matroska or WebM.
+bool is_matroska(const std::filesystem::path& file);
 
 /// Whether the last frame of an MPEG-TS may lack its end: the stream does not state the length of
 /// its frames, and the last one fills its last packet, as one of 184 does that is whole.

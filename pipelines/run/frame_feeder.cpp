@@ -68,6 +68,7 @@ void FrameFeeder::run() noexcept {
     const std::lock_guard lock(mutex_);
     failure_ = std::current_exception();
   }
+  note_damage();
   for (const Side& side : sides_) {
     for (const Target& target : side.targets) {
       gst_app_src_end_of_stream(GST_APP_SRC(target.source.get()));
@@ -118,6 +119,20 @@ void FrameFeeder::note(const Side& side, std::int64_t frame, FrameState state) {
                      (state == FrameState::kEnd ? " and all after it" : "") + " cannot be decoded";
   if (!side.reader->problem().empty()) text += ": " + side.reader->problem();
   damage_ += (damage_.empty() ? "" : "; ") + text;
+}
+
+// What the decoders had to conceal.
+void FrameFeeder::note_damage() noexcept {
+  try {
+    const std::lock_guard lock(mutex_);
+    for (const Side& side : sides_) {
+      const std::string text = damage_text(side.reader->damaged(), side.title);
+      if (!text.empty()) damage_ += (damage_.empty() ? "" : "; ") + text;
+    }
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::current_exception();
+  }
 }
 
 void FrameFeeder::set_caps(const Side& side, Target& target, const DecodedFrame& frame) const {

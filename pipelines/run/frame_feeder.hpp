@@ -33,7 +33,8 @@ class FrameFeeder {
   void stop() { stopped_ = true; }
   /// Throws what the thread has thrown.
   void check();
-  /// Why pairs are missing; empty if all were decoded. After the end of the pipeline's streams.
+  /// Why pairs are missing or not as they were coded; empty if all are whole. After the end of the
+  /// pipeline's streams.
   std::string damage();
 
  private:
@@ -53,6 +54,7 @@ class FrameFeeder {
   bool feed_pair(std::int64_t pair);
   bool push(Side& side, DecodedFrame frame, std::int64_t pair) const;
   void note(const Side& side, std::int64_t frame, FrameState state);
+  void note_damage() noexcept;
   void set_caps(const Side& side, Target& target, const DecodedFrame& frame) const;
 
   const Work& work_;

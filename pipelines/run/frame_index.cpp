@@ -149,6 +149,7 @@ FrameIndex index_of_pictures(const Source& source, double frame_rate) {
   index.height = first.rows;
   index.codec = name_of_format(source.pictures.front());
   index.times = source.times;
+  index.damage = source.damage;
   if (index.times.empty()) {
     if (!(frame_rate > 0)) {
       throw RunError(source.pictures.front().parent_path().string() +

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "run/decoder_reports.hpp"
 #include "run/frame_index.hpp"
 #include "run/gst_objects.hpp"
 
@@ -36,6 +38,8 @@ class FrameReader {
   virtual DecodedFrame read(std::int64_t number) = 0;
   /// What the decoder reported about the last frame that was not decoded; may be empty.
   virtual const std::string& problem() const = 0;
+  /// The frames up to the last one that was read that are not as they were coded.
+  virtual std::vector<DamagedFrame> damaged() const = 0;
 };
 
 /// The reader of a source. Throws RunError if it cannot be opened. `index` must outlive it.

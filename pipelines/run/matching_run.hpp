@@ -36,7 +36,7 @@ class MatchingRun {
 
   /// The next pair; std::nullopt after the last one. Throws RunError.
   std::optional<PairResult> next();
-  /// Why pairs are missing, after the last one; empty if none is.
+  /// Why pairs are missing or damaged, after the last one; empty if none is.
   std::string damage() { return feeder_.damage(); }
   /// The element mtstereo of the first lane.
   GstElement* matcher() const { return lanes_.front()->matcher.get(); }

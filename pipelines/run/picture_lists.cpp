@@ -170,6 +170,11 @@ void remove_broken(Recording& recording, Source& source) {
                                   ".");
     }
   }
+  const std::size_t left_out = source.pictures.size() - good.pictures.size();
+  if (left_out > 0) {
+    good.damage = std::to_string(left_out) + " of " + std::to_string(source.pictures.size()) +
+                  (left_out == 1 ? " pictures is left out" : " pictures are left out");
+  }
   if (good.pictures.empty() && !source.pictures.empty()) {
     throw RunError(source.pictures.front().parent_path().string() +
                    ": no picture can be read: the first one " +

@@ -13,6 +13,7 @@
 
 #include "run/file_names.hpp"
 #include "run/frame_reader.hpp"
+#include "run/jpeg_check.hpp"
 #include "run/run_error.hpp"
 
 namespace mtstereo::run {
@@ -129,6 +130,8 @@ class PictureReader : public FrameReader {
 
   const std::string& problem() const override { return problem_; }
 
+  std::vector<DamagedFrame> damaged() const override { return damaged_; }
+
  private:
   DecodedFrame read_jpeg(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -140,6 +143,10 @@ class PictureReader : public FrameReader {
     if (!jpeg_) jpeg_ = std::make_unique<JpegDecoder>();
     DecodedFrame frame = jpeg_->decode(bytes, problem_);
     if (frame.state == FrameState::kMissing) jpeg_.reset();
+    const std::string damage = damage_of_jpeg(bytes);
+    if (frame.state == FrameState::kDecoded && !damage.empty()) {
+      damaged_.push_back({std::nullopt, file.string() + ": " + damage});
+    }
     return frame;
   }
 
@@ -154,6 +161,7 @@ class PictureReader : public FrameReader {
   std::vector<std::filesystem::path> files_;
   std::unique_ptr<JpegDecoder> jpeg_;
   std::string problem_;
+  std::vector<DamagedFrame> damaged_;
 };
 
 }  // namespace

@@ -25,6 +25,8 @@ struct Source {
   std::vector<std::filesystem::path> pictures;  ///< one per frame, in order; empty for a video
   /// Of the pictures, from the data set [ns]; empty: by Recording::frame_rate.
   std::vector<Nanoseconds> times;
+  /// Pictures that were found but are left out; empty if there are none. FrameIndex::damage has it.
+  std::string damage{};
 
   /// No source.
   bool empty() const { return video.empty() && pictures.empty(); }

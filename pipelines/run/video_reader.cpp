@@ -38,6 +38,15 @@ class VideoReader : public FrameReader {
 
   const std::string& problem() const override { return problem_; }
 
+  std::vector<DamagedFrame> damaged() const override {
+    std::vector<DamagedFrame> frames = damaged_;
+    if (!scan_ || next_ == 0) return frames;
+    const auto last = std::min(static_cast<std::size_t>(next_), index_.times.size()) - 1;
+    const std::vector<DamagedFrame> more = scan_->damaged_until(index_.times[last]);
+    frames.insert(frames.end(), more.begin(), more.end());
+    return frames;
+  }
+
  private:
   // A frame that was decoded, but not asked for yet.
   struct Waiting {
@@ -48,6 +57,7 @@ class VideoReader : public FrameReader {
 
   // Starts at the first frame.
   void start() {
+    damaged_ = damaged();
     waiting_ = {};
     scan_.reset();
     scan_ = std::make_unique<VideoScan>(file_, Reading::kDecoded);
@@ -56,12 +66,13 @@ class VideoReader : public FrameReader {
   }
 
   bool seek(std::int64_t number, Nanoseconds lead) {
-    const Nanoseconds target = index_.times[static_cast<std::size_t>(number)] - lead;
+    const Nanoseconds wanted = index_.times[static_cast<std::size_t>(number)];
+    const Nanoseconds target = wanted - lead;
     // From the start it is no longer, and sure.
     if (target <= index_.times.front()) return false;
     waiting_ = {};
     from_start_ = false;
-    return scan_->seek(target);
+    return scan_->seek(target, wanted);
   }
 
   Waiting next_frame() {
@@ -137,6 +148,7 @@ class VideoReader : public FrameReader {
   std::int64_t next_ = 0;   // the frame after the last one that was decoded
   bool from_start_ = true;  // since the start of the file no seek took place
   std::string problem_;
+  std::vector<DamagedFrame> damaged_;  // before the last start
 };
 
 }  // namespace

@@ -4,14 +4,16 @@
 #include <gst/pbutils/pbutils.h>
 #include <gst/video/video.h>
 
-#include <array>
 #include <atomic>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
+#include "run/container.hpp"
+#include "run/decoder_kind.hpp"
+#include "run/decoder_reports.hpp"
 #include "run/gst_objects.hpp"
+#include "run/jpeg_check.hpp"
 #include "run/run_error.hpp"
 
 namespace mtstereo::run {
@@ -41,13 +43,6 @@ bool is_video(const GstCaps* caps) {
   return name.starts_with("video/") || name.starts_with("image/");
 }
 
-// The first bytes of Matroska and WebM.
-bool is_matroska(const std::filesystem::path& file) {
-  std::array<char, 4> head{};
-  std::ifstream(file, std::ios::binary).read(head.data(), head.size());
-  return std::string_view(head.data(), head.size()) == "\x1a\x45\xdf\xa3";
-}
-
 // The frame as a sink would show it: clipped to the segment, as the base class of the decoders
 // does. False if it is outside.
 bool clip(const GstSegment& segment, GstClockTime duration, GstClockTime& time) {
@@ -59,13 +54,6 @@ bool clip(const GstSegment& segment, GstClockTime duration, GstClockTime& time) 
   }
   time = start;
   return true;
-}
-
-bool is_video_decoder(GstElement* element) {
-  GstElementFactory* factory = gst_element_get_factory(element);
-  return factory != nullptr && gst_element_factory_list_is_type(
-                                   factory, GST_ELEMENT_FACTORY_TYPE_DECODER |
-                                                GST_ELEMENT_FACTORY_TYPE_MEDIA_VIDEO) != FALSE;
 }
 
 std::vector<std::uint8_t> gray_pixels(GstBuffer* buffer, const GstVideoInfo& info) {
@@ -113,6 +101,8 @@ struct VideoScan::State {
 
   std::optional<Nanoseconds> time_of(const GstSegment* segment, GstClockTime stamp) const;
 
+  std::optional<Nanoseconds> time_on(GstPad* pad, const GstBuffer* buffer) const;
+
   static GstPadProbeReturn on_first_buffer(GstPad* pad, GstPadProbeInfo* info, gpointer data);
   static GstPadProbeReturn before_decoder(GstPad* pad, GstPadProbeInfo* info, gpointer data);
   static void on_element(GstBin* bin, GstBin* inner, GstElement* added, gpointer data);
@@ -130,6 +120,7 @@ struct VideoScan::State {
   std::optional<GstSegment> last_segment;  // of the last frame
   VideoFormat format;
   std::string missing;  // decoders
+  std::shared_ptr<DecoderReports> reports = std::make_shared<DecoderReports>();
   std::string error;
   // Set by threads of the pipeline.
   std::atomic<bool> linked{false}, others{false}, complete{false}, keyframe_first{false};
@@ -176,19 +167,29 @@ GstPadProbeReturn VideoScan::State::on_first_buffer(GstPad*, GstPadProbeInfo* in
 }
 
 // After a seek, a demultiplexer may continue at a frame that refers to others.
-GstPadProbeReturn VideoScan::State::before_decoder(GstPad*, GstPadProbeInfo* info, gpointer data) {
+GstPadProbeReturn VideoScan::State::before_decoder(GstPad* pad, GstPadProbeInfo* info,
+                                                   gpointer data) {
   State* self = static_cast<State*>(data);
   if ((GST_PAD_PROBE_INFO_TYPE(info) & GST_PAD_PROBE_TYPE_EVENT_FLUSH) != 0) {
     self->waits_for_key = true;
+    self->reports->flush();
     return GST_PAD_PROBE_OK;
   }
-  const GstBuffer* buffer = GST_PAD_PROBE_INFO_BUFFER(info);
-  if (!GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_DELTA_UNIT)) self->waits_for_key = false;
-  return self->waits_for_key ? GST_PAD_PROBE_DROP : GST_PAD_PROBE_OK;
+  GstBuffer* buffer = GST_PAD_PROBE_INFO_BUFFER(info);
+  const bool keyframe = !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_DELTA_UNIT);
+  if (keyframe) self->waits_for_key = false;
+  if (self->waits_for_key) return GST_PAD_PROBE_DROP;
+  self->reports->begin(self->time_on(pad, buffer), keyframe);
+  if (is_jpeg_decoder(GST_PAD_PARENT(pad))) {
+    const std::string damage = damage_of_jpeg(buffer);
+    if (!damage.empty()) self->reports->add(damage);
+  }
+  return GST_PAD_PROBE_OK;
 }
 
 void VideoScan::State::on_element(GstBin*, GstBin*, GstElement* added, gpointer data) {
   if (!is_video_decoder(added)) return;
+  static_cast<State*>(data)->reports->listen_to(added);
   GstPad* pad = gst_element_get_static_pad(added, "sink");
   if (pad == nullptr) return;
   constexpr auto kData =
@@ -297,6 +298,15 @@ std::optional<Nanoseconds> VideoScan::State::time_of(const GstSegment* segment,
   return static_cast<Nanoseconds>(time);
 }
 
+// The time of a frame on its way; kNotShown if it is outside of the segment.
+std::optional<Nanoseconds> VideoScan::State::time_on(GstPad* pad, const GstBuffer* buffer) const {
+  g_autoptr(GstEvent) event = gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0);
+  if (event == nullptr || !GST_BUFFER_PTS_IS_VALID(buffer)) return std::nullopt;
+  const GstSegment* segment = nullptr;
+  gst_event_parse_segment(event, &segment);
+  return time_of(segment, GST_BUFFER_PTS(buffer)).value_or(DecoderReports::kNotShown);
+}
+
 // std::nullopt for a frame that is not shown.
 std::optional<VideoFrame> VideoScan::State::frame_of(GstSample* next) {
   GstBuffer* buffer = gst_sample_get_buffer(next);
@@ -317,7 +327,9 @@ std::optional<VideoFrame> VideoScan::State::frame_of(GstSample* next) {
   const bool same_segment = last_segment && gst_segment_is_equal(&*last_segment, segment) != FALSE;
   last_segment = *segment;
   frame.discontinuous = GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_DISCONT) && same_segment;
-  frame.damaged = GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED);
+  if (GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED)) {
+    reports->add(frame.time, "the decoder marks it as corrupted");
+  }
   if (reading == Reading::kGray) {
     GstVideoInfo info;
     if (gst_video_info_from_caps(&info, caps.get()) != FALSE) {
@@ -347,13 +359,18 @@ std::optional<VideoFrame> VideoScan::next() {
 
 GstSample* VideoScan::sample() const { return state_->sample.get(); }
 
-bool VideoScan::seek(Nanoseconds time) {
+std::vector<DamagedFrame> VideoScan::damaged_until(Nanoseconds time) const {
+  return state_->reports->frames_until(time);
+}
+
+bool VideoScan::seek(Nanoseconds time, Nanoseconds wanted) {
   // A pipeline can seek when its first frame has arrived.
   if (!state_->caps && !next()) return false;
   constexpr auto kFlags = static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT |
                                                     GST_SEEK_FLAG_SNAP_BEFORE);
   state_->last_segment.reset();
   state_->sample.reset();
+  state_->reports->set_first(wanted);
   return gst_element_get_state(state_->pipeline, nullptr, nullptr, kAfterError) !=
              GST_STATE_CHANGE_FAILURE &&
          gst_element_seek_simple(state_->pipeline, GST_FORMAT_TIME, kFlags, time) != FALSE;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "run/recording.hpp"
+#include "run/decoder_reports.hpp"
 
 struct _GstSample;
 
@@ -30,7 +30,6 @@ struct VideoFrame {
   std::optional<Nanoseconds> decoding_time;
   bool keyframe = false;
   bool discontinuous = false;        ///< data before it, and in the same segment, is missing
-  bool damaged = false;              ///< the decoder reports that data of it is missing
   std::vector<std::uint8_t> pixels;  ///< row by row without padding, only with Reading::kGray
 };
 
@@ -63,8 +62,12 @@ class VideoScan {
   /// of next() or seek().
   _GstSample* sample() const;
   /// Continues at the last keyframe at or before this time, as exactly as the file allows. Frames
-  /// that refer to others are decoded from a keyframe on only. False if it cannot.
-  bool seek(Nanoseconds time);
+  /// that refer to others are decoded from a keyframe on only. Damage of frames before `wanted` is
+  /// not reported. False if it cannot.
+  bool seek(Nanoseconds time, Nanoseconds wanted);
+  bool seek(Nanoseconds time) { return seek(time, time); }
+  /// The frames up to this time that the decoder could not decode as they were coded.
+  std::vector<DamagedFrame> damaged_until(Nanoseconds time) const;
   /// The format of the last frame.
   const VideoFormat& format() const;
   /// Whether the first frame of the file is a keyframe, also if it is not shown.

@@ -180,6 +180,8 @@ TEST_F(Recordings, PicturesWithTheSameNumberHaveTheSameTime) {
   EXPECT_THAT(recording.remarks,
               Contains(path("right/b_15.png") + " is left out: it is truncated."));
   EXPECT_THAT(recording.remarks, Contains(HasSubstr(path("left/a_0015.png"))));
+  EXPECT_EQ(recording.left.damage, "1 of 5 pictures is left out");
+  EXPECT_EQ(recording.right.damage, "1 of 5 pictures is left out");
 }
 
 TEST_F(Recordings, EachTenthPictureIsAFrame) {
