@@ -220,6 +220,18 @@ quoted() {
   fi
 }
 
+# Fails if a file to be written, or one of a pattern, exists: nothing of the user is replaced.
+refuse_existing() {
+  local file files=("$1")
+  [ -n "$1" ] || return 0
+  if [[ $1 =~ ^([^%]*)%(0[0-9]+)?d([^%]*)$ ]]; then
+    files=("${BASH_REMATCH[1]}"[0-9]*"${BASH_REMATCH[3]}")
+  fi
+  for file in "${files[@]}"; do
+    [[ ! -e $file || -c $file ]] || fail "$file exists: move it, or choose another name"
+  done
+}
+
 # Runs gst-launch-1.0, or prints the command. With -e an interrupt finishes the files properly.
 launch() {
   local line=(gst-launch-1.0 -e "$@")
@@ -232,8 +244,8 @@ launch() {
     return
   fi
   use_plugin
-  local status=0 is_new=no
-  [[ -z $out || -e $out ]] || is_new=yes
+  local file status=0
+  for file in "$out" "$cloud"; do refuse_existing "$file"; done
   if [ -z "$seconds" ]; then
     "${line[@]}" || status=$?
   else
@@ -242,6 +254,6 @@ launch() {
     [ "$status" -ne 124 ] && [ "$status" -ne "$status_of_limit" ] || status=0
   fi
   # A pipeline that fails at its start has created an empty file.
-  if [[ $status -ne 0 && $is_new = yes && -f $out && ! -s $out ]]; then rm -f -- "$out"; fi
+  if [[ $status -ne 0 && -f $out && ! -s $out ]]; then rm -f -- "$out"; fi
   return "$status"
 }

@@ -7,7 +7,7 @@
 # demo.sh LEFT RIGHT: the same with two rectified video files of your own (without ground truth).
 #
 # Options:
-#   --out DIR           output folder (default out/)
+#   --out DIR           output folder (default out/): a new or empty one, or that of an earlier demo
 #   --mode MODE         mode of the main result: sparse, semi-dense (default), dense or full
 #   --max-disparity N   search range [px] (default: the clip's; the element's for your own files)
 #   --frames N          number of frames of the rendered clip (default 48)
@@ -246,6 +246,11 @@ for file in "${files[@]}"; do
     [[ ! $out/$name -ef $file ]] || fail "$file would be overwritten: choose another folder with --out"
   done
 done
+# Files of an earlier demo are replaced, so those of others must not be among them.
+mark=$out/.mtstereo-demo
+[[ -e $mark || -z $(ls -A "$out") ]] ||
+  fail "$out has files that demo.sh did not write: move them, or choose a new folder with --out"
+: >"$mark"
 
 if [ "$build_first" = yes ]; then
   build_all

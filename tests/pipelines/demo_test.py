@@ -85,6 +85,14 @@ class Demo(ClipTest):
         self.assert_rejects(done, "would be overwritten", 1)
         self.assertEqual((own / "color.mp4").read_bytes(), before)
 
+    def test_keeps_files_of_others(self):
+        foreign = self.folder / "videos"
+        foreign.mkdir()
+        (foreign / "left.mp4").write_bytes(b"of the user")
+        self.assert_rejects(self.demo("--out", "videos"), "did not write", 1)
+        self.assertEqual([each.name for each in foreign.iterdir()], ["left.mp4"])
+        self.assertEqual((foreign / "left.mp4").read_bytes(), b"of the user")
+
     def test_names_a_folder_that_cannot_be_created(self):
         self.assert_rejects(self.demo("--out", "/dev/null/out"), "/dev/null/out", 1)
 

@@ -230,12 +230,25 @@ class WrongUse(ClipTest):
         self.assertIn("speed", done.errors)
 
     def test_failure_leaves_no_empty_file(self):
-        (self.folder / "kept.mkv").write_bytes(b"")
-        for out in ("new.mkv", "kept.mkv"):
-            done = self.run_script("from-side-by-side.sh", "clip/calib.txt", "--out", out)
-            self.assert_rejects(done, "type of stream", 1)
+        done = self.run_script("from-side-by-side.sh", "clip/calib.txt", "--out", "new.mkv")
+        self.assert_rejects(done, "type of stream", 1)
         self.assertFalse((self.folder / "new.mkv").exists())
-        self.assertTrue((self.folder / "kept.mkv").exists())
+
+    def test_existing_file_is_kept(self):
+        kept = self.folder / "kept"
+        kept.mkdir()
+        names = ("map.mkv", "000007.png", "points 3.ply")
+        for name in names:
+            (kept / name).write_bytes(b"of the user")
+        for name, options in {
+                "map.mkv": ["--out", "kept/map.mkv"],
+                "000007.png": ["--out", "kept/%06d.png"],
+                "points 3.ply": ["--calibration", "clip/calib.txt", "--cloud", "kept/points %d.ply"],
+        }.items():
+            done = self.run_script("from-files.sh", "left.mp4", "right.mp4", *options)
+            self.assert_rejects(done, f"kept/{name} exists", 1)
+        for name in names:
+            self.assertEqual((kept / name).read_bytes(), b"of the user")
 
     def test_missing_build_is_reported(self):
         done = self.run_script("from-files.sh", "left.mp4", "right.mp4", "--build", "nowhere")
