@@ -127,17 +127,27 @@ TEST(DecodedVideo, ReportsTheSameFramesAfterASeek) {
   EXPECT_THAT(times, ElementsAreArray(expected));
 }
 
-// The decoder needs frames that the edit list leaves out, and misses others that they refer to.
-TEST(DecodedVideo, CutOfOpenGroupsOfPicturesHasNoDamage) {
+void expect_no_damage_of_cut(const std::string& coding, const std::string& from,
+                             const std::string& name) {
   const TemporaryFolder folder;
-  const std::string whole = (folder / "whole.mp4").string(), cut = (folder / "cut.mp4").string();
+  const std::string whole = (folder / "whole.mp4").string(), cut = (folder / name).string();
   run_command(
-      "ffmpeg -v error -f lavfi -i testsrc=size=64x48:rate=30:duration=2 -pix_fmt yuv420p "
-      "-c:v libx264 -x264-params open-gop=1:keyint=15:min-keyint=15:scenecut=0:bframes=3 '" +
-      whole + "'");
-  run_command("ffmpeg -v error -ss 0.5 -i '" + whole + "' -c copy '" + cut + "'");
+      "ffmpeg -v error -f lavfi -i testsrc2=size=64x48:rate=30:duration=3,noise=alls=20:allf=t "
+      "-pix_fmt yuv420p -c:v libx264 -x264-params open-gop=1:" +
+      coding + " '" + whole + "'");
+  run_command("ffmpeg -v error -ss " + from + " -i '" + whole + "' -c copy '" + cut + "'");
   EXPECT_EQ(index_frames({cut, {}, {}}, 0).damage, "");
   EXPECT_THAT(damage_of(cut), IsEmpty());
+}
+
+// The decoder needs frames that the edit list leaves out, and misses others that they refer to.
+TEST(DecodedVideo, CutWithAnEditListHasNoDamage) {
+  expect_no_damage_of_cut("keyint=15:min-keyint=15:scenecut=0:bframes=3", "0.5", "cut.mp4");
+}
+
+// A frame that is shown asks to forget references that are not in the file.
+TEST(DecodedVideo, CutWithoutOldReferencesHasNoDamage) {
+  expect_no_damage_of_cut("keyint=40:bframes=8:b-pyramid=strict:ref=4", "2.3", "cut.mkv");
 }
 
 TEST(DecoderReports, CountsFromTheFirstKeyframeOn) {
