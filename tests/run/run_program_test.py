@@ -3,83 +3,15 @@
 """The program mtstereo-run from outside: exit statuses, messages, interruptions."""
 
 import json
-import os
-import pathlib
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
-import time
-import unittest
 
-PROGRAM = None  # set below
-FRAMES = 240
-SKIPPED = 77
+import program_case
+from program_case import FRAMES, ProgramCase, run
 
 
-def run(*arguments):
-    return subprocess.run(
-        [PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, check=False
-    )
-
-
-def make_video(file, column, frames=FRAMES):
-    """A part of a moving test picture by ffmpeg: views whose columns differ are a stereo pair."""
-    subprocess.run(
-        ["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", "testsrc2=size=336x192:rate=30"]
-        + ["-frames:v", str(frames), "-vf", f"crop=320:192:{column}:0"]
-        + ["-c:v", "libx264", "-preset", "veryfast", "-bf", "2", "-g", "30", str(file)],
-        check=True,
-        stdin=subprocess.DEVNULL,
-    )
-
-
-class Program(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="mtstereo-run-"))
-        cls.left = cls.folder / "left.mp4"
-        cls.right = cls.folder / "right.mp4"
-        make_video(cls.left, 0)
-        make_video(cls.right, 8)
-        cls.whole = cls.folder / "whole"
-        cls.first = run(cls.left, cls.right, "--out", cls.whole, "--max-disparity", 32)
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
-
-    def out(self):
-        return self.folder / self.id().rsplit(".", 1)[1]
-
-    def command(self, *options):
-        return [self.left, self.right, "--out", self.out(), "--max-disparity", 32, *options]
-
-    def journal_lines(self):
-        journal = self.out() / "unfinished" / "journal"
-        return len(journal.read_text().splitlines()) if journal.exists() else 0
-
-    def start_and_send(self, number, options):
-        """Starts a run, and sends a signal in the middle. Returns the process after its end."""
-        command = [PROGRAM, *map(str, self.command(*options))]
-        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-        deadline = time.monotonic() + 60
-        while self.journal_lines() < 20 and time.monotonic() < deadline:
-            time.sleep(0.001)
-        process.send_signal(number)
-        _, process.messages = process.communicate(timeout=60)
-        return process
-
-    def assert_as_whole(self):
-        self.assertEqual(
-            (self.out() / "disparity.mkv").read_bytes(),
-            (self.whole / "disparity.mkv").read_bytes(),
-        )
-        self.assertEqual(
-            sorted(path.name for path in self.out().iterdir()), ["disparity.mkv", "run.json"]
-        )
-
+class Program(ProgramCase):
     def test_writes_results_and_report(self):
         self.assertEqual(self.first.returncode, 0, self.first.stderr)
         self.assertIn("240 pairs", self.first.stdout)
@@ -277,127 +209,6 @@ class Program(unittest.TestCase):
             link.symlink_to(self.left)
         return link
 
-    def pipe(self):
-        pipe = self.folder / "pipe"
-        if not pipe.exists():
-            os.mkfifo(pipe)
-        return pipe
-
-    def test_replaces_no_input(self):
-        out = self.out()
-        out.mkdir()
-        left = shutil.copy(self.left, out / "color.mkv")
-        os.link(self.right, out / "right.mkv")
-        os.link(self.right, out / "disparity.mkv")
-        before = {path: path.read_bytes() for path in out.iterdir()}
-        for inputs, what in (
-            ((left, self.right), "color"),
-            ((self.left, self.right), "disparity"),
-            ((self.left, out / "right.mkv"), "disparity"),
-        ):
-            for option in ("--resume", "--overwrite", "--quiet"):
-                for more in ([], ["--jobs", 2]):
-                    result = run(*inputs, "--out", out, "--what", what, option, *more)
-                    self.assertEqual(result.returncode, 1, result.stderr)
-                    self.assertIn(f"{what}.mkv is an input", result.stderr)
-        self.assertEqual({path: path.read_bytes() for path in out.iterdir()}, before)
-
-    def test_names_what_is_in_the_way(self):
-        for name in ("disparity.mkv", "run.json", "unfinished/journal", "plan/works/a.json"):
-            file = self.out() / name
-            file.parent.mkdir(parents=True)
-            file.write_text("mine")
-            more = ["--jobs", 2] if name.startswith("plan/") else []
-            for option in ("--resume", "--overwrite", "--quiet"):
-                result = run(*self.command(option, *more))
-                self.assertEqual(result.returncode, 1, result.stderr)
-                self.assertRegex(result.stderr, f"{name.split('/', maxsplit=1)[0]}.* is in the way")
-            self.assertEqual(file.read_text(), "mine")
-            shutil.rmtree(self.out())
-
-    def test_one_run_at_a_time_writes_into_a_folder(self):
-        first = subprocess.Popen([PROGRAM, *map(str, self.command())], stderr=subprocess.DEVNULL)
-        while self.journal_lines() < 2:
-            time.sleep(0.001)
-        first.send_signal(signal.SIGSTOP)
-        for option in ("--quiet", "--resume", "--overwrite"):
-            for more in ([], ["--jobs", 2]):
-                second = run(*self.command(option, *more))
-                self.assertEqual(second.returncode, 1, second.stderr)
-                self.assertRegex(second.stderr, rf"process {first.pid} \(.*--out.*\) writes into this folder")
-        first.send_signal(signal.SIGCONT)
-        self.assertEqual(first.wait(timeout=60), 0)
-        self.assert_as_whole()
-
-    def test_checks_what_was_done_before(self):
-        result = run(*self.command())
-        self.assertEqual(result.returncode, 0, result.stderr)
-        video = self.out() / "disparity.mkv"
-        for damage, text in (
-            (video.unlink, "disparity.mkv is missing"),
-            (lambda: os.truncate(video, 1000), "disparity.mkv has 1000 of"),
-            (lambda: os.truncate(video, 0), "disparity.mkv has 0 of"),
-        ):
-            damage()
-            result = run(*self.command("--resume"))
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertIn(text, result.stderr)
-            self.assertIn("it is done again", result.stderr)
-            self.assert_as_whole()
-        video.unlink()
-        video.write_text("mine")
-        result = run(*self.command("--resume"))
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("disparity.mkv was changed since it was written", result.stderr)
-        self.assertEqual(video.read_text(), "mine")
-
-    def test_names_need_not_be_text(self):
-        archive = os.fsencode(self.folder / "names")
-        for name in (b"bad\xff", b"red\x1b[31m", b"good"):
-            os.makedirs(archive + b"/" + name)
-            shutil.copy(os.fsencode(self.left), archive + b"/" + name)
-            shutil.copy(os.fsencode(self.right), archive + b"/" + name)
-        with open(archive + b"/good/right.mp4", "ab") as stream:  # a box with an impossible name
-            stream.write(b"\0\1\x86\xa0\xff\x1b\0\xfcxxxx")
-        for more in ([], ["--jobs", "2"]):
-            out = self.out().with_suffix(f".{len(more)}")
-            result = subprocess.run(
-                [PROGRAM, archive, "--out", out, "--max-disparity", "32", *more],
-                capture_output=True, timeout=120, check=False,
-            )
-            messages = (result.stdout + result.stderr).decode()  # valid UTF-8
-            self.assertEqual(result.returncode, 3, messages)
-            self.assertIn(r"bytes of its box '\xff\x1b\x00\xfc' are missing", messages)
-            self.assertNotIn("\x1b", messages)
-            for name in (r"bad\xff", r"red\x1b[31m", "good"):
-                report = json.loads((out / name / "run.json").read_text())
-                self.assertEqual(report["processed_pairs"], FRAMES)
-            self.assertIn(r"bad\xff/left.mp4", (out / r"bad\xff/run.json").read_text().replace(r"\\", "\\"))
-
-    def wait_for_handler(self, pid, number):
-        caught = 0
-        while caught >> (number - 1) & 1 == 0:
-            status = pathlib.Path(f"/proc/{pid}/status").read_text()
-            caught = int(status.partition("SigCgt:")[2].split()[0], 16)
-
-    def test_one_signal_ends_the_search(self):
-        archive = self.folder / "long"
-        for number in range(100):
-            (archive / str(number)).mkdir(parents=True)
-            for file in (self.left, self.right):
-                os.link(file, archive / str(number) / file.name)
-        for command in ([archive], ["plan", archive], [archive, "--jobs", 2]):
-            for number in (signal.SIGINT, signal.SIGTERM):
-                process = subprocess.Popen(
-                    [PROGRAM, *map(str, command), "--out", str(self.out())], stderr=subprocess.PIPE, text=True
-                )
-                self.wait_for_handler(process.pid, number)
-                process.send_signal(number)
-                _, messages = process.communicate(timeout=60)
-                self.assertEqual(process.returncode, 3, messages)
-                self.assertEqual(messages, "mtstereo-run: interrupted; --resume continues\n")
-                self.assertFalse(self.out().exists())
-
     def test_lists_recordings(self):
         result = run(self.left, self.right, "--list")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -405,8 +216,4 @@ class Program(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = sys.argv.pop(1)
-    if shutil.which("ffmpeg") is None:
-        print("ffmpeg is not installed")
-        sys.exit(SKIPPED)
-    unittest.main()
+    program_case.main()
