@@ -47,10 +47,8 @@ bool begins_with(const fs::path& file, const std::string& text) {
   return head == text || (!in && text.starts_with(head));
 }
 
-// plan.json and summary.json, which write their members in this order.
-bool is_plan_file(const fs::path& file) {
-  return begins_with(file, "{\n \"damaged\":") || begins_with(file, "{\"version\":");
-}
+// plan.json and summary.json, whose members are sorted by their names.
+bool is_plan_file(const fs::path& file) { return begins_with(file, "{\n \"damaged\":"); }
 
 bool is_work_file(const fs::path& file) {
   static const std::regex kAside(R"(.+\.json\.\d+\.new|\..+-\d+-\d+)");
