@@ -67,7 +67,10 @@ void define_sensor(CLI::App& app, Settings& s) {
   number("--sky-gradient", s.sky_gradient,
          "what the sky loses up to the top of the image; 0 = a flat sky");
   number("--vignette", s.vignette, "fraction of the light that is lost in the corners");
-  number("--blur", s.blur, "standard deviation of the blur of the lenses [px]");
+  number("--blur", s.blur, "standard deviation of the blur of the lenses in the center [px]");
+  number("--rim-blur", s.rim_blur, "what the blur of the lenses gains up to the corners [px]");
+  app.add_flag("--mosaic", s.mosaic,
+               "sensors with a Bayer mosaic: demosaicing, noise reduction and sharpening");
   number("--jpeg", s.jpeg, "quality of JPEG compression, 1 to 100; 0 = no compression");
 }
 

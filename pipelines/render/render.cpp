@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "render/optics.hpp"
+#include "render/processing.hpp"
 #include "render/raw.hpp"
 #include "render/sensor.hpp"
 #include "render/view.hpp"
@@ -50,36 +52,43 @@ Eigen::Vector3f light_at(const View& view, int samples, int x, int y) {
 
 // The light that reaches the sensor, in one channel (gray) or three.
 cv::Mat light_of(const View& view, const Settings& settings) {
-  const int channels = settings.color ? 3 : 1;
-  cv::Mat light(settings.height, settings.width, CV_32FC(channels));
+  const bool color = settings.color || settings.mosaic;
+  cv::Mat light(settings.height, settings.width, CV_32FC(color ? 3 : 1));
   for_rows(settings.height, settings.threads, [&](int y) {
     auto* out = light.ptr<float>(y);
     for (int x = 0; x < settings.width; ++x) {
-      const Eigen::Vector3f color = light_at(view, settings.samples, x, y);
-      if (settings.color) {
-        for (int c = 0; c < 3; ++c) *out++ = color[c];
+      const Eigen::Vector3f seen = light_at(view, settings.samples, x, y);
+      if (color) {
+        for (int c = 0; c < 3; ++c) *out++ = seen[c];
       } else {
         // ITU-R BT.601 luma
-        *out++ = 0.114f * color[0] + 0.587f * color[1] + 0.299f * color[2];
+        *out++ = 0.114f * seen[0] + 0.587f * seen[1] + 0.299f * seen[2];
       }
     }
   });
-  if (settings.blur > 0) {
-    cv::GaussianBlur(light, light, cv::Size(), settings.blur, settings.blur, cv::BORDER_REPLICATE);
-  }
-  return light;
+  return after_lens(light, settings.blur, settings.rim_blur);
+}
+
+cv::Mat signal_of(const cv::Mat& light, const Settings& settings, const Sensor& sensor) {
+  const int channels = light.channels();
+  cv::Mat signal(light.size(), light.type());
+  for_rows(settings.height, settings.threads, [&](int y) {
+    const auto* in = light.ptr<float>(y);
+    auto* out = signal.ptr<float>(y);
+    for (int x = 0; x < settings.width; ++x) {
+      for (int c = 0; c < channels; ++c) *out++ = sensor.signal(*in++, x, y, c);
+    }
+  });
+  return signal;
 }
 
 cv::Mat image_of(const cv::Mat& light, const Settings& settings, const Sensor& sensor) {
-  const int channels = light.channels();
-  cv::Mat image(light.size(), CV_8UC(channels));
-  for_rows(settings.height, settings.threads, [&](int y) {
-    const auto* in = light.ptr<float>(y);
-    auto* out = image.ptr<std::uint8_t>(y);
-    for (int x = 0; x < settings.width; ++x) {
-      for (int c = 0; c < channels; ++c) *out++ = sensor.gray(*in++, x, y, c);
-    }
-  });
+  cv::Mat signal = signal_of(light, settings, sensor), image;
+  if (settings.mosaic) {
+    signal = through_mosaic(signal, sensor.medium_noise());
+    if (!settings.color) cv::cvtColor(signal, signal, cv::COLOR_BGR2GRAY);
+  }
+  signal.convertTo(image, CV_8U);
   return settings.jpeg > 0 ? after_jpeg(image, settings.jpeg) : image;
 }
 
@@ -175,6 +184,7 @@ std::string check(const Settings& s) {
       {"sky-gradient", s.sky_gradient, 0, 1, ""},
       {"vignette", s.vignette, 0, 1, ""},
       {"blur", s.blur, 0, 10, " px"},
+      {"rim-blur", s.rim_blur, 0, 10, " px"},
       {"jpeg", static_cast<double>(s.jpeg), 0, 100, ""},
       {"roll", s.rig.roll, -10, 10, " degrees"},
       {"pitch", s.rig.pitch, -10, 10, " degrees"},

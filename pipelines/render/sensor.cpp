@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "render/optics.hpp"
 #include "render/texture.hpp"
 
 namespace mtstereo::render {
@@ -26,30 +27,35 @@ float normal(std::uint32_t seed, std::uint32_t channel, std::uint32_t x, std::ui
 Sensor::Sensor(const Settings& settings, std::uint32_t seed, double exposure)
     : settings_(settings), seed_(seed), exposure_(static_cast<float>(exposure)) {}
 
-std::uint8_t Sensor::gray(float light, int x, int y, int channel) const {
+float Sensor::signal(float light, int x, int y, int channel) const {
   float signal = 255 * exposure_ * light;
   if (settings_.vignette > 0) signal *= shading(x, y);
   signal += noise(signal, x, y, channel);
-  return cv::saturate_cast<std::uint8_t>(static_cast<float>(settings_.gain) * signal);
+  return static_cast<float>(settings_.gain) * signal;
 }
 
-// Falls with the square of the distance from the center; the corners lose all of the vignette.
+double Sensor::medium_noise() const {
+  return settings_.gain * deviation(static_cast<float>(127.5 / settings_.gain));
+}
+
+// The corners lose all of the vignette.
 float Sensor::shading(int x, int y) const {
-  const double center_x = (settings_.width - 1) / 2.0, center_y = (settings_.height - 1) / 2.0;
-  const double from_center = std::hypot(x - center_x, y - center_y);
-  const double corner = std::max(std::hypot(center_x, center_y), 1.0);
-  return static_cast<float>(1 - settings_.vignette * std::pow(from_center / corner, 2));
+  const cv::Size size(settings_.width, settings_.height);
+  return static_cast<float>(1 - settings_.vignette * rim_share(size, x, y));
+}
+
+double Sensor::deviation(float signal) const {
+  const double constant = settings_.noise;
+  if (settings_.shot_noise == 0) return constant;
+  return std::sqrt(constant * constant + settings_.shot_noise * std::max(signal, 0.0f));
 }
 
 float Sensor::noise(float signal, int x, int y, int channel) const {
-  double deviation = settings_.noise;
-  if (settings_.shot_noise > 0) {
-    deviation = std::sqrt(deviation * deviation + settings_.shot_noise * std::max(signal, 0.0f));
-  }
-  if (deviation == 0) return 0;
-  return static_cast<float>(deviation) * normal(seed_, static_cast<std::uint32_t>(channel),
-                                                static_cast<std::uint32_t>(x),
-                                                static_cast<std::uint32_t>(y));
+  const double size = deviation(signal);
+  if (size == 0) return 0;
+  return static_cast<float>(size) * normal(seed_, static_cast<std::uint32_t>(channel),
+                                           static_cast<std::uint32_t>(x),
+                                           static_cast<std::uint32_t>(y));
 }
 
 cv::Mat after_jpeg(const cv::Mat& image, int quality) {

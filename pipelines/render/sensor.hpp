@@ -8,18 +8,23 @@
 
 namespace mtstereo::render {
 
-/// The sensor of one camera: lens shading, exposure, noise, amplification and clipping.
+/// The sensor of one camera: lens shading, exposure, noise and amplification.
 class Sensor {
  public:
   /// `seed` is that of the noise; `exposure` multiplies the light. The settings must outlive the
   /// sensor.
   Sensor(const Settings& settings, std::uint32_t seed, double exposure);
 
-  /// The gray value of a pixel for its light; light 1 is white at the default exposure.
-  std::uint8_t gray(float light, int x, int y, int channel) const;
+  /// The signal of a pixel for its light [gray values], not clipped; light 1 is white at the
+  /// default exposure.
+  float signal(float light, int x, int y, int channel) const;
+
+  /// The standard deviation of the noise in the signal of a medium gray [gray values].
+  double medium_noise() const;
 
  private:
   float shading(int x, int y) const;
+  double deviation(float signal) const;
   float noise(float signal, int x, int y, int channel) const;
 
   const Settings& settings_;

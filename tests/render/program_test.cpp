@@ -75,7 +75,8 @@ TEST_F(Program, RendersABadCameraWithTheTruthOfAGoodOne) {
   const std::string right = read_text(folder_ / "clip/right/000000.png");
   const Outcome r = run(out() +
                         "--size 48x27 --frames 1 --overwrite --shot-noise 0.1 --light 0.5 "
-                        "--gain 2 --vignette 0.4 --jpeg 50 --roll 0.5 --pitch 0.2 --yaw -0.1 "
+                        "--gain 2 --vignette 0.4 --blur 0.6 --rim-blur 1 --mosaic --jpeg 50 "
+                        "--roll 0.5 --pitch 0.2 --yaw -0.1 "
                         "--focal-ratio 1.01 --row-offset -2 --sky 2 --sky-gradient 0");
   EXPECT_EQ(r.status, 0) << r.errors;
   EXPECT_EQ(truth, read_text(folder_ / "clip/truth/000000.pfm"));
@@ -206,6 +207,9 @@ TEST_F(Program, RejectsInvalidOptionsByName) {
       {"--row-offset 1000", "row-offset"},
       {"--samples 99", "samples"},
       {"--blur -1", "blur"},
+      {"--rim-blur 11", "rim-blur"},
+      {"--rim-blur soft", "--rim-blur"},
+      {"--mosaic=maybe", "--mosaic"},
       {"--lens narrow", "wide, fisheye"},
       {"--lens wide --raw x.yml", "combined"},
       {"--lens wide --roll 1", "combined"},
@@ -272,7 +276,8 @@ TEST_F(Program, OverwriteKeepsForeignFilesAndInputs) {
 }
 
 TEST_F(Program, NumbersAreFinite) {
-  for (const char* option : {"--rate", "--start", "--baseline", "--focal", "--noise", "--roll"}) {
+  for (const char* option :
+       {"--rate", "--start", "--baseline", "--focal", "--noise", "--roll", "--rim-blur"}) {
     for (const char* value : {" nan", " inf"}) {
       EXPECT_EQ(run(out() + "--size 8x8 --frames 1 " + option + value).status, 2) << option;
     }
