@@ -19,8 +19,8 @@ struct Bin {
   std::int64_t outliers = 0;
   std::int64_t bad1 = 0;
 
-  void compare(double estimate, double truth) {
-    const double e = std::abs(estimate - truth);
+  // The error and the true disparity, both in px of the original images.
+  void compare(double e, double truth) {
     ++compared;
     error += e;
     outliers += is_outlier(e, truth);
@@ -37,17 +37,19 @@ struct Bin {
 
 using Bins = std::array<Bin, kMostConfidence + 1>;
 
-Bins bins_of(const cv::Mat& estimate, const cv::Mat& confidence, const cv::Mat& truth) {
+Bins bins_of(const cv::Mat& estimate, const cv::Mat& confidence, const GroundTruth& truth) {
   Bins bins{};
   for (int y = 0; y < estimate.rows; ++y) {
     const auto* found = estimate.ptr<float>(y);
     const auto* trusted = confidence.ptr<std::uint8_t>(y);
-    const auto* wanted = truth.ptr<float>(y);
+    const auto* wanted = truth.disparity.ptr<float>(y);
     for (int x = 0; x < estimate.cols; ++x) {
       if (std::isnan(found[x])) continue;
       Bin& bin = bins[trusted[x]];
       ++bin.predicted;
-      if (!std::isnan(wanted[x])) bin.compare(found[x], wanted[x]);
+      if (std::isnan(wanted[x])) continue;
+      const double expected = wanted[x];
+      bin.compare(std::abs(found[x] - expected) / truth.scale, expected / truth.scale);
     }
   }
   return bins;
@@ -89,8 +91,8 @@ CurvePoint point_of(const Evaluation& evaluation) {
 }
 
 std::vector<CurvePoint> threshold_points(const cv::Mat& estimate, const cv::Mat& confidence,
-                                         const cv::Mat& truth) {
-  if (estimate.size() != confidence.size() || estimate.size() != truth.size()) {
+                                         const GroundTruth& truth) {
+  if (estimate.size() != confidence.size() || estimate.size() != truth.disparity.size()) {
     throw InputError("disparity map, confidence and ground truth have different sizes");
   }
   const Bins bins = bins_of(estimate, confidence, truth);
@@ -103,7 +105,8 @@ std::vector<CurvePoint> threshold_points(const cv::Mat& estimate, const cv::Mat&
   return points;
 }
 
-Sweep confidence_sweep(const cv::Mat& estimate, const cv::Mat& confidence, const cv::Mat& truth) {
+Sweep confidence_sweep(const cv::Mat& estimate, const cv::Mat& confidence,
+                       const GroundTruth& truth) {
   Sweep sweep;
   sweep.ratios = {0};
   sweep.thresholds.resize(kMostConfidence);

@@ -15,7 +15,7 @@ namespace mtstereo::eval {
 /// truth. The errors are NaN if no pixel could be compared.
 struct CurvePoint {
   double density = kNone;  ///< pixels with an estimate / all pixels of the image [%]
-  double avgerr = kNone;   ///< [px]
+  double avgerr = kNone;   ///< [px of the original images]
   double d_all = kNone;    ///< [%]
   double bad1 = kNone;     ///< [%]
 };
@@ -58,10 +58,11 @@ CurvePoint point_of(const Evaluation& evaluation);
 /// (CV_32FC1 [px], NaN = none) count whose confidence (CV_8UC1) is at least the threshold. Throws
 /// InputError if the sizes differ.
 std::vector<CurvePoint> threshold_points(const cv::Mat& estimate, const cv::Mat& confidence,
-                                         const cv::Mat& truth);
+                                         const GroundTruth& truth);
 
 /// The sweep of a matcher that reports its own confidence: one row of the thresholds above.
-Sweep confidence_sweep(const cv::Mat& estimate, const cv::Mat& confidence, const cv::Mat& truth);
+Sweep confidence_sweep(const cv::Mat& estimate, const cv::Mat& confidence,
+                       const GroundTruth& truth);
 
 /// The column of a sweep at one of its thresholds.
 Sweep at_threshold(const Sweep& sweep, std::size_t threshold);

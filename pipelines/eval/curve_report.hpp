@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "eval/curve_means.hpp"
-#include "eval/degrade.hpp"
+#include "eval/degradation.hpp"
 #include "eval/rival_filters.hpp"
 
 namespace mtstereo::eval {

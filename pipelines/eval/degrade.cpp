@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "eval/degrade.hpp"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
+#include <vector>
 
 #include "eval/h264.hpp"
 #include "eval/input_error.hpp"
@@ -14,55 +14,9 @@
 namespace mtstereo::eval {
 namespace {
 
-/// The name of a kind and the range of its amount.
-struct KindInfo {
-  DegradationKind kind;
-  std::string_view name;
-  double least;
-  double most;
-  bool whole = false;  // the amount is a whole number
-};
-
-constexpr std::array kKinds = {
-    KindInfo{DegradationKind::kNoise, "noise", 0, 100},
-    KindInfo{DegradationKind::kJpeg, "jpeg", 1, 100, true},
-    KindInfo{DegradationKind::kH264, "h264", 1, 50, true},
-    KindInfo{DegradationKind::kDark, "dark", 0, 1},
-    KindInfo{DegradationKind::kBright, "bright", 1, 16},
-    KindInfo{DegradationKind::kBlurRight, "blur-right", 0, 10},
-    KindInfo{DegradationKind::kLowerRight, "lower-right", -100, 100},
-    KindInfo{DegradationKind::kRollRight, "roll-right", -45, 45},
-    KindInfo{DegradationKind::kGainRight, "gain-right", 0, 16},
-    KindInfo{DegradationKind::kGammaRight, "gamma-right", 0.1, 10},
-};
-
-constexpr double kDarkNoise = 2;  // [gray values]
-
-const KindInfo& info_of(DegradationKind kind) {
-  for (const KindInfo& info : kKinds) {
-    if (info.kind == kind) return info;
-  }
-  throw InputError("unknown kind of degradation");
-}
-
-std::string kind_list() {
-  std::string list;
-  for (const KindInfo& info : kKinds) {
-    if (!list.empty()) list += ", ";
-    list += info.name;
-  }
-  return list;
-}
-
-std::string number_text(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-std::string range_text(const KindInfo& info) {
-  return std::string(info.name) + "=" + number_text(info.least) + " .. " + number_text(info.most);
-}
+constexpr double kSensorNoise = 2;     // of dark and soft views [gray values]
+constexpr double kCameraBlur = 1.2;    // sigma [px]
+constexpr double kCameraQuality = 70;  // of JPEG
 
 void compress(double quality, cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
@@ -70,17 +24,17 @@ void compress(double quality, cv::Mat& image) {
   image = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
 }
 
-void scale(double factor, cv::Mat& image) {
+void multiply(double factor, cv::Mat& image) {
   cv::Mat scaled;
   image.convertTo(scaled, -1, factor);
   image = scaled;
 }
 
-void blur(double sigma, cv::Mat& image) {
-  if (sigma <= 0) return;
-  cv::Mat blurred;
-  cv::GaussianBlur(image, blurred, {0, 0}, sigma, sigma, cv::BORDER_REPLICATE);
-  image = blurred;
+cv::Mat blurred(const cv::Mat& image, double sigma, int border = cv::BORDER_DEFAULT) {
+  if (sigma <= 0) return image;
+  cv::Mat result;
+  cv::GaussianBlur(image, result, {0, 0}, sigma, sigma, border);
+  return result;
 }
 
 void warp(const cv::Matx23d& to_source, cv::Mat& image) {
@@ -108,49 +62,127 @@ void apply_gamma(double exponent, cv::Mat& image) {
   image = mapped;
 }
 
+// Blurs by a sigma that grows from 0, up to 30 % of the way from the center to a corner, to 2 px,
+// from 80 % on. Between the images of the sigmas 0, 0.5, 1, 1.5 and 2 px it is linear.
+void blur_rim(cv::Mat& image) {
+  constexpr double kSharp = 0.3, kSoft = 0.8, kStep = 0.5;
+  constexpr int kSteps = 4;
+  std::array<cv::Mat, kSteps + 1> images;
+  image.convertTo(images[0], CV_32F);
+  for (int i = 1; i <= kSteps; ++i) images[i] = blurred(images[0], i * kStep);
+  cv::Mat result(image.size(), CV_8UC1);
+  const double half_width = image.cols / 2.0, half_height = image.rows / 2.0;
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const double radius =
+          std::hypot((x - half_width) / half_width, (y - half_height) / half_height) /
+          std::sqrt(2.0);
+      const double level = kSteps * std::clamp((radius - kSharp) / (kSoft - kSharp), 0.0, 1.0);
+      const int lower = std::min(static_cast<int>(level), kSteps - 1);
+      const double share = level - lower;
+      result.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(
+          images[lower].at<float>(y, x) * (1 - share) + images[lower + 1].at<float>(y, x) * share);
+    }
+  }
+  image = result;
+}
+
+// A soft lens and the noise of the sensor.
+void soften(std::uint64_t seed, cv::Mat& view) {
+  view = blurred(view, kCameraBlur);
+  add_noise(kSensorNoise, seed, view);
+}
+
+void change_both(const Degradation& degradation, std::uint64_t seed, cv::Mat& view) {
+  const double amount = degradation.amount;
+  switch (degradation.kind) {
+    case DegradationKind::kNoise:
+      return add_noise(amount, seed, view);
+    case DegradationKind::kJpeg:
+      return compress(amount, view);
+    case DegradationKind::kH264:
+      view = through_h264(view, static_cast<int>(amount));
+      return;
+    case DegradationKind::kDark:
+      multiply(amount, view);
+      return add_noise(kSensorNoise, seed, view);
+    case DegradationKind::kBright:
+      return multiply(amount, view);
+    case DegradationKind::kBlur:
+      view = blurred(view, amount);
+      return;
+    case DegradationKind::kRim:
+      return blur_rim(view);
+    case DegradationKind::kRimCam:
+      blur_rim(view);
+      add_noise(kSensorNoise, seed, view);
+      return compress(kCameraQuality, view);
+    case DegradationKind::kCam:
+    case DegradationKind::kCam2x:
+    case DegradationKind::kCam1_5x:
+      soften(seed, view);
+      return compress(kCameraQuality, view);
+    case DegradationKind::kCamH264:
+      soften(seed, view);
+      view = through_h264(view, static_cast<int>(amount));
+      return;
+    default:
+      return;
+  }
+}
+
+void change_right(const Degradation& degradation, cv::Mat& right) {
+  const double amount = degradation.amount;
+  switch (degradation.kind) {
+    case DegradationKind::kBlurRight:
+      right = blurred(right, amount, cv::BORDER_REPLICATE);
+      return;
+    case DegradationKind::kLowerRight:
+      return warp({1, 0, 0, 0, 1, -amount}, right);
+    case DegradationKind::kRollRight:
+      return roll(amount, right);
+    case DegradationKind::kGainRight:
+      return multiply(amount, right);
+    case DegradationKind::kGammaRight:
+      return apply_gamma(amount, right);
+    default:
+      return;
+  }
+}
+
+double enlargement_of(DegradationKind kind) {
+  switch (kind) {
+    case DegradationKind::kSoft2x:
+    case DegradationKind::kCam2x:
+      return 2;
+    case DegradationKind::kSoft1_5x:
+    case DegradationKind::kCam1_5x:
+      return 1.5;
+    default:
+      return 1;
+  }
+}
+
+// Views by cubic interpolation, the truth by its nearest pixel.
+DegradedPair enlarged(const LoadedPair& pair, int max_disparity, double scale) {
+  if (scale == 1) return {pair, max_disparity};
+  DegradedPair result;
+  cv::resize(pair.left, result.images.left, {}, scale, scale, cv::INTER_CUBIC);
+  cv::resize(pair.right, result.images.right, {}, scale, scale, cv::INTER_CUBIC);
+  const auto nearest = [&](const cv::Mat& map) {
+    cv::Mat larger;
+    if (!map.empty()) cv::resize(map, larger, {}, scale, scale, cv::INTER_NEAREST);
+    return larger;
+  };
+  GroundTruth& truth = result.images.truth;
+  truth = {nearest(pair.truth.disparity), nearest(pair.truth.visible), nearest(pair.truth.objects),
+           pair.truth.scale * scale};
+  truth.disparity *= scale;
+  result.max_disparity = static_cast<int>(std::ceil(max_disparity * scale));
+  return result;
+}
+
 }  // namespace
-
-std::string degradation_kinds() {
-  std::string list;
-  for (const KindInfo& info : kKinds) {
-    if (!list.empty()) list += ", ";
-    list += range_text(info);
-  }
-  return list;
-}
-
-Degradation parse_degradation(std::string_view text) {
-  const std::size_t equals = text.find('=');
-  const std::string_view name = text.substr(0, equals);
-  for (const KindInfo& info : kKinds) {
-    if (info.name != name) continue;
-    const std::string range = range_text(info);
-    if (equals == std::string_view::npos) {
-      throw InputError("degradation '" + std::string(text) + "' has no amount; use " + range);
-    }
-    const std::string_view amount_text = text.substr(equals + 1);
-    double amount = 0;
-    const char* end = amount_text.data() + amount_text.size();
-    const auto [stop, error] = std::from_chars(amount_text.data(), end, amount);
-    if (error != std::errc() || stop != end || !(amount >= info.least && amount <= info.most)) {
-      throw InputError("degradation '" + std::string(text) + "' is out of range; use " + range);
-    }
-    if (info.whole && amount != std::floor(amount)) {
-      throw InputError("degradation '" + std::string(text) + "' needs a whole number; use " +
-                       range);
-    }
-    return {info.kind, amount};
-  }
-  throw InputError("unknown degradation '" + std::string(text) + "'; the kinds are " + kind_list());
-}
-
-std::optional<std::string> degradation_obstacle(const Degradation& degradation) {
-  return degradation.kind == DegradationKind::kH264 ? h264_obstacle() : std::nullopt;
-}
-
-std::string degradation_text(const Degradation& degradation) {
-  return std::string(info_of(degradation.kind).name) + "=" + number_text(degradation.amount);
-}
 
 void add_noise(double sigma, std::uint64_t seed, cv::Mat& image) {
   cv::Mat noise(image.size(), CV_32F);
@@ -161,45 +193,13 @@ void add_noise(double sigma, std::uint64_t seed, cv::Mat& image) {
   image = noisy;
 }
 
-void degrade(const Degradation& degradation, cv::Mat& left, cv::Mat& right) {
-  const double amount = degradation.amount;
-  std::uint64_t seed = 1;
-  for (cv::Mat* view : {&left, &right}) {
-    switch (degradation.kind) {
-      case DegradationKind::kNoise:
-        add_noise(amount, seed++, *view);
-        break;
-      case DegradationKind::kJpeg:
-        compress(amount, *view);
-        break;
-      case DegradationKind::kH264:
-        *view = through_h264(*view, static_cast<int>(amount));
-        break;
-      case DegradationKind::kDark:
-        scale(amount, *view);
-        add_noise(kDarkNoise, seed++, *view);
-        break;
-      case DegradationKind::kBright:
-        scale(amount, *view);
-        break;
-      default:
-        break;
-    }
-  }
-  switch (degradation.kind) {
-    case DegradationKind::kBlurRight:
-      return blur(amount, right);
-    case DegradationKind::kLowerRight:
-      return warp({1, 0, 0, 0, 1, -amount}, right);
-    case DegradationKind::kRollRight:
-      return roll(amount, right);
-    case DegradationKind::kGainRight:
-      return scale(amount, right);
-    case DegradationKind::kGammaRight:
-      return apply_gamma(amount, right);
-    default:
-      return;
-  }
+DegradedPair degrade(const Degradation& degradation, const LoadedPair& pair, int max_disparity) {
+  // Every change below replaces a view by a new image: those of `pair` remain as they are.
+  DegradedPair result = enlarged(pair, max_disparity, enlargement_of(degradation.kind));
+  change_both(degradation, 1, result.images.left);
+  change_both(degradation, 2, result.images.right);
+  change_right(degradation, result.images.right);
+  return result;
 }
 
 }  // namespace mtstereo::eval

@@ -12,6 +12,9 @@ struct GroundTruth {
   cv::Mat disparity;  ///< CV_32FC1 [px], NaN = unknown
   cv::Mat visible;    ///< CV_8UC1, nonzero = visible in both views; empty if unknown
   cv::Mat objects{};  ///< CV_8UC1, nonzero = foreground; empty if unknown, see load_objects()
+  /// px of these maps per px of the original ones, for images that were enlarged: all errors are
+  /// measured in px of the original
+  double scale = 1;
 };
 
 /// A camera of the TrimBot2020 gardens, read from its *_cam.txt.

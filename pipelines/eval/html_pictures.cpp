@@ -52,10 +52,10 @@ std::string data_uri(const cv::Mat& picture) {
 
 HtmlPictures html_pictures(const LoadedPair& images, const cv::Mat& disparity,
                            const cv::Mat& confidence, int max_disparity) {
-  const cv::Mat& truth = images.truth.disparity;
-  return {data_uri(reduced(images.left)), data_uri(reduced(color_disparity(truth, max_disparity))),
+  return {data_uri(reduced(images.left)),
+          data_uri(reduced(color_disparity(images.truth.disparity, max_disparity))),
           data_uri(reduced(color_disparity(disparity, max_disparity))),
-          data_uri(reduced(color_error(disparity, truth))), data_uri(reduced(confidence))};
+          data_uri(reduced(color_error(disparity, images.truth))), data_uri(reduced(confidence))};
 }
 
 }  // namespace mtstereo::eval

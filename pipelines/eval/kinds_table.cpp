@@ -45,7 +45,7 @@ void print_kinds(std::ostream& out, const Report& report) {
   }
   out << "degraded images, mean of all pixels with ground truth; kept: density as a share of the "
          "clean one, %;\nflat: pixels with a disparity in areas that are constant in both views, "
-         "all pairs\n";
+         "all pairs; errors of enlarged images in px of the original\n";
   print_rows(out, rows);
 }
 

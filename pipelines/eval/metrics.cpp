@@ -28,8 +28,8 @@ struct Sums {
   std::int64_t outliers = 0;
   std::array<std::int64_t, kBadThresholds.size()> bad{};
 
-  void add(double estimate, double truth) {
-    const double e = std::abs(estimate - truth);
+  // The error and the true disparity, both in px of the original images.
+  void add(double e, double truth) {
     ++compared;
     error += e;
     squared += e * e;
@@ -91,7 +91,8 @@ Metrics mean_of(const std::vector<WeightedMetrics>& list) {
 
 }  // namespace
 
-Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& visible) {
+Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& visible,
+                double scale) {
   require_same_size(estimate, truth);
   if (!visible.empty()) require_same_size(estimate, visible);
   Sums sums;
@@ -102,7 +103,9 @@ Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& vi
     for (int x = 0; x < truth.cols; ++x) {
       if (std::isnan(wanted[x]) || (seen != nullptr && seen[x] == 0)) continue;
       ++sums.known;
-      if (!std::isnan(found[x])) sums.add(found[x], wanted[x]);
+      if (std::isnan(found[x])) continue;
+      const double expected = wanted[x];
+      sums.add(std::abs(found[x] - expected) / scale, expected / scale);
     }
   }
   return finish(sums);
@@ -110,8 +113,10 @@ Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& vi
 
 Evaluation evaluate(const cv::Mat& estimate, const GroundTruth& truth) {
   Evaluation result;
-  result.all = measure(estimate, truth.disparity);
-  if (!truth.visible.empty()) result.noc = measure(estimate, truth.disparity, truth.visible);
+  result.all = measure(estimate, truth.disparity, {}, truth.scale);
+  if (!truth.visible.empty()) {
+    result.noc = measure(estimate, truth.disparity, truth.visible, truth.scale);
+  }
   result.density = density_of(estimate);
   return result;
 }

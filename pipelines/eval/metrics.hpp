@@ -18,7 +18,7 @@ inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// The thresholds t of "bad t" [px].
 inline constexpr std::array<double, 4> kBadThresholds{0.5, 1, 2, 4};
 
-/// Whether D-all counts this error [px] at this true disparity [px].
+/// Whether D-all counts this error at this true disparity, both in px of the original images.
 inline bool is_outlier(double error, double truth) {
   // 5 % as 20 e >= truth: exact at the border, unlike 0.05 * truth.
   return error >= 3 && 20 * error >= truth;
@@ -47,11 +47,13 @@ struct Evaluation {
 };
 
 /// Compares an estimate with the truth (both CV_32FC1 [px], NaN = none) at the pixels where
-/// `visible` (CV_8UC1) is not 0, or at all pixels if it is empty. Throws InputError if the sizes
-/// differ.
-Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& visible = {});
+/// `visible` (CV_8UC1) is not 0, or at all pixels if it is empty. Errors are divided by `scale`.
+/// Throws InputError if the sizes differ.
+Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& visible = {},
+                double scale = 1);
 
-/// The same with the density, for all pixels and, if known, for those visible in both views.
+/// The same with the density, for all pixels and, if known, for those visible in both views, at the
+/// scale of the truth.
 Evaluation evaluate(const cv::Mat& estimate, const GroundTruth& truth);
 
 /// The same with the number of disparities in flat areas of these images.

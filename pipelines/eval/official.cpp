@@ -25,18 +25,20 @@ struct Maps {
   const cv::Mat& judged;  // the estimate, or for KITTI the filled one
   const cv::Mat& truth;
   const cv::Mat& objects;  // may be empty
+  double scale;            // of the truth
 };
 
 void count_pixel(const Maps& maps, int y, int x, RegionCounts& region) {
   const double truth = maps.truth.at<float>(y, x);
   const double judged = maps.judged.at<float>(y, x);
+  const double error = std::abs(judged - truth) / maps.scale;
   PixelCounts pixel;
   pixel.pixels = 1;
-  pixel.wrong = std::isnan(judged) || is_wrong(maps.benchmark, std::abs(judged - truth), truth);
+  pixel.wrong = std::isnan(judged) || is_wrong(maps.benchmark, error, truth / maps.scale);
   if (!std::isnan(maps.estimate.at<float>(y, x))) {
     pixel.answered = 1;
     pixel.answered_wrong = pixel.wrong;
-    region.error_sum += std::abs(judged - truth);
+    region.error_sum += error;
   }
   region.all += pixel;
   if (maps.objects.empty()) return;
@@ -127,7 +129,7 @@ std::optional<OfficialCounts> count_official(const cv::Mat& estimate, const Ster
   require_size_of(estimate, truth.objects, "object map");
   const bool fill = *benchmark == Benchmark::kKitti2015;
   const cv::Mat judged = fill ? fill_background(estimate) : estimate;
-  const Maps maps{*benchmark, estimate, judged, truth.disparity, truth.objects};
+  const Maps maps{*benchmark, estimate, judged, truth.disparity, truth.objects, truth.scale};
   OfficialCounts counts;
   counts.benchmark = *benchmark;
   RegionCounts all = count_region(maps, {});

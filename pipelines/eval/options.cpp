@@ -118,7 +118,7 @@ void add_methods(CLI::App& app, Texts& texts, Options& options) {
       ->check(CLI::IsMember({"off", "correct"}));
   app.add_option("--degrade", texts.degrade,
                  "also evaluate degraded images: " + degradation_kinds())
-      ->type_name("KIND=AMOUNT,...")
+      ->type_name("KIND,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--flicker", options.run.flicker,

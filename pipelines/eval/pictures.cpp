@@ -98,20 +98,20 @@ cv::Mat color_disparity(const cv::Mat& disparity, int max_disparity) {
   return color;
 }
 
-cv::Mat color_error(const cv::Mat& disparity, const cv::Mat& truth) {
-  const cv::Mat error = cv::abs(disparity - truth);
-  cv::Mat color = color_of(error, kErrorPictureRange);
+cv::Mat color_error(const cv::Mat& disparity, const GroundTruth& truth) {
+  const cv::Mat error = cv::abs(disparity - truth.disparity);
+  cv::Mat color = color_of(error, kErrorPictureRange * truth.scale);
   color.setTo(kGray, is_nan(disparity));
-  color.setTo(kBlack, is_nan(truth));
+  color.setTo(kBlack, is_nan(truth.disparity));
   return color;
 }
 
-cv::Mat overview(const cv::Mat& left, const cv::Mat& disparity, const cv::Mat& truth,
-                 int max_disparity) {
+cv::Mat overview(const LoadedPair& images, const cv::Mat& disparity, int max_disparity) {
   cv::Mat image, above, below, picture;
-  cv::cvtColor(left, image, cv::COLOR_GRAY2BGR);
-  cv::hconcat(image, color_disparity(truth, max_disparity), above);
-  cv::hconcat(color_disparity(disparity, max_disparity), color_error(disparity, truth), below);
+  cv::cvtColor(images.left, image, cv::COLOR_GRAY2BGR);
+  cv::hconcat(image, color_disparity(images.truth.disparity, max_disparity), above);
+  cv::hconcat(color_disparity(disparity, max_disparity), color_error(disparity, images.truth),
+              below);
   cv::vconcat(above, below, picture);
   return picture;
 }

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
+#include "eval/datasets.hpp"
+
 namespace mtstereo::eval {
 
 /// The file format of a written disparity map.
@@ -24,16 +26,15 @@ void write_disparity(const std::filesystem::path& file, const cv::Mat& disparity
 /// black = none. The range is fixed, so that the pictures of a run can be compared.
 cv::Mat color_disparity(const cv::Mat& disparity, int max_disparity);
 
-/// Errors from this on [px] have the last color of the error picture.
+/// Errors from this on [px of the original images] have the last color of the error picture.
 inline constexpr double kErrorPictureRange = 5;
 
 /// The error in color (CV_8UC3): 0 .. kErrorPictureRange px from dark blue to red (Turbo); gray =
 /// ground truth without an estimate, black = no ground truth.
-cv::Mat color_error(const cv::Mat& disparity, const cv::Mat& truth);
+cv::Mat color_error(const cv::Mat& disparity, const GroundTruth& truth);
 
 /// One picture with the left image and the ground truth above the disparity and the error.
-cv::Mat overview(const cv::Mat& left, const cv::Mat& disparity, const cv::Mat& truth,
-                 int max_disparity);
+cv::Mat overview(const LoadedPair& images, const cv::Mat& disparity, int max_disparity);
 
 /// Writes a picture as PNG, regardless of the extension. Throws InputError.
 void write_picture(const std::filesystem::path& file, const cv::Mat& picture);

@@ -58,6 +58,7 @@ json pair_json(const PairReport& pair) {
               {"ground_truth", pair.pair.truth.string()},
               {"width", pair.size.width},
               {"height", pair.size.height},
+              {"scale", pair.scale},
               {"max_disparity", pair.max_disparity},
               {"weight", pair.pair.weight},
               {"results", json::object()}};

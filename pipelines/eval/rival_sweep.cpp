@@ -25,7 +25,7 @@ std::vector<CurvePoint> points_at(RivalMatcher& matcher, const LoadedPair& image
   const cv::Mat filtered = remove_speckles(disparity, filters);
   std::vector<CurvePoint> points{point_of(evaluate(disparity, images.truth))};
   const std::vector<CurvePoint> rest =
-      threshold_points(filtered, support_confidence(filtered, filters), images.truth.disparity);
+      threshold_points(filtered, support_confidence(filtered, filters), images.truth);
   points.insert(points.end(), rest.begin(), rest.end());
   return points;
 }

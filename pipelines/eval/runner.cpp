@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <new>
 #include <utility>
 
+#include "eval/degrade.hpp"
 #include "eval/input_error.hpp"
 #include "eval/rival_sweep.hpp"
 
@@ -63,12 +65,16 @@ int search_range(const StereoPair& pair, const Parameters& parameters, int width
                      "does not state the search range (ndisp=...); set it with --max-disparity");
   }
   const int wanted = asked ? parameters.integer(Parameter::kMaxDisparity) : *pair.max_disparity;
+  return limited_range(pair.name, wanted, width, notes);
+}
+
+int limited_range(const std::string& who, int wanted, int width, std::vector<std::string>& notes) {
   const ParameterInfo& info = parameter_info(Parameter::kMaxDisparity);
   const int most = std::min(width, static_cast<int>(info.maximum));
   const int least = static_cast<int>(info.minimum);
   const int range = std::clamp(wanted, std::min(least, most), most);
   if (range != wanted) {
-    notes.push_back(pair.name + ": the search range is " + std::to_string(range) + " px, not " +
+    notes.push_back(who + ": the search range is " + std::to_string(range) + " px, not " +
                     std::to_string(wanted) + " px: " +
                     (wanted > width   ? "the image is " + std::to_string(width) + " px wide"
                      : wanted > range ? "the maximum of the library"
@@ -151,14 +157,25 @@ std::vector<PairReport> Runner::run_kinds(const StereoPair& pair) {
   for (const Degradation& degradation : settings_.degradations) {
     PairReport report = start;
     report.notes.clear();
-    report.kind = degradation_text(degradation);
-    LoadedPair degraded{images.left.clone(), images.right.clone(), images.truth};
-    const bool done =
-        attempt(report, report.kind, [&] { degrade(degradation, degraded.left, degraded.right); });
-    if (done) run_methods(degraded, report);
+    run_degraded(degradation, images, report);
     reports.push_back(std::move(report));
   }
   return reports;
+}
+
+// `report` has the search range of the pair as it is.
+void Runner::run_degraded(const Degradation& degradation, const LoadedPair& images,
+                          PairReport& report) {
+  report.kind = degradation_text(degradation);
+  DegradedPair pair;
+  const bool done = attempt(report, report.kind,
+                            [&] { pair = degrade(degradation, images, report.max_disparity); });
+  if (!done) return;
+  report.size = pair.images.left.size();
+  report.scale = pair.images.truth.scale;
+  report.max_disparity = limited_range(report.pair.name + ", " + report.kind, pair.max_disparity,
+                                       report.size.width, report.notes);
+  run_methods(pair.images, report);
 }
 
 void Runner::run_methods(const LoadedPair& images, PairReport& report) {
@@ -178,6 +195,9 @@ int Runner::warm_up(const PairReport& report) const {
 void Runner::prepare_matcher(const LoadedPair& images, int max_disparity) {
   Parameters parameters = settings_.parameters;
   require(parameters.set(Parameter::kMaxDisparity, max_disparity));
+  const int min_disparity = static_cast<int>(
+      std::floor(images.truth.scale * parameters.integer(Parameter::kMinDisparity)));
+  require(parameters.set(Parameter::kMinDisparity, min_disparity));
   if (matcher_) {
     require(matcher_->set_parameters(parameters));
   } else {
@@ -192,8 +212,8 @@ void Runner::prepare_matcher(const LoadedPair& images, int max_disparity) {
     tracker_.emplace(std::move(*made));
   }
   tracker_->reset();
-  require(tracker_->inspect(view_of(images.left), view_of(images.right), max_disparity,
-                            parameters.integer(Parameter::kMinDisparity)));
+  require(
+      tracker_->inspect(view_of(images.left), view_of(images.right), max_disparity, min_disparity));
   require(matcher_->set_correction(tracker_->correction()));
 }
 
@@ -212,7 +232,7 @@ void Runner::run_own(const LoadedPair& images, PairReport& report) {
     report.pictures = html_pictures(images, map, confidence, report.max_disparity);
   }
   if (!settings_.curve) return;
-  report.sweeps.push_back({kOwnMethod, confidence_sweep(map, confidence, images.truth.disparity)});
+  report.sweeps.push_back({kOwnMethod, confidence_sweep(map, confidence, images.truth)});
 }
 
 void Runner::run_rival(Rival rival, const LoadedPair& images, PairReport& report) {
@@ -246,8 +266,7 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
   if (settings_.picture_folder) {
     const std::string name = output_name(method, report, ".png");
     outputs::ListedFolder& files = listed(*settings_.picture_folder);
-    write_picture(files.listed(name),
-                  overview(images.left, disparity, images.truth.disparity, report.max_disparity));
+    write_picture(files.listed(name), overview(images, disparity, report.max_disparity));
     files.measure(name);
   }
 }

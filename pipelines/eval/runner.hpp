@@ -11,7 +11,7 @@
 
 #include "eval/curve_means.hpp"
 #include "eval/datasets.hpp"
-#include "eval/degrade.hpp"
+#include "eval/degradation.hpp"
 #include "eval/flicker.hpp"
 #include "eval/html_pictures.hpp"
 #include "eval/metrics.hpp"
@@ -72,7 +72,8 @@ struct MethodFlicker {
 struct PairReport {
   StereoPair pair;
   std::string kind = kCleanKind;
-  cv::Size size;
+  cv::Size size;                       ///< of the images
+  double scale = 1;                    ///< px per px of the original, of an enlarged kind
   int max_disparity = 0;               ///< search range [px]
   std::vector<MethodResult> results;   ///< the library's first; without methods that failed
   std::vector<MethodSweep> sweeps;     ///< with --curve, one per method
@@ -87,6 +88,10 @@ struct PairReport {
 /// if neither the request nor the data set states one.
 int search_range(const StereoPair& pair, const Parameters& parameters, int width,
                  std::vector<std::string>& notes);
+
+/// `wanted` [px] limited to the width of the image and to the library's range. Adds a note that
+/// begins with `who` if a limit applies.
+int limited_range(const std::string& who, int wanted, int width, std::vector<std::string>& notes);
 
 /// Calls `frame` warm_up times, then times `repeat` calls and returns their median [s].
 double median_seconds(int warm_up, int repeat, const std::function<void()>& frame);
@@ -108,6 +113,7 @@ class Runner {
  private:
   outputs::ListedFolder& listed(const std::filesystem::path& folder);
   PairReport load(const StereoPair& pair, LoadedPair& images) const;
+  void run_degraded(const Degradation& degradation, const LoadedPair& images, PairReport& report);
   void run_methods(const LoadedPair& images, PairReport& report);
   void run_own(const LoadedPair& images, PairReport& report);
   void run_rival(Rival rival, const LoadedPair& images, PairReport& report);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eval/degrade.hpp"
+#include "eval/degradation.hpp"
 
 namespace mtstereo::fit {
 namespace {

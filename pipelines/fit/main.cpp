@@ -10,7 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "eval/degrade.hpp"
+#include "eval/degradation.hpp"
 #include "eval/input_error.hpp"
 #include "fit/fitting.hpp"
 #include "fit/samples.hpp"

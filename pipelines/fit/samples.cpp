@@ -95,11 +95,11 @@ std::vector<cv::Point> random_pixels(const std::string& seed, cv::Size size, int
   return pixels;
 }
 
-Settings settings_for(const TrainingPair& pair, RatedMap rated) {
+Settings settings_for(int max_disparity, RatedMap rated) {
   Parameters parameters;
   (void)parameters.set("preset", rated == RatedMap::kEnlarged ? "fast" : "default");
   (void)parameters.set("mode", rated == RatedMap::kMatched ? "semi-dense" : "full");
-  (void)parameters.set("max-disparity", std::to_string(pair.max_disparity));
+  (void)parameters.set("max-disparity", std::to_string(max_disparity));
   return Settings(parameters);
 }
 
@@ -134,14 +134,15 @@ std::vector<TrainingPair> rendered_pairs() {
 
 PairSamples take_samples(const TrainingPair& pair, const std::string& kind, RatedMap rated,
                          int count) {
-  eval::LoadedPair images = {pair.views.left.clone(), pair.views.right.clone(), pair.views.truth};
+  eval::DegradedPair degraded{pair.views, pair.max_disparity};
   if (kind != eval::kCleanKind) {
-    eval::degrade(eval::parse_degradation(kind), images.left, images.right);
+    degraded = eval::degrade(eval::parse_degradation(kind), pair.views, pair.max_disparity);
   }
   PairSamples taken{pair.family, kind, {}};
-  const cv::Mat& truth = images.truth.disparity;
-  const GrayView left = view_of(images.left), right = view_of(images.right);
-  const Settings settings = settings_for(pair, rated);
+  const cv::Mat& truth = degraded.images.truth.disparity;
+  const double scale = degraded.images.truth.scale;
+  const GrayView left = view_of(degraded.images.left), right = view_of(degraded.images.right);
+  const Settings settings = settings_for(degraded.max_disparity, rated);
   const auto sample = [&](const Step& step, const FrameMemory& memory) {
     if (step.name != "edge-alignment") return;
     Bins bins(settings, memory);
@@ -150,8 +151,9 @@ PairSamples take_samples(const TrainingPair& pair, const std::string& kind, Rate
       const double expected = truth.at<float>(pixel);
       const double found = bins.disparity(pixel);
       const bool known = std::isfinite(expected);
-      taken.samples.push_back({bins.at(pixel.x, pixel.y), known,
-                               known && eval::is_outlier(std::abs(found - expected), expected)});
+      const bool wrong =
+          known && eval::is_outlier(std::abs(found - expected) / scale, expected / scale);
+      taken.samples.push_back({bins.at(pixel.x, pixel.y), known, wrong});
     }
   };
   FrameMatcher(settings).compute(left, right, sample);

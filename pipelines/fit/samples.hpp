@@ -15,7 +15,7 @@ namespace mtstereo::fit {
 struct Sample {
   std::array<std::uint8_t, kClues> bins;
   bool known = false;  ///< there is ground truth
-  bool wrong = false;  ///< an outlier by KITTI's D-all
+  bool wrong = false;  ///< an outlier by KITTI's D-all, in px of the original pair
 };
 
 /// The samples of one pair of views, as it is or degraded.

@@ -36,25 +36,22 @@ constexpr Margins kRealMargins{0.04, 0.005, 0.05, 0.6, 0.05};
 constexpr Margins kRenderedMargins{0.1, 0.01, 0.15, 1.5, 0.1};
 constexpr double kFlatPixels = 100;  // in addition
 
-/// A pair that is read or rendered once for all kinds and modes.
-struct Images {
-  eval::LoadedPair pair;
-  int max_disparity;  ///< [px]
-};
+/// Pairs that are read or rendered once for all kinds and modes, or degraded once for all modes.
+using Images = std::vector<eval::DegradedPair>;
 
-std::vector<Images> load(const std::vector<eval::StereoPair>& pairs, std::size_t count) {
+Images load(const std::vector<eval::StereoPair>& pairs, std::size_t count) {
   EXPECT_EQ(pairs.size(), count);
-  std::vector<Images> images;
+  Images images;
   for (const eval::StereoPair& pair : pairs) {
     images.push_back({eval::load_pair(pair), pair.max_disparity.value()});
   }
   return images;
 }
 
-std::vector<Images> images_of(Pairs pairs) {
+Images images_of(Pairs pairs) {
   if (pairs == Pairs::kTen) return load(ten_pairs(data_folder()), 10);
   if (pairs == Pairs::kFurther) return load(further_pairs(data_folder()), 17);
-  std::vector<Images> images;
+  Images images;
   for (const std::string& scene : render::scene_names()) {
     images.push_back({rendered_pair(scene, 0), 64});
   }
@@ -64,26 +61,24 @@ std::vector<Images> images_of(Pairs pairs) {
 /// The images of a degradation, made once for all modes.
 class DegradedImages {
  public:
-  const std::vector<Images>& get(Pairs pairs, const std::string& kind) {
+  const Images& get(Pairs pairs, const std::string& kind) {
     const std::pair key(pairs, kind);
     if (key == key_) return degraded_;
     if (!clean_.contains(pairs)) clean_.emplace(pairs, images_of(pairs));
     degraded_.clear();
-    for (const Images& images : clean_.at(pairs)) {
-      degraded_.push_back({{images.pair.left.clone(), images.pair.right.clone(), images.pair.truth},
-                           images.max_disparity});
-      if (kind == eval::kCleanKind) continue;
-      eval::LoadedPair& pair = degraded_.back().pair;
-      eval::degrade(eval::parse_degradation(kind), pair.left, pair.right);
-    }
     key_ = key;
+    if (kind == eval::kCleanKind) return degraded_ = clean_.at(pairs);
+    for (const eval::DegradedPair& pair : clean_.at(pairs)) {
+      degraded_.push_back(
+          eval::degrade(eval::parse_degradation(kind), pair.images, pair.max_disparity));
+    }
     return degraded_;
   }
 
  private:
-  std::map<Pairs, std::vector<Images>> clean_;
+  std::map<Pairs, Images> clean_;
   std::pair<Pairs, std::string> key_;
-  std::vector<Images> degraded_;
+  Images degraded_;
 };
 
 /// Prints the measured figures as a row of the table.
@@ -110,8 +105,8 @@ DegradedImages Degraded::images_;
 TEST_P(Degraded, KeepTheirAccuracy) {
   const DegradedFigures& row = GetParam();
   std::vector<eval::Evaluation> evaluations;
-  for (const Images& images : images_.get(row.pairs, row.kind)) {
-    evaluations.push_back(evaluate_with_element(images.pair, row.properties, images.max_disparity));
+  for (const eval::DegradedPair& pair : images_.get(row.pairs, row.kind)) {
+    evaluations.push_back(evaluate_with_element(pair.images, row.properties, pair.max_disparity));
   }
   const eval::Evaluation mean = mean_of(evaluations);
   print_row(row, mean);

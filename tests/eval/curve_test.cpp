@@ -32,7 +32,7 @@ TEST(ThresholdPoints, CountPixelsWithAtLeastThatConfidence) {
   const cv::Mat estimate = (cv::Mat_<float>(1, 5) << 10, 10, kNoValue, 20, 30);
   const cv::Mat truth = (cv::Mat_<float>(1, 5) << 10, 12, 5, kNoValue, 20);
   const cv::Mat confidence = (cv::Mat_<std::uint8_t>(1, 5) << 200, 100, 0, 100, 1);
-  const std::vector<CurvePoint> points = threshold_points(estimate, confidence, truth);
+  const std::vector<CurvePoint> points = threshold_points(estimate, confidence, {truth, {}});
   ASSERT_EQ(points.size(), 255U);
   const auto at = [&](int threshold) { return points[static_cast<std::size_t>(threshold) - 1]; };
 
@@ -61,7 +61,7 @@ TEST(ThresholdPoints, CountPixelsWithAtLeastThatConfidence) {
 TEST(ThresholdPoints, EqualTheEvaluationOfTheThresholdedMap) {
   cv::RNG random(7);
   cv::Mat estimate(37, 53, CV_32FC1), confidence(37, 53, CV_8UC1);
-  GroundTruth truth{cv::Mat(37, 53, CV_32FC1), {}};
+  GroundTruth truth{cv::Mat(37, 53, CV_32FC1), {}, {}, 1.5};
   random.fill(estimate, cv::RNG::UNIFORM, 1, 60);
   random.fill(confidence, cv::RNG::UNIFORM, 0, 256);
   random.fill(truth.disparity, cv::RNG::UNIFORM, 1, 60);
@@ -69,7 +69,7 @@ TEST(ThresholdPoints, EqualTheEvaluationOfTheThresholdedMap) {
     estimate.at<float>(random.uniform(0, 37), random.uniform(0, 53)) = kNoValue;
     truth.disparity.at<float>(random.uniform(0, 37), random.uniform(0, 53)) = kNoValue;
   }
-  const std::vector<CurvePoint> points = threshold_points(estimate, confidence, truth.disparity);
+  const std::vector<CurvePoint> points = threshold_points(estimate, confidence, truth);
   for (const int threshold : {1, 2, 77, 128, 254, 255}) {
     cv::Mat rest = estimate.clone();
     rest.setTo(kNoValue, confidence < threshold);
@@ -85,8 +85,8 @@ TEST(ThresholdPoints, EqualTheEvaluationOfTheThresholdedMap) {
 TEST(ThresholdPoints, RejectMapsOfDifferentSizes) {
   const cv::Mat map(4, 5, CV_32FC1, cv::Scalar(1)), other(4, 6, CV_32FC1, cv::Scalar(1));
   const cv::Mat confidence(4, 5, CV_8UC1, cv::Scalar(1)), small(3, 5, CV_8UC1, cv::Scalar(1));
-  EXPECT_INPUT_ERROR(threshold_points(map, confidence, other), "different sizes");
-  EXPECT_INPUT_ERROR(threshold_points(map, small, map), "different sizes");
+  EXPECT_INPUT_ERROR(threshold_points(map, confidence, {other, {}}), "different sizes");
+  EXPECT_INPUT_ERROR(threshold_points(map, small, {map, {}}), "different sizes");
 }
 
 TEST(ErrorAt, IsInterpolatedLinearlyBetweenNeighbors) {

@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "eval/pfm.hpp"
 #include "support.hpp"
 
 namespace mtstereo::eval {
@@ -76,6 +77,8 @@ TEST_F(DegradeProgram, NamesAWrongKindAndItsRange) {
   for (const auto& [kind, words] : {std::pair("fog=1", "the kinds are"),
                                     {"noise", "noise=0 .. 100"},
                                     {"jpeg=500", "jpeg=1 .. 100"},
+                                    {"cam=2", "takes no amount; use cam"},
+                                    {"cam,soft3x", "soft2x, soft1.5x"},
                                     {"noise=5,dark=2", "dark=0 .. 1"}}) {
     const Outcome run = run_eval({set(), "--degrade", kind});
     EXPECT_EQ(run.status, 2) << kind;
@@ -83,6 +86,41 @@ TEST_F(DegradeProgram, NamesAWrongKindAndItsRange) {
     EXPECT_THAT(run.err, HasSubstr(words)) << kind;
     EXPECT_EQ(run.out, "") << kind;
   }
+}
+
+TEST_F(DegradeProgram, CountsErrorsOfEnlargedImagesInPixelsOfTheOriginal) {
+  const Outcome run = run_eval({set(), "--only", "A", "--degrade", "soft2x,cam1.5x", "--compare",
+                                "sgbm-hh", "--min-disparity", "3", "--json", folder_ / "r.json",
+                                "--csv", folder_ / "r.csv", "--write-disparity", folder_ / "maps"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("errors of enlarged images in px of the original"));
+  const json pairs = report()["pairs"];
+  ASSERT_EQ(pairs.size(), 3U);
+  EXPECT_EQ(pairs[0]["scale"], 1);
+  EXPECT_EQ(pairs[0]["width"], 240);
+  EXPECT_EQ(pairs[1]["scale"], 2);
+  EXPECT_EQ(pairs[1]["width"], 480);
+  EXPECT_EQ(pairs[1]["max_disparity"], 64);
+  EXPECT_EQ(pairs[2]["scale"], 1.5);
+  EXPECT_EQ(pairs[2]["height"], 180);
+  EXPECT_EQ(pairs[2]["max_disparity"], 48);
+  for (const json& pair : pairs) {
+    for (const char* method : {"mtstereo", "sgbm-hh"}) {
+      const json& all = pair["results"][method]["all"];
+      // A disparity of 9 px that is found everywhere: an error of half a pixel at most.
+      EXPECT_LT(all["avgerr"], 0.5) << pair["kind"] << method;
+      EXPECT_EQ(all["d_all"], 0) << pair["kind"] << method;
+    }
+  }
+  EXPECT_EQ(read_pfm(folder_ / "maps/soft2x/A.pfm").size(), cv::Size(480, 240));
+}
+
+TEST_F(DegradeProgram, EnlargesARequestedRangeToo) {
+  const Outcome run = run_eval({set(), "--only", "B", "--degrade", "soft2x,cam1.5x",
+                                "--max-disparity", "199", "--json", folder_ / "r.json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(report()["pairs"][1]["max_disparity"], 398);
+  EXPECT_EQ(report()["pairs"][2]["max_disparity"], 299);
 }
 
 TEST_F(DegradeProgram, TakesOneArgumentOfEachListBeforeTheFolder) {

@@ -64,11 +64,38 @@ TEST(Metrics, CountOnlyVisiblePixelsWithAMask) {
   EXPECT_DOUBLE_EQ(m.avgerr, 2);
 }
 
+TEST(Metrics, OfEnlargedImagesAreInPixelsOfTheOriginal) {
+  const cv::Mat truth = (cv::Mat_<float>(1, 5) << 10, 10, 80, 100, kNan);
+  const cv::Mat found = (cv::Mat_<float>(1, 5) << 10.5F, 13, 83, 104, 7);
+  const cv::Mat mask = (cv::Mat_<std::uint8_t>(1, 5) << 255, 255, 0, 255, 255);
+  for (const cv::Mat& visible : {cv::Mat(), mask}) {
+    const Metrics original = measure(found, truth, visible);
+    const Metrics enlarged = measure(2 * found, 2 * truth, visible, 2);
+    EXPECT_DOUBLE_EQ(enlarged.avgerr, original.avgerr);
+    EXPECT_DOUBLE_EQ(enlarged.rms, original.rms);
+    EXPECT_DOUBLE_EQ(enlarged.d_all, original.d_all);
+    EXPECT_EQ(enlarged.bad, original.bad);
+    EXPECT_EQ(enlarged.compared, original.compared);
+    EXPECT_DOUBLE_EQ(measure(2 * found, 2 * truth, visible).avgerr, 2 * original.avgerr);
+  }
+}
+
 TEST(Metrics, RejectMapsOfDifferentSizes) {
   EXPECT_INPUT_ERROR(measure(cv::Mat_<float>(2, 3, 1.F), cv::Mat_<float>(2, 4, 1.F)), "4x2");
   EXPECT_INPUT_ERROR(
       measure(cv::Mat_<float>(2, 3, 1.F), cv::Mat_<float>(2, 3, 1.F), cv::Mat_<std::uint8_t>(1, 3)),
       "3x1");
+}
+
+TEST(Evaluate, TakesTheScaleOfTheTruth) {
+  const cv::Mat found = (cv::Mat_<float>(1, 4) << 20, 26, kNan, 22);
+  const cv::Mat mask = (cv::Mat_<std::uint8_t>(1, 4) << 255, 255, 255, 0);
+  const GroundTruth truth{cv::Mat(1, 4, CV_32FC1, cv::Scalar(20)), mask, {}, 2};
+  const Evaluation result = evaluate(found, truth);
+  EXPECT_DOUBLE_EQ(result.all.avgerr, (0 + 3 + 1) / 3.0);
+  EXPECT_DOUBLE_EQ(result.noc->avgerr, (0 + 3) / 2.0);
+  EXPECT_DOUBLE_EQ(result.all.d_all, 100.0 / 3);
+  EXPECT_DOUBLE_EQ(result.density, 75);
 }
 
 TEST(Evaluate, MeasuresDensityOverAllPixelsOfTheImage) {

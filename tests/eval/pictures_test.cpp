@@ -37,7 +37,7 @@ TEST(Pictures, DisparityColorDependsOnlyOnTheRange) {
 TEST(Pictures, ErrorDistinguishesNoTruthFromNoEstimate) {
   const cv::Mat truth = (cv::Mat_<float>(1, 4) << kNan, 10, 10, 10);
   const cv::Mat found = (cv::Mat_<float>(1, 4) << 10, kNan, 10, 90);
-  const cv::Mat color = color_error(found, truth);
+  const cv::Mat color = color_error(found, {truth, {}});
   const cv::Vec3b gray = color.at<cv::Vec3b>(0, 1);
   EXPECT_EQ(color.at<cv::Vec3b>(0, 0), kBlack);
   EXPECT_NE(gray, kBlack);
@@ -47,10 +47,17 @@ TEST(Pictures, ErrorDistinguishesNoTruthFromNoEstimate) {
   EXPECT_NE(color.at<cv::Vec3b>(0, 2), color.at<cv::Vec3b>(0, 3));
 }
 
+TEST(Pictures, ErrorsOfEnlargedImagesHaveTheColorsOfTheOriginal) {
+  const cv::Mat truth = (cv::Mat_<float>(1, 3) << 10, 10, 10);
+  const cv::Mat found = (cv::Mat_<float>(1, 3) << 11, 13, 20);
+  const cv::Mat original = color_error(found, {truth, {}});
+  EXPECT_EQ(cv::norm(original, color_error(2 * found, {2 * truth, {}, {}, 2}), cv::NORM_INF), 0);
+}
+
 TEST(Pictures, OverviewShowsTheLeftImageInItsCorner) {
   const cv::Mat left(3, 5, CV_8UC1, cv::Scalar(77));
   const cv::Mat map(3, 5, CV_32FC1, cv::Scalar(2));
-  const cv::Mat picture = overview(left, map, map, 16);
+  const cv::Mat picture = overview({left, left, {map, {}}}, map, 16);
   EXPECT_EQ(picture.size(), cv::Size(10, 6));
   EXPECT_EQ(picture.at<cv::Vec3b>(2, 4), cv::Vec3b(77, 77, 77));
   EXPECT_EQ(picture.at<cv::Vec3b>(0, 9), picture.at<cv::Vec3b>(5, 0)) << "truth, estimate";

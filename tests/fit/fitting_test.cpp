@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "eval/degrade.hpp"
+#include "eval/degradation.hpp"
 
 namespace mtstereo::fit {
 namespace {
@@ -88,6 +88,24 @@ TEST(Samples, DependOnTheArgumentsOnly) {
     }
     EXPECT_LT(wrong, all ? 100 : 30);  // of a map that is mostly right
   }
+}
+
+TEST(Samples, OfEnlargedViewsAreWrongByPixelsOfTheOriginal) {
+  const std::vector<TrainingPair> pairs = rendered_pairs();
+  ASSERT_FALSE(pairs.empty());
+  const auto share_of_wrong = [&](const char* kind) {
+    const PairSamples taken = take_samples(pairs[0], kind, RatedMap::kComplete, 2000);
+    int known = 0, wrong = 0;
+    for (const Sample& sample : taken.samples) {
+      known += sample.known;
+      wrong += sample.wrong;
+    }
+    EXPECT_EQ(taken.kind, kind);
+    EXPECT_GT(known, 1000) << kind;
+    return static_cast<double>(wrong) / known;
+  };
+  // Twice as many pixels of the enlarged map would be 3 of its px away.
+  EXPECT_NEAR(share_of_wrong("soft2x"), share_of_wrong(eval::kCleanKind), 0.02);
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ def text():
     yield "field", b"\1" + b"0.5,-0.1,0,1e-3,0"
     yield "field-wrong", b"\1" + b"0.5,,0,inf,101"
     for index, kind in enumerate(("noise=5", "jpeg=20", "h264=40", "dark=0.3", "bright=2", "blur-right=1.5",
-                                  "lower-right=-2", "roll-right=1", "gain-right=0.5", "gamma-right=2", "noise=x")):
+                                  "lower-right=-2", "roll-right=1", "gain-right=0.5", "gamma-right=2", "noise=x", "rim",
+                                  "rimcam", "cam", "cam2x", "cam1.5x", "soft2x", "soft1.5x", "blur=0.7", "cam=1")):
         yield f"degradation-{index}", b"\2" + kind.encode() + b"\n" + bytes([20, 10, 100])
     yield "layout", b"\3" + b"middlebury"
 

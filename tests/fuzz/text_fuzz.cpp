@@ -71,15 +71,20 @@ void parse_field(FuzzInput& input) {
 
 /// Applies a degradation that was accepted, to views of any size. H.264 takes too long.
 void apply(const eval::Degradation& degradation, FuzzInput& input) {
-  if (degradation.kind == eval::DegradationKind::kH264) return;
+  if (degradation.kind == eval::DegradationKind::kH264 ||
+      degradation.kind == eval::DegradationKind::kCamH264) {
+    return;
+  }
   const int width = input.between(1, 40);
-  cv::Mat left(input.between(1, 30), width, CV_8UC1, cv::Scalar(input.byte()));
-  cv::Mat right = left.clone();
-  const cv::Size size = left.size();
-  eval::degrade(degradation, left, right);
-  require(left.type() == CV_8UC1 && left.size() == size, "the left view keeps its size and type");
-  require(right.type() == CV_8UC1 && right.size() == size,
-          "the right view keeps its size and type");
+  const cv::Mat view(input.between(1, 30), width, CV_8UC1, cv::Scalar(input.byte()));
+  const eval::LoadedPair pair{view, view, {cv::Mat(view.size(), CV_32FC1, cv::Scalar(1)), {}}};
+  const auto [images, max_disparity] = eval::degrade(degradation, pair, width);
+  const cv::Size size = images.truth.disparity.size();
+  require(size.width >= width && max_disparity >= width, "truth and range are not smaller");
+  require(images.left.type() == CV_8UC1 && images.left.size() == size,
+          "the left view is gray and has the size of the truth");
+  require(images.right.type() == CV_8UC1 && images.right.size() == size,
+          "the right view is gray and has the size of the truth");
 }
 
 void parse_degradation(FuzzInput& input) {
