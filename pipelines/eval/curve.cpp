@@ -82,6 +82,31 @@ double between(const CurvePoint& a, const CurvePoint& b, double density,
   return low + share * (high - low);
 }
 
+// The largest density between two points where the error, which is linear between them, is at most
+// this; NaN if it is larger everywhere or a point has no error.
+double densest_between(const CurvePoint& a, const CurvePoint& b, double error,
+                       const CurveMeasure& measure) {
+  const CurvePoint& good = a.*measure.value <= b.*measure.value ? a : b;
+  const CurvePoint& bad = &good == &a ? b : a;
+  const double least = good.*measure.value, most = bad.*measure.value;
+  if (std::isnan(least) || std::isnan(most) || least > error) return kNone;
+  if (most <= error || bad.density <= good.density) return std::max(a.density, b.density);
+  return good.density + (error - least) / (most - least) * (bad.density - good.density);
+}
+
+// Calls `consider` with each pair of neighbors in a sweep, and with each setting as both of a pair.
+template <typename Consider>
+void for_neighbors(const Sweep& sweep, Consider consider) {
+  for (std::size_t i = 0; i < sweep.ratios.size(); ++i) {
+    for (std::size_t j = 0; j < sweep.thresholds.size(); ++j) {
+      const CurvePoint& here = sweep.at(i, j);
+      consider(here, here);
+      if (i > 0) consider(sweep.at(i - 1, j), here);
+      if (j > 0) consider(sweep.at(i, j - 1), here);
+    }
+  }
+}
+
 }  // namespace
 
 CurvePoint point_of(const Evaluation& evaluation) {
@@ -127,19 +152,19 @@ Sweep at_threshold(const Sweep& sweep, std::size_t threshold) {
 
 double error_at(const Sweep& sweep, double density, const CurveMeasure& measure) {
   double least = kNone;
-  // fmin() ignores NaN.
-  const auto consider = [&](const CurvePoint& a, const CurvePoint& b) {
+  // fmin() and fmax() ignore NaN.
+  for_neighbors(sweep, [&](const CurvePoint& a, const CurvePoint& b) {
     least = std::fmin(least, between(a, b, density, measure));
-  };
-  for (std::size_t i = 0; i < sweep.ratios.size(); ++i) {
-    for (std::size_t j = 0; j < sweep.thresholds.size(); ++j) {
-      const CurvePoint& here = sweep.at(i, j);
-      consider(here, here);
-      if (i > 0) consider(sweep.at(i - 1, j), here);
-      if (j > 0) consider(sweep.at(i, j - 1), here);
-    }
-  }
+  });
   return least;
+}
+
+double density_at(const Sweep& sweep, double error, const CurveMeasure& measure) {
+  double most = kNone;
+  for_neighbors(sweep, [&](const CurvePoint& a, const CurvePoint& b) {
+    most = std::fmax(most, densest_between(a, b, error, measure));
+  });
+  return most;
 }
 
 DensityRange density_range(const Sweep& sweep) {

@@ -34,6 +34,9 @@ inline constexpr std::array<CurveMeasure, 3> kCurveMeasures{{{"avgerr", "px", &C
 /// The densities at which methods are compared [%].
 inline constexpr std::array<double, 9> kCurveDensities{10, 20, 30, 40, 50, 60, 70, 75, 80};
 
+/// The errors at which the densities of methods are compared: D-all [%].
+inline constexpr std::array<double, 4> kCurveDAlls{0.5, 1, 2, 5};
+
 /// The largest confidence threshold. The smallest is 1, which every disparity passes.
 inline constexpr int kMostConfidence = 255;
 
@@ -72,6 +75,11 @@ Sweep at_threshold(const Sweep& sweep, std::size_t threshold);
 /// the ratio or the threshold. A sweep with one row or one column thus gives the curve itself, any
 /// other the lower envelope. NaN if the density is not reached.
 double error_at(const Sweep& sweep, double density, const CurveMeasure& measure);
+
+/// The largest density [%] at which the error is at most `error`, interpolated linearly between
+/// neighboring settings, as by error_at(). A sweep whose errors are all smaller gives the largest
+/// density that it reaches. NaN if all its errors are larger.
+double density_at(const Sweep& sweep, double error, const CurveMeasure& measure);
 
 /// The range of densities of the points that have errors [%]; NaN if there is none.
 struct DensityRange {

@@ -41,14 +41,29 @@ void add_rival(const MethodSweep& rival, std::size_t method, CurveReport& report
                            method, true, rival.sweep});
 }
 
+bool is_d_all(const CurveMeasure& measure) { return measure.value == &CurvePoint::d_all; }
+
+const CurveMeasure& d_all_measure() {
+  return *std::find_if(kCurveMeasures.begin(), kCurveMeasures.end(), is_d_all);
+}
+
 const char* key_of(const CurveMeasure& measure) {
-  return std::string_view(measure.name) == "D-all" ? "d_all" : measure.name;
+  return is_d_all(measure) ? "d_all" : measure.name;
 }
 
 json errors_at(const Sweep& sweep, double density) {
   json result{{"density", density}};
   for (const CurveMeasure& measure : kCurveMeasures) {
     result[key_of(measure)] = json_number(error_at(sweep, density, measure));
+  }
+  return result;
+}
+
+json densities_json(const Sweep& sweep) {
+  json result = json::array();
+  for (const double d_all : kCurveDAlls) {
+    const double density = density_at(sweep, d_all, d_all_measure());
+    result.push_back({{"d_all", d_all}, {"density", json_number(density)}});
   }
   return result;
 }
@@ -104,10 +119,9 @@ CurveReport make_curves(const std::string& dataset, const ParameterTexts& parame
   return report;
 }
 
-void print_curves(std::ostream& out, const CurveReport& report) {
-  out << "errors at equal density, " << report.dataset;
-  if (report.kind != kCleanKind) out << ", " << report.kind;
-  out << ", unweighted mean of " << report.pairs << " pairs, all pixels with ground truth\n";
+namespace {
+
+std::vector<TableRow> error_rows(const CurveReport& report) {
   std::vector<TableRow> rows{{"density %", ""}};
   for (const double density : kCurveDensities) rows[0].push_back(fixed(density, 0));
   for (const CurveMeasure& measure : kCurveMeasures) {
@@ -120,7 +134,33 @@ void print_curves(std::ostream& out, const CurveReport& report) {
       rows.push_back(std::move(row));
     }
   }
-  if (report.pairs > 0) print_rows(out, rows);
+  return rows;
+}
+
+std::vector<TableRow> density_rows(const CurveReport& report) {
+  std::vector<TableRow> rows{{"D-all %", ""}};
+  for (const double d_all : kCurveDAlls) rows[0].push_back(fixed(d_all, 1));
+  for (const Curve& curve : report.curves) {
+    TableRow row{"density %", curve.name};
+    for (const double d_all : kCurveDAlls) {
+      row.push_back(fixed(density_at(curve.sweep, d_all, d_all_measure()), 1));
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+void print_curves(std::ostream& out, const CurveReport& report) {
+  out << "errors at equal density, " << report.dataset;
+  if (report.kind != kCleanKind) out << ", " << report.kind;
+  out << ", unweighted mean of " << report.pairs << " pairs, all pixels with ground truth\n";
+  if (report.pairs > 0) {
+    print_rows(out, error_rows(report));
+    out << "densities at equal D-all, of the same\n";
+    print_rows(out, density_rows(report));
+  }
   for (const Problem& problem : report.left_out) {
     out << "left out: " << problem.pair << ": " << problem.reason << '\n';
   }
@@ -144,6 +184,7 @@ json curves_json(const CurveReport& report) {
         {"method", curve.method},
         {"envelope", curve.envelope},
         {"at_density", json::array()},
+        {"at_d_all", densities_json(curve.sweep)},
         {"points", curve.envelope ? envelope_points(curve.sweep) : line_points(curve.sweep)}};
     for (const double density : kCurveDensities) {
       entry["at_density"].push_back(errors_at(curve.sweep, density));

@@ -41,7 +41,8 @@ using ParameterTexts = std::vector<std::pair<std::string, std::string>>;
 CurveReport make_curves(const std::string& dataset, const ParameterTexts& parameters,
                         const FilterSettings& filters, const CurveMeans& means);
 
-/// Prints the errors at equal density as a table, and the pairs that were left out.
+/// Prints the errors at equal density and the densities at equal D-all as tables, and the pairs
+/// that were left out.
 void print_curves(std::ostream& out, const CurveReport& report);
 
 /// Prints what was swept, one line for each curve.

@@ -8,6 +8,7 @@
   kinds.py equal REPORT.json      the errors of the first method and of another one at equal density, for
                                   each kind of images; the report comes from 'mtstereo-eval --degrade ...
                                   --compare ... --curve FILE.png --json REPORT.json'
+  kinds.py density REPORT.json    the densities of both at equal D-all, from the same report
 
 The exit status is 2 if the command or a JSON file is invalid.
 """
@@ -82,24 +83,31 @@ def curve_named(curves, name, file):
     raise InputError(f"{file}: has no curve '{name}'; its curves are {known}")
 
 
-def print_equal(options):
+def print_curves(options, key, measure, digits):
+    """Prints the figures `measure` of two curves, for each kind at the values of `key`."""
     parts = {kind: part["curve"] for kind, part in kinds_of(read_report(options.report)).items()
              if part.get("curve", {}).get("curves")}
     if not parts:
         raise InputError(f"{options.report}: has no curve: run mtstereo-eval with --curve")
     curves = parts["clean"]["curves"] if "clean" in parts else next(iter(parts.values()))["curves"]
     other = options.rival or curves[-1]["name"]
-    densities = [point["density"] for point in curves[0]["at_density"]]
-    rows = [["images", *(f"{density:g}" for density in densities)]]
+    rows = [["images", *(f"{point[key]:g}" for point in curves[0]["at_" + key])]]
     for kind, part in parts.items():
         pair = part["curves"][0], curve_named(part["curves"], other, options.report)
-        digits = 2 if options.measure == "d_all" else 3
-        cells = zip(*([text(point[options.measure], digits) for point in curve["at_density"]]
+        cells = zip(*([text(point[measure], digits) for point in curve["at_" + key]]
                       for curve in pair))
         rows.append([kind, *(" / ".join(cell) for cell in cells)])
-    print(f"{options.measure}, {curves[0]['name']} / {other}, at equal density %")
+    print(f"{measure}, {curves[0]['name']} / {other}, at equal {key} %")
     print()
     print_table(rows)
+
+
+def print_equal(options):
+    print_curves(options, "density", options.measure, 2 if options.measure == "d_all" else 3)
+
+
+def print_density(options):
+    print_curves(options, "d_all", "density", 1)
 
 
 def parse_options():
@@ -110,8 +118,10 @@ def parse_options():
     modes.add_argument("reports", metavar="REPORT.json", nargs="+")
     modes.add_argument("--method", default="mtstereo", help="default: mtstereo")
     equal = commands.add_parser("equal", help="two methods at equal density")
-    equal.add_argument("report", metavar="REPORT.json")
-    equal.add_argument("--rival", metavar="CURVE", help="default: the last curve")
+    density = commands.add_parser("density", help="two methods at equal D-all")
+    for command in (equal, density):
+        command.add_argument("report", metavar="REPORT.json")
+        command.add_argument("--rival", metavar="CURVE", help="default: the last curve")
     equal.add_argument("--measure", choices=("avgerr", "d_all", "bad1"), default="avgerr")
     return parser.parse_args()
 
@@ -119,7 +129,7 @@ def parse_options():
 def main():
     options = parse_options()
     try:
-        {"modes": print_modes, "equal": print_equal}[options.command](options)
+        {"modes": print_modes, "equal": print_equal, "density": print_density}[options.command](options)
     except InputError as error:
         print(f"kinds.py: {error}", file=sys.stderr)
         return 2

@@ -97,6 +97,19 @@ TEST(PrintCurves, ShowsTheErrorsAtEqualDensity) {
   EXPECT_THAT(table, HasSubstr("left out: F: sgbm has no result"));
 }
 
+TEST(PrintCurves, ShowsTheDensitiesAtEqualDAll) {
+  CurveMeans means = small_means();
+  means.methods[0].sweep.points = {{60, 2, 3, 20}, {20, 1, 1, 10}};
+  const std::string table = table_of(make_curves("eth3d", {}, {}, means));
+  EXPECT_THAT(table, HasSubstr("densities at equal D-all"));
+  EXPECT_THAT(table, ::testing::ContainsRegex("\nD-all % +0.5 +1.0 +2.0 +5.0\n"));
+  EXPECT_THAT(fields_of(table, "density %  mtstereo"),
+              ::testing::ElementsAre("-", "20.0", "40.0", "60.0"));
+  EXPECT_THAT(fields_of(table, "density %  sgbm"), ::testing::ElementsAre("-", "-", "-", "-"));
+  EXPECT_THAT(fields_of(table, "density %  sgbm + filters"),
+              ::testing::ElementsAre("-", "-", "30.0", "50.0"));
+}
+
 TEST(PrintCurves, ReportsThatThereIsNoPair) {
   CurveReport report = make_curves("eth3d", {}, {}, {0, {{"F", "it is broken"}}, {}});
   EXPECT_THAT(table_of(report),
@@ -113,6 +126,11 @@ TEST(CurvesJson, HasTheSameFigures) {
   EXPECT_EQ(at_density(result["curves"][0], 40)["d_all"], 6);
   EXPECT_TRUE(at_density(result["curves"][0], 10)["avgerr"].is_null());
   EXPECT_EQ(at_density(result["curves"][1], 75)["bad1"], 29.375);
+  const json& filtered = result["curves"][2]["at_d_all"];
+  ASSERT_EQ(filtered.size(), 4U);
+  EXPECT_EQ(filtered[1]["d_all"], 1);
+  EXPECT_TRUE(filtered[1]["density"].is_null());
+  EXPECT_EQ(filtered[2]["density"], 30);
 }
 
 TEST(CurvesJson, HasThePointsWithTheirSettings) {

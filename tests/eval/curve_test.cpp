@@ -168,6 +168,55 @@ TEST(Envelope, IsComputedForEachMeasureSeparately) {
   EXPECT_DOUBLE_EQ(error_at(sweep, 30, kCurveMeasures[2]), 4);
 }
 
+TEST(DensityAt, IsInterpolatedLinearlyBetweenNeighbors) {
+  const Sweep sweep = line({point(60, 3), point(40, 2), point(10, 0.5)});
+  EXPECT_DOUBLE_EQ(density_at(sweep, 2.5, kAvgerr), 50);
+  EXPECT_DOUBLE_EQ(density_at(sweep, 2, kAvgerr), 40);
+  EXPECT_DOUBLE_EQ(density_at(sweep, 1, kAvgerr), 20);
+  EXPECT_DOUBLE_EQ(density_at(sweep, 1, kCurveMeasures[1]), 10) << "D-all has its own values";
+}
+
+TEST(DensityAt, IsTheLargestReachedIfAllErrorsAreSmaller) {
+  const Sweep sweep = line({point(60, 3), point(40, 2), point(10, 0.5)});
+  EXPECT_DOUBLE_EQ(density_at(sweep, 3, kAvgerr), 60);
+  EXPECT_DOUBLE_EQ(density_at(sweep, 99, kAvgerr), 60);
+  EXPECT_DOUBLE_EQ(density_at(line({point(30, 7)}), 7, kAvgerr), 30) << "a single point";
+}
+
+TEST(DensityAt, IsNanIfAllErrorsAreLargerOrUnknown) {
+  EXPECT_TRUE(std::isnan(density_at(line({point(60, 3), point(10, 0.5)}), 0.4, kAvgerr)));
+  EXPECT_TRUE(std::isnan(density_at(line({point(60, kNone)}), 5, kAvgerr)));
+  EXPECT_TRUE(std::isnan(density_at(Sweep(), 5, kAvgerr)));
+}
+
+TEST(DensityAt, DoesNotInterpolateAcrossAPointWithoutErrors) {
+  const Sweep sweep = line({point(60, 3), point(40, kNone), point(10, 0.5)});
+  EXPECT_DOUBLE_EQ(density_at(sweep, 2, kAvgerr), 10);
+}
+
+TEST(DensityAt, IsTheLargestIfTheErrorIsReachedRepeatedly) {
+  // The error falls while the density rises, then rises.
+  const Sweep sweep = line({point(60, 5), point(50, 1), point(30, 4), point(10, 0)});
+  EXPECT_DOUBLE_EQ(density_at(sweep, 2, kAvgerr), 52.5);
+  EXPECT_DOUBLE_EQ(density_at(sweep, 0.5, kAvgerr), 12.5);
+  EXPECT_DOUBLE_EQ(density_at(line({point(60, 1), point(30, 4)}), 2, kAvgerr), 60);
+}
+
+TEST(DensityAt, IsTheInverseOfTheErrorOnALineThatRises) {
+  const Sweep sweep = line({point(70, 3), point(40, 2), point(10, 0.5)});
+  for (double density = 10; density <= 70; density += 2.5) {
+    EXPECT_NEAR(density_at(sweep, error_at(sweep, density, kAvgerr), kAvgerr), density, 1e-9);
+  }
+}
+
+TEST(Envelope, ReachesTheLargestDensityOverRowsAndColumns) {
+  const Sweep sweep = crossing();
+  EXPECT_DOUBLE_EQ(density_at(sweep, 1.5, kAvgerr), 50) << "the second setting of the first row";
+  // Between the first and the second setting of the first row and of the second column.
+  EXPECT_DOUBLE_EQ(density_at(sweep, 1.25, kAvgerr), 45);
+  EXPECT_TRUE(std::isnan(density_at(sweep, 0.1, kAvgerr)));
+}
+
 TEST(AtThreshold, IsTheColumn) {
   const Sweep column = at_threshold(crossing(), 1);
   EXPECT_EQ(column.ratios, (std::vector<int>{0, 50}));

@@ -43,7 +43,9 @@ json report_of(const char* preset, double avgerr) {
 json curve_of(double own, const json& other) {
   const auto line = [](const char* name, const json& error) {
     const json point{{"density", 30}, {"avgerr", error}, {"d_all", 7}, {"bad1", 1}};
-    return json{{"name", name}, {"at_density", std::vector<json>{point}}};
+    const std::vector<json> densities{{{"d_all", 0.5}, {"density", error}},
+                                      {{"d_all", 1}, {"density", 44.04}}};
+    return json{{"name", name}, {"at_density", std::vector<json>{point}}, {"at_d_all", densities}};
   };
   return {{"curves", std::vector<json>{line("mtstereo", own), line("bm", other)}}};
 }
@@ -70,6 +72,24 @@ TEST_F(Kinds, ComparesTwoMethodsAtEqualDensity) {
   const Outcome unknown = run({"equal", name, "--rival", "elas"});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.err, HasSubstr("its curves are mtstereo, bm"));
+}
+
+TEST_F(Kinds, ComparesTwoMethodsAtEqualDAll) {
+  json report = report_of("default", 0.25);
+  report["curve"] = curve_of(20, 10);
+  report["degraded"][0]["curve"] = curve_of(15, nullptr);
+  const std::string name = file("a.json", report);
+  const Outcome done = run({"density", name});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_THAT(done.out,
+              HasSubstr("density, mtstereo / bm, at equal d_all %\n\n| images | 0.5 | 1 |"));
+  EXPECT_THAT(done.out, HasSubstr("| clean | 20.0 / 10.0 | 44.0 / 44.0 |\n"
+                                  "| noise=5 | 15.0 / - | 44.0 / 44.0 |\n"));
+  EXPECT_THAT(run({"density", name, "--rival", "mtstereo"}).out, HasSubstr("20.0 / 20.0"));
+  EXPECT_THAT(run({"density", name, "--rival", "elas"}).err, HasSubstr("its curves are"));
+  EXPECT_EQ(run({"density", name, "--measure", "d_all"}).status, 2);
+  EXPECT_THAT(run({"density", file("b.json", report_of("fast", 1))}).err,
+              HasSubstr("has no curve: run mtstereo-eval with --curve"));
 }
 
 TEST_F(Kinds, NamesFilesThatAreNoReports) {

@@ -51,6 +51,19 @@ TEST(Official, HasNoMeasuresOfOtherDataSets) {
   }
 }
 
+TEST(Official, CountsEnlargedImagesInPixelsOfTheOriginal) {
+  const cv::Mat truth = (cv::Mat_<float>(1, 4) << 100, 10, 10, 10);
+  const cv::Mat found = (cv::Mat_<float>(1, 4) << 104, 13.5F, 11.5F, 12.5F);
+  const cv::Mat large_truth = 2 * truth, large_found = 2 * found;
+  for (const Layout layout : {Layout::kKitti2015, Layout::kMiddlebury, Layout::kEth3d}) {
+    const RegionCounts original = *count(layout, found, truth_of(truth)).all;
+    const RegionCounts enlarged = *count(layout, large_found, {large_truth, {}, {}, 2}).all;
+    EXPECT_EQ(enlarged.all.wrong, original.all.wrong) << layout_name(layout);
+    EXPECT_EQ(enlarged.all.answered_wrong, original.all.answered_wrong) << layout_name(layout);
+    EXPECT_DOUBLE_EQ(enlarged.error_sum, original.error_sum) << layout_name(layout);
+  }
+}
+
 TEST(OfficialKitti, JudgesGapsByTheirBackgroundAndEstimatesAlone) {
   // Truth is sparse. The gap at column 2 becomes 10, which is right at neither pixel: 20 is wrong,
   // at column 3 the truth is unknown. The gap at column 5 becomes 10, which is right.
