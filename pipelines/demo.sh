@@ -14,6 +14,8 @@
 #   --size WxH          size of the rendered clip (default 640x360)
 #   --scene NAME        street (default), garden or room
 #   --raw               cameras with lens distortion, turned against each other
+#   --soft              simple cameras: a soft lens, noise, processing, and H.264 with 1.5 Mbit/s for
+#                       1280x720
 #   --build DIR         build folder (default: build/, or $BUILD)
 #   --no-build          use the build folder as it is; install and build nothing
 set -euo pipefail
@@ -30,6 +32,7 @@ scene=street
 rate=24
 build_first=yes
 raw=no
+soft=no
 odd_width=0 odd_height=0 # of the disparity, see odd()
 limit=900 # longest time of a pipeline [s]
 files=()
@@ -84,6 +87,7 @@ while [ $# -gt 0 ]; do
       ;;
     --no-build) build_first=no ;;
     --raw) raw=yes ;;
+    --soft) soft=yes ;;
     --*)
       [ $# -ge 2 ] || wrong_usage "$1 needs a value or is unknown"
       take_option "$1" "$2"
@@ -97,6 +101,7 @@ case ${#files[@]} in
   0) ;;
   2)
     [ "$raw" = no ] || wrong_usage "--raw renders its own videos; for yours, see from-files.sh --calibration"
+    [ "$soft" = no ] || wrong_usage "--soft renders its own videos"
     for file in "${files[@]}"; do
       [ -f "$file" ] || fail "no such file: $file"
       [ -r "$file" ] || fail "the file $file cannot be read"
@@ -138,15 +143,22 @@ build_all() {
 
 # Further arguments are options of mtstereo-render.
 render_clip() {
+  local side camera=() encoder=(pass=quant quantizer=10 speed-preset=medium)
+  if [ "$soft" = yes ]; then
+    camera=(--blur 0.7 --rim-blur 1 --noise 2 --shot-noise 0.05 --mosaic)
+    # What encoders in cameras do: a constant rate of bits, no bidirectional frames, little effort.
+    encoder=("bitrate=$(((1500 * ${size%x*} * ${size#*x} + 1280 * 720 - 1) / (1280 * 720)))" bframes=0
+      speed-preset=veryfast)
+  fi
   step "Rendering $frames frames of the $scene, $size"
   "$build/pipelines/render/mtstereo-render" "$out/clip" --overwrite --scene "$scene" \
-    --frames "$frames" --size "$size" --rate "$rate" "$@" || fail "the clip could not be rendered"
-  local side
+    --frames "$frames" --size "$size" --rate "$rate" "${camera[@]}" "$@" ||
+    fail "the clip could not be rendered"
   for side in left right; do
     step "Encoding $out/$side.mp4 (H.264)"
     play multifilesrc "location=$out/clip/$side/%06d.png" "caps=image/png,framerate=$rate/1" '!' \
       pngdec '!' videoconvert '!' video/x-raw,format=I420 '!' \
-      x264enc pass=quant quantizer=10 speed-preset=medium key-int-max="$rate" '!' \
+      x264enc "${encoder[@]}" key-int-max="$rate" '!' \
       h264parse '!' mp4mux '!' filesink "location=$out/$side.mp4"
   done
   files=("$out/left.mp4" "$out/right.mp4")

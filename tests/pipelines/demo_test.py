@@ -38,6 +38,19 @@ class Demo(ClipTest):
         self.assertGreater(float(rows["dense"][3]), float(rows["semi-dense"][3]), "density")
         self.assertEqual(float(rows["full"][3]), 100, "density")
 
+    def test_soft_cameras_are_rendered_and_compressed(self):
+        clip = ["--frames", "2", "--size", "320x240"]
+        self.assert_succeeds(self.demo("--out", "crisp", *clip))
+        done = self.demo("--soft", "--out", "soft", *clip)
+        self.assert_succeeds(done)
+        self.assertRegex(done.output, r"\nsemi-dense +2 ")
+        for name, share in (("left.mp4", 0.2), ("right.mp4", 0.2), ("clip/left/000000.png", 0.95)):
+            crisp, soft = ((self.folder / out / name).stat().st_size for out in ("crisp", "soft"))
+            self.assertLess(soft, share * crisp, name)
+        for name in ("truth/000001.pfm", "mask/000001.png", "calib.txt"):
+            crisp, soft = ((self.folder / out / "clip" / name).read_bytes() for out in ("crisp", "soft"))
+            self.assertEqual(soft, crisp, name)
+
     @unittest.skipIf(SLOW > 1, "40 views of a board take minutes in a sanitized build")
     def test_raw_cameras_are_calibrated_and_measure_meters(self):
         done = self.demo("--raw", "--out", "raw", "--frames", "2")
@@ -98,6 +111,9 @@ class Demo(ClipTest):
 
     def test_raw_takes_no_files(self):
         self.assert_rejects(self.demo("--raw", "left.mp4", "right.mp4"), "--calibration", 2)
+
+    def test_soft_takes_no_files(self):
+        self.assert_rejects(self.demo("--soft", "left.mp4", "right.mp4"), "--soft", 2)
 
     def test_rejects_invalid_options(self):
         for words, says in ((["left.mp4"], "two video files"),
