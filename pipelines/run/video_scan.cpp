@@ -14,7 +14,9 @@
 #include "run/decoder_reports.hpp"
 #include "run/gst_objects.hpp"
 #include "run/jpeg_check.hpp"
+#include "run/leading_frames.hpp"
 #include "run/run_error.hpp"
+#include "run/segments.hpp"
 
 namespace mtstereo::run {
 
@@ -41,19 +43,6 @@ GstElement* element(const char* factory) {
 bool is_video(const GstCaps* caps) {
   const std::string name = gst_structure_get_name(gst_caps_get_structure(caps, 0));
   return name.starts_with("video/") || name.starts_with("image/");
-}
-
-// The frame as a sink would show it: clipped to the segment, as the base class of the decoders
-// does. False if it is outside.
-bool clip(const GstSegment& segment, GstClockTime duration, GstClockTime& time) {
-  constexpr GstClockTime kUnknown = 40 * GST_MSECOND;  // that of GstVideoDecoder
-  const GstClockTime length = GST_CLOCK_TIME_IS_VALID(duration) ? duration : kUnknown;
-  guint64 start = 0, stop = 0;
-  if (gst_segment_clip(&segment, GST_FORMAT_TIME, time, time + length, &start, &stop) == FALSE) {
-    return false;
-  }
-  time = start;
-  return true;
 }
 
 std::vector<std::uint8_t> gray_pixels(GstBuffer* buffer, const GstVideoInfo& info) {
@@ -104,6 +93,7 @@ struct VideoScan::State {
   std::optional<Nanoseconds> time_on(GstPad* pad, const GstBuffer* buffer) const;
 
   static GstPadProbeReturn on_first_buffer(GstPad* pad, GstPadProbeInfo* info, gpointer data);
+  static GstPadProbeReturn on_coded(GstPad* pad, GstPadProbeInfo* info, gpointer data);
   static GstPadProbeReturn before_decoder(GstPad* pad, GstPadProbeInfo* info, gpointer data);
   static void on_element(GstBin* bin, GstBin* inner, GstElement* added, gpointer data);
   static void on_pad(GstElement* source, GstPad* pad, gpointer data);
@@ -111,7 +101,8 @@ struct VideoScan::State {
 
   std::filesystem::path file;
   Reading reading;
-  bool stamps;                     // time stamps count
+  bool stamps;  // time stamps count
+  LeadingFrames leading{stamps};
   GstElement* pipeline = nullptr;  // owns the elements
   GstElement* entry = nullptr;     // of the branch of the sink
   GstAppSink* sink = nullptr;
@@ -151,6 +142,9 @@ void VideoScan::State::build() {
   gst_element_link(source, parser);
   GstPad* pad = gst_element_get_static_pad(entry, "sink");
   gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, on_first_buffer, this, nullptr);
+  if (reading == Reading::kCoded) {
+    gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, on_coded, this, nullptr);
+  }
   gst_object_unref(pad);
   g_signal_connect(pipeline, "deep-element-added", G_CALLBACK(on_element), this);
   g_signal_connect(parser, "pad-added", G_CALLBACK(on_pad), this);
@@ -166,19 +160,26 @@ GstPadProbeReturn VideoScan::State::on_first_buffer(GstPad*, GstPadProbeInfo* in
   return GST_PAD_PROBE_REMOVE;
 }
 
+GstPadProbeReturn VideoScan::State::on_coded(GstPad* pad, GstPadProbeInfo* info, gpointer data) {
+  State* self = static_cast<State*>(data);
+  const bool leads = self->leading.has(pad, GST_PAD_PROBE_INFO_BUFFER(info));
+  return leads ? GST_PAD_PROBE_DROP : GST_PAD_PROBE_OK;
+}
+
 // After a seek, a demultiplexer may continue at a frame that refers to others.
 GstPadProbeReturn VideoScan::State::before_decoder(GstPad* pad, GstPadProbeInfo* info,
                                                    gpointer data) {
   State* self = static_cast<State*>(data);
   if ((GST_PAD_PROBE_INFO_TYPE(info) & GST_PAD_PROBE_TYPE_EVENT_FLUSH) != 0) {
     self->waits_for_key = true;
+    self->leading.flush();
     self->reports->flush();
     return GST_PAD_PROBE_OK;
   }
   GstBuffer* buffer = GST_PAD_PROBE_INFO_BUFFER(info);
   const bool keyframe = !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_DELTA_UNIT);
   if (keyframe) self->waits_for_key = false;
-  if (self->waits_for_key) return GST_PAD_PROBE_DROP;
+  if (self->waits_for_key || self->leading.has(pad, buffer)) return GST_PAD_PROBE_DROP;
   self->reports->begin(self->time_on(pad, buffer), keyframe);
   if (is_jpeg_decoder(GST_PAD_PARENT(pad))) {
     const std::string damage = damage_of_jpeg(buffer);
@@ -300,11 +301,9 @@ std::optional<Nanoseconds> VideoScan::State::time_of(const GstSegment* segment,
 
 // The time of a frame on its way; kNotShown if it is outside of the segment.
 std::optional<Nanoseconds> VideoScan::State::time_on(GstPad* pad, const GstBuffer* buffer) const {
-  g_autoptr(GstEvent) event = gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0);
-  if (event == nullptr || !GST_BUFFER_PTS_IS_VALID(buffer)) return std::nullopt;
-  const GstSegment* segment = nullptr;
-  gst_event_parse_segment(event, &segment);
-  return time_of(segment, GST_BUFFER_PTS(buffer)).value_or(DecoderReports::kNotShown);
+  const std::optional<GstSegment> segment = segment_on(pad);
+  if (!segment || !GST_BUFFER_PTS_IS_VALID(buffer)) return std::nullopt;
+  return time_of(&*segment, GST_BUFFER_PTS(buffer)).value_or(DecoderReports::kNotShown);
 }
 
 // std::nullopt for a frame that is not shown.

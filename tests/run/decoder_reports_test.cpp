@@ -145,6 +145,10 @@ TEST(DecodedVideo, CutWithAnEditListHasNoDamage) {
   expect_no_damage_of_cut("keyint=15:min-keyint=15:scenecut=0:bframes=3", "0.5", "cut.mp4");
 }
 
+TEST(DecodedVideo, CutWithLeadingFramesWithoutTimesHasNoDamage) {
+  expect_no_damage_of_cut("keyint=15:min-keyint=15:scenecut=0:bframes=3", "0.7", "cut.mkv");
+}
+
 // A frame that is shown asks to forget references that are not in the file.
 TEST(DecodedVideo, CutWithoutOldReferencesHasNoDamage) {
   expect_no_damage_of_cut("keyint=40:bframes=8:b-pyramid=strict:ref=4", "2.3", "cut.mkv");

@@ -117,6 +117,28 @@ TEST_P(OfFfmpeg, FramesAreThoseOfTheirNumbers) {
   expect_frames(write_by_ffmpeg(folder, View::kLeft, GetParam().file, GetParam()), GetParam());
 }
 
+// The frames that lead the first keyframe refer to others that are not in the file. Matroska does
+// not state their times, and MP4 leaves them out by its edit list.
+TEST(OfFfmpegCut, StartsAtItsKeyframe) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  const std::string h265 =
+      "-c:v libx265 -preset ultrafast -x265-params "
+      "log-level=none:open-gop=1:keyint=20:bframes=3";
+  for (const std::string& coding : {kOpenGroups, h265}) {
+    const TemporaryFolder folder;
+    const fs::path whole = write_by_ffmpeg(folder, View::kLeft, "whole.mp4", {"", "", "", coding});
+    for (const char* name : {"cut.mkv", "cut.mp4"}) {
+      const fs::path cut = folder / name;
+      run_command("ffmpeg -v error -ss 1.2 -i '" + whole.string() + "' -c copy '" + cut.string() +
+                  "'");
+      SCOPED_TRACE(coding + name);
+      const auto count = static_cast<int>(by_ffmpeg(cut).size());
+      ASSERT_GT(count, kFrames / 3);
+      expect_frames(cut, {name, "", "", "", count});
+    }
+  }
+}
+
 // Pieces of files in which a seek alone would give other frames.
 TEST(OfFfmpegInPieces, JoinedAreEqualToTheWhole) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
