@@ -7,9 +7,16 @@
 namespace mtstereo::run {
 
 /// Whether the end of a video file is missing, by the lengths that its container states (MP4 and
-/// QuickTime, Matroska and WebM, AVI, MPEG-TS): a sentence with the reason, or "" if nothing is
-/// missing or the container does not state it. Reads only the headers of the container's parts.
+/// QuickTime, Matroska and WebM, AVI, MPEG-TS, Ogg, FLV, ASF): a sentence with the reason, or "" if
+/// nothing is missing or the container does not state it. Reads only the headers of the container's
+/// parts, and all of Ogg.
 std::string missing_end(const std::filesystem::path& file);
+
+/// Where a video file is damaged before its end, by the structure, the checksums and the counters
+/// of its container (Matroska and WebM, MPEG-TS, Ogg, FLV): a clause, or "" if they show nothing.
+/// Demultiplexers skip such places, and the frames in them, without a report. Reads the whole file
+/// if it has checksums or counters.
+std::string damaged_parts(const std::filesystem::path& file);
 
 /// Whether a file is an AVI file.
 bool is_avi(const std::filesystem::path& file);

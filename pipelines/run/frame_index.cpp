@@ -38,8 +38,8 @@ std::string seconds(Nanoseconds time) {
 }
 
 // What is missing, by the container, by the demultiplexer, and by the decoder.
-std::string damage_of(const fs::path& file, const VideoTimes& coded, const VideoTimes& shown,
-                      bool by_order) {
+std::string missing_of(const fs::path& file, const VideoTimes& coded, const VideoTimes& shown,
+                       bool by_order) {
   const Nanoseconds end = shown.times.back() + median_period(shown.times);
   const std::string where = " after " + seconds(end) + " s";
   if (const std::string reason = missing_end(file); !reason.empty()) {
@@ -53,6 +53,11 @@ std::string damage_of(const fs::path& file, const VideoTimes& coded, const Video
     return std::to_string(coded.frames - shown.frames) + " of " + std::to_string(coded.frames) +
            " frames cannot be decoded";
   }
+  // Frames that have other times than the file states are not lost.
+  const auto leading =
+      std::lower_bound(coded.times.begin(), coded.times.end(), shown.times.front());
+  const auto before = static_cast<std::size_t>(leading - coded.times.begin());
+  if (shown.frames + before >= coded.frames) return "";
   std::vector<Nanoseconds> lost;
   std::set_difference(coded.times.begin(), coded.times.end(), shown.times.begin(),
                       shown.times.end(), std::back_inserter(lost));
@@ -61,6 +66,14 @@ std::string damage_of(const fs::path& file, const VideoTimes& coded, const Video
   if (lost.empty()) return "";
   return std::to_string(lost.size()) + " of " + std::to_string(coded.times.size()) +
          " frames cannot be decoded, the first of them at " + seconds(lost.front()) + " s";
+}
+
+// All that is known before the frames of the pairs are decoded.
+std::string damage_of(const fs::path& file, const VideoTimes& coded, const VideoTimes& shown,
+                      bool by_order) {
+  const std::string missing = missing_of(file, coded, shown, by_order);
+  const std::string parts = damaged_parts(file);
+  return missing + (missing.empty() || parts.empty() ? "" : "; ") + parts;
 }
 
 // Frames before the first keyframe need frames before the recording: the decoder shows remains of
