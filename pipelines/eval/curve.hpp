@@ -27,9 +27,9 @@ struct CurveMeasure {
   double CurvePoint::*value;
 };
 
-inline constexpr std::array<CurveMeasure, 3> kCurveMeasures{{{"avgerr", "px", &CurvePoint::avgerr},
-                                                             {"D-all", "%", &CurvePoint::d_all},
-                                                             {"bad1", "%", &CurvePoint::bad1}}};
+inline constexpr CurveMeasure kDAllMeasure{"D-all", "%", &CurvePoint::d_all};
+inline constexpr std::array<CurveMeasure, 3> kCurveMeasures{
+    {{"avgerr", "px", &CurvePoint::avgerr}, kDAllMeasure, {"bad1", "%", &CurvePoint::bad1}}};
 
 /// The densities at which methods are compared [%].
 inline constexpr std::array<double, 9> kCurveDensities{10, 20, 30, 40, 50, 60, 70, 75, 80};

@@ -41,14 +41,8 @@ void add_rival(const MethodSweep& rival, std::size_t method, CurveReport& report
                            method, true, rival.sweep});
 }
 
-bool is_d_all(const CurveMeasure& measure) { return measure.value == &CurvePoint::d_all; }
-
-const CurveMeasure& d_all_measure() {
-  return *std::find_if(kCurveMeasures.begin(), kCurveMeasures.end(), is_d_all);
-}
-
 const char* key_of(const CurveMeasure& measure) {
-  return is_d_all(measure) ? "d_all" : measure.name;
+  return measure.value == kDAllMeasure.value ? "d_all" : measure.name;
 }
 
 json errors_at(const Sweep& sweep, double density) {
@@ -62,7 +56,7 @@ json errors_at(const Sweep& sweep, double density) {
 json densities_json(const Sweep& sweep) {
   json result = json::array();
   for (const double d_all : kCurveDAlls) {
-    const double density = density_at(sweep, d_all, d_all_measure());
+    const double density = density_at(sweep, d_all, kDAllMeasure);
     result.push_back({{"d_all", d_all}, {"density", json_number(density)}});
   }
   return result;
@@ -143,7 +137,7 @@ std::vector<TableRow> density_rows(const CurveReport& report) {
   for (const Curve& curve : report.curves) {
     TableRow row{"density %", curve.name};
     for (const double d_all : kCurveDAlls) {
-      row.push_back(fixed(density_at(curve.sweep, d_all, d_all_measure()), 1));
+      row.push_back(fixed(density_at(curve.sweep, d_all, kDAllMeasure), 1));
     }
     rows.push_back(std::move(row));
   }

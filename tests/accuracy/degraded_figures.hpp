@@ -24,6 +24,14 @@ struct DegradedFigures {
   std::int64_t flat_answers;  ///< disparities in flat areas, all pairs [px]
 };
 
+/// The density that the default mode reached at a D-all of 1 %: of the largest share of pixels that
+/// has so few gross errors, whatever the threshold of the confidence is.
+struct EqualErrorFigures {
+  Pairs pairs;
+  const char* kind;  ///< as in DegradedFigures
+  double density;    ///< [%]
+};
+
 /// The name of a set as in the table.
 inline const char* code_of(Pairs pairs) {
   return pairs == Pairs::kTen       ? "Pairs::kTen"
@@ -73,6 +81,18 @@ inline constexpr DegradedFigures kDegradedFigures[] = {
     {Pairs::kTen, "bright=1.8", "preset=fast", 0.360, 0.79, 51.8, 93274},
     {Pairs::kTen, "blur-right=1", "mode=semi-dense", 0.355, 0.64, 72.2, 9273},
     {Pairs::kTen, "blur-right=1.5", "mode=semi-dense", 0.430, 0.90, 69.7, 7482},
+    {Pairs::kTen, "soft2x", "mode=semi-dense", 0.251, 0.37, 65.6, 25620},
+    {Pairs::kTen, "cam", "mode=semi-dense", 0.513, 0.98, 52.2, 463},
+    {Pairs::kTen, "cam", "mode=sparse", 0.306, 0.12, 5.1, 20},
+    {Pairs::kTen, "cam", "mode=dense", 0.919, 3.10, 76.3, 3299},
+    {Pairs::kTen, "cam", "mode=full", 1.974, 8.70, 100.0, 17679},
+    {Pairs::kTen, "cam", "preset=fast", 0.509, 1.03, 56.5, 889},
+    {Pairs::kTen, "cam2x", "mode=semi-dense", 0.295, 0.38, 43.5, 572},
+    {Pairs::kTen, "cam2x", "mode=dense", 0.557, 1.53, 70.4, 12647},
+    {Pairs::kTen, "cam2x", "preset=fast", 0.287, 0.24, 49.4, 1525},
+    {Pairs::kTen, "cam1.5x", "mode=semi-dense", 0.367, 0.54, 47.4, 359},
+    {Pairs::kTen, "rimcam", "mode=semi-dense", 0.472, 0.77, 50.3, 390},
+    {Pairs::kTen, "camh264=28", "mode=semi-dense", 0.558, 1.23, 53.3, 3270},
     {Pairs::kFurther, "clean", "mode=semi-dense", 0.306, 0.55, 64.9, 4907},
     {Pairs::kFurther, "clean", "mode=dense", 0.493, 1.81, 78.4, 12444},
     {Pairs::kFurther, "jpeg=20", "mode=dense", 1.229, 7.67, 54.1, 151240},
@@ -90,6 +110,9 @@ inline constexpr DegradedFigures kDegradedFigures[] = {
     {Pairs::kFurther, "bright=1.8", "mode=semi-dense", 0.377, 0.81, 39.8, 97587},
     {Pairs::kFurther, "blur-right=1", "mode=semi-dense", 0.450, 1.17, 62.2, 4441},
     {Pairs::kFurther, "blur-right=1.5", "mode=semi-dense", 0.522, 1.39, 58.6, 3420},
+    {Pairs::kFurther, "soft2x", "mode=semi-dense", 0.274, 0.46, 55.3, 14782},
+    {Pairs::kFurther, "cam", "mode=semi-dense", 0.548, 1.02, 40.1, 398},
+    {Pairs::kFurther, "cam2x", "mode=semi-dense", 0.302, 0.35, 32.5, 1049},
     {Pairs::kRendered, "clean", "mode=semi-dense", 0.239, 1.13, 75.5, 0},
     {Pairs::kRendered, "clean", "mode=dense", 0.365, 2.70, 87.8, 0},
     {Pairs::kRendered, "lower-right=1", "mode=semi-dense", 0.243, 1.13, 75.4, 0},
@@ -101,6 +124,17 @@ inline constexpr DegradedFigures kDegradedFigures[] = {
     {Pairs::kRendered, "bright=1.8", "mode=semi-dense", 0.213, 0.81, 73.1, 5115},
     {Pairs::kRendered, "bright=1.8", "preset=fast", 0.278, 1.48, 67.0, 2943},
     {Pairs::kRendered, "blur-right=1", "mode=semi-dense", 0.315, 1.96, 76.5, 0},
+};
+
+inline constexpr EqualErrorFigures kEqualErrorFigures[] = {
+    {Pairs::kTen, "clean", 76.0},
+    {Pairs::kTen, "soft2x", 70.7},
+    {Pairs::kTen, "cam", 51.0},
+    {Pairs::kTen, "cam2x", 51.4},
+    {Pairs::kFurther, "clean", 68.3},
+    {Pairs::kFurther, "soft2x", 60.2},
+    {Pairs::kFurther, "cam", 38.4},
+    {Pairs::kFurther, "cam2x", 38.9},
 };
 // clang-format on
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Regression tests of the accuracy on degraded images, as cameras deliver them: on real pairs with
 // ground truth, in builds without a sanitizer, and on rendered scenes. All pairs are matched by the
-// element. After a change of the matcher, "degraded-test | grep '^    {'" in a release build prints
-// all rows of degraded_figures.hpp, in their order.
+// element; for the density at equal error by the library, whose confidence is swept. After a change
+// of the matcher, "degraded-test | grep '^    {'" in a release build prints all rows of both tables
+// of degraded_figures.hpp, in their order.
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +16,9 @@
 #include <vector>
 
 #include "degraded_figures.hpp"
+#include "eval/curve_means.hpp"
 #include "eval/degrade.hpp"
+#include "eval/runner.hpp"
 #include "pairs.hpp"
 #include "render/scene.hpp"
 #include "support/sanitizers.hpp"
@@ -48,9 +51,14 @@ Images load(const std::vector<eval::StereoPair>& pairs, std::size_t count) {
   return images;
 }
 
+/// The real pairs of a set.
+std::vector<eval::StereoPair> real_pairs(Pairs pairs) {
+  return pairs == Pairs::kTen ? ten_pairs(data_folder()) : further_pairs(data_folder());
+}
+
 Images images_of(Pairs pairs) {
-  if (pairs == Pairs::kTen) return load(ten_pairs(data_folder()), 10);
-  if (pairs == Pairs::kFurther) return load(further_pairs(data_folder()), 17);
+  if (pairs == Pairs::kTen) return load(real_pairs(pairs), 10);
+  if (pairs == Pairs::kFurther) return load(real_pairs(pairs), 17);
   Images images;
   for (const std::string& scene : render::scene_names()) {
     images.push_back({rendered_pair(scene, 0), 64});
@@ -88,14 +96,22 @@ void print_row(const DegradedFigures& row, const eval::Evaluation& mean) {
               static_cast<long long>(mean.flat_answers.value_or(0)));
 }
 
+/// The reason why a set cannot be matched here; empty if it can.
+std::string obstacle_of(Pairs pairs) {
+  if (pairs == Pairs::kRendered) return "";
+  if (test::kSanitized) return "real pairs take too long with a sanitizer";
+  if (!data_folder().empty()) return "";
+  return "no pairs with ground truth: MTSTEREO_TEST_DATA names no folder with them";
+}
+
 class Degraded : public testing::TestWithParam<DegradedFigures> {
  protected:
   void SetUp() override {
-    if (GetParam().pairs == Pairs::kRendered) return;
-    if (test::kSanitized) GTEST_SKIP() << "real pairs take too long with a sanitizer";
-    if (data_folder().empty()) {
-      GTEST_SKIP() << "no pairs with ground truth: MTSTEREO_TEST_DATA names no folder with them";
-    }
+    const std::string obstacle = obstacle_of(GetParam().pairs);
+    if (!obstacle.empty()) GTEST_SKIP() << obstacle;
+    if (GetParam().kind == std::string(eval::kCleanKind)) return;
+    const auto missing = eval::degradation_obstacle(eval::parse_degradation(GetParam().kind));
+    if (missing) GTEST_SKIP() << *missing;
   }
   static DegradedImages images_;
 };
@@ -126,6 +142,50 @@ std::string name_of(const testing::TestParamInfo<DegradedFigures>& info) {
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;
 }
+
+class EqualError : public testing::TestWithParam<Pairs> {
+ protected:
+  void SetUp() override {
+    const std::string obstacle = obstacle_of(GetParam());
+    if (!obstacle.empty()) GTEST_SKIP() << obstacle;
+  }
+};
+
+TEST_P(EqualError, KeepsTheDensity) {
+  std::vector<EqualErrorFigures> rows;
+  std::map<std::string, eval::CurveCollector> collectors;
+  eval::RunSettings settings;
+  settings.warm_up = 0;
+  settings.curve = true;
+  ASSERT_TRUE(settings.parameters.set("min-confidence", "0").ok());
+  for (const EqualErrorFigures& row : kEqualErrorFigures) {
+    if (row.pairs != GetParam()) continue;
+    rows.push_back(row);
+    collectors.emplace(row.kind, std::vector<std::string>{eval::kOwnMethod});
+    if (row.kind == std::string(eval::kCleanKind)) continue;
+    settings.degradations.push_back(eval::parse_degradation(row.kind));
+  }
+  eval::Runner runner(settings);
+  const std::vector<eval::StereoPair> pairs = real_pairs(GetParam());
+  for (const eval::StereoPair& pair : pairs) {
+    for (const eval::PairReport& report : runner.run_kinds(pair)) {
+      EXPECT_TRUE(report.failures.empty()) << report.failures.front();
+      collectors.at(report.kind).add(pair.name, report.sweeps);
+    }
+  }
+  for (const EqualErrorFigures& row : rows) {
+    const eval::CurveMeans means = collectors.at(row.kind).means();
+    ASSERT_EQ(means.pairs, pairs.size()) << row.kind;
+    const double density = eval::density_at(means.methods.at(0).sweep, 1, eval::kDAllMeasure);
+    std::printf("    {%s, \"%s\", %.1f},\n", code_of(row.pairs), row.kind, density);
+    EXPECT_GE(density, row.density - kRealMargins.density) << row.kind;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(RealPairs, EqualError, testing::Values(Pairs::kTen, Pairs::kFurther),
+                         [](const testing::TestParamInfo<Pairs>& info) {
+                           return info.param == Pairs::kTen ? "Ten" : "Further";
+                         });
 
 INSTANTIATE_TEST_SUITE_P(Images, Degraded, testing::ValuesIn(kDegradedFigures), name_of);
 
