@@ -126,7 +126,8 @@ void write_results(std::ostream& out, const Report& report) {
          "Disparities: blue = 0, red = search range, black = none. Errors: blue = 0, red = 5 px "
          "and "
          "more, gray = no disparity, black = no ground truth. Confidence: black = none, white = "
-         "255.</p>\n<p><label>pair <input id='pair'></label>\n"
+         "255. Errors of enlarged images are in px of the original.</p>\n<p><label>pair <input "
+         "id='pair'></label>\n"
       << choice("images", report.kinds) << choice("method", report.methods)
       << "</p>\n<table id='results' class='sortable'>"
       << head_row({"pair", "images", "method", "avgerr px", "D-all %", "bad1 %", "density %",

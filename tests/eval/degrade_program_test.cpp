@@ -121,6 +121,17 @@ TEST_F(DegradeProgram, EnlargesARequestedRangeToo) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(report()["pairs"][1]["max_disparity"], 398);
   EXPECT_EQ(report()["pairs"][2]["max_disparity"], 299);
+
+  // The true disparity is 5 px. A range from 6 px on excludes it in all images.
+  ASSERT_EQ(run_eval({set(), "--only", "B", "--degrade", "soft2x", "--min-disparity", "6", "--json",
+                      folder_ / "r.json"})
+                .status,
+            0);
+  const json pairs = report()["pairs"];
+  for (const json& pair : pairs) {
+    const json& avgerr = pair["results"]["mtstereo"]["all"]["avgerr"];
+    EXPECT_TRUE(avgerr.is_null() || avgerr >= 0.9) << pair["kind"] << avgerr;
+  }
 }
 
 TEST_F(DegradeProgram, TakesOneArgumentOfEachListBeforeTheFolder) {

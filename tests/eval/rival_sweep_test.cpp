@@ -43,6 +43,19 @@ TEST(RivalSweep, HasTheUnfilteredAndTheFilteredMaps) {
   EXPECT_DOUBLE_EQ(sweep.at(2, 0).avgerr, expected.avgerr);
 }
 
+TEST(RivalSweep, CountsErrorsAtTheScaleOfTheTruth) {
+  LoadedPair images = test_images();
+  images.truth.disparity += 1;
+  const Sweep original = sweep_rival(Rival::kBm, 32, images, filters(20));
+  images.truth.scale = 2;
+  const Sweep halved = sweep_rival(Rival::kBm, 32, images, filters(20));
+  for (const std::size_t threshold : {0, 1, 200}) {
+    ASSERT_GT(original.at(0, threshold).avgerr, 0.5);
+    EXPECT_NEAR(halved.at(0, threshold).avgerr, original.at(0, threshold).avgerr / 2, 1e-9);
+    EXPECT_EQ(halved.at(0, threshold).density, original.at(0, threshold).density);
+  }
+}
+
 TEST(RivalSweep, GetsSparserWithEveryThreshold) {
   const Sweep sweep = sweep_rival(Rival::kSgbm, 32, test_images(), filters(20));
   for (std::size_t i = 0; i < sweep.ratios.size(); ++i) {
