@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
-#include "outputs/printable.hpp"
 #include "run/container_bytes.hpp"
 #include "run/container_matroska.hpp"
+#include "run/container_mp4.hpp"
 #include "run/container_pages.hpp"
 #include "run/container_transport.hpp"
 
@@ -16,30 +16,6 @@ namespace mtstereo::run {
 namespace fs = std::filesystem;
 
 namespace {
-
-// MP4 and QuickTime: a sequence of boxes with length and name.
-std::string missing_of_mp4(Bytes& bytes) {
-  bool has_index = false;
-  for (std::uint64_t start = 0; start < bytes.size();) {
-    const std::string head = bytes.at(start, 8);
-    if (head.empty()) return "it ends within the header of a box";
-    const std::string name = head.substr(4);
-    has_index |= name == "moov";
-    std::uint64_t length = big_endian(head.substr(0, 4));
-    if (length == 0) break;  // to the end of the file
-    if (length == 1) {
-      const std::string large = bytes.at(start + 8, 8);
-      if (large.empty()) return "it ends within the header of a box";
-      length = big_endian(large);
-    }
-    if (length < 8) return "it has a box with an impossible length";
-    if (exceeds(start, length, bytes.size())) {
-      return lacks(length - (bytes.size() - start), "its box '" + outputs::printable(name) + "'");
-    }
-    start += length;
-  }
-  return has_index ? "" : "its index (box 'moov') is missing: the recorder has not closed it";
-}
 
 std::string missing_of_avi(Bytes& bytes) {
   for (std::uint64_t start = 0; start + 8 <= bytes.size();) {
@@ -91,16 +67,13 @@ std::string missing_end(const fs::path& file) {
   if (const std::optional<Packets> packets = packets_of(bytes)) {
     return missing_of_transport_stream(bytes, *packets);
   }
-  const std::string start = bytes.at(0, 4), box = bytes.at(4, 4);
+  const std::string start = bytes.at(0, 4);
   if (start == kMatroska) return missing_of_matroska(bytes);
   if (start == kAvi) return missing_of_avi(bytes);
   if (start == kOgg) return check_ogg(bytes).missing;
   if (start == kFlv) return check_flv(bytes).missing;
   if (start == kAsf) return missing_of_asf(bytes);
-  for (const char* name : {"ftyp", "moov", "mdat", "wide", "free", "skip"}) {
-    if (box == name) return missing_of_mp4(bytes);
-  }
-  return "";
+  return is_mp4(bytes) ? missing_of_mp4(bytes) : "";
 }
 
 std::string damaged_parts(const fs::path& file) {
@@ -112,7 +85,7 @@ std::string damaged_parts(const fs::path& file) {
   if (start == kMatroska) return damage_of_matroska(bytes).text();
   if (start == kOgg) return check_ogg(bytes).damage.text();
   if (start == kFlv) return check_flv(bytes).damage.text();
-  return "";
+  return is_mp4(bytes) ? damage_of_mp4(bytes).text() : "";
 }
 
 }  // namespace mtstereo::run

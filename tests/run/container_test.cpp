@@ -120,6 +120,28 @@ TEST(MatroskaChecksum, ShowsASingleBit) {
   EXPECT_THAT(index_frames({file, {}, {}}, 0).damage, HasSubstr("does not have the checksum"));
 }
 
+// The size of a frame is in a table of the file, which no decoder sees.
+TEST(Mp4Table, ShowsFramesThatAreTooLarge) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "a.mp4";
+  write_video(file, std::string(kBFrames) + " ! mp4mux", constant_times(kFrames));
+  EXPECT_EQ(damaged_parts(file), "");
+  const std::string bytes = bytes_of_file(file);
+  const std::size_t table = bytes.find("stsz");
+  ASSERT_NE(table, std::string::npos);
+  constexpr std::size_t kTenth = 16 + 10 * 4;  // version, common size, number, sizes
+  std::string damaged = bytes;
+  damaged[table + kTenth + 1] ^= 0x08;
+  write_text(file, damaged);
+  EXPECT_THAT(damaged_parts(file), HasSubstr("frames have more bytes than the file"));
+  EXPECT_LT(index_frames({file, {}, {}}, 0).times.size(), std::size_t{kFrames} / 2);
+  for (const std::size_t end : {table, table + 4, table + 20, bytes.size() - 1}) {
+    write_text(file, bytes.substr(0, end));
+    EXPECT_EQ(damaged_parts(file), "");  // missing_end() states it
+    EXPECT_NE(missing_end(file), "");
+  }
+}
+
 // Two recordings in one file, as cat writes them.
 TEST(TransportStream, JoinedFilesAreNotDamaged) {
   const TemporaryFolder folder;
