@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMost = 100'000;   // frames that are listed
 constexpr std::size_t kMostBegun = 256;  // more than threads of libav have at once
+constexpr std::size_t kMostKnown = 32;   // frames of which only the first report counts
 constexpr const char* kBaseClass = "videodecoder";
 constexpr std::string_view kError = "error: ";  // how the base class begins reports of decoders
 
@@ -123,17 +124,20 @@ bool DecoderReports::counts(std::optional<Nanoseconds> time) const {
 
 void DecoderReports::add_frame(const Begun& frame, const std::string& reason) {
   if (!frame.counts || frames_.size() >= kMost) return;
-  const bool known = std::any_of(
-      frames_.rbegin(), frames_.rbegin() + std::min<std::ptrdiff_t>(std::ssize(frames_), 32),
-      [&frame](const DamagedFrame& other) { return other.time == frame.time; });
-  if (!known) frames_.push_back({frame.time, reason});
+  if (std::find(damaged_.begin(), damaged_.end(), frame.time) != damaged_.end()) return;
+  frames_.push_back({frame.time, reason});
+  damaged_.push_back(frame.time);
+  if (damaged_.size() > kMostKnown) damaged_.pop_front();
 }
 
-std::vector<DamagedFrame> DecoderReports::frames_until(Nanoseconds time) const {
-  std::vector<DamagedFrame> found;
+std::vector<DamagedFrame> DecoderReports::take_until(Nanoseconds time) {
   const std::lock_guard lock(mutex_);
-  std::copy_if(frames_.begin(), frames_.end(), std::back_inserter(found),
-               [time](const DamagedFrame& frame) { return !frame.time || *frame.time <= time; });
+  const auto later = std::stable_partition(
+      frames_.begin(), frames_.end(),
+      [time](const DamagedFrame& frame) { return !frame.time || *frame.time <= time; });
+  std::vector<DamagedFrame> found(std::make_move_iterator(frames_.begin()),
+                                  std::make_move_iterator(later));
+  frames_.erase(frames_.begin(), later);
   std::stable_sort(found.begin(), found.end(), [](const DamagedFrame& a, const DamagedFrame& b) {
     return order_of(a) < order_of(b);
   });

@@ -47,8 +47,9 @@ class DecoderReports : public std::enable_shared_from_this<DecoderReports> {
   /// A report about a frame that was decoded.
   void add(std::optional<Nanoseconds> time, const std::string& reason);
 
-  /// The damaged frames up to this time, by time. The decoder may be ahead of what is read.
-  std::vector<DamagedFrame> frames_until(Nanoseconds time) const;
+  /// Takes the damaged frames up to this time out, by time. The decoder may be ahead of what is
+  /// read.
+  std::vector<DamagedFrame> take_until(Nanoseconds time);
 
  private:
   // A frame that was begun.
@@ -62,11 +63,12 @@ class DecoderReports : public std::enable_shared_from_this<DecoderReports> {
 
   mutable std::mutex mutex_;  // guards all below
   std::vector<DamagedFrame> frames_;
-  std::deque<Begun> begun_;           // the last ones
-  std::int64_t number_ = 0;           // of the next frame
-  std::optional<Nanoseconds> start_;  // the time of the first keyframe
-  std::optional<Nanoseconds> first_;  // the first time that counts after a seek
-  bool started_ = false;              // at a keyframe
+  std::deque<Begun> begun_;                         // the last ones
+  std::deque<std::optional<Nanoseconds>> damaged_;  // the times of the last ones
+  std::int64_t number_ = 0;                         // of the next frame
+  std::optional<Nanoseconds> start_;                // the time of the first keyframe
+  std::optional<Nanoseconds> first_;                // the first time that counts after a seek
+  bool started_ = false;                            // at a keyframe
 };
 
 /// A clause about damaged frames of a source; empty without one.

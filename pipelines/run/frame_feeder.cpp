@@ -33,7 +33,7 @@ FrameFeeder::FrameFeeder(const Work& work, std::vector<std::int64_t> pairs,
     for (int lane = 0; lane < lanes; ++lane) {
       side.targets.push_back({element_of(pipeline, lane_name(name, lane)), nullptr});
     }
-    side.title = two ? std::string(name) + " view" : "recording";
+    side.title = title_of_side(static_cast<int>(sides_.size()), two);
     side.width = index.width;
     side.height = index.height;
     sides_.push_back(std::move(side));
@@ -47,7 +47,9 @@ FrameFeeder::~FrameFeeder() {
   if (thread_.joinable()) thread_.join();
 }
 
-void FrameFeeder::start() {
+void FrameFeeder::start(std::vector<DamageNote> earlier) {
+  notes_ = std::move(earlier);
+  taken_ = notes_.size();
   thread_ = std::thread([this] { run(); });
 }
 
@@ -58,17 +60,28 @@ void FrameFeeder::check() {
 
 std::string FrameFeeder::damage() {
   const std::lock_guard lock(mutex_);
-  return damage_;
+  std::string damage = missing_;
+  add_damage(damage, damage_text(notes_, sides_.size() == 2));
+  return damage;
+}
+
+std::vector<DamageNote> FrameFeeder::take_notes(std::int64_t pair) {
+  const std::lock_guard lock(mutex_);
+  std::vector<DamageNote> notes;
+  for (; taken_ < notes_.size() && notes_[taken_].pair <= pair; ++taken_) {
+    notes.push_back(notes_[taken_]);
+  }
+  return notes;
 }
 
 void FrameFeeder::run() noexcept {
   try {
     feed();
+    note_damage(pairs_.empty() ? 0 : pairs_.back());
   } catch (...) {
     const std::lock_guard lock(mutex_);
     failure_ = std::current_exception();
   }
-  note_damage();
   for (const Side& side : sides_) {
     for (const Target& target : side.targets) {
       gst_app_src_end_of_stream(GST_APP_SRC(target.source.get()));
@@ -94,6 +107,7 @@ bool FrameFeeder::feed_pair(std::int64_t pair) {
   std::vector<DecodedFrame> decoded;
   decoded.push_back(sides_[0].reader->read(frames.left));
   if (two) decoded.push_back(reading.get());
+  note_damage(pair);
   bool complete = true, more = true;
   for (std::size_t i = 0; i < decoded.size(); ++i) {
     if (decoded[i].state == FrameState::kDecoded) continue;
@@ -113,25 +127,22 @@ bool FrameFeeder::feed_pair(std::int64_t pair) {
 void FrameFeeder::note(const Side& side, std::int64_t frame, FrameState state) {
   const FrameIndex& index = &side == &sides_.front() ? work_.left : work_.right;
   const std::lock_guard lock(mutex_);
-  if (!damage_.empty() && state == FrameState::kMissing) return;
+  if (!missing_.empty() && state == FrameState::kMissing) return;
   std::string text = "frame " + std::to_string(frame) + " of the " + side.title + " (" +
                      seconds_text(index.times[static_cast<std::size_t>(frame)]) + ")" +
                      (state == FrameState::kEnd ? " and all after it" : "") + " cannot be decoded";
   if (!side.reader->problem().empty()) text += ": " + side.reader->problem();
-  damage_ += (damage_.empty() ? "" : "; ") + text;
+  add_damage(missing_, text);
 }
 
 // What the decoders had to conceal.
-void FrameFeeder::note_damage() noexcept {
-  try {
-    const std::lock_guard lock(mutex_);
-    for (const Side& side : sides_) {
-      const std::string text = damage_text(side.reader->damaged(), side.title);
-      if (!text.empty()) damage_ += (damage_.empty() ? "" : "; ") + text;
+void FrameFeeder::note_damage(std::int64_t pair) {
+  for (std::size_t side = 0; side < sides_.size(); ++side) {
+    for (DamagedFrame& frame : sides_[side].reader->take_damaged()) {
+      const std::lock_guard lock(mutex_);
+      if (notes_.size() >= kMostNotes) return;
+      notes_.push_back({pair, static_cast<int>(side), std::move(frame)});
     }
-  } catch (...) {
-    const std::lock_guard lock(mutex_);
-    if (!failure_) failure_ = std::current_exception();
   }
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "run/damage_notes.hpp"
 #include "run/frame_reader.hpp"
 #include "run/piece.hpp"
 
@@ -27,8 +28,8 @@ class FrameFeeder {
   FrameFeeder(const FrameFeeder&) = delete;
   FrameFeeder& operator=(const FrameFeeder&) = delete;
 
-  /// Starts the thread.
-  void start();
+  /// Starts the thread. `earlier`: the notes of an interrupted run, for damage().
+  void start(std::vector<DamageNote> earlier);
   /// Asks the thread to end after the current pair.
   void stop() { stopped_ = true; }
   /// Throws what the thread has thrown.
@@ -36,6 +37,8 @@ class FrameFeeder {
   /// Why pairs are missing or not as they were coded; empty if all are whole. After the end of the
   /// pipeline's streams.
   std::string damage();
+  /// The notes up to this pair, but those of earlier calls.
+  std::vector<DamageNote> take_notes(std::int64_t pair);
 
  private:
   // Where the frames of a lane go.
@@ -46,7 +49,7 @@ class FrameFeeder {
   struct Side {
     std::unique_ptr<FrameReader> reader;
     std::vector<Target> targets;  // one for each lane
-    std::string title;            // of the view, for messages
+    std::string title;            // for messages
     int width = 0, height = 0;
   };
   void run() noexcept;
@@ -54,7 +57,7 @@ class FrameFeeder {
   bool feed_pair(std::int64_t pair);
   bool push(Side& side, DecodedFrame frame, std::int64_t pair) const;
   void note(const Side& side, std::int64_t frame, FrameState state);
-  void note_damage() noexcept;
+  void note_damage(std::int64_t pair);
   void set_caps(const Side& side, Target& target, const DecodedFrame& frame) const;
 
   const Work& work_;
@@ -63,8 +66,10 @@ class FrameFeeder {
   std::size_t lanes_, lane_ = 0;  // the lane of the next pair
   std::atomic<bool> stopped_{false};
   std::mutex mutex_;
-  std::exception_ptr failure_;  // guarded by mutex_
-  std::string damage_;          // guarded by mutex_
+  std::exception_ptr failure_;     // guarded by mutex_
+  std::string missing_;            // pairs; guarded by mutex_
+  std::vector<DamageNote> notes_;  // guarded by mutex_
+  std::size_t taken_ = 0;          // of these; guarded by mutex_
   std::thread thread_;
 };
 

@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "run/container.hpp"
+#include "run/damage_notes.hpp"
 #include "run/file_names.hpp"
 #include "run/run_error.hpp"
 #include "run/video_times.hpp"
@@ -71,9 +72,9 @@ std::string missing_of(const fs::path& file, const VideoTimes& coded, const Vide
 // All that is known before the frames of the pairs are decoded.
 std::string damage_of(const fs::path& file, const VideoTimes& coded, const VideoTimes& shown,
                       bool by_order) {
-  const std::string missing = missing_of(file, coded, shown, by_order);
-  const std::string parts = damaged_parts(file);
-  return missing + (missing.empty() || parts.empty() ? "" : "; ") + parts;
+  std::string damage = missing_of(file, coded, shown, by_order);
+  add_damage(damage, damaged_parts(file));
+  return damage;
 }
 
 // Frames before the first keyframe need frames before the recording: the decoder shows remains of

@@ -38,8 +38,9 @@ class FrameReader {
   virtual DecodedFrame read(std::int64_t number) = 0;
   /// What the decoder reported about the last frame that was not decoded; may be empty.
   virtual const std::string& problem() const = 0;
-  /// The frames up to the last one that was read that are not as they were coded.
-  virtual std::vector<DamagedFrame> damaged() const = 0;
+  /// The frames up to the last one that was read that are not as they were coded, but those of
+  /// earlier calls.
+  virtual std::vector<DamagedFrame> take_damaged() = 0;
 };
 
 /// The reader of a source. Throws RunError if it cannot be opened. `index` must outlive it.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "run/damage_notes.hpp"
 #include "run/json.hpp"
 #include "run/matroska.hpp"
 #include "run/piece.hpp"
@@ -103,7 +104,7 @@ PieceReport joined_report(const std::vector<Piece>& pieces) {
     const PieceReport& part = piece.report;
     report.frames.insert(report.frames.end(), part.frames.begin(), part.frames.end());
     // Where the recording ends is stated once, by the first piece that has no more frames.
-    if (report.damage.empty()) report.damage = part.damage;
+    if (!part.frames.empty() || report.damage.empty()) add_damage(report.damage, part.damage);
   }
   return report;
 }

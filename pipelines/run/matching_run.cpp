@@ -17,7 +17,7 @@ GstClockTime running_time(GstSample* sample) {
 }  // namespace
 
 MatchingRun::MatchingRun(const Work& work, std::vector<std::int64_t> pairs, Pipeline pipeline,
-                         int lanes)
+                         int lanes, std::vector<DamageNote> earlier)
     : work_(work),
       pipeline_(std::move(pipeline)),
       feeder_(work, std::move(pairs), pipeline_, lanes) {
@@ -25,7 +25,7 @@ MatchingRun::MatchingRun(const Work& work, std::vector<std::int64_t> pairs, Pipe
   if (gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING) == GST_STATE_CHANGE_FAILURE) {
     fail("the pipeline cannot be started");
   }
-  feeder_.start();
+  feeder_.start(std::move(earlier));
 }
 
 void MatchingRun::add_lane(int number) {

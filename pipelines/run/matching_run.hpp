@@ -28,8 +28,10 @@ struct PairResult {
 /// Runs pairs through the lanes of a matching pipeline, and returns them in their order.
 class MatchingRun {
  public:
-  /// Starts. `pairs` increase. `work` must outlive it. Throws RunError.
-  MatchingRun(const Work& work, std::vector<std::int64_t> pairs, Pipeline pipeline, int lanes);
+  /// Starts. `pairs` increase. `work` must outlive it. `earlier`: the notes of an interrupted run,
+  /// for damage(). Throws RunError.
+  MatchingRun(const Work& work, std::vector<std::int64_t> pairs, Pipeline pipeline, int lanes,
+              std::vector<DamageNote> earlier = {});
   ~MatchingRun();
   MatchingRun(const MatchingRun&) = delete;
   MatchingRun& operator=(const MatchingRun&) = delete;
@@ -38,6 +40,8 @@ class MatchingRun {
   std::optional<PairResult> next();
   /// Why pairs are missing or damaged, after the last one; empty if none is.
   std::string damage() { return feeder_.damage(); }
+  /// The damaged frames that were found up to this pair, but those of earlier calls.
+  std::vector<DamageNote> take_notes(std::int64_t pair) { return feeder_.take_notes(pair); }
   /// The element mtstereo of the first lane.
   GstElement* matcher() const { return lanes_.front()->matcher.get(); }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "outputs/json_text.hpp"
+#include "run/damage_notes.hpp"
 #include "run/in_parallel.hpp"
 #include "run/json.hpp"
 #include "run/plan_contents.hpp"
@@ -170,7 +171,8 @@ void add(const Figures& part, Figures& sum) {
   }
   sum.pairs += part.pairs;
   sum.seconds += part.seconds;
-  if (sum.damage.empty()) sum.damage = part.damage;
+  // As join() does.
+  if (part.pairs > 0 || sum.damage.empty()) add_damage(sum.damage, part.damage);
 }
 
 MergeResult merge(const fs::path& folder, const MergeOptions& options) {

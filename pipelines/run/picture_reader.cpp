@@ -130,7 +130,7 @@ class PictureReader : public FrameReader {
 
   const std::string& problem() const override { return problem_; }
 
-  std::vector<DamagedFrame> damaged() const override { return damaged_; }
+  std::vector<DamagedFrame> take_damaged() override { return std::exchange(damaged_, {}); }
 
  private:
   DecodedFrame read_jpeg(const std::filesystem::path& file) {

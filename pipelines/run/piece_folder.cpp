@@ -84,8 +84,15 @@ bool PieceFolder::read_journal(const std::string& head) {
   if (!std::getline(stream, line) || line + "\n" != head) return false;
   while (std::getline(stream, line) && !stream.eof()) {
     FrameFigures figures;
-    if (!parse_line(line, figures)) break;
-    done_.push_back(figures);
+    DamageNote note;
+    if (!done_.empty() && parse_line(line, note)) {
+      note.pair = done_.back().pair;
+      damaged_.push_back(std::move(note));
+    } else if (parse_line(line, figures)) {
+      done_.push_back(figures);
+    } else {
+      break;
+    }
   }
   return true;
 }
@@ -97,21 +104,30 @@ void PieceFolder::keep_whole_frames() {
     const std::size_t frames = frames_in(unfinished() / product_path(work_.options, product));
     if (frames < done_.size()) done_.resize(frames);
   }
+  std::erase_if(damaged_, [this](const DamageNote& note) {
+    return done_.empty() || note.pair > done_.back().pair;
+  });
 }
 
 void PieceFolder::write_journal(const std::string& head) {
   const fs::path aside = unfinished() / "journal.new";
   std::ofstream stream(aside, std::ios::binary);
   stream << head;
-  for (const FrameFigures& figures : done_) stream << line_of(figures);
+  auto note = damaged_.begin();
+  for (const FrameFigures& figures : done_) {
+    stream << line_of(figures);
+    for (; note != damaged_.end() && note->pair == figures.pair; ++note) stream << line_of(*note);
+  }
   stream.close();
   if (!stream) throw write_error(aside);
   fs::rename(aside, journal());
   stream_.open(journal(), std::ios::binary | std::ios::app);
 }
 
-void PieceFolder::note(const FrameFigures& figures) {
-  stream_ << line_of(figures) << std::flush;
+void PieceFolder::note(const FrameFigures& figures, const std::vector<DamageNote>& damaged) {
+  stream_ << line_of(figures);
+  for (const DamageNote& note : damaged) stream_ << line_of(note);
+  stream_ << std::flush;
   if (!stream_) throw write_error(journal());
   any_done_ = true;
 }

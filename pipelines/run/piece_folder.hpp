@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "run/damage_notes.hpp"
 #include "run/piece.hpp"
 #include "run/results.hpp"
 
@@ -30,8 +31,10 @@ class PieceFolder {
   const std::optional<PieceReport>& whole() const { return whole_; }
   /// The figures of the pairs that were done before.
   const std::vector<FrameFigures>& done() const { return done_; }
-  /// Notes a pair whose files are written.
-  void note(const FrameFigures& figures);
+  /// The damaged frames that were found before.
+  const std::vector<DamageNote>& damaged() const { return damaged_; }
+  /// Notes a pair whose files are written, and the damaged frames up to it.
+  void note(const FrameFigures& figures, const std::vector<DamageNote>& damaged);
   /// Replaces the results in the folder by the unfinished ones, and writes the report, whose files
   /// it lists. If it is interrupted, the next run with Existing::kContinue does the rest.
   void finish(PieceReport& report);
@@ -49,6 +52,7 @@ class PieceFolder {
   Range range_;
   std::filesystem::path folder_;
   std::vector<FrameFigures> done_;
+  std::vector<DamageNote> damaged_;
   std::optional<PieceReport> whole_;
   std::ofstream stream_;
   bool any_done_ = false;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "run/damage_notes.hpp"
 #include "run/matching_run.hpp"
 #include "run/piece.hpp"
 #include "run/piece_folder.hpp"
@@ -28,6 +29,10 @@ std::vector<std::int64_t> numbers(std::int64_t first, std::int64_t end) {
   return pairs;
 }
 
+bool has_two_sources(const Work& work) {
+  return work.recording.arrangement == Arrangement::kTwoSources;
+}
+
 }  // namespace
 
 PieceReport process(const Work& work, Range range, const std::filesystem::path& folder,
@@ -44,26 +49,29 @@ PieceReport process(const Work& work, Range range, const std::filesystem::path& 
   report.frames = piece.done();
   const std::int64_t first = report.frames.empty() ? range.first : report.frames.back().pair + 1;
   const std::int64_t end = range.first + range.count;
+  const std::int64_t missing = first - range.first - std::ssize(report.frames);
+  if (missing > 0) {
+    report.damage =
+        std::to_string(missing) + " pairs could not be decoded before the run was interrupted";
+  }
   ProductFiles files(work, piece.unfinished(), static_cast<std::int64_t>(report.frames.size()));
   if (first < end) {
     const Lanes lanes = lanes_for(work.options.threads);
-    MatchingRun run(work, numbers(first, end), matching_pipeline(work, lanes), lanes.count);
+    MatchingRun run(work, numbers(first, end), matching_pipeline(work, lanes), lanes.count,
+                    piece.damaged());
     while (const std::optional<PairResult> result = run.next()) {
       report.frames.push_back(files.write(*result));
       const FrameFigures& figures = report.frames.back();
-      piece.note(figures);
+      piece.note(figures, run.take_notes(figures.pair));
       const std::int64_t done = figures.pair + 1 - range.first;
       if (progress && !progress(done, range.count, figures.matching_ms)) {
         throw RunError(work.recording.name + ": stopped after " + std::to_string(done) + " of " +
                        std::to_string(range.count) + " pairs");
       }
     }
-    report.damage = run.damage();
-  }
-  const std::int64_t missing = range.count - static_cast<std::int64_t>(report.frames.size());
-  if (missing > 0 && report.damage.empty()) {
-    report.damage =
-        std::to_string(missing) + " pairs could not be decoded before the run was interrupted";
+    add_damage(report.damage, run.damage());
+  } else {
+    add_damage(report.damage, damage_text(piece.damaged(), has_two_sources(work)));
   }
   files.finish();
   piece.finish(report);

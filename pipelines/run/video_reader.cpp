@@ -25,25 +25,26 @@ class VideoReader : public FrameReader {
       : file_(std::move(file)), index_(index) {}
 
   DecodedFrame read(std::int64_t number) override {
-    if (!scan_) start();
+    if (!scan_) start(number);
     if (number >= next_ && (index_.by_order || number - next_ <= kFar)) return forward(number);
     for (const Nanoseconds lead : kLead) {
       if (index_.by_order || !seek(number, lead)) continue;
       DecodedFrame frame = forward(number);
       if (frame.state == FrameState::kDecoded && !is_corrupt(frame)) return frame;
     }
-    start();
+    start(number);
     return forward(number);
   }
 
   const std::string& problem() const override { return problem_; }
 
-  std::vector<DamagedFrame> damaged() const override {
-    std::vector<DamagedFrame> frames = damaged_;
+  std::vector<DamagedFrame> take_damaged() override {
+    std::vector<DamagedFrame> frames = std::exchange(damaged_, {});
     if (!scan_ || next_ == 0) return frames;
     const auto last = std::min(static_cast<std::size_t>(next_), index_.times.size()) - 1;
-    const std::vector<DamagedFrame> more = scan_->damaged_until(index_.times[last]);
-    frames.insert(frames.end(), more.begin(), more.end());
+    for (DamagedFrame& frame : scan_->take_damaged_until(index_.times[last])) {
+      if (!frame.time || *frame.time >= first_) frames.push_back(std::move(frame));
+    }
     return frames;
   }
 
@@ -55,14 +56,15 @@ class VideoReader : public FrameReader {
     std::optional<Nanoseconds> time;
   };
 
-  // Starts at the first frame.
-  void start() {
-    damaged_ = damaged();
+  // Starts at the first frame. Damage of those before `wanted` does not count.
+  void start(std::int64_t wanted) {
+    damaged_ = take_damaged();
     waiting_ = {};
     scan_.reset();
     scan_ = std::make_unique<VideoScan>(file_, Reading::kDecoded);
     next_ = 0;
     from_start_ = true;
+    first_ = index_.times[static_cast<std::size_t>(wanted)];
   }
 
   bool seek(std::int64_t number, Nanoseconds lead) {
@@ -147,6 +149,7 @@ class VideoReader : public FrameReader {
   Waiting waiting_;
   std::int64_t next_ = 0;   // the frame after the last one that was decoded
   bool from_start_ = true;  // since the start of the file no seek took place
+  Nanoseconds first_ = 0;   // the time of the frame for which it was started
   std::string problem_;
   std::vector<DamagedFrame> damaged_;  // before the last start
 };

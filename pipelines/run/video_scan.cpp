@@ -358,8 +358,8 @@ std::optional<VideoFrame> VideoScan::next() {
 
 GstSample* VideoScan::sample() const { return state_->sample.get(); }
 
-std::vector<DamagedFrame> VideoScan::damaged_until(Nanoseconds time) const {
-  return state_->reports->frames_until(time);
+std::vector<DamagedFrame> VideoScan::take_damaged_until(Nanoseconds time) {
+  return state_->reports->take_until(time);
 }
 
 bool VideoScan::seek(Nanoseconds time, Nanoseconds wanted) {

@@ -66,8 +66,8 @@ class VideoScan {
   /// not reported. False if it cannot.
   bool seek(Nanoseconds time, Nanoseconds wanted);
   bool seek(Nanoseconds time) { return seek(time, time); }
-  /// The frames up to this time that the decoder could not decode as they were coded.
-  std::vector<DamagedFrame> damaged_until(Nanoseconds time) const;
+  /// Takes out the frames up to this time that the decoder could not decode as they were coded.
+  std::vector<DamagedFrame> take_damaged_until(Nanoseconds time);
   /// The format of the last frame.
   const VideoFormat& format() const;
   /// Whether the first frame of the file is a keyframe, also if it is not shown.

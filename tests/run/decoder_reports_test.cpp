@@ -50,7 +50,7 @@ std::vector<DamagedFrame> damage_of(const fs::path& video, std::int64_t first = 
   const FrameIndex index = index_frames({video, {}, {}}, 0);
   const auto reader = open_video(video, index);
   for (auto i = first; i < std::ssize(index.times); ++i) reader->read(i);
-  return reader->damaged();
+  return reader->take_damaged();
 }
 
 struct Coding {
@@ -161,11 +161,11 @@ TEST(DecoderReports, CountsFromTheFirstKeyframeOn) {
   reports->begin(100, true);
   reports->begin(80, false);
   reports->add("shown before the keyframe");
-  EXPECT_THAT(reports->frames_until(kLast), IsEmpty());
+  EXPECT_THAT(reports->take_until(kLast), IsEmpty());
   reports->begin(120, false);
   reports->add("damaged");
   reports->add("the same frame");
-  const std::vector<DamagedFrame> found = reports->frames_until(kLast);
+  const std::vector<DamagedFrame> found = reports->take_until(kLast);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_EQ(found.front().time, 120);
   EXPECT_EQ(found.front().reason, "damaged");
@@ -176,8 +176,8 @@ TEST(DecoderReports, DoesNotCountFramesThatWereNotRead) {
   reports->begin(0, true);
   reports->begin(90, false);
   reports->add("later");
-  EXPECT_THAT(reports->frames_until(80), IsEmpty());
-  EXPECT_THAT(reports->frames_until(90), SizeIs(1));
+  EXPECT_THAT(reports->take_until(80), IsEmpty());
+  EXPECT_THAT(reports->take_until(90), SizeIs(1));
 }
 
 TEST(DecoderReports, AfterASeekOnlyWantedFramesCount) {
@@ -190,7 +190,7 @@ TEST(DecoderReports, AfterASeekOnlyWantedFramesCount) {
   reports->add("decoded for others");
   reports->begin(300, false);
   reports->add("wanted");
-  const std::vector<DamagedFrame> found = reports->frames_until(kLast);
+  const std::vector<DamagedFrame> found = reports->take_until(kLast);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_EQ(found.front().reason, "wanted");
 }
@@ -199,7 +199,7 @@ TEST(DecoderReports, FramesThatAreNotShownDoNotCount) {
   const auto reports = std::make_shared<DecoderReports>();
   reports->begin(DecoderReports::kNotShown, true);
   reports->add("before an edit list");
-  EXPECT_THAT(reports->frames_until(kLast), IsEmpty());
+  EXPECT_THAT(reports->take_until(kLast), IsEmpty());
 }
 
 TEST(DecoderReports, ThreadsReportByNumber) {
@@ -207,7 +207,7 @@ TEST(DecoderReports, ThreadsReportByNumber) {
   reports->begin(10, false);  // before the keyframe
   for (const Nanoseconds time : {100, 120, 140}) reports->begin(time, time == 100);
   for (const std::int64_t number : {-1, 0, 2, 4}) reports->add_of(number, "of a thread");
-  const std::vector<DamagedFrame> found = reports->frames_until(kLast);
+  const std::vector<DamagedFrame> found = reports->take_until(kLast);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_EQ(found.front().time, 120);
 }
@@ -216,7 +216,7 @@ TEST(DecoderReports, OldNumbersAreForgotten) {
   const auto reports = std::make_shared<DecoderReports>();
   for (Nanoseconds time = 0; time < 1000; ++time) reports->begin(time, true);
   for (const std::int64_t number : {0, 500, 990}) reports->add_of(number, "of a thread");
-  const std::vector<DamagedFrame> found = reports->frames_until(kLast);
+  const std::vector<DamagedFrame> found = reports->take_until(kLast);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_EQ(found.front().time, 990);
 }
@@ -225,7 +225,7 @@ TEST(DecoderReports, FramesWithoutTimesCount) {
   const auto reports = std::make_shared<DecoderReports>();
   reports->begin(std::nullopt, true);
   reports->add("no time");
-  EXPECT_THAT(reports->frames_until(0), SizeIs(1));
+  EXPECT_THAT(reports->take_until(0), SizeIs(1));
 }
 
 TEST(DamageText, StatesCountTimeAndReason) {

@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using testing::constant_times;
 using testing::contents_of;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using testing::kBFrames;
 using testing::TemporaryFolder;
@@ -268,6 +269,62 @@ TEST(DamagedPiece, EndsWhereItsFramesEndAndSaysWhy) {
   EXPECT_LT(report.frames.size(), 50u);
   EXPECT_NE(report.damage.find("of the right view"), std::string::npos) << report.damage;
   EXPECT_NE(report.damage.find("cannot be decoded"), std::string::npos) << report.damage;
+}
+
+// A recording whose decoders report errors from its middle on.
+class DamagedRecording : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string coding = "jpegenc ! qtmux";  // frames that do not refer to others
+    const fs::path right = folder_ / "right.mov";
+    write_view(folder_ / "left.mov", View::kLeft, coding, constant_times(kAll));
+    write_view(right, View::kRight, coding, constant_times(kAll));
+    work_ = work_of(folder_ / "left.mov", right, {});
+    std::string bytes = testing::bytes_of(right);
+    for (std::size_t i = bytes.size() / 3; i < 2 * bytes.size() / 3; i += 997) bytes[i] ^= 0x55;
+    testing::write_text(right, bytes);
+    uncut_ = process(work_, whole(work_), folder_ / "whole", kNoProgress);
+    ASSERT_THAT(uncut_.damage, HasSubstr(kDecoded));
+    ASSERT_GT(uncut_.frames.size(), 10U);
+  }
+
+  static constexpr int kAll = 90;
+  static constexpr const char* kDecoded = "frames of the right view cannot be decoded without";
+  TemporaryFolder folder_;
+  Work work_;
+  PieceReport uncut_;
+};
+
+TEST_F(DamagedRecording, KeepsItsDamageOverInterruptions) {
+  for (const std::int64_t stop : {kAll / 3, kAll / 2, 2 * kAll / 3, kAll - 1}) {
+    const Progress progress = [stop](std::int64_t count, std::int64_t, double) {
+      return count < stop;
+    };
+    EXPECT_THROW(process(work_, whole(work_), folder_ / "piece", progress, Existing::kContinue),
+                 RunError);
+  }
+  const PieceReport report =
+      process(work_, whole(work_), folder_ / "piece", kNoProgress, Existing::kContinue);
+  const std::string decoded = uncut_.damage.substr(uncut_.damage.find("; ") + 2);
+  EXPECT_THAT(report.damage, EndsWith("; " + decoded));
+  EXPECT_THAT(report.damage, HasSubstr(" pairs could not be decoded before the run was"));
+  EXPECT_EQ(report.frames.size(), uncut_.frames.size());
+}
+
+TEST_F(DamagedRecording, KeepsTheDamageOfAllPieces) {
+  const std::vector<Range> ranges{{0, 20}, {20, 25}, {45, kAll - 45}};
+  std::vector<fs::path> folders;
+  std::string expected;
+  int damaged = 0;
+  for (const Range& range : ranges) {
+    folders.push_back(folder_ / std::to_string(range.first));
+    const std::string damage = process(work_, range, folders.back(), kNoProgress).damage;
+    if (damage.empty()) continue;
+    expected += (expected.empty() ? "" : "; ") + damage;
+    ++damaged;
+  }
+  EXPECT_GE(damaged, 2);
+  EXPECT_EQ(join(work_, ranges, folders, folder_ / "joined").damage, expected);
 }
 
 TEST(DamagedPiece, WithoutAnyFrameHasNoFile) {
