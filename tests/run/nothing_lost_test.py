@@ -14,6 +14,7 @@ import os
 import pathlib
 import random
 import shutil
+import signal
 import stat
 import subprocess
 import sys
@@ -55,6 +56,29 @@ def fingerprint(path):
     return f"kind {stat.S_IFMT(mode):o}"
 
 
+def runs_still(group):
+    """Whether a process of a group has not ended: the jobs of a program that was killed."""
+    for file in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, _, its_group = file.read_text(errors="replace").rpartition(")")[2].split()[:3]
+        except (OSError, ValueError):
+            continue  # it has ended meanwhile
+        if int(its_group) == group and state not in "ZX":
+            return True
+    return False
+
+
+def ends(group):
+    """Waits for the end of a group of processes."""
+    last = time.monotonic() + TIMEOUT
+    while runs_still(group):
+        if time.monotonic() > last:
+            os.killpg(group, signal.SIGKILL)
+            return False
+        time.sleep(0.02)
+    return True
+
+
 class Combination:
     """A folder with inputs and foreign files, and what is done with it."""
 
@@ -64,6 +88,7 @@ class Combination:
         self.kept = {}  # fingerprints of inputs and foreign files
         self.log = []
         self.statuses = collections.Counter()
+        self.groups = []  # of processes
         self.inputs = self.place_inputs(clips)
         for _ in range(chance.choice((0, 0, 1, 1, 2, 4))):
             self.plant()
@@ -167,8 +192,10 @@ class Combination:
             commands.append(self.chance.choice((commands[0], self.command())))
         self.log.extend(" ".join(command) for command in commands)
         processes = [subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                      stderr=subprocess.PIPE, text=True, errors="replace")
+                                      stderr=subprocess.PIPE, text=True, errors="replace",
+                                      start_new_session=True)
                      for command in commands]  # fmt: skip
+        self.groups.extend(process.pid for process in processes)
         if self.chance.random() < 0.3:
             time.sleep(self.chance.uniform(0, 0.6))
             processes[0].kill()
@@ -191,6 +218,12 @@ class Combination:
 
     def check(self):
         """Does some commands. Returns what is wrong."""
+        wrong = self.do_commands()
+        if not all([ends(group) for group in self.groups]):
+            return ["the jobs of a command do not end"]
+        return wrong or self.lost()
+
+    def do_commands(self):
         for step in range(self.chance.choice((1, 2, 2, 3))):
             if step > 0 and self.chance.random() < 0.5:
                 self.chance.choice((self.plant, self.replace_result))()
