@@ -268,7 +268,7 @@ void link_results(const fs::path& joined, const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(joined / kRunFile, error)) return;
   if (!fs::equivalent(joined / kRunFile, folder / kRunFile, error)) remove_results(folder);
-  link_files(joined, folder, {kPieceFile, kRunFile});
+  link_files(joined, folder, {kReportFiles.begin(), kReportFiles.end()});
   link_file(joined / kRunFile, folder / kRunFile);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ std::string fingerprint(const Work& work);
 
 /// The report of a run in its folder.
 inline constexpr const char* kRunFile = "run.json";
+/// The reports in a folder of results: what they list, a run of this program wrote.
+inline constexpr std::array kReportFiles{kPieceFile, kRunFile};
 
 /// The report of a run: parameters, versions, inputs, figures per frame and their means, dropped
 /// frames, remarks.

@@ -150,7 +150,7 @@ std::vector<std::string> names_in(const fs::path& whole) {
 outputs::WrittenFiles whole_files_in(const fs::path& folder) {
   outputs::WrittenFiles written;
   for (const std::string& name : names_in(folder / kWhole)) written.add(name);
-  for (const char* report : {kPieceFile, kRunFile}) {
+  for (const char* report : kReportFiles) {
     const auto listed = files_listed_in(folder / report);
     if (!listed) continue;
     for (const auto& [name, bytes] : listed->files()) written.add(name);

@@ -10,6 +10,8 @@
 
 #include "outputs/printable.hpp"
 #include "run/file_names.hpp"
+#include "run/json.hpp"
+#include "run/plan_folder.hpp"
 #include "run/run_error.hpp"
 #include "run/search.hpp"
 
@@ -101,7 +103,7 @@ class ArchiveSearch {
   // Folders of results of earlier runs are no recordings.
   static bool is_result(const fs::path& folder) {
     std::error_code error;
-    return fs::exists(folder / "run.json", error) || fs::exists(folder / "plan.json", error);
+    return fs::exists(folder / kRunFile, error) || fs::exists(PlanFolder(folder).plan(), error);
   }
 
   void make_names_unique() {

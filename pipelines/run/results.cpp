@@ -140,8 +140,7 @@ outputs::WrittenFiles results_in(const fs::path& folder) {
       }
     }
   }
-  add_listed(folder, folder / kPieceFile, written);
-  add_listed(folder, folder / kRunFile, written);
+  for (const char* report : kReportFiles) add_listed(folder, folder / report, written);
   return written;
 }
 
@@ -160,7 +159,7 @@ outputs::WrittenFiles unfinished_files_in(const fs::path& folder) {
 void check_results_folder(const fs::path& folder, const Recording& recording,
                           const WorkOptions& options, Existing existing, const std::string& head) {
   check_unfinished(folder, existing, head);
-  outputs::Intent intent{{kPieceFile, kRunFile}, results_in(folder), {}};
+  outputs::Intent intent{{kReportFiles.begin(), kReportFiles.end()}, results_in(folder), {}};
   for (const Product product : options.products) {
     intent.targets.push_back(product_path(options, product));
   }

@@ -33,11 +33,8 @@ StereoCalibration read_euroc(const Entry& left, const Entry& right, const Reques
   calibration.format = "EuRoC sensor.yaml";
   calibration.left = read_camera(left);
   calibration.right = read_camera(right);
-  const Entry pose = right.at("T_BS", "the position on the body");
-  const Motion left_to_body = motion_from(left.at("T_BS", "the position on the body"));
-  const Motion motion = motion_from(pose).inverse().after(left_to_body);
-  check_translation(motion.translation, pose, ": T_BS must be in meters");
-  set_motion(calibration, motion);
+  set_motion_on_body(calibration, left.at("T_BS", "the position on the body"),
+                     right.at("T_BS", "the position on the body"));
   return calibration;
 }
 

@@ -249,6 +249,13 @@ void check_translation(const Eigen::Vector3d& translation, const Entry& entry,
   entry.fail("states " + problem + (too_long ? std::string(hint) : ""));
 }
 
+void set_motion_on_body(StereoCalibration& calibration, const Entry& left, const Entry& right) {
+  const Motion left_to_body = motion_from(left);
+  const Motion motion = motion_from(right).inverse().after(left_to_body);
+  check_translation(motion.translation, right, "; it must be in meters");
+  set_motion(calibration, motion);
+}
+
 StereoCalibration rectified_cameras(const Rectification& rectification) {
   StereoCalibration calibration;
   for (CameraCalibration* camera : {&calibration.left, &calibration.right}) {

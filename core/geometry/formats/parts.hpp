@@ -81,6 +81,10 @@ Motion motion_of(const Rectification& rectification);
 void check_translation(const Eigen::Vector3d& translation, const Entry& entry,
                        std::string_view hint);
 
+/// Sets R and T of cameras whose poses on a body are 4x4 matrices that move points from a camera to
+/// the body [m].
+void set_motion_on_body(StereoCalibration& calibration, const Entry& left, const Entry& right);
+
 /// A calibration of cameras whose views are rectified already.
 StereoCalibration rectified_cameras(const Rectification& rectification);
 

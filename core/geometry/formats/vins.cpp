@@ -77,11 +77,8 @@ StereoCalibration read_vins(const Entry& file, const Request& request) {
   calibration.format = "VINS-Fusion";
   calibration.left = read_named(file.at("cam0_calib", "the file of the left camera"));
   calibration.right = read_named(file.at("cam1_calib", "the file of the right camera"));
-  const Entry right = file.at("body_T_cam1", "position of the right camera");
-  const Motion left_to_body = motion_from(file.at("body_T_cam0", "position of the left camera"));
-  const Motion motion = motion_from(right).inverse().after(left_to_body);
-  check_translation(motion.translation, right, "; it must be in meters");
-  set_motion(calibration, motion);
+  set_motion_on_body(calibration, file.at("body_T_cam0", "position of the left camera"),
+                     file.at("body_T_cam1", "position of the right camera"));
   return calibration;
 }
 
