@@ -122,25 +122,29 @@ TEST_F(Merge, NamesRecordingsOfWhichNotAllCouldBeRead) {
                                  const Progress& progress) {
     PieceReport report = fake_process(work, range, folder, progress);
     report.frames.erase(report.frames.begin() + 1);
-    report.damage = "1 frame cannot be decoded";
+    report.damage = "1 frame after pair " + std::to_string(range.first) + " cannot be decoded";
     write_piece(report, range, folder / kPieceFile);
     return report;
   };
   Plan plan = read_plan(folder_.path());
   plan.damaged = {{"/archive/b.mkv", "the file is truncated after 12.3 s"}};
   write_plan_file(plan, folder_.path());
-  do_tasks({0, 2, 3, 4});
-  EXPECT_EQ(do_task(folder_.path(), 1, damaged, nullptr), TaskResult::kDone);
+  do_tasks({2, 3, 4});
+  for (const std::size_t task : {0, 1}) {
+    EXPECT_EQ(do_task(folder_.path(), task, damaged, nullptr), TaskResult::kDone);
+  }
   const MergeResult result = merge_all();
+  const std::string kDamage =
+      "1 frame after pair 0 cannot be decoded; 1 frame after pair 4 cannot be decoded";
   EXPECT_THAT(result.missing, IsEmpty());
   EXPECT_THAT(result.problems, IsEmpty());
   EXPECT_EQ(result.joined, 2U);
-  EXPECT_EQ(result.sum.pairs, 16);
+  EXPECT_EQ(result.sum.pairs, 15);
   ASSERT_THAT(result.damaged, SizeIs(1));
   EXPECT_EQ(result.damaged[0].input, "a");
-  EXPECT_EQ(result.damaged[0].reason, "1 frame cannot be decoded");
+  EXPECT_EQ(result.damaged[0].reason, kDamage);
   const nlohmann::json text = summary();
-  EXPECT_EQ(text.at("recordings").at(0).at("damage"), "1 frame cannot be decoded");
+  EXPECT_EQ(text.at("recordings").at(0).at("damage"), kDamage);
   EXPECT_EQ(text.at("recordings").at(1).at("damage"), "");
   ASSERT_THAT(text.at("damaged"), SizeIs(2));
   EXPECT_EQ(text.at("damaged").at(0).at("input"), "/archive/b.mkv");
