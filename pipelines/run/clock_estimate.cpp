@@ -272,6 +272,27 @@ void rectify_views(const Recording& recording, const FrameIndex& index, GrayFram
   right.rectify_as(*calibration, Rectifier::Side::kRight);
 }
 
+// Small pictures of both recordings, and their matcher.
+struct Matching {
+  explicit Matching(const Views& views)
+      : left(views.recording.left, views.left, kMatchingWidth),
+        right(views.recording.right, views.right, kMatchingWidth),
+        matcher(left, right) {
+    rectify_views(views.recording, views.left, left, right);
+  }
+
+  GrayFrames left, right;
+  RowMatcher matcher;
+};
+
+Views views_of(const Recording& recording, const FrameIndex& left, const FrameIndex& right) {
+  return {recording, left, right, seconds(std::max(left.period, right.period))};
+}
+
+bool has_few_frames(const Views& views) {
+  return views.left.times.size() < 3 || views.right.times.size() < 3;
+}
+
 Candidate find_lag(const Views& views, RowMatcher& matcher) {
   const double length = std::max(seconds(views.left.times.back() - views.left.times.front()),
                                  seconds(views.right.times.back() - views.right.times.front()));
@@ -284,16 +305,21 @@ Candidate find_lag(const Views& views, RowMatcher& matcher) {
 
 }  // namespace
 
+std::optional<double> find_offset(const Recording& recording, const FrameIndex& left,
+                                  const FrameIndex& right) {
+  const Views views = views_of(recording, left, right);
+  if (has_few_frames(views)) return std::nullopt;
+  Matching matching(views);
+  const auto found = find_lag(views, matching.matcher, kSearched[0], false);
+  return found ? std::optional(found->lag.seconds) : std::nullopt;
+}
+
 ClockEstimate estimate_clocks(const Recording& recording, const FrameIndex& left,
                               const FrameIndex& right) {
-  const Views views{recording, left, right, seconds(std::max(left.period, right.period))};
-  if (left.times.size() < 3 || right.times.size() < 3) {
-    refuse(views, "they have too few frames");
-  }
-  GrayFrames left_frames(recording.left, left, kMatchingWidth);
-  GrayFrames right_frames(recording.right, right, kMatchingWidth);
-  rectify_views(recording, left, left_frames, right_frames);
-  RowMatcher matcher(left_frames, right_frames);
+  const Views views = views_of(recording, left, right);
+  if (has_few_frames(views)) refuse(views, "they have too few frames");
+  Matching matching(views);
+  RowMatcher& matcher = matching.matcher;
   const Candidate candidate = find_lag(views, matcher);
   ClockEstimate estimate;
   estimate.relation = candidate.relation();

@@ -30,6 +30,11 @@ struct ClockEstimate {
   std::string explanation;  ///< a sentence for the user
 };
 
+/// The offset of the right recording to about a frame [s], from the first two minutes; none if the
+/// pictures do not decide.
+std::optional<double> find_offset(const Recording& recording, const FrameIndex& left,
+                                  const FrameIndex& right);
+
 /// Finds offset and drift from the pictures, as docs/clocks.md describes. A recording whose frames
 /// are together already gets exactly the relation 0, 0. Throws RunError if the pictures do not
 /// decide; the message states why and how to give the offset by hand.

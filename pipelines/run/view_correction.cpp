@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "run/view_correction.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "mtstereo/alignment.hpp"
+#include "run/frame_pairs.hpp"
 #include "run/map_files.hpp"
 #include "run/matching_run.hpp"
 #include "run/run_error.hpp"
@@ -93,15 +96,40 @@ bool is_suspicious(const Findings& findings) {
                     findings.near_end >= kPile || std::abs(findings.median) < kFar);
 }
 
+// How many frames later the right view is than the left one, as far as their motion tells.
+int frames_apart(const Work& work) {
+  const std::optional<double> offset = find_offset(work.recording, work.left, work.right);
+  if (!offset || work.right.period <= 0) return 0;
+  return static_cast<int>(std::lround(*offset * 1e9 / static_cast<double>(work.right.period)));
+}
+
+ViewDiagnosis diagnose_with(const Work& work, const Findings& findings,
+                            const std::vector<int>& shifts) {
+  ViewSamples views = read_view_samples(work, shifts);
+  views.rows_corrected = findings.trusted;
+  return views.samples.empty() ? ViewDiagnosis{} : diagnose(views);
+}
+
+// Whether frames that were not tried yet may match better.
+bool may_be_farther_apart(const ViewDiagnosis& found) {
+  constexpr int kTried = 3;  // frames
+  return found.problem == ViewProblem::kUnknown ||
+         (found.problem == ViewProblem::kOutOfStep && std::abs(found.frames) == kTried);
+}
+
 // Tests what is wrong with the views, if the maps of the samples are a reason to.
 void note_diagnosis(Work& work, const Findings& findings) {
   if (!is_suspicious(findings)) return;
-  ViewSamples views = read_view_samples(work);
-  views.rows_corrected = findings.trusted;
-  if (views.samples.empty()) return;
-  const ViewDiagnosis found = diagnose(views);
   // Clocks that were compared already are no remedy.
   const bool two = work.recording.arrangement == Arrangement::kTwoSources && !work.clocks;
+  ViewDiagnosis found = diagnose_with(work, findings, {-3, -2, -1, 1, 2, 3});
+  if (two && may_be_farther_apart(found)) {
+    const int frames = frames_apart(work);
+    const ViewDiagnosis farther = diagnose_with(work, findings, {frames - 1, frames, frames + 1});
+    if (farther.problem == ViewProblem::kOutOfStep && farther.better > found.better) {
+      found = farther;
+    }
+  }
   std::string text = diagnosis_text(found, work.recording.calibration, two);
   if (text.empty() && findings.has(PairProblem::kOutOfStep)) {
     text = problem_text(PairProblem::kOutOfStep);

@@ -14,7 +14,6 @@ namespace mtstereo::run {
 namespace {
 
 constexpr std::int64_t kMostSamples = 4;
-constexpr int kMostFrames = 3;  // earlier or later
 
 // The views of a recording by the numbers of their frames.
 class SmallViews {
@@ -45,23 +44,19 @@ class SmallViews {
   std::optional<GrayFrames> right_;
 };
 
-ViewSample read_sample(SmallViews& views, FramePair pair) {
+ViewSample read_sample(SmallViews& views, FramePair pair, const std::vector<int>& shifts) {
   ViewSample sample;
   sample.left = views.left(pair.left);
-  for (int frames = -kMostFrames; frames <= kMostFrames; ++frames) {
-    const cv::Mat right = views.right(pair.right + frames);
-    if (frames == 0) {
-      sample.right = right;
-    } else {
-      sample.shifted.push_back({frames, right});
-    }
+  sample.right = views.right(pair.right);
+  for (const int frames : shifts) {
+    sample.shifted.push_back({frames, views.right(pair.right + frames)});
   }
   return sample;
 }
 
 }  // namespace
 
-ViewSamples read_view_samples(const Work& work) {
+ViewSamples read_view_samples(const Work& work, const std::vector<int>& shifts) {
   const Recording& recording = work.recording;
   const ViewSize size = view_size(work);
   ViewSamples result;
@@ -81,7 +76,7 @@ ViewSamples read_view_samples(const Work& work) {
     const std::int64_t number = (2 * i + 1) * pairs / (2 * count);
     FramePair pair = work.pairs.pairs[static_cast<std::size_t>(number)];
     if (recording.arrangement != Arrangement::kTwoSources) pair.right = pair.left;
-    ViewSample sample = read_sample(views, pair);
+    ViewSample sample = read_sample(views, pair, shifts);
     if (!sample.left.empty() && !sample.right.empty()) {
       result.samples.push_back(std::move(sample));
     }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <vector>
+
 #include "run/piece.hpp"
 #include "run/view_checks.hpp"
 
 namespace mtstereo::run {
 
-/// Reads small pictures of a few pairs from the whole recording, with the right views of the frames
-/// around them. Needs the pairs and the complete options of a work. Throws RunError.
-ViewSamples read_view_samples(const Work& work);
+/// Reads small pictures of a few pairs from the whole recording, with right views that are so many
+/// frames later; negative: earlier. Needs the pairs and the complete options of a work. Throws
+/// RunError.
+ViewSamples read_view_samples(const Work& work, const std::vector<int>& shifts);
 
 }  // namespace mtstereo::run

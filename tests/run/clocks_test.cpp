@@ -14,12 +14,14 @@
 #include "moving_views.hpp"
 #include "render/scene.hpp"
 #include "run/frame_pairs.hpp"
+#include "run/piece.hpp"
 #include "run/run_error.hpp"
 
 namespace mtstereo::run {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kRate = 12;
 constexpr double kTenth = 0.1 / kRate;  // of a frame [s]
@@ -201,6 +203,40 @@ TEST_F(Clocks, RefusesRecordingsOfSingleFrames) {
   Shot one = left();
   one.frames.resize(2);
   EXPECT_THAT(refusal(one, one), HasSubstr("too few frames"));
+}
+
+// More frames than the diagnosis tries without a look at the motion.
+TEST_F(Clocks, NameTheFramesThatRecordingsAreOutOfStep) {
+  Shot late = right_with(0);
+  late.frames.erase(late.frames.begin(), late.frames.begin() + kFrames / 4);
+  const std::pair<const Shot*, const char*> shots[] = {{&right_with(0.4), "5 frames earlier"},
+                                                       {&late, "24 frames earlier"}};
+  for (const auto& [right, text] : shots) {
+    Recording recording;
+    recording.name = "street";
+    recording.left = write_pictures(left(), folder_ / "left");
+    recording.right = write_pictures(*right, folder_ / text);
+    WorkOptions options;
+    options.parameters = {{"max-disparity", "16"}};
+    const Work work = prepare(recording, options, std::nullopt, false);
+    EXPECT_THAT(work.doubt, HasSubstr("not taken at the same time"));
+    EXPECT_THAT(work.doubt, HasSubstr(text));
+    EXPECT_THAT(work.doubt, HasSubstr("--sync auto"));
+  }
+}
+
+TEST_F(Clocks, AreNoMatterOfUnrelatedRecordings) {
+  Shooting garden = street(true, 0);
+  garden.scene = render::make_scene("garden", 1);
+  garden.frames = kFrames / 2;
+  Recording recording;
+  recording.name = "street";
+  recording.left = write_pictures(left(), folder_ / "left");
+  recording.right = write_pictures(shoot(garden), folder_ / "right");
+  const Work work = prepare(recording, {}, std::nullopt, false);
+  for (const std::string& remark : work.remarks) {
+    EXPECT_THAT(remark, Not(HasSubstr("not taken at the same time")));
+  }
 }
 
 }  // namespace
