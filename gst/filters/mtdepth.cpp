@@ -9,6 +9,7 @@
 #include "filters/depth_properties.hpp"
 #include "filters/depth_report.hpp"
 #include "filters/disparity_filter.hpp"
+#include "mtstereo/geometry/rig.hpp"
 #include "shared/caps.hpp"
 #include "shared/caps_check.hpp"
 #include "shared/depth_range.hpp"
@@ -161,6 +162,28 @@ void refuse_stream(GstVideoFilter* filter, const std::string& reason, const GstC
                     ("caps: %s", caps_text(caps).c_str()));
 }
 
+/// What the cameras of these disparities can measure, as mtrectify states it.
+void log_rig(GstVideoFilter* filter, const GstStructure* in) {
+  const StereoGeometry& stream = state_of(filter).stream;
+  Rectification views;
+  gst_structure_get_int(in, "width", &views.width);
+  gst_structure_get_int(in, "height", &views.height);
+  views.focal_length = stream.focal_length;
+  views.baseline = stream.baseline;
+  views.left_center_x = stream.principal_x;
+  views.right_center_x = stream.principal_x + stream.principal_offset;
+  views.center_y = stream.principal_y;
+  DisparityRange range;
+  if (const std::optional<DisparityUnit> unit = read_disparity_unit(in)) {
+    range.smallest = unit->min_disparity;
+    range.largest = unit->max_disparity;
+  }
+  GST_INFO_OBJECT(filter, "%s", rig_text(rig_figures(views, range)).c_str());
+  for (const std::string& remark : state_of(filter).source.remarks()) {
+    GST_INFO_OBJECT(filter, "%s", remark.c_str());
+  }
+}
+
 gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCaps* out_caps,
                   GstVideoInfo*) {
   DepthState& state = state_of(filter);
@@ -184,6 +207,7 @@ gboolean set_info(GstVideoFilter* filter, GstCaps* in_caps, GstVideoInfo*, GstCa
   state.caps_unit = *unit;
   state.unit = *depth_unit;
   state.stream = *stated;
+  log_rig(filter, in);
   return TRUE;
 }
 
@@ -205,8 +229,8 @@ bool prepare(GstVideoFilter* filter, const MapUnit& unit) {
   state.geometry = geometry;
   state.options = options;
   report_depths(filter, geometry, options);
-  GST_INFO_OBJECT(filter, "focal length %g px, baseline %g m, offset %g px, %d steps per px",
-                  geometry.focal_length, geometry.baseline, geometry.principal_offset, unit.scale);
+  GST_INFO_OBJECT(filter, "principal offset %g px, %d steps per px", geometry.principal_offset,
+                  unit.scale);
   return true;
 }
 

@@ -33,13 +33,15 @@ std::string text_of(const GValue* value) {
 
 /// The geometry of the views after the rectification that mtrectify computes without properties, or
 /// that the file states.
-Result<StereoGeometry> read_file(const std::string& path, int width, int height) {
+Result<StereoGeometry> read_file(const std::string& path, int width, int height,
+                                 std::vector<std::string>& remarks) {
   Result<StereoCalibration> calibration = read_calibration(path, width, height);
   if (!calibration) return calibration.error();
   if (calibration->left.width != width || calibration->left.height != height) {
     calibration = scale_calibration(*calibration, width, height);
     if (!calibration) return calibration.error();
   }
+  remarks = calibration->remarks;
   const Result<Rectification> rectified = rectify(*calibration);
   if (!rectified) return rectified.error();
   if (rectified->width != width || rectified->height != height) {
@@ -175,13 +177,22 @@ Result<StereoGeometry> GeometrySource::from_file(const std::string& path, int wi
   const std::lock_guard lock(mutex_);
   const bool known =
       file_ && file_->path == path && file_->width == width && file_->height == height;
-  if (!known) file_.emplace(File{path, width, height, read_file(path, width, height)});
+  if (!known) {
+    std::vector<std::string> remarks;
+    Result<StereoGeometry> geometry = read_file(path, width, height, remarks);
+    file_.emplace(File{path, width, height, std::move(geometry), std::move(remarks)});
+  }
   return file_->geometry;
 }
 
 void GeometrySource::forget() {
   const std::lock_guard lock(mutex_);
   file_.reset();
+}
+
+std::vector<std::string> GeometrySource::remarks() {
+  const std::lock_guard lock(mutex_);
+  return file_ ? file_->remarks : std::vector<std::string>{};
 }
 
 Result<StereoGeometry> GeometrySource::geometry(const GstStructure* fields,

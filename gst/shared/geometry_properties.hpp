@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mtstereo/geometry/depth.hpp"
 #include "mtstereo/result.hpp"
@@ -49,6 +50,8 @@ class GeometrySource {
   Result<StereoGeometry> geometry(const GstStructure* fields, const GeometryProperties& properties);
   /// Forgets the content of the file, which may change until the next start.
   void forget();
+  /// What read_calibration() noted about the file; none without a file.
+  std::vector<std::string> remarks();
 
  private:
   Result<StereoGeometry> from_file(const std::string& path, int width, int height);
@@ -58,6 +61,7 @@ class GeometrySource {
     int width = 0;
     int height = 0;
     Result<StereoGeometry> geometry;
+    std::vector<std::string> remarks;
   };
   std::mutex mutex_;
   std::optional<File> file_;  ///< guarded by mutex_

@@ -21,6 +21,7 @@
 #include "eval/metrics.hpp"
 #include "eval/pictures.hpp"
 #include "frame_files.hpp"
+#include "options/failure_message.hpp"
 
 namespace {
 
@@ -173,6 +174,7 @@ int main(int argc, char** argv) {
         "then, with --mask, avgerr and D-all over the pixels that are visible in both views.");
     Options options;
     define(app, options);
+    app.failure_message(mtstereo::options::failure_message);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -14,6 +14,7 @@
 #include "eval/input_error.hpp"
 #include "fit/fitting.hpp"
 #include "fit/samples.hpp"
+#include "options/failure_message.hpp"
 
 namespace mtstereo::fit {
 namespace {
@@ -116,6 +117,7 @@ int run(int argc, char** argv) {
   app.add_option("folder", folders, "data sets with ground truth, as for mtstereo-eval");
   app.add_option("--out", out, "file of the table")->required();
   app.add_option("--samples", count, "pixels of each pair")->check(CLI::PositiveNumber);
+  app.failure_message(options::failure_message);
   CLI11_PARSE(app, argc, argv);
   if (!std::ofstream(out, std::ios::app)) throw eval::InputError("cannot write " + out);
   std::vector<TrainingPair> pairs = rendered_pairs();

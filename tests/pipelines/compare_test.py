@@ -55,6 +55,11 @@ class Compare(unittest.TestCase):
     def compare(self, *words):
         return run([COMPARE, *words], self.folder)
 
+    def test_the_option_that_was_meant_is_named(self):
+        done = self.compare("--dispartiy", "d", "--truth", "t")
+        self.assertEqual(done.status, 2, str(done))
+        self.assertIn("--disparity", str(done))
+
     def figures(self, *words):
         done = self.compare("--disparity", "d", "--truth", "t", *words)
         self.assertEqual(done.status, 0, str(done))

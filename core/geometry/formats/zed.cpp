@@ -64,7 +64,8 @@ Resolution choose_resolution(const Entry& file, const Request& request) {
   file.fail("there is no calibration for video of " + std::to_string(request.width) + "x" +
             std::to_string(request.height) +
             (side_by_side ? ", which has both views side by side: separate them first" : "") +
-            "; there are " + known);
+            "; there are " + known +
+            (side_by_side ? "" : ": record with one of these resolutions"));
 }
 
 double number_or_zero(const Entry& section, const std::string& name) {

@@ -5,25 +5,26 @@
 #include <algorithm>
 #include <mutex>
 
+#include "support/map_harness.hpp"
 #include "support/numbered_views.hpp"
 
 namespace mtstereo::test {
 namespace {
 
-/// The lines of the category mtstereo up to this level while it lives.
+/// The lines of a category up to this level while it lives.
 class DebugLog {
  public:
-  explicit DebugLog(GstDebugLevel level) {
+  explicit DebugLog(GstDebugLevel level, const char* category = "mtstereo") : category_(category) {
     active_ = gst_debug_is_active();
     gst_debug_set_active(TRUE);
-    gst_debug_set_threshold_for_name("mtstereo", level);
+    gst_debug_set_threshold_for_name(category, level);
     // The macros of these names compare pointers of two kinds.
     (gst_debug_remove_log_function)(gst_debug_log_default);
     (gst_debug_add_log_function)(note, this, nullptr);
   }
   ~DebugLog() {
     gst_debug_remove_log_function_by_data(this);
-    gst_debug_unset_threshold_for_name("mtstereo");
+    gst_debug_unset_threshold_for_name(category_.c_str());
     (gst_debug_add_log_function)(gst_debug_log_default, nullptr, nullptr);
     gst_debug_set_active(active_);
   }
@@ -41,12 +42,13 @@ class DebugLog {
  private:
   static void note(GstDebugCategory* category, GstDebugLevel, const gchar*, const gchar*, gint,
                    GObject*, GstDebugMessage* message, gpointer self) noexcept {
-    if (std::string(gst_debug_category_get_name(category)) != "mtstereo") return;
     auto& log = *static_cast<DebugLog*>(self);
+    if (log.category_ != gst_debug_category_get_name(category)) return;
     const std::lock_guard<std::mutex> lock(log.mutex_);
     log.lines_.emplace_back(gst_debug_message_get(message));
   }
 
+  std::string category_;
   gboolean active_ = FALSE;
   std::mutex mutex_;
   std::vector<std::string> lines_;
@@ -101,6 +103,17 @@ TEST(DebugLog, StatesAScaleThatWasChosen) {
   EXPECT_TRUE(harness.pull());
   EXPECT_EQ(log.lines(), 1);
   EXPECT_EQ(log.lines_with("disparity-scale=128, with which max-disparity=300 fits"), 1);
+}
+
+TEST(DebugLog, StatesWhatTheCamerasOfDepthsMeasure) {
+  DebugLog log(GST_LEVEL_INFO, "mtdepth");
+  MapHarness harness("mtdepth", "focal-length=100 baseline=0.1");
+  harness.caps(200, 100, ",disparity-scale=256,max-disparity=20");
+  ASSERT_TRUE(harness.pass(map_buffer(Map16{200, 100, std::vector<std::uint16_t>(20000, 512)})));
+  EXPECT_EQ(
+      log.lines_with("focal length 100.0 px, baseline 0.100 m, field of view 90 x 53 degrees, "
+                     "measures from 0.500 m (20 px) to 10.0 m (1 px)"),
+      1);
 }
 
 }  // namespace

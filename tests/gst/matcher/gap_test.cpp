@@ -137,6 +137,23 @@ INSTANTIATE_TEST_SUITE_P(Sides, GapsOfLength, testing::Values(Side::kLeft, Side:
                            return info.param == Side::kLeft ? "Left" : "Right";
                          });
 
+TEST(Segments, WithoutAPairEndWithTheNumberOfTheSeek) {
+  StereoHarness harness;
+  harness.caps(raw_caps("GRAY8", 64, 48));
+  harness.push_pair(noise_pair(64, 48, 4, 1), 0);
+  EXPECT_TRUE(harness.pull());
+  const guint32 seek = gst_util_seqnum_next();
+  harness.flush(seek);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    GstEvent* const end = gst_event_new_eos();
+    gst_event_set_seqnum(end, seek);
+    harness.event(side, end);
+  }
+  const EventPointer end = harness.pull_event(GST_EVENT_EOS);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(gst_event_get_seqnum(end.get()), seek);
+}
+
 TEST(Segments, EachNewOneIsSentOnce) {
   StereoHarness harness("max-disparity=64");
   harness.caps(raw_caps("GRAY8", kNumberedWidth, kNumberedHeight));
