@@ -26,6 +26,12 @@ calibrate_cameras() {
 # Two raw files -> disparities without loss, depths in mm as PNG files, and the rectified left view.
 measure() {
   local matcher=(mtstereo name=m "mode=$mode" "max-disparity=$max_disparity") folder
+  local rectify=(mtrectify "calibration=$calibration" ${alpha:+"alpha=$alpha"})
+  if [ -n "$rectified_size" ]; then
+    rectify+=("width=${rectified_size%x*}" "height=${rectified_size#*x}")
+    # shellcheck disable=SC2034  # to_color reads them
+    odd_width=$((${rectified_size%x*} % 2)) odd_height=$((${rectified_size#*x} % 2))
+  fi
   local to_png=(videoconvert '!' 'video/x-raw,format=GRAY16_BE' '!' pngenc)
   for folder in depth rectified; do
     rm -rf "${out:?}/$folder"
@@ -33,11 +39,11 @@ measure() {
   done
   play \
     filesrc "location=$out/left.mp4" '!' decodebin '!' videoconvert '!' \
-    mtrectify camera=left "calibration=$calibration" '!' tee name=view \
+    "${rectify[@]}" camera=left '!' tee name=view \
     view. '!' queue '!' m.sink_left \
     view. '!' queue '!' pngenc '!' multifilesink "location=$out/rectified/%06d.png" \
     filesrc "location=$out/right.mp4" '!' decodebin '!' videoconvert '!' \
-    mtrectify camera=right "calibration=$calibration" '!' queue '!' m.sink_right \
+    "${rectify[@]}" camera=right '!' queue '!' m.sink_right \
     "${matcher[@]}" '!' watchdog timeout=60000 '!' tee name=maps \
     maps. '!' queue '!' avenc_ffv1 '!' matroskamux '!' filesink "location=$out/disparity-$mode.mkv" \
     maps. '!' queue '!' mtdepth '!' "${to_png[@]}" '!' \
@@ -47,7 +53,8 @@ measure() {
 demo_of_raw_cameras() {
   export PATH=$build/pipelines/render:$build/pipelines/calibrate:$PATH
   calibrate_cameras
-  render_clip --lens wide --baseline "$raw_baseline" --rectification "$calibration" --depth
+  render_clip --lens wide --baseline "$raw_baseline" --rectification "$calibration" --depth \
+    ${alpha:+--alpha "$alpha"} ${rectified_size:+--rectified-size "$rectified_size"}
   step "Rectifying and matching the two files, mode $mode"
   measure
   step "Color video and picture"

@@ -14,6 +14,9 @@
 #   --size WxH          size of the rendered clip (default 640x360)
 #   --scene NAME        street (default), garden or room
 #   --raw               cameras with lens distortion, turned against each other
+#   --alpha A           of the rectification with --raw: 0 = only what both cameras see (the default),
+#                       1 = all pixels of both, between = between
+#   --rectified-size WxH  size of the rectified views with --raw [px]
 #   --soft              simple cameras: a soft lens, noise, processing, and H.264 with 1.5 Mbit/s for
 #                       1280x720
 #   --build DIR         build folder (default: build/, or $BUILD)
@@ -32,6 +35,8 @@ scene=street
 rate=24
 build_first=yes
 raw=no
+alpha=
+rectified_size=
 soft=no
 odd_width=0 odd_height=0 # of the disparity, see odd()
 limit=900 # longest time of a pipeline [s]
@@ -74,6 +79,15 @@ take_option() {
       size=$2
       ;;
     --scene) scene=$2 ;;
+    --alpha)
+      [[ $2 =~ ^(0(\.[0-9]+)?|1(\.0+)?)$ ]] || wrong_usage "--alpha is '$2'; it must be 0 to 1"
+      alpha=$2
+      ;;
+    --rectified-size)
+      [[ $2 =~ ^[1-9][0-9]{1,4}x[1-9][0-9]{1,4}$ ]] ||
+        wrong_usage "--rectified-size is '$2'; expected WIDTHxHEIGHT, such as 640x360"
+      rectified_size=$2
+      ;;
     --build) build=$2 ;;
     *) wrong_usage "unknown option $1" ;;
   esac
@@ -97,6 +111,9 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
+if [[ $raw = no && -n $alpha$rectified_size ]]; then
+  wrong_usage "--alpha and --rectified-size need --raw: other views are rectified already"
+fi
 case ${#files[@]} in
   0) ;;
   2)

@@ -81,7 +81,14 @@ Scene board_scene(const Options& o, const RawRig& rig) {
 Rectification truth_pair(const Options& o, const StereoCalibration& cameras) {
   if (o.rectification.empty()) return *cameras.rectification;
   const CameraCalibration& left = cameras.left;
-  return value_of(rectify(value_of(read_calibration(o.rectification, left.width, left.height))));
+  RectificationOptions options;
+  options.alpha = o.alpha;
+  if (!o.rectified_size.empty()) {
+    std::tie(options.width, options.height) =
+        parse_pair("--rectified-size", o.rectified_size, "640x360");
+  }
+  return value_of(
+      rectify(value_of(read_calibration(o.rectification, left.width, left.height)), options));
 }
 
 StereoFrame raw_frame(const Scene& scene, double time, const Settings& settings, const RawRig& rig,

@@ -92,6 +92,9 @@ void define_rig(CLI::App& app, Options& o) {
       "--rectification", o.rectification,
       "raw cameras: the truth is that of the rectified pair of this calibration, such as "
       "one of mtcalibrate, instead of the exact one");
+  number("--alpha", o.alpha, "of that rectification, as for mtrectify: 0 to 1, or -1");
+  app.add_option("--rectified-size", o.rectified_size,
+                 "width and height of the views of that rectified pair [px]");
 }
 
 void define_scenes(CLI::App& app, Options& o) {
@@ -174,6 +177,8 @@ void complete_options(const CLI::App& app, Options& o) {
     require(o.settings.focal == 0, "focal cannot be combined with raw or lens");
   }
   require(o.rectification.empty() || o.has_raw_cameras(), "rectification needs raw or lens");
+  require(!o.rectification.empty() || (o.alpha == 0 && o.rectified_size.empty()),
+          "alpha and rectified-size need rectification");
   require(!o.depth || (o.layout == Layout::kClip && o.scene != "board"),
           "depth needs the layout clip, and another scene than board");
   require(o.raw.empty() || o.settings.baseline == 0, "baseline cannot be combined with raw");

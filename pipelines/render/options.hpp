@@ -43,6 +43,8 @@ struct Options {
   std::string raw;                ///< file of the calibration of raw cameras
   std::string lens;               ///< name of built-in raw cameras
   std::string rectification;      ///< file of the calibration whose rectified pair the truth shows
+  double alpha = 0;               ///< of that rectification
+  std::string rectified_size;     ///< of the views of that pair [px]; empty: that of the cameras
   BoardOptions board;             ///< of the scene `board`
   Wall wall;                      ///< of the scene `wall`
   Thin thin;                      ///< of the scene `thin`

@@ -53,7 +53,8 @@ class Demo(ClipTest):
 
     @unittest.skipIf(SLOW > 1, "40 views of a board take minutes in a sanitized build")
     def test_raw_cameras_are_calibrated_and_measure_meters(self):
-        done = self.demo("--raw", "--out", "raw", "--frames", "2")
+        done = self.demo("--raw", "--out", "raw", "--frames", "2", "--alpha", "0.1",
+                         "--rectified-size", "601x341")
         self.assert_succeeds(done)
         out = self.folder / "raw"
         for name in ("demo.png", "color.mp4", "cameras/calibration.yml", "depth/000001.png"):
@@ -123,6 +124,9 @@ class Demo(ClipTest):
                             (["--max-disparity", "5000"], "1 to 1984"),
                             (["--frames", "0"], "--frames"),
                             (["--size", "640"], "--size"),
+                            (["--raw", "--alpha", "1.5"], "--alpha"),
+                            (["--raw", "--rectified-size", "640"], "--rectified-size"),
+                            (["--alpha", "1"], "need --raw"),
                             (["--size", "161x120"], "even"),
                             (["--out"], "--out"),
                             (["--colour", "red"], "--colour")):

@@ -127,6 +127,14 @@ TEST_F(Program, ShowsTheTruthOfAnotherRectification) {
   ASSERT_EQ(run(out() + other.str()).status, 0);
   EXPECT_EQ(truth, read_text(folder_ / "clip/truth/000000.pfm"));
   EXPECT_EQ(depth, read_text(folder_ / "clip/depth/000000.pfm"));
+  // Another scale and size: another truth of the same views.
+  const Outcome all = run(out() + other.str() + " --alpha 1 --rectified-size 81x50");
+  EXPECT_EQ(all.status, 0) << all.errors;
+  EXPECT_EQ(view, read_text(folder_ / "clip/left/000000.png"));
+  EXPECT_EQ(read_text(folder_ / "clip/truth/000000.pfm").substr(0, 9), "Pf\n81 50\n");
+  EXPECT_NE(run(out() + other.str() + " --alpha 2").errors.find("alpha"), std::string::npos);
+  EXPECT_NE(run(out() + options + " --alpha 1").errors.find("need rectification"),
+            std::string::npos);
   // Other cameras: another truth of the same views.
   ASSERT_EQ(run(out() + room + " --overwrite --lens fisheye").status, 0);
   fs::rename(folder_ / "clip/truth-calibration.yml", folder_ / "rig.yml");
