@@ -12,8 +12,8 @@ namespace mtstereo {
 /// of the words. ChoiceOf binds the enum to the parameter and the words; the parameter table is
 /// checked against ChoiceOf at compile time. Preset and Mode are public.
 
-/// Resolution at which the views are matched.
-enum class Resolution { kFull, kHalfRefined, kHalf };
+/// Resolution at which the views are matched. kAuto: full or half-refined, chosen for each frame.
+enum class Resolution { kFull, kHalfRefined, kHalf, kAuto };
 
 /// What says which disparities are expected of a pixel.
 enum class Guide { kNodes, kPyramid };
@@ -52,7 +52,8 @@ struct ChoiceOf<Mode> {
 template <>
 struct ChoiceOf<Resolution> {
   static constexpr Parameter kParameter = Parameter::kResolution;
-  static constexpr std::array<std::string_view, 3> kWords = {"full", "half-refined", "half"};
+  static constexpr std::array<std::string_view, 4> kWords = {"full", "half-refined", "half",
+                                                             "auto"};
 };
 
 template <>

@@ -27,27 +27,50 @@ int known_pixels(const std::int32_t* row, int width) {
 void FrameMatcher::set(const Settings& settings) {
   settings_ = settings;
   sized_ = false;
+  if (settings_.chooses_resolution) {
+    settings_.match_at(choice_.resolution());
+  } else {
+    choice_.restart();
+  }
+}
+
+void FrameMatcher::restart() {
+  choice_.restart();
+  set(settings_);
+}
+
+/// Sizes the memory for views of size_.input.
+void FrameMatcher::size_memory(const Settings& settings) {
+  const ImageSize frame = {size_.input.width - settings.min_disparity, size_.input.height};
+  size_.frame = frame;
+  size_.matched = settings.half() ? ImageSize{half_of(frame.width), half_of(frame.height)} : frame;
+  memory_.resize(settings, size_);
 }
 
 void FrameMatcher::resize(ImageSize input) {
   if (sized_ && size_.input == input) return;
   sized_ = false;
+  if (!(size_.input == input)) restart();  // another stream
   size_.input = input;
-  const ImageSize frame = {input.width - settings_.min_disparity, input.height};
-  size_.frame = frame;
-  size_.matched = settings_.half() ? ImageSize{half_of(frame.width), half_of(frame.height)} : frame;
   size_.threads = thread_count(settings_);
   if (!pool_ || pool_->threads() != size_.threads) {
     pool_.reset();
     pool_.emplace(size_.threads);
   }
-  memory_.resize(settings_, size_);
+  if (settings_.chooses_resolution) {
+    // Later changes of the resolution then allocate nothing.
+    Settings other = settings_;
+    other.match_at(settings_.half() ? Resolution::kFull : Resolution::kHalfRefined);
+    size_memory(other);
+  }
+  size_memory(settings_);
   sized_ = true;
 }
 
 void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observer) {
   disparity_ = {};
   confidence_ = {};
+  detail_ = {};
   resize({left.width, left.height});
   Views& views = memory_.views;
   views.left = left;
@@ -63,11 +86,31 @@ void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observ
     step.run(context, memory_);
     if (observer) observer(step, memory_);
   }
-  views.left = {};
-  views.input = views.matched = {};  // the caller may free the input
   const auto result = callers_maps(settings_, memory_.maps, memory_.enlarged, memory_.output);
   disparity_ = result.disparity.view();
   confidence_ = result.confidence.view();
+  resolution_ = settings_.resolution;
+  if (settings_.chooses_resolution) choose_resolution(views);
+  views.left = {};
+  views.input = views.matched = {};  // the caller may free the input
+}
+
+/// Measures the detail of this pair and chooses the resolution of the next one.
+void FrameMatcher::choose_resolution(const Views& views) {
+  const DetailViews compared = {views.left, views.input[1], disparity_, confidence_,
+                                std::min(settings_.min_disparity, 0)};
+  std::atomic<std::int64_t> fine{0}, coarse{0}, points{0};
+  Bands(*pool_, disparity_.height).rows([&](int y0, int y1, int) {
+    const FineDetail in_band = measure_detail(compared, y0, y1);
+    fine += in_band.fine;
+    coarse += in_band.coarse;
+    points += in_band.points;
+  });
+  detail_ = {fine, coarse, points};
+  choice_.take(detail_.share());
+  if (choice_.resolution() == settings_.resolution) return;
+  settings_.match_at(choice_.resolution());
+  sized_ = false;
 }
 
 double FrameMatcher::density() {

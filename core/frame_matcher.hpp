@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "base/thread_pool.hpp"
+#include "fine_detail.hpp"
 #include "frame_memory.hpp"
 #include "mtstereo/image.hpp"
+#include "resolution_choice.hpp"
 #include "settings.hpp"
 #include "steps.hpp"
 
@@ -23,9 +25,13 @@ class FrameMatcher {
 
   explicit FrameMatcher(const Settings& settings) : settings_(settings) {}
 
-  /// Applies other settings from the next pair on.
+  /// Applies other settings from the next pair on. Settings that choose the resolution of each
+  /// frame, as the ones before did, keep the choice.
   void set(const Settings& settings);
   const Settings& settings() const { return settings_; }
+
+  /// Begins the choice of the resolution anew, as for another stream.
+  void restart();
 
   /// Matches a pair of views of equal size, which must fit the settings. Allocates memory for the
   /// first pair and after a change of settings or size only. Throws std::bad_alloc, and
@@ -39,10 +45,20 @@ class FrameMatcher {
   /// Fraction of pixels with a disparity in the last result, 0 .. 1.
   double density();
 
+  /// The resolution that the last pair was matched at, and its detail if the settings choose the
+  /// resolution.
+  Resolution resolution() const { return resolution_; }
+  const FineDetail& detail() const { return detail_; }
+
  private:
   void resize(ImageSize input);
+  void size_memory(const Settings& settings);
+  void choose_resolution(const Views& views);
 
   Settings settings_;
+  ResolutionChoice choice_;
+  Resolution resolution_ = Resolution::kFull;
+  FineDetail detail_;
   std::optional<ThreadPool> pool_;
   FrameMemory memory_;
   FrameSize size_;

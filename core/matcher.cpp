@@ -109,6 +109,8 @@ const ViewCorrection& Matcher::correction() const noexcept {
   return state_->matcher.settings().correction;
 }
 
+void Matcher::restart() noexcept { state_->matcher.restart(); }
+
 Result<DisparityView> Matcher::compute(GrayView left, GrayView right) noexcept {
   return guarded([&]() -> Result<DisparityView> {
     State& state = *state_;
@@ -122,7 +124,9 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) noexcept {
       state.matcher.compute(left, right);
       const std::chrono::duration<double, std::milli> took =
           std::chrono::steady_clock::now() - start;
-      state.statistics = {took.count(), state.matcher.density()};
+      state.statistics = {took.count(), state.matcher.density(),
+                          state.matcher.resolution() != Resolution::kFull,
+                          state.matcher.detail().share().value_or(0)};
     } catch (const std::bad_alloc&) {
       return Error{
           ErrorCode::kOutOfMemory,

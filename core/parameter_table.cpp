@@ -43,11 +43,12 @@ constexpr ParameterInfo kTable[] = {
     {P::kMinDisparity, "min-disparity", "", "px", T::kInteger, -kLargestMinDisparity, kLargestMinDisparity, "", ALL("0"),
      "the smallest disparity that is searched, less than max-disparity; a negative one is needed if the cameras "
      "converge or the views are cropped differently"},
-    {P::kResolution, "resolution", "", "", T::kChoice, 0, 2, "full|half-refined|half", EACH("full", "half-refined", "full"),
+    {P::kResolution, "resolution", "", "", T::kChoice, 0, 3, "full|half-refined|half|auto", EACH("full", "half-refined", "full"),
      "resolution at which the views are matched: half is several times as fast, and half-refined refines its "
-     "disparities at full resolution; the disparity map always has the size of the views and counts their px; "
+     "disparities at full resolution; auto changes to half-refined while the views have no detail at full resolution, "
+     "as those of a soft camera, and back; the disparity map always has the size of the views and counts their px; "
      "lengths of all other parameters count px of the matched resolution",
-     {"matched at full resolution", "matched at half resolution, refined at full resolution", "matched at half resolution only"}},
+     {"matched at full resolution", "matched at half resolution, refined at full resolution", "matched at half resolution only", "full, or half-refined while the views have no detail at full resolution"}},
     {P::kThreads, "threads", "", "", T::kInteger, 0, 256, "", ALL("0"),
      "threads that work on a frame, 0 = one for each processor; the result does not depend on it"},
     {P::kNoiseFilter, "noise-filter", "", "", T::kBoolean, 0, 1, "", EACH("true", "false", "false"),

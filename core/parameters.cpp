@@ -186,6 +186,7 @@ Status Parameters::check_frame(int width, int height) const noexcept {
                                                     " px: set it to 1 to " + std::to_string(width) +
                                                     " px"};
     }
+    // With kAuto the views may be matched at half resolution, where nodes are narrower.
     const bool half = choice<Resolution>(*this) != Resolution::kFull;
     const int matched = half ? half_of(width) : width;
     const double widest = get(P::kMaxNodeWidth) * matched;

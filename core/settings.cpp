@@ -36,21 +36,27 @@ int view_disparities(const Parameters& p) {
   return std::max(p.integer(P::kMaxDisparity) - p.integer(P::kMinDisparity), 1);
 }
 
-int matched_disparities(const Parameters& p) {
-  const int disparities = view_disparities(p);
-  return choice<Resolution>(p) == Resolution::kFull ? disparities : half_of(disparities);
+/// A stream whose frames choose their resolution begins at the full one.
+Resolution first_resolution(const Parameters& p) {
+  const Resolution resolution = choice<Resolution>(p);
+  return resolution == Resolution::kAuto ? Resolution::kFull : resolution;
+}
+
+int matched_disparities(Resolution resolution, int view_disparities) {
+  return resolution == Resolution::kFull ? view_disparities : half_of(view_disparities);
 }
 
 }  // namespace
 
 Settings::Settings(const Parameters& p)
     : mode(p.mode()),
-      resolution(choice<Resolution>(p)),
+      chooses_resolution(choice<Resolution>(p) == Resolution::kAuto),
+      resolution(first_resolution(p)),
       cost(choice<Cost>(p)),
       threads(p.integer(P::kThreads)),
       min_disparity(p.integer(P::kMinDisparity)),
       view_disparities(mtstereo::view_disparities(p)),
-      disparities(matched_disparities(p)),
+      disparities(matched_disparities(resolution, view_disparities)),
       noise_filter(p.get(P::kNoiseFilter) != 0),
       guide(choice<Guide>(p)),
       gray_levels(p.integer(P::kGrayLevels)),
@@ -81,6 +87,14 @@ Settings::Settings(const Parameters& p)
       node_end_width(p.integer(P::kNodeEndWidth)),
       max_gap(p.integer(P::kMaxGap)),
       smoothing_radius(p.integer(P::kSmoothingRadius)) {}
+
+void Settings::match_at(Resolution chosen) {
+  resolution = chosen;
+  disparities = matched_disparities(chosen, view_disparities);
+  search_range.disparities = disparities;
+  census_cost.disparities = disparities;
+  selection.disparities = disparities;
+}
 
 PathMatchingOptions Settings::path_matching(int level) const {
   const bool complete = mode != Mode::kSemiDense;

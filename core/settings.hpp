@@ -25,7 +25,8 @@ struct Settings {
   explicit Settings(const Parameters& parameters);
 
   Mode mode;
-  Resolution resolution;
+  bool chooses_resolution;  ///< for each frame; a ResolutionChoice calls match_at()
+  Resolution resolution;    ///< of the frame, never Resolution::kAuto
   Cost cost;
   int threads;           ///< 0: one per processor
   int min_disparity;     ///< the smallest one [px of the views]
@@ -66,6 +67,8 @@ struct Settings {
   /// What is done to the input views; no parameter sets it.
   ViewCorrection correction;
 
+  /// Sets the resolution of the frame, and what depends on it.
+  void match_at(Resolution resolution);
   /// Whether the views are matched at half resolution.
   bool half() const { return resolution != Resolution::kFull; }
   /// Whether the disparities are then refined at full resolution.

@@ -200,6 +200,7 @@ void Runner::prepare_matcher(const LoadedPair& images, int max_disparity) {
   require(parameters.set(Parameter::kMinDisparity, min_disparity));
   if (matcher_) {
     require(matcher_->set_parameters(parameters));
+    matcher_->restart();  // each pair is a stream of its own
   } else {
     Result<Matcher> made = Matcher::create(parameters);
     if (!made) throw InputError(made.error().message);

@@ -56,6 +56,11 @@ Parameters matcher_parameters(const WorkOptions& options) {
       check(parameters.set(name, value));
     }
   }
+  if (parameters.text(Parameter::kResolution) == "auto") {
+    throw RunError(
+        "resolution = auto chooses by the frames before, but the pairs of a recording are matched "
+        "side by side and in pieces: set full, or half-refined for a soft camera");
+  }
   if (options.threads > 0) check(parameters.set(Parameter::kThreads, options.threads));
   return parameters;
 }

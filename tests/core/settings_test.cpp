@@ -66,6 +66,9 @@ const Mapping kMappings[] = {
     {"resolution", "half", 1, [](const Settings& s) { return s.half(); }},
     {"resolution", "half", 0, [](const Settings& s) { return s.refined(); }},
     {"resolution", "half-refined", 1, [](const Settings& s) { return s.half() && s.refined(); }},
+    {"resolution", "auto", 0, [](const Settings& s) { return s.half(); }},
+    {"resolution", "auto", 1, [](const Settings& s) { return s.chooses_resolution; }},
+    {"resolution", "full", 0, [](const Settings& s) { return s.chooses_resolution; }},
     {"resolution", "half", 32, [](const Settings& s) { return s.disparities; }},
     {"threads", "5", 5, [](const Settings& s) { return s.threads; }},
     {"noise-filter", "false", 0, [](const Settings& s) { return s.noise_filter; }},
@@ -125,6 +128,21 @@ TEST(Settings, MappingsCoverEveryParameter) {
         std::begin(kMappings), std::end(kMappings),
         [&](const Mapping& mapping) { return std::string_view(mapping.name) == info.name; });
     EXPECT_TRUE(tested) << info.name;
+  }
+}
+
+TEST(Settings, AreThoseOfTheResolutionThatIsChosen) {
+  for (const char* const word : {"full", "half-refined", "half"}) {
+    const Settings expected(test::parameters({{"resolution", word}, {"max-disparity", "77"}}));
+    Settings chosen(test::parameters({{"resolution", "auto"}, {"max-disparity", "77"}}));
+    chosen.match_at(Resolution::kHalf);  // what was chosen before leaves no trace
+    chosen.match_at(expected.resolution);
+    EXPECT_EQ(expected.half(), chosen.half()) << word;
+    EXPECT_EQ(expected.refined(), chosen.refined()) << word;
+    EXPECT_EQ(expected.disparities, chosen.disparities) << word;
+    EXPECT_EQ(expected.search_range.disparities, chosen.search_range.disparities) << word;
+    EXPECT_EQ(expected.census_cost.disparities, chosen.census_cost.disparities) << word;
+    EXPECT_EQ(expected.selection.disparities, chosen.selection.disparities) << word;
   }
 }
 

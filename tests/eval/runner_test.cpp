@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <thread>
 
 #include "eval/pfm.hpp"
@@ -117,6 +118,24 @@ TEST_F(Running, RunsPairsOfDifferentSizesInTurn) {
     ASSERT_TRUE(report.failures.empty()) << report.failures[0];
     EXPECT_LT(report.results.at(0).evaluation.all.avgerr, 1) << pair.name;
   }
+}
+
+TEST_F(Running, TakesEachPairForAStreamOfItsOwn) {
+  testing::TestPair soft = make_pair(240, 120, 9);
+  for (cv::Mat* view : {&soft.left, &soft.right}) cv::GaussianBlur(*view, *view, {}, 1.5);
+  write_pair_folder(folder_ / "A", soft, 32);
+  RunSettings settings;
+  settings.repeat = 3;
+  Runner full(settings);
+  const double expected = full.run(pairs_[0]).results.at(0).evaluation.all.avgerr;
+  ASSERT_TRUE(settings.parameters.set("resolution", "auto").ok());
+  Runner automatic(settings);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(expected, automatic.run(pairs_[0]).results.at(0).evaluation.all.avgerr) << i;
+  }
+  settings.repeat = 12;
+  Runner longer(settings);
+  EXPECT_NE(expected, longer.run(pairs_[0]).results.at(0).evaluation.all.avgerr);
 }
 
 TEST_F(Running, ReportsACorruptPairAndContinues) {

@@ -189,6 +189,20 @@ TEST(WorkOptions, ScaleFitsTheSearchRange) {
   EXPECT_THROW(complete_options(work), RunError);
 }
 
+TEST(WorkOptions, RefuseAResolutionThatDependsOnTheFramesBefore) {
+  WorkOptions options;
+  options.parameters = {{"resolution", "auto"}};
+  try {
+    matcher_parameters(options);
+    FAIL() << "it was not refused";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("set full, or half-refined"), std::string::npos)
+        << error.what();
+  }
+  options.parameters = {{"resolution", "half-refined"}};
+  EXPECT_NO_THROW(matcher_parameters(options));
+}
+
 TEST_F(Preparation, FindsTheGeometry) {
   write(3, 0);
   EXPECT_FALSE(prepared().geometry);

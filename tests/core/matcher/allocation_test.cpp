@@ -12,6 +12,7 @@
 #include "support/matching.hpp"
 #include "support/random.hpp"
 #include "support/sanitizers.hpp"
+#include "support/soft_pair.hpp"
 
 namespace mtstereo {
 namespace {
@@ -90,6 +91,31 @@ TEST_F(Allocation, NeverHappensInLaterFramesWhenTheCorrectionChanges) {
       EXPECT_TRUE(ok);
       if (frame < 2) continue;
       EXPECT_EQ(0, count) << "frame " << frame;
+    }
+  }
+}
+
+TEST_F(Allocation, NeverHappensInLaterFramesWhenTheResolutionIsChosen) {
+  const test::Pair sharp = test::slanted_pair(333, 201, 40, 1);
+  const test::Pair soft = softened(sharp);
+  for (const char* const mode : {"semi-dense", "dense", "full"}) {
+    for (const char* const least : {"-20", "0"}) {
+      Matcher matcher = test::matcher(
+          {{"threads", "2"}, {"resolution", "auto"}, {"mode", mode}, {"min-disparity", least}});
+      int changes = 0;
+      bool half = false;
+      for (int frame = 0; frame < 30; ++frame) {
+        const test::Pair& now = frame % 20 < 10 ? soft : sharp;
+        test::count_allocations();
+        const bool ok = matcher.compute(now.left.view(), now.right.view()).ok();
+        const long count = test::allocations();
+        EXPECT_TRUE(ok);
+        changes += matcher.statistics().half_resolution != half;
+        half = matcher.statistics().half_resolution;
+        if (frame < 2) continue;
+        EXPECT_EQ(0, count) << "frame " << frame << ", " << mode;
+      }
+      EXPECT_EQ(3, changes) << mode << ", " << least;
     }
   }
 }
