@@ -122,7 +122,9 @@ GstStructure* statistics_structure(const Statistics& statistics, const Alignment
       statistics.pairs, "dropped-left", G_TYPE_UINT64, statistics.dropped[0], "dropped-right",
       G_TYPE_UINT64, statistics.dropped[1], "skipped", G_TYPE_UINT64, statistics.skipped, "last-ms",
       G_TYPE_DOUBLE, statistics.last_ms, "mean-ms", G_TYPE_DOUBLE, mean, "density", G_TYPE_DOUBLE,
-      statistics.density, "wrong-times", G_TYPE_UINT64, statistics.wrong_times, "difference-ms",
+      statistics.density, "half-resolution", G_TYPE_BOOLEAN,
+      static_cast<gboolean>(statistics.half_resolution), "fine-detail", G_TYPE_DOUBLE,
+      statistics.fine_detail, "wrong-times", G_TYPE_UINT64, statistics.wrong_times, "difference-ms",
       G_TYPE_DOUBLE, statistics.difference.mean * 1e-6, "difference-spread-ms", G_TYPE_DOUBLE,
       statistics.difference.spread * 1e-6, "difference-drift", G_TYPE_DOUBLE,
       statistics.difference.drift * 1e-6, nullptr);
@@ -211,7 +213,10 @@ void install_properties(GObjectClass* object_class) noexcept {
           "with a wrong time stamp), difference-ms, difference-spread-ms and "
           "difference-drift (of the times of the pairs: mean, standard deviation, "
           "and change in ms per s), last-ms and mean-ms (time of a pair), density "
-          "(share of the last map's pixels with a disparity); alignment of the views: offset "
+          "(share of the last map's pixels with a disparity), half-resolution (the last "
+          "pair was matched at half resolution), fine-detail (energy in the finest "
+          "octave divided by that in the next one, resolution=auto only); alignment of the views: "
+          "offset "
           "(px), roll (degrees), residual (px), trust, applied, inspections, "
           "sharpness (left / right), left-blur and right-blur (px), problem",
           GST_TYPE_STRUCTURE, static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));

@@ -59,6 +59,8 @@ struct Statistics {
   double last_ms = 0;               ///< time for the last pair: conversion, inspection and matching
   double total_ms = 0;              ///< of all pairs
   double density = 0;               ///< of the last pair
+  bool half_resolution = false;     ///< the last pair was matched at half resolution
+  double fine_detail = 0;           ///< of the last pair
 };
 
 /// The correction in the last message `mtstereo-alignment`.
@@ -116,6 +118,7 @@ struct ElementState {
   std::optional<Matcher> matcher;
   PairAlignment alignment;
   AnnouncedCorrection announced;
+  bool logged_half_resolution = false;  ///< the last choice of the matcher in the log
   double inspection_ms = 0;        ///< time for the conversion and the inspection of the last pair
   GstVideoInfo output{};           ///< of the disparity map; valid if the source pad has caps
   std::array<LumaReader, 2> luma;  ///< by side
@@ -164,6 +167,11 @@ struct ElementState {
     finder.reset();
     clock.reset();
     logged_offset.reset();
+  }
+  /// Forgets what was learned of the views.
+  void restart_matching() {
+    alignment.restart();
+    if (matcher) matcher->restart();
   }
   GstPad* source_pad() const { return GST_AGGREGATOR_SRC_PAD(element); }
 

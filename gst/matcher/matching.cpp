@@ -153,14 +153,27 @@ GstFlowReturn compute(ElementState& state, GstBuffer* left, GstBuffer* right, Gs
   return GST_FLOW_OK;
 }
 
+/// Logs which resolution the matcher has chosen if it is another one than that of the last pair.
+void log_resolution(ElementState& state, const FrameStatistics& frame) {
+  const bool chosen = state.active.parameters.text(Parameter::kResolution) == "auto";
+  const bool half = chosen && frame.half_resolution;
+  if (half == state.logged_half_resolution) return;
+  state.logged_half_resolution = half;
+  GST_INFO_OBJECT(state.element, "matched at %s resolution from this pair on: fine detail %.3f",
+                  half ? "half" : "full", frame.fine_detail);
+}
+
 void count_pair(ElementState& state) {
   const FrameStatistics frame = state.matcher->statistics();
+  log_resolution(state, frame);
   const double milliseconds = state.inspection_ms + frame.milliseconds;
   const double pixels = static_cast<double>(state.output.width) * state.output.height;
   const ObjectLock lock(state.element);
   ++state.statistics.pairs;
   state.statistics.last_ms = milliseconds;
   state.statistics.total_ms += milliseconds;
+  state.statistics.half_resolution = frame.half_resolution;
+  state.statistics.fine_detail = frame.fine_detail;
   state.statistics.density =
       std::max(frame.density - static_cast<double>(state.border_pixels) / pixels, 0.0);
 }

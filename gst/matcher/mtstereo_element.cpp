@@ -148,6 +148,7 @@ gboolean start(GstAggregator* aggregator) {
     state.failed = false;
   }
   state.alignment = PairAlignment();
+  state.logged_half_resolution = false;
   state.announced = {};
   state.unpaired_warning.reset();
   state.waiting_frame = {};
@@ -186,7 +187,7 @@ gboolean stop(GstAggregator* aggregator) {
 
 GstFlowReturn flush(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
-  state.alignment.restart();
+  state.restart_matching();
   state.unpaired_warning.reset();
   state.waiting_frame = {};
   state.segment = OutputSegment::kNone;

@@ -154,7 +154,7 @@ void adopt_segment(ElementState& state, const std::shared_ptr<const StreamSegmen
   state.segment = OutputSegment::kWaiting;
   state.segment_repeats = false;
   state.segment_seqnum = segment->seqnum;
-  state.alignment.restart();  // the output of a segment does not depend on earlier ones
+  state.restart_matching();  // the output of a segment does not depend on earlier ones
   const ObjectLock lock(state.element);
   state.lateness.restart();
 }
