@@ -92,6 +92,10 @@ void Pyramid::resize(const Settings& settings, const FrameSize& size) {
   votes.resize(reduced.width, reduced.height, cost_lanes(settings.disparities));
   windows.resize(reduced.width, reduced.height);
   agreement.resize(votes.columns, votes.rows);
+  const ImageSize half = {half_of(reduced.width), half_of(reduced.height)};
+  support.resize(half.width, half.height);
+  confidence.resize(half.width, half.height);
+  clues.resize(half.width, half.height);
   const auto prepare_scratch = [&](int level) {
     for (PathMatchingScratch& worker : scratch) {
       worker.resize(reduced.width, reduced.height, settings.path_matching(level));
@@ -161,11 +165,11 @@ void Completion::resize(const Settings& settings, const FrameSize& size) {
   scratch.resize(size.threads);
   for (EdgeScratch& worker : scratch) worker.resize(size.input.width);
   clues.resize(size.input.width, size.input.height);
-  reliability_scratch.resize(size.threads);
-  for (ReliabilityScratch& worker : reliability_scratch) worker.resize(size.input.width);
-  clue_scratch.resize(size.threads);
-  // With a negative min-disparity, the right view is wider than the map.
+  // With a negative min-disparity, the right view and the guide may be wider than the map.
   const int widest = std::max(size.input.width, size.frame.width);
+  reliability_scratch.resize(size.threads);
+  for (ReliabilityScratch& worker : reliability_scratch) worker.resize(widest);
+  clue_scratch.resize(size.threads);
   for (ClueScratch& worker : clue_scratch) worker.resize(widest);
   if (!settings.keeps_likely_only()) return;
   islands.resize(size.input.width, size.input.height);

@@ -86,10 +86,10 @@ constexpr ParameterInfo kTable[] = {
     {P::kOutlierRemoval, "outlier-removal", "", "", T::kChoice, 0, 1, "nodes|nodes-and-pixels", EACH("nodes", "nodes", "nodes-and-pixels"),
      "where outliers are removed: from the disparities of nodes only, or from those of pixels too",
      {"from the disparities of nodes only", "from the disparities of nodes and of pixels"}},
-    {P::kCensusScales, "census-scales", "", "", T::kInteger, 1, 2, "", BY_GUIDE("2", "1", "1", "1", "1"),
+    {P::kCensusScales, "census-scales", "", "", T::kInteger, 1, 2, "", BY_MODE(MODES("2", "2", "1", "1"), MODES("1", "1", "1", "1"), MODES("1", "1", "1", "1")),
      "scales of the census transform: 1 compares the pixels of a 5x5 window, 2 also those of a larger window in the "
-     "smoothed view, which noise and compression change less"},
-    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, kLargestCensusKernel, "", BY_GUIDE("5", "3", "5", "3", "3"),
+     "smoothed view, which blur, noise and compression change less"},
+    {P::kCensusKernelSize, "census-kernel-size", "", "px", T::kInteger, 1, kLargestCensusKernel, "", BY_MODE(MODES("5", "5", "3", "3"), MODES("3", "3", "3", "3"), MODES("5", "5", "5", "5")),
      "side of the window that census costs are summed over: 1, 3 or 5"},
     {P::kPixelSearchRange, "pixel-search-range", "omega_omega", "%", T::kNumber, 0, 100, "", ALL("15"),
      "guided pixel matching expects disparities up to this much below and above the node's"},
@@ -115,7 +115,7 @@ constexpr ParameterInfo kTable[] = {
      "refine the disparity between whole pixels: by a V through the costs (census) or a parabola (gradient)"},
     {P::kSpeckleSize, "speckle-size", "", "px", T::kInteger, 0, 65535, "", BY_GUIDE("300", "75", "0", "100", "75"),
      "connected areas with fewer pixels than this are removed; 0 = none"},
-    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "136", "106", "0"), MODES("183", "160", "92", "0"), MODES("0", "0", "0", "0")),
+    {P::kMinConfidence, "min-confidence", "", "", T::kInteger, 0, 255, "", BY_MODE(MODES("182", "136", "104", "0"), MODES("183", "160", "92", "0"), MODES("0", "0", "0", "0")),
      "disparities of lower confidence (1 .. 255) are removed; 0 = none; a filled gap has less "
      "confidence than its sides; in the modes semi-dense and dense with the pyramid the threshold applies to the complete map"},
     {P::kThinObjects, "thin-objects", "", "", T::kBoolean, 0, 1, "", BY_MODE(MODES("false", "true", "true", "false"), MODES("false", "true", "true", "false"), MODES("false", "false", "false", "false")),

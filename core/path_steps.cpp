@@ -16,6 +16,7 @@
 #include "stages/refine/edge_alignment.hpp"
 #include "stages/refine/gap_filling.hpp"
 #include "stages/refine/gray_mapping.hpp"
+#include "stages/refine/guide_clue.hpp"
 #include "stages/refine/left_strip.hpp"
 #include "stages/refine/reliability.hpp"
 #include "stages/refine/speckle_removal.hpp"
@@ -31,6 +32,21 @@ void reduce(const StepContext& step, const std::array<GrayView, 2>& views,
       [&](int side, int y0, int y1, int) { halve_rows(views[side], y0, y1, level.views[side]); });
   bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
     census_rows(level.views[side].view(), 1, y0, y1, scratch[worker].census, level.census[side]);
+  });
+}
+
+/// Replaces the confidence of a map by its reliability.
+void rate(const Bands& bands, const RatedViews& views, const Image<std::int32_t>& map,
+          const ReliabilityTable& table, Inferred inferred, ClueMaps& clues, Completion& completion,
+          Image<std::uint8_t>& confidence) {
+  // Few rows: a part of a millisecond for a view of many megapixels.
+  const GrayMapping grays = find_gray_mapping(views, map, confidence);
+  bands.rows([&](int y0, int y1, int worker) {
+    gather_clues(views, grays, map, confidence, y0, y1, completion.clue_scratch[worker], clues);
+  });
+  bands.rows([&](int y0, int y1, int worker) {
+    rate_reliability(views, map, clues, table, inferred, y0, y1,
+                     completion.reliability_scratch[worker], confidence);
   });
 }
 
@@ -76,6 +92,36 @@ void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyrami
                     });
 }
 
+void support_guide(const StepContext& step, Pyramid& pyramid, Maps& maps) {
+  PyramidLevel& level = pyramid.levels[0];
+  const Bands bands = step.bands.of_height(level.disparity.height());
+  bands.rows([&](int y0, int y1, int) {
+    copy_support(level.disparity, level.ratio, y0, y1, pyramid.support);
+  });
+  bands.rows([&](int y0, int y1, int worker) {
+    rate_support(pyramid.support, level.ratio, y0, y1, maps.scratch[worker].support,
+                 pyramid.confidence);
+    complete_rows(y0, y1, level.disparity, pyramid.confidence);
+  });
+  complete_empty_rows(level.disparity, pyramid.confidence);
+}
+
+RatedViews rated_guide_views(const Views& views, const Pyramid& pyramid) {
+  const PyramidLevel& level = pyramid.levels[0];
+  return {level.views[0].view(), level.views[1].view(), 0, views.noise_level,
+          &pyramid.agreement,    kWindowTile / 2,       0};
+}
+
+void rate_guide(const StepContext& step, const Views& views, Pyramid& pyramid,
+                Completion& completion) {
+  const Image<std::int32_t>& map = pyramid.levels[0].disparity;
+  const Bands bands = step.bands.of_height(map.height());
+  const RatedViews rated = rated_guide_views(views, pyramid);
+  const ReliabilityTable& table = kReliabilityTables[static_cast<int>(RatedMap::kGuide)];
+  rate(bands, rated, map, table, Inferred::kLikeMatched, pyramid.clues, completion,
+       pyramid.confidence);
+}
+
 void complete_map(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output) {
   const auto result = callers_maps(step.settings, maps, enlarged, output);
   step.input_bands.rows(
@@ -102,7 +148,9 @@ RatedViews rated_views(const Settings& settings, const Views& views, const Pyram
           views.noise_level,
           &pyramid.agreement,
           settings.half() ? 2 * kWindowTile : kWindowTile,
-          -settings.min_disparity};
+          -settings.min_disparity,
+          {&pyramid.levels[0].disparity, &pyramid.confidence, settings.half() ? 4 : 2,
+           -settings.min_disparity, std::max(settings.min_disparity, 0)}};
 }
 
 void rate_map(const StepContext& step, const Views& views, const Pyramid& pyramid, Maps& maps,
@@ -112,16 +160,8 @@ void rate_map(const StepContext& step, const Views& views, const Pyramid& pyrami
   const RatedViews rated = rated_views(settings, views, pyramid);
   const ReliabilityTable& table = kReliabilityTables[static_cast<int>(settings.rated_map())];
   const Inferred inferred = settings.keeps_inferred() ? Inferred::kLikeMatched : Inferred::kApart;
-  // Few rows: a part of a millisecond for a view of many megapixels.
-  const GrayMapping grays = find_gray_mapping(rated, result.disparity, result.confidence);
-  step.input_bands.rows([&](int y0, int y1, int worker) {
-    gather_clues(rated, grays, result.disparity, result.confidence, y0, y1,
-                 completion.clue_scratch[worker], completion.clues);
-  });
-  step.input_bands.rows([&](int y0, int y1, int worker) {
-    rate_reliability(rated, result.disparity, completion.clues, table, inferred, y0, y1,
-                     completion.reliability_scratch[worker], result.confidence);
-  });
+  rate(step.input_bands, rated, result.disparity, table, inferred, completion.clues, completion,
+       result.confidence);
 }
 
 void correct_strip(const StepContext& step, Maps& maps, EnlargedMaps& enlarged,

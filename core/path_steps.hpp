@@ -18,6 +18,17 @@ void choose_search_windows(const StepContext& step, Pyramid& pyramid);
 /// Matches the views at the matched resolution.
 void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyramid, Maps& maps);
 
+/// Completes the map of half the matched resolution, which has guided the matching, and finds how
+/// far its pixels support each other.
+void support_guide(const StepContext& step, Pyramid& pyramid, Maps& maps);
+
+/// What the clues of that map's reliability are about; `views` and `pyramid` must exist as long.
+RatedViews rated_guide_views(const Views& views, const Pyramid& pyramid);
+
+/// Replaces the confidence of that map by its reliability.
+void rate_guide(const StepContext& step, const Views& views, Pyramid& pyramid,
+                Completion& completion);
+
 /// Gives the remaining pixels of the result a disparity.
 void complete_map(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output);
 

@@ -12,6 +12,10 @@ namespace {
 
 using P = Parameter;
 
+/// A matched pixel of mode semi-dense that the right one contradicts is kept if it agrees with the
+/// map of half the resolution up to this [px].
+constexpr int kGuidedTolerance = 1;
+
 /// The paths at reduced resolutions, where the step penalties are higher, since surfaces have fewer
 /// pixels.
 constexpr int kHalvedTolerance = 2;     // of the left-right check [px]
@@ -72,8 +76,7 @@ Settings::Settings(const Parameters& p)
       outlier_removal(choice<OutlierRemoval>(p)),
       census_scales(p.integer(P::kCensusScales)),
       search_range{share(p, P::kPixelSearchRange), choice<BetweenNodes>(p), disparities},
-      census_cost{disparities, p.integer(P::kCensusKernelSize), p.integer(P::kRangePenalty),
-                  census_bytes(p.integer(P::kCensusScales))},
+      census_cost{disparities, p.integer(P::kCensusKernelSize), p.integer(P::kRangePenalty)},
       smoothness{p.integer(P::kSmallStepPenalty), p.integer(P::kLargeStepPenalty)},
       selection{disparities,
                 share(p, P::kPixelConfidence),
@@ -100,7 +103,10 @@ PathMatchingOptions Settings::path_matching(int level) const {
   const bool complete = mode != Mode::kSemiDense;
   PathMatchingOptions options = {census_cost, smoothness, selection,
                                  complete ? ColumnPaths::kBoth : ColumnPaths::kNone};
-  if (level == 0) return options;
+  if (level == 0) {
+    if (!complete) options.selection.guided_margin = kPathReach - kGuidedTolerance;
+    return options;
+  }
   for (int i = 0; i < level; ++i) {
     options.cost.disparities = half_of(options.cost.disparities);
   }
@@ -108,7 +114,6 @@ PathMatchingOptions Settings::path_matching(int level) const {
   options.selection.left_right_tolerance = kHalvedTolerance;
   options.cost.kernel_size = kHalvedKernel;
   options.cost.range_penalty = kHalvedRangePenalty;
-  options.cost.bytes = census_bytes(1);
   options.smoothness = kHalvedSmoothness;
   // Thin posts need other rows, but not those on both sides.
   options.column_paths = complete ? ColumnPaths::kBoth : ColumnPaths::kFromAbove;

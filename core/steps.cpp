@@ -361,6 +361,8 @@ constexpr Step kSteps[] = {
     {"reduced-matching",    if_paths,          on<match_reduced, Views, Pyramid>},
     {"search-windows",      if_paths,          on<choose_search_windows, Pyramid>},
     {"path-matching",       if_paths,          on<match_by_paths, const Views, Pyramid, Maps>},
+    {"guide-support",       if_paths,          on<support_guide, Pyramid, Maps>},
+    {"guide-rating",        if_paths,          on<rate_guide, const Views, Pyramid, Completion>},
     {"census-matching",     if_guided_census,  on<match_by_census, const Views, Costs, Maps>},
     {"gradient-matching",   if_gradient,       on<match_by_gradient, Costs, Maps>},
     // refine

@@ -10,9 +10,9 @@ namespace mtstereo::fit {
 namespace {
 
 constexpr int kRounds = 15;
-constexpr double kRate = 0.6;       // share of a Newton step
-constexpr double kCleanWeight = 5;  // as much as all degraded kinds together
-constexpr double kLeastHess = 20;   // added to the second derivative, against bins of few samples
+constexpr double kRate = 0.6;        // share of a Newton step
+constexpr double kCleanWeight = 11;  // as much as all degraded kinds together
+constexpr double kLeastHess = 20;    // added to the second derivative, against bins of few samples
 
 /// Sums over the samples of each bin.
 struct BinSums {

@@ -19,20 +19,20 @@
 namespace mtstereo::fit {
 namespace {
 
-const std::vector<std::string> kKinds = {eval::kCleanKind, "noise=5",       "noise=10",
-                                         "jpeg=50",        "jpeg=20",       "dark=0.15",
-                                         "bright=1.8",     "blur-right=1.5"};
+const std::vector<std::string> kKinds = {eval::kCleanKind, "noise=5", "noise=10",  "jpeg=50",
+                                         "jpeg=20",        "h264=28", "dark=0.15", "bright=1.8",
+                                         "blur-right=1.5", "soft2x",  "cam",       "cam2x"};
 
 /// Clean views count this much more than each kind of degraded ones.
 constexpr int kCleanShare = 3;
 
 std::vector<PairSamples> sample_all(const std::vector<TrainingPair>& pairs, RatedMap rated,
-                                    int count) {
+                                    const ReliabilityTable& guide, int count) {
   std::vector<PairSamples> samples(pairs.size() * kKinds.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::string& kind = kKinds[i / pairs.size()];
     const int wanted = kind == eval::kCleanKind ? kCleanShare * count : count;
-    samples[i] = take_samples(pairs[i % pairs.size()], kind, rated, wanted);
+    samples[i] = take_samples(pairs[i % pairs.size()], kind, rated, guide, wanted);
   }
   return samples;
 }
@@ -99,11 +99,13 @@ void write_tables(const std::array<ReliabilityTable, kRatedMaps>& tables, const 
 }
 
 /// Fits the table of these pixels.
-ReliabilityTable fitted(const std::vector<TrainingPair>& pairs, RatedMap rated, int count) {
-  const std::vector<PairSamples> samples = sample_all(pairs, rated, count);
+ReliabilityTable fitted(const std::vector<TrainingPair>& pairs, RatedMap rated,
+                        const ReliabilityTable& guide, int count) {
+  const std::vector<PairSamples> samples = sample_all(pairs, rated, guide, count);
   const ReliabilityTable table = library_table(fit(without(samples, "")));
   constexpr std::array kTitles = {"Mode full", "Mode full of preset fast",
-                                  "Matched pixels of mode semi-dense"};
+                                  "Matched pixels of mode semi-dense",
+                                  "The map of half the resolution"};
   std::printf("%s\n", kTitles[static_cast<int>(rated)]);
   report(samples, table);
   return table;
@@ -125,8 +127,10 @@ int run(int argc, char** argv) {
     for (TrainingPair& pair : pairs_in(folder)) pairs.push_back(std::move(pair));
   }
   std::array<ReliabilityTable, kRatedMaps> tables;
-  for (int i = 0; i < kRatedMaps; ++i) {
-    tables[i] = fitted(pairs, static_cast<RatedMap>(i), count);
+  // The guide first, since its rating is a clue for the others.
+  constexpr int kGuideTable = static_cast<int>(RatedMap::kGuide);
+  for (int i = kRatedMaps - 1; i >= 0; --i) {
+    tables[i] = fitted(pairs, static_cast<RatedMap>(i), tables[kGuideTable], count);
   }
   write_tables(tables, out);
   return 0;

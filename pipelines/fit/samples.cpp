@@ -43,11 +43,9 @@ std::string family_of(eval::Layout layout) {
 /// The bins of all pixels of a complete map.
 class Bins {
  public:
-  Bins(const Settings& settings, const FrameMemory& memory)
-      : views_(rated_views(settings, memory.views, memory.pyramid)),
-        disparity_(callers_maps(settings, memory.maps, memory.enlarged, memory.output).disparity),
-        confidence_(
-            callers_maps(settings, memory.maps, memory.enlarged, memory.output).confidence) {
+  Bins(const RatedViews& views, const Image<std::int32_t>& disparity,
+       const Image<std::uint8_t>& confidence)
+      : views_(views), disparity_(disparity), confidence_(confidence) {
     const auto [data, width, height, stride] = views_.left;
     ClueScratch gathering;
     gathering.resize(width);
@@ -95,10 +93,35 @@ std::vector<cv::Point> random_pixels(const std::string& seed, cv::Size size, int
   return pixels;
 }
 
+/// The confidence of the map that has guided the matching, after the step guide-support, by a
+/// table.
+Image<std::uint8_t> rated_guide(const FrameMemory& memory, const ReliabilityTable& table) {
+  const RatedViews views = rated_guide_views(memory.views, memory.pyramid);
+  const Image<std::int32_t>& map = memory.pyramid.levels[0].disparity;
+  const int width = map.width(), height = map.height();
+  ClueScratch gathering;
+  ReliabilityScratch scratch;
+  ClueMaps clues;
+  Image<std::uint8_t> confidence;
+  gathering.resize(width);
+  scratch.resize(width);
+  clues.resize(width, height);
+  confidence.resize(width, height);
+  for (int y = 0; y < height; ++y) {
+    std::copy_n(memory.pyramid.confidence.row(y), width, confidence.row(y));
+  }
+  gather_clues(views, find_gray_mapping(views, map, confidence), map, confidence, 0, height,
+               gathering, clues);
+  rate_reliability(views, map, clues, table, Inferred::kLikeMatched, 0, height, scratch,
+                   confidence);
+  return confidence;
+}
+
 Settings settings_for(int max_disparity, RatedMap rated) {
   Parameters parameters;
   (void)parameters.set("preset", rated == RatedMap::kEnlarged ? "fast" : "default");
-  (void)parameters.set("mode", rated == RatedMap::kMatched ? "semi-dense" : "full");
+  (void)parameters.set(
+      "mode", rated == RatedMap::kMatched || rated == RatedMap::kGuide ? "semi-dense" : "full");
   (void)parameters.set("max-disparity", std::to_string(max_disparity));
   return Settings(parameters);
 }
@@ -133,7 +156,7 @@ std::vector<TrainingPair> rendered_pairs() {
 }
 
 PairSamples take_samples(const TrainingPair& pair, const std::string& kind, RatedMap rated,
-                         int count) {
+                         const ReliabilityTable& guide, int count) {
   eval::DegradedPair degraded{pair.views, pair.max_disparity};
   if (kind != eval::kCleanKind) {
     degraded = eval::degrade(eval::parse_degradation(kind), pair.views, pair.max_disparity);
@@ -141,22 +164,39 @@ PairSamples take_samples(const TrainingPair& pair, const std::string& kind, Rate
   PairSamples taken{pair.family, kind, {}};
   const cv::Mat& truth = degraded.images.truth.disparity;
   const double scale = degraded.images.truth.scale;
-  const GrayView left = view_of(degraded.images.left), right = view_of(degraded.images.right);
   const Settings settings = settings_for(degraded.max_disparity, rated);
-  const auto sample = [&](const Step& step, const FrameMemory& memory) {
-    if (step.name != "edge-alignment") return;
-    Bins bins(settings, memory);
+  const auto sample = [&](Bins& bins, int shrinking) {
     for (const cv::Point pixel : random_pixels(pair.name + kind, truth.size(), count)) {
-      if (rated == RatedMap::kMatched && !bins.is_matched(pixel)) continue;
+      const cv::Point place = pixel / shrinking;
+      if (rated == RatedMap::kMatched && !bins.is_matched(place)) continue;
       const double expected = truth.at<float>(pixel);
-      const double found = bins.disparity(pixel);
+      const double found = shrinking * bins.disparity(place);
       const bool known = std::isfinite(expected);
       const bool wrong =
           known && eval::is_outlier(std::abs(found - expected) / scale, expected / scale);
-      taken.samples.push_back({bins.at(pixel.x, pixel.y), known, wrong});
+      taken.samples.push_back({bins.at(place.x, place.y), known, wrong});
     }
   };
-  FrameMatcher(settings).compute(left, right, sample);
+  Image<std::uint8_t> guide_confidence;
+  const auto observe = [&](const Step& step, const FrameMemory& memory) {
+    const Pyramid& pyramid = memory.pyramid;
+    const bool is_guide = rated == RatedMap::kGuide;
+    if (step.name == "guide-support" && is_guide) {
+      Bins bins(rated_guide_views(memory.views, pyramid), pyramid.levels[0].disparity,
+                pyramid.confidence);
+      sample(bins, 2);
+    } else if (step.name == "guide-support") {
+      guide_confidence = rated_guide(memory, guide);
+    } else if (step.name == "edge-alignment" && !is_guide) {
+      RatedViews views = rated_views(settings, memory.views, pyramid);
+      views.guide.confidence = &guide_confidence;
+      const auto maps = callers_maps(settings, memory.maps, memory.enlarged, memory.output);
+      Bins bins(views, maps.disparity, maps.confidence);
+      sample(bins, 1);
+    }
+  };
+  FrameMatcher(settings).compute(view_of(degraded.images.left), view_of(degraded.images.right),
+                                 observe);
   return taken;
 }
 

@@ -38,8 +38,9 @@ std::vector<TrainingPair> pairs_in(const std::string& folder);
 std::vector<TrainingPair> rendered_pairs();
 
 /// Matches the views, degraded by `kind` or eval::kCleanKind, and takes the rated ones of `count`
-/// random pixels. The choice depends on the arguments only.
+/// random pixels. `guide` rates the map that is a clue for the others. The choice depends on the
+/// arguments only.
 PairSamples take_samples(const TrainingPair& pair, const std::string& kind, RatedMap rated,
-                         int count);
+                         const ReliabilityTable& guide, int count);
 
 }  // namespace mtstereo::fit

@@ -64,8 +64,8 @@ TEST_P(RenderedScenes, KeepTheirAccuracy) {
 // 0.641, 6.06, 12.2 and 1.09, 10.9, 44.8.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RenderedScenes,
-    testing::Values(Gate{"Sparse", "mode=sparse", {0.16, 0.12, 13.5}},
-                    Gate{"SemiDense", "mode=semi-dense", {0.235, 1.0, 73.0}},
+    testing::Values(Gate{"Sparse", "mode=sparse", {0.16, 0.12, 15.0}},
+                    Gate{"SemiDense", "mode=semi-dense", {0.245, 1.15, 73.0}},
                     Gate{"Dense", "mode=dense", {0.385, 2.7, 86.7}},
                     Gate{"Full", "mode=full", {0.53, 4.6, 100}},
                     Gate{"FastFull", "preset=fast mode=full", {0.63, 5.6, 100}},

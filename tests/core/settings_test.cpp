@@ -20,6 +20,10 @@ struct Mapping {
   std::function<double(const Settings&)> field;
 };
 
+double guided_margin(const Settings& settings, int level) {
+  return settings.path_matching(level).selection.guided_margin;
+}
+
 double column_paths(const Settings& settings, int level) {
   return static_cast<int>(settings.path_matching(level).column_paths);
 }
@@ -42,6 +46,9 @@ const Mapping kMappings[] = {
     {"mode", "full", 0, [](const Settings& s) { return s.keeps_likely_only(); }},
     {"mode", "dense", 1, [](const Settings& s) { return s.keeps_likely_only(); }},
     {"mode", "semi-dense", 1, [](const Settings& s) { return s.keeps_likely_only(); }},
+    {"mode", "semi-dense", 2, [](const Settings& s) { return guided_margin(s, 0); }},
+    {"mode", "semi-dense", -1, [](const Settings& s) { return guided_margin(s, 1); }},
+    {"mode", "full", -1, [](const Settings& s) { return guided_margin(s, 0); }},
     {"max-disparity", "77", 77,
      [](const Settings& s) { return s.path_matching(0).selection.disparities; }},
     {"max-disparity", "77", 10,
@@ -88,8 +95,8 @@ const Mapping kMappings[] = {
     {"outlier-radius", "9", 9, [](const Settings& s) { return s.outlier_radius; }},
     {"outlier-removal", "nodes-and-pixels", 1,
      [](const Settings& s) { return static_cast<int>(s.outlier_removal); }},
-    {"census-scales", "1", 3, [](const Settings& s) { return s.census_cost.bytes; }},
-    {"census-scales", "2", 4, [](const Settings& s) { return s.census_cost.bytes; }},
+    {"census-scales", "1", 1, [](const Settings& s) { return s.census_scales; }},
+    {"census-scales", "2", 2, [](const Settings& s) { return s.census_scales; }},
     {"census-kernel-size", "3", 60, [](const Settings& s) { return s.selection.ratio_offset; }},
     {"census-kernel-size", "3", 3, [](const Settings& s) { return s.census_cost.kernel_size; }},
     {"pixel-search-range", "30", 0.3, [](const Settings& s) { return s.search_range.range; }},

@@ -40,8 +40,9 @@ void expect_none_of(const Parameters& parameters, const Names& absent) {
 
 TEST(Steps, RunInOrderWithTheDefaults) {
   expect_order({}, {"noise-filter", "census", "reduced-matching", "search-windows", "path-matching",
-                    "thin-search", "speckle-removal", "confidence", "smoothing", "completion",
-                    "edge-alignment", "reliability", "rejection", "gap-closing", "thin-drawing"});
+                    "guide-support", "guide-rating", "thin-search", "speckle-removal", "confidence",
+                    "smoothing", "completion", "edge-alignment", "reliability", "rejection",
+                    "gap-closing", "thin-drawing"});
   expect_none_of({}, {"halving", "preprocessing", "max-trees", "node-matching", "census-matching",
                       "island-removal", "thin-restoring", "gap-filling", "gap-guard", "enlarging",
                       "input-census", "refinement"});
@@ -81,8 +82,9 @@ TEST(Steps, CloseGapsOfTheCompleteMapAfterTheRejection) {
 
 TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
   const Parameters dense = test::parameters({{"mode", "dense"}});
-  expect_order(dense, {"path-matching", "thin-search", "speckle-removal", "completion",
-                       "edge-alignment", "reliability", "rejection", "thin-drawing"});
+  expect_order(dense,
+               {"path-matching", "guide-support", "guide-rating", "thin-search", "speckle-removal",
+                "completion", "edge-alignment", "reliability", "rejection", "thin-drawing"});
   expect_none_of(dense, {"left-strip", "node-matching", "census-matching", "island-removal",
                          "thin-restoring", "gap-filling", "gap-guard", "gap-closing"});
   expect_none_of(test::parameters({{"mode", "dense"}, {"min-confidence", "0"}}), {"rejection"});
@@ -90,17 +92,18 @@ TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
 
 TEST(Steps, MatchAlongPathsInsteadOfNodesInModeFull) {
   const Parameters full = test::parameters({{"mode", "full"}});
-  expect_order(full, {"noise-filter", "census", "reduced-matching", "search-windows",
-                      "path-matching", "speckle-removal", "confidence", "smoothing", "completion",
-                      "edge-alignment", "reliability", "left-strip"});
+  expect_order(full,
+               {"noise-filter", "census", "reduced-matching", "search-windows", "path-matching",
+                "guide-support", "guide-rating", "speckle-removal", "confidence", "smoothing",
+                "completion", "edge-alignment", "reliability", "left-strip"});
   expect_none_of(full, {"rejection", "thin-drawing", "preprocessing", "max-trees", "node-matching",
                         "node-extrapolation", "census-matching", "gap-filling", "island-removal"});
 }
 
 TEST(Steps, CompleteTheMapAfterItHasTheSizeOfTheViewsInModeFull) {
   expect_order(test::parameters({{"mode", "full"}, {"preset", "fast"}, {"min-disparity", "3"}}),
-               {"halving", "path-matching", "enlarging", "refinement", "map-shift", "completion",
-                "edge-alignment"});
+               {"halving", "path-matching", "guide-support", "guide-rating", "enlarging",
+                "refinement", "map-shift", "completion", "edge-alignment"});
 }
 
 TEST(Steps, AreThoseOfSemiDenseInModeFullOfThePaper) {

@@ -71,12 +71,17 @@ TEST(Fitting, CountsWhatIsKept) {
   EXPECT_DOUBLE_EQ(outcome({&samples}, {&table}, 1).d_all, 75);
 }
 
+const ReliabilityTable& guide_table() {
+  return kReliabilityTables[static_cast<int>(RatedMap::kGuide)];
+}
+
 TEST(Samples, DependOnTheArgumentsOnly) {
   const std::vector<TrainingPair> pairs = rendered_pairs();
   ASSERT_FALSE(pairs.empty());
-  for (const RatedMap rated : {RatedMap::kComplete, RatedMap::kEnlarged, RatedMap::kMatched}) {
-    const PairSamples first = take_samples(pairs[0], "noise=5", rated, 300);
-    const PairSamples second = take_samples(pairs[0], "noise=5", rated, 300);
+  for (const RatedMap rated :
+       {RatedMap::kComplete, RatedMap::kEnlarged, RatedMap::kMatched, RatedMap::kGuide}) {
+    const PairSamples first = take_samples(pairs[0], "noise=5", rated, guide_table(), 300);
+    const PairSamples second = take_samples(pairs[0], "noise=5", rated, guide_table(), 300);
     const bool all = rated != RatedMap::kMatched;
     ASSERT_EQ(first.samples.size(), second.samples.size());
     EXPECT_LE(first.samples.size(), all ? 300 : 299);
@@ -94,7 +99,8 @@ TEST(Samples, OfEnlargedViewsAreWrongByPixelsOfTheOriginal) {
   const std::vector<TrainingPair> pairs = rendered_pairs();
   ASSERT_FALSE(pairs.empty());
   const auto share_of_wrong = [&](const char* kind) {
-    const PairSamples taken = take_samples(pairs[0], kind, RatedMap::kComplete, 2000);
+    const PairSamples taken =
+        take_samples(pairs[0], kind, RatedMap::kComplete, guide_table(), 2000);
     int known = 0, wrong = 0;
     for (const Sample& sample : taken.samples) {
       known += sample.known;

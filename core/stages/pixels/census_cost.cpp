@@ -25,9 +25,8 @@ bool is_wide(const CensusWindow& window) {
          window.matched == nullptr;
 }
 
-/// Counts the differing bits of one left pixel and its right pixels at all disparities. kBytes: 3
-/// or 4 planes.
-template <int kBytes, class D8>
+/// Counts the differing bits of one left pixel and its right pixels at all disparities.
+template <class D8>
 class Difference {
  public:
   /// In the mirrored row, the right pixel of column x at disparity d is width - 1 - x + d.
@@ -35,28 +34,24 @@ class Difference {
       : bits0_(hn::Set(D8(), row.left[0][x])),
         bits1_(hn::Set(D8(), row.left[1][x])),
         bits2_(hn::Set(D8(), row.left[2][x])),
-        bits3_(hn::Set(D8(), row.left[3][x])),
         right0_(row.right[0] + (width - 1 - x)),
         right1_(row.right[1] + (width - 1 - x)),
-        right2_(row.right[2] + (width - 1 - x)),
-        right3_(row.right[3] + (width - 1 - x)) {}
+        right2_(row.right[2] + (width - 1 - x)) {}
 
   HWY_INLINE hn::Vec<D8> count(int d) const {
     const D8 d8;
     const auto count0 = hn::PopulationCount(hn::Xor(bits0_, hn::LoadU(d8, right0_ + d)));
     const auto count1 = hn::PopulationCount(hn::Xor(bits1_, hn::LoadU(d8, right1_ + d)));
     const auto count2 = hn::PopulationCount(hn::Xor(bits2_, hn::LoadU(d8, right2_ + d)));
-    const auto sum = hn::Add(hn::Add(count0, count1), count2);
-    if constexpr (kBytes == 3) return sum;
-    return hn::Add(sum, hn::PopulationCount(hn::Xor(bits3_, hn::LoadU(d8, right3_ + d))));
+    return hn::Add(hn::Add(count0, count1), count2);
   }
 
  private:
-  hn::Vec<D8> bits0_, bits1_, bits2_, bits3_;
+  static_assert(kCensusBytes == 3);
+  hn::Vec<D8> bits0_, bits1_, bits2_;
   const std::uint8_t* right0_;
   const std::uint8_t* right1_;
   const std::uint8_t* right2_;
-  const std::uint8_t* right3_;
 };
 
 /// Calls `vector(d)` for each vector of a window; kVectors: their number, or 0 if it is not known.
@@ -76,7 +71,7 @@ void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1)
   for (int x = x0; x < x1; ++x) {
     std::uint8_t* counts = window.rows[0] + static_cast<std::ptrdiff_t>(x) * window.lanes;
     std::uint8_t* sums = window.sums_of(x);
-    const Difference<kCensusBytes, Narrow> in(window.in, window.width, x);
+    const Difference<Narrow> in(window.in, window.width, x);
     for_each_vector<0, Narrow>(lanes, [&](int d) HWY_ATTR {
       const auto count = in.count(d);
       hn::StoreU(count, d8, counts + d);
@@ -86,7 +81,7 @@ void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1)
 }
 
 /// Counts those of the row that enters the window, and sums the counts of all its rows.
-template <int kBytes, int kSize, bool kRunning, class D8>
+template <int kSize, bool kRunning, class D8>
 void sum_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
   with_vectors(
       vectors_of(D8(), lanes), [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
@@ -94,7 +89,7 @@ void sum_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
           const D8 d8;
           const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
           std::uint8_t* sums = window.sums_of(x);
-          const Difference<kBytes, D8> in(window.in, window.width, x);
+          const Difference<D8> in(window.in, window.width, x);
           for_each_vector<kVectors, D8>(lanes, [&](int d) HWY_ATTR {
             std::uint8_t* counts = window.rows[0] + first + d;
             const auto count = in.count(d);
@@ -186,7 +181,7 @@ HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int 
 
 /// Counts the row that enters the window and writes the costs, tile by tile, while the sums of the
 /// adjacent columns are in the cache.
-template <int kBytes, int kSize, class D8>
+template <int kSize, class D8>
 void write_row_of(const CensusWindow& of_window, int disparities, const std::uint16_t* low,
                   const std::uint16_t* high, const CensusTables& of_tables, std::uint8_t* costs) {
   // Copies: the compiler knows that no store of bytes changes them.
@@ -199,9 +194,9 @@ void write_row_of(const CensusWindow& of_window, int disparities, const std::uin
     const int needed = std::min(x1 + kReach, window.width);
     for_counted_lanes(window, kReach, summed, needed, [&](CostWindow lanes, int begin, int end) {
       if (window.running()) {
-        sum_columns<kBytes, kSize, true, D8>(window, lanes, begin, end);
+        sum_columns<kSize, true, D8>(window, lanes, begin, end);
       } else {
-        sum_columns<kBytes, kSize, false, D8>(window, lanes, begin, end);
+        sum_columns<kSize, false, D8>(window, lanes, begin, end);
       }
     });
     summed = needed;
@@ -219,16 +214,12 @@ void write_row_of(const CensusWindow& of_window, int disparities, const std::uin
 void write_row(const CensusWindow& window, const CensusCostOptions& options,
                const std::uint16_t* low, const std::uint16_t* high, const CensusTables& tables,
                std::uint8_t* costs) {
-  const auto by_size = [&]<int kBytes, class D8>(std::integral_constant<int, kBytes>, D8) {
-    return options.kernel_size == 5   ? write_row_of<kBytes, 5, D8>
-           : options.kernel_size == 3 ? write_row_of<kBytes, 3, D8>
-                                      : write_row_of<kBytes, 1, D8>;
+  const auto by_size = [&]<class D8>(D8) {
+    return options.kernel_size == 5   ? write_row_of<5, D8>
+           : options.kernel_size == 3 ? write_row_of<3, D8>
+                                      : write_row_of<1, D8>;
   };
-  const auto by_bytes = [&](auto d8) {
-    return options.bytes == 3 ? by_size(std::integral_constant<int, 3>(), d8)
-                              : by_size(std::integral_constant<int, 4>(), d8);
-  };
-  const auto write = is_wide(window) ? by_bytes(Wide()) : by_bytes(Narrow());
+  const auto write = is_wide(window) ? by_size(Wide()) : by_size(Narrow());
   write(window, options.disparities, low, high, tables, costs);
 }
 

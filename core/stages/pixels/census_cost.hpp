@@ -16,10 +16,9 @@ namespace mtstereo {
 /// (d > x) use the first pixel of the right row, so that they cost nothing where the image is flat.
 
 struct CensusCostOptions {
-  int disparities;           ///< D
-  int kernel_size;           ///< side of the window over which costs are summed: 1, 3 or 5 px
-  int range_penalty;         ///< added to the cost of an unexpected disparity [bits], 0 .. 32
-  int bytes = kCensusBytes;  ///< census_bytes() of both views; the others are 0
+  int disparities;    ///< D
+  int kernel_size;    ///< side of the window over which costs are summed: 1, 3 or 5 px
+  int range_penalty;  ///< added to the cost of an unexpected disparity [bits], 0 .. 32
 };
 
 /// Cost of the cells d >= D.

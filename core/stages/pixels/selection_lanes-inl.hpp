@@ -55,6 +55,19 @@ HWY_INLINE FinishedVec v_offsets(FinishedVec before, FinishedVec least, Finished
   return hn::IfThenZeroElse(none, hn::IfThenElse(hn::Lt(change, zero), hn::Neg(offset), offset));
 }
 
+/// Whether disparities are far enough inside of their expected ranges, see
+/// SelectionOptions::guided_margin.
+HWY_INLINE hn::Mask<Finished> agrees_with_guide(FinishedVec low, FinishedVec high, FinishedVec best,
+                                                const SelectionOptions& options) {
+  const Finished d32;
+  const auto outside = hn::Set(d32, options.guided_margin - 1);
+  const auto from_first = hn::Eq(low, hn::Zero(d32));
+  const auto to_last = hn::Eq(high, hn::Set(d32, options.disparities - 1));
+  const auto above = hn::Or(from_first, hn::Gt(hn::Sub(best, low), outside));
+  const auto below = hn::Or(to_last, hn::Gt(hn::Sub(high, best), outside));
+  return hn::AndNot(hn::And(from_first, to_last), hn::And(above, below));
+}
+
 /// Decides the pixels from x on, as finish_selection() describes it.
 HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uint16_t* low,
                           const std::uint16_t* high, const SelectionScratch& scratch,
@@ -69,7 +82,12 @@ HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uin
       hn::Or(hn::Gt(widened(low + x), widened(high + x)), hn::Or(hn::Eq(second, none), unsure));
   if (options.left_right_tolerance >= 0) {
     const auto distance = hn::Abs(hn::Sub(widened(scratch.other.data() + x), best));
-    lost = hn::Or(lost, hn::Gt(distance, hn::Set(d32, options.left_right_tolerance)));
+    auto unequal = hn::Gt(distance, hn::Set(d32, options.left_right_tolerance));
+    if (options.guided_margin >= 0) {
+      unequal = hn::AndNot(agrees_with_guide(widened(low + x), widened(high + x), best, options),
+                           unequal);
+    }
+    lost = hn::Or(lost, unequal);
   }
   auto refined = hn::Mul(best, hn::Set(d32, kDisparityOne));
   if (options.subpixel) {

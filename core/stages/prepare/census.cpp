@@ -69,11 +69,10 @@ void transform_row(const CensusLines& lines, int width, std::uint32_t* words) {
   const auto write = [&](int x, std::uint32_t* out) {
     const bool one_scale = lines.smoothed == nullptr;
     const auto byte2 =
-        one_scale ? census_byte<kBetween>(lines.view, x) : census_byte<kFar>(lines.smoothed, x);
-    const auto byte3 = one_scale ? hn::Zero(d8) : census_byte<kCoarse>(lines.smoothed, x);
+        one_scale ? census_byte<kBetween>(lines.view, x) : census_byte<kCoarse>(lines.smoothed, x);
     // The lowest byte of a word comes first in memory: all supported processors are little-endian.
     hn::StoreInterleaved4(census_byte<kNear>(lines.view, x), census_byte<kFar>(lines.view, x),
-                          byte2, byte3, d8, reinterpret_cast<std::uint8_t*>(out));
+                          byte2, hn::Zero(d8), d8, reinterpret_cast<std::uint8_t*>(out));
   };
   int x = 0;
   for (; x + step <= width; x += step) write(x, words + x);
@@ -97,14 +96,13 @@ void split_row(const std::uint32_t* words, int width, RowOrder order, std::uint8
   const bool mirrored = order == RowOrder::kMirrored;
   int x = 0;
   for (; x + step <= width; x += step) {
-    hn::Vec<Bytes> byte0, byte1, byte2, byte3;
+    hn::Vec<Bytes> byte0, byte1, byte2, unused;
     hn::LoadInterleaved4(d8, reinterpret_cast<const std::uint8_t*>(words + x), byte0, byte1, byte2,
-                         byte3);
+                         unused);
     const int to = mirrored ? width - step - x : x;
     hn::StoreU(mirrored ? reverse(byte0) : byte0, d8, planes[0] + to);
     hn::StoreU(mirrored ? reverse(byte1) : byte1, d8, planes[1] + to);
     hn::StoreU(mirrored ? reverse(byte2) : byte2, d8, planes[2] + to);
-    hn::StoreU(mirrored ? reverse(byte3) : byte3, d8, planes[3] + to);
   }
   for (; x < width; ++x) {
     for (int i = 0; i < kCensusBytes; ++i) {

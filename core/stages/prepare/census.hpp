@@ -10,29 +10,26 @@ namespace mtstereo {
 
 /// The step census, the input of all census costs: which pixels around a pixel are darker, in one
 /// or two scales. One scale compares all pixels of the 5x5 window in the view itself. Two scales
-/// compare its neighbors at 1 and 2 px, which locate edges, and those at 2 and 4 px in the smoothed
-/// view, whose order of gray values noise and compression seldom change.
+/// compare its neighbors at 1 and 2 px, which locate edges, and those at 4 px in the smoothed view,
+/// whose order of gray values blur, noise and compression seldom change.
 ///
 /// The result does not depend on the brightness of the view. The bits of the view itself are
 /// invariant to any monotonic change of the gray values, those of the smoothed view to gain, up to
 /// rounding, and almost to others.
 
-/// Bytes of a pixel's census transform; one scale leaves the last one 0.
-inline constexpr int kCensusBytes = 4;
+/// Bytes of a pixel's census transform.
+inline constexpr int kCensusBytes = 3;
 
 /// Bits of a pixel's census transform: one for each neighbor.
 inline constexpr int kCensusBits = 8 * kCensusBytes;
-
-/// Bytes of this many scales that may differ from 0.
-constexpr int census_bytes(int scales) { return scales == 1 ? 3 : 4; }
 
 /// Width of the binomial filter that smooths the view, weights 1 4 6 4 1 in both directions [px].
 inline constexpr int kCensusSmoothing = 5;
 
 /// The census transform of a view: per pixel a word. The bytes, the lowest first, belong to the
 /// neighbors at 1 px in each of the eight directions, to those at 2 px, and to the remaining pixels
-/// of the window (one scale), or to those at 2 px and at 4 px in the smoothed view (two scales).
-/// The bits of a byte belong to its neighbors row by row from the top left.
+/// of the window (one scale) or to those at 4 px in the smoothed view (two scales). The highest
+/// byte is 0. The bits of a byte belong to its neighbors row by row from the top left.
 struct CensusImage {
   Image<std::uint32_t> bits;
 

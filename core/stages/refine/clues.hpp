@@ -60,6 +60,15 @@ struct ClueScratch {
   void resize(int width);
 };
 
+/// The map of half the matched resolution that guided the matching: complete and rated.
+struct RatedGuide {
+  const Image<std::int32_t>* disparity = nullptr;  ///< nullptr: there is none
+  const Image<std::uint8_t>* confidence = nullptr;
+  int scale = 2;          ///< px of the rated map per px of the guide
+  int column_offset = 0;  ///< columns that the matched views have more on the left, may be negative
+  int added = 0;          ///< added to the matched disparities in the rated map [px]
+};
+
 /// What the clues are about, beside the map.
 struct RatedViews {
   GrayView left;         ///< of the map's size
@@ -72,6 +81,8 @@ struct RatedViews {
   const Image<std::uint8_t>* agreement;
   int agreement_tile;
   int agreement_offset;
+
+  RatedGuide guide = {};
 };
 
 /// The gray value of the left view for each of the right one.

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "stages/refine/guide_clue.hpp"
 #include "stages/refine/reliability_rows.hpp"
 
 #define HWY_TARGET_INCLUDE "stages/refine/reliability.cpp"
@@ -261,6 +262,7 @@ std::array<EntryBytes, kNoiseClue> entry_bytes(const ReliabilityTable& table) {
 
 void ReliabilityScratch::resize(int width) {
   sum.resize(width + kVector);
+  expected.resize(width);
   for (Buffer<std::uint8_t>& row : bins) row.resize(width + kVector);
 }
 
@@ -280,6 +282,7 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
   HWY_DYNAMIC_DISPATCH(find_partner_bins)
   (map.row(y), width, views.disparity_offset, scratch.bins[kPartnerClue].data());
   find_agreement_bins(views, y, width, scratch.bins[kAgreementClue].data());
+  find_guide_bins(views.guide, map, y, scratch.expected.data(), scratch.bins[kGuideClue].data());
   std::memset(scratch.bins[kNoiseClue].data(), bin_of(views.noise_level, kNoiseEnds), width);
 }
 

@@ -20,6 +20,7 @@ namespace mtstereo {
 /// Scratch memory of one thread.
 struct ReliabilityScratch {
   Buffer<std::uint16_t> sum;
+  Buffer<std::int32_t> expected;                  ///< by the guide, of a row
   std::array<Buffer<std::uint8_t>, kClues> bins;  ///< per clue, of a row
 
   /// For maps of at most this width.

@@ -18,9 +18,10 @@ enum Clue : int {
   kPartnerClue,    ///< how far inside of the right view its partner is
   kTextureClue,    ///< the gray values' changes along the rows around it
   kAgreementClue,  ///< how often the costs alone agree with the paths around it
+  kGuideClue,      ///< the confidence of the map of half the resolution, and the distance from it
   kNoiseClue,      ///< the noise of the views, the same for all pixels
 };
-inline constexpr int kClues = 9;
+inline constexpr int kClues = 10;
 inline constexpr int kClueBins = 32;
 
 /// Steps per 1 of the table's entries.
@@ -33,8 +34,9 @@ enum class RatedMap {
   kComplete,  ///< any pixel may be kept
   kEnlarged,  ///< the same, matched at half the resolution
   kMatched,   ///< only matched pixels are kept
+  kGuide,     ///< the map of half the resolution, for kGuideClue of the others
 };
-inline constexpr int kRatedMaps = 3;
+inline constexpr int kRatedMaps = 4;
 
 /// The fitted tables, by RatedMap.
 extern const std::array<ReliabilityTable, kRatedMaps> kReliabilityTables;

@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0x28618abb18c13521},
-    {"default", "semi-dense", 0x541411231131de07},
-    {"default", "dense", 0x6f8f6f7e3c09802c},
-    {"default", "full", 0x197ca04d857bd78b},
+    {"default", "sparse", 0xdcc79ee35426552a},
+    {"default", "semi-dense", 0x9e0e58de14615ba6},
+    {"default", "dense", 0xa4f86f5e2a0fb157},
+    {"default", "full", 0xc8c049df833eba9e},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0xcbe3457c3f6fc940},
-    {"fast", "dense", 0x3cd91c9def7b3d68},
-    {"fast", "full", 0x5cd83ab05197ed84},
+    {"fast", "dense", 0xe5f447a4286ab2e2},
+    {"fast", "full", 0x435cd77beb604e3f},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

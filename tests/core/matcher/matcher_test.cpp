@@ -128,9 +128,9 @@ Change change_of(Parameter id) {
     case Parameter::kLeftRightTolerance:
       return {{}, "0"};
     case Parameter::kCensusScales:
-      return {{}, "2"};
+      return {{}, "1"};
     case Parameter::kCensusKernelSize:
-      return {{}, "5"};
+      return {{}, "3"};
     case Parameter::kNoiseFilter:
     case Parameter::kSubpixel:
       return {{}, "false"};

@@ -87,7 +87,7 @@ TEST(NodeCensusCost, StaysInTheViewsForTheLongestAndSteepestNodes) {
 }
 
 TEST(NodeCensusCost, IsZeroForEqualPixelsAndAllBitsForInvertedOnes) {
-  test::Plane<std::uint32_t> words(40, 1, 0x123456u), opposite(40, 1, ~0x123456u);
+  test::Plane<std::uint32_t> words(40, 1, 0x123456u), opposite(40, 1, ~0x123456u & 0xFFFFFFu);
   const CensusImage left = image_of_words(words);
   const NodePair pair{20, 30, 12, 22};
   EXPECT_EQ(0, census_intensity_cost(left, left, 0, pair));
@@ -98,7 +98,7 @@ TEST(NodeCensusCost, IncludesColumnsBesideTheNode) {
   test::Plane<std::uint32_t> words(60, 1), other(60, 1);
   for (int x = 0; x < 60; ++x) {
     words(x, 0) = 0;
-    other(x, 0) = x < 20 || x > 30 ? 0xFFFFFFFF : 0;
+    other(x, 0) = x < 20 || x > 30 ? 0xFFFFFF : 0;
   }
   const NodePair pair{20, 30, 20, 30};
   const float cost = census_intensity_cost(image_of_words(words), image_of_words(other), 0, pair);

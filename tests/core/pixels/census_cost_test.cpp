@@ -64,11 +64,10 @@ std::vector<std::uint8_t> costs_of(const CensusPair& pair, const CensusCostOptio
 void expect_reference(const Pair& views, const CensusCostOptions& options, int y0, int y1,
                       const Ranges& ranges, CensusCostScratch& scratch,
                       const SearchWindows& windows = {}) {
-  const int scales = options.bytes == 3 ? 1 : 2;
-  const CensusPair pair(views.left.view(), views.right.view(), scales);
+  const CensusPair pair(views.left.view(), views.right.view());
   const std::vector<std::uint8_t> costs = costs_of(pair, options, y0, y1, ranges, scratch, windows);
-  const reference::CensusCosts plain{reference::census(views.left, scales),
-                                     reference::census(views.right, scales), options};
+  const reference::CensusCosts plain{reference::census(views.left), reference::census(views.right),
+                                     options};
   const int lanes = cost_lanes(options.disparities);
   const int width = views.left.width;
   const reference::Windows matched = test::copy_of(windows, width, views.left.height);
@@ -103,8 +102,8 @@ TEST(CensusCost, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
       const int disparities = random.between(1, width);
       for (const int size : {1, 3, 5}) {
         expect_reference(noise_pair(width, height, 10 * width),
-                         {disparities, size, random.below(33), census_bytes(random.between(1, 2))},
-                         0, height, random_ranges(width, disparities, random), scratch);
+                         {disparities, size, random.below(33)}, 0, height,
+                         random_ranges(width, disparities, random), scratch);
       }
     }
   });
@@ -156,11 +155,9 @@ TEST(CensusCost, EqualsReferenceInWindowsOnEveryInstructionSet) {
       const int width = random.between(1, 90), height = random.between(1, 50);
       const int disparities = random.between(1, 200);
       const int y0 = random.below(height);
-      expect_reference(
-          noise_pair(width, height, i),
-          {disparities, 2 * random.below(3) + 1, 2, census_bytes(random.between(1, 2))}, y0, height,
-          random_ranges(width, disparities, random), scratch,
-          test::random_windows(width, height, cost_lanes(disparities), random));
+      expect_reference(noise_pair(width, height, i), {disparities, 2 * random.below(3) + 1, 2}, y0,
+                       height, random_ranges(width, disparities, random), scratch,
+                       test::random_windows(width, height, cost_lanes(disparities), random));
     }
   });
 }
@@ -186,7 +183,7 @@ TEST(CensusCost, CountsAllBitsOfAllRowsForInvertedViews) {
     left.resize(20, 6);
     right.resize(20, 6);
     for (int y = 0; y < 6; ++y) {
-      std::fill_n(left.bits.row(y), 20, ~std::uint32_t{0});
+      std::fill_n(left.bits.row(y), 20, std::uint32_t{0xFFFFFF});
       std::fill_n(right.bits.row(y), 20, std::uint32_t{0});
     }
     CensusCostScratch scratch;
@@ -198,7 +195,7 @@ TEST(CensusCost, CountsAllBitsOfAllRowsForInvertedViews) {
     start_census_costs(left, right, {}, options, 0, scratch);
     census_cost_row(left, right, {}, options, 0, low.data(), high.data(), scratch, row.data());
     for (int d = 0; d < 20; ++d) {
-      const int bits = d >= 5 && d <= 8 ? 32 : 48;
+      const int bits = d >= 5 && d <= 8 ? 24 : 40;
       EXPECT_EQ(bits * cost_scale(options), row[10 * 32 + d]) << "window " << size << ", d " << d;
     }
   }

@@ -22,8 +22,7 @@ using test::Random;
 /// to the first.
 RatedMap matched(const Pair& pair, const CensusMatchingOptions& options,
                  const DisparityPlane& nodes, int band, CensusMatchingScratch& scratch) {
-  const test::CensusPair census(pair.left.view(), pair.right.view(),
-                                options.cost.bytes == 3 ? 1 : 2);
+  const test::CensusPair census(pair.left.view(), pair.right.view());
   Image<std::int32_t> map = image_of(nodes);
   Image<std::uint8_t> ratio;
   ratio.resize(nodes.width, nodes.height);
@@ -54,12 +53,11 @@ DisparityPlane random_nodes(int width, int height, int disparities, int around, 
 }
 
 CensusMatchingOptions random_options(int disparities, Random& random) {
-  return {
-      {0.15, static_cast<BetweenNodes>(random.below(3)), disparities},
-      {disparities, 2 * random.below(3) + 1, random.below(33), census_bytes(random.between(1, 2))},
-      {random.below(51), random.below(51)},
-      {disparities, 0.06 * random.below(3), random.below(2) == 0, random.between(-1, 2),
-       random.below(2) == 0, random.below(50)}};
+  return {{0.15, static_cast<BetweenNodes>(random.below(3)), disparities},
+          {disparities, 2 * random.below(3) + 1, random.below(33)},
+          {random.below(51), random.below(51)},
+          {disparities, 0.06 * random.below(3), random.below(2) == 0, random.between(-1, 2),
+           random.below(2) == 0, random.below(50)}};
 }
 
 TEST(CensusMatching, EqualsReferenceAtEveryWidthAndInBands) {

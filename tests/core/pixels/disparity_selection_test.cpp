@@ -115,10 +115,10 @@ long expect_reference_with_all_options(int width, int disparities, Random& rando
     for (const bool in_range : {false, true}) {
       for (const int tolerance : {-1, 0, 1}) {
         const int largest = random.below(3) == 0 ? 12 : 510;
-        known += expect_reference(
-            random_sums(width, disparities, largest, random),
-            {disparities, confidence, in_range, tolerance, random.below(2) == 0, random.below(50)},
-            random_ranges(width, disparities, random), scratch);
+        known += expect_reference(random_sums(width, disparities, largest, random),
+                                  {disparities, confidence, in_range, tolerance,
+                                   random.below(2) == 0, random.below(50), random.between(-1, 3)},
+                                  random_ranges(width, disparities, random), scratch);
       }
     }
   }

@@ -23,8 +23,7 @@ using test::Random;
 RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
                  const PathMatchingOptions& options, PathMatchingScratch& scratch,
                  const SearchWindows& windows = {}, WindowVotes* votes = nullptr) {
-  const test::CensusPair census(pair.left.view(), pair.right.view(),
-                                options.cost.bytes == 3 ? 1 : 2);
+  const test::CensusPair census(pair.left.view(), pair.right.view());
   const int width = pair.left.width, height = pair.left.height;
   Image<std::int32_t> map, half;
   Image<std::uint8_t> ratio;
@@ -48,12 +47,11 @@ RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
 }
 
 PathMatchingOptions random_options(int disparities, Random& random) {
-  return {
-      {disparities, 2 * random.below(3) + 1, random.below(33), census_bytes(random.between(1, 2))},
-      {random.below(51), random.below(51)},
-      {disparities, 0.06 * random.below(2), false, random.between(-1, 2), random.below(2) == 0,
-       random.below(50)},
-      static_cast<ColumnPaths>(random.below(3))};
+  return {{disparities, 2 * random.below(3) + 1, random.below(33)},
+          {random.below(51), random.below(51)},
+          {disparities, 0.06 * random.below(2), false, random.between(-1, 2), random.below(2) == 0,
+           random.below(50), random.between(-1, 3)},
+          static_cast<ColumnPaths>(random.below(3))};
 }
 
 /// A map of half the size with disparities near half of `around`, a third of it unknown.
@@ -109,7 +107,7 @@ TEST(PathMatching, CountsTheVotesOfPathsAndCosts) {
   const int width = 70, height = 90;
   const Pair pair = test::shifted_pair(width, height, 9, 3);
   const PathMatchingOptions options = {
-      {24, 3, 2, 3}, {12, 51}, {24, 0, false, 2, true, 60}, ColumnPaths::kBoth};
+      {24, 3, 2}, {12, 51}, {24, 0, false, 2, true, 60}, ColumnPaths::kBoth};
   WindowVotes votes;
   votes.resize(2 * width, 2 * height, 64);
   const RatedMap out = matched(pair, nullptr, options, scratch, {}, &votes);
@@ -127,7 +125,7 @@ TEST(PathMatching, FindsTheDisparityOfEveryPixelThatBothViewsShow) {
   PathMatchingScratch scratch;
   const Pair pair = test::shifted_pair(120, 90, 17, 1);
   const PathMatchingOptions options = {
-      {40, 3, 2, 3}, {5, 30}, {40, 0, false, 1, true, 60}, ColumnPaths::kBoth};
+      {40, 3, 2}, {5, 30}, {40, 0, false, 1, true, 60}, ColumnPaths::kBoth};
   const RatedMap out = matched(pair, nullptr, options, scratch);
   long right = 0;
   for (int y = 0; y < 90; ++y) {
@@ -147,7 +145,7 @@ TEST(PathMatching, PrefersWhatTheHalfMapExpects) {
   }
   PathMatchingScratch scratch;
   const PathMatchingOptions options = {
-      {40, 3, 2, 3}, {5, 30}, {40, -1, false, -1, true, 60}, ColumnPaths::kBoth};
+      {40, 3, 2}, {5, 30}, {40, -1, false, -1, true, 60}, ColumnPaths::kBoth};
   const DisparityPlane expected(60, 20, 128 * 19);
   const RatedMap out = matched(pair, &expected, options, scratch);
   for (int y = 8; y < 32; ++y) {

@@ -48,7 +48,9 @@ struct Frame {
   Volume volume;
   Level leaves;
   Matches matches;
-  DisparityPlane half_map;          ///< of the views at half the matched resolution
+  DisparityPlane half_map;  ///< of the views at half the matched resolution
+  GrayPlane half_ratio;
+  ConfidentMap guide;               ///< the same, complete and rated
   DisparityPlane half_map_by_cost;  ///< the same without paths
   Windows windows;                  ///< of the views
   GrayPlane agreement;              ///< of the tiles of the views
@@ -163,7 +165,8 @@ inline void take(Frame& f, const RatedMap& pixels) {
 }
 
 inline void match_by_census(Frame& f) {
-  take(f, match_pixels_by_census(f.views[0], f.views[1], f.settings.census_matching(), f.map));
+  take(f, match_pixels_by_census(f.views[0], f.views[1], f.settings.census_matching(), f.map,
+                                 f.settings.census_scales));
 }
 
 inline void match_by_gradient(Frame& f) {
@@ -177,8 +180,10 @@ inline void match_reduced(Frame& f) {
   }
   for (int i = 3; i > 0; --i) {
     const DisparityPlane coarser = f.half_map;
-    const PathInput input = {views[i][0], views[i][1], i == 3 ? nullptr : &coarser};
-    f.half_map = match_along_paths(input, f.settings.path_matching(i)).map;
+    const PathInput input = {views[i][0], views[i][1], i == 3 ? nullptr : &coarser, {}, 1};
+    const RatedMap half = match_along_paths(input, f.settings.path_matching(i));
+    f.half_map = half.map;
+    f.half_ratio = half.ratio;
     if (i == 1) f.half_map_by_cost = match_by_cost(input, f.settings.path_matching(i));
   }
 }
@@ -191,8 +196,24 @@ inline void choose_windows(Frame& f) {
 }
 
 inline void match_by_paths(Frame& f) {
-  const PathInput input = {f.views[0], f.views[1], &f.half_map, f.windows};
+  const PathInput input = {f.views[0], f.views[1], &f.half_map, f.windows,
+                           f.settings.census_scales};
   take(f, match_along_paths(input, f.settings.path_matching(0)));
+}
+
+inline void support_guide(Frame& f) {
+  f.guide = complete(ConfidentMap{f.half_map, rate_support(f.half_map, f.half_ratio)});
+}
+
+inline void rate_guide(Frame& f) {
+  std::array<GrayPlane, 2> halves;
+  for (int side = 0; side < 2; ++side) halves[side] = halve(f.views[side]);
+  const RatedViews views = {halves[0].view(), halves[1].view(), 0, f.noise, nullptr, 8, 0};
+  const GrayMapping grays =
+      find_gray_mapping(views, image_of(f.guide.map), image_of(f.guide.confidence));
+  const RatedPair pair = {halves[0], halves[1], 0, f.noise, f.agreement, 8, 0, grays};
+  const auto table = static_cast<int>(mtstereo::RatedMap::kGuide);
+  f.guide.confidence = rate_reliability(pair, f.guide, kReliabilityTables[table], false);
 }
 
 inline void remove_pixel_outliers(Frame& f) {
@@ -263,7 +284,7 @@ inline void rate_map(Frame& f) {
       f.left.view(), f.input[1].view(), std::min(least, 0), f.noise, nullptr, tile, -least};
   const GrayMapping grays = find_gray_mapping(views, image_of(f.map), image_of(f.confidence));
   const RatedPair pair = {f.left, f.input[1], std::min(least, 0), f.noise, f.agreement, tile,
-                          -least, grays};
+                          -least, grays,      &f.guide,           tile / 8};
   const bool apart = !f.settings.keeps_inferred();
   const auto table = static_cast<int>(f.settings.rated_map());
   f.confidence =
@@ -332,6 +353,8 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"reduced-matching", match_reduced},
     {"search-windows", choose_windows},
     {"path-matching", match_by_paths},
+    {"guide-support", support_guide},
+    {"guide-rating", rate_guide},
     {"census-matching", match_by_census},
     {"gradient-matching", match_by_gradient},
     {"pixel-outliers", remove_pixel_outliers},

@@ -40,6 +40,21 @@ struct RandomRating {
       share = static_cast<std::uint8_t>(random.between(0, 31));
     }
     tiles = image_of(agreement);
+    guide_scale = tile / 8;
+    const int guide_width = std::max((width + added + guide_scale - 1) / guide_scale, 1);
+    const int guide_height = (height + guide_scale - 1) / guide_scale;
+    guide = {patches(guide_width, guide_height, 0, seed + 1), GrayPlane(guide_width, guide_height)};
+    for (int y = 0; y < guide_height; ++y) {
+      for (int x = 0; x < guide_width; ++x) {
+        // Often near the pixel's own disparity.
+        const int own = in.map.clamped(guide_scale * x - added, guide_scale * y) / guide_scale;
+        const int near = std::max(own + random.between(-256, 256), 1);
+        if (random.below(3) > 0) guide.map(x, y) = near;
+        guide.confidence(x, y) = static_cast<std::uint8_t>(random.between(1, 255));
+      }
+    }
+    guide_map = image_of(guide.map);
+    guide_confidence = image_of(guide.confidence);
     grays.is_identity = random.below(2) == 0;
     for (int gray = 0; gray < 256; ++gray) {
       const int mapped = grays.is_identity ? gray : random.between(0, 255);
@@ -52,12 +67,19 @@ struct RandomRating {
   Image<std::uint8_t> tiles;  ///< the same
   GrayMapping grays;
   int tile = 16, added = 0;
+  reference::ConfidentMap guide{DisparityPlane(1, 1), GrayPlane(1, 1)};
+  Image<std::int32_t> guide_map;  ///< the same
+  Image<std::uint8_t> guide_confidence;
+  int guide_scale = 2;
 
   RatedViews views(int offset, float noise) const {
-    return {left.view(), right.view(), offset, noise, &tiles, tile, added};
+    return {left.view(), right.view(),
+            offset,      noise,
+            &tiles,      tile,
+            added,       {&guide_map, &guide_confidence, guide_scale, added, std::max(-added, 0)}};
   }
   reference::RatedPair pair(int offset, float noise) const {
-    return {left, right, offset, noise, agreement, tile, added, grays};
+    return {left, right, offset, noise, agreement, tile, added, grays, &guide, guide_scale};
   }
 };
 

@@ -79,6 +79,13 @@ bool right_agrees(int x, int best, int width, const SelectionOptions& options, C
   return std::abs(other - best) <= options.left_right_tolerance;
 }
 
+/// True if the disparity is that of the guide, whose ends at 0 and D - 1 do not count.
+inline bool guide_agrees(int best, int low, int high, const SelectionOptions& options) {
+  const int margin = options.guided_margin, last = options.disparities - 1;
+  if (margin < 0 || (low == 0 && high == last)) return false;
+  return (low == 0 || best - low >= margin) && (high == last || high - best >= margin);
+}
+
 /// Selects the disparities of one row from its costs; low[x] > high[x] if none are expected.
 template <typename Range>
 std::vector<Selected> select_disparities(const RowCosts& sums, const SelectionOptions& options,
@@ -92,7 +99,10 @@ std::vector<Selected> select_disparities(const RowCosts& sums, const SelectionOp
     const int best = first_least(costs);
     if (best < 0) continue;
     const auto cost = [&](int column, int d) { return sums[column][d]; };
-    if (!right_agrees(x, best, width, options, cost)) continue;
+    if (!right_agrees(x, best, width, options, cost) &&
+        !guide_agrees(best, low[x], high[x], options)) {
+      continue;
+    }
     row[x] = judge(costs, best, low[x], high[x], options, Refinement::kSymmetricV);
   }
   return row;

@@ -42,15 +42,15 @@ struct PathInput {
   const GrayPlane& right;
   const DisparityPlane* half_map;
   Windows windows = {};
+  int census_scales = 2;
 };
 
 /// The costs of all rows.
 inline std::vector<RowCosts> path_matching_costs(const PathInput& input,
                                                  const PathMatchingOptions& options) {
-  const int scales = options.cost.bytes == 3 ? 1 : 2;
   const int width = input.left.width, height = input.left.height;
-  const CensusCosts census_costs{census(input.left, scales), census(input.right, scales),
-                                 options.cost};
+  const CensusCosts census_costs{census(input.left, input.census_scales),
+                                 census(input.right, input.census_scales), options.cost};
   std::vector<RowCosts> costs(height, RowCosts(width));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

@@ -71,8 +71,7 @@ inline bool is_flat(const Plane<std::uint32_t>& census, int x, int y) {
 /// scaled by the rows of the window, as the costs are sums over these rows.
 inline RatedMap match_pixels_by_census(const GrayPlane& left, const GrayPlane& right,
                                        const CensusMatchingOptions& options,
-                                       const DisparityPlane& map) {
-  const int scales = options.cost.bytes == 3 ? 1 : 2;
+                                       const DisparityPlane& map, int scales = 2) {
   const CensusCosts costs{census(left, scales), census(right, scales), options.cost};
   const int rows = options.cost.kernel_size;
   const SmoothnessOptions steps = {options.smoothness.small_step * rows,

@@ -27,7 +27,7 @@ inline int smoothed(const GrayPlane& image, int x, int y) {
 
 /// For each pixel one bit per neighbor: 1 if it is darker. First the eight neighbors at 1 px, row
 /// by row from the top left, then those at 2 px. In one scale, then the other pixels of the 5x5
-/// window; in two, those at 2 and at 4 px in the smoothed view.
+/// window; in two, those at 4 px in the smoothed view.
 inline Plane<std::uint32_t> census(const GrayPlane& image, int scales = 2) {
   Plane<std::uint32_t> out(image.width, image.height);
   for (int y = 0; y < image.height; ++y) {
@@ -47,7 +47,6 @@ inline Plane<std::uint32_t> census(const GrayPlane& image, int scales = 2) {
       add(1, fine);
       add(2, fine);
       if (scales == 2) {
-        add(2, coarse);
         add(4, coarse);
         continue;
       }

@@ -22,6 +22,8 @@ struct RatedPair {
   int tile;                    ///< [px]
   int added;                   ///< columns on the left of the matched views
   const GrayMapping& grays;    ///< of the right view
+  const ConfidentMap* guide = nullptr;
+  int guide_scale = 2;
 };
 
 /// The bins of the clues about one pixel, each found on its own.
@@ -56,6 +58,8 @@ class PixelClues {
         return pair_.agreement(
             std::clamp((x_ + pair_.added) / pair_.tile, 0, pair_.agreement.width - 1),
             std::min(y_ / pair_.tile, pair_.agreement.height - 1));
+      case kGuideClue:
+        return pair_.guide == nullptr ? 0 : guide();
       default:
         return bin_of(pair_.noise, {.1F, .3F, .6F, 1, 1.5F, 2, 2.5F, 3, 4, 5, 7, 10});
     }
@@ -124,6 +128,18 @@ class PixelClues {
       }
     }
     return static_cast<int>(matched * ((16 * 65536 + pixels - 1) / pixels) / 65536);
+  }
+
+  /// Four distances from the guide for each of eight levels of its confidence.
+  int guide() const {
+    const DisparityPlane& map = pair_.guide->map;
+    const int x = std::min(std::max(x_ + pair_.added, 0) / pair_.guide_scale, map.width - 1);
+    const int y = std::min(y_ / pair_.guide_scale, map.height - 1);
+    const int added = std::max(-pair_.added, 0);
+    const double distance =
+        std::abs(in_.map(x_, y_) / 256.0 - added - map(x, y) / 256.0 * pair_.guide_scale);
+    const int level = std::clamp((pair_.guide->confidence(x, y) - 28) / 24, 0, 7);
+    return 4 * level + bin_of(distance, {.5F, 1, 3});
   }
 
   const RatedPair& pair_;
