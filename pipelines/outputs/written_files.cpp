@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <functional>
 #include <system_error>
 
@@ -32,13 +33,24 @@ bool has_plain_parents(const fs::path& folder, const fs::path& name) {
   return true;
 }
 
+// What has a name, by one look: another process may remove or replace it before a second one.
+struct Found {
+  explicit Found(const fs::path& path) {
+    if (lstat(path.c_str(), &status) != 0) error = errno;
+  }
+  bool is_missing() const { return error == ENOENT || error == ENOTDIR; }
+  bool is_file() const { return error == 0 && S_ISREG(status.st_mode); }
+  bool is_folder() const { return error == 0 && S_ISDIR(status.st_mode); }
+
+  struct stat status = {};
+  int error = 0;
+};
+
 // Why a regular file is not the one that was written; empty if it is.
-std::string change_of(const fs::path& file, std::optional<std::uintmax_t> bytes) {
-  std::error_code error;
-  const std::uintmax_t found = fs::file_size(file, error);
-  if (!error && (!bytes || found == *bytes)) return {};
-  return "has " + std::to_string(error ? 0 : found) + " of " + std::to_string(bytes.value_or(0)) +
-         " bytes";
+std::string change_of(const struct stat& file, std::optional<std::uintmax_t> bytes) {
+  const auto found = static_cast<std::uintmax_t>(file.st_size);
+  if (!bytes || found == *bytes) return {};
+  return "has " + std::to_string(found) + " of " + std::to_string(*bytes) + " bytes";
 }
 
 class Search {
@@ -47,25 +59,20 @@ class Search {
 
   std::string obstacle(const fs::path& name) const {
     const fs::path path = folder_ / name;
-    std::error_code error;
-    const fs::file_status status = fs::symlink_status(path, error);
-    switch (status.type()) {
-      case fs::file_type::not_found:
-        return {};
-      case fs::file_type::none:
-        return path.string() + ": cannot be examined: " + error.message();
-      case fs::file_type::regular:
-        return obstacle_of_file(path, name);
-      case fs::file_type::directory:
-        return obstacle_of_folder(path, name);
-      default:
-        break;
+    const Found found(path);
+    if (found.is_missing()) return {};
+    if (found.error != 0) {
+      return path.string() +
+             ": cannot be examined: " + std::generic_category().message(found.error);
     }
+    if (found.is_file()) return obstacle_of_file(path, name, found.status);
+    if (found.is_folder()) return obstacle_of_folder(path, name);
     return path.string() + " is in the way (a link, a pipe or a device)" + kMove;
   }
 
  private:
-  std::string obstacle_of_file(const fs::path& path, const fs::path& name) const {
+  std::string obstacle_of_file(const fs::path& path, const fs::path& name,
+                               const struct stat& status) const {
     if (intent_.inputs.has(path)) {
       return path.string() + " is an input, and would be replaced: choose another folder by --out";
     }
@@ -73,7 +80,7 @@ class Search {
     if (found == intent_.written.files().end()) {
       return path.string() + " is in the way, and no earlier run wrote it" + kMove;
     }
-    const std::string change = change_of(path, found->second);
+    const std::string change = change_of(status, found->second);
     if (change.empty()) return {};
     return path.string() + " was changed since it was written (it " + change + ")" + kMove;
   }
@@ -85,7 +92,8 @@ class Search {
       std::string found = obstacle(name / entry->path().filename());
       if (!found.empty()) return found;
     }
-    return error ? path.string() + ": cannot be read: " + error.message() : "";
+    if (!error || error == std::errc::no_such_file_or_directory) return {};
+    return path.string() + ": cannot be read: " + error.message();
   }
 
   const fs::path& folder_;
@@ -126,12 +134,11 @@ std::string obstacle_in(const fs::path& folder, const Intent& intent) {
 
 void remove_written(const fs::path& folder, const WrittenFiles& written) {
   std::set<fs::path, std::greater<>> parents;  // the inner ones first
-  std::error_code error;
   for (const auto& [name, bytes] : written.files()) {
     const fs::path file = folder / name;
     if (!has_plain_parents(folder, name)) continue;
-    if (!fs::is_regular_file(fs::symlink_status(file, error))) continue;
-    if (!change_of(file, bytes).empty()) continue;
+    const Found found(file);
+    if (!found.is_file() || !change_of(found.status, bytes).empty()) continue;
     unlink(file.c_str());
     for (fs::path part = fs::path(name).parent_path(); !part.empty(); part = part.parent_path()) {
       parents.insert(part);
@@ -142,9 +149,11 @@ void remove_written(const fs::path& folder, const WrittenFiles& written) {
 
 std::string defect_of(const fs::path& folder, const WrittenFiles& written) {
   for (const auto& [name, bytes] : written.files()) {
-    std::error_code error;
-    if (!fs::is_regular_file(folder / name, error)) return name + " is missing";
-    const std::string change = change_of(folder / name, bytes);
+    struct stat found = {};
+    if (stat((folder / name).c_str(), &found) != 0 || !S_ISREG(found.st_mode)) {
+      return name + " is missing";
+    }
+    const std::string change = change_of(found, bytes);
     if (!change.empty()) return name + " " + change;
   }
   return {};

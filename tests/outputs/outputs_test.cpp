@@ -7,11 +7,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "outputs/finite_range.hpp"
 #include "outputs/folder_lock.hpp"
@@ -86,6 +88,30 @@ TEST_F(Obstacle, IsNoFileThatWasWrittenAndDidNotChange) {
   EXPECT_EQ(obstacle(intent), "");
   write("maps/1.png", "longer");
   EXPECT_THAT(obstacle(intent), AllOf(HasSubstr("1.png was changed"), HasSubstr("6 of 4 bytes")));
+}
+
+// Another process of the same plan moves its folders and removes them.
+TEST_F(Obstacle, IsNoFileOrFolderThatIsRemovedMeanwhile) {
+  std::atomic<bool> stop{false};
+  std::thread other([&] {
+    while (!stop) {
+      write("new/deep/1.png", "four");
+      fs::rename(folder_ / "new", folder_ / "maps");
+      fs::remove_all(folder_ / "maps");
+    }
+  });
+  Intent intent{{"maps"}, {}, {}};
+  intent.written.add("maps/deep/1.png", 4);
+  std::string found;
+  for (int i = 0; i < 5000 && found.empty(); ++i) found = obstacle(intent);
+  stop = true;
+  other.join();
+  EXPECT_EQ(found, "");
+}
+
+TEST_F(Obstacle, IsWhatCannotBeExamined) {
+  EXPECT_THAT(obstacle({{std::string(300, 'a')}, {}, {}}),
+              HasSubstr("cannot be examined: File name"));
 }
 
 TEST_F(Obstacle, IsALinkAPipeOrADevice) {
