@@ -6,6 +6,7 @@
 
 #include "outputs/json_text.hpp"
 #include "run/damage_notes.hpp"
+#include "run/discard.hpp"
 #include "run/in_parallel.hpp"
 #include "run/json.hpp"
 #include "run/plan_contents.hpp"
@@ -70,12 +71,13 @@ class Joiner {
       const Origin origin{recording.work, plan_.tasks[task].range};
       const std::string found = defect(files_.piece(task), origin, Check::kContents);
       if (found.empty()) continue;
-      result.missing.push_back(task);
       std::error_code error;
-      if (!fs::exists(files_.piece(task), error)) continue;
-      result.problems.push_back(
-          {files_.piece(task).string(), "this piece is removed, because " + found});
-      discard(files_.piece(task), files_.unfinished());
+      const fs::path piece = files_.piece(task);
+      const bool exists = fs::exists(piece, error);
+      if (exists && !discard_damaged(piece, origin, files_.unfinished())) continue;
+      result.missing.push_back(task);
+      if (!exists) continue;
+      result.problems.push_back({piece.string(), "this piece is removed, because " + found});
     }
   }
 

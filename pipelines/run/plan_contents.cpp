@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -69,7 +70,13 @@ bool is_log(const fs::path& file) {
 
 // The name of a NewFolder.
 bool is_unfinished_folder(const fs::path& folder) {
-  static const std::regex kFolder(R"((piece|recording|discarded)-?.*-\d+-\d+)");
+  static const std::regex kFolder(R"((piece|recording)-?.*-\d+-\d+)");
+  return std::regex_match(folder.filename().string(), kFolder);
+}
+
+// What discard() has set aside. It may have a file of the user, which appeared at the last moment.
+bool is_discarded_folder(const fs::path& folder) {
+  static const std::regex kFolder(R"(discarded-.*-\d+-\d+)");
   return std::regex_match(folder.filename().string(), kFolder);
 }
 
@@ -102,6 +109,7 @@ class Collector {
     }
     for_each_in(files_.unfinished(), [this](const fs::path& folder) {
       if (is_unfinished_folder(folder)) add_all(folder);
+      if (is_discarded_folder(folder)) add_whole(folder);
     });
     return std::move(written_);
   }
@@ -160,6 +168,28 @@ outputs::WrittenFiles whole_files_in(const fs::path& folder) {
   return written;
 }
 
+std::string foreign_file_in(const fs::path& folder) {
+  outputs::Intent intent{{folder.filename().string()}, {}, {}};
+  const outputs::WrittenFiles listed = whole_files_in(folder);
+  for (const auto& [name, bytes] : listed.files()) {
+    intent.written.add((folder.filename() / name).generic_string());
+  }
+  return outputs::obstacle_in(folder.parent_path(), intent);
+}
+
+void remove_listed(const fs::path& folder) {
+  const outputs::WrittenFiles written = whole_files_in(folder);
+  outputs::WrittenFiles products;
+  for (const auto& [name, bytes] : written.files()) {
+    const bool lists = name == kWhole || std::count(kReportFiles.begin(), kReportFiles.end(), name);
+    if (!lists) products.add(name);
+  }
+  // The lists last: what is left is listed still if this is interrupted.
+  outputs::remove_written(folder, products);
+  outputs::remove_written(folder, written);
+  rmdir(folder.c_str());
+}
+
 void check_plan_file(const fs::path& file) {
   std::error_code error;
   const fs::file_type type = fs::symlink_status(file, error).type();
@@ -182,6 +212,7 @@ void remove_unfinished(const fs::path& folder) {
   for_each_in(files.unfinished(), [](const fs::path& each) {
     std::error_code error;
     if (is_unfinished_folder(each)) fs::remove_all(each, error);
+    if (is_discarded_folder(each)) remove_listed(each);
   });
   rmdir(files.unfinished().c_str());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "outputs/written_files.hpp"
 
@@ -12,6 +13,12 @@ namespace mtstereo::run {
 /// The files in a folder of pieces or of a recording that its whole.json, or its report, lists,
 /// with these; paths in `folder`.
 outputs::WrittenFiles whole_files_in(const std::filesystem::path& folder);
+
+/// The first thing in such a folder that is not of this program, with what to do; empty if there is
+/// none.
+std::string foreign_file_in(const std::filesystem::path& folder);
+/// Removes the listed files of such a folder, and the folder if it is empty then.
+void remove_listed(const std::filesystem::path& folder);
 
 /// Throws RunError if a file or folder has a name of a plan and is not of this program, or if a
 /// file of the plan is an input.

@@ -6,16 +6,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <system_error>
 
 #include "outputs/json_text.hpp"
-#include "run/plan_contents.hpp"
+#include "run/discard.hpp"
+#include "run/folder_names.hpp"
 #include "run/run_error.hpp"
 
 namespace mtstereo::run {
@@ -75,12 +74,6 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return names;
 }
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  if (gethostname(name.data(), name.size() - 1) != 0) return "host";
-  return name.data();
-}
-
 json read_contents(const fs::path& folder) {
   std::error_code error;  // a pipe would be read without an end
   if (!fs::is_regular_file(folder / kContents, error)) return {};
@@ -115,21 +108,6 @@ std::string contents_defect(const fs::path& folder, const Origin& origin, Check 
     if (std::string found = file_defect(folder, file, check); !found.empty()) return found;
   }
   return {};
-}
-
-// Whether `from` is now `to`; not if there is a folder with files already.
-bool rename_folder(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (!error) return true;
-  if (error == std::errc::directory_not_empty || error == std::errc::file_exists) return false;
-  throw RunError(to.string() + ": " + error.message());
-}
-
-fs::path unused_name(const fs::path& parent, const std::string& label) {
-  std::random_device random;
-  return parent / (label + "-" + host_name() + "-" + std::to_string(getpid()) + "-" +
-                   std::to_string(random()) + std::to_string(random()));
 }
 
 }  // namespace
@@ -208,7 +186,7 @@ bool NewFolder::publish(const fs::path& target, const Origin& origin, const Figu
     while (!rename_folder(path_, target)) {
       if (defect(target, origin, Check::kContents).empty())
         return false;  // another process was first
-      discard(target, path_.parent_path());
+      discard_damaged(target, origin, path_.parent_path());
     }
     path_.clear();
     synchronize(target.parent_path());
@@ -273,24 +251,10 @@ Figures read_figures(const fs::path& folder) {
   }
 }
 
-void discard(const fs::path& folder, const fs::path& parent) {
-  const outputs::WrittenFiles files = whole_files_in(folder);
-  outputs::Intent intent{{folder.filename().string()}, {}, {}};
-  for (const auto& [name, bytes] : files.files()) {
-    intent.written.add((folder.filename() / name).generic_string());
-  }
-  const std::string obstacle = outputs::obstacle_in(folder.parent_path(), intent);
-  if (!obstacle.empty()) throw RunError(obstacle);
-  const fs::path aside = unused_name(parent, "discarded");
-  std::error_code error;
-  fs::create_directories(parent, error);
-  fs::rename(folder, aside, error);
-  if (!error) {
-    outputs::remove_written(aside, files);
-    fs::remove(aside, error);  // unless a file has appeared in it meanwhile
-  } else if (error != std::errc::no_such_file_or_directory) {
-    throw RunError(folder.string() + ": cannot be replaced: " + error.message());
-  }
+bool discard_damaged(const fs::path& folder, const Origin& origin, const fs::path& parent) {
+  return discard(folder, parent, [&origin](const fs::path& aside) {
+    return defect(aside, origin, Check::kContents).empty();
+  });
 }
 
 }  // namespace mtstereo::run

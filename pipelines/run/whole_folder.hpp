@@ -66,10 +66,10 @@ class NewFolder {
 std::string defect(const std::filesystem::path& folder, const Origin& origin, Check check);
 /// The figures in the whole.json of a whole folder. Throws RunError.
 Figures read_figures(const std::filesystem::path& folder);
-/// Removes a folder: it is renamed into `parent` first, so that none of its files is missing while
-/// its name exists. Does nothing if there is none. Throws RunError if it has a file that is not of
-/// this program.
-void discard(const std::filesystem::path& folder, const std::filesystem::path& parent);
+/// As discard(), but a folder that is whole stays: another process may have replaced the damaged
+/// one meanwhile. Returns false if it stays. Throws RunError.
+bool discard_damaged(const std::filesystem::path& folder, const Origin& origin,
+                     const std::filesystem::path& parent);
 
 /// Links a file under another name, or copies it where that is not possible. Replaces what has this
 /// name at once. Throws RunError.

@@ -232,6 +232,36 @@ TEST_F(Tasks, MayReplaceADamagedPieceAtTheSameTime) {
   }
 }
 
+// The recording is never whole: task 1 is missing.
+TEST_F(Tasks, MayReplaceADamagedPieceWhileItIsMerged) {
+  do_one(0);
+  const std::string text = read_text(fake_file(0));
+  for (int round = 0; round < 20; ++round) {
+    fs::resize_file(fake_file(0), 1);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 2; ++i) threads.emplace_back([&] { do_one(0); });
+    for (int i = 0; i < 2; ++i) {
+      threads.emplace_back([&] { merge(folder_.path(), {fake_functions(), 1, false}); });
+    }
+    for (std::thread& thread : threads) thread.join();
+    ASSERT_EQ(read_text(fake_file(0)), text);
+    ASSERT_THAT(missing(), ElementsAre(1, 2, 3, 4));
+    ASSERT_TRUE(nothing_is_unfinished());
+  }
+}
+
+TEST_F(Tasks, DoNotReplaceADamagedPieceWithAFileOfTheUser) {
+  do_one(0);
+  fs::resize_file(fake_file(0), 1);
+  write_text(files_.piece(0) / "notes.txt", "mine");
+  EXPECT_THAT(error_of(0), HasSubstr((files_.piece(0) / "notes.txt").string() + " is in the way"));
+  EXPECT_EQ(read_text(files_.piece(0) / "notes.txt"), "mine");
+  EXPECT_EQ(read_text(fake_file(0)).size(), 1U);
+  EXPECT_TRUE(nothing_is_unfinished());
+  fs::remove(files_.piece(0) / "notes.txt");
+  EXPECT_EQ(do_one(0), TaskResult::kDone);
+}
+
 TEST_F(Tasks, ThatAreKilledDoNotCountAndAreDoneByTheNextProcess) {
   const pid_t child = fork();
   if (child == 0) {
