@@ -2,6 +2,7 @@
 #include "fine_detail.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace mtstereo {
 namespace {

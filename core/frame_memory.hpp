@@ -149,10 +149,10 @@ struct Pyramid {
   WindowVotes votes;                                ///< of the level of 1/2
   SearchWindows windows;                            ///< of full resolution
   Image<std::uint8_t> agreement;                    ///< a pixel for each tile of the votes
-  SupportMap support;                               ///< of the level of 1/2,
-  Image<std::uint8_t> confidence;                   ///< as the other two
-  ClueMaps clues;
-  std::vector<PathMatchingScratch> scratch;  ///< one for each thread
+  SupportMap support;                               ///< of the level of 1/2
+  Image<std::uint8_t> confidence;                   ///< of that level
+  ClueMaps clues;                                   ///< of that level
+  std::vector<PathMatchingScratch> scratch;         ///< one for each thread
 
   void resize(const Settings& settings, const FrameSize& size);
 };

@@ -215,9 +215,8 @@ void install_properties(GObjectClass* object_class) noexcept {
           "and change in ms per s), last-ms and mean-ms (time of a pair), density "
           "(share of the last map's pixels with a disparity), half-resolution (the last "
           "pair was matched at half resolution), fine-detail (energy in the finest "
-          "octave divided by that in the next one, resolution=auto only); alignment of the views: "
-          "offset "
-          "(px), roll (degrees), residual (px), trust, applied, inspections, "
+          "octave divided by that in the next one, resolution=auto only); alignment of the "
+          "views: offset (px), roll (degrees), residual (px), trust, applied, inspections, "
           "sharpness (left / right), left-blur and right-blur (px), problem",
           GST_TYPE_STRUCTURE, static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS)));
 }

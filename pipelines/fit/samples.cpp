@@ -7,6 +7,7 @@
 
 #include "eval/degrade.hpp"
 #include "eval/metrics.hpp"
+#include "fit/fitting.hpp"
 #include "frame_matcher.hpp"
 #include "mtstereo/parameters.hpp"
 #include "path_steps.hpp"
@@ -96,25 +97,16 @@ std::vector<cv::Point> random_pixels(const std::string& seed, cv::Size size, int
 /// The confidence of the map that has guided the matching, after the step guide-support, by a
 /// table.
 Image<std::uint8_t> rated_guide(const FrameMemory& memory, const ReliabilityTable& table) {
-  const RatedViews views = rated_guide_views(memory.views, memory.pyramid);
   const Image<std::int32_t>& map = memory.pyramid.levels[0].disparity;
-  const int width = map.width(), height = map.height();
-  ClueScratch gathering;
-  ReliabilityScratch scratch;
-  ClueMaps clues;
-  Image<std::uint8_t> confidence;
-  gathering.resize(width);
-  scratch.resize(width);
-  clues.resize(width, height);
-  confidence.resize(width, height);
-  for (int y = 0; y < height; ++y) {
-    std::copy_n(memory.pyramid.confidence.row(y), width, confidence.row(y));
+  Bins bins(rated_guide_views(memory.views, memory.pyramid), map, memory.pyramid.confidence);
+  Image<std::uint8_t> rated;
+  rated.resize(map.width(), map.height());
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      rated.row(y)[x] = static_cast<std::uint8_t>(confidence(table, {bins.at(x, y)}));
+    }
   }
-  gather_clues(views, find_gray_mapping(views, map, confidence), map, confidence, 0, height,
-               gathering, clues);
-  rate_reliability(views, map, clues, table, Inferred::kLikeMatched, 0, height, scratch,
-                   confidence);
-  return confidence;
+  return rated;
 }
 
 Settings settings_for(int max_disparity, RatedMap rated) {

@@ -125,14 +125,20 @@ TEST_F(Products, EveryPointIsKeptWithoutALimit) {
   EXPECT_FALSE(depths_of(file("unlimited") / "clouds" / "000000.ply").empty());
 }
 
+// Work on views that are to be rectified by a calibration.
+Work of_raw_views(Work work, const fs::path& calibration,
+                  const decltype(WorkOptions::products)& products) {
+  work.options.products = products;
+  work.recording.rectified = false;
+  work.recording.calibration = calibration.string();
+  return work;
+}
+
 TEST_F(Products, OfRawViewsAreThoseOfRectifiedOnes) {
   const fs::path calibration = file("raw.yml");
   write_raw_calibration(calibration);
-  WorkOptions options;
-  options.products = {Product::kDisparity, Product::kDepth, Product::kCloud};
-  Work work = work_of(file("left.mkv"), file("right.mkv"), options);
-  work.recording.rectified = false;
-  work.recording.calibration = calibration.string();
+  const Work work = of_raw_views(work_of(file("left.mkv"), file("right.mkv"), {}), calibration,
+                                 {Product::kDisparity, Product::kDepth, Product::kCloud});
   const fs::path results = file("raw");
   process(work, whole(work), results, kNoProgress, Existing::kReplace);
   const auto source = [&](const char* side) {
@@ -151,11 +157,8 @@ TEST_F(Products, OfRawViewsAreThoseOfRectifiedOnes) {
 TEST_F(Products, RectifiedViewsAreThoseOfTheElement) {
   const fs::path calibration = file("raw.yml");
   write_raw_calibration(calibration);
-  WorkOptions options;
-  options.products = {Product::kRectifiedLeft, Product::kRectifiedRight, Product::kCloud};
-  Work work = work_of(file("left.mkv"), file("right.mkv"), options);
-  work.recording.rectified = false;
-  work.recording.calibration = calibration.string();
+  Work work = of_raw_views(work_of(file("left.mkv"), file("right.mkv"), {}), calibration,
+                           {Product::kRectifiedLeft, Product::kRectifiedRight, Product::kCloud});
   const fs::path results = file("rectified");
   process(work, whole(work), results, kNoProgress, Existing::kReplace);
   work.options.products = {Product::kRectifiedLeft, Product::kRectifiedRight};

@@ -20,8 +20,9 @@ struct SelectionOptions {
   int left_right_tolerance;  ///< largest difference to the right pixel's disparity [px], -1 = any
   bool subpixel;             ///< refine by the V of equal slopes through the best and its neighbors
   int ratio_offset;          ///< peak_ratio()'s offset [steps of the costs]
-  /// A disparity that is at least this far inside of a pixel's expected range needs no check [px],
-  /// -1 = all need it. The ends of the range at 0 and D - 1 do not count, and not the range of all.
+  /// A disparity at least this far from both ends of its expected range needs no check [px]; -1 =
+  /// all need it. An end at 0 or D - 1 may be closer. A pixel that expects all disparities needs
+  /// it.
   int guided_margin = -1;
 };
 

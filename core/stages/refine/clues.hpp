@@ -64,7 +64,7 @@ struct ClueScratch {
 struct RatedGuide {
   const Image<std::int32_t>* disparity = nullptr;  ///< nullptr: there is none
   const Image<std::uint8_t>* confidence = nullptr;
-  int scale = 2;          ///< px of the rated map per px of the guide
+  int scale = 2;          ///< px of the rated map per px of the guide, 2 or 4
   int column_offset = 0;  ///< columns that the matched views have more on the left, may be negative
   int added = 0;          ///< added to the matched disparities in the rated map [px]
 };

@@ -23,9 +23,10 @@ constexpr std::array<std::uint8_t, 256> kLevelBins = [] {
   return bins;
 }();
 
-/// Writes what a column of the guide says to the pixels x .. end - 1: the expected disparity and
-/// the first bin.
+/// A row of the guide, and of the pixels that it is about: their expected disparities, and the
+/// first bins of their levels.
 struct GuideRow {
+  /// Writes what a column says to the pixels x .. end - 1.
   void spread(int column, int x, int end) const {
     std::fill(expected + x, expected + end, scale * disparity[column] + added);
     std::fill(bins + x, bins + end, kLevelBins[confidence[column]]);
