@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "matcher/clock.hpp"
-#include "matcher/matching.hpp"
-#include "matcher/output_events.hpp"
-#include "matcher/pair_steps.hpp"
+#include "matcher/engine/matching.hpp"
+#include "matcher/output/output_events.hpp"
+#include "matcher/pairing/pair_steps.hpp"
 #include "matcher/pairing_reports.hpp"
 #include "matcher/streams.hpp"
 #include "shared/ownership.hpp"

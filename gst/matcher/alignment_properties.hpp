@@ -3,7 +3,7 @@
 
 #include <glib-object.h>
 
-#include "matcher/alignment.hpp"
+#include "matcher/engine/alignment.hpp"
 #include "mtstereo/parameters.hpp"
 
 namespace mtstereo::plugin {

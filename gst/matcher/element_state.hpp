@@ -11,14 +11,14 @@
 #include <optional>
 #include <string>
 
-#include "matcher/alignment.hpp"
-#include "matcher/frame_queue.hpp"
-#include "matcher/latency.hpp"
-#include "matcher/lateness.hpp"
-#include "matcher/pair_finder.hpp"
-#include "matcher/pair_times.hpp"
-#include "matcher/pairing.hpp"
-#include "matcher/view_borders.hpp"
+#include "matcher/engine/alignment.hpp"
+#include "matcher/engine/view_borders.hpp"
+#include "matcher/output/latency.hpp"
+#include "matcher/output/lateness.hpp"
+#include "matcher/pairing/frame_queue.hpp"
+#include "matcher/pairing/pair_finder.hpp"
+#include "matcher/pairing/pair_times.hpp"
+#include "matcher/pairing/tolerance.hpp"
 #include "matcher/watchdog.hpp"
 #include "mtstereo/matcher.hpp"
 #include "mtstereo/parameters.hpp"

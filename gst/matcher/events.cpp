@@ -3,8 +3,8 @@
 
 #include "matcher/aggregation.hpp"
 #include "matcher/negotiation.hpp"
-#include "matcher/output_events.hpp"
-#include "matcher/skipping.hpp"
+#include "matcher/output/output_events.hpp"
+#include "matcher/output/skipping.hpp"
 #include "matcher/streams.hpp"
 #include "shared/ownership.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "matcher/element_state.hpp"
-#include "matcher/pair_finder.hpp"
+#include "matcher/pairing/pair_finder.hpp"
 
 // Messages about frames and pairs. Call them without locks, in the task of the source pad.
 

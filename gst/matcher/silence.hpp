@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "matcher/pairing.hpp"
+#include "matcher/pairing/tolerance.hpp"
 #include "mtstereo/matcher.hpp"
 
 namespace mtstereo::plugin {

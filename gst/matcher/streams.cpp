@@ -5,7 +5,7 @@
 
 #include "matcher/clock.hpp"
 #include "matcher/negotiation.hpp"
-#include "matcher/pair_axis.hpp"
+#include "matcher/pairing/pair_axis.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/ownership.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "matcher/pair_finder.hpp"
+#include "matcher/pairing/pair_finder.hpp"
 
 namespace mtstereo::calibrate {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Inspection and correction of rendered pairs from a rig that is out of line.
-#include "matcher/alignment.hpp"
+#include "matcher/engine/alignment.hpp"
 
 #include <gtest/gtest.h>
 
