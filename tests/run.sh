@@ -65,7 +65,9 @@ case ${1:-} in
     ;;
 esac
 
-# Meson looks for ccache itself unless a compiler is named.
+# Meson looks for ccache itself unless a compiler is named. Clang's precompiled headers name files of the build
+# folder, so ccache must not share them between folders, even if its configuration allows that.
+export CCACHE_HASHDIR=true
 clang=clang
 [ -z "$(command -v ccache)" ] || clang='ccache clang'
 

@@ -147,6 +147,7 @@ void NoiseFilterScratch::resize(int width, int rows) {
   view.resize(padded, rows + 2 * kReach);
   for (Buffer<std::uint16_t>* row : {&narrow, &wide, &sums}) row->resize(padded);
   squares.resize(padded);
+  columns.resize(static_cast<std::size_t>(width) + 2);
   no_row.resize(padded);
   std::memset(no_row.data(), 0, padded);
 }

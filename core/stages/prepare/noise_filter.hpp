@@ -51,7 +51,8 @@ void filter_noise(GrayView view, float threshold, int y0, int y1, NoiseFilterScr
                   Image<std::uint8_t>& filtered);
 
 /// The same with a threshold of 0: the weights 1 6 1 alone. Paths that run along the rows only need
-/// that much in every view, since no other rows average the noise.
+/// that much in every view, since no other rows average the noise. `scratch` is resized if it is
+/// too small for the width.
 void smooth_lightly(GrayView view, int y0, int y1, NoiseFilterScratch& scratch,
                     Image<std::uint8_t>& filtered);
 

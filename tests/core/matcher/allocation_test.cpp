@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mtstereo/alignment.hpp"
+#include "stages/prepare/noise_filter.hpp"
 #include "support/compare.hpp"
 #include "support/counting_allocator.hpp"
 #include "support/matching.hpp"
@@ -118,6 +119,18 @@ TEST_F(Allocation, NeverHappensInLaterFramesWhenTheResolutionIsChosen) {
       EXPECT_EQ(3, changes) << mode << ", " << least;
     }
   }
+}
+
+TEST_F(Allocation, NeverHappensInTheNoiseFilterOfAThreadThatStartsLate) {
+  const test::GrayPlane view = test::noise(333, 64, 1);
+  Image<std::uint8_t> filtered;
+  filtered.resize(333, 64);
+  NoiseFilterScratch scratch;
+  scratch.resize(333, 32);
+  test::count_allocations();
+  smooth_lightly(view.view(), 0, 32, scratch, filtered);
+  filter_noise(view.view(), 4, 32, 64, scratch, filtered);
+  EXPECT_EQ(0, test::allocations());
 }
 
 TEST_F(Allocation, NeverHappensInLaterInspections) {
