@@ -9,9 +9,9 @@
 #include "alignment/pair_inspection.hpp"
 #include "alignment/pair_watch.hpp"
 #include "alignment/row_field.hpp"
+#include "base/check_views.hpp"
 #include "base/guard.hpp"
 #include "base/limits.hpp"
-#include "check_views.hpp"
 #include "mtstereo/alignment.hpp"
 #include "mtstereo/parameters.hpp"
 

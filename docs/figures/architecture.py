@@ -15,7 +15,7 @@ import sys
 from dataclasses import dataclass
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-STEPS = ("core/steps.cpp", "core/path_steps.cpp", "core/thin_steps.cpp")  # the list is in the first one
+STEPS = ("core/matcher/steps.cpp", "core/matcher/path_steps.cpp", "core/matcher/thin_steps.cpp")  # the list is in the first one
 GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "EnlargedMaps", "OutputMaps", "Completion")
 INK, FAINT, GIVEN, EDGE = "#282828", "#767676", "#1464be", "#b4b4b4"
 GST, CORE, ROOM = "#fdf0dc", "#e4eefa", "#f4f4f4"
@@ -74,7 +74,7 @@ def stages_of(function, bodies, declared, seen=()):
 
 
 def read_steps(text):
-    """The list of core/steps.cpp, with the presets that the program has printed."""
+    """The list of core/matcher/steps.cpp, with the presets that the program has printed."""
     printed, declared = printed_steps(text), declared_functions()
     source = sources()
     bodies = dict(re.findall(r"^void (\w+)\((const StepContext.*?)^}", source,
@@ -100,7 +100,7 @@ def read_steps(text):
 
 def check(steps, printed):
     if [step.name for step in steps] != list(printed):
-        raise Mismatch("the steps of core/steps.cpp are not those that the program prints: "
+        raise Mismatch("the steps of core/matcher/steps.cpp are not those that the program prints: "
                        f"{[step.name for step in steps]} and {list(printed)}")
     for step in steps:
         for group in step.reads + step.writes:
@@ -109,7 +109,7 @@ def check(steps, printed):
         if not step.stages:
             raise Mismatch(f"{step.name} calls no stage")
         for path in [f"core/stages/{step.room}"] + \
-                [f"tests/core/{stage}_test.cpp" for stage in step.stages]:
+                [f"tests/core/stages/{stage}_test.cpp" for stage in step.stages]:
             if not (SOURCE / path).exists():
                 raise Mismatch(f"{step.name}: there is no {path}")
 
@@ -153,7 +153,7 @@ BEFORE = [
     (GST, "gst/shared/frame_views: MappedFrame", ["maps a GstBuffer as a GrayView"]),
     (CORE, "core/matcher: the public class Matcher", ["makes Settings of the Parameters; checks the views",
                                                       "base/guard: turns exceptions into errors"]),
-    (CORE, "core/frame_matcher: FrameMatcher", ["owns the memory (frame_memory) and the threads",
+    (CORE, "core/matcher/frame_matcher: FrameMatcher", ["owns the memory (frame_memory) and the threads",
                                                 "sizes them if needed, then runs the list"]),
 ]
 AFTER = [
@@ -225,7 +225,7 @@ def draw_steps(drawing, steps, top):
     the last room's middle."""
     x, right, row, columns = 470, 1395, 25, 965
     spacing = (right - columns) / len(GROUPS)
-    drawing.text(x, top, "core/steps: the list", 9.5, weight="bold")
+    drawing.text(x, top, "core/matcher/steps: the list", 9.5, weight="bold")
     drawing.text(x + 205, top, "presets that run it")
     for i, group in enumerate(GROUPS):
         drawing.text(columns + spacing * (i + 0.5), top, re.sub("([dt])Maps", r"\1\nMaps", group), 8.5,

@@ -17,7 +17,7 @@
 #include "drawings.hpp"
 #include "eval/metrics.hpp"
 #include "eval/pictures.hpp"
-#include "frame_matcher.hpp"
+#include "matcher/frame_matcher.hpp"
 #include "mtstereo/mtstereo.hpp"
 #include "render/render.hpp"
 #include "stages/nodes/disparity_drawing.hpp"

@@ -8,15 +8,15 @@
 #include "eval/degrade.hpp"
 #include "eval/metrics.hpp"
 #include "fit/fitting.hpp"
-#include "frame_matcher.hpp"
+#include "matcher/frame_matcher.hpp"
+#include "matcher/path_steps.hpp"
+#include "matcher/settings.hpp"
+#include "matcher/steps.hpp"
 #include "mtstereo/parameters.hpp"
-#include "path_steps.hpp"
 #include "render/render.hpp"
 #include "render/scene.hpp"
-#include "settings.hpp"
 #include "stages/refine/gray_mapping.hpp"
 #include "stages/refine/reliability.hpp"
-#include "steps.hpp"
 
 namespace mtstereo::fit {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "frame_matcher.hpp"
 #include "frames.hpp"
+#include "matcher/frame_matcher.hpp"
 #include "outcome.hpp"
 
 namespace mtstereo::bench {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "choices.hpp"
+#include "parameters/choices.hpp"
 
 namespace mtstereo {
 

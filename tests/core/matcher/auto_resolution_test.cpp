@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "resolution_choice.hpp"
+#include "matcher/resolution_choice.hpp"
 #include "support/compare.hpp"
 #include "support/matching.hpp"
 #include "support/soft_pair.hpp"

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "matcher/settings.hpp"
 #include "reference/nodes/node_extrapolation.hpp"
 #include "reference/nodes/outlier_removal.hpp"
 #include "reference/pixels/agreement.hpp"
@@ -25,7 +26,6 @@
 #include "reference/refine/speckle_removal.hpp"
 #include "reference/refine/thin_chains.hpp"
 #include "reference/refine/withheld.hpp"
-#include "settings.hpp"
 #include "stages/prepare/noise_filter.hpp"
 #include "stages/refine/gray_mapping.hpp"
 #include "stages/refine/thin_chains.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "frame_matcher.hpp"
+#include "matcher/frame_matcher.hpp"
 #include "support/matching.hpp"
 #include "support/plane.hpp"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The steps with guide=pyramid, for the list in steps.cpp. The build compiles the stages whose
-// headers are included here.
-#include "path_steps.hpp"
+// The steps with guide=pyramid, for the list in steps.cpp.
+#include "matcher/path_steps.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "settings.hpp"
+#include "matcher/settings.hpp"
 
 /// Internal to the list of steps: with which settings a step runs.
 

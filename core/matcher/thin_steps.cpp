@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "thin_steps.hpp"
+#include "matcher/thin_steps.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "fine_detail.hpp"
+#include "matcher/fine_detail.hpp"
 
 #include <algorithm>
 #include <cstdlib>

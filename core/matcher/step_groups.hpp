@@ -3,8 +3,8 @@
 
 #include <type_traits>
 
-#include "frame_memory.hpp"
-#include "steps.hpp"
+#include "matcher/frame_memory.hpp"
+#include "matcher/steps.hpp"
 
 // How an entry of the list of steps calls its function with groups of the memory.
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "choices.hpp"
 #include "mtstereo/alignment.hpp"
 #include "mtstereo/image.hpp"
 #include "mtstereo/parameters.hpp"
+#include "parameters/choices.hpp"
 #include "stages/nodes/node_matching.hpp"
 #include "stages/pixels/census_cost.hpp"
 #include "stages/pixels/census_matching.hpp"

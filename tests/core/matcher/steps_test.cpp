@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "steps.hpp"
+#include "matcher/steps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "settings.hpp"
+#include "matcher/settings.hpp"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "choices.hpp"
-#include "parameter_text.hpp"
+#include "parameters/choices.hpp"
+#include "parameters/parameter_text.hpp"
 #include "support/matching.hpp"
 
 namespace mtstereo {

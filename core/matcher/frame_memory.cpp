@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "frame_memory.hpp"
+#include "matcher/frame_memory.hpp"
 
 #include <algorithm>
 

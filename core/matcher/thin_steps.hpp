@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "steps.hpp"
+#include "matcher/steps.hpp"
 
-/// Internal to the list of steps: the steps that keep thin objects. As in steps.cpp, the build
-/// compiles the stages whose headers thin_steps.cpp includes.
+/// Internal to the list of steps: the steps that keep thin objects.
 
 namespace mtstereo {
 

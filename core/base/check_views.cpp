@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "check_views.hpp"
+#include "base/check_views.hpp"
 
 #include <string>
 
-#include "parameter_text.hpp"
+#include "parameters/parameter_text.hpp"
 
 namespace mtstereo {
 namespace {

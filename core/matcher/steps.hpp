@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "base/bands.hpp"
-#include "frame_memory.hpp"
-#include "settings.hpp"
+#include "matcher/frame_memory.hpp"
+#include "matcher/settings.hpp"
 
 namespace mtstereo {
 

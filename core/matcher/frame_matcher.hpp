@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "base/thread_pool.hpp"
-#include "fine_detail.hpp"
-#include "frame_memory.hpp"
+#include "matcher/fine_detail.hpp"
+#include "matcher/frame_memory.hpp"
+#include "matcher/resolution_choice.hpp"
+#include "matcher/settings.hpp"
+#include "matcher/steps.hpp"
 #include "mtstereo/image.hpp"
-#include "resolution_choice.hpp"
-#include "settings.hpp"
-#include "steps.hpp"
 
 namespace mtstereo {
 

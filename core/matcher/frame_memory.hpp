@@ -7,7 +7,7 @@
 
 #include "base/buffer.hpp"
 #include "base/limits.hpp"
-#include "settings.hpp"
+#include "matcher/settings.hpp"
 #include "stages/nodes/node_extrapolation.hpp"
 #include "stages/nodes/node_levels.hpp"
 #include "stages/nodes/node_matching.hpp"

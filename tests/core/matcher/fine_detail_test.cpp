@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "fine_detail.hpp"
+#include "matcher/fine_detail.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "resolution_choice.hpp"
+#include "matcher/resolution_choice.hpp"
 #include "support/plane.hpp"
 #include "support/soft_pair.hpp"
 

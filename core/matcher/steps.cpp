@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The steps of the method and their order. To add a step, add a stage with its test to stages/, a
-// function here that calls it, and a line to the list at the end. The build compiles the stages
-// whose headers are included here.
-#include "steps.hpp"
+// function here that calls it, and a line to the list at the end.
+#include "matcher/steps.hpp"
 
 #include <algorithm>
 
-#include "path_steps.hpp"
+#include "matcher/path_steps.hpp"
+#include "matcher/step_conditions.hpp"
+#include "matcher/step_groups.hpp"
+#include "matcher/thin_steps.hpp"
 #include "stages/nodes/disparity_drawing.hpp"
 #include "stages/nodes/node_extrapolation.hpp"
 #include "stages/nodes/node_levels.hpp"
@@ -32,9 +34,6 @@
 #include "stages/refine/map_shift.hpp"
 #include "stages/refine/map_smoothing.hpp"
 #include "stages/refine/speckle_removal.hpp"
-#include "step_conditions.hpp"
-#include "step_groups.hpp"
-#include "thin_steps.hpp"
 
 namespace mtstereo {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/guard.hpp"
-#include "choices.hpp"
-#include "parameter_text.hpp"
+#include "parameters/choices.hpp"
+#include "parameters/parameter_text.hpp"
 #include "stages/prepare/halving.hpp"
 
 namespace mtstereo {

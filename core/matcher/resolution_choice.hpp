@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "choices.hpp"
+#include "parameters/choices.hpp"
 
 namespace mtstereo {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/limits.hpp"
-#include "choices.hpp"
 #include "mtstereo/parameters.hpp"
+#include "parameters/choices.hpp"
 
 namespace mtstereo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "parameter_text.hpp"
+#include "parameters/parameter_text.hpp"
 
 #include <charconv>
 

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "alignment/row_field.hpp"
+#include "base/check_views.hpp"
 #include "base/guard.hpp"
-#include "check_views.hpp"
-#include "frame_matcher.hpp"
-#include "parameter_text.hpp"
+#include "matcher/frame_matcher.hpp"
+#include "parameters/parameter_text.hpp"
 
 namespace mtstereo {
 namespace {

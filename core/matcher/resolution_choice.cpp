@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "resolution_choice.hpp"
+#include "matcher/resolution_choice.hpp"
 
 namespace mtstereo {
 

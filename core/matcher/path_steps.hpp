@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "frame_memory.hpp"
-#include "steps.hpp"
+#include "matcher/frame_memory.hpp"
+#include "matcher/steps.hpp"
 
 /// Internal to the list of steps: those with guide=pyramid, which match along paths without nodes.
 
