@@ -73,26 +73,20 @@ void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observ
   detail_ = {};
   resize({left.width, left.height});
   Views& views = memory_.views;
-  views.left = left;
-  views.noise_level = 0;
-  views.input = {left, right};
-  views.matched = views.input;
-  if (settings_.half()) views.matched = {views.halves[0].view(), views.halves[1].view()};
+  views.start(settings_, left, right);
+  memory_.result.start(memory_.maps);
   const Bands bands(*pool_, size_.matched.height);
   const Bands input_bands(*pool_, size_.frame.height);
   const StepContext context = {settings_, bands, input_bands};
-  for (const Step& step : steps()) {
-    if (!step.runs(settings_)) continue;
+  for_each_step(settings_, [&](const Step& step) {
     step.run(context, memory_);
     if (observer) observer(step, memory_);
-  }
-  const auto result = callers_maps(settings_, memory_.maps, memory_.enlarged, memory_.output);
-  disparity_ = result.disparity.view();
-  confidence_ = result.confidence.view();
+  });
+  disparity_ = memory_.result.disparity->view();
+  confidence_ = memory_.result.confidence->view();
   resolution_ = settings_.resolution;
   if (settings_.chooses_resolution) choose_resolution(views);
-  views.left = {};
-  views.input = views.matched = {};  // the caller may free the input
+  views.release();
 }
 
 /// Measures the detail of this pair and chooses the resolution of the next one.

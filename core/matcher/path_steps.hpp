@@ -1,16 +1,56 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "matcher/frame_memory.hpp"
-#include "matcher/steps.hpp"
+#include <array>
+#include <cstdint>
+#include <vector>
 
-/// Internal to the list of steps: those with guide=pyramid, which match along paths without nodes.
+#include "base/buffer.hpp"
+#include "matcher/map_steps.hpp"
+#include "matcher/rating.hpp"
+#include "matcher/view_steps.hpp"
+#include "stages/pixels/path_matching.hpp"
+#include "stages/pixels/search_windows.hpp"
+#include "stages/prepare/census.hpp"
+#include "stages/refine/confidence.hpp"
+
+/// The steps that match along paths, coarse to fine, and their memory.
 
 namespace mtstereo {
 
+/// Number of reduced resolutions: 1/2, 1/4 and 1/8.
+inline constexpr int kPyramidLevels = 3;
+
+/// The views at 1 / 2^level of the matched resolution, and their disparity map.
+struct PyramidLevel {
+  std::array<Image<std::uint8_t>, 2> views;
+  std::array<CensusImage, 2> census;
+  Image<std::int32_t> disparity;
+  Image<std::uint8_t> ratio;
+};
+
+struct Pyramid {
+  std::array<PyramidLevel, kPyramidLevels> levels;  ///< fine to coarse, from 1/2 on
+  WindowVotes votes;                                ///< of the level of 1/2
+  SearchWindows windows;                            ///< of full resolution
+  Image<std::uint8_t> agreement;                    ///< a pixel for each tile of the votes
+  SupportMap support;                               ///< of the level of 1/2
+  Image<std::uint8_t> confidence;                   ///< of that level
+  Rating rating;                                    ///< of that level
+
+  struct Scratch {
+    CensusScratch census;
+    PathMatchingScratch matching;
+    SupportScratch support;
+  };
+  std::vector<Scratch> scratch;  ///< one for each thread
+
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
 /// Matches the views at the reduced resolutions, coarse to fine. Each map is the expectation of the
 /// next one.
-void match_reduced(const StepContext& step, Views& views, Pyramid& pyramid);
+void match_reduced(const StepContext& step, const Views& views, Pyramid& pyramid);
 
 /// Chooses the disparities at which the pixels are matched at the matched resolution.
 void choose_search_windows(const StepContext& step, Pyramid& pyramid);
@@ -20,37 +60,12 @@ void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyrami
 
 /// Completes the map of half the matched resolution, which has guided the matching, and finds how
 /// far its pixels support each other.
-void support_guide(const StepContext& step, Pyramid& pyramid, Maps& maps);
+void support_guide(const StepContext& step, Pyramid& pyramid);
 
-/// What the clues of that map's reliability are about; `views` and `pyramid` must exist as long.
+/// What the clues of that map's reliability are about; `views` and `pyramid` must outlive it.
 RatedViews rated_guide_views(const Views& views, const Pyramid& pyramid);
 
 /// Replaces the confidence of that map by its reliability.
-void rate_guide(const StepContext& step, const Views& views, Pyramid& pyramid,
-                Completion& completion);
-
-/// Gives the remaining pixels of the result a disparity.
-void complete_map(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output);
-
-/// Moves jumps of the complete result to the edges of the left view.
-void align_map_edges(const StepContext& step, const Views& views, Maps& maps,
-                     EnlargedMaps& enlarged, OutputMaps& output, Completion& completion);
-
-/// What the clues of the reliability are about; `views` and `pyramid` must exist as long.
-RatedViews rated_views(const Settings& settings, const Views& views, const Pyramid& pyramid);
-
-/// Replaces the confidence of the complete result by its reliability.
-void rate_map(const StepContext& step, const Views& views, const Pyramid& pyramid, Maps& maps,
-              EnlargedMaps& enlarged, OutputMaps& output, Completion& completion);
-
-/// Corrects what the right camera may not see at the left of the complete, rated result.
-void correct_strip(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output);
-
-/// Removes what is less reliable than asked for from the result, and small islands that are left.
-void reject_unlikely(const StepContext& step, Maps& maps, EnlargedMaps& enlarged,
-                     OutputMaps& output, Completion& completion);
-
-/// Fills small gaps that the rejection has left in a surface.
-void close_gaps(const StepContext& step, Maps& maps, EnlargedMaps& enlarged, OutputMaps& output);
+void rate_guide(const StepContext& step, const Views& views, Pyramid& pyramid);
 
 }  // namespace mtstereo

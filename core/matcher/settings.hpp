@@ -84,6 +84,18 @@ struct Settings {
   bool keeps_likely_only() const { return by_paths() && mode != Mode::kFull; }
   /// Whether min_confidence applies to inferred disparities as to matched ones.
   bool keeps_inferred() const { return by_paths() && mode == Mode::kDense; }
+  /// Whether areas of fewer pixels than speckle_size are removed.
+  bool removes_speckles() const { return speckle_size > 1; }
+  /// Whether min_confidence may leave small islands of areas that were large enough; with nodes.
+  bool removes_islands() const {
+    return removes_speckles() && min_confidence > 0 && !keeps_only_ends();
+  }
+  /// Whether outliers are removed from the pixels as well; with nodes.
+  bool removes_pixel_outliers() const {
+    return outlier_radius > 0 && outlier_removal == OutlierRemoval::kNodesAndPixels;
+  }
+  /// Whether pixels of the complete map are removed.
+  bool rejects_unlikely() const { return keeps_likely_only() && least_reliability() > 0; }
   /// The least confidence of a pixel of the complete map that is kept.
   int least_reliability() const {
     return keeps_inferred() ? min_confidence : std::max(min_confidence, kMostInferred + 1);

@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <span>
-#include <string_view>
 
-#include "base/bands.hpp"
-#include "matcher/frame_memory.hpp"
-#include "matcher/settings.hpp"
+#include "matcher/step.hpp"
 
 namespace mtstereo {
 
-/// What every step reads besides its groups of the memory.
-struct StepContext {
-  const Settings& settings;
-  const Bands& bands;        ///< of the matched views
-  const Bands& input_bands;  ///< of the input views
-};
+/// The steps of the method, in the order in which they run: the views, one of the two matchers, the
+/// map and, after the matching along paths, the result. The order is fixed; settings select the
+/// matcher and disable steps. Everything that depends on the order of the method reads these lists:
+/// the matcher, the benchmark, the pictures of docs/ and the tests.
+using StepList = std::span<const Step>;
+extern const StepList kViewSteps, kPathSteps, kNodeSteps, kMapSteps, kResultSteps;
 
-/// One step of the method: an entry of the list that a matcher runs for each frame.
-struct Step {
-  std::string_view name;
-  /// Whether the step runs with these settings.
-  bool (*runs)(const Settings& settings);
-  /// Runs the step on the groups of the memory that its entry names.
-  void (*run)(const StepContext& context, FrameMemory& memory);
-};
+/// The lists that run with these settings; the last one may be empty.
+inline std::array<StepList, 4> lists_of(const Settings& settings) {
+  if (settings.by_paths()) return {kViewSteps, kPathSteps, kMapSteps, kResultSteps};
+  return {kViewSteps, kNodeSteps, kMapSteps, {}};
+}
 
-/// All steps in the order in which they run. The order is fixed; settings can only disable steps.
-/// Everything that depends on the order of the method reads this list: the matcher, the benchmark,
-/// the pictures of docs/ and the tests.
-std::span<const Step> steps();
+/// Calls body(step) for the steps that run with these settings.
+template <typename Body>
+void for_each_step(const Settings& settings, Body&& body) {
+  for (const StepList& list : lists_of(settings)) {
+    for (const Step& step : list) {
+      if (step.runs(settings)) body(step);
+    }
+  }
+}
 
 }  // namespace mtstereo

@@ -15,8 +15,10 @@ import sys
 from dataclasses import dataclass
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-STEPS = ("core/matcher/steps.cpp", "core/matcher/path_steps.cpp", "core/matcher/thin_steps.cpp")  # the list is in the first one
-GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "EnlargedMaps", "OutputMaps", "Completion")
+ROWS = "core/matcher/steps.cpp"  # the lists
+STEPS = ("view_steps", "path_steps", "node_steps", "map_steps", "result_steps", "rating")  # their functions
+GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "ResultMaps", "ResultBuffers")
+MODES = ("sparse", "semi-dense", "dense", "full")
 INK, FAINT, GIVEN, EDGE = "#282828", "#767676", "#1464be", "#b4b4b4"
 GST, CORE, ROOM = "#fdf0dc", "#e4eefa", "#f4f4f4"
 
@@ -27,8 +29,8 @@ class Mismatch(Exception):
 
 @dataclass
 class Step:
+    list: str     # "View", "Path", ...
     name: str
-    room: str
     reads: list   # groups of the memory that it only reads
     writes: list  # groups that it reads and writes
     stages: list  # "room/stage" of each stage that it calls
@@ -36,28 +38,28 @@ class Step:
 
 
 def printed_steps(text):
-    """{name: {preset: [mode, ...]}} from the lines of mtstereo-figures --steps."""
+    """{(list, name): {preset: [mode, ...]}} from the lines of mtstereo-figures --steps."""
     steps = {}
     for line in text.splitlines():
-        name, *runs = line.split()
-        steps[name] = {}
+        which, name, *runs = line.split()
+        step = steps[which, name] = {}
         for run in runs:
             preset, mode = run.split("/")
-            steps[name].setdefault(preset, []).append(mode)
+            step.setdefault(preset, []).append(mode)
     return steps
 
 
 def sources():
-    return "\n".join((SOURCE / file).read_text() for file in STEPS)
+    return "\n".join((SOURCE / f"core/matcher/{file}.{end}").read_text() for file in STEPS
+                     for end in ("hpp", "cpp"))
 
 
 def declared_functions():
-    """{function: "room/stage"} of the headers that the files of the steps include."""
+    """{function: "room/stage"} of the stages that the files of the steps include."""
     functions = {}
-    source = sources()
-    for stage in re.findall(r'^#include "stages/(\w+/\w+)\.hpp"', source, re.MULTILINE):
+    for stage in re.findall(r'^#include "stages/(\w+/\w+)\.hpp"', sources(), re.MULTILINE):
         header = (SOURCE / f"core/stages/{stage}.hpp").read_text()
-        for name in re.findall(r"^[a-z][\w:<>&*, ]* (\w+)\(", header, re.MULTILINE):
+        for name in re.findall(r"^[A-Za-z][\w:<>&*, ]* (\w+)\(", header, re.MULTILINE):
             functions[name] = stage
     return functions
 
@@ -65,7 +67,7 @@ def declared_functions():
 def stages_of(function, bodies, declared, seen=()):
     """The stages that a function of the steps calls, itself or by another one of them."""
     stages = []
-    for name in re.findall(r"\b(\w+)\(", bodies[function]):
+    for name in re.findall(r"\b(\w+)\(", bodies[function][1]):
         found = [declared[name]] if name in declared else []
         if name in bodies and name != function and name not in seen:
             found += stages_of(name, bodies, declared, (*seen, function))
@@ -74,49 +76,43 @@ def stages_of(function, bodies, declared, seen=()):
 
 
 def read_steps(text):
-    """The list of core/matcher/steps.cpp, with the presets that the program has printed."""
+    """The lists of core/matcher/steps.cpp, with the presets that the program has printed."""
     printed, declared = printed_steps(text), declared_functions()
-    source = sources()
-    bodies = dict(re.findall(r"^void (\w+)\((const StepContext.*?)^}", source,
-                             re.MULTILINE | re.DOTALL))
-    rows = re.search(r"^constexpr Step kSteps\[\] = \{\n(.*?)^\};", source,
-                     re.MULTILINE | re.DOTALL).group(1)
-    steps, room = [], None
-    for row in rows.splitlines():
-        comment = re.fullmatch(r"\s*// (\w+)", row)
-        if comment:
-            room = comment.group(1)
-        entry = re.fullmatch(r'\s*\{"([\w-]+)",\s*\w+,\s*on<(\w+), (.*)>\},', row)
-        if not entry:
-            continue
-        name, function, groups = entry.groups()
-        groups = groups.split(", ")
-        steps.append(Step(name, room, [group[6:] for group in groups if group.startswith("const ")],
-                          [group for group in groups if not group.startswith("const ")],
-                          stages_of(function, bodies, declared), printed.get(name)))
+    bodies = {name: (arguments, body) for name, arguments, body in
+              re.findall(r"^void (\w+)\(([^{;]*)\) \{\n(.*?)^}", sources(), re.MULTILINE | re.DOTALL)}
+    steps = []
+    lists = re.findall(r"^constexpr Step k(\w+)List\[\] = \{\n(.*?)^\};", (SOURCE / ROWS).read_text(),
+                       re.MULTILINE | re.DOTALL)
+    for which, rows in lists:
+        for name, function in re.findall(r'^\s*\{"([\w-]+)",.*on<(\w+)>\},$', rows, re.MULTILINE):
+            groups = re.findall(r"(const )?(\w+)&", bodies[function][0])
+            steps.append(Step(which, name, [group for const, group in groups if const and group in GROUPS],
+                              [group for const, group in groups if not const],
+                              stages_of(function, bodies, declared), printed.get((which, name))))
     check(steps, printed)
     return steps
 
 
 def check(steps, printed):
-    if [step.name for step in steps] != list(printed):
+    if [(step.list, step.name) for step in steps] != list(printed):
         raise Mismatch("the steps of core/matcher/steps.cpp are not those that the program prints: "
                        f"{[step.name for step in steps]} and {list(printed)}")
     for step in steps:
-        for group in step.reads + step.writes:
+        for group in step.writes:
             if group not in GROUPS:
                 raise Mismatch(f"{step.name}: {group} is no group of the memory")
         if not step.stages:
             raise Mismatch(f"{step.name} calls no stage")
-        for path in [f"core/stages/{step.room}"] + \
-                [f"tests/core/stages/{stage}_test.cpp" for stage in step.stages]:
+        for path in [f"tests/core/stages/{stage}_test.cpp" for stage in step.stages]:
             if not (SOURCE / path).exists():
                 raise Mismatch(f"{step.name}: there is no {path}")
 
 
 def presets_of(step, steps):
     """Which presets run a step, in few words: "always", "default, fast", "mode dense"."""
-    everything = steps[[step.name for step in steps].index("confidence")].runs
+    everything = {}
+    for preset, modes in (run for other in steps for run in other.runs.items()):
+        everything[preset] = [mode for mode in MODES if mode in modes or mode in everything.get(preset, [])]
     if step.runs == everything:
         return "always"
     for mode in ("dense", "full"):
@@ -137,11 +133,11 @@ def presets_of(step, steps):
 
 
 def table(steps):
-    lines = ["| room | step | presets | only reads | reads and writes | stages |",
+    lines = ["| list | step | presets | only reads | reads and writes | stages |",
              "| --- | --- | --- | --- | --- | --- |"]
     for step in steps:
         stages = ", ".join(f"`{stage}`" for stage in step.stages)
-        lines.append(f"| {step.room} | `{step.name}` | {presets_of(step, steps)} "
+        lines.append(f"| {step.list} | `{step.name}` | {presets_of(step, steps)} "
                      f"| {', '.join(step.reads)} | {', '.join(step.writes)} | {stages} |")
     return "\n".join(lines)
 
@@ -151,13 +147,13 @@ BEFORE = [
     (GST, "gst/matcher: the element mtstereo", ["aggregation, pairing: two frames of the same time",
                                                 "matching: one pair from start to end"]),
     (GST, "gst/shared/frame_views: MappedFrame", ["maps a GstBuffer as a GrayView"]),
-    (CORE, "core/matcher: the public class Matcher", ["makes Settings of the Parameters; checks the views",
+    (CORE, "core/matcher/matcher: Matcher", ["makes Settings of the Parameters; checks the views",
                                                       "base/guard: turns exceptions into errors"]),
     (CORE, "core/matcher/frame_matcher: FrameMatcher", ["owns the memory (frame_memory) and the threads",
-                                                "sizes them if needed, then runs the list"]),
+                                                "sizes them if needed, then runs the lists"]),
 ]
 AFTER = [
-    (CORE, "core/matcher: write_disparity16()", ["converts a DisparityView to the 16-bit output"]),
+    (CORE, "core/matcher/matcher: write_disparity16()", ["converts a DisparityView to the 16-bit output"]),
     (GST, "gst/matcher: confidence, allocation", ["attach the confidence map and the left frame's times"]),
     (GST, "gst/filters: mtconfidence, mtcolor", ["elements downstream"]),
 ]
@@ -221,22 +217,22 @@ def draw_way(drawing, boxes, top):
 
 
 def draw_steps(drawing, steps, top):
-    """The rooms with their steps and the memory of each. Returns the heights of the first and of
-    the last room's middle."""
+    """The lists with their steps and the memory of each. Returns the heights of the first and of
+    the last list's middle."""
     x, right, row, columns = 470, 1395, 25, 965
     spacing = (right - columns) / len(GROUPS)
-    drawing.text(x, top, "core/matcher/steps: the list", 9.5, weight="bold")
+    drawing.text(x, top, "core/matcher/steps", 9.5, weight="bold")
     drawing.text(x + 205, top, "presets that run it")
     for i, group in enumerate(GROUPS):
-        drawing.text(columns + spacing * (i + 0.5), top, re.sub("([dt])Maps", r"\1\nMaps", group), 8.5,
+        drawing.text(columns + spacing * (i + 0.5), top, re.sub("(t)(Maps|Buffers)", r"\1\n\2", group), 8.5,
                      ha="center", linespacing=0.95)
     y, middles = top + 20, []
-    rooms = list(dict.fromkeys(step.room for step in steps))
-    for room in rooms:
-        inside = [step for step in steps if step.room == room]
+    lists = list(dict.fromkeys(step.list for step in steps))
+    for which in lists:
+        inside = [step for step in steps if step.list == which]
         height = 12 + row * (len(inside) + 1)
         drawing.box(x, y, right - x, height, ROOM)
-        drawing.text(x + 12, y + 18, f"core/stages/{room}/", 9.5, weight="bold")
+        drawing.text(x + 12, y + 18, f"k{which}Steps", 9.5, weight="bold")
         for i, step in enumerate(inside):
             at = y + 18 + row * (i + 1)
             default = "semi-dense" in step.runs.get("default", [])
@@ -257,14 +253,14 @@ def draw_steps(drawing, steps, top):
 
 
 def picture(steps, path):
-    rooms = len({step.room for step in steps})
-    drawing = Drawing(115 + 25 * len(steps) + 47 * rooms)
-    first_room, last_room = draw_steps(drawing, steps, 28)
+    lists = len({step.list for step in steps})
+    drawing = Drawing(115 + 25 * len(steps) + 47 * lists)
+    first_list, last_list = draw_steps(drawing, steps, 28)
     drawing.text(20, 28, "The path of a frame", 9.5, weight="bold")
     _, last = draw_way(drawing, BEFORE, 48)
-    drawing.arrow((405, last), (438, last), (438, first_room), (470, first_room))
+    drawing.arrow((405, last), (438, last), (438, first_list), (470, first_list))
     first, _ = draw_way(drawing, AFTER, 640)
-    drawing.arrow((470, last_room), (438, last_room), (438, first), (405, first))
+    drawing.arrow((470, last_list), (438, last_list), (438, first), (405, first))
     drawing.write(path)
 
 

@@ -2,6 +2,7 @@
 // mtstereo-figures: the pictures of docs/algorithm.md, the table of docs/parameters.md, and the
 // steps for docs/architecture.md.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -159,13 +160,13 @@ void draw_pictures(const fs::path& folder) {
   const Settings settings{Parameters()};
   const Drawing preprocessed = [&](const FrameMemory& memory) {
     const auto draw = [&](int side) {
-      return figures::draw_levels(memory.views.preprocessed[side].level.view(),
+      return figures::draw_levels(memory.nodes.preprocessed[side].level.view(),
                                   settings.gray_levels);
     };
     write("preprocessed.png", figures::side_by_side(draw(0), draw(1)));
   };
   const Drawing trees = [&](const FrameMemory& memory) {
-    const MaxTrees& left = memory.views.trees[0];
+    const MaxTrees& left = memory.nodes.trees[0];
     write("max-tree.png", figures::draw_tree(left, left.height / 2, 14));
     write("nodes.png",
           figures::side_by_side(figures::draw_nodes(parents(left, settings), frame.left),
@@ -233,18 +234,33 @@ void print_table() {
   }
 }
 
-/// Prints a line for each step: its name, then PRESET/MODE for all presets and modes that run it.
+bool runs(const StepList& list, const Step& step, const Settings& settings) {
+  const auto lists = lists_of(settings);
+  return step.runs(settings) && std::any_of(lists.begin(), lists.end(), [&](const StepList& other) {
+           return other.data() == list.data();
+         });
+}
+
+/// Prints a line for each step: its list and name, then PRESET/MODE for all presets and modes that
+/// run it.
 void print_steps() {
-  for (const Step& step : steps()) {
-    std::printf("%s", std::string(step.name).c_str());
-    for (const std::string_view preset : ChoiceOf<Preset>::kWords) {
-      for (const std::string_view mode : ChoiceOf<Mode>::kWords) {
-        const FrameMatcher matcher = matcher_of(preset, mode);
-        if (!step.runs(matcher.settings())) continue;
-        std::printf(" %s/%s", std::string(preset).c_str(), std::string(mode).c_str());
+  const std::pair<const char*, StepList> lists[] = {{"View", kViewSteps},
+                                                    {"Path", kPathSteps},
+                                                    {"Node", kNodeSteps},
+                                                    {"Map", kMapSteps},
+                                                    {"Result", kResultSteps}};
+  for (const auto& [name, list] : lists) {
+    for (const Step& step : list) {
+      std::printf("%s %s", name, std::string(step.name).c_str());
+      for (const std::string_view preset : ChoiceOf<Preset>::kWords) {
+        for (const std::string_view mode : ChoiceOf<Mode>::kWords) {
+          const FrameMatcher matcher = matcher_of(preset, mode);
+          if (!runs(list, step, matcher.settings())) continue;
+          std::printf(" %s/%s", std::string(preset).c_str(), std::string(mode).c_str());
+        }
       }
+      std::puts("");
     }
-    std::puts("");
   }
 }
 

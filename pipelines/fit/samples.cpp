@@ -9,7 +9,6 @@
 #include "eval/metrics.hpp"
 #include "fit/fitting.hpp"
 #include "matcher/frame_matcher.hpp"
-#include "matcher/path_steps.hpp"
 #include "matcher/settings.hpp"
 #include "matcher/steps.hpp"
 #include "mtstereo/parameters.hpp"
@@ -180,10 +179,9 @@ PairSamples take_samples(const TrainingPair& pair, const std::string& kind, Rate
     } else if (step.name == "guide-support") {
       guide_confidence = rated_guide(memory, guide);
     } else if (step.name == "edge-alignment" && !is_guide) {
-      RatedViews views = rated_views(settings, memory.views, pyramid);
+      RatedViews views = rated_views(memory.views, pyramid, memory.result);
       views.guide.confidence = &guide_confidence;
-      const auto maps = callers_maps(settings, memory.maps, memory.enlarged, memory.output);
-      Bins bins(views, maps.disparity, maps.confidence);
+      Bins bins(views, *memory.result.disparity, *memory.result.confidence);
       sample(bins, 1);
     }
   };

@@ -23,9 +23,7 @@ constexpr Variant kVariants[] = {
 
 std::vector<std::string> names_of(const Settings& settings) {
   std::vector<std::string> names;
-  for (const Step& step : steps()) {
-    if (step.runs(settings)) names.emplace_back(step.name);
-  }
+  for_each_step(settings, [&](const Step& step) { names.emplace_back(step.name); });
   return names;
 }
 

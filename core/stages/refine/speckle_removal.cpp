@@ -211,20 +211,20 @@ void join_bands(const Image<std::int32_t>& map, std::int32_t tolerance, int band
 }
 
 void remove_small(const SpeckleRuns& runs, int size, int y0, int y1, Image<std::int32_t>& map,
-                  Image<std::uint8_t>& area) {
+                  Image<std::uint8_t>* area) {
   const std::uint32_t* link = runs.link.data();
   const std::uint64_t map_pixels = static_cast<std::uint64_t>(runs.width) * runs.height;
   const std::uint32_t enough = kRootRun + static_cast<std::uint32_t>(size);
   for (int y = y0; y < y1; ++y) {
     std::int32_t* row = map.row(y);
-    std::uint8_t* weights = area.row(y);
-    std::fill_n(weights, runs.width, std::uint8_t{0});
+    std::uint8_t* weights = area != nullptr ? area->row(y) : nullptr;
+    if (weights != nullptr) std::fill_n(weights, runs.width, std::uint8_t{0});
     for (std::uint32_t i = runs.first[y]; i < runs.last[y]; ++i) {
       std::uint32_t root = i;  // no path halving here, since other bands read the links
       while (!is_root(link[root])) root = link[root];
       if (link[root] < enough) {
         std::fill(row + runs.begin[i], row + runs.end[i], kNoDisparity);
-      } else {
+      } else if (weights != nullptr) {
         const std::uint8_t weight = area_weight(link[root] - kRootRun, map_pixels);
         std::fill(weights + runs.begin[i], weights + runs.end[i], weight);
       }

@@ -56,10 +56,11 @@ void join_bands(const Image<std::int32_t>& map, std::int32_t tolerance, int band
 inline constexpr int kFullArea = 10;
 
 /// Removes from the rows y0 .. y1 - 1 the components with fewer than `size` pixels in the whole
-/// map, after join_bands(). A size of 0 or 1 removes nothing. `area` becomes the weight of each
-/// pixel's component in the confidence: 255 * min(1, pixels / (map's pixels / kFullArea))^0.1,
-/// rounded down, and 0 without a component. Wrong disparities form smaller areas than right ones.
+/// map, after join_bands(). A size of 0 or 1 removes nothing. `area`, unless it is nullptr, becomes
+/// the weight of each pixel's component in the confidence: 255 * min(1, pixels / (map's pixels /
+/// kFullArea))^0.1, rounded down, and 0 without a component. Wrong disparities form smaller areas
+/// than right ones.
 void remove_small(const SpeckleRuns& runs, int size, int y0, int y1, Image<std::int32_t>& map,
-                  Image<std::uint8_t>& area);
+                  Image<std::uint8_t>* area);
 
 }  // namespace mtstereo

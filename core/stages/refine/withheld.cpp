@@ -39,7 +39,7 @@ bool any_negative(const std::int32_t* values) {
 
 /// Calls body(x, withheld disparity) for the negative ones of a row of the complete map.
 template <typename Body>
-void for_negative(const WithheldMap& withheld, const WithheldPlace& place, int y, int width,
+void for_negative(const WithheldMap& withheld, const MapPlace& place, int y, int width,
                   Body&& body) {
   const std::int32_t* row = withheld.row(std::min(y / place.scale, withheld.height() - 1));
   for (int begin = 0; begin < withheld.width(); begin += kBlock) {
@@ -48,7 +48,7 @@ void for_negative(const WithheldMap& withheld, const WithheldPlace& place, int y
     if (begin + kBlock == end && !any_negative(row + begin)) continue;
     for (int i = begin; i < end; ++i) {
       if (row[i] >= 0) continue;
-      const int first = i * place.scale + place.shift;
+      const int first = i * place.scale + place.column;
       const int last = std::min(first + place.scale, width);
       for (int x = std::max(first, 0); x < last; ++x) body(x, row[i]);
     }
@@ -67,12 +67,11 @@ void clear_covered(const std::int32_t* __restrict__ withheld, std::int32_t added
 
 /// Calls body(x, withheld disparity) for the pixels of a row of the complete map.
 template <typename Body>
-void for_row(const WithheldMap& withheld, const WithheldPlace& place, int y, int width,
-             Body&& body) {
+void for_row(const WithheldMap& withheld, const MapPlace& place, int y, int width, Body&& body) {
   const std::int32_t* row = withheld.row(std::min(y / place.scale, withheld.height() - 1));
-  const int first = std::max(place.shift, 0);
-  const int end = std::min(width, withheld.width() * place.scale + place.shift);
-  for (int x = first; x < end; ++x) body(x, row[(x - place.shift) / place.scale]);
+  const int first = std::max(place.column, 0);
+  const int end = std::min(width, withheld.width() * place.scale + place.column);
+  for (int x = first; x < end; ++x) body(x, row[(x - place.column) / place.scale]);
 }
 
 }  // namespace
@@ -121,35 +120,36 @@ void remove_guarded(const WithheldMap& withheld, const Image<std::uint8_t>& guar
   }
 }
 
-void draw_thin_objects(const WithheldMap& withheld, const WithheldPlace& place, int confidence,
-                       int y0, int y1, Image<std::int32_t>& map,
-                       Image<std::uint8_t>& map_confidence) {
+void draw_thin_objects(const WithheldMap& withheld, const MapPlace& place, int confidence, int y0,
+                       int y1, Image<std::int32_t>& map, Image<std::uint8_t>& map_confidence) {
   const auto least = static_cast<std::uint8_t>(std::max(confidence, 1));
+  const std::int32_t added = place.added * kDisparityOne;
   for (int y = y0; y < y1; ++y) {
     std::int32_t* row = map.row(y);
     std::uint8_t* row_confidence = map_confidence.row(y);
     for_negative(withheld, place, y, map.width(), [&](int x, std::int32_t value) {
-      row[x] = -value * place.scale + place.added;
+      row[x] = -value * place.scale + added;
       row_confidence[x] = std::max(row_confidence[x], least);
     });
   }
 }
 
-void remove_covered(const WithheldMap& withheld, const WithheldPlace& place, int y0, int y1,
+void remove_covered(const WithheldMap& withheld, const MapPlace& place, int y0, int y1,
                     Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+  const std::int32_t added = place.added * kDisparityOne;
   for (int y = y0; y < y1; ++y) {
     std::int32_t* row = map.row(y);
     std::uint8_t* row_confidence = confidence.row(y);
     if (place.scale == 1) {
-      const int first = std::max(place.shift, 0);
-      const int end = std::min(map.width(), withheld.width() + place.shift);
+      const int first = std::max(place.column, 0);
+      const int end = std::min(map.width(), withheld.width() + place.column);
       const std::int32_t* seen = withheld.row(std::min(y, withheld.height() - 1));
-      clear_covered(seen + first - place.shift, place.added, end - first, row + first,
+      clear_covered(seen + first - place.column, added, end - first, row + first,
                     row_confidence + first);
       continue;
     }
     for_row(withheld, place, y, map.width(), [&](int x, std::int32_t value) {
-      if (value <= 0 || value * place.scale + place.added - row[x] <= kGuardedStep) return;
+      if (value <= 0 || value * place.scale + added - row[x] <= kGuardedStep) return;
       row[x] = kNoDisparity;
       row_confidence[x] = 0;
     });

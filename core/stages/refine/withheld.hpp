@@ -5,6 +5,7 @@
 
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
+#include "stages/refine/map_place.hpp"
 
 namespace mtstereo {
 
@@ -40,23 +41,14 @@ void mark_guarded(const Image<std::int32_t>& filled, const WithheldMap& withheld
 void remove_guarded(const WithheldMap& withheld, const Image<std::uint8_t>& guarded, int y0, int y1,
                     Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
 
-/// For a complete map, which may be larger than the matched views and shifted against them: pixel
-/// x, y of the map is pixel (x - shift) / scale, y / scale of the withheld map.
-struct WithheldPlace {
-  int shift = 0;
-  int scale = 1;
-  std::int32_t added = 0;  ///< to the disparities [1 / kDisparityOne px]
-};
-
 /// Gives the pixels of thin objects in the rows y0 .. y1 - 1 of a complete map their disparities
-/// and at least this confidence.
-void draw_thin_objects(const WithheldMap& withheld, const WithheldPlace& place, int confidence,
-                       int y0, int y1, Image<std::int32_t>& map,
-                       Image<std::uint8_t>& map_confidence);
+/// and at least this confidence. `place` is that of the withheld map in the complete one.
+void draw_thin_objects(const WithheldMap& withheld, const MapPlace& place, int confidence, int y0,
+                       int y1, Image<std::int32_t>& map, Image<std::uint8_t>& map_confidence);
 
 /// Empties the pixels in the rows y0 .. y1 - 1 of a complete map where something nearer than the
 /// map was matched that is not one of its thin objects.
-void remove_covered(const WithheldMap& withheld, const WithheldPlace& place, int y0, int y1,
+void remove_covered(const WithheldMap& withheld, const MapPlace& place, int y0, int y1,
                     Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
 
 }  // namespace mtstereo

@@ -19,16 +19,16 @@ TEST(FrameMemory, HasTheBuffersOfNodesAndPixels) {
   FrameMemory memory;
   memory.resize(settings_of({{"guide", "nodes"}}), kFull);
   for (int side = 0; side < 2; ++side) {
-    EXPECT_EQ(101, memory.views.preprocessed[side].level.width());
+    EXPECT_EQ(101, memory.nodes.preprocessed[side].level.width());
     EXPECT_EQ(51, memory.views.census[side].bits.height());
     EXPECT_EQ(0, memory.views.halves[side].width());
-    EXPECT_EQ(0, memory.views.preprocessed[side].gray.width()) << "only a cost volume needs it";
+    EXPECT_EQ(0, memory.nodes.preprocessed[side].gray.width()) << "only a cost volume needs it";
   }
   EXPECT_EQ(1, memory.nodes.level_count);
   EXPECT_EQ(0u, memory.costs.volume.cells.size());
   EXPECT_EQ(101, memory.maps.disparity.width());
-  EXPECT_EQ(0, memory.maps.votes.disparity.width());
-  EXPECT_EQ(0, memory.enlarged.disparity.width());
+  EXPECT_EQ(0, memory.nodes.votes.disparity.width());
+  EXPECT_EQ(0, memory.result.enlarged.width());
   EXPECT_EQ(2u, memory.views.scratch.size());
   EXPECT_EQ(2u, memory.nodes.scratch.size());
   EXPECT_EQ(2u, memory.costs.scratch.size());
@@ -39,7 +39,7 @@ TEST(FrameMemory, HoldsRightViewsThatAreWiderThanTheMap) {
   FrameMemory memory;
   memory.resize(settings_of({{"mode", "dense"}, {"min-disparity", "-700"}}),
                 {{101, 51}, {801, 51}, {801, 51}, 1});
-  EXPECT_GE(memory.completion.clue_scratch[0].right.size(), 801u);
+  EXPECT_GE(memory.buffers.rating.scratch[0].clues.right.size(), 801u);
   EXPECT_EQ(801, memory.views.extended[1].width());
 }
 
@@ -49,7 +49,7 @@ TEST(FrameMemory, HasACostVolumeForTheGradientCostOnly) {
   EXPECT_GT(memory.costs.volume.cells.size(), 0u);
   EXPECT_EQ(0, memory.views.census[0].bits.width());
   EXPECT_EQ(2, memory.nodes.level_count);
-  EXPECT_GT(memory.maps.votes.disparity.width(), 101);
+  EXPECT_GT(memory.nodes.votes.disparity.width(), 101);
 }
 
 TEST(FrameMemory, HasMapsOfBothSizesAtHalfResolution) {
@@ -57,10 +57,10 @@ TEST(FrameMemory, HasMapsOfBothSizesAtHalfResolution) {
   memory.resize(settings_of({{"preset", "fast"}}), kHalf);
   EXPECT_EQ(51, memory.views.halves[1].width());
   EXPECT_EQ(51, memory.maps.disparity.width());
-  EXPECT_EQ(101, memory.enlarged.disparity.width());
-  EXPECT_EQ(101, memory.enlarged.refined.width());
+  EXPECT_EQ(101, memory.result.enlarged.width());
+  EXPECT_EQ(101, memory.result.refined.width());
   EXPECT_EQ(101, memory.views.input_census[0].bits.width());
-  EXPECT_EQ(3u, memory.enlarged.scratch.size());
+  EXPECT_EQ(3u, memory.result.scratch.size());
 }
 
 TEST(FrameMemory, HasCorrectedViewsForACorrectionOnly) {

@@ -14,8 +14,12 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST(Steps, HaveUniqueNames) {
-  std::set<std::string_view> names;
-  for (const Step& step : steps()) EXPECT_TRUE(names.insert(step.name).second) << step.name;
+  for (const StepList& matcher : {kPathSteps, kNodeSteps}) {
+    std::set<std::string_view> names;
+    for (const StepList& list : {kViewSteps, matcher, kMapSteps, kResultSteps}) {
+      for (const Step& step : list) EXPECT_TRUE(names.insert(step.name).second) << step.name;
+    }
+  }
 }
 
 /// Expects all of these steps to run in this order; others may run between them.
@@ -50,7 +54,7 @@ TEST(Steps, RunInOrderWithTheDefaults) {
 
 TEST(Steps, RunInOrderWithNodes) {
   const Parameters nodes = test::parameters({{"guide", "nodes"}, {"max-gap", "8"}});
-  expect_order(nodes, {"noise-filter", "preprocessing", "max-trees", "census", "node-matching",
+  expect_order(nodes, {"noise-filter", "census", "preprocessing", "max-trees", "node-matching",
                        "node-extrapolation", "census-matching", "thin-search", "speckle-removal",
                        "confidence", "island-removal", "thin-restoring", "gap-filling", "gap-guard",
                        "smoothing"});
@@ -113,7 +117,7 @@ TEST(Steps, AreThoseOfSemiDenseInModeFullOfThePaper) {
 
 TEST(Steps, MatchHalvedViewsInPresetFast) {
   expect_order(test::parameters({{"preset", "fast"}}),
-               {"halving", "preprocessing", "max-trees", "census", "node-matching",
+               {"halving", "census", "preprocessing", "max-trees", "node-matching",
                 "node-extrapolation", "census-matching", "speckle-removal", "confidence",
                 "smoothing", "enlarging", "input-census", "refinement"});
 }
@@ -158,9 +162,9 @@ TEST(Steps, AreEnabledBySettings) {
 
 TEST(Steps, CorrectTheViewsFirst) {
   Settings settings{Parameters()};
-  const auto runs = [&](int step) { return steps()[step].runs(settings); };
-  ASSERT_EQ("row-alignment", steps()[0].name);
-  ASSERT_EQ("sharpness", steps()[1].name);
+  const auto runs = [&](int step) { return kViewSteps[step].runs(settings); };
+  ASSERT_EQ("row-alignment", kViewSteps[0].name);
+  ASSERT_EQ("sharpness", kViewSteps[1].name);
   EXPECT_FALSE(runs(0) || runs(1));
   settings.correction.rows.square = -0.1;
   EXPECT_TRUE(runs(0) && !runs(1));

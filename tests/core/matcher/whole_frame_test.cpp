@@ -93,7 +93,7 @@ void expect_step(const reference::Frame& expected, const Step& step, const Frame
     if (step.name == "halving") {
       EXPECT_TRUE(same_image(expected.views[side], memory.views.matched[side]));
     } else if (step.name == "preprocessing") {
-      EXPECT_TRUE(same_image(expected.levels[side], memory.views.preprocessed[side].level.view()));
+      EXPECT_TRUE(same_image(expected.levels[side], memory.nodes.preprocessed[side].level.view()));
     }
   }
   if (step.name == "cost-volume") {

@@ -277,7 +277,7 @@ inline void align_edges(Frame& f) {
   take(f, align_edges(f.left, ConfidentMap{f.map, f.confidence}));
 }
 
-inline void rate_map(Frame& f) {
+inline void calibrate_confidence(Frame& f) {
   const int least = f.settings.min_disparity;
   const int tile = f.settings.half() ? 32 : 16;
   const RatedViews views = {
@@ -372,7 +372,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"map-shift", shift_map},
     {"completion", complete},
     {"edge-alignment", align_edges},
-    {"reliability", rate_map},
+    {"reliability", calibrate_confidence},
     {"left-strip", correct_strip},
     {"rejection", reject_unlikely},
     {"gap-closing", close_gaps},

@@ -12,24 +12,14 @@
 
 namespace mtstereo::test {
 
-/// The disparity map after a step; empty if no step has written one yet, and after the last steps
-/// with guide=pyramid, which change the result in its place.
+/// The disparity map after a step; empty if no step has written one yet.
 inline DisparityView map_after(const Step& step, const FrameMemory& memory) {
   static constexpr std::string_view kBefore[] = {
       "row-alignment", "sharpness",     "view-shift",       "halving",
-      "noise-filter",  "preprocessing", "max-trees",        "census",
+      "noise-filter",  "census",        "preprocessing",    "max-trees",
       "cost-volume",   "node-matching", "reduced-matching", "search-windows"};
-  static constexpr std::string_view kInPlace[] = {"completion",  "edge-alignment", "reliability",
-                                                  "left-strip",  "rejection",      "gap-closing",
-                                                  "thin-drawing"};
   if (std::count(std::begin(kBefore), std::end(kBefore), step.name) > 0) return {};
-  if (std::count(std::begin(kInPlace), std::end(kInPlace), step.name) > 0) return {};
-  if (step.name == "map-shift") return memory.output.disparity.view();
-  if (step.name == "refinement") return memory.enlarged.refined.view();
-  if (step.name == "enlarging" || step.name == "input-census") {
-    return memory.enlarged.disparity.view();
-  }
-  return memory.maps.disparity.view();
+  return memory.result.disparity->view();
 }
 
 /// The map after each step that ran, if there is one, and the result.
@@ -56,9 +46,7 @@ inline StepMaps maps_after_steps(const Parameters& parameters, const GrayPlane& 
 inline std::vector<std::string> names_of_steps(const Parameters& parameters) {
   const Settings settings(parameters);
   std::vector<std::string> names;
-  for (const Step& step : steps()) {
-    if (step.runs(settings)) names.emplace_back(step.name);
-  }
+  for_each_step(settings, [&](const Step& step) { names.emplace_back(step.name); });
   return names;
 }
 

@@ -45,7 +45,7 @@ TEST(FilterThreads, RemoveTheSameSpecklesForAnyNumber) {
                 [&](int y0, int y1, int) { find_runs(image, 64, y0, y1, runs); });
       join_bands(image, 64, kBand, runs);
       for_parts(pool, map.height, kBand,
-                [&](int y0, int y1, int) { remove_small(runs, 40, y0, y1, image, area); });
+                [&](int y0, int y1, int) { remove_small(runs, 40, y0, y1, image, &area); });
       const reference::Areas expected = reference::remove_speckles(map, 64, 40);
       EXPECT_TRUE(same_image(expected.map, image)) << threads << " threads";
       EXPECT_TRUE(same_image(expected.weight, area)) << threads << " threads";

@@ -35,7 +35,7 @@ reference::Areas filtered_areas(const DisparityPlane& map, int tolerance, int si
   }
   join_bands(image, tolerance, band, runs);
   for (int i = bands - 1; i >= 0; --i) {
-    remove_small(runs, size, i * band, std::min((i + 1) * band, map.height), image, area);
+    remove_small(runs, size, i * band, std::min((i + 1) * band, map.height), image, &area);
   }
   return {copy_of(image), copy_of(area)};
 }

@@ -112,16 +112,16 @@ TEST(Withheld, KeepsAGapOpenAroundSomethingNearer) {
 }
 
 /// Compares the drawing into a complete map of this size.
-void expect_drawn_reference(int width, int height, const WithheldPlace& place, int band,
+void expect_drawn_reference(int width, int height, const MapPlace& place, int band,
                             int marked = 5) {
-  SCOPED_TRACE(testing::Message() << width << "x" << height << ", shift " << place.shift
+  SCOPED_TRACE(testing::Message() << width << "x" << height << ", shift " << place.column
                                   << ", scale " << place.scale);
-  const int columns = std::max((width - place.shift + place.scale - 1) / place.scale, 1);
+  const int columns = std::max((width - place.column + place.scale - 1) / place.scale, 1);
   const Filtered filtered(columns, (height + place.scale - 1) / place.scale, width, marked);
   Rated expected = {test::patches(width, height, 0, 2), GrayPlane(width, height, 100)};
   Image<std::int32_t> map = image_of(expected.map);
   Image<std::uint8_t> confidence = image_of(expected.confidence);
-  reference::draw_thin(filtered.found, place.shift, place.scale, 120, true, expected.map,
+  reference::draw_thin(filtered.found, place.column, place.scale, 120, true, expected.map,
                        expected.confidence);
   const Image<std::int32_t> withheld = image_of(filtered.found);
   for (int y0 = 0; y0 < height; y0 += band) {
@@ -137,8 +137,8 @@ TEST(Withheld, DrawsThinObjectsIntoACompleteMap) {
   for (int width = 1; width <= 40; ++width) {
     for (const int scale : {1, 2}) {
       for (const int shift : {-7, 0, 3}) {
-        const std::int32_t added = std::max(shift, 0) * kDisparityOne;
-        expect_drawn_reference(width, 1 + width % 13, {shift, scale, added}, 1 + width % 6);
+        expect_drawn_reference(width, 1 + width % 13, {scale, shift, std::max(shift, 0)},
+                               1 + width % 6);
       }
     }
   }
@@ -148,8 +148,7 @@ TEST(Withheld, DrawsTheFewThinObjectsOfAWideMap) {
   for (int width = 95; width <= 200; ++width) {
     for (const int scale : {1, 2}) {
       for (const int shift : {-7, 0, 3}) {
-        const std::int32_t added = std::max(shift, 0) * kDisparityOne;
-        expect_drawn_reference(width, 5, {shift, scale, added}, 3, 60);
+        expect_drawn_reference(width, 5, {scale, shift, std::max(shift, 0)}, 3, 60);
       }
     }
   }

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/bands.hpp"
+#include "base/buffer.hpp"
+#include "stages/refine/clues.hpp"
+#include "stages/refine/reliability.hpp"
+
+/// The rating of a complete map, which guide-rating and reliability share.
+
+namespace mtstereo {
+
+/// The memory for the rating of one map.
+struct Rating {
+  ClueMaps clues;
+
+  struct Scratch {
+    ClueScratch clues;
+    ReliabilityScratch reliability;
+  };
+  std::vector<Scratch> scratch;  ///< one for each thread
+
+  /// For a map of this size, and for a map and a right view of at most this width.
+  void resize(int width, int height, int widest, int threads);
+};
+
+/// Replaces the confidence of a complete map by its reliability.
+void rate(const Bands& bands, const RatedViews& views, const Image<std::int32_t>& map,
+          const ReliabilityTable& table, Inferred inferred, Rating& rating,
+          Image<std::uint8_t>& confidence);
+
+}  // namespace mtstereo

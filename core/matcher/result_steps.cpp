@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/result_steps.hpp"
+
+#include <algorithm>
+
+#include "stages/refine/completion.hpp"
+#include "stages/refine/confidence.hpp"
+#include "stages/refine/gap_filling.hpp"
+#include "stages/refine/left_strip.hpp"
+#include "stages/refine/reliability_table.hpp"
+#include "stages/refine/withheld.hpp"
+
+namespace mtstereo {
+
+void ResultBuffers::resize(const Settings& settings, const FrameSize& size) {
+  if (!settings.by_paths()) return;
+  const auto [width, height] = size.input;
+  edges.resize(width, height);
+  // With a negative min-disparity, the right view and the guide may be wider than the map.
+  rating.resize(width, height, std::max(width, size.frame.width), size.threads);
+  scratch.resize(size.threads);
+  for (Scratch& worker : scratch) {
+    worker.edges.resize(width);
+    worker.columns.resize(Bands::kColumns);
+  }
+  if (settings.keeps_likely_only()) islands.resize(width, height);
+}
+
+void complete_map(const StepContext& step, ResultMaps& result) {
+  step.input_bands.rows(
+      [&](int y0, int y1, int) { complete_rows(y0, y1, *result.disparity, *result.confidence); });
+  complete_empty_rows(*result.disparity, *result.confidence);
+}
+
+void align_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
+                     ResultBuffers& buffers) {
+  step.input_bands.rows([&](int y0, int y1, int) {
+    find_jumps(views.left, *result.disparity, y0, y1, buffers.edges);
+  });
+  step.input_bands.rows([&](int y0, int y1, int worker) {
+    align_edges(buffers.edges, y0, y1, buffers.scratch[worker].edges, *result.disparity,
+                *result.confidence);
+  });
+}
+
+RatedViews rated_views(const Views& views, const Pyramid& pyramid, const ResultMaps& result) {
+  const MapPlace& place = result.place;
+  return {views.left,
+          views.input[1],
+          place.disparity_offset(),
+          views.noise_level,
+          &pyramid.agreement,
+          kWindowTile * place.scale,
+          -place.column,
+          {&pyramid.levels[0].disparity, &pyramid.confidence, 2 * place.scale, -place.column,
+           place.added}};
+}
+
+void calibrate_confidence(const StepContext& step, const Views& views, const Pyramid& pyramid,
+                          ResultMaps& result, ResultBuffers& buffers) {
+  const Settings& settings = step.settings;
+  const ReliabilityTable& table = kReliabilityTables[static_cast<int>(settings.rated_map())];
+  const Inferred inferred = settings.keeps_inferred() ? Inferred::kLikeMatched : Inferred::kApart;
+  rate(step.input_bands, rated_views(views, pyramid, result), *result.disparity, table, inferred,
+       buffers.rating, *result.confidence);
+}
+
+void correct_strip(const StepContext& step, ResultMaps& result) {
+  const int strip = result.place.column + step.settings.view_disparities;
+  step.input_bands.rows([&](int y0, int y1, int) {
+    correct_left_strip(strip, y0, y1, *result.disparity, *result.confidence);
+  });
+}
+
+void reject_unlikely(const StepContext& step, ResultMaps& result, ResultBuffers& buffers) {
+  const Settings& settings = step.settings;
+  step.input_bands.rows([&](int y0, int y1, int) {
+    remove_doubtful(settings.least_reliability(), y0, y1, *result.disparity, *result.confidence);
+    find_runs(*result.disparity, kDisparityOne, y0, y1, buffers.islands);
+  });
+  join_bands(*result.disparity, kDisparityOne, Bands::kRows, buffers.islands);
+  step.input_bands.rows([&](int y0, int y1, int) {
+    remove_small(buffers.islands, settings.speckle_size, y0, y1, *result.disparity, nullptr);
+    clear_unknown(*result.disparity, y0, y1, *result.confidence);
+  });
+}
+
+void close_gaps(const StepContext& step, ResultMaps& result, ResultBuffers& buffers) {
+  const GapFilling gaps = {step.settings.max_gap * result.place.scale, kDisparityOne,
+                           kMostInferred};
+  step.input_bands.rows([&](int y0, int y1, int) {
+    fill_gaps_along_rows(gaps, y0, y1, *result.disparity, *result.confidence);
+  });
+  step.input_bands.columns(result.disparity->width(), [&](int x0, int x1, int worker) {
+    fill_gaps_along_columns(gaps, x0, x1, buffers.scratch[worker].columns, *result.disparity,
+                            *result.confidence);
+  });
+}
+
+void draw_thin(const StepContext& step, const Maps& maps, ResultMaps& result) {
+  const Settings& settings = step.settings;
+  const int confidence = std::max(settings.min_confidence, kMostInferred + 1);
+  step.input_bands.rows([&](int y0, int y1, int) {
+    draw_thin_objects(maps.withheld, result.place, confidence, y0, y1, *result.disparity,
+                      *result.confidence);
+    if (!settings.keeps_likely_only()) return;
+    remove_covered(maps.withheld, result.place, y0, y1, *result.disparity, *result.confidence);
+  });
+}
+
+}  // namespace mtstereo

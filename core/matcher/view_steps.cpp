@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "matcher/view_steps.hpp"
+
+#include <algorithm>
+
+#include "stages/prepare/halving.hpp"
+#include "stages/prepare/view_shift.hpp"
+
+namespace mtstereo {
+
+void Views::start(const Settings& settings, GrayView left_view, GrayView right_view) {
+  left = left_view;
+  noise_level = 0;
+  input = {left_view, right_view};
+  matched = input;
+  if (settings.half()) matched = {halves[0].view(), halves[1].view()};
+}
+
+void Views::replace_input(int side, GrayView corrected) {
+  if (matched[side].data == input[side].data) matched[side] = corrected;
+  input[side] = corrected;
+}
+
+void Views::release() {
+  left = {};
+  input = matched = {};
+}
+
+void Views::resize(const Settings& settings, const FrameSize& size) {
+  const auto [width, height] = size.matched;
+  if (settings.aligned()) aligned.resize(size.input.width, size.input.height);
+  const float blurs[] = {settings.correction.left_blur, settings.correction.right_blur};
+  for (int side = 0; side < 2; ++side) {
+    if (blurs[side] > 0) blurred[side].resize(size.input.width, size.input.height);
+    if (settings.min_disparity < 0) extended[side].resize(size.frame.width, size.frame.height);
+    if (settings.half()) halves[side].resize(width, height);
+    if (settings.noise_filter) {
+      noise[side].resize(width, height);
+      filtered[side].resize(width, height);
+    }
+    if (settings.census()) census[side].resize(width, height);
+    if (settings.refined()) input_census[side].resize(size.frame.width, size.frame.height);
+  }
+  scratch.resize(size.threads);
+  for (Scratch& worker : scratch) {
+    if (settings.aligned()) worker.alignment.resize(size.input.width);
+    if (settings.blurred()) worker.blur.resize(size.input.width);
+    if (settings.noise_filter) worker.noise_filter.resize(width, size.matched.band_rows());
+    const ImageSize& largest = settings.refined() ? size.frame : size.matched;
+    worker.census.resize(largest.width, largest.band_rows());
+  }
+}
+
+void align(const StepContext& step, Views& views) {
+  step.input_bands.rows([&](int y0, int y1, int worker) {
+    align_rows(views.input[1], step.settings.correction.rows, y0, y1,
+               views.scratch[worker].alignment, views.aligned);
+  });
+  views.replace_input(1, views.aligned.view());
+}
+
+void match_sharpness(const StepContext& step, Views& views) {
+  const ViewCorrection& correction = step.settings.correction;
+  const float blurs[] = {correction.left_blur, correction.right_blur};
+  for (int side = 0; side < 2; ++side) {
+    if (blurs[side] <= 0) continue;
+    const BlurKernel kernel = gaussian_kernel(blurs[side]);
+    step.input_bands.rows([&](int y0, int y1, int worker) {
+      blur_rows(views.input[side], kernel, y0, y1, views.scratch[worker].blur, views.blurred[side]);
+    });
+    views.replace_input(side, views.blurred[side].view());
+  }
+}
+
+void shift_views(const StepContext& step, Views& views) {
+  const int least = step.settings.min_disparity;
+  if (least > 0) {
+    views.replace_input(0, cropped_left(views.input[0], least));
+    views.replace_input(1, cropped_right(views.input[1], least));
+    return;
+  }
+  step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int) {
+    extend_rows(views.input[side], side == 0 ? -least : 0, side == 0 ? 0 : -least, y0, y1,
+                views.extended[side]);
+  });
+  for (int side = 0; side < 2; ++side) views.replace_input(side, views.extended[side].view());
+}
+
+void halve(const StepContext& step, Views& views) {
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int) {
+    halve_rows(views.input[side], y0, y1, views.halves[side]);
+  });
+}
+
+void filter_views(const StepContext& step, Views& views) {
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int) {
+    measure_blocks(views.matched[side], y0, y1, views.noise[side]);
+  });
+  const float levels[] = {noise_level(views.noise[0]), noise_level(views.noise[1])};
+  views.noise_level = std::max(levels[0], levels[1]);
+  const bool lightly = step.settings.by_paths() && !paths_need_filter(views.noise_level);
+  if (lightly && step.settings.mode != Mode::kSemiDense) return;
+  const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
+    NoiseFilterScratch& scratch = views.scratch[worker].noise_filter;
+    if (lightly) {
+      smooth_lightly(views.matched[side], y0, y1, scratch, views.filtered[side]);
+    } else {
+      filter_noise(views.matched[side], threshold, y0, y1, scratch, views.filtered[side]);
+    }
+  });
+  for (int side = 0; side < 2; ++side) views.matched[side] = views.filtered[side].view();
+}
+
+void transform(const StepContext& step, Views& views) {
+  step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
+    census_rows(views.matched[side], step.settings.census_scales, y0, y1,
+                views.scratch[worker].census, views.census[side]);
+  });
+}
+
+void transform_input(const StepContext& step, Views& views) {
+  step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
+    census_rows(views.input[side], step.settings.census_scales, y0, y1,
+                views.scratch[worker].census, views.input_census[side]);
+  });
+}
+
+}  // namespace mtstereo
