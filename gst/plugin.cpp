@@ -7,7 +7,7 @@
 #include "filters/mtcolor.hpp"
 #include "filters/mtconfidence.hpp"
 #include "filters/mtdepth.hpp"
-#include "matcher/mtstereo_element.hpp"
+#include "matcher/mtstereo.hpp"
 #include "network/mtwhole.hpp"
 #include "shared/confidence_meta.hpp"
 #include "shared/disparity_meta.hpp"

@@ -16,9 +16,9 @@
 #include "shared/caps.hpp"
 #include "shared/caps_check.hpp"
 #include "shared/exception_guard.hpp"
+#include "shared/frame_metas.hpp"
 #include "shared/frame_views.hpp"
 #include "shared/luma.hpp"
-#include "shared/pixel_meta.hpp"
 #include "shared/valid_columns_meta.hpp"
 
 namespace mtstereo::plugin {

@@ -10,8 +10,8 @@
 #include "shared/confidence_pool.hpp"
 #include "shared/disparity_meta.hpp"
 #include "shared/exception_guard.hpp"
+#include "shared/frame_metas.hpp"
 #include "shared/frame_views.hpp"
-#include "shared/pixel_meta.hpp"
 
 namespace mtstereo::plugin {
 

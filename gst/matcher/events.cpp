@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/events.hpp"
 
-#include "matcher/aggregation.hpp"
+#include "matcher/frame_flow.hpp"
 #include "matcher/negotiation.hpp"
-#include "matcher/output/output_events.hpp"
-#include "matcher/output/skipping.hpp"
-#include "matcher/streams.hpp"
+#include "matcher/stream_changes.hpp"
 #include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
@@ -20,12 +18,11 @@ bool take_caps(ElementState& state, Side side, GstEvent* event) {
 }
 
 bool refuse_segment(ElementState& state, Side side, GstEvent* event, GstFormat format) {
-  post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FORMAT,
-             std::string("The segment of ") + pad_name(side) + " is in " +
-                 gst_format_get_name(format) +
-                 ", but frames are paired by time: put a parser (such as rawvideoparse) upstream "
-                 "of it, or set format=time if the source is an appsrc.",
-             state.streams_text());
+  state.messages.error(
+      GST_STREAM_ERROR, GST_STREAM_ERROR_FORMAT,
+      std::string("The segment of ") + pad_name(side) + " is in " + gst_format_get_name(format) +
+          ", but frames are paired by time: put a parser (such as rawvideoparse) upstream "
+          "of it, or set format=time if the source is an appsrc.");
   gst_event_unref(event);
   return false;
 }
@@ -34,18 +31,18 @@ bool refuse_segment(ElementState& state, Side side, GstEvent* event, GstFormat f
 constexpr gint64 kLongestOffset = gint64{1} << 61;  // 73 years [ns]
 
 bool refuse_offset(ElementState& state, Side side, GstEvent* event, gint64 offset) {
-  post_error(state, GST_LIBRARY_ERROR, GST_LIBRARY_ERROR_SETTINGS,
-             std::string(pad_name(side)) + "::offset is " + std::to_string(offset) +
-                 " ns, but an offset must be between -" + std::to_string(kLongestOffset) + " and " +
-                 std::to_string(kLongestOffset) +
-                 " ns: set it to the delay of one stream to the other, 0 if there is none.",
-             state.streams_text());
+  state.messages.error(
+      GST_LIBRARY_ERROR, GST_LIBRARY_ERROR_SETTINGS,
+      std::string(pad_name(side)) + "::offset is " + std::to_string(offset) +
+          " ns, but an offset must be between -" + std::to_string(kLongestOffset) + " and " +
+          std::to_string(kLongestOffset) +
+          " ns: set it to the delay of one stream to the other, 0 if there is none.");
   gst_event_unref(event);
   return false;
 }
 
 bool take_segment(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
-  const Side side = state.side_of(pad);
+  const Side side = state.pairing.side_of(pad);
   const gint64 offset = gst_pad_get_offset(GST_PAD_CAST(pad));
   if (offset < -kLongestOffset || offset > kLongestOffset) {
     return refuse_offset(state, side, event, offset);
@@ -65,17 +62,18 @@ bool take_segment(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
 bool take_end(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   const guint32 seqnum = gst_event_get_seqnum(event);
   const bool taken = state.base_class->sink_event(state.element, pad, event) != FALSE;
-  const Side other = other_side(state.side_of(pad));
-  if (has_failed(state)) {
-    // The base class returns the error to both sources after downstream has taken the end. For that
-    // a sink may need an application that waits for the other source, as gst-launch-1.0 -e does.
-    refuse_frames(state, other);
+  const Side other = other_side(state.pairing.side_of(pad));
+  if (state.messages.failed()) {
+    // Both sources get the error before downstream has taken the end. For that a sink may need an
+    // application that waits for the other source, as gst-launch-1.0 -e does.
+    state.pairing.refuse(other);
+    state.output.events.end(seqnum);
     return taken;
   }
   // Frames that wait may still get partners from the other stream.
-  if (finish_stream(state, state.side_of(pad))) {
-    refuse_frames(state, other);
-    end_output(state, seqnum);
+  if (finish_stream(state, state.pairing.side_of(pad))) {
+    state.pairing.refuse(other);
+    state.output.events.end(seqnum);
   }
   return taken;
 }
@@ -86,20 +84,10 @@ bool is_outside_of_segments(GstAggregatorPad* pad) {
   return pad->segment.format != GST_FORMAT_TIME;
 }
 
-/// True if the event is to be passed upstream.
-bool take_qos_event(ElementState& state, GstEvent* event) {
-  note_qos_event(state, event);
-  const ObjectLock lock(state.element);
-  return state.settings.qos;
-}
-
-/// The next segments of both streams follow this seek.
 void note_seek(ElementState& state, GstEvent* event) {
   GstSeekFlags flags = GST_SEEK_FLAG_NONE;
   gst_event_parse_seek(event, nullptr, nullptr, &flags, nullptr, nullptr, nullptr, nullptr);
-  if ((flags & GST_SEEK_FLAG_FLUSH) != 0) ++state.flushing_seeks;
-  const ObjectLock lock(state.element);
-  state.seeks.add(gst_event_get_seqnum(event));
+  state.pairing.note_seek(gst_event_get_seqnum(event), (flags & GST_SEEK_FLAG_FLUSH) != 0);
 }
 
 }  // namespace
@@ -107,13 +95,13 @@ void note_seek(ElementState& state, GstEvent* event) {
 bool handle_sink_event(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_CAPS:
-      return take_caps(state, state.side_of(pad), event);
+      return take_caps(state, state.pairing.side_of(pad), event);
     case GST_EVENT_SEGMENT:
       return take_segment(state, pad, event);
     case GST_EVENT_EOS:
       return take_end(state, pad, event);
     case GST_EVENT_FLUSH_STOP:
-      clear_stream(state, state.side_of(pad));
+      state.pairing.clear(state.pairing.side_of(pad));
       break;
     case GST_EVENT_GAP:
       if (!is_outside_of_segments(pad)) break;
@@ -121,7 +109,7 @@ bool handle_sink_event(ElementState& state, GstAggregatorPad* pad, GstEvent* eve
       return true;
     case GST_EVENT_SEGMENT_DONE:
       // The output follows the left stream: only the end of its segment is passed on.
-      if (state.side_of(pad) == Side::kLeft) break;
+      if (state.pairing.side_of(pad) == Side::kLeft) break;
       gst_event_unref(event);
       return true;
     default:
@@ -130,13 +118,29 @@ bool handle_sink_event(ElementState& state, GstAggregatorPad* pad, GstEvent* eve
   return state.base_class->sink_event(state.element, pad, event) != FALSE;
 }
 
-bool handle_source_event(ElementState& state, GstEvent* event) {
-  if (GST_EVENT_TYPE(event) == GST_EVENT_QOS && !take_qos_event(state, event)) {
-    gst_event_unref(event);
-    return true;
+void before_sink_event(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
+  // The end of a stream is handled after its frames. After a failure nobody takes them any more.
+  if (GST_EVENT_TYPE(event) == GST_EVENT_EOS && state.messages.failed()) {
+    state.pairing.refuse(state.pairing.side_of(pad));
   }
-  if (GST_EVENT_TYPE(event) == GST_EVENT_LATENCY) note_latency_event(state, event);
-  if (GST_EVENT_TYPE(event) == GST_EVENT_SEEK) note_seek(state, event);
+}
+
+bool handle_source_event(ElementState& state, GstEvent* event) {
+  switch (GST_EVENT_TYPE(event)) {
+    case GST_EVENT_QOS:
+      state.output.punctuality.note_qos_event(event);
+      if (state.flow_settings().qos) break;
+      gst_event_unref(event);  // the sources must not drop frames either
+      return true;
+    case GST_EVENT_LATENCY:
+      state.output.punctuality.note_latency_event(event);
+      break;
+    case GST_EVENT_SEEK:
+      note_seek(state, event);
+      break;
+    default:
+      break;
+  }
   return state.base_class->src_event(state.element, event) != FALSE;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/negotiation.hpp"
 
-#include <algorithm>
 #include <initializer_list>
 #include <memory>
 #include <utility>
 
-#include "matcher/settings.hpp"
-#include "matcher/streams.hpp"
+#include "matcher/output/output_caps.hpp"
+#include "matcher/settings_in_use.hpp"
+#include "matcher/stream_changes.hpp"
 #include "shared/caps.hpp"
 #include "shared/caps_check.hpp"
 #include "shared/stereo_geometry.hpp"
@@ -63,7 +63,7 @@ std::shared_ptr<const GstStructure> geometry_fields(const GstCaps* caps) {
 }  // namespace
 
 CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
-  const CapsPointer base = template_caps(GST_PAD_CAST(state.input(side).pad));
+  const CapsPointer base = template_caps(GST_PAD_CAST(state.pairing.pad(side)));
   // Interlaced caps are accepted here, so that the caps event is sent: the error that it causes
   // says how to correct the pipeline. A source without common caps would only report "not
   // negotiated".
@@ -75,8 +75,8 @@ CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
   CapsPointer result(gst_caps_ref(open));
 
   // Downstream's restrictions of the disparity map apply to the left stream, its size to both.
-  const CapsPointer source_template = template_caps(state.source_pad());
-  const CapsPointer downstream(gst_pad_peer_query_caps(state.source_pad(), source_template.get()));
+  const CapsPointer source_template = template_caps(state.output.pad());
+  const CapsPointer downstream(gst_pad_peer_query_caps(state.output.pad(), source_template.get()));
   if (!gst_caps_is_any(downstream.get()) && !gst_caps_is_empty(downstream.get())) {
     result = side == Side::kLeft
                  ? with_fields(result.get(), downstream.get(),
@@ -87,7 +87,7 @@ CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
   // The size of the other stream is preferred, so that a source that supports several sizes selects
   // it. Other sizes remain possible, since both streams may be about to change theirs.
   const Side other = other_side(side);
-  const CapsPointer current(gst_pad_get_current_caps(GST_PAD_CAST(state.input(other).pad)));
+  const CapsPointer current(gst_pad_get_current_caps(GST_PAD_CAST(state.pairing.pad(other))));
   if (current && gst_caps_get_size(current.get()) > 0) {
     const CapsPointer wish = with_fields(open, current.get(), {"width", "height"});
     CapsPointer preferred = intersection(wish.get(), result.get());
@@ -98,20 +98,20 @@ CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
 }
 
 bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps) {
-  Input& input = state.input(side);
-  const CapsPointer takes = template_caps(GST_PAD_CAST(input.pad));
+  GstPad* const pad = GST_PAD_CAST(state.pairing.pad(side));
+  const CapsPointer takes = template_caps(pad);
   const std::string reason = caps_problem(caps, takes.get(), FrameKind::kView);
   const std::string problem = reason.empty() ? camera_problem(caps, side)
                                              : std::string("The stream on ") + pad_name(side) +
                                                    " cannot be matched: " + reason + ".";
   if (!problem.empty()) {
-    input.has_caps = false;
-    post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FORMAT, problem,
-               std::string(pad_name(side)) + " received " + caps_text(caps) + "; it accepts " +
-                   caps_text(takes.get()) + "; " + state.streams_text());
+    state.formats.set_known(side, false);
+    state.messages.error(GST_STREAM_ERROR, GST_STREAM_ERROR_FORMAT, problem,
+                         std::string(pad_name(side)) + " received " + caps_text(caps) +
+                             "; it accepts " + caps_text(takes.get()));
     return false;
   }
-  GST_DEBUG_OBJECT(input.pad, "caps %" GST_PTR_FORMAT, static_cast<const void*>(caps));
+  GST_DEBUG_OBJECT(pad, "caps %" GST_PTR_FORMAT, static_cast<const void*>(caps));
   StreamInfo info;
   gst_video_info_from_caps(&info.video, caps);
   info.geometry = geometry_fields(caps);
@@ -119,65 +119,21 @@ bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps) {
   return true;
 }
 
-CapsPointer output_caps(const ElementState& state, const Settings& settings) {
-  const GstVideoInfo& left = state.input(Side::kLeft).info;
-  const DisparityUnit unit = unit_of(settings);
-  CapsPointer caps(gst_caps_new_simple(
-      "video/x-raw", "format", G_TYPE_STRING, "GRAY16_LE", "width", G_TYPE_INT, left.width,
-      "height", G_TYPE_INT, left.height, "framerate", GST_TYPE_FRACTION, left.fps_n, left.fps_d,
-      "pixel-aspect-ratio", GST_TYPE_FRACTION, left.par_n, left.par_d, "interlace-mode",
-      G_TYPE_STRING, "progressive", kScaleField, G_TYPE_INT, unit.scale, kMaxDisparityField,
-      G_TYPE_INT, unit.max_disparity, nullptr));
-  // Absent fields are 0.
-  if (unit.min_disparity != 0) {
-    gst_caps_set_simple(caps.get(), kMinDisparityField, G_TYPE_INT, unit.min_disparity, nullptr);
-  }
-  if (unit.offset != 0) {
-    gst_caps_set_simple(caps.get(), kOffsetField, G_TYPE_INT, unit.offset, nullptr);
-  }
-  const GstStructure* geometry = state.input(Side::kLeft).geometry.get();
-  if (geometry != nullptr) copy_geometry_fields(geometry, gst_caps_get_structure(caps.get(), 0));
-  return caps;
-}
-
-CapsPointer output_caps(const ElementState& state) { return output_caps(state, state.active); }
-
 bool negotiate_output(ElementState& state) {
-  {
-    const ObjectLock lock(state.element);
-    if (state.failed) return false;
-  }
-  if (!state.input(Side::kLeft).has_caps) return true;  // called again when they arrive
+  if (!state.formats[Side::kLeft].has_caps) return true;  // called again when they arrive
   if (!apply_settings(state)) return false;
   if (state.base_class->negotiate(state.element)) return true;
-  if (GST_PAD_IS_FLUSHING(state.source_pad())) return false;
-  const CapsPointer downstream(gst_pad_peer_query_caps(state.source_pad(), nullptr));
-  post_error(state, GST_CORE_ERROR, GST_CORE_ERROR_NEGOTIATION,
-             "Downstream does not accept the disparity map. Its size and framerate are those of "
-             "the left stream, its scale is the property disparity-scale, its format is GRAY16_LE: "
-             "change these, or put a converter (mtcolor, videoconvert) downstream.",
-             "offered: " + caps_text(output_caps(state).get()) +
-                 "; accepted: " + caps_text(downstream.get()) + "; " + state.streams_text());
+  if (GST_PAD_IS_FLUSHING(state.output.pad())) return false;
+  const CapsPointer downstream(gst_pad_peer_query_caps(state.output.pad(), nullptr));
+  const CapsPointer offered =
+      output_caps(state.formats[Side::kLeft], state.engine.settings().unit());
+  state.messages.error(
+      GST_CORE_ERROR, GST_CORE_ERROR_NEGOTIATION,
+      "Downstream does not accept the disparity map. Its size and framerate are those of "
+      "the left stream, its scale is the property disparity-scale, its format is GRAY16_LE: "
+      "change these, or put a converter (mtcolor, videoconvert) downstream.",
+      "offered: " + caps_text(offered.get()) + "; accepted: " + caps_text(downstream.get()));
   return false;
-}
-
-void update_pairing_latency(ElementState& state) {
-  Nanoseconds wait = 0;
-  Nanoseconds frame = 0;
-  {
-    const ObjectLock lock(state.element);
-    frame = state.caps_durations.shorter().value_or(0);
-    // A partner may arrive as late as the tolerance allows, and cameras do not deliver frames at
-    // exact times: waiting for a whole frame has no cost if the partner is there.
-    wait = std::max(frame, effective_tolerance(state.settings.sync_tolerance, state.caps_durations,
-                                               FrameDurations{}));
-  }
-  GST_DEBUG_OBJECT(state.element, "a frame of a live stream waits %.2f ms for a partner",
-                   static_cast<double>(wait) / 1e6);
-  // The pad of a live stream holds two frames, which limits the wait.
-  const Nanoseconds room = std::max(wait, 2 * frame);
-  gst_aggregator_set_latency(state.element, static_cast<GstClockTime>(wait),
-                             static_cast<GstClockTime>(room));
 }
 
 }  // namespace mtstereo::plugin

@@ -12,15 +12,8 @@ namespace mtstereo::plugin {
 CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter);
 /// Accepts new caps of a stream. False if they are not supported; an error was posted then.
 bool take_sink_caps(ElementState& state, Side side, const GstCaps* caps);
-/// The caps of the disparity map, from the left stream and these settings.
-CapsPointer output_caps(const ElementState& state, const Settings& settings);
-/// The same from the active settings.
-CapsPointer output_caps(const ElementState& state);
 /// Negotiates the caps of the source pad. False on failure; an error was posted then, except if the
 /// pad is flushing.
 bool negotiate_output(ElementState& state);
-/// Sets the latency of the base class to the longest wait of a frame for its partner. Any thread;
-/// call it without locks.
-void update_pairing_latency(ElementState& state);
 
 }  // namespace mtstereo::plugin

@@ -30,86 +30,83 @@ std::string missing_reference(Side side) {
 
 }  // namespace
 
-void report_difference(ElementState& state, Nanoseconds difference, Nanoseconds tolerance) {
-  if (!state.unpaired_warning.dropped(wall_clock())) return;
-  post_warning(
-      state,
-      "The last " + std::to_string(state.unpaired_warning.run()) +
+void PairingReports::unpaired(Nanoseconds difference, Nanoseconds tolerance) {
+  if (!unpaired_.dropped(wall_clock())) return;
+  messages_.warning(
+      "The last " + std::to_string(unpaired_.run()) +
           " frames had no partner within the tolerance of " + milliseconds(tolerance) +
           ". If the cameras are not triggered together, increase sync-tolerance; if the skew "
           "between the streams is constant, set the property offset of a pad "
           "(sink_right::offset).",
       "the right frame is " + milliseconds(difference) +
-          " after the left frame (negative: before), tolerance " + milliseconds(tolerance) + "; " +
-          state.streams_text());
+          " after the left frame (negative: before), tolerance " + milliseconds(tolerance));
 }
 
-void report_lateness(ElementState& state, Side silent) {
-  if (!state.unpaired_warning.dropped(wall_clock())) return;
-  post_warning(state,
-               "The last " + std::to_string(state.unpaired_warning.run()) +
-                   " frames had no partner, because no frame arrived in time on " +
-                   pad_name(silent) +
-                   ". If that stream is only delayed, increase the property latency.",
-               state.streams_text());
+void PairingReports::late(Side silent) {
+  if (!unpaired_.dropped(wall_clock())) return;
+  messages_.warning("The last " + std::to_string(unpaired_.run()) +
+                    " frames had no partner, because no frame arrived in time on " +
+                    pad_name(silent) +
+                    ". If that stream is only delayed, increase the property latency.");
 }
 
-void report_doubt(ElementState& state, PairDoubt doubt) {
-  if (doubt == PairDoubt::kNone || !state.doubt_warning.due(doubt, wall_clock())) return;
-  const StreamOffset& offset = state.finder.offset();
+void PairingReports::doubt(PairDoubt doubt) {
+  if (doubt == PairDoubt::kNone || !doubts_.due(doubt, wall_clock())) return;
+  const StreamOffset& offset = pairer_.finder().offset();
   const std::string distance = milliseconds(offset.value());
-  const std::string frame = milliseconds(state.finder.period());
+  const std::string frame = milliseconds(pairer_.finder().period());
   if (doubt == PairDoubt::kSlip) {
-    post_warning(state,
-                 "The streams have drifted apart by half a frame: from now on each left frame is "
-                 "paired with the next or the previous right frame, which is nearer in time. If "
-                 "both cameras are triggered together, their clocks differ: pair by "
-                 "sync-mode=arrival or sync-mode=reference-timestamp.",
-                 "the right frames are now " + distance + " after the left ones, a frame takes " +
-                     frame + "; " + state.streams_text());
+    messages_.warning(
+        "The streams have drifted apart by half a frame: from now on each left frame is "
+        "paired with the next or the previous right frame, which is nearer in time. If "
+        "both cameras are triggered together, their clocks differ: pair by "
+        "sync-mode=arrival or sync-mode=reference-timestamp.",
+        "the right frames are now " + distance + " after the left ones, a frame takes " + frame);
     return;
   }
   const DifferenceStatistics statistics = offset.line().statistics();
-  post_warning(state,
-               "The right frames are " + distance +
-                   " after the left ones (negative: before), of a frame of " + frame +
-                   ": their time stamps cannot prove that they belong together. " + kIfTriggered,
-               "standard deviation " + milliseconds(static_cast<Nanoseconds>(statistics.spread)) +
-                   "; " + state.streams_text());
+  messages_.warning(
+      "The right frames are " + distance +
+          " after the left ones (negative: before), of a frame of " + frame +
+          ": their time stamps cannot prove that they belong together. " + kIfTriggered,
+      "standard deviation " + milliseconds(static_cast<Nanoseconds>(statistics.spread)));
 }
 
-void log_offset(ElementState& state) {
-  const StreamOffset& offset = state.finder.offset();
-  const DifferenceStatistics statistics = offset.line().statistics();
+void PairingReports::log_offset() {
+  if (logged_restarts_ != pairer_.restarts()) logged_offset_.reset();
+  logged_restarts_ = pairer_.restarts();
+  const DifferenceStatistics statistics = pairer_.finder().offset().line().statistics();
   if (statistics.pairs == 0) return;
   const auto mean = static_cast<Nanoseconds>(statistics.mean);
-  const Nanoseconds period = state.finder.period();
-  if (state.logged_offset && std::llabs(mean - *state.logged_offset) <= period / 10) return;
-  state.logged_offset = mean;
-  GST_DEBUG_OBJECT(state.element,
+  const Nanoseconds period = pairer_.finder().period();
+  if (logged_offset_ && std::llabs(mean - *logged_offset_) <= period / 10) return;
+  logged_offset_ = mean;
+  GST_DEBUG_OBJECT(messages_.element(),
                    "the right frames are %.2f ms after the left ones, of a frame of %.2f ms",
                    static_cast<double>(mean) / 1e6, static_cast<double>(period) / 1e6);
 }
 
-GstFlowReturn refuse_mixed_stamping(ElementState& state, bool left_has_time) {
-  post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
-             std::string("The frames of ") + (left_has_time ? "sink_left" : "sink_right") +
-                 " have time stamps and those of " + (left_has_time ? "sink_right" : "sink_left") +
-                 " have none, so they cannot be paired. Provide time stamps on both streams (for "
-                 "example by appsrc do-timestamp=true) or on neither.",
-             state.streams_text());
-  return GST_FLOW_ERROR;
+void PairingReports::paired() {
+  unpaired_.paired();
+  log_offset();
 }
 
-GstFlowReturn refuse_missing_reference(ElementState& state, Side side) {
-  post_error(state, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
-             missing_reference(side) + ", or choose another sync-mode.", state.streams_text());
-  return GST_FLOW_ERROR;
+void PairingReports::refuse_mixed_stamping(bool left_has_time) {
+  messages_.error(
+      GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
+      std::string("The frames of ") + (left_has_time ? "sink_left" : "sink_right") +
+          " have time stamps and those of " + (left_has_time ? "sink_right" : "sink_left") +
+          " have none, so they cannot be paired. Provide time stamps on both streams (for example "
+          "by appsrc do-timestamp=true) or on neither.");
 }
 
-void warn_of_missing_reference(ElementState& state, Side side) {
-  post_settings_warning(state, missing_reference(side) + ". The last sync-mode is in effect again.",
-                        state.streams_text());
+void PairingReports::refuse_missing_reference(Side side) {
+  messages_.error(GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
+                  missing_reference(side) + ", or choose another sync-mode.");
+}
+
+void PairingReports::warn_of_missing_reference(Side side) {
+  messages_.settings_warning(missing_reference(side) + ". The last sync-mode is in effect again.");
 }
 
 }  // namespace mtstereo::plugin

@@ -1,30 +1,48 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "matcher/element_state.hpp"
-#include "matcher/pairing/pair_finder.hpp"
+#include <optional>
 
-// Messages about frames and pairs. Call them without locks, in the task of the source pad.
+#include "matcher/base/messages.hpp"
+#include "matcher/pairing/pairer.hpp"
+#include "matcher/pairing/unpaired.hpp"
 
 namespace mtstereo::plugin {
 
-/// A frame had no partner, because the next one of the other side is too far away.
-void report_difference(ElementState& state, Nanoseconds difference, Nanoseconds tolerance);
+/// The messages about frames and pairs. Used by the task of the source pad, without locks, and by
+/// start and flush while the task does not run.
+class PairingReports {
+ public:
+  PairingReports(Messages& messages, const Pairer& pairer) : messages_(messages), pairer_(pairer) {}
 
-/// A frame had no partner, because none arrived on this side in time.
-void report_lateness(ElementState& state, Side silent);
+  /// Two frames were paired. Logs the difference of the streams' times if it has changed.
+  void paired();
+  /// A frame had no partner, because the next one of the other side is too far away.
+  void unpaired(Nanoseconds difference, Nanoseconds tolerance);
+  /// A frame had no partner, because none arrived on this side in time.
+  void late(Side silent);
+  /// The pairs may be wrong although their times fit.
+  void doubt(PairDoubt doubt);
 
-/// The pairs may be wrong although their times fit.
-void report_doubt(ElementState& state, PairDoubt doubt);
+  /// Errors: time stamps on one side only; no reference time stamp on a side.
+  void refuse_mixed_stamping(bool left_has_time);
+  void refuse_missing_reference(Side side);
+  /// A change to sync-mode=reference-timestamp was taken back.
+  void warn_of_missing_reference(Side side);
 
-/// Errors: time stamps on one side only; no reference time stamp on a side.
-GstFlowReturn refuse_mixed_stamping(ElementState& state, bool left_has_time);
-GstFlowReturn refuse_missing_reference(ElementState& state, Side side);
+  /// A flush.
+  void restart() { unpaired_.reset(); }
+  void start() { restart(), doubts_ = {}; }
 
-/// A change to sync-mode=reference-timestamp was taken back.
-void warn_of_missing_reference(ElementState& state, Side side);
+ private:
+  void log_offset();
 
-/// Logs the difference of the streams' times at the first pair and when it has changed.
-void log_offset(ElementState& state);
+  Messages& messages_;
+  const Pairer& pairer_;
+  UnpairedWarning unpaired_;
+  DoubtWarning doubts_;
+  std::optional<Nanoseconds> logged_offset_;  // of the streams
+  int logged_restarts_ = 0;                   // Pairer::restarts() then
+};
 
 }  // namespace mtstereo::plugin

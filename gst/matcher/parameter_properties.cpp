@@ -114,24 +114,7 @@ GParamSpec* make_property(const ParameterInfo& info) {
                              flags);
 }
 
-}  // namespace
-
-void install_parameter_properties(GObjectClass* object_class) {
-  guint id = kFirstParameterProperty;
-  for (const ParameterInfo& info : parameter_table()) {
-    g_object_class_install_property(object_class, id++, make_property(info));
-  }
-}
-
-const ParameterInfo* parameter_of_property(guint property_id) {
-  const auto table = parameter_table();
-  if (property_id < kFirstParameterProperty) return nullptr;
-  const std::size_t index = property_id - kFirstParameterProperty;
-  return index < table.size() ? &table[index] : nullptr;
-}
-
-Status set_parameter_from_value(Parameters& parameters, const ParameterInfo& info,
-                                const GValue& value) {
+Status set_parameter(Parameters& parameters, const ParameterInfo& info, const GValue& value) {
   switch (info.type) {
     case ParameterType::kInteger:
       return parameters.set(info.id, static_cast<double>(g_value_get_int(&value)));
@@ -148,7 +131,7 @@ Status set_parameter_from_value(Parameters& parameters, const ParameterInfo& inf
   return parameters.set(info.id, std::string_view(text != nullptr ? text : ""));
 }
 
-void parameter_to_value(const Parameters& parameters, const ParameterInfo& info, GValue& value) {
+void get_parameter(const Parameters& parameters, const ParameterInfo& info, GValue& value) {
   switch (info.type) {
     case ParameterType::kInteger:
       g_value_set_int(&value, parameters.integer(info.id));
@@ -166,6 +149,23 @@ void parameter_to_value(const Parameters& parameters, const ParameterInfo& info,
       break;
   }
   g_value_set_string(&value, parameters.text(info.id).c_str());
+}
+
+}  // namespace
+
+std::vector<Property<MatchSettings>> parameter_rows() {
+  std::vector<Property<MatchSettings>> rows;
+  for (const ParameterInfo& info : parameter_table()) {
+    rows.emplace_back(
+        make_property(info),
+        [&info](MatchSettings& settings, const GValue& value) {
+          return set_parameter(settings.parameters, info, value);
+        },
+        [&info](const MatchSettings& settings, GValue& value) {
+          get_parameter(settings.parameters, info, value);
+        });
+  }
+  return rows;
 }
 
 }  // namespace mtstereo::plugin

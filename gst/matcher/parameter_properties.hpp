@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <glib-object.h>
+#include <vector>
 
-#include "mtstereo/parameters.hpp"
+#include "matcher/engine/match_settings.hpp"
+#include "shared/properties.hpp"
 
 namespace mtstereo::plugin {
 
-/// The id of the first property of the parameter table; the others follow in the order of the
-/// table. Smaller ids are those of the element's own properties.
-inline constexpr guint kFirstParameterProperty = 100;
-
-/// Installs a property for every row of the parameter table. Type, range, default (of preset
-/// default and mode semi-dense), blurb and the descriptions of enumeration values are those of the
-/// row.
-void install_parameter_properties(GObjectClass* object_class);
-
-/// The parameter of a property id, or nullptr for the other properties.
-const ParameterInfo* parameter_of_property(guint property_id);
-
-/// Sets a parameter to the value of its property. A failure has the message of the core.
-Status set_parameter_from_value(Parameters& parameters, const ParameterInfo& info,
-                                const GValue& value);
-
-/// Copies the effective value of a parameter to the value of its property.
-void parameter_to_value(const Parameters& parameters, const ParameterInfo& info, GValue& value);
+/// A property for every row of the parameter table. Type, range, default (of preset default and
+/// mode semi-dense), blurb and the descriptions of enumeration values are those of the row.
+///
+/// Each parameter is a property of its own, also those that only experts change: the names are
+/// those of the library, the programs and the paper, gst-launch-1.0 sets them one by one, and
+/// gst-inspect-1.0 shows type, range and default of each. A property of type GstStructure with
+/// several of them would have none of this. The blurbs of the latter begin with "Expert:".
+std::vector<Property<MatchSettings>> parameter_rows();
 
 }  // namespace mtstereo::plugin

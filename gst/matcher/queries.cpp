@@ -32,8 +32,8 @@ Seekable ask_seekable(GstPad* sink, GstFormat format) {
 void answer_seeking(const ElementState& state, GstQuery* query) {
   GstFormat format = GST_FORMAT_UNDEFINED;
   gst_query_parse_seeking(query, &format, nullptr, nullptr, nullptr);
-  const Seekable left = ask_seekable(GST_PAD_CAST(state.input(Side::kLeft).pad), format);
-  const Seekable right = ask_seekable(GST_PAD_CAST(state.input(Side::kRight).pad), format);
+  const Seekable left = ask_seekable(GST_PAD_CAST(state.pairing.pad(Side::kLeft)), format);
+  const Seekable right = ask_seekable(GST_PAD_CAST(state.pairing.pad(Side::kRight)), format);
   if (format != GST_FORMAT_TIME || !left.known || !right.known) {
     gst_query_set_seeking(query, format, FALSE, 0, -1);
     return;
@@ -56,9 +56,9 @@ std::optional<gint64> ask_duration(GstPad* sink, GstFormat format) {
 bool answer_duration(const ElementState& state, GstQuery* query) {
   GstFormat format = GST_FORMAT_UNDEFINED;
   gst_query_parse_duration(query, &format, nullptr);
-  auto duration = ask_duration(GST_PAD_CAST(state.input(Side::kLeft).pad), format);
+  auto duration = ask_duration(GST_PAD_CAST(state.pairing.pad(Side::kLeft)), format);
   if (format == GST_FORMAT_TIME) {
-    const auto right = ask_duration(GST_PAD_CAST(state.input(Side::kRight).pad), format);
+    const auto right = ask_duration(GST_PAD_CAST(state.pairing.pad(Side::kRight)), format);
     if (right) duration = std::min(*right, duration.value_or(*right));
   }
   if (!duration) return false;
@@ -72,7 +72,7 @@ bool answer_position(const ElementState& state, GstQuery* query) {
   gst_query_parse_position(query, &format, nullptr);
   if (format == GST_FORMAT_TIME) {
     const ObjectLock lock(state.element);
-    const GstSegment& segment = GST_AGGREGATOR_PAD(state.source_pad())->segment;
+    const GstSegment& segment = GST_AGGREGATOR_PAD(state.output.pad())->segment;
     if (segment.format == GST_FORMAT_TIME && GST_CLOCK_TIME_IS_VALID(segment.position)) {
       const guint64 time = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, segment.position);
       if (GST_CLOCK_TIME_IS_VALID(time)) {
@@ -81,21 +81,17 @@ bool answer_position(const ElementState& state, GstQuery* query) {
       }
     }
   }
-  return gst_pad_peer_query(GST_PAD_CAST(state.input(Side::kLeft).pad), query) != FALSE;
+  return gst_pad_peer_query(GST_PAD_CAST(state.pairing.pad(Side::kLeft)), query) != FALSE;
 }
 
 /// Adds the matching time to the latency that the base class reports.
-void add_processing_latency(ElementState& state, GstQuery* query) {
+void add_processing_latency(const ElementState& state, GstQuery* query) {
   gboolean live = FALSE;
   GstClockTime minimum = 0;
   GstClockTime maximum = GST_CLOCK_TIME_NONE;
   gst_query_parse_latency(query, &live, &minimum, &maximum);
   if (!live) return;
-  GstClockTime processing = 0;
-  {
-    const ObjectLock lock(state.element);
-    processing = static_cast<GstClockTime>(state.processing.reported_ms() * GST_MSECOND);
-  }
+  const GstClockTime processing = state.output.punctuality.processing_time();
   minimum += processing;
   if (GST_CLOCK_TIME_IS_VALID(maximum)) maximum += processing;
   gst_query_set_latency(query, live, minimum, maximum);
@@ -108,7 +104,7 @@ bool answer_sink_query(ElementState& state, GstAggregatorPad* pad, GstQuery* que
     case GST_QUERY_CAPS: {
       GstCaps* filter = nullptr;
       gst_query_parse_caps(query, &filter);
-      gst_query_set_caps_result(query, sink_caps(state, state.side_of(pad), filter).get());
+      gst_query_set_caps_result(query, sink_caps(state, state.pairing.side_of(pad), filter).get());
       return true;
     }
     case GST_QUERY_ACCEPT_CAPS:

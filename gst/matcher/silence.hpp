@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "matcher/pairing/tolerance.hpp"
-#include "mtstereo/matcher.hpp"
+#include "matcher/base/sides.hpp"
+#include "shared/times.hpp"
 
 namespace mtstereo::plugin {
 

@@ -2,13 +2,8 @@
 #include "matcher/watchdog.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <string>
 
-#include "matcher/clock.hpp"
-#include "matcher/element_state.hpp"
 #include "shared/exception_guard.hpp"
-#include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
 namespace {
@@ -41,70 +36,6 @@ gboolean on_timer(GstClock*, GstClockTime, GstClockID timer, gpointer data) noex
   return TRUE;
 }
 
-Nanoseconds timeout_of(const ElementState& state) {
-  const ObjectLock lock(state.element);
-  return static_cast<Nanoseconds>(
-      std::min<guint64>(state.settings.timeout, static_cast<guint64>(G_MAXINT64)));
-}
-
-StreamsObservation observe(const ElementState& state) {
-  StreamsObservation streams;
-  for (const Side side : kSides) {
-    const auto index = static_cast<std::size_t>(side);
-    GstAggregatorPad* pad = state.input(side).pad;
-    streams.waiting[index] = gst_aggregator_pad_has_buffer(pad) != FALSE;
-    streams.ended[index] = gst_aggregator_pad_is_eos(pad) != FALSE;
-  }
-  const ObjectLock lock(state.element);
-  const WatchdogInput& input = state.watchdog_input;
-  const Statistics& counts = state.statistics;
-  for (const std::size_t index : {0u, 1u}) {
-    streams.waiting[index] = streams.waiting[index] || input.held[index];
-  }
-  // A paused pipeline that has its first map is paused by its user, who may pause the sources too.
-  const bool paused = !state.playing && counts.pairs > input.pairs_before;
-  streams.busy = input.busy || paused;
-  streams.progress =
-      counts.pairs + counts.skipped + counts.dropped[0] + counts.dropped[1] + input.flushes;
-  return streams;
-}
-
-std::string seconds(Nanoseconds time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g s", static_cast<double>(time) / 1e9);
-  return text;
-}
-
-/// Ends the stream of an unlinked pad. Otherwise the element would still wait for its frames,
-/// and the other stream would neither get the error nor come to its end.
-void end_stream(GstAggregatorPad* pad) {
-  gst_pad_send_event(GST_PAD_CAST(pad), gst_event_new_stream_start("unlinked"));
-  gst_pad_send_event(GST_PAD_CAST(pad), gst_event_new_eos());
-}
-
-/// Reports a silent pad. Frames of live streams have a deadline, and are reported there.
-void report(ElementState& state, Side silent, Nanoseconds timeout) {
-  if (is_live(state)) return;
-  const std::string pad = pad_name(silent);
-  const std::string other = pad_name(other_side(silent));
-  const std::string details = "waited for " + seconds(timeout) + " (property timeout)";
-  if (gst_pad_is_linked(GST_PAD_CAST(state.input(silent).pad))) {
-    post_warning(state,
-                 "Frames wait on " + other + ", but none has arrived on " + pad + " for " +
-                     seconds(timeout) +
-                     ". Check the source of that stream. If both streams come from one element, "
-                     "put a queue upstream of each pad.",
-                 details);
-    return;
-  }
-  post_error(state, GST_CORE_ERROR, GST_CORE_ERROR_PAD,
-             "Frames wait on " + other + ", but " + pad +
-                 " is not linked. Link the other stream to it, by \"! NAME." + pad +
-                 "\" on a command line.",
-             details);
-  end_stream(state.input(silent).pad);
-}
-
 }  // namespace
 
 Watchdog::~Watchdog() { stop(); }
@@ -129,7 +60,7 @@ void Watchdog::cancel() {
 }
 
 void Watchdog::schedule() {
-  const Nanoseconds timeout = timeout_of(state_);
+  const Nanoseconds timeout = functions_.timeout();
   const Nanoseconds interval = timeout == 0
                                    ? kLongestInterval
                                    : std::clamp(timeout / 8, kShortestInterval, kLongestInterval);
@@ -138,13 +69,13 @@ void Watchdog::schedule() {
       clock, gst_clock_get_time(clock) + static_cast<GstClockTime>(interval));
   gst_object_unref(clock);
   auto* target = new Target{{}, this};
-  g_weak_ref_init(&target->element, state_.element);
+  g_weak_ref_init(&target->element, element_);
   gst_clock_id_wait_async(timer_, on_timer, target, free_target);
 }
 
 void Watchdog::check(GstClockID timer) {
-  const StreamsObservation streams = observe(state_);
-  const Nanoseconds timeout = timeout_of(state_);
+  const StreamsObservation streams = functions_.observe();
+  const Nanoseconds timeout = functions_.timeout();
   std::optional<Side> silent;
   {
     const std::lock_guard lock(mutex_);
@@ -153,17 +84,7 @@ void Watchdog::check(GstClockID timer) {
     gst_clock_id_unref(timer_);
     schedule();
   }
-  if (silent) report(state_, *silent, timeout);
-}
-
-BusyMark::BusyMark(ElementState& state) : state_(state) {
-  const ObjectLock lock(state_.element);
-  state_.watchdog_input.busy = true;
-}
-
-BusyMark::~BusyMark() {
-  const ObjectLock lock(state_.element);
-  state_.watchdog_input.busy = false;
+  if (silent) functions_.report(*silent, timeout);
 }
 
 }  // namespace mtstereo::plugin

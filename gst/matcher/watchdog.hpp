@@ -3,34 +3,26 @@
 
 #include <gst/gst.h>
 
-#include <array>
+#include <functional>
 #include <mutex>
 
 #include "matcher/silence.hpp"
 
 namespace mtstereo::plugin {
 
-struct ElementState;
-
-/// What the watchdog knows of the task of the source pad. Guarded by the object lock.
-struct WatchdogInput {
-  /// Frames of each side that were taken from the pad and wait for a partner.
-  std::array<bool, 2> held{};
-  /// aggregate() is running: a pair is being matched, or downstream blocks.
-  bool busy = false;
-  /// Incremented by every flush.
-  std::uint64_t flushes = 0;
-  /// Statistics::pairs at the last flush.
-  std::uint64_t pairs_before = 0;
-};
-
-/// Reports a pad that is not linked, or on which no frame arrives, while frames wait on the other
-/// pad. In live pipelines frames have a deadline, so nothing is reported there. Also nothing is
-/// reported in PAUSED after preroll. The system clock calls it at regular times, in a thread that
-/// all elements of the process share.
+/// Reports a stream that is silent for too long. The system clock calls it at regular times, in a
+/// thread that all elements of the process share.
 class Watchdog {
  public:
-  explicit Watchdog(ElementState& state) : state_(state) {}
+  /// What it asks and calls, in its thread, while it holds a reference to the element.
+  struct Functions {
+    std::function<StreamsObservation()> observe;
+    std::function<Nanoseconds()> timeout;  ///< 0: no report
+    std::function<void(Side silent, Nanoseconds timeout)> report;
+  };
+
+  Watchdog(gpointer element, Functions functions)
+      : element_(element), functions_(std::move(functions)) {}
   ~Watchdog();
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
@@ -46,22 +38,11 @@ class Watchdog {
   void schedule();  // with mutex_ held
   void cancel();    // with mutex_ held
 
-  ElementState& state_;
+  const gpointer element_;
+  const Functions functions_;
   std::mutex mutex_;            // guards the members below
   GstClockID timer_ = nullptr;  // nullptr: stopped
   SilenceDetector detector_;
-};
-
-/// Marks the task of the source pad as busy during its lifetime.
-class BusyMark {
- public:
-  explicit BusyMark(ElementState& state);
-  ~BusyMark();
-  BusyMark(const BusyMark&) = delete;
-  BusyMark& operator=(const BusyMark&) = delete;
-
- private:
-  ElementState& state_;
 };
 
 }  // namespace mtstereo::plugin

@@ -15,9 +15,4 @@ bool register_pixel_meta(const char* name, GstCustomMetaTransformFunction transf
 /// whole buffer, or a change of the format.
 bool keeps_pixels(GQuark type, gpointer data);
 
-/// True for a meta that describes the memory of a frame or the meaning of its pixels (colors,
-/// confidence, unit, border). Such a meta is invalid for another frame that is computed from this
-/// one.
-bool belongs_to_pixels(const GstMetaInfo& info);
-
 }  // namespace mtstereo::plugin

@@ -10,6 +10,7 @@
 #include "calibrate/branch.hpp"
 #include "calibrate/calibration_error.hpp"
 #include "calibrate/source.hpp"
+#include "matcher/pairing/tolerance.hpp"
 
 namespace mtstereo::calibrate {
 namespace {

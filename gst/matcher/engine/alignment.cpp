@@ -129,6 +129,7 @@ Status PairAlignment::prepare(const AlignmentSettings& settings, GrayView left, 
     }
   }
   report_.applied = correction;
+  report_.field_revision = settings.field_revision;
   return correction == matcher.correction() ? Status() : matcher.set_correction(correction);
 }
 

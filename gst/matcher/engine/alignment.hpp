@@ -50,7 +50,13 @@ struct AlignmentReport {
   double roll_degrees = 0;  ///< of the field
   PairFindings findings;    ///< of the last inspection
   std::uint64_t inspections = 0;
-  std::uint32_t problems = 0;  ///< mask: 1 << PairProblem
+  std::uint32_t problems = 0;        ///< mask: 1 << PairProblem
+  std::uint64_t field_revision = 0;  ///< AlignmentSettings::field_revision of the last pair
+
+  /// `field`, unless another one was set since the last pair.
+  std::optional<RowField> current_field(const AlignmentSettings& settings) const {
+    return settings.field_revision == field_revision ? field : std::nullopt;
+  }
 };
 
 /// Inspects the pairs of a stream and corrects them. Its results depend only on the settings and on

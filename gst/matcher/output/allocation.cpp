@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/output/allocation.hpp"
 
-#include "shared/pixel_meta.hpp"
+#include "shared/frame_metas.hpp"
 
 namespace mtstereo::plugin {
 namespace {
@@ -95,17 +95,17 @@ gboolean propose_allocation(GstAggregator*, GstAggregatorPad*, GstQuery*, GstQue
   return TRUE;
 }
 
-GstFlowReturn acquire_output(ElementState& state, BufferPointer& buffer) {
+GstFlowReturn acquire_output(GstAggregator* aggregator, gsize size, BufferPointer& buffer) {
   GstBuffer* acquired = nullptr;
   GstFlowReturn flow = GST_FLOW_OK;
-  GstBufferPool* pool = gst_aggregator_get_buffer_pool(state.element);
+  GstBufferPool* pool = gst_aggregator_get_buffer_pool(aggregator);
   if (pool != nullptr) {
     flow = gst_buffer_pool_is_active(pool) || gst_buffer_pool_set_active(pool, TRUE)
                ? gst_buffer_pool_acquire_buffer(pool, &acquired, nullptr)
                : GST_FLOW_ERROR;
     gst_object_unref(pool);
   } else {
-    acquired = gst_buffer_new_allocate(nullptr, state.output.size, nullptr);
+    acquired = gst_buffer_new_allocate(nullptr, size, nullptr);
     flow = acquired != nullptr ? GST_FLOW_OK : GST_FLOW_ERROR;
   }
   buffer.reset(acquired);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "matcher/element_state.hpp"
+#include <gst/base/gstaggregator.h>
+#include <gst/video/video.h>
+
 #include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
@@ -13,8 +15,8 @@ gboolean decide_allocation(GstAggregator* aggregator, GstQuery* query);
 /// The base class' propose_allocation(): accepts frames of any stride and offset.
 gboolean propose_allocation(GstAggregator* aggregator, GstAggregatorPad* pad,
                             GstQuery* decide_query, GstQuery* query);
-/// Acquires a buffer for one disparity map.
-GstFlowReturn acquire_output(ElementState& state, BufferPointer& buffer);
+/// Acquires a buffer for one disparity map of `size` bytes.
+GstFlowReturn acquire_output(GstAggregator* aggregator, gsize size, BufferPointer& buffer);
 /// Copies the properties of the left frame to the disparity map, except the pixels: time stamps,
 /// flags and metas.
 void copy_frame_properties(GstBuffer* left, GstBuffer* right, GstBuffer* output);

@@ -50,7 +50,7 @@ std::optional<Nanoseconds> QueuedFrame::end_time() const {
   return bounded(*begin + bounded(static_cast<double>(duration) / segment->segment.rate));
 }
 
-void FrameQueue::look(GstAggregatorPad* pad) {
+void FrameQueue::look() {
   BufferPointer buffer(gst_aggregator_pad_peek_buffer(pad));
   if (in_pad_) {
     if (buffer.get() == frames_.back().buffer.get()) return;
@@ -63,15 +63,15 @@ void FrameQueue::look(GstAggregatorPad* pad) {
   in_pad_ = true;
 }
 
-bool FrameQueue::hold(GstAggregatorPad* pad) {
-  look(pad);
+bool FrameQueue::hold() {
+  look();
   if (!in_pad_) return false;
   const BufferPointer buffer(gst_aggregator_pad_pop_buffer(pad));
   in_pad_ = false;
   return true;
 }
 
-QueuedFrame FrameQueue::take(GstAggregatorPad* pad, std::size_t index) {
+QueuedFrame FrameQueue::take(std::size_t index) {
   if (in_pad_ && index + 1 == frames_.size()) {
     gst_aggregator_pad_drop_buffer(pad);
     in_pad_ = false;
@@ -81,10 +81,22 @@ QueuedFrame FrameQueue::take(GstAggregatorPad* pad, std::size_t index) {
   return frame;
 }
 
+guint64 FrameQueue::drop_all() {
+  guint64 dropped = 0;
+  for (look(); !empty(); ++dropped) take();
+  return dropped;
+}
+
 void FrameQueue::clear() {
   frames_.clear();
   in_pad_ = false;
   passed.reset();
+}
+
+void FrameQueue::reset() {
+  clear();
+  info.reset();
+  segment.reset();
 }
 
 void SeekHistory::add(guint32 seqnum) {

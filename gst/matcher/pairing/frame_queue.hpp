@@ -10,27 +10,12 @@
 #include <memory>
 #include <optional>
 
-#include "matcher/pairing/tolerance.hpp"
-#include "mtstereo/matcher.hpp"
+#include "matcher/base/stream_formats.hpp"
+#include "matcher/base/stream_segment.hpp"
 #include "shared/ownership.hpp"
+#include "shared/times.hpp"
 
 namespace mtstereo::plugin {
-
-/// What the caps of a stream state.
-struct StreamInfo {
-  GstVideoInfo video{};
-  std::shared_ptr<const GstStructure> geometry;  ///< only the fields kGeometryFields
-};
-
-/// The segment of a stream and where it comes from.
-struct StreamSegment {
-  GstSegment segment{};
-  guint32 seqnum = GST_SEQNUM_INVALID;  ///< of its event
-  guint64 seek = 0;                     ///< number of the flushing seek that it follows; 0: none
-  guint64 known_seek = 0;               ///< number of the seek that its event names; 0: none
-  guint64 seeks_before = 0;             ///< number of the last seek when it arrived
-  gint64 pad_offset = 0;  ///< the property offset of the pad, part of the segment [ns]
-};
 
 /// The last seeks that were sent upstream, numbered from 1.
 class SeekHistory {
@@ -45,7 +30,7 @@ class SeekHistory {
   guint64 count_ = 0;
 };
 
-/// The properties `sync-mode`: the times by which frames are paired.
+/// The property `sync-mode`: the times by which frames are paired.
 enum class SyncMode {
   kRunningTime,         ///< the running times of the time stamps
   kArrival,             ///< none: in the order of arrival
@@ -84,6 +69,9 @@ class FrameQueue {
   /// Most frames that are held: more than the look-ahead needs.
   static constexpr std::size_t kCapacity = 16;
 
+  /// The pad, owned by the element.
+  GstAggregatorPad* pad = nullptr;
+
   /// What new frames belong to.
   std::shared_ptr<const StreamInfo> info;
   std::shared_ptr<const StreamSegment> segment;
@@ -92,14 +80,20 @@ class FrameQueue {
   std::optional<PassedTime> passed;
 
   /// Adds the frame at the head of the pad if it is not in the queue yet.
-  void look(GstAggregatorPad* pad);
+  void look();
   /// Takes the frame out of the pad. False if the pad has none.
-  bool hold(GstAggregatorPad* pad);
+  bool hold();
   /// Removes a frame, from the pad too if it is there.
-  QueuedFrame take(GstAggregatorPad* pad, std::size_t index);
+  QueuedFrame take(std::size_t index = 0);
+  /// Removes all frames, from the pad too, and returns their number.
+  guint64 drop_all();
   /// Forgets all frames. That of the pad remains there.
   void clear();
+  /// Forgets the stream as well.
+  void reset();
 
+  /// True if the stream has ended.
+  bool ended() const { return gst_aggregator_pad_is_eos(pad) != FALSE; }
   bool empty() const { return frames_.empty(); }
   std::size_t size() const { return frames_.size(); }
   const QueuedFrame& front() const { return frames_.front(); }

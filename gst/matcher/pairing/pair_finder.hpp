@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "matcher/base/sides.hpp"
 #include "matcher/pairing/stream_offset.hpp"
-#include "matcher/pairing/tolerance.hpp"
 #include "mtstereo/matcher.hpp"
 
 namespace mtstereo::plugin {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "matcher/pairing/tolerance.hpp"
+#include "shared/times.hpp"
 
 namespace mtstereo::plugin {
 

@@ -18,22 +18,4 @@ Nanoseconds effective_tolerance(Nanoseconds set, const FrameDurations& caps,
   return kFallbackTolerance;
 }
 
-Nanoseconds WaitingFrame::deadline(bool left, Nanoseconds time, Nanoseconds now,
-                                   Nanoseconds latency) {
-  if (time_ != time || left_ != left) {
-    left_ = left;
-    time_ = time;
-    since_ = now;
-  }
-  return std::max(time, since_ + kGrace - latency);
-}
-
-bool UnpairedWarning::dropped(Nanoseconds now) {
-  ++run_;
-  if (run_ < kRun) return false;
-  if (last_ && now - *last_ < kInterval) return false;
-  last_ = now;
-  return true;
-}
-
 }  // namespace mtstereo::plugin

@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "matcher/pairing/unpaired.hpp"
+
 namespace mtstereo::plugin {
 namespace {
 
