@@ -51,7 +51,7 @@ measure() {
 }
 
 demo_of_raw_cameras() {
-  export PATH=$build/pipelines/render:$build/pipelines/calibrate:$PATH
+  export PATH=$build/pipelines/tools/render:$build/pipelines/programs/calibrate:$PATH
   calibrate_cameras
   render_clip --lens wide --baseline "$raw_baseline" --rectification "$calibration" --depth \
     ${alpha:+--alpha "$alpha"} ${rectified_size:+--rectified-size "$rectified_size"}

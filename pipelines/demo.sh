@@ -154,8 +154,8 @@ build_all() {
   if [ ! -e "$build/build.ninja" ]; then
     meson setup "$build" "$repository" >"$log" 2>&1 || { cat "$log" >&2 && fail "meson failed"; }
   fi
-  ninja -C "$build" gst/libgstmtstereo.so pipelines/render/mtstereo-render \
-    pipelines/apps/mtstereo-compare pipelines/calibrate/mtcalibrate >"$log" 2>&1 || { cat "$log" >&2 && fail "the build failed"; }
+  ninja -C "$build" gst/libgstmtstereo.so pipelines/tools/render/mtstereo-render \
+    pipelines/tools/compare/mtstereo-compare pipelines/programs/calibrate/mtcalibrate >"$log" 2>&1 || { cat "$log" >&2 && fail "the build failed"; }
 }
 
 # Further arguments are options of mtstereo-render.
@@ -168,7 +168,7 @@ render_clip() {
       speed-preset=veryfast)
   fi
   step "Rendering $frames frames of the $scene, $size"
-  "$build/pipelines/render/mtstereo-render" "$out/clip" --overwrite --scene "$scene" \
+  "$build/pipelines/tools/render/mtstereo-render" "$out/clip" --overwrite --scene "$scene" \
     --frames "$frames" --size "$size" --rate "$rate" "${camera[@]}" "$@" ||
     fail "the clip could not be rendered"
   for side in left right; do
@@ -225,7 +225,7 @@ to_color() {
 }
 
 compare() {
-  "$build/pipelines/apps/mtstereo-compare" "$@" || fail "the comparison failed"
+  "$build/pipelines/tools/compare/mtstereo-compare" "$@" || fail "the comparison failed"
 }
 
 demo_of_clip() {

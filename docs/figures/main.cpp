@@ -16,14 +16,14 @@
 #include <utility>
 
 #include "drawings.hpp"
-#include "eval/metrics.hpp"
-#include "eval/pictures.hpp"
 #include "matcher/frame_matcher.hpp"
 #include "mtstereo/mtstereo.hpp"
-#include "render/render.hpp"
 #include "stages/nodes/disparity_drawing.hpp"
 #include "stages/nodes/node_levels.hpp"
 #include "stages/prepare/max_tree.hpp"
+#include "tools/eval/metrics.hpp"
+#include "tools/eval/pictures.hpp"
+#include "tools/render/render.hpp"
 
 namespace {
 

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "eval/datasets.hpp"
-#include "eval/metrics.hpp"
 #include "pairs.hpp"
-#include "render/scene.hpp"
+#include "tools/eval/datasets.hpp"
+#include "tools/eval/metrics.hpp"
+#include "tools/render/scene.hpp"
 
 namespace mtstereo::tests {
 namespace {

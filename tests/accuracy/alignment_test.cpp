@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "eval/datasets.hpp"
 #include "mtstereo/mtstereo.hpp"
-#include "render/render.hpp"
-#include "render/scene.hpp"
+#include "tools/eval/datasets.hpp"
+#include "tools/render/render.hpp"
+#include "tools/render/scene.hpp"
 
 namespace mtstereo::tests {
 namespace {

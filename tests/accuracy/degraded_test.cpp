@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "degraded_figures.hpp"
-#include "eval/curve_means.hpp"
-#include "eval/degrade.hpp"
-#include "eval/runner.hpp"
 #include "pairs.hpp"
-#include "render/scene.hpp"
 #include "support/sanitizers.hpp"
+#include "tools/eval/curve_means.hpp"
+#include "tools/eval/degrade.hpp"
+#include "tools/eval/runner.hpp"
+#include "tools/render/scene.hpp"
 
 namespace mtstereo::tests {
 namespace {

@@ -10,8 +10,8 @@
 #include <opencv2/core.hpp>
 
 #include "element_matcher.hpp"
-#include "render/render.hpp"
-#include "render/scene.hpp"
+#include "tools/render/render.hpp"
+#include "tools/render/scene.hpp"
 
 namespace mtstereo::tests {
 namespace {

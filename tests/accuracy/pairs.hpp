@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/datasets.hpp"
-#include "eval/metrics.hpp"
+#include "tools/eval/datasets.hpp"
+#include "tools/eval/metrics.hpp"
 
 namespace mtstereo::tests {
 

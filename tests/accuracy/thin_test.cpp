@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "element_matcher.hpp"
-#include "eval/thin_things.hpp"
-#include "render/render.hpp"
-#include "render/scene.hpp"
+#include "tools/eval/thin_things.hpp"
+#include "tools/render/render.hpp"
+#include "tools/render/scene.hpp"
 
 namespace mtstereo::tests {
 namespace {

@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "element_pipeline.hpp"
-#include "eval/text_table.hpp"
 #include "guarded.hpp"
 #include "options.hpp"
 #include "outcome.hpp"
 #include "summary.hpp"
+#include "tools/eval/text_table.hpp"
 
 namespace {
 

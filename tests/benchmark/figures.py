@@ -21,7 +21,7 @@ from results import Result
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 PICTURE = "benchmark-growth.png"
-PLOTTER = SOURCE / "pipelines/eval/plot.py"
+PLOTTER = SOURCE / "pipelines/tools/eval/plot.py"
 
 
 class RunError(Exception):

@@ -12,7 +12,7 @@ import unittest
 import unittest.mock
 
 FIGURES = pathlib.Path(__file__).resolve().parent / "figures.py"
-PLOTTER = FIGURES.parents[2] / "pipelines/eval/plot.py"
+PLOTTER = FIGURES.parents[2] / "pipelines/tools/eval/plot.py"
 PAGE = ("# Benchmark\n\nText before.\n\n<!-- figures: begin -->\nold figures\n"
         "<!-- figures: end -->\n\nText after.\n")
 CONTEXT = {"date": "2030-01-02T03:04:05+00:00", "host_name": "secret-host", "num_cpus": 2,

@@ -6,9 +6,9 @@
 #include <iostream>
 #include <utility>
 
-#include "eval/datasets.hpp"
-#include "eval/input_error.hpp"
-#include "render/render.hpp"
+#include "tools/eval/datasets.hpp"
+#include "tools/eval/input_error.hpp"
+#include "tools/render/render.hpp"
 
 namespace mtstereo::bench {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "eval/input_error.hpp"
+#include "tools/eval/input_error.hpp"
 
 namespace mtstereo::bench {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "mtstereo/geometry/rectification.hpp"
-#include "render/raw.hpp"
-#include "render/render.hpp"
+#include "tools/render/raw.hpp"
+#include "tools/render/render.hpp"
 
 namespace {
 

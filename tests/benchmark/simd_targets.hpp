@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "eval/text_table.hpp"
 #include "frames.hpp"
 #include "summary.hpp"
+#include "tools/eval/text_table.hpp"
 
 namespace mtstereo::bench {
 

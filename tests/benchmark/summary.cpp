@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "eval/rivals.hpp"
+#include "tools/eval/rivals.hpp"
 
 namespace mtstereo::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/text_table.hpp"
+#include "tools/eval/text_table.hpp"
 
 namespace mtstereo::bench {
 

@@ -6,10 +6,10 @@
 #include <memory>
 #include <string>
 
-#include "eval/rivals.hpp"
 #include "frame_timing.hpp"
 #include "guarded.hpp"
 #include "outcome.hpp"
+#include "tools/eval/rivals.hpp"
 
 namespace mtstereo::bench {
 namespace {

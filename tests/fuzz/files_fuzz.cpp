@@ -7,13 +7,13 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "eval/datasets.hpp"
-#include "eval/files.hpp"
-#include "eval/ground_truth.hpp"
-#include "eval/input_error.hpp"
-#include "eval/pfm.hpp"
 #include "fuzz_folder.hpp"
 #include "fuzz_input.hpp"
+#include "tools/eval/datasets.hpp"
+#include "tools/eval/files.hpp"
+#include "tools/eval/ground_truth.hpp"
+#include "tools/eval/input_error.hpp"
+#include "tools/eval/pfm.hpp"
 
 namespace mtstereo::fuzz {
 namespace {

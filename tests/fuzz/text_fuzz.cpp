@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "eval/datasets.hpp"
-#include "eval/degrade.hpp"
-#include "eval/input_error.hpp"
 #include "fuzz_image.hpp"
 #include "mtstereo/mtstereo.hpp"
+#include "tools/eval/datasets.hpp"
+#include "tools/eval/degrade.hpp"
+#include "tools/eval/input_error.hpp"
 
 namespace mtstereo::fuzz {
 namespace {

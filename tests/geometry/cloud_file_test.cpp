@@ -7,15 +7,15 @@
 #include <cstring>
 #include <filesystem>
 
-#include "../render/temporary_folder.hpp"
 #include "mtstereo/geometry/point_cloud.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mtstereo {
 namespace {
 
-using render::read_text;
-using render::TemporaryFolder;
-using render::write_text;
+using test::read_text;
+using test::TemporaryFolder;
+using test::write_text;
 
 const std::vector<CloudPoint> kTwo = {{1.5F, -2, 4, 10, 20, 30, 40}, {-0.25F, 0, 65, 1, 2, 3, 255}};
 

@@ -58,7 +58,7 @@ def commands_of(document):
 
 def make_data_sets(folder):
     """Small data sets in the public layouts, under the names of docs/evaluation.md."""
-    render = BUILD / "pipelines/render/mtstereo-render"
+    render = BUILD / "pipelines/tools/render/mtstereo-render"
     require(run([render, "trainingF", "--layout", "middlebury", "--size", "160x120", "--frames", "2",
                  "--scene", "room"], folder))
     kitti = folder / "data_scene_flow/training"
@@ -112,7 +112,7 @@ def prepare(folder):
 def make_boards(folder):
     """Views of a calibration board, in place of cameras."""
     if not (folder / "camera-boards").exists():
-        require(run([BUILD / "pipelines/render/mtstereo-render", "camera-boards", "--scene", "board",
+        require(run([BUILD / "pipelines/tools/render/mtstereo-render", "camera-boards", "--scene", "board",
                      "--size", "320x240", "--poses", "12", "--rest", "1", "--samples", "1"], folder))
 
 
@@ -243,7 +243,7 @@ class Programs(unittest.TestCase):
     def test_the_program_of_the_library_is_the_installed_example(self):
         shown = blocks_of(SOURCE / "docs/library.md", "cpp")
         self.assertEqual(len(shown), 1)
-        built = (SOURCE / "pipelines/apps/match_pair.cpp").read_text()
+        built = (SOURCE / "pipelines/examples/match_pair.cpp").read_text()
         self.assertTrue(built.endswith(shown[0]), "docs/library.md shows another program")
 
     def test_python_runs_and_finds_the_confidence(self):
@@ -276,7 +276,7 @@ class Programs(unittest.TestCase):
             (folder / "stereo.yaml").write_text(CALIBRATION)
             what = "disparity,depth,confidence,rectified"
             for out, form in (("result", "mkv"), ("pictures", "png"), ("floats", "pfm")):
-                require(run([BUILD / "pipelines/run/mtstereo-run", "left.mp4", "right.mp4", "--calibration",
+                require(run([BUILD / "pipelines/programs/run/mtstereo-run", "left.mp4", "right.mp4", "--calibration",
                              "stereo.yaml", "--what", what, "--format", form, "--out", out], folder))
             program = folder / "program.py"
             program.write_text(shown[0] + CHECK_OF_RESULTS)

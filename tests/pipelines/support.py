@@ -13,9 +13,9 @@ SOURCE = pathlib.Path(os.environ["MTSTEREO_SOURCE"])
 BUILD = pathlib.Path(os.environ["MTSTEREO_BUILD"])
 SLOW = float(os.environ.get("MTSTEREO_SLOW", "1"))  # slowdown factor of a sanitized build
 PIPELINES = SOURCE / "pipelines"
-RENDER = BUILD / "pipelines/render/mtstereo-render"
-COMPARE = BUILD / "pipelines/apps/mtstereo-compare"
-CENTER = BUILD / "pipelines/apps/depth-of-center"
+RENDER = BUILD / "pipelines/tools/render/mtstereo-render"
+COMPARE = BUILD / "pipelines/tools/compare/mtstereo-compare"
+CENTER = BUILD / "pipelines/examples/depth-of-center"
 
 
 class Outcome:

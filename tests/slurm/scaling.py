@@ -64,9 +64,9 @@ def use_build(build):
 
 class Programs:
     def __init__(self, build):
-        self.run = build / "pipelines/run/mtstereo-run"
-        self.fake_run = build / "tests/run/fake-run"
-        self.render = build / "pipelines/render/mtstereo-render"
+        self.run = build / "pipelines/programs/run/mtstereo-run"
+        self.fake_run = build / "tests/pipelines/programs/run/fake-run"
+        self.render = build / "pipelines/tools/render/mtstereo-render"
         missing = [str(file) for file in vars(self).values() if not file.exists()]
         if missing:
             raise SystemExit("not built: " + ", ".join(missing))

@@ -25,9 +25,10 @@ PUBLIC = ('core/include/',)
 
 # Who else includes headers of another room, and which ones: parts are linked statically with it.
 SHARED = {
-    'pipelines/calibrate/': ('core/alignment/', 'gst/matcher/pairing/'),
-    'pipelines/fit/': ('core/',),
-    'pipelines/outputs/': ('core/geometry/new_file',),
+    'pipelines/programs/calibrate/': ('gst/matcher/pairing/',),
+    'pipelines/recordings/': ('core/alignment/',),
+    'pipelines/tools/fit/': ('core/',),
+    'pipelines/lib/outputs/': ('core/geometry/new_file',),
     'pipelines/': ('gst/shared/',),
 }
 

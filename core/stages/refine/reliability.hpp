@@ -12,8 +12,9 @@
 namespace mtstereo {
 
 /// The confidence of each pixel of a complete map, matched or inferred: how likely the disparity is
-/// right, by a table that was fitted to pairs with ground truth (pipelines/fit/). Each clue about a
-/// pixel selects an entry of its column of the table, and the sum of the entries is the confidence.
+/// right, by a table that was fitted to pairs with ground truth (pipelines/tools/fit/). Each clue
+/// about a pixel selects an entry of its column of the table, and the sum of the entries is the
+/// confidence.
 ///
 /// Call gather_clues() (clues.hpp) for all bands of rows, then rate_reliability() for all bands.
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
-#include "eval/datasets.hpp"
 #include "support/rendered.hpp"
 #include "support/sanitizers.hpp"
+#include "tools/eval/datasets.hpp"
 
 namespace mtstereo::test {
 namespace {

@@ -16,21 +16,21 @@
 #include <string>
 #include <vector>
 
-#include "eval/metrics.hpp"
 #include "mtstereo/geometry/calibration.hpp"
 #include "mtstereo/geometry/rectification.hpp"
-#include "render/raw.hpp"
-#include "render/scene.hpp"
 #include "support/pipeline.hpp"
 #include "support/sanitizers.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
+#include "tools/eval/metrics.hpp"
+#include "tools/render/raw.hpp"
+#include "tools/render/scene.hpp"
 
 namespace mtstereo {
 namespace {
 
 using render::RawRig;
 using render::Settings;
-using render::TemporaryFolder;
+using test::TemporaryFolder;
 
 constexpr int kWidth = 480, kHeight = 270;
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "render/render.hpp"
 #include "support/images.hpp"
 #include "support/stereo_harness.hpp"
+#include "tools/render/render.hpp"
 
 namespace mtstereo::test {
 

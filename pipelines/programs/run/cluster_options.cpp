@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "programs/run/cluster_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <memory>
+
+#include "lib/options/failure_message.hpp"
+#include "lib/outputs/parse_error.hpp"
+#include "programs/run/help_format.hpp"
+#include "recordings/plan/archive.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+// Where a scheduler states the index of a task.
+constexpr const char* kIndexVariables[] = {"SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX",
+                                           "AWS_BATCH_JOB_ARRAY_INDEX"};
+// Where Slurm states the processors of a task.
+constexpr const char* kThreadVariables[] = {"SLURM_CPUS_PER_TASK", "SLURM_CPUS_ON_NODE"};
+constexpr int kMostJobs = 1024;
+
+void set_usage(CLI::App& app, const std::string& usage) {
+  app.formatter(std::make_shared<HelpFormatter>(usage));
+}
+
+// The range is not repeated in the help.
+template <typename Number>
+CLI::Validator in_range(Number least, Number most) {
+  return CLI::Range(least, most).description("");
+}
+
+void add_folder(CLI::App& app, std::filesystem::path& folder) {
+  app.add_option("--plan", folder, "folder that 'mtstereo-run plan' wrote; . = the current one")
+      ->type_name("DIR")
+      ->capture_default_str();
+}
+
+void add_merge_options(CLI::App& app, bool& remove_pieces) {
+  app.add_flag("--remove-pieces", remove_pieces,
+               "remove the pieces of a recording after they are joined: half of the disk space");
+}
+
+// Parses, then calls `check`. Prints help and errors. The exit status, if the program ends here.
+template <typename Check>
+std::optional<int> parse(CLI::App& app, int argc, const char* const* argv, const Check& check) {
+  app.failure_message(options::failure_message);
+  try {
+    app.parse(argc, argv);
+    check();
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for = error.get_exit_code() == 0;  // --help
+    outputs::print_parse_error(app, error);
+    return asked_for ? kDone : kWrongUsage;
+  }
+  return std::nullopt;
+}
+
+std::size_t parse_number(const std::string& name, const std::string& text) {
+  std::size_t number = 0;
+  if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos ||
+      !CLI::detail::lexical_cast(text, number)) {
+    throw CLI::ValidationError(name, "'" + text + "' is no number of a task");
+  }
+  return number;
+}
+
+std::size_t task_number(const std::string& text, std::size_t first) {
+  if (!text.empty()) return first + parse_number("N", text);
+  for (const char* variable : kIndexVariables) {
+    if (const char* value = std::getenv(variable)) return first + parse_number(variable, value);
+  }
+  throw CLI::RequiredError(
+      "N, or one of the variables SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX and "
+      "AWS_BATCH_JOB_ARRAY_INDEX,");
+}
+
+// As many threads as processors were allocated.
+int allocated_threads() {
+  for (const char* variable : kThreadVariables) {
+    int threads = 0;
+    const char* value = std::getenv(variable);
+    if (value != nullptr && CLI::detail::lexical_cast(value, threads) && threads > 0) {
+      return threads;
+    }
+  }
+  return 0;
+}
+
+std::optional<int> parse_task(int argc, const char* const* argv, TaskCommand& command) {
+  CLI::App app{"Does one task of a plan, unless it is done."};
+  set_usage(app, "mtstereo-run task [N] [--plan DIR] [OPTIONS]");
+  app.footer(
+      "The number may come from a scheduler's index: SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX "
+      "(Kubernetes) or AWS_BATCH_JOB_ARRAY_INDEX. Several processes may do the same task: one "
+      "result is kept.\nExit status: 0 = the task is done, 1 = it is not, and the reason is "
+      "printed, "
+      "2 = the command is invalid. A task whose input is damaged is done when all that can be read "
+      "is processed; merge returns 3 then.");
+  std::string number;
+  std::size_t first = 0;
+  app.add_option("N", number, "number of the task, from 0; none: from the variables below")
+      ->type_name("");
+  add_folder(app, command.folder);
+  app.add_option("--first", first, "added to the number: task of the index 0")
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_option("--threads", command.threads,
+                 "threads of the matcher; 0 = the processors that Slurm allocated, or what the "
+                 "plan states")
+      ->type_name("N")
+      ->check(in_range(0, kMostJobs))
+      ->capture_default_str();
+  app.add_flag("--quiet", command.quiet, "print no progress");
+  return parse(app, argc, argv, [&] {
+    command.number = task_number(number, first);
+    if (command.threads == 0) command.threads = allocated_threads();
+  });
+}
+
+std::optional<int> parse_merge(int argc, const char* const* argv, MergeCommand& command) {
+  CLI::App app{
+      "Joins the pieces of every recording whose tasks are done, after their contents were "
+      "checked, and writes summary.json."};
+  set_usage(app, "mtstereo-run merge [--plan DIR] [OPTIONS]");
+  app.footer(
+      "Exit status: 0 = all recordings are joined, 1 = nothing could be done, and the reason is "
+      "printed, 2 = the command is invalid, 3 = tasks are missing, or inputs cannot be used or are "
+      "damaged, 4 = the results of a recording are of no use.");
+  add_folder(app, command.folder);
+  app.add_option("--jobs", command.jobs, "recordings that are joined at the same time")
+      ->type_name("N")
+      ->check(in_range(1, kMostJobs))
+      ->capture_default_str();
+  add_merge_options(app, command.remove_pieces);
+  return parse(app, argc, argv, [] {});
+}
+
+std::optional<int> parse_slurm(int argc, const char* const* argv, SlurmCommand& command) {
+  CLI::App app{
+      "Submits the tasks of a plan to Slurm as an array, with a merge after it. If it is called "
+      "again, it submits only tasks that are neither done nor queued nor running."};
+  set_usage(app, "mtstereo-run slurm [--plan DIR] [OPTIONS] [-- OPTIONS OF SBATCH]");
+  app.footer(
+      "Options of sbatch follow after --, for example: mtstereo-run slurm --plan DIR -- "
+      "--partition=long --cpus-per-task=8\nWhat the jobs print is in DIR/log.\nExit status: 0 = "
+      "submitted, or nothing is left to do, 1 = the reason is printed, 2 = the command is "
+      "invalid.");
+  add_folder(app, command.folder);
+  app.add_option("--limit", command.limit, "tasks that run at the same time; 0 = no limit")
+      ->type_name("N")
+      ->check(in_range(0, std::numeric_limits<int>::max()))
+      ->capture_default_str();
+  app.add_option("--program", command.program,
+                 "mtstereo-run on the nodes, if it is in another folder there")
+      ->type_name("FILE");
+  app.add_option("--merge-jobs", command.merge_jobs,
+                 "recordings that the merge joins at the same time")
+      ->type_name("N")
+      ->check(in_range(1, kMostJobs))
+      ->capture_default_str();
+  add_merge_options(app, command.remove_pieces);
+  app.add_option("OPTION", command.options, "options of sbatch, after --")
+      ->type_name("")
+      ->expected(-1);
+  return parse(app, argc, argv, [] {});
+}
+
+}  // namespace
+
+void add_plan_options(CLI::App& app, PlanOptions& options) {
+  app.add_option("--pairs-per-task", options.pairs_per_task,
+                 "length of a task in pairs; 0 = " + std::to_string(kPairsPerTask) +
+                     ", ten minutes at 30 frames/s")
+      ->type_name("N")
+      ->check(in_range(std::int64_t{0}, std::int64_t{1'000'000'000}))
+      ->capture_default_str();
+}
+
+bool is_cluster_command(int argc, const char* const* argv) {
+  const std::string name = argc > 1 ? argv[1] : "";
+  return name == "task" || name == "merge" || name == "slurm";
+}
+
+ClusterCommand parse_cluster_command(int argc, const char* const* argv) {
+  const std::string name = argv[1];
+  // The parsers see the arguments after the name of the program.
+  const int count = argc - 1;
+  const char* const* arguments = std::next(argv);
+  ClusterCommand result;
+  if (name == "task") {
+    result.exit_status = parse_task(count, arguments, result.command.emplace<TaskCommand>());
+  } else if (name == "merge") {
+    result.exit_status = parse_merge(count, arguments, result.command.emplace<MergeCommand>());
+  } else {
+    result.exit_status = parse_slurm(count, arguments, result.command.emplace<SlurmCommand>());
+  }
+  return result;
+}
+
+}  // namespace mtstereo::run

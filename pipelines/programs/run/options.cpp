@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "programs/run/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <memory>
+
+#include "lib/options/failure_message.hpp"
+#include "lib/outputs/finite_range.hpp"
+#include "lib/outputs/parse_error.hpp"
+#include "mtstereo/geometry/rectification.hpp"
+#include "mtstereo/parameters.hpp"
+#include "programs/run/help_format.hpp"
+#include "recordings/inputs/run_error.hpp"
+#include "recordings/matching/matching_line.hpp"
+#include "recordings/matching/work_options.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+constexpr double kLongestOffset = 1e6;  // [s]
+constexpr int kMostJobs = 1024;
+
+const std::map<std::string, Arrangement> kLayouts{{"side-by-side", Arrangement::kSideBySide},
+                                                  {"top-bottom", Arrangement::kTopBottom}};
+const std::map<std::string, std::vector<Product>> kProducts{
+    {"disparity", {Product::kDisparity}},
+    {"depth", {Product::kDepth}},
+    {"color", {Product::kColor}},
+    {"confidence", {Product::kConfidence}},
+    {"cloud", {Product::kCloud}},
+    {"rectified", {Product::kRectifiedLeft, Product::kRectifiedRight}}};
+const std::map<std::string, MapFormat> kFormats{
+    {"mkv", MapFormat::kMatroska}, {"png", MapFormat::kPng}, {"pfm", MapFormat::kPfm}};
+// The figures of each frame; run.json always has them.
+constexpr const char* kStats = "stats";
+
+// The option texts before validation.
+struct Texts {
+  std::string layout, rectified, size, sync = "none", format = "mkv";
+  std::vector<std::string> what{"disparity"};
+  double drift = 0;  // [ppm]
+  std::map<std::string, std::string> parameters;
+};
+
+template <typename Value>
+std::vector<std::string> names_of(const std::map<std::string, Value>& choices) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : choices) names.push_back(name);
+  return names;
+}
+
+void add_shape(CLI::App& app, Texts& texts, RectifiedShape& shape) {
+  const std::string group = "Inputs";
+  app.add_option("--alpha", shape.alpha,
+                 "of the rectification: 0: only what both cameras see; 1: all pixels of both; "
+                 "between: between; -1: the focal length of the cameras")
+      ->type_name("NUMBER")
+      ->check(CLI::Range(-1.0, 1.0).description(""))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--rectified-size", texts.size,
+                 "size of the rectified views [px] [default: that of the views, or of the "
+                 "rectification in the calibration]")
+      ->type_name("WxH")
+      ->group(group);
+}
+
+void apply_size(const std::string& text, RectifiedShape& shape) {
+  if (text.empty()) return;
+  const std::size_t mark = text.find('x');
+  const bool valid =
+      mark != std::string::npos && CLI::detail::lexical_cast(text.substr(0, mark), shape.width) &&
+      CLI::detail::lexical_cast(text.substr(mark + 1), shape.height) && shape.width >= 1 &&
+      shape.height >= 1 && shape.width <= kLargestImageSide && shape.height <= kLargestImageSide;
+  if (valid) return;
+  throw CLI::ValidationError("--rectified-size", "'" + text + "' is not a size such as 640x480");
+}
+
+void apply_shape(const Texts& texts, RectifiedShape& shape) {
+  apply_size(texts.size, shape);
+  if (shape.alpha == kKeepScale || (shape.alpha >= 0 && shape.alpha <= 1)) return;
+  throw CLI::ValidationError("--alpha", "must be 0 to 1, or -1");
+}
+
+void add_inputs(CLI::App& app, Texts& texts, Options& options) {
+  const std::string group = "Inputs";
+  app.add_option("INPUT", options.inputs,
+                 "two videos, two folders or patterns of pictures (left/%06d.png), one file or "
+                 "folder with both views, a folder of a data set (KITTI, EuRoC, Middlebury, "
+                 "ETH3D), or a folder with any of these below it")
+      ->required()
+      ->expected(1, 2)
+      ->type_name("");
+  app.add_option("--layout", texts.layout,
+                 "where the views of one file are [default: by the size and the pictures]")
+      ->check(CLI::IsMember(names_of(kLayouts)))
+      ->group(group);
+  app.add_flag(
+         "--swap", options.input.swap,
+         "exchange the views: the second input, or the second half of the frames, is the left one")
+      ->group(group);
+  app.add_option("--calibration", options.input.calibration,
+                 "calibration of the cameras; two files are separated by a comma [default: what "
+                 "lies beside the input]")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--rectified", texts.rectified,
+                 "yes: the views are rectified, and the calibration only gives the meters; no: it "
+                 "rectifies them [default: by the input]")
+      ->check(CLI::IsMember({"yes", "no"}))
+      ->group(group);
+  add_shape(app, texts, options.input.shape);
+  app.add_option("--rate", options.input.frame_rate, "frames per second of pictures without times")
+      ->type_name("N")
+      ->check(outputs::finite_range(0.001, 100000))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--sync", texts.sync,
+                 "two recorders that were started apart: auto finds offset and drift from the "
+                 "pictures; a number is the time by which an event is later in the right "
+                 "recording; none: the times of the frames count")
+      ->type_name("auto|none|SECONDS")
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--drift", texts.drift,
+                 "with --sync SECONDS: how much faster the clock of the right recorder is")
+      ->type_name("PPM")
+      ->check(outputs::finite_range(-1e5, 1e5))
+      ->group(group);
+}
+
+void add_limits(CLI::App& app, WorkOptions& work, const std::string& group) {
+  constexpr double kFarthest = 1e6;  // of mtdepth [m]
+  app.add_option("--near", work.near, "nearer depths and points are left out")
+      ->type_name("METERS")
+      ->check(outputs::finite_range(0, kFarthest))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--far", work.far,
+                 "farther depths and points are left out, 0 = no limit [default: clouds end where "
+                 "the disparity is 4 px, depth maps have no limit]")
+      ->type_name("METERS")
+      ->check(outputs::finite_range(0, kFarthest))
+      ->group(group);
+}
+
+void add_outputs(CLI::App& app, Texts& texts, Options& options) {
+  const std::string group = "Results";
+  std::vector<std::string> products = names_of(kProducts);
+  products.emplace_back(kStats);
+  app.add_option("--out", options.folder,
+                 options.plan ? "folder of the plan and of its results; all machines must see it"
+                              : "folder of the results; several recordings get folders in it")
+      ->type_name("DIR")
+      ->group(group);
+  app.add_option("--what", texts.what,
+                 "results of each pair: disparity, depth, color, confidence, cloud, rectified (the "
+                 "views that are matched), stats. The "
+                 "figures of each pair (stats) are always written")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(products))
+      ->group(group);
+  app.add_option("--format", texts.format,
+                 "mkv: one lossless video (FFV1); png: pictures of 16 bits; pfm: pictures with "
+                 "floating-point numbers (px, m)")
+      ->check(CLI::IsMember(names_of(kFormats)))
+      ->capture_default_str()
+      ->group(group);
+  CLI::Option* const resume =
+      app.add_flag("--resume", options.resume,
+                   options.plan ? "plan again, and keep what is prepared and done"
+                                : "continue a run that was interrupted")
+          ->group(group);
+  app.add_flag("--overwrite", options.overwrite,
+               options.plan ? "remove the plan in the folder and its results"
+                            : "replace the results in the folder")
+      ->excludes(resume)
+      ->group(group);
+  app.add_flag("--quiet", options.quiet, "print no progress")->group(group);
+  add_limits(app, options.work, group);
+}
+
+std::string value_name(const ParameterInfo& info) {
+  if (info.type == ParameterType::kChoice) return info.choices;
+  if (info.type == ParameterType::kBoolean) return "true|false";
+  if (info.type == ParameterType::kLevels) return "LEVELS";
+  return *info.unit == '\0' ? "NUMBER" : info.unit;
+}
+
+void add_parameter(CLI::App& app, Texts& texts, const std::string& name, const std::string& help,
+                   const std::string& type) {
+  app.add_option_function<std::string>(
+         "--" + name, [&texts, name](const std::string& text) { texts.parameters[name] = text; },
+         help)
+      ->type_name(type)
+      ->group("Matcher parameters");
+}
+
+void add_parameters(CLI::App& app, Texts& texts) {
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.id == Parameter::kThreads) {
+      add_parameter(
+          app, texts, info.name,
+          "threads that match, 0 = one for each processor; they do pairs side by side, and "
+          "the result does not depend on them [default: 0]",
+          "NUMBER");
+      continue;
+    }
+    const bool is_range = info.id == Parameter::kMaxDisparity;
+    const std::string range = is_range ? ", or that of the data set; auto: by the recording" : "";
+    add_parameter(
+        app, texts, info.name,
+        std::string(info.help) + " [default: " + parameter_defaults_text(info.id) + range + "]",
+        is_range ? "px|auto" : value_name(info));
+  }
+  add_parameter(app, texts, "disparity-scale",
+                "steps per px of the maps [default: 256, or as many as fit the search range]",
+                "NUMBER");
+  add_parameter(app, texts, "alignment",
+                "correct: measure the rows of the right view that are out of place once, and "
+                "correct them in all pairs [default: correct; preset paper: off]",
+                "off|correct");
+  add_parameter(app, texts, "sharpness",
+                "match: blur the sharper view like the other one [default: match; preset paper: "
+                "keep]",
+                "keep|match");
+}
+
+void apply_sync(const Texts& texts, Options& options) {
+  if (texts.sync == "auto") {
+    options.estimate = true;
+  } else if (texts.sync != "none") {
+    double offset = 0;
+    if (!CLI::detail::lexical_cast(texts.sync, offset) || !(std::abs(offset) < kLongestOffset)) {
+      throw CLI::ValidationError("--sync", "'" + texts.sync + "' is not auto, none or seconds");
+    }
+    options.relation = ClockRelation{offset, 1e-6 * texts.drift};
+  }
+  if (texts.drift != 0 && !options.relation) {
+    throw CLI::ValidationError("--drift", "needs --sync SECONDS");
+  }
+}
+
+void apply(const Texts& texts, Options& options) {
+  if (!texts.layout.empty()) options.input.arrangement = kLayouts.at(texts.layout);
+  if (!texts.rectified.empty()) options.input.rectified = texts.rectified == "yes";
+  apply_shape(texts, options.input.shape);
+  apply_sync(texts, options);
+  WorkOptions& work = options.work;
+  work.products.clear();
+  for (const std::string& name : texts.what) {
+    if (name == kStats) continue;
+    for (const Product product : kProducts.at(name)) {
+      if (!makes(work, product)) work.products.push_back(product);
+    }
+  }
+  if (work.far && *work.far > 0 && work.near >= *work.far) {
+    throw CLI::ValidationError("--near", "must be less than --far");
+  }
+  work.format = kFormats.at(texts.format);
+  for (const auto& [name, value] : texts.parameters) {
+    if (name == "threads") continue;
+    work.parameters.emplace_back(name, value);
+  }
+  const auto threads = texts.parameters.find("threads");
+  if (threads != texts.parameters.end()) {
+    Parameters parameters;
+    const Status status = parameters.set(Parameter::kThreads, threads->second);
+    if (!status) throw CLI::ValidationError("--threads", status.error().message);
+    work.threads = parameters.integer(Parameter::kThreads);
+  }
+  try {
+    matcher_parameters(work);
+  } catch (const RunError& error) {
+    throw CLI::ValidationError(error.what());
+  }
+}
+
+std::string examples(bool plan) {
+  if (plan) {
+    return "Examples:\n"
+           "  mtstereo-run plan archive --out results --what disparity,depth\n"
+           "  mtstereo-run plan archive --out results --resume\n\n";
+  }
+  return "Examples:\n"
+         "  mtstereo-run left.mp4 right.mp4 --out result\n"
+         "  mtstereo-run left.mp4 right.mp4 --max-disparity auto --sync auto --out result\n"
+         "  mtstereo-run both.mp4 --calibration stereo.yaml --what depth,cloud --far 40 --out "
+         "meters\n"
+         "  mtstereo-run left right --rate 24 --format png --what disparity,rectified --out "
+         "pictures\n\n";
+}
+
+void describe(CLI::App& app, bool plan) {
+  app.set_version_flag("--version", MTSTEREO_VERSION);
+  app.failure_message(options::failure_message);
+  app.formatter(std::make_shared<HelpFormatter>(
+      plan ? "mtstereo-run plan INPUT [INPUT] --out DIR [OPTIONS]"
+           : "mtstereo-run INPUT [INPUT] --out DIR [OPTIONS]\n"
+             "       mtstereo-run plan|task|merge|slurm ...    (archives with many machines; each "
+             "has its own --help)"));
+  app.footer(
+      examples(plan) +
+      std::string(plan ? "An interrupted call can be repeated: recordings that are prepared are "
+                         "kept.\n"
+                       : "") +
+      "Exit status: 0 = everything was done, 1 = nothing was done, and the reason is printed, 2 = "
+      "the command is invalid, 3 = a part was done: inputs that cannot be used, or that are "
+      "damaged, were printed, 4 = the results are of no use: views exchanged, at other times or "
+      "not "
+      "rectified, or disparities for less than 5 % of the pixels; the remedy was printed.");
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, const char* const* argv) {
+  Options options;
+  Texts texts;
+  options.plan = argc > 1 && std::string(argv[1]) == "plan";
+  CLI::App app{options.plan
+                   ? "Divides the recordings of an archive into tasks, for mtstereo-run task, "
+                     "merge and slurm."
+                   : "Computes disparities, depths, clouds and figures of recordings of two "
+                     "cameras."};
+  describe(app, options.plan);
+  add_inputs(app, texts, options);
+  add_outputs(app, texts, options);
+  app.add_option("--jobs", options.jobs,
+                 options.plan ? "recordings that are prepared at the same time"
+                              : "processes that do pieces of the recordings at the same time")
+      ->check(CLI::Range(1, kMostJobs).description(""))
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_flag("--list", options.list, "print the recordings that are found, and exit");
+  if (options.plan) add_plan_options(app, options.plan_options);
+  add_parameters(app, texts);
+  try {
+    // The parser sees the arguments after the name of the program.
+    app.parse(options.plan ? argc - 1 : argc, options.plan ? std::next(argv) : argv);
+    apply(texts, options);
+    if (options.folder.empty() && !options.list) throw CLI::RequiredError("--out");
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for = error.get_exit_code() == 0;  // --help, --version
+    outputs::print_parse_error(app, error);
+    return {std::nullopt, asked_for ? kDone : kWrongUsage};
+  }
+  options.plan_options.folder = options.folder;
+  options.plan_options.jobs = options.jobs;
+  return {std::move(options), kDone};
+}
+
+}  // namespace mtstereo::run

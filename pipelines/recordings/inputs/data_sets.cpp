@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "recordings/inputs/data_sets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <map>
+#include <utility>
+
+#include "recordings/inputs/file_names.hpp"
+#include "recordings/inputs/picture_lists.hpp"
+#include "recordings/inputs/run_error.hpp"
+
+namespace mtstereo::run {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kSecond = 1e9;    // [ns]
+constexpr double kKittiRate = 10;  // of all sequences [1/s]
+constexpr int kEth3dRange = 64;    // the largest disparity of the data set [px]
+
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::vector<std::string> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
+    if (!line.empty()) lines.push_back(line);
+  }
+  return lines;
+}
+
+// "0.000000e+00" in seconds, or "2011-09-26 13:02:25.964389445".
+std::optional<Nanoseconds> parse_time(const std::string& line) {
+  std::tm date{};
+  double seconds = 0;
+  if (std::sscanf(line.c_str(), "%d-%d-%d %d:%d:%lf", &date.tm_year, &date.tm_mon, &date.tm_mday,
+                  &date.tm_hour, &date.tm_min, &seconds) == 6) {
+    date.tm_year -= 1900;
+    date.tm_mon -= 1;
+    const std::time_t minutes = timegm(&date);
+    return static_cast<Nanoseconds>(minutes) * 1'000'000'000 + std::llround(seconds * kSecond);
+  }
+  const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), seconds);
+  if (error != std::errc() || !std::isfinite(seconds)) return std::nullopt;
+  return std::llround(seconds * kSecond);
+}
+
+// The times of a file with a line per frame; none if it is missing or damaged.
+std::vector<Nanoseconds> times_in(const fs::path& file) {
+  std::vector<Nanoseconds> times;
+  for (const std::string& line : lines_of(file)) {
+    const std::optional<Nanoseconds> time = parse_time(line);
+    if (!time) return {};
+    times.push_back(*time);
+  }
+  return times;
+}
+
+// The pictures whose number has a line in the file of times.
+Source with_times(Recording& recording, const std::vector<fs::path>& pictures,
+                  const std::vector<Nanoseconds>& times) {
+  Source source;
+  for (const fs::path& picture : pictures) {
+    const std::optional<std::int64_t> number = frame_number(picture);
+    if (!number || *number >= static_cast<std::int64_t>(times.size())) {
+      recording.remarks.push_back(picture.string() +
+                                  " is left out: the file of times has no line for it.");
+      continue;
+    }
+    source.pictures.push_back(picture);
+    source.times.push_back(times[static_cast<std::size_t>(*number)] - times.front());
+  }
+  return source;
+}
+
+// The pictures of a camera of KITTI raw, with or without the folder data.
+std::vector<fs::path> pictures_of_camera(const fs::path& folder) {
+  std::vector<fs::path> pictures = pictures_in(folder / "data");
+  return pictures.empty() ? pictures_in(folder) : pictures;
+}
+
+struct Cameras {
+  const char *left, *right, *choice;
+};
+
+// The cameras of which both have pictures; color first.
+std::optional<Cameras> cameras_in(const fs::path& folder, const std::array<Cameras, 2>& known) {
+  for (const Cameras& cameras : known) {
+    if (!pictures_of_camera(folder / cameras.left).empty() &&
+        !pictures_of_camera(folder / cameras.right).empty()) {
+      return cameras;
+    }
+  }
+  return std::nullopt;
+}
+
+// Sets pictures by a file of times for both views, or by the rate of KITTI.
+void set_kitti_pictures(Recording& recording, const fs::path& left, const fs::path& right,
+                        const fs::path& left_times, const fs::path& right_times) {
+  const std::vector<fs::path> left_pictures = pictures_of_camera(left);
+  const std::vector<fs::path> right_pictures = pictures_of_camera(right);
+  const std::vector<Nanoseconds> times = times_in(left_times);
+  const std::vector<Nanoseconds> other = left_times == right_times ? times : times_in(right_times);
+  if (times.empty() || other.empty()) {
+    recording.remarks.push_back(left_times.string() +
+                                " is missing or damaged: 10 pictures per second are assumed.");
+    set_pictures(recording, left_pictures, right_pictures, kKittiRate);
+    return;
+  }
+  const Nanoseconds shift = other.front() - times.front();
+  Source right_source = with_times(recording, right_pictures, other);
+  for (Nanoseconds& time : right_source.times) time += shift;
+  const Source left_source = with_times(recording, left_pictures, times);
+  set_timed_pictures(recording, left_source, right_source);
+}
+
+// The names of pictures by their times, from data.csv.
+Source euroc_source(Recording& recording, const fs::path& camera) {
+  Source source;
+  std::size_t missing = 0;
+  for (const std::string& line : lines_of(camera / "data.csv")) {
+    if (line.starts_with('#')) continue;
+    const std::size_t comma = line.find(',');
+    Nanoseconds time = 0;
+    const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), time);
+    if (error != std::errc() || comma == std::string::npos) {
+      throw RunError((camera / "data.csv").string() + ": the line '" + line +
+                     "' is not 'TIME,NAME'");
+    }
+    const std::size_t begin = line.find_first_not_of(" \t", comma + 1);
+    const fs::path picture =
+        camera / "data" / (begin == std::string::npos ? "" : line.substr(begin));
+    if (!fs::is_regular_file(picture)) {
+      ++missing;
+      continue;
+    }
+    source.pictures.push_back(picture);
+    source.times.push_back(time);
+  }
+  if (missing > 0) {
+    recording.remarks.push_back((camera / "data.csv").string() + " names " +
+                                std::to_string(missing) + " pictures that do not exist.");
+  }
+  return source;
+}
+
+void start_at_zero(Source& left, Source& right) {
+  const Nanoseconds first = std::min(left.times.front(), right.times.front());
+  for (Source* source : {&left, &right}) {
+    for (Nanoseconds& time : source->times) time -= first;
+  }
+}
+
+bool has_entry(const fs::path& file, const std::string& key) {
+  const std::vector<std::string> lines = lines_of(file);
+  return std::any_of(lines.begin(), lines.end(),
+                     [&key](const std::string& line) { return line.starts_with(key + "="); });
+}
+
+std::optional<int> entry_of(const fs::path& file, const std::string& key) {
+  for (const std::string& line : lines_of(file)) {
+    if (!line.starts_with(key + "=")) continue;
+    int value = 0;
+    const char* begin = line.data() + key.size() + 1;
+    const auto [stop, error] = std::from_chars(begin, line.data() + line.size(), value);
+    if (error == std::errc() && value > 0) return value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string folder_name(const fs::path& folder) {
+  std::error_code error;
+  fs::path whole = fs::absolute(folder, error).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  const std::string name = whole.filename().string();
+  return name.empty() || name == "/" ? "recording" : name;
+}
+
+std::optional<FoundRecording> find_kitti_odometry(const fs::path& folder) {
+  constexpr std::array<Cameras, 2> kKnown{
+      {{"image_2", "image_3", ""}, {"image_0", "image_1", "#gray"}}};
+  const fs::path calibration = folder / "calib.txt", times = folder / "times.txt";
+  const std::optional<Cameras> cameras = cameras_in(folder, kKnown);
+  if (!cameras || (!is_there(calibration) && !is_there(times))) return std::nullopt;
+  FoundRecording found;
+  Recording& recording = found.recording;
+  recording.name = folder_name(folder);
+  recording.kind = "KITTI odometry sequence";
+  set_kitti_pictures(recording, folder / cameras->left, folder / cameras->right, times, times);
+  if (is_there(calibration)) found.calibrations.push_back(calibration.string() + cameras->choice);
+  found.used_folders = folders_in(folder);
+  return found;
+}
+
+std::optional<FoundRecording> find_kitti_raw(const fs::path& folder) {
+  constexpr std::array<Cameras, 2> kKnown{
+      {{"image_02", "image_03", "#color"}, {"image_00", "image_01", "#gray"}}};
+  const std::optional<Cameras> cameras = cameras_in(folder, kKnown);
+  if (!cameras) return std::nullopt;
+  const fs::path left = folder / cameras->left, right = folder / cameras->right;
+  const fs::path own = folder / "calib_cam_to_cam.txt";
+  const fs::path of_day = fs::absolute(folder).lexically_normal() / ".." / "calib_cam_to_cam.txt";
+  const fs::path calibration = is_there(own) ? own : of_day.lexically_normal();
+  if (!is_there(calibration) && !is_there(left / "timestamps.txt")) return std::nullopt;
+  FoundRecording found;
+  Recording& recording = found.recording;
+  recording.name = folder_name(folder);
+  recording.kind = "KITTI raw drive";
+  // The frames of a synchronized drive with the same number belong together, whatever the time
+  // stamps of the cameras.
+  const bool synchronized = !recording.name.ends_with("_extract");
+  set_kitti_pictures(recording, left, right, left / "timestamps.txt",
+                     (synchronized ? left : right) / "timestamps.txt");
+  if (is_there(calibration)) found.calibrations.push_back(calibration.string() + cameras->choice);
+  found.used_folders = folders_in(folder);
+  return found;
+}
+
+std::optional<FoundRecording> find_euroc(const fs::path& folder) {
+  const fs::path base = is_there(folder / "mav0") ? folder / "mav0" : folder;
+  const fs::path left = base / "cam0", right = base / "cam1";
+  if (!is_there(left / "data.csv") || !is_there(right / "data.csv")) return std::nullopt;
+  FoundRecording found;
+  Recording& recording = found.recording;
+  const bool is_inner = folder_name(folder) == "mav0";
+  recording.name = folder_name(is_inner ? fs::absolute(folder).parent_path() : folder);
+  recording.kind = "EuRoC (ASL) sequence";
+  Source left_source = euroc_source(recording, left), right_source = euroc_source(recording, right);
+  if (left_source.empty() || right_source.empty()) {
+    throw RunError((left_source.empty() ? left : right).string() +
+                   ": data.csv names no picture that exists in data");
+  }
+  start_at_zero(left_source, right_source);
+  set_timed_pictures(recording, left_source, right_source);
+  if (is_there(left / "sensor.yaml") && is_there(right / "sensor.yaml")) {
+    found.calibrations.push_back((left / "sensor.yaml").string() + "," +
+                                 (right / "sensor.yaml").string());
+  }
+  found.used_folders = folders_in(folder);
+  return found;
+}
+
+std::optional<FoundRecording> find_pair_folder(const fs::path& folder) {
+  const fs::path left = folder / "im0.png", right = folder / "im1.png";
+  if (!is_there(left) && !is_there(right)) return std::nullopt;
+  FoundRecording found;
+  Recording& recording = found.recording;
+  recording.name = folder_name(folder);
+  for (const fs::path& picture : {left, right}) {
+    if (!is_there(picture)) throw RunError(picture.string() + ": no such file");
+    const std::string problem = picture_problem(picture);
+    if (!problem.empty()) throw RunError(picture.string() + ": the picture " + problem);
+  }
+  recording.left.pictures = {left};
+  recording.right.pictures = {right};
+  recording.frame_rate = 1;
+  const fs::path calibration = folder / "calib.txt";
+  recording.max_disparity = entry_of(calibration, "ndisp");
+  const std::optional<int> width = entry_of(calibration, "width");
+  const std::string& name = recording.name;
+  const bool is_eth3d =
+      name.size() > 3 && name[name.size() - 3] == '_' && (name.back() == 'l' || name.back() == 's');
+  recording.kind = is_eth3d ? "ETH3D pair" : "Middlebury pair";
+  // ETH3D states the width of the image, which is no limit.
+  if (is_eth3d && (!recording.max_disparity || !width || *recording.max_disparity >= *width)) {
+    recording.max_disparity = kEth3dRange;
+  }
+  // Older sets have a calib.txt without cameras, for the range of disparities.
+  if (has_entry(calibration, "cam0")) found.calibrations.push_back(calibration.string());
+  found.used_folders = folders_in(folder);
+  return found;
+}
+
+}  // namespace mtstereo::run

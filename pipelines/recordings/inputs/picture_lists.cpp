@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "recordings/inputs/picture_lists.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "recordings/inputs/file_names.hpp"
+#include "recordings/inputs/run_error.hpp"
+
+namespace mtstereo::run {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kSecond = 1e9;  // [ns]
+
+// The last digits of a name.
+std::string digits_of(const fs::path& picture) {
+  const std::string stem = picture.stem().string();
+  const std::size_t end = stem.find_last_of("0123456789");
+  if (end == std::string::npos) return {};
+  const std::size_t before = stem.find_last_not_of("0123456789", end);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  return stem.substr(begin, end - begin + 1);
+}
+
+std::string bytes_of(const fs::path& file, std::int64_t from_end, std::size_t count) {
+  std::ifstream stream(file, std::ios::binary);
+  if (from_end > 0) {
+    stream.seekg(0, std::ios::end);
+    stream.seekg(-std::min<std::int64_t>(from_end, stream.tellg()), std::ios::end);
+  }
+  std::string bytes(count, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
+}
+
+using Numbers = std::vector<std::int64_t>;
+
+// The numbers of pictures, if they increase.
+Numbers numbers_of(const std::vector<fs::path>& pictures) {
+  Numbers numbers;
+  for (const fs::path& picture : pictures) {
+    const std::optional<std::int64_t> number = frame_number(picture);
+    if (!number || (!numbers.empty() && *number <= numbers.back())) return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+// Names without numbers: the place of each name among all of them.
+std::pair<Numbers, Numbers> places_of(const std::vector<fs::path>& left,
+                                      const std::vector<fs::path>& right) {
+  std::map<std::string, std::int64_t> places;
+  for (const fs::path& picture : left) places[picture.stem().string()] = 0;
+  for (const fs::path& picture : right) places[picture.stem().string()] = 0;
+  std::int64_t place = 0;
+  for (auto& each : places) each.second = place++;
+  const auto place_of = [&places](const std::vector<fs::path>& pictures) {
+    Numbers numbers;
+    for (const fs::path& picture : pictures) numbers.push_back(places[picture.stem().string()]);
+    return numbers;
+  };
+  return {place_of(left), place_of(right)};
+}
+
+// Whether more than half of the frames of the shorter list are in the other one.
+bool fit(const Numbers& left, const Numbers& right) {
+  if (left.empty() || right.empty()) return false;
+  const std::set<std::int64_t> in_left(left.begin(), left.end());
+  const auto common = std::count_if(right.begin(), right.end(), [&in_left](std::int64_t number) {
+    return in_left.contains(number);
+  });
+  return 2 * static_cast<std::size_t>(common) > std::min(left.size(), right.size());
+}
+
+bool successive(const Numbers& numbers) {
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    if (numbers[i] != numbers[i - 1] + 1) return false;
+  }
+  return true;
+}
+
+// The numbers from 0 on, with the distance of 1 that most data sets have, also if only each tenth
+// frame was stored.
+void normalize(Numbers& left, Numbers& right) {
+  const std::int64_t left_least = *std::min_element(left.begin(), left.end());
+  const std::int64_t least =
+      right.empty() ? left_least
+                    : std::min(left_least, *std::min_element(right.begin(), right.end()));
+  std::int64_t step = 0;
+  for (const Numbers* numbers : {&left, &right}) {
+    for (const std::int64_t number : *numbers) step = std::gcd(step, number - least);
+  }
+  for (Numbers* numbers : {&left, &right}) {
+    for (std::int64_t& number : *numbers)
+      number = (number - least) / std::max<std::int64_t>(step, 1);
+  }
+}
+
+std::vector<Nanoseconds> times_of(const Numbers& numbers, double frame_rate) {
+  std::vector<Nanoseconds> times;
+  times.reserve(numbers.size());
+  for (const std::int64_t number : numbers) {
+    times.push_back(std::llround(static_cast<double>(number) * kSecond / frame_rate));
+  }
+  return times;
+}
+
+// The frames of two lists of which some have the same number.
+std::pair<Numbers, Numbers> common_numbers(Recording& recording, const std::vector<fs::path>& left,
+                                           const std::vector<fs::path>& right) {
+  std::pair<Numbers, Numbers> numbers{numbers_of(left), numbers_of(right)};
+  if (fit(numbers.first, numbers.second)) return numbers;
+  numbers = places_of(left, right);
+  if (fit(numbers.first, numbers.second)) return numbers;
+  numbers.first.resize(left.size());
+  numbers.second.resize(right.size());
+  std::iota(numbers.first.begin(), numbers.first.end(), 0);
+  std::iota(numbers.second.begin(), numbers.second.end(), 0);
+  recording.remarks.push_back(
+      "The names of the left and right pictures have no numbers in common: the n-th of both are a "
+      "pair" +
+      (left.size() == right.size() ? "."
+                                   : ", with " + std::to_string(left.size()) + " left and " +
+                                         std::to_string(right.size()) + " right pictures."));
+  return numbers;
+}
+
+// The times in the names of both lists, from the first one on. False if they state none.
+bool set_times_of_names(Source& left, Source& right) {
+  for (Source* source : {&left, &right}) {
+    source->times.clear();
+    for (const fs::path& picture : source->pictures) {
+      const std::optional<Nanoseconds> time = time_in_name(picture);
+      if (!time || (!source->times.empty() && *time <= source->times.back())) return false;
+      source->times.push_back(*time);
+    }
+  }
+  Nanoseconds first = left.times.front();
+  if (!right.times.empty()) first = std::min(first, right.times.front());
+  for (Source* source : {&left, &right}) {
+    for (Nanoseconds& time : source->times) time -= first;
+  }
+  return true;
+}
+
+// Removes what cannot be read, and what has no later time than its predecessor.
+void remove_broken(Recording& recording, Source& source) {
+  Source good;
+  for (std::size_t i = 0; i < source.pictures.size(); ++i) {
+    std::string problem = picture_problem(source.pictures[i]);
+    if (problem.empty() && !good.times.empty() && source.times[i] <= good.times.back()) {
+      problem = "has no later time than its predecessor";
+    }
+    if (problem.empty()) {
+      good.pictures.push_back(source.pictures[i]);
+      good.times.push_back(source.times[i]);
+    } else {
+      recording.remarks.push_back(source.pictures[i].string() + " is left out: it " + problem +
+                                  ".");
+    }
+  }
+  const std::size_t left_out = source.pictures.size() - good.pictures.size();
+  if (left_out > 0) {
+    good.damage = std::to_string(left_out) + " of " + std::to_string(source.pictures.size()) +
+                  (left_out == 1 ? " pictures is left out" : " pictures are left out");
+  }
+  if (good.pictures.empty() && !source.pictures.empty()) {
+    throw RunError(source.pictures.front().parent_path().string() +
+                   ": no picture can be read: the first one " +
+                   picture_problem(source.pictures.front()));
+  }
+  source = std::move(good);
+}
+
+}  // namespace
+
+std::optional<std::int64_t> frame_number(const fs::path& picture) {
+  const std::string digits = digits_of(picture);
+  std::int64_t number = 0;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return error == std::errc() ? std::optional(number) : std::nullopt;
+}
+
+std::optional<Nanoseconds> time_in_name(const fs::path& picture) {
+  const std::optional<std::int64_t> number = frame_number(picture);
+  const std::string digits = digits_of(picture);
+  if (!number || digits.starts_with('0')) return std::nullopt;
+  switch (digits.size()) {
+    case 19:
+      return number;
+    case 16:
+      return *number * 1000;
+    case 13:
+      return *number * 1'000'000;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::string picture_problem(const fs::path& picture) {
+  const std::string head = bytes_of(picture, 0, 8);
+  if (head.empty()) return "is empty or cannot be read";
+  const std::string extension = extension_of(picture);
+  if (extension == ".png") {
+    if (!head.starts_with("\x89PNG")) return "is no PNG file";
+    if (bytes_of(picture, 64, 64).find("IEND") == std::string::npos) return "is truncated";
+  }
+  if (extension == ".jpg" || extension == ".jpeg") {
+    if (!head.starts_with("\xff\xd8")) return "is no JPEG file";
+    constexpr std::size_t kEnd = 4096;  // some cameras write more after the end of the picture
+    if (bytes_of(picture, kEnd, kEnd).find("\xff\xd9") == std::string::npos) return "is truncated";
+  }
+  return "";
+}
+
+void set_pictures(Recording& recording, const std::vector<fs::path>& left,
+                  const std::vector<fs::path>& right, double frame_rate) {
+  if (!(frame_rate > 0)) throw RunError("the frame rate of pictures must be above 0");
+  Source left_source{{}, left, {}}, right_source{{}, right, {}};
+  bool needs_times = true;
+  if (!set_times_of_names(left_source, right_source)) {
+    auto [left_numbers, right_numbers] = right.empty() ? std::pair(numbers_of(left), Numbers())
+                                                       : common_numbers(recording, left, right);
+    if (left_numbers.empty()) {
+      left_numbers.resize(left.size());
+      std::iota(left_numbers.begin(), left_numbers.end(), 0);
+    }
+    normalize(left_numbers, right_numbers);
+    needs_times = !successive(left_numbers) || left_numbers.front() != 0 ||
+                  (!right.empty() && left_numbers != right_numbers);
+    left_source.times = times_of(left_numbers, frame_rate);
+    right_source.times = times_of(right_numbers, frame_rate);
+  }
+  set_timed_pictures(recording, left_source, right_source);
+  needs_times |= recording.left.pictures.size() != left.size() ||
+                 recording.right.pictures.size() != right.size();
+  if (needs_times) return;
+  recording.left.times.clear();
+  recording.right.times.clear();
+  recording.frame_rate = frame_rate;
+}
+
+void set_timed_pictures(Recording& recording, const Source& left, const Source& right) {
+  recording.left = left;
+  recording.right = right;
+  remove_broken(recording, recording.left);
+  remove_broken(recording, recording.right);
+}
+
+}  // namespace mtstereo::run

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "recordings/inputs/recording.hpp"
+
+#include <linux/magic.h>
+#include <sys/vfs.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "lib/outputs/printable.hpp"
+#include "recordings/inputs/file_names.hpp"
+#include "recordings/inputs/run_error.hpp"
+#include "recordings/inputs/search.hpp"
+#include "recordings/matching/json.hpp"
+#include "recordings/plan/plan_folder.hpp"
+
+namespace mtstereo::run {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+// Folders such as /proc never end.
+bool is_of_kernel(const fs::path& folder) {
+  struct statfs found = {};
+  if (statfs(folder.c_str(), &found) != 0) return false;
+  return found.f_type == PROC_SUPER_MAGIC || found.f_type == SYSFS_MAGIC;
+}
+
+// What a folder has that is not the recording.
+Recording only_recording(const std::string& folder, FolderContents contents) {
+  if (contents.recordings.empty()) {
+    if (contents.problems.empty()) {
+      throw RunError(folder + ": no recording is in this folder");
+    }
+    throw RunError(contents.problems.front().input + ": " + contents.problems.front().reason);
+  }
+  if (contents.recordings.size() > 1) {
+    throw RunError(folder + ": there are " + std::to_string(contents.recordings.size()) +
+                   " recordings, such as " + contents.recordings[0].name + " and " +
+                   contents.recordings[1].name + ": give one of them, or plan all");
+  }
+  Recording recording = std::move(contents.recordings.front());
+  for (const Problem& problem : contents.problems) {
+    recording.remarks.push_back(problem.input + " is not used: " + problem.reason);
+  }
+  return recording;
+}
+
+// The name of a recording in an archive: its path in it.
+std::string name_in(const fs::path& archive, const fs::path& folder, const std::string& name) {
+  const fs::path below = folder.lexically_relative(archive).lexically_normal();
+  std::string result;
+  for (const fs::path& part : below) {
+    if (part == "." || part.empty()) continue;
+    result += (result.empty() ? "" : "-") + outputs::printable(part.string());
+  }
+  if (result.empty()) return name;
+  return name == outputs::printable(folder_name(folder)) ? result : result + "-" + name;
+}
+
+class ArchiveSearch {
+ public:
+  ArchiveSearch(fs::path archive, const InputOptions& options, std::vector<Problem>& problems)
+      : archive_(std::move(archive)), options_(options), problems_(problems) {}
+
+  void enter(const fs::path& folder) {
+    std::error_code error;
+    if (is_of_kernel(folder)) {
+      problems_.push_back({folder.string(), "has files of the kernel, and no recordings"});
+      return;
+    }
+    const fs::path real = fs::canonical(folder, error);
+    const bool is_new = std::find(entered_.begin(), entered_.end(), real) == entered_.end();
+    if (error || !is_new || is_result(folder)) return;
+    entered_.push_back(real);
+    FolderContents contents = search_folder(folder, options_, false);
+    for (Recording& recording : contents.recordings) {
+      recording.name = name_in(archive_, folder, recording.name);
+      recordings_.push_back(std::move(recording));
+    }
+    problems_.insert(problems_.end(), contents.problems.begin(), contents.problems.end());
+    for (const fs::path& inner : folders_in(folder)) {
+      const auto& used = contents.used_folders;
+      if (std::find(used.begin(), used.end(), inner) == used.end()) enter(inner);
+    }
+  }
+
+  std::vector<Recording> take() {
+    std::stable_sort(recordings_.begin(), recordings_.end(),
+                     [](const Recording& a, const Recording& b) { return a.name < b.name; });
+    make_names_unique();
+    return std::move(recordings_);
+  }
+
+ private:
+  // Folders of results of earlier runs are no recordings.
+  static bool is_result(const fs::path& folder) {
+    std::error_code error;
+    return fs::exists(folder / kRunFile, error) || fs::exists(PlanFolder(folder).plan(), error);
+  }
+
+  void make_names_unique() {
+    constexpr std::size_t kLongest = 200;  // of 255 that file systems allow
+    std::vector<std::string> names;
+    for (Recording& recording : recordings_) {
+      if (recording.name.size() > kLongest) {
+        recording.name = outputs::printable(recording.name.substr(0, kLongest));
+      }
+      const std::string name = recording.name;
+      for (int i = 2; std::find(names.begin(), names.end(), recording.name) != names.end(); ++i) {
+        recording.name = name + "-" + std::to_string(i);
+      }
+      names.push_back(recording.name);
+    }
+  }
+
+  fs::path archive_;
+  const InputOptions& options_;
+  std::vector<Problem>& problems_;
+  std::vector<Recording> recordings_;
+  std::vector<fs::path> entered_;
+};
+
+}  // namespace
+
+Recording recognize(const std::vector<std::string>& inputs, const InputOptions& options) {
+  if (inputs.empty() || inputs.size() > 2) {
+    throw RunError("a recording is one input, or two: left and right; there are " +
+                   std::to_string(inputs.size()));
+  }
+  const std::string& left = inputs.front();
+  if (inputs.size() == 2) {
+    // The left one first, so that its error is the one that is stated if both are wrong.
+    const Source first = source_of(left);
+    return completed(recording_of(first, source_of(inputs[1]), options), options);
+  }
+  if (is_folder(left)) return only_recording(left, search_folder(left, options, true));
+  return completed(recording_of(source_of(left), {}, options), options);
+}
+
+std::vector<Recording> find_recordings(const fs::path& archive, const InputOptions& options,
+                                       std::vector<Problem>& problems) {
+  std::error_code error;
+  const fs::directory_iterator readable(archive, error);
+  if (error) throw RunError(archive.string() + ": the folder cannot be read: " + error.message());
+  if (is_of_kernel(archive)) {
+    throw RunError(archive.string() + ": has files of the kernel, and no recordings");
+  }
+  ArchiveSearch search(archive, options, problems);
+  search.enter(archive);
+  return search.take();
+}
+
+}  // namespace mtstereo::run

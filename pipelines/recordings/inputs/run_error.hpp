@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "lib/outputs/printable.hpp"
+
+namespace mtstereo::run {
+
+/// An input, an option or a folder of results that cannot be used. The message names it, and states
+/// the reason and what to do.
+class RunError : public std::runtime_error {
+ public:
+  explicit RunError(const std::string& what) : std::runtime_error(outputs::printable(what)) {}
+};
+
+/// A file of the results that cannot be written, such as on a full disk. The same run can be
+/// continued when the cause is gone.
+class WriteError : public RunError {
+ public:
+  using RunError::RunError;
+};
+
+/// By errno.
+inline WriteError write_error(const std::filesystem::path& file) {
+  return WriteError(file.string() + ": cannot be written" +
+                    (errno == 0 ? "" : ": " + std::generic_category().message(errno)));
+}
+
+}  // namespace mtstereo::run

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "recordings/inputs/data_sets.hpp"
+#include "recordings/inputs/recording.hpp"
+
+namespace mtstereo::run {
+
+/// What is in a folder, without the folders in it that are not part of a recording.
+struct FolderContents {
+  std::vector<Recording> recordings;
+  std::vector<Problem> problems;
+  std::vector<std::filesystem::path> used_folders;  ///< in which nothing else is searched
+};
+
+/// Searches a folder. `asked`: the user has named it, so that pictures of any kind in it count.
+FolderContents search_folder(const std::filesystem::path& folder, const InputOptions& options,
+                             bool asked);
+
+/// Looks at the first frames: checks the sizes, finds the arrangement of one source, and chooses
+/// the calibration. Throws RunError.
+Recording completed(FoundRecording found, const InputOptions& options);
+
+/// A source by what the user gives: a video, a picture, a pattern, a folder with pictures or with
+/// one video. Pictures are not checked. Throws RunError.
+Source source_of(const std::string& input);
+
+/// A recording of one or two such sources, for completed(). Throws RunError.
+FoundRecording recording_of(const Source& left, const Source& right, const InputOptions& options);
+
+}  // namespace mtstereo::run

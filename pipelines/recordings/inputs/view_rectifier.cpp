@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "recordings/inputs/view_rectifier.hpp"
+
+#include <utility>
+
+#include "recordings/inputs/run_error.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+template <typename T>
+T value_of(Result<T> result) {
+  if (!result) throw RunError("the views cannot be rectified: " + result.error().message);
+  return std::move(*result);
+}
+
+}  // namespace
+
+ViewRectifier::ViewRectifier(StereoCalibration calibration, Rectifier::Side side)
+    : calibration_(std::move(calibration)), side_(side) {}
+
+void ViewRectifier::prepare(cv::Size size) {
+  if (rectifier_ && size == in_) return;
+  const StereoCalibration scaled =
+      value_of(scale_calibration(calibration_, size.width, size.height));
+  const Rectification rectification = value_of(rectify(scaled));
+  rectifier_ = value_of(Rectifier::create(scaled, rectification, side_));
+  in_ = size;
+  out_ = {rectification.width, rectification.height};
+}
+
+cv::Mat ViewRectifier::apply(const cv::Mat& picture) {
+  if (picture.empty()) return picture;
+  prepare(picture.size());
+  cv::Mat result(out_, CV_8UC1);
+  const Status status = rectifier_->apply(
+      {picture.data, picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step)},
+      {result.data, result.cols, result.rows, static_cast<std::ptrdiff_t>(result.step)});
+  if (!status) throw RunError("the views cannot be rectified: " + status.error().message);
+  return result;
+}
+
+}  // namespace mtstereo::run

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "recordings/matching/range_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "recordings/inputs/run_error.hpp"
+#include "recordings/matching/map_files.hpp"
+#include "recordings/matching/matching_run.hpp"
+#include "recordings/matching/view_correction.hpp"
+#include "recordings/matching/view_geometry.hpp"
+#include "recordings/matching/work_options.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+constexpr const char* kName = "max-disparity";
+constexpr int kStep = 16;              // ranges are multiples of it [px]
+constexpr double kShare = 0.998;       // of the disparities of a pair: the others may be wrong
+constexpr double kMargin = 1.1;        // nearer things between the pairs that are matched
+constexpr double kLeastDensity = 0.1;  // of views that match
+
+// Half of the width: beyond it, most of a view has no counterpart.
+int widest(const Work& work) {
+  const int width = work.geometry ? work.geometry->views.width : view_size(work).width;
+  return std::clamp(width / 2 / kStep * kStep, kStep, kLargestMaxDisparity / kStep * kStep);
+}
+
+Work inspected(const Work& work, int range) {
+  Work copy = work;
+  copy.options.products.clear();
+  copy.options.parameters = {
+      {kName, std::to_string(range)}, {"resolution", "half"}, {"disparity-scale", "16"}};
+  const std::string smallest = property_of(work.options, "min-disparity");
+  if (!smallest.empty()) copy.options.parameters.emplace_back("min-disparity", smallest);
+  const bool off = property_of(work.options, "alignment") == "off";
+  copy.correction = {{"alignment", off ? "off" : "correct"}};
+  if (!off) copy.correction.emplace_back("alignment-interval", "1");
+  return copy;
+}
+
+// What the samples show.
+struct Found {
+  int pairs = 0;       // that match
+  double largest = 0;  // [px]
+};
+
+Found inspect(const Work& work) {
+  const auto pairs = static_cast<std::int64_t>(work.pairs.pairs.size());
+  MatchingRun run(work, sample_pairs(pairs), map_pipeline(work), 1);
+  Found found;
+  bool any = false;
+  while (const std::optional<PairResult> result = run.next()) {
+    any = true;
+    FrameFigures figures;
+    measure_map(result->map.get(), figures);
+    if (figures.density < kLeastDensity) continue;
+    const double largest = disparity_below(result->map.get(), kShare);
+    found.largest = found.pairs == 0 ? largest : std::max(found.largest, largest);
+    ++found.pairs;
+  }
+  if (!any) throw RunError(work.recording.name + ": " + run.damage());
+  return found;
+}
+
+}  // namespace
+
+bool finds_range(const WorkOptions& options) {
+  return is_range_to_find(property_of(options, kName));
+}
+
+void find_range(Work& work) {
+  auto& parameters = work.options.parameters;
+  std::erase_if(parameters, [](const auto& each) { return each.first == kName; });
+  const int range = widest(work);
+  const Found found = inspect(inspected(work, range));
+  if (found.pairs == 0) {
+    work.remarks.emplace_back(
+        "The range of disparities cannot be found: the views do not match. The default range is "
+        "used; --max-disparity sets another one.");
+    return;
+  }
+  const double needed = std::max(found.largest, 1.0) * kMargin;
+  const int result = std::min(static_cast<int>(std::ceil(needed / kStep)) * kStep, range);
+  parameters.emplace_back(kName, std::to_string(result));
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "max-disparity is %d: 99.8 %% of the disparities in %d pairs are below %.1f px.",
+                result, found.pairs, found.largest);
+  work.remarks.emplace_back(text);
+}
+
+}  // namespace mtstereo::run

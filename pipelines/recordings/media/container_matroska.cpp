@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "recordings/media/container_matroska.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <optional>
+
+extern "C" {
+#include <libavutil/crc.h>
+}
+
+namespace mtstereo::run {
+namespace {
+
+constexpr std::uint64_t kSegment = 0x18538067, kCluster = 0x1F43B675, kChecksum = 0xBF;
+// A cluster has a time, blocks, groups of blocks, and few others (RFC 9559, section 5.1.3).
+constexpr std::array<std::uint64_t, 9> kInClusters{0xE7, 0xA3, 0xA0,   0xAB,     0xA7,
+                                                   0xAF, 0xEC, 0x5854, kChecksum};
+constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
+
+// Elements have a name, a length and data.
+struct Element {
+  std::uint64_t name = 0;
+  std::uint64_t data = 0;    // where it begins
+  std::uint64_t length = 0;  // kUnknown: up to the next element of the same level
+
+  std::uint64_t end() const { return length == kUnknown ? kUnknown : data + length; }
+};
+
+// A number of Matroska, whose first byte states its length. Names keep the mark of the length.
+struct Number {
+  std::uint64_t value = 0;
+  std::size_t length = 0;
+};
+
+std::optional<Number> number_in(std::string_view bytes, bool is_name) {
+  if (bytes.empty()) return std::nullopt;
+  const auto head = static_cast<unsigned char>(bytes[0]);
+  const auto length = static_cast<std::size_t>(std::countl_zero(head)) + 1;
+  if (length > (is_name ? 4 : 8) || length > bytes.size()) return std::nullopt;
+  const std::uint64_t whole = big_endian(bytes.substr(0, length));
+  const std::uint64_t bits = (std::uint64_t{1} << (7 * length)) - 1;
+  if (is_name) return Number{whole, length};
+  const bool unknown = (whole & bits) == bits;
+  return Number{unknown ? kUnknown : whole & bits, length};
+}
+
+std::optional<Element> element_at(Bytes& bytes, std::uint64_t position) {
+  const std::string head = bytes.up_to(position, 12);
+  const std::optional<Number> name = number_in(head, true);
+  if (!name) return std::nullopt;
+  const std::optional<Number> length =
+      number_in(std::string_view(head).substr(name->length), false);
+  if (!length) return std::nullopt;
+  return Element{name->value, position + name->length + length->length, length->value};
+}
+
+std::uint32_t checksum_of(Bytes& bytes, std::uint64_t from, std::uint64_t to) {
+  constexpr std::uint64_t kAtOnce = 1 << 20;
+  const AVCRC* const table = av_crc_get_table(AV_CRC_32_IEEE_LE);
+  std::uint32_t sum = ~std::uint32_t{0};
+  for (; from < to; from += kAtOnce) {
+    const std::string part = bytes.up_to(from, std::min(kAtOnce, to - from));
+    sum = av_crc(table, sum, reinterpret_cast<const std::uint8_t*>(part.data()), part.size());
+  }
+  return ~sum;
+}
+
+// Up to the first damage in the cluster.
+void check_cluster(Bytes& bytes, const Element& cluster, DamagedParts& damage) {
+  const std::optional<Element> first = element_at(bytes, cluster.data);
+  if (first && first->name == kChecksum && first->length == 4 && first->end() <= cluster.end()) {
+    const std::uint64_t stated = little_endian(bytes.at(first->data, 4));
+    if (stated == checksum_of(bytes, first->end(), cluster.end())) return;
+    return damage.add(cluster.data, "a cluster does not have the checksum that it states");
+  }
+  for (std::uint64_t at = cluster.data; at < cluster.end();) {
+    const std::optional<Element> part = element_at(bytes, at);
+    const bool known =
+        part && std::find(kInClusters.begin(), kInClusters.end(), part->name) != kInClusters.end();
+    if (!known || part->end() > cluster.end()) {
+      return damage.add(at, "a cluster has something else than blocks");
+    }
+    at = part->end();
+  }
+}
+
+// One or two wrong bits in the name: programs skip all of its frames.
+bool was_cluster(std::uint64_t name) {
+  return name != kCluster && std::popcount(name ^ kCluster) <= 2;
+}
+
+}  // namespace
+
+// Segments, and clusters of unknown length, are entered; other elements are skipped.
+std::string missing_of_matroska(Bytes& bytes) {
+  for (std::uint64_t start = 0; start < bytes.size();) {
+    if (bytes.at(start, 1) == std::string(1, '\0')) break;  // what follows is not of the container
+    const std::optional<Element> element = element_at(bytes, start);
+    if (!element) return "it ends within the header of an element";
+    const bool known = element->length != kUnknown;
+    if (known && exceeds(element->data, element->length, bytes.size())) {
+      return lacks(element->length - (bytes.size() - std::min(element->data, bytes.size())),
+                   element->name == kSegment ? "its segment" : "an element");
+    }
+    start = element->name == kSegment || !known ? element->data : element->end();
+  }
+  return "";
+}
+
+DamagedParts damage_of_matroska(Bytes& bytes) {
+  DamagedParts damage;
+  std::uint64_t segment_end = 0;
+  for (std::uint64_t start = 0; start < bytes.size();) {
+    const std::optional<Element> element = element_at(bytes, start);
+    if (!element) {
+      if (start < segment_end) damage.add(start, "there is no element of Matroska");
+      break;
+    }
+    const bool known = element->length != kUnknown;
+    if (known && exceeds(element->data, element->length, bytes.size())) {
+      if (element->name != kSegment) break;  // missing_of_matroska() states it
+    } else if (known && element->name == kCluster) {
+      check_cluster(bytes, *element, damage);
+    } else if (was_cluster(element->name)) {
+      damage.add(start, "the name of a cluster is wrong");
+    }
+    if (element->name == kSegment && known) segment_end = element->end();
+    start = element->name == kSegment || !known ? element->data : element->end();
+  }
+  return damage;
+}
+
+}  // namespace mtstereo::run

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "recordings/media/matroska.hpp"
+
+// The elements of the files of MatroskaWriter: an id, a length and the content (RFC 8794, RFC
+// 9559).
+
+namespace mtstereo::run::ebml {
+
+inline constexpr std::uint32_t kCluster = 0x1F43B675;
+inline constexpr std::uint32_t kCues = 0x1C53BB6B;
+inline constexpr std::uint32_t kTags = 0x1254C367;
+inline constexpr std::uint32_t kSimpleTag = 0x67C8;
+inline constexpr std::uint32_t kTagName = 0x45A3;
+inline constexpr std::uint32_t kTagString = 0x4487;
+inline constexpr Nanoseconds kTimeStep = 1000;  ///< of time stamps in the file [ns]
+
+/// A number of the file's format: big-endian.
+std::string big_endian(std::uint64_t value, int bytes);
+std::uint64_t from_big_endian(std::string_view bytes);
+
+/// An element whose content is text or other elements.
+std::string element(std::uint32_t id, std::string_view content);
+/// An element with a number, in as few bytes as possible or in exactly so many.
+std::string number(std::uint32_t id, std::uint64_t value, int bytes = 0);
+
+/// The first bytes of a cluster, and those of its frame before the picture.
+std::string cluster_head(std::uint64_t time, std::size_t frame);
+/// The length of cluster_head().
+inline constexpr std::size_t kClusterHead = 28;
+/// The length and the time in a cluster_head(); false if it is none.
+bool parse_cluster_head(std::string_view head, std::uint64_t& length, std::uint64_t& time);
+
+/// Everything before the first cluster. The values that are known at the end have a fixed length
+/// and place.
+struct Head {
+  std::string bytes;
+  std::size_t segment = 0;       ///< where the content of the segment begins
+  std::size_t segment_size = 0;  ///< where its length is: 8 bytes
+  std::size_t cues = 0;          ///< where the place of the cues is: 8 bytes
+  std::size_t duration = 0;      ///< where the duration is: 8 bytes
+};
+Head head_of(const MatroskaTrack& track);
+
+}  // namespace mtstereo::run::ebml

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Frames from pictures.
+
+#include <gst/app/gstappsrc.h>
+#include <gst/video/video.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
+
+#include "recordings/inputs/file_names.hpp"
+#include "recordings/inputs/run_error.hpp"
+#include "recordings/media/frame_reader.hpp"
+#include "recordings/media/jpeg_check.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+DecodedFrame missing() {
+  DecodedFrame frame;
+  frame.state = FrameState::kMissing;
+  return frame;
+}
+
+// JPEG by the decoder of pipelines: its luma is that of the file.
+class JpegDecoder {
+ public:
+  JpegDecoder()
+      // With a frame rate the decoder takes each buffer as one picture.
+      : pipeline_(parse_pipeline("appsrc name=in caps=image/jpeg,framerate=30000/1001 ! jpegdec ! "
+                                 "appsink name=out sync=false enable-last-sample=false")),
+        in_(element_of(pipeline_, "in")),
+        out_(element_of(pipeline_, "out")) {
+    gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING);
+  }
+
+  DecodedFrame decode(const std::string& bytes, std::string& problem) {
+    constexpr int kAttempts = 50;
+    GstBuffer* const buffer = gst_buffer_new_memdup(bytes.data(), bytes.size());
+    GST_BUFFER_PTS(buffer) = 0;
+    gst_app_src_push_buffer(GST_APP_SRC(in_.get()), buffer);
+    SamplePointer sample;
+    for (int i = 0; i < kAttempts && !sample; ++i) {
+      const Taken taken = take_sample(out_.get(), sample);
+      problem = posted_error(pipeline_);
+      if (taken == Taken::kEnd || !problem.empty()) break;
+    }
+    if (!sample) {
+      if (problem.empty()) problem = "it is not a whole JPEG file";
+      return missing();
+    }
+    DecodedFrame frame;
+    frame.state = FrameState::kDecoded;
+    frame.caps.reset(gst_caps_ref(gst_sample_get_caps(sample.get())));
+    frame.buffer.reset(gst_buffer_ref(gst_sample_get_buffer(sample.get())));
+    return frame;
+  }
+
+ private:
+  Pipeline pipeline_;
+  ElementPointer in_, out_;
+};
+
+// The format of an image of OpenCV; unknown if GStreamer has none.
+GstVideoFormat format_of(const cv::Mat& image) {
+  constexpr bool kLittle = G_BYTE_ORDER == G_LITTLE_ENDIAN;
+  switch (image.type()) {
+    case CV_8UC1:
+      return GST_VIDEO_FORMAT_GRAY8;
+    case CV_8UC3:
+      return GST_VIDEO_FORMAT_BGR;
+    case CV_8UC4:
+      return GST_VIDEO_FORMAT_BGRA;
+    case CV_16UC1:
+      return kLittle ? GST_VIDEO_FORMAT_GRAY16_LE : GST_VIDEO_FORMAT_GRAY16_BE;
+    case CV_16UC3:
+    case CV_16UC4:
+      return kLittle ? GST_VIDEO_FORMAT_BGRA64_LE : GST_VIDEO_FORMAT_BGRA64_BE;
+    default:
+      return GST_VIDEO_FORMAT_UNKNOWN;
+  }
+}
+
+// GStreamer has no format of three channels with 16 bits.
+cv::Mat with_alpha(const cv::Mat& image) {
+  if (image.type() != CV_16UC3) return image;
+  cv::Mat result(image.size(), CV_16UC4);
+  for (int y = 0; y < image.rows; ++y) {
+    const auto* from = image.ptr<cv::Vec3w>(y);
+    auto* to = result.ptr<cv::Vec4w>(y);
+    for (int x = 0; x < image.cols; ++x) to[x] = {from[x][0], from[x][1], from[x][2], 0xffff};
+  }
+  return result;
+}
+
+DecodedFrame frame_of(const cv::Mat& picture) {
+  const cv::Mat image = with_alpha(picture);
+  const GstVideoFormat format = format_of(image);
+  if (image.empty() || format == GST_VIDEO_FORMAT_UNKNOWN) return missing();
+  GstVideoInfo info;
+  gst_video_info_set_format(&info, format, static_cast<guint>(image.cols),
+                            static_cast<guint>(image.rows));
+  DecodedFrame frame;
+  frame.state = FrameState::kDecoded;
+  frame.caps.reset(gst_video_info_to_caps(&info));
+  frame.buffer.reset(gst_buffer_new_allocate(nullptr, info.size, nullptr));
+  for (int y = 0; y < image.rows; ++y) {
+    gst_buffer_fill(frame.buffer.get(), static_cast<gsize>(y) * info.stride[0], image.ptr(y),
+                    static_cast<gsize>(image.cols) * image.elemSize());
+  }
+  return frame;
+}
+
+class PictureReader : public FrameReader {
+ public:
+  explicit PictureReader(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
+
+  DecodedFrame read(std::int64_t number) override {
+    const std::filesystem::path& file = files_[static_cast<std::size_t>(number)];
+    problem_ = "it cannot be read";
+    const std::string extension = extension_of(file);
+    DecodedFrame frame =
+        extension == ".jpg" || extension == ".jpeg" ? read_jpeg(file) : read_other(file);
+    if (frame.state == FrameState::kMissing) problem_ = file.string() + ": " + problem_;
+    return frame;
+  }
+
+  const std::string& problem() const override { return problem_; }
+
+  std::vector<DamagedFrame> take_damaged() override { return std::exchange(damaged_, {}); }
+
+ private:
+  DecodedFrame read_jpeg(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    if (!bytes.starts_with("\xff\xd8")) {
+      problem_ = "it is not a JPEG file";
+      return missing();
+    }
+    if (!jpeg_) jpeg_ = std::make_unique<JpegDecoder>();
+    DecodedFrame frame = jpeg_->decode(bytes, problem_);
+    if (frame.state == FrameState::kMissing) jpeg_.reset();
+    const std::string damage = damage_of_jpeg(bytes);
+    if (frame.state == FrameState::kDecoded && !damage.empty()) {
+      damaged_.push_back({std::nullopt, file.string() + ": " + damage});
+    }
+    return frame;
+  }
+
+  static DecodedFrame read_other(const std::filesystem::path& file) {
+    try {
+      return frame_of(cv::imread(file.string(), cv::IMREAD_UNCHANGED));
+    } catch (const cv::Exception&) {
+      return missing();
+    }
+  }
+
+  std::vector<std::filesystem::path> files_;
+  std::unique_ptr<JpegDecoder> jpeg_;
+  std::string problem_;
+  std::vector<DamagedFrame> damaged_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameReader> open_pictures(const std::vector<std::filesystem::path>& files) {
+  return std::make_unique<PictureReader>(files);
+}
+
+}  // namespace mtstereo::run

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools/eval/datasets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+#include "tools/eval/files.hpp"
+#include "tools/eval/input_error.hpp"
+#include "tools/eval/layouts.hpp"
+
+namespace mtstereo::eval {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array<std::string_view, 8> kNames{"middlebury",   "kitti2015", "trimbot-synthetic",
+                                                 "trimbot-real", "driving",   "monkaa",
+                                                 "flyingthings", "eth3d"};
+
+// How to continue with a file of the wrong size that an evaluation does not need.
+constexpr const char* kAdvice =
+    "; replace it with the one of this resolution, or remove it to evaluate without it";
+
+void require_folder(const fs::path& root) {
+  std::error_code error;
+  if (!fs::exists(root, error)) throw InputError(root, "no such folder");
+  if (!fs::is_directory(root, error)) throw InputError(root, "is not a folder");
+}
+
+cv::Mat read_truth(const StereoPair& pair, cv::Size size, DmapMeaning meaning) {
+  const std::string extension = extension_of(pair.truth);
+  if (extension == ".pfm") return read_pfm_disparity(pair.truth);
+  if (extension != ".bin") return read_png_disparity(pair.truth);
+
+  cv::Mat map = read_dmap(pair.truth, size);
+  const bool has_cameras = !pair.cameras.first.empty() && !pair.cameras.second.empty();
+  if (meaning == DmapMeaning::kDisparity) return map;
+  if (meaning == DmapMeaning::kAuto && !has_cameras) return map;
+  if (!has_cameras) {
+    throw InputError(pair.truth,
+                     "cannot be read as depth: that needs the *_cam.txt of both cameras beside "
+                     "the images");
+  }
+  try {
+    return depth_to_disparity(map, read_camera(pair.cameras.first),
+                              read_camera(pair.cameras.second));
+  } catch (const InputError& error) {
+    throw InputError(pair.truth, std::string("cannot be converted to disparity: ") + error.what());
+  }
+}
+
+}  // namespace
+
+std::string_view layout_name(Layout layout) { return kNames[static_cast<std::size_t>(layout)]; }
+
+std::optional<Layout> find_layout(std::string_view name) {
+  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) return std::nullopt;
+  return static_cast<Layout>(found - kNames.begin());
+}
+
+std::vector<std::string> layout_names() { return {kNames.begin(), kNames.end()}; }
+
+std::string name_below(const fs::path& root, const fs::path& file) {
+  return fs::path(file).replace_extension().lexically_relative(root).generic_string();
+}
+
+std::string own_name(const fs::path& folder) {
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(folder, error);
+  return (error ? folder : real).filename().string();
+}
+
+bool is_file(const fs::path& file) {
+  std::error_code error;
+  return fs::is_regular_file(file, error);
+}
+
+Layout detect_layout(const fs::path& root) {
+  require_folder(root);
+  if (looks_like_kitti(root)) return Layout::kKitti2015;
+  const std::vector<fs::path> folders = folders_below(root);
+  if (looks_like_scene_flow(folders)) return scene_flow_kind(root, folders);
+  if (looks_like_pair_folders(folders)) {
+    return looks_like_eth3d(folders) ? Layout::kEth3d : Layout::kMiddlebury;
+  }
+  if (looks_like_trimbot(folders)) return trimbot_kind(root, folders);
+  throw InputError(root,
+                   "has no known layout; docs/evaluation.md describes the layouts, and --dataset "
+                   "selects one");
+}
+
+DataSet find_pairs(const fs::path& root, Layout layout) {
+  require_folder(root);
+  DataSet set;
+  set.layout = layout;
+  set.root = root.has_filename() ? root : root.parent_path();
+  switch (layout) {
+    case Layout::kMiddlebury:
+    case Layout::kEth3d:
+      find_pair_folders(set);
+      break;
+    case Layout::kKitti2015:
+      find_kitti(set);
+      break;
+    case Layout::kDriving:
+    case Layout::kMonkaa:
+    case Layout::kFlyingThings:
+      find_scene_flow(set);
+      break;
+    case Layout::kTrimbotSynthetic:
+    case Layout::kTrimbotReal:
+      find_trimbot(set);
+      break;
+  }
+  if (set.pairs.empty() && set.problems.empty()) {
+    throw InputError(root, "holds no stereo pair in the layout of " +
+                               std::string(layout_name(layout)) + " (see docs/evaluation.md)");
+  }
+  for (StereoPair& pair : set.pairs) pair.layout = layout;
+  std::sort(set.pairs.begin(), set.pairs.end(),
+            [](const StereoPair& a, const StereoPair& b) { return a.name < b.name; });
+  return set;
+}
+
+LoadedPair load_pair(const StereoPair& pair, DmapMeaning meaning) {
+  LoadedPair loaded;
+  loaded.left = read_gray(pair.left);
+  loaded.right = read_gray(pair.right);
+  const cv::Size size = loaded.left.size();
+  require_size(pair.right, loaded.right, size);
+  loaded.truth.disparity = read_truth(pair, size, meaning);
+  require_size(pair.truth, loaded.truth.disparity, size);
+  if (!pair.visible_mask.empty()) {
+    loaded.truth.visible = read_visible_mask(pair.visible_mask);
+    require_size(pair.visible_mask, loaded.truth.visible, size, kAdvice);
+  } else if (!pair.visible_truth.empty()) {
+    const cv::Mat visible = read_png_disparity(pair.visible_truth);
+    require_size(pair.visible_truth, visible, size);
+    // NaN (unknown) does not equal itself. NOLINTNEXTLINE(misc-redundant-expression)
+    loaded.truth.visible = visible == visible;
+  }
+  return loaded;
+}
+
+void load_objects(const StereoPair& pair, LoadedPair& images) {
+  if (pair.object_map.empty()) return;
+  images.truth.objects = read_object_map(pair.object_map);
+  require_size(pair.object_map, images.truth.objects, images.left.size(), kAdvice);
+}
+
+}  // namespace mtstereo::eval

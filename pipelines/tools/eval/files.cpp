@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools/eval/files.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <set>
+#include <system_error>
+
+#include "lib/outputs/output_error.hpp"
+#include "lib/outputs/write_file.hpp"
+#include "tools/eval/input_error.hpp"
+
+namespace mtstereo::eval {
+namespace fs = std::filesystem;
+
+std::string read_bytes(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) throw InputError(file, "no such file");
+  if (error) throw InputError(file, "cannot be read: " + error.message());
+  if (!fs::is_regular_file(status)) throw InputError(file, "is not a file");
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) throw InputError(file, "cannot be read: " + error.message());
+
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (!stream || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+    throw InputError(file, "cannot be read");
+  }
+  return bytes;
+}
+
+void make_parent_folder(const fs::path& file) {
+  if (!file.has_parent_path()) return;
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error) {
+    throw InputError(file.parent_path(), "the folder cannot be created: " + error.message());
+  }
+}
+
+void write_bytes(const fs::path& file, const std::string& bytes) {
+  make_parent_folder(file);
+  try {
+    outputs::write_file(file, bytes);
+  } catch (const outputs::OutputError& error) {
+    throw InputError(file, std::string("cannot be written: ") + error.what());
+  }
+}
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (!it->is_directory(ignored)) files.push_back(it->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+namespace {
+
+void add_folder(const fs::path& folder, std::set<fs::path>& seen, std::vector<fs::path>& found) {
+  std::error_code error;
+  const fs::path real = fs::canonical(folder, error);
+  if (error) throw InputError(folder, "cannot be read: " + error.message());
+  if (!seen.insert(real).second) return;
+  found.push_back(folder);
+
+  std::vector<fs::path> below;
+  fs::directory_iterator it(folder, error);
+  for (const fs::directory_iterator end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (it->is_directory(ignored)) below.push_back(it->path());
+  }
+  if (error) throw InputError(folder, "cannot be read: " + error.message());
+  std::sort(below.begin(), below.end());
+  for (const fs::path& child : below) add_folder(child, seen, found);
+}
+
+}  // namespace
+
+std::vector<fs::path> folders_below(const fs::path& root) {
+  std::set<fs::path> seen;
+  std::vector<fs::path> found;
+  add_folder(root, seen, found);
+  return found;
+}
+
+std::string extension_of(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+bool is_image(const fs::path& file) {
+  static const std::set<std::string> kExtensions{".png",  ".jpg", ".jpeg", ".webp", ".tif",
+                                                 ".tiff", ".bmp", ".pgm",  ".ppm"};
+  return kExtensions.contains(extension_of(file));
+}
+
+}  // namespace mtstereo::eval

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools/eval/flicker.hpp"
+
+#include <cmath>
+
+#include "tools/eval/degrade.hpp"
+#include "tools/eval/input_error.hpp"
+
+namespace mtstereo::eval {
+namespace {
+
+// The disparities of one pixel in all maps.
+struct PixelSum {
+  int answers = 0;
+  double sum = 0;
+  double squares = 0;
+};
+
+PixelSum sum_of(const std::vector<cv::Mat>& maps, int y, int x) {
+  PixelSum pixel;
+  for (const cv::Mat& map : maps) {
+    const double value = map.at<float>(y, x);
+    if (std::isnan(value)) continue;
+    ++pixel.answers;
+    pixel.sum += value;
+    pixel.squares += value * value;
+  }
+  return pixel;
+}
+
+double ratio(double part, double whole) { return whole > 0 ? part / whole : kNone; }
+
+}  // namespace
+
+Flicker measure_flicker(const std::vector<cv::Mat>& maps) {
+  if (maps.size() < 2) throw InputError("flicker needs at least two disparity maps");
+  for (const cv::Mat& map : maps) {
+    if (map.size() != maps[0].size()) throw InputError("disparity maps have different sizes");
+  }
+  const auto count = static_cast<double>(maps.size());
+  double answers = 0, any = 0, all = 0, deviations = 0;
+  for (int y = 0; y < maps[0].rows; ++y) {
+    for (int x = 0; x < maps[0].cols; ++x) {
+      const PixelSum pixel = sum_of(maps, y, x);
+      answers += pixel.answers;
+      any += pixel.answers > 0 ? 1 : 0;
+      if (pixel.answers < static_cast<int>(maps.size())) continue;
+      const double mean = pixel.sum / count;
+      all += 1;
+      deviations += std::sqrt(std::max(0.0, pixel.squares / count - mean * mean));
+    }
+  }
+  return {100 * ratio(answers / count, static_cast<double>(maps[0].total())),
+          100 * ratio(any - all, any), ratio(deviations, all)};
+}
+
+Flicker mean(const std::vector<Flicker>& list) {
+  Flicker result;
+  for (double Flicker::*figure : {&Flicker::density, &Flicker::come_and_go, &Flicker::spread}) {
+    double sum = 0, count = 0;
+    for (const Flicker& flicker : list) {
+      if (std::isnan(flicker.*figure)) continue;
+      sum += flicker.*figure;
+      ++count;
+    }
+    result.*figure = ratio(sum, count);
+  }
+  return result;
+}
+
+void add_flicker_noise(double sigma, int frame, cv::Mat& left, cv::Mat& right) {
+  const auto seed = 2 * static_cast<std::uint64_t>(frame) + 1;
+  add_noise(sigma, seed, left);
+  add_noise(sigma, seed + 1, right);
+}
+
+}  // namespace mtstereo::eval

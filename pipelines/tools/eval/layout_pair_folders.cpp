@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Middlebury and ETH3D: each pair is a folder with im0.png, im1.png, disp0GT.pfm and calib.txt.
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <sstream>
+
+#include "tools/eval/files.hpp"
+#include "tools/eval/input_error.hpp"
+#include "tools/eval/layouts.hpp"
+
+namespace mtstereo::eval {
+namespace fs = std::filesystem;
+namespace {
+
+bool holds_pair(const fs::path& folder) {
+  return is_file(folder / "im0.png") || is_file(folder / "im1.png");
+}
+
+// An integer of calib.txt, as in "ndisp=290"; none if the line is missing.
+std::optional<int> calibration_value(const fs::path& file, const std::string& key) {
+  if (!is_file(file)) return std::nullopt;
+  std::istringstream stream(read_bytes(file));
+  for (std::string line; std::getline(stream, line);) {
+    if (line.rfind(key + "=", 0) != 0) continue;
+    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
+    int value = 0;
+    const char* begin = line.data() + key.size() + 1;
+    const char* end = line.data() + line.size();
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    if (error != std::errc() || stop != end || value < 1) {
+      throw InputError(file, "'" + line + "' is not an integer above 0");
+    }
+    return value;
+  }
+  return std::nullopt;
+}
+
+std::optional<int> search_range(Layout layout, const fs::path& calibration) {
+  const std::optional<int> stated = calibration_value(calibration, "ndisp");
+  if (layout == Layout::kMiddlebury) return stated;
+  // ETH3D states the width of the image, which is no limit; only a smaller number is a range.
+  const std::optional<int> width = calibration_value(calibration, "width");
+  return stated && width && *stated < *width ? *stated : kEth3dRange;
+}
+
+// The first of these files that exists, or the first name if none does.
+fs::path first_file(const fs::path& folder, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (is_file(folder / name)) return folder / name;
+  }
+  return folder / *names.begin();
+}
+
+void add_folder(DataSet& set, const fs::path& folder) {
+  StereoPair pair;
+  pair.name =
+      folder == set.root ? own_name(folder) : folder.lexically_relative(set.root).generic_string();
+  pair.left = folder / "im0.png";
+  pair.right = folder / "im1.png";
+  pair.truth = first_file(folder, {"disp0GT.pfm", "disp0.pfm"});
+  for (const fs::path& file : {pair.left, pair.right, pair.truth}) {
+    if (is_file(file)) continue;
+    set.problems.push_back({pair.name, file.string() + ": no such file"});
+    return;
+  }
+  const fs::path mask = folder / "mask0nocc.png";
+  if (is_file(mask)) pair.visible_mask = mask;
+  try {
+    pair.max_disparity = search_range(set.layout, folder / "calib.txt");
+  } catch (const InputError& error) {
+    set.problems.push_back({pair.name, error.what()});
+    return;
+  }
+  if (set.layout == Layout::kMiddlebury) {
+    pair.weight = middlebury_weight(fs::path(pair.name).filename().string());
+  }
+  set.pairs.push_back(std::move(pair));
+}
+
+// Names of ETH3D pairs, such as "playground_1l" and "forest_2s".
+bool has_eth3d_name(const std::string& name) {
+  if (name.size() < 4) return false;
+  const std::string end = name.substr(name.size() - 3);
+  return end[0] == '_' && std::isdigit(static_cast<unsigned char>(end[1])) != 0 &&
+         (end[2] == 'l' || end[2] == 's');
+}
+
+}  // namespace
+
+double middlebury_weight(std::string_view name) {
+  constexpr std::array<std::string_view, 5> kHalf{"PianoL", "Playroom", "Playtable", "Shelves",
+                                                  "Vintage"};
+  return std::find(kHalf.begin(), kHalf.end(), name) != kHalf.end() ? 0.5 : 1.0;
+}
+
+void find_pair_folders(DataSet& set) {
+  for (const fs::path& folder : folders_below(set.root)) {
+    if (holds_pair(folder)) add_folder(set, folder);
+  }
+}
+
+bool looks_like_pair_folders(const std::vector<fs::path>& folders) {
+  return std::any_of(folders.begin(), folders.end(), holds_pair);
+}
+
+bool looks_like_eth3d(const std::vector<fs::path>& folders) {
+  return std::all_of(folders.begin(), folders.end(), [](const fs::path& folder) {
+    return !holds_pair(folder) || has_eth3d_name(own_name(folder));
+  });
+}
+
+}  // namespace mtstereo::eval

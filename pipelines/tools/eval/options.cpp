@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools/eval/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <set>
+
+#include "lib/options/failure_message.hpp"
+#include "lib/outputs/finite_range.hpp"
+#include "lib/outputs/parse_error.hpp"
+#include "tools/eval/files.hpp"
+#include "tools/eval/input_error.hpp"
+
+namespace mtstereo::eval {
+namespace {
+
+// The option texts before validation.
+struct Texts {
+  std::vector<std::string> folders;
+  std::string dataset = "auto";
+  std::string dmap = "auto";
+  std::string format = "pfm";
+  std::string json, csv, curve, report, disparity_folder, picture_folder;
+  std::vector<std::string> compare;
+  std::vector<std::string> degrade;
+  std::string alignment;
+  std::map<std::string, std::string> parameters;
+};
+
+std::string parameter_help(const ParameterInfo& info) {
+  if (info.id == Parameter::kMaxDisparity) {
+    return std::string(info.help) + " [default: from the data set]";
+  }
+  return std::string(info.help) + " [default: " + parameter_defaults_text(info.id) + "]";
+}
+
+std::string value_name(const ParameterInfo& info) {
+  switch (info.type) {
+    case ParameterType::kChoice:
+      return info.choices;
+    case ParameterType::kBoolean:
+      return "true|false";
+    case ParameterType::kLevels:
+      return "LEVELS";
+    case ParameterType::kInteger:
+    case ParameterType::kNumber:
+      break;
+  }
+  return *info.unit == '\0' ? "NUMBER" : info.unit;
+}
+
+void add_parameters(CLI::App& app, Texts& texts) {
+  for (const ParameterInfo& info : parameter_table()) {
+    app.add_option_function<std::string>(
+           std::string("--") + info.name,
+           [&texts, name = std::string(info.name)](const std::string& text) {
+             texts.parameters[name] = text;
+           },
+           parameter_help(info))
+        ->type_name(value_name(info))
+        ->group("Matcher parameters");
+  }
+}
+
+void add_options(CLI::App& app, Texts& texts, Options& options) {
+  std::vector<std::string> layouts = layout_names();
+  layouts.insert(layouts.begin(), "auto");
+  app.add_option("FOLDER", texts.folders, "folders of the data sets")->required()->type_name("");
+  app.add_option("--dataset", texts.dataset, "layout of each FOLDER")
+      ->check(CLI::IsMember(layouts))
+      ->capture_default_str();
+  app.add_option("--only", options.only,
+                 "run only pairs whose name contains TEXT, or one of several texts")
+      ->type_name("TEXT,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--limit", options.limit, "run at most the first N of these pairs; 0 = all")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  app.add_flag("--list", options.list, "list the pairs that were found and exit");
+  app.add_option(
+         "--dmap", texts.dmap,
+         "meaning of the values in a *_dmap.bin; auto = depth if both *_cam.txt exist, else "
+         "disparity")
+      ->check(CLI::IsMember({"auto", "depth", "disparity"}))
+      ->capture_default_str();
+  app.add_option("--warm-up", options.run.warm_up,
+                 "untimed frames of each pair before the timed ones")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  app.add_option("--repeat", options.run.repeat,
+                 "timed frames of each pair; the reported time is their median")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
+void add_methods(CLI::App& app, Texts& texts, Options& options) {
+  app.add_option("--compare", texts.compare,
+                 "also run these matchers of OpenCV on the same pairs: sgbm, sgbm-3way, sgbm-hh, "
+                 "bm")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(rival_names()));
+  app.add_flag("--official", options.run.official,
+               "also print the measures of KITTI 2015, Middlebury v3 and ETH3D as these benchmarks "
+               "count them");
+  app.add_option("--alignment", texts.alignment,
+                 "correct: align the rows and even out the sharpness of each pair before mtstereo "
+                 "matches it, as the element does; off: match it as it is [default: correct; off "
+                 "with preset paper]")
+      ->type_name("off|correct")
+      ->check(CLI::IsMember({"off", "correct"}));
+  app.add_option("--degrade", texts.degrade,
+                 "also evaluate degraded images: " + degradation_kinds())
+      ->type_name("KIND,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--flicker", options.run.flicker,
+                 "also measure how the disparities of " + std::to_string(kFlickerFrames) +
+                     " frames differ that have fresh noise of this standard deviation")
+      ->type_name("SIGMA")
+      ->check(outputs::finite_range(0.1, 100));
+}
+
+std::string is_png(const std::string& file) {
+  if (extension_of(std::filesystem::path(file)) == ".png") return {};
+  return "the picture is a PNG file: the name '" + file + "' must end in .png";
+}
+
+std::string is_html(const std::string& file) {
+  if (extension_of(std::filesystem::path(file)) == ".html") return {};
+  return "the report is a page: the name '" + file + "' must end in .html";
+}
+
+void add_outputs(CLI::App& app, Texts& texts) {
+  const std::string group = "Output";
+  app.add_option("--json", texts.json, "write all figures to this file as JSON")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--csv", texts.csv, "write all figures to this file as CSV")
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--curve", texts.curve,
+                 "sweep the confidence, print the errors at equal density and plot them to this "
+                 "PNG (needs python3-matplotlib); with --compare, sweep the uniquenessRatio of "
+                 "those matchers too")
+      ->type_name("FILE")
+      ->check(is_png)
+      ->group(group);
+  app.add_option("--report", texts.report,
+                 "write one HTML page with all figures, curves and pictures of each pair")
+      ->type_name("FILE")
+      ->check(is_html)
+      ->group(group);
+  app.add_option("--write-disparity", texts.disparity_folder,
+                 "write the disparity maps to this folder")
+      ->type_name("DIR")
+      ->group(group);
+  app.add_option(
+         "--format", texts.format,
+         "format of these maps: pfm = 32-bit float, infinity = none; kitti = 16-bit PNG, px = "
+         "value / 256, 0 = none")
+      ->check(CLI::IsMember({"pfm", "kitti"}))
+      ->capture_default_str()
+      ->group(group);
+  app.add_option("--write-pictures", texts.picture_folder,
+                 "write a picture of each pair to this folder: left image, ground truth, disparity "
+                 "and error")
+      ->type_name("DIR")
+      ->group(group);
+}
+
+std::optional<std::filesystem::path> path_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return std::filesystem::path(text);
+}
+
+// The library checks the parameters; its messages state value and range.
+void apply_parameters(const Texts& texts, Parameters& parameters) {
+  for (const ParameterInfo& info : parameter_table()) {
+    const auto found = texts.parameters.find(info.name);
+    if (found == texts.parameters.end()) continue;
+    const Status status = parameters.set(info.id, found->second);
+    if (!status) throw CLI::ValidationError(std::string("--") + info.name, status.error().message);
+  }
+}
+
+void apply_degradations(const Texts& texts, std::vector<Degradation>& degradations) {
+  std::set<std::string> known;
+  for (const std::string& text : texts.degrade) {
+    try {
+      const Degradation degradation = parse_degradation(text);
+      if (known.insert(degradation_text(degradation)).second) degradations.push_back(degradation);
+    } catch (const InputError& error) {
+      throw CLI::ValidationError("--degrade", error.what());
+    }
+  }
+}
+
+void apply(const Texts& texts, Options& options) {
+  apply_parameters(texts, options.run.parameters);
+  options.folders.assign(texts.folders.begin(), texts.folders.end());
+  if (texts.dataset != "auto") options.layout = find_layout(texts.dataset);
+  if (texts.dmap == "depth") options.run.dmap = DmapMeaning::kDepth;
+  if (texts.dmap == "disparity") options.run.dmap = DmapMeaning::kDisparity;
+  for (const std::string& name : texts.compare) {
+    const Rival rival = *find_rival(name);
+    const std::vector<Rival>& known = options.run.rivals;
+    const bool twice = std::find(known.begin(), known.end(), rival) != known.end();
+    if (!twice) options.run.rivals.push_back(rival);
+  }
+  if (!texts.alignment.empty()) options.run.align = texts.alignment == "correct";
+  apply_degradations(texts, options.run.degradations);
+  options.json = path_of(texts.json);
+  options.csv = path_of(texts.csv);
+  options.curve = path_of(texts.curve);
+  options.report = path_of(texts.report);
+  options.run.html_pictures = options.report.has_value();
+  options.run.curve = options.curve.has_value();
+  options.run.disparity_folder = path_of(texts.disparity_folder);
+  options.run.picture_folder = path_of(texts.picture_folder);
+  if (texts.format == "kitti") options.run.disparity_format = DisparityFormat::kKitti;
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, const char* const* argv) {
+  CLI::App app{
+      "Runs MTStereo on a folder of stereo pairs with ground truth and measures errors, density "
+      "and "
+      "time.",
+      "mtstereo-eval"};
+  app.set_version_flag("--version", version());
+  app.footer(
+      "Exit status: 0 = all pairs were evaluated, 1 = some could not be evaluated or a file could "
+      "not be written (each is named), 2 = the command is invalid or there is nothing to "
+      "evaluate.");
+  app.get_formatter()->column_width(36);
+  app.failure_message(options::failure_message);
+  Texts texts;
+  Options options;
+  add_options(app, texts, options);
+  add_methods(app, texts, options);
+  add_outputs(app, texts);
+  add_parameters(app, texts);
+  try {
+    app.parse(argc, argv);
+    apply(texts, options);
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for = error.get_exit_code() == 0;  // --help, --version
+    outputs::print_parse_error(app, error);
+    return {std::nullopt, asked_for ? kAllFine : kWrongUsage};
+  }
+  return {std::move(options), kAllFine};
+}
+
+}  // namespace mtstereo::eval

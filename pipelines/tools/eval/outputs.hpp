@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "tools/eval/datasets.hpp"
+#include "tools/eval/options.hpp"
+#include "tools/eval/report.hpp"
+
+namespace mtstereo::eval {
+
+/// Runs before the evaluation, which can take hours: throws InputError if a requested file cannot
+/// be written or belongs to the data set.
+void check_outputs(const Options& options, const DataSet& set);
+
+/// Runs before the evaluation too: if a picture of the curves is requested and cannot be plotted on
+/// this machine, prints the reason on the standard error and returns false.
+bool check_plotting(const Options& options);
+
+/// Writes the requested files, the picture of the curves only if `can_plot`. A file that cannot be
+/// written is named on the standard error and the others are still written. Returns whether all of
+/// them were written.
+bool write_outputs(const Options& options, bool can_plot, const Report& report);
+
+}  // namespace mtstereo::eval

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools/eval/pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/eval/files.hpp"
+#include "tools/eval/input_error.hpp"
+#include "tools/eval/pfm.hpp"
+
+namespace mtstereo::eval {
+namespace fs = std::filesystem;
+namespace {
+
+const cv::Vec3b kBlack(0, 0, 0);
+const cv::Vec3b kGray(96, 96, 96);
+
+// Colors for 0 .. range; NaN gets the color of 0, which the caller overwrites.
+cv::Mat color_of(const cv::Mat& values, double range) {
+  cv::Mat scaled(values.size(), CV_8UC1);
+  for (int y = 0; y < values.rows; ++y) {
+    const auto* source = values.ptr<float>(y);
+    auto* target = scaled.ptr<std::uint8_t>(y);
+    for (int x = 0; x < values.cols; ++x) {
+      const double share = std::isnan(source[x]) ? 0 : source[x] / range;
+      target[x] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
+    }
+  }
+  cv::Mat color;
+  cv::applyColorMap(scaled, color, cv::COLORMAP_TURBO);
+  return color;
+}
+
+// 255 where a value is NaN. Not `values != values`: OpenCV 4.6 gives 0 for that with AVX.
+cv::Mat is_nan(const cv::Mat& values) {
+  cv::Mat mask(values.size(), CV_8UC1);
+  std::transform(
+      values.begin<float>(), values.end<float>(), mask.begin<std::uint8_t>(),
+      [](float value) { return std::isnan(value) ? std::uint8_t{255} : std::uint8_t{0}; });
+  return mask;
+}
+
+cv::Mat to_kitti(const fs::path& file, const cv::Mat& disparity) {
+  constexpr double kScale = 256;
+  cv::Mat stored(disparity.size(), CV_16UC1);
+  for (int y = 0; y < disparity.rows; ++y) {
+    const auto* source = disparity.ptr<float>(y);
+    auto* target = stored.ptr<std::uint16_t>(y);
+    for (int x = 0; x < disparity.cols; ++x) {
+      if (std::isnan(source[x])) {
+        target[x] = 0;
+        continue;
+      }
+      const double value = std::round(source[x] * kScale);
+      if (value > std::numeric_limits<std::uint16_t>::max()) {
+        throw InputError(file, "a disparity of " + std::to_string(source[x]) +
+                                   " px is above 255.99 px, the largest of a KITTI PNG; use "
+                                   "--format pfm");
+      }
+      if (value < 0) {
+        throw InputError(file, "a disparity of " + std::to_string(source[x]) +
+                                   " px is negative, which a KITTI PNG cannot store; use --format "
+                                   "pfm");
+      }
+      target[x] = static_cast<std::uint16_t>(std::max(value, 1.0));
+    }
+  }
+  return stored;
+}
+
+}  // namespace
+
+const char* extension_of(DisparityFormat format) {
+  return format == DisparityFormat::kPfm ? ".pfm" : ".png";
+}
+
+void write_disparity(const fs::path& file, const cv::Mat& disparity, DisparityFormat format) {
+  if (format == DisparityFormat::kKitti) {
+    write_picture(file, to_kitti(file, disparity));
+    return;
+  }
+  cv::Mat values = disparity.clone();
+  for (float& value : cv::Mat_<float>(values)) {
+    if (std::isnan(value)) value = std::numeric_limits<float>::infinity();
+  }
+  write_pfm(file, values);
+}
+
+cv::Mat color_disparity(const cv::Mat& disparity, int max_disparity) {
+  cv::Mat color = color_of(disparity, max_disparity);
+  color.setTo(kBlack, is_nan(disparity));  // NaN
+  return color;
+}
+
+cv::Mat color_error(const cv::Mat& disparity, const GroundTruth& truth) {
+  const cv::Mat error = cv::abs(disparity - truth.disparity);
+  cv::Mat color = color_of(error, kErrorPictureRange * truth.scale);
+  color.setTo(kGray, is_nan(disparity));
+  color.setTo(kBlack, is_nan(truth.disparity));
+  return color;
+}
+
+cv::Mat overview(const LoadedPair& images, const cv::Mat& disparity, int max_disparity) {
+  cv::Mat image, above, below, picture;
+  cv::cvtColor(images.left, image, cv::COLOR_GRAY2BGR);
+  cv::hconcat(image, color_disparity(images.truth.disparity, max_disparity), above);
+  cv::hconcat(color_disparity(disparity, max_disparity), color_error(disparity, images.truth),
+              below);
+  cv::vconcat(above, below, picture);
+  return picture;
+}
+
+void write_picture(const fs::path& file, const cv::Mat& picture) {
+  std::vector<std::uint8_t> bytes;
+  bool encoded = false;
+  try {
+    encoded = cv::imencode(".png", picture, bytes);
+  } catch (const cv::Exception& error) {
+    throw InputError(file, "cannot be encoded: " + error.err);
+  }
+  if (!encoded) throw InputError(file, "cannot be encoded");
+  write_bytes(file, std::string(bytes.begin(), bytes.end()));
+}
+
+}  // namespace mtstereo::eval

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+
+#include "tools/eval/datasets.hpp"
+
+namespace mtstereo::eval {
+
+/// The file format of a written disparity map.
+enum class DisparityFormat {
+  kPfm,    ///< 32-bit float, infinity = none, as Middlebury requires
+  kKitti,  ///< 16-bit PNG, px = value / 256, 0 = none
+};
+
+/// The extension of files in this format, with the dot.
+const char* extension_of(DisparityFormat format);
+
+/// Writes a disparity map (CV_32FC1 [px], NaN = none). Throws InputError if the file cannot be
+/// written or a disparity is out of the format's range.
+void write_disparity(const std::filesystem::path& file, const cv::Mat& disparity,
+                     DisparityFormat format);
+
+/// A disparity map in color (CV_8UC3): 0 .. max_disparity in the color map Turbo, near is red;
+/// black = none. The range is fixed, so that the pictures of a run can be compared.
+cv::Mat color_disparity(const cv::Mat& disparity, int max_disparity);
+
+/// Errors from this on [px of the original images] have the last color of the error picture.
+inline constexpr double kErrorPictureRange = 5;
+
+/// The error in color (CV_8UC3): 0 .. kErrorPictureRange px from dark blue to red (Turbo); gray =
+/// ground truth without an estimate, black = no ground truth.
+cv::Mat color_error(const cv::Mat& disparity, const GroundTruth& truth);
+
+/// One picture with the left image and the ground truth above the disparity and the error.
+cv::Mat overview(const LoadedPair& images, const cv::Mat& disparity, int max_disparity);
+
+/// Writes a picture as PNG, regardless of the extension. Throws InputError.
+void write_picture(const std::filesystem::path& file, const cv::Mat& picture);
+
+}  // namespace mtstereo::eval

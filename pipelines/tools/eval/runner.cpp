@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools/eval/runner.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "tools/eval/degrade.hpp"
+#include "tools/eval/input_error.hpp"
+#include "tools/eval/rival_sweep.hpp"
+
+namespace mtstereo::eval {
+namespace fs = std::filesystem;
+namespace {
+
+GrayView view_of(const cv::Mat& image) {
+  return GrayView{image.ptr<std::uint8_t>(), image.cols, image.rows,
+                  static_cast<std::ptrdiff_t>(image.step)};
+}
+
+// No copy; valid as long as the view.
+cv::Mat mat_of(GrayView view) {
+  return {view.height, view.width, CV_8UC1, const_cast<std::uint8_t*>(view.data),
+          static_cast<std::size_t>(view.stride)};
+}
+
+void require(const Status& status) {
+  if (!status) throw InputError(status.error().message);
+}
+
+// Runs `step`; an exception becomes a failure whose text begins with `who`.
+template <typename Step>
+bool attempt(PairReport& report, const std::string& who, Step step) {
+  const std::string prefix = who.empty() ? "" : who + ": ";
+  try {
+    step();
+    return true;
+  } catch (const std::bad_alloc&) {
+    report.failures.push_back(prefix + "out of memory");
+  } catch (const std::exception& error) {
+    report.failures.push_back(prefix + error.what());
+  }
+  return false;
+}
+
+// The library's own files go directly into the folder, as the benchmark servers require. Each
+// degradation and each rival has a subfolder.
+std::string output_name(const std::string& method, const PairReport& report,
+                        const char* extension) {
+  fs::path base = report.kind == kCleanKind ? fs::path() : fs::path(report.kind);
+  if (method != kOwnMethod) base /= method;
+  return (base / (report.pair.name + extension)).generic_string();
+}
+
+}  // namespace
+
+int search_range(const StereoPair& pair, const Parameters& parameters, int width,
+                 std::vector<std::string>& notes) {
+  const bool asked = parameters.is_set(Parameter::kMaxDisparity);
+  if (!asked && !pair.max_disparity) {
+    throw InputError(pair.left.parent_path() / "calib.txt",
+                     "does not state the search range (ndisp=...); set it with --max-disparity");
+  }
+  const int wanted = asked ? parameters.integer(Parameter::kMaxDisparity) : *pair.max_disparity;
+  return limited_range(pair.name, wanted, width, notes);
+}
+
+int limited_range(const std::string& who, int wanted, int width, std::vector<std::string>& notes) {
+  const ParameterInfo& info = parameter_info(Parameter::kMaxDisparity);
+  const int most = std::min(width, static_cast<int>(info.maximum));
+  const int least = static_cast<int>(info.minimum);
+  const int range = std::clamp(wanted, std::min(least, most), most);
+  if (range != wanted) {
+    notes.push_back(who + ": the search range is " + std::to_string(range) + " px, not " +
+                    std::to_string(wanted) + " px: " +
+                    (wanted > width   ? "the image is " + std::to_string(width) + " px wide"
+                     : wanted > range ? "the maximum of the library"
+                                      : "the minimum of the library"));
+  }
+  return range;
+}
+
+double median_seconds(int warm_up, int repeat, const std::function<void()>& frame) {
+  using Clock = std::chrono::steady_clock;
+  for (int i = 0; i < warm_up; ++i) frame();
+  std::vector<double> seconds;
+  for (int i = 0; i < std::max(repeat, 1); ++i) {
+    const Clock::time_point start = Clock::now();
+    frame();
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  const std::size_t middle = seconds.size() / 2;
+  return seconds.size() % 2 == 1 ? seconds[middle] : (seconds[middle - 1] + seconds[middle]) / 2;
+}
+
+bool aligns(const RunSettings& settings) {
+  return settings.align.value_or(settings.parameters.preset() != Preset::kPaper);
+}
+
+Runner::Runner(RunSettings settings) : settings_(std::move(settings)) {
+  for (const auto& folder : {settings_.disparity_folder, settings_.picture_folder}) {
+    if (folder) listed(*folder);
+  }
+}
+
+// Maps and pictures may be in the same folder.
+outputs::ListedFolder& Runner::listed(const fs::path& folder) {
+  std::unique_ptr<outputs::ListedFolder>& files =
+      folders_[fs::weakly_canonical(fs::absolute(folder))];
+  if (!files) files = std::make_unique<outputs::ListedFolder>(folder, "mtstereo-eval");
+  return *files;
+}
+
+std::vector<std::string> kinds_of(const RunSettings& settings) {
+  std::vector<std::string> kinds{kCleanKind};
+  for (const Degradation& degradation : settings.degradations) {
+    kinds.push_back(degradation_text(degradation));
+  }
+  return kinds;
+}
+
+// `failures` has the reason if the pair cannot be read.
+PairReport Runner::load(const StereoPair& pair, LoadedPair& images) const {
+  PairReport report;
+  report.pair = pair;
+  attempt(report, "", [&] {
+    images = load_pair(pair, settings_.dmap);
+    if (settings_.official) load_objects(pair, images);
+    report.size = images.left.size();
+    report.max_disparity =
+        search_range(pair, settings_.parameters, report.size.width, report.notes);
+  });
+  return report;
+}
+
+PairReport Runner::run(const StereoPair& pair) {
+  LoadedPair images;
+  PairReport report = load(pair, images);
+  if (!report.failures.empty()) return report;
+  run_methods(images, report);
+  if (settings_.flicker) run_flicker(images, report);
+  return report;
+}
+
+std::vector<PairReport> Runner::run_kinds(const StereoPair& pair) {
+  std::vector<PairReport> reports;
+  LoadedPair images;
+  const PairReport start = load(pair, images);
+  reports.push_back(start);
+  if (!start.failures.empty()) return reports;
+  run_methods(images, reports[0]);
+  if (settings_.flicker) run_flicker(images, reports[0]);
+  for (const Degradation& degradation : settings_.degradations) {
+    PairReport report = start;
+    report.notes.clear();
+    run_degraded(degradation, images, report);
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+// `report` has the search range of the pair as it is.
+void Runner::run_degraded(const Degradation& degradation, const LoadedPair& images,
+                          PairReport& report) {
+  report.kind = degradation_text(degradation);
+  DegradedPair pair;
+  const bool done = attempt(report, report.kind,
+                            [&] { pair = degrade(degradation, images, report.max_disparity); });
+  if (!done) return;
+  report.size = pair.images.left.size();
+  report.scale = pair.images.truth.scale;
+  report.max_disparity = limited_range(report.pair.name + ", " + report.kind, pair.max_disparity,
+                                       report.size.width, report.notes);
+  run_methods(pair.images, report);
+}
+
+void Runner::run_methods(const LoadedPair& images, PairReport& report) {
+  const std::string prefix = report.kind == kCleanKind ? "" : report.kind + ": ";
+  attempt(report, prefix + kOwnMethod, [&] { run_own(images, report); });
+  for (const Rival rival : settings_.rivals) {
+    attempt(report, prefix + std::string(rival_name(rival)),
+            [&] { run_rival(rival, images, report); });
+  }
+}
+
+// Times are compared on the images as they are; those of degraded ones need no warm-up.
+int Runner::warm_up(const PairReport& report) const {
+  return report.kind == kCleanKind ? settings_.warm_up : 0;
+}
+
+void Runner::prepare_matcher(const LoadedPair& images, int max_disparity) {
+  Parameters parameters = settings_.parameters;
+  require(parameters.set(Parameter::kMaxDisparity, max_disparity));
+  const int min_disparity = static_cast<int>(
+      std::floor(images.truth.scale * parameters.integer(Parameter::kMinDisparity)));
+  require(parameters.set(Parameter::kMinDisparity, min_disparity));
+  if (matcher_) {
+    require(matcher_->set_parameters(parameters));
+    matcher_->restart();  // each pair is a stream of its own
+  } else {
+    Result<Matcher> made = Matcher::create(parameters);
+    if (!made) throw InputError(made.error().message);
+    matcher_.emplace(std::move(*made));
+  }
+  if (!aligns(settings_)) return;
+  if (!tracker_) {
+    Result<AlignmentTracker> made = AlignmentTracker::create();
+    if (!made) throw InputError(made.error().message);
+    tracker_.emplace(std::move(*made));
+  }
+  tracker_->reset();
+  require(
+      tracker_->inspect(view_of(images.left), view_of(images.right), max_disparity, min_disparity));
+  require(matcher_->set_correction(tracker_->correction()));
+}
+
+void Runner::run_own(const LoadedPair& images, PairReport& report) {
+  prepare_matcher(images, report.max_disparity);
+  DisparityView disparity;
+  const double seconds = median_seconds(warm_up(report), settings_.repeat, [&] {
+    Result<DisparityView> result = matcher_->compute(view_of(images.left), view_of(images.right));
+    if (!result) throw InputError(result.error().message);
+    disparity = *result;
+  });
+  const cv::Mat map = to_float(disparity, matcher_->parameters().disparity_offset());
+  const cv::Mat confidence = mat_of(matcher_->confidence());
+  finish(kOwnMethod, map, seconds, images, report);
+  if (settings_.html_pictures) {
+    report.pictures = html_pictures(images, map, confidence, report.max_disparity);
+  }
+  if (!settings_.curve) return;
+  report.sweeps.push_back({kOwnMethod, confidence_sweep(map, confidence, images.truth)});
+}
+
+void Runner::run_rival(Rival rival, const LoadedPair& images, PairReport& report) {
+  RivalMatcher matcher(rival, report.max_disparity);
+  const double seconds = median_seconds(warm_up(report), settings_.repeat,
+                                        [&] { matcher.compute(images.left, images.right); });
+  const std::string name(rival_name(rival));
+  finish(name, matcher.disparity(), seconds, images, report);
+  if (!settings_.curve) return;
+  report.sweeps.push_back({name, sweep_rival(rival, report.max_disparity, images,
+                                             filter_settings(settings_.parameters))});
+}
+
+void Runner::finish(const std::string& method, const cv::Mat& disparity, double seconds,
+                    const LoadedPair& images, PairReport& report) {
+  MethodResult result;
+  result.method = method;
+  result.evaluation = evaluate(disparity, images);
+  if (settings_.official) result.official = count_official(disparity, report.pair, images.truth);
+  result.seconds = seconds;
+  result.seconds_per_megapixel = seconds * 1e6 / static_cast<double>(images.left.total());
+  report.results.push_back(std::move(result));
+
+  if (settings_.disparity_folder) {
+    const char* extension = extension_of(settings_.disparity_format);
+    const std::string name = output_name(method, report, extension);
+    outputs::ListedFolder& files = listed(*settings_.disparity_folder);
+    write_disparity(files.listed(name), disparity, settings_.disparity_format);
+    files.measure(name);
+  }
+  if (settings_.picture_folder) {
+    const std::string name = output_name(method, report, ".png");
+    outputs::ListedFolder& files = listed(*settings_.picture_folder);
+    write_picture(files.listed(name), overview(images, disparity, report.max_disparity));
+    files.measure(name);
+  }
+}
+
+void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
+  std::vector<LoadedPair> frames;
+  for (int i = 0; i < kFlickerFrames; ++i) {
+    frames.push_back({images.left.clone(), images.right.clone(), {}});
+    add_flicker_noise(*settings_.flicker, i, frames.back().left, frames.back().right);
+  }
+  attempt(report, std::string("flicker: ") + kOwnMethod, [&] {
+    prepare_matcher(frames.front(), report.max_disparity);
+    std::vector<cv::Mat> maps;
+    for (const LoadedPair& frame : frames) {
+      Result<DisparityView> result = matcher_->compute(view_of(frame.left), view_of(frame.right));
+      if (!result) throw InputError(result.error().message);
+      maps.push_back(to_float(*result, matcher_->parameters().disparity_offset()));
+    }
+    report.flicker.push_back({kOwnMethod, measure_flicker(maps)});
+  });
+  for (const Rival rival : settings_.rivals) {
+    const std::string name(rival_name(rival));
+    attempt(report, "flicker: " + name, [&] {
+      RivalMatcher matcher(rival, report.max_disparity);
+      std::vector<cv::Mat> maps;
+      for (const LoadedPair& frame : frames) {
+        matcher.compute(frame.left, frame.right);
+        maps.push_back(matcher.disparity());
+      }
+      report.flicker.push_back({name, measure_flicker(maps)});
+    });
+  }
+}
+
+}  // namespace mtstereo::eval

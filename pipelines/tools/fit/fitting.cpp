@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools/fit/fitting.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/eval/degradation.hpp"
+
+namespace mtstereo::fit {
+namespace {
+
+constexpr int kRounds = 15;
+constexpr double kRate = 0.6;        // share of a Newton step
+constexpr double kCleanWeight = 11;  // as much as all degraded kinds together
+constexpr double kLeastHess = 20;    // added to the second derivative, against bins of few samples
+
+/// Sums over the samples of each bin.
+struct BinSums {
+  std::array<double, kClueBins> gradient{};
+  std::array<double, kClueBins> curvature{};
+};
+
+struct Fitting {
+  std::vector<const Sample*> samples;
+  std::vector<double> weight;
+  std::vector<double> odds;  ///< the logarithm of each sample's odds
+};
+
+/// One Newton step of the entries of a clue.
+void improve(int clue, Fitting& fitting, LogOdds& table) {
+  BinSums sums;
+  for (std::size_t i = 0; i < fitting.samples.size(); ++i) {
+    const double right = 1 / (1 + std::exp(-fitting.odds[i]));
+    const int bin = fitting.samples[i]->bins[clue];
+    sums.gradient[bin] += fitting.weight[i] * ((fitting.samples[i]->wrong ? 0 : 1) - right);
+    sums.curvature[bin] += fitting.weight[i] * right * (1 - right);
+  }
+  std::array<double, kClueBins> step{};
+  for (int bin = 0; bin < kClueBins; ++bin) {
+    step[bin] = kRate * sums.gradient[bin] / (sums.curvature[bin] + kLeastHess);
+    table[clue][bin] += step[bin];
+  }
+  for (std::size_t i = 0; i < fitting.samples.size(); ++i) {
+    fitting.odds[i] += step[fitting.samples[i]->bins[clue]];
+  }
+}
+
+}  // namespace
+
+LogOdds fit(const std::vector<const PairSamples*>& pairs) {
+  Fitting fitting;
+  for (const PairSamples* pair : pairs) {
+    for (const Sample& sample : pair->samples) {
+      if (!sample.known) continue;
+      fitting.samples.push_back(&sample);
+      fitting.weight.push_back(pair->kind == eval::kCleanKind ? kCleanWeight : 1);
+    }
+  }
+  fitting.odds.assign(fitting.samples.size(), 0.0);
+  LogOdds table{};
+  for (int round = 0; round < kRounds; ++round) {
+    for (int clue = 0; clue < kClues; ++clue) improve(clue, fitting, table);
+  }
+  return table;
+}
+
+double log_odds(const LogOdds& table, const Sample& sample) {
+  double sum = 0;
+  for (int clue = 0; clue < kClues; ++clue) sum += table[clue][sample.bins[clue]];
+  return sum;
+}
+
+ReliabilityTable library_table(const LogOdds& table) {
+  ReliabilityTable entries{};
+  for (int clue = 0; clue < kClues; ++clue) {
+    for (int bin = 0; bin < kClueBins; ++bin) {
+      const double even = clue == kNoiseClue ? kEvenOdds : 0;  // each pixel has one noise level
+      const double value = (even + kPerLogOdds * table[clue][bin]) * kReliabilityOne;
+      entries[clue][bin] = static_cast<std::int16_t>(std::lround(value));
+    }
+  }
+  return entries;
+}
+
+int confidence(const ReliabilityTable& table, const Sample& sample) {
+  int sum = 0;
+  for (int clue = 0; clue < kClues; ++clue) sum += table[clue][sample.bins[clue]];
+  return std::clamp(sum / kReliabilityOne, 1, 255);
+}
+
+Outcome outcome(const std::vector<const PairSamples*>& pairs,
+                const std::vector<const ReliabilityTable*>& tables, int least) {
+  Outcome mean;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    double kept = 0, known = 0, wrong = 0;
+    for (const Sample& sample : pairs[i]->samples) {
+      if (confidence(*tables[i], sample) < least) continue;
+      ++kept;
+      known += sample.known;
+      wrong += sample.wrong;
+    }
+    if (known > 0) mean.d_all += 100 * wrong / known / static_cast<double>(pairs.size());
+    mean.density += 100 * kept / static_cast<double>(pairs[i]->samples.size() * pairs.size());
+  }
+  return mean;
+}
+
+}  // namespace mtstereo::fit

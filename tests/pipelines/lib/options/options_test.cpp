@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the programs say about a mistyped option.
+#include <gtest/gtest.h>
+
+#include "lib/options/failure_message.hpp"
+#include "lib/options/nearest_name.hpp"
+
+namespace mtstereo::options {
+namespace {
+
+const std::vector<std::string> kNames{"max-disparity", "min-disparity", "mode", "out", "what"};
+
+TEST(TypingErrors, AreCounted) {
+  EXPECT_EQ(typing_errors("", ""), 0u);
+  EXPECT_EQ(typing_errors("mode", "mode"), 0u);
+  EXPECT_EQ(typing_errors("", "mode"), 4u);
+  EXPECT_EQ(typing_errors("mode", ""), 4u);
+  EXPECT_EQ(typing_errors("mde", "mode"), 1u);    // a letter is missing
+  EXPECT_EQ(typing_errors("moode", "mode"), 1u);  // one too many
+  EXPECT_EQ(typing_errors("mods", "mode"), 1u);   // another one
+  EXPECT_EQ(typing_errors("moed", "mode"), 1u);   // two exchanged
+  EXPECT_EQ(typing_errors("what", "mode"), 4u);
+}
+
+TEST(NearestName, IsThatWithTheFewestErrors) {
+  EXPECT_EQ(nearest_name("max-disparty", kNames), "max-disparity");
+  EXPECT_EQ(nearest_name("min-disparties", kNames), "min-disparity");
+  EXPECT_EQ(nearest_name("moed", kNames), "mode");
+  EXPECT_EQ(nearest_name("waht", kNames), "what");
+}
+
+TEST(NearestName, IsNoneForAnotherWord) {
+  for (const char* const word : {"", "x", "no-such-option", "calibration", "disparity"}) {
+    EXPECT_EQ(nearest_name(word, kNames), "") << word;
+  }
+  EXPECT_EQ(nearest_name("mode", {}), "");
+}
+
+std::string message_of(const std::vector<std::string>& arguments) {
+  CLI::App app;
+  int number = 0;
+  app.add_option("--max-disparity,-d", number);
+  app.failure_message(failure_message);
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+  try {
+    app.parse(reversed);
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream out, text;
+    app.exit(error, out, text);
+    return text.str();
+  }
+  return "";
+}
+
+TEST(FailureMessage, NamesTheNearestOption) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--max-disparty", "64"}, {"--max-disparty=64"}}) {
+    const std::string message = message_of(arguments);
+    EXPECT_NE(message.find("Did you mean --max-disparity by --max-disparty?"), std::string::npos)
+        << message;
+    EXPECT_NE(message.find("--help"), std::string::npos) << message;
+  }
+}
+
+TEST(FailureMessage, NamesTheNearestOptionIfItsValueIsAnInputTooMany) {
+  CLI::App app;
+  std::vector<std::string> inputs;
+  std::string out;
+  app.add_option("INPUT", inputs)->expected(1, 2);
+  app.add_option("--out", out);
+  app.failure_message(failure_message);
+  try {
+    app.parse("left right --otu folder");
+    FAIL() << "not refused";
+  } catch (const CLI::ParseError& error) {
+    EXPECT_NE(failure_message(&app, error).find("Did you mean --out"), std::string::npos);
+  }
+}
+
+TEST(FailureMessage, DoesNotGuess) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--no-such-option"},
+                                                    {"file"},
+                                                    {"--max-disparity", "x"},
+                                                    {"--"},
+                                                    {"--=3", "-x"}}) {
+    EXPECT_EQ(message_of(arguments).find("Did you mean"), std::string::npos) << arguments[0];
+  }
+  EXPECT_EQ(message_of({"--max-disparity", "64"}), "");
+}
+
+}  // namespace
+}  // namespace mtstereo::options

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What programs may replace, locks of folders, names in messages, numbers in options.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "lib/outputs/finite_range.hpp"
+#include "lib/outputs/folder_lock.hpp"
+#include "lib/outputs/json_text.hpp"
+#include "lib/outputs/listed_folder.hpp"
+#include "lib/outputs/output_error.hpp"
+#include "lib/outputs/printable.hpp"
+#include "lib/outputs/write_file.hpp"
+#include "lib/outputs/written_files.hpp"
+
+namespace mtstereo::outputs {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using namespace std::string_literals;
+
+class Folder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "mtstereo-outputs-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  std::string read(const std::string& name) const {
+    std::ifstream in(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::string obstacle(const Intent& intent) const { return obstacle_in(folder_, intent); }
+
+  fs::path folder_;
+};
+
+std::string error_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const OutputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+using Obstacle = Folder;
+
+TEST_F(Obstacle, IsNothingInAFolderThatIsMissingOrHasOtherFiles) {
+  EXPECT_EQ(obstacle_in(folder_ / "missing", {{"a.mkv", "maps"}, {}, {}}), "");
+  write("notes.txt", "mine");
+  fs::create_directory(folder_ / "maps");
+  EXPECT_EQ(obstacle({{"a.mkv", "maps"}, {}, {}}), "");
+}
+
+TEST_F(Obstacle, IsAForeignFileOrFolder) {
+  write("a.mkv", "mine");
+  write("maps/deep/1.png", "mine");
+  EXPECT_THAT(obstacle({{"a.mkv"}, {}, {}}),
+              AllOf(HasSubstr("a.mkv is in the way"), HasSubstr("move it")));
+  EXPECT_THAT(obstacle({{"b.mkv", "maps"}, {}, {}}), HasSubstr("maps/deep/1.png is in the way"));
+}
+
+TEST_F(Obstacle, IsNoFileThatWasWrittenAndDidNotChange) {
+  write("maps/1.png", "four");
+  Intent intent{{"maps"}, {}, {}};
+  intent.written.add("maps/1.png", 4);
+  EXPECT_EQ(obstacle(intent), "");
+  write("maps/1.png", "longer");
+  EXPECT_THAT(obstacle(intent), AllOf(HasSubstr("1.png was changed"), HasSubstr("6 of 4 bytes")));
+}
+
+// Another process of the same plan moves its folders and removes them.
+TEST_F(Obstacle, IsNoFileOrFolderThatIsRemovedMeanwhile) {
+  std::atomic<bool> stop{false};
+  std::thread other([&] {
+    while (!stop) {
+      write("new/deep/1.png", "four");
+      fs::rename(folder_ / "new", folder_ / "maps");
+      fs::remove_all(folder_ / "maps");
+    }
+  });
+  Intent intent{{"maps"}, {}, {}};
+  intent.written.add("maps/deep/1.png", 4);
+  std::string found;
+  for (int i = 0; i < 5000 && found.empty(); ++i) found = obstacle(intent);
+  stop = true;
+  other.join();
+  EXPECT_EQ(found, "");
+}
+
+TEST_F(Obstacle, IsWhatCannotBeExamined) {
+  EXPECT_THAT(obstacle({{std::string(300, 'a')}, {}, {}}),
+              HasSubstr("cannot be examined: File name"));
+}
+
+TEST_F(Obstacle, IsALinkAPipeOrADevice) {
+  WrittenFiles written;
+  for (const char* name : {"link", "loose", "pipe"}) written.add(name);
+  fs::create_symlink(write("target", "mine"), folder_ / "link");
+  fs::create_symlink(folder_ / "none", folder_ / "loose");
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const char* name : {"link", "loose", "pipe"}) {
+    EXPECT_THAT(obstacle({{name}, written, {}}), HasSubstr(std::string(name) + " is in the way"));
+  }
+}
+
+TEST_F(Obstacle, IsAnInputByAnyName) {
+  const fs::path input = write("input.mkv", "video");
+  fs::create_hard_link(input, folder_ / "a.mkv");
+  fs::create_symlink(input, folder_ / "link.mkv");
+  Intent intent{{"a.mkv"}, {}, FileSet({folder_ / "link.mkv"})};
+  intent.written.add("a.mkv");
+  EXPECT_THAT(obstacle(intent), HasSubstr("a.mkv is an input, and would be replaced"));
+  // Not a target, but a file of an earlier run that would be removed.
+  intent.targets = {"b.mkv"};
+  EXPECT_THAT(obstacle(intent), HasSubstr("a.mkv is an input, and would be removed"));
+}
+
+TEST_F(Obstacle, NamesThatLeadOutOfTheFolderAreNotWritten) {
+  WrittenFiles written;
+  for (const char* name : {"/etc/passwd", "../up", "a/../../up", ".", "", "a//b/."}) {
+    written.add(name);
+  }
+  EXPECT_TRUE(written.empty());
+}
+
+using Removal = Folder;
+
+TEST_F(Removal, TakesWhatWasWrittenAndFoldersThatAreEmptyThen) {
+  write("maps/1.png", "1");
+  write("maps/2.png", "2");
+  write("clouds/1.ply", "1");
+  write("clouds/notes.txt", "mine");
+  write("changed.mkv", "longer");
+  WrittenFiles written;
+  for (const char* name : {"maps/1.png", "maps/2.png", "clouds/1.ply"}) written.add(name, 1);
+  written.add("changed.mkv", 1);
+  written.add("missing.mkv", 1);
+  remove_written(folder_, written);
+  EXPECT_FALSE(fs::exists(folder_ / "maps"));
+  EXPECT_FALSE(fs::exists(folder_ / "clouds/1.ply"));
+  EXPECT_EQ(read("clouds/notes.txt"), "mine");
+  EXPECT_EQ(read("changed.mkv"), "longer");
+}
+
+TEST_F(Removal, FollowsNoLinkToAFolder) {
+  write("elsewhere/1.png", "1");
+  fs::create_symlink(folder_ / "elsewhere", folder_ / "maps");
+  WrittenFiles written;
+  written.add("maps/1.png", 1);
+  remove_written(folder_, written);
+  EXPECT_EQ(read("elsewhere/1.png"), "1");
+}
+
+TEST_F(Removal, DefectsAreNamed) {
+  WrittenFiles written;
+  written.add("a.mkv", 4);
+  EXPECT_EQ(defect_of(folder_, written), "a.mkv is missing");
+  write("a.mkv", "ab");
+  EXPECT_EQ(defect_of(folder_, written), "a.mkv has 2 of 4 bytes");
+  write("a.mkv", "abcd");
+  EXPECT_EQ(defect_of(folder_, written), "");
+}
+
+using Lock = Folder;
+
+TEST_F(Lock, IsHeldByOneAndNamesItsProcess) {
+  const FolderLock lock(folder_ / "new/out");
+  const std::string refused = error_of([&] { FolderLock(folder_ / "new/out"); });
+  EXPECT_THAT(refused, AllOf(HasSubstr("new/out"), HasSubstr("writes into this folder")));
+  if (fs::exists("/proc/locks")) {
+    EXPECT_THAT(refused, HasSubstr("process " + std::to_string(getpid())));
+  }
+}
+
+TEST_F(Lock, IsSharedByThoseThatShareIt) {
+  {
+    const FolderLock first(folder_, Sharing::kShared), second(folder_, Sharing::kShared);
+    EXPECT_THAT(error_of([&] { FolderLock{folder_}; }), HasSubstr("writes into this folder"));
+  }
+  EXPECT_EQ(error_of([&] { FolderLock{folder_}; }), "no error");
+}
+
+TEST_F(Lock, RemovesOnlyEmptyFoldersThatItCreated) {
+  fs::create_directory(folder_ / "old");
+  { const FolderLock lock(folder_ / "old/a/b"); }
+  EXPECT_TRUE(fs::exists(folder_ / "old"));
+  EXPECT_FALSE(fs::exists(folder_ / "old/a"));
+  {
+    const FolderLock lock(folder_ / "old/a/b");
+    write("old/a/notes.txt", "mine");
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "old/a/b"));
+  EXPECT_EQ(read("old/a/notes.txt"), "mine");
+}
+
+TEST_F(Lock, IsReleasedWhenTheProcessIsKilled) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const FolderLock lock(folder_);
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(error_of([&] { FolderLock{folder_}; }), "no error");
+}
+
+TEST_F(Lock, OfAFileIsRefused) {
+  write("file", "");
+  EXPECT_THAT(error_of([&] { FolderLock(folder_ / "file"); }), HasSubstr("cannot be created"));
+  EXPECT_THAT(error_of([&] { FolderLock(folder_ / "file/below"); }),
+              HasSubstr("cannot be created"));
+}
+
+using WriteFile = Folder;
+
+TEST_F(WriteFile, NeverMovesOntoAnother) {
+  const fs::path from = write("from", "new"), to = write("to", "mine");
+  EXPECT_THAT(error_of([&] { move_file(from, to); }), HasSubstr("appeared meanwhile"));
+  EXPECT_EQ(read("to"), "mine");
+  write("folder/new", "new");
+  write("full/mine", "mine");
+  fs::create_directory(folder_ / "empty");
+  EXPECT_NE(error_of([&] { move_file(folder_ / "folder", folder_ / "full"); }), "no error");
+  EXPECT_EQ(read("full/mine"), "mine");
+  move_file(folder_ / "folder", folder_ / "empty");
+  EXPECT_EQ(read("empty/new"), "new");
+}
+
+TEST_F(WriteFile, StatesWhyAFileCannotBeWritten) {
+  fs::create_directory(folder_ / "folder");
+  EXPECT_THAT(error_of([&] { write_file(folder_ / "folder", "x"); }),
+              HasSubstr("not a regular file"));
+  EXPECT_THAT(error_of([&] { write_file(folder_ / "none/file", "x"); }), HasSubstr("No such file"));
+}
+
+using Listed = Folder;
+
+TEST_F(Listed, ReplacesOnlyItsOwnFiles) {
+  write("left/mine.png", "mine");
+  {
+    ListedFolder files(folder_, "program");
+    files.write("right/1.png", "first");
+    files.write("calib.txt", "first");
+    EXPECT_THAT(error_of([&] { files.write("left/mine.png", "x"); }), HasSubstr("in the way"));
+  }
+  ListedFolder files(folder_, "program");
+  EXPECT_THAT(error_of([&] { files.check({"left", "right"}, {}); }), HasSubstr("left/mine.png"));
+  files.check({"right", "calib.txt"}, {});
+  files.write("calib.txt", "second, longer");
+  EXPECT_EQ(read("calib.txt"), "second, longer");
+  files.clear();
+  EXPECT_FALSE(fs::exists(folder_ / "right"));
+  EXPECT_FALSE(fs::exists(folder_ / "calib.txt"));
+  EXPECT_EQ(read("left/mine.png"), "mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
+TEST_F(Listed, RefusesInputsAndFilesThatChanged) {
+  ListedFolder files(folder_, "program");
+  files.write("a.png", "first");
+  const FileSet inputs({folder_ / "a.png"});
+  EXPECT_THAT(error_of([&] { files.check({"b.png"}, inputs); }), HasSubstr("is an input"));
+  write("a.png", "changed by its user");
+  EXPECT_THAT(error_of([&] { files.write("a.png", "x"); }), HasSubstr("was changed"));
+  files.clear();
+  EXPECT_EQ(read("a.png"), "changed by its user");
+}
+
+TEST_F(Listed, ListsOfOtherProgramsAreForeign) {
+  write(".program-files", "Dear diary\n4 a.png\n");
+  write("a.png", "mine");
+  ListedFolder files(folder_, "program");
+  EXPECT_THAT(error_of([&] { files.check({}, {}); }), HasSubstr(".program-files is in the way"));
+  EXPECT_THAT(error_of([&] { files.write("a.png", "x"); }), HasSubstr("in the way"));
+  EXPECT_EQ(read("a.png"), "mine");
+}
+
+TEST(Printable, EscapesWhatIsNoTextAndDoesItOnce) {
+  for (const auto& [text, expected] :
+       std::vector<std::pair<std::string, std::string>>{{"left.mp4", "left.mp4"},
+                                                        {"Straße 東京", "Straße 東京"},
+                                                        {"bad\xff", "bad\\xff"},
+                                                        {"\x1b[31mred", "\\x1b[31mred"},
+                                                        {"cut\0here"s, "cut\\x00here"},
+                                                        {"a\nb\t", "a\\x0ab\\x09"},
+                                                        {"\xc3", "\\xc3"},
+                                                        {"\xc2\x9b"
+                                                         "1m",
+                                                         "\\xc2\\x9b1m"},
+                                                        {"\xed\xa0\x80", "\\xed\\xa0\\x80"},
+                                                        {"back\\slash", "back\\slash"}}) {
+    EXPECT_EQ(printable(text), expected);
+    EXPECT_EQ(printable(printable(text)), expected);
+  }
+  EXPECT_EQ(printable_lines("two\nlines\x1b"), "two\nlines\\x1b");
+}
+
+TEST(Printable, NamesAreRestored) {
+  std::string all;
+  for (int byte = 1; byte < 256; ++byte) all += static_cast<char>(byte);
+  for (const std::string& name :
+       {all, "bad\xff"s, "back\\x41slash"s, "\\"s, "\\x"s, "\\xg1"s, ""s}) {
+    EXPECT_EQ(unescaped(escaped(name)), name);
+    nlohmann::json json{{"list", {{"name", escaped(name)}}}};
+    EXPECT_EQ(unescaped(nlohmann::json::parse(text_of(json))["list"]["name"].get<std::string>()),
+              name);
+  }
+}
+
+TEST(Printable, MakesEveryTextInJsonValid) {
+  EXPECT_EQ(text_of(nlohmann::json{{"a", {"bad\xff", 1}}}), R"({"a":["bad\\xff",1]})");
+}
+
+TEST(FiniteRange, AcceptsNumbersOnly) {
+  for (const char* text : {"nan", "-nan", "inf", "-inf", "NaN", "1e400", "", "1x", "0.5", "11"}) {
+    CLI::App app;
+    double value = 0;
+    app.add_option("--value", value)->check(finite_range(1, 10));
+    EXPECT_THROW(app.parse(std::string("--value=") + text), CLI::ParseError) << text;
+  }
+  for (const char* text : {"nan", "inf", "-inf"}) {
+    CLI::App app;
+    double value = 0;
+    app.add_option("--value", value)->check(finite());
+    EXPECT_THROW(app.parse(std::string("--value=") + text), CLI::ParseError) << text;
+  }
+  CLI::App app;
+  double value = 0;
+  app.add_option("--value", value)->check(finite_range(1, 10))->check(finite());
+  app.parse("--value 10");
+  EXPECT_EQ(value, 10);
+}
+
+}  // namespace
+}  // namespace mtstereo::outputs

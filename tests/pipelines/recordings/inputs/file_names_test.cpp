@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "recordings/inputs/file_names.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "recordings/inputs/run_error.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+
+class FileNames : public testing::Test {
+ protected:
+  FileNames() {
+    std::string name = (fs::temp_directory_path() / "mtstereo-names-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    folder_ = name;
+  }
+  ~FileNames() override { fs::remove_all(folder_); }
+
+  void create(std::initializer_list<const char*> names) const {
+    for (const char* name : names) std::ofstream(folder_ / name).put('x');
+  }
+
+  std::vector<std::string> match(const std::string& pattern) const {
+    return names_of(files_of_pattern((folder_ / pattern).string()));
+  }
+
+  static std::vector<std::string> names_of(const std::vector<fs::path>& files) {
+    std::vector<std::string> names;
+    for (const fs::path& file : files) names.push_back(file.filename().string());
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(FileNames, SortsByNumbers) {
+  create({"f10.png", "f9.png", "f009.png", "f1.png", "notes.txt", ".hidden.png"});
+  EXPECT_THAT(names_of(pictures_in(folder_)),
+              ElementsAre("f1.png", "f009.png", "f9.png", "f10.png"));
+}
+
+TEST_F(FileNames, ComparesNumbersLongerThanAnInteger) {
+  EXPECT_TRUE(numbered_less("99999999999999999999998.png", "99999999999999999999999.png"));
+  EXPECT_FALSE(numbered_less("99999999999999999999999.png", "99999999999999999999998.png"));
+  EXPECT_FALSE(numbered_less("a", "a"));
+}
+
+TEST_F(FileNames, PatternMatchesItsWidth) {
+  create({"left_0001.png", "left_0002.png", "left_10000.png", "left_3.png", "left_00004.png",
+          "right_0001.png", "left_000x.png"});
+  EXPECT_THAT(match("left_%04d.png"),
+              ElementsAre("left_0001.png", "left_0002.png", "left_10000.png"));
+  EXPECT_THAT(match("left_%d.png"), ElementsAre("left_3.png", "left_10000.png"));
+}
+
+TEST_F(FileNames, PatternMayHavePercentSigns) {
+  create({"50%_7.png"});
+  EXPECT_THAT(match("50%%_%d.png"), ElementsAre("50%_7.png"));
+}
+
+TEST_F(FileNames, RefusesPatternWithoutOneNumber) {
+  EXPECT_THROW(match("%s.png"), RunError);
+  EXPECT_THROW(match("%d_%d.png"), RunError);
+  EXPECT_THROW(match("%4d.png"), RunError);
+  EXPECT_THROW(match("%"), RunError);
+}
+
+TEST_F(FileNames, FolderThatDoesNotExistIsEmpty) {
+  EXPECT_TRUE(files_in(folder_ / "none").empty());
+  EXPECT_TRUE(match("none/%d.png").empty());
+}
+
+}  // namespace
+}  // namespace mtstereo::run

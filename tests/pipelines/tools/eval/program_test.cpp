@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// mtstereo-eval as a process: exit status, messages, files.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "mtstereo/parameters.hpp"
+#include "support.hpp"
+#include "tools/eval/pfm.hpp"
+
+namespace mtstereo::eval {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using testing::make_pair;
+using ::testing::Not;
+using testing::Outcome;
+using testing::read_file;
+using testing::run_eval;
+using testing::TempFolder;
+using testing::write_file;
+using testing::write_pair_folder;
+
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_pair_folder(folder_ / "set/A", make_pair(240, 120, 9), 32);
+    write_pair_folder(folder_ / "set/B", make_pair(200, 100, 5), 16);
+  }
+  std::string set() const { return folder_ / "set"; }
+  TempFolder folder_;
+};
+
+TEST_F(Program, EvaluatesAllPairsAndExitsWith0) {
+  const Outcome run =
+      run_eval({set(), "--json", folder_ / "out/r.json", "--csv", folder_ / "r.csv"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "") << "no progress bar if stderr is no terminal";
+  EXPECT_THAT(run.out, HasSubstr("mean of 2"));
+  const json report = json::parse(read_file(folder_ / "out/r.json"));
+  EXPECT_EQ(report["dataset"], "middlebury");
+  ASSERT_EQ(report["pairs"].size(), 2U);
+  EXPECT_EQ(report["pairs"][0]["max_disparity"], 32);
+  EXPECT_LT(report["pairs"][0]["results"]["mtstereo"]["all"]["avgerr"], 1.0);
+  EXPECT_GT(report["mean"]["mtstereo"]["density"], 5.0);
+  EXPECT_TRUE(report["failures"].empty());
+  EXPECT_THAT(read_file(folder_ / "r.csv"), HasSubstr("\nmean,mtstereo,all,"));
+}
+
+TEST_F(Program, NamesCorruptFilesRunsOtherPairsAndExitsWith1) {
+  const std::string pfm = read_file(folder_ / "set/A/disp0GT.pfm");
+  write_file(folder_ / "set/A/disp0GT.pfm", pfm.substr(0, pfm.size() - 100));
+  write_pair_folder(folder_ / "set/C", make_pair(200, 100, 5), 16);
+  std::filesystem::remove(folder_ / "set/C/im1.png");
+  const Outcome run = run_eval({set(), "--json", folder_ / "r.json"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.err, HasSubstr("A/disp0GT.pfm: ends too early"));
+  EXPECT_THAT(run.err, HasSubstr("C/im1.png: no such file"));
+  EXPECT_THAT(run.out, HasSubstr("mean of 1"));
+  const json report = json::parse(read_file(folder_ / "r.json"));
+  EXPECT_EQ(report["pairs"].size(), 1U);
+  EXPECT_EQ(report["failures"].size(), 2U);
+}
+
+TEST_F(Program, ExitsWith2IfThereIsNothingToDo) {
+  EXPECT_EQ(run_eval({folder_ / "none"}).status, 2);
+  EXPECT_THAT(run_eval({folder_ / "none"}).err, HasSubstr("none: no such folder"));
+  std::filesystem::create_directory(folder_ / "empty");
+  EXPECT_EQ(run_eval({folder_ / "empty"}).status, 2);
+  EXPECT_EQ(run_eval({set(), "--dataset", "kitti2015"}).status, 2);
+  const Outcome run = run_eval({set(), "--only", "nothing-like-this"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("nothing-like-this"));
+}
+
+TEST_F(Program, ExitsWith2AndNamesTheInvalidOption) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
+      {{}, "FOLDER"},
+      {{set(), "--no-such-option"}, "--no-such-option"},
+      {{set(), "--dataset", "kitti2013"}, "--dataset"},
+      {{set(), "--compare", "sgbm,elas"}, "elas"},
+      {{set(), "--repeat", "0"}, "--repeat"},
+      {{set(), "--warm-up", "-1"}, "--warm-up"},
+      {{set(), "--format", "tiff"}, "--format"},
+      {{set(), "--dmap", "meters"}, "--dmap"},
+      {{set(), "--json"}, "--json"},
+  };
+  for (const auto& [arguments, name] : wrong) {
+    const Outcome run = run_eval(arguments);
+    EXPECT_EQ(run.status, 2) << name;
+    EXPECT_THAT(run.err, HasSubstr(name));
+  }
+}
+
+TEST_F(Program, NamesValueAndRangeOfAnInvalidParameter) {
+  const Outcome run = run_eval({set(), "--max-disparity", "99999"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("max-disparity"));
+  EXPECT_THAT(run.err, HasSubstr("99999"));
+  EXPECT_THAT(run.err, HasSubstr(std::to_string(kLargestMaxDisparity)));
+  EXPECT_THAT(run_eval({set(), "--mode", "denser"}).err, HasSubstr("semi-dense"));
+}
+
+TEST_F(Program, HasAnOptionForEveryParameter) {
+  const Outcome help = run_eval({"--help"});
+  EXPECT_EQ(help.status, 0);
+  for (const ParameterInfo& info : parameter_table()) {
+    EXPECT_THAT(help.out, HasSubstr(std::string("--") + info.name + " "));
+    // Each is passed to the matcher: its default is accepted and is in the report.
+    const std::string value = parameter_default(info.id, Preset::kDefault, Mode::kSparse);
+    const Outcome run = run_eval({set(), "--only", "B", "--mode", "sparse", "--json",
+                                  folder_ / "r.json", std::string("--") + info.name, value});
+    if (info.id == Parameter::kMode) continue;  // given twice
+    ASSERT_EQ(run.status, 0) << info.name << ": " << run.err;
+    EXPECT_EQ(json::parse(read_file(folder_ / "r.json"))["parameters"][info.name], value);
+  }
+}
+
+TEST_F(Program, PrintsItsVersion) {
+  const Outcome run = run_eval({"--version"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("."));
+}
+
+TEST_F(Program, LimitsTheRequestedRangeToTheWidth) {
+  const Outcome run = run_eval({set(), "--only", "B", "--max-disparity", "1000"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("B: the search range is 200 px, not 1000 px"));
+}
+
+TEST_F(Program, RunsTheRivalsOnTheSamePairs) {
+  const Outcome run = run_eval(
+      {set(), "--compare", "sgbm,sgbm-3way,bm", "--threads", "1", "--json", folder_ / "r.json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const json report = json::parse(read_file(folder_ / "r.json"));
+  for (const char* method : {"mtstereo", "sgbm", "sgbm-3way", "bm"}) {
+    EXPECT_EQ(report["mean"][method]["pairs"], 2) << method;
+    EXPECT_GT(report["mean"][method]["time_ratio"], 0.0) << method;
+  }
+  EXPECT_THAT(run.out, HasSubstr("times as long as mtstereo"));
+}
+
+TEST_F(Program, WritesDisparityMapsAndPictures) {
+  const Outcome pfm = run_eval({set(), "--only", "A", "--write-disparity", folder_ / "maps",
+                                "--write-pictures", folder_ / "pictures"});
+  ASSERT_EQ(pfm.status, 0) << pfm.err;
+  EXPECT_EQ(read_pfm(folder_ / "maps/A.pfm").size(), cv::Size(240, 120));
+  EXPECT_EQ(cv::imread(folder_ / "pictures/A.png").size(), cv::Size(480, 240));
+
+  const Outcome kitti =
+      run_eval({set(), "--only", "A", "--write-disparity", folder_ / "maps", "--format", "kitti"});
+  ASSERT_EQ(kitti.status, 0) << kitti.err;
+  const cv::Mat map = cv::imread(folder_ / "maps/A.png", cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(map.type(), CV_16UC1);
+  EXPECT_GT(cv::countNonZero(map), 240 * 120 / 20);
+}
+
+TEST_F(Program, RejectsAnUnwritableFileBeforeTheEvaluation) {
+  write_file(folder_ / "file", "");
+  const Outcome run = run_eval({set(), "--json", folder_ / "file/r.json"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("file"));
+  EXPECT_EQ(run.out, "");
+}
+
+TEST_F(Program, NeverOverwritesAnInput) {
+  const std::string before = read_file(folder_ / "set/A/disp0GT.pfm");
+  for (const char* option : {"--json", "--csv"}) {
+    // The file may belong to a pair that is not requested.
+    const Outcome run = run_eval({set(), "--only", "B", option, folder_ / "set/A/disp0GT.pfm"});
+    EXPECT_EQ(run.status, 2) << option;
+    EXPECT_THAT(run.err, HasSubstr("belongs to the data set")) << option;
+    EXPECT_EQ(read_file(folder_ / "set/A/disp0GT.pfm"), before) << option;
+  }
+}
+
+TEST_F(Program, ReplacesOnlyItsOwnFiles) {
+  const std::pair<const char*, const char*> kOutputs[] = {{"--json", "a.json"}, {"--csv", "a.csv"}};
+  for (const auto& [option, name] : kOutputs) {
+    write_file(folder_ / name, "mine");
+    const Outcome refused = run_eval({set(), "--only", "A", option, folder_ / name});
+    EXPECT_EQ(refused.status, 2) << option;
+    EXPECT_THAT(refused.err, HasSubstr("mtstereo-eval did not write it")) << option;
+    EXPECT_EQ(read_file(folder_ / name), "mine") << option;
+    write_file(folder_ / name, "");
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_EQ(run_eval({set(), "--only", "A", option, folder_ / name}).status, 0) << option;
+    }
+  }
+  EXPECT_EQ(run_eval({set(), "--only", "A", "--json", "/dev/null"}).status, 2);
+  write_file(folder_ / "maps/A.pfm", "mine");
+  const Outcome maps = run_eval({set(), "--write-disparity", folder_ / "maps"});
+  EXPECT_EQ(maps.status, 1);
+  EXPECT_THAT(maps.err, HasSubstr("A.pfm is in the way"));
+  EXPECT_EQ(read_file(folder_ / "maps/A.pfm"), "mine");
+  EXPECT_EQ(read_pfm(folder_ / "maps/B.pfm").size(), cv::Size(200, 100));
+}
+
+TEST_F(Program, ListsWithoutRunning) {
+  const Outcome run = run_eval({set(), "--list"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("2 pairs of middlebury"));
+  EXPECT_THAT(run.out, HasSubstr("A/im0.png"));
+  EXPECT_THAT(run.out, Not(HasSubstr("mean")));
+}
+
+TEST_F(Program, RunsAtMostTheLimitOfPairs) {
+  const Outcome run = run_eval({set(), "--limit", "1", "--list"});
+  EXPECT_THAT(run.out, HasSubstr("1 pairs of middlebury"));
+}
+
+TEST_F(Program, KeepsTheMeanIfOneMapHasNoEstimate) {
+  // Two flat images have no nodes that end inside the image, so nothing can be matched.
+  testing::TestPair flat = make_pair(240, 120, 9);
+  flat.left.setTo(80);
+  flat.right.setTo(80);
+  write_pair_folder(folder_ / "set/F", flat, 32);
+  const Outcome run = run_eval({set(), "--json", folder_ / "r.json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const json report = json::parse(read_file(folder_ / "r.json"));
+  EXPECT_EQ(report["pairs"][2]["results"]["mtstereo"]["density"], 0.0);
+  EXPECT_TRUE(report["pairs"][2]["results"]["mtstereo"]["all"]["avgerr"].is_null());
+  EXPECT_LT(report["mean"]["mtstereo"]["all"]["avgerr"], 1.0);
+}
+
+}  // namespace
+}  // namespace mtstereo::eval

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools/eval/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace mtstereo::eval {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+MethodResult result_of(const std::string& method, double avgerr, double seconds) {
+  MethodResult result;
+  result.method = method;
+  result.evaluation.density = 40;
+  result.evaluation.all.known = 100;
+  result.evaluation.all.compared = 50;
+  result.evaluation.all.avgerr = avgerr;
+  result.evaluation.all.rms = 2 * avgerr;
+  result.evaluation.all.d_all = 3;
+  result.evaluation.all.bad = {9, 8, 7, 6};
+  result.evaluation.all.known_density = 50;
+  result.seconds = seconds;
+  result.seconds_per_megapixel = 2 * seconds;
+  return result;
+}
+
+// Two pairs; the second has a mask and no result of the rival.
+Report small_report() {
+  Report report;
+  report.dataset = "middlebury";
+  report.folder = "some/folder";
+  report.parameters = {{"mode", "sparse"}, {"threads", "2"}};
+  report.methods = {"mtstereo", "bm"};
+  report.rival_settings = {{"bm", "block 15"}};
+  PairReport a;
+  a.pair.name = "A, \"the first\"";
+  a.size = {640, 480};
+  a.max_disparity = 64;
+  a.results = {result_of("mtstereo", 1, 0.5), result_of("bm", 3, 0.25)};
+  PairReport b = a;
+  b.pair.name = "B";
+  b.pair.weight = 0.5;
+  b.results = {result_of("mtstereo", 4, 1.5)};
+  b.results[0].evaluation.noc = b.results[0].evaluation.all;
+  b.results[0].evaluation.noc->avgerr = 2;
+  report.pairs = {a, b};
+  report.failures = {{"C", "C/im0.png: no such file"}};
+  return report;
+}
+
+// The fields of a CSV line (RFC 4180).
+std::vector<std::string> split_csv(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (quoted && line[i] == '"' && i + 1 < line.size() && line[i + 1] == '"') {
+      fields.back() += line[i++];
+    } else if (line[i] == '"') {
+      quoted = !quoted;
+    } else if (line[i] == ',' && !quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += line[i];
+    }
+  }
+  return fields;
+}
+
+TEST(Summary, IsWeightedAndComparesTimesOfTheSamePairs) {
+  const std::vector<Summary> means = summarize(small_report());
+  ASSERT_EQ(means.size(), 2U);
+  EXPECT_EQ(means[0].pairs, 2);
+  EXPECT_DOUBLE_EQ(means[0].evaluation.all.avgerr, (1 + 4 * 0.5) / 1.5);
+  EXPECT_DOUBLE_EQ(means[0].seconds_per_megapixel, 2);
+  EXPECT_DOUBLE_EQ(means[0].time_ratio, 1);
+  EXPECT_EQ(means[1].pairs, 1);
+  EXPECT_DOUBLE_EQ(means[1].time_ratio, 0.5);
+}
+
+TEST(Summary, ComputesTheRatioOnlyOverPairsOfBoth) {
+  Report report = small_report();
+  PairReport rival_only = report.pairs[0];
+  rival_only.results = {result_of("bm", 3, 100)};
+  report.pairs.push_back(rival_only);
+  const std::vector<Summary> means = summarize(report);
+  EXPECT_EQ(means[1].pairs, 2);
+  EXPECT_DOUBLE_EQ(means[1].time_ratio, 0.5);
+}
+
+TEST(Json, ParsesBackToTheFigures) {
+  const json parsed = json::parse(to_json(small_report()).dump());
+  EXPECT_EQ(parsed["dataset"], "middlebury");
+  EXPECT_EQ(parsed["parameters"]["mode"], "sparse");
+  ASSERT_EQ(parsed["pairs"].size(), 2U);
+  const json& a = parsed["pairs"][0];
+  EXPECT_EQ(a["name"], "A, \"the first\"");
+  EXPECT_EQ(a["width"], 640);
+  EXPECT_EQ(a["results"]["mtstereo"]["all"]["avgerr"], 1.0);
+  EXPECT_EQ(a["results"]["mtstereo"]["all"]["bad0.5"], 9.0);
+  EXPECT_EQ(a["results"]["mtstereo"]["all"]["bad4"], 6.0);
+  EXPECT_EQ(a["results"]["bm"]["seconds"], 0.25);
+  EXPECT_TRUE(a["results"]["bm"]["noc"].is_null());
+  EXPECT_EQ(parsed["pairs"][1]["results"]["mtstereo"]["noc"]["avgerr"], 2.0);
+  EXPECT_EQ(parsed["mean"]["bm"]["time_ratio"], 0.5);
+  ASSERT_EQ(parsed["failures"].size(), 1U);
+  EXPECT_EQ(parsed["failures"][0]["reason"], "C/im0.png: no such file");
+}
+
+TEST(Json, HasNullForMissingFigures) {
+  Report report = small_report();
+  report.pairs[0].results[0].evaluation.all.avgerr = kNone;
+  const json parsed = json::parse(to_json(report).dump());
+  EXPECT_TRUE(parsed["pairs"][0]["results"]["mtstereo"]["all"]["avgerr"].is_null());
+}
+
+TEST(Csv, ParsesBackToTheFigures) {
+  std::istringstream lines(to_csv(small_report()));
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line));
+  const std::vector<std::string> header = split_csv(line);
+  const auto column = [&](const std::string& name) {
+    const auto found = std::find(header.begin(), header.end(), name);
+    EXPECT_NE(found, header.end()) << name;
+    return static_cast<std::size_t>(found - header.begin());
+  };
+  std::vector<std::vector<std::string>> rows;
+  while (std::getline(lines, line)) {
+    rows.push_back(split_csv(line));
+    EXPECT_EQ(rows.back().size(), header.size()) << line;
+  }
+  // A with two methods, B with two regions, the mean of both methods, one of them with two regions.
+  ASSERT_EQ(rows.size(), 7U);
+  EXPECT_EQ(rows[0][column("pair")], "A, \"the first\"");
+  EXPECT_EQ(std::stod(rows[0][column("avgerr")]), 1);
+  EXPECT_EQ(std::stod(rows[1][column("avgerr")]), 3);
+  EXPECT_EQ(rows[3][column("region")], "noc");
+  EXPECT_EQ(std::stod(rows[3][column("avgerr")]), 2);
+  EXPECT_EQ(std::stod(rows[0][column("bad0.5")]), 9);
+  EXPECT_EQ(std::stod(rows[0][column("density")]), 40);
+  EXPECT_EQ(rows[4][column("pair")], "mean");
+  EXPECT_EQ(std::stod(rows[4][column("avgerr")]), 2);
+  EXPECT_EQ(rows[4][column("seconds")], "");
+}
+
+TEST(Table, ShowsPairsMeansRegionsAndRatio) {
+  std::ostringstream out;
+  print_table(out, small_report());
+  EXPECT_THAT(out.str(), HasSubstr("middlebury in some/folder, mode sparse"));
+  EXPECT_THAT(out.str(), HasSubstr("mean of 2"));
+  EXPECT_THAT(out.str(), HasSubstr("visible in both views"));
+  EXPECT_THAT(out.str(), HasSubstr("bm: OpenCV, block 15; takes 0.50 times as long as mtstereo"));
+  EXPECT_THAT(out.str(), Not(HasSubstr("nan")));
+}
+
+TEST(Table, ShowsOnlyPairsWithAMaskInTheSecondPart) {
+  std::ostringstream out;
+  print_table(out, small_report());
+  const std::string second = out.str().substr(out.str().find("visible in both views"));
+  EXPECT_THAT(second, Not(HasSubstr("the first")));
+  EXPECT_THAT(second, HasSubstr("B     "));
+  EXPECT_THAT(second, HasSubstr("2.000"));
+}
+
+TEST(Table, ShowsADashForMissingFigures) {
+  Report report = small_report();
+  for (PairReport& pair : report.pairs) pair.results.resize(1);
+  report.pairs[0].results[0].evaluation.all = Metrics{};
+  std::ostringstream out;
+  print_table(out, report);
+  EXPECT_THAT(out.str(), HasSubstr("  -  "));
+  EXPECT_THAT(out.str(), Not(HasSubstr("nan")));
+}
+
+TEST(Table, ReportsThatNothingCouldBeEvaluated) {
+  Report report = small_report();
+  report.pairs.clear();
+  std::ostringstream out;
+  print_table(out, report);
+  EXPECT_THAT(out.str(), HasSubstr("no pair could be evaluated"));
+}
+
+}  // namespace
+}  // namespace mtstereo::eval

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools/fit/fitting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tools/eval/degradation.hpp"
+
+namespace mtstereo::fit {
+namespace {
+
+/// Samples whose odds depend on two clues, by the sum of known entries.
+PairSamples made_samples(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  PairSamples made{"made", eval::kCleanKind, {}};
+  for (int i = 0; i < count; ++i) {
+    Sample sample{{}, true, false};
+    sample.bins[kSupportClue] = static_cast<std::uint8_t>(random() % 4);
+    sample.bins[kShareClue] = static_cast<std::uint8_t>(random() % 3);
+    const double odds = 1.5 * sample.bins[kSupportClue] - 1.0 * sample.bins[kShareClue];
+    sample.wrong = uniform(random) > 1 / (1 + std::exp(-odds));
+    made.samples.push_back(sample);
+  }
+  return made;
+}
+
+TEST(Fitting, FindsTheEntriesThatMadeTheSamples) {
+  const PairSamples samples = made_samples(60000, 1);
+  const LogOdds table = fit({&samples});
+  const auto& support = table[kSupportClue];
+  const auto& share = table[kShareClue];
+  for (int bin = 1; bin < 4; ++bin) EXPECT_NEAR(support[bin] - support[0], 1.5 * bin, 0.2);
+  for (int bin = 1; bin < 3; ++bin) EXPECT_NEAR(share[bin] - share[0], -1.0 * bin, 0.1);
+}
+
+TEST(Fitting, IgnoresSamplesWithoutTruth) {
+  PairSamples samples = made_samples(5000, 2);
+  const LogOdds before = fit({&samples});
+  for (int i = 0; i < 5000; ++i) samples.samples.push_back({{}, false, true});
+  EXPECT_EQ(before, fit({&samples}));
+}
+
+TEST(Fitting, GivesTheConfidenceOfTheOdds) {
+  const PairSamples samples = made_samples(60000, 3);
+  const LogOdds odds = fit({&samples});
+  const ReliabilityTable table = library_table(odds);
+  for (int i = 0; i < 100; ++i) {
+    const Sample& sample = samples.samples[i];
+    const double expected = kEvenOdds + kPerLogOdds * log_odds(odds, sample);
+    EXPECT_NEAR(confidence(table, sample), std::clamp(expected, 1.0, 255.0), 1);
+  }
+}
+
+TEST(Fitting, CountsWhatIsKept) {
+  PairSamples samples{"made", eval::kCleanKind, {}};
+  // One right and one wrong answer of high confidence, two wrong ones of low confidence.
+  for (const auto& [bin, wrong] : {std::pair{1, false}, {1, true}, {0, true}, {0, true}}) {
+    Sample sample{{}, true, wrong};
+    sample.bins[kSupportClue] = static_cast<std::uint8_t>(bin);
+    samples.samples.push_back(sample);
+  }
+  ReliabilityTable table{};
+  table[kSupportClue][1] = 100 * kReliabilityOne;
+  const Outcome kept = outcome({&samples}, {&table}, 50);
+  EXPECT_DOUBLE_EQ(kept.density, 50);
+  EXPECT_DOUBLE_EQ(kept.d_all, 50);
+  EXPECT_DOUBLE_EQ(outcome({&samples}, {&table}, 1).d_all, 75);
+}
+
+const ReliabilityTable& guide_table() {
+  return kReliabilityTables[static_cast<int>(RatedMap::kGuide)];
+}
+
+TEST(Samples, DependOnTheArgumentsOnly) {
+  const std::vector<TrainingPair> pairs = rendered_pairs();
+  ASSERT_FALSE(pairs.empty());
+  for (const RatedMap rated :
+       {RatedMap::kComplete, RatedMap::kEnlarged, RatedMap::kMatched, RatedMap::kGuide}) {
+    const PairSamples first = take_samples(pairs[0], "noise=5", rated, guide_table(), 300);
+    const PairSamples second = take_samples(pairs[0], "noise=5", rated, guide_table(), 300);
+    const bool all = rated != RatedMap::kMatched;
+    ASSERT_EQ(first.samples.size(), second.samples.size());
+    EXPECT_LE(first.samples.size(), all ? 300 : 299);
+    EXPECT_GE(first.samples.size(), all ? 300 : 150);
+    int wrong = 0;
+    for (std::size_t i = 0; i < first.samples.size(); ++i) {
+      EXPECT_EQ(first.samples[i].bins, second.samples[i].bins);
+      wrong += first.samples[i].wrong;
+    }
+    EXPECT_LT(wrong, all ? 100 : 30);  // of a map that is mostly right
+  }
+}
+
+TEST(Samples, OfEnlargedViewsAreWrongByPixelsOfTheOriginal) {
+  const std::vector<TrainingPair> pairs = rendered_pairs();
+  ASSERT_FALSE(pairs.empty());
+  const auto share_of_wrong = [&](const char* kind) {
+    const PairSamples taken =
+        take_samples(pairs[0], kind, RatedMap::kComplete, guide_table(), 2000);
+    int known = 0, wrong = 0;
+    for (const Sample& sample : taken.samples) {
+      known += sample.known;
+      wrong += sample.wrong;
+    }
+    EXPECT_EQ(taken.kind, kind);
+    EXPECT_GT(known, 1000) << kind;
+    return static_cast<double>(wrong) / known;
+  };
+  // Twice as many pixels of the enlarged map would be 3 of its px away.
+  EXPECT_NEAR(share_of_wrong("soft2x"), share_of_wrong(eval::kCleanKind), 0.02);
+}
+
+}  // namespace
+}  // namespace mtstereo::fit
