@@ -148,10 +148,10 @@ if [ "$quick" = no ]; then
   # The sanitizer's library is shared, as the programs above need it.
   asan_library=$(clang++ -print-file-name=libclang_rt.asan-x86_64.so)
   shared_asan="-shared-libasan -Wl,-rpath,${asan_library%/*}"
-  target=later suites=(--suite core --suite geometry --suite gst --suite fuzz --no-suite scenes)
-  [ "$thorough" = no ] || target=all suites=(--no-suite pipelines)
+  target=later tools=disabled suites=(--suite core --suite geometry --suite gst --suite fuzz)
+  [ "$thorough" = no ] || target=all tools=enabled suites=(--no-suite pipelines)
   if CC=$clang CXX=$clang++ build build-clang-asan "$target" -Dbuildtype=debugoptimized \
-    -Db_sanitize=address,undefined -Db_lundef=false \
+    -Db_sanitize=address,undefined -Db_lundef=false -Dtools=$tools -Dprograms=$tools \
     -Dc_link_args="$shared_asan" -Dcpp_link_args="$shared_asan"; then
     run_tests build-clang-asan "${suites[@]}" -t 5
     if [ "$thorough" = yes ]; then
