@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <optional>
 #include <thread>
 
+#include "matcher/fine_detail.hpp"
 #include "stages/prepare/halving.hpp"
 
 namespace mtstereo {
@@ -67,14 +70,23 @@ void FrameMatcher::resize(ImageSize input) {
   sized_ = true;
 }
 
-void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observer) {
-  disparity_ = {};
-  confidence_ = {};
-  detail_ = {};
+FrameResult FrameMatcher::compute(GrayView left, GrayView right, const Observer& observer) {
+  const auto start = std::chrono::steady_clock::now();
   resize({left.width, left.height});
   Views& views = memory_.views;
   views.start(settings_, left, right);
   memory_.result.start(memory_.maps);
+  FrameResult result = run_steps(observer);
+  result.statistics.half_resolution = settings_.half();
+  if (settings_.chooses_resolution) result.statistics.fine_detail = choose_resolution(result);
+  views.release();
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  result.statistics.milliseconds = took.count();
+  result.statistics.density = density(result.disparity);
+  return result;
+}
+
+FrameResult FrameMatcher::run_steps(const Observer& observer) {
   const Bands bands(*pool_, size_.matched.height);
   const Bands input_bands(*pool_, size_.frame.height);
   const StepContext context = {settings_, bands, input_bands};
@@ -82,40 +94,39 @@ void FrameMatcher::compute(GrayView left, GrayView right, const Observer& observ
     step.run(context, memory_);
     if (observer) observer(step, memory_);
   });
-  disparity_ = memory_.result.disparity->view();
-  confidence_ = memory_.result.confidence->view();
-  resolution_ = settings_.resolution;
-  if (settings_.chooses_resolution) choose_resolution(views);
-  views.release();
+  return {memory_.result.disparity->view(), memory_.result.confidence->view(), {}};
 }
 
-/// Measures the detail of this pair and chooses the resolution of the next one.
-void FrameMatcher::choose_resolution(const Views& views) {
-  const DetailViews compared = {views.left, views.input[1], disparity_, confidence_,
-                                std::min(settings_.min_disparity, 0)};
+/// Measures the detail of this pair and chooses the resolution of the next one. Returns the share
+/// of fine detail, 0 if it is unknown.
+double FrameMatcher::choose_resolution(const FrameResult& result) {
+  const DetailViews compared = {memory_.views.left, memory_.views.input[1], result.disparity,
+                                result.confidence, memory_.result.place.disparity_offset()};
   std::atomic<std::int64_t> fine{0}, coarse{0}, points{0};
-  Bands(*pool_, disparity_.height).rows([&](int y0, int y1, int) {
+  Bands(*pool_, result.disparity.height).rows([&](int y0, int y1, int) {
     const FineDetail in_band = measure_detail(compared, y0, y1);
     fine += in_band.fine;
     coarse += in_band.coarse;
     points += in_band.points;
   });
-  detail_ = {fine, coarse, points};
-  choice_.take(detail_.share());
-  if (choice_.resolution() == settings_.resolution) return;
-  settings_.match_at(choice_.resolution());
-  sized_ = false;
+  const FineDetail detail = {fine, coarse, points};
+  const std::optional<double> share = detail.share();
+  choice_.take(share);
+  if (choice_.resolution() != settings_.resolution) {
+    settings_.match_at(choice_.resolution());
+    sized_ = false;
+  }
+  return share.value_or(0);
 }
 
-double FrameMatcher::density() {
-  if (disparity_.height == 0) return 0;
+double FrameMatcher::density(const DisparityView& disparity) {
   std::atomic<std::int64_t> known{0};
-  Bands(*pool_, disparity_.height).rows([&](int y0, int y1, int) {
+  Bands(*pool_, disparity.height).rows([&](int y0, int y1, int) {
     std::int64_t in_band = 0;
-    for (int y = y0; y < y1; ++y) in_band += known_pixels(disparity_.row(y), disparity_.width);
+    for (int y = y0; y < y1; ++y) in_band += known_pixels(disparity.row(y), disparity.width);
     known += in_band;
   });
-  return static_cast<double>(known) / (static_cast<double>(disparity_.width) * disparity_.height);
+  return static_cast<double>(known) / (static_cast<double>(disparity.width) * disparity.height);
 }
 
 }  // namespace mtstereo

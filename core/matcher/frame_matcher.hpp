@@ -5,12 +5,11 @@
 #include <optional>
 
 #include "base/thread_pool.hpp"
-#include "matcher/fine_detail.hpp"
 #include "matcher/frame_memory.hpp"
 #include "matcher/resolution_choice.hpp"
 #include "matcher/settings.hpp"
 #include "matcher/steps.hpp"
-#include "mtstereo/image.hpp"
+#include "mtstereo/matcher.hpp"
 
 namespace mtstereo {
 
@@ -36,35 +35,21 @@ class FrameMatcher {
   /// Matches a pair of views of equal size, which must fit the settings. Allocates memory for the
   /// first pair and after a change of settings or size only. Throws std::bad_alloc, and
   /// std::system_error if a thread cannot start; the matcher can be used again after that.
-  void compute(GrayView left, GrayView right, const Observer& observer = {});
-
-  /// The result of the last pair; empty before the first one and after compute() threw.
-  DisparityView disparity() const { return disparity_; }
-  GrayView confidence() const { return confidence_; }
-
-  /// Fraction of pixels with a disparity in the last result, 0 .. 1.
-  double density();
-
-  /// The resolution that the last pair was matched at, and its detail if the settings choose the
-  /// resolution.
-  Resolution resolution() const { return resolution_; }
-  const FineDetail& detail() const { return detail_; }
+  FrameResult compute(GrayView left, GrayView right, const Observer& observer = {});
 
  private:
   void resize(ImageSize input);
   void size_memory(const Settings& settings);
-  void choose_resolution(const Views& views);
+  FrameResult run_steps(const Observer& observer);
+  double density(const DisparityView& disparity);
+  double choose_resolution(const FrameResult& result);
 
   Settings settings_;
   ResolutionChoice choice_;
-  Resolution resolution_ = Resolution::kFull;
-  FineDetail detail_;
   std::optional<ThreadPool> pool_;
   FrameMemory memory_;
   FrameSize size_;
   bool sized_ = false;  ///< the memory has the size for settings_ and size_
-  DisparityView disparity_;
-  GrayView confidence_;
 };
 
 }  // namespace mtstereo

@@ -3,7 +3,6 @@
 #include "mtstereo/matcher.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <new>
 #include <string>
@@ -58,7 +57,6 @@ struct __attribute__((visibility("hidden"))) Matcher::State {
 
   Parameters parameters;
   FrameMatcher matcher;
-  FrameStatistics statistics;
 };
 
 Matcher::Matcher(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
@@ -111,22 +109,15 @@ const ViewCorrection& Matcher::correction() const noexcept {
 
 void Matcher::restart() noexcept { state_->matcher.restart(); }
 
-Result<DisparityView> Matcher::compute(GrayView left, GrayView right) noexcept {
-  return guarded([&]() -> Result<DisparityView> {
+Result<FrameResult> Matcher::compute(GrayView left, GrayView right) noexcept {
+  return guarded([&]() -> Result<FrameResult> {
     State& state = *state_;
     if (Status status = check_pair(left, right); !status) return status.error();
     if (Status status = state.parameters.check_frame(left.width, left.height); !status) {
       return status.error();
     }
-    state.statistics = {};
     try {
-      const auto start = std::chrono::steady_clock::now();
-      state.matcher.compute(left, right);
-      const std::chrono::duration<double, std::milli> took =
-          std::chrono::steady_clock::now() - start;
-      state.statistics = {took.count(), state.matcher.density(),
-                          state.matcher.resolution() != Resolution::kFull,
-                          state.matcher.detail().share().value_or(0)};
+      return state.matcher.compute(left, right);
     } catch (const std::bad_alloc&) {
       return Error{
           ErrorCode::kOutOfMemory,
@@ -137,13 +128,8 @@ Result<DisparityView> Matcher::compute(GrayView left, GrayView right) noexcept {
       return Error{ErrorCode::kSystem,
                    std::string("the frame could not be matched: ") + exception.what()};
     }
-    return state.matcher.disparity();
   });
 }
-
-GrayView Matcher::confidence() const noexcept { return state_->matcher.confidence(); }
-
-FrameStatistics Matcher::statistics() const noexcept { return state_->statistics; }
 
 Status write_disparity16(DisparityView disparity, int scale,
                          ImageView<std::uint16_t> out) noexcept {

@@ -146,8 +146,7 @@ cv::Mat matched_along_paths(const char* mode, const render::StereoFrame& frame) 
 /// The result with the defaults.
 cv::Mat result_of(const char* mode, const render::StereoFrame& frame) {
   FrameMatcher matcher = matcher_of("default", mode);
-  matcher.compute(view_of(frame.left), view_of(frame.right));
-  return eval::to_float(matcher.disparity());
+  return eval::to_float(matcher.compute(view_of(frame.left), view_of(frame.right)).disparity);
 }
 
 void draw_pictures(const fs::path& folder) {

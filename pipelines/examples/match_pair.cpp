@@ -40,11 +40,10 @@ mtstereo::GrayView view_of(const cv::Mat& gray) {
   return {gray.data, gray.cols, gray.rows, static_cast<std::ptrdiff_t>(gray.step)};
 }
 
-void report(const mtstereo::AlignmentTracker& tracker, const mtstereo::Matcher& matcher, int width,
-            int height) {
+void report(const mtstereo::AlignmentTracker& tracker, double density, int width, int height) {
   const mtstereo::ViewCorrection& correction = tracker.correction();
   std::printf("density %.1f %%, rows corrected by up to %.2f px, blur %.2f and %.2f px\n",
-              100 * matcher.statistics().density, correction.rows.largest(width, height),
+              100 * density, correction.rows.largest(width, height),
               static_cast<double>(correction.left_blur),
               static_cast<double>(correction.right_blur));
   for (int i = 0; i < mtstereo::kPairProblems; ++i) {
@@ -69,7 +68,8 @@ void match(const std::string& left_file, const std::string& right_file,
   require(tracker.watch(left, right));
   require(tracker.inspect(left, right, parameters.integer(mtstereo::Parameter::kMaxDisparity)));
   require(matcher.set_correction(tracker.correction()));
-  const mtstereo::DisparityView map = value_of(matcher.compute(left, right));
+  const mtstereo::FrameResult result = value_of(matcher.compute(left, right));
+  const mtstereo::DisparityView& map = result.disparity;
 
   cv::Mat disparity(left_picture.size(), CV_16U);
   require(mtstereo::write_disparity16(map, kScale,
@@ -78,12 +78,12 @@ void match(const std::string& left_file, const std::string& right_file,
   write(disparity_file, disparity);
 
   // The matcher owns the confidence, as it owns the map, until the next pair.
-  const mtstereo::GrayView confidence = matcher.confidence();
+  const mtstereo::GrayView& confidence = result.confidence;
   const cv::Mat shown(confidence.height, confidence.width, CV_8U,
                       const_cast<std::uint8_t*>(confidence.data),
                       static_cast<std::size_t>(confidence.stride));
   write(confidence_file, shown);
-  report(tracker, matcher, left.width, left.height);
+  report(tracker, result.statistics.density, left.width, left.height);
 }
 
 }  // namespace

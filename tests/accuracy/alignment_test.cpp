@@ -213,8 +213,9 @@ class Sequence : public testing::Test {
     EXPECT_TRUE(parameters.set(Parameter::kMaxDisparity, pair.max_disparity).ok());
     Matcher matcher = std::move(Matcher::create(parameters).value());
     EXPECT_TRUE(matcher.set_correction(correction).ok());
-    EXPECT_TRUE(matcher.compute(view_of(pair.left), view_of(pair.right)).ok());
-    return 100 * matcher.statistics().density;
+    const auto result = matcher.compute(view_of(pair.left), view_of(pair.right));
+    EXPECT_TRUE(result.ok());
+    return result.ok() ? 100 * result->statistics.density : 0;
   }
 
   std::vector<Pair> frames_;

@@ -84,7 +84,7 @@ class Race {
   }
 
  private:
-  DisparityView match(int frame) {
+  FrameResult match(int frame) {
     const bench::PairBuffers& pair = *pairs_[static_cast<std::size_t>(frame) % pairs_.size()];
     const auto result = matcher_.compute(pair.left.view(), pair.right.view());
     if (!result) throw std::runtime_error(result.error().message);
@@ -116,10 +116,10 @@ class Race {
     const std::vector<cv::Mat> maps = pipeline_.maps(pairs_);
     cv::Mat expected(size_.height, size_.width, CV_16UC1);
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      const DisparityView disparity = match(static_cast<int>(i));
-      bench::require_density(bench::outcome_of(disparity, matcher_.confidence()).disparity);
+      const FrameResult result = match(static_cast<int>(i));
+      bench::require_density(bench::outcome_of(result).disparity);
       const Status status =
-          write_disparity16(disparity, kScale,
+          write_disparity16(result.disparity, kScale,
                             {expected.ptr<std::uint16_t>(), expected.cols, expected.rows,
                              static_cast<std::ptrdiff_t>(expected.step)});
       if (!status) throw std::runtime_error(status.error().message);

@@ -25,11 +25,11 @@ PairList moments(int count) {
 }
 
 cv::Mat expected_map(Matcher& matcher, const PairBuffers& pair) {
-  const auto disparity = matcher.compute(pair.left.view(), pair.right.view());
-  if (!disparity) throw std::runtime_error(disparity.error().message);
+  const auto result = matcher.compute(pair.left.view(), pair.right.view());
+  if (!result) throw std::runtime_error(result.error().message);
   cv::Mat map(kHeight, kWidth, CV_16UC1);
-  const Status status =
-      write_disparity16(*disparity, 256, {map.ptr<std::uint16_t>(), kWidth, kHeight, kWidth * 2});
+  const Status status = write_disparity16(result->disparity, 256,
+                                          {map.ptr<std::uint16_t>(), kWidth, kHeight, kWidth * 2});
   if (!status) throw std::runtime_error(status.error().message);
   return map;
 }

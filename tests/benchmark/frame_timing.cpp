@@ -10,8 +10,7 @@ namespace {
 
 Outcome outcome_with(const Parameters& parameters, const Frame& frame) {
   Matcher matcher = make_matcher(parameters);
-  const DisparityView disparity = match(matcher, frame.images());
-  return outcome_of(disparity, matcher.confidence());
+  return outcome_of(match(matcher, frame.images()));
 }
 
 }  // namespace
@@ -28,9 +27,9 @@ Parameters parameters_of(const Variant& variant, const Frame& frame, int threads
 Outcome time_matcher(benchmark::State& state, const Parameters& parameters, const Frame& frame) {
   const OpenCvThreads opencv_threads(parameters.integer(Parameter::kThreads));
   Matcher matcher = make_matcher(parameters);
-  DisparityView disparity = match(matcher, frame.images());  // allocates the buffers
-  for ([[maybe_unused]] auto _ : state) disparity = match(matcher, frame.images());
-  const Outcome outcome = outcome_of(disparity, matcher.confidence());
+  FrameResult result = match(matcher, frame.images());  // allocates the buffers
+  for ([[maybe_unused]] auto _ : state) result = match(matcher, frame.images());
+  const Outcome outcome = outcome_of(result);
   require_density(outcome.disparity);
   return outcome;
 }

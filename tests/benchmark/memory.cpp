@@ -167,9 +167,9 @@ void measure_memory(const char* what) {
   Matcher matcher = make_matcher(parameters);
   match(matcher, pair);
   const std::chrono::duration<double> first_frame = std::chrono::steady_clock::now() - start;
-  const DisparityView disparity = match(matcher, pair);
+  const FrameResult result = match(matcher, pair);
   const double peak = status_figure("VmHWM") - before;
-  require_density(outcome_of(disparity, matcher.confidence()).disparity);
+  require_density(outcome_of(result).disparity);
   std::printf("%.0f %.9f\n", peak, first_frame.count());
 }
 

@@ -38,8 +38,8 @@ void require(const Status& status) {
 
 }  // namespace
 
-Outcome outcome_of(DisparityView disparity, GrayView confidence) {
-  return {copy_of(disparity, CV_32SC1), copy_of(confidence, CV_8UC1)};
+Outcome outcome_of(const FrameResult& result) {
+  return {copy_of(result.disparity, CV_32SC1), copy_of(result.confidence, CV_8UC1)};
 }
 
 double density_of(const cv::Mat& disparity) {
@@ -77,8 +77,8 @@ Matcher make_matcher(const Parameters& parameters) {
   return std::move(*matcher);
 }
 
-DisparityView match(Matcher& matcher, const Pair& pair) {
-  const Result<DisparityView> result = matcher.compute(view_of(pair.left), view_of(pair.right));
+FrameResult match(Matcher& matcher, const Pair& pair) {
+  const Result<FrameResult> result = matcher.compute(view_of(pair.left), view_of(pair.right));
   if (!result) throw std::runtime_error(result.error().message);
   return *result;
 }

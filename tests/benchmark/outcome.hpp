@@ -15,7 +15,7 @@ struct Outcome {
 };
 
 /// Copies a result.
-Outcome outcome_of(DisparityView disparity, GrayView confidence);
+Outcome outcome_of(const FrameResult& result);
 
 /// The fraction of pixels with a disparity, 0 .. 1, of a map of the library (CV_32SC1) or of OpenCV
 /// (CV_32FC1, NaN = none).
@@ -35,6 +35,6 @@ Parameters parameters_of(const char* preset, const char* mode, int disparities, 
 Matcher make_matcher(const Parameters& parameters);
 
 /// Matches a pair. Throws std::runtime_error with the library's message.
-DisparityView match(Matcher& matcher, const Pair& pair);
+FrameResult match(Matcher& matcher, const Pair& pair);
 
 }  // namespace mtstereo::bench

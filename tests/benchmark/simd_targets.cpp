@@ -21,8 +21,7 @@ std::string benchmark_name(const Frame& frame, const SimdTarget& target) {
 Outcome outcome_on(const SimdTarget& target, const Frame& frame) {
   const ForcedTarget forced(target);
   Matcher matcher = make_matcher(parameters_of(kDefaultVariant, frame, 1));
-  const DisparityView disparity = match(matcher, frame.images());
-  return outcome_of(disparity, matcher.confidence());
+  return outcome_of(match(matcher, frame.images()));
 }
 
 void time_target(benchmark::State& state, const SimdTarget& target, const SimdTarget& best,

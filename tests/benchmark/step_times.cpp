@@ -81,18 +81,18 @@ void add(const FramePointer& frame, const Variant& variant, const std::string& n
 StepTimes::StepTimes(const Parameters& parameters, const Pair& pair)
     : pair_(pair), matcher_(Settings(parameters)), names_(names_of(matcher_.settings())) {
   Matcher matcher = make_matcher(parameters);
-  const DisparityView disparity = match(matcher, pair);
-  expected_ = outcome_of(disparity, matcher.confidence());
+  expected_ = outcome_of(match(matcher, pair));
 }
 
-void StepTimes::run(std::vector<double>& sums) {
+FrameResult StepTimes::run(std::vector<double>& sums) {
   std::size_t step = 0;
   Clock::time_point last = Clock::now();
-  matcher_.compute(view_of(pair_.left), view_of(pair_.right), [&](const Step&, const FrameMemory&) {
+  const auto take = [&](const Step&, const FrameMemory&) {
     const Clock::time_point now = Clock::now();
     sums[step++] += seconds_between(last, now);
     last = now;
-  });
+  };
+  return matcher_.compute(view_of(pair_.left), view_of(pair_.right), take);
 }
 
 std::vector<double> StepTimes::measure(double seconds) {
@@ -101,12 +101,12 @@ std::vector<double> StepTimes::measure(double seconds) {
   sums.assign(names_.size(), 0);
   int frames = 0;
   const Clock::time_point start = Clock::now();
+  FrameResult result;
   do {
-    run(sums);
+    result = run(sums);
     ++frames;
   } while (seconds_between(start, Clock::now()) < seconds);
-  require_same("the matcher and its steps", expected_,
-               outcome_of(matcher_.disparity(), matcher_.confidence()));
+  require_same("the matcher and its steps", expected_, outcome_of(result));
   for (double& sum : sums) sum /= frames;
   return sums;
 }

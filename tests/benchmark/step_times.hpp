@@ -30,7 +30,7 @@ class StepTimes {
   using Clock = std::chrono::steady_clock;
 
   /// Matches one frame and adds the time of each step to `sums` [s].
-  void run(std::vector<double>& sums);
+  FrameResult run(std::vector<double>& sums);
 
   Pair pair_;
   FrameMatcher matcher_;

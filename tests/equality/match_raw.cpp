@@ -77,11 +77,11 @@ int main(int argc, char** argv) {
     }
     if (aligned) aligned = matcher->set_correction(tracker->correction());
     if (!aligned) return fail(aligned.error().message);
-    const auto disparity = matcher->compute(left_view, right_view);
-    if (!disparity) return fail(disparity.error().message);
+    const auto result = matcher->compute(left_view, right_view);
+    if (!result) return fail(result.error().message);
     std::vector<std::uint16_t> written(static_cast<std::size_t>(out_stride / 2) * height, 0);
     const Status status =
-        write_disparity16(*disparity, 256, {written.data(), width, height, out_stride});
+        write_disparity16(result->disparity, 256, {written.data(), width, height, out_stride});
     if (!status) return fail(status.error().message);
     out.write(reinterpret_cast<const char*>(written.data()), written.size() * 2);
   }

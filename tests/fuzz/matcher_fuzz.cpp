@@ -98,17 +98,18 @@ Maps match(Matcher& matcher, Parameters parameters, int threads, GrayView left, 
            int scale) {
   require(parameters.set(Parameter::kThreads, threads).ok(), "a number of threads can be set");
   require(matcher.set_parameters(parameters).ok(), "parameters can be set");
-  const Result<DisparityView> map = matcher.compute(left, right);
+  const Result<FrameResult> result = matcher.compute(left, right);
   const bool fits = parameters.check_frame(left.width, left.height).ok();
-  require(map.ok() == fits, "check_frame() predicts whether a frame is matched");
-  if (!map) {
-    require(!map.error().message.empty(), "an error has a message");
+  require(result.ok() == fits, "check_frame() predicts whether a frame is matched");
+  if (!result) {
+    require(!result.error().message.empty(), "an error has a message");
     return {};
   }
-  require(map->width == left.width && map->height == left.height, "the map has the frame's size");
-  check_map(*map, matcher.confidence(), parameters);
-  check_scaled(*map, parameters, scale);
-  return copy_of(*map, matcher.confidence());
+  const auto& [map, confidence, statistics] = *result;
+  require(map.width == left.width && map.height == left.height, "the map has the frame's size");
+  check_map(map, confidence, parameters);
+  check_scaled(map, parameters, scale);
+  return copy_of(map, confidence);
 }
 
 Matcher new_matcher(int threads) {

@@ -13,9 +13,10 @@ int main() {
   }
   auto matcher = mtstereo::Matcher::create(mtstereo::Parameters());
   if (!matcher) return 1;
-  const auto map = matcher->compute({left[0], 160, 60, 160}, {right[0], 160, 60, 160});
-  if (!map) return std::fprintf(stderr, "%s\n", map.error().message.c_str()), 1;
+  const auto result = matcher->compute({left[0], 160, 60, 160}, {right[0], 160, 60, 160});
+  if (!result) return std::fprintf(stderr, "%s\n", result.error().message.c_str()), 1;
   int found = 0;
-  for (int i = 0; i < 60 * 160; ++i) found += (map->row(i / 160)[i % 160] + 128) / 256 == 5;
+  for (int i = 0; i < 60 * 160; ++i)
+    found += (result->disparity.row(i / 160)[i % 160] + 128) / 256 == 5;
   return std::printf("%s %d\n", mtstereo::version(), found) < 0;
 }

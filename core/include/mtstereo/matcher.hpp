@@ -26,6 +26,17 @@ struct FrameStatistics {
   double fine_detail = 0;
 };
 
+/// The result of one frame. The views have the size of the images and are of the matcher's memory:
+/// they are valid until its next compute().
+struct FrameResult {
+  DisparityView disparity;  ///< the map of the left image
+  /// The confidence of each disparity: 1 .. 255, higher is more reliable, and 0 for pixels without
+  /// a disparity. It combines how many neighboring pixels have a consistent disparity with how much
+  /// worse their second-best disparities were.
+  GrayView confidence;
+  FrameStatistics statistics;
+};
+
 /// Finds the disparity of the left image of a rectified pair, by MTStereo 2.0 as published
 /// (Preset::kPaper) or with extensions (all other presets).
 ///
@@ -65,22 +76,10 @@ class MTSTEREO_API Matcher {
   /// Another image size and set_parameters() with another resolution do the same.
   void restart() noexcept;
 
-  /// Matches one pair of images of the same size. They are only read, and only during the call. The
-  /// returned map has their size; the matcher owns it, and it is valid until the next compute().
+  /// Matches one pair of images of the same size. They are only read, and only during the call.
   /// Fails with kInvalidImage, kSizeMismatch, kFrameDoesNotFit, kInvalidCombination, kOutOfMemory
   /// or kSystem; the matcher can be used again afterwards.
-  Result<DisparityView> compute(GrayView left, GrayView right) noexcept;
-
-  /// The confidence of each disparity of the last frame: 1 .. 255, higher is more reliable, and 0
-  /// for pixels without a disparity. It combines how many neighboring pixels have a consistent
-  /// disparity with how much worse their second-best disparities were. The view has the size of the
-  /// images; it is empty before the first frame, and after one that failed with kOutOfMemory or
-  /// kSystem. The matcher owns it, and it is valid until the next compute().
-  GrayView confidence() const noexcept;
-
-  /// Figures of the last frame; zeros before the first one, and after one that failed with
-  /// kOutOfMemory or kSystem.
-  FrameStatistics statistics() const noexcept;
+  Result<FrameResult> compute(GrayView left, GrayView right) noexcept;
 
  private:
   struct State;

@@ -76,9 +76,10 @@ Status Engine::match_views(const MappedFrame& left_frame, const MappedFrame& rig
   if (!prepared) return prepared;
   inspection_ms_ = static_cast<double>(g_get_monotonic_time() - start) / 1000;
   publish_alignment();
-  const Result<DisparityView> disparity = matcher_->compute(left, right);
-  if (!disparity) return disparity.error();
-  return write_disparity16(*disparity, settings_.disparity_scale, map);
+  const Result<FrameResult> result = matcher_->compute(left, right);
+  if (!result) return result.error();
+  result_ = *result;
+  return write_disparity16(result_.disparity, settings_.disparity_scale, map);
 }
 
 GstFlowReturn Engine::refuse_frame(const char* source, const MappedFrame& frame) {
@@ -114,7 +115,7 @@ GstFlowReturn Engine::compute(GstBuffer* left, GstBuffer* right, GstBuffer* map,
 }
 
 void Engine::count_pair(const GstVideoInfo& map_info) {
-  const FrameStatistics frame = matcher_->statistics();
+  const FrameStatistics& frame = result_.statistics;
   const bool chosen = settings_.parameters.text(Parameter::kResolution) == "auto";
   const bool half = chosen && frame.half_resolution;
   if (std::exchange(logged_half_, half) != half) {
@@ -139,7 +140,7 @@ GstFlowReturn Engine::match(GstBuffer* left, GstBuffer* right, GstBuffer* map,
   if (flow != GST_FLOW_OK) return flow;
   set_disparity_unit(map, settings_.unit());
   if (settings_.confidence_map &&
-      !confidence_.attach(matcher_->confidence(), map, map_info, border_pixels_ > 0)) {
+      !confidence_.attach(result_.confidence, map, map_info, border_pixels_ > 0)) {
     messages_.error(GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_NO_SPACE_LEFT,
                     "There is not enough memory for a confidence map of " +
                         std::to_string(map_info.width) + "x" + std::to_string(map_info.height) +
@@ -166,6 +167,7 @@ void Engine::start() {
 
 void Engine::stop() {
   matcher_.reset();
+  result_ = {};
   logged_revision_.reset();
   alignment_ = PairAlignment();
   confidence_.clear();

@@ -69,6 +69,7 @@ class Engine {
   guint64 revision_ = 0;                    // of the matcher's parameters
   std::optional<guint64> logged_revision_;  // of the settings in the log
   std::optional<Matcher> matcher_;
+  FrameResult result_;              // of the last pair, in the memory of the matcher
   std::array<LumaReader, 2> luma_;  // by side
   PairAlignment alignment_;
   AlignmentReports reports_;

@@ -220,14 +220,14 @@ void Runner::prepare_matcher(const LoadedPair& images, int max_disparity) {
 
 void Runner::run_own(const LoadedPair& images, PairReport& report) {
   prepare_matcher(images, report.max_disparity);
-  DisparityView disparity;
+  FrameResult found;
   const double seconds = median_seconds(warm_up(report), settings_.repeat, [&] {
-    Result<DisparityView> result = matcher_->compute(view_of(images.left), view_of(images.right));
+    Result<FrameResult> result = matcher_->compute(view_of(images.left), view_of(images.right));
     if (!result) throw InputError(result.error().message);
-    disparity = *result;
+    found = *result;
   });
-  const cv::Mat map = to_float(disparity, matcher_->parameters().disparity_offset());
-  const cv::Mat confidence = mat_of(matcher_->confidence());
+  const cv::Mat map = to_float(found.disparity, matcher_->parameters().disparity_offset());
+  const cv::Mat confidence = mat_of(found.confidence);
   finish(kOwnMethod, map, seconds, images, report);
   if (settings_.html_pictures) {
     report.pictures = html_pictures(images, map, confidence, report.max_disparity);
@@ -282,9 +282,9 @@ void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
     prepare_matcher(frames.front(), report.max_disparity);
     std::vector<cv::Mat> maps;
     for (const LoadedPair& frame : frames) {
-      Result<DisparityView> result = matcher_->compute(view_of(frame.left), view_of(frame.right));
+      Result<FrameResult> result = matcher_->compute(view_of(frame.left), view_of(frame.right));
       if (!result) throw InputError(result.error().message);
-      maps.push_back(to_float(*result, matcher_->parameters().disparity_offset()));
+      maps.push_back(to_float(result->disparity, matcher_->parameters().disparity_offset()));
     }
     report.flicker.push_back({kOwnMethod, measure_flicker(maps)});
   });

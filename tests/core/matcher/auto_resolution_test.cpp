@@ -33,8 +33,8 @@ const Pair& soft() {
 std::string resolutions(Matcher& matcher, const Pair& pair, int frames) {
   std::string text;
   for (int i = 0; i < frames; ++i) {
-    test::compute(matcher, pair.left, pair.right);
-    text += matcher.statistics().half_resolution ? "half " : "full ";
+    const test::Matched matched = test::match(matcher, pair.left, pair.right);
+    text += matched.statistics.half_resolution ? "half " : "full ";
   }
   return text;
 }
@@ -58,24 +58,24 @@ TEST(AutoResolution, StaysFullForSharpViews) {
   Matcher matcher = auto_matcher(), full = test::matcher({});
   const DisparityPlane expected = test::compute(full, sharp().left, sharp().right);
   for (int i = 0; i < 3 * kFrames; ++i) {
-    EXPECT_TRUE(same_image(expected, test::compute(matcher, sharp().left, sharp().right))) << i;
-    EXPECT_FALSE(matcher.statistics().half_resolution) << i;
-    EXPECT_GE(matcher.statistics().fine_detail, ResolutionChoice::kSharp);
+    const test::Matched matched = test::match(matcher, sharp().left, sharp().right);
+    EXPECT_TRUE(same_image(expected, matched.map)) << i;
+    EXPECT_FALSE(matched.statistics.half_resolution) << i;
+    EXPECT_GE(matched.statistics.fine_detail, ResolutionChoice::kSharp);
   }
 }
 
 TEST(AutoResolution, IsHalfForSoftViewsWithTheResultsOfHalfRefined) {
   Matcher matcher = auto_matcher();
   Matcher full = test::matcher({}), half = test::matcher({{"resolution", "half-refined"}});
-  const DisparityPlane at_full = test::compute(full, soft().left, soft().right);
-  const DisparityPlane at_half = test::compute(half, soft().left, soft().right);
+  const test::Matched at_full = test::match(full, soft().left, soft().right);
+  const test::Matched at_half = test::match(half, soft().left, soft().right);
   for (int i = 0; i < 3 * kFrames; ++i) {
-    const DisparityPlane map = test::compute(matcher, soft().left, soft().right);
-    EXPECT_TRUE(same_image(i < kFrames ? at_full : at_half, map)) << i;
-    EXPECT_TRUE(same_image(test::copy_of((i < kFrames ? full : half).confidence()),
-                           test::copy_of(matcher.confidence())))
-        << i;
-    EXPECT_LE(matcher.statistics().fine_detail, ResolutionChoice::kSoft);
+    const test::Matched& expected = i < kFrames ? at_full : at_half;
+    const test::Matched matched = test::match(matcher, soft().left, soft().right);
+    EXPECT_TRUE(same_image(expected.map, matched.map)) << i;
+    EXPECT_TRUE(same_image(expected.confidence, matched.confidence)) << i;
+    EXPECT_LE(matched.statistics.fine_detail, ResolutionChoice::kSoft);
   }
 }
 
@@ -89,7 +89,7 @@ TEST(AutoResolution, StaysForViewsWithoutTexture) {
   Matcher full = auto_matcher(), half = matcher_at_half();
   EXPECT_EQ(repeated("full ", 2 * kFrames), resolutions(full, blank, 2 * kFrames));
   EXPECT_EQ(repeated("half ", 2 * kFrames), resolutions(half, blank, 2 * kFrames));
-  EXPECT_EQ(0, half.statistics().fine_detail);
+  EXPECT_EQ(0, test::match(half, blank.left, blank.right).statistics.fine_detail);
 }
 
 TEST(AutoResolution, BeginsAnewWithAnotherStream) {
@@ -103,8 +103,9 @@ TEST(AutoResolution, BeginsAnewWithAnotherStream) {
 
   Matcher reset = matcher_at_half();
   ASSERT_TRUE(reset.set_parameters(test::parameters({{"resolution", "full"}})).ok());
-  EXPECT_EQ("full ", resolutions(reset, soft(), 1));
-  EXPECT_EQ(0, reset.statistics().fine_detail);
+  const FrameStatistics at_full = test::match(reset, soft().left, soft().right).statistics;
+  EXPECT_FALSE(at_full.half_resolution);
+  EXPECT_EQ(0, at_full.fine_detail);
   ASSERT_TRUE(reset.set_parameters(test::parameters({{"resolution", "auto"}})).ok());
   EXPECT_EQ(repeated("full ", kFrames) + "half ", resolutions(reset, soft(), kFrames + 1));
 }
@@ -128,9 +129,8 @@ TEST(AutoResolution, IsTheSameForAnyNumberOfThreads) {
     std::vector<double> details;
     for (int i = 0; i < 2 * kFrames; ++i) {
       const Pair& pair = i == 3 ? sharp() : soft();
-      test::compute(matcher, pair.left, pair.right);
-      details.push_back(matcher.statistics().fine_detail +
-                        (matcher.statistics().half_resolution ? 10 : 0));
+      const FrameStatistics statistics = test::match(matcher, pair.left, pair.right).statistics;
+      details.push_back(statistics.fine_detail + (statistics.half_resolution ? 10 : 0));
     }
     EXPECT_GT(details.back(), 10);
     if (expected.empty()) expected = details;

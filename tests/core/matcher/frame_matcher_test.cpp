@@ -12,6 +12,7 @@
 namespace mtstereo {
 namespace {
 
+using test::DisparityPlane;
 using test::same_image;
 
 const test::Pair& pair() {
@@ -37,10 +38,12 @@ TEST(FrameMatcher, GivesTheSameResultWithAndWithoutAnObserver) {
     const Settings settings(test::parameters({{"preset", preset}}));
     FrameMatcher observed(settings), plain(settings);
     for (int frame = 0; frame < 2; ++frame) {
-      test::maps_after_steps(observed, pair().left, pair().right);
-      plain.compute(pair().left.view(), pair().right.view());
-      EXPECT_TRUE(same_image(test::copy_of(plain.disparity()), observed.disparity())) << preset;
-      EXPECT_TRUE(same_image(test::copy_of(plain.confidence()), observed.confidence())) << preset;
+      const GrayView left = pair().left.view(), right = pair().right.view();
+      const FrameResult expected = plain.compute(left, right);
+      const FrameResult result =
+          observed.compute(left, right, [](const Step&, const FrameMemory&) {});
+      EXPECT_TRUE(same_image(test::copy_of(expected.disparity), result.disparity)) << preset;
+      EXPECT_TRUE(same_image(test::copy_of(expected.confidence), result.confidence)) << preset;
     }
   }
 }
@@ -49,36 +52,31 @@ TEST(FrameMatcher, ReturnsTheMapOfTheLastStep) {
   for (const char* const resolution : {"full", "half", "half-refined"}) {
     FrameMatcher matcher{Settings(test::parameters({{"resolution", resolution}}))};
     const test::StepMaps maps = test::maps_after_steps(matcher, pair().left, pair().right);
-    EXPECT_TRUE(same_image(maps.back().second, matcher.disparity())) << resolution;
-    EXPECT_EQ(150, matcher.confidence().width);
-    EXPECT_EQ(70, matcher.confidence().height);
+    const DisparityPlane& result = maps.back().second;
+    EXPECT_TRUE(same_image(maps[maps.size() - 2].second, result.view())) << resolution;
+    EXPECT_EQ(150, result.width);
+    EXPECT_EQ(70, result.height);
   }
 }
 
-TEST(FrameMatcher, HasNoResultBeforeTheFirstPairNorAfterAFailure) {
+TEST(FrameMatcher, IsUsableAfterAFailure) {
   FrameMatcher matcher{Settings(Parameters())};
-  EXPECT_EQ(0, matcher.disparity().width);
-  EXPECT_EQ(0, matcher.confidence().width);
-  EXPECT_EQ(0, matcher.density());
-  matcher.compute(pair().left.view(), pair().right.view());
-  const test::DisparityPlane expected = test::copy_of(matcher.disparity());
-  EXPECT_THROW(matcher.compute(pair().left.view(), pair().right.view(),
+  const GrayView left = pair().left.view(), right = pair().right.view();
+  const DisparityPlane expected = test::copy_of(matcher.compute(left, right).disparity);
+  EXPECT_THROW(matcher.compute(left, right,
                                [](const Step&, const FrameMemory&) {
                                  throw std::runtime_error("the observer failed");
                                }),
                std::runtime_error);
-  EXPECT_EQ(0, matcher.disparity().width);
-  EXPECT_EQ(0, matcher.confidence().width);
-  matcher.compute(pair().left.view(), pair().right.view());
-  EXPECT_TRUE(same_image(expected, matcher.disparity())) << "not usable after a failure";
+  EXPECT_TRUE(same_image(expected, matcher.compute(left, right).disparity));
 }
 
 TEST(FrameMatcher, DensityIsTheFractionOfPixelsWithADisparity) {
   FrameMatcher matcher{Settings(Parameters())};
-  matcher.compute(pair().left.view(), pair().right.view());
-  const test::DisparityPlane map = test::copy_of(matcher.disparity());
+  const FrameResult result = matcher.compute(pair().left.view(), pair().right.view());
+  const DisparityPlane map = test::copy_of(result.disparity);
   EXPECT_GT(test::known(map), 0);
-  EXPECT_DOUBLE_EQ(test::known(map) / (150.0 * 70), matcher.density());
+  EXPECT_DOUBLE_EQ(test::known(map) / (150.0 * 70), result.statistics.density);
 }
 
 }  // namespace

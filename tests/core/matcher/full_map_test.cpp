@@ -17,13 +17,13 @@ using test::Pair;
 constexpr const char* kPresetNames[] = {"default", "fast"};
 
 /// Matches a pair in mode full. Expects a disparity and a confidence in every pixel.
-DisparityPlane full_map(Matcher& matcher, const Pair& pair) {
-  const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-  const GrayPlane confidence = test::copy_of(matcher.confidence());
+test::Matched full_map(Matcher& matcher, const Pair& pair) {
+  test::Matched matched = test::match(matcher, pair.left, pair.right);
+  const auto& [map, confidence, statistics] = matched;
   EXPECT_EQ(test::known(map), static_cast<long>(map.pixels.size()));
   EXPECT_EQ(std::count(confidence.pixels.begin(), confidence.pixels.end(), 0), 0);
-  EXPECT_EQ(matcher.statistics().density, 1);
-  return map;
+  EXPECT_EQ(statistics.density, 1);
+  return matched;
 }
 
 TEST(FullMap, HasADisparityInEveryPixelAtEverySize) {
@@ -49,7 +49,7 @@ TEST(FullMap, HasTheShiftOfAShiftedPairWhereBothViewsShowIt) {
     for (const int shift : {4, 18, 40}) {
       SCOPED_TRACE(testing::Message() << preset << ", " << shift << " px");
       Matcher matcher = test::matcher({{"preset", preset}, {"mode", "full"}});
-      const DisparityPlane map = full_map(matcher, test::shifted_pair(320, 121, shift, shift));
+      const DisparityPlane map = full_map(matcher, test::shifted_pair(320, 121, shift, shift)).map;
       long near = 0;
       for (int y = 0; y < 121; ++y) {
         for (int x = shift; x < 320; ++x) near += std::abs(map(x, y) - 256 * shift) <= 128;
@@ -64,12 +64,12 @@ TEST(FullMap, RatesWhatTheRightViewDoesNotShowAsInferred) {
   for (const char* const preset : kPresetNames) {
     SCOPED_TRACE(preset);
     Matcher matcher = test::matcher({{"preset", preset}, {"mode", "full"}});
-    full_map(matcher, test::shifted_pair(320, 121, kShift, 1));
-    const GrayView confidence = matcher.confidence();
+    const GrayPlane confidence =
+        full_map(matcher, test::shifted_pair(320, 121, kShift, 1)).confidence;
     long matched = 0;
     for (int y = 0; y < 121; ++y) {
-      for (int x = 0; x < kShift - 4; ++x) EXPECT_LE(confidence.row(y)[x], kMostInferred);
-      for (int x = kShift; x < 320; ++x) matched += confidence.row(y)[x] > kMostInferred;
+      for (int x = 0; x < kShift - 4; ++x) EXPECT_LE(confidence(x, y), kMostInferred);
+      for (int x = kShift; x < 320; ++x) matched += confidence(x, y) > kMostInferred;
     }
     EXPECT_GT(matched, 290 * 121 * 97 / 100);
   }
@@ -79,7 +79,7 @@ TEST(FullMap, IsFarWhereBothViewsAreFlat) {
   for (const char* const preset : kPresetNames) {
     Matcher matcher = test::matcher({{"preset", preset}, {"mode", "full"}});
     const GrayPlane flat(150, 60, 128);
-    const DisparityPlane map = full_map(matcher, {flat, flat});
+    const DisparityPlane map = full_map(matcher, {flat, flat}).map;
     EXPECT_LE(*std::max_element(map.pixels.begin(), map.pixels.end()), kDisparityOne) << preset;
   }
 }
@@ -88,10 +88,8 @@ TEST(FullMap, FillsWhatTheConfidenceRemoves) {
   const Pair pair = test::slanted_pair(200, 90, 40, 1);
   Matcher all = test::matcher({{"mode", "full"}});
   Matcher sure = test::matcher({{"mode", "full"}, {"min-confidence", "180"}});
-  full_map(all, pair);
-  const GrayPlane of_all = test::copy_of(all.confidence());
-  full_map(sure, pair);
-  const GrayPlane of_sure = test::copy_of(sure.confidence());
+  const GrayPlane of_all = full_map(all, pair).confidence;
+  const GrayPlane of_sure = full_map(sure, pair).confidence;
   const auto inferred = [](const GrayPlane& confidence) {
     return std::count_if(confidence.pixels.begin(), confidence.pixels.end(),
                          [](int c) { return c <= kMostInferred; });

@@ -63,9 +63,9 @@ TEST(GoldenMaps, AreEqualBitForBit) {
     for (const test::Pair& pair : pairs()) {
       Matcher matcher =
           test::matcher({{"preset", golden.preset}, {"mode", golden.mode}, {"threads", "2"}});
-      const Result<DisparityView> map = matcher.compute(pair.left.view(), pair.right.view());
-      ASSERT_TRUE(map.ok());
-      hash = hash_of(matcher.confidence(), hash_of(*map, hash));
+      const Result<FrameResult> result = matcher.compute(pair.left.view(), pair.right.view());
+      ASSERT_TRUE(result.ok());
+      hash = hash_of(result->confidence, hash_of(result->disparity, hash));
     }
     char row[96];
     std::snprintf(row, sizeof row, "{\"%s\", \"%s\", 0x%016" PRIx64 "},", golden.preset,

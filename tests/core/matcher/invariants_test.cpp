@@ -65,8 +65,8 @@ TEST(Invariants, AShiftedPairHasItsShiftAsDisparityInAllModes) {
         SCOPED_TRACE(testing::Message() << mode << ", " << shift << " px, " << volume);
         const Pair pair = test::shifted_pair(320, 120, shift, shift);
         Matcher matcher = test::matcher({{"mode", mode}, {"cost-volume", volume}});
-        const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-        EXPECT_GT(matcher.statistics().density, std::string(mode) == "sparse" ? 0.03 : 0.15);
+        const auto [map, confidence, statistics] = test::match(matcher, pair.left, pair.right);
+        EXPECT_GT(statistics.density, std::string(mode) == "sparse" ? 0.03 : 0.15);
         EXPECT_GT(share_near(map, shift), 0.98);
         expect_possible(map, 64, is_inferred(mode));
       }
@@ -80,8 +80,8 @@ TEST(Invariants, AShiftedPairHasItsShiftAsDisparityAtHalfResolution) {
       SCOPED_TRACE(testing::Message() << mode << ", " << shift << " px");
       const Pair pair = test::shifted_pair(321, 121, shift, shift);
       Matcher matcher = test::matcher({{"preset", "fast"}, {"mode", mode}});
-      const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-      EXPECT_GT(matcher.statistics().density, std::string(mode) == "sparse" ? 0.005 : 0.15);
+      const auto [map, confidence, statistics] = test::match(matcher, pair.left, pair.right);
+      EXPECT_GT(statistics.density, std::string(mode) == "sparse" ? 0.005 : 0.15);
       // An odd shift is not an integer at half resolution.
       const double least = is_inferred(mode) ? 0.97 : 0.98;
       EXPECT_GT(share_near(map, shift), shift % 2 == 0 ? least : 0.9);
@@ -114,9 +114,9 @@ TEST(Invariants, SwappedViewsHaveFewDisparities) {
 TEST(Invariants, UnrelatedViewsHaveFewDisparities) {
   for (const char* const mode : kModes) {
     Matcher matcher = test::matcher({{"mode", mode}});
-    const DisparityPlane map =
-        test::compute(matcher, test::texture(320, 120, 3), test::texture(320, 120, 4));
-    EXPECT_LT(matcher.statistics().density, 0.1) << mode;
+    const auto [map, confidence, statistics] =
+        test::match(matcher, test::texture(320, 120, 3), test::texture(320, 120, 4));
+    EXPECT_LT(statistics.density, 0.1) << mode;
     expect_possible(map, 64, is_inferred(mode));
   }
 }
@@ -239,9 +239,9 @@ TEST(Invariants, AWideImageHasItsLargeDisparities) {
       const Pair pair = test::shifted_pair(4096, 24, shift, 8);
       Matcher matcher = test::matcher(
           {{"preset", preset}, {"max-disparity", std::to_string(kLargestMaxDisparity)}});
-      const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+      const auto [map, confidence, statistics] = test::match(matcher, pair.left, pair.right);
       expect_possible(map, kLargestMaxDisparity);
-      EXPECT_GT(matcher.statistics().density, 0.02);
+      EXPECT_GT(statistics.density, 0.02);
       EXPECT_GT(share_near(map, shift), 0.95);
     }
   }
@@ -272,8 +272,7 @@ TEST(Invariants, ExactlyKnownPixelsHaveAConfidence) {
     for (const char* const mode : kModes) {
       SCOPED_TRACE(testing::Message() << preset << ", " << mode);
       Matcher matcher = test::matcher({{"preset", preset}, {"mode", mode}});
-      const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-      const GrayPlane confidence = copy_of(matcher.confidence());
+      const auto [map, confidence, statistics] = test::match(matcher, pair.left, pair.right);
       EXPECT_GT(test::known(map), 10);
       EXPECT_TRUE(test::same_pixels(
           map.width, map.height, [&](int x, int y) { return map(x, y) != kNoDisparity; },
@@ -286,10 +285,10 @@ TEST(Invariants, ModeSemiDenseHasNoInferredPixels) {
   const Pair pair = test::slanted_pair(200, 90, 30, 11);
   for (const char* const least : {"0", "5"}) {
     Matcher matcher = test::matcher({{"min-confidence", least}, {"max-gap", "0"}});
-    const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+    const auto [map, confidence, statistics] = test::match(matcher, pair.left, pair.right);
     EXPECT_GT(test::known(map), 1000);
     EXPECT_LT(test::known(map), 200 * 90);
-    for (const std::uint8_t value : copy_of(matcher.confidence()).pixels) {
+    for (const std::uint8_t value : confidence.pixels) {
       ASSERT_TRUE(value == 0 || value > kMostInferred);
     }
   }
@@ -299,17 +298,15 @@ TEST(Invariants, ModeSemiDenseClosesGapsWithInferredPixels) {
   const Pair pair = test::slanted_pair(200, 90, 30, 11);
   Matcher open = test::matcher({{"max-gap", "0"}});
   Matcher closed = test::matcher({{"max-gap", "5"}});
-  const DisparityPlane before = test::compute(open, pair.left, pair.right);
-  const GrayPlane matched = copy_of(open.confidence());
-  const DisparityPlane after = test::compute(closed, pair.left, pair.right);
-  const GrayPlane confidence = copy_of(closed.confidence());
-  EXPECT_GT(test::known(after), test::known(before));
-  for (std::size_t i = 0; i < after.pixels.size(); ++i) {
-    if (before.pixels[i] == kNoDisparity) {
-      ASSERT_LE(confidence.pixels[i], kMostInferred);
+  const test::Matched before = test::match(open, pair.left, pair.right);
+  const test::Matched after = test::match(closed, pair.left, pair.right);
+  EXPECT_GT(test::known(after.map), test::known(before.map));
+  for (std::size_t i = 0; i < after.map.pixels.size(); ++i) {
+    if (before.map.pixels[i] == kNoDisparity) {
+      ASSERT_LE(after.confidence.pixels[i], kMostInferred);
     } else {
-      ASSERT_EQ(before.pixels[i], after.pixels[i]);
-      ASSERT_EQ(matched.pixels[i], confidence.pixels[i]);
+      ASSERT_EQ(before.map.pixels[i], after.map.pixels[i]);
+      ASSERT_EQ(before.confidence.pixels[i], after.confidence.pixels[i]);
     }
   }
 }
@@ -322,8 +319,7 @@ TEST(Invariants, NoDisparityHasLessThanTheMinimumConfidence) {
     Parameters parameters = matcher.parameters();
     test::set_all(parameters, {{"min-confidence", std::to_string(least)}});
     ASSERT_TRUE(matcher.set_parameters(parameters).ok());
-    const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-    const GrayPlane confidence = copy_of(matcher.confidence());
+    const auto [map, confidence, statistics] = test::match(matcher, pair.left, pair.right);
     for (const std::uint8_t value : confidence.pixels) ASSERT_TRUE(value == 0 || value >= least);
     EXPECT_LT(test::known(map), before) << "at least " << least;
     before = test::known(map);

@@ -35,37 +35,29 @@ TEST(Matcher, HasTheParametersItIsCreatedWith) {
   EXPECT_EQ(Mode::kSparse, matcher.parameters().mode());
 }
 
-TEST(Matcher, HasNoResultBeforeTheFirstFrame) {
-  const Matcher matcher = test::matcher({});
-  EXPECT_EQ(0, matcher.confidence().width);
-  EXPECT_EQ(0, matcher.confidence().height);
-  EXPECT_EQ(0, matcher.statistics().density);
-  EXPECT_EQ(0, matcher.statistics().milliseconds);
-}
-
 TEST(Matcher, ReturnsFullSizeMapsAtHalfResolution) {
   const Pair pair = test::slanted_pair(201, 91, 40, 3);
   Matcher matcher = test::matcher({{"preset", "fast"}, {"max-disparity", "61"}});
-  const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
+  const auto [map, confidence, statistics] = test::match(matcher, pair.left, pair.right);
   EXPECT_EQ(201, map.width);
   EXPECT_EQ(91, map.height);
-  EXPECT_EQ(201, matcher.confidence().width);
-  EXPECT_EQ(91, matcher.confidence().height);
-  EXPECT_GT(matcher.statistics().density, 0.1);
-  EXPECT_DOUBLE_EQ(test::known(map) / (201.0 * 91), matcher.statistics().density);
+  EXPECT_EQ(201, confidence.width);
+  EXPECT_EQ(91, confidence.height);
+  EXPECT_GT(statistics.density, 0.1);
+  EXPECT_DOUBLE_EQ(test::known(map) / (201.0 * 91), statistics.density);
 }
 
 TEST(Matcher, KeepsTheLastResultWhenTheResolutionChanges) {
   const Pair pair = test::slanted_pair(120, 50, 20, 4);
   Matcher matcher = test::matcher({});
   for (const char* const next : {"half", "full", "half-refined", "half", "full"}) {
-    const Result<DisparityView> view = matcher.compute(pair.left.view(), pair.right.view());
-    ASSERT_TRUE(view.ok());
-    const DisparityPlane map = copy_of(*view);
-    const test::GrayPlane confidence = copy_of(matcher.confidence());
+    const Result<FrameResult> result = matcher.compute(pair.left.view(), pair.right.view());
+    ASSERT_TRUE(result.ok());
+    const DisparityPlane map = copy_of(result->disparity);
+    const test::GrayPlane confidence = copy_of(result->confidence);
     ASSERT_TRUE(matcher.set_parameters(test::parameters({{"resolution", next}})).ok());
-    EXPECT_TRUE(same_image(map, *view));
-    EXPECT_TRUE(same_image(confidence, matcher.confidence()));
+    EXPECT_TRUE(same_image(map, result->disparity));
+    EXPECT_TRUE(same_image(confidence, result->confidence));
   }
 }
 
@@ -162,11 +154,11 @@ TEST(Matcher, AppliesParametersAtTheNextFrame) {
     SCOPED_TRACE(info.name + (" = " + changed.text(info.id)));
 
     Matcher matcher = std::move(Matcher::create(base).value());
-    const Result<DisparityView> view = matcher.compute(pair.left.view(), pair.right.view());
-    ASSERT_TRUE(view.ok());
-    const DisparityPlane before = copy_of(*view);
+    const Result<FrameResult> result = matcher.compute(pair.left.view(), pair.right.view());
+    ASSERT_TRUE(result.ok());
+    const DisparityPlane before = copy_of(result->disparity);
     ASSERT_TRUE(matcher.set_parameters(changed).ok());
-    EXPECT_TRUE(same_image(before, *view))
+    EXPECT_TRUE(same_image(before, result->disparity))
         << "the last result must stay valid until the next frame";
     EXPECT_EQ(changed.text(info.id), matcher.parameters().text(info.id));
 
@@ -217,32 +209,29 @@ TEST(Matcher, DoesNotNeedTheInputAfterTheCall) {
   const Pair pair = test::slanted_pair(100, 40, 20, 6);
   Matcher matcher = test::matcher({{"cost", "gradient"}});
   auto temporary = std::make_unique<Pair>(pair);
-  const Result<DisparityView> view =
+  const Result<FrameResult> result =
       matcher.compute(temporary->left.view(), temporary->right.view());
   temporary.reset();
-  ASSERT_TRUE(view.ok());
-  EXPECT_TRUE(same_image(matched_once(matcher.parameters(), pair), *view));
+  ASSERT_TRUE(result.ok());
+  EXPECT_TRUE(same_image(matched_once(matcher.parameters(), pair), result->disparity));
 }
 
 TEST(Matcher, AcceptsTheSameImageForBothViews) {
   const Pair pair = test::slanted_pair(100, 40, 20, 7);
   Matcher matcher = test::matcher({});
-  const Result<DisparityView> view = matcher.compute(pair.left.view(), pair.left.view());
-  ASSERT_TRUE(view.ok());
-  const DisparityPlane map = copy_of(*view);
+  const DisparityPlane map = test::compute(matcher, pair.left, pair.left);
   EXPECT_GT(test::known(map), 0);
   EXPECT_TRUE(same_image(map, matched_once(Parameters(), {pair.left, pair.left})));
 }
 
-TEST(Matcher, HasStatisticsOfTheLastFrame) {
+TEST(Matcher, ReturnsStatisticsOfTheFrame) {
   const Pair pair = test::slanted_pair(150, 50, 20, 8);
   Matcher matcher = test::matcher({});
-  const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-  EXPECT_DOUBLE_EQ(test::known(map) / (150.0 * 50), matcher.statistics().density);
-  EXPECT_GT(matcher.statistics().milliseconds, 0);
+  const auto [map, confidence, statistics] = test::match(matcher, pair.left, pair.right);
+  EXPECT_DOUBLE_EQ(test::known(map) / (150.0 * 50), statistics.density);
+  EXPECT_GT(statistics.milliseconds, 0);
   const test::GrayPlane flat(150, 50, 90);
-  test::compute(matcher, flat, flat);
-  EXPECT_EQ(0, matcher.statistics().density);
+  EXPECT_EQ(0, test::match(matcher, flat, flat).statistics.density);
 }
 
 TEST(Matcher, CanBeMoved) {

@@ -118,8 +118,9 @@ TEST(MinDisparity, IsTheSmallestOneAndEveryPartnerIsInTheRightView) {
                                                       {"min-disparity", std::to_string(least)},
                                                       {"max-disparity", "60"}});
       Matcher matcher = std::move(Matcher::create(parameters).value());
-      const DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-      const GrayPlane confidence = test::copy_of(matcher.confidence());
+      const test::Matched result = test::match(matcher, pair.left, pair.right);
+      const DisparityPlane& map = result.map;
+      const GrayPlane& confidence = result.confidence;
       EXPECT_EQ(map.width, 151);
       EXPECT_EQ(confidence.width, 151);
       const int offset = parameters.disparity_offset() * kDisparityOne;
@@ -139,8 +140,9 @@ TEST(MinDisparity, IsTheSmallestOneAndEveryPartnerIsInTheRightView) {
 TEST(MinDisparity, OfConvergingCamerasFindsNegativeDisparities) {
   const Pair pair = test::shifted_pair(320, 80, 0, 7);
   Matcher matcher = test::matcher({{"min-disparity", "-30"}, {"max-disparity", "20"}});
-  const DisparityPlane map = test::compute(matcher, pair.left, moved(pair.right, -12));
-  EXPECT_GT(matcher.statistics().density, 0.3);
+  const auto [map, confidence, statistics] =
+      test::match(matcher, pair.left, moved(pair.right, -12));
+  EXPECT_GT(statistics.density, 0.3);
   long near = 0;
   for (const std::int32_t value : map.pixels) {
     const double px = value / 256.0 + matcher.parameters().disparity_offset();

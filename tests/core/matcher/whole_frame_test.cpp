@@ -120,12 +120,13 @@ void expect_step(const reference::Frame& expected, const Step& step, const Frame
 test::DisparityPlane expect_reference(FrameMatcher& matcher, const test::Pair& pair, GrayView left,
                                       GrayView right) {
   reference::Frame expected(pair.left, pair.right, matcher.settings());
-  matcher.compute(left, right, [&](const Step& step, const FrameMemory& memory) {
+  const auto compare = [&](const Step& step, const FrameMemory& memory) {
     reference::run(step.name, expected);
     expect_step(expected, step, memory);
-  });
-  EXPECT_TRUE(same_image(expected.map, matcher.disparity()));
-  EXPECT_TRUE(same_image(expected.confidence, matcher.confidence()));
+  };
+  const FrameResult result = matcher.compute(left, right, compare);
+  EXPECT_TRUE(same_image(expected.map, result.disparity));
+  EXPECT_TRUE(same_image(expected.confidence, result.confidence));
   return expected.map;
 }
 
@@ -223,19 +224,15 @@ TEST(WholeFrame, EqualsReferenceWithThinObjects) {
 void expect_same_on_every_target(const Parameters& parameters) {
   SCOPED_TRACE(text_of(parameters));
   const test::Pair pair = test::slanted_pair(211, 101, 40, 10);
-  test::DisparityPlane expected;
-  GrayPlane expected_confidence;
+  test::Matched expected;
   test::for_each_simd_target([&] {
     Matcher matcher = std::move(Matcher::create(parameters).value());
-    const test::DisparityPlane map = test::compute(matcher, pair.left, pair.right);
-    if (expected.width == 0) {
-      expected = map;
-      expected_confidence = test::copy_of(matcher.confidence());
-    }
-    EXPECT_TRUE(same_image(expected, map));
-    EXPECT_TRUE(same_image(expected_confidence, matcher.confidence()));
+    const test::Matched matched = test::match(matcher, pair.left, pair.right);
+    if (expected.map.width == 0) expected = matched;
+    EXPECT_TRUE(same_image(expected.map, matched.map));
+    EXPECT_TRUE(same_image(expected.confidence, matched.confidence));
   });
-  EXPECT_GT(test::known(expected), 1000);
+  EXPECT_GT(test::known(expected.map), 1000);
 }
 
 TEST(WholeFrame, HasTheSameResultOnEveryInstructionSet) {

@@ -59,11 +59,24 @@ inline Matcher matcher(std::initializer_list<std::pair<const char*, std::string>
   return std::move(Matcher::create(parameters(values)).value());
 }
 
-/// The disparities of one pair; on an error an empty plane and a test failure.
-inline DisparityPlane compute(Matcher& matcher, const GrayPlane& left, const GrayPlane& right) {
-  const Result<DisparityView> result = matcher.compute(left.view(), right.view());
+/// A copy of the result of one pair.
+struct Matched {
+  DisparityPlane map;
+  GrayPlane confidence;
+  FrameStatistics statistics;
+};
+
+/// The result of one pair; on an error empty planes and a test failure.
+inline Matched match(Matcher& matcher, const GrayPlane& left, const GrayPlane& right) {
+  const Result<FrameResult> result = matcher.compute(left.view(), right.view());
   EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
-  return result.ok() ? copy_of(*result) : DisparityPlane();
+  if (!result.ok()) return {};
+  return {copy_of(result->disparity), copy_of(result->confidence), result->statistics};
+}
+
+/// The disparities of one pair.
+inline DisparityPlane compute(Matcher& matcher, const GrayPlane& left, const GrayPlane& right) {
+  return match(matcher, left, right).map;
 }
 
 /// Number of pixels that have a disparity.

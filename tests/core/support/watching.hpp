@@ -28,11 +28,12 @@ using StepMaps = std::vector<std::pair<std::string, DisparityPlane>>;
 inline StepMaps maps_after_steps(FrameMatcher& matcher, const GrayPlane& left,
                                  const GrayPlane& right) {
   StepMaps maps;
-  matcher.compute(left.view(), right.view(), [&](const Step& step, const FrameMemory& memory) {
+  const auto copy = [&](const Step& step, const FrameMemory& memory) {
     const DisparityView map = map_after(step, memory);
     if (map.width > 0) maps.emplace_back(step.name, copy_of(map));
-  });
-  maps.emplace_back("result", copy_of(matcher.disparity()));
+  };
+  const FrameResult result = matcher.compute(left.view(), right.view(), copy);
+  maps.emplace_back("result", copy_of(result.disparity));
   return maps;
 }
 

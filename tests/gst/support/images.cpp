@@ -80,7 +80,7 @@ namespace {
 /// A matcher and its result for a pair.
 struct Matched {
   std::optional<Matcher> matcher;
-  DisparityView disparity;
+  FrameResult result;
 };
 
 Matched match(const Pair& pair, const Parameters& parameters) {
@@ -92,12 +92,12 @@ Matched match(const Pair& pair, const Parameters& parameters) {
     ADD_FAILURE() << matcher.error().message;
     return {};
   }
-  const auto disparity = matcher->compute(view(pair.left), view(pair.right));
-  if (!disparity) {
-    ADD_FAILURE() << disparity.error().message;
+  const auto result = matcher->compute(view(pair.left), view(pair.right));
+  if (!result) {
+    ADD_FAILURE() << result.error().message;
     return {};
   }
-  return {std::move(matcher.value()), *disparity};
+  return {std::move(matcher.value()), *result};
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ std::vector<std::uint16_t> library_map(const Pair& pair, const Parameters& param
   const Matched matched = match(pair, parameters);
   if (!matched.matcher) return values;
   const Status written =
-      write_disparity16(matched.disparity, scale,
+      write_disparity16(matched.result.disparity, scale,
                         {values.data(), pair.left.width, pair.left.height, pair.left.width * 2});
   EXPECT_TRUE(written.ok());
   return values;
@@ -117,7 +117,7 @@ std::vector<std::uint8_t> library_confidence(const Pair& pair, const Parameters&
   std::vector<std::uint8_t> values;
   const Matched matched = match(pair, parameters);
   if (!matched.matcher) return values;
-  const GrayView view = matched.matcher->confidence();
+  const GrayView& view = matched.result.confidence;
   for (int y = 0; y < view.height; ++y) {
     values.insert(values.end(), view.row(y), view.row(y) + view.width);
   }
