@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,9 +9,6 @@
 // The parts of read_calibration() and write_calibration().
 
 namespace mtstereo {
-
-/// Larger files are not read [bytes]. Calibrations with all their board corners have some 100 KB.
-inline constexpr std::size_t kLargestCalibrationFile = 4 << 20;
 
 /// What the path of read_calibration() names.
 struct CalibrationPath {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "calibration_support.hpp"
-#include "geometry/calibration_file.hpp"
+#include "geometry/formats/document.hpp"
 
 namespace mtstereo::test {
 namespace {
@@ -90,7 +90,8 @@ TEST_F(BrokenFile, ThatIsHuge) {
   const std::string path = folder_.write("huge", "");
   std::filesystem::resize_file(path, std::uintmax_t{1} << 40);
   EXPECT_THAT(read_refused(path), HasSubstr("more than any calibration"));
-  EXPECT_THAT(refused(std::string(kLargestCalibrationFile - 1, '#')), HasSubstr("known format"));
+  EXPECT_THAT(refused(std::string(formats::kLargestCalibrationFile - 1, '#')),
+              HasSubstr("known format"));
 }
 
 TEST_F(BrokenFile, OfAnUnknownFormat) {

@@ -12,7 +12,6 @@
 #include <optional>
 #include <system_error>
 
-#include "geometry/calibration_file.hpp"
 #include "geometry/formats/readers.hpp"
 #include "geometry/formats/syntax.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "geometry/formats/value.hpp"
@@ -8,6 +9,9 @@
 // A file of a calibration, parsed and recognised.
 
 namespace mtstereo::formats {
+
+/// Larger files are not read [bytes]. Calibrations with all their board corners have some 100 KB.
+inline constexpr std::size_t kLargestCalibrationFile = 4 << 20;
 
 /// The formats.
 enum class Format {

@@ -55,15 +55,6 @@ void flatten(const Entry& map, std::vector<Entry>& entries) {
 
 }  // namespace
 
-std::string plain_name(std::string_view name) {
-  std::string plain;
-  for (const char letter : name) {
-    if (letter == '_' || letter == '-' || letter == '.') continue;
-    plain += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  }
-  return plain;
-}
-
 OpenCvEntries::OpenCvEntries(const std::vector<Entry>& files) : files_(files) {
   for (const Entry& file : files_) {
     if (file.is_map()) flatten(file, entries_);

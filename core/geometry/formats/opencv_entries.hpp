@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/formats/opencv_names.hpp"
 #include "geometry/formats/value.hpp"
 
 // The entries of OpenCV's FileStorage. Programs give the same matrices many names, and some put
@@ -13,21 +14,8 @@
 
 namespace mtstereo::formats {
 
-/// Names of one entry with blanks between them: without upper case, '_', '-' and '.'.
-using Names = std::string_view;
-
 /// K of a file with one camera.
 inline constexpr Names kOneCamera = "cameramatrix k mtx intrinsicmatrix";
-
-/// The name without upper case and the characters that programs put between words.
-std::string plain_name(std::string_view name);
-
-/// What a pair of cameras needs, as far as it is there.
-struct PairEntries {
-  std::optional<Entry> left_matrix, right_matrix;  ///< K
-  std::optional<Entry> left_lens, right_lens;      ///< distortion coefficients
-  std::optional<Entry> rotation, translation;      ///< from the left to the right camera
-};
 
 /// The entries of one or two files. Those of maps have the names of both: left.K.
 class OpenCvEntries {

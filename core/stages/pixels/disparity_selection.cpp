@@ -7,7 +7,6 @@
 
 #include "mtstereo/image.hpp"
 #include "stages/pixels/census_cost.hpp"
-#include "stages/pixels/selection_words.hpp"
 #include "stages/pixels/subpixel.hpp"
 
 #define HWY_TARGET_INCLUDE "stages/pixels/disparity_selection.cpp"

@@ -31,8 +31,8 @@ class Path {
         back_(path == kFromLeft ? -1 : 1),
         small_step_(hn::Set(Bytes(), static_cast<std::uint8_t>(std::min(row.small_step, 255)))),
         least_(hn::Set(Bytes(), static_cast<std::uint8_t>(scratch.least[path]))),
-        newest_(path_end(scratch, lanes, path, scratch.newest[path])),
-        other_(path_end(scratch, lanes, path, 1 - scratch.newest[path])) {}
+        newest_(path_end(scratch.ends.data(), lanes, path, scratch.newest[path])),
+        other_(path_end(scratch.ends.data(), lanes, path, 1 - scratch.newest[path])) {}
 
   /// Starts at the path's first pixel, which has no predecessor.
   void begin() {
@@ -108,7 +108,7 @@ class Path {
   /// Saves the state for the next block.
   void leave(int path, ScanlineScratch& scratch) const {
     scratch.least[path] = hn::GetLane(least_);
-    scratch.newest[path] = newest_ == path_end(scratch, lanes_, path, 0) ? 0 : 1;
+    scratch.newest[path] = newest_ == path_end(scratch.ends.data(), lanes_, path, 0) ? 0 : 1;
   }
 
  private:

@@ -12,8 +12,7 @@
 
 #include "base/simd.hpp"
 #include "mtstereo/image.hpp"
-#include "stages/pixels/disparity_selection.hpp"
-#include "stages/pixels/selection_words.hpp"
+#include "stages/pixels/selection_data.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {

@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "mtstereo/image.hpp"
-#include "stages/refine/edge_window.hpp"
 
 #define HWY_TARGET_INCLUDE "stages/refine/edge_alignment.cpp"
 #include "base/simd.hpp"

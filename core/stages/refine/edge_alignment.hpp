@@ -5,6 +5,7 @@
 
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
+#include "stages/refine/edge_window.hpp"
 
 namespace mtstereo {
 
@@ -20,9 +21,6 @@ inline constexpr std::int32_t kJump = 2 * kDisparityOne;
 
 /// A pixel is near a jump if it is at most this many columns and rows away [px].
 inline constexpr int kEdgeReach = 3;
-
-/// Half the side of the median's window, of which every second row and column counts [px].
-inline constexpr int kEdgeRadius = 6;
 
 /// Steps per px of the disparities that the median compares.
 inline constexpr int kEdgeOne = 16;

@@ -3,11 +3,12 @@
 
 #include <cstdint>
 
-#include "stages/refine/edge_alignment.hpp"
-
-/// Internal to edge_alignment.cpp: the types that the kernels of all SIMD targets share.
+/// The window of edge_alignment.hpp, in the form that the kernels of all SIMD targets share.
 
 namespace mtstereo {
+
+/// Half the side of the window, of which every second row and column counts [px].
+inline constexpr int kEdgeRadius = 6;
 
 /// The window's rows that count, and as many columns.
 inline constexpr int kEdgeSide = kEdgeRadius + 1;

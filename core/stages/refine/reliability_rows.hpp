@@ -3,7 +3,8 @@
 
 #include <cstdint>
 
-#include "stages/refine/reliability.hpp"
+#include "stages/refine/clues.hpp"
+#include "stages/refine/reliability_table.hpp"
 
 /// Internal to reliability.cpp: the types that the kernels of all SIMD targets share.
 
