@@ -74,23 +74,18 @@ RectifySettings settings_of(gpointer element) {
 
 // --- properties ---
 
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
   {
     const ObjectLock lock(object);
-    if (!set_rectify_property(state_of(object).settings, id, value)) {
-      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-      return;
-    }
+    rectify_properties().set(state_of(object).settings, id, *value);
   }
   // All of them change the frames, and most the caps: negotiated before the next frame.
   gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
 }
 
-void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
   const ObjectLock lock(object);
-  if (!get_rectify_property(state_of(object).settings, id, value)) {
-    G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+  rectify_properties().get(state_of(object).settings, id, *value);
 }
 
 // --- caps ---
@@ -290,7 +285,7 @@ static void gst_mtstereo_rectify_class_init(GstMtRectifyClass* klass) {
   object_class->set_property = guarded<set_property>;
   object_class->get_property = guarded<get_property>;
   object_class->finalize = finalize;
-  install_rectify_properties(object_class);
+  rectify_properties().install(object_class);
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pads(element_class);

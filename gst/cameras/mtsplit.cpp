@@ -9,6 +9,7 @@
 #include "shared/caps_check.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/ownership.hpp"
+#include "shared/properties.hpp"
 
 namespace mtstereo::plugin {
 
@@ -26,18 +27,19 @@ struct GstMtSplitClass {
   GstElementClass parent_class;
 };
 
-enum Property : guint { kLayout = 1, kSwap };
-
 constexpr const char* kNames[] = {"left", "right"};
 
-GType layout_type() {
-  static const GEnumValue values[] = {{static_cast<int>(SplitLayout::kSideBySide),
-                                       "The left half and the right half", "side-by-side"},
-                                      {static_cast<int>(SplitLayout::kTopBottom),
-                                       "The upper half and the lower half", "top-bottom"},
-                                      {0, nullptr, nullptr}};
-  static const GType type = g_enum_register_static("GstMtStereoSplitLayout", values);
-  return type;
+const PropertyTable<SplitSettings>& properties() {
+  static const GType layouts = enum_type<SplitLayout>(
+      "GstMtStereoSplitLayout",
+      {{SplitLayout::kSideBySide, "The left half and the right half", "side-by-side"},
+       {SplitLayout::kTopBottom, "The upper half and the lower half", "top-bottom"}});
+  static const PropertyTable<SplitSettings> table({
+      {"layout", &SplitSettings::layout, layouts, "Position of the two views in a frame"},
+      {"swap", &SplitSettings::swap,
+       "The first half (left or upper) is the right view, not the left one"},
+  });
+  return table;
 }
 
 }  // namespace
@@ -61,34 +63,14 @@ Result at_pad(GstObject* element, Result failure, Body&& body) noexcept {
 
 // --- properties ---
 
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
   const ObjectLock lock(object);
-  SplitSettings& settings = state_of(object).settings;
-  switch (id) {
-    case kLayout:
-      settings.layout = static_cast<SplitLayout>(g_value_get_enum(value));
-      break;
-    case kSwap:
-      settings.swap = g_value_get_boolean(value) != FALSE;
-      break;
-    default:
-      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+  properties().set(state_of(object).settings, id, *value);
 }
 
-void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
   const ObjectLock lock(object);
-  const SplitSettings& settings = state_of(object).settings;
-  switch (id) {
-    case kLayout:
-      g_value_set_enum(value, static_cast<int>(settings.layout));
-      break;
-    case kSwap:
-      g_value_set_boolean(value, settings.swap ? TRUE : FALSE);
-      break;
-    default:
-      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+  properties().get(state_of(object).settings, id, *value);
 }
 
 // --- caps ---
@@ -254,21 +236,6 @@ void finalize(GObject* object) noexcept {
   G_OBJECT_CLASS(gst_mtstereo_split_parent_class)->finalize(object);
 }
 
-void install_properties(GObjectClass* object_class) {
-  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
-                                                   GST_PARAM_MUTABLE_PLAYING);
-  g_object_class_install_property(
-      object_class, kLayout,
-      g_param_spec_enum("layout", "layout", "Where the two views are in a frame", layout_type(),
-                        static_cast<int>(SplitLayout::kSideBySide), kFlags));
-  g_object_class_install_property(
-      object_class, kSwap,
-      g_param_spec_boolean("swap", "swap",
-                           "The first half (left or upper) is the right view, not the left one",
-                           FALSE, kFlags));
-  gst_type_mark_as_plugin_api(layout_type(), static_cast<GstPluginAPIFlags>(0));
-}
-
 void add_pad_templates(GstElementClass* element_class) noexcept {
   const std::string formats = "video/x-raw, format = (string) " + split_formats();
   const std::string whole = formats +
@@ -298,7 +265,7 @@ static void gst_mtstereo_split_class_init(GstMtSplitClass* klass) {
   object_class->set_property = guarded<set_property>;
   object_class->get_property = guarded<get_property>;
   object_class->finalize = finalize;
-  install_properties(object_class);
+  properties().install(object_class);
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   element_class->change_state = guarded<change_state, GST_STATE_CHANGE_FAILURE>;

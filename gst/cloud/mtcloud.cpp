@@ -72,19 +72,14 @@ namespace {
 
 CloudState& state_of(gpointer element) { return *reinterpret_cast<GstMtCloud*>(element)->state; }
 
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
-  bool known = false;
-  {
-    const ObjectLock lock(object);
-    known = set_cloud_property(state_of(object).properties, id, value);
-  }
-  if (!known) G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
+  const ObjectLock lock(object);
+  cloud_properties().set(state_of(object).properties, id, *value);
 }
 
-void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
   const ObjectLock lock(object);
-  if (get_cloud_property(state_of(object).properties, id, value)) return;
-  G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+  cloud_properties().get(state_of(object).properties, id, *value);
 }
 
 CloudProperties properties_of(gpointer element) {
@@ -322,7 +317,7 @@ static void gst_mtstereo_cloud_class_init(GstMtCloudClass* klass) {
   object_class->set_property = guarded<set_property>;
   object_class->get_property = guarded<get_property>;
   object_class->finalize = finalize;
-  install_cloud_properties(object_class);
+  cloud_properties().install(object_class);
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   element_class->change_state = guarded<change_state, GST_STATE_CHANGE_FAILURE>;

@@ -16,6 +16,7 @@
 #include "shared/disparity_meta.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/frame_views.hpp"
+#include "shared/geometry_properties.hpp"
 #include "shared/map_unit.hpp"
 
 namespace mtstereo::plugin {
@@ -38,13 +39,18 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
+/// The values of the properties.
+struct ColorSettings {
+  int max_disparity = 0;       ///< 0: from the caps [px]
+  int scale = kFallbackScale;  ///< used if the caps have no scale [steps per px]
+  DepthRange depths = kDefaultRange;
+  ColorScale color_scale = ColorScale::kLog;
+};
+
 /// All data of one mtcolor element. Created in its init, deleted in its finalize.
 struct ColorState {
   // Guarded by the element's object lock.
-  int max_disparity = 0;              ///< property; 0: from the caps [px]
-  int scale = kFallbackScale;         ///< property; used if the caps have no scale [steps per px]
-  DepthRange depths = kDefaultRange;  ///< properties
-  gint color_scale = static_cast<gint>(ColorScale::kLog);  ///< property
+  ColorSettings settings;
 
   // Used by the streaming thread only.
   int caps_max_disparity = 0;              ///< 0: not in the caps [px]
@@ -65,17 +71,32 @@ struct GstMtColorClass {
   GstVideoFilterClass parent_class;
 };
 
-enum Property : guint { kMaxDisparity = 1, kDisparityScale, kNear, kFar, kColorScale };
-
-GType color_scale_type() {
-  static const GEnumValue values[] = {
-      {static_cast<gint>(ColorScale::kInverse), "Evenly over 1 / depth, as over disparities",
-       "inverse"},
-      {static_cast<gint>(ColorScale::kLinear), "Evenly over the depth", "linear"},
-      {static_cast<gint>(ColorScale::kLog), "Evenly over the logarithm of the depth", "log"},
-      {0, nullptr, nullptr}};
-  static const GType type = g_enum_register_static("GstMtStereoColorScale", values);
-  return type;
+const PropertyTable<ColorSettings>& properties() {
+  using Values = ColorSettings;
+  static const GType scales = enum_type<ColorScale>(
+      "GstMtStereoColorScale",
+      {{ColorScale::kInverse, "Evenly over 1 / depth, as over disparities", "inverse"},
+       {ColorScale::kLinear, "Evenly over the depth", "linear"},
+       {ColorScale::kLog, "Evenly over the logarithm of the depth", "log"}});
+  static const PropertyTable<Values> table({
+      {"max-disparity", &Values::max_disparity, 0, kLargestMaxDisparity,
+       "Disparity of the last color, in px, the same in every frame (0: that of the caps or of "
+       "the meta, which mtstereo sets, or 64 without them)"},
+      {"disparity-scale", &Values::scale, 1, 65535, kScaleBlurb},
+      {"near",
+       {&Values::depths, &DepthRange::near},
+       kSmallestDepthLimit,
+       kLargestDepthLimit,
+       "For depth maps: depth of the last color (red), in meters, the same in every frame"},
+      {"far",
+       {&Values::depths, &DepthRange::far},
+       kSmallestDepthLimit,
+       kLargestDepthLimit,
+       "For depth maps: depth of the first color (blue), in meters"},
+      {"color-scale", &Values::color_scale, scales,
+       "For depth maps: distribution of the colors from near to far"},
+  });
+  return table;
 }
 
 constexpr const char* kPictures =
@@ -89,50 +110,14 @@ namespace {
 
 ColorState& state_of(gpointer element) { return *reinterpret_cast<GstMtColor*>(element)->state; }
 
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
+void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
   const ObjectLock lock(object);
-  switch (id) {
-    case kMaxDisparity:
-      state_of(object).max_disparity = g_value_get_int(value);
-      break;
-    case kDisparityScale:
-      state_of(object).scale = g_value_get_int(value);
-      break;
-    case kNear:
-      state_of(object).depths.near = g_value_get_double(value);
-      break;
-    case kFar:
-      state_of(object).depths.far = g_value_get_double(value);
-      break;
-    case kColorScale:
-      state_of(object).color_scale = g_value_get_enum(value);
-      break;
-    default:
-      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+  properties().set(state_of(object).settings, id, *value);
 }
 
-void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
   const ObjectLock lock(object);
-  switch (id) {
-    case kMaxDisparity:
-      g_value_set_int(value, state_of(object).max_disparity);
-      break;
-    case kDisparityScale:
-      g_value_set_int(value, state_of(object).scale);
-      break;
-    case kNear:
-      g_value_set_double(value, state_of(object).depths.near);
-      break;
-    case kFar:
-      g_value_set_double(value, state_of(object).depths.far);
-      break;
-    case kColorScale:
-      g_value_set_enum(value, state_of(object).color_scale);
-      break;
-    default:
-      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+  properties().get(state_of(object).settings, id, *value);
 }
 
 GstCaps* transform_caps(GstBaseTransform*, GstPadDirection direction, GstCaps* caps,
@@ -186,11 +171,13 @@ Range effective_range(GstVideoFilter* filter, const std::optional<DisparityUnit>
   const ColorState& state = state_of(filter);
   const ObjectLock lock(filter);
   Range range;
-  range.scale = state.caps_scale != 0 ? state.caps_scale : meta ? meta->scale : state.scale;
-  range.max_disparity = state.max_disparity != 0        ? state.max_disparity
-                        : state.caps_max_disparity != 0 ? state.caps_max_disparity
-                        : meta                          ? meta->max_disparity
-                                                        : kFallbackMaxDisparity;
+  range.scale = state.caps_scale != 0 ? state.caps_scale
+                : meta                ? meta->scale
+                                      : state.settings.scale;
+  range.max_disparity = state.settings.max_disparity != 0 ? state.settings.max_disparity
+                        : state.caps_max_disparity != 0   ? state.caps_max_disparity
+                        : meta                            ? meta->max_disparity
+                                                          : kFallbackMaxDisparity;
   range.offset = state.caps_scale != 0 ? state.caps_offset : meta ? meta->offset : 0;
   return range;
 }
@@ -246,9 +233,9 @@ void use_range(ColorState& state, const DepthColors& colors) {
 /// The range of depths by the properties.
 DepthColors depth_colors(GstVideoFilter* filter, double unit) {
   ColorState& state = state_of(filter);
-  const DepthRange range = settle_range(filter, state.depths, state.last_depths);
+  const DepthRange range = settle_range(filter, state.settings.depths, state.last_depths);
   const ObjectLock lock(filter);
-  return {unit, range.near, range.far, static_cast<ColorScale>(state.color_scale)};
+  return {unit, range.near, range.far, state.settings.color_scale};
 }
 
 GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVideoFrame* out) {
@@ -267,7 +254,7 @@ gboolean start(GstBaseTransform* transform) {
   DepthRange range;
   {
     const ObjectLock lock(transform);
-    range = state.depths;
+    range = state.settings.depths;
   }
   if (!check_range_at_start(transform, range)) return FALSE;
   state.last_depths = range;
@@ -279,42 +266,6 @@ void finalize(GObject* object) noexcept {
   G_OBJECT_CLASS(gst_mtstereo_color_parent_class)->finalize(object);
 }
 
-void install_properties(GObjectClass* object_class) {
-  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
-                                                   GST_PARAM_MUTABLE_PLAYING);
-  g_object_class_install_property(
-      object_class, kMaxDisparity,
-      g_param_spec_int("max-disparity", "max-disparity",
-                       "Disparity of the last color, in px; the range is the same in every frame "
-                       "(0: that of the caps or of the meta, which mtstereo sets, or 64 without "
-                       "them)",
-                       0, kLargestMaxDisparity, 0, kFlags));
-  g_object_class_install_property(
-      object_class, kDisparityScale,
-      g_param_spec_int("disparity-scale", "disparity-scale",
-                       "Steps per px of the input if neither its caps nor its meta have a "
-                       "disparity-scale, for example downstream of a decoder; these take "
-                       "precedence",
-                       1, 65535, kFallbackScale, kFlags));
-  g_object_class_install_property(
-      object_class, kNear,
-      g_param_spec_double("near", "near",
-                          "For depth maps: depth of the last color (red), in meters; the range is "
-                          "the same in every frame",
-                          kSmallestDepthLimit, kLargestDepthLimit, kDefaultRange.near, kFlags));
-  g_object_class_install_property(
-      object_class, kFar,
-      g_param_spec_double("far", "far",
-                          "For depth maps: depth of the first color (blue), in meters",
-                          kSmallestDepthLimit, kLargestDepthLimit, kDefaultRange.far, kFlags));
-  g_object_class_install_property(
-      object_class, kColorScale,
-      g_param_spec_enum("color-scale", "color-scale",
-                        "For depth maps: how the colors are spread from near to far",
-                        color_scale_type(), static_cast<gint>(ColorScale::kLog), kFlags));
-  gst_type_mark_as_plugin_api(color_scale_type(), static_cast<GstPluginAPIFlags>(0));
-}
-
 }  // namespace
 
 static void gst_mtstereo_color_class_init(GstMtColorClass* klass) {
@@ -323,7 +274,7 @@ static void gst_mtstereo_color_class_init(GstMtColorClass* klass) {
   object_class->set_property = guarded<set_property>;
   object_class->get_property = guarded<get_property>;
   object_class->finalize = finalize;
-  install_properties(object_class);
+  properties().install(object_class);
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);

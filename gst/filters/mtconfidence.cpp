@@ -12,6 +12,7 @@
 #include "shared/exception_guard.hpp"
 #include "shared/frame_metas.hpp"
 #include "shared/frame_views.hpp"
+#include "shared/properties.hpp"
 
 namespace mtstereo::plugin {
 
@@ -20,13 +21,17 @@ GST_DEBUG_CATEGORY_STATIC(mtconfidence_debug);
 
 namespace {
 
-enum Output : gint { kDisparity, kConfidence };
+enum class Content { kDisparity, kConfidence };
+
+struct ConfidenceSettings {
+  int min_confidence = 0;
+  Content output = Content::kDisparity;
+};
 
 /// All data of one mtconfidence element. Created in its init, deleted in its finalize.
 struct ConfidenceState {
   // Guarded by the element's object lock.
-  gint min_confidence = 0;
-  gint output = kDisparity;
+  ConfidenceSettings settings;
 
   // Used by the streaming thread, and by stop() while that thread does not run.
   ConfidencePool pool;
@@ -41,18 +46,21 @@ struct GstMtConfidenceClass {
   GstVideoFilterClass parent_class;
 };
 
-enum Property : guint { kMinConfidence = 1, kOutput };
-
 constexpr const char* kPictures = MTSTEREO_PICTURE_CAPS("GRAY8");
 constexpr const char* kOutputs = MTSTEREO_PICTURE_CAPS("{ GRAY16_LE, GRAY8 }");
 
-GType output_type() {
-  static const GEnumValue values[] = {
-      {kDisparity, "Disparities of sufficient confidence (GRAY16_LE)", "disparity"},
-      {kConfidence, "The confidence as an image (GRAY8)", "confidence"},
-      {0, nullptr, nullptr}};
-  static const GType type = g_enum_register_static("GstMtStereoConfidenceOutput", values);
-  return type;
+const PropertyTable<ConfidenceSettings>& properties() {
+  static const GType contents = enum_type<Content>(
+      "GstMtStereoConfidenceOutput",
+      {{Content::kDisparity, "Disparities of sufficient confidence (GRAY16_LE)", "disparity"},
+       {Content::kConfidence, "The confidence as an image (GRAY8)", "confidence"}});
+  static const PropertyTable<ConfidenceSettings> table({
+      {"min-confidence", &ConfidenceSettings::min_confidence, 0, 255,
+       "Set disparities of lower confidence to 0 (unknown), and their confidence too (0: keep "
+       "all, 255: keep only those of highest confidence)"},
+      {"output", &ConfidenceSettings::output, contents, "Content of the output frames"},
+  });
+  return table;
 }
 
 }  // namespace
@@ -65,53 +73,36 @@ ConfidenceState& state_of(gpointer element) {
   return *reinterpret_cast<GstMtConfidence*>(element)->state;
 }
 
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
-  switch (id) {
-    case kMinConfidence: {
-      const ObjectLock lock(object);
-      state_of(object).min_confidence = g_value_get_int(value);
-      return;
-    }
-    case kOutput: {
-      {
-        const ObjectLock lock(object);
-        state_of(object).output = g_value_get_enum(value);
-      }
-      // The caps of the two outputs differ.
-      gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
-      return;
-    }
-    default:
-      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+ConfidenceSettings settings_of(gpointer element) {
+  const ObjectLock lock(element);
+  return state_of(element).settings;
+}
+
+void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
+  const Content before = settings_of(object).output;
+  {
+    const ObjectLock lock(object);
+    properties().set(state_of(object).settings, id, *value);
+  }
+  // The caps of the two outputs differ.
+  if (settings_of(object).output != before) {
+    gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
   }
 }
 
-void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
-  const ObjectLock lock(object);
-  switch (id) {
-    case kMinConfidence:
-      g_value_set_int(value, state_of(object).min_confidence);
-      break;
-    case kOutput:
-      g_value_set_enum(value, state_of(object).output);
-      break;
-    default:
-      G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
+  properties().get(settings_of(object), id, *value);
 }
 
 GstCaps* transform_caps(GstBaseTransform* transform, GstPadDirection direction, GstCaps* caps,
                         GstCaps* filter) {
-  gint output = kDisparity;
-  {
-    const ObjectLock lock(transform);
-    output = state_of(transform).output;
-  }
+  const Content output = settings_of(transform).output;
   const bool to_src = direction == GST_PAD_SINK;
-  const char* source = output == kConfidence ? kPictures : kDisparityCaps;
+  const char* source = output == Content::kConfidence ? kPictures : kDisparityCaps;
   const CapsPointer possible(gst_caps_from_string(to_src ? kDisparityCaps : source));
   CapsPointer mine(gst_caps_intersect_full(caps, possible.get(), GST_CAPS_INTERSECT_FIRST));
-  if (output == kConfidence) mine = picture_caps(mine.get(), to_src ? kPictures : kDisparityCaps);
+  if (output == Content::kConfidence)
+    mine = picture_caps(mine.get(), to_src ? kPictures : kDisparityCaps);
   return filtered_caps(std::move(mine), filter).release();
 }
 
@@ -202,11 +193,7 @@ GstFlowReturn attach_filtered(GstVideoFilter* filter, const GstVideoFrame& confi
 }
 
 GstFlowReturn transform_frame(GstVideoFilter* filter, GstVideoFrame* in, GstVideoFrame* out) {
-  Threshold threshold;
-  {
-    const ObjectLock lock(filter);
-    threshold.least = static_cast<std::uint8_t>(state_of(filter).min_confidence);
-  }
+  const Threshold threshold{static_cast<std::uint8_t>(settings_of(filter).min_confidence)};
   GstSample* sample = confidence_of(in->buffer);
   if (sample == nullptr) return refuse_missing(filter);
   GstVideoInfo info;
@@ -241,22 +228,6 @@ void finalize(GObject* object) noexcept {
   G_OBJECT_CLASS(gst_mtstereo_confidence_parent_class)->finalize(object);
 }
 
-void install_properties(GObjectClass* object_class) {
-  constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
-                                                   GST_PARAM_MUTABLE_PLAYING);
-  g_object_class_install_property(
-      object_class, kMinConfidence,
-      g_param_spec_int("min-confidence", "min-confidence",
-                       "Disparities of lower confidence are set to 0 (none), and so is their "
-                       "confidence (0: all are kept, 255: only those of highest confidence)",
-                       0, 255, 0, kFlags));
-  g_object_class_install_property(
-      object_class, kOutput,
-      g_param_spec_enum("output", "output", "Content of the output frames", output_type(),
-                        kDisparity, kFlags));
-  gst_type_mark_as_plugin_api(output_type(), static_cast<GstPluginAPIFlags>(0));
-}
-
 }  // namespace
 
 static void gst_mtstereo_confidence_class_init(GstMtConfidenceClass* klass) {
@@ -265,7 +236,7 @@ static void gst_mtstereo_confidence_class_init(GstMtConfidenceClass* klass) {
   object_class->set_property = guarded<set_property>;
   object_class->get_property = guarded<get_property>;
   object_class->finalize = finalize;
-  install_properties(object_class);
+  properties().install(object_class);
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);

@@ -59,25 +59,22 @@ namespace {
 
 DepthState& state_of(gpointer element) { return *reinterpret_cast<GstMtDepth*>(element)->state; }
 
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec* spec) {
-  bool known = false;
+void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
+  bool in_caps = false;
   {
     const ObjectLock lock(object);
-    known = set_depth_property(state_of(object).properties, id, value);
+    DepthProperties& values = state_of(object).properties;
+    const DepthProperties before = values;
+    depth_properties().set(values, id, *value);
+    in_caps = values.unit != before.unit || values.geometry != before.geometry;
   }
-  if (!known) {
-    G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  } else if (is_in_depth_caps(id)) {
-    // The caps of the output state the unit and the geometry.
-    gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
-  }
+  // The caps of the output state the unit and the geometry.
+  if (in_caps) gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
 }
 
-void get_property(GObject* object, guint id, GValue* value, GParamSpec* spec) {
+void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
   const ObjectLock lock(object);
-  if (!get_depth_property(state_of(object).properties, id, value)) {
-    G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-  }
+  depth_properties().get(state_of(object).properties, id, *value);
 }
 
 DepthProperties properties_of(gpointer element) {
@@ -218,7 +215,8 @@ bool prepare(GstVideoFilter* filter, const MapUnit& unit) {
   DepthState& state = state_of(filter);
   const DepthRange range = settle_range(filter, state.properties.range, state.range);
   const DepthGeometry geometry = depth_geometry(state.stream, unit);
-  const DepthOptions options = {state.unit, range.near, range.end(), properties_of(filter).clamp};
+  const DepthOptions options = {state.unit, range.near, range.end(),
+                                properties_of(filter).overflow == DepthOverflow::kClamp};
   if (state.converter && geometry == state.geometry && options == state.options) return true;
   Result<DepthConverter> converter = DepthConverter::create(geometry, options);
   if (!converter) {
@@ -293,7 +291,7 @@ static void gst_mtstereo_depth_class_init(GstMtDepthClass* klass) {
   object_class->set_property = guarded<set_property>;
   object_class->get_property = guarded<get_property>;
   object_class->finalize = finalize;
-  install_depth_properties(object_class);
+  depth_properties().install(object_class);
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/match_properties.hpp"
 
-#include <iterator>
 #include <utility>
 
 #include "matcher/parameter_properties.hpp"
@@ -128,12 +127,7 @@ std::vector<Row> own_rows() {
 }  // namespace
 
 const PropertyTable<MatchSettings>& match_properties() {
-  static const PropertyTable<MatchSettings> table = [] {
-    std::vector<Row> rows = parameter_rows();
-    std::vector<Row> own = own_rows();
-    std::move(own.begin(), own.end(), std::back_inserter(rows));
-    return PropertyTable<MatchSettings>(std::move(rows));
-  }();
+  static const PropertyTable<MatchSettings> table(parameter_rows(), own_rows());
   return table;
 }
 
@@ -156,7 +150,7 @@ Status MatchProperties::set(guint id, const GValue& value) {
 void MatchProperties::get(guint id, const AlignmentReport& report, GValue& value) const {
   MatchSettings shown = current();
   if (const auto found = report.current_field(shown.alignment)) shown.alignment.field = found;
-  match_properties().row(id).get(shown, value);
+  match_properties().get(shown, id, value);
 }
 
 void MatchProperties::commit() {

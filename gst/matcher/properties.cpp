@@ -105,7 +105,7 @@ void warn_of_value(ElementState& state, const Status& status, const GParamSpec* 
 void set_flow_property(ElementState& state, guint id, const GValue& value) {
   {
     const ObjectLock lock(state.element);
-    [[maybe_unused]] const Status status = flow_properties().row(id).set(state.flow, value);
+    flow_properties().set(state.flow, id, value);
     state.flow.sync_tolerance = std::min(state.flow.sync_tolerance, kLongestWait);
     state.pairing.set_mode(state.flow.sync_mode);
     state.pairing.set_tolerance(state.flow.sync_tolerance);
@@ -156,7 +156,7 @@ void get_element_property(ElementState& state, guint id, GValue& value, const GP
   if (match_properties().has(id)) {
     state.properties.get(id, state.engine.alignment(), value);
   } else if (flow_properties().has(id)) {
-    flow_properties().row(id).get(state.flow_settings(), value);
+    flow_properties().get(state.flow_settings(), id, value);
   } else if (id == number_of(kStats)) {
     g_value_take_boxed(&value, statistics_structure(state));
   } else {

@@ -4,32 +4,9 @@
 #include <utility>
 
 #include "mtstereo/geometry/calibration.hpp"
-#include "mtstereo/geometry/rectification.hpp"
 
 namespace mtstereo::plugin {
 namespace {
-
-enum Index : guint {
-  kFocalLength,
-  kBaseline,
-  kPrincipalOffset,
-  kPrincipalX,
-  kPrincipalY,
-  kCalibration,
-  kDisparityScale,
-};
-static_assert(kDisparityScale + 1 == kGeometryPropertyCount);
-
-constexpr double kLargestFocalLength = 1e6;  // [px]
-constexpr double kLargestOffset = 1e5;       // [px]
-
-constexpr auto kFlags = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS |
-                                                 GST_PARAM_MUTABLE_PLAYING);
-
-std::string text_of(const GValue* value) {
-  const gchar* text = g_value_get_string(value);
-  return text != nullptr ? text : "";
-}
 
 /// The geometry of the views after the rectification that mtrectify computes without properties, or
 /// that the file states.
@@ -70,108 +47,7 @@ Error missing(const GeometryProperties& properties) {
               "were rectified with; or set focal-length=PX and baseline=METERS"};
 }
 
-void install_double(GObjectClass* object_class, guint id, const char* name, const char* blurb,
-                    double least, double largest) {
-  g_object_class_install_property(
-      object_class, id, g_param_spec_double(name, name, blurb, least, largest, 0, kFlags));
-}
-
 }  // namespace
-
-void install_geometry_properties(GObjectClass* object_class, guint first) {
-  install_double(object_class, first + kFocalLength, "focal-length",
-                 "Focal length of the rectified views, in px (0: that of the calibration or of the "
-                 "caps, which mtrectify sets)",
-                 0, kLargestFocalLength);
-  install_double(object_class, first + kBaseline, "baseline",
-                 "Distance of the cameras, in meters (0: that of the calibration or of the caps)",
-                 0, kLongestBaseline);
-  install_double(object_class, first + kPrincipalOffset, "principal-offset",
-                 "Column of the principal point of the right view minus that of the left view, in "
-                 "px; it is added to the disparities (not set: that of the calibration or of the "
-                 "caps, or 0)",
-                 -kLargestOffset, kLargestOffset);
-  install_double(object_class, first + kPrincipalX, "principal-x",
-                 "Column of the principal point of the left view, in px (not set: that of the "
-                 "calibration or of the caps, or the center)",
-                 -kLargestOffset, kLargestOffset);
-  install_double(object_class, first + kPrincipalY, "principal-y",
-                 "Row of the principal point of the left view, in px (not set: that of the "
-                 "calibration or of the caps, or the center)",
-                 -kLargestOffset, kLargestOffset);
-  g_object_class_install_property(
-      object_class, first + kCalibration,
-      g_param_spec_string("calibration", "calibration",
-                          "File with the calibration of the cameras, if the caps do not have the "
-                          "geometry: the views were rectified by it and the defaults of "
-                          "mtrectify, or by the rectification that it states; two files are "
-                          "separated by a comma",
-                          nullptr, kFlags));
-  g_object_class_install_property(
-      object_class, first + kDisparityScale,
-      g_param_spec_int("disparity-scale", "disparity-scale",
-                       "Steps per px of the input if neither its caps nor its meta have a "
-                       "disparity-scale, for example downstream of a decoder; these take "
-                       "precedence",
-                       1, 65535, 256, kFlags));
-}
-
-bool set_geometry_property(GeometryProperties& properties, guint index, const GValue* value) {
-  switch (index) {
-    case kFocalLength:
-      properties.focal_length = g_value_get_double(value);
-      return true;
-    case kBaseline:
-      properties.baseline = g_value_get_double(value);
-      return true;
-    case kPrincipalOffset:
-      properties.principal_offset = g_value_get_double(value);
-      return true;
-    case kPrincipalX:
-      properties.principal_x = g_value_get_double(value);
-      return true;
-    case kPrincipalY:
-      properties.principal_y = g_value_get_double(value);
-      return true;
-    case kCalibration:
-      properties.calibration = text_of(value);
-      return true;
-    case kDisparityScale:
-      properties.disparity_scale = g_value_get_int(value);
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool get_geometry_property(const GeometryProperties& properties, guint index, GValue* value) {
-  switch (index) {
-    case kFocalLength:
-      g_value_set_double(value, properties.focal_length);
-      return true;
-    case kBaseline:
-      g_value_set_double(value, properties.baseline);
-      return true;
-    case kPrincipalOffset:
-      g_value_set_double(value, properties.principal_offset.value_or(0));
-      return true;
-    case kPrincipalX:
-      g_value_set_double(value, properties.principal_x.value_or(0));
-      return true;
-    case kPrincipalY:
-      g_value_set_double(value, properties.principal_y.value_or(0));
-      return true;
-    case kCalibration:
-      g_value_set_string(value,
-                         properties.calibration.empty() ? nullptr : properties.calibration.c_str());
-      return true;
-    case kDisparityScale:
-      g_value_set_int(value, properties.disparity_scale);
-      return true;
-    default:
-      return false;
-  }
-}
 
 Result<StereoGeometry> GeometrySource::from_file(const std::string& path, int width, int height) {
   const std::lock_guard lock(mutex_);

@@ -9,13 +9,20 @@
 #include <vector>
 
 #include "mtstereo/geometry/depth.hpp"
+#include "mtstereo/geometry/rectification.hpp"
 #include "mtstereo/result.hpp"
 #include "shared/map_unit.hpp"
+#include "shared/properties.hpp"
 #include "shared/stereo_geometry.hpp"
 
 // The properties of elements that turn disparities into depths: mtdepth and mtcloud.
 
 namespace mtstereo::plugin {
+
+/// The blurb of disparity-scale of the elements downstream of mtstereo.
+inline constexpr const char* kScaleBlurb =
+    "Steps per px of the input if neither its caps nor its meta have a disparity-scale, for "
+    "example downstream of a decoder; these take precedence";
 
 /// The values of the properties. What is not set comes from the calibration file, and without one
 /// from the caps.
@@ -27,19 +34,54 @@ struct GeometryProperties {
   std::optional<double> principal_y;       ///< [px]
   std::string calibration;                 ///< path of a file; empty: not set
   int disparity_scale = 256;               ///< [steps per px], for maps that do not state their own
+  bool operator==(const GeometryProperties&) const = default;
 };
 
-/// The number of properties.
-inline constexpr guint kGeometryPropertyCount = 7;
+inline constexpr double kLargestFocalLength = 1e6;  ///< [px]
+inline constexpr double kLargestOffset = 1e5;       ///< [px]
 
-/// Installs the properties under the numbers `first` to `first` + kGeometryPropertyCount - 1.
-void install_geometry_properties(GObjectClass* object_class, guint first);
-
-/// Sets the property `index`, counted from 0; false if there is none. The caller holds the lock.
-bool set_geometry_property(GeometryProperties& properties, guint index, const GValue* value);
-
-/// Reads the property `index`; false if there is none. The caller holds the lock.
-bool get_geometry_property(const GeometryProperties& properties, guint index, GValue* value);
+/// The rows of an element whose values have a member `geometry`.
+template <typename State>
+std::vector<Property<State>> geometry_rows() {
+  using Geometry = GeometryProperties;
+  return {
+      {"focal-length",
+       {&State::geometry, &Geometry::focal_length},
+       0,
+       kLargestFocalLength,
+       "Focal length of the rectified views, in px (0: that of the calibration or of the caps, "
+       "which mtrectify sets)"},
+      {"baseline",
+       {&State::geometry, &Geometry::baseline},
+       0,
+       kLongestBaseline,
+       "Distance of the cameras, in meters (0: that of the calibration or of the caps)"},
+      {"principal-offset",
+       {&State::geometry, &Geometry::principal_offset},
+       -kLargestOffset,
+       kLargestOffset,
+       "Column of the principal point of the right view minus that of the left view, in px; it is "
+       "added to the disparities (not set: that of the calibration or of the caps, or 0)"},
+      {"principal-x",
+       {&State::geometry, &Geometry::principal_x},
+       -kLargestOffset,
+       kLargestOffset,
+       "Column of the principal point of the left view, in px (not set: that of the calibration "
+       "or of the caps, or the center)"},
+      {"principal-y",
+       {&State::geometry, &Geometry::principal_y},
+       -kLargestOffset,
+       kLargestOffset,
+       "Row of the principal point of the left view, in px (not set: that of the calibration or "
+       "of the caps, or the center)"},
+      {"calibration",
+       {&State::geometry, &Geometry::calibration},
+       "Calibration file of the cameras, if the caps do not have the geometry: the views were "
+       "rectified with it and the defaults of mtrectify, or by the rectification that it states; "
+       "two files are separated by a comma"},
+      {"disparity-scale", {&State::geometry, &Geometry::disparity_scale}, 1, 65535, kScaleBlurb},
+  };
+}
 
 /// Finds the geometry of a stream. It keeps the content of the calibration file, so that the file
 /// is read once per frame size. Any thread.

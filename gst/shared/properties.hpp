@@ -3,8 +3,10 @@
 
 #include <gst/gst.h>
 
+#include <algorithm>
 #include <functional>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -172,8 +174,13 @@ class Property {
 template <typename State>
 class PropertyTable {
  public:
-  explicit PropertyTable(std::vector<Property<State>> rows, guint first = 1)
-      : rows_(std::move(rows)), first_(first) {}
+  using Rows = std::vector<Property<State>>;
+
+  explicit PropertyTable(Rows rows, guint first = 1) : rows_(std::move(rows)), first_(first) {}
+  /// Two groups of rows.
+  PropertyTable(Rows rows, Rows more) : PropertyTable(std::move(rows)) {
+    std::move(more.begin(), more.end(), std::back_inserter(rows_));
+  }
 
   void install(GObjectClass* object_class) const {
     guint id = first_;
@@ -181,6 +188,12 @@ class PropertyTable {
       g_object_class_install_property(object_class, id++, row.spec());
     }
   }
+  /// Sets a property of a table whose rows refuse no value.
+  void set(State& state, guint id, const GValue& value) const {
+    [[maybe_unused]] const Status accepted = row(id).set(state, value);
+  }
+  void get(const State& state, guint id, GValue& value) const { row(id).get(state, value); }
+
   /// The number after the last one.
   guint end() const { return first_ + static_cast<guint>(rows_.size()); }
   bool has(guint id) const { return id >= first_ && id < end(); }
@@ -188,7 +201,7 @@ class PropertyTable {
   const Property<State>& row(guint id) const { return rows_[id - first_]; }
 
  private:
-  std::vector<Property<State>> rows_;
+  Rows rows_;
   guint first_;
 };
 
