@@ -3,7 +3,7 @@
 # Updates the generated parts of docs/: the pictures of the stages and of the architecture, the
 # table of parameters and the table of steps.
 # Usage: docs/update.sh [BUILD]; with --check it only reports whether the table of parameters is up to
-# date.
+# date and docs/method.md describes every step.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 check=
@@ -33,8 +33,12 @@ update() {
 
 "$figures" --parameters > "$work/parameters"
 update parameters.md parameters
+"$figures" --steps > "$work/list"
+while read -r _ step _; do
+  grep -qF "\`$step\`" "$here/method.md" ||
+    { echo "docs/method.md does not describe the step $step" >&2; status=1; }
+done < "$work/list"
 if [ -z "$check" ]; then
-  "$figures" --steps > "$work/list"
   "$here/figures/architecture.py" table < "$work/list" > "$work/steps"
   update architecture.md steps
   "$figures" --pictures "$here/images/stages"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # soak.sh: plays the element in hostile ways for as long as wanted: seeks, state changes, properties from three threads,
 # caps that change or are wrong, wrong frames, streams that end, lose frames or arrive late, pads that are linked again,
-# several elements at a time. Prints a table in Markdown (docs/reliability.md explains it); fails if a pair was wrong
+# several elements at a time. Prints a table in Markdown (docs/quality.md explains it); fails if a pair was wrong
 # without a warning, something hung, an error did not state its cause, objects leaked, or memory grew.
 #
 # usage: soak.sh [--minutes N] [--seed N]

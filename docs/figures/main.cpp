@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// mtstereo-figures: the pictures of docs/algorithm.md, the table of docs/parameters.md, and the
+// mtstereo-figures: the pictures of docs/method.md, the table of docs/parameters.md, and the
 // steps for docs/architecture.md.
 #include <CLI/CLI.hpp>
 #include <algorithm>

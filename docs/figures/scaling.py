@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The model of docs/scaling.md: how long an archive takes on a number of processors.
+"""The model of docs/appendix/scaling.md: how long an archive takes on a number of processors.
 
 usage: scaling.py [--NAME VALUE...]
 Prints the tables of the page. Every number that goes in is an option.

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
 # Compares the library's ABI with that of the last release, which libmtstereo.abi describes. They may
-# differ only if the soname does: docs/releases.md.
+# differ only if the soname does: docs/quality.md.
 #
 # usage: abi_test.sh LIBRARY LIBRARY_WITH_DEBUG_INFORMATION HEADER_FOLDER SONAME
 set -eu

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Writes libmtstereo.abi, the ABI that later changes are compared with. Run it at each release, after a
-# build with gcc on x86_64: docs/releases.md. usage: tests/abi/update.sh [BUILD]
+# build with gcc on x86_64: docs/quality.md. usage: tests/abi/update.sh [BUILD]
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 build=${1:-$here/../../build}

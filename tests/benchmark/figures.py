@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Measures, and writes the figures and the growth plot of docs/benchmark.md.
+"""Measures, and writes the figures and the growth plot of docs/appendix/benchmark.md.
 
 Runs the benchmarks of a build, or uses the results of an earlier run (--no-run). Replaces the text
 between the two marks of the page. The exit status is 1 if a program fails and 2 if a result or the
@@ -113,7 +113,7 @@ def main():
     parser.add_argument("--element-result", type=pathlib.Path,
                         help="result of mtstereo-benchmark-element, if any "
                              "(default: BUILD/benchmark-element.json)")
-    parser.add_argument("--page", type=pathlib.Path, default=SOURCE / "docs/benchmark.md",
+    parser.add_argument("--page", type=pathlib.Path, default=SOURCE / "docs/appendix/benchmark.md",
                         help="page to update (default: %(default)s)")
     options = parser.parse_args()
     try:

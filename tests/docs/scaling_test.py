@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The tables of docs/scaling.md are those of its model, and the model is plausible."""
+"""The tables of docs/appendix/scaling.md are those of its model, and the model is plausible."""
 import os
 import pathlib
 import re
@@ -28,7 +28,7 @@ def parts(processors, **changes):
 
 class Scaling(unittest.TestCase):
     def test_the_page_has_the_tables_of_the_model(self):
-        page = (SOURCE / "docs/scaling.md").read_text()
+        page = (SOURCE / "docs/appendix/scaling.md").read_text()
         found = re.search(r"<!-- scaling begin -->\n(.*)<!-- scaling end -->", page, re.DOTALL)
         printed = subprocess.run([sys.executable, MODEL], capture_output=True, text=True, check=True)
         self.assertEqual(found[1], printed.stdout)

@@ -37,7 +37,8 @@ def environment(folder):
     env["GST_DEBUG_NO_COLOR"] = "1"
     env["BUILD"] = str(BUILD)
     env["LC_ALL"] = "C.UTF-8"
-    programs = [BUILD / "pipelines" / part for part in ("apps", "calibrate", "eval", "render", "run")]
+    programs = [BUILD / "pipelines" / part for part in
+                ("examples", "programs/calibrate", "programs/run", "tools/compare", "tools/eval", "tools/render")]
     env["PATH"] = os.pathsep.join([*map(str, programs), env["PATH"]])
     env.pop("DISPLAY", None)
     env.pop("WAYLAND_DISPLAY", None)

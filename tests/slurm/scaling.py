@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Measures what docs/scaling.md states: throughput with the nodes of a Slurm cluster on this machine.
+"""Measures what docs/appendix/scaling.md states: throughput with the nodes of a Slurm cluster on this machine.
 
 usage: scaling.py BUILD [--nodes 1,2,4] [--tasks 8] [--seconds 5] [--frames 480] [--size 640x480]
 BUILD is a build folder. Makes a recording, and prints the tables of the page and the numbers of the

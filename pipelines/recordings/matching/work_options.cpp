@@ -14,7 +14,7 @@ namespace mtstereo::run {
 namespace {
 
 constexpr const char* kScale = "disparity-scale";
-// From the finest to the coarsest, as mtstereo chooses it; docs/element.md.
+// From the finest to the coarsest, as mtstereo chooses it; docs/elements/mtstereo.md.
 constexpr std::array kScales{256, 128, 64, 32, 16, 8, 4, 2, 1};
 
 // Properties of mtstereo that are not parameters of the matcher.

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
-/* The C function in docs/element.md. */
+/* As in docs/application.md. */
 #include "support/confidence_reader.h"
 
 /* Maps the confidence map of a disparity map; FALSE if it has none. Unmap it with

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The programs of docs/application.md are built, run, and give what the page states."""
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from support import BUILD, SOURCE, make_clip, make_videos, require, run
+
+PAGE = SOURCE / "docs/application.md"
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+PYTHON = "/usr/bin/python3"
+MODULES = "import gi, numpy; gi.require_version('GstApp', '1.0'); from gi.repository import GstApp"
+FRAMES = 8
+FOCAL_TIMES_BASELINE = 13.6  # of the rendered room at 160 px [px m]
+
+CALIBRATION = """%YAML 1.0
+---
+image_size: [ 160, 120 ]
+K1: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
+D1: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
+K2: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
+D2: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
+R: { rows: 3, cols: 3, dt: d, data: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ] }
+T: { rows: 3, cols: 1, dt: d, data: [ -0.1, 0, 0 ] }
+"""
+
+# Appended to the program that reads results: every format gives the same.
+CHECK_OF_RESULTS = """
+assert np.array_equal(values, read_frames("pictures/disparity/%06d.png"))
+floats = np.stack([read_pfm(f"floats/disparity/{n:06d}.pfm") for n in range(len(values))])
+assert np.array_equal(np.where(np.isinf(floats), np.nan, floats), disparity.astype("f4"), equal_nan=True)
+meters = np.stack([read_pfm(f"floats/depth/{n:06d}.pfm") for n in range(len(values))])
+known = (depth > 0) & np.isfinite(meters)
+assert known.any() and np.abs(depth - meters)[known].max() < 0.0006
+assert np.array_equal(confidence > 0, values > 0)
+assert views.shape == (*values.shape, 3) and views.std() > 10
+assert np.array_equal(views, read_frames("pictures/rectified-left/%06d.png", "bgr24"))
+print("all formats are equal")
+"""
+
+
+def programs(language):
+    return [text for name, text in BLOCK.findall(PAGE.read_text()) if name == language]
+
+
+class Application(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory(prefix="mtstereo-")
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = pathlib.Path(temporary.name)
+        make_clip(cls.folder, FRAMES)
+        make_videos(cls.folder)
+
+    def need_python_modules(self):
+        if run([PYTHON, "-c", MODULES], self.folder).status != 0:
+            self.skipTest("NumPy or GStreamer's Python bindings are missing (python3-numpy, python3-gi, "
+                          "gir1.2-gst-plugins-base-1.0)")
+
+    def test_the_program_of_the_library_is_the_installed_example(self):
+        shown = programs("cpp")
+        self.assertEqual(len(shown), 1)
+        built = (SOURCE / "pipelines/examples/match_pair.cpp").read_text()
+        self.assertTrue(built.endswith(shown[0]), "the page shows another program")
+
+    def build_c_program(self):
+        shown = programs("c")
+        self.assertEqual(len(shown), 1)
+        (self.folder / "depth_at_center.c").write_text(shown[0])
+        flags = subprocess.run(["pkg-config", "--cflags", "--libs", "gstreamer-app-1.0", "gstreamer-video-1.0"],
+                               check=True, capture_output=True, text=True).stdout.split()
+        require(run(["gcc", "-Wall", "-Wextra", "-Werror", "-o", "depth-at-center", "depth_at_center.c", *flags],
+                    self.folder))
+        return self.folder / "depth-at-center"
+
+    def test_c_program_prints_depth_and_confidence(self):
+        program = self.build_c_program()
+        done = require(run([program, "left.mp4", "right.mp4", str(FOCAL_TIMES_BASELINE)], self.folder))
+        lines = done.output.splitlines()
+        self.assertEqual(len(lines), FRAMES, str(done))
+        found = re.findall(r"([\d.]+) px, ([\d.]+) m, confidence (\d+)", done.output)
+        self.assertEqual(len(found) + lines.count("unknown"), FRAMES, str(done))
+        self.assertGreater(len(found), 0, str(done))
+        for disparity, depth, confidence in found:
+            self.assertAlmostEqual(float(disparity) * float(depth), FOCAL_TIMES_BASELINE, delta=0.1)
+            self.assertTrue(1 <= int(confidence) <= 255, str(done))
+        missing = run([program, "left.mp4", "no.mp4", "1"], self.folder, 20)
+        self.assertEqual(missing.status, 1, str(missing))
+        self.assertNotEqual(missing.errors, "")
+
+    def run_python(self, text, *arguments):
+        program = self.folder / "program.py"
+        program.write_text(text)
+        return run([PYTHON, program, *arguments], self.folder, 120)
+
+    def test_python_runs_and_finds_the_confidence(self):
+        self.need_python_modules()
+        text = programs("python")[0]
+        done = require(self.run_python(text, "left.mp4", "right.mp4"))
+        found = re.findall(r"^160x120: (\d+) % known, median ([\d.]+) px; (\d+) % with", done.output, re.MULTILINE)
+        self.assertEqual(len(found), FRAMES, str(done))
+        for known, median, confident in found:
+            self.assertTrue(0 < int(confident) <= int(known) <= 100 and 1 < float(median) < 64, str(done))
+        missing = self.run_python(text, "left.mp4", "no.mp4")
+        self.assertEqual(missing.status, 1, str(missing))
+        self.assertIn("RuntimeError", missing.errors)
+
+    def test_python_reads_the_results_of_recordings(self):
+        self.need_python_modules()
+        if not shutil.which("ffmpeg"):
+            self.skipTest("ffmpeg is not installed")
+        (self.folder / "stereo.yaml").write_text(CALIBRATION)
+        for out, form in (("result", "mkv"), ("pictures", "png"), ("floats", "pfm")):
+            require(run([BUILD / "pipelines/programs/run/mtstereo-run", "left.mp4", "right.mp4", "--calibration",
+                         "stereo.yaml", "--what", "disparity,depth,confidence,rectified", "--format", form, "--out",
+                         out], self.folder))
+        done = require(self.run_python(programs("python")[1] + CHECK_OF_RESULTS))
+        self.assertRegex(done.output, r"^\d+ maps, median \d+\.\d+ px, \d+\.\d+ m\n")
+        self.assertIn("all formats are equal", done.output)
+
+    def test_no_program_is_left_out(self):
+        languages = {name for name, _ in BLOCK.findall(PAGE.read_text())} - {"console", "sh"}
+        self.assertEqual(languages, {"c", "cpp", "python"})
+        self.assertEqual([len(programs(name)) for name in sorted(languages)], [1, 1, 2])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
