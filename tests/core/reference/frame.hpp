@@ -20,6 +20,7 @@
 #include "reference/refine/edge_alignment.hpp"
 #include "reference/refine/enlarging.hpp"
 #include "reference/refine/gap_filling.hpp"
+#include "reference/refine/gray_mapping.hpp"
 #include "reference/refine/left_strip.hpp"
 #include "reference/refine/map_smoothing.hpp"
 #include "reference/refine/reliability.hpp"
@@ -27,7 +28,6 @@
 #include "reference/refine/thin_chains.hpp"
 #include "reference/refine/withheld.hpp"
 #include "stages/prepare/noise_filter.hpp"
-#include "stages/refine/gray_mapping.hpp"
 #include "stages/refine/thin_chains.hpp"
 
 namespace mtstereo::reference {
@@ -208,9 +208,7 @@ inline void support_guide(Frame& f) {
 inline void rate_guide(Frame& f) {
   std::array<GrayPlane, 2> halves;
   for (int side = 0; side < 2; ++side) halves[side] = halve(f.views[side]);
-  const RatedViews views = {halves[0].view(), halves[1].view(), 0, f.noise, nullptr, 8, 0};
-  const GrayMapping grays =
-      find_gray_mapping(views, image_of(f.guide.map), image_of(f.guide.confidence));
+  const Grays grays = map_grays(halves[0], halves[1], 0, f.guide);
   const RatedPair pair = {halves[0], halves[1], 0, f.noise, f.agreement, 8, 0, grays};
   const auto table = static_cast<int>(mtstereo::RatedMap::kGuide);
   f.guide.confidence = rate_reliability(pair, f.guide, kReliabilityTables[table], false);
@@ -280,15 +278,13 @@ inline void align_edges(Frame& f) {
 inline void calibrate_confidence(Frame& f) {
   const int least = f.settings.min_disparity;
   const int tile = f.settings.half() ? 32 : 16;
-  const RatedViews views = {
-      f.left.view(), f.input[1].view(), std::min(least, 0), f.noise, nullptr, tile, -least};
-  const GrayMapping grays = find_gray_mapping(views, image_of(f.map), image_of(f.confidence));
+  const ConfidentMap complete = {f.map, f.confidence};
+  const Grays grays = map_grays(f.left, f.input[1], std::min(least, 0), complete);
   const RatedPair pair = {f.left, f.input[1], std::min(least, 0), f.noise, f.agreement, tile,
                           -least, grays,      &f.guide,           tile / 8};
   const bool apart = !f.settings.keeps_inferred();
   const auto table = static_cast<int>(f.settings.rated_map());
-  f.confidence =
-      rate_reliability(pair, ConfidentMap{f.map, f.confidence}, kReliabilityTables[table], apart);
+  f.confidence = rate_reliability(pair, complete, kReliabilityTables[table], apart);
 }
 
 inline void correct_strip(Frame& f) {

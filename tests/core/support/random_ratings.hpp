@@ -59,6 +59,7 @@ struct RandomRating {
     for (int gray = 0; gray < 256; ++gray) {
       const int mapped = grays.is_identity ? gray : random.between(0, 255);
       grays.left_of_right[gray] = static_cast<std::uint8_t>(mapped);
+      plain_grays[gray] = mapped;
     }
   }
   GrayPlane left, right;
@@ -66,6 +67,7 @@ struct RandomRating {
   GrayPlane agreement{1, 1};  ///< of tiles
   Image<std::uint8_t> tiles;  ///< the same
   GrayMapping grays;
+  reference::Grays plain_grays{};  ///< the same
   int tile = 16, added = 0;
   reference::ConfidentMap guide{DisparityPlane(1, 1), GrayPlane(1, 1)};
   Image<std::int32_t> guide_map;  ///< the same
@@ -79,7 +81,7 @@ struct RandomRating {
             added,       {&guide_map, &guide_confidence, guide_scale, added, std::max(-added, 0)}};
   }
   reference::RatedPair pair(int offset, float noise) const {
-    return {left, right, offset, noise, agreement, tile, added, grays, &guide, guide_scale};
+    return {left, right, offset, noise, agreement, tile, added, plain_grays, &guide, guide_scale};
   }
 };
 

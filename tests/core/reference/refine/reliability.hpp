@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/refine/gap_filling.hpp"
-#include "stages/refine/clues.hpp"
+#include "reference/refine/gray_mapping.hpp"
 #include "stages/refine/reliability_table.hpp"
 
 namespace mtstereo::reference {
@@ -21,7 +21,7 @@ struct RatedPair {
   const GrayPlane& agreement;  ///< of tiles of the matched views
   int tile;                    ///< [px]
   int added;                   ///< columns on the left of the matched views
-  const GrayMapping& grays;    ///< of the right view
+  const Grays& grays;          ///< of the right view
   const ConfidentMap* guide = nullptr;
   int guide_scale = 2;
 };
@@ -77,8 +77,7 @@ class PixelClues {
       int least = 85;
       for (int k = -1; k <= 1; ++k) {
         const int right = pair_.right(std::clamp(partner + k, 0, pair_.right.width - 1), y);
-        const int seen = pair_.grays.is_identity ? right : pair_.grays.left_of_right[right];
-        least = std::min(least, std::abs(pair_.left(x, y) - seen));
+        least = std::min(least, std::abs(pair_.left(x, y) - pair_.grays[right]));
       }
       sum += least;
     }

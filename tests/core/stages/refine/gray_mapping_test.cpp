@@ -6,9 +6,11 @@
 #include <cmath>
 #include <functional>
 
+#include "reference/refine/gray_mapping.hpp"
 #include "support/compare.hpp"
 #include "support/plane.hpp"
 #include "support/random.hpp"
+#include "support/random_ratings.hpp"
 
 namespace mtstereo {
 namespace {
@@ -72,6 +74,30 @@ TEST(GrayMapping, NeverDecreases) {
 TEST(GrayMapping, TakesOverSmallDifferencesInPart) {
   const GrayMapping mapping = mapping_of([](double gray) { return gray - 4.5; }, 0);
   EXPECT_NEAR(102, mapping.left_of_right[100], 1);
+}
+
+TEST(GrayMapping, EqualsReference) {
+  int mapped = 0;
+  for (int seed = 1; seed <= 60; ++seed) {
+    const test::RandomRating rated(40 + 5 * seed, 10 + seed, 40 + 4 * seed, seed);
+    const int offset = seed % 3 == 0 ? -4 : 0;
+    GrayPlane right = rated.right;
+    for (std::uint8_t& gray : right.pixels) {
+      gray = static_cast<std::uint8_t>(std::min(gray + 9 * (seed % 4), 255));
+    }
+    RatedViews views = rated.views(offset, 1);
+    views.right = right.view();
+    const GrayMapping mapping =
+        find_gray_mapping(views, image_of(rated.in.map), image_of(rated.in.confidence));
+    mapped += !mapping.is_identity;
+    const reference::Grays expected = reference::map_grays(rated.left, right, offset, rated.in);
+    for (int gray = 0; gray < 256; ++gray) {
+      EXPECT_EQ(expected[gray], mapping.is_identity ? gray : mapping.left_of_right[gray])
+          << "gray value " << gray << ", seed " << seed;
+    }
+  }
+  EXPECT_GT(mapped, 10);
+  EXPECT_LT(mapped, 60);
 }
 
 TEST(GrayMapping, IsNoneWithoutMatchedPixels) {
