@@ -4,6 +4,8 @@
 #include <gst/base/gstaggregator.h>
 
 #include <atomic>
+#include <optional>
+#include <utility>
 
 #include "matcher/base/clock.hpp"
 #include "matcher/base/messages.hpp"
@@ -77,7 +79,15 @@ struct ElementState {
   int checked_width = 0;  ///< the frame size for which the settings were checked [px]
   int checked_height = 0;
   bool geometry_compared = false;            ///< of the streams whose caps are adopted
-  GstFlowReturn pending_flow = GST_FLOW_OK;  ///< of a failure outside of aggregate()
+  std::optional<guint32> end_seqnum;         ///< of the end of the stream that ended first
+  GstFlowReturn pending_flow = GST_FLOW_OK;  ///< of a call that the base class did not make
+
+  /// A flush.
+  void restart() {
+    messages.clear();
+    end_seqnum.reset();
+    pending_flow = GST_FLOW_OK;
+  }
 
   FlowSettings flow_settings() const {
     const ObjectLock lock(element);

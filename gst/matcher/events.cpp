@@ -59,21 +59,21 @@ bool take_segment(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
   return true;
 }
 
+/// Notes the end of a stream; aggregate() matches the frames that still have partners. The base
+/// class of GStreamer 1.22 calls it only when each pad has a frame or has ended: while the other
+/// stream is silent, which may last forever, aggregate() is called from here, in the same task.
 bool take_end(ElementState& state, GstAggregatorPad* pad, GstEvent* event) {
-  const guint32 seqnum = gst_event_get_seqnum(event);
-  const bool taken = state.base_class->sink_event(state.element, pad, event) != FALSE;
   const Side other = other_side(state.pairing.side_of(pad));
+  if (!state.end_seqnum) state.end_seqnum = gst_event_get_seqnum(event);
+  const bool taken = state.base_class->sink_event(state.element, pad, event) != FALSE;
   if (state.messages.failed()) {
     // Both sources get the error before downstream has taken the end. For that a sink may need an
     // application that waits for the other source, as gst-launch-1.0 -e does.
     state.pairing.refuse(other);
-    state.output.events.end(seqnum);
-    return taken;
-  }
-  // Frames that wait may still get partners from the other stream.
-  if (finish_stream(state, state.pairing.side_of(pad))) {
-    state.pairing.refuse(other);
-    state.output.events.end(seqnum);
+    state.output.events.end(*state.end_seqnum);
+  } else if (!state.pairing.has_news(other)) {
+    const GstFlowReturn flow = aggregate(state, false);
+    if (flow == GST_FLOW_ERROR || flow == GST_FLOW_NOT_NEGOTIATED) state.pending_flow = flow;
   }
   return taken;
 }

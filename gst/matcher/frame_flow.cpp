@@ -125,13 +125,21 @@ GstFlowReturn match(ElementState& state, const PairingAction& pair) {
   return match(state, pair.left.buffer.get(), pair.right.buffer.get());
 }
 
+/// No pair can follow. Downstream may block the end of the output for long, which a source must not
+/// wait for: it ends with its next frame.
+GstFlowReturn end(ElementState& state) {
+  for (const Side side : kSides) state.pairing.refuse(side);
+  if (state.end_seqnum) state.output.events.end(*state.end_seqnum);
+  return GST_FLOW_EOS;
+}
+
 /// Does what an action other than a pair asks for. A value ends the call of aggregate() with it.
 std::optional<GstFlowReturn> carry_out(ElementState& state, PairingAction& action) {
   switch (action.kind) {
     case Kind::kWait:
       return GST_AGGREGATOR_FLOW_NEED_DATA;
     case Kind::kEnd:
-      return GST_FLOW_EOS;
+      return end(state);
     case Kind::kNoTime:
       if (const GstFlowReturn flow = report_missing_time(state, action.side); flow != GST_FLOW_OK) {
         return flow;
@@ -180,12 +188,6 @@ GstFlowReturn aggregate(ElementState& state, bool timeout) {
   if (state.pending_flow != GST_FLOW_OK) return state.pending_flow;
   state.pairing.set_latency(gst_aggregator_get_latency(state.element));
   return step_through(state, timeout ? Trigger::kDeadline : Trigger::kFrames);
-}
-
-bool finish_stream(ElementState& state, Side side) {
-  const GstFlowReturn flow = step_through(state, Trigger::kEnd);
-  if (flow == GST_FLOW_ERROR || flow == GST_FLOW_NOT_NEGOTIATED) state.pending_flow = flow;
-  return state.pairing.empty(side);
 }
 
 GstClockTime next_deadline(ElementState& state) {

@@ -143,10 +143,9 @@ GstClockTime next_time(GstAggregator* aggregator) { return next_deadline(state_o
 
 gboolean start(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
-  state.messages.clear();
+  state.restart();
   state.progress.flushes = 0;
   state.progress.pairs_before = 0;
-  state.pending_flow = GST_FLOW_OK;
   state.pairing.start();
   state.pairing_reports.start();
   state.engine.start();
@@ -170,8 +169,7 @@ gboolean stop(GstAggregator* aggregator) {
 
 GstFlowReturn flush(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
-  state.messages.clear();
-  state.pending_flow = GST_FLOW_OK;
+  state.restart();
   state.pairing.restart();
   state.pairing_reports.restart();
   state.engine.restart();

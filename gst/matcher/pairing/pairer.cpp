@@ -124,7 +124,6 @@ PairingAction Pairer::without_frame(Side side) {
   const Side full = other_side(side);
   const bool alone = queue(full).empty();
   if (queue(side).ended() || (alone && queue(full).ended())) {
-    if (trigger_ == Trigger::kEnd) return PairingAction{};
     if (alone) return PairingAction{.kind = Kind::kEnd};
     PairingAction action = take(Kind::kDrop, full);
     action.expected = true;

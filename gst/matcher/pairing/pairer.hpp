@@ -16,7 +16,6 @@ namespace mtstereo::plugin {
 enum class Trigger {
   kFrames,    ///< both streams have a frame, or have ended
   kDeadline,  ///< the oldest frame waits no longer
-  kEnd,       ///< one stream has just ended; the rest of the other one is left to later calls
 };
 
 /// What decides which frames are a pair.

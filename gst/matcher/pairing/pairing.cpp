@@ -177,9 +177,8 @@ std::optional<Nanoseconds> Pairing::deadline(Nanoseconds now) {
   return waiting_frame_.deadline(left, *time, now, latency_);
 }
 
-bool Pairing::empty(Side side) const {
-  const Lock lock(mutex_);
-  return queues_[index_of(side)].empty();
+bool Pairing::has_news(Side side) const {
+  return gst_aggregator_pad_has_buffer(pad(side)) || queues_[index_of(side)].ended();
 }
 
 void Pairing::restart() {

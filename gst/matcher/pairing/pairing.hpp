@@ -83,8 +83,8 @@ class Pairing {
   PairingAction next(Trigger trigger);
   /// The time until which a frame without a partner waits [running time].
   std::optional<Nanoseconds> deadline(Nanoseconds now);
-  /// True if no frame of this side waits.
-  bool empty(Side side) const;
+  /// True if the pad has a frame that is not held here, or has ended.
+  bool has_news(Side side) const;
 
   const Pairer& pairer() const { return pairer_; }
 
