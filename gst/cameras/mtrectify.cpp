@@ -13,6 +13,7 @@
 #include "cameras/rectify_caps.hpp"
 #include "cameras/rectify_properties.hpp"
 #include "filters/disparity_filter.hpp"
+#include "shared/authors.hpp"
 #include "shared/caps.hpp"
 #include "shared/caps_check.hpp"
 #include "shared/exception_guard.hpp"
@@ -293,7 +294,7 @@ static void gst_mtstereo_rectify_class_init(GstMtRectifyClass* klass) {
       element_class, "Camera rectification", "Filter/Effect/Video",
       "Rectifies the video of the left or the right one of two calibrated cameras, for mtstereo: "
       "removes the lens distortion and aligns the rows of both views",
-      "The mtstereo authors");
+      kAuthors);
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
   check_sink_caps<FrameKind::kView>(transform_class);

@@ -5,6 +5,7 @@
 
 #include "cameras/split_layout.hpp"
 #include "cameras/split_state.hpp"
+#include "shared/authors.hpp"
 #include "shared/caps.hpp"
 #include "shared/caps_check.hpp"
 #include "shared/exception_guard.hpp"
@@ -160,16 +161,13 @@ gboolean sink_event(GstPad* pad, GstObject* parent, GstEvent* event) noexcept {
 
 gboolean sink_query(GstPad* pad, GstObject* parent, GstQuery* query) noexcept {
   return at_pad(parent, FALSE, [&](SplitState& state) -> gboolean {
+    if (accepts_all_caps(query)) return TRUE;
     switch (GST_QUERY_TYPE(query)) {
       case GST_QUERY_CAPS: {
         GstCaps* filter = nullptr;
         gst_query_parse_caps(query, &filter);
         return answer_caps(query, sink_caps(state, filter));
       }
-      case GST_QUERY_ACCEPT_CAPS:
-        // Caps that cannot be split arrive as an event, and the error says why.
-        gst_query_set_accept_caps_result(query, TRUE);
-        return TRUE;
       case GST_QUERY_ALLOCATION:
         // Any stride and offset is read.
         gst_query_add_allocation_meta(query, GST_VIDEO_META_API_TYPE, nullptr);
@@ -274,7 +272,7 @@ static void gst_mtstereo_split_class_init(GstMtSplitClass* klass) {
       element_class, "Stereo frame splitter", "Filter/Video",
       "Splits frames with both views of a stereo camera, side by side or one above the other, into "
       "a left and a right stream, without copying pixels",
-      "The mtstereo authors");
+      kAuthors);
 }
 
 static void gst_mtstereo_split_init(GstMtSplit* self) {

@@ -86,10 +86,7 @@ gboolean event(GstObject* parent, GstPad* pad, GstEvent* event) {
 }
 
 gboolean query(GstObject* parent, GstPad* pad, GstQuery* query) {
-  if (GST_QUERY_TYPE(query) == GST_QUERY_ACCEPT_CAPS) {
-    gst_query_set_accept_caps_result(query, TRUE);
-    return TRUE;
-  }
+  if (accepts_all_caps(query)) return TRUE;
   if (GST_QUERY_TYPE(query) != GST_QUERY_ALLOCATION) {
     return gst_pad_query_default(pad, parent, query);
   }

@@ -15,6 +15,7 @@
 #include "cloud/cloud_writer.hpp"
 #include "cloud/left_pad.hpp"
 #include "filters/disparity_filter.hpp"
+#include "shared/authors.hpp"
 #include "shared/caps_check.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/running_time.hpp"
@@ -229,10 +230,7 @@ gboolean unlock_stop(GstBaseSink* sink) {
 }
 
 gboolean query(GstBaseSink* sink, GstQuery* query) {
-  if (GST_QUERY_TYPE(query) == GST_QUERY_ACCEPT_CAPS) {
-    gst_query_set_accept_caps_result(query, TRUE);
-    return TRUE;
-  }
+  if (accepts_all_caps(query)) return TRUE;
   return GST_BASE_SINK_CLASS(gst_mtstereo_cloud_parent_class)->query(sink, query);
 }
 
@@ -327,7 +325,7 @@ static void gst_mtstereo_cloud_class_init(GstMtCloudClass* klass) {
       element_class, "Point cloud writer", "Sink/File/Video",
       "Writes disparity maps as files of points in meters (PLY or PCD), with the colors of the "
       "left view and the confidence",
-      "The mtstereo authors");
+      kAuthors);
 
   auto* sink_class = GST_BASE_SINK_CLASS(klass);
   sink_class->set_caps = guarded<set_caps, FALSE>;

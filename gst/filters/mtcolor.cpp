@@ -10,6 +10,7 @@
 #include "filters/color_table.hpp"
 #include "filters/disparity_filter.hpp"
 #include "mtstereo/parameters.hpp"
+#include "shared/authors.hpp"
 #include "shared/caps.hpp"
 #include "shared/caps_check.hpp"
 #include "shared/depth_range.hpp"
@@ -283,7 +284,7 @@ static void gst_mtstereo_color_class_init(GstMtColorClass* klass) {
       element_class, "Disparity and depth colorizer", "Filter/Converter/Video",
       "Color image of a disparity or depth map with a fixed range: blue is far, red is near, black "
       "is unknown",
-      "The mtstereo authors");
+      kAuthors);
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
   check_sink_caps<FrameKind::kMap>(transform_class);

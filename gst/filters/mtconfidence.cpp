@@ -4,6 +4,7 @@
 #include <string>
 
 #include "filters/disparity_filter.hpp"
+#include "shared/authors.hpp"
 #include "shared/caps.hpp"
 #include "shared/caps_check.hpp"
 #include "shared/confidence_meta.hpp"
@@ -244,7 +245,7 @@ static void gst_mtstereo_confidence_class_init(GstMtConfidenceClass* klass) {
   gst_element_class_set_static_metadata(
       element_class, "Disparity confidence filter", "Filter/Video",
       "Removes disparities of low confidence from the maps of mtstereo, or outputs the confidence",
-      "The mtstereo authors");
+      kAuthors);
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
   check_sink_caps<FrameKind::kMap>(transform_class);

@@ -10,6 +10,7 @@
 #include "filters/depth_report.hpp"
 #include "filters/disparity_filter.hpp"
 #include "mtstereo/geometry/rig.hpp"
+#include "shared/authors.hpp"
 #include "shared/caps.hpp"
 #include "shared/caps_check.hpp"
 #include "shared/depth_range.hpp"
@@ -300,7 +301,7 @@ static void gst_mtstereo_depth_class_init(GstMtDepthClass* klass) {
       element_class, "Depth from disparity", "Filter/Converter/Video",
       "Turns a disparity map into 16-bit depths, in millimeters by default: focal length x "
       "baseline / disparity",
-      "The mtstereo authors");
+      kAuthors);
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);
   check_sink_caps<FrameKind::kMap>(transform_class);

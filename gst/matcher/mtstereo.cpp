@@ -12,6 +12,7 @@
 #include "matcher/settings_in_use.hpp"
 #include "matcher/silent_pads.hpp"
 #include "matcher/sink_pads.hpp"
+#include "shared/authors.hpp"
 #include "shared/caps.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/luma.hpp"
@@ -268,7 +269,7 @@ static void gst_mtstereo_class_init(GstMtStereoClass* klass) {
                                         "Disparity of two rectified video streams, with the "
                                         "confidence of each value. Set max-disparity and mode "
                                         "first; those marked Expert rarely need a change",
-                                        "The mtstereo authors");
+                                        kAuthors);
   set_aggregator_functions(GST_AGGREGATOR_CLASS(klass));
 }
 

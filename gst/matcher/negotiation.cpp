@@ -64,9 +64,7 @@ std::shared_ptr<const GstStructure> geometry_fields(const GstCaps* caps) {
 
 CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
   const CapsPointer base = template_caps(GST_PAD_CAST(state.pairing.pad(side)));
-  // Interlaced caps are accepted here, so that the caps event is sent: the error that it causes
-  // says how to correct the pipeline. A source without common caps would only report "not
-  // negotiated".
+  // Interlaced caps are offered, so that their event gets an error: see caps_check.hpp.
   GstCaps* open = gst_caps_copy(base.get());
   for (guint i = 0; i < gst_caps_get_size(open); ++i) {
     gst_structure_remove_field(gst_caps_get_structure(open, i), "interlace-mode");

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "matcher/negotiation.hpp"
+#include "shared/caps_check.hpp"
 #include "shared/ownership.hpp"
 
 namespace mtstereo::plugin {
@@ -100,21 +101,14 @@ void add_processing_latency(const ElementState& state, GstQuery* query) {
 }  // namespace
 
 bool answer_sink_query(ElementState& state, GstAggregatorPad* pad, GstQuery* query) {
-  switch (GST_QUERY_TYPE(query)) {
-    case GST_QUERY_CAPS: {
-      GstCaps* filter = nullptr;
-      gst_query_parse_caps(query, &filter);
-      gst_query_set_caps_result(query, sink_caps(state, state.pairing.side_of(pad), filter).get());
-      return true;
-    }
-    case GST_QUERY_ACCEPT_CAPS:
-      // Unsupported caps are rejected when their event arrives, with an error that explains why: a
-      // negative answer here would only make the source report that it is not negotiated.
-      gst_query_set_accept_caps_result(query, TRUE);
-      return true;
-    default:
-      return state.base_class->sink_query(state.element, pad, query) != FALSE;
+  if (accepts_all_caps(query)) return true;
+  if (GST_QUERY_TYPE(query) != GST_QUERY_CAPS) {
+    return state.base_class->sink_query(state.element, pad, query) != FALSE;
   }
+  GstCaps* filter = nullptr;
+  gst_query_parse_caps(query, &filter);
+  gst_query_set_caps_result(query, sink_caps(state, state.pairing.side_of(pad), filter).get());
+  return true;
 }
 
 bool answer_source_query(ElementState& state, GstQuery* query) {

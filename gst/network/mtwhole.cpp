@@ -3,6 +3,8 @@
 
 #include <gst/base/gstbasetransform.h>
 
+#include "shared/authors.hpp"
+
 namespace mtstereo::plugin {
 
 GST_DEBUG_CATEGORY_STATIC(mtwhole_debug);
@@ -48,8 +50,7 @@ static void gst_mtstereo_whole_class_init(GstMtWholeClass* element_class) {
   auto* element = reinterpret_cast<GstElementClass*>(element_class);
   gst_element_class_set_static_metadata(
       element, "Whole pictures", "Filter/Video/Network",
-      "Drops H.264 pictures whose end h264parse has not seen, which may be truncated",
-      "The mtstereo authors");
+      "Drops H.264 pictures whose end h264parse has not seen, which may be truncated", kAuthors);
   gst_element_class_add_static_pad_template(element, &sink_template);
   gst_element_class_add_static_pad_template(element, &src_template);
   auto* transform = reinterpret_cast<GstBaseTransformClass*>(element_class);

@@ -109,6 +109,12 @@ bool allows_caps(gpointer element, GstPad* pad, GstEvent* event, FrameKind kind)
   return false;
 }
 
+bool accepts_all_caps(GstQuery* query) {
+  if (GST_QUERY_TYPE(query) != GST_QUERY_ACCEPT_CAPS) return false;
+  gst_query_set_accept_caps_result(query, TRUE);
+  return true;
+}
+
 gboolean accept_all_caps(GstBaseTransform* transform, GstPadDirection direction, GstCaps* caps) {
   if (direction == GST_PAD_SINK) return TRUE;
   const gpointer parent = g_type_class_peek_parent(GST_BASE_TRANSFORM_GET_CLASS(transform));

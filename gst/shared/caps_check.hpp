@@ -7,9 +7,14 @@
 
 #include "shared/exception_guard.hpp"
 
-// Caps that a pad refuses in a query end the stream with an error of the source, which does not
-// know why. Sink pads therefore accept all caps in the query, and refuse them when their event
-// arrives, with an error that says why.
+// Why sink pads accept all caps when they are asked (ACCEPT_CAPS), and refuse some when their event
+// arrives: GStreamer 1.22 asks the pad itself before it delivers a caps event, and an element whose
+// answer is no never sees the event. The stream then ends with "not negotiated" in the source,
+// which does not know why. A pad function cannot distinguish this question from one of another
+// element, and answering a query must not post a message. So all questions are answered with yes,
+// here only, and the event gets an error that says what to change. Caps queries are answered
+// truthfully: where elements negotiate, they choose supported caps. Only interlaced video is
+// offered as well, so that it gets the error that names deinterlace.
 
 namespace mtstereo::plugin {
 
@@ -39,7 +44,10 @@ gboolean checked_sink_event(GstBaseTransform* transform, GstEvent* event) {
   return GST_BASE_TRANSFORM_CLASS(parent)->sink_event(transform, event);
 }
 
-/// The accept_caps() that goes with it.
+/// Answers an ACCEPT_CAPS query of a sink pad. True: the query was one.
+bool accepts_all_caps(GstQuery* query);
+
+/// The accept_caps() of a filter that goes with it.
 gboolean accept_all_caps(GstBaseTransform* transform, GstPadDirection direction, GstCaps* caps);
 
 /// Lets a filter check the caps of its sink pad.
