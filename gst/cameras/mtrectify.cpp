@@ -155,7 +155,7 @@ bool take_back(GstBaseTransform* transform, const RectifySettings& refused, Fram
   }
   GST_ELEMENT_WARNING(
       transform, LIBRARY, SETTINGS,
-      ("A change of a property is refused, and the last values remain: %s", error.message.c_str()),
+      ("A property change was rejected; previous values kept: %s", error.message.c_str()),
       ("calibration=%s", refused.calibration.c_str()));
   return true;
 }
@@ -292,8 +292,8 @@ static void gst_mtstereo_rectify_class_init(GstMtRectifyClass* klass) {
   add_pads(element_class);
   gst_element_class_set_static_metadata(
       element_class, "Camera rectification", "Filter/Effect/Video",
-      "Rectifies the video of the left or the right one of two calibrated cameras, for mtstereo: "
-      "removes the lens distortion and aligns the rows of both views",
+      "Rectifies the video of one of two calibrated cameras for mtstereo: removes lens distortion "
+      "and aligns the rows of both views",
       kAuthors);
 
   auto* transform_class = GST_BASE_TRANSFORM_CLASS(klass);

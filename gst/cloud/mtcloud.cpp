@@ -139,13 +139,12 @@ GstFlowReturn find_left(GstBaseSink* sink, GstBuffer* map, std::optional<LeftFra
         return GST_FLOW_OK;
       case LeftFrames::Outcome::kNone:
         if (std::exchange(state.warned, true)) return GST_FLOW_OK;
-        GST_ELEMENT_WARNING(
-            sink, STREAM, FAILED,
-            ("The left view has no frame for a disparity map, so that the points "
-             "are white: sink_left must get the frames that mtstereo gets on its "
-             "sink_left, with the same time stamps. Further ones are not reported."),
-            ("running time %" GST_STIME_FORMAT,
-             GST_STIME_ARGS(time.value_or(GST_CLOCK_STIME_NONE))));
+        GST_ELEMENT_WARNING(sink, STREAM, FAILED,
+                            ("A disparity map has no left frame, so its points are white: "
+                             "sink_left must get the frames that mtstereo gets on its "
+                             "sink_left, with the same time stamps. Not reported again."),
+                            ("running time %" GST_STIME_FORMAT,
+                             GST_STIME_ARGS(time.value_or(GST_CLOCK_STIME_NONE))));
         return GST_FLOW_OK;
       case LeftFrames::Outcome::kInterrupted: {
         state.left.frames.hold(true);

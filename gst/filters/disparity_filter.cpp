@@ -5,7 +5,7 @@
 
 namespace mtstereo::plugin {
 
-CapsPointer picture_caps(const GstCaps* caps, const char* other) {
+CapsPointer image_caps(const GstCaps* caps, const char* other) {
   const CapsPointer common(gst_caps_copy(caps));
   for (guint i = 0; i < gst_caps_get_size(common.get()); ++i) {
     GstStructure* fields = gst_caps_get_structure(common.get(), i);

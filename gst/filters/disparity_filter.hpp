@@ -17,12 +17,12 @@ inline constexpr const char* kDisparityCaps =
     "video/x-raw, format = (string) GRAY16_LE, " MTSTEREO_SIZE_CAPS;
 
 /// Caps of an image that is computed from such a map. `formats`: "RGB" or "{ RGB, BGR }".
-#define MTSTEREO_PICTURE_CAPS(formats) \
+#define MTSTEREO_IMAGE_CAPS(formats) \
   "video/x-raw, format = (string) " formats ", " MTSTEREO_SIZE_CAPS
 
 /// The caps of the other pad if the filter turns a map into an image: size and framerate are kept,
 /// the format is one of `other`, and the fields that define the meaning of a pixel are removed.
-CapsPointer picture_caps(const GstCaps* caps, const char* other);
+CapsPointer image_caps(const GstCaps* caps, const char* other);
 
 /// Posts the error of a frame that cannot be mapped. `source`: where it comes from.
 GstFlowReturn refuse_frame(GstVideoFilter* filter, const char* source, const MappedFrame& frame);

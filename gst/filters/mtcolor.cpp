@@ -100,8 +100,8 @@ const PropertyTable<ColorSettings>& properties() {
   return table;
 }
 
-constexpr const char* kPictures =
-    MTSTEREO_PICTURE_CAPS("{ RGB, BGR, RGBx, BGRx, xRGB, xBGR, RGBA, BGRA, ARGB, ABGR }");
+constexpr const char* kImages =
+    MTSTEREO_IMAGE_CAPS("{ RGB, BGR, RGBx, BGRx, xRGB, xBGR, RGBA, BGRA, ARGB, ABGR }");
 
 }  // namespace
 
@@ -123,8 +123,8 @@ void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
 
 GstCaps* transform_caps(GstBaseTransform*, GstPadDirection direction, GstCaps* caps,
                         GstCaps* filter) {
-  const char* other = direction == GST_PAD_SINK ? kPictures : kDisparityCaps;
-  return filtered_caps(picture_caps(caps, other), filter).release();
+  const char* other = direction == GST_PAD_SINK ? kImages : kDisparityCaps;
+  return filtered_caps(image_caps(caps, other), filter).release();
 }
 
 /// Reads the unit of depths; false after an error.
@@ -279,7 +279,7 @@ static void gst_mtstereo_color_class_init(GstMtColorClass* klass) {
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);
-  add_pad_template(element_class, "src", GST_PAD_SRC, kPictures);
+  add_pad_template(element_class, "src", GST_PAD_SRC, kImages);
   gst_element_class_set_static_metadata(
       element_class, "Disparity and depth colorizer", "Filter/Converter/Video",
       "Color image of a disparity or depth map with a fixed range: blue is far, red is near, black "

@@ -47,8 +47,8 @@ struct GstMtConfidenceClass {
   GstVideoFilterClass parent_class;
 };
 
-constexpr const char* kPictures = MTSTEREO_PICTURE_CAPS("GRAY8");
-constexpr const char* kOutputs = MTSTEREO_PICTURE_CAPS("{ GRAY16_LE, GRAY8 }");
+constexpr const char* kImages = MTSTEREO_IMAGE_CAPS("GRAY8");
+constexpr const char* kOutputs = MTSTEREO_IMAGE_CAPS("{ GRAY16_LE, GRAY8 }");
 
 const PropertyTable<ConfidenceSettings>& properties() {
   static const GType contents = enum_type<Content>(
@@ -99,11 +99,11 @@ GstCaps* transform_caps(GstBaseTransform* transform, GstPadDirection direction, 
                         GstCaps* filter) {
   const Content output = settings_of(transform).output;
   const bool to_src = direction == GST_PAD_SINK;
-  const char* source = output == Content::kConfidence ? kPictures : kDisparityCaps;
+  const char* source = output == Content::kConfidence ? kImages : kDisparityCaps;
   const CapsPointer possible(gst_caps_from_string(to_src ? kDisparityCaps : source));
   CapsPointer mine(gst_caps_intersect_full(caps, possible.get(), GST_CAPS_INTERSECT_FIRST));
   if (output == Content::kConfidence)
-    mine = picture_caps(mine.get(), to_src ? kPictures : kDisparityCaps);
+    mine = image_caps(mine.get(), to_src ? kImages : kDisparityCaps);
   return filtered_caps(std::move(mine), filter).release();
 }
 

@@ -260,7 +260,7 @@ GstFlowReturn transform_ip(GstBaseTransform* transform, GstBuffer* buffer) {
     if (!frame.mapped()) return refuse_frame(filter, "the sink pad", frame);
     if (!convert(filter, frame, properties.free_space)) return GST_FLOW_ERROR;
   }
-  // The buffer keeps its metas, the confidence map among them; its values are no disparities.
+  // The buffer keeps its metas, the confidence map among them; its values are not disparities.
   if (GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, kDisparityMeta)) {
     gst_buffer_remove_meta(buffer, &meta->meta);
   }

@@ -14,12 +14,11 @@ using Row = Property<MatchSettings>;
 GType alignment_type() {
   static const GType type = enum_type<Alignment>(
       "GstMtStereoAlignment",
-      {{Alignment::kOff, "The views are not inspected", "off"},
-       {Alignment::kMonitor, "The views are inspected, and the findings are reported", "monitor"},
-       {Alignment::kCorrect, "The views are inspected, and corrected before they are matched",
-        "correct"},
+      {{Alignment::kOff, "Do not inspect the views", "off"},
+       {Alignment::kMonitor, "Inspect the views and report the findings", "monitor"},
+       {Alignment::kCorrect, "Inspect the views and correct them before matching", "correct"},
        {Alignment::kHold,
-        "The views are not inspected, and corrected by alignment-field, left-blur and right-blur",
+        "Correct the views by alignment-field, left-blur and right-blur without inspection",
         "hold"}});
   return type;
 }
@@ -27,8 +26,8 @@ GType alignment_type() {
 GType sharpness_type() {
   static const GType type = enum_type<Sharpness>(
       "GstMtStereoSharpness",
-      {{Sharpness::kKeep, "The views are matched as they are", "keep"},
-       {Sharpness::kMatch, "The sharper view is blurred like the other one", "match"}});
+      {{Sharpness::kKeep, "Match the views unchanged", "keep"},
+       {Sharpness::kMatch, "Blur the sharper view to match the other", "match"}});
   return type;
 }
 
@@ -81,24 +80,24 @@ std::vector<Row> own_rows() {
   return {
       preset_choice("alignment", &AlignmentSettings::alignment,
                     &AlignmentSettings::effective_alignment, alignment_type(),
-                    "What to do about rows of the right view that are out of place, as after a "
-                    "shock or with an inexact calibration (default: correct; preset paper: off)"),
+                    "Correction of misaligned rows of the right view, as after a shock or with an "
+                    "inexact calibration (default: correct; preset paper: off)"),
       {"alignment-interval",
        {&MatchSettings::alignment, &AlignmentSettings::interval},
        0,
        1000000,
-       "Pairs from one inspection of the views to the next; the first pairs are inspected until "
+       "Number of pairs between inspections of the views; the first pairs are inspected until "
        "their alignment is known (0: 30, or more for small frames, search ranges and preset fast, "
        "so that inspections take at most 3 % of the time)"},
       {g_param_spec_string("alignment-field", "alignment-field",
                            "Row displacement of the right view: five numbers in px, separated by "
-                           "commas; empty if it is unknown. Store the value that is read, and set "
-                           "it to start with it the next time",
+                           "commas; empty if unknown. Store the value read here and set it at the "
+                           "next start",
                            "", kWhilePlaying),
        set_field, get_field},
       preset_choice("sharpness", &AlignmentSettings::sharpness,
                     &AlignmentSettings::effective_sharpness, sharpness_type(),
-                    "What to do if one view is sharper than the other; needs alignment=correct "
+                    "Handling of views of different sharpness; needs alignment=correct "
                     "(default: match; preset paper: keep)"),
       {"left-blur",
        {&MatchSettings::alignment, &AlignmentSettings::left_blur},
@@ -110,17 +109,18 @@ std::vector<Row> own_rows() {
        0,
        kLargestBlur,
        "With alignment=hold, sigma of the blur of the right view in px (0: none)"},
-      {g_param_spec_int("disparity-scale", "disparity-scale",
-                        "Steps per px of the output: disparity in px = value / disparity-scale, 0 "
-                        "= none; plus min-disparity if that is negative; the number of disparities "
-                        "times this value must fit in 16 bits (256: KITTI, 16: OpenCV). If it is "
-                        "not set and 256 does not fit: the next of 128, 64, ... that does",
-                        1, 65535, MatchSettings().disparity_scale, kWhilePlaying),
+      {g_param_spec_int(
+           "disparity-scale", "disparity-scale",
+           "Steps per px of the output: disparity in px = value / disparity-scale, 0 "
+           "= unknown; plus min-disparity if that is negative; the number of disparities "
+           "times this value must fit in 16 bits (256: KITTI, 16: OpenCV). If it is "
+           "not set and 256 does not fit: the next of 128, 64, ... that does",
+           1, 65535, MatchSettings().disparity_scale, kWhilePlaying),
        set_scale, get_scale},
       {"confidence-map", &MatchSettings::confidence_map,
-       "Attach the confidence of every value to the disparity map: field \"confidence\" of the "
-       "meta MtStereoConfidenceMeta, a GRAY8 sample with values from 1 (lowest) to 255 (highest), "
-       "0 = no disparity"},
+       "Attach a confidence map to each disparity map: field \"confidence\" of the meta "
+       "MtStereoConfidenceMeta, a GRAY8 sample with values from 1 (lowest) to 255 (highest), 0 = "
+       "no disparity"},
   };
 }
 

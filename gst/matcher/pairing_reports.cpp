@@ -106,7 +106,7 @@ void PairingReports::refuse_missing_reference(Side side) {
 }
 
 void PairingReports::warn_of_missing_reference(Side side) {
-  messages_.settings_warning(missing_reference(side) + ". The last sync-mode is in effect again.");
+  messages_.settings_warning(missing_reference(side) + ". The previous sync-mode was restored.");
 }
 
 }  // namespace mtstereo::plugin

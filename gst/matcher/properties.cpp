@@ -59,8 +59,8 @@ constexpr const char* kStatsBlurb =
     "without a partner), skipped (pairs that were too late, or not the newest), wrong-times (of "
     "the dropped frames, those with a wrong time stamp), difference-ms, difference-spread-ms and "
     "difference-drift (of the times of the pairs: mean, standard deviation, and change in ms per "
-    "s), last-ms and mean-ms (time of a pair), density (share of the last map's pixels with a "
-    "disparity), half-resolution (the last pair was matched at half resolution), fine-detail "
+    "s), last-ms and mean-ms (matching time), density (share of pixels with a disparity in the "
+    "last map), half-resolution (the last pair was matched at half resolution), fine-detail "
     "(energy in the finest octave divided by that in the next one, resolution=auto only); "
     "alignment of the views: offset (px), roll (degrees), residual (px), trust, applied, "
     "inspections, sharpness (left / right), left-blur and right-blur (px), problem";
@@ -98,7 +98,7 @@ void warn_of_value(ElementState& state, const Status& status, const GParamSpec* 
   std::string text = status.error().message;
   if (text.find(spec->name) == std::string::npos) text = std::string(spec->name) + ": " + text;
   state.messages.warning_of_property(
-      text + ". The property keeps its last value.",
+      text + ". The property keeps its previous value.",
       std::string(spec->name) + " stays " + (kept ? kept.get() : "empty"));
 }
 

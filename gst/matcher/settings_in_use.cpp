@@ -82,9 +82,7 @@ void restore(ElementState& state, const MatchSettings& refused, const Status& st
   const Differences changes = differences(refused, *restored);
   for (const char* name : changes.names) g_object_notify(G_OBJECT(state.element), name);
   state.messages.settings_warning(
-      "The new settings are not used, and the properties have their last values "
-      "again: " +
-          status.error().message + ".",
+      "The new settings were rejected; previous values kept: " + status.error().message + ".",
       "refused:" + changes.refused + "; in use:" + changes.kept);
 }
 

@@ -50,7 +50,7 @@ static void gst_mtstereo_whole_class_init(GstMtWholeClass* element_class) {
   auto* element = reinterpret_cast<GstElementClass*>(element_class);
   gst_element_class_set_static_metadata(
       element, "Whole pictures", "Filter/Video/Network",
-      "Drops H.264 pictures whose end h264parse has not seen, which may be truncated", kAuthors);
+      "Drops truncated H.264 pictures: those whose end h264parse has not seen", kAuthors);
   gst_element_class_add_static_pad_template(element, &sink_template);
   gst_element_class_add_static_pad_template(element, &src_template);
   auto* transform = reinterpret_cast<GstBaseTransformClass*>(element_class);

@@ -20,7 +20,7 @@ namespace mtstereo::plugin {
 
 /// What the frames of a stream are: which element is missing upstream depends on it.
 enum class FrameKind {
-  kView,  ///< pictures of a camera
+  kView,  ///< images of a camera
   kMap,   ///< disparity maps
 };
 

@@ -12,7 +12,7 @@ double DepthRange::end() const { return far == 0 ? std::numeric_limits<double>::
 bool check_range_at_start(gpointer element, const DepthRange& range) {
   if (range.valid()) return true;
   GST_ELEMENT_ERROR(element, RESOURCE, SETTINGS,
-                    ("near=%g and far=%g are no range of depths: near must be less than far.",
+                    ("near=%g and far=%g are not a valid range: near must be less than far.",
                      range.near, range.far),
                     (nullptr));
   return false;
@@ -30,8 +30,8 @@ DepthRange settle_range(gpointer element, DepthRange& set, DepthRange& last) {
     set = last;
   }
   GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
-                      ("near=%g and far=%g are no range of depths: near must be less than far. "
-                       "The element keeps near=%g and far=%g.",
+                      ("near=%g and far=%g are not a valid range: near must be less than far. "
+                       "near=%g and far=%g remain in effect.",
                        refused.near, refused.far, last.near, last.far),
                       (nullptr));
   g_object_notify(G_OBJECT(element), "near");

@@ -39,7 +39,7 @@ class Messages {
   bool failed() const { return failed_; }
   /// An exception was reported.
   void fail() { failed_ = true; }
-  /// The element starts anew.
+  /// The start, or a flush.
   void clear() { failed_ = false; }
 
   GstElement* element() const { return element_; }

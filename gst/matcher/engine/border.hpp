@@ -17,7 +17,7 @@ namespace mtstereo::plugin {
 inline int border_margin(Preset preset) { return preset == Preset::kPaper ? 8 : 5; }
 
 /// The columns without the pixels that are at most `margin` from a border, in their row or another
-/// one. The edge of the image is no border.
+/// one. The edge of the image is not a border.
 std::vector<ValidColumns> without_margin(const std::vector<ValidColumns>& columns, int width,
                                          int margin);
 

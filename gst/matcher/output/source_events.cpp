@@ -33,7 +33,7 @@ bool SourceEvents::adopt_segment(const std::shared_ptr<const StreamSegment>& seg
   return true;
 }
 
-/// Sends the segment if it is due. False if there is none: then no other event may be sent.
+/// Sends the segment if it is due. False if no segment is known: then no other event may be sent.
 bool SourceEvents::send_segment() {
   if (segment_ == Segment::kWaiting) {
     GstEvent* event = nullptr;

@@ -25,9 +25,9 @@ constexpr std::size_t kMostFrames = StreamOffset::kFrames + 2;
 /// frames.
 constexpr std::size_t kStepsOfPeriod = 12;
 
-PairStep wait_for(Side side) { return {.action = PairAction::kWait, .side = side}; }
+PairDecision wait_for(Side side) { return {.action = PairAction::kWait, .side = side}; }
 
-PairStep drop_wrong_time(Side side, std::size_t index) {
+PairDecision drop_wrong_time(Side side, std::size_t index) {
   return {.action = PairAction::kDrop, .side = side, .index = index, .wrong_time = true};
 }
 
@@ -77,7 +77,7 @@ void PairFinder::update_periods(const WaitingFrames& left, const WaitingFrames& 
 }
 
 /// A first frame that is not after the last one of its stream.
-std::optional<PairStep> PairFinder::check_first(Side side, const WaitingFrames& frames) {
+std::optional<PairDecision> PairFinder::check_first(Side side, const WaitingFrames& frames) {
   Stream& here = stream(side);
   const Nanoseconds first = frames.times[0];
   if (!here.last || first > *here.last) return std::nullopt;
@@ -93,7 +93,7 @@ std::optional<PairStep> PairFinder::check_first(Side side, const WaitingFrames& 
 }
 
 /// A frame that is not before its successor: one of the two has a wrong time stamp.
-std::optional<PairStep> PairFinder::check_order(Side side, const WaitingFrames& frames) {
+std::optional<PairDecision> PairFinder::check_order(Side side, const WaitingFrames& frames) {
   if (const auto step = check_first(side, frames)) return step;
   const std::size_t bad = ordered_length(frames.times) - 1;
   if (bad + 1 == frames.times.size()) return std::nullopt;
@@ -119,8 +119,8 @@ bool PairFinder::suspicious(Side side, Nanoseconds time, Nanoseconds distance) {
   return (here.last ? time - *here.last : std::llabs(distance)) > step + step / 2;
 }
 
-PairStep PairFinder::drop_older(Side older, const Ordered& left, const Ordered& right,
-                                Nanoseconds difference) {
+PairDecision PairFinder::drop_older(Side older, const Ordered& left, const Ordered& right,
+                                    Nanoseconds difference) {
   const Side newer = other_side(older);
   const Ordered& frames = newer == Side::kLeft ? left : right;
   if (frames.times.size() < 2 && !frames.complete &&
@@ -131,7 +131,7 @@ PairStep PairFinder::drop_older(Side older, const Ordered& left, const Ordered& 
 }
 
 /// Learns the offset, or returns the stream that is needed for it.
-std::optional<PairStep> PairFinder::learn(const Ordered& left, const Ordered& right) {
+std::optional<PairDecision> PairFinder::learn(const Ordered& left, const Ordered& right) {
   if (offset_.learn(left.times, right.times, period_)) return std::nullopt;
   const auto open = [](const Ordered& frames) {
     return !frames.complete && frames.times.size() < kMostFrames;
@@ -155,7 +155,7 @@ Nanoseconds PairFinder::slack(Nanoseconds tolerance) const {
   return same_rate_ && offset_.known() && half ? period_ / 10 : 0;
 }
 
-PairStep PairFinder::decide(const Ordered& left, const Ordered& right, Nanoseconds tolerance) {
+PairDecision PairFinder::decide(const Ordered& left, const Ordered& right, Nanoseconds tolerance) {
   const Nanoseconds raw = bounded(right.times[0] - left.times[0]);
   const Nanoseconds distance = bounded(raw - (same_rate_ ? offset_.value() : 0));
   const Nanoseconds size = std::llabs(distance);
@@ -178,8 +178,8 @@ PairStep PairFinder::decide(const Ordered& left, const Ordered& right, Nanosecon
   return {.action = PairAction::kPair, .difference = raw};
 }
 
-PairStep PairFinder::next(const WaitingFrames& left, const WaitingFrames& right,
-                          Nanoseconds tolerance) {
+PairDecision PairFinder::next(const WaitingFrames& left, const WaitingFrames& right,
+                              Nanoseconds tolerance) {
   update_periods(left, right, tolerance);
   // Both streams repeat the times of their last pair: a file whose time stamps are wrong, but
   // alike.

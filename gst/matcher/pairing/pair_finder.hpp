@@ -27,7 +27,7 @@ enum class PairAction {
   kWait,  ///< decide again after the next frame of a stream
 };
 
-struct PairStep {
+struct PairDecision {
   PairAction action = PairAction::kWait;
   Side side = Side::kLeft;     ///< of the frame to drop, or of the stream to wait for
   std::size_t index = 0;       ///< of the frame to drop
@@ -66,13 +66,13 @@ class PairFinder {
 
   /// The next step for two streams with at least one frame each. Pairs are at most `tolerance`
   /// apart. A stream that is waited for must be complete or longer at the next call.
-  PairStep next(const WaitingFrames& left, const WaitingFrames& right, Nanoseconds tolerance);
+  PairDecision next(const WaitingFrames& left, const WaitingFrames& right, Nanoseconds tolerance);
 
   /// The caller has dropped a frame with this time; not for wrong times.
   void dropped(Side side, Nanoseconds time);
   /// The caller has taken a pair.
   void paired(Nanoseconds left, Nanoseconds right);
-  /// The streams start anew.
+  /// Forgets the streams.
   void reset() { *this = PairFinder(); }
 
   /// A doubt that has come up since the last call, before the pairs that it concerns.
@@ -96,15 +96,15 @@ class PairFinder {
   };
 
   Stream& stream(Side side) { return streams_[static_cast<std::size_t>(side)]; }
-  std::optional<PairStep> check_order(Side side, const WaitingFrames& frames);
-  std::optional<PairStep> check_first(Side side, const WaitingFrames& frames);
+  std::optional<PairDecision> check_order(Side side, const WaitingFrames& frames);
+  std::optional<PairDecision> check_first(Side side, const WaitingFrames& frames);
   bool suspicious(Side side, Nanoseconds time, Nanoseconds distance);
   void update_periods(const WaitingFrames& left, const WaitingFrames& right, Nanoseconds tolerance);
-  std::optional<PairStep> learn(const Ordered& left, const Ordered& right);
+  std::optional<PairDecision> learn(const Ordered& left, const Ordered& right);
   Nanoseconds slack(Nanoseconds tolerance) const;
-  PairStep decide(const Ordered& left, const Ordered& right, Nanoseconds tolerance);
-  PairStep drop_older(Side older, const Ordered& left, const Ordered& right,
-                      Nanoseconds difference);
+  PairDecision decide(const Ordered& left, const Ordered& right, Nanoseconds tolerance);
+  PairDecision drop_older(Side older, const Ordered& left, const Ordered& right,
+                          Nanoseconds difference);
   void update_doubt();
 
   std::array<Stream, 2> streams_;

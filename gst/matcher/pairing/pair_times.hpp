@@ -23,7 +23,7 @@ class PairClock {
  public:
   /// The times of two queues that begin with a frame. In the mode kArrival no frame has a time.
   PairTimes times(const FrameQueue& left, const FrameQueue& right, SyncMode mode);
-  /// The streams start anew.
+  /// Forgets the streams.
   void reset() { *this = PairClock(); }
 
  private:

@@ -193,7 +193,7 @@ PairingAction Pairer::with_both() {
   const WaitingFrames lefts = waiting_frames(Side::kLeft, found);
   const WaitingFrames rights = waiting_frames(Side::kRight, found);
   const Nanoseconds allowed = tolerance();
-  const PairStep decision = finder_.next(lefts, rights, allowed);
+  const PairDecision decision = finder_.next(lefts, rights, allowed);
   PairingAction action = carry_out(decision, found);
   action.tolerance = allowed;
   action.difference = decision.difference;
@@ -201,7 +201,7 @@ PairingAction Pairer::with_both() {
   return action;
 }
 
-PairingAction Pairer::carry_out(const PairStep& decision, const PairTimes& found) {
+PairingAction Pairer::carry_out(const PairDecision& decision, const PairTimes& found) {
   if (decision.action == PairAction::kPair) {
     finder_.paired(found.times[0].front(), found.times[1].front());
     return pair();

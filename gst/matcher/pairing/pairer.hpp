@@ -84,7 +84,7 @@ class Pairer {
   WaitingFrames waiting_frames(Side side, const PairTimes& found);
   PairingAction with_both();
   PairingAction pair();
-  PairingAction carry_out(const PairStep& decision, const PairTimes& found);
+  PairingAction carry_out(const PairDecision& decision, const PairTimes& found);
   void restart();
 
   FrameQueues& queues_;

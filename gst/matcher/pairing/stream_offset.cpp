@@ -80,7 +80,7 @@ bool StreamOffset::learn(std::span<const Nanoseconds> left, std::span<const Nano
   const double middle = median(found);
   for (double& difference : found) difference = std::abs(difference - middle);
   const double spread = median(found);
-  // The median of a few jittery differences is no offset.
+  // The median of a few jittery differences is not an offset.
   const double offset = nearest(middle, 0, length);
   value_ = std::abs(offset) > 4 * spread ? offset : 0;
   known_ = true;

@@ -130,7 +130,7 @@ class Streams : public PairSource {
     const plugin::Nanoseconds tolerance =
         plugin::effective_tolerance(kHalfFrame, {left_->caps_period(), right_->caps_period()},
                                     {left_->buffer_period(), right_->buffer_period()});
-    const plugin::PairStep step = finder_.next(left_->waiting(), right_->waiting(), tolerance);
+    const plugin::PairDecision step = finder_.next(left_->waiting(), right_->waiting(), tolerance);
     Branch& branch = step.side == Side::kLeft ? *left_ : *right_;
     switch (step.action) {
       case plugin::PairAction::kPair:

@@ -92,7 +92,7 @@ class Run {
       waiting[i] = {times[i], rules_.periods[i], sources_[i].next == sources_[i].all.size(),
                     rules_.skipping};
     }
-    const PairStep step = finder_.next(waiting[0], waiting[1], rules_.tolerance);
+    const PairDecision step = finder_.next(waiting[0], waiting[1], rules_.tolerance);
     const PairDoubt doubt = finder_.new_doubt();
     if (doubt != PairDoubt::kNone) outcome_.doubts.push_back(doubt);
     Source& source = sources_[static_cast<std::size_t>(step.side)];
