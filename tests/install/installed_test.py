@@ -187,7 +187,7 @@ class Examples(Installation):
     def test_the_sample_of_an_application_builds_and_runs(self):
         gstreamer = ["gstreamer-1.0", "gstreamer-app-1.0", "gstreamer-video-1.0"]
         program = self.build("depth_of_center.cpp", "c++20", *self.flags(*gstreamer))
-        done = self.use(program, "left.mp4", "right.mp4", GST_PLUGIN_PATH=PLUGINS)
+        done = self.use(program, "left.mp4", "right.mp4", "136", "0.1", GST_PLUGIN_PATH=PLUGINS)
         self.assert_succeeds(done)
         self.assertEqual(len(done.output.splitlines()), 8, str(done))
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "programs/run/cluster_commands.hpp"
 
+#include <glib.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -21,7 +23,6 @@
 #include "recordings/plan/plan_contents.hpp"
 #include "recordings/plan/plan_folder.hpp"
 #include "recordings/plan/program.hpp"
-#include "recordings/plan/slurm.hpp"
 #include "recordings/plan/work_key.hpp"
 
 namespace mtstereo::run {
@@ -125,6 +126,28 @@ void print(const std::vector<Problem>& problems) {
   }
 }
 
+// Tasks in increasing order, as schedulers take them: "0-3,7".
+std::string ranges_of(const std::vector<std::size_t>& tasks) {
+  std::string text;
+  for (std::size_t i = 0; i < tasks.size();) {
+    std::size_t last = i;
+    while (last + 1 < tasks.size() && tasks[last + 1] == tasks[last] + 1) ++last;
+    if (!text.empty()) text += ",";
+    text += std::to_string(tasks[i]);
+    if (last > i) text += "-" + std::to_string(tasks[last]);
+    i = last + 1;
+  }
+  return text;
+}
+
+// A word of a shell.
+std::string quoted(const fs::path& path) {
+  char* const word = g_shell_quote(path.c_str());
+  std::string result = word;
+  g_free(word);
+  return result;
+}
+
 // Prints what became of a plan. `next`: what to do if tasks are missing.
 int report(const fs::path& folder, const Plan& plan, const MergeResult& result,
            const std::string& next) {
@@ -137,7 +160,7 @@ int report(const fs::path& folder, const Plan& plan, const MergeResult& result,
   if (!result.missing.empty()) {
     std::cerr << "mtstereo-run: " << counted(result.missing.size(), "task")
               << (result.missing.size() == 1 ? " is" : " are")
-              << " missing: " << array_text(result.missing) << "; " << next << '\n';
+              << " missing: " << ranges_of(result.missing) << "; " << next << '\n';
   }
   if (result.missing.size() == plan.tasks.size()) return kFailed;
   for (const Problem& problem : result.doubtful) {
@@ -157,21 +180,6 @@ int run(const MergeCommand& command, const PieceFunctions& functions) {
       merge(command.folder, MergeOptions{functions, command.jobs, command.remove_pieces});
   return report(command.folder / "recordings", read_plan(command.folder), result,
                 "do them and merge again");
-}
-
-int run(const SlurmCommand& command, const PieceFunctions& /*functions*/) {
-  SlurmOptions options;
-  options.program = command.program.empty() ? this_program() : command.program;
-  options.limit = command.limit;
-  options.merge_jobs = command.merge_jobs;
-  options.remove_pieces = command.remove_pieces;
-  options.options = command.options;
-  const Submission submission = submit(command.folder, options);
-  std::cout << counted(submission.all, "task") << ": " << submission.done << " done, "
-            << submission.active << " queued or running, " << submission.tasks << " submitted\n";
-  for (const std::string& array : submission.arrays) std::cout << "array: job " << array << '\n';
-  if (!submission.merge.empty()) std::cout << "merge: job " << submission.merge << '\n';
-  return kDone;
 }
 
 void print_planned(const PlannedRecording& recording, bool quiet) {
@@ -291,7 +299,7 @@ int run_plan_command(const ArchiveInput& input, const PlanOptions& options, Exis
   std::error_code error;
   if (existing == Existing::kRefuse && fs::exists(PlanFolder(options.folder).plan(), error)) {
     throw RunError(options.folder.string() +
-                   ": has a plan already: 'mtstereo-run slurm', 'task' and 'merge' continue it; "
+                   ": has a plan already: 'mtstereo-run task' and 'merge' continue it; "
                    "choose another folder by --out, or --resume to plan again and keep what is "
                    "prepared and done, or --overwrite to remove it");
   }
@@ -299,13 +307,12 @@ int run_plan_command(const ArchiveInput& input, const PlanOptions& options, Exis
   const Plan plan = plan_archive(input.recordings, input.problems, archive);
   print(plan.problems);
   print(plan.damaged);
-  const std::string folder = quoted(options.folder.string());
+  const std::string folder = quoted(options.folder);
   std::cout << counted(plan.recordings.size(), "recording") << ", " << pairs_of(plan) << " pairs, "
             << counted(plan.tasks.size(), "task") << " in "
-            << outputs::printable(options.folder.string())
-            << "\nWith Slurm:  mtstereo-run slurm --plan " << folder
-            << "\nOtherwise:   mtstereo-run task N --plan " << folder << ", N from 0 to "
-            << plan.tasks.size() - 1 << ", then mtstereo-run merge --plan " << folder << '\n';
+            << outputs::printable(options.folder.string()) << "\nNext:  mtstereo-run task N --plan "
+            << folder << ", N from 0 to " << plan.tasks.size() - 1
+            << "\nThen:  mtstereo-run merge --plan " << folder << '\n';
   return plan.problems.empty() && plan.damaged.empty() ? kDone : kIncomplete;
 }
 

@@ -10,11 +10,11 @@
 #include "recordings/plan/plan.hpp"
 #include "recordings/plan/task.hpp"
 
-// The subcommands plan, task, merge and slurm, and a run with --jobs. main.cpp calls them.
+// The subcommands plan, task and merge, and a run with --jobs. main.cpp calls them.
 
 namespace mtstereo::run {
 
-/// task, merge or slurm, if the first argument is one of them; std::nullopt: it is not. Prints what
+/// task or merge, if the first argument is one of them; std::nullopt: it is not. Prints what
 /// it did. Throws RunError.
 std::optional<int> run_cluster_command(int argc, const char* const* argv,
                                        const PieceFunctions& functions = piece_functions());

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <iterator>
-#include <limits>
 #include <memory>
 
 #include "lib/options/failure_message.hpp"
@@ -36,11 +35,6 @@ void add_folder(CLI::App& app, std::filesystem::path& folder) {
   app.add_option("--plan", folder, "folder that 'mtstereo-run plan' wrote; . = the current one")
       ->type_name("DIR")
       ->capture_default_str();
-}
-
-void add_merge_options(CLI::App& app, bool& remove_pieces) {
-  app.add_flag("--remove-pieces", remove_pieces,
-               "remove the pieces of a recording after they are joined: half of the disk space");
 }
 
 // Parses, then calls `check`. Prints help and errors. The exit status, if the program ends here.
@@ -134,37 +128,8 @@ std::optional<int> parse_merge(int argc, const char* const* argv, MergeCommand& 
       ->type_name("N")
       ->check(in_range(1, kMostJobs))
       ->capture_default_str();
-  add_merge_options(app, command.remove_pieces);
-  return parse(app, argc, argv, [] {});
-}
-
-std::optional<int> parse_slurm(int argc, const char* const* argv, SlurmCommand& command) {
-  CLI::App app{
-      "Submits the tasks of a plan to Slurm as an array, with a merge after it. If it is called "
-      "again, it submits only tasks that are neither done nor queued nor running."};
-  set_usage(app, "mtstereo-run slurm [--plan DIR] [OPTIONS] [-- OPTIONS OF SBATCH]");
-  app.footer(
-      "Options of sbatch follow after --, for example: mtstereo-run slurm --plan DIR -- "
-      "--partition=long --cpus-per-task=8\nWhat the jobs print is in DIR/log.\nExit status: 0 = "
-      "submitted, or nothing is left to do, 1 = the reason is printed, 2 = the command is "
-      "invalid.");
-  add_folder(app, command.folder);
-  app.add_option("--limit", command.limit, "tasks that run at the same time; 0 = no limit")
-      ->type_name("N")
-      ->check(in_range(0, std::numeric_limits<int>::max()))
-      ->capture_default_str();
-  app.add_option("--program", command.program,
-                 "mtstereo-run on the nodes, if it is in another folder there")
-      ->type_name("FILE");
-  app.add_option("--merge-jobs", command.merge_jobs,
-                 "recordings that the merge joins at the same time")
-      ->type_name("N")
-      ->check(in_range(1, kMostJobs))
-      ->capture_default_str();
-  add_merge_options(app, command.remove_pieces);
-  app.add_option("OPTION", command.options, "options of sbatch, after --")
-      ->type_name("")
-      ->expected(-1);
+  app.add_flag("--remove-pieces", command.remove_pieces,
+               "remove the pieces of a recording after they are joined: half of the disk space");
   return parse(app, argc, argv, [] {});
 }
 
@@ -181,7 +146,7 @@ void add_plan_options(CLI::App& app, PlanOptions& options) {
 
 bool is_cluster_command(int argc, const char* const* argv) {
   const std::string name = argc > 1 ? argv[1] : "";
-  return name == "task" || name == "merge" || name == "slurm";
+  return name == "task" || name == "merge";
 }
 
 ClusterCommand parse_cluster_command(int argc, const char* const* argv) {
@@ -192,10 +157,8 @@ ClusterCommand parse_cluster_command(int argc, const char* const* argv) {
   ClusterCommand result;
   if (name == "task") {
     result.exit_status = parse_task(count, arguments, result.command.emplace<TaskCommand>());
-  } else if (name == "merge") {
-    result.exit_status = parse_merge(count, arguments, result.command.emplace<MergeCommand>());
   } else {
-    result.exit_status = parse_slurm(count, arguments, result.command.emplace<SlurmCommand>());
+    result.exit_status = parse_merge(count, arguments, result.command.emplace<MergeCommand>());
   }
   return result;
 }

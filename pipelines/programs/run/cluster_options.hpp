@@ -52,23 +52,13 @@ struct MergeCommand {
   bool remove_pieces = false;
 };
 
-/// mtstereo-run slurm --plan DIR [-- OPTION-OF-SBATCH...].
-struct SlurmCommand {
-  std::filesystem::path folder = ".";
-  std::filesystem::path program;  ///< empty: this one
-  int limit = 0;
-  int merge_jobs = 1;
-  bool remove_pieces = false;
-  std::vector<std::string> options;
-};
-
-/// A command line of task, merge or slurm.
+/// A command line of task or merge.
 struct ClusterCommand {
-  std::variant<TaskCommand, MergeCommand, SlurmCommand> command;
+  std::variant<TaskCommand, MergeCommand> command;
   std::optional<int> exit_status;  ///< exit with it; none: run the command
 };
 
-/// Whether the first argument is task, merge or slurm.
+/// Whether the first argument is task or merge.
 bool is_cluster_command(int argc, const char* const* argv);
 /// Parses the command line of one of them. Prints help and errors.
 ClusterCommand parse_cluster_command(int argc, const char* const* argv);

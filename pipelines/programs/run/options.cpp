@@ -299,11 +299,12 @@ std::string examples(bool plan) {
 void describe(CLI::App& app, bool plan) {
   app.set_version_flag("--version", MTSTEREO_VERSION);
   app.failure_message(options::failure_message);
-  app.formatter(std::make_shared<HelpFormatter>(
-      plan ? "mtstereo-run plan INPUT [INPUT] --out DIR [OPTIONS]"
-           : "mtstereo-run INPUT [INPUT] --out DIR [OPTIONS]\n"
-             "       mtstereo-run plan|task|merge|slurm ...    (archives with many machines; each "
-             "has its own --help)"));
+  app.formatter(
+      std::make_shared<HelpFormatter>(plan ? "mtstereo-run plan INPUT [INPUT] --out DIR [OPTIONS]"
+                                           : "mtstereo-run INPUT [INPUT] --out DIR [OPTIONS]\n"
+                                             "       mtstereo-run plan|task|merge ...    (archives "
+                                             "on many machines; each has its own "
+                                             "--help)"));
   app.footer(
       examples(plan) +
       std::string(plan ? "An interrupted call can be repeated: recordings that are prepared are "
@@ -323,8 +324,8 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   Texts texts;
   options.plan = argc > 1 && std::string(argv[1]) == "plan";
   CLI::App app{options.plan
-                   ? "Divides the recordings of an archive into tasks, for mtstereo-run task, "
-                     "merge and slurm."
+                   ? "Divides the recordings of an archive into tasks, for mtstereo-run task "
+                     "and merge."
                    : "Computes disparities, depths, clouds and figures of recordings of two "
                      "cameras."};
   describe(app, options.plan);

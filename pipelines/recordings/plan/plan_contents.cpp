@@ -26,7 +26,7 @@ constexpr const char* kWhole = "whole.json";
 std::vector<std::string> names_of(const PlanFolder& files) {
   std::vector<std::string> names;
   for (const fs::path& each : {files.plan(), files.summary(), files.works(), files.pieces(),
-                               files.recordings(), files.unfinished(), files.logs()}) {
+                               files.recordings(), files.unfinished()}) {
     names.push_back(each.filename().string());
   }
   return names;
@@ -63,11 +63,6 @@ bool is_work_file(const fs::path& file) {
   return file.extension() == ".key" && std::getline(in, key) && std::regex_match(key, kKey);
 }
 
-bool is_log(const fs::path& file) {
-  static const std::regex kLog("mtstereo-[0-9a-f]{8}-.*\\.log");
-  return std::regex_match(file.filename().string(), kLog);
-}
-
 // The name of a NewFolder.
 bool is_unfinished_folder(const fs::path& folder) {
   static const std::regex kFolder(R"((piece|recording)-?.*-\d+-\d+)");
@@ -100,9 +95,6 @@ class Collector {
     }
     for_each_in(files_.works(), [this](const fs::path& file) {
       if (is_work_file(file)) add(file);
-    });
-    for_each_in(files_.logs(), [this](const fs::path& file) {
-      if (is_log(file)) add(file);
     });
     for (const fs::path& folders : {files_.pieces(), files_.recordings()}) {
       for_each_in(folders, [this](const fs::path& folder) { add_whole(folder); });

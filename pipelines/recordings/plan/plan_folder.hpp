@@ -33,8 +33,6 @@ class PlanFolder {
   std::filesystem::path recording(const std::string& name) const { return recordings() / name; }
   /// Folders that are not whole yet. On the same file system as the rest.
   std::filesystem::path unfinished() const { return folder_ / "unfinished"; }
-  /// What jobs of a cluster print.
-  std::filesystem::path logs() const { return folder_ / "log"; }
 
  private:
   std::filesystem::path folder_;

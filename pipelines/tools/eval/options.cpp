@@ -22,7 +22,7 @@ struct Texts {
   std::string dataset = "auto";
   std::string dmap = "auto";
   std::string format = "pfm";
-  std::string json, csv, curve, report, disparity_folder, picture_folder;
+  std::string json, csv, curve, disparity_folder, picture_folder;
   std::vector<std::string> compare;
   std::vector<std::string> degrade;
   std::string alignment;
@@ -133,11 +133,6 @@ std::string is_png(const std::string& file) {
   return "the picture is a PNG file: the name '" + file + "' must end in .png";
 }
 
-std::string is_html(const std::string& file) {
-  if (extension_of(std::filesystem::path(file)) == ".html") return {};
-  return "the report is a page: the name '" + file + "' must end in .html";
-}
-
 void add_outputs(CLI::App& app, Texts& texts) {
   const std::string group = "Output";
   app.add_option("--json", texts.json, "write all figures to this file as JSON")
@@ -152,11 +147,6 @@ void add_outputs(CLI::App& app, Texts& texts) {
                  "those matchers too")
       ->type_name("FILE")
       ->check(is_png)
-      ->group(group);
-  app.add_option("--report", texts.report,
-                 "write one HTML page with all figures, curves and pictures of each pair")
-      ->type_name("FILE")
-      ->check(is_html)
       ->group(group);
   app.add_option("--write-disparity", texts.disparity_folder,
                  "write the disparity maps to this folder")
@@ -220,8 +210,6 @@ void apply(const Texts& texts, Options& options) {
   options.json = path_of(texts.json);
   options.csv = path_of(texts.csv);
   options.curve = path_of(texts.curve);
-  options.report = path_of(texts.report);
-  options.run.html_pictures = options.report.has_value();
   options.run.curve = options.curve.has_value();
   options.run.disparity_folder = path_of(texts.disparity_folder);
   options.run.picture_folder = path_of(texts.picture_folder);

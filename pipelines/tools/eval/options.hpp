@@ -19,8 +19,7 @@ struct Options {
   bool list = false;              ///< only list the pairs
   std::optional<std::filesystem::path> json;
   std::optional<std::filesystem::path> csv;
-  std::optional<std::filesystem::path> curve;   ///< the picture
-  std::optional<std::filesystem::path> report;  ///< the HTML page
+  std::optional<std::filesystem::path> curve;  ///< the picture
   RunSettings run;
 };
 

@@ -9,7 +9,6 @@
 
 #include "lib/outputs/json_text.hpp"
 #include "tools/eval/files.hpp"
-#include "tools/eval/html_report.hpp"
 #include "tools/eval/input_error.hpp"
 #include "tools/eval/plot.hpp"
 
@@ -83,8 +82,7 @@ void check_outputs(const Options& options, const DataSet& set) {
   const std::pair<std::optional<fs::path>, const char*> files[] = {
       {options.json, "{\n  \"compared_methods\""},
       {options.csv, "pair,method,region,"},
-      {options.curve, "mtstereo-eval"},
-      {options.report, "<title>mtstereo-eval"}};
+      {options.curve, "mtstereo-eval"}};
   for (const auto& [file, mark] : files) {
     if (!file) continue;
     refuse_inputs(*file, set);
@@ -112,7 +110,6 @@ bool write_outputs(const Options& options, bool can_plot, const Report& report) 
   if (options.curve && !report.curves.empty() && can_plot) {
     fine &= attempt([&] { write_curve(*options.curve, report); });
   }
-  if (options.report) fine &= attempt([&] { write_bytes(*options.report, to_html(report)); });
   return fine && can_plot;
 }
 

@@ -229,9 +229,6 @@ void Runner::run_own(const LoadedPair& images, PairReport& report) {
   const cv::Mat map = to_float(found.disparity, matcher_->parameters().disparity_offset());
   const cv::Mat confidence = mat_of(found.confidence);
   finish(kOwnMethod, map, seconds, images, report);
-  if (settings_.html_pictures) {
-    report.pictures = html_pictures(images, map, confidence, report.max_disparity);
-  }
   if (!settings_.curve) return;
   report.sweeps.push_back({kOwnMethod, confidence_sweep(map, confidence, images.truth)});
 }

@@ -16,7 +16,6 @@
 #include "tools/eval/datasets.hpp"
 #include "tools/eval/degradation.hpp"
 #include "tools/eval/flicker.hpp"
-#include "tools/eval/html_pictures.hpp"
 #include "tools/eval/metrics.hpp"
 #include "tools/eval/official.hpp"
 #include "tools/eval/pictures.hpp"
@@ -44,7 +43,6 @@ struct RunSettings {
   bool curve = false;                     ///< sweep the confidence of every method
   std::vector<Degradation> degradations;  ///< evaluated in addition to the images as they are
   std::optional<double> flicker;          ///< standard deviation of its noise [gray values]
-  bool html_pictures = false;             ///< pictures of the library's results
 };
 
 /// Whether pairs are aligned.
@@ -78,7 +76,6 @@ struct PairReport {
   std::vector<MethodResult> results;   ///< the library's first; without methods that failed
   std::vector<MethodSweep> sweeps;     ///< with --curve, one per method
   std::vector<MethodFlicker> flicker;  ///< with --flicker, of the images as they are
-  HtmlPictures pictures;               ///< with --report
   std::vector<std::string> failures;   ///< one sentence each
   std::vector<std::string> notes;
 };

@@ -78,13 +78,13 @@ class Program(unittest.TestCase):
     def test_wrong_commands_are_refused(self):
         for arguments in (["task"], ["task", "x"], ["task", "-1"], ["task", "1", "--threads", "-1"],
                           ["task", "1", "2"], ["merge", "x"], ["merge", "--jobs", "0"],
-                          ["slurm", "--limit", "-1"], ["slurm", "--unknown"]):
+                          ["slurm"]):
             with self.subTest(arguments):
                 self.run_program(*arguments, expected=2)
         self.run_program("task", "--plan", self.plan, expected=2, SLURM_ARRAY_TASK_ID="x")
 
     def test_help_is_no_error(self):
-        for name in ("task", "merge", "slurm"):
+        for name in ("task", "merge"):
             done = self.run_program(name, "--help", expected=0)
             self.assertIn(f"Usage: mtstereo-run {name} ", done.stdout)
             self.assertLessEqual(max(map(len, done.stdout.splitlines())), 100)

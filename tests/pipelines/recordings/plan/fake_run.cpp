@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// The subcommands task, merge and slurm of mtstereo-run, with lines of text in place of maps.
+// The subcommands task and merge of mtstereo-run, with lines of text in place of maps.
 // "fake-run plan FOLDER" writes a plan of 17 pairs in 5 tasks, "fake-run jobs FOLDER N" does it,
 // and "fake-run replan FOLDER" plans it again with what is prepared.
 // "fake-run plan FOLDER PAIRS LENGTH" writes another one, of one recording.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// mtstereo-eval --degrade, --flicker and --report as a process, and several folders.
+// mtstereo-eval --degrade and --flicker as a process, and several folders.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -181,41 +181,6 @@ TEST_F(DegradeProgram, DrawsTheCurveOfEachKind) {
   for (const json& kind : degraded) EXPECT_EQ(kind["curve"]["pairs"], 2);
   EXPECT_EQ(report()["curve"]["kind"], "clean");
   EXPECT_EQ(cv::imread(folder_ / "curve.png").cols, 1200);
-}
-
-TEST_F(DegradeProgram, WritesOnePageWithEverythingInIt) {
-  const Outcome run =
-      run_eval({set(), "--degrade", "noise=5", "--curve", folder_ / "c.png", "--flicker", "2",
-                "--compare", "bm", "--report", folder_ / "new/page.html"});
-  ASSERT_EQ(run.status, 0) << run.err;
-  const std::string page = read_file(folder_ / "new/page.html");
-  EXPECT_THAT(page, ::testing::StartsWith("<!DOCTYPE html>"));
-  EXPECT_THAT(page, HasSubstr("</html>"));
-  for (const char* outside : {"http:", "https:", "<link", "@import", "url("}) {
-    EXPECT_THAT(page, Not(HasSubstr(outside)));
-  }
-  // Two measures of two kinds; two pairs of two kinds and two methods, with their heading.
-  const auto count = [&](const std::string& text) {
-    int found = 0;
-    for (std::size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1)) {
-      ++found;
-    }
-    return found;
-  };
-  EXPECT_EQ(count("<svg"), 4);
-  EXPECT_EQ(count("<figure>"), 2 * 2 * 5);
-  EXPECT_EQ(count("data:image/jpeg;base64,"), 2 * 2 * 4 + 2) << "ground truth is stored once";
-  EXPECT_EQ(run_eval({set(), "--report", folder_ / "page.pdf"}).status, 2);
-}
-
-TEST_F(DegradeProgram, NeverOverwritesAnInputByThePage) {
-  fs::copy(folder_ / "set/A/im0.png", folder_ / "image.png");
-  fs::remove(folder_ / "set/A/im0.png");
-  fs::rename(folder_ / "image.png", folder_ / "image.html");
-  fs::create_symlink(folder_ / "image.html", folder_ / "set/A/im0.png");
-  const Outcome run = run_eval({set(), "--report", folder_ / "image.html"});
-  EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.err, HasSubstr("belongs to the data set"));
 }
 
 TEST_F(DegradeProgram, EvaluatesSeveralFoldersTogether) {

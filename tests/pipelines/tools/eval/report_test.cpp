@@ -95,6 +95,19 @@ TEST(Summary, ComputesTheRatioOnlyOverPairsOfBoth) {
   EXPECT_DOUBLE_EQ(means[1].time_ratio, 0.5);
 }
 
+TEST(Summary, SeparatesKinds) {
+  Report report = small_report();
+  report.kinds.emplace_back("noise=5");
+  PairReport noisy = report.pairs[0];
+  noisy.kind = "noise=5";
+  noisy.results[0].evaluation.all.avgerr = 7;
+  report.pairs.push_back(noisy);
+  EXPECT_EQ(summarize(report)[0].pairs, 2);
+  EXPECT_EQ(summarize(report, "noise=5")[0].pairs, 1);
+  EXPECT_EQ(summarize(report, "noise=5")[0].evaluation.all.avgerr, 7);
+  EXPECT_EQ(summarize(report, "fog=1")[0].pairs, 0);
+}
+
 TEST(Json, ParsesBackToTheFigures) {
   const json parsed = json::parse(to_json(small_report()).dump());
   EXPECT_EQ(parsed["dataset"], "middlebury");

@@ -26,7 +26,7 @@ SlurmctldHost={host}(127.0.0.1)
 SlurmUser={user}
 SlurmdUser={user}
 AuthType=auth/munge
-AuthInfo=socket={folder}/munge.socket,cred_expire={requeue_delay}
+AuthInfo=socket={folder}/munge.socket,cred_expire=120
 CredType=cred/munge
 SlurmctldPort={port}
 StateSaveLocation={folder}/state
@@ -47,11 +47,10 @@ JobCompType=jobcomp/none
 SchedulerParameters=batch_sched_delay=0,sched_interval=2,sched_min_interval=0
 ReturnToService=2
 SlurmctldTimeout=30
-SlurmdTimeout={node_timeout}
+SlurmdTimeout=30
 KillWait=2
 MessageTimeout=10
 SlurmdParameters=config_overrides
-MaxArraySize={max_array_size}
 {nodes}
 PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 """
@@ -92,13 +91,9 @@ class NotRunning(Exception):
 
 
 class LocalSlurm:
-    """A cluster with nodes n1, n2, ... of one processor each. stop() ends it.
+    """A cluster with nodes n1, n2, ... of one processor each. stop() ends it."""
 
-    A node that does not answer for `node_timeout` s is down, and its tasks start again elsewhere
-    `requeue_delay` s later.
-    """
-
-    def __init__(self, folder, nodes=4, max_array_size=1001, node_timeout=30, requeue_delay=120):
+    def __init__(self, folder, nodes=4):
         self.folder = pathlib.Path(folder)
         self.processes = {}
         self.environment = {**os.environ, "SLURM_CONF": str(self.folder / "slurm.conf")}
@@ -115,8 +110,7 @@ class LocalSlurm:
         lines = "\n".join(f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={at} CPUs=1"
                           for name, at in zip(self.nodes, node_ports))
         (self.folder / "slurm.conf").write_text(CONFIGURATION.format(
-            folder=self.folder, host=host, user=getpass.getuser(), port=port, nodes=lines,
-            max_array_size=max_array_size, node_timeout=node_timeout, requeue_delay=requeue_delay))
+            folder=self.folder, host=host, user=getpass.getuser(), port=port, nodes=lines))
 
     def start(self):
         """Starts everything, and waits for all nodes. Throws NotRunning."""
@@ -150,12 +144,6 @@ class LocalSlurm:
             self.processes[name or program] = subprocess.Popen(
                 [find(program), *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=output,
                 stderr=output, env=self.environment, cwd=self.folder)
-
-    def kill(self, name):
-        """kill -9 of slurmctld or of the slurmd of a node."""
-        process = self.processes.pop(name)
-        process.kill()
-        process.wait()
 
     def stop(self):
         if "slurmctld" in self.processes:
