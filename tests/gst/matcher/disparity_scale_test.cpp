@@ -2,61 +2,41 @@
 // The disparity scale follows the search range unless it is set.
 #include <gtest/gtest.h>
 
-#include "support/stereo_harness.hpp"
+#include "support/fixtures.hpp"
 
 namespace mtstereo::test {
 namespace {
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 40;
-
-class DisparityScale : public testing::Test {
+class DisparityScale : public StreamsTest {
  protected:
-  void start(const std::string& properties) {
-    harness_ = std::make_unique<StereoHarness>(properties);
-    harness_->caps(raw_caps("GRAY8", kWidth, kHeight));
-  }
-  void set(const char* name, int value) { g_object_set(harness_->element(), name, value, nullptr); }
+  DisparityScale() { pair = noise_pair(320, 40, 4, 4); }
+  void set(const char* name, int value) { g_object_set(harness->element(), name, value, nullptr); }
   /// The property.
-  int scale() {
-    int value = 0;
-    g_object_get(harness_->element(), "disparity-scale", &value, nullptr);
-    return value;
-  }
+  int scale() { return std::stoi(get("disparity-scale")); }
   /// Matches a pair: caps, statistics and map must have this range and scale.
   void expect_map(int disparities, int scale) {
-    harness_->push_pair(pair_, count_++ * kFrame);
-    const BufferPointer map = harness_->pull();
-    ASSERT_TRUE(map) << harness_->error(1).text;
-    EXPECT_EQ(scale_in_caps(), scale);
-    EXPECT_EQ(scale_in_stats(), scale);
     Parameters parameters;
     EXPECT_TRUE(parameters.set(Parameter::kMaxDisparity, disparities).ok());
-    EXPECT_EQ(first_difference(library_map(pair_, parameters, scale),
-                               map_of(map.get(), kWidth, kHeight), kWidth),
-              "");
+    expect_next(parameters, scale);
+    EXPECT_EQ(scale_in_caps(), scale);
+    EXPECT_EQ(scale_in_stats(), scale);
   }
-
-  std::unique_ptr<StereoHarness> harness_;
 
  private:
   int scale_in_caps() {
     int value = 0;
-    const CapsPointer caps = harness_->output_caps();
+    const CapsPointer caps = harness->output_caps();
     gst_structure_get_int(gst_caps_get_structure(caps.get(), 0), "disparity-scale", &value);
     return value;
   }
   int scale_in_stats() {
     GstStructure* stats = nullptr;
-    g_object_get(harness_->element(), "stats", &stats, nullptr);
+    g_object_get(harness->element(), "stats", &stats, nullptr);
     int value = 0;
     gst_structure_get_int(stats, "disparity-scale", &value);
     gst_structure_free(stats);
     return value;
   }
-
-  Pair pair_ = noise_pair(kWidth, kHeight, 4, 4);
-  GstClockTime count_ = 0;
 };
 
 TEST_F(DisparityScale, FollowsTheRange) {
@@ -67,7 +47,7 @@ TEST_F(DisparityScale, FollowsTheRange) {
     EXPECT_EQ(scale(), expected) << disparities;
     expect_map(disparities, expected);
   }
-  EXPECT_TRUE(harness_->warnings().empty());
+  EXPECT_TRUE(harness->warnings().empty());
 }
 
 TEST_F(DisparityScale, FitsTheLargestRange) {
@@ -83,7 +63,7 @@ TEST_F(DisparityScale, StaysIfItIsSet) {
   start("max-disparity=64 disparity-scale=256");
   set("max-disparity", 256);
   expect_map(64, 256);
-  const auto warnings = harness_->warnings();
+  const auto warnings = harness->warnings();
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].text.find("disparity-scale = 256 does not fit in 16 bits"),
             std::string::npos)
@@ -99,7 +79,7 @@ TEST_F(DisparityScale, ReturnsWithARangeThatIsRefused) {
   set("max-disparity", 600);  // wider than the frame
   EXPECT_EQ(scale(), 64);
   expect_map(64, 256);
-  EXPECT_EQ(harness_->warnings().size(), 1u);
+  EXPECT_EQ(harness->warnings().size(), 1u);
   EXPECT_EQ(scale(), 256);
   set("max-disparity", 300);
   expect_map(300, 128);

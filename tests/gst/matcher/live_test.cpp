@@ -2,25 +2,15 @@
 // Live streams: deadlines, latency and quality of service, by a test clock.
 #include <gtest/gtest.h>
 
-#include "support/stereo_harness.hpp"
+#include "support/fixtures.hpp"
 
 namespace mtstereo::test {
 namespace {
 
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
-
-class Live : public testing::Test {
+class Live : public StreamsTest {
  protected:
   void start(bool live, const std::string& properties = "max-disparity=16") {
-    harness = std::make_unique<StereoHarness>(properties, live);
-    harness->caps(raw_caps("GRAY8", kWidth, kHeight));
-  }
-  GstFlowReturn left(GstClockTime time) {
-    return harness->push(Side::kLeft, frame_buffer(pair.left, time, kFrame));
-  }
-  GstFlowReturn right(GstClockTime time) {
-    return harness->push(Side::kRight, frame_buffer(pair.right, time, kFrame));
+    StreamsTest::start(properties, live);
   }
   void match_first_pair() {
     harness->push_pair(pair, 0);
@@ -38,9 +28,6 @@ class Live : public testing::Test {
   /// Advances the clock to the end of the only wait of the element.
   bool pass_deadline() { return gst_harness_crank_single_clock_wait(harness->output()); }
   GstClockTime latency() { return gst_harness_query_latency(harness->output()); }
-
-  Pair pair = noise_pair(kWidth, kHeight, 5, 3);
-  std::unique_ptr<StereoHarness> harness;
 };
 
 TEST_F(Live, PairsFramesThatArriveInTime) {

@@ -5,55 +5,22 @@
 #include <atomic>
 #include <chrono>
 
-#include "support/stereo_harness.hpp"
+#include "support/fixtures.hpp"
 
 namespace mtstereo::test {
 namespace {
-
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-std::string property(GstElement* element, const char* name) {
-  GValue value = G_VALUE_INIT;
-  g_object_get_property(G_OBJECT(element), name, &value);
-  gchar* serialized =
-      G_VALUE_HOLDS_STRING(&value) ? g_value_dup_string(&value) : gst_value_serialize(&value);
-  std::string text = serialized;
-  g_free(serialized);
-  g_value_unset(&value);
-  return text;
-}
-
-class Running : public testing::Test {
+class Running : public StreamsTest {
  protected:
   void start(const std::string& properties = "max-disparity=16", int width = kWidth,
              int height = kHeight) {
     pair = noise_pair(width, height, 4, 4);
-    harness = std::make_unique<StereoHarness>(properties);
-    harness->caps(raw_caps("GRAY8", width, height));
+    StreamsTest::start(properties);
     ASSERT_TRUE(next());
-  }
-  void set(const char* name, const char* value) {
-    gst_util_set_object_arg(G_OBJECT(harness->element()), name, value);
-  }
-  std::string get(const char* name) { return property(harness->element(), name); }
-  /// Matches another pair.
-  BufferPointer next() {
-    harness->push_pair(pair, count++ * kFrame);
-    return harness->pull();
-  }
-  /// Matches another pair, and compares the map with that of the library.
-  void expect_next(const Parameters& parameters, int scale) {
-    const BufferPointer map = next();
-    ASSERT_TRUE(map) << harness->error(1).text;
-    const int width = pair.left.width;
-    EXPECT_EQ(first_difference(library_map(pair, parameters, scale),
-                               map_of(map.get(), width, pair.left.height), width),
-              "");
   }
   void expect_one_warning(std::initializer_list<const char*> parts) {
     const std::vector<Report> all = harness->warnings();
@@ -76,10 +43,6 @@ class Running : public testing::Test {
     EXPECT_TRUE(parameters.set(Parameter::kMaxDisparity, disparities).ok());
     return parameters;
   }
-
-  Pair pair;
-  std::unique_ptr<StereoHarness> harness;
-  GstClockTime count = 0;
 };
 
 struct Value {
@@ -350,7 +313,7 @@ TEST_P(ExtremeWait, IsLimitedAndDoesNotDelayTheEnd) {
   ASSERT_NE(pipeline, nullptr);
   GstElement* element = gst_bin_get_by_name(GST_BIN(pipeline), "m");
   gst_util_set_object_arg(G_OBJECT(element), name, value);
-  EXPECT_EQ(property(element, name), "3600000000000");
+  EXPECT_EQ(property_text(element, name), "3600000000000");
   gst_element_set_state(pipeline, GST_STATE_PLAYING);
   EXPECT_NE(gst_element_get_state(pipeline, nullptr, nullptr, 10 * GST_SECOND),
             GST_STATE_CHANGE_ASYNC);

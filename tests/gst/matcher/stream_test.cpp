@@ -2,7 +2,7 @@
 // Events, flags, metas and the end of streams.
 #include <gtest/gtest.h>
 
-#include "support/stereo_harness.hpp"
+#include "support/fixtures.hpp"
 
 namespace mtstereo::test {
 namespace {
@@ -10,89 +10,81 @@ namespace {
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
-class Stream : public testing::Test {
+class Stream : public StreamsTest {
  protected:
-  Stream() { harness.caps(raw_caps("GRAY8", kWidth, kHeight)); }
-  void left(GstClockTime time) { harness.push(Side::kLeft, frame_buffer(pair.left, time, kFrame)); }
-  void right(GstClockTime time) {
-    harness.push(Side::kRight, frame_buffer(pair.right, time, kFrame));
-  }
+  Stream() { start(); }
   void flush(Side side, std::uint32_t seqnum) {
     GstEvent* begin = gst_event_new_flush_start();
     gst_event_set_seqnum(begin, seqnum);
-    harness.event(side, begin);
+    harness->event(side, begin);
   }
   void end_flush(Side side, std::uint32_t seqnum) {
     GstEvent* end = gst_event_new_flush_stop(TRUE);
     gst_event_set_seqnum(end, seqnum);
-    harness.event(side, end);
+    harness->event(side, end);
     GstSegment segment;
     gst_segment_init(&segment, GST_FORMAT_TIME);
-    harness.event(side, gst_event_new_segment(&segment));
+    harness->event(side, gst_event_new_segment(&segment));
   }
-
-  Pair pair = noise_pair(kWidth, kHeight, 5, 2);
-  StereoHarness harness;
 };
 
 TEST_F(Stream, EndsAfterTheRightStream) {
-  harness.push_pair(pair, 0);
-  harness.end(Side::kRight);
+  harness->push_pair(pair, 0);
+  harness->end(Side::kRight);
   left(kFrame);
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
-  EXPECT_TRUE(harness.pull(1)) << "the pair before the end is lost";
-  EXPECT_TRUE(harness.wait_for_stats(1, 1, 0));
-  EXPECT_EQ(harness.push(Side::kLeft, frame_buffer(pair.left, 2 * kFrame, kFrame)), GST_FLOW_EOS)
-      << "the source of the other stream must stop";
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS));
+  EXPECT_TRUE(harness->pull(1)) << "the pair before the end is lost";
+  EXPECT_TRUE(harness->wait_for_stats(1, 1, 0));
+  EXPECT_EQ(left(2 * kFrame), GST_FLOW_EOS) << "the source of the other stream must stop";
 }
 
 TEST_F(Stream, EndsAfterTheLeftStream) {
-  harness.push_pair(pair, 0);
+  harness->push_pair(pair, 0);
   right(kFrame);
-  harness.end(Side::kLeft);
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
-  EXPECT_TRUE(harness.wait_for_stats(1, 0, 1));
-  EXPECT_EQ(harness.push(Side::kRight, frame_buffer(pair.right, 2 * kFrame, kFrame)), GST_FLOW_EOS);
+  harness->end(Side::kLeft);
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS));
+  EXPECT_TRUE(harness->wait_for_stats(1, 0, 1));
+  EXPECT_EQ(right(2 * kFrame), GST_FLOW_EOS);
 }
 
 TEST_F(Stream, MatchesTheWaitingPairBeforeItEnds) {
   left(0);
-  harness.end(Side::kLeft);
-  EXPECT_TRUE(harness.silent());
+  harness->end(Side::kLeft);
+  EXPECT_TRUE(harness->silent());
   right(0);
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
-  EXPECT_TRUE(harness.pull(1));
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS));
+  EXPECT_TRUE(harness->pull(1));
 }
 
 TEST_F(Stream, EndsImmediatelyIfTheOtherStreamIsSilent) {
-  harness.push_pair(pair, 0);
-  ASSERT_TRUE(harness.pull());
-  harness.end(Side::kLeft);
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
-  EXPECT_EQ(harness.further_errors(), 0);
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  harness->end(Side::kLeft);
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS));
+  EXPECT_EQ(harness->further_errors(), 0);
 }
 
 TEST_F(Stream, SendsEndOfStreamOnce) {
-  harness.push_pair(pair, 0);
-  ASSERT_TRUE(harness.pull());
-  harness.end(Side::kLeft);
-  harness.end(Side::kRight);
-  ASSERT_TRUE(harness.pull_event(GST_EVENT_EOS));
-  EXPECT_FALSE(harness.pull_event(GST_EVENT_EOS, 0.2));
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  harness->end(Side::kLeft);
+  harness->end(Side::kRight);
+  ASSERT_TRUE(harness->pull_event(GST_EVENT_EOS));
+  EXPECT_FALSE(harness->pull_event(GST_EVENT_EOS, 0.2));
 }
 
 TEST_F(Stream, EndsWithoutFrames) {
-  harness.end(Side::kLeft);
-  harness.end(Side::kRight);
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_EOS));
-  EXPECT_EQ(harness.further_errors(), 0);
+  harness->end(Side::kLeft);
+  harness->end(Side::kRight);
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS));
+  EXPECT_EQ(harness->further_errors(), 0);
 }
 
 TEST_F(Stream, SendsStreamStartCapsAndSegmentBeforeTheFirstMap) {
-  harness.push_pair(pair, 0);
-  ASSERT_TRUE(harness.pull());
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
   for (const GstEventType type : {GST_EVENT_STREAM_START, GST_EVENT_CAPS, GST_EVENT_SEGMENT}) {
-    const EventPointer event(gst_harness_pull_event(harness.output()));
+    const EventPointer event(gst_harness_pull_event(harness->output()));
     ASSERT_TRUE(event);
     EXPECT_EQ(GST_EVENT_TYPE(event.get()), type) << GST_EVENT_TYPE_NAME(event.get());
   }
@@ -104,12 +96,12 @@ TEST_F(Stream, KeepsTheSegmentOfTheLeftStream) {
   segment.start = 3 * GST_SECOND;
   segment.time = 7 * GST_SECOND;
   segment.base = GST_SECOND;
-  harness.event(Side::kLeft, gst_event_new_segment(&segment));
+  harness->event(Side::kLeft, gst_event_new_segment(&segment));
   segment.time = 9 * GST_SECOND;
-  harness.event(Side::kRight, gst_event_new_segment(&segment));
-  harness.push_pair(pair, 3 * GST_SECOND);
-  ASSERT_TRUE(harness.pull());
-  const EventPointer event = harness.pull_event(GST_EVENT_SEGMENT);
+  harness->event(Side::kRight, gst_event_new_segment(&segment));
+  harness->push_pair(pair, 3 * GST_SECOND);
+  ASSERT_TRUE(harness->pull());
+  const EventPointer event = harness->pull_event(GST_EVENT_SEGMENT);
   ASSERT_TRUE(event);
   const GstSegment* out = nullptr;
   gst_event_parse_segment(event.get(), &out);
@@ -121,11 +113,11 @@ TEST_F(Stream, KeepsTheSegmentOfTheLeftStream) {
 TEST_F(Stream, ReportsASegmentInBytes) {
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_BYTES);
-  harness.event(Side::kRight, gst_event_new_segment(&segment));
-  const Report error = harness.error();
+  harness->event(Side::kRight, gst_event_new_segment(&segment));
+  const Report error = harness->error();
   EXPECT_NE(error.text.find("sink_right"), std::string::npos) << error.text;
   EXPECT_NE(error.text.find("bytes"), std::string::npos) << error.text;
-  EXPECT_EQ(harness.further_errors(), 0);
+  EXPECT_EQ(harness->further_errors(), 0);
 }
 
 TEST_F(Stream, KeepsTimesFlagsAndOffsetsOfTheLeftFrame) {
@@ -137,9 +129,9 @@ TEST_F(Stream, KeepsTimesFlagsAndOffsetsOfTheLeftFrame) {
   GstBuffer* right = frame_buffer(pair.right, 4 * kFrame + 1, kFrame / 2);
   GST_BUFFER_FLAG_SET(right, GST_BUFFER_FLAG_MARKER);
   GST_BUFFER_FLAG_SET(right, GST_BUFFER_FLAG_CORRUPTED);
-  harness.push(Side::kLeft, left);
-  harness.push(Side::kRight, right);
-  const BufferPointer map = harness.pull();
+  harness->push(Side::kLeft, left);
+  harness->push(Side::kRight, right);
+  const BufferPointer map = harness->pull();
   ASSERT_TRUE(map);
   EXPECT_EQ(GST_BUFFER_PTS(map.get()), 4 * kFrame);
   EXPECT_EQ(GST_BUFFER_DTS(map.get()), GST_CLOCK_TIME_NONE);
@@ -150,8 +142,8 @@ TEST_F(Stream, KeepsTimesFlagsAndOffsetsOfTheLeftFrame) {
   EXPECT_FALSE(GST_BUFFER_FLAG_IS_SET(map.get(), GST_BUFFER_FLAG_MARKER));
   EXPECT_TRUE(GST_BUFFER_FLAG_IS_SET(map.get(), GST_BUFFER_FLAG_CORRUPTED))
       << "a map of a corrupted right frame is corrupted";
-  harness.push_pair(pair, 5 * kFrame);
-  const BufferPointer next = harness.pull();
+  harness->push_pair(pair, 5 * kFrame);
+  const BufferPointer next = harness->pull();
   ASSERT_TRUE(next);
   EXPECT_FALSE(GST_BUFFER_FLAG_IS_SET(next.get(), GST_BUFFER_FLAG_DISCONT));
   EXPECT_FALSE(GST_BUFFER_FLAG_IS_SET(next.get(), GST_BUFFER_FLAG_CORRUPTED));
@@ -163,9 +155,9 @@ TEST_F(Stream, CopiesTheMetasOfTheLeftFrameExceptItsLayout) {
   gst_buffer_add_reference_timestamp_meta(left, reference.get(), 77, GST_CLOCK_TIME_NONE);
   GstBuffer* right = frame_buffer(pair.right, 0, kFrame);
   gst_buffer_add_reference_timestamp_meta(right, reference.get(), 88, GST_CLOCK_TIME_NONE);
-  harness.push(Side::kLeft, left);
-  harness.push(Side::kRight, right);
-  const BufferPointer map = harness.pull();
+  harness->push(Side::kLeft, left);
+  harness->push(Side::kRight, right);
+  const BufferPointer map = harness->pull();
   ASSERT_TRUE(map);
   const auto* meta = gst_buffer_get_reference_timestamp_meta(map.get(), reference.get());
   ASSERT_NE(meta, nullptr);
@@ -176,11 +168,11 @@ TEST_F(Stream, CopiesTheMetasOfTheLeftFrameExceptItsLayout) {
 }
 
 TEST_F(Stream, ForwardsAGapOfTheLeftStream) {
-  harness.push_pair(pair, 0);
-  ASSERT_TRUE(harness.pull());
-  harness.event(Side::kLeft, gst_event_new_gap(kFrame, 2 * kFrame));
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  harness->event(Side::kLeft, gst_event_new_gap(kFrame, 2 * kFrame));
   right(kFrame);
-  const EventPointer gap = harness.pull_event(GST_EVENT_GAP);
+  const EventPointer gap = harness->pull_event(GST_EVENT_GAP);
   ASSERT_TRUE(gap);
   GstClockTime time = 0;
   GstClockTime duration = 0;
@@ -189,29 +181,29 @@ TEST_F(Stream, ForwardsAGapOfTheLeftStream) {
   EXPECT_EQ(duration, 2 * kFrame);
   left(3 * kFrame);
   right(3 * kFrame);
-  const BufferPointer map = harness.pull();
+  const BufferPointer map = harness->pull();
   ASSERT_TRUE(map);
   EXPECT_EQ(GST_BUFFER_PTS(map.get()), 3 * kFrame);
-  EXPECT_TRUE(harness.wait_for_stats(2, 0, 1));
+  EXPECT_TRUE(harness->wait_for_stats(2, 0, 1));
 }
 
 TEST_F(Stream, SendsTheSegmentBeforeAFirstGap) {
-  harness.event(Side::kLeft, gst_event_new_gap(0, kFrame));
+  harness->event(Side::kLeft, gst_event_new_gap(0, kFrame));
   right(0);
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_SEGMENT));
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap was sent before the segment";
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_SEGMENT));
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_GAP)) << "the gap was sent before the segment";
 }
 
 TEST_F(Stream, SendsTheSegmentBeforeAGapAfterAFlush) {
-  harness.push_pair(pair, 0);
-  ASSERT_TRUE(harness.pull());
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
   for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 7);
   for (const Side side : {Side::kLeft, Side::kRight}) end_flush(side, 7);
-  ASSERT_TRUE(harness.pull_event(GST_EVENT_FLUSH_STOP));
-  harness.event(Side::kLeft, gst_event_new_gap(0, kFrame));
+  ASSERT_TRUE(harness->pull_event(GST_EVENT_FLUSH_STOP));
+  harness->event(Side::kLeft, gst_event_new_gap(0, kFrame));
   right(0);
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_SEGMENT));
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_GAP)) << "the gap was sent before the segment";
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_SEGMENT));
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_GAP)) << "the gap was sent before the segment";
 }
 
 TEST(StreamStart, IgnoresAGapBeforeTheSegment) {
@@ -226,42 +218,42 @@ TEST(StreamStart, IgnoresAGapBeforeTheSegment) {
 }
 
 TEST_F(Stream, DropsLeftFramesInAGapOfTheRightStream) {
-  harness.push_pair(pair, 0);
-  ASSERT_TRUE(harness.pull());
-  harness.event(Side::kRight, gst_event_new_gap(kFrame, kFrame));
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
+  harness->event(Side::kRight, gst_event_new_gap(kFrame, kFrame));
   left(kFrame);
   right(2 * kFrame);
   left(2 * kFrame);
-  const BufferPointer map = harness.pull();
+  const BufferPointer map = harness->pull();
   ASSERT_TRUE(map);
   EXPECT_EQ(GST_BUFFER_PTS(map.get()), 2 * kFrame);
-  EXPECT_TRUE(harness.wait_for_stats(2, 1, 0));
+  EXPECT_TRUE(harness->wait_for_stats(2, 1, 0));
 }
 
 TEST_F(Stream, AFlushDiscardsWaitingFrames) {
-  harness.push_pair(pair, 0);
-  ASSERT_TRUE(harness.pull());
+  harness->push_pair(pair, 0);
+  ASSERT_TRUE(harness->pull());
   left(kFrame);
   for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 7);
   for (const Side side : {Side::kLeft, Side::kRight}) end_flush(side, 7);
-  EXPECT_TRUE(harness.pull_event(GST_EVENT_FLUSH_STOP));
-  harness.push_pair(pair, 0);
-  const BufferPointer map = harness.pull();
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_FLUSH_STOP));
+  harness->push_pair(pair, 0);
+  const BufferPointer map = harness->pull();
   ASSERT_TRUE(map);
   EXPECT_EQ(GST_BUFFER_PTS(map.get()), 0u);
-  EXPECT_TRUE(harness.wait_for_stats(2, 0, 0));
+  EXPECT_TRUE(harness->wait_for_stats(2, 0, 0));
 }
 
 TEST_F(Stream, AFlushAfterTheEndRestartsTheStream) {
-  harness.push_pair(pair, 0);
-  harness.end(Side::kLeft);
-  harness.end(Side::kRight);
-  ASSERT_TRUE(harness.pull_event(GST_EVENT_EOS));
-  ASSERT_TRUE(harness.pull());
+  harness->push_pair(pair, 0);
+  harness->end(Side::kLeft);
+  harness->end(Side::kRight);
+  ASSERT_TRUE(harness->pull_event(GST_EVENT_EOS));
+  ASSERT_TRUE(harness->pull());
   for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 9);
   for (const Side side : {Side::kLeft, Side::kRight}) end_flush(side, 9);
-  harness.push_pair(pair, 0);
-  EXPECT_TRUE(harness.pull());
+  harness->push_pair(pair, 0);
+  EXPECT_TRUE(harness->pull());
 }
 
 TEST_F(Stream, ReleasesInputFrames) {
@@ -269,11 +261,11 @@ TEST_F(Stream, ReleasesInputFrames) {
   GstBuffer* right = frame_buffer(pair.right, 0, kFrame);
   const BufferPointer left_keeper(gst_buffer_ref(left));
   const BufferPointer right_keeper(gst_buffer_ref(right));
-  harness.push(Side::kLeft, left);
-  harness.push(Side::kRight, right);
-  ASSERT_TRUE(harness.pull());
-  harness.push_pair(pair, kFrame);  // when its map is there, the previous step is complete
-  ASSERT_TRUE(harness.pull());
+  harness->push(Side::kLeft, left);
+  harness->push(Side::kRight, right);
+  ASSERT_TRUE(harness->pull());
+  harness->push_pair(pair, kFrame);  // when its map is there, the previous step is complete
+  ASSERT_TRUE(harness->pull());
   EXPECT_EQ(GST_MINI_OBJECT_REFCOUNT_VALUE(left_keeper.get()), 1);
   EXPECT_EQ(GST_MINI_OBJECT_REFCOUNT_VALUE(right_keeper.get()), 1);
 }

@@ -7,8 +7,8 @@
 #include <chrono>
 #include <future>
 
+#include "support/fixtures.hpp"
 #include "support/pipeline.hpp"
-#include "support/stereo_harness.hpp"
 
 namespace mtstereo::test {
 namespace {
@@ -17,18 +17,11 @@ constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 constexpr const char* kShort = "max-disparity=16 timeout=100000000";
 
-class SilentPad : public testing::Test {
+class SilentPad : public StreamsTest {
  protected:
   void start(const std::string& properties = kShort, bool live = false) {
-    harness = std::make_unique<StereoHarness>(properties, live);
-    harness->caps(raw_caps("GRAY8", kWidth, kHeight));
+    StreamsTest::start(properties, live);
   }
-  void push(Side side, GstClockTime time) {
-    harness->push(side, frame_buffer(side == Side::kLeft ? pair.left : pair.right, time, kFrame));
-  }
-
-  Pair pair = noise_pair(kWidth, kHeight, 5, 3);
-  std::unique_ptr<StereoHarness> harness;
 };
 
 TEST_F(SilentPad, IsNamedInAWarning) {

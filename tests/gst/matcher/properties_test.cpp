@@ -5,31 +5,12 @@
 #include <string_view>
 #include <thread>
 
-#include "support/stereo_harness.hpp"
+#include "support/fixtures.hpp"
 
 namespace mtstereo::test {
 namespace {
 
-class Properties : public testing::Test {
- protected:
-  void SetUp() override { element = make_element(""); }
-  void TearDown() override { gst_object_unref(element); }
-  GParamSpec* find(const char* name) {
-    return g_object_class_find_property(G_OBJECT_GET_CLASS(element), name);
-  }
-  std::string text(const char* name) {
-    GValue value = G_VALUE_INIT;
-    g_object_get_property(G_OBJECT(element), name, &value);
-    gchar* serialized =
-        G_VALUE_HOLDS_STRING(&value) ? g_value_dup_string(&value) : gst_value_serialize(&value);
-    std::string result = serialized;
-    g_free(serialized);
-    g_value_unset(&value);
-    return result;
-  }
-
-  GstElement* element = nullptr;
-};
+class Properties : public ElementTest {};
 
 TEST_F(Properties, SayWhichAreForExpertsAndWhatTheDefaultsAre) {
   const auto blurb = [this](const char* name) {
@@ -99,8 +80,8 @@ TEST_F(Properties, FollowPresetAndModeUnlessSet) {
       Parameters expected;
       ASSERT_TRUE(expected.set(Parameter::kPreset, std::string_view(preset)).ok());
       ASSERT_TRUE(expected.set(Parameter::kMode, std::string_view(mode)).ok());
-      gst_util_set_object_arg(G_OBJECT(element), "preset", preset);
-      gst_util_set_object_arg(G_OBJECT(element), "mode", mode);
+      set("preset", preset);
+      set("mode", mode);
       for (const ParameterInfo& info : parameter_table()) {
         if (info.type == ParameterType::kNumber) continue;  // formatted differently
         EXPECT_EQ(text(info.name), expected.text(info.id)) << info.name;
@@ -114,13 +95,13 @@ TEST_F(Properties, FollowPresetAndModeUnlessSet) {
 
 TEST_F(Properties, DoNotFollowTheModeIfSet) {
   g_object_set(element, "gray-levels", 11, nullptr);
-  gst_util_set_object_arg(G_OBJECT(element), "mode", "sparse");
+  set("mode", "sparse");
   EXPECT_EQ(text("gray-levels"), "11");
 }
 
 TEST_F(Properties, TakeChoicesByWord) {
   for (const char* word : {"sparse", "semi-dense", "dense", "full"}) {
-    gst_util_set_object_arg(G_OBJECT(element), "mode", word);
+    set("mode", word);
     EXPECT_EQ(text("mode"), word);
   }
 }
