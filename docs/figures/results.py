@@ -116,9 +116,10 @@ def cell(figures):
 
 
 def families_table(found):
+    order = sorted(found["families"], key=[*MODES, *BASELINES.values()].index)
     return table(["D-all % at density %", *FAMILIES],
-                 [[f"`{name}`" if name in MODES else name, *map(cell, row.values())]
-                  for name, row in found["families"].items()])
+                 [[f"`{name}`" if name in MODES else name, *map(cell, found["families"][name].values())]
+                  for name in order])
 
 
 def degraded_table(found):
