@@ -34,7 +34,7 @@ struct FrameResult {
   /// a disparity. It combines how many neighboring pixels have a consistent disparity with how much
   /// worse their second-best disparities were.
   GrayView confidence;
-  FrameStatistics statistics;  ///< density and resolution of the frame
+  FrameStatistics statistics;  ///< of this frame
 };
 
 /// Finds the disparity of the left image of a rectified pair, by MTStereo 2.0 as published

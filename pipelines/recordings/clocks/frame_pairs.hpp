@@ -35,9 +35,9 @@ struct ClockEstimate {
 std::optional<double> find_offset(const Recording& recording, const FrameIndex& left,
                                   const FrameIndex& right);
 
-/// Finds offset and drift from the pictures, as docs/appendix/clocks.md describes. A recording whose frames
-/// are together already gets exactly the relation 0, 0. Throws RunError if the pictures do not
-/// decide; the message states why and how to give the offset by hand.
+/// Finds offset and drift from the pictures, as docs/appendix/clocks.md describes. A recording
+/// whose frames are together already gets exactly the relation 0, 0. Throws RunError if the
+/// pictures do not decide; the message states why and how to give the offset by hand.
 ClockEstimate estimate_clocks(const Recording& recording, const FrameIndex& left,
                               const FrameIndex& right);
 
