@@ -53,28 +53,11 @@ int matched_disparities(Resolution resolution, int view_disparities) {
 }  // namespace
 
 Settings::Settings(const Parameters& p)
-    : mode(p.mode()),
-      chooses_resolution(choice<Resolution>(p) == Resolution::kAuto),
+    : set_(p),
       resolution(first_resolution(p)),
-      cost(choice<Cost>(p)),
-      threads(p.integer(P::kThreads)),
-      min_disparity(p.integer(P::kMinDisparity)),
       view_disparities(mtstereo::view_disparities(p)),
       disparities(matched_disparities(resolution, view_disparities)),
-      noise_filter(p.get(P::kNoiseFilter) != 0),
-      guide(choice<Guide>(p)),
-      gray_levels(p.integer(P::kGrayLevels)),
-      min_node_width(p.integer(P::kMinNodeWidth)),
-      max_node_width(p.get(P::kMaxNodeWidth)),
-      node_levels(p.node_levels()),
-      max_neighbors(p.integer(P::kMaxNeighbors)),
-      cost_kernel_size(p.integer(P::kCostKernelSize)),
-      cost_volume(choice<CostVolumeResolution>(p)),
-      intensity_weight(static_cast<float>(p.get(P::kIntensityWeight))),
       node_acceptance{static_cast<float>(share(p, P::kNodeConfidence)), most_node_cost(p)},
-      outlier_radius(p.integer(P::kOutlierRadius)),
-      outlier_removal(choice<OutlierRemoval>(p)),
-      census_scales(p.integer(P::kCensusScales)),
       search_range{share(p, P::kPixelSearchRange), choice<BetweenNodes>(p), disparities},
       census_cost{disparities, p.integer(P::kCensusKernelSize), p.integer(P::kRangePenalty)},
       smoothness{p.integer(P::kSmallStepPenalty), p.integer(P::kLargeStepPenalty)},
@@ -83,13 +66,7 @@ Settings::Settings(const Parameters& p)
                 choice<RunnerUp>(p) == RunnerUp::kExpected,
                 p.integer(P::kLeftRightTolerance),
                 p.get(P::kSubpixel) != 0,
-                ratio_offset(p)},
-      speckle_size(p.integer(P::kSpeckleSize)),
-      min_confidence(p.integer(P::kMinConfidence)),
-      thin_objects(p.get(P::kThinObjects) != 0),
-      node_end_width(p.integer(P::kNodeEndWidth)),
-      max_gap(p.integer(P::kMaxGap)),
-      smoothing_radius(p.integer(P::kSmoothingRadius)) {}
+                ratio_offset(p)} {}
 
 void Settings::match_at(Resolution chosen) {
   resolution = chosen;

@@ -22,47 +22,53 @@ namespace mtstereo {
 /// starts, and the correction of its views. The parameter table states the meaning of each field.
 /// Lengths in px count pixels of the matched resolution unless stated otherwise.
 struct Settings {
+ private:
+  using P = Parameter;
+  Parameters set_;  // for the values below
+
+ public:
   explicit Settings(const Parameters& parameters);
 
-  Mode mode;
-  bool chooses_resolution;  ///< for each frame; a ResolutionChoice calls match_at()
-  Resolution resolution;    ///< of the frame, never Resolution::kAuto
-  Cost cost;
-  int threads;           ///< 0: one per processor
-  int min_disparity;     ///< the smallest one [px of the views]
-  int view_disparities;  ///< D, from the smallest one on [px of the views]
-  int disparities;       ///< D [px]
-  bool noise_filter;
+  Mode mode = set_.mode();
+  /// For each frame; a ResolutionChoice calls match_at().
+  bool chooses_resolution = choice<Resolution>(set_) == Resolution::kAuto;
+  Resolution resolution;  ///< of the frame, never Resolution::kAuto
+  Cost cost = choice<Cost>(set_);
+  int threads = set_.integer(P::kThreads);             ///< 0: one per processor
+  int min_disparity = set_.integer(P::kMinDisparity);  ///< the smallest one [px of the views]
+  int view_disparities;                                ///< D, from there on [px of the views]
+  int disparities;                                     ///< D [px]
+  bool noise_filter = set_.get(P::kNoiseFilter) != 0;
 
-  Guide guide;
+  Guide guide = choice<Guide>(set_);
 
   // nodes
-  int gray_levels;                 ///< q
-  int min_node_width;              ///< omega_alpha [px]
-  double max_node_width;           ///< omega_beta, fraction of the image's width
-  Parameters::Levels node_levels;  ///< S
-  int max_neighbors;               ///< omega_gamma [rows]
-  int cost_kernel_size;            ///< omega_cv [px]
-  CostVolumeResolution cost_volume;
-  float intensity_weight;  ///< alpha, 0 .. 1
+  int gray_levels = set_.integer(P::kGrayLevels);           ///< q
+  int min_node_width = set_.integer(P::kMinNodeWidth);      ///< omega_alpha [px]
+  double max_node_width = set_.get(P::kMaxNodeWidth);       ///< omega_beta, fraction of the width
+  Parameters::Levels node_levels = set_.node_levels();      ///< S
+  int max_neighbors = set_.integer(P::kMaxNeighbors);       ///< omega_gamma [rows]
+  int cost_kernel_size = set_.integer(P::kCostKernelSize);  ///< omega_cv [px]
+  CostVolumeResolution cost_volume = choice<CostVolumeResolution>(set_);
+  float intensity_weight = static_cast<float>(set_.get(P::kIntensityWeight));  ///< alpha, 0 .. 1
   NodeAcceptance node_acceptance;
-  int outlier_radius;  ///< [px], 0 = no outlier removal
-  OutlierRemoval outlier_removal;
+  int outlier_radius = set_.integer(P::kOutlierRadius);  ///< [px], 0 = no outlier removal
+  OutlierRemoval outlier_removal = choice<OutlierRemoval>(set_);
 
   // pixels
-  int census_scales;
+  int census_scales = set_.integer(P::kCensusScales);
   SearchRangeOptions search_range;
   CensusCostOptions census_cost;
   SmoothnessOptions smoothness;  ///< [bits]
   SelectionOptions selection;
 
   // refinement
-  int speckle_size;      ///< [px]
-  int min_confidence;    ///< 0 .. 255
-  bool thin_objects;     ///< whether they are kept, and gaps guarded
-  int node_end_width;    ///< [px]
-  int max_gap;           ///< [px]
-  int smoothing_radius;  ///< [px]
+  int speckle_size = set_.integer(P::kSpeckleSize);      ///< [px]
+  int min_confidence = set_.integer(P::kMinConfidence);  ///< 0 .. 255
+  bool thin_objects = set_.get(P::kThinObjects) != 0;   ///< whether they are kept, and gaps guarded
+  int node_end_width = set_.integer(P::kNodeEndWidth);  ///< [px]
+  int max_gap = set_.integer(P::kMaxGap);               ///< [px]
+  int smoothing_radius = set_.integer(P::kSmoothingRadius);  ///< [px]
 
   /// What is done to the input views; no parameter sets it.
   ViewCorrection correction;

@@ -3,19 +3,20 @@
 
 #include <array>
 #include <string_view>
+#include <tuple>
 
 #include "mtstereo/parameters.hpp"
 
 namespace mtstereo {
 
 /// One enum for each parameter whose value is one of several words. The enum values are the indices
-/// of the words. ChoiceOf binds the enum to the parameter and the words; the parameter table is
-/// checked against ChoiceOf at compile time. Preset and Mode are public.
+/// of the words. ChoiceOf binds the enum to the parameter and the words. Preset and Mode are
+/// public.
 
 /// Resolution at which the views are matched. kAuto: full or half-refined, chosen for each frame.
 enum class Resolution { kFull, kHalfRefined, kHalf, kAuto };
 
-/// What says which disparities are expected of a pixel.
+/// Source of the disparities that are expected of a pixel.
 enum class Guide { kNodes, kPyramid };
 
 /// Matching cost of nodes and pixels.
@@ -91,6 +92,10 @@ struct ChoiceOf<RunnerUp> {
   static constexpr Parameter kParameter = Parameter::kRunnerUp;
   static constexpr std::array<std::string_view, 2> kWords = {"any", "expected"};
 };
+
+/// The enums of all choices.
+using Choices = std::tuple<Preset, Mode, Resolution, Guide, Cost, CostVolumeResolution,
+                           OutlierRemoval, BetweenNodes, RunnerUp>;
 
 /// The effective value of a choice.
 template <typename Enum>

@@ -38,53 +38,23 @@ inline constexpr int kLargestMaxDisparity = 1984;
 /// Largest width and largest height of an image [px].
 inline constexpr int kLargestImageSide = 16384;
 
-/// The parameters, in the order of parameter_table(). Each one is described by its row there
-/// (parameter_info()) and in docs/parameters.md.
+/// The parameters, in the order of parameter_table(): the first words of the rows of
+/// parameters.def. Each one is described by its row (parameter_info()) and in docs/parameters.md.
 enum class Parameter {
-  kPreset,
-  kMode,
-  kMaxDisparity,
-  kMinDisparity,
-  kResolution,
-  kThreads,
-  kNoiseFilter,
-  kGuide,
-  kGrayLevels,
-  kMinNodeWidth,
-  kMaxNodeWidth,
-  kNodeLevels,
-  kMaxNeighbors,
-  kCost,
-  kCostKernelSize,
-  kCostVolume,
-  kIntensityWeight,
-  kNodeConfidence,
-  kOutlierRadius,
-  kOutlierRemoval,
-  kCensusScales,
-  kCensusKernelSize,
-  kPixelSearchRange,
-  kBetweenNodes,
-  kRangePenalty,
-  kSmallStepPenalty,
-  kLargeStepPenalty,
-  kPixelConfidence,
-  kRunnerUp,
-  kLeftRightTolerance,
-  kSubpixel,
-  kSpeckleSize,
-  kMinConfidence,
-  kThinObjects,
-  kNodeEndWidth,
-  kMaxGap,
-  kSmoothingRadius,
+#define MTSTEREO_PARAMETER(id, ...) id,
+#include "mtstereo/parameters.def"
+#undef MTSTEREO_PARAMETER
 };
 
 /// Largest number of choices of a ParameterType::kChoice.
 inline constexpr int kMostChoices = 4;
 
 /// Number of parameters.
-inline constexpr int kParameters = static_cast<int>(Parameter::kSmoothingRadius) + 1;
+#define MTSTEREO_PARAMETER(id, ...) +1
+inline constexpr int kParameters = 0
+#include "mtstereo/parameters.def"
+    ;
+#undef MTSTEREO_PARAMETER
 
 /// The type of a parameter's value.
 enum class ParameterType {

@@ -12,6 +12,7 @@
 #include "mtstereo/mtstereo.hpp"
 #include "support/compare.hpp"
 #include "support/matching.hpp"
+#include "support/parameter_samples.hpp"
 #include "support/random.hpp"
 
 namespace mtstereo {
@@ -61,96 +62,14 @@ TEST(Matcher, KeepsTheLastResultWhenTheResolutionChanges) {
   }
 }
 
-/// A set of parameters, and another value of one of them that changes the result.
-struct Change {
-  std::vector<std::pair<const char*, std::string>> base;
-  const char* value;
-};
-
-Change change_of(Parameter id) {
-  switch (id) {
-    case Parameter::kPreset:
-      return {{}, "paper"};
-    case Parameter::kMode:
-      return {{}, "sparse"};
-    case Parameter::kMaxDisparity:
-      return {{}, "15"};
-    case Parameter::kMinDisparity:
-      return {{}, "12"};
-    case Parameter::kResolution:
-      return {{}, "half"};
-    case Parameter::kMaxNodeWidth:
-      return {{{"preset", "paper"}}, "0.05"};
-    case Parameter::kIntensityWeight:
-      return {{{"preset", "paper"}}, "0.2"};
-    case Parameter::kNodeLevels:
-      return {{{"preset", "paper"}}, "0"};
-    case Parameter::kCostVolume:
-      return {{{"preset", "paper"}}, "full"};
-    case Parameter::kOutlierRemoval:  // with costs that leave outliers
-      return {{{"preset", "paper"},
-               {"cost", "census"},
-               {"census-kernel-size", "1"},
-               {"large-step-penalty", "0"},
-               {"range-penalty", "0"},
-               {"pixel-confidence", "0"},
-               {"between-nodes", "all"}},
-              "nodes"};
-    case Parameter::kGuide:
-      return {{}, "nodes"};
-    case Parameter::kCost:
-      return {{}, "gradient"};
-    case Parameter::kPixelSearchRange:
-      return {{{"preset", "paper"}}, "90"};
-    case Parameter::kBetweenNodes:
-      return {{{"guide", "nodes"}}, "none"};
-    case Parameter::kRangePenalty:
-      return {{{"min-confidence", "0"}, {"large-step-penalty", "0"}}, "24"};
-    case Parameter::kPixelConfidence:
-      return {{}, "60"};
-    case Parameter::kThinObjects:  // with wrong disparities in the gaps
-      return {{{"large-step-penalty", "0"},
-               {"range-penalty", "0"},
-               {"pixel-confidence", "0"},
-               {"left-right-tolerance", "-1"},
-               {"max-gap", "30"}},
-              "false"};
-    case Parameter::kRunnerUp:
-      return {{{"preset", "paper"}}, "any"};
-    case Parameter::kLeftRightTolerance:
-      return {{}, "0"};
-    case Parameter::kCensusScales:
-      return {{}, "1"};
-    case Parameter::kCensusKernelSize:
-      return {{}, "3"};
-    case Parameter::kNoiseFilter:
-    case Parameter::kSubpixel:
-      return {{}, "false"};
-    case Parameter::kSpeckleSize:
-      return {{}, "65535"};
-    case Parameter::kNodeEndWidth:
-      return {{{"mode", "sparse"}}, "1"};
-    case Parameter::kMaxGap:
-      return {{}, "0"};
-    case Parameter::kSmallStepPenalty:
-    case Parameter::kLargeStepPenalty:
-    case Parameter::kMinConfidence:
-    case Parameter::kSmoothingRadius:
-    case Parameter::kThreads:
-      return {{}, "3"};
-    default:
-      return {{{"preset", "paper"}}, "3"};
-  }
-}
-
 TEST(Matcher, AppliesParametersAtTheNextFrame) {
   const Pair pair = test::slanted_pair(160, 50, 20, 3);
-  for (const ParameterInfo& info : parameter_table()) {
-    const Change change = change_of(info.id);
+  for (const test::ParameterSample& sample : test::parameter_samples()) {
+    const ParameterInfo& info = *find_parameter(sample.name);
     Parameters base;
-    for (const auto& [name, text] : change.base) test::set_all(base, {{name, text}});
+    for (const auto& [name, text] : sample.base) test::set_all(base, {{name, text}});
     Parameters changed = base;
-    ASSERT_TRUE(changed.set(info.id, std::string_view(change.value)).ok()) << info.name;
+    test::set_all(changed, {{sample.name, sample.other}});
     SCOPED_TRACE(info.name + (" = " + changed.text(info.id)));
 
     Matcher matcher = std::move(Matcher::create(base).value());

@@ -8,11 +8,12 @@
 #include "parameters/choices.hpp"
 #include "parameters/parameter_text.hpp"
 #include "support/matching.hpp"
+#include "support/parameter_samples.hpp"
 
 namespace mtstereo {
 namespace {
 
-/// The expected value of a setting for a value of a parameter.
+/// The expected value of what is derived from a parameter.
 struct Mapping {
   const char* name;
   const char* text;
@@ -29,9 +30,6 @@ double column_paths(const Settings& settings, int level) {
 }
 
 const Mapping kMappings[] = {
-    {"mode", "sparse", 0, [](const Settings& s) { return static_cast<int>(s.mode); }},
-    {"mode", "dense", 2, [](const Settings& s) { return static_cast<int>(s.mode); }},
-    {"mode", "full", 3, [](const Settings& s) { return static_cast<int>(s.mode); }},
     {"mode", "full", 1, [](const Settings& s) { return s.by_paths(); }},
     {"mode", "dense", 1, [](const Settings& s) { return s.by_paths(); }},
     {"mode", "semi-dense", 1, [](const Settings& s) { return s.by_paths(); }},
@@ -59,8 +57,6 @@ const Mapping kMappings[] = {
      [](const Settings& s) { return s.path_matching(0).cost.range_penalty; }},
     {"range-penalty", "6", 2,
      [](const Settings& s) { return s.path_matching(1).cost.range_penalty; }},
-    {"max-disparity", "77", 77, [](const Settings& s) { return s.view_disparities; }},
-    {"min-disparity", "-9", -9, [](const Settings& s) { return s.min_disparity; }},
     {"min-disparity", "-9", 73, [](const Settings& s) { return s.view_disparities; }},
     {"min-disparity", "9", 55, [](const Settings& s) { return s.disparities; }},
     {"min-disparity", "0", 0, [](const Settings& s) { return s.shifted(); }},
@@ -77,64 +73,37 @@ const Mapping kMappings[] = {
     {"resolution", "auto", 1, [](const Settings& s) { return s.chooses_resolution; }},
     {"resolution", "full", 0, [](const Settings& s) { return s.chooses_resolution; }},
     {"resolution", "half", 32, [](const Settings& s) { return s.disparities; }},
-    {"threads", "5", 5, [](const Settings& s) { return s.threads; }},
-    {"noise-filter", "false", 0, [](const Settings& s) { return s.noise_filter; }},
-    {"noise-filter", "true", 1, [](const Settings& s) { return s.noise_filter; }},
-    {"gray-levels", "33", 33, [](const Settings& s) { return s.gray_levels; }},
-    {"min-node-width", "4", 4, [](const Settings& s) { return s.min_node_width; }},
-    {"max-node-width", "0.25", 0.25, [](const Settings& s) { return s.max_node_width; }},
-    {"node-levels", "7,2,0", 3, [](const Settings& s) { return s.node_levels.count; }},
     {"node-levels", "7,2,0", 2, [](const Settings& s) { return s.node_levels.level[1]; }},
-    {"max-neighbors", "21", 21, [](const Settings& s) { return s.max_neighbors; }},
     {"cost", "census", 1, [](const Settings& s) { return s.census(); }},
     {"cost", "gradient", 0, [](const Settings& s) { return s.census(); }},
-    {"cost-kernel-size", "13", 13, [](const Settings& s) { return s.cost_kernel_size; }},
-    {"cost-volume", "full", 1, [](const Settings& s) { return static_cast<int>(s.cost_volume); }},
-    {"intensity-weight", "0.75", 0.75, [](const Settings& s) { return s.intensity_weight; }},
-    {"node-confidence", "25", 0.25, [](const Settings& s) { return s.node_acceptance.confidence; }},
-    {"outlier-radius", "9", 9, [](const Settings& s) { return s.outlier_radius; }},
-    {"outlier-removal", "nodes-and-pixels", 1,
-     [](const Settings& s) { return static_cast<int>(s.outlier_removal); }},
-    {"census-scales", "1", 1, [](const Settings& s) { return s.census_scales; }},
-    {"census-scales", "2", 2, [](const Settings& s) { return s.census_scales; }},
     {"census-kernel-size", "3", 60, [](const Settings& s) { return s.selection.ratio_offset; }},
-    {"census-kernel-size", "3", 3, [](const Settings& s) { return s.census_cost.kernel_size; }},
-    {"pixel-search-range", "30", 0.3, [](const Settings& s) { return s.search_range.range; }},
-    {"between-nodes", "span", 1,
-     [](const Settings& s) { return static_cast<int>(s.search_range.between_nodes); }},
-    {"range-penalty", "6", 6, [](const Settings& s) { return s.census_cost.range_penalty; }},
-    {"small-step-penalty", "7", 7, [](const Settings& s) { return s.smoothness.small_step; }},
-    {"large-step-penalty", "8", 8, [](const Settings& s) { return s.smoothness.large_step; }},
-    {"pixel-confidence", "50", 0.5, [](const Settings& s) { return s.selection.confidence; }},
-    {"runner-up", "expected", 1, [](const Settings& s) { return s.selection.runner_up_in_range; }},
-    {"runner-up", "any", 0, [](const Settings& s) { return s.selection.runner_up_in_range; }},
-    {"left-right-tolerance", "-1", -1,
-     [](const Settings& s) { return s.selection.left_right_tolerance; }},
-    {"subpixel", "false", 0, [](const Settings& s) { return s.selection.subpixel; }},
-    {"speckle-size", "123", 123, [](const Settings& s) { return s.speckle_size; }},
-    {"min-confidence", "99", 99, [](const Settings& s) { return s.min_confidence; }},
-    {"thin-objects", "false", 0, [](const Settings& s) { return s.thin_objects; }},
-    {"node-end-width", "15", 15, [](const Settings& s) { return s.node_end_width; }},
-    {"max-gap", "44", 44, [](const Settings& s) { return s.max_gap; }},
-    {"smoothing-radius", "3", 3, [](const Settings& s) { return s.smoothing_radius; }},
 };
 
-TEST(Settings, ConvertEachParameterToItsUnit) {
+TEST(Settings, HaveEachParameterInItsUnit) {
+  for (const test::ParameterSample& sample : test::parameter_samples()) {
+    if (sample.setting == nullptr) continue;
+    for (const std::string& value : sample.values) {
+      const Parameters parameters = test::parameters({{sample.name, value}});
+      const double number = parameters.get(find_parameter(sample.name)->id);
+      EXPECT_FLOAT_EQ(static_cast<float>(number * sample.unit),
+                      static_cast<float>(sample.setting(Settings(parameters))))
+          << sample.name << " = " << value;
+    }
+  }
+}
+
+TEST(Settings, SamplesAreThoseOfTheTable) {
+  const auto& samples = test::parameter_samples();
+  ASSERT_EQ(static_cast<std::size_t>(kParameters), samples.size());
+  for (int i = 0; i < kParameters; ++i) EXPECT_STREQ(parameter_table()[i].name, samples[i].name);
+}
+
+TEST(Settings, DeriveOtherValuesFromParameters) {
   for (const Mapping& mapping : kMappings) {
     const Settings settings(test::parameters({{mapping.name, mapping.text}}));
     EXPECT_FLOAT_EQ(static_cast<float>(mapping.expected),
                     static_cast<float>(mapping.field(settings)))
         << mapping.name << " = " << mapping.text;
-  }
-}
-
-TEST(Settings, MappingsCoverEveryParameter) {
-  for (const ParameterInfo& info : parameter_table()) {
-    if (info.id == Parameter::kPreset) continue;  // it only selects defaults
-    const bool tested = std::any_of(
-        std::begin(kMappings), std::end(kMappings),
-        [&](const Mapping& mapping) { return std::string_view(mapping.name) == info.name; });
-    EXPECT_TRUE(tested) << info.name;
   }
 }
 
@@ -201,15 +170,13 @@ void expect_choice() {
   }
 }
 
+template <typename... Enums>
+void expect_choices(std::tuple<Enums...>*) {
+  (expect_choice<Enums>(), ...);
+}
+
 TEST(Choices, EnumValuesAreTheIndicesOfTheWordsInTheTable) {
-  expect_choice<Preset>();
-  expect_choice<Mode>();
-  expect_choice<Resolution>();
-  expect_choice<Cost>();
-  expect_choice<CostVolumeResolution>();
-  expect_choice<OutlierRemoval>();
-  expect_choice<BetweenNodes>();
-  expect_choice<RunnerUp>();
+  expect_choices(static_cast<Choices*>(nullptr));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "support/compare.hpp"
 #include "support/matching.hpp"
 #include "support/padded_image.hpp"
+#include "support/parameter_samples.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 #include "support/watching.hpp"
@@ -17,53 +18,20 @@ using test::GrayPlane;
 using test::Random;
 using test::same_image;
 
-template <std::size_t N>
-std::string one_of(Random& random, const char* const (&choices)[N]) {
-  return choices[random.below(static_cast<int>(N))];
-}
-
 /// Random values of all parameters, chosen to fit images of this width.
 Parameters random_parameters(int width, Random& random) {
+  Parameters parameters;
+  for (const test::ParameterSample& sample : test::parameter_samples()) {
+    const auto value =
+        static_cast<std::size_t>(random.below(static_cast<int>(sample.values.size())));
+    test::set_all(parameters, {{sample.name, sample.values[value]}});
+  }
   const int most = random.between(1, width);
   const int least = random.below(3) == 0 ? random.between(-12, most - 1) : 0;
-  return test::parameters({
-      {"preset", one_of(random, {"default", "fast", "paper"})},
-      {"mode", one_of(random, {"sparse", "semi-dense", "dense", "full"})},
-      {"max-disparity", std::to_string(most)},
-      {"min-disparity", std::to_string(least)},
-      {"resolution", one_of(random, {"full", "full", "half", "half-refined"})},
-      {"threads", one_of(random, {"1", "2", "3"})},
-      {"noise-filter", one_of(random, {"true", "false"})},
-      {"gray-levels", one_of(random, {"2", "8", "16", "37", "256"})},
-      {"min-node-width", width > 24 ? one_of(random, {"0", "0", "1", "2"}) : "0"},
-      {"max-node-width", one_of(random, {"0.5", "0.5", "0.4", "1"})},
-      {"node-levels", one_of(random, {"1,0", "1,0", "0", "2,0", "2,1,0", "5,3,0", "9,0"})},
-      {"max-neighbors", one_of(random, {"10", "0", "1", "3", "25"})},
-      {"cost-kernel-size", one_of(random, {"21", "1", "3", "9", "41"})},
-      {"cost-volume", one_of(random, {"half", "full"})},
-      {"intensity-weight", one_of(random, {"0.8", "0", "0.5", "1"})},
-      {"node-confidence", one_of(random, {"12", "0", "0", "3"})},
-      {"outlier-radius", one_of(random, {"21", "0", "1", "6", "31"})},
-      {"outlier-removal", one_of(random, {"nodes", "nodes-and-pixels"})},
-      {"cost", one_of(random, {"census", "census", "gradient"})},
-      {"census-scales", one_of(random, {"1", "2"})},
-      {"census-kernel-size", one_of(random, {"5", "3", "1"})},
-      {"pixel-search-range", one_of(random, {"15", "0", "60", "100"})},
-      {"between-nodes", one_of(random, {"all", "span", "none"})},
-      {"range-penalty", one_of(random, {"2", "0", "5", "24"})},
-      {"small-step-penalty", one_of(random, {"4", "0", "1", "50"})},
-      {"large-step-penalty", one_of(random, {"30", "0", "3", "50"})},
-      {"pixel-confidence", one_of(random, {"4", "0", "12"})},
-      {"runner-up", one_of(random, {"any", "expected"})},
-      {"left-right-tolerance", one_of(random, {"1", "-1", "0", "5"})},
-      {"subpixel", one_of(random, {"true", "false"})},
-      {"speckle-size", one_of(random, {"0", "0", "1", "5", "20"})},
-      {"min-confidence", one_of(random, {"0", "0", "0", "40", "90", "200"})},
-      {"thin-objects", one_of(random, {"true", "false"})},
-      {"node-end-width", one_of(random, {"3", "1", "9", "31"})},
-      {"max-gap", one_of(random, {"0", "1", "6", "30"})},
-      {"smoothing-radius", one_of(random, {"0", "0", "1", "3", "31"})},
-  });
+  test::set_all(parameters, {{"max-disparity", std::to_string(most)},
+                             {"min-disparity", std::to_string(least)}});
+  if (width <= 24) test::set_all(parameters, {{"min-node-width", "0"}});
+  return parameters;
 }
 
 std::string text_of(const Parameters& parameters) {

@@ -16,7 +16,7 @@ TEST_F(Properties, SayWhichAreForExpertsAndWhatTheDefaultsAre) {
   const auto blurb = [this](const char* name) {
     return std::string(g_param_spec_get_blurb(find(name)));
   };
-  EXPECT_EQ(0U, blurb("mode").find("Which pixels get a disparity"));
+  EXPECT_EQ(0U, blurb("mode").find("Density of the map"));
   EXPECT_EQ(0U, blurb("max-disparity").find("The disparities min-disparity"));
   EXPECT_EQ(0U, blurb("census-kernel-size").find("Expert: side of the window"));
   EXPECT_EQ(0U, blurb("cost-volume").find("Expert: resolution of"));
