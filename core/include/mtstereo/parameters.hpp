@@ -49,8 +49,8 @@ enum class Parameter {
 /// Largest number of choices of a ParameterType::kChoice.
 inline constexpr int kMostChoices = 4;
 
-/// Number of parameters.
 #define MTSTEREO_PARAMETER(id, ...) +1
+/// Number of parameters.
 inline constexpr int kParameters = 0
 #include "mtstereo/parameters.def"
     ;
