@@ -19,7 +19,7 @@ void Maps::resize(const Settings& settings, const FrameSize& size) {
   if (settings.thin_objects) {
     thin.resize(width, height);
     columns.resize(height, width);
-    withheld.resize(width, height);
+    unfiltered.resize(width, height);
   }
   if (settings.smoothing_radius > 0) smoothed.resize(width, height);
   scratch.resize(size.threads);
@@ -62,17 +62,18 @@ void follow_chains(const Views& views, ForLines&& lines, Maps& maps) {
   link_thin_runs(maps.thin);
   lines([&](int line0, int line1, int) { rate_thin_runs(matched, line0, line1, maps.thin); });
   accept_chains(maps.thin);
-  lines(
-      [&](int line0, int line1, int) { mark_thin_pixels(maps.thin, line0, line1, maps.withheld); });
+  lines([&](int line0, int line1, int) {
+    mark_thin_pixels(maps.thin, line0, line1, maps.unfiltered);
+  });
 }
 
 }  // namespace
 
-void find_thin_objects(const StepContext& step, const Views& views, Maps& maps) {
+void find_thin_structures(const StepContext& step, const Views& views, Maps& maps) {
   const int width = maps.disparity.width(), height = maps.disparity.height();
   maps.thin.start(Lines::kRows, width, height);
   step.bands.rows([&](int y0, int y1, int worker) {
-    copy_map(maps.disparity, y0, y1, maps.withheld);
+    copy_map(maps.disparity, y0, y1, maps.unfiltered);
     find_thin_runs(maps.disparity, y0, y1, maps.scratch[worker].thin, maps.thin);
   });
   if (views.noise_level > kMostThinNoise) return;
@@ -111,7 +112,7 @@ void threshold_support(const StepContext& step, Maps& maps) {
     rate_support(maps.support, maps.ratio, y0, y1, maps.scratch[worker].support, maps.confidence);
     if (settings.removes_speckles()) weigh_confidence(maps.area, y0, y1, maps.confidence);
     if (settings.min_confidence > 0 && !settings.keeps_likely_only()) {
-      remove_doubtful(settings.min_confidence, y0, y1, maps.disparity, maps.confidence);
+      threshold_confidence(settings.min_confidence, y0, y1, maps.disparity, maps.confidence);
     }
   });
 }

@@ -15,7 +15,7 @@
 #include "stages/refine/map_smoothing.hpp"
 #include "stages/refine/speckle_removal.hpp"
 #include "stages/refine/thin_chains.hpp"
-#include "stages/refine/withheld.hpp"
+#include "stages/refine/thin_structures.hpp"
 
 /// The steps that change the map of either matcher and give it the size of the caller's views, and
 /// their memory.
@@ -31,8 +31,8 @@ struct Maps {
   Image<std::uint8_t> area;  ///< weights of the areas' sizes in the confidence
   SupportMap support;
   ThinRuns thin;
-  Image<std::int32_t> columns;  ///< the map with its columns as rows
-  WithheldMap withheld;
+  Image<std::int32_t> columns;   ///< the map with its columns as rows
+  UnfilteredMap unfiltered;      ///< the map before the filters
   Image<std::int32_t> smoothed;  ///< smoothed along the rows only
 
   struct Scratch {
@@ -64,7 +64,7 @@ struct ResultMaps {
 };
 
 /// Finds thin structures in the map of the matching and keeps a copy of that map.
-void find_thin_objects(const StepContext& step, const Views& views, Maps& maps);
+void find_thin_structures(const StepContext& step, const Views& views, Maps& maps);
 
 /// Removes the areas with fewer than `size` pixels from a map. `area` becomes the weights of the
 /// sizes of the others; nullptr if they are not needed.

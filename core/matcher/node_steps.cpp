@@ -25,7 +25,7 @@ void Nodes::resize(const Settings& settings, const FrameSize& size) {
   }
   ends.resize(leaves().left);
   if (settings.outlier_radius > 0) votes.resize(width, height, settings.outlier_radius);
-  if (settings.thin_objects && settings.max_gap > 0) guarded.resize(width, height);
+  if (settings.thin_objects && settings.max_gap > 0) foreground.resize(width, height);
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
     worker.median.resize(width);
@@ -210,9 +210,9 @@ void remove_islands(const StepContext& step, Maps& maps) {
       [&](int y0, int y1, int) { clear_unknown(maps.disparity, y0, y1, maps.confidence); });
 }
 
-void restore_thin_objects(const StepContext& step, Maps& maps) {
+void restore_thin_structures(const StepContext& step, Maps& maps) {
   step.bands.rows([&](int y0, int y1, int) {
-    restore_kept(step.settings.min_confidence, y0, y1, maps.withheld, maps.disparity,
+    restore_thin(step.settings.min_confidence, y0, y1, maps.unfiltered, maps.disparity,
                  maps.confidence);
   });
 }
@@ -228,12 +228,13 @@ void fill_gaps(const StepContext& step, Nodes& nodes, Maps& maps) {
   });
 }
 
-void guard_gaps(const StepContext& step, Nodes& nodes, Maps& maps) {
+void check_foreground(const StepContext& step, Nodes& nodes, Maps& maps) {
   step.bands.rows([&](int y0, int y1, int) {
-    mark_guarded(maps.disparity, maps.withheld, y0, y1, nodes.guarded);
+    mark_foreground(maps.disparity, maps.unfiltered, y0, y1, nodes.foreground);
   });
   step.bands.rows([&](int y0, int y1, int) {
-    remove_guarded(maps.withheld, nodes.guarded, y0, y1, maps.disparity, maps.confidence);
+    clear_over_foreground(maps.unfiltered, nodes.foreground, y0, y1, maps.disparity,
+                          maps.confidence);
   });
 }
 

@@ -40,7 +40,7 @@ struct Nodes {
   int level_count = 0;                                   ///< number of levels in use
   LeafDisparities ends;                                  ///< of the leaves, the finest level
   VoteMap votes;                                         ///< for the removal of outliers
-  Image<std::uint8_t> guarded;                           ///< 1 where something nearer is in a gap
+  Image<std::uint8_t> foreground;                        ///< 1 where something nearer is in a gap
 
   struct Scratch {
     MedianScratch median;
@@ -111,12 +111,12 @@ void rate_node_confidence(const StepContext& step, Nodes& nodes, Maps& maps);
 void remove_islands(const StepContext& step, Maps& maps);
 
 /// Gives pixels of thin structures their disparities back where the filters have removed them.
-void restore_thin_objects(const StepContext& step, Maps& maps);
+void restore_thin_structures(const StepContext& step, Maps& maps);
 
 /// Fills small gaps in surfaces.
 void fill_gaps(const StepContext& step, Nodes& nodes, Maps& maps);
 
 /// Removes filled pixels where the matching had seen something nearer.
-void guard_gaps(const StepContext& step, Nodes& nodes, Maps& maps);
+void check_foreground(const StepContext& step, Nodes& nodes, Maps& maps);
 
 }  // namespace mtstereo

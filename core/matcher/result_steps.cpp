@@ -8,7 +8,7 @@
 #include "stages/refine/gap_filling.hpp"
 #include "stages/refine/left_strip.hpp"
 #include "stages/refine/reliability_table.hpp"
-#include "stages/refine/withheld.hpp"
+#include "stages/refine/thin_structures.hpp"
 
 namespace mtstereo {
 
@@ -75,7 +75,8 @@ void correct_strip(const StepContext& step, ResultMaps& result) {
 void reject_unlikely(const StepContext& step, ResultMaps& result, ResultBuffers& buffers) {
   const Settings& settings = step.settings;
   step.input_bands.rows([&](int y0, int y1, int) {
-    remove_doubtful(settings.least_reliability(), y0, y1, *result.disparity, *result.confidence);
+    threshold_confidence(settings.least_reliability(), y0, y1, *result.disparity,
+                         *result.confidence);
     find_runs(*result.disparity, kDisparityOne, y0, y1, buffers.islands);
   });
   join_bands(*result.disparity, kDisparityOne, Bands::kRows, buffers.islands);
@@ -97,14 +98,14 @@ void close_gaps(const StepContext& step, ResultMaps& result, ResultBuffers& buff
   });
 }
 
-void draw_thin(const StepContext& step, const Maps& maps, ResultMaps& result) {
+void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps& result) {
   const Settings& settings = step.settings;
   const int confidence = std::max(settings.min_confidence, kMostInferred + 1);
   step.input_bands.rows([&](int y0, int y1, int) {
-    draw_thin_objects(maps.withheld, result.place, confidence, y0, y1, *result.disparity,
-                      *result.confidence);
+    draw_thin(maps.unfiltered, result.place, confidence, y0, y1, *result.disparity,
+              *result.confidence);
     if (!settings.keeps_likely_only()) return;
-    remove_covered(maps.withheld, result.place, y0, y1, *result.disparity, *result.confidence);
+    remove_covered(maps.unfiltered, result.place, y0, y1, *result.disparity, *result.confidence);
   });
 }
 

@@ -56,6 +56,6 @@ void reject_unlikely(const StepContext& step, ResultMaps& result, ResultBuffers&
 void close_gaps(const StepContext& step, ResultMaps& result, ResultBuffers& buffers);
 
 /// Draws the thin structures into the map.
-void draw_thin(const StepContext& step, const Maps& maps, ResultMaps& result);
+void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps& result);
 
 }  // namespace mtstereo

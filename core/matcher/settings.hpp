@@ -65,9 +65,9 @@ struct Settings {
   // refinement
   int speckle_size = set_.integer(P::kSpeckleSize);      ///< [px]
   int min_confidence = set_.integer(P::kMinConfidence);  ///< 0 .. 255
-  bool thin_objects = set_.get(P::kThinObjects) != 0;   ///< whether they are kept, and gaps guarded
-  int node_end_width = set_.integer(P::kNodeEndWidth);  ///< [px]
-  int max_gap = set_.integer(P::kMaxGap);               ///< [px]
+  bool thin_objects = set_.get(P::kThinObjects) != 0;    ///< keep them, and fill no gap over them
+  int node_end_width = set_.integer(P::kNodeEndWidth);   ///< [px]
+  int max_gap = set_.integer(P::kMaxGap);                ///< [px]
   int smoothing_radius = set_.integer(P::kSmoothingRadius);  ///< [px]
 
   /// What is done to the input views; no parameter sets it.

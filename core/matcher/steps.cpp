@@ -45,7 +45,7 @@ constexpr Step kPathList[] = {
     {"path-matching",      always,                                   on<match_by_paths>},
     {"guide-support",      always,                                   on<support_guide>},
     {"guide-rating",       always,                                   on<rate_guide>},
-    {"thin-search",        [](S s) { return s.thin_objects; },       on<find_thin_objects>},
+    {"thin-search",        [](S s) { return s.thin_objects; },       on<find_thin_structures>},
     {"speckle-removal",    [](S s) { return s.removes_speckles(); }, on<remove_speckles>},
     {"confidence",         always,                                   on<rate_confidence>},
 };
@@ -62,13 +62,13 @@ constexpr Step kNodeList[] = {
     {"census-matching",    [](S s) { return s.census(); },           on<match_by_census>},
     {"gradient-matching",  [](S s) { return !s.census(); },          on<match_by_gradient>},
     {"pixel-outliers",     [](S s) { return s.removes_pixel_outliers(); }, on<remove_pixel_outliers>},
-    {"thin-search",        [](S s) { return s.thin_objects; },       on<find_thin_objects>},
+    {"thin-search",        [](S s) { return s.thin_objects; },       on<find_thin_structures>},
     {"speckle-removal",    [](S s) { return s.removes_speckles(); }, on<remove_speckles>},
     {"confidence",         always,                                   on<rate_node_confidence>},
     {"island-removal",     [](S s) { return s.removes_islands(); },  on<remove_islands>},
-    {"thin-restoring",     [](S s) { return s.thin_objects; },       on<restore_thin_objects>},
+    {"thin-restoring",     [](S s) { return s.thin_objects; },       on<restore_thin_structures>},
     {"gap-filling",        [](S s) { return s.max_gap > 0; },        on<fill_gaps>},
-    {"gap-guard",          [](S s) { return s.thin_objects && s.max_gap > 0; }, on<guard_gaps>},
+    {"foreground-check",   [](S s) { return s.thin_objects && s.max_gap > 0; }, on<check_foreground>},
 };
 
 /// Smooths the map and gives it the size of the caller's views.
@@ -88,7 +88,7 @@ constexpr Step kResultList[] = {
     {"left-strip",         [](S s) { return s.mode == Mode::kFull; }, on<correct_strip>},
     {"rejection",          [](S s) { return s.rejects_unlikely(); }, on<reject_unlikely>},
     {"gap-closing",        [](S s) { return s.rejects_unlikely() && s.max_gap > 0; }, on<close_gaps>},
-    {"thin-drawing",       [](S s) { return s.thin_objects; },       on<draw_thin>},
+    {"thin-drawing",       [](S s) { return s.thin_objects; },       on<draw_thin_structures>},
 };
 // clang-format on
 

@@ -283,8 +283,8 @@ void clear_unknown(const Image<std::int32_t>& map, int y0, int y1,
   }
 }
 
-void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,
-                     Image<std::uint8_t>& confidence) {
+void threshold_confidence(int least, int y0, int y1, Image<std::int32_t>& map,
+                          Image<std::uint8_t>& confidence) {
   for (int y = y0; y < y1; ++y) {
     HWY_DYNAMIC_DISPATCH(remove_below)(least, map.width(), map.row(y), confidence.row(y));
   }

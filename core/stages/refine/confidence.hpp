@@ -75,7 +75,7 @@ void weigh_confidence(const Image<std::uint8_t>& weight, int y0, int y1,
 void clear_unknown(const Image<std::int32_t>& map, int y0, int y1, Image<std::uint8_t>& confidence);
 
 /// Removes the disparities of the rows y0 .. y1 - 1 whose confidence is below `least`.
-void remove_doubtful(int least, int y0, int y1, Image<std::int32_t>& map,
-                     Image<std::uint8_t>& confidence);
+void threshold_confidence(int least, int y0, int y1, Image<std::int32_t>& map,
+                          Image<std::uint8_t>& confidence);
 
 }  // namespace mtstereo

@@ -9,10 +9,10 @@
 
 namespace mtstereo {
 
-/// Finds thin objects in the map of the matching: posts, rails, wires. They are too small for the
-/// speckle removal and too narrow for the confidence, although most of their disparities are right.
-/// They differ from wrong disparities in two ways: they continue over many lines, and the right
-/// view agrees with their disparity and not with that of the background.
+/// Finds thin structures in the map of the matching: posts, rails, wires. They are too small for
+/// the speckle removal and too narrow for the confidence, although most of their disparities are
+/// right. They differ from wrong disparities in two ways: they continue over many lines, and the
+/// right view agrees with their disparity and not with that of the background.
 ///
 /// A *line* is a row, or a column for objects that lie along the rows. A *thin run* is a run of
 /// connected pixels of a line that is nearer than what is before and after it. Thin runs of

@@ -48,24 +48,25 @@ TEST(Steps, RunInOrderWithTheDefaults) {
                     "smoothing", "completion", "edge-alignment", "reliability", "rejection",
                     "gap-closing", "thin-drawing"});
   expect_none_of({}, {"halving", "preprocessing", "max-trees", "node-matching", "census-matching",
-                      "island-removal", "thin-restoring", "gap-filling", "gap-guard", "enlarging",
-                      "input-census", "refinement"});
+                      "island-removal", "thin-restoring", "gap-filling", "foreground-check",
+                      "enlarging", "input-census", "refinement"});
 }
 
 TEST(Steps, RunInOrderWithNodes) {
   const Parameters nodes = test::parameters({{"guide", "nodes"}, {"max-gap", "8"}});
   expect_order(nodes, {"noise-filter", "census", "preprocessing", "max-trees", "node-matching",
                        "node-extrapolation", "census-matching", "thin-search", "speckle-removal",
-                       "confidence", "island-removal", "thin-restoring", "gap-filling", "gap-guard",
-                       "smoothing"});
+                       "confidence", "island-removal", "thin-restoring", "gap-filling",
+                       "foreground-check", "smoothing"});
   expect_none_of(nodes, {"halving", "cost-volume", "node-drawing", "node-outliers",
                          "gradient-matching", "pixel-outliers", "enlarging", "input-census",
                          "refinement", "reduced-matching", "completion", "rejection"});
 }
 
 TEST(Steps, LeaveTheEndsOfNodesAloneInModeSparse) {
-  expect_none_of(test::parameters({{"mode", "sparse"}}),
-                 {"thin-search", "island-removal", "thin-restoring", "gap-filling", "gap-guard"});
+  expect_none_of(
+      test::parameters({{"mode", "sparse"}}),
+      {"thin-search", "island-removal", "thin-restoring", "gap-filling", "foreground-check"});
 }
 
 TEST(Steps, FillGapsAfterConfidence) {
@@ -76,7 +77,7 @@ TEST(Steps, FillGapsAfterConfidence) {
 TEST(Steps, CloseGapsOfTheCompleteMapAfterTheRejection) {
   const Parameters dense = test::parameters({{"mode", "dense"}, {"max-gap", "1"}});
   expect_order(dense, {"completion", "rejection", "gap-closing", "thin-drawing"});
-  expect_none_of(dense, {"gap-filling", "gap-guard"});
+  expect_none_of(dense, {"gap-filling", "foreground-check"});
   for (const char* const mode : {"semi-dense", "dense"}) {
     expect_none_of(test::parameters({{"mode", mode}, {"max-gap", "0"}}), {"gap-closing"});
   }
@@ -90,7 +91,7 @@ TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
                {"path-matching", "guide-support", "guide-rating", "thin-search", "speckle-removal",
                 "completion", "edge-alignment", "reliability", "rejection", "thin-drawing"});
   expect_none_of(dense, {"left-strip", "node-matching", "census-matching", "island-removal",
-                         "thin-restoring", "gap-filling", "gap-guard", "gap-closing"});
+                         "thin-restoring", "gap-filling", "foreground-check", "gap-closing"});
   expect_none_of(test::parameters({{"mode", "dense"}, {"min-confidence", "0"}}), {"rejection"});
 }
 
@@ -145,9 +146,9 @@ TEST(Steps, AreEnabledBySettings) {
   EXPECT_FALSE(runs("island-removal", "min-confidence", "0"));
   EXPECT_FALSE(runs("noise-filter", "noise-filter", "false"));
   EXPECT_TRUE(runs("gap-filling", "max-gap", "1"));
-  EXPECT_TRUE(runs("gap-guard", "max-gap", "1"));
-  EXPECT_FALSE(runs("gap-guard", "max-gap", "0"));
-  EXPECT_FALSE(runs("gap-guard", "thin-objects", "false"));
+  EXPECT_TRUE(runs("foreground-check", "max-gap", "1"));
+  EXPECT_FALSE(runs("foreground-check", "max-gap", "0"));
+  EXPECT_FALSE(runs("foreground-check", "thin-objects", "false"));
   EXPECT_FALSE(runs("thin-search", "thin-objects", "false"));
   EXPECT_FALSE(runs("thin-restoring", "thin-objects", "false"));
   EXPECT_TRUE(runs("smoothing", "smoothing-radius", "1"));

@@ -78,8 +78,8 @@ void expect_step(const reference::Frame& expected, const Step& step, const Frame
   if (map.width > 0) {
     EXPECT_TRUE(same_image(expected.map, map));
   }
-  if (step.name == "confidence" || step.name == "thin-restoring" || step.name == "gap-guard" ||
-      step.name == "gap-filling") {
+  if (step.name == "confidence" || step.name == "thin-restoring" ||
+      step.name == "foreground-check" || step.name == "gap-filling") {
     EXPECT_TRUE(same_image(expected.confidence, memory.maps.confidence.view()));
   }
 }

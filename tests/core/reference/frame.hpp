@@ -26,7 +26,7 @@
 #include "reference/refine/reliability.hpp"
 #include "reference/refine/speckle_removal.hpp"
 #include "reference/refine/thin_chains.hpp"
-#include "reference/refine/withheld.hpp"
+#include "reference/refine/thin_structures.hpp"
 #include "stages/prepare/noise_filter.hpp"
 #include "stages/refine/thin_chains.hpp"
 
@@ -56,7 +56,7 @@ struct Frame {
   GrayPlane agreement;              ///< of the tiles of the views
   DisparityPlane nodes;             ///< the drawn leaves; without outliers after their removal
   DisparityPlane map;
-  DisparityPlane found;     ///< the map before the filters, negative at thin objects
+  DisparityPlane found;     ///< the map before the filters, negative at thin structures
   DisparityPlane unfilled;  ///< the map before the gap filling
   GrayPlane ratio;
   GrayPlane area;  ///< weights of the areas
@@ -253,7 +253,7 @@ inline void remove_islands(Frame& f) {
 }
 
 inline void restore_thin(Frame& f) {
-  restore_kept(f.found, f.settings.min_confidence, f.map, f.confidence);
+  restore_thin(f.found, f.settings.min_confidence, f.map, f.confidence);
 }
 
 inline void take(Frame& f, const ConfidentMap& result) {
@@ -292,10 +292,10 @@ inline void correct_strip(Frame& f) {
   take(f, correct_left_strip(ConfidentMap{f.map, f.confidence}, strip));
 }
 
-inline void draw_thin(Frame& f) {
-  draw_thin(f.found, f.settings.min_disparity, f.settings.half() ? 2 : 1,
-            std::max(f.settings.min_confidence, 16), f.settings.keeps_likely_only(), f.map,
-            f.confidence);
+inline void draw_thin_structures(Frame& f) {
+  draw_thin_structures(f.found, f.settings.min_disparity, f.settings.half() ? 2 : 1,
+                       std::max(f.settings.min_confidence, 16), f.settings.keeps_likely_only(),
+                       f.map, f.confidence);
 }
 
 inline void reject_unlikely(Frame& f) {
@@ -315,7 +315,9 @@ inline void close_gaps(Frame& f) {
   take(f, fill_gaps(rows, max_gap, 256, 0, 1, 15));
 }
 
-inline void guard_gaps(Frame& f) { guard_gaps(f.found, f.unfilled, f.map, f.confidence); }
+inline void check_foreground(Frame& f) {
+  check_foreground(f.found, f.unfilled, f.map, f.confidence);
+}
 
 inline void smooth(Frame& f) { f.map = smooth(f.map, f.settings.smoothing_radius); }
 
@@ -360,7 +362,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"island-removal", remove_islands},
     {"thin-restoring", restore_thin},
     {"gap-filling", fill_gaps},
-    {"gap-guard", guard_gaps},
+    {"foreground-check", check_foreground},
     {"smoothing", smooth},
     {"enlarging", enlarge},
     {"input-census", nothing},
@@ -372,7 +374,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"left-strip", correct_strip},
     {"rejection", reject_unlikely},
     {"gap-closing", close_gaps},
-    {"thin-drawing", draw_thin},
+    {"thin-drawing", draw_thin_structures},
 };
 
 /// Runs the scalar version of a step. A step without one leaves the frame unchanged: if the step

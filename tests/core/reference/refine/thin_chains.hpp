@@ -181,7 +181,7 @@ inline bool keeps(const std::vector<ThinPiece>& pieces, const ThinPiece& run, in
   return sum.gain > 2 * count && sum.misfit <= 4 * count;
 }
 
-/// Negates the disparities of thin objects in `found`, which has the pixels of the map.
+/// Negates the disparities of thin structures in `found`, which has the pixels of the map.
 inline void mark_thin_along(const GrayPlane& left, const GrayPlane& right,
                             const DisparityPlane& map, bool rows, DisparityPlane& found) {
   const ThinLines lines{map, rows};

@@ -226,7 +226,7 @@ TEST(Confidence, RemovesDisparitiesBelowTheThresholdOnEveryInstructionSet) {
       const GrayPlane confidence = test::noise(width, 2, width);
       Image<std::int32_t> image = image_of(map);
       Image<std::uint8_t> values = image_of(confidence);
-      remove_doubtful(128, 0, 1, image, values);
+      threshold_confidence(128, 0, 1, image, values);
       EXPECT_TRUE(test::same_pixels(
           width, 2, [&](int x, int y) { return y == 1 || confidence(x, y) >= 128 ? map(x, y) : 0; },
           [&](int x, int y) { return image.row(y)[x]; }));
@@ -247,8 +247,8 @@ TEST(Confidence, RemovesOnlyDisparitiesBelowTheThreshold) {
   for (const int least : {0, 1, 2, 60, 127, 128, 254, 255}) {
     Image<std::int32_t> image = image_of(map);
     Image<std::uint8_t> values = image_of(confidence);
-    remove_doubtful(least, 0, 20, image, values);
-    remove_doubtful(least, 20, 37, image, values);
+    threshold_confidence(least, 0, 20, image, values);
+    threshold_confidence(least, 20, 37, image, values);
     DisparityPlane expected = map;
     GrayPlane expected_values = confidence;
     for (std::size_t i = 0; i < map.pixels.size(); ++i) {
@@ -263,7 +263,7 @@ TEST(Confidence, ChangesOnlyTheGivenRows) {
   const DisparityPlane map(20, 9, 500);
   Image<std::int32_t> image = image_of(map);
   Image<std::uint8_t> values = image_of(GrayPlane(20, 9, 10));
-  remove_doubtful(11, 3, 5, image, values);
+  threshold_confidence(11, 3, 5, image, values);
   for (int y = 0; y < 9; ++y) {
     EXPECT_EQ(y == 3 || y == 4 ? 0 : 500, image.row(y)[7]) << "row " << y;
     EXPECT_EQ(y == 3 || y == 4 ? 0 : 10, values.row(y)[7]) << "row " << y;

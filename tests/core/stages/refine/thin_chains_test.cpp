@@ -83,7 +83,7 @@ void mark(const Scene& scene, const Image<std::int32_t>& lines, Lines direction,
   in_bands([&](int l0, int l1) { mark_thin_pixels(runs, l0, l1, found); });
 }
 
-/// The map with the negative disparities of thin objects.
+/// The map with the negative disparities of thin structures.
 DisparityPlane marked(const Scene& scene, int band = kWhole) {
   const Image<std::int32_t> map = image_of(scene.map);
   Image<std::int32_t> found = image_of(scene.map);

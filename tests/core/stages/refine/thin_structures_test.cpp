@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "stages/refine/withheld.hpp"
+#include "stages/refine/thin_structures.hpp"
 
 #include <gtest/gtest.h>
 
-#include "reference/refine/withheld.hpp"
+#include "reference/refine/thin_structures.hpp"
 #include "support/compare.hpp"
 #include "support/random_maps.hpp"
 
@@ -51,10 +51,10 @@ void expect_reference(int width, int height, int least, int band, std::uint64_t 
   SCOPED_TRACE(testing::Message() << width << "x" << height << ", bands of " << band << " rows");
   const Filtered filtered(width, height, seed);
   Rated expected = filtered.left;
-  reference::restore_kept(filtered.found, least, expected.map, expected.confidence);
+  reference::restore_thin(filtered.found, least, expected.map, expected.confidence);
 
-  Image<std::int32_t> withheld, map = image_of(filtered.left.map);
-  withheld.resize(width, height);
+  Image<std::int32_t> unfiltered, map = image_of(filtered.left.map);
+  unfiltered.resize(width, height);
   Image<std::uint8_t> confidence = image_of(filtered.left.confidence);
   const auto in_bands = [&](auto&& body) {
     for (int y0 = (height - 1) / band * band; y0 >= 0; y0 -= band) {
@@ -62,8 +62,8 @@ void expect_reference(int width, int height, int least, int band, std::uint64_t 
     }
   };
   const Image<std::int32_t> found = image_of(filtered.found);
-  in_bands([&](int y0, int y1) { copy_map(found, y0, y1, withheld); });
-  in_bands([&](int y0, int y1) { restore_kept(least, y0, y1, withheld, map, confidence); });
+  in_bands([&](int y0, int y1) { copy_map(found, y0, y1, unfiltered); });
+  in_bands([&](int y0, int y1) { restore_thin(least, y0, y1, unfiltered, map, confidence); });
   ASSERT_TRUE(same_image(expected.map, map));
   ASSERT_TRUE(same_image(expected.confidence, confidence));
 
@@ -71,16 +71,18 @@ void expect_reference(int width, int height, int least, int band, std::uint64_t 
   fill(expected, seed + 1);
   map = image_of(expected.map);
   confidence = image_of(expected.confidence);
-  reference::guard_gaps(filtered.found, before, expected.map, expected.confidence);
-  Image<std::uint8_t> guarded;
-  guarded.resize(width, height);
-  in_bands([&](int y0, int y1) { mark_guarded(map, withheld, y0, y1, guarded); });
-  in_bands([&](int y0, int y1) { remove_guarded(withheld, guarded, y0, y1, map, confidence); });
+  reference::check_foreground(filtered.found, before, expected.map, expected.confidence);
+  Image<std::uint8_t> foreground;
+  foreground.resize(width, height);
+  in_bands([&](int y0, int y1) { mark_foreground(map, unfiltered, y0, y1, foreground); });
+  in_bands([&](int y0, int y1) {
+    clear_over_foreground(unfiltered, foreground, y0, y1, map, confidence);
+  });
   EXPECT_TRUE(same_image(expected.map, map));
   EXPECT_TRUE(same_image(expected.confidence, confidence));
 }
 
-TEST(Withheld, EqualsReferenceAtEveryWidth) {
+TEST(ThinStructures, EqualsReferenceAtEveryWidth) {
   for (int width = 1; width <= 80; ++width) {
     for (const int band : {1, 5, 1 << 20}) {
       expect_reference(width, 1 + width % 37, width % 3 * 90, std::min(band, 1 + width % 37),
@@ -89,21 +91,21 @@ TEST(Withheld, EqualsReferenceAtEveryWidth) {
   }
 }
 
-TEST(Withheld, KeepsAGapOpenAroundSomethingNearer) {
+TEST(ThinStructures, KeepsAGapOpenAroundSomethingNearer) {
   // A row: a kept pixel, a gap of 6 px in which a nearer one was seen, another kept pixel.
   DisparityPlane found(8, 1);
   found(0, 0) = found(7, 0) = 512;
-  found(3, 0) = 512 + kGuardedStep + 1;
-  Image<std::int32_t> withheld = image_of(found);
+  found(3, 0) = 512 + kForegroundStep + 1;
+  Image<std::int32_t> unfiltered = image_of(found);
   DisparityPlane start = found;
   start(3, 0) = 0;
   Image<std::int32_t> map = image_of(start);
-  Image<std::uint8_t> confidence = image_of(GrayPlane(8, 1, 50)), guarded;
-  guarded.resize(8, 1);
-  restore_kept(100, 0, 1, withheld, map, confidence);
+  Image<std::uint8_t> confidence = image_of(GrayPlane(8, 1, 50)), foreground;
+  foreground.resize(8, 1);
+  restore_thin(100, 0, 1, unfiltered, map, confidence);
   std::fill_n(map.row(0), 8, 512);
-  mark_guarded(map, withheld, 0, 1, guarded);
-  remove_guarded(withheld, guarded, 0, 1, map, confidence);
+  mark_foreground(map, unfiltered, 0, 1, foreground);
+  clear_over_foreground(unfiltered, foreground, 0, 1, map, confidence);
   for (int x = 0; x < 8; ++x) {
     const bool open = x >= 2 && x <= 4;
     EXPECT_EQ(open ? 0 : 512, map.row(0)[x]) << x;
@@ -121,19 +123,19 @@ void expect_drawn_reference(int width, int height, const MapPlace& place, int ba
   Rated expected = {test::patches(width, height, 0, 2), GrayPlane(width, height, 100)};
   Image<std::int32_t> map = image_of(expected.map);
   Image<std::uint8_t> confidence = image_of(expected.confidence);
-  reference::draw_thin(filtered.found, place.column, place.scale, 120, true, expected.map,
-                       expected.confidence);
-  const Image<std::int32_t> withheld = image_of(filtered.found);
+  reference::draw_thin_structures(filtered.found, place.column, place.scale, 120, true,
+                                  expected.map, expected.confidence);
+  const Image<std::int32_t> unfiltered = image_of(filtered.found);
   for (int y0 = 0; y0 < height; y0 += band) {
     const int y1 = std::min(y0 + band, height);
-    draw_thin_objects(withheld, place, 120, y0, y1, map, confidence);
-    remove_covered(withheld, place, y0, y1, map, confidence);
+    draw_thin(unfiltered, place, 120, y0, y1, map, confidence);
+    remove_covered(unfiltered, place, y0, y1, map, confidence);
   }
   EXPECT_TRUE(same_image(expected.map, map));
   EXPECT_TRUE(same_image(expected.confidence, confidence));
 }
 
-TEST(Withheld, DrawsThinObjectsIntoACompleteMap) {
+TEST(ThinStructures, DrawsThinObjectsIntoACompleteMap) {
   for (int width = 1; width <= 40; ++width) {
     for (const int scale : {1, 2}) {
       for (const int shift : {-7, 0, 3}) {
@@ -144,7 +146,7 @@ TEST(Withheld, DrawsThinObjectsIntoACompleteMap) {
   }
 }
 
-TEST(Withheld, DrawsTheFewThinObjectsOfAWideMap) {
+TEST(ThinStructures, DrawsTheFewThinObjectsOfAWideMap) {
   for (int width = 95; width <= 200; ++width) {
     for (const int scale : {1, 2}) {
       for (const int shift : {-7, 0, 3}) {

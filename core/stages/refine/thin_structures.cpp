@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "stages/refine/withheld.hpp"
+#include "stages/refine/thin_structures.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -10,20 +10,20 @@ namespace mtstereo {
 namespace {
 
 /// Without branches, so that compilers vectorize the loops of these functions.
-void restore_row(std::uint8_t least, int width, std::int32_t* __restrict__ withheld,
+void restore_row(std::uint8_t least, int width, std::int32_t* __restrict__ unfiltered,
                  std::int32_t* __restrict__ map, std::uint8_t* __restrict__ confidence) {
   for (int x = 0; x < width; ++x) {
-    const bool back = (withheld[x] < 0) & (map[x] == kNoDisparity);
-    map[x] = back ? -withheld[x] : map[x];
+    const bool back = (unfiltered[x] < 0) & (map[x] == kNoDisparity);
+    map[x] = back ? -unfiltered[x] : map[x];
     confidence[x] = back ? least : confidence[x];
-    withheld[x] = map[x] != kNoDisparity ? kKeptDisparity : withheld[x];
+    unfiltered[x] = map[x] != kNoDisparity ? kKeptDisparity : unfiltered[x];
   }
 }
 
-void guard_row(const std::int32_t* __restrict__ filled, const std::int32_t* __restrict__ withheld,
-               int width, std::uint8_t* __restrict__ guarded) {
+void mark_row(const std::int32_t* __restrict__ filled, const std::int32_t* __restrict__ unfiltered,
+              int width, std::uint8_t* __restrict__ foreground) {
   for (int x = 0; x < width; ++x) {
-    guarded[x] = (filled[x] != kNoDisparity) & (withheld[x] - filled[x] > kGuardedStep);
+    foreground[x] = (filled[x] != kNoDisparity) & (unfiltered[x] - filled[x] > kForegroundStep);
   }
 }
 
@@ -37,14 +37,14 @@ bool any_negative(const std::int32_t* values) {
   return bits < 0;
 }
 
-/// Calls body(x, withheld disparity) for the negative ones of a row of the complete map.
+/// Calls body(x, unfiltered disparity) for the negative ones of a row of the complete map.
 template <typename Body>
-void for_negative(const WithheldMap& withheld, const MapPlace& place, int y, int width,
+void for_negative(const UnfilteredMap& unfiltered, const MapPlace& place, int y, int width,
                   Body&& body) {
-  const std::int32_t* row = withheld.row(std::min(y / place.scale, withheld.height() - 1));
-  for (int begin = 0; begin < withheld.width(); begin += kBlock) {
-    const int end = std::min(begin + kBlock, withheld.width());
-    // Thin objects are rare.
+  const std::int32_t* row = unfiltered.row(std::min(y / place.scale, unfiltered.height() - 1));
+  for (int begin = 0; begin < unfiltered.width(); begin += kBlock) {
+    const int end = std::min(begin + kBlock, unfiltered.width());
+    // Thin structures are rare.
     if (begin + kBlock == end && !any_negative(row + begin)) continue;
     for (int i = begin; i < end; ++i) {
       if (row[i] >= 0) continue;
@@ -56,60 +56,62 @@ void for_negative(const WithheldMap& withheld, const MapPlace& place, int y, int
 }
 
 /// Without branches, as above. All rows begin at the same pixel of the map.
-void clear_covered(const std::int32_t* __restrict__ withheld, std::int32_t added, int width,
+void clear_covered(const std::int32_t* __restrict__ unfiltered, std::int32_t added, int width,
                    std::int32_t* __restrict__ map, std::uint8_t* __restrict__ confidence) {
   for (int x = 0; x < width; ++x) {
-    const bool covered = (withheld[x] > 0) & (withheld[x] + added - map[x] > kGuardedStep);
+    const bool covered = (unfiltered[x] > 0) & (unfiltered[x] + added - map[x] > kForegroundStep);
     map[x] = covered ? kNoDisparity : map[x];
     confidence[x] = covered ? std::uint8_t{0} : confidence[x];
   }
 }
 
-/// Calls body(x, withheld disparity) for the pixels of a row of the complete map.
+/// Calls body(x, unfiltered disparity) for the pixels of a row of the complete map.
 template <typename Body>
-void for_row(const WithheldMap& withheld, const MapPlace& place, int y, int width, Body&& body) {
-  const std::int32_t* row = withheld.row(std::min(y / place.scale, withheld.height() - 1));
+void for_row(const UnfilteredMap& unfiltered, const MapPlace& place, int y, int width,
+             Body&& body) {
+  const std::int32_t* row = unfiltered.row(std::min(y / place.scale, unfiltered.height() - 1));
   const int first = std::max(place.column, 0);
-  const int end = std::min(width, withheld.width() * place.scale + place.column);
+  const int end = std::min(width, unfiltered.width() * place.scale + place.column);
   for (int x = first; x < end; ++x) body(x, row[(x - place.column) / place.scale]);
 }
 
 }  // namespace
 
-void copy_map(const Image<std::int32_t>& map, int y0, int y1, WithheldMap& withheld) {
-  for (int y = y0; y < y1; ++y) std::copy_n(map.row(y), map.width(), withheld.row(y));
+void copy_map(const Image<std::int32_t>& map, int y0, int y1, UnfilteredMap& unfiltered) {
+  for (int y = y0; y < y1; ++y) std::copy_n(map.row(y), map.width(), unfiltered.row(y));
 }
 
-void restore_kept(int confidence, int y0, int y1, WithheldMap& withheld, Image<std::int32_t>& map,
-                  Image<std::uint8_t>& map_confidence) {
+void restore_thin(int confidence, int y0, int y1, UnfilteredMap& unfiltered,
+                  Image<std::int32_t>& map, Image<std::uint8_t>& map_confidence) {
   const auto least = static_cast<std::uint8_t>(std::max(confidence, 1));
   for (int y = y0; y < y1; ++y) {
-    restore_row(least, map.width(), withheld.row(y), map.row(y), map_confidence.row(y));
+    restore_row(least, map.width(), unfiltered.row(y), map.row(y), map_confidence.row(y));
   }
 }
 
-void mark_guarded(const Image<std::int32_t>& filled, const WithheldMap& withheld, int y0, int y1,
-                  Image<std::uint8_t>& guarded) {
+void mark_foreground(const Image<std::int32_t>& filled, const UnfilteredMap& unfiltered, int y0,
+                     int y1, Image<std::uint8_t>& foreground) {
   for (int y = y0; y < y1; ++y) {
-    guard_row(filled.row(y), withheld.row(y), filled.width(), guarded.row(y));
+    mark_row(filled.row(y), unfiltered.row(y), filled.width(), foreground.row(y));
   }
 }
 
-void remove_guarded(const WithheldMap& withheld, const Image<std::uint8_t>& guarded, int y0, int y1,
-                    Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+void clear_over_foreground(const UnfilteredMap& unfiltered, const Image<std::uint8_t>& foreground,
+                           int y0, int y1, Image<std::int32_t>& map,
+                           Image<std::uint8_t>& confidence) {
   const int width = map.width();
   // Clears the filled ones of the pixels x - 1 .. x + 1 of row y.
   const auto clear = [&](int x, int y) {
     for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i) {
-      if (withheld.row(y)[i] == kKeptDisparity) continue;
+      if (unfiltered.row(y)[i] == kKeptDisparity) continue;
       map.row(y)[i] = kNoDisparity;
       confidence.row(y)[i] = 0;
     }
   };
   for (int y = y0; y < y1; ++y) {
     for (int near = std::max(y - 1, 0); near <= std::min(y + 1, map.height() - 1); ++near) {
-      // Few pixels are guarded.
-      const std::uint8_t* row = guarded.row(near);
+      // Few pixels are foreground.
+      const std::uint8_t* row = foreground.row(near);
       for (int x = 0; x < width; ++x) {
         const void* next = std::memchr(row + x, 1, static_cast<std::size_t>(width - x));
         if (next == nullptr) break;
@@ -120,21 +122,21 @@ void remove_guarded(const WithheldMap& withheld, const Image<std::uint8_t>& guar
   }
 }
 
-void draw_thin_objects(const WithheldMap& withheld, const MapPlace& place, int confidence, int y0,
-                       int y1, Image<std::int32_t>& map, Image<std::uint8_t>& map_confidence) {
+void draw_thin(const UnfilteredMap& unfiltered, const MapPlace& place, int confidence, int y0,
+               int y1, Image<std::int32_t>& map, Image<std::uint8_t>& map_confidence) {
   const auto least = static_cast<std::uint8_t>(std::max(confidence, 1));
   const std::int32_t added = place.added * kDisparityOne;
   for (int y = y0; y < y1; ++y) {
     std::int32_t* row = map.row(y);
     std::uint8_t* row_confidence = map_confidence.row(y);
-    for_negative(withheld, place, y, map.width(), [&](int x, std::int32_t value) {
+    for_negative(unfiltered, place, y, map.width(), [&](int x, std::int32_t value) {
       row[x] = -value * place.scale + added;
       row_confidence[x] = std::max(row_confidence[x], least);
     });
   }
 }
 
-void remove_covered(const WithheldMap& withheld, const MapPlace& place, int y0, int y1,
+void remove_covered(const UnfilteredMap& unfiltered, const MapPlace& place, int y0, int y1,
                     Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
   const std::int32_t added = place.added * kDisparityOne;
   for (int y = y0; y < y1; ++y) {
@@ -142,14 +144,14 @@ void remove_covered(const WithheldMap& withheld, const MapPlace& place, int y0, 
     std::uint8_t* row_confidence = confidence.row(y);
     if (place.scale == 1) {
       const int first = std::max(place.column, 0);
-      const int end = std::min(map.width(), withheld.width() + place.column);
-      const std::int32_t* seen = withheld.row(std::min(y, withheld.height() - 1));
+      const int end = std::min(map.width(), unfiltered.width() + place.column);
+      const std::int32_t* seen = unfiltered.row(std::min(y, unfiltered.height() - 1));
       clear_covered(seen + first - place.column, added, end - first, row + first,
                     row_confidence + first);
       continue;
     }
-    for_row(withheld, place, y, map.width(), [&](int x, std::int32_t value) {
-      if (value <= 0 || value * place.scale + added - row[x] <= kGuardedStep) return;
+    for_row(unfiltered, place, y, map.width(), [&](int x, std::int32_t value) {
+      if (value <= 0 || value * place.scale + added - row[x] <= kForegroundStep) return;
       row[x] = kNoDisparity;
       row_confidence[x] = 0;
     });

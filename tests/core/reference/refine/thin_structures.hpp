@@ -12,7 +12,7 @@ using test::DisparityPlane;
 using test::GrayPlane;
 
 /// Gives the pixels whose disparity is negative in `found` their disparities back.
-inline void restore_kept(const DisparityPlane& found, int least, DisparityPlane& map,
+inline void restore_thin(const DisparityPlane& found, int least, DisparityPlane& map,
                          GrayPlane& confidence) {
   for (std::size_t i = 0; i < map.pixels.size(); ++i) {
     if (found.pixels[i] >= 0 || map.pixels[i] != 0) continue;
@@ -23,8 +23,8 @@ inline void restore_kept(const DisparityPlane& found, int least, DisparityPlane&
 
 /// Empties filled pixels around those that are more than 2 px farther than what was found there.
 /// `before` is the map before the filling.
-inline void guard_gaps(const DisparityPlane& found, const DisparityPlane& before,
-                       DisparityPlane& map, GrayPlane& confidence) {
+inline void check_foreground(const DisparityPlane& found, const DisparityPlane& before,
+                             DisparityPlane& map, GrayPlane& confidence) {
   const DisparityPlane filled = map;
   const auto is_filled = [&](int x, int y) { return before(x, y) == 0 && filled(x, y) != 0; };
   for (int y = 0; y < map.height; ++y) {
@@ -41,10 +41,10 @@ inline void guard_gaps(const DisparityPlane& found, const DisparityPlane& before
   }
 }
 
-/// Draws thin objects into a complete map that may be larger and shifted, and with `guard` empties
-/// what is more than 2 px farther than something else that was found there.
-inline void draw_thin(const DisparityPlane& found, int shift, int scale, int least, bool guard,
-                      DisparityPlane& map, GrayPlane& confidence) {
+/// Draws thin structures into a complete map that may be larger and shifted, and with `guard`
+/// empties what is more than 2 px farther than something else that was found there.
+inline void draw_thin_structures(const DisparityPlane& found, int shift, int scale, int least,
+                                 bool guard, DisparityPlane& map, GrayPlane& confidence) {
   for (int y = 0; y < map.height; ++y) {
     for (int x = std::max(shift, 0); x < map.width; ++x) {
       const int column = (x - shift) / scale;
