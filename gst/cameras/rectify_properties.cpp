@@ -27,6 +27,7 @@ void get_calibration(const RectifySettings& settings, GValue& value) {
 
 const PropertyTable<RectifySettings>& rectify_properties() {
   using Values = RectifySettings;
+  using Row = Property<Values>;
   using Options = RectificationOptions;
   static const PropertyTable<Values> table({
       {"camera", &Values::side, camera_type(), "The camera that the video is from"},
@@ -37,28 +38,22 @@ const PropertyTable<RectifySettings>& rectify_properties() {
                            "a comma: left and right, or intrinsics and extrinsics",
                            nullptr, kWhilePlaying),
        set_calibration, get_calibration},
-      {"alpha",
-       {&Values::options, &Options::alpha},
-       -1,
-       1,
-       "Part of the scene in the output: 0 = only what both cameras see, without a border; 1 = all "
-       "pixels of both cameras, with a border; -1 = keep the focal length of the cameras"},
-      {"width",
-       {&Values::options, &Options::width},
-       0,
-       kLargestImageSide,
-       "Width of the output in px (0: what downstream requires, otherwise that of the calibration "
-       "file's rectification or of the video)"},
-      {"height",
-       {&Values::options, &Options::height},
-       0,
-       kLargestImageSide,
-       "Height of the output in px (0: what downstream requires, otherwise that of the calibration "
-       "file's rectification or of the video)"},
-      {"zero-disparity",
-       {&Values::options, &Options::zero_disparity},
-       "Give points at infinity the disparity 0; otherwise the views are shifted to share more of "
-       "the scene, and disparities have an offset, which the caps state"},
+      Row("alpha", {&Values::options, &Options::alpha}, -1, 1,
+          "Part of the scene in the output: 0 = only what both cameras see, without a border; 1 = "
+          "all "
+          "pixels of both cameras, with a border; -1 = keep the focal length of the cameras"),
+      Row("width", {&Values::options, &Options::width}, 0, kLargestImageSide,
+          "Width of the output in px (0: what downstream requires, otherwise that of the "
+          "calibration "
+          "file's rectification or of the video)"),
+      Row("height", {&Values::options, &Options::height}, 0, kLargestImageSide,
+          "Height of the output in px (0: what downstream requires, otherwise that of the "
+          "calibration "
+          "file's rectification or of the video)"),
+      Row("zero-disparity", {&Values::options, &Options::zero_disparity},
+          "Give points at infinity the disparity 0; otherwise the views are shifted to share more "
+          "of "
+          "the scene, and disparities have an offset, which the caps state"),
       {"border", &Values::border, 0, 255,
        "Value of the pixels that the camera does not see, in every channel"},
       {"color", &Values::color,

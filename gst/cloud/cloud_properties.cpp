@@ -28,6 +28,7 @@ std::optional<CloudFormat> CloudProperties::format() const {
 
 const PropertyTable<CloudProperties>& cloud_properties() {
   using Values = CloudProperties;
+  using Row = Property<Values>;
   static const PropertyTable<Values> table(
       {
           {"location", &Values::location,
@@ -37,16 +38,10 @@ const PropertyTable<CloudProperties>& cloud_properties() {
           {"format", &Values::format_choice, format_type(), "Format of the files", kBeforeStart},
           {"every-nth", &Values::every_nth, 1, G_MAXINT,
            "Write only every n-th disparity map, starting with the first"},
-          {"near",
-           {&Values::range, &DepthRange::near},
-           0,
-           kLargestDepthLimit,
-           "Minimum depth in meters; nearer points are omitted"},
-          {"far",
-           {&Values::range, &DepthRange::far},
-           0,
-           kLargestDepthLimit,
-           "Maximum depth in meters; farther points are omitted (0: no limit)"},
+          Row("near", {&Values::range, &DepthRange::near}, 0, kLargestDepthLimit,
+              "Minimum depth in meters; nearer points are omitted"),
+          Row("far", {&Values::range, &DepthRange::far}, 0, kLargestDepthLimit,
+              "Maximum depth in meters; farther points are omitted (0: no limit)"),
           {"min-confidence", &Values::min_confidence, 0, 255,
            "Omit points of lower confidence (0: write all)"},
           {"step", &Values::step, 1, 16384, "Write only every n-th pixel and row"},

@@ -16,21 +16,16 @@ GType overflow_type() {
 
 const PropertyTable<DepthProperties>& depth_properties() {
   using Values = DepthProperties;
+  using Row = Property<Values>;
   static const PropertyTable<Values> table(
       {
           {"unit", &Values::unit, 0.001, 1000,
            "Length of the value 1, in mm; the caps of the output state it in meters, as "
            "depth-unit (1: depths up to 65.535 m)"},
-          {"near",
-           {&Values::range, &DepthRange::near},
-           0,
-           kLargestDepthLimit,
-           "Minimum depth in meters; nearer pixels become 0"},
-          {"far",
-           {&Values::range, &DepthRange::far},
-           0,
-           kLargestDepthLimit,
-           "Maximum depth in meters; farther pixels become 0 (0: no limit)"},
+          Row("near", {&Values::range, &DepthRange::near}, 0, kLargestDepthLimit,
+              "Minimum depth in meters; nearer pixels become 0"),
+          Row("far", {&Values::range, &DepthRange::far}, 0, kLargestDepthLimit,
+              "Maximum depth in meters; farther pixels become 0 (0: no limit)"),
           {"overflow", &Values::overflow, overflow_type(),
            "Depths that do not fit in 16 bits: more than 65535 units, or infinite"},
           {"free-space", &Values::free_space,

@@ -74,6 +74,7 @@ struct GstMtColorClass {
 
 const PropertyTable<ColorSettings>& properties() {
   using Values = ColorSettings;
+  using Row = Property<Values>;
   static const GType scales = enum_type<ColorScale>(
       "GstMtStereoColorScale",
       {{ColorScale::kInverse, "Evenly over 1 / depth, as over disparities", "inverse"},
@@ -84,16 +85,10 @@ const PropertyTable<ColorSettings>& properties() {
        "Disparity of the last color, in px, the same in every frame (0: that of the caps or of "
        "the meta, which mtstereo sets, or 64 without them)"},
       {"disparity-scale", &Values::scale, 1, 65535, kScaleBlurb},
-      {"near",
-       {&Values::depths, &DepthRange::near},
-       kSmallestDepthLimit,
-       kLargestDepthLimit,
-       "For depth maps: depth of the last color (red), in meters, the same in every frame"},
-      {"far",
-       {&Values::depths, &DepthRange::far},
-       kSmallestDepthLimit,
-       kLargestDepthLimit,
-       "For depth maps: depth of the first color (blue), in meters"},
+      Row("near", {&Values::depths, &DepthRange::near}, kSmallestDepthLimit, kLargestDepthLimit,
+          "For depth maps: depth of the last color (red), in meters, the same in every frame"),
+      Row("far", {&Values::depths, &DepthRange::far}, kSmallestDepthLimit, kLargestDepthLimit,
+          "For depth maps: depth of the first color (blue), in meters"),
       {"color-scale", &Values::color_scale, scales,
        "For depth maps: distribution of the colors from near to far"},
   });

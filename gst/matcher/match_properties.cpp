@@ -82,13 +82,12 @@ std::vector<Row> own_rows() {
                     &AlignmentSettings::effective_alignment, alignment_type(),
                     "Correction of misaligned rows of the right view, as after a shock or with an "
                     "inexact calibration (default: correct; preset paper: off)"),
-      {"alignment-interval",
-       {&MatchSettings::alignment, &AlignmentSettings::interval},
-       0,
-       1000000,
-       "Number of pairs between inspections of the views; the first pairs are inspected until "
-       "their alignment is known (0: 30, or more for small frames, search ranges and preset fast, "
-       "so that inspections take at most 3 % of the time)"},
+      Row("alignment-interval", {&MatchSettings::alignment, &AlignmentSettings::interval}, 0,
+          1000000,
+          "Number of pairs between inspections of the views; the first pairs are inspected until "
+          "their alignment is known (0: 30, or more for small frames, search ranges and preset "
+          "fast, "
+          "so that inspections take at most 3 % of the time)"),
       {g_param_spec_string("alignment-field", "alignment-field",
                            "Row displacement of the right view: five numbers in px, separated by "
                            "commas; empty if unknown. Store the value read here and set it at the "
@@ -99,16 +98,10 @@ std::vector<Row> own_rows() {
                     &AlignmentSettings::effective_sharpness, sharpness_type(),
                     "Handling of views of different sharpness; needs alignment=correct "
                     "(default: match; preset paper: keep)"),
-      {"left-blur",
-       {&MatchSettings::alignment, &AlignmentSettings::left_blur},
-       0,
-       kLargestBlur,
-       "With alignment=hold, sigma of the blur of the left view in px (0: none)"},
-      {"right-blur",
-       {&MatchSettings::alignment, &AlignmentSettings::right_blur},
-       0,
-       kLargestBlur,
-       "With alignment=hold, sigma of the blur of the right view in px (0: none)"},
+      Row("left-blur", {&MatchSettings::alignment, &AlignmentSettings::left_blur}, 0, kLargestBlur,
+          "With alignment=hold, sigma of the blur of the left view in px (0: none)"),
+      Row("right-blur", {&MatchSettings::alignment, &AlignmentSettings::right_blur}, 0,
+          kLargestBlur, "With alignment=hold, sigma of the blur of the right view in px (0: none)"),
       {g_param_spec_int(
            "disparity-scale", "disparity-scale",
            "Steps per px of the output: disparity in px = value / disparity-scale, 0 "

@@ -44,42 +44,30 @@ inline constexpr double kLargestOffset = 1e5;       ///< [px]
 template <typename State>
 std::vector<Property<State>> geometry_rows() {
   using Geometry = GeometryProperties;
+  using Row = Property<State>;
   return {
-      {"focal-length",
-       {&State::geometry, &Geometry::focal_length},
-       0,
-       kLargestFocalLength,
-       "Focal length of the rectified views, in px (0: that of the calibration or of the caps, "
-       "which mtrectify sets)"},
-      {"baseline",
-       {&State::geometry, &Geometry::baseline},
-       0,
-       kLongestBaseline,
-       "Distance of the cameras, in meters (0: that of the calibration or of the caps)"},
-      {"principal-offset",
-       {&State::geometry, &Geometry::principal_offset},
-       -kLargestOffset,
-       kLargestOffset,
-       "Column of the principal point of the right view minus that of the left view, in px; it is "
-       "added to the disparities (not set: that of the calibration or of the caps, or 0)"},
-      {"principal-x",
-       {&State::geometry, &Geometry::principal_x},
-       -kLargestOffset,
-       kLargestOffset,
-       "Column of the principal point of the left view, in px (not set: that of the calibration "
-       "or of the caps, or the center)"},
-      {"principal-y",
-       {&State::geometry, &Geometry::principal_y},
-       -kLargestOffset,
-       kLargestOffset,
-       "Row of the principal point of the left view, in px (not set: that of the calibration or "
-       "of the caps, or the center)"},
-      {"calibration",
-       {&State::geometry, &Geometry::calibration},
-       "Calibration file of the cameras, if the caps do not have the geometry: the views were "
-       "rectified with it and the defaults of mtrectify, or by the rectification that it states; "
-       "two files are separated by a comma"},
-      {"disparity-scale", {&State::geometry, &Geometry::disparity_scale}, 1, 65535, kScaleBlurb},
+      Row("focal-length", {&State::geometry, &Geometry::focal_length}, 0, kLargestFocalLength,
+          "Focal length of the rectified views, in px (0: that of the calibration or of the caps, "
+          "which mtrectify sets)"),
+      Row("baseline", {&State::geometry, &Geometry::baseline}, 0, kLongestBaseline,
+          "Distance of the cameras, in meters (0: that of the calibration or of the caps)"),
+      Row("principal-offset", {&State::geometry, &Geometry::principal_offset}, -kLargestOffset,
+          kLargestOffset,
+          "Column of the principal point of the right view minus that of the left view, in px; it "
+          "is added to the disparities (not set: that of the calibration or of the caps, or 0)"),
+      Row("principal-x", {&State::geometry, &Geometry::principal_x}, -kLargestOffset,
+          kLargestOffset,
+          "Column of the principal point of the left view, in px (not set: that of the calibration "
+          "or of the caps, or the center)"),
+      Row("principal-y", {&State::geometry, &Geometry::principal_y}, -kLargestOffset,
+          kLargestOffset,
+          "Row of the principal point of the left view, in px (not set: that of the calibration or "
+          "of the caps, or the center)"),
+      Row("calibration", {&State::geometry, &Geometry::calibration},
+          "Calibration file of the cameras, if the caps do not have the geometry: the views were "
+          "rectified with it and the defaults of mtrectify, or by the rectification that it "
+          "states; two files are separated by a comma"),
+      Row("disparity-scale", {&State::geometry, &Geometry::disparity_scale}, 1, 65535, kScaleBlurb),
   };
 }
 
