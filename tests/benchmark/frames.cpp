@@ -6,8 +6,8 @@
 #include <iostream>
 #include <utility>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/datasets.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/render/render.hpp"
 
 namespace mtstereo::bench {
@@ -51,7 +51,7 @@ Frame Frame::kitti(const std::string& folder, const std::string& name, int dispa
   const auto pair = std::find_if(set.pairs.begin(), set.pairs.end(), [&](const auto& candidate) {
     return std::filesystem::path(candidate.name).filename() == name;
   });
-  if (pair == set.pairs.end()) throw eval::InputError(folder, "has no pair " + name);
+  if (pair == set.pairs.end()) throw mtstereo::UserError(folder, "has no pair " + name);
   eval::LoadedPair loaded = eval::load_pair(*pair);
   const std::string full_name = frame_name("kitti", loaded.left.size(), disparities);
   return {full_name, disparities, {std::move(loaded.left), std::move(loaded.right)}};
@@ -77,7 +77,7 @@ std::vector<FramePointer> frames(bool quick, const char* data) {
     const std::string folder = (std::filesystem::path(data) / "kitti2015").string();
     all.insert(all.begin(),
                std::make_shared<Frame>(Frame::kitti(folder, kRealPair, kRealDisparities)));
-  } catch (const eval::InputError& error) {
+  } catch (const mtstereo::UserError& error) {
     std::cerr << "MTSTEREO_TEST_DATA: " << error.what() << ": rendered pairs only\n";
   }
   return all;

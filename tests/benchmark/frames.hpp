@@ -27,7 +27,7 @@ class Frame {
  public:
   /// A rendered frame.
   Frame(int width, int height, int disparities);
-  /// The pair of KITTI 2015 with this name below a folder. Throws eval::InputError if it is
+  /// The pair of KITTI 2015 with this name below a folder. Throws mtstereo::UserError if it is
   /// missing.
   static Frame kitti(const std::string& folder, const std::string& name, int disparities);
 

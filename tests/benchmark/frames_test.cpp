@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::bench {
 namespace {
@@ -35,7 +35,7 @@ TEST(Frames, FolderWithoutTheRealPairGivesOnlyRenderedOnes) {
 
 TEST(Frames, RealPairThatIsMissingIsAnError) {
   EXPECT_THROW(Frame::kitti(testing::TempDir() + "no-such-folder", "000046_10", 100),
-               eval::InputError);
+               mtstereo::UserError);
 }
 
 TEST(Frames, RenderedPairHasItsSizeAndTwoDifferentViews) {

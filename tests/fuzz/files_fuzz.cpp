@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The readers of mtstereo-eval. The first byte selects the reader, the rest is the file. A file
-// that cannot be used must give an InputError and nothing else.
+// that cannot be used must give an UserError and nothing else.
 
 #include <cmath>
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 #include "fuzz_folder.hpp"
 #include "fuzz_input.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/datasets.hpp"
 #include "tools/eval/files.hpp"
 #include "tools/eval/ground_truth.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/pfm.hpp"
 
 namespace mtstereo::fuzz {
@@ -108,7 +108,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   FuzzInput input(data, size);
   try {
     input.one_of(kReaders)(input);
-  } catch (const mtstereo::eval::InputError& error) {
+  } catch (const mtstereo::UserError& error) {
     require(error.what()[0] != '\0', "an error has a message");
   }
   return 0;

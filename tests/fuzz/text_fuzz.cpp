@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "fuzz_image.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "mtstereo/mtstereo.hpp"
 #include "tools/eval/datasets.hpp"
 #include "tools/eval/degrade.hpp"
-#include "tools/eval/input_error.hpp"
 
 namespace mtstereo::fuzz {
 namespace {
@@ -94,7 +94,7 @@ void parse_degradation(FuzzInput& input) {
     const eval::Degradation again = eval::parse_degradation(eval::degradation_text(degradation));
     require(again.kind == degradation.kind, "a degradation is equal after it was written as text");
     apply(degradation, input);
-  } catch (const eval::InputError& error) {
+  } catch (const mtstereo::UserError& error) {
     require(error.what()[0] != '\0', "an error has a message");
   }
 }

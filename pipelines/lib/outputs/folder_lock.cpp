@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "lib/outputs/output_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::outputs {
 
@@ -104,8 +104,8 @@ void FolderLock::create(const fs::path& folder) {
   }
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder, error)) {
-    throw OutputError(folder.string() + ": the folder cannot be created: " +
-                      (error ? error.message() : "it is no folder"));
+    throw UserError(folder.string() + ": the folder cannot be created: " +
+                    (error ? error.message() : "it is no folder"));
   }
   for (const fs::path& each : missing) note(each.c_str());
   created_.splice(created_.end(), missing);
@@ -117,7 +117,7 @@ bool FolderLock::lock(const fs::path& folder, Sharing sharing) {
   file_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file_ < 0) {
     if (errno == ENOENT) return false;
-    throw OutputError(folder.string() + ": " + std::generic_category().message(errno));
+    throw UserError(folder.string() + ": " + std::generic_category().message(errno));
   }
   struct stat opened = {};
   fstat(file_, &opened);
@@ -127,8 +127,8 @@ bool FolderLock::lock(const fs::path& folder, Sharing sharing) {
     result = flock(file_, mode | LOCK_NB);
   } while (result != 0 && errno == EINTR);
   if (result != 0 && errno == EWOULDBLOCK) {
-    throw OutputError(folder.string() + ": " + holder_of(opened.st_ino) +
-                      " writes into this folder: wait for its end, or choose another folder");
+    throw UserError(folder.string() + ": " + holder_of(opened.st_ino) +
+                    " writes into this folder: wait for its end, or choose another folder");
   }
   // A file system without locks is used without one.
   return is_same(folder, opened);

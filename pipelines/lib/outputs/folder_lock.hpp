@@ -16,7 +16,7 @@ enum class Sharing {
 /// ends, however it ends. On a network file system, it works between processes of one machine.
 class FolderLock {
  public:
-  /// Creates the folder if it is missing. Throws OutputError, which names the other process, if it
+  /// Creates the folder if it is missing. Throws UserError, which names the other process, if it
   /// is locked.
   explicit FolderLock(const std::filesystem::path& folder, Sharing sharing = Sharing::kAlone);
   /// Removes the folders that it created and that are still empty.

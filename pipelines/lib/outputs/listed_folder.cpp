@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "lib/outputs/output_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
 
 namespace mtstereo::outputs {
@@ -53,7 +53,7 @@ ListedFolder::ListedFolder(fs::path folder, std::string program)
 void ListedFolder::check(std::vector<std::string> targets, const FileSet& inputs) const {
   targets.push_back(list_);
   const std::string obstacle = obstacle_in(folder_, {std::move(targets), written_, inputs});
-  if (!obstacle.empty()) throw OutputError(obstacle);
+  if (!obstacle.empty()) throw UserError(obstacle);
 }
 
 void ListedFolder::clear() {
@@ -77,8 +77,8 @@ void ListedFolder::list(const std::string& name, std::optional<std::uintmax_t> b
   const int error = errno;
   if (out >= 0) close(out);
   if (!stored) {
-    throw OutputError(file.string() +
-                      " cannot be written: " + std::generic_category().message(error));
+    throw UserError(file.string() +
+                    " cannot be written: " + std::generic_category().message(error));
   }
   written_.add(list_);
   written_.add(name, bytes);
@@ -89,7 +89,7 @@ void ListedFolder::make_room(const std::string& name) const {
   check({name}, {});
   std::error_code error;
   fs::create_directories((folder_ / name).parent_path(), error);
-  if (error) throw OutputError((folder_ / name).string() + ": " + error.message());
+  if (error) throw UserError((folder_ / name).string() + ": " + error.message());
   unlink((folder_ / name).c_str());
 }
 

@@ -13,7 +13,7 @@
 namespace mtstereo::outputs {
 
 /// A folder in which a program lists the files that it writes, in a hidden file (.PROGRAM-files),
-/// so that its next run knows which ones it may replace. Every call throws OutputError.
+/// so that its next run knows which ones it may replace. Every call throws UserError.
 class ListedFolder {
  public:
   /// Creates the folder, and locks it. `program`: its name.

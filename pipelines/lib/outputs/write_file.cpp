@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "geometry/new_file.hpp"
-#include "lib/outputs/output_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::outputs {
 
@@ -34,7 +34,7 @@ void write_file(const fs::path& file, std::string_view bytes) {
   Status status = out.open();
   if (status) status = out.write(bytes.data(), bytes.size());
   if (status) status = out.finish();
-  if (!status) throw OutputError(status.error().message);
+  if (!status) throw WriteError(status.error().message);
 }
 
 void move_file(const fs::path& from, const fs::path& to) {
@@ -42,9 +42,9 @@ void move_file(const fs::path& from, const fs::path& to) {
   if (fs::is_directory(fs::symlink_status(from, ignored))) rmdir(to.c_str());
   const int error = rename_to_new(from, to);
   if (error == 0) return;
-  throw OutputError(to.string() + ": cannot be written: " +
-                    (error == EEXIST ? "it has appeared meanwhile; move it, and start again"
-                                     : std::generic_category().message(error)));
+  throw UserError(to.string() + ": cannot be written: " +
+                  (error == EEXIST ? "it has appeared meanwhile; move it, and start again"
+                                   : std::generic_category().message(error)));
 }
 
 }  // namespace mtstereo::outputs

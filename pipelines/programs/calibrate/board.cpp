@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "programs/calibrate/calibration_error.hpp"
 #include "programs/calibrate/charuco.hpp"
+#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {

@@ -8,8 +8,9 @@
 #include <filesystem>
 #include <utility>
 
-#include "programs/calibrate/calibration_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
+#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -56,12 +57,12 @@ std::string launch_line(const std::string& source, const SourceOptions& options)
   if (source.find("://") != std::string::npos) return "uridecodebin uri=" + quoted(source);
   const bool exists = fs::exists(source);
   if (source.starts_with("/dev/")) {
-    if (!exists) throw CalibrationError(source + ": no such device");
+    if (!exists) throw UserError(source + ": no such device");
     return device_line(source, options);
   }
   if (exists) return "filesrc location=" + quoted(source) + " ! decodebin";
   if (is_element(source)) return source;
-  throw CalibrationError(source + ": no such file, folder, device or element");
+  throw UserError(source + ": no such file, folder, device or element");
 }
 
 Branch::Branch(GstPipeline* pipeline, std::string name, std::string source,
@@ -73,7 +74,7 @@ Branch::Branch(GstPipeline* pipeline, std::string name, std::string source,
   g_autoptr(GError) error = nullptr;
   bin_ = gst_parse_bin_from_description_full(line.c_str(), FALSE, nullptr,
                                              GST_PARSE_FLAG_FATAL_ERRORS, &error);
-  if (bin_ == nullptr) throw CalibrationError(title() + ": " + error->message);
+  if (bin_ == nullptr) throw UserError(title() + ": " + error->message);
   gst_bin_add(GST_BIN(pipeline), bin_);
   g_autoptr(GstElement) sink = gst_bin_get_by_name(GST_BIN(bin_), "sink");
   sink_ = GST_APP_SINK(sink);
@@ -107,7 +108,7 @@ void Branch::take(GstSample* sample) {
   GstBuffer* buffer = gst_sample_get_buffer(sample);
   if (gst_video_info_from_caps(&info, gst_sample_get_caps(sample)) == FALSE ||
       gst_video_frame_map(&mapped, &info, buffer, GST_MAP_READ) == FALSE) {
-    throw CalibrationError(title() + ": a frame cannot be read");
+    throw UserError(title() + ": a frame cannot be read");
   }
   Frame frame;
   frame.image = cv::Mat(info.height, info.width, CV_8UC1, GST_VIDEO_FRAME_PLANE_DATA(&mapped, 0),
@@ -151,8 +152,8 @@ void Branch::drop_old_frames() { gst_app_sink_set_drop(sink_, TRUE); }
 
 void Branch::check_silence(double timeout) const {
   if (ended_ || waited_ <= timeout) return;
-  throw CalibrationError(title() + ": no frame for " + decimal(timeout, 0) +
-                         " s. Is it sending, and is it not in use elsewhere? (--timeout)");
+  throw UserError(title() + ": no frame for " + decimal(timeout, 0) +
+                  " s. Is it sending, and is it not in use elsewhere? (--timeout)");
 }
 
 }  // namespace mtstereo::calibrate

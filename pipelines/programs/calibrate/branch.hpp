@@ -16,7 +16,7 @@ namespace mtstereo::calibrate {
 
 struct SourceOptions;
 
-/// The gst-launch line of a source, without its sink. Throws CalibrationError if a file or a
+/// The gst-launch line of a source, without its sink. Throws UserError if a file or a
 /// device does not exist.
 std::string launch_line(const std::string& source, const SourceOptions& options);
 
@@ -28,7 +28,7 @@ class Branch {
     std::optional<plugin::Nanoseconds> time;  ///< running time
   };
 
-  /// Adds the source to a pipeline. `name` is "left", "right" or "". Throws CalibrationError.
+  /// Adds the source to a pipeline. `name` is "left", "right" or "". Throws UserError.
   Branch(GstPipeline* pipeline, std::string name, std::string source, const SourceOptions& options);
 
   /// Waits for a frame for a part of a second. True if there is a new one.
@@ -48,7 +48,7 @@ class Branch {
   bool is_live() const;
   /// Frames that are not taken in time are lost from now on.
   void drop_old_frames();
-  /// Throws CalibrationError if pull() has waited in vain for so long [s].
+  /// Throws UserError if pull() has waited in vain for so long [s].
   void check_silence(double timeout) const;
   /// Whether a message comes from here.
   bool owns(GstObject* object) const;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "programs/calibrate/calibration_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -21,10 +21,10 @@ void require_side_by_side(const Rig& rig) {
   const Eigen::Vector3d center = rig.right_from_left.inverse().translation;
   if (std::abs(center.x()) >= center.norm() / 2) return;
   const bool vertical = std::abs(center.y()) > std::abs(center.z());
-  throw CalibrationError(std::string("the cameras are not side by side: one is ") +
-                         (vertical ? "above" : "in front of") +
-                         " the other. mtstereo needs a left and a right camera; turn cameras that "
-                         "are one above the other by 90 degrees, or their videos (videoflip)");
+  throw UserError(std::string("the cameras are not side by side: one is ") +
+                  (vertical ? "above" : "in front of") +
+                  " the other. mtstereo needs a left and a right camera; turn cameras that "
+                  "are one above the other by 90 degrees, or their videos (videoflip)");
 }
 
 bool is_swapped(const Rig& rig) { return rig.right_from_left.inverse().translation.x() < 0; }
@@ -36,13 +36,13 @@ void swap_sides(std::vector<BoardView>& views) {
 Rectification rectification_of(const Rig& rig) {
   const StereoCalibration calibration = calibration_of(rig);
   if (const Status status = check_calibration(calibration); !status) {
-    throw CalibrationError("the solution makes no sense: " + status.error().message +
-                           " (is the square size, in mm, right?)");
+    throw UserError("the solution makes no sense: " + status.error().message +
+                    " (is the square size, in mm, right?)");
   }
   Result<Rectification> result = rectify(calibration);
   if (!result) {
-    throw CalibrationError(result.error().message +
-                           " If they are, the views are too few, too similar or blurred.");
+    throw UserError(result.error().message +
+                    " If they are, the views are too few, too similar or blurred.");
   }
   return *result;
 }
@@ -65,7 +65,7 @@ Solution first_solution(std::optional<Model>& model, cv::Size left, cv::Size rig
       Solution solution = solve(each, left, right, views);
       model = each;
       return solution;
-    } catch (const CalibrationError&) {
+    } catch (const UserError&) {
       if (each == kModels.back()) throw;
     }
   }
@@ -96,13 +96,13 @@ Model choose_model(Calibrated& calibrated, const Division& division) {
         best = trial.distance;
         choice = model;
       }
-    } catch (const CalibrationError& error) {
+    } catch (const UserError& error) {
       trial.failure = error.what();
       if (failure.empty()) failure = error.what();
     }
     calibrated.trials.push_back(trial);
   }
-  if (!std::isfinite(best)) throw CalibrationError(failure);
+  if (!std::isfinite(best)) throw UserError(failure);
   return choice;
 }
 

@@ -40,7 +40,7 @@ struct Calibrated {
 };
 
 /// Calibrates. `model`: std::nullopt chooses the one that fits the held-out views best. Throws
-/// CalibrationError.
+/// UserError.
 Calibrated calibrate(std::optional<Model> model, cv::Size left, cv::Size right,
                      std::vector<BoardView> views);
 

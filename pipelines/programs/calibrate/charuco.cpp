@@ -8,7 +8,7 @@
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "programs/calibrate/calibration_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -46,7 +46,7 @@ cv::Ptr<cv::aruco::Dictionary> dictionary_of(const std::string& name) {
 
 cv::Ptr<cv::aruco::CharucoBoard> board_of(const BoardOptions& options) {
   const auto dictionary = dictionary_of(options.dictionary);
-  if (!dictionary) throw CalibrationError("no dictionary '" + options.dictionary + "'");
+  if (!dictionary) throw UserError("no dictionary '" + options.dictionary + "'");
   return cv::aruco::CharucoBoard::create(options.columns, options.rows,
                                          static_cast<float>(options.square),
                                          static_cast<float>(options.marker_side()), dictionary);

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
 
-#include "programs/calibrate/board.hpp"
+#include "programs/calibrate/board_options.hpp"
 
 // Everything that depends on OpenCV's ArUco module. Its interface changed with OpenCV 4.7.
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "programs/calibrate/bundle.hpp"
+#include "programs/calibrate/board.hpp"
 #include "programs/calibrate/charuco.hpp"
 
 namespace mtstereo::calibrate {

@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
-#include "programs/calibrate/calibration_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/pictures.hpp"
 
 namespace mtstereo::calibrate {
@@ -27,7 +27,7 @@ std::string numbered(const std::string& folder, std::size_t index, const char* e
 std::string encoded(const std::string& name, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
   if (!cv::imencode(fs::path(name).extension().string(), image, bytes)) {
-    throw CalibrationError(name + ": cannot be encoded");
+    throw UserError(name + ": cannot be encoded");
   }
   return {bytes.begin(), bytes.end()};
 }
@@ -38,8 +38,8 @@ OutputFolder::OutputFolder(fs::path folder, bool overwrite, const std::vector<fs
     : folder_(std::move(folder)), files_(folder_, "mtcalibrate") {
   std::error_code error;
   if (!overwrite && fs::exists(folder_ / kCalibration, error)) {
-    throw CalibrationError(folder_.string() +
-                           ": has a calibration; choose another folder by --out, or --overwrite");
+    throw UserError(folder_.string() +
+                    ": has a calibration; choose another folder by --out, or --overwrite");
   }
   files_.check({kCalibration, "report.json", "rectified.png", "coverage.png", "residuals.png",
                 kLeft, kRight, kViews},
@@ -72,7 +72,7 @@ void OutputFolder::swap_sides() {
     fs::rename(folder_ / kRight, folder_ / kLeft);
     fs::rename(aside, folder_ / kRight);
   } catch (const fs::filesystem_error& error) {
-    throw CalibrationError(error.path1().string() + ": " + error.code().message());
+    throw UserError(error.path1().string() + ": " + error.code().message());
   }
 }
 

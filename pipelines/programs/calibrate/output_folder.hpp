@@ -15,8 +15,8 @@ namespace mtstereo::calibrate {
 /// that can be calibrated again (left/, right/), and pictures.
 class OutputFolder {
  public:
-  /// Creates and locks the folder. Throws CalibrationError if there is a calibration already and
-  /// `overwrite` is false, and OutputError if files that mtcalibrate did not write, or `inputs`,
+  /// Creates and locks the folder. Throws UserError if there is a calibration already and
+  /// `overwrite` is false, and UserError if files that mtcalibrate did not write, or `inputs`,
   /// are in the way. The files of an earlier calibration are removed when the first view is taken.
   OutputFolder(std::filesystem::path folder, bool overwrite,
                const std::vector<std::filesystem::path>& inputs);

@@ -9,8 +9,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
-#include "programs/calibrate/calibration_error.hpp"
+#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -136,9 +137,9 @@ Page make_page(const BoardOptions& board, const std::string& paper) {
     page.height = across ? each.width : each.height;
   }
   if (page.width < needed_width || page.height < needed_height) {
-    throw CalibrationError("the " + describe(board) + " is " + decimal(width, 0) + "x" +
-                           decimal(height, 0) + " mm and does not fit on " + paper +
-                           ": choose a larger --paper, or smaller or fewer squares");
+    throw UserError("the " + describe(board) + " is " + decimal(width, 0) + "x" +
+                    decimal(height, 0) + " mm and does not fit on " + paper +
+                    ": choose a larger --paper, or smaller or fewer squares");
   }
   const cv::Point2d origin((page.width - width) / 2, (page.height - height) / 2);
   for (const cv::Rect2d& each : black_rectangles(board)) {
@@ -212,14 +213,14 @@ bool is_page(const std::filesystem::path& file, const std::string& bytes) {
 void write_page(const Page& page, const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
   if (extension != ".pdf" && extension != ".png") {
-    throw CalibrationError(file.string() + ": a board is a .pdf or .png file");
+    throw UserError(file.string() + ": a board is a .pdf or .png file");
   }
   const std::string bytes = extension == ".pdf" ? pdf_of(page) : png_of(page);
   std::error_code error;
   const auto status = std::filesystem::symlink_status(file, error);
   if (std::filesystem::exists(status) && !is_page(file, bytes)) {
-    throw CalibrationError(file.string() +
-                           " is in the way, and is no board of mtcalibrate: choose another name");
+    throw UserError(file.string() +
+                    " is in the way, and is no board of mtcalibrate: choose another name");
   }
   outputs::write_file(file, bytes);
 }

@@ -30,7 +30,7 @@ struct Page {
 std::vector<std::string> paper_names();
 
 /// The board in the middle of a page, with its description, a line of 100 mm to measure, and what
-/// to do with it. The page is upright or across, as the board fits. Throws CalibrationError if it
+/// to do with it. The page is upright or across, as the board fits. Throws UserError if it
 /// does not.
 Page make_page(const BoardOptions& board, const std::string& paper);
 
@@ -40,7 +40,7 @@ std::string pdf_of(const Page& page);
 /// The page as a PNG that states its resolution, with this many pixels per mm, at least.
 std::string png_of(const Page& page, double pixels_per_mm = 12);
 
-/// Writes the page in the format of the extension, .pdf or .png. Throws CalibrationError.
+/// Writes the page in the format of the extension, .pdf or .png. Throws UserError.
 void write_page(const Page& page, const std::filesystem::path& file);
 
 }  // namespace mtstereo::calibrate

@@ -12,8 +12,9 @@
 #include <regex>
 #include <vector>
 
-#include "programs/calibrate/calibration_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
+#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -90,9 +91,9 @@ std::vector<fs::path> list_pictures(const std::string& source) {
       files.emplace_back(source);
     }
   } catch (const fs::filesystem_error& error) {
-    throw CalibrationError(source + ": " + error.code().message());
+    throw UserError(source + ": " + error.code().message());
   }
-  if (files.empty()) throw CalibrationError(source + ": there are no pictures");
+  if (files.empty()) throw UserError(source + ": there are no pictures");
   sort_names(files);
   return files;
 }
@@ -104,7 +105,7 @@ cv::Mat read(const fs::path& file) {
   } catch (const cv::Exception&) {
     image.release();
   }
-  if (image.empty()) throw CalibrationError(file.string() + ": is not a picture that can be read");
+  if (image.empty()) throw UserError(file.string() + ": is not a picture that can be read");
   return image;
 }
 
@@ -137,10 +138,10 @@ fs::path without_partner(const std::vector<fs::path>& pictures,
                                 const std::vector<fs::path>& right) {
   fs::path alone = without_partner(left, right);
   if (alone.empty()) alone = without_partner(right, left);
-  throw CalibrationError(options.left + " has " + counted(left.size(), "picture") + ", but " +
-                         options.right + " has " + std::to_string(right.size()) +
-                         ": they are paired in order" +
-                         (alone.empty() ? "" : "; " + alone.string() + " has no partner"));
+  throw UserError(options.left + " has " + counted(left.size(), "picture") + ", but " +
+                  options.right + " has " + std::to_string(right.size()) +
+                  ": they are paired in order" +
+                  (alone.empty() ? "" : "; " + alone.string() + " has no partner"));
 }
 
 bool is_line(const std::string& source) {
@@ -159,10 +160,10 @@ void check_exists(const std::string& source) {
   if (!fs::exists(status)) {
     const bool is_name = source.find_first_of("./") != std::string::npos;
     if (!is_name || source.find(' ') != std::string::npos) return;
-    throw CalibrationError(source + ": no such file or folder");
+    throw UserError(source + ": no such file or folder");
   }
   if (fs::is_regular_file(status) || fs::is_directory(status)) return;
-  throw CalibrationError(source + ": is a pipe or a device, which may never end: record it first");
+  throw UserError(source + ": is a pipe or a device, which may never end: record it first");
 }
 
 class Pictures : public PairSource {
@@ -207,8 +208,8 @@ void split(const cv::Mat& image, Arrangement arrangement, ImagePair& pair) {
   const bool across = arrangement == Arrangement::kSideBySide;
   const int extent = across ? image.cols : image.rows;
   if (extent % 2 != 0) {
-    throw CalibrationError("images of " + std::to_string(image.cols) + "x" +
-                           std::to_string(image.rows) + " cannot be halved");
+    throw UserError("images of " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
+                    " cannot be halved");
   }
   const int half = extent / 2;
   pair.left = across ? image.colRange(0, half) : image.rowRange(0, half);
@@ -237,8 +238,8 @@ std::unique_ptr<PairSource> open_source(const SourceOptions& options) {
   const bool two = options.arrangement == Arrangement::kTwoSources;
   const bool left = is_pictures(options.left);
   if (two && left != is_pictures(options.right)) {
-    throw CalibrationError("one source gives pictures and the other one video: " + options.left +
-                           ", " + options.right);
+    throw UserError("one source gives pictures and the other one video: " + options.left + ", " +
+                    options.right);
   }
   return left ? open_pictures(options) : open_streams(options);
 }

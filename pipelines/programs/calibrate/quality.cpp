@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "programs/calibrate/calibration_error.hpp"
+#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {

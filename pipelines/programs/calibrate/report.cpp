@@ -6,7 +6,7 @@
 
 #include "lib/outputs/json_text.hpp"
 #include "mtstereo/geometry/rig.hpp"
-#include "programs/calibrate/calibration_error.hpp"
+#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {

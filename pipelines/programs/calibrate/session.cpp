@@ -6,7 +6,7 @@
 #include <csignal>
 #include <ctime>
 
-#include "programs/calibrate/calibration_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/pictures.hpp"
 
 namespace mtstereo::calibrate {
@@ -64,7 +64,7 @@ int Session::run() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   if (views_.size() < kFewestViews) {
-    throw CalibrationError(too_few_views(counts_, views_.size(), options_.board, video));
+    throw UserError(too_few_views(counts_, views_.size(), options_.board, video));
   }
   return finish(video);
 }
@@ -90,9 +90,8 @@ bool Session::enough(const PairSource& source) const {
 
 void Session::check_sizes(const ImagePair& images) {
   if (images.left.size() != images.right.size()) {
-    throw CalibrationError("the left image is " + size_text(images.left.size()) +
-                           ", the right one " + size_text(images.right.size()) +
-                           ": both must have the same size");
+    throw UserError("the left image is " + size_text(images.left.size()) + ", the right one " +
+                    size_text(images.right.size()) + ": both must have the same size");
   }
   if (!choice_) {
     left_size_ = images.left.size();
@@ -102,8 +101,8 @@ void Session::check_sizes(const ImagePair& images) {
                     stills ? Choice::kStills : Choice::kVideo);
   }
   if (images.left.size() != left_size_) {
-    throw CalibrationError("the images change their size from " + size_text(left_size_) + " to " +
-                           size_text(images.left.size()) + " at " + images.name);
+    throw UserError("the images change their size from " + size_text(left_size_) + " to " +
+                    size_text(images.left.size()) + " at " + images.name);
   }
 }
 
@@ -181,7 +180,7 @@ int Session::finish(bool video) {
   file.format = "mtstereo";
   file.date = report.date;
   const Status status = write_calibration(file, folder_.calibration().string());
-  if (!status) throw CalibrationError(status.error().message);
+  if (!status) throw UserError(status.error().message);
   print_report(out_, report);
   return options_.strict && !quality.warnings.empty() ? kWithWarnings : kWritten;
 }

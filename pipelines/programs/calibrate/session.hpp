@@ -19,7 +19,7 @@ class Session {
   Session(const Options& options, std::ostream& out, std::ostream* status,
           const std::atomic<bool>& stop);
 
-  /// Returns an ExitStatus. Throws CalibrationError if there is no calibration.
+  /// Returns an ExitStatus. Throws UserError if there is no calibration.
   int run();
 
  private:

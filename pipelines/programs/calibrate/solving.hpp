@@ -23,7 +23,7 @@ struct Solution {
 };
 
 /// Calibrates both cameras together. Corners and views that do not fit are removed: a robust
-/// adjustment finds them, and least squares of the others is the result. Throws CalibrationError
+/// adjustment finds them, and least squares of the others is the result. Throws UserError
 /// if there are too few views, or no model fits them.
 Solution solve(Model model, cv::Size left, cv::Size right, const std::vector<BoardView>& views);
 

@@ -57,7 +57,7 @@ class PairSource {
   PairSource(const PairSource&) = delete;
   PairSource& operator=(const PairSource&) = delete;
 
-  /// Waits for the next pair, but only for a part of a second. Throws CalibrationError, which
+  /// Waits for the next pair, but only for a part of a second. Throws UserError, which
   /// names the source, if it fails or does not deliver.
   virtual SourceState next(ImagePair& pair) = 0;
   /// Pictures, not video.
@@ -66,17 +66,17 @@ class PairSource {
   virtual bool live() const { return false; }
 };
 
-/// Opens a source. Throws CalibrationError.
+/// Opens a source. Throws UserError.
 std::unique_ptr<PairSource> open_source(const SourceOptions& options);
 
-/// The files of a source: pictures, or a video; none for others. Throws CalibrationError if a file
+/// The files of a source: pictures, or a video; none for others. Throws UserError if a file
 /// or folder does not exist, or never ends.
 std::vector<std::filesystem::path> input_files(const SourceOptions& options);
 
 /// Whether a source is a folder, a pattern or a file of pictures.
 bool is_pictures(const std::string& source);
 
-/// Both halves of an image. Throws CalibrationError if it cannot be halved.
+/// Both halves of an image. Throws UserError if it cannot be halved.
 void split(const cv::Mat& image, Arrangement arrangement, ImagePair& pair);
 
 std::unique_ptr<PairSource> open_pictures(const SourceOptions& options);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 
-#include "programs/calibrate/calibration_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -212,7 +212,7 @@ Camera fit_camera(Model model, int width, int height, std::vector<BoardView>& vi
     }
   }
   if (!(smallest < width)) {
-    throw CalibrationError(
+    throw UserError(
         "no camera fits the corners that were found: is the number of squares "
         "right, and is the board flat?");
   }

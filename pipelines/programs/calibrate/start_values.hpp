@@ -20,11 +20,11 @@ inline constexpr std::size_t kFewestCorners = 6;
 std::optional<Pose> board_pose(const Camera& camera, const std::vector<Observation>& seen);
 
 /// Camera and poses (`views[i].pose`) that fit what one camera saw (`views[i].left`), by an
-/// adjustment from several focal lengths. Throws CalibrationError if none fits.
+/// adjustment from several focal lengths. Throws UserError if none fits.
 Camera fit_camera(Model model, int width, int height, std::vector<BoardView>& views);
 
 /// Two cameras, and the poses of the board, from what both saw: each camera alone, then the pose
-/// between them that most views agree on. Throws CalibrationError.
+/// between them that most views agree on. Throws UserError.
 Rig fit_start(Model model, cv::Size left, cv::Size right, std::vector<BoardView>& views);
 
 /// The robust scale of residuals [px]: the standard deviation of their components if most are

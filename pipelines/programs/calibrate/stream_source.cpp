@@ -7,10 +7,11 @@
 #include <memory>
 #include <utility>
 
+#include "lib/outputs/user_error.hpp"
 #include "matcher/pairing/tolerance.hpp"
 #include "programs/calibrate/branch.hpp"
-#include "programs/calibrate/calibration_error.hpp"
 #include "programs/calibrate/source.hpp"
+#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -22,8 +23,8 @@ constexpr double kNanoseconds = 1e-9;
 void start_gstreamer() {
   g_autoptr(GError) error = nullptr;
   if (gst_init_check(nullptr, nullptr, &error) != FALSE) return;
-  throw CalibrationError(std::string("GStreamer cannot be initialized: ") +
-                         (error != nullptr ? error->message : "unknown error"));
+  throw UserError(std::string("GStreamer cannot be initialized: ") +
+                  (error != nullptr ? error->message : "unknown error"));
 }
 
 struct StopPipeline {
@@ -47,7 +48,7 @@ class Streams : public PairSource {
     }
     if (gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING) == GST_STATE_CHANGE_FAILURE) {
       check_errors();
-      throw CalibrationError("the sources cannot be started");
+      throw UserError("the sources cannot be started");
     }
   }
 
@@ -73,7 +74,7 @@ class Streams : public PairSource {
     for (const Branch* branch : {left_.get(), right_.get()}) {
       if (branch != nullptr && branch->owns(GST_MESSAGE_SRC(message))) title = branch->title();
     }
-    throw CalibrationError(title + ": " + error->message);
+    throw UserError(title + ": " + error->message);
   }
 
   // Live sources cannot wait for the search of the board.
@@ -120,8 +121,8 @@ class Streams : public PairSource {
     if (options_.pairing == Pairing::kIndex) return take(pair);
     for (const Branch* branch : {left_.get(), right_.get()}) {
       if (branch->frames().back().time) continue;
-      throw CalibrationError(branch->title() +
-                             ": its frames have no time stamps; pair them by --pairing index");
+      throw UserError(branch->title() +
+                      ": its frames have no time stamps; pair them by --pairing index");
     }
     return pair_by_time(pair);
   }
@@ -153,10 +154,10 @@ class Streams : public PairSource {
   // Streams whose times never fit.
   void check_unpaired(plugin::Nanoseconds difference) {
     if (++unpaired_ < kMostUnpaired) return;
-    throw CalibrationError(std::to_string(unpaired_) +
-                           " frames in a row have no partner: the times of the sources differ by " +
-                           decimal(kNanoseconds * static_cast<double>(difference), 3) +
-                           " s. Start both together, or pair files by --pairing index");
+    throw UserError(std::to_string(unpaired_) +
+                    " frames in a row have no partner: the times of the sources differ by " +
+                    decimal(kNanoseconds * static_cast<double>(difference), 3) +
+                    " s. Start both together, or pair files by --pairing index");
   }
 
   SourceState take(ImagePair& pair) {

@@ -14,8 +14,9 @@
 
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "programs/run/interruption.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "recordings/inputs/recording_files.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/matching/results.hpp"
 #include "recordings/plan/archive.hpp"
@@ -23,7 +24,6 @@
 #include "recordings/plan/plan_contents.hpp"
 #include "recordings/plan/plan_folder.hpp"
 #include "recordings/plan/program.hpp"
-#include "recordings/plan/work_key.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -225,9 +225,9 @@ void print_progress(const LocalProgress& progress, bool quiet) {
 bool has_grown(const ArchiveInput& input, const ArchiveOptions& options, const fs::path& folder) {
   const PlanMatch match = compare(read_plan(options.folder), input.recordings, options);
   if (match == PlanMatch::kOther) {
-    throw RunError(folder.string() +
-                   ": has results of another input or other options; choose another folder by "
-                   "--out, or --overwrite");
+    throw UserError(folder.string() +
+                    ": has results of another input or other options; choose another folder by "
+                    "--out, or --overwrite");
   }
   return match == PlanMatch::kGrown;
 }
@@ -248,7 +248,7 @@ void check_folders(const ArchiveInput& input, const fs::path& folder, Existing e
   const PlanFolder files(folder / "plan");
   const fs::file_status status = fs::symlink_status(files.path(), error);
   if (fs::exists(status) && !fs::is_directory(status)) {
-    throw RunError(files.path().string() + " is in the way: move it, or choose another folder");
+    throw UserError(files.path().string() + " is in the way: move it, or choose another folder");
   }
   check_plan_folder(files.path(), inputs_of(input));
   for (const Recording& found : input.recordings) {
@@ -265,9 +265,9 @@ void check_continued(const Plan& plan, const PlanFolder& files, const fs::path& 
     const fs::path results = plan.recordings.size() == 1 ? folder : folder / name;
     const std::string found = fingerprint_in(results / kRunFile);
     if (found.empty() || found == fingerprint(read_work(files.work(name)))) continue;
-    throw RunError(results.string() +
-                   ": has results of another input or other options; choose another folder by "
-                   "--out, or --overwrite");
+    throw UserError(results.string() +
+                    ": has results of another input or other options; choose another folder by "
+                    "--out, or --overwrite");
   }
 }
 
@@ -298,10 +298,10 @@ int run_plan_command(const ArchiveInput& input, const PlanOptions& options, Exis
   check_plan_folder(options.folder, inputs_of(input));
   std::error_code error;
   if (existing == Existing::kRefuse && fs::exists(PlanFolder(options.folder).plan(), error)) {
-    throw RunError(options.folder.string() +
-                   ": has a plan already: 'mtstereo-run task' and 'merge' continue it; "
-                   "choose another folder by --out, or --resume to plan again and keep what is "
-                   "prepared and done, or --overwrite to remove it");
+    throw UserError(options.folder.string() +
+                    ": has a plan already: 'mtstereo-run task' and 'merge' continue it; "
+                    "choose another folder by --out, or --resume to plan again and keep what is "
+                    "prepared and done, or --overwrite to remove it");
   }
   if (existing == Existing::kReplace) remove_plan(options.folder);
   const Plan plan = plan_archive(input.recordings, input.problems, archive);
@@ -324,9 +324,9 @@ int run_with_jobs(const ArchiveInput& input, const fs::path& folder, int jobs, E
   std::error_code error;
   bool planned = fs::exists(files.plan(), error);
   if (existing == Existing::kRefuse && planned) {
-    throw RunError(folder.string() +
-                   ": has results already; choose another folder by --out, or --resume or "
-                   "--overwrite");
+    throw UserError(folder.string() +
+                    ": has results already; choose another folder by --out, or --resume or "
+                    "--overwrite");
   }
   check_folders(input, folder, existing);
   if (existing == Existing::kReplace) {

@@ -12,12 +12,13 @@
 
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "programs/run/cluster_commands.hpp"
 #include "programs/run/interruption.hpp"
 #include "programs/run/options.hpp"
 #include "programs/run/own_plugin.hpp"
 #include "programs/run/run_recording.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "recordings/inputs/recognition.hpp"
 
 namespace mtstereo::run {
 namespace {

@@ -10,11 +10,12 @@
 #include "lib/options/failure_message.hpp"
 #include "lib/outputs/finite_range.hpp"
 #include "lib/outputs/parse_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/rectification.hpp"
 #include "mtstereo/parameters.hpp"
 #include "programs/run/help_format.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "recordings/matching/matching_line.hpp"
+#include "recordings/matching/products.hpp"
 #include "recordings/matching/work_options.hpp"
 
 namespace mtstereo::run {
@@ -276,7 +277,7 @@ void apply(const Texts& texts, Options& options) {
   }
   try {
     matcher_parameters(work);
-  } catch (const RunError& error) {
+  } catch (const UserError& error) {
     throw CLI::ValidationError(error.what());
   }
 }

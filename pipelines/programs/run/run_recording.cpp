@@ -9,9 +9,9 @@
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/json_text.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "programs/run/interruption.hpp"
 #include "programs/run/progress_line.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/matching/json_files.hpp"
 #include "recordings/matching/matching_line.hpp"
@@ -35,9 +35,10 @@ bool is_done(const Work& work, Existing existing, const fs::path& folder) {
               << ", in " << outputs::printable(folder.string()) << ": it is done again\n";
     return false;
   }
-  throw RunError(folder.string() +
-                 ": has results of another input or other options; choose another folder by --out, "
-                 "or --overwrite");
+  throw UserError(
+      folder.string() +
+      ": has results of another input or other options; choose another folder by --out, "
+      "or --overwrite");
 }
 
 void print_summary(const Work& work, const PieceReport& report, const fs::path& folder) {

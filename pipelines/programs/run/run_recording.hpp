@@ -10,7 +10,7 @@ namespace mtstereo::run {
 
 /// Processes a recording into a folder, and prints remarks, progress and a summary. Returns the
 /// exit status: kDone, kIncomplete if the input is damaged or a full disk, for example, stopped the
-/// run, or kWorthless. Throws RunError.
+/// run, or kWorthless. Throws UserError.
 int run_recording(const Recording& recording, const Options& options,
                   const std::filesystem::path& folder);
 

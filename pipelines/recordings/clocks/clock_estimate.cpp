@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/calibration.hpp"
 #include "recordings/clocks/frame_pairs.hpp"
 #include "recordings/clocks/gray_frames.hpp"
@@ -18,7 +19,6 @@
 #include "recordings/clocks/motion_signature.hpp"
 #include "recordings/clocks/row_clock.hpp"
 #include "recordings/clocks/row_matches.hpp"
-#include "recordings/inputs/run_error.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -56,9 +56,9 @@ struct Views {
 double seconds(Nanoseconds time) { return kNanoseconds * static_cast<double>(time); }
 
 [[noreturn]] void refuse(const Views& views, const std::string& reason) {
-  throw RunError(views.recording.name +
-                 ": the clocks of the recordings cannot be compared by the pictures: " + reason +
-                 "." + kByHand);
+  throw UserError(views.recording.name +
+                  ": the clocks of the recordings cannot be compared by the pictures: " + reason +
+                  "." + kByHand);
 }
 
 MotionSignature signature_of(const Source& source, const FrameIndex& index, double length) {
@@ -267,7 +267,7 @@ void rectify_views(const Recording& recording, const FrameIndex& index, GrayFram
                    GrayFrames& right) {
   if (recording.rectified || recording.calibration.empty()) return;
   const auto calibration = read_calibration(recording.calibration, index.width, index.height);
-  if (!calibration) throw RunError(recording.calibration + ": " + calibration.error().message);
+  if (!calibration) throw UserError(recording.calibration + ": " + calibration.error().message);
   left.rectify_as(*calibration, Rectifier::Side::kLeft);
   right.rectify_as(*calibration, Rectifier::Side::kRight);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "recordings/inputs/recording.hpp"
 #include "recordings/media/frame_index.hpp"
 
 namespace mtstereo::run {
@@ -36,7 +37,7 @@ std::optional<double> find_offset(const Recording& recording, const FrameIndex& 
                                   const FrameIndex& right);
 
 /// Finds offset and drift from the pictures, as docs/appendix/clocks.md describes. A recording
-/// whose frames are together already gets exactly the relation 0, 0. Throws RunError if the
+/// whose frames are together already gets exactly the relation 0, 0. Throws UserError if the
 /// pictures do not decide; the message states why and how to give the offset by hand.
 ClockEstimate estimate_clocks(const Recording& recording, const FrameIndex& left,
                               const FrameIndex& right);

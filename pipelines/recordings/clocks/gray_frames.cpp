@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -25,7 +25,7 @@ GrayFrames::GrayFrames(const Source& source, const FrameIndex& index, int width)
 void GrayFrames::prepare(GstCaps* caps) {
   if (caps_ && gst_caps_is_equal(caps_.get(), caps) != FALSE) return;
   if (gst_video_info_from_caps(&in_, caps) == FALSE) {
-    throw RunError("frames of an unknown format cannot be compared");
+    throw UserError("frames of an unknown format cannot be compared");
   }
   const int width = std::min(width_, in_.width);
   const int height =
@@ -35,7 +35,7 @@ void GrayFrames::prepare(GstCaps* caps) {
                             static_cast<guint>(height));
   out_.fps_n = in_.fps_n, out_.fps_d = in_.fps_d;
   converter_.reset(gst_video_converter_new(&in_, &out_, nullptr));
-  if (!converter_) throw RunError("frames of this format cannot be converted to gray");
+  if (!converter_) throw UserError("frames of this format cannot be converted to gray");
   caps_.reset(gst_caps_ref(caps));
 }
 

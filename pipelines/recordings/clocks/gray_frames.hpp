@@ -17,7 +17,8 @@ namespace mtstereo::run {
 /// Decodes frames of one source and reduces them to small gray pictures.
 class GrayFrames {
  public:
-  /// Pictures of at most this width [px]. Both references must outlive the object. Throws RunError.
+  /// Pictures of at most this width [px]. Both references must outlive the object. Throws
+  /// UserError.
   GrayFrames(const Source& source, const FrameIndex& index, int width);
 
   /// Rectifies the pictures as one side of this calibration, which is for whole frames.

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <utility>
 
+#include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/calibration.hpp"
-#include "recordings/inputs/file_names.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "recordings/inputs/recording_files.hpp"
 #include "recordings/inputs/view_names.hpp"
-#include "recordings/plan/work_key.hpp"
+#include "recordings/media/file_names.hpp"
 
 namespace mtstereo::run {
 
@@ -86,7 +86,7 @@ void check_regular(const std::string& calibration) {
   for (const fs::path& file : recording_files(recording)) {
     std::error_code error;
     if (!fs::exists(file, error) || fs::is_regular_file(file, error)) continue;
-    throw RunError(file.string() + ": a calibration is a file, and no folder, pipe or device");
+    throw UserError(file.string() + ": a calibration is a file, and no folder, pipe or device");
   }
 }
 
@@ -151,15 +151,15 @@ void choose_calibration(Recording& recording, const std::vector<std::string>& be
   if (!options.calibration.empty()) {
     check_regular(options.calibration);
     const Result<StereoCalibration> given = fitting(options.calibration, width, height);
-    if (!given) throw RunError(given.error().message);
+    if (!given) throw UserError(given.error().message);
     use(recording, options.calibration, *given, options);
     return;
   }
   const Usable usable = usable_of(beside, width, height);
   if (usable.calibrations.size() > 1) {
-    throw RunError("there are several calibrations beside the input, such as " +
-                   usable.calibrations[0].first + " and " + usable.calibrations[1].first +
-                   ": choose one by --calibration");
+    throw UserError("there are several calibrations beside the input, such as " +
+                    usable.calibrations[0].first + " and " + usable.calibrations[1].first +
+                    ": choose one by --calibration");
   }
   if (usable.calibrations.size() == 1) {
     const auto& [path, calibration] = usable.calibrations.front();
@@ -170,7 +170,7 @@ void choose_calibration(Recording& recording, const std::vector<std::string>& be
     recording.remarks.push_back("No calibration is used: " + usable.first_problem);
   }
   if (options.rectified == false) {
-    throw RunError(recording.name + ": raw views need a calibration (--calibration)");
+    throw UserError(recording.name + ": raw views need a calibration (--calibration)");
   }
 }
 

@@ -15,7 +15,7 @@ std::vector<std::string> calibrations_in(const std::vector<std::filesystem::path
 
 /// Sets the calibration of a recording whose views have this size, and whether the views are
 /// rectified. The calibration of the options is used, or the one of `beside` that can be read and
-/// fits the size. The choice is a remark. Throws RunError for the one of the options, and if there
+/// fits the size. The choice is a remark. Throws UserError for the one of the options, and if there
 /// are several beside the input.
 void choose_calibration(Recording& recording, const std::vector<std::string>& beside,
                         const InputOptions& options, int width, int height);

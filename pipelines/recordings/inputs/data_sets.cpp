@@ -11,9 +11,9 @@
 #include <map>
 #include <utility>
 
-#include "recordings/inputs/file_names.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/picture_lists.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "recordings/media/file_names.hpp"
 
 namespace mtstereo::run {
 
@@ -135,8 +135,8 @@ Source euroc_source(Recording& recording, const fs::path& camera) {
     Nanoseconds time = 0;
     const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), time);
     if (error != std::errc() || comma == std::string::npos) {
-      throw RunError((camera / "data.csv").string() + ": the line '" + line +
-                     "' is not 'TIME,NAME'");
+      throw UserError((camera / "data.csv").string() + ": the line '" + line +
+                      "' is not 'TIME,NAME'");
     }
     const std::size_t begin = line.find_first_not_of(" \t", comma + 1);
     const fs::path picture =
@@ -240,8 +240,8 @@ std::optional<FoundRecording> find_euroc(const fs::path& folder) {
   recording.kind = "EuRoC (ASL) sequence";
   Source left_source = euroc_source(recording, left), right_source = euroc_source(recording, right);
   if (left_source.empty() || right_source.empty()) {
-    throw RunError((left_source.empty() ? left : right).string() +
-                   ": data.csv names no picture that exists in data");
+    throw UserError((left_source.empty() ? left : right).string() +
+                    ": data.csv names no picture that exists in data");
   }
   start_at_zero(left_source, right_source);
   set_timed_pictures(recording, left_source, right_source);
@@ -260,9 +260,9 @@ std::optional<FoundRecording> find_pair_folder(const fs::path& folder) {
   Recording& recording = found.recording;
   recording.name = folder_name(folder);
   for (const fs::path& picture : {left, right}) {
-    if (!is_there(picture)) throw RunError(picture.string() + ": no such file");
+    if (!is_there(picture)) throw UserError(picture.string() + ": no such file");
     const std::string problem = picture_problem(picture);
-    if (!problem.empty()) throw RunError(picture.string() + ": the picture " + problem);
+    if (!problem.empty()) throw UserError(picture.string() + ": the picture " + problem);
   }
   recording.left.pictures = {left};
   recording.right.pictures = {right};

@@ -26,7 +26,7 @@ cv::Mat half_of(const cv::Mat& frame, Arrangement arrangement, int number);
 
 /// Matches the halves of gray frames with each other, in both orders. With a calibration, they are
 /// rectified first. The order of views that are not rectified cannot be seen: they are not swapped.
-/// Throws RunError.
+/// Throws UserError.
 HalvesMatch match_halves(const std::vector<cv::Mat>& frames, Arrangement arrangement,
                          const std::optional<StereoCalibration>& calibration);
 

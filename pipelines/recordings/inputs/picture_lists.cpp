@@ -11,8 +11,8 @@
 #include <set>
 #include <utility>
 
-#include "recordings/inputs/file_names.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/media/file_names.hpp"
 
 namespace mtstereo::run {
 
@@ -176,9 +176,9 @@ void remove_broken(Recording& recording, Source& source) {
                   (left_out == 1 ? " pictures is left out" : " pictures are left out");
   }
   if (good.pictures.empty() && !source.pictures.empty()) {
-    throw RunError(source.pictures.front().parent_path().string() +
-                   ": no picture can be read: the first one " +
-                   picture_problem(source.pictures.front()));
+    throw UserError(source.pictures.front().parent_path().string() +
+                    ": no picture can be read: the first one " +
+                    picture_problem(source.pictures.front()));
   }
   source = std::move(good);
 }
@@ -226,7 +226,7 @@ std::string picture_problem(const fs::path& picture) {
 
 void set_pictures(Recording& recording, const std::vector<fs::path>& left,
                   const std::vector<fs::path>& right, double frame_rate) {
-  if (!(frame_rate > 0)) throw RunError("the frame rate of pictures must be above 0");
+  if (!(frame_rate > 0)) throw UserError("the frame rate of pictures must be above 0");
   Source left_source{{}, left, {}}, right_source{{}, right, {}};
   bool needs_times = true;
   if (!set_times_of_names(left_source, right_source)) {

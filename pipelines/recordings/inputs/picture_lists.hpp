@@ -23,7 +23,7 @@ std::string picture_problem(const std::filesystem::path& picture);
 /// Sets the pictures of a recording, one list or two. Pictures that are broken are left out with a
 /// remark. The times of the others are set where the numbers in their names, the times in their
 /// names, or pictures left out need it: frames that belong together get the same time. Throws
-/// RunError if a list has no picture that can be read.
+/// UserError if a list has no picture that can be read.
 void set_pictures(Recording& recording, const std::vector<std::filesystem::path>& left,
                   const std::vector<std::filesystem::path>& right, double frame_rate);
 

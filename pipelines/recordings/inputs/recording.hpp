@@ -1,35 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace mtstereo::run {
+#include "recordings/media/source.hpp"
 
-/// A time or a difference of two [ns].
-using Nanoseconds = std::int64_t;
+namespace mtstereo::run {
 
 /// How the two views arrive.
 enum class Arrangement {
   kTwoSources,  ///< one source for each view
   kSideBySide,  ///< one source: left half and right half
   kTopBottom,   ///< one source: upper half and lower half
-};
-
-/// Where the frames of one source are: a video file, or pictures.
-struct Source {
-  std::filesystem::path video;                  ///< empty for pictures
-  std::vector<std::filesystem::path> pictures;  ///< one per frame, in order; empty for a video
-  /// Of the pictures, from the data set [ns]; empty: by Recording::frame_rate.
-  std::vector<Nanoseconds> times;
-  /// Pictures that were found but are left out; empty if there are none. FrameIndex::damage has it.
-  std::string damage{};
-
-  /// No source.
-  bool empty() const { return video.empty() && pictures.empty(); }
 };
 
 /// How views are rectified, as the properties of mtrectify with these names.
@@ -72,16 +57,5 @@ struct Problem {
   std::string input;
   std::string reason;  ///< one sentence
 };
-
-/// Recognises one recording: two video files, two folders (or patterns, left/%04d.png) of pictures,
-/// one file or folder with both views side by side or one above the other, or a folder of a data
-/// set (KITTI odometry and raw, EuRoC ASL, Middlebury and ETH3D pair folders). Decodes at most a
-/// few frames. Throws RunError.
-Recording recognize(const std::vector<std::string>& inputs, const InputOptions& options);
-
-/// All recordings in a folder and the folders in it, sorted by name. What looks like a recording
-/// and cannot be used is added to `problems`. Throws RunError if the folder cannot be read.
-std::vector<Recording> find_recordings(const std::filesystem::path& archive,
-                                       const InputOptions& options, std::vector<Problem>& problems);
 
 }  // namespace mtstereo::run

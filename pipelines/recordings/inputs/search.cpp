@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/calibration.hpp"
 #include "recordings/inputs/calibration_choice.hpp"
-#include "recordings/inputs/file_names.hpp"
 #include "recordings/inputs/halves.hpp"
 #include "recordings/inputs/picture_lists.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "recordings/inputs/view_names.hpp"
+#include "recordings/media/file_names.hpp"
 #include "recordings/media/sample_frames.hpp"
 
 namespace mtstereo::run {
@@ -97,7 +97,7 @@ class FolderSearch {
       if (!found) return false;
       contents_.used_folders = found->used_folders;
       contents_.recordings.push_back(completed(*found, options_));
-    } catch (const RunError& error) {
+    } catch (const UserError& error) {
       contents_.problems.push_back({folder_.string(), error.what()});
       contents_.used_folders = folders_in(folder_);
     }
@@ -111,7 +111,7 @@ class FolderSearch {
       FoundRecording found = recording_of(left, right, options_);
       found.recording.name = name;
       contents_.recordings.push_back(completed(std::move(found), options_));
-    } catch (const RunError& error) {
+    } catch (const UserError& error) {
       if (!problem_of.empty()) contents_.problems.push_back({problem_of, error.what()});
     }
   }
@@ -186,16 +186,16 @@ const char* name_of(Arrangement arrangement) {
 Arrangement guess_arrangement(const Recording& recording, cv::Size size) {
   const std::optional<Arrangement> shape = arrangement_by_shape(size.width, size.height);
   if (shape) return *shape;
-  throw RunError(file_of(recording.left).string() + ": " + size_text(size) +
-                 " is the shape of one view: give the other view too, or state the arrangement "
-                 "(--layout)");
+  throw UserError(file_of(recording.left).string() + ": " + size_text(size) +
+                  " is the shape of one view: give the other view too, or state the arrangement "
+                  "(--layout)");
 }
 
 // The calibration that rectifies the halves, if one does.
 std::optional<StereoCalibration> rectifying_calibration(const Recording& recording, cv::Size half) {
   if (recording.rectified || recording.calibration.empty()) return std::nullopt;
   const auto read = read_calibration(recording.calibration, half.width, half.height);
-  if (!read) throw RunError(read.error().message);
+  if (!read) throw UserError(read.error().message);
   return *read;
 }
 
@@ -214,9 +214,9 @@ void confirm_arrangement(Recording& recording, cv::Size size, cv::Size half, boo
                            percent(std::max(match.forward, match.backward)) +
                            " of the points of one half are in the other one";
   if (!match.confirmed) {
-    throw RunError(file_of(recording.left).string() +
-                   ": by its shape it may have both views, but its halves do not match (" + text +
-                   "): give the other view too, or state the arrangement (--layout)");
+    throw UserError(file_of(recording.left).string() +
+                    ": by its shape it may have both views, but its halves do not match (" + text +
+                    "): give the other view too, or state the arrangement (--layout)");
   }
   recording.remarks.push_back("Both views are in one frame (" + text + ").");
   if (swap || !match.swapped) return;
@@ -229,8 +229,8 @@ void confirm_arrangement(Recording& recording, cv::Size size, cv::Size half, boo
 cv::Size half_size(cv::Size size, Arrangement arrangement, const fs::path& file) {
   const bool beside = arrangement == Arrangement::kSideBySide;
   if ((beside ? size.width : size.height) % 2 != 0) {
-    throw RunError(file.string() + ": " + size_text(size) + " cannot be halved: its " +
-                   (beside ? "width" : "height") + " is odd");
+    throw UserError(file.string() + ": " + size_text(size) + " cannot be halved: its " +
+                    (beside ? "width" : "height") + " is odd");
   }
   return beside ? cv::Size(size.width / 2, size.height) : cv::Size(size.width, size.height / 2);
 }
@@ -240,9 +240,9 @@ cv::Size size_of_two(const Recording& recording) {
   const cv::Size left = first_frame(recording.left).size();
   const cv::Size right = first_frame(recording.right).size();
   if (left == right) return left;
-  throw RunError("the views have different sizes: " + file_of(recording.left).string() + " has " +
-                 size_text(left) + ", " + file_of(recording.right).string() + " has " +
-                 size_text(right));
+  throw UserError("the views have different sizes: " + file_of(recording.left).string() + " has " +
+                  size_text(left) + ", " + file_of(recording.right).string() + " has " +
+                  size_text(right));
 }
 
 // One source: the calibration is for a half, and decides how the halves match.
@@ -281,16 +281,16 @@ Source source_of(const std::string& input) {
   Source source;
   if (is_pattern(input)) {
     source.pictures = files_of_pattern(input);
-    if (source.pictures.empty()) throw RunError(input + ": no file has such a name");
+    if (source.pictures.empty()) throw UserError(input + ": no file has such a name");
   } else if (fs::is_directory(input, error)) {
     source.pictures = pictures_of_folder(input);
     const std::vector<fs::path> videos = videos_in(input);
     if (source.pictures.empty() && videos.size() == 1) source.video = videos.front();
-    if (source.empty()) throw RunError(input + ": the folder has neither pictures nor one video");
+    if (source.empty()) throw UserError(input + ": the folder has neither pictures nor one video");
   } else if (!fs::exists(input, error)) {
-    throw RunError(input + ": no such file or folder");
+    throw UserError(input + ": no such file or folder");
   } else if (!fs::is_regular_file(input, error)) {
-    throw RunError(input + ": is a pipe or a device, which may never end: record it into a file");
+    throw UserError(input + ": is a pipe or a device, which may never end: record it into a file");
   } else if (is_picture(input)) {
     source.pictures = {input};
   } else {
@@ -302,18 +302,18 @@ Source source_of(const std::string& input) {
 FoundRecording recording_of(const Source& left, const Source& right, const InputOptions& options) {
   const bool two = !right.empty();
   if (two && left.video.empty() != right.video.empty()) {
-    throw RunError(file_of(left).string() + " and " + file_of(right).string() +
-                   ": one is a video and the other one is not");
+    throw UserError(file_of(left).string() + " and " + file_of(right).string() +
+                    ": one is a video and the other one is not");
   }
   const bool one_arrangement =
       options.arrangement && *options.arrangement == Arrangement::kTwoSources;
   if (two ? options.arrangement && !one_arrangement : one_arrangement) {
-    throw RunError(file_of(left).string() + ": the arrangement that is stated needs " +
-                   (two ? "one source, not two" : "two sources"));
+    throw UserError(file_of(left).string() + ": the arrangement that is stated needs " +
+                    (two ? "one source, not two" : "two sources"));
   }
   if (two && are_same(left, right)) {
-    throw RunError(file_of(left).string() + " and " + file_of(right).string() +
-                   " are the same file: give the left view and the right one");
+    throw UserError(file_of(left).string() + " and " + file_of(right).string() +
+                    " are the same file: give the left view and the right one");
   }
   FoundRecording found;
   Recording& recording = found.recording;

@@ -22,14 +22,14 @@ FolderContents search_folder(const std::filesystem::path& folder, const InputOpt
                              bool asked);
 
 /// Looks at the first frames: checks the sizes, finds the arrangement of one source, and chooses
-/// the calibration. Throws RunError.
+/// the calibration. Throws UserError.
 Recording completed(FoundRecording found, const InputOptions& options);
 
 /// A source by what the user gives: a video, a picture, a pattern, a folder with pictures or with
-/// one video. Pictures are not checked. Throws RunError.
+/// one video. Pictures are not checked. Throws UserError.
 Source source_of(const std::string& input);
 
-/// A recording of one or two such sources, for completed(). Throws RunError.
+/// A recording of one or two such sources, for completed(). Throws UserError.
 FoundRecording recording_of(const Source& left, const Source& right, const InputOptions& options);
 
 }  // namespace mtstereo::run

@@ -3,14 +3,14 @@
 
 #include <utility>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::run {
 namespace {
 
 template <typename T>
 T value_of(Result<T> result) {
-  if (!result) throw RunError("the views cannot be rectified: " + result.error().message);
+  if (!result) throw UserError("the views cannot be rectified: " + result.error().message);
   return std::move(*result);
 }
 
@@ -36,7 +36,7 @@ cv::Mat ViewRectifier::apply(const cv::Mat& picture) {
   const Status status = rectifier_->apply(
       {picture.data, picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step)},
       {result.data, result.cols, result.rows, static_cast<std::ptrdiff_t>(result.step)});
-  if (!status) throw RunError("the views cannot be rectified: " + status.error().message);
+  if (!status) throw UserError("the views cannot be rectified: " + status.error().message);
   return result;
 }
 

@@ -14,7 +14,7 @@ class ViewRectifier {
  public:
   ViewRectifier(StereoCalibration calibration, Rectifier::Side side);
 
-  /// The rectified picture; an empty one stays empty. Throws RunError.
+  /// The rectified picture; an empty one stays empty. Throws UserError.
   cv::Mat apply(const cv::Mat& picture);
 
  private:

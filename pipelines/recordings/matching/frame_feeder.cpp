@@ -7,7 +7,7 @@
 #include <future>
 #include <utility>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/matching_line.hpp"
 
 namespace mtstereo::run {
@@ -149,12 +149,12 @@ void FrameFeeder::note_damage(std::int64_t pair) {
 void FrameFeeder::set_caps(const Side& side, Target& target, const DecodedFrame& frame) const {
   GstVideoInfo info;
   if (gst_video_info_from_caps(&info, frame.caps.get()) == FALSE) {
-    throw RunError(side.title + ": the decoder gives no raw video");
+    throw UserError(side.title + ": the decoder gives no raw video");
   }
   if (side.width > 0 && (info.width != side.width || info.height != side.height)) {
-    throw RunError(side.title + ": its frames change from " + std::to_string(side.width) + "x" +
-                   std::to_string(side.height) + " to " + std::to_string(info.width) + "x" +
-                   std::to_string(info.height) + " px");
+    throw UserError(side.title + ": its frames change from " + std::to_string(side.width) + "x" +
+                    std::to_string(side.height) + " to " + std::to_string(info.width) + "x" +
+                    std::to_string(info.height) + " px");
   }
   gint numerator = 0, denominator = 1;
   gst_video_guess_framerate(static_cast<GstClockTime>(work_.period), &numerator, &denominator);

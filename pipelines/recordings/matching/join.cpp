@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/matching/piece.hpp"
 #include "recordings/matching/piece_folder.hpp"
@@ -28,14 +28,14 @@ struct Piece {
 // The pieces in the order of their pairs. Throws if they do not cover the recording.
 std::vector<Piece> read_pieces(const Work& work, const std::vector<Range>& ranges,
                                const std::vector<fs::path>& folders) {
-  if (ranges.size() != folders.size()) throw RunError("as many folders as pieces are needed");
+  if (ranges.size() != folders.size()) throw UserError("as many folders as pieces are needed");
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     Piece piece{ranges[i], folders[i], {}};
     Range found;
     piece.report = read_piece(folders[i] / kPieceFile, found);
     if (found.first != ranges[i].first || found.count != ranges[i].count) {
-      throw RunError(folders[i].string() + ": has other pairs than its place in the plan");
+      throw UserError(folders[i].string() + ": has other pairs than its place in the plan");
     }
     pieces.push_back(std::move(piece));
   }
@@ -44,12 +44,12 @@ std::vector<Piece> read_pieces(const Work& work, const std::vector<Range>& range
   std::int64_t next = 0;
   for (const Piece& piece : pieces) {
     if (piece.range.first != next) {
-      throw RunError(work.recording.name + ": no piece begins with pair " + std::to_string(next));
+      throw UserError(work.recording.name + ": no piece begins with pair " + std::to_string(next));
     }
     next += piece.range.count;
   }
   if (next != static_cast<std::int64_t>(work.pairs.pairs.size())) {
-    throw RunError(work.recording.name + ": the pieces end before pair " + std::to_string(next));
+    throw UserError(work.recording.name + ": the pieces end before pair " + std::to_string(next));
   }
   return pieces;
 }
@@ -57,7 +57,7 @@ std::vector<Piece> read_pieces(const Work& work, const std::vector<Range>& range
 // The files of the piece must be those of its report.
 void check_files(const WorkOptions& options, const Piece& piece) {
   if (result_files(options, piece.folder) == piece.report.files) return;
-  throw RunError(piece.folder.string() + ": has other files than its report states");
+  throw UserError(piece.folder.string() + ": has other files than its report states");
 }
 
 void join_video(const std::vector<Piece>& pieces, const std::string& name, const fs::path& folder) {
@@ -70,16 +70,16 @@ void join_video(const std::vector<Piece>& pieces, const std::string& name, const
       track = reader.track();
       writer = std::make_unique<MatroskaWriter>(folder / name, track);
     } else if (!(reader.track() == track)) {
-      throw RunError((piece.folder / name).string() +
-                     ": has another size or was written by another version of the encoder");
+      throw UserError((piece.folder / name).string() +
+                      ": has another size or was written by another version of the encoder");
     }
     std::size_t frames = 0;
     for (; const std::optional<MatroskaReader::Cluster> cluster = reader.next(); ++frames) {
       writer->append_cluster(cluster->time, cluster->bytes);
     }
     if (frames != piece.report.frames.size()) {
-      throw RunError((piece.folder / name).string() + ": has " + std::to_string(frames) +
-                     " frames; its report states " + std::to_string(piece.report.frames.size()));
+      throw UserError((piece.folder / name).string() + ": has " + std::to_string(frames) +
+                      " frames; its report states " + std::to_string(piece.report.frames.size()));
     }
   }
   if (writer) writer->finish();
@@ -130,7 +130,7 @@ PieceReport join(const Work& work, const std::vector<Range>& ranges,
     whole.finish(report);
     return report;
   } catch (const fs::filesystem_error& error) {
-    throw RunError(error.path1().string() + ": " + error.code().message());
+    throw UserError(error.path1().string() + ": " + error.code().message());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lib/outputs/written_files.hpp"
+#include "recordings/inputs/own_names.hpp"
 #include "recordings/matching/piece.hpp"
 
 // The JSON of mtstereo-run: a Work in the folder of a plan, a PieceReport beside its files, and the
@@ -16,19 +17,17 @@ namespace mtstereo::run {
 
 /// Writes a work, so that another process can do a piece of it. Written aside and renamed.
 void write_work(const Work& work, const std::filesystem::path& file);
-/// Reads it. Throws RunError for a file that is missing, damaged or of another version.
+/// Reads it. Throws UserError for a file that is missing, damaged or of another version.
 Work read_work(const std::filesystem::path& file);
 
 /// The report of a piece.
 void write_piece(const PieceReport& report, Range range, const std::filesystem::path& file);
-/// Reads it. Throws RunError.
+/// Reads it. Throws UserError.
 PieceReport read_piece(const std::filesystem::path& file, Range& range);
 
 /// Differs for works that give different results.
 std::string fingerprint(const Work& work);
 
-/// The report of a run in its folder.
-inline constexpr const char* kRunFile = "run.json";
 /// The reports in a folder of results: what they list, a run of this program wrote.
 inline constexpr std::array kReportFiles{kPieceFile, kRunFile};
 

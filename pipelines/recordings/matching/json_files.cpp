@@ -6,7 +6,7 @@
 #include <cerrno>
 
 #include "lib/outputs/json_text.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/work_facts.hpp"
 
 namespace mtstereo::run {
@@ -29,22 +29,22 @@ void write_whole(const std::filesystem::path& file,
   }
   const std::string reason = error.message();
   std::filesystem::remove(aside, error);
-  throw RunError(file.string() + ": cannot be written: " + reason);
+  throw UserError(file.string() + ": cannot be written: " + reason);
 }
 
 Json read_json(const std::filesystem::path& file, const char* kind) {
   std::error_code error;
   std::ifstream in;
   if (std::filesystem::is_regular_file(file, error)) in.open(file, std::ios::binary);
-  if (!in.is_open()) throw RunError(file.string() + ": cannot be read");
+  if (!in.is_open()) throw UserError(file.string() + ": cannot be read");
   const Json json = Json::parse(in, nullptr, false);
   if (!json.is_object() || json.value("kind", "") != kind) {
-    throw RunError(file.string() + ": is damaged, or is not a " + kind);
+    throw UserError(file.string() + ": is damaged, or is not a " + kind);
   }
   const int version = json.value("version", 0);
   if (version != kJsonVersion) {
-    throw RunError(file.string() + ": has version " + std::to_string(version) +
-                   "; this program reads version " + std::to_string(kJsonVersion));
+    throw UserError(file.string() + ": has version " + std::to_string(version) +
+                    "; this program reads version " + std::to_string(kJsonVersion));
   }
   return json;
 }
@@ -53,7 +53,7 @@ void read_fields(const std::filesystem::path& file, const std::function<void()>&
   try {
     read();
   } catch (const nlohmann::json::exception& error) {
-    throw RunError(file.string() + ": is damaged: " + error.what());
+    throw UserError(file.string() + ": is damaged: " + error.what());
   }
 }
 

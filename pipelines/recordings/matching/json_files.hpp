@@ -20,14 +20,14 @@ using Json = nlohmann::ordered_json;
 /// The version of the files that processes exchange.
 inline constexpr int kJsonVersion = 2;
 
-/// Writes a file aside and renames it. Throws RunError.
+/// Writes a file aside and renames it. Throws UserError.
 void write_whole(const std::filesystem::path& file,
                  const std::function<void(std::ostream& out)>& write);
 
-/// Reads a file of this program. Throws RunError.
+/// Reads a file of this program. Throws UserError.
 Json read_json(const std::filesystem::path& file, const char* kind);
 
-/// Runs a reader of `file`; what is missing or has a wrong type is a RunError.
+/// Runs a reader of `file`; what is missing or has a wrong type is a UserError.
 void read_fields(const std::filesystem::path& file, const std::function<void()>& read);
 
 /// The content of a work, and of parts of it.

@@ -7,10 +7,11 @@
 #include <string_view>
 
 #include "lib/outputs/json_text.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/matching/json_files.hpp"
 #include "recordings/matching/matching_line.hpp"
+#include "recordings/matching/products.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -28,7 +29,7 @@ auto choice_of(const Choices& choices, Name name, const std::string& text) {
   for (const auto choice : choices) {
     if (name(choice) == std::string_view(text)) return choice;
   }
-  throw RunError("a work has the unknown word " + text);
+  throw UserError("a work has the unknown word " + text);
 }
 
 // Numbers that increase as their first one and the differences.
@@ -158,7 +159,7 @@ PairList read_pairs(const Json& json, const Work& work) {
     const auto left = run.at(0).get<std::int64_t>(), right = run.at(1).get<std::int64_t>(),
                count = run.at(2).get<std::int64_t>();
     if (left < 0 || right < 0 || count < 0 || count > lefts - left || count > rights - right) {
-      throw RunError("the pairs of a work are beyond its frames");
+      throw UserError("the pairs of a work are beyond its frames");
     }
     for (std::int64_t i = 0; i < count; ++i) list.pairs.push_back({left + i, right + i});
   }

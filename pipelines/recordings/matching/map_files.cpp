@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/matching/map_files.hpp"
 
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -10,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "lib/outputs/output_error.hpp"
+#include "lib/outputs/pfm_bytes.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
 #include "mtstereo/geometry/point_cloud.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "shared/confidence_meta.hpp"
 #include "shared/frame_views.hpp"
 
@@ -27,7 +26,7 @@ class Frame {
  public:
   explicit Frame(GstSample* sample)
       : info_(info_of(sample)), mapped_(info_, gst_sample_get_buffer(sample), GST_MAP_READ) {
-    if (!mapped_.mapped()) throw RunError("a frame cannot be read: " + mapped_.problem());
+    if (!mapped_.mapped()) throw UserError("a frame cannot be read: " + mapped_.problem());
   }
   GrayView bytes() const { return mapped_.luma(); }
   ImageView<const std::uint16_t> values() const {
@@ -40,7 +39,7 @@ class Frame {
   static GstVideoInfo info_of(GstSample* sample) {
     GstVideoInfo info;
     if (gst_video_info_from_caps(&info, gst_sample_get_caps(sample)) != FALSE) return info;
-    throw RunError("a frame has no valid caps");
+    throw UserError("a frame has no valid caps");
   }
   GstVideoInfo info_;
   plugin::MappedFrame mapped_;
@@ -71,27 +70,10 @@ std::vector<std::int64_t> count_values(GstSample* map) {
   return counts;
 }
 
-void write_bytes(const std::filesystem::path& file, std::string_view bytes) {
-  try {
-    outputs::write_file(file, bytes);
-  } catch (const outputs::OutputError& error) {
-    throw WriteError(error.what());
-  }
-}
-
-// Little-endian, the last row first.
 void write_pfm(ImageView<const std::uint16_t> map, const std::vector<float>& table,
                const std::filesystem::path& file) {
-  std::string bytes =
-      "Pf\n" + std::to_string(map.width) + " " + std::to_string(map.height) + "\n-1.0\n";
-  for (int y = map.height - 1; y >= 0; --y) {
-    const std::uint16_t* row = map.row(y);
-    for (int x = 0; x < map.width; ++x) {
-      const auto value = std::bit_cast<std::uint32_t>(table[row[x]]);
-      for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xff);
-    }
-  }
-  write_bytes(file, bytes);
+  outputs::write_file(file, outputs::pfm_bytes(map.width, map.height,
+                                               [&](int x, int y) { return table[map.row(y)[x]]; }));
 }
 
 // The smallest value that so many of the known ones do not exceed; 0 without any.
@@ -138,7 +120,7 @@ MapGeometry::MapGeometry(const Recording& recording) {
 DepthGeometry MapGeometry::of(GstSample* map) {
   const GstStructure* const fields = gst_caps_get_structure(gst_sample_get_caps(map), 0);
   const Result<plugin::StereoGeometry> geometry = source_.geometry(fields, properties_);
-  if (!geometry) throw RunError(geometry.error().message);
+  if (!geometry) throw UserError(geometry.error().message);
   return plugin::depth_geometry(*geometry, unit_of(map));
 }
 
@@ -153,8 +135,8 @@ void write_png(GstSample* sample, const std::filesystem::path& file) {
                       static_cast<std::size_t>(view.stride));
   // Encoded in memory: OpenCV does not state why a file cannot be written.
   std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", image, bytes)) throw RunError(file.string() + ": cannot be encoded");
-  write_bytes(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (!cv::imencode(".png", image, bytes)) throw UserError(file.string() + ": cannot be encoded");
+  outputs::write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 void write_disparity_pfm(GstSample* map, const std::filesystem::path& file) {
@@ -198,7 +180,7 @@ void write_points(GstSample* map, GstSample* view, const DepthGeometry& geometry
   options.near = limits.near;
   options.far = limits.far;
   Status status = make_cloud(input, geometry, options, points);
-  if (!status) throw RunError(file.string() + ": " + status.error().message);
+  if (!status) throw UserError(file.string() + ": " + status.error().message);
   status = write_cloud(points, CloudFormat::kPly, file.string());
   if (!status) throw WriteError(status.error().message);
 }

@@ -28,7 +28,7 @@ double disparity_below(GstSample* map, double share);
 class MapGeometry {
  public:
   explicit MapGeometry(const Recording& recording);
-  /// Throws RunError if it is not known.
+  /// Throws UserError if it is not known.
   DepthGeometry of(GstSample* map);
 
  private:
@@ -42,20 +42,20 @@ struct DepthLimits {
   double far = std::numeric_limits<double>::infinity();
 };
 
-/// Writes a frame (gray with 8 or 16 bits, or BGR) as PNG. Throws RunError.
+/// Writes a frame (gray with 8 or 16 bits, or BGR) as PNG. Throws UserError.
 void write_png(GstSample* frame, const std::filesystem::path& file);
 
 /// Writes the disparities of a map as floating-point numbers [px]; infinity = none. Throws
-/// RunError.
+/// UserError.
 void write_disparity_pfm(GstSample* map, const std::filesystem::path& file);
 
 /// Writes the depths of a disparity map in a range as floating-point numbers [m]; infinity = none.
-/// Throws RunError.
+/// Throws UserError.
 void write_depth_pfm(GstSample* map, const DepthGeometry& geometry, DepthLimits limits,
                      const std::filesystem::path& file);
 
 /// Writes the points of a map in a range of depths, with the colors of its left view (RGB), as PLY.
-/// Throws RunError.
+/// Throws UserError.
 void write_points(GstSample* map, GstSample* view, const DepthGeometry& geometry,
                   DepthLimits limits, const std::filesystem::path& file);
 

@@ -5,7 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/matching/products.hpp"
 #include "recordings/matching/work_facts.hpp"
 
 namespace mtstereo::run {
@@ -142,7 +143,7 @@ class LaneSettings {
     if (!found) return;
     GParamSpec* const known =
         g_object_class_find_property(G_OBJECT_GET_CLASS(found.get()), property);
-    if (known == nullptr) throw RunError(std::string("mtstereo has no property ") + property);
+    if (known == nullptr) throw UserError(std::string("mtstereo has no property ") + property);
     // Names of files may have any bytes.
     if (G_PARAM_SPEC_VALUE_TYPE(known) == G_TYPE_STRING) {
       g_object_set(found.get(), property, value.c_str(), nullptr);
@@ -193,31 +194,6 @@ class LaneSettings {
 };
 
 }  // namespace
-
-const char* product_name(Product product) {
-  switch (product) {
-    case Product::kDisparity:
-      return "disparity";
-    case Product::kDepth:
-      return "depth";
-    case Product::kColor:
-      return "color";
-    case Product::kConfidence:
-      return "confidence";
-    case Product::kRectifiedLeft:
-      return "rectified-left";
-    case Product::kRectifiedRight:
-      return "rectified-right";
-    case Product::kCloud:
-      break;
-  }
-  return "cloud";
-}
-
-bool makes(const WorkOptions& options, Product product) {
-  return std::find(options.products.begin(), options.products.end(), product) !=
-         options.products.end();
-}
 
 Lanes lanes_for(int threads) {
   const int all = threads > 0 ? threads : std::max(1, static_cast<int>(g_get_num_processors()));

@@ -8,11 +8,6 @@
 
 namespace mtstereo::run {
 
-/// "disparity", the name of a product on the command line, in files and of its sink.
-const char* product_name(Product product);
-/// Whether a product is asked for.
-bool makes(const WorkOptions& options, Product product);
-
 /// The names of the sinks of a matching pipeline that are not those of products.
 inline constexpr const char* kMapSink = "maps";   ///< disparity maps
 inline constexpr const char* kViewSink = "view";  ///< left views as RGB, for clouds
@@ -32,7 +27,7 @@ Lanes lanes_for(int threads);
 std::string lane_name(const std::string& name, int lane);
 
 /// The pipeline that makes the products of a work: frames come into `left` and `right`, or `both`,
-/// of each lane. Every sink of a lane gets one frame for each of its pairs. Throws RunError.
+/// of each lane. Every sink of a lane gets one frame for each of its pairs. Throws UserError.
 Pipeline matching_pipeline(const Work& work, Lanes lanes);
 
 /// The pipeline up to the maps, with one lane and without products.

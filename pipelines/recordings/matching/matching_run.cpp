@@ -3,7 +3,8 @@
 
 #include <utility>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/matching/products.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -65,7 +66,7 @@ GstPadProbeReturn MatchingRun::on_map(GstPad* pad, GstPadProbeInfo* /*info*/,
 void MatchingRun::fail(const std::string& reason) {
   feeder_.check();
   const std::string posted = posted_error(pipeline_);
-  throw RunError(work_.recording.name + ": " + (posted.empty() ? reason : posted));
+  throw UserError(work_.recording.name + ": " + (posted.empty() ? reason : posted));
 }
 
 SamplePointer MatchingRun::take(GstElement* sink) {
@@ -75,7 +76,7 @@ SamplePointer MatchingRun::take(GstElement* sink) {
     if (taken == Taken::kFrame) return sample;
     feeder_.check();
     const std::string posted = posted_error(pipeline_);
-    if (!posted.empty()) throw RunError(work_.recording.name + ": " + posted);
+    if (!posted.empty()) throw UserError(work_.recording.name + ": " + posted);
     if (taken == Taken::kEnd) return sample;
   }
 }

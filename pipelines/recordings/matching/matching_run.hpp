@@ -29,14 +29,14 @@ struct PairResult {
 class MatchingRun {
  public:
   /// Starts. `pairs` increase. `work` must outlive it. `earlier`: the notes of an interrupted run,
-  /// for damage(). Throws RunError.
+  /// for damage(). Throws UserError.
   MatchingRun(const Work& work, std::vector<std::int64_t> pairs, Pipeline pipeline, int lanes,
               std::vector<DamageNote> earlier = {});
   ~MatchingRun();
   MatchingRun(const MatchingRun&) = delete;
   MatchingRun& operator=(const MatchingRun&) = delete;
 
-  /// The next pair; std::nullopt after the last one. Throws RunError.
+  /// The next pair; std::nullopt after the last one. Throws UserError.
   std::optional<PairResult> next();
   /// Why pairs are missing or damaged, after the last one; empty if none is.
   std::string damage() { return feeder_.damage(); }

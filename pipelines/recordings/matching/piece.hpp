@@ -99,7 +99,7 @@ struct PieceReport {
 using Progress = std::function<bool(std::int64_t done, std::int64_t total, double milliseconds)>;
 
 /// Reads the recording's indexes, clocks, pairs and correction. `relation`: given by hand; none:
-/// estimated if `estimate` is set, otherwise the frames' times count as they are. Throws RunError.
+/// estimated if `estimate` is set, otherwise the frames' times count as they are. Throws UserError.
 Work prepare(const Recording& recording, const WorkOptions& options,
              const std::optional<ClockRelation>& relation, bool estimate);
 
@@ -108,21 +108,21 @@ Work prepare(const Recording& recording, const WorkOptions& options,
 inline constexpr const char* kPieceFile = "piece.json";
 
 /// What is done with results, or with a plan, that are in the folder already. Only files that this
-/// program wrote are ever replaced; for anything else in the way, RunError is thrown.
+/// program wrote are ever replaced; for anything else in the way, UserError is thrown.
 enum class Existing {
-  kRefuse,    ///< throws RunError
-  kContinue,  ///< keeps what was done of an equal work; throws RunError if it is another one
+  kRefuse,    ///< throws UserError
+  kContinue,  ///< keeps what was done of an equal work; throws UserError if it is another one
   kReplace,   ///< starts over
 };
 
 /// Processes pairs and writes the files of this piece and its report, kPieceFile, into `folder`,
 /// which is created. Files are written into a folder in it and renamed when they are whole. Throws
-/// RunError, also if `progress` stops the run; what is in `folder` itself then is whole.
+/// UserError, also if `progress` stops the run; what is in `folder` itself then is whole.
 PieceReport process(const Work& work, Range range, const std::filesystem::path& folder,
                     const Progress& progress, Existing existing = Existing::kRefuse);
 
 /// Joins pieces, which must cover the recording without a gap, into `folder`: the same bytes as one
-/// piece that covers all, and the same report, kPieceFile. Throws RunError.
+/// piece that covers all, and the same report, kPieceFile. Throws UserError.
 PieceReport join(const Work& work, const std::vector<Range>& ranges,
                  const std::vector<std::filesystem::path>& pieces,
                  const std::filesystem::path& folder);

@@ -7,9 +7,8 @@
 #include <iterator>
 #include <utility>
 
-#include "lib/outputs/output_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/matching/product_files.hpp"
 #include "recordings/media/matroska.hpp"
@@ -40,7 +39,7 @@ std::size_t frames_in(const fs::path& file) {
     std::size_t frames = 0;
     while (reader.skip()) ++frames;
     return frames;
-  } catch (const RunError&) {
+  } catch (const UserError&) {
     return 0;
   }
 }
@@ -59,7 +58,7 @@ PieceFolder::PieceFolder(const Work& work, Range range, fs::path folder, Existin
     write_journal(head);
     any_done_ = whole_ || !done_.empty();
   } catch (const fs::filesystem_error& error) {
-    throw RunError(error.path1().string() + ": " + error.code().message());
+    throw UserError(error.path1().string() + ": " + error.code().message());
   }
 }
 
@@ -161,9 +160,7 @@ void PieceFolder::finish(PieceReport& report) {
     if (!whole_) complete(report);
     publish(report);
   } catch (const fs::filesystem_error& error) {
-    throw RunError(error.path1().string() + ": " + error.code().message());
-  } catch (const outputs::OutputError& error) {
-    throw RunError(error.what());
+    throw UserError(error.path1().string() + ": " + error.code().message());
   }
 }
 

@@ -18,7 +18,7 @@ namespace mtstereo::run {
 class PieceFolder {
  public:
   /// Prepares the folder. With Existing::kContinue, the pairs of an interrupted run are kept.
-  /// Throws RunError if something is in the way.
+  /// Throws UserError if something is in the way.
   PieceFolder(const Work& work, Range range, std::filesystem::path folder, Existing existing);
   /// Removes the unfinished files unless a pair is done.
   ~PieceFolder();

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <string>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/piece.hpp"
 #include "recordings/matching/range_search.hpp"
 #include "recordings/matching/view_correction.hpp"
@@ -115,15 +115,15 @@ void find_pairs(Work& work, const std::optional<ClockRelation>& relation, bool e
   note_source(work, work.right, "right view");
   if (recording.rectified &&
       (work.left.width != work.right.width || work.left.height != work.right.height)) {
-    throw RunError(recording.name + ": the views have different sizes: left " +
-                   std::to_string(work.left.width) + "x" + std::to_string(work.left.height) +
-                   ", right " + std::to_string(work.right.width) + "x" +
-                   std::to_string(work.right.height) + " px");
+    throw UserError(recording.name + ": the views have different sizes: left " +
+                    std::to_string(work.left.width) + "x" + std::to_string(work.left.height) +
+                    ", right " + std::to_string(work.right.width) + "x" +
+                    std::to_string(work.right.height) + " px");
   }
   work.pairs =
       pair_frames(work.left, work.right, find_relation(work, relation, estimate), std::nullopt);
   if (work.pairs.pairs.empty()) {
-    throw RunError(recording.name + ": no frames of the two views belong together by their times");
+    throw UserError(recording.name + ": no frames of the two views belong together by their times");
   }
   note_early_end(work);
 }

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <string>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/matching_run.hpp"
 #include "recordings/matching/piece.hpp"
 #include "recordings/matching/piece_folder.hpp"
@@ -18,9 +18,9 @@ namespace {
 void check_range(const Work& work, Range range) {
   const auto pairs = static_cast<std::int64_t>(work.pairs.pairs.size());
   if (range.first >= 0 && range.count > 0 && range.count <= pairs - range.first) return;
-  throw RunError(work.recording.name + ": has pairs 0 to " + std::to_string(pairs - 1) +
-                 "; the piece has " + std::to_string(range.count) + " from " +
-                 std::to_string(range.first) + " on");
+  throw UserError(work.recording.name + ": has pairs 0 to " + std::to_string(pairs - 1) +
+                  "; the piece has " + std::to_string(range.count) + " from " +
+                  std::to_string(range.first) + " on");
 }
 
 std::vector<std::int64_t> numbers(std::int64_t first, std::int64_t end) {
@@ -65,8 +65,8 @@ PieceReport process(const Work& work, Range range, const std::filesystem::path& 
       piece.note(figures, run.take_notes(figures.pair));
       const std::int64_t done = figures.pair + 1 - range.first;
       if (progress && !progress(done, range.count, figures.matching_ms)) {
-        throw RunError(work.recording.name + ": stopped after " + std::to_string(done) + " of " +
-                       std::to_string(range.count) + " pairs");
+        throw UserError(work.recording.name + ": stopped after " + std::to_string(done) + " of " +
+                        std::to_string(range.count) + " pairs");
       }
     }
     add_damage(report.damage, run.damage());

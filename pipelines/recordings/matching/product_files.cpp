@@ -6,7 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/matching/products.hpp"
 #include "recordings/matching/view_geometry.hpp"
 #include "recordings/matching/work_facts.hpp"
 
@@ -94,7 +95,7 @@ void ProductFiles::write_video(Product product, GstSample* sample, std::int64_t 
   }
   GstMapInfo map;
   GstBuffer* const buffer = gst_sample_get_buffer(sample);
-  if (gst_buffer_map(buffer, &map, GST_MAP_READ) == FALSE) throw RunError("no memory for a frame");
+  if (gst_buffer_map(buffer, &map, GST_MAP_READ) == FALSE) throw UserError("no memory for a frame");
   try {
     video->append(pair * work_.period, {reinterpret_cast<const char*>(map.data), map.size});
     video->flush();

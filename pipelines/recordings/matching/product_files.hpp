@@ -26,13 +26,13 @@ bool in_one_file(const WorkOptions& options, Product product);
 /// Writes the products of pairs into a folder.
 class ProductFiles {
  public:
-  /// `done`: so many pairs are in the folder already, and are kept. Throws RunError.
+  /// `done`: so many pairs are in the folder already, and are kept. Throws UserError.
   ProductFiles(const Work& work, std::filesystem::path folder, std::int64_t done);
   ~ProductFiles();
   ProductFiles(const ProductFiles&) = delete;
   ProductFiles& operator=(const ProductFiles&) = delete;
 
-  /// Writes the products of a pair, and returns its figures. Throws RunError.
+  /// Writes the products of a pair, and returns its figures. Throws UserError.
   FrameFigures write(const PairResult& result);
   /// Finishes the files.
   void finish();

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/map_files.hpp"
 #include "recordings/matching/matching_run.hpp"
 #include "recordings/matching/view_correction.hpp"
@@ -61,7 +61,7 @@ Found inspect(const Work& work) {
     found.largest = found.pairs == 0 ? largest : std::max(found.largest, largest);
     ++found.pairs;
   }
-  if (!any) throw RunError(work.recording.name + ": " + run.damage());
+  if (!any) throw UserError(work.recording.name + ": " + run.damage());
   return found;
 }
 

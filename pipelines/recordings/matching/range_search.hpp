@@ -10,8 +10,8 @@ bool finds_range(const WorkOptions& options);
 
 /// Replaces max-disparity=auto by what pairs from the whole recording need: they are matched at
 /// half resolution in a range of half the width of the views. If they do not match, the default
-/// stays. Either is a remark. Needs the pairs, their period and the geometry. Throws RunError if no
-/// pair can be decoded.
+/// stays. Either is a remark. Needs the pairs, their period and the geometry. Throws UserError if
+/// no pair can be decoded.
 void find_range(Work& work);
 
 }  // namespace mtstereo::run

@@ -6,12 +6,12 @@
 #include <regex>
 #include <system_error>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/inputs/recording_files.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/matching/product_files.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/matroska_format.hpp"
-#include "recordings/plan/work_key.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -104,23 +104,23 @@ void check_unfinished(const fs::path& folder, Existing existing, const std::stri
   const std::string found = head_of_journal(folder);
   const bool plain = type_of(unfinished) == fs::file_type::directory;
   if (!plain || (found.empty() && !is_new(unfinished))) {
-    throw RunError(unfinished.string() +
-                   " is in the way, and no earlier run wrote it (it has no journal)" + kAdvice);
+    throw UserError(unfinished.string() +
+                    " is in the way, and no earlier run wrote it (it has no journal)" + kAdvice);
   }
   const outputs::Intent intent{{kUnfinished}, unfinished_files_in(folder), {}};
   if (std::string obstacle = outputs::obstacle_in(folder, intent); !obstacle.empty()) {
-    throw RunError(obstacle);
+    throw UserError(obstacle);
   }
   if (!is_interrupted(folder) || existing == Existing::kReplace) return;
   if (existing == Existing::kRefuse) {
-    throw RunError(folder.string() +
-                   ": has a run that was interrupted: --resume continues it, --overwrite starts "
-                   "over; or choose another folder by --out");
+    throw UserError(folder.string() +
+                    ": has a run that was interrupted: --resume continues it, --overwrite starts "
+                    "over; or choose another folder by --out");
   }
   if (head.empty() || head == found) return;
-  throw RunError(folder.string() +
-                 ": has an interrupted run of another input or other options; choose another "
-                 "folder by --out, or --overwrite");
+  throw UserError(folder.string() +
+                  ": has an interrupted run of another input or other options; choose another "
+                  "folder by --out, or --overwrite");
 }
 
 }  // namespace
@@ -165,12 +165,12 @@ void check_results_folder(const fs::path& folder, const Recording& recording,
   }
   intent.inputs = outputs::FileSet(recording_files(recording));
   const std::string obstacle = outputs::obstacle_in(folder, intent);
-  if (!obstacle.empty()) throw RunError(obstacle);
+  if (!obstacle.empty()) throw UserError(obstacle);
   if (existing != Existing::kRefuse) return;
   for (const auto& [name, bytes] : intent.written.files()) {
     if (type_of(folder / name) == fs::file_type::not_found) continue;
-    throw RunError(folder.string() + ": has results already (" + name +
-                   "); choose another folder by --out, or --resume or --overwrite");
+    throw UserError(folder.string() + ": has results already (" + name +
+                    "); choose another folder by --out, or --resume or --overwrite");
   }
 }
 

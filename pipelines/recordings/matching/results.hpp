@@ -24,7 +24,7 @@ outputs::WrittenFiles results_in(const std::filesystem::path& folder);
 /// The files of this program in its folder of unfinished files; paths in `folder`.
 outputs::WrittenFiles unfinished_files_in(const std::filesystem::path& folder);
 
-/// Throws RunError if a file that this program did not write, or an input, is in the way of the
+/// Throws UserError if a file that this program did not write, or an input, is in the way of the
 /// results of a recording, or if there are results or unfinished files already and they may be
 /// neither replaced nor continued. `head`: of the journal of this work; empty: of any.
 void check_results_folder(const std::filesystem::path& folder, const Recording& recording,

@@ -67,7 +67,7 @@ struct ViewDiagnosis {
   bool worthless() const;
 };
 
-/// Finds what is wrong with views that match badly. Throws RunError.
+/// Finds what is wrong with views that match badly. Throws UserError.
 ViewDiagnosis diagnose(const ViewSamples& views);
 
 /// What to say about a diagnosis, with the remedy; empty for kNone. `calibration`: that of the

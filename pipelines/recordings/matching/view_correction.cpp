@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "lib/outputs/user_error.hpp"
 #include "mtstereo/alignment.hpp"
 #include "recordings/clocks/frame_pairs.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "recordings/matching/map_files.hpp"
 #include "recordings/matching/matching_run.hpp"
 #include "recordings/matching/view_geometry.hpp"
@@ -70,7 +70,7 @@ Findings inspect(const Work& work) {
     findings.near_end += share_from(result->map.get(), most - 0.1 * (most - least));
     ++maps;
   }
-  if (maps == 0) throw RunError(work.recording.name + ": " + run.damage());
+  if (maps == 0) throw UserError(work.recording.name + ": " + run.damage());
   for (double* sum : {&findings.density, &findings.median, &findings.near_end}) *sum /= maps;
   add_findings(run.matcher(), findings);
   return findings;

@@ -9,7 +9,7 @@ namespace mtstereo::run {
 std::vector<std::int64_t> sample_pairs(std::int64_t pairs);
 
 /// Measures the correction of the views on pairs from the whole recording, and sets
-/// Work::correction. What is wrong with the views becomes remarks. Throws RunError.
+/// Work::correction. What is wrong with the views becomes remarks. Throws UserError.
 void measure_correction(Work& work);
 
 }  // namespace mtstereo::run

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/rig.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "recordings/matching/matching_line.hpp"
+#include "recordings/matching/products.hpp"
 #include "recordings/matching/work_facts.hpp"
 #include "recordings/matching/work_options.hpp"
 
@@ -46,9 +47,9 @@ Result<ViewGeometry> read_geometry(const Recording& recording, ViewSize size,
 // alpha and the size need views that are rectified here.
 void check_shape(const Recording& recording) {
   if (recording.shape == RectifiedShape{} || !recording.rectified) return;
-  throw RunError(recording.name +
-                 ": the views are rectified already, so --alpha and --rectified-size have no "
-                 "meaning; omit them, or state --rectified no");
+  throw UserError(recording.name +
+                  ": the views are rectified already, so --alpha and --rectified-size have no "
+                  "meaning; omit them, or state --rectified no");
 }
 
 bool needs_meters(const WorkOptions& options) {
@@ -60,18 +61,12 @@ void check_limits(const Work& work) {
   const Rectification& views = work.geometry->views;
   const double far = default_far(views.focal_length, views.baseline);
   if (!makes(work.options, Product::kCloud) || work.options.far || work.options.near < far) return;
-  throw RunError(work.recording.name + ": clouds end at " + number_text(std::round(far)) +
-                 " m, where the disparity is 4 px, and --near is " +
-                 number_text(work.options.near) + " m: set --far, 0 for no limit");
+  throw UserError(work.recording.name + ": clouds end at " + number_text(std::round(far)) +
+                  " m, where the disparity is 4 px, and --near is " +
+                  number_text(work.options.near) + " m: set --far, 0 for no limit");
 }
 
 }  // namespace
-
-ViewSize view_size(const Work& work) {
-  const Arrangement arrangement = work.recording.arrangement;
-  return {work.left.width / (arrangement == Arrangement::kSideBySide ? 2 : 1),
-          work.left.height / (arrangement == Arrangement::kTopBottom ? 2 : 1)};
-}
 
 void find_geometry(Work& work) {
   const Recording& recording = work.recording;
@@ -91,7 +86,7 @@ void find_geometry(Work& work) {
     work.geometry = std::move(*geometry);
     check_limits(work);
   } else if (!recording.rectified || needs_meters(work.options)) {
-    throw RunError(recording.name + ": " + geometry.error().message);
+    throw UserError(recording.name + ": " + geometry.error().message);
   } else {
     work.remarks.push_back("Focal length and baseline are not known: " + geometry.error().message);
   }

@@ -8,15 +8,9 @@
 namespace mtstereo::run {
 
 /// Sets Work::geometry, from the calibration of the recording and the size of a view. Throws
-/// RunError if the views cannot be rectified by it. For views that are rectified, a calibration
-/// without a usable geometry is a remark, or a RunError if a product is in meters.
+/// UserError if the views cannot be rectified by it. For views that are rectified, a calibration
+/// without a usable geometry is a remark, or a UserError if a product is in meters.
 void find_geometry(Work& work);
-
-/// The size of a view before it is rectified [px].
-struct ViewSize {
-  int width = 0, height = 0;
-};
-ViewSize view_size(const Work& work);
 
 /// The farthest points of clouds, unless --far is given [m]: where the disparity, after the
 /// principal offset, is 4 px, so that one px more or less is about a quarter of the distance.

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "lib/outputs/user_error.hpp"
 #include "recordings/clocks/gray_frames.hpp"
 #include "recordings/inputs/halves.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "recordings/inputs/view_match.hpp"
 #include "recordings/matching/view_geometry.hpp"
 #include "recordings/matching/work_options.hpp"
@@ -66,7 +66,7 @@ ViewSamples read_view_samples(const Work& work, const std::vector<int>& shifts) 
   result.min_disparity = parameters.integer(Parameter::kMinDisparity);
   if (!recording.rectified && !recording.calibration.empty()) {
     const auto calibration = read_calibration(recording.calibration, size.width, size.height);
-    if (!calibration) throw RunError(calibration.error().message);
+    if (!calibration) throw UserError(calibration.error().message);
     result.calibration = *calibration;
   }
   SmallViews views(work);

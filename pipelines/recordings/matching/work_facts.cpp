@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "lib/outputs/printable.hpp"
-#include "recordings/matching/matching_line.hpp"
+#include "recordings/matching/products.hpp"
 #include "recordings/matching/work_options.hpp"
 
 namespace mtstereo::run {

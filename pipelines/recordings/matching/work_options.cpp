@@ -6,9 +6,8 @@
 #include <charconv>
 #include <string_view>
 
-#include "recordings/inputs/run_error.hpp"
-#include "recordings/matching/matching_line.hpp"
-#include "recordings/matching/view_geometry.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/matching/products.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -25,21 +24,21 @@ void check_property(const std::string& name, const std::string& value) {
     for (const std::string_view word : words) {
       list += (list.empty() ? "" : ", ") + std::string(word);
     }
-    throw RunError(name + " = " + value + " is not one of " + list);
+    throw UserError(name + " = " + value + " is not one of " + list);
   };
   if (name == "alignment") return one_of({"off", "correct"});
   if (name == "sharpness") return one_of({"keep", "match"});
-  if (name != kScale) throw RunError("there is no parameter " + name);
+  if (name != kScale) throw UserError("there is no parameter " + name);
   int scale = 0;
   const char* const end = value.data() + value.size();
   const auto [stop, error] = std::from_chars(value.data(), end, scale);
   if (error != std::errc() || stop != end || scale < 1 || scale > 65535) {
-    throw RunError(name + " = " + value + " is not an integer of 1 to 65535");
+    throw UserError(name + " = " + value + " is not an integer of 1 to 65535");
   }
 }
 
 void check(const Status& status) {
-  if (!status) throw RunError(status.error().message);
+  if (!status) throw UserError(status.error().message);
 }
 
 }  // namespace
@@ -57,7 +56,7 @@ Parameters matcher_parameters(const WorkOptions& options) {
     }
   }
   if (parameters.text(Parameter::kResolution) == "auto") {
-    throw RunError(
+    throw UserError(
         "resolution = auto chooses by the frames before, but the pairs of a recording are matched "
         "side by side and in pieces: set full, or half-refined for a soft camera");
   }
@@ -75,16 +74,22 @@ std::string property_of(const WorkOptions& options, const std::string& name) {
 void check_products(const Recording& recording, const WorkOptions& options) {
   const std::string& name = recording.name;
   if (!recording.rectified && recording.calibration.empty()) {
-    throw RunError(
+    throw UserError(
         name +
         ": the views are not rectified, and there is no calibration; give one (--calibration)");
   }
   const bool meters = makes(options, Product::kDepth) || makes(options, Product::kCloud);
   if (meters && recording.calibration.empty()) {
-    throw RunError(name +
-                   ": depths and clouds need a calibration, and none lies beside the input; give "
-                   "one (--calibration)");
+    throw UserError(name +
+                    ": depths and clouds need a calibration, and none lies beside the input; give "
+                    "one (--calibration)");
   }
+}
+
+ViewSize view_size(const Work& work) {
+  const Arrangement arrangement = work.recording.arrangement;
+  return {work.left.width / (arrangement == Arrangement::kSideBySide ? 2 : 1),
+          work.left.height / (arrangement == Arrangement::kTopBottom ? 2 : 1)};
 }
 
 void complete_options(Work& work) {

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "recordings/media/decoder_kind.hpp"
-#include "recordings/media/libav_log.hpp"
 
 namespace mtstereo::run {
 namespace {

@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "recordings/inputs/recording.hpp"
+#include "recordings/media/libav_log.hpp"
+#include "recordings/media/source.hpp"
 
 namespace mtstereo::run {
 
@@ -24,7 +25,7 @@ struct DamagedFrame {
 /// What the decoder of one video reports about its frames. Decoders conceal damage and continue;
 /// they say so in logs only: libav in its own one, from threads of its own; others as a warning of
 /// the category `videodecoder` of GStreamer, from the thread that begins the frame.
-class DecoderReports : public std::enable_shared_from_this<DecoderReports> {
+class DecoderReports : public LibavErrors, public std::enable_shared_from_this<DecoderReports> {
  public:
   /// The time of a frame that is decoded but not shown, as of one before an edit list. It is not
   /// counted.
@@ -43,7 +44,7 @@ class DecoderReports : public std::enable_shared_from_this<DecoderReports> {
   /// A report about the frame that was begun last.
   void add(const std::string& reason);
   /// A report about a frame by its number: frames count from 0 as they are begun.
-  void add_of(std::int64_t number, const std::string& reason);
+  void add_of(std::int64_t number, const std::string& reason) override;
   /// A report about a frame that was decoded.
   void add(std::optional<Nanoseconds> time, const std::string& reason);
 

@@ -9,10 +9,10 @@
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
 
-#include "recordings/inputs/file_names.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/damage_notes.hpp"
+#include "recordings/media/file_names.hpp"
 #include "recordings/media/video_times.hpp"
 
 namespace mtstereo::run {
@@ -126,15 +126,15 @@ FrameIndex index_of_video(const fs::path& file) {
     const std::string missing = missing_end(file);
     std::string reason = coded.error.empty() ? "it has no frame" : coded.error;
     if (!missing.empty()) reason += " (" + missing + ")";
-    throw RunError(file.string() + ": the video cannot be read: " + reason);
+    throw UserError(file.string() + ": the video cannot be read: " + reason);
   }
   VideoTimes shown = parser_suffices(file, coded) ? coded : read_times(file, Reading::kDecoded);
   FrameIndex index;
   index.by_order = lacks_times(file, coded) && set_times_of_decoding(shown, coded);
   if (!index.by_order) remove_start_without_keyframe(shown, coded);
   if (shown.times.empty()) {
-    throw RunError(file.string() + ": no frame can be decoded: " +
-                   (shown.error.empty() ? "its data is damaged" : shown.error));
+    throw UserError(file.string() + ": no frame can be decoded: " +
+                    (shown.error.empty() ? "its data is damaged" : shown.error));
   }
   index.width = shown.format.width;
   index.height = shown.format.height;
@@ -157,7 +157,7 @@ FrameIndex index_of_pictures(const Source& source, double frame_rate) {
   FrameIndex index;
   const cv::Mat first = cv::imread(source.pictures.front().string(), cv::IMREAD_UNCHANGED);
   if (first.empty()) {
-    throw RunError(source.pictures.front().string() + ": the picture cannot be read");
+    throw UserError(source.pictures.front().string() + ": the picture cannot be read");
   }
   index.width = first.cols;
   index.height = first.rows;
@@ -166,8 +166,8 @@ FrameIndex index_of_pictures(const Source& source, double frame_rate) {
   index.damage = source.damage;
   if (index.times.empty()) {
     if (!(frame_rate > 0)) {
-      throw RunError(source.pictures.front().parent_path().string() +
-                     ": pictures without times need a frame rate above 0");
+      throw UserError(source.pictures.front().parent_path().string() +
+                      ": pictures without times need a frame rate above 0");
     }
     for (std::size_t i = 0; i < source.pictures.size(); ++i) {
       index.times.push_back(std::llround(static_cast<double>(i) * kSecond / frame_rate));
@@ -180,7 +180,7 @@ FrameIndex index_of_pictures(const Source& source, double frame_rate) {
 }  // namespace
 
 FrameIndex index_frames(const Source& source, double frame_rate) {
-  if (source.empty()) throw RunError("there is no source");
+  if (source.empty()) throw UserError("there is no source");
   return source.video.empty() ? index_of_pictures(source, frame_rate)
                               : index_of_video(source.video);
 }

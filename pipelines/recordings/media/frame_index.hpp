@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "recordings/inputs/recording.hpp"
+#include "recordings/media/source.hpp"
 
 namespace mtstereo::run {
 
@@ -30,7 +30,7 @@ struct FrameIndex {
 /// Lists the frames of a source. A video is demultiplexed and parsed, and decoded at its start and
 /// its end. It is decoded as a whole only if the frames that the decoder shows there are not those
 /// of the parser, if it is short, or if its codec has frames that are not shown. Frames before the
-/// damage of a broken file are listed. Throws RunError if there is no frame at all.
+/// damage of a broken file are listed. Throws UserError if there is no frame at all.
 FrameIndex index_frames(const Source& source, double frame_rate);
 
 }  // namespace mtstereo::run

@@ -43,7 +43,7 @@ class FrameReader {
   virtual std::vector<DamagedFrame> take_damaged() = 0;
 };
 
-/// The reader of a source. Throws RunError if it cannot be opened. `index` must outlive it.
+/// The reader of a source. Throws UserError if it cannot be opened. `index` must outlive it.
 std::unique_ptr<FrameReader> open_reader(const Source& source, const FrameIndex& index);
 
 /// The reader of a video file.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/media/gst_objects.hpp"
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::run {
 
@@ -18,8 +18,8 @@ gboolean has_running_task(GstElement*, GstPad* pad, gpointer found) {
 void start_gstreamer() {
   g_autoptr(GError) error = nullptr;
   if (gst_init_check(nullptr, nullptr, &error) != FALSE) return;
-  throw RunError(std::string("GStreamer cannot be initialized: ") +
-                 (error != nullptr ? error->message : "unknown error"));
+  throw UserError(std::string("GStreamer cannot be initialized: ") +
+                  (error != nullptr ? error->message : "unknown error"));
 }
 
 void StopElement::operator()(GstElement* element) const {
@@ -33,9 +33,9 @@ Pipeline parse_pipeline(const std::string& line) {
   Pipeline pipeline(
       gst_parse_launch_full(line.c_str(), nullptr, GST_PARSE_FLAG_FATAL_ERRORS, &error));
   if (!pipeline) {
-    throw RunError(std::string("GStreamer: ") + error->message +
-                   " (GST_PLUGIN_PATH must have the folder of libgstmtstereo.so unless it is "
-                   "installed; pipelines/install-packages.sh installs the other plugins)");
+    throw UserError(std::string("GStreamer: ") + error->message +
+                    " (GST_PLUGIN_PATH must have the folder of libgstmtstereo.so unless it is "
+                    "installed; pipelines/install-packages.sh installs the other plugins)");
   }
   gst_object_ref_sink(pipeline.get());
   return pipeline;

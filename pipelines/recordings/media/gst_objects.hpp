@@ -15,7 +15,7 @@ using plugin::BufferPointer;
 using plugin::CapsPointer;
 using plugin::SamplePointer;
 
-/// Initializes GStreamer; further calls have no effect. Throws RunError.
+/// Initializes GStreamer; further calls have no effect. Throws UserError.
 void start_gstreamer();
 
 /// Stops a pipeline and releases it, or releases an element.
@@ -29,7 +29,7 @@ struct UnrefElement {
 };
 using ElementPointer = std::unique_ptr<GstElement, UnrefElement>;
 
-/// The pipeline of a gst-launch line. Throws RunError, for example if an element is not installed.
+/// The pipeline of a gst-launch line. Throws UserError, for example if an element is not installed.
 Pipeline parse_pipeline(const std::string& line);
 /// An element of the pipeline by its name; null if there is none.
 ElementPointer element_of(const Pipeline& pipeline, const std::string& name);

@@ -13,14 +13,12 @@ extern "C" {
 #include <libavutil/log.h>
 }
 
-#include "recordings/media/decoder_reports.hpp"
-
 namespace mtstereo::run {
 namespace {
 
 struct Receivers {
   std::mutex mutex;  // guards all below
-  std::map<const void*, std::weak_ptr<DecoderReports>> of_decoders;
+  std::map<const void*, std::weak_ptr<LibavErrors>> of_decoders;
 };
 
 Receivers& receivers() {
@@ -28,7 +26,7 @@ Receivers& receivers() {
   return *all;
 }
 
-std::shared_ptr<DecoderReports> receiver_of(const void* decoder) {
+std::shared_ptr<LibavErrors> receiver_of(const void* decoder) {
   const std::lock_guard lock(receivers().mutex);
   const auto found = receivers().of_decoders.find(decoder);
   return found != receivers().of_decoders.end() ? found->second.lock() : nullptr;
@@ -56,7 +54,7 @@ bool is_harmless(std::string_view text) { return text.starts_with("mmco: unref s
 // GStreamer sets two fields of the context, which threads of libav copy: the decoder, and the
 // number of its frame.
 void pass_on(const AVCodecContext& context, const char* format, va_list arguments) {
-  const std::shared_ptr<DecoderReports> receiver = receiver_of(context.opaque);
+  const std::shared_ptr<LibavErrors> receiver = receiver_of(context.opaque);
   if (!receiver) return;
   char text[256];
   std::vsnprintf(text, sizeof text, format, arguments);
@@ -79,7 +77,7 @@ void on_log(void* object, int level, const char* format, va_list arguments) noex
 
 }  // namespace
 
-void receive_errors_of_libav(GstElement* decoder, const std::shared_ptr<DecoderReports>& receiver) {
+void receive_errors_of_libav(GstElement* decoder, const std::shared_ptr<LibavErrors>& receiver) {
   {
     const std::lock_guard lock(receivers().mutex);
     auto& all = receivers().of_decoders;

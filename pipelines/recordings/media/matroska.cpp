@@ -4,8 +4,7 @@
 #include <bit>
 #include <utility>
 
-#include "recordings/inputs/run_error.hpp"
-#include "recordings/media/matroska_format.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -44,7 +43,7 @@ MatroskaWriter::MatroskaWriter(std::filesystem::path file, std::int64_t frames)
   position_ = reader.position();
   for (std::int64_t i = 0; i < frames; ++i) {
     const std::optional<Nanoseconds> time = reader.skip();
-    if (!time) throw RunError(file_.string() + ": ends too early");
+    if (!time) throw UserError(file_.string() + ": ends too early");
     note_cluster(steps_of(*time));
     position_ = reader.position();
   }

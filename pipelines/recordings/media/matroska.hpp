@@ -7,10 +7,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "recordings/inputs/recording.hpp"
+#include "recordings/media/matroska_format.hpp"
 
 // Matroska files with one video in FFV1. Muxers write random ids and dates into them; these files
 // depend on their frames and tags only, so that pieces that are joined are equal to one file that
@@ -18,23 +17,13 @@
 
 namespace mtstereo::run {
 
-/// The video of a file.
-struct MatroskaTrack {
-  int width = 0, height = 0;  ///< [px]
-  Nanoseconds period = 0;     ///< of its frames [ns]
-  std::string codec_private;  ///< the configuration of the decoder
-  /// What describes the file: names in capitals with their texts, in UTF-8.
-  std::vector<std::pair<std::string, std::string>> tags;
-  bool operator==(const MatroskaTrack&) const = default;
-};
-
 /// Writes a file.
 class MatroskaWriter {
  public:
-  /// Creates the file. Throws RunError.
+  /// Creates the file. Throws UserError.
   MatroskaWriter(std::filesystem::path file, const MatroskaTrack& track);
   /// Continues a file that was not finished, after its first `frames` frames, which it must have.
-  /// Throws RunError.
+  /// Throws UserError.
   MatroskaWriter(std::filesystem::path file, std::int64_t frames);
 
   /// Appends a frame with a time [ns], which is greater than those before.
@@ -66,7 +55,7 @@ class MatroskaWriter {
 /// Reads the clusters of a file that MatroskaWriter wrote, also of one that is not finished.
 class MatroskaReader {
  public:
-  /// Throws RunError if the file is not one of these.
+  /// Throws UserError if the file is not one of these.
   explicit MatroskaReader(std::filesystem::path file);
 
   const MatroskaTrack& track() const { return track_; }

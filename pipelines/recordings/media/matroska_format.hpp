@@ -4,11 +4,27 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "recordings/media/matroska.hpp"
+#include "recordings/media/source.hpp"
 
 // The elements of the files of MatroskaWriter: an id, a length and the content (RFC 8794, RFC
 // 9559).
+
+namespace mtstereo::run {
+
+/// The video of a file.
+struct MatroskaTrack {
+  int width = 0, height = 0;  ///< [px]
+  Nanoseconds period = 0;     ///< of its frames [ns]
+  std::string codec_private;  ///< the configuration of the decoder
+  /// What describes the file: names in capitals with their texts, in UTF-8.
+  std::vector<std::pair<std::string, std::string>> tags;
+  bool operator==(const MatroskaTrack&) const = default;
+};
+
+}  // namespace mtstereo::run
 
 namespace mtstereo::run::ebml {
 

@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/media/matroska.hpp"
-#include "recordings/media/matroska_format.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -106,7 +105,7 @@ MatroskaReader::MatroskaReader(std::filesystem::path file)
   stream_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   position_ = error || !stream_ ? 0 : read_head(bytes, track_);
   if (position_ == 0 || ebml::head_of(track_).bytes.size() != position_) {
-    throw RunError(file_.string() + ": is not a Matroska file of this program");
+    throw UserError(file_.string() + ": is not a Matroska file of this program");
   }
 }
 
@@ -136,7 +135,7 @@ std::optional<MatroskaReader::Cluster> MatroskaReader::next() {
   cluster.bytes.resize(length_);
   stream_.seekg(static_cast<std::streamoff>(position_));
   stream_.read(cluster.bytes.data(), static_cast<std::streamsize>(length_));
-  if (!stream_) throw RunError(file_.string() + ": cannot be read");
+  if (!stream_) throw UserError(file_.string() + ": cannot be read");
   position_ += length_;
   return cluster;
 }

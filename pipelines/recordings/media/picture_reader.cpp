@@ -11,8 +11,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
-#include "recordings/inputs/file_names.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/media/file_names.hpp"
 #include "recordings/media/frame_reader.hpp"
 #include "recordings/media/jpeg_check.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/video_scan.hpp"
 
@@ -30,7 +30,7 @@ std::vector<cv::Mat> frames_of_video(const fs::path& file, int count) {
     const std::string missing = missing_end(file);
     std::string reason = scan.error().empty() ? "it has no frame" : scan.error();
     if (!missing.empty()) reason += " (" + missing + ")";
-    throw RunError(file.string() + ": the video cannot be read: " + reason);
+    throw UserError(file.string() + ": the video cannot be read: " + reason);
   }
   const std::optional<Nanoseconds> duration = count > 1 ? scan.duration() : std::nullopt;
   for (int i = 1; i < count && duration; ++i) {
@@ -48,7 +48,7 @@ std::vector<cv::Mat> frames_of_pictures(const std::vector<fs::path>& pictures, i
   for (std::size_t i = 0; i < wanted; ++i) {
     const fs::path& picture = pictures[i * pictures.size() / wanted];
     cv::Mat frame = cv::imread(picture.string(), cv::IMREAD_GRAYSCALE);
-    if (frame.empty()) throw RunError(picture.string() + ": the picture cannot be read");
+    if (frame.empty()) throw UserError(picture.string() + ": the picture cannot be read");
     frames.push_back(std::move(frame));
   }
   return frames;
@@ -59,7 +59,7 @@ std::vector<cv::Mat> frames_of_pictures(const std::vector<fs::path>& pictures, i
 cv::Mat first_frame(const Source& source) { return sample_frames(source, 1).front(); }
 
 std::vector<cv::Mat> sample_frames(const Source& source, int count) {
-  if (source.empty()) throw RunError("there is no source");
+  if (source.empty()) throw UserError("there is no source");
   return source.video.empty() ? frames_of_pictures(source.pictures, count)
                               : frames_of_video(source.video, count);
 }

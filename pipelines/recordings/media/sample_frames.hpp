@@ -4,15 +4,15 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "recordings/inputs/recording.hpp"
+#include "recordings/media/source.hpp"
 
 namespace mtstereo::run {
 
-/// The first frame of a source in 8-bit gray. Throws RunError if there is none.
+/// The first frame of a source in 8-bit gray. Throws UserError if there is none.
 cv::Mat first_frame(const Source& source);
 
 /// Some frames of a source in 8-bit gray, from its start to its end; of a video that cannot be
-/// sought only the first one. Throws RunError if there is none.
+/// sought only the first one. Throws UserError if there is none.
 std::vector<cv::Mat> sample_frames(const Source& source, int count);
 
 }  // namespace mtstereo::run

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/decoder_kind.hpp"
 #include "recordings/media/decoder_reports.hpp"
@@ -34,8 +34,8 @@ constexpr guint kMostWaiting = 8;                      // frames
 GstElement* element(const char* factory) {
   GstElement* made = gst_element_factory_make(factory, nullptr);
   if (made == nullptr) {
-    throw RunError(std::string("GStreamer has no element ") + factory +
-                   ": install its plugins (pipelines/install-packages.sh)");
+    throw UserError(std::string("GStreamer has no element ") + factory +
+                    ": install its plugins (pipelines/install-packages.sh)");
   }
   return made;
 }

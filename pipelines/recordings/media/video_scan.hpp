@@ -50,7 +50,7 @@ struct VideoFormat {
 /// that the stream time of a frame would depend on where the decoding started.
 class VideoScan {
  public:
-  /// Opens the file. Throws RunError if GStreamer cannot be used.
+  /// Opens the file. Throws UserError if GStreamer cannot be used.
   VideoScan(std::filesystem::path file, Reading reading);
   ~VideoScan();
   VideoScan(const VideoScan&) = delete;

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "lib/outputs/printable.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/plan/in_parallel.hpp"
 #include "recordings/plan/plan_folder.hpp"
@@ -53,7 +53,7 @@ std::optional<Work> work_before(const PlanFolder& files, const std::string& name
   if (read_key(files.key(name)) != key) return std::nullopt;
   try {
     return read_work(files.work(name));
-  } catch (const RunError&) {
+  } catch (const UserError&) {
     return std::nullopt;  // it is made again
   }
 }
@@ -168,7 +168,7 @@ Plan plan_archive(const std::vector<Recording>& recordings, std::vector<Problem>
   std::error_code error;
   fs::create_directories(PlanFolder(options.folder).works(), error);
   if (error) {
-    throw RunError(options.folder.string() + ": cannot be created: " + error.message());
+    throw UserError(options.folder.string() + ": cannot be created: " + error.message());
   }
   std::vector<Prepared> prepared(recordings.size());
   std::mutex mutex;
@@ -192,10 +192,10 @@ Plan plan_archive(const std::vector<Recording>& recordings, std::vector<Problem>
     plan.damaged.insert(plan.damaged.end(), each.damaged.begin(), each.damaged.end());
   }
   if (plan.recordings.empty()) {
-    throw RunError(plan.problems.empty()
-                       ? "there is no recording"
-                       : "no recording can be used: " + plan.problems.front().input + ": " +
-                             plan.problems.front().reason);
+    throw UserError(plan.problems.empty()
+                        ? "there is no recording"
+                        : "no recording can be used: " + plan.problems.front().input + ": " +
+                              plan.problems.front().reason);
   }
   write_plan_file(plan, options.folder);
   return plan;

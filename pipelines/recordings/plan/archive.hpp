@@ -30,7 +30,7 @@ struct ArchiveOptions {
   std::int64_t pairs_per_task = 0;  ///< 0: by least_tasks
   int least_tasks = 1;              ///< that a recording is divided into, if it is long enough
   int jobs = 1;                     ///< recordings that are prepared at the same time
-  std::function<Work(const Recording&)> prepare;  ///< throws RunError
+  std::function<Work(const Recording&)> prepare;  ///< throws UserError
   std::string settings;  ///< all that `prepare` depends on besides the recording
   /// Called for each recording, by one thread at a time.
   std::function<void(const PlannedRecording&)> progress;
@@ -39,7 +39,7 @@ struct ArchiveOptions {
 /// Prepares the recordings, writes their works, and plan.json last. A work that is in the folder
 /// already is kept if it was made from the same files with the same settings, so an interrupted
 /// call can be repeated. A recording that cannot be prepared becomes a problem of the plan. Throws
-/// RunError if none is left or if the folder cannot be written.
+/// UserError if none is left or if the folder cannot be written.
 Plan plan_archive(const std::vector<Recording>& recordings, std::vector<Problem> problems,
                   const ArchiveOptions& options);
 
@@ -52,10 +52,6 @@ enum class PlanMatch {
 PlanMatch compare(const Plan& plan, const std::vector<Recording>& recordings,
                   const ArchiveOptions& options);
 
-/// Writes plan.json. Its works must be there. Throws RunError.
-void write_plan_file(const Plan& plan, const std::filesystem::path& folder);
-/// Names become those of files and folders: throws RunError if they are not, or are not unique.
-void check_recording_names(const std::vector<std::string>& recordings);
 /// Makes all paths absolute: tasks run in other folders.
 Recording with_absolute_paths(Recording recording);
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/plan/folder_names.hpp"
 #include "recordings/plan/plan_contents.hpp"
 
@@ -60,22 +60,22 @@ std::string obstacle_of(const fs::path& folder) {
 std::optional<fs::path> set_aside(const fs::path& folder, const fs::path& parent) {
   for (;;) {
     if (const std::string obstacle = obstacle_of(folder); !obstacle.empty()) {
-      throw RunError(obstacle);
+      throw UserError(obstacle);
     }
     const fs::path aside = unused_name(parent, "discarded");
     std::error_code error;
     fs::create_directories(parent, error);
-    if (error) throw RunError(parent.string() + ": " + error.message());
+    if (error) throw UserError(parent.string() + ": " + error.message());
     fs::rename(folder, aside, error);
     if (error == std::errc::no_such_file_or_directory) {
       if (!fs::exists(fs::symlink_status(folder, error))) return std::nullopt;
       continue;  // another process has removed `parent`
     }
-    if (error) throw RunError(folder.string() + ": cannot be replaced: " + error.message());
+    if (error) throw UserError(folder.string() + ": cannot be replaced: " + error.message());
     // A file may have appeared in it meanwhile. Nobody else has this name.
     const std::string obstacle = foreign_file_in(aside);
     if (obstacle.empty()) return aside;
-    if (!rename_folder(aside, folder)) throw RunError(obstacle);
+    if (!rename_folder(aside, folder)) throw UserError(obstacle);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <system_error>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -33,7 +33,7 @@ bool rename_folder(const fs::path& from, const fs::path& to) {
   fs::rename(from, to, error);
   if (!error) return true;
   if (error == std::errc::directory_not_empty || error == std::errc::file_exists) return false;
-  throw RunError(to.string() + ": " + error.message());
+  throw UserError(to.string() + ": " + error.message());
 }
 
 }  // namespace mtstereo::run

@@ -13,7 +13,7 @@ namespace mtstereo::run {
 std::filesystem::path unused_name(const std::filesystem::path& parent, const std::string& label);
 
 /// Renames a folder. Returns whether `from` is now `to`; not if there is a folder with files
-/// already. Throws RunError.
+/// already. Throws UserError.
 bool rename_folder(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace mtstereo::run

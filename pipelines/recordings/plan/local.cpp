@@ -8,7 +8,7 @@
 #include <string_view>
 #include <thread>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/plan/in_parallel.hpp"
 #include "recordings/plan/program.hpp"
 
@@ -72,21 +72,6 @@ MergeResult run_local(const fs::path& folder, const LocalOptions& options) {
     if (options.progress) options.progress(progress);
   });
   return merge(folder, MergeOptions{options.functions, options.jobs, false});
-}
-
-void run_local(const fs::path& folder, int jobs) {
-  LocalOptions options{piece_functions(), this_program(), jobs, {}};
-  std::string failure;
-  options.progress = [&failure](const LocalProgress& progress) {
-    if (failure.empty()) failure = progress.failure;
-  };
-  const MergeResult result = run_local(folder, options);
-  if (!result.missing.empty()) {
-    throw RunError(std::to_string(result.missing.size()) + " tasks are missing: " + failure);
-  }
-  if (!result.problems.empty()) {
-    throw RunError(result.problems.front().input + ": " + result.problems.front().reason);
-  }
 }
 
 }  // namespace mtstereo::run

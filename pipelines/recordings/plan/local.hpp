@@ -31,7 +31,7 @@ struct LocalOptions {
 };
 
 /// Does the missing tasks, each in a process of its own, then merges. A task that fails does not
-/// stop the others. Throws RunError if the plan cannot be read.
+/// stop the others. Throws UserError if the plan cannot be read.
 MergeResult run_local(const std::filesystem::path& folder, const LocalOptions& options);
 
 }  // namespace mtstereo::run

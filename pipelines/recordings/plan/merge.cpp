@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "lib/outputs/json_text.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/media/damage_notes.hpp"
 #include "recordings/plan/discard.hpp"
@@ -54,7 +54,7 @@ class Joiner {
       if (options_.remove_pieces) {
         for (const std::size_t task : tasks) discard(files_.piece(task), files_.unfinished());
       }
-    } catch (const RunError& error) {
+    } catch (const UserError& error) {
       result.problems.push_back({recording, error.what()});
     }
     return result;
@@ -99,7 +99,7 @@ class Joiner {
       // The pieces were checked by their contents. Reading all of it once more would take as long
       // as joining it.
       unfinished.publish(files_.recording(recording), origin, sum, Checksums::kWithout);
-    } catch (const RunError&) {
+    } catch (const UserError&) {
       // Another process may have joined it, and have removed what was unfinished.
       if (!is_whole(recording, origin)) throw;
     }
@@ -208,14 +208,6 @@ MergeResult merge(const fs::path& folder, const MergeOptions& options) {
     remove_unfinished(folder);
   }
   return result;
-}
-
-std::vector<std::size_t> merge(const fs::path& folder) {
-  const MergeResult result = merge(folder, MergeOptions{piece_functions(), 1, false});
-  if (result.missing.empty() && !result.problems.empty()) {
-    throw RunError(result.problems.front().input + ": " + result.problems.front().reason);
-  }
-  return result.missing;
 }
 
 }  // namespace mtstereo::run

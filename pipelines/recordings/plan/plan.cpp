@@ -7,9 +7,8 @@
 #include <set>
 
 #include "lib/outputs/json_text.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
-#include "recordings/plan/archive.hpp"
 #include "recordings/plan/plan_contents.hpp"
 #include "recordings/plan/plan_folder.hpp"
 #include "recordings/plan/whole_folder.hpp"
@@ -26,9 +25,9 @@ constexpr const char* kPlanAgain = "; plan again by 'mtstereo-run plan' with --r
 // A name becomes that of a folder and of a file: it must stay within the plan.
 void check_name(const std::string& name, std::set<std::string>& names) {
   if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos) {
-    throw RunError("'" + name + "' cannot be the name of a folder of results");
+    throw UserError("'" + name + "' cannot be the name of a folder of results");
   }
-  if (!names.insert(name).second) throw RunError("two recordings have the name '" + name + "'");
+  if (!names.insert(name).second) throw UserError("two recordings have the name '" + name + "'");
 }
 
 std::set<std::string> check_names(const std::vector<std::string>& recordings) {
@@ -83,23 +82,23 @@ void check_plan(const Plan& plan) {
   for (const Task& task : plan.tasks) {
     const bool starts = previous == nullptr || previous->recording != task.recording;
     if (starts && names.erase(task.recording) == 0) {
-      throw RunError("the tasks of '" + task.recording + "' are not in order");
+      throw UserError("the tasks of '" + task.recording + "' are not in order");
     }
     const std::int64_t expected = starts ? 0 : previous->range.first + previous->range.count;
     if (task.range.first != expected || task.range.count <= 0) {
-      throw RunError("the tasks of '" + task.recording + "' do not cover it");
+      throw UserError("the tasks of '" + task.recording + "' do not cover it");
     }
     previous = &task;
   }
-  if (!names.empty()) throw RunError("'" + *names.begin() + "' has no task");
+  if (!names.empty()) throw UserError("'" + *names.begin() + "' has no task");
 }
 
 }  // namespace
 
 std::vector<Task> divide(const std::string& recording, std::int64_t pairs,
                          std::int64_t pairs_per_task) {
-  if (pairs < 0) throw RunError("a recording cannot have less than 0 pairs");
-  if (pairs_per_task < 1) throw RunError("a task needs at least one pair");
+  if (pairs < 0) throw UserError("a recording cannot have less than 0 pairs");
+  if (pairs_per_task < 1) throw UserError("a task needs at least one pair");
   const std::int64_t number = pairs / pairs_per_task + (pairs % pairs_per_task == 0 ? 0 : 1);
   std::vector<Task> tasks;
   std::int64_t first = 0;
@@ -116,18 +115,18 @@ void write_plan(const Plan& plan, const std::vector<Work>& works, const fs::path
   const PlanFolder files(folder);
   check_plan(plan);
   if (works.size() != plan.recordings.size()) {
-    throw RunError("a plan needs a work for each of its recordings");
+    throw UserError("a plan needs a work for each of its recordings");
   }
   try {
     fs::create_directories(files.works());
     for (std::size_t i = 0; i < works.size(); ++i) {
       if (works[i].recording.name != plan.recordings[i]) {
-        throw RunError("the works of a plan are not in the order of its recordings");
+        throw UserError("the works of a plan are not in the order of its recordings");
       }
       write_work(works[i], files.work(plan.recordings[i]));
     }
   } catch (const fs::filesystem_error& error) {
-    throw RunError(error.path1().string() + ": " + error.code().message());
+    throw UserError(error.path1().string() + ": " + error.code().message());
   }
   write_plan_file(plan, folder);
 }
@@ -146,27 +145,27 @@ Plan read_plan(const fs::path& folder) {
   std::ifstream in;
   if (fs::is_regular_file(file, error)) in.open(file, std::ios::binary);
   if (!in.is_open()) {
-    throw RunError(file.string() +
-                   ": there is no plan; 'mtstereo-run plan' writes one, and --plan states its "
-                   "folder");
+    throw UserError(file.string() +
+                    ": there is no plan; 'mtstereo-run plan' writes one, and --plan states its "
+                    "folder");
   }
   try {
     const json text = json::parse(in);
     if (text.at("version") != kVersion) {
-      throw RunError(file.string() + ": is of another version of mtstereo-run" + kPlanAgain);
+      throw UserError(file.string() + ": is of another version of mtstereo-run" + kPlanAgain);
     }
     const std::string program = text.at("program");
     if (program != MTSTEREO_VERSION) {
-      throw RunError(file.string() + ": was written by mtstereo-run " + program + ", and this is " +
-                     MTSTEREO_VERSION +
-                     ": use one version on all machines, so that the results do not differ; or "
-                     "plan again by 'mtstereo-run plan' with --overwrite");
+      throw UserError(file.string() + ": was written by mtstereo-run " + program +
+                      ", and this is " + MTSTEREO_VERSION +
+                      ": use one version on all machines, so that the results do not differ; or "
+                      "plan again by 'mtstereo-run plan' with --overwrite");
     }
     Plan plan = from_json(text);
     check_plan(plan);
     return plan;
   } catch (const json::exception&) {
-    throw RunError(file.string() + ": is damaged" + kPlanAgain);
+    throw UserError(file.string() + ": is damaged" + kPlanAgain);
   }
 }
 

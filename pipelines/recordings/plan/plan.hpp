@@ -31,23 +31,15 @@ struct Plan {
 std::vector<Task> divide(const std::string& recording, std::int64_t pairs,
                          std::int64_t pairs_per_task);
 
-/// Writes plan.json and the works. Throws RunError.
+/// Writes plan.json and the works. Throws UserError.
 void write_plan(const Plan& plan, const std::vector<Work>& works,
                 const std::filesystem::path& folder);
-/// Reads plan.json. Throws RunError.
+/// Reads plan.json. Throws UserError.
 Plan read_plan(const std::filesystem::path& folder);
 
-/// Does one task, unless its piece is whole already. Several processes may try the same one: only
-/// whole pieces appear. Throws RunError.
-void do_task(const std::filesystem::path& folder, std::size_t number, const Progress& progress);
-/// The tasks whose pieces are missing or not whole.
-std::vector<std::size_t> missing_tasks(const std::filesystem::path& folder, const Plan& plan);
-
-/// Joins the pieces of every recording whose tasks are done, and sums the figures into
-/// summary.json. Returns the tasks that are missing. Throws RunError.
-std::vector<std::size_t> merge(const std::filesystem::path& folder);
-
-/// Does the missing tasks with this many processes of this program, then merges.
-void run_local(const std::filesystem::path& folder, int jobs);
+/// Writes plan.json. Its works must be there. Throws UserError.
+void write_plan_file(const Plan& plan, const std::filesystem::path& folder);
+/// Names become those of files and folders: throws UserError if they are not, or are not unique.
+void check_recording_names(const std::vector<std::string>& recordings);
 
 }  // namespace mtstereo::run

@@ -10,7 +10,7 @@
 #include <regex>
 #include <string>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/matching/results.hpp"
 #include "recordings/plan/plan_folder.hpp"
@@ -187,16 +187,16 @@ void check_plan_file(const fs::path& file) {
   const fs::file_type type = fs::symlink_status(file, error).type();
   if (type == fs::file_type::not_found) return;
   if (type == fs::file_type::regular && is_plan_file(file)) return;
-  throw RunError(file.string() +
-                 " is in the way, and mtstereo-run did not write it: move it, or choose another "
-                 "folder");
+  throw UserError(file.string() +
+                  " is in the way, and mtstereo-run did not write it: move it, or choose another "
+                  "folder");
 }
 
 void check_plan_folder(const fs::path& folder, const outputs::FileSet& inputs) {
   const PlanFolder files(folder);
   const outputs::Intent intent{names_of(files), Collector(files).collect(), inputs};
   const std::string obstacle = outputs::obstacle_in(folder, intent);
-  if (!obstacle.empty()) throw RunError(obstacle);
+  if (!obstacle.empty()) throw UserError(obstacle);
 }
 
 void remove_unfinished(const fs::path& folder) {
@@ -219,7 +219,7 @@ void remove_plan(const fs::path& folder) {
   outputs::remove_written(folder, written);
   for (const std::string& name : names_of(files)) remove_empty_below(folder / name);
   std::string obstacle = outputs::obstacle_in(folder, {names_of(files), {}, {}});
-  if (!obstacle.empty()) throw RunError(obstacle);
+  if (!obstacle.empty()) throw UserError(obstacle);
 }
 
 }  // namespace mtstereo::run

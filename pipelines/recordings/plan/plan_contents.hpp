@@ -20,7 +20,7 @@ std::string foreign_file_in(const std::filesystem::path& folder);
 /// Removes the listed files of such a folder, and the folder if it is empty then.
 void remove_listed(const std::filesystem::path& folder);
 
-/// Throws RunError if a file or folder has a name of a plan and is not of this program, or if a
+/// Throws UserError if a file or folder has a name of a plan and is not of this program, or if a
 /// file of the plan is an input.
 void check_plan_folder(const std::filesystem::path& folder, const outputs::FileSet& inputs);
 /// The same for a file such as plan.json or summary.json.
@@ -29,7 +29,7 @@ void check_plan_file(const std::filesystem::path& file);
 /// Removes what tasks that were killed have left, but no foreign files.
 void remove_unfinished(const std::filesystem::path& folder);
 
-/// Removes a plan with its pieces and results; other files in the folder stay. Throws RunError.
+/// Removes a plan with its pieces and results; other files in the folder stay. Throws UserError.
 void remove_plan(const std::filesystem::path& folder);
 
 }  // namespace mtstereo::run

@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <utility>
 
-#include "recordings/plan/plan.hpp"
+#include "recordings/inputs/own_names.hpp"
 
 namespace mtstereo::run {
 
@@ -15,7 +16,7 @@ class PlanFolder {
   explicit PlanFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   const std::filesystem::path& path() const { return folder_; }
-  std::filesystem::path plan() const { return folder_ / "plan.json"; }
+  std::filesystem::path plan() const { return folder_ / kPlanFile; }
   std::filesystem::path summary() const { return folder_ / "summary.json"; }
   std::filesystem::path works() const { return folder_ / "works"; }
   std::filesystem::path work(const std::string& recording) const {

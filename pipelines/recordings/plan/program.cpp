@@ -9,7 +9,7 @@
 #include <csignal>
 #include <system_error>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -46,7 +46,7 @@ ProgramResult run_program(const std::vector<std::string>& arguments) {
     const std::string reason = missing ? "is not installed, or not in PATH"
                                        : std::string("cannot be started: ") + error->message;
     g_error_free(error);
-    throw RunError(arguments.front() + ": " + reason);
+    throw UserError(arguments.front() + ": " + reason);
   }
   return {exit_status(wait_status), take(output), take(errors)};
 }
@@ -60,7 +60,7 @@ std::string in_one_line(std::string text) {
 std::filesystem::path this_program() {
   std::error_code error;
   std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) throw RunError("/proc/self/exe: " + error.message());
+  if (error) throw UserError("/proc/self/exe: " + error.message());
   return program;
 }
 

@@ -15,7 +15,7 @@ struct ProgramResult {
 };
 
 /// Runs a program, found in PATH unless it has a slash, and waits for its end. It is terminated if
-/// the calling thread ends. Throws RunError if it cannot be started.
+/// the calling thread ends. Throws UserError if it cannot be started.
 ProgramResult run_program(const std::vector<std::string>& arguments);
 
 /// What a program printed, as one line of a message.

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/plan/work_key.hpp"
 
@@ -20,15 +20,15 @@ void check_report(const PieceReport& report, Range range) {
     // Frames that cannot be decoded are left out, and the report says so.
     const bool missing = frame.pair > expected && !report.damage.empty();
     if (frame.pair != expected && !missing) {
-      throw RunError("pair " + std::to_string(expected) + " was not processed in its order");
+      throw UserError("pair " + std::to_string(expected) + " was not processed in its order");
     }
     expected = frame.pair + 1;
   }
   const std::int64_t end = range.first + range.count;
-  if (expected > end) throw RunError("more pairs were processed than the task has");
+  if (expected > end) throw UserError("more pairs were processed than the task has");
   if (expected < end && report.damage.empty()) {
-    throw RunError("stopped after " + std::to_string(expected - range.first) + " of " +
-                   std::to_string(range.count) + " pairs");
+    throw UserError("stopped after " + std::to_string(expected - range.first) + " of " +
+                    std::to_string(range.count) + " pairs");
   }
 }
 
@@ -50,8 +50,8 @@ Figures figures_of(const PieceReport& report, double seconds) {
 
 Task task_of(const Plan& plan, std::size_t number) {
   if (number < plan.tasks.size()) return plan.tasks[number];
-  throw RunError("there is no task " + std::to_string(number) + ": the plan has " +
-                 std::to_string(plan.tasks.size()) + " tasks, numbered from 0");
+  throw UserError("there is no task " + std::to_string(number) + ": the plan has " +
+                  std::to_string(plan.tasks.size()) + " tasks, numbered from 0");
 }
 
 // A share that is not mounted, or a file that was exchanged, is not a damaged recording: another
@@ -60,10 +60,10 @@ void check_inputs(const PlanFolder& files, const Work& work) {
   const fs::path changed = changed_file(work.recording, read_key(files.key(work.recording.name)));
   if (changed.empty()) return;
   std::error_code error;
-  throw RunError(changed.string() +
-                 (fs::exists(changed, error)
-                      ? ": has another size than when it was planned; plan again with --resume"
-                      : ": is missing; if it is on another machine, mount it here at this path"));
+  throw UserError(changed.string() +
+                  (fs::exists(changed, error)
+                       ? ": has another size than when it was planned; plan again with --resume"
+                       : ": is missing; if it is on another machine, mount it here at this path"));
 }
 
 // The pieces of a recording that is whole may have been removed.
@@ -109,18 +109,15 @@ TaskResult do_task(const fs::path& folder, std::size_t number, const TaskOptions
     const bool first =
         unfinished.publish(piece, origin, figures_of(report, seconds.count()), Checksums::kWith);
     return first ? TaskResult::kDone : TaskResult::kDoneTwice;
-  } catch (const RunError& error) {
+  } catch (const UserError& error) {
     // Another process may have finished it, and merge() may have removed what was unfinished.
     if (defect(piece, origin, Check::kContents).empty() ||
         recording_is_whole(files, plan, task.recording)) {
       return TaskResult::kDoneTwice;
     }
-    throw RunError("task " + std::to_string(number) + " (" + task.recording + "): " + error.what());
+    throw UserError("task " + std::to_string(number) + " (" + task.recording +
+                    "): " + error.what());
   }
-}
-
-void do_task(const fs::path& folder, std::size_t number, const Progress& progress) {
-  do_task(folder, number, TaskOptions{piece_functions(), 0}, progress);
 }
 
 std::vector<std::size_t> missing_tasks(const fs::path& folder, const Plan& plan) {

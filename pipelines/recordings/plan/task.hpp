@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "recordings/plan/piece_functions.hpp"
+#include "recordings/plan/plan.hpp"
 #include "recordings/plan/plan_folder.hpp"
 #include "recordings/plan/whole_folder.hpp"
 
@@ -26,9 +27,12 @@ enum class TaskResult {
   kDoneTwice,  ///< by another one in the meantime; the piece of this one was removed
 };
 
-/// Does a task. Throws RunError.
+/// Does a task. Throws UserError.
 TaskResult do_task(const std::filesystem::path& folder, std::size_t number,
                    const TaskOptions& options, const Progress& progress);
+
+/// The tasks whose pieces are missing or not whole.
+std::vector<std::size_t> missing_tasks(const std::filesystem::path& folder, const Plan& plan);
 
 /// Settings of merge().
 struct MergeOptions {
@@ -48,7 +52,7 @@ struct MergeResult {
 };
 
 /// Joins the pieces of every recording whose tasks are done. Reads them and compares their
-/// contents; a piece that is damaged is removed, and its task is missing. Throws RunError.
+/// contents; a piece that is damaged is removed, and its task is missing. Throws UserError.
 MergeResult merge(const std::filesystem::path& folder, const MergeOptions& options);
 
 /// Adds the figures of a part to those of the parts before it.

@@ -13,7 +13,7 @@
 #include <system_error>
 
 #include "lib/outputs/json_text.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/plan/discard.hpp"
 #include "recordings/plan/folder_names.hpp"
 
@@ -31,7 +31,7 @@ constexpr std::size_t kMostSynchronizedFiles = 64;
 class FileDescriptor {
  public:
   FileDescriptor(const fs::path& file, int flags) : number_(open(file.c_str(), flags | O_CLOEXEC)) {
-    if (number_ < 0) throw RunError(file.string() + ": " + std::generic_category().message(errno));
+    if (number_ < 0) throw UserError(file.string() + ": " + std::generic_category().message(errno));
   }
   ~FileDescriptor() { close(number_); }
   FileDescriptor(const FileDescriptor&) = delete;
@@ -45,7 +45,8 @@ class FileDescriptor {
 void check_stored(int result, const fs::path& file) {
   // Some file systems cannot synchronize folders; they state EINVAL.
   if (result != 0 && errno != EINVAL) {
-    throw RunError(file.string() + ": cannot be stored: " + std::generic_category().message(errno));
+    throw UserError(file.string() +
+                    ": cannot be stored: " + std::generic_category().message(errno));
   }
 }
 
@@ -122,7 +123,7 @@ std::string sha256_of(const fs::path& file) {
     if (size > 0) {
       g_checksum_update(sum.get(), buffer.data(), size);
     } else if (errno != EINTR) {
-      throw RunError(file.string() + ": " + std::generic_category().message(errno));
+      throw UserError(file.string() + ": " + std::generic_category().message(errno));
     }
   }
   return g_checksum_get_string(sum.get());
@@ -138,14 +139,14 @@ void write_aside(const fs::path& file, const std::string& text) {
   if (!out) {
     const std::string reason = std::generic_category().message(errno);
     fs::remove(aside, error);
-    throw RunError(file.string() + ": cannot be written: " + reason);
+    throw UserError(file.string() + ": cannot be written: " + reason);
   }
   synchronize(aside);
   fs::rename(aside, file, error);
   if (error) {
     const std::string reason = error.message();
     fs::remove(aside, error);
-    throw RunError(file.string() + ": " + reason);
+    throw UserError(file.string() + ": " + reason);
   }
 }
 
@@ -153,7 +154,7 @@ NewFolder::NewFolder(const fs::path& parent, const std::string& label)
     : path_(unused_name(parent, label)) {
   std::error_code error;
   fs::create_directories(path_, error);
-  if (error) throw RunError(path_.string() + ": " + error.message());
+  if (error) throw UserError(path_.string() + ": " + error.message());
 }
 
 NewFolder::~NewFolder() {
@@ -192,7 +193,7 @@ bool NewFolder::publish(const fs::path& target, const Origin& origin, const Figu
     synchronize(target.parent_path());
     return true;
   } catch (const fs::filesystem_error& error) {
-    throw RunError(error.path1().string() + ": " + error.code().message());
+    throw UserError(error.path1().string() + ": " + error.code().message());
   }
 }
 
@@ -214,7 +215,7 @@ void link_file(const fs::path& file, const fs::path& link) {
   if (!error) return;
   const std::string reason = error.message();
   fs::remove(aside, error);
-  throw RunError(link.string() + ": " + reason);
+  throw UserError(link.string() + ": " + reason);
 }
 
 void link_files(const fs::path& whole, const fs::path& folder,
@@ -225,7 +226,7 @@ void link_files(const fs::path& whole, const fs::path& folder,
       link_file(whole / name, folder / name);
     }
   } catch (const fs::filesystem_error& error) {
-    throw RunError(error.path1().string() + ": " + error.code().message());
+    throw UserError(error.path1().string() + ": " + error.code().message());
   }
 }
 
@@ -236,7 +237,7 @@ std::string defect(const fs::path& folder, const Origin& origin, Check check) {
     return contents_defect(folder, origin, check);
   } catch (const json::exception&) {
     return std::string(kContents) + " is damaged";
-  } catch (const RunError& unreadable) {
+  } catch (const UserError& unreadable) {
     return unreadable.what();
   }
 }
@@ -247,7 +248,7 @@ Figures read_figures(const fs::path& folder) {
     return {contents.at("pairs"), contents.at("density"), contents.at("median_disparity"),
             contents.at("seconds"), contents.at("damage")};
   } catch (const json::exception&) {
-    throw RunError((folder / kContents).string() + ": is damaged");
+    throw UserError((folder / kContents).string() + ": is damaged");
   }
 }
 

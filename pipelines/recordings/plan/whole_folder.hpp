@@ -43,7 +43,7 @@ enum class Checksums {
 /// A folder for files that are being written. It is removed unless it is published.
 class NewFolder {
  public:
-  /// Creates a folder in `parent` with a name that no other process has. Throws RunError.
+  /// Creates a folder in `parent` with a name that no other process has. Throws UserError.
   NewFolder(const std::filesystem::path& parent, const std::string& label);
   ~NewFolder();
   NewFolder(const NewFolder&) = delete;
@@ -53,7 +53,7 @@ class NewFolder {
 
   /// Writes whole.json, waits until all files are stored, and renames the folder to `target`. If
   /// there is a whole folder of this origin already, this one is removed; if there is a damaged
-  /// one, it is replaced. Returns whether this one was published. Throws RunError.
+  /// one, it is replaced. Returns whether this one was published. Throws UserError.
   bool publish(const std::filesystem::path& target, const Origin& origin, const Figures& figures,
                Checksums checksums);
 
@@ -64,17 +64,17 @@ class NewFolder {
 /// Why a folder is not whole, as the end of a sentence such as "disparity.mkv has 3 of 9 bytes";
 /// empty if it is whole.
 std::string defect(const std::filesystem::path& folder, const Origin& origin, Check check);
-/// The figures in the whole.json of a whole folder. Throws RunError.
+/// The figures in the whole.json of a whole folder. Throws UserError.
 Figures read_figures(const std::filesystem::path& folder);
 /// As discard(), but a folder that is whole stays: another process may have replaced the damaged
-/// one meanwhile. Returns false if it stays. Throws RunError.
+/// one meanwhile. Returns false if it stays. Throws UserError.
 bool discard_damaged(const std::filesystem::path& folder, const Origin& origin,
                      const std::filesystem::path& parent);
 
 /// Links a file under another name, or copies it where that is not possible. Replaces what has this
-/// name at once. Throws RunError.
+/// name at once. Throws UserError.
 void link_file(const std::filesystem::path& file, const std::filesystem::path& link);
-/// Links all files of a whole folder but these into another one. Throws RunError.
+/// Links all files of a whole folder but these into another one. Throws UserError.
 void link_files(const std::filesystem::path& whole, const std::filesystem::path& folder,
                 const std::vector<std::string>& without = {});
 
@@ -82,9 +82,9 @@ void link_files(const std::filesystem::path& whole, const std::filesystem::path&
 /// nothing if there is none.
 void refresh(const std::filesystem::path& folder);
 
-/// SHA-256 of a file, in hexadecimal digits. Throws RunError.
+/// SHA-256 of a file, in hexadecimal digits. Throws UserError.
 std::string sha256_of(const std::filesystem::path& file);
-/// Writes a file aside, waits until it is stored, and renames it. Throws RunError.
+/// Writes a file aside, waits until it is stored, and renames it. Throws UserError.
 void write_aside(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace mtstereo::run

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "lib/outputs/json_text.hpp"
+#include "recordings/inputs/recording_files.hpp"
 #include "recordings/matching/json_files.hpp"
 #include "recordings/plan/whole_folder.hpp"
 
@@ -16,20 +17,6 @@ namespace mtstereo::run {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The files of "FILE", "FILE,FILE" or "FILE#SELECTION".
-void add_calibration(const std::string& calibration, std::vector<fs::path>& files) {
-  const std::size_t comma = calibration.find(',');
-  std::error_code error;
-  if (calibration.empty()) return;
-  if (comma != std::string::npos && !fs::exists(calibration, error)) {
-    files.emplace_back(calibration.substr(0, comma));
-    files.emplace_back(calibration.substr(comma + 1));
-  } else {
-    const bool whole = fs::exists(calibration, error);
-    files.emplace_back(whole ? calibration : calibration.substr(0, calibration.find('#')));
-  }
-}
 
 std::string checksum_of(const std::string& text) {
   char* const sum = g_compute_checksum_for_string(G_CHECKSUM_SHA256, text.c_str(), -1);
@@ -45,16 +32,6 @@ std::int64_t size_of(const fs::path& file) {
 }
 
 }  // namespace
-
-std::vector<fs::path> recording_files(const Recording& recording) {
-  std::vector<fs::path> files;
-  for (const Source* source : {&recording.left, &recording.right}) {
-    if (!source->video.empty()) files.push_back(source->video);
-    files.insert(files.end(), source->pictures.begin(), source->pictures.end());
-  }
-  add_calibration(recording.calibration, files);
-  return files;
-}
 
 WorkKey work_key(const Recording& recording, const std::string& settings) {
   WorkKey key;

@@ -22,9 +22,6 @@ struct WorkKey {
   bool operator==(const WorkKey& other) const = default;
 };
 
-/// The files that a recording is read from, with those of its calibration.
-std::vector<std::filesystem::path> recording_files(const Recording& recording);
-
 /// The key of a recording. Its files are not read.
 WorkKey work_key(const Recording& recording, const std::string& settings);
 
@@ -32,7 +29,7 @@ WorkKey work_key(const Recording& recording, const std::string& settings);
 /// missing; empty if there is none.
 std::filesystem::path changed_file(const Recording& recording, const WorkKey& key);
 
-/// Writes a key. Throws RunError.
+/// Writes a key. Throws UserError.
 void write_key(const WorkKey& key, const std::filesystem::path& file);
 /// Reads it; empty if there is none.
 WorkKey read_key(const std::filesystem::path& file);

@@ -15,11 +15,4 @@ inline float load_float(const char* bytes, std::endian order) {
   return std::bit_cast<float>(bits);
 }
 
-/// Stores a 32-bit float at `bytes` in this byte order.
-inline void store_float(float value, char* bytes, std::endian order) {
-  auto bits = std::bit_cast<std::uint32_t>(value);
-  if (order != std::endian::native) bits = __builtin_bswap32(bits);
-  std::memcpy(bytes, &bits, sizeof bits);
-}
-
 }  // namespace mtstereo::eval

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -118,7 +118,7 @@ CurvePoint point_of(const Evaluation& evaluation) {
 std::vector<CurvePoint> threshold_points(const cv::Mat& estimate, const cv::Mat& confidence,
                                          const GroundTruth& truth) {
   if (estimate.size() != confidence.size() || estimate.size() != truth.disparity.size()) {
-    throw InputError("disparity map, confidence and ground truth have different sizes");
+    throw UserError("disparity map, confidence and ground truth have different sizes");
   }
   const Bins bins = bins_of(estimate, confidence, truth);
   std::vector<CurvePoint> points(kMostConfidence);

@@ -59,7 +59,7 @@ CurvePoint point_of(const Evaluation& evaluation);
 
 /// The points at the thresholds 1 .. kMostConfidence. At each threshold, the pixels of the estimate
 /// (CV_32FC1 [px], NaN = none) count whose confidence (CV_8UC1) is at least the threshold. Throws
-/// InputError if the sizes differ.
+/// UserError if the sizes differ.
 std::vector<CurvePoint> threshold_points(const cv::Mat& estimate, const cv::Mat& confidence,
                                          const GroundTruth& truth);
 

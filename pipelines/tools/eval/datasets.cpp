@@ -5,8 +5,8 @@
 #include <array>
 #include <system_error>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/layouts.hpp"
 
 namespace mtstereo::eval {
@@ -23,8 +23,8 @@ constexpr const char* kAdvice =
 
 void require_folder(const fs::path& root) {
   std::error_code error;
-  if (!fs::exists(root, error)) throw InputError(root, "no such folder");
-  if (!fs::is_directory(root, error)) throw InputError(root, "is not a folder");
+  if (!fs::exists(root, error)) throw UserError(root, "no such folder");
+  if (!fs::is_directory(root, error)) throw UserError(root, "is not a folder");
 }
 
 cv::Mat read_truth(const StereoPair& pair, cv::Size size, DmapMeaning meaning) {
@@ -37,15 +37,15 @@ cv::Mat read_truth(const StereoPair& pair, cv::Size size, DmapMeaning meaning) {
   if (meaning == DmapMeaning::kDisparity) return map;
   if (meaning == DmapMeaning::kAuto && !has_cameras) return map;
   if (!has_cameras) {
-    throw InputError(pair.truth,
-                     "cannot be read as depth: that needs the *_cam.txt of both cameras beside "
-                     "the images");
+    throw UserError(pair.truth,
+                    "cannot be read as depth: that needs the *_cam.txt of both cameras beside "
+                    "the images");
   }
   try {
     return depth_to_disparity(map, read_camera(pair.cameras.first),
                               read_camera(pair.cameras.second));
-  } catch (const InputError& error) {
-    throw InputError(pair.truth, std::string("cannot be converted to disparity: ") + error.what());
+  } catch (const UserError& error) {
+    throw UserError(pair.truth, std::string("cannot be converted to disparity: ") + error.what());
   }
 }
 
@@ -85,9 +85,9 @@ Layout detect_layout(const fs::path& root) {
     return looks_like_eth3d(folders) ? Layout::kEth3d : Layout::kMiddlebury;
   }
   if (looks_like_trimbot(folders)) return trimbot_kind(root, folders);
-  throw InputError(root,
-                   "has no known layout; docs/evaluation.md describes the layouts, and --dataset "
-                   "selects one");
+  throw UserError(root,
+                  "has no known layout; docs/evaluation.md describes the layouts, and --dataset "
+                  "selects one");
 }
 
 DataSet find_pairs(const fs::path& root, Layout layout) {
@@ -114,8 +114,8 @@ DataSet find_pairs(const fs::path& root, Layout layout) {
       break;
   }
   if (set.pairs.empty() && set.problems.empty()) {
-    throw InputError(root, "holds no stereo pair in the layout of " +
-                               std::string(layout_name(layout)) + " (see docs/evaluation.md)");
+    throw UserError(root, "holds no stereo pair in the layout of " +
+                              std::string(layout_name(layout)) + " (see docs/evaluation.md)");
   }
   for (StereoPair& pair : set.pairs) pair.layout = layout;
   std::sort(set.pairs.begin(), set.pairs.end(),

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/h264.hpp"
-#include "tools/eval/input_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -56,7 +56,7 @@ const KindInfo& info_of(DegradationKind kind) {
   for (const KindInfo& info : kKinds) {
     if (info.kind == kind) return info;
   }
-  throw InputError("unknown kind of degradation");
+  throw UserError("unknown kind of degradation");
 }
 
 std::string kind_list() {
@@ -88,10 +88,10 @@ double parse_amount(const KindInfo& info, std::string_view degradation, std::str
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, amount);
   if (error != std::errc() || stop != end || !(amount >= amounts.least && amount <= amounts.most)) {
-    throw InputError(which + " is out of range; use " + usage_of(info));
+    throw UserError(which + " is out of range; use " + usage_of(info));
   }
   if (amounts.whole && amount != std::floor(amount)) {
-    throw InputError(which + " needs a whole number; use " + usage_of(info));
+    throw UserError(which + " needs a whole number; use " + usage_of(info));
   }
   return amount;
 }
@@ -116,11 +116,11 @@ Degradation parse_degradation(std::string_view text) {
       return {info.kind, parse_amount(info, text, text.substr(equals + 1))};
     }
     if (!info.amounts && !has_amount) return {info.kind, 0};
-    throw InputError("degradation '" + std::string(text) +
-                     (has_amount ? "' takes no amount; use " : "' has no amount; use ") +
-                     usage_of(info));
+    throw UserError("degradation '" + std::string(text) +
+                    (has_amount ? "' takes no amount; use " : "' has no amount; use ") +
+                    usage_of(info));
   }
-  throw InputError("unknown degradation '" + std::string(text) + "'; the kinds are " + kind_list());
+  throw UserError("unknown degradation '" + std::string(text) + "'; the kinds are " + kind_list());
 }
 
 std::string degradation_text(const Degradation& degradation) {

@@ -43,7 +43,7 @@ struct Degradation {
 std::string degradation_kinds();
 
 /// Parses "KIND=AMOUNT", as in "noise=5", or "KIND" for a kind without an amount, as in "cam".
-/// Throws InputError, naming the kinds or the range of the amount.
+/// Throws UserError, naming the kinds or the range of the amount.
 Degradation parse_degradation(std::string_view text);
 
 /// The text that parse_degradation() reads.

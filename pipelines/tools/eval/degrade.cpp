@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/h264.hpp"
-#include "tools/eval/input_error.hpp"
 
 namespace mtstereo::eval {
 namespace {

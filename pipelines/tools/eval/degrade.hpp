@@ -21,7 +21,7 @@ struct DegradedPair {
 /// The degraded views of a pair (CV_8UC1, same size), with its truth and search range. If the kind
 /// enlarges the views, the truth, its masks, its scale and the range are enlarged too; otherwise
 /// they are those of the pair. The result depends on the arguments only: seeds are fixed, and the
-/// noise of the two views differs. `pair` is not changed. Throws InputError if a part that the kind
+/// noise of the two views differs. `pair` is not changed. Throws UserError if a part that the kind
 /// needs is missing, see degradation_obstacle().
 DegradedPair degrade(const Degradation& degradation, const LoadedPair& pair, int max_disparity);
 

@@ -7,9 +7,8 @@
 #include <set>
 #include <system_error>
 
-#include "lib/outputs/output_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
-#include "tools/eval/input_error.hpp"
 
 namespace mtstereo::eval {
 namespace fs = std::filesystem;
@@ -17,16 +16,16 @@ namespace fs = std::filesystem;
 std::string read_bytes(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) throw InputError(file, "no such file");
-  if (error) throw InputError(file, "cannot be read: " + error.message());
-  if (!fs::is_regular_file(status)) throw InputError(file, "is not a file");
+  if (status.type() == fs::file_type::not_found) throw UserError(file, "no such file");
+  if (error) throw UserError(file, "cannot be read: " + error.message());
+  if (!fs::is_regular_file(status)) throw UserError(file, "is not a file");
   const std::uintmax_t size = fs::file_size(file, error);
-  if (error) throw InputError(file, "cannot be read: " + error.message());
+  if (error) throw UserError(file, "cannot be read: " + error.message());
 
   std::ifstream stream(file, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(size), '\0');
   if (!stream || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-    throw InputError(file, "cannot be read");
+    throw UserError(file, "cannot be read");
   }
   return bytes;
 }
@@ -36,7 +35,7 @@ void make_parent_folder(const fs::path& file) {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   if (error) {
-    throw InputError(file.parent_path(), "the folder cannot be created: " + error.message());
+    throw UserError(file.parent_path(), "the folder cannot be created: " + error.message());
   }
 }
 
@@ -44,8 +43,8 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
   make_parent_folder(file);
   try {
     outputs::write_file(file, bytes);
-  } catch (const outputs::OutputError& error) {
-    throw InputError(file, std::string("cannot be written: ") + error.what());
+  } catch (const mtstereo::UserError& error) {
+    throw UserError(file, std::string("cannot be written: ") + error.what());
   }
 }
 
@@ -65,7 +64,7 @@ namespace {
 void add_folder(const fs::path& folder, std::set<fs::path>& seen, std::vector<fs::path>& found) {
   std::error_code error;
   const fs::path real = fs::canonical(folder, error);
-  if (error) throw InputError(folder, "cannot be read: " + error.message());
+  if (error) throw UserError(folder, "cannot be read: " + error.message());
   if (!seen.insert(real).second) return;
   found.push_back(folder);
 
@@ -75,7 +74,7 @@ void add_folder(const fs::path& folder, std::set<fs::path>& seen, std::vector<fs
     std::error_code ignored;
     if (it->is_directory(ignored)) below.push_back(it->path());
   }
-  if (error) throw InputError(folder, "cannot be read: " + error.message());
+  if (error) throw UserError(folder, "cannot be read: " + error.message());
   std::sort(below.begin(), below.end());
   for (const fs::path& child : below) add_folder(child, seen, found);
 }

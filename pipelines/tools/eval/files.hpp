@@ -7,13 +7,13 @@
 
 namespace mtstereo::eval {
 
-/// The bytes of a file. Throws InputError if it is missing, not a file, or unreadable.
+/// The bytes of a file. Throws UserError if it is missing, not a file, or unreadable.
 std::string read_bytes(const std::filesystem::path& file);
 
-/// Writes a file and creates its folder if needed. Throws InputError.
+/// Writes a file and creates its folder if needed. Throws UserError.
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);
 
-/// Creates the folder of a file that is about to be written. Throws InputError.
+/// Creates the folder of a file that is about to be written. Throws UserError.
 void make_parent_folder(const std::filesystem::path& file);
 
 /// The files of a folder, without those of its subfolders, sorted by name; none if the folder does
@@ -21,7 +21,7 @@ void make_parent_folder(const std::filesystem::path& file);
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 
 /// A folder and all its subfolders, sorted by path. Links to folders are followed once: a folder
-/// that was already listed is not entered again. Throws InputError if one cannot be read.
+/// that was already listed is not entered again. Throws UserError if one cannot be read.
 std::vector<std::filesystem::path> folders_below(const std::filesystem::path& root);
 
 /// The extension of a file in lower case, with the dot.

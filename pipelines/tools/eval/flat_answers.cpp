@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -23,7 +23,7 @@ cv::Mat flat_areas(const cv::Mat& image) {
 std::int64_t count_flat_answers(const cv::Mat& disparity, const cv::Mat& left,
                                 const cv::Mat& right) {
   if (disparity.size() != left.size() || disparity.size() != right.size()) {
-    throw InputError("disparity map and images have different sizes");
+    throw UserError("disparity map and images have different sizes");
   }
   const cv::Mat flat_left = flat_areas(left), flat_right = flat_areas(right);
   std::int64_t count = 0;

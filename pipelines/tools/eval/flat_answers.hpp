@@ -13,7 +13,7 @@ inline constexpr int kFlatWindow = 5;
 /// around the left pixel (x, y) and around its right pixel (round(x - disparity), y) are both
 /// constant. Windows end at the image border; a right pixel outside the image is not counted. The
 /// disparity is CV_32FC1 [px], NaN = none; the images are CV_8UC1 of the same size. Throws
-/// InputError if the sizes differ.
+/// UserError if the sizes differ.
 std::int64_t count_flat_answers(const cv::Mat& disparity, const cv::Mat& left,
                                 const cv::Mat& right);
 

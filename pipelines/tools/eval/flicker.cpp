@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/degrade.hpp"
-#include "tools/eval/input_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -33,9 +33,9 @@ double ratio(double part, double whole) { return whole > 0 ? part / whole : kNon
 }  // namespace
 
 Flicker measure_flicker(const std::vector<cv::Mat>& maps) {
-  if (maps.size() < 2) throw InputError("flicker needs at least two disparity maps");
+  if (maps.size() < 2) throw UserError("flicker needs at least two disparity maps");
   for (const cv::Mat& map : maps) {
-    if (map.size() != maps[0].size()) throw InputError("disparity maps have different sizes");
+    if (map.size() != maps[0].size()) throw UserError("disparity maps have different sizes");
   }
   const auto count = static_cast<double>(maps.size());
   double answers = 0, any = 0, all = 0, deviations = 0;

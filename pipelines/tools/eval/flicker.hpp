@@ -19,7 +19,7 @@ struct Flicker {
   double spread = kNone;       ///< mean standard deviation of the pixels with one in all maps [px]
 };
 
-/// Compares disparity maps of the same size (CV_32FC1 [px], NaN = none). Throws InputError if the
+/// Compares disparity maps of the same size (CV_32FC1 [px], NaN = none). Throws UserError if the
 /// sizes differ or there are fewer than two maps.
 Flicker measure_flicker(const std::vector<cv::Mat>& maps);
 

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <set>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/datasets.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/layouts.hpp"
 
 namespace mtstereo::eval {
@@ -50,8 +50,7 @@ DataSet find_pairs(const std::vector<fs::path>& roots, std::optional<Layout> lay
   }
   for (const StereoPair& pair : all.pairs) {
     if (names.insert(pair.name).second) continue;
-    throw InputError("two pairs have the name " + pair.name +
-                     ": evaluate their folders one by one");
+    throw UserError("two pairs have the name " + pair.name + ": evaluate their folders one by one");
   }
   return all;
 }

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <string>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/bytes.hpp"
 #include "tools/eval/files.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/pfm.hpp"
 
 namespace mtstereo::eval {
@@ -29,16 +29,16 @@ std::string size_text(int width, int height) {
 // file, a folder and a corrupt picture.
 cv::Mat read_stored(const fs::path& file) {
   const std::string bytes = read_bytes(file);
-  if (bytes.empty()) throw InputError(file, "is empty");
+  if (bytes.empty()) throw UserError(file, "is empty");
   cv::Mat image;
   try {
     const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8UC1,
                        const_cast<char*>(bytes.data()));  // only read
     image = cv::imdecode(view, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& error) {
-    throw InputError(file, "cannot be decoded: " + error.err);
+    throw UserError(file, "cannot be decoded: " + error.err);
   }
-  if (image.empty()) throw InputError(file, "is corrupt or not a picture in a known format");
+  if (image.empty()) throw UserError(file, "is corrupt or not a picture in a known format");
   return image;
 }
 
@@ -71,8 +71,8 @@ cv::Mat read_png_disparity(const fs::path& file) {
   if (stored.type() == CV_16UC1) {
     scale = 256;
   } else if (stored.type() != CV_8UC1) {
-    throw InputError(file, "is not a disparity map: it has " + std::to_string(stored.channels()) +
-                               " channels instead of one with 8 or 16 bit");
+    throw UserError(file, "is not a disparity map: it has " + std::to_string(stored.channels()) +
+                              " channels instead of one with 8 or 16 bit");
   }
   cv::Mat map;
   stored.convertTo(map, CV_32F, 1 / scale);
@@ -86,9 +86,9 @@ cv::Mat read_dmap(const fs::path& file, cv::Size size) {
   const std::string bytes = read_bytes(file);
   const std::size_t needed = static_cast<std::size_t>(size.area()) * sizeof(float);
   if (bytes.size() != needed) {
-    throw InputError(file, "has " + std::to_string(bytes.size()) + " bytes; an image of " +
-                               size_text(size.width, size.height) + " needs " +
-                               std::to_string(needed));
+    throw UserError(file, "has " + std::to_string(bytes.size()) + " bytes; an image of " +
+                              size_text(size.width, size.height) + " needs " +
+                              std::to_string(needed));
   }
   cv::Mat map(size, CV_32FC1);
   const char* source = bytes.data();
@@ -107,19 +107,19 @@ Camera read_camera(const fs::path& file) {
   std::array<double, 11> numbers{};
   for (double& number : numbers) {
     if (!(stream >> number)) {
-      throw InputError(file, "does not contain the 11 numbers fx fy cx cy qw qx qy qz tx ty tz");
+      throw UserError(file, "does not contain the 11 numbers fx fy cx cy qw qx qy qz tx ty tz");
     }
   }
-  if (!(numbers[0] > 0)) throw InputError(file, "the focal length is not above 0");
+  if (!(numbers[0] > 0)) throw UserError(file, "the focal length is not above 0");
   if (numbers[4] == 0 && numbers[5] == 0 && numbers[6] == 0 && numbers[7] == 0) {
-    throw InputError(file, "the quaternion is 0");
+    throw UserError(file, "the quaternion is 0");
   }
   return Camera{numbers[0], numbers[2], center_of(numbers)};
 }
 
 cv::Mat depth_to_disparity(const cv::Mat& depth, const Camera& left, const Camera& right) {
   const double baseline = cv::norm(left.center - right.center);
-  if (!(baseline > 0)) throw InputError("the two cameras have the same position");
+  if (!(baseline > 0)) throw UserError("the two cameras have the same position");
   const double shift = left.principal_x - right.principal_x;
   cv::Mat disparity = depth.clone();
   for (float& value : cv::Mat_<float>(disparity)) {
@@ -134,7 +134,7 @@ cv::Mat read_gray(const fs::path& file) {
   if (image.depth() == CV_16U) {
     image.convertTo(image, CV_8U, 1.0 / 257);
   } else if (image.depth() != CV_8U) {
-    throw InputError(file, "has neither 8 nor 16 bits per value");
+    throw UserError(file, "has neither 8 nor 16 bits per value");
   }
   switch (image.channels()) {
     case 1:
@@ -146,7 +146,7 @@ cv::Mat read_gray(const fs::path& file) {
       cv::cvtColor(image, image, cv::COLOR_BGRA2GRAY);
       break;
     default:
-      throw InputError(file, "has " + std::to_string(image.channels()) + " channels; 1, 3 or 4 do");
+      throw UserError(file, "has " + std::to_string(image.channels()) + " channels; 1, 3 or 4 do");
   }
   return image;
 }
@@ -159,8 +159,8 @@ cv::Mat read_visible_mask(const fs::path& file) {
 cv::Mat read_object_map(const fs::path& file) {
   const cv::Mat stored = read_stored(file);
   if (stored.channels() != 1) {
-    throw InputError(file, "is not an object map: it has " + std::to_string(stored.channels()) +
-                               " channels instead of one");
+    throw UserError(file, "is not an object map: it has " + std::to_string(stored.channels()) +
+                              " channels instead of one");
   }
   return stored != 0;
 }
@@ -168,8 +168,8 @@ cv::Mat read_object_map(const fs::path& file) {
 void require_size(const fs::path& file, const cv::Mat& map, cv::Size image,
                   const std::string& advice) {
   if (map.size() == image) return;
-  throw InputError(file, "is " + size_text(map.cols, map.rows) + ", the left image " +
-                             size_text(image.width, image.height) + advice);
+  throw UserError(file, "is " + size_text(map.cols, map.rows) + ", the left image " +
+                            size_text(image.width, image.height) + advice);
 }
 
 }  // namespace mtstereo::eval

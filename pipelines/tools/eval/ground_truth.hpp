@@ -50,7 +50,7 @@ cv::Mat read_dmap(const std::filesystem::path& file, cv::Size size);
 Camera read_camera(const std::filesystem::path& file);
 
 /// disparity = f * baseline / depth + (left - right principal point); negative results are unknown.
-/// Throws InputError if the cameras have the same optical center.
+/// Throws UserError if the cameras have the same optical center.
 cv::Mat depth_to_disparity(const cv::Mat& depth, const Camera& left, const Camera& right);
 
 /// Reads a picture of any depth and number of channels as 8-bit gray (BT.601 luma; alpha ignored,
@@ -63,11 +63,11 @@ cv::Mat read_visible_mask(const std::filesystem::path& file);
 /// An object map as in KITTI: 0 (background) stays 0, all other values become 255.
 cv::Mat read_object_map(const std::filesystem::path& file);
 
-/// Throws InputError, naming the file, unless its map has the size of the image. The message ends
+/// Throws UserError, naming the file, unless its map has the size of the image. The message ends
 /// with the advice.
 void require_size(const std::filesystem::path& file, const cv::Mat& map, cv::Size image,
                   const std::string& advice = {});
 
-// All of these throw InputError, naming the file, if the file cannot be used.
+// All of these throw UserError, naming the file, if the file cannot be used.
 
 }  // namespace mtstereo::eval

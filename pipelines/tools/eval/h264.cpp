@@ -13,7 +13,7 @@
 #include <array>
 #include <cstring>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -120,7 +120,7 @@ std::optional<std::string> h264_obstacle() {
 
 cv::Mat through_h264(const cv::Mat& image, int quantizer) {
   if (const std::optional<std::string> obstacle = h264_obstacle()) {
-    throw InputError("h264: " + *obstacle);
+    throw UserError("h264: " + *obstacle);
   }
   // The encoder takes even sizes.
   cv::Mat even;
@@ -132,12 +132,12 @@ cv::Mat through_h264(const cv::Mat& image, int quantizer) {
   g_autoptr(GError) error = nullptr;
   g_autoptr(GstElement) pipeline =
       gst_parse_launch_full(description.c_str(), nullptr, GST_PARSE_FLAG_FATAL_ERRORS, &error);
-  if (pipeline == nullptr) throw InputError(std::string("h264: ") + error->message);
+  if (pipeline == nullptr) throw UserError(std::string("h264: ") + error->message);
   gst_object_ref_sink(pipeline);
   const cv::Mat decoded = last_frame(pipeline, even);
   const std::string reason = decoded.empty() ? error_text(pipeline) : "";
   gst_element_set_state(pipeline, GST_STATE_NULL);
-  if (decoded.size() != even.size()) throw InputError("h264: the image is not coded: " + reason);
+  if (decoded.size() != even.size()) throw UserError("h264: the image is not coded: " + reason);
   return decoded(cv::Rect(cv::Point(), image.size())).clone();
 }
 

@@ -12,7 +12,7 @@ std::optional<std::string> h264_obstacle();
 
 /// An 8-bit gray image (CV_8UC1) after H.264 compression with this quantizer, 1 .. 50: the last of
 /// three equal frames of a stream, so that it is predicted from others. The result depends on the
-/// arguments and on the version of the encoder only. Throws InputError if a part is missing or the
+/// arguments and on the version of the encoder only. Throws UserError if a part is missing or the
 /// encoder rejects the image.
 cv::Mat through_h264(const cv::Mat& image, int quantizer);
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <system_error>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/layouts.hpp"
 
 namespace mtstereo::eval {

@@ -8,8 +8,8 @@
 #include <charconv>
 #include <sstream>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/layouts.hpp"
 
 namespace mtstereo::eval {
@@ -32,7 +32,7 @@ std::optional<int> calibration_value(const fs::path& file, const std::string& ke
     const char* end = line.data() + line.size();
     const auto [stop, error] = std::from_chars(begin, end, value);
     if (error != std::errc() || stop != end || value < 1) {
-      throw InputError(file, "'" + line + "' is not an integer above 0");
+      throw UserError(file, "'" + line + "' is not an integer above 0");
     }
     return value;
   }
@@ -71,7 +71,7 @@ void add_folder(DataSet& set, const fs::path& folder) {
   if (is_file(mask)) pair.visible_mask = mask;
   try {
     pair.max_disparity = search_range(set.layout, folder / "calib.txt");
-  } catch (const InputError& error) {
+  } catch (const UserError& error) {
     set.problems.push_back({pair.name, error.what()});
     return;
   }

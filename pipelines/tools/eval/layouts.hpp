@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include "tools/eval/datasets.hpp"
+#include "tools/eval/data_set.hpp"
 
 namespace mtstereo::eval {
 
@@ -25,6 +25,10 @@ Layout scene_flow_kind(const std::filesystem::path& root,
 /// Which of the two gardens a folder holds.
 Layout trimbot_kind(const std::filesystem::path& root,
                     const std::vector<std::filesystem::path>& folders);
+
+/// The weight of a Middlebury training pair in the official mean (evaluation version 3), looked up
+/// by the name of its folder.
+double middlebury_weight(std::string_view name);
 
 /// The path of a file relative to the data set's folder, without extension, separated by '/'.
 std::string name_below(const std::filesystem::path& root, const std::filesystem::path& file);

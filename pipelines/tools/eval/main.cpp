@@ -10,7 +10,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <utility>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/official_report.hpp"
 #include "tools/eval/options.hpp"
 #include "tools/eval/outputs.hpp"
@@ -187,7 +187,7 @@ void print(const Report& report) {
 void check_degradations(const Options& options) {
   for (const Degradation& degradation : options.run.degradations) {
     if (const std::optional<std::string> obstacle = degradation_obstacle(degradation)) {
-      throw InputError("--degrade " + degradation_text(degradation) + ": " + *obstacle);
+      throw UserError("--degrade " + degradation_text(degradation) + ": " + *obstacle);
     }
   }
 }
@@ -196,7 +196,7 @@ int run(const Options& options) {
   const DataSet all = find_pairs(options.folders, options.layout);
   const DataSet set = select_pairs(options, all);
   if (set.pairs.empty() && set.problems.empty()) {
-    throw InputError(all.folder, "no pair has " + list_of(options.only) + " in its name");
+    throw UserError(all.folder, "no pair has " + list_of(options.only) + " in its name");
   }
   if (options.list) return list_pairs(set);
   check_degradations(options);

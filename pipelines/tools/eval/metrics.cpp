@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/flat_answers.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/weighted_mean.hpp"
 
 namespace mtstereo::eval {
@@ -14,9 +14,9 @@ namespace {
 
 void require_same_size(const cv::Mat& estimate, const cv::Mat& truth) {
   if (estimate.size() == truth.size()) return;
-  throw InputError("the ground truth is " + std::to_string(truth.cols) + "x" +
-                   std::to_string(truth.rows) + ", the disparity map " +
-                   std::to_string(estimate.cols) + "x" + std::to_string(estimate.rows));
+  throw UserError("the ground truth is " + std::to_string(truth.cols) + "x" +
+                  std::to_string(truth.rows) + ", the disparity map " +
+                  std::to_string(estimate.cols) + "x" + std::to_string(estimate.rows));
 }
 
 // Sums over pixels, from which Metrics are computed.

@@ -48,7 +48,7 @@ struct Evaluation {
 
 /// Compares an estimate with the truth (both CV_32FC1 [px], NaN = none) at the pixels where
 /// `visible` (CV_8UC1) is not 0, or at all pixels if it is empty. Errors are divided by `scale`.
-/// Throws InputError if the sizes differ.
+/// Throws UserError if the sizes differ.
 Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& visible = {},
                 double scale = 1);
 

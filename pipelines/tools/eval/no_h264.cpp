@@ -2,8 +2,8 @@
 
 // Replaces h264.cpp in a build without GStreamer.
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/h264.hpp"
-#include "tools/eval/input_error.hpp"
 
 namespace mtstereo::eval {
 
@@ -12,6 +12,6 @@ std::optional<std::string> h264_obstacle() {
          "libgstreamer-plugins-base1.0-dev";
 }
 
-cv::Mat through_h264(const cv::Mat&, int) { throw InputError("h264: " + *h264_obstacle()); }
+cv::Mat through_h264(const cv::Mat&, int) { throw UserError("h264: " + *h264_obstacle()); }
 
 }  // namespace mtstereo::eval

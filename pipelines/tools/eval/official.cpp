@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/background_fill.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/weighted_mean.hpp"
 
 namespace mtstereo::eval {
@@ -13,9 +13,9 @@ namespace {
 
 void require_size_of(const cv::Mat& estimate, const cv::Mat& map, const char* name) {
   if (map.empty() || map.size() == estimate.size()) return;
-  throw InputError(std::string("the ") + name + " is " + std::to_string(map.cols) + "x" +
-                   std::to_string(map.rows) + ", the disparity map " +
-                   std::to_string(estimate.cols) + "x" + std::to_string(estimate.rows));
+  throw UserError(std::string("the ") + name + " is " + std::to_string(map.cols) + "x" +
+                  std::to_string(map.rows) + ", the disparity map " +
+                  std::to_string(estimate.cols) + "x" + std::to_string(estimate.rows));
 }
 
 // The maps that are counted, all of one size.

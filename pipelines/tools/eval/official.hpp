@@ -58,7 +58,7 @@ struct OfficialCounts {
 };
 
 /// Counts as the benchmark of the pair does; none if it has no official measures here. Throws
-/// InputError if the sizes differ.
+/// UserError if the sizes differ.
 std::optional<OfficialCounts> count_official(const cv::Mat& estimate, const StereoPair& pair,
                                              const GroundTruth& truth);
 

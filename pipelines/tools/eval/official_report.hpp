@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/eval/report.hpp"
+#include "tools/eval/results.hpp"
 
 namespace mtstereo::eval {
 

@@ -10,8 +10,8 @@
 #include "lib/options/failure_message.hpp"
 #include "lib/outputs/finite_range.hpp"
 #include "lib/outputs/parse_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
-#include "tools/eval/input_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -187,7 +187,7 @@ void apply_degradations(const Texts& texts, std::vector<Degradation>& degradatio
     try {
       const Degradation degradation = parse_degradation(text);
       if (known.insert(degradation_text(degradation)).second) degradations.push_back(degradation);
-    } catch (const InputError& error) {
+    } catch (const UserError& error) {
       throw CLI::ValidationError("--degrade", error.what());
     }
   }

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "lib/outputs/json_text.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/plot.hpp"
 
 namespace mtstereo::eval {
@@ -23,7 +23,7 @@ void refuse_inputs(const fs::path& file, const DataSet& set) {
           pair.cameras.first, pair.cameras.second}) {
       std::error_code not_there;
       if (!input.empty() && fs::equivalent(file, input, not_there)) {
-        throw InputError(file, "belongs to the data set: choose another output file");
+        throw UserError(file, "belongs to the data set: choose another output file");
       }
     }
   }
@@ -36,23 +36,23 @@ void refuse_foreign(const fs::path& file, const std::string& mark) {
   const fs::file_status status = fs::symlink_status(file, error);
   if (!fs::exists(status)) return;
   if (!fs::is_regular_file(status)) {
-    throw InputError(file, "is a folder, a link, a pipe or a device: choose another output file");
+    throw UserError(file, "is a folder, a link, a pipe or a device: choose another output file");
   }
   std::ifstream in(file, std::ios::binary);
   std::string head(kHead, '\0');
   in.read(head.data(), kHead);
   head.resize(static_cast<std::size_t>(in.gcount()));
   if (head.empty() || head.find(mark) != std::string::npos) return;
-  throw InputError(file,
-                   "is in the way, and mtstereo-eval did not write it: move it, or choose "
-                   "another output file");
+  throw UserError(file,
+                  "is in the way, and mtstereo-eval did not write it: move it, or choose "
+                  "another output file");
 }
 
 // Leaves no new file, because the evaluation may still fail.
 void require_writable(const fs::path& file) {
   make_parent_folder(file);
   const bool was_there = fs::exists(file);
-  if (!std::ofstream(file, std::ios::app)) throw InputError(file, "cannot be written");
+  if (!std::ofstream(file, std::ios::app)) throw UserError(file, "cannot be written");
   std::error_code ignored;
   if (!was_there) fs::remove(file, ignored);
 }
@@ -61,7 +61,7 @@ bool attempt(const std::function<void()>& write) {
   try {
     write();
     return true;
-  } catch (const InputError& error) {
+  } catch (const UserError& error) {
     std::cerr << "mtstereo-eval: " << error.what() << '\n';
     return false;
   }
@@ -69,7 +69,7 @@ bool attempt(const std::function<void()>& write) {
 
 void write_curve(const fs::path& file, const Report& report) {
   if (report.curves.front().pairs == 0) {
-    throw InputError(file, "is not written: no pair was completed by all methods");
+    throw UserError(file, "is not written: no pair was completed by all methods");
   }
   nlohmann::json curves;
   add_curves(report, curves);

@@ -7,7 +7,7 @@
 
 namespace mtstereo::eval {
 
-/// Runs before the evaluation, which can take hours: throws InputError if a requested file cannot
+/// Runs before the evaluation, which can take hours: throws UserError if a requested file cannot
 /// be written or belongs to the data set.
 void check_outputs(const Options& options, const DataSet& set);
 

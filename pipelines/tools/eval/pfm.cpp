@@ -9,10 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "lib/outputs/pfm_bytes.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "mtstereo/parameters.hpp"
 #include "tools/eval/bytes.hpp"
 #include "tools/eval/files.hpp"
-#include "tools/eval/input_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -33,7 +34,7 @@ std::vector<std::string> header_words(const std::filesystem::path& file, std::st
   std::size_t at = 0;
   while (words.size() < 4) {
     const std::size_t end = bytes.substr(0, kLongestHeader).find('\n', at);
-    if (end == std::string_view::npos) throw InputError(file, "the PFM header is incomplete");
+    if (end == std::string_view::npos) throw UserError(file, "the PFM header is incomplete");
     std::string line(bytes.substr(at, end - at));
     line = line.substr(0, line.find('#'));
     std::istringstream stream(line);
@@ -49,8 +50,8 @@ int parse_side(const std::filesystem::path& file, const std::string& word, const
   const char* end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (error != std::errc() || stop != end || value < 1 || value > kLargestImageSide) {
-    throw InputError(file, std::string("the ") + which + " in the PFM header is '" + word +
-                               "', not an integer of 1 .. " + std::to_string(kLargestImageSide));
+    throw UserError(file, std::string("the ") + which + " in the PFM header is '" + word +
+                              "', not an integer of 1 .. " + std::to_string(kLargestImageSide));
   }
   return value;
 }
@@ -58,22 +59,22 @@ int parse_side(const std::filesystem::path& file, const std::string& word, const
 Header parse_header(const std::filesystem::path& file, std::string_view bytes) {
   const std::string_view magic = bytes.substr(0, 2);
   if (magic == "PF") {
-    throw InputError(file, "is a PFM with three channels (PF); a disparity map has one (Pf)");
+    throw UserError(file, "is a PFM with three channels (PF); a disparity map has one (Pf)");
   }
-  if (magic != "Pf") throw InputError(file, "is not a PFM file: it does not begin with 'Pf'");
+  if (magic != "Pf") throw UserError(file, "is not a PFM file: it does not begin with 'Pf'");
 
   Header header;
   const std::vector<std::string> words = header_words(file, bytes, header.length);
   if (words.size() != 4 || words[0] != "Pf") {
-    throw InputError(file, "the PFM header is not 'Pf', width, height, scale");
+    throw UserError(file, "the PFM header is not 'Pf', width, height, scale");
   }
   header.width = parse_side(file, words[1], "width");
   header.height = parse_side(file, words[2], "height");
   char* end = nullptr;
   const double scale = std::strtod(words[3].c_str(), &end);
   if (*end != '\0' || !std::isfinite(scale) || scale == 0) {
-    throw InputError(
-        file, "the scale in the PFM header is '" + words[3] + "', not a number other than 0");
+    throw UserError(file,
+                    "the scale in the PFM header is '" + words[3] + "', not a number other than 0");
   }
   header.order = scale < 0 ? std::endian::little : std::endian::big;
   return header;
@@ -88,10 +89,10 @@ cv::Mat read_pfm(const std::filesystem::path& file) {
   const std::size_t needed = row * static_cast<std::size_t>(header.height);
   const std::size_t there = bytes.size() - header.length;
   if (there < needed) {
-    throw InputError(file, "ends too early: " + std::to_string(header.width) + "x" +
-                               std::to_string(header.height) + " values need " +
-                               std::to_string(needed) + " bytes, " + std::to_string(there) +
-                               " are there");
+    throw UserError(file, "ends too early: " + std::to_string(header.width) + "x" +
+                              std::to_string(header.height) + " values need " +
+                              std::to_string(needed) + " bytes, " + std::to_string(there) +
+                              " are there");
   }
   cv::Mat values(header.height, header.width, CV_32FC1);
   for (int y = 0; y < header.height; ++y) {
@@ -107,17 +108,8 @@ cv::Mat read_pfm(const std::filesystem::path& file) {
 
 void write_pfm(const std::filesystem::path& file, const cv::Mat& values) {
   CV_Assert(values.type() == CV_32FC1);
-  std::string bytes =
-      "Pf\n" + std::to_string(values.cols) + " " + std::to_string(values.rows) + "\n-1.0\n";
-  std::size_t at = bytes.size();
-  bytes.resize(at + values.total() * sizeof(float));
-  for (int y = values.rows - 1; y >= 0; --y) {
-    const auto* source = values.ptr<float>(y);
-    for (int x = 0; x < values.cols; ++x, at += sizeof(float)) {
-      store_float(source[x], bytes.data() + at, std::endian::little);
-    }
-  }
-  write_bytes(file, bytes);
+  write_bytes(file, outputs::pfm_bytes(values.cols, values.rows,
+                                       [&](int x, int y) { return values.at<float>(y, x); }));
 }
 
 }  // namespace mtstereo::eval

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/pfm.hpp"
 
 namespace mtstereo::eval {
@@ -59,14 +59,14 @@ cv::Mat to_kitti(const fs::path& file, const cv::Mat& disparity) {
       }
       const double value = std::round(source[x] * kScale);
       if (value > std::numeric_limits<std::uint16_t>::max()) {
-        throw InputError(file, "a disparity of " + std::to_string(source[x]) +
-                                   " px is above 255.99 px, the largest of a KITTI PNG; use "
-                                   "--format pfm");
+        throw UserError(file, "a disparity of " + std::to_string(source[x]) +
+                                  " px is above 255.99 px, the largest of a KITTI PNG; use "
+                                  "--format pfm");
       }
       if (value < 0) {
-        throw InputError(file, "a disparity of " + std::to_string(source[x]) +
-                                   " px is negative, which a KITTI PNG cannot store; use --format "
-                                   "pfm");
+        throw UserError(file, "a disparity of " + std::to_string(source[x]) +
+                                  " px is negative, which a KITTI PNG cannot store; use --format "
+                                  "pfm");
       }
       target[x] = static_cast<std::uint16_t>(std::max(value, 1.0));
     }
@@ -122,9 +122,9 @@ void write_picture(const fs::path& file, const cv::Mat& picture) {
   try {
     encoded = cv::imencode(".png", picture, bytes);
   } catch (const cv::Exception& error) {
-    throw InputError(file, "cannot be encoded: " + error.err);
+    throw UserError(file, "cannot be encoded: " + error.err);
   }
-  if (!encoded) throw InputError(file, "cannot be encoded");
+  if (!encoded) throw UserError(file, "cannot be encoded");
   write_bytes(file, std::string(bytes.begin(), bytes.end()));
 }
 

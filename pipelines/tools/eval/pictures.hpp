@@ -17,7 +17,7 @@ enum class DisparityFormat {
 /// The extension of files in this format, with the dot.
 const char* extension_of(DisparityFormat format);
 
-/// Writes a disparity map (CV_32FC1 [px], NaN = none). Throws InputError if the file cannot be
+/// Writes a disparity map (CV_32FC1 [px], NaN = none). Throws UserError if the file cannot be
 /// written or a disparity is out of the format's range.
 void write_disparity(const std::filesystem::path& file, const cv::Mat& disparity,
                      DisparityFormat format);
@@ -36,7 +36,7 @@ cv::Mat color_error(const cv::Mat& disparity, const GroundTruth& truth);
 /// One picture with the left image and the ground truth above the disparity and the error.
 cv::Mat overview(const LoadedPair& images, const cv::Mat& disparity, int max_disparity);
 
-/// Writes a picture as PNG, regardless of the extension. Throws InputError.
+/// Writes a picture as PNG, regardless of the extension. Throws UserError.
 void write_picture(const std::filesystem::path& file, const cv::Mat& picture);
 
 }  // namespace mtstereo::eval

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 extern char** environ;
 
@@ -82,13 +82,13 @@ void plot_curves(const fs::path& picture, const nlohmann::json& report) {
   const std::string text = report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (figures == nullptr || std::fwrite(text.data(), 1, text.size(), figures.get()) < text.size() ||
       std::fflush(figures.get()) != 0) {
-    throw InputError(picture, "cannot be plotted: a temporary file cannot be written");
+    throw UserError(picture, "cannot be plotted: a temporary file cannot be written");
   }
   std::rewind(figures.get());
   SpawnFiles files;
   files.read_standard_input(fileno(figures.get()));
   if (!run({script_file().string(), "curve", "-", fs::absolute(picture).string()}, files)) {
-    throw InputError(picture, "cannot be plotted");
+    throw UserError(picture, "cannot be plotted");
   }
 }
 

@@ -20,7 +20,7 @@ std::string uniqueness_ratios_text();
 
 /// Runs a rival once per uniqueness ratio, with the other settings of rival_settings(). The first
 /// column has the unfiltered results, the others the filtered ones at the thresholds 1 ..
-/// kMostConfidence. Throws InputError if OpenCV rejects the images.
+/// kMostConfidence. Throws UserError if OpenCV rejects the images.
 Sweep sweep_rival(Rival rival, int max_disparity, const LoadedPair& images,
                   const FilterSettings& filters);
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -85,7 +85,7 @@ void RivalMatcher::compute(const cv::Mat& left, const cv::Mat& right) {
   try {
     state_->matcher->compute(left, right, state_->fixed_point);
   } catch (const cv::Exception& error) {
-    throw InputError("OpenCV rejects the pair: " + error.err);
+    throw UserError("OpenCV rejects the pair: " + error.err);
   }
 }
 

@@ -41,7 +41,7 @@ class RivalMatcher {
   RivalMatcher(const RivalMatcher&) = delete;
   RivalMatcher& operator=(const RivalMatcher&) = delete;
 
-  /// The timed part. Throws InputError if OpenCV rejects the images.
+  /// The timed part. Throws UserError if OpenCV rejects the images.
   void compute(const cv::Mat& left, const cv::Mat& right);
   /// The last result.
   cv::Mat disparity() const;

@@ -8,8 +8,8 @@
 #include <new>
 #include <utility>
 
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/degrade.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/eval/rival_sweep.hpp"
 
 namespace mtstereo::eval {
@@ -28,7 +28,7 @@ cv::Mat mat_of(GrayView view) {
 }
 
 void require(const Status& status) {
-  if (!status) throw InputError(status.error().message);
+  if (!status) throw UserError(status.error().message);
 }
 
 // Runs `step`; an exception becomes a failure whose text begins with `who`.
@@ -61,8 +61,8 @@ int search_range(const StereoPair& pair, const Parameters& parameters, int width
                  std::vector<std::string>& notes) {
   const bool asked = parameters.is_set(Parameter::kMaxDisparity);
   if (!asked && !pair.max_disparity) {
-    throw InputError(pair.left.parent_path() / "calib.txt",
-                     "does not state the search range (ndisp=...); set it with --max-disparity");
+    throw UserError(pair.left.parent_path() / "calib.txt",
+                    "does not state the search range (ndisp=...); set it with --max-disparity");
   }
   const int wanted = asked ? parameters.integer(Parameter::kMaxDisparity) : *pair.max_disparity;
   return limited_range(pair.name, wanted, width, notes);
@@ -203,13 +203,13 @@ void Runner::prepare_matcher(const LoadedPair& images, int max_disparity) {
     matcher_->restart();  // each pair is a stream of its own
   } else {
     Result<Matcher> made = Matcher::create(parameters);
-    if (!made) throw InputError(made.error().message);
+    if (!made) throw UserError(made.error().message);
     matcher_.emplace(std::move(*made));
   }
   if (!aligns(settings_)) return;
   if (!tracker_) {
     Result<AlignmentTracker> made = AlignmentTracker::create();
-    if (!made) throw InputError(made.error().message);
+    if (!made) throw UserError(made.error().message);
     tracker_.emplace(std::move(*made));
   }
   tracker_->reset();
@@ -223,7 +223,7 @@ void Runner::run_own(const LoadedPair& images, PairReport& report) {
   FrameResult found;
   const double seconds = median_seconds(warm_up(report), settings_.repeat, [&] {
     Result<FrameResult> result = matcher_->compute(view_of(images.left), view_of(images.right));
-    if (!result) throw InputError(result.error().message);
+    if (!result) throw UserError(result.error().message);
     found = *result;
   });
   const cv::Mat map = to_float(found.disparity, matcher_->parameters().disparity_offset());
@@ -280,7 +280,7 @@ void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
     std::vector<cv::Mat> maps;
     for (const LoadedPair& frame : frames) {
       Result<FrameResult> result = matcher_->compute(view_of(frame.left), view_of(frame.right));
-      if (!result) throw InputError(result.error().message);
+      if (!result) throw UserError(result.error().message);
       maps.push_back(to_float(result->disparity, matcher_->parameters().disparity_offset()));
     }
     report.flicker.push_back({kOwnMethod, measure_flicker(maps)});

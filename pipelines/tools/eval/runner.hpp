@@ -81,7 +81,7 @@ struct PairReport {
 };
 
 /// The search range of a pair: the requested one, or else the one of the data set, limited to the
-/// width of the image and to the library's range. Adds a note if a limit applies. Throws InputError
+/// width of the image and to the library's range. Adds a note if a limit applies. Throws UserError
 /// if neither the request nor the data set states one.
 int search_range(const StereoPair& pair, const Parameters& parameters, int width,
                  std::vector<std::string>& notes);
@@ -96,7 +96,7 @@ double median_seconds(int warm_up, int repeat, const std::function<void()>& fram
 /// Runs the library and the rivals on each pair.
 class Runner {
  public:
-  /// Creates and locks the folders of maps and pictures. Throws OutputError.
+  /// Creates and locks the folders of maps and pictures. Throws UserError.
   explicit Runner(RunSettings settings);
 
   /// The images as they are. Does not throw for a pair that cannot be used: `failures` has the

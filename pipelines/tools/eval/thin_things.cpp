@@ -5,7 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -66,7 +66,7 @@ cv::Mat background_of(const cv::Mat& truth) {
 
 ThinCounts measure_thin(const cv::Mat& estimate, const cv::Mat& truth) {
   if (estimate.size() != truth.size()) {
-    throw InputError("the disparity map and the ground truth have different sizes");
+    throw UserError("the disparity map and the ground truth have different sizes");
   }
   const cv::Mat background = background_of(truth);
   const cv::Mat above = truth - background;

@@ -38,7 +38,7 @@ ThinCounts& operator+=(ThinCounts& sum, const ThinCounts& counts);
 /// truth (NaN) limit nothing and have none.
 cv::Mat background_of(const cv::Mat& truth);
 
-/// Compares an estimate with the truth (both CV_32FC1 [px], NaN = none). Throws InputError if the
+/// Compares an estimate with the truth (both CV_32FC1 [px], NaN = none). Throws UserError if the
 /// sizes differ.
 ThinCounts measure_thin(const cv::Mat& estimate, const cv::Mat& truth);
 

@@ -82,12 +82,6 @@ ReliabilityTable library_table(const LogOdds& table) {
   return entries;
 }
 
-int confidence(const ReliabilityTable& table, const Sample& sample) {
-  int sum = 0;
-  for (int clue = 0; clue < kClues; ++clue) sum += table[clue][sample.bins[clue]];
-  return std::clamp(sum / kReliabilityOne, 1, 255);
-}
-
 Outcome outcome(const std::vector<const PairSamples*>& pairs,
                 const std::vector<const ReliabilityTable*>& tables, int least) {
   Outcome mean;

@@ -24,9 +24,6 @@ inline constexpr double kEvenOdds = 64;
 inline constexpr double kPerLogOdds = 24;
 ReliabilityTable library_table(const LogOdds& table);
 
-/// The confidence that the library gives a sample.
-int confidence(const ReliabilityTable& table, const Sample& sample);
-
 /// The mean D-all [%] and the mean density [%] of pairs without the samples of lower confidence.
 struct Outcome {
   double d_all = 0;

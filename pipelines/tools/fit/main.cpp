@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "lib/options/failure_message.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/degradation.hpp"
-#include "tools/eval/input_error.hpp"
 #include "tools/fit/fitting.hpp"
 #include "tools/fit/samples.hpp"
 
@@ -95,7 +95,7 @@ void write_tables(const std::array<ReliabilityTable, kRatedMaps>& tables, const 
     file << "    }},\n";
   }
   file << "}};\n// clang-format on\n\n}  // namespace mtstereo\n";
-  if (!file.flush()) throw eval::InputError("cannot write " + path);
+  if (!file.flush()) throw mtstereo::UserError("cannot write " + path);
 }
 
 /// Fits the table of these pixels.
@@ -121,7 +121,7 @@ int run(int argc, char** argv) {
   app.add_option("--samples", count, "pixels of each pair")->check(CLI::PositiveNumber);
   app.failure_message(options::failure_message);
   CLI11_PARSE(app, argc, argv);
-  if (!std::ofstream(out, std::ios::app)) throw eval::InputError("cannot write " + out);
+  if (!std::ofstream(out, std::ios::app)) throw mtstereo::UserError("cannot write " + out);
   std::vector<TrainingPair> pairs = rendered_pairs();
   for (const std::string& folder : folders) {
     for (TrainingPair& pair : pairs_in(folder)) pairs.push_back(std::move(pair));

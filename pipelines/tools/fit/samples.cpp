@@ -13,7 +13,6 @@
 #include "stages/refine/reliability.hpp"
 #include "tools/eval/degrade.hpp"
 #include "tools/eval/metrics.hpp"
-#include "tools/fit/fitting.hpp"
 #include "tools/render/render.hpp"
 #include "tools/render/scene.hpp"
 
@@ -118,6 +117,12 @@ Settings settings_for(int max_disparity, RatedMap rated) {
 }
 
 }  // namespace
+
+int confidence(const ReliabilityTable& table, const Sample& sample) {
+  int sum = 0;
+  for (int clue = 0; clue < kClues; ++clue) sum += table[clue][sample.bins[clue]];
+  return std::clamp(sum / kReliabilityOne, 1, 255);
+}
 
 std::vector<TrainingPair> pairs_in(const std::string& folder) {
   std::vector<TrainingPair> pairs;

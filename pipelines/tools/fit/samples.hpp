@@ -43,4 +43,7 @@ std::vector<TrainingPair> rendered_pairs();
 PairSamples take_samples(const TrainingPair& pair, const std::string& kind, RatedMap rated,
                          const ReliabilityTable& guide, int count);
 
+/// The confidence that the library gives a sample.
+int confidence(const ReliabilityTable& table, const Sample& sample);
+
 }  // namespace mtstereo::fit

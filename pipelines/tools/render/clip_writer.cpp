@@ -2,7 +2,6 @@
 #include "tools/render/clip_writer.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
@@ -11,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "lib/outputs/pfm_bytes.hpp"
 #include "lib/outputs/write_file.hpp"
 
 namespace mtstereo::render {
@@ -88,18 +88,8 @@ fs::path checked_folder(const fs::path& folder, bool overwrite) {
 
 std::string pfm_of(const cv::Mat& image) {
   if (image.type() != CV_32FC1) throw std::runtime_error("a PFM holds one float per pixel");
-  std::string data = "Pf\n" + std::to_string(image.cols) + " " + std::to_string(image.rows) +
-                     "\n-1.0\n";               // a negative scale means little-endian
-  for (int y = image.rows - 1; y >= 0; --y) {  // the bottom row comes first
-    const auto* row = image.ptr<float>(y);
-    for (int x = 0; x < image.cols; ++x) {
-      const auto bits = std::bit_cast<std::uint32_t>(row[x]);
-      for (int shift = 0; shift < 32; shift += 8) {
-        data.push_back(static_cast<char>(bits >> shift & 0xff));
-      }
-    }
-  }
-  return data;
+  return outputs::pfm_bytes(image.cols, image.rows,
+                            [&](int x, int y) { return image.at<float>(y, x); });
 }
 
 }  // namespace

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "mtstereo/geometry/calibration.hpp"
-#include "tools/render/render.hpp"
 #include "tools/render/rig.hpp"
+#include "tools/render/scene.hpp"
+#include "tools/render/settings.hpp"
 
 namespace mtstereo::render {
 

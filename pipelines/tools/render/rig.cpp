@@ -4,16 +4,11 @@
 #include <numbers>
 
 #include "tools/render/lens.hpp"
-#include "tools/render/render.hpp"
 
 namespace mtstereo::render {
 
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
-
-bool Rig::aligned() const {
-  return roll == 0 && pitch == 0 && yaw == 0 && focal_ratio == 1 && row_offset == 0;
-}
 
 Vector3d Camera::direction(double x, double y) const {
   if (lens) return lens->ray(x, y);

@@ -6,24 +6,11 @@
 #include <opencv2/core.hpp>
 
 #include "mtstereo/geometry/calibration.hpp"
+#include "tools/render/settings.hpp"
 
 namespace mtstereo::render {
 
 class Lens;
-struct Settings;
-
-/// The error of the right camera in a rig that is out of line. The camera's position is exact. The
-/// defaults are a rectified pair.
-struct Rig {
-  double roll = 0;         ///< clockwise, seen from behind the camera [degrees]
-  double pitch = 0;        ///< downwards [degrees]
-  double yaw = 0;          ///< to the right [degrees]
-  double focal_ratio = 1;  ///< focal length of the right camera relative to the left
-  double row_offset = 0;   ///< the right image is lower by this [px]
-
-  /// Whether the pair is rectified.
-  bool aligned() const;
-};
 
 /// A camera: a pinhole, or one with a lens.
 struct Camera {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-#include "tools/render/render.hpp"
+#include "tools/render/settings.hpp"
 
 namespace mtstereo::render {
 

@@ -6,8 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "tools/render/render.hpp"
 #include "tools/render/rig.hpp"
+#include "tools/render/scene.hpp"
+#include "tools/render/settings.hpp"
 
 namespace mtstereo::render {
 

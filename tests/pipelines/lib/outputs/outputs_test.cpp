@@ -19,8 +19,8 @@
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/json_text.hpp"
 #include "lib/outputs/listed_folder.hpp"
-#include "lib/outputs/output_error.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
 #include "lib/outputs/written_files.hpp"
 
@@ -58,7 +58,7 @@ class Folder : public ::testing::Test {
 std::string error_of(const std::function<void()>& call) {
   try {
     call();
-  } catch (const OutputError& error) {
+  } catch (const UserError& error) {
     return error.what();
   }
   return "no error";

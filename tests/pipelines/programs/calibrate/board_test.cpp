@@ -12,8 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "lib/outputs/output_error.hpp"
-#include "programs/calibrate/calibration_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/detection.hpp"
 #include "programs/calibrate/page.hpp"
 #include "programs/calibrate/start_values.hpp"
@@ -181,12 +180,12 @@ TEST(Page, ThePngStatesItsResolutionAndShowsTheBoard) {
 TEST(Page, ABoardThatDoesNotFitIsRefused) {
   BoardOptions board;
   board.square = 0.04;
-  EXPECT_THROW(make_page(board, "A4"), CalibrationError);
+  EXPECT_THROW(make_page(board, "A4"), UserError);
   EXPECT_EQ(make_page(board, "A3").width, 420);
   const Page fit = make_page(board, "fit");
   EXPECT_NEAR(fit.width, 372, 1e-9);
-  EXPECT_THROW(write_page(fit, "/nonexistent/board.pdf"), outputs::OutputError);
-  EXPECT_THROW(write_page(fit, "board.bmp"), CalibrationError);
+  EXPECT_THROW(write_page(fit, "/nonexistent/board.pdf"), mtstereo::UserError);
+  EXPECT_THROW(write_page(fit, "board.bmp"), UserError);
 }
 
 }  // namespace

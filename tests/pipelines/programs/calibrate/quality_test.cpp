@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "programs/calibrate/calibration_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "support.hpp"
 
 namespace mtstereo::calibrate {
@@ -179,7 +179,7 @@ TEST(Quality, CamerasOneAboveTheOtherAreRefused) {
   try {
     judge_views(views);
     FAIL() << "no error";
-  } catch (const CalibrationError& error) {
+  } catch (const UserError& error) {
     EXPECT_THAT(error.what(), HasSubstr("one is above the other"));
   }
 }
@@ -194,7 +194,7 @@ TEST(Quality, ABoardInMetersInsteadOfMillimetersIsRefused) {
   try {
     judge_views(views);
     FAIL() << "no error";
-  } catch (const CalibrationError& error) {
+  } catch (const UserError& error) {
     EXPECT_THAT(error.what(), HasSubstr("is the square size, in mm, right?"));
   }
 }

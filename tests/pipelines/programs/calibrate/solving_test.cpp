@@ -9,7 +9,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
-#include "programs/calibrate/calibration_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "support.hpp"
 
 namespace mtstereo::calibrate {
@@ -136,8 +136,8 @@ TEST(Solving, TooFewViewsAreRefused) {
   const Rig truth = plumb_bob_rig();
   const BoardOptions board;
   const auto views = observe(truth, board_poses(truth, board, 4), board, 0.1);
-  EXPECT_THROW(solve(Model::kPlumbBob, kSize, kSize, views), CalibrationError);
-  EXPECT_THROW(solve(Model::kPlumbBob, kSize, kSize, {}), CalibrationError);
+  EXPECT_THROW(solve(Model::kPlumbBob, kSize, kSize, views), UserError);
+  EXPECT_THROW(solve(Model::kPlumbBob, kSize, kSize, {}), UserError);
 }
 
 TEST(Solving, ViewsThatDoNotFitAreRefused) {
@@ -150,7 +150,7 @@ TEST(Solving, ViewsThatDoNotFitAreRefused) {
       each.pixel = {static_cast<double>(random() % 640), static_cast<double>(random() % 480)};
     }
   }
-  EXPECT_THROW(solve(Model::kPlumbBob, kSize, kSize, views), CalibrationError);
+  EXPECT_THROW(solve(Model::kPlumbBob, kSize, kSize, views), UserError);
 }
 
 }  // namespace

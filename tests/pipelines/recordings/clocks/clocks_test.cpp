@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "lib/outputs/user_error.hpp"
 #include "moving_views.hpp"
 #include "recordings/clocks/frame_pairs.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "recordings/matching/piece.hpp"
 #include "support/temporary_folder.hpp"
 #include "tools/render/scene.hpp"
@@ -70,7 +70,7 @@ class Clocks : public testing::Test {
     try {
       const ClockEstimate found = estimate(left, right);
       return "no refusal, but " + found.explanation;
-    } catch (const RunError& error) {
+    } catch (const UserError& error) {
       return error.what();
     }
   }

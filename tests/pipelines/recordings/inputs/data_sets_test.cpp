@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 
-#include "recordings/inputs/recording.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/inputs/recognition.hpp"
 #include "recordings/media/frame_index.hpp"
 #include "recordings/support/video_files.hpp"
 
@@ -149,7 +149,7 @@ TEST_F(DataSets, Euroc) {
     EXPECT_THAT(recording.remarks, Contains(HasSubstr("names 1 pictures that do not exist")));
   }
   write_text(folder_ / (base + "cam1/data.csv"), "nonsense\n");
-  EXPECT_THROW(recognized("MH_01"), RunError);
+  EXPECT_THROW(recognized("MH_01"), UserError);
 }
 
 TEST_F(DataSets, MiddleburyPair) {
@@ -161,7 +161,7 @@ TEST_F(DataSets, MiddleburyPair) {
   EXPECT_EQ(recording.max_disparity, 280);
   EXPECT_TRUE(recording.rectified);
   fs::remove(path("Piano/im1.png"));
-  EXPECT_THROW(recognized("Piano"), RunError);
+  EXPECT_THROW(recognized("Piano"), UserError);
 }
 
 TEST_F(DataSets, CalibrationBesideTheInput) {
@@ -185,7 +185,7 @@ TEST_F(DataSets, TwoCalibrationsBesideTheInputAreRefused) {
   try {
     recognize({path("left"), path("right")}, {});
     FAIL() << "not refused";
-  } catch (const RunError& error) {
+  } catch (const UserError& error) {
     for (const char* const part : {"camchain.yaml", "left/calibration.yaml", "--calibration"}) {
       EXPECT_THAT(error.what(), HasSubstr(part));
     }
@@ -231,10 +231,10 @@ TEST_F(DataSets, BrokenCalibrationIsNamed) {
   EXPECT_THAT(recording.remarks, Contains(HasSubstr(path("calibration.yml"))));
   InputOptions options;
   options.calibration = path("calibration.yml");
-  EXPECT_THROW(recognize({path("")}, options), RunError);
+  EXPECT_THROW(recognize({path("")}, options), UserError);
   options.calibration.clear();
   options.rectified = false;
-  EXPECT_THROW(recognize({path("")}, options), RunError);
+  EXPECT_THROW(recognize({path("")}, options), UserError);
 }
 
 TEST_F(DataSets, RealFolders) {
@@ -273,7 +273,7 @@ TEST_F(DataSets, RealViewsAreNotTakenForTwo) {
   try {
     recognize({sequence + "/image_l/%06d.png"}, {});
     FAIL() << "it was recognised";
-  } catch (const RunError& error) {
+  } catch (const UserError& error) {
     EXPECT_THAT(error.what(), HasSubstr("its halves do not match"));
   }
 }

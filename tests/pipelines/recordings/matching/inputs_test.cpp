@@ -5,7 +5,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "recordings/inputs/recording.hpp"
+#include "recordings/inputs/recognition.hpp"
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
 

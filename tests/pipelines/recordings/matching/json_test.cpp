@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lib/outputs/user_error.hpp"
 #include "mtstereo/parameters.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
 
@@ -144,7 +144,7 @@ TEST(WorkJson, WithoutAGeometryIsReadAsItWasWritten) {
 TEST(WorkJson, ThatIsDamagedIsRefused) {
   const TemporaryFolder folder;
   const fs::path file = folder / "work.json";
-  EXPECT_THROW(read_work(file), RunError);
+  EXPECT_THROW(read_work(file), UserError);
   write_work(example(), file);
   const std::string bytes = bytes_of(file);
   const auto replaced = [&](const std::string& from, const std::string& to) {
@@ -159,7 +159,7 @@ TEST(WorkJson, ThatIsDamagedIsRefused) {
         replaced("[0,1,2]", "[\"a\",1,2]"),
         replaced("\"baseline_m\":0.12", "\"baseline_m\":\"x\"")}) {
     write_text(file, text);
-    EXPECT_THROW(read_work(file), RunError) << text;
+    EXPECT_THROW(read_work(file), UserError) << text;
   }
 }
 
@@ -258,7 +258,7 @@ TEST(RunJson, ThatIsMissingHasNoFingerprint) {
 }
 
 TEST(JsonFile, ThatCannotBeWrittenIsAnError) {
-  EXPECT_THROW(write_work(example(), "/proc/no/such/work.json"), RunError);
+  EXPECT_THROW(write_work(example(), "/proc/no/such/work.json"), UserError);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // Pieces of recordings: selected by number, and joined to the bytes of one uncut run.
 #include <gtest/gtest.h>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/media/frame_reader.hpp"
 #include "recordings/support/stereo_files.hpp"
@@ -139,7 +139,7 @@ TEST(PieceRange, BeyondTheRecordingIsAnError) {
   work.pairs.pairs.resize(10);
   TemporaryFolder folder;
   for (const Range range : {Range{-1, 2}, Range{0, 0}, Range{9, 2}, Range{0, 11}}) {
-    EXPECT_THROW(process(work, range, folder / "piece", kNoProgress), RunError);
+    EXPECT_THROW(process(work, range, folder / "piece", kNoProgress), UserError);
   }
 }
 
@@ -155,7 +155,7 @@ class Joining : public ::testing::Test {
   std::string refusal(const std::vector<Range>& ranges, const std::vector<fs::path>& pieces) {
     try {
       join(work_, ranges, pieces, folder_ / "joined");
-    } catch (const RunError& error) {
+    } catch (const UserError& error) {
       return error.what();
     }
     return "";

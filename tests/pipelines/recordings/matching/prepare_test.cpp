@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "lib/outputs/user_error.hpp"
 #include "mtstereo/alignment.hpp"
-#include "recordings/inputs/run_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/matching/view_geometry.hpp"
 #include "recordings/matching/work_options.hpp"
@@ -46,7 +46,7 @@ class Preparation : public ::testing::Test {
   std::string refusal() const {
     try {
       prepared();
-    } catch (const RunError& error) {
+    } catch (const UserError& error) {
       return error.what();
     }
     return "";
@@ -186,7 +186,7 @@ TEST(WorkOptions, ScaleFitsTheSearchRange) {
   complete_options(work);
   EXPECT_EQ(value_of(work, "disparity-scale"), "128");
   work.options.parameters = {{"max-disparity", "600"}, {"disparity-scale", "256"}};
-  EXPECT_THROW(complete_options(work), RunError);
+  EXPECT_THROW(complete_options(work), UserError);
 }
 
 TEST(WorkOptions, RefuseAResolutionThatDependsOnTheFramesBefore) {
@@ -195,7 +195,7 @@ TEST(WorkOptions, RefuseAResolutionThatDependsOnTheFramesBefore) {
   try {
     matcher_parameters(options);
     FAIL() << "it was not refused";
-  } catch (const RunError& error) {
+  } catch (const UserError& error) {
     EXPECT_NE(std::string(error.what()).find("set full, or half-refined"), std::string::npos)
         << error.what();
   }

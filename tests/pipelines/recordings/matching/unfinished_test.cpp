@@ -6,7 +6,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/media/frame_reader.hpp"
 #include "recordings/support/stereo_files.hpp"
@@ -57,7 +57,7 @@ class Interrupted : public ::testing::TestWithParam<MapFormat> {
     try {
       process(work_, whole(work_), folder_ / "piece", progress, existing);
       EXPECT_GT(stop_after, kFrames);
-    } catch (const RunError& error) {
+    } catch (const UserError& error) {
       EXPECT_NE(std::string(error.what()).find("stopped after"), std::string::npos) << error.what();
     }
     return done;
@@ -67,7 +67,7 @@ class Interrupted : public ::testing::TestWithParam<MapFormat> {
   std::string refusal(Existing existing) {
     try {
       process(work_, whole(work_), folder_ / "piece", kNoProgress, existing);
-    } catch (const RunError& error) {
+    } catch (const UserError& error) {
       return error.what();
     }
     return "no error";
@@ -188,7 +188,7 @@ TEST_P(Interrupted, AfterTheLastPairIsFinished) {
   const Progress progress = [](std::int64_t count, std::int64_t, double) {
     return count < kFrames;
   };
-  EXPECT_THROW(process(work_, whole(work_), folder_ / "piece", progress), RunError);
+  EXPECT_THROW(process(work_, whole(work_), folder_ / "piece", progress), UserError);
   EXPECT_TRUE(run(kFrames + 1, Existing::kContinue).empty());
   expect_whole();
 }
@@ -301,7 +301,7 @@ TEST_F(DamagedRecording, KeepsItsDamageOverInterruptions) {
       return count < stop;
     };
     EXPECT_THROW(process(work_, whole(work_), folder_ / "piece", progress, Existing::kContinue),
-                 RunError);
+                 UserError);
   }
   const PieceReport report =
       process(work_, whole(work_), folder_ / "piece", kNoProgress, Existing::kContinue);

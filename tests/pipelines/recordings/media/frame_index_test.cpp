@@ -8,7 +8,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/video_times.hpp"
 #include "recordings/support/video_files.hpp"
@@ -42,7 +42,7 @@ FrameIndex index_of(const fs::path& video) { return index_frames({video, {}, {}}
 std::string error_of(const fs::path& video) {
   try {
     index_of(video);
-  } catch (const RunError& error) {
+  } catch (const UserError& error) {
     return error.what();
   }
   return "";
@@ -325,8 +325,8 @@ TEST_F(FrameIndexTest, PicturesHaveTheirTimes) {
   source.times = {0, 5, 11};
   EXPECT_EQ(index_frames(source, 0).times, source.times);
   source.times.clear();
-  EXPECT_THROW(index_frames(source, 0), RunError);
-  EXPECT_THROW(index_frames({}, 30), RunError);
+  EXPECT_THROW(index_frames(source, 0), UserError);
+  EXPECT_THROW(index_frames({}, 30), UserError);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/media/gst_objects.hpp"
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
@@ -92,7 +92,7 @@ TEST(Matroska, IsContinuedAfterItsWholeFrames) {
 TEST(Matroska, WithTooFewFramesIsNotContinued) {
   const TemporaryFolder folder;
   write(folder / "a.mkv", 0, 10);
-  EXPECT_THROW(MatroskaWriter(folder / "a.mkv", 11), RunError);
+  EXPECT_THROW(MatroskaWriter(folder / "a.mkv", 11), UserError);
 }
 
 TEST(Matroska, WithoutTagsIsReadBack) {
@@ -118,7 +118,7 @@ TEST(Matroska, ThatEndsInItsHeadIsRefused) {
   EXPECT_FALSE(MatroskaReader(folder / "cut.mkv").next());
   for (const std::size_t length : {head - 1, head - 150, head - 400, std::size_t{60}}) {
     testing::write_text(folder / "cut.mkv", bytes.substr(0, length));
-    EXPECT_THROW(MatroskaReader(folder / "cut.mkv"), RunError) << length;
+    EXPECT_THROW(MatroskaReader(folder / "cut.mkv"), UserError) << length;
   }
 }
 
@@ -129,12 +129,12 @@ TEST(Matroska, OfAnotherProgramIsRefused) {
   testing::write_text(folder / "text.mkv", "no video");
   testing::write_text(folder / "empty.mkv", "");
   for (const char* const name : {"other.mkv", "text.mkv", "empty.mkv", "missing.mkv"}) {
-    EXPECT_THROW(MatroskaReader(folder / name), RunError) << name;
+    EXPECT_THROW(MatroskaReader(folder / name), UserError) << name;
   }
 }
 
 TEST(Matroska, ThatCannotBeWrittenIsAnError) {
-  EXPECT_THROW(MatroskaWriter("/proc/no/such/file.mkv", track()), RunError);
+  EXPECT_THROW(MatroskaWriter("/proc/no/such/file.mkv", track()), UserError);
   if (fs::exists("/dev/full")) {
     EXPECT_THROW(
         {
@@ -142,7 +142,7 @@ TEST(Matroska, ThatCannotBeWrittenIsAnError) {
           append(writer, 0, 100);
           writer.flush();
         },
-        RunError);
+        UserError);
   }
 }
 

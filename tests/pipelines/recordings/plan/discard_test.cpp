@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "fake_pieces.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/plan/plan_contents.hpp"
 #include "recordings/plan/task.hpp"
 
@@ -43,7 +43,7 @@ TEST_F(Discard, RefusesALinkInPlaceOfAPiece) {
   fs::rename(files_.piece(0), elsewhere);
   fs::resize_file(elsewhere / kFakeFile, 1);
   fs::create_symlink(elsewhere, files_.piece(0));
-  EXPECT_THROW(discard(files_.piece(0), files_.unfinished()), RunError);
+  EXPECT_THROW(discard(files_.piece(0), files_.unfinished()), UserError);
   EXPECT_TRUE(fs::is_symlink(files_.piece(0)));
   EXPECT_EQ(read_text(elsewhere / kFakeFile).size(), 1U);
 }
@@ -104,7 +104,7 @@ TEST_F(Discard, LeavesFilesThatAppearMeanwhile) {
   try {
     check_plan_folder(folder_.path(), {});
     FAIL() << "the file is in the way";
-  } catch (const RunError& error) {
+  } catch (const UserError& error) {
     EXPECT_THAT(error.what(), HasSubstr("notes.txt is in the way"));
   }
   fs::remove(set_aside / "notes.txt");

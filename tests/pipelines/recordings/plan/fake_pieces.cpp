@@ -6,7 +6,7 @@
 #include <sstream>
 #include <thread>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/plan/plan.hpp"
 #include "recordings/plan/plan_folder.hpp"
@@ -71,7 +71,7 @@ PieceReport fake_process(const Work& work, Range range, const fs::path& folder,
     if (progress && !progress(i + 1 - range.first, range.count, 1.0)) break;
   }
   out.close();
-  if (!out) throw RunError((folder / kFakeFile).string() + ": cannot be written");
+  if (!out) throw UserError((folder / kFakeFile).string() + ": cannot be written");
   report.files = {kFakeFile};
   write_piece(report, range, folder / kPieceFile);
   note(work.recording.name + " " + std::to_string(range.first));
@@ -86,7 +86,7 @@ PieceReport fake_join(const Work& work, const std::vector<Range>& ranges,
     Range range;
     const PieceReport piece = read_piece(pieces[i] / kPieceFile, range);
     if (range.first != ranges.at(i).first || range.count != ranges.at(i).count) {
-      throw RunError(work.recording.name + ": a piece has another range");
+      throw UserError(work.recording.name + ": a piece has another range");
     }
     joined.frames.insert(joined.frames.end(), piece.frames.begin(), piece.frames.end());
     out << read_text(pieces[i] / kFakeFile);

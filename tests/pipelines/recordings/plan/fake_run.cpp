@@ -8,8 +8,8 @@
 #include <iostream>
 
 #include "fake_pieces.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "programs/run/cluster_commands.hpp"
-#include "recordings/inputs/run_error.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
     }
     if (argc == 4 && std::string(argv[1]) == "jobs") return run_jobs(argv[2], std::stoi(argv[3]));
     return run_cluster_command(argc, argv, fake_functions()).value_or(kWrongUsage);
-  } catch (const RunError& error) {
+  } catch (const mtstereo::UserError& error) {
     std::cerr << "mtstereo-run: " << error.what() << '\n';
     return kFailed;
   }

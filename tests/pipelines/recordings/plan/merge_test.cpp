@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "fake_pieces.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/plan/archive.hpp"
 #include "recordings/plan/task.hpp"
@@ -186,7 +186,7 @@ TEST_F(Merge, ReportsARecordingThatCannotBeJoinedAndJoinsTheOthers) {
   options_.functions.join = [](const Work& work, const std::vector<Range>& ranges,
                                const std::vector<fs::path>& pieces, const fs::path& folder) {
     write_text(folder / kFakeFile, "half");
-    if (work.recording.name == "a") throw RunError("the disk is full");
+    if (work.recording.name == "a") throw UserError("the disk is full");
     return fake_join(work, ranges, pieces, folder);
   };
   const MergeResult result = merge_all();
@@ -223,7 +223,7 @@ TEST_F(Merge, WithSeveralJobsGivesTheSameBytes) {
 
 TEST_F(Merge, WithoutAPlanIsAnError) {
   fs::remove(files_.plan());
-  EXPECT_THROW(merge_all(), RunError);
+  EXPECT_THROW(merge_all(), UserError);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "fake_pieces.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/plan/archive.hpp"
 #include "recordings/plan/plan_contents.hpp"
@@ -27,12 +27,12 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
 
-// The message of the RunError that `function` throws.
+// The message of the UserError that `function` throws.
 template <typename Function>
 std::string error_of(const Function& function) {
   try {
     function();
-  } catch (const RunError& error) {
+  } catch (const UserError& error) {
     return error.what();
   }
   return "no error";
@@ -68,9 +68,9 @@ TEST(Divide, MakesTasksOfEqualLength) {
 }
 
 TEST(Divide, RefusesTasksWithoutPairs) {
-  EXPECT_THROW(divide("a", 10, 0), RunError);
-  EXPECT_THROW(divide("a", 10, -1), RunError);
-  EXPECT_THROW(divide("a", -1, 10), RunError);
+  EXPECT_THROW(divide("a", 10, 0), UserError);
+  EXPECT_THROW(divide("a", 10, -1), UserError);
+  EXPECT_THROW(divide("a", -1, 10), UserError);
 }
 
 TEST(PlanFile, IsReadAsItWasWritten) {
@@ -166,7 +166,7 @@ TEST(PlanFile, RefusesNamesThatLeaveItsFolder) {
 }
 
 TEST(PlanFile, InAFolderThatCannotBeWrittenIsReported) {
-  EXPECT_THROW(write_fake_plan("/proc/no/such/folder"), RunError);
+  EXPECT_THROW(write_fake_plan("/proc/no/such/folder"), UserError);
 }
 
 class Archive : public testing::Test {
@@ -177,7 +177,7 @@ class Archive : public testing::Test {
     options_.settings = "settings";
     options_.prepare = [this](const Recording& recording) {
       ++prepared_;
-      if (recording.name == "broken") throw RunError("it has no frame");
+      if (recording.name == "broken") throw UserError("it has no frame");
       Work work = fake_work(recording.name, recording.name == "empty" ? 0 : 1000);
       work.recording = recording;
       return work;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -20,7 +20,7 @@ TEST(RunProgram, NamesAProgramThatIsMissing) {
   try {
     run_program({"mtstereo-there-is-no-such-program"});
     FAIL();
-  } catch (const RunError& error) {
+  } catch (const UserError& error) {
     EXPECT_STREQ(error.what(),
                  "mtstereo-there-is-no-such-program: is not installed, or not in PATH");
   }

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "fake_pieces.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -45,7 +45,7 @@ class Tasks : public testing::Test {
   std::string error_of(std::size_t number) {
     try {
       do_one(number);
-    } catch (const RunError& error) {
+    } catch (const UserError& error) {
       return error.what();
     }
     return "no error";
@@ -147,7 +147,7 @@ TEST_F(Tasks, ThatFailLeaveNothing) {
   options_.functions.process = [](const Work&, Range, const fs::path& folder,
                                   const Progress&) -> PieceReport {
     write_text(folder / kFakeFile, "half");
-    throw RunError("left.mkv: cannot be read");
+    throw UserError("left.mkv: cannot be read");
   };
   EXPECT_THAT(error_of(0), HasSubstr("task 0 (a): left.mkv: cannot be read"));
   EXPECT_FALSE(fs::exists(files_.piece(0)));
@@ -157,7 +157,7 @@ TEST_F(Tasks, ThatFailLeaveNothing) {
 TEST_F(Tasks, ThatAreStoppedLeaveNothing) {
   EXPECT_THROW(do_task(folder_.path(), 0, options_,
                        [](std::int64_t done, std::int64_t, double) { return done < 2; }),
-               RunError);
+               UserError);
   EXPECT_FALSE(fs::exists(files_.piece(0)));
   EXPECT_TRUE(nothing_is_unfinished());
 }

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -24,7 +24,7 @@ TEST(DegradationText, IsRefusedByNameIfItIsWrong) {
   const auto message_of = [](const char* text) -> std::string {
     try {
       parse_degradation(text);
-    } catch (const InputError& error) {
+    } catch (const UserError& error) {
       return error.what();
     }
     return "no error";

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::eval {
 namespace {

@@ -4,15 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
-/// Expects an InputError whose message contains the text.
+/// Expects an UserError whose message contains the text.
 #define EXPECT_INPUT_ERROR(statement, text)                               \
   do {                                                                    \
     try {                                                                 \
       (void)(statement);                                                  \
       ADD_FAILURE() << #statement << " did not fail";                     \
-    } catch (const ::mtstereo::eval::InputError& error) {                 \
+    } catch (const ::mtstereo::UserError& error) {                        \
       EXPECT_THAT(std::string(error.what()), ::testing::HasSubstr(text)); \
     }                                                                     \
   } while (false)

@@ -68,7 +68,7 @@ TEST_F(GroundTruthFiles, PngInColorIsRejected) {
 
 TEST_F(GroundTruthFiles, KittiPngRefusesNegativeDisparities) {
   const cv::Mat map = (cv::Mat_<float>(1, 2) << 3, -0.5);
-  EXPECT_THROW(write_disparity(folder_ / "a.png", map, DisparityFormat::kKitti), InputError);
+  EXPECT_THROW(write_disparity(folder_ / "a.png", map, DisparityFormat::kKitti), UserError);
   write_disparity(folder_ / "a.pfm", map, DisparityFormat::kPfm);
 }
 

@@ -7,6 +7,7 @@
 #include "expect_error.hpp"
 #include "support.hpp"
 #include "tools/eval/datasets.hpp"
+#include "tools/eval/layouts.hpp"
 
 namespace mtstereo::eval {
 namespace {

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -15,7 +16,6 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "tools/eval/bytes.hpp"
 #include "tools/eval/pfm.hpp"
 
 extern char** environ;
@@ -54,10 +54,11 @@ void write_image(const fs::path& file, const cv::Mat& image) {
 }
 
 std::string float_bytes(const std::vector<float>& values, bool big_endian) {
-  std::string bytes(values.size() * sizeof(float), '\0');
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    store_float(values[i], bytes.data() + i * sizeof(float),
-                big_endian ? std::endian::big : std::endian::little);
+  std::string bytes;
+  for (const float value : values) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    for (int i = 0; i < 4; ++i)
+      bytes += static_cast<char>(bits >> 8 * (big_endian ? 3 - i : i) & 0xff);
   }
   return bytes;
 }

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tools/eval/input_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "tools/eval/metrics.hpp"
 
 namespace mtstereo::eval {
@@ -70,7 +70,7 @@ TEST(ThinThings, NeedATruth) {
 }
 
 TEST(ThinThings, RefuseAnotherSize) {
-  EXPECT_THROW(measure_thin(cv::Mat(40, 59, CV_32FC1), with_bar(20, 24)), InputError);
+  EXPECT_THROW(measure_thin(cv::Mat(40, 59, CV_32FC1), with_bar(20, 24)), UserError);
 }
 
 }  // namespace

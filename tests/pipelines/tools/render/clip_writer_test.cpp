@@ -10,6 +10,7 @@
 #include <string>
 
 #include "support/temporary_folder.hpp"
+#include "tools/render/render.hpp"
 
 namespace mtstereo::render {
 namespace {

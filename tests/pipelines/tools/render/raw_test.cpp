@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tools/render/lens.hpp"
+#include "tools/render/render.hpp"
 
 namespace mtstereo::render {
 namespace {

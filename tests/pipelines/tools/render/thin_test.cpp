@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/render/raw.hpp"
+#include "tools/render/render.hpp"
 #include "tools/render/scene.hpp"
 
 namespace mtstereo::render {

@@ -27,7 +27,7 @@ std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& fold
 
 /// Whether a path is a pattern of numbered files, such as left/%04d.png.
 bool is_pattern(const std::string& path);
-/// The files that exist of a pattern, by their numbers. Throws RunError for a pattern that has not
+/// The files that exist of a pattern, by their numbers. Throws UserError for a pattern that has not
 /// exactly one number.
 std::vector<std::filesystem::path> files_of_pattern(const std::string& pattern);
 

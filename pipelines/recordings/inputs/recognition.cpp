@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "recordings/inputs/recording.hpp"
+#include "recordings/inputs/recognition.hpp"
 
 #include <linux/magic.h>
 #include <sys/vfs.h>
@@ -9,11 +9,10 @@
 #include <utility>
 
 #include "lib/outputs/printable.hpp"
-#include "recordings/inputs/file_names.hpp"
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/inputs/own_names.hpp"
 #include "recordings/inputs/search.hpp"
-#include "recordings/matching/json.hpp"
-#include "recordings/plan/plan_folder.hpp"
+#include "recordings/media/file_names.hpp"
 
 namespace mtstereo::run {
 
@@ -37,14 +36,14 @@ bool is_of_kernel(const fs::path& folder) {
 Recording only_recording(const std::string& folder, FolderContents contents) {
   if (contents.recordings.empty()) {
     if (contents.problems.empty()) {
-      throw RunError(folder + ": no recording is in this folder");
+      throw UserError(folder + ": no recording is in this folder");
     }
-    throw RunError(contents.problems.front().input + ": " + contents.problems.front().reason);
+    throw UserError(contents.problems.front().input + ": " + contents.problems.front().reason);
   }
   if (contents.recordings.size() > 1) {
-    throw RunError(folder + ": there are " + std::to_string(contents.recordings.size()) +
-                   " recordings, such as " + contents.recordings[0].name + " and " +
-                   contents.recordings[1].name + ": give one of them, or plan all");
+    throw UserError(folder + ": there are " + std::to_string(contents.recordings.size()) +
+                    " recordings, such as " + contents.recordings[0].name + " and " +
+                    contents.recordings[1].name + ": give one of them, or plan all");
   }
   Recording recording = std::move(contents.recordings.front());
   for (const Problem& problem : contents.problems) {
@@ -103,7 +102,7 @@ class ArchiveSearch {
   // Folders of results of earlier runs are no recordings.
   static bool is_result(const fs::path& folder) {
     std::error_code error;
-    return fs::exists(folder / kRunFile, error) || fs::exists(PlanFolder(folder).plan(), error);
+    return fs::exists(folder / kRunFile, error) || fs::exists(folder / kPlanFile, error);
   }
 
   void make_names_unique() {
@@ -132,8 +131,8 @@ class ArchiveSearch {
 
 Recording recognize(const std::vector<std::string>& inputs, const InputOptions& options) {
   if (inputs.empty() || inputs.size() > 2) {
-    throw RunError("a recording is one input, or two: left and right; there are " +
-                   std::to_string(inputs.size()));
+    throw UserError("a recording is one input, or two: left and right; there are " +
+                    std::to_string(inputs.size()));
   }
   const std::string& left = inputs.front();
   if (inputs.size() == 2) {
@@ -149,9 +148,9 @@ std::vector<Recording> find_recordings(const fs::path& archive, const InputOptio
                                        std::vector<Problem>& problems) {
   std::error_code error;
   const fs::directory_iterator readable(archive, error);
-  if (error) throw RunError(archive.string() + ": the folder cannot be read: " + error.message());
+  if (error) throw UserError(archive.string() + ": the folder cannot be read: " + error.message());
   if (is_of_kernel(archive)) {
-    throw RunError(archive.string() + ": has files of the kernel, and no recordings");
+    throw UserError(archive.string() + ": has files of the kernel, and no recordings");
   }
   ArchiveSearch search(archive, options, problems);
   search.enter(archive);

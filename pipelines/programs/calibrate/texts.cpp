@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "programs/calibrate/calibration_error.hpp"
+#include "programs/calibrate/texts.hpp"
 
 #include <array>
 #include <cstdio>

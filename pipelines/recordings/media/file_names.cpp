@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "recordings/inputs/file_names.hpp"
+#include "recordings/media/file_names.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::run {
 
@@ -166,7 +166,7 @@ std::vector<fs::path> files_of_pattern(const std::string& pattern) {
   const fs::path path(pattern);
   const std::optional<Pattern> parsed = parse_pattern(path.filename().string());
   if (!parsed) {
-    throw RunError(pattern + ": the name of the files must have one number, such as %d or %06d");
+    throw UserError(pattern + ": the name of the files must have one number, such as %d or %06d");
   }
   std::vector<std::pair<std::uint64_t, fs::path>> numbered;
   for (const fs::path& file : files_in(path.has_parent_path() ? path.parent_path() : ".")) {

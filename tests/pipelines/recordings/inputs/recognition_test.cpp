@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "recordings/inputs/recording.hpp"
+#include "recordings/inputs/recognition.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "recordings/media/frame_index.hpp"
 #include "recordings/support/video_files.hpp"
 
@@ -76,7 +76,7 @@ class Recordings : public ::testing::Test {
                        const InputOptions& options = {}) const {
     try {
       recognized(inputs, options);
-    } catch (const RunError& error) {
+    } catch (const UserError& error) {
       return error.what();
     }
     return "";
@@ -145,8 +145,8 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   EXPECT_THAT(error_of({"empty"}), HasSubstr(path("empty") + ": no recording"));
   EXPECT_THAT(error_of({"left/%03d.png", "left"}), HasSubstr("no file has such a name"));
   EXPECT_THAT(error_of({"left", "broken.mp4"}), HasSubstr("one is a video"));
-  EXPECT_THROW(recognize({}, {}), RunError);
-  EXPECT_THROW(recognize({"a", "b", "c"}, {}), RunError);
+  EXPECT_THROW(recognize({}, {}), UserError);
+  EXPECT_THROW(recognize({"a", "b", "c"}, {}), UserError);
 }
 
 TEST_F(Recordings, FoldersOfPictures) {
@@ -304,7 +304,7 @@ TEST_F(Recordings, FindsAllOfAnArchive) {
   EXPECT_THAT(inputs,
               ::testing::UnorderedElementsAre(path("lonely/left"), path("videos/c_left.mp4"),
                                               path("videos/b_left.avi")));
-  EXPECT_THROW(find_recordings(path("none"), {}, problems), RunError);
+  EXPECT_THROW(find_recordings(path("none"), {}, problems), UserError);
 }
 
 }  // namespace

@@ -2,20 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 
-#include "lib/outputs/printable.hpp"
-
 namespace mtstereo::calibrate {
-
-/// A source, a board or a set of views that cannot be used. The message names it, and states the
-/// reason and what to do.
-class CalibrationError : public std::runtime_error {
- public:
-  explicit CalibrationError(const std::string& what)
-      : std::runtime_error(outputs::printable(what)) {}
-};
 
 /// A number with this many decimals.
 std::string decimal(double value, int decimals);

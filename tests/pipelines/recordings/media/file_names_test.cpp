@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "recordings/inputs/file_names.hpp"
+#include "recordings/media/file_names.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "recordings/inputs/run_error.hpp"
+#include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -67,10 +67,10 @@ TEST_F(FileNames, PatternMayHavePercentSigns) {
 }
 
 TEST_F(FileNames, RefusesPatternWithoutOneNumber) {
-  EXPECT_THROW(match("%s.png"), RunError);
-  EXPECT_THROW(match("%d_%d.png"), RunError);
-  EXPECT_THROW(match("%4d.png"), RunError);
-  EXPECT_THROW(match("%"), RunError);
+  EXPECT_THROW(match("%s.png"), UserError);
+  EXPECT_THROW(match("%d_%d.png"), UserError);
+  EXPECT_THROW(match("%4d.png"), UserError);
+  EXPECT_THROW(match("%"), UserError);
 }
 
 TEST_F(FileNames, FolderThatDoesNotExistIsEmpty) {

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+namespace mtstereo::run {
+
+/// The report of a run in its folder of results, and the tasks in the folder of a plan. A folder
+/// with one of them is no recording.
+inline constexpr const char* kRunFile = "run.json";
+inline constexpr const char* kPlanFile = "plan.json";
+
+}  // namespace mtstereo::run

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mtstereo::run {
+
+/// A time or a difference of two [ns].
+using Nanoseconds = std::int64_t;
+
+/// Where the frames of one source are: a video file, or pictures.
+struct Source {
+  std::filesystem::path video;                  ///< empty for pictures
+  std::vector<std::filesystem::path> pictures;  ///< one per frame, in order; empty for a video
+  /// Of the pictures, from the data set [ns]; empty: by Recording::frame_rate.
+  std::vector<Nanoseconds> times;
+  /// Pictures that were found but are left out; empty if there are none. FrameIndex::damage has it.
+  std::string damage{};
+
+  /// No source.
+  bool empty() const { return video.empty() && pictures.empty(); }
+};
+
+}  // namespace mtstereo::run
