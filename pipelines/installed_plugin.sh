@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 # Where the installed pipeline scripts find the plugin: installed as plugin.sh, sourced by common.sh.
 
-# Empty if GStreamer searches the folder by itself. Otherwise it is relative to this file.
+# Empty if GStreamer searches the folder anyway. Otherwise it is relative to this file.
 plugin_folder=$(realpath -m "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/@PLUGIN_FROM_HELPER@")
 [ "$plugin_folder" != "@SEARCHED_PLUGIN_FOLDER@" ] || plugin_folder=
 

@@ -13,7 +13,7 @@ struct Camera {
 
 // The disparity of the center [px]; 0 if it is unknown.
 static double center_disparity(GstSample* sample) {
-  // px = value / disparity-scale + disparity-offset; the value 0 is no disparity.
+  // px = value / disparity-scale + disparity-offset; 0 is unknown.
   int scale = 256, offset = 0;
   const GstCaps* caps = gst_sample_get_caps(sample);
   const GstStructure* fields = gst_caps_get_structure(caps, 0);

@@ -12,8 +12,8 @@ namespace mtstereo::options {
 /// one word of the other one.
 std::size_t typing_errors(std::string_view first, std::string_view second);
 
-/// The name that was most likely meant by a word that is none of them; empty if none is similar: a
-/// third of the letters may differ.
+/// The name that was most likely meant by a word that is not among them; empty if none is similar:
+/// a third of the letters may differ.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace mtstereo::options

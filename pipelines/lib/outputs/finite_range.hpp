@@ -9,7 +9,7 @@
 
 namespace mtstereo::outputs {
 
-/// For options with a number: from `least` to `most`. NaN and infinities are no numbers;
+/// For options with a number: from `least` to `most`. NaN and infinities are rejected;
 /// CLI::Range() lets NaN pass. The range is not repeated in the help.
 inline CLI::Validator finite_range(double least, double most) {
   return CLI::Validator(
@@ -17,7 +17,7 @@ inline CLI::Validator finite_range(double least, double most) {
         double number = 0;
         if (CLI::detail::lexical_cast(text, number) && number >= least && number <= most) return {};
         std::ostringstream message;
-        message << "'" << text << "' is no number from " << least << " to " << most;
+        message << "'" << text << "' is not a number from " << least << " to " << most;
         return message.str();
       },
       "");
@@ -29,7 +29,7 @@ inline CLI::Validator finite() {
       [](std::string& text) -> std::string {
         double number = 0;
         if (CLI::detail::lexical_cast(text, number) && std::isfinite(number)) return {};
-        return "'" + text + "' is no number";
+        return "'" + text + "' is not a number";
       },
       "");
 }

@@ -105,7 +105,7 @@ void FolderLock::create(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder, error)) {
     throw UserError(folder.string() + ": the folder cannot be created: " +
-                    (error ? error.message() : "it is no folder"));
+                    (error ? error.message() : "it is not a folder"));
   }
   for (const fs::path& each : missing) note(each.c_str());
   created_.splice(created_.end(), missing);

@@ -119,8 +119,8 @@ void add_rest(CLI::App& app, Texts& texts, Options& options) {
                "each frame of a video shows the board at rest; otherwise a view is taken only if "
                "the board does not move");
   app.add_option("--give-up", options.give_up,
-                 "stop live video if there is no new view for this time [s], and use what there "
-                 "is; 0 = never")
+                 "stop live video without a new view for this time [s], and use the views so far; "
+                 "0 = never")
       ->check(outputs::finite_range(0, 86400))
       ->capture_default_str();
   app.add_flag("--strict", options.strict, "exit status 3 if there are warnings");

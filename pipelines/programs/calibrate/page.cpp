@@ -220,7 +220,7 @@ void write_page(const Page& page, const std::filesystem::path& file) {
   const auto status = std::filesystem::symlink_status(file, error);
   if (std::filesystem::exists(status) && !is_page(file, bytes)) {
     throw UserError(file.string() +
-                    " is in the way, and is no board of mtcalibrate: choose another name");
+                    " is in the way and is not a board of mtcalibrate: choose another name");
   }
   outputs::write_file(file, bytes);
 }

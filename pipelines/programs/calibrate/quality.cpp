@@ -15,7 +15,7 @@ constexpr double kLittleCoverage = 0.7;  // of what Coverage wants
 constexpr double kUncertain = 0.005;     // of focal length and baseline
 constexpr double kUnstable = 0.01;       // of both, between two sets of views
 constexpr double kManyRemoved = 0.2;     // of the views
-// Rows that agree to this are no obstacle to a matcher; half a pixel costs density.
+// A matcher tolerates rows that agree to this; half a pixel costs density.
 constexpr double kGoodRows = 0.25;   // [px]
 constexpr double kUsableRows = 0.5;  // [px]
 constexpr double kGoodTail = 1.0;    // [px], 95 %

@@ -10,7 +10,7 @@
 
 namespace mtstereo::calibrate {
 
-/// What became of the pairs of images.
+/// Counts of the pairs of images by outcome.
 struct PairCounts {
   int pairs = 0;
   int without_board = 0;

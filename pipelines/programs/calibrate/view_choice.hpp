@@ -7,7 +7,7 @@
 
 namespace mtstereo::calibrate {
 
-/// What became of a pair of images.
+/// The outcome for a pair of images.
 enum class Verdict {
   kNoBoard,  ///< not enough of the board is visible in both
   kMoving,   ///< the board moves
@@ -21,7 +21,7 @@ enum class Choice {
   kStills,  ///< each image is a picture of a board at rest; only repetitions are left out
 };
 
-/// Takes a pair by itself if it is worth it.
+/// Captures a pair automatically if it is worth it.
 class ViewChoice {
  public:
   ViewChoice(const BoardOptions& board, cv::Size left, cv::Size right, Choice choice);

@@ -148,7 +148,7 @@ std::string quoted(const fs::path& path) {
   return result;
 }
 
-// Prints what became of a plan. `next`: what to do if tasks are missing.
+// Prints the outcome of a plan. `next`: what to do if tasks are missing.
 int report(const fs::path& folder, const Plan& plan, const MergeResult& result,
            const std::string& next) {
   for (const auto* list : {&plan.problems, &plan.damaged, &result.damaged, &result.problems}) {

@@ -56,7 +56,7 @@ std::size_t parse_number(const std::string& name, const std::string& text) {
   std::size_t number = 0;
   if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos ||
       !CLI::detail::lexical_cast(text, number)) {
-    throw CLI::ValidationError(name, "'" + text + "' is no number of a task");
+    throw CLI::ValidationError(name, "'" + text + "' is not a task number");
   }
   return number;
 }

@@ -205,11 +205,10 @@ void add_parameter(CLI::App& app, Texts& texts, const std::string& name, const s
 void add_parameters(CLI::App& app, Texts& texts) {
   for (const ParameterInfo& info : parameter_table()) {
     if (info.id == Parameter::kThreads) {
-      add_parameter(
-          app, texts, info.name,
-          "threads that match, 0 = one for each processor; they do pairs side by side, and "
-          "the result does not depend on them [default: 0]",
-          "NUMBER");
+      add_parameter(app, texts, info.name,
+                    "threads that match, 0 = one for each processor; pairs run in parallel, and "
+                    "the result does not depend on them [default: 0]",
+                    "NUMBER");
       continue;
     }
     const bool is_range = info.id == Parameter::kMaxDisparity;

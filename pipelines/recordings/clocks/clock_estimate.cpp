@@ -40,7 +40,7 @@ constexpr int kGroups = 24, kGroupPairs = 5;
 constexpr int kRounds = 4;
 constexpr double kLooseDeviation = 0.5;  // of a frame: of a lag, and the most of a fit of the rows
 constexpr double kMostCorrection = 1;    // of a frame: of a lag by a fit of the rows
-constexpr double kNone = 0.1;            // of a frame: a smaller offset is none
+constexpr double kNone = 0.1;            // of a frame: a smaller offset is treated as zero
 
 const char* const kByHand =
     " Give the offset by --sync SECONDS, or take the times as they are by --sync none";

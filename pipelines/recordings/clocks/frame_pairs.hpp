@@ -18,7 +18,7 @@ struct ClockRelation {
   double drift = 0;   ///< relative: 3e-4 = 300 ppm
 };
 
-/// What is known about the clocks, and how sure it is.
+/// The relation of the clocks, and its certainty.
 struct ClockEstimate {
   ClockRelation relation;
   bool given = false;      ///< by the user: nothing was measured

@@ -274,7 +274,7 @@ std::optional<FoundRecording> find_pair_folder(const fs::path& folder) {
   const bool is_eth3d =
       name.size() > 3 && name[name.size() - 3] == '_' && (name.back() == 'l' || name.back() == 's');
   recording.kind = is_eth3d ? "ETH3D pair" : "Middlebury pair";
-  // ETH3D states the width of the image, which is no limit.
+  // ETH3D states the width of the image, which limits nothing.
   if (is_eth3d && (!recording.max_disparity || !width || *recording.max_disparity >= *width)) {
     recording.max_disparity = kEth3dRange;
   }

@@ -99,7 +99,7 @@ class ArchiveSearch {
   }
 
  private:
-  // Folders of results of earlier runs are no recordings.
+  // Folders of results of earlier runs are not recordings.
   static bool is_result(const fs::path& folder) {
     std::error_code error;
     return fs::exists(folder / kRunFile, error) || fs::exists(folder / kPlanFile, error);

@@ -104,7 +104,7 @@ class FolderSearch {
     return true;
   }
 
-  // `problem_of`: the input of a problem; empty if it is none.
+  // `problem_of`: the input of a problem; empty if there is no problem.
   void add(const Source& left, const Source& right, const std::string& name,
            const std::string& problem_of) {
     try {

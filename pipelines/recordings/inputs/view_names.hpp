@@ -16,7 +16,7 @@ struct Partner {
 };
 
 /// The possible partners of a name: left and right, l and r, cam0 and cam1, image_02 and image_03.
-/// None if it is no name of a left view.
+/// None if it is not the name of a left view.
 std::vector<Partner> partners_of(const std::string& left);
 
 /// Whether a name is that of a left or right view.

@@ -40,10 +40,10 @@ void write_run_report(const Work& work, const PieceReport& report, double second
 std::string verdict(const Work& work, const PieceReport& report);
 /// The verdict in such a report; empty if there is none.
 std::string verdict_in(const std::filesystem::path& file);
-/// The files that such a report, or that of a piece, lists; std::nullopt if it does not exist or is
-/// none.
+/// The files that such a report, or that of a piece, lists; std::nullopt if
+/// missing or not a report.
 std::optional<outputs::WrittenFiles> files_listed_in(const std::filesystem::path& file);
-/// The fingerprint() of the work of such a report; empty if the file does not exist or is none.
+/// The fingerprint() of the work of such a report; empty if missing or not a report.
 std::string fingerprint_in(const std::filesystem::path& file);
 
 }  // namespace mtstereo::run

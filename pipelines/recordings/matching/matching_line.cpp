@@ -15,7 +15,7 @@ namespace {
 // Each lane has a matcher with its memory.
 constexpr int kMostLanes = 8;
 
-// Every frame is coded by itself, so that lanes can share a file and pieces can be joined.
+// Every frame is coded independently, so that lanes can share a file and pieces can be joined.
 constexpr const char* kEncoder = "avenc_ffv1 gop-size=1 slices=4 threads=1";
 constexpr const char* kSource = " format=time block=true max-buffers=2 max-bytes=0 max-time=0";
 constexpr const char* kSink = " sync=false qos=false max-buffers=4 enable-last-sample=false";

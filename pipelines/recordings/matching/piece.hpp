@@ -15,7 +15,7 @@
 
 namespace mtstereo::run {
 
-/// What is written of each pair.
+/// Outputs for each pair.
 enum class Product {
   kDisparity,
   kDepth,
@@ -37,7 +37,7 @@ enum class MapFormat {
   kPfm,       ///< one file per map, floating point: px, m; not for confidence and color
 };
 
-/// What is to be made of a recording.
+/// The job for a recording: products and settings.
 struct WorkOptions {
   std::vector<Product> products{Product::kDisparity};
   MapFormat format = MapFormat::kMatroska;
@@ -87,7 +87,7 @@ struct FrameFigures {
   double matching_ms = 0;       ///< time of the matcher; not compared when pieces are joined
 };
 
-/// What became of a piece.
+/// The outcome of a piece.
 struct PieceReport {
   std::vector<FrameFigures> frames;
   std::vector<std::string> files;          ///< relative to the folder of results, sorted
@@ -107,7 +107,7 @@ Work prepare(const Recording& recording, const WorkOptions& options,
 /// has it is whole.
 inline constexpr const char* kPieceFile = "piece.json";
 
-/// What is done with results, or with a plan, that are in the folder already. Only files that this
+/// How to treat results, or a plan, that the folder already has. Only files that this
 /// program wrote are ever replaced; for anything else in the way, UserError is thrown.
 enum class Existing {
   kRefuse,    ///< throws UserError

@@ -33,7 +33,7 @@ struct ViewSamples {
   int max_disparity = 0;  ///< of the frames [px]
   /// Rectifies the views; none: they are taken as they are.
   std::optional<StereoCalibration> calibration;
-  /// The rows that are out of place are corrected: they are no problem.
+  /// Rows that are out of place are corrected, so they are not a problem.
   bool rows_corrected = false;
 };
 

@@ -120,7 +120,7 @@ bool may_be_farther_apart(const ViewDiagnosis& found) {
 // Tests what is wrong with the views, if the maps of the samples are a reason to.
 void note_diagnosis(Work& work, const Findings& findings) {
   if (!is_suspicious(findings)) return;
-  // Clocks that were compared already are no remedy.
+  // If the clocks were compared already, do not suggest it.
   const bool two = work.recording.arrangement == Arrangement::kTwoSources && !work.clocks;
   ViewDiagnosis found = diagnose_with(work, findings, {-3, -2, -1, 1, 2, 3});
   if (two && may_be_farther_apart(found)) {

@@ -17,8 +17,8 @@ using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 std::string number_text(double number);
 
 /// Every parameter of the matcher with the value in effect, after the defaults of preset and mode,
-/// and the properties disparity-scale and sharpness of mtstereo. The number of threads is none of
-/// them: it changes no result.
+/// and the properties disparity-scale and sharpness of mtstereo. The number of threads is
+/// not among them: it changes no result.
 NamedTexts effective_parameters(const WorkOptions& options);
 
 /// The units of the values of a disparity map.

@@ -9,7 +9,7 @@ namespace mtstereo::run {
 
 /// missing_end() of Matroska and WebM.
 std::string missing_of_matroska(Bytes& bytes);
-/// damaged_parts() of Matroska and WebM: elements that are none, and clusters with a checksum
+/// damaged_parts() of Matroska and WebM: invalid elements, and clusters with a checksum
 /// (CRC-32) that is not theirs.
 DamagedParts damage_of_matroska(Bytes& bytes);
 

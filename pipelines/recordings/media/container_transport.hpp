@@ -22,7 +22,7 @@ std::string missing_of_transport_stream(Bytes& bytes, const Packets& kind);
 /// may_lack_end() of MPEG-TS.
 bool may_lack_end(Bytes& bytes, const Packets& kind);
 /// damaged_parts() of MPEG-TS: packets that do not continue their stream with video, by their
-/// counters, that are marked as damaged, or that are none.
+/// counters, that are marked as damaged, or that are invalid.
 DamagedParts damage_of_transport_stream(Bytes& bytes, const Packets& kind);
 
 }  // namespace mtstereo::run

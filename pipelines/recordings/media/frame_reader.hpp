@@ -12,7 +12,7 @@
 
 namespace mtstereo::run {
 
-/// What became of a frame that was asked for.
+/// The outcome of reading a frame.
 enum class FrameState {
   kDecoded,
   kMissing,  ///< it cannot be decoded; later ones may be

@@ -49,7 +49,7 @@ std::string number(std::uint32_t id, std::uint64_t value, int bytes = 0);
 std::string cluster_head(std::uint64_t time, std::size_t frame);
 /// The length of cluster_head().
 inline constexpr std::size_t kClusterHead = 28;
-/// The length and the time in a cluster_head(); false if it is none.
+/// The length and the time in a cluster_head(); false if it is not one.
 bool parse_cluster_head(std::string_view head, std::uint64_t& length, std::uint64_t& time);
 
 /// Everything before the first cluster. The values that are known at the end have a fixed length

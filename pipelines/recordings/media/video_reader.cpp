@@ -70,7 +70,7 @@ class VideoReader : public FrameReader {
   bool seek(std::int64_t number, Nanoseconds lead) {
     const Nanoseconds wanted = index_.times[static_cast<std::size_t>(number)];
     const Nanoseconds target = wanted - lead;
-    // From the start it is no longer, and sure.
+    // Reading from the start takes no longer, and is reliable.
     if (target <= index_.times.front()) return false;
     waiting_ = {};
     from_start_ = false;

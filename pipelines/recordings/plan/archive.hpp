@@ -14,7 +14,7 @@
 
 namespace mtstereo::run {
 
-/// What became of a recording.
+/// The outcome for a recording.
 struct PlannedRecording {
   std::string name;
   std::int64_t pairs = 0;

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr int kVersion = 1;
 
-// What became of a recording.
+// The outcome for a recording.
 struct Joined {
   std::optional<Figures> figures;  // if it is whole
   std::string doubt;               // why its results are of no use

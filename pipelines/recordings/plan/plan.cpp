@@ -103,7 +103,7 @@ std::vector<Task> divide(const std::string& recording, std::int64_t pairs,
   std::vector<Task> tasks;
   std::int64_t first = 0;
   for (std::int64_t i = 0; i < number; ++i) {
-    // The first tasks take one pair more if the length is no multiple.
+    // The first tasks take one pair more if the length is not a multiple.
     const std::int64_t count = pairs / number + (i < pairs % number ? 1 : 0);
     tasks.push_back({recording, {first, count}});
     first += count;

@@ -213,7 +213,7 @@ void remove_plan(const fs::path& folder) {
   check_plan_folder(folder, {});
   const PlanFolder files(folder);
   const outputs::WrittenFiles written = Collector(files).collect();
-  // plan.json first: what is left is no plan then.
+  // plan.json first: the rest is then not a plan.
   std::error_code error;
   fs::remove(files.plan(), error);
   outputs::remove_written(folder, written);

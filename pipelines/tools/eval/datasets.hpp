@@ -22,7 +22,7 @@ std::optional<Layout> find_layout(std::string_view name);
 /// All names, in the order of Layout.
 std::vector<std::string> layout_names();
 
-/// Detects the layout of a folder. Throws UserError if it is no known layout.
+/// Detects the layout of a folder. Throws UserError if the layout is unknown.
 Layout detect_layout(const std::filesystem::path& root);
 
 /// Lists the pairs of a folder. Throws UserError if the folder cannot be read or holds no pair of

@@ -42,7 +42,7 @@ std::optional<int> calibration_value(const fs::path& file, const std::string& ke
 std::optional<int> search_range(Layout layout, const fs::path& calibration) {
   const std::optional<int> stated = calibration_value(calibration, "ndisp");
   if (layout == Layout::kMiddlebury) return stated;
-  // ETH3D states the width of the image, which is no limit; only a smaller number is a range.
+  // ETH3D states the width of the image, which limits nothing; only a smaller number is a range.
   const std::optional<int> width = calibration_value(calibration, "width");
   return stated && width && *stated < *width ? *stated : kEth3dRange;
 }

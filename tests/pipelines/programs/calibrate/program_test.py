@@ -241,8 +241,8 @@ class Refusal(Program):
                 ((*self.both, "--side-by-side", "a"), "give --left and --right"),
                 ((*self.both, "--squares", "9"), "not of the form"),
                 ((*self.both, "--square", "0.028"), "the unit is mm"),
-                ((*self.both, "--square", "nan"), "'nan' is no number"),
-                ((*self.both, "--timeout", "nan"), "'nan' is no number"),
+                ((*self.both, "--square", "nan"), "'nan' is not a number"),
+                ((*self.both, "--timeout", "nan"), "'nan' is not a number"),
                 ((*self.both, "--model", "pinhole"), "pinhole"),
                 (("--board", "a.bmp"), "must end in .pdf or .png")):
             with self.subTest(words):
