@@ -7,7 +7,7 @@
                                   with different modes or presets
   kinds.py equal REPORT.json      the errors of the first method and of another one at equal density, for
                                   each kind of images; the report comes from 'mtstereo-eval --degrade ...
-                                  --compare ... --curve FILE.png --json REPORT.json'
+                                  --compare ... --curve --json REPORT.json'
   kinds.py density REPORT.json    the densities of both at equal D-all, from the same report
 
 The exit status is 2 if the command or a JSON file is invalid.

@@ -143,11 +143,11 @@ void run_all(const Options& options, const DataSet& set, Report& report) {
     std::vector<PairReport> kinds = runner.run_kinds(set.pairs[i]);
     progress.clear();
     for (PairReport& pair : kinds) {
-      if (options.curve) curves.add(pair);
+      if (options.run.curve) curves.add(pair);
       add_pair(std::move(pair), report);
     }
   }
-  if (options.curve) curves.finish(options, report);
+  if (options.run.curve) curves.finish(options, report);
 }
 
 int list_pairs(const DataSet& set) {
@@ -201,7 +201,6 @@ int run(const Options& options) {
   if (options.list) return list_pairs(set);
   check_degradations(options);
   check_outputs(options, all);
-  const bool can_plot = check_plotting(options);
   Report report = start_report(options, set);
   run_all(options, set, report);
   print(report);
@@ -209,7 +208,7 @@ int run(const Options& options) {
     std::cerr << "mtstereo-eval: " << report.failures.size()
               << " failures (listed above); the mean is over the other pairs\n";
   }
-  const bool written = write_outputs(options, can_plot, report);
+  const bool written = write_outputs(options, report);
   return written && report.failures.empty() ? kAllFine : kSomeFailed;
 }
 

@@ -22,7 +22,7 @@ struct Texts {
   std::string dataset = "auto";
   std::string dmap = "auto";
   std::string format = "pfm";
-  std::string json, csv, curve, disparity_folder, picture_folder;
+  std::string json, csv, disparity_folder, picture_folder;
   std::vector<std::string> compare;
   std::vector<std::string> degrade;
   std::string alignment;
@@ -128,12 +128,7 @@ void add_methods(CLI::App& app, Texts& texts, Options& options) {
       ->check(outputs::finite_range(0.1, 100));
 }
 
-std::string is_png(const std::string& file) {
-  if (extension_of(std::filesystem::path(file)) == ".png") return {};
-  return "the picture is a PNG file: the name '" + file + "' must end in .png";
-}
-
-void add_outputs(CLI::App& app, Texts& texts) {
+void add_outputs(CLI::App& app, Texts& texts, Options& options) {
   const std::string group = "Output";
   app.add_option("--json", texts.json, "write all figures to this file as JSON")
       ->type_name("FILE")
@@ -141,12 +136,9 @@ void add_outputs(CLI::App& app, Texts& texts) {
   app.add_option("--csv", texts.csv, "write all figures to this file as CSV")
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--curve", texts.curve,
-                 "sweep the confidence, print the errors at equal density and plot them to this "
-                 "PNG (needs python3-matplotlib); with --compare, sweep the uniquenessRatio of "
-                 "those matchers too")
-      ->type_name("FILE")
-      ->check(is_png)
+  app.add_flag("--curve", options.run.curve,
+               "sweep the confidence and print the errors at equal density; with --compare, sweep "
+               "the uniquenessRatio of those matchers too; --json has the curves for plot.py")
       ->group(group);
   app.add_option("--write-disparity", texts.disparity_folder,
                  "write the disparity maps to this folder")
@@ -209,8 +201,6 @@ void apply(const Texts& texts, Options& options) {
   apply_degradations(texts, options.run.degradations);
   options.json = path_of(texts.json);
   options.csv = path_of(texts.csv);
-  options.curve = path_of(texts.curve);
-  options.run.curve = options.curve.has_value();
   options.run.disparity_folder = path_of(texts.disparity_folder);
   options.run.picture_folder = path_of(texts.picture_folder);
   if (texts.format == "kitti") options.run.disparity_format = DisparityFormat::kKitti;
@@ -235,7 +225,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   Options options;
   add_options(app, texts, options);
   add_methods(app, texts, options);
-  add_outputs(app, texts);
+  add_outputs(app, texts, options);
   add_parameters(app, texts);
   try {
     app.parse(argc, argv);

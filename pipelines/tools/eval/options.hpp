@@ -19,7 +19,6 @@ struct Options {
   bool list = false;              ///< only list the pairs
   std::optional<std::filesystem::path> json;
   std::optional<std::filesystem::path> csv;
-  std::optional<std::filesystem::path> curve;  ///< the picture
   RunSettings run;
 };
 

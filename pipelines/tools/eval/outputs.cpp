@@ -10,7 +10,6 @@
 #include "lib/outputs/json_text.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
-#include "tools/eval/plot.hpp"
 
 namespace mtstereo::eval {
 namespace fs = std::filesystem;
@@ -29,7 +28,7 @@ void refuse_inputs(const fs::path& file, const DataSet& set) {
   }
 }
 
-// A report of this program begins, or for pictures is marked, in this way.
+// A report of this program begins in this way.
 void refuse_foreign(const fs::path& file, const std::string& mark) {
   constexpr std::size_t kHead = 512;  // bytes
   std::error_code error;
@@ -67,22 +66,11 @@ bool attempt(const std::function<void()>& write) {
   }
 }
 
-void write_curve(const fs::path& file, const Report& report) {
-  if (report.curves.front().pairs == 0) {
-    throw UserError(file, "is not written: no pair was completed by all methods");
-  }
-  nlohmann::json curves;
-  add_curves(report, curves);
-  plot_curves(file, curves);
-}
-
 }  // namespace
 
 void check_outputs(const Options& options, const DataSet& set) {
   const std::pair<std::optional<fs::path>, const char*> files[] = {
-      {options.json, "{\n  \"compared_methods\""},
-      {options.csv, "pair,method,region,"},
-      {options.curve, "mtstereo-eval"}};
+      {options.json, "{\n  \"compared_methods\""}, {options.csv, "pair,method,region,"}};
   for (const auto& [file, mark] : files) {
     if (!file) continue;
     refuse_inputs(*file, set);
@@ -91,26 +79,14 @@ void check_outputs(const Options& options, const DataSet& set) {
   }
 }
 
-bool check_plotting(const Options& options) {
-  if (!options.curve) return true;
-  const std::optional<std::string> obstacle = plot_obstacle();
-  if (!obstacle) return true;
-  std::cerr << "mtstereo-eval: " << options.curve->string()
-            << ": no picture is drawn: " << *obstacle << '\n';
-  return false;
-}
-
-bool write_outputs(const Options& options, bool can_plot, const Report& report) {
+bool write_outputs(const Options& options, const Report& report) {
   bool fine = true;
   if (options.json) {
     const std::string text = outputs::text_of(to_json(report), 2) + "\n";
     fine &= attempt([&] { write_bytes(*options.json, text); });
   }
   if (options.csv) fine &= attempt([&] { write_bytes(*options.csv, to_csv(report)); });
-  if (options.curve && !report.curves.empty() && can_plot) {
-    fine &= attempt([&] { write_curve(*options.curve, report); });
-  }
-  return fine && can_plot;
+  return fine;
 }
 
 }  // namespace mtstereo::eval

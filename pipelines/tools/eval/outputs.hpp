@@ -11,13 +11,8 @@ namespace mtstereo::eval {
 /// be written or belongs to the data set.
 void check_outputs(const Options& options, const DataSet& set);
 
-/// Runs before the evaluation too: if a picture of the curves is requested and cannot be plotted on
-/// this machine, prints the reason on the standard error and returns false.
-bool check_plotting(const Options& options);
-
-/// Writes the requested files, the picture of the curves only if `can_plot`. A file that cannot be
-/// written is named on the standard error and the others are still written. Returns whether all of
-/// them were written.
-bool write_outputs(const Options& options, bool can_plot, const Report& report);
+/// Writes the requested files. A file that cannot be written is named on the standard error, and
+/// the others are still written. Returns whether all of them were written.
+bool write_outputs(const Options& options, const Report& report);
 
 }  // namespace mtstereo::eval

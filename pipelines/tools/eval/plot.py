@@ -9,7 +9,6 @@
                                           {"title": TEXT, "panels": [PANEL] or [PANEL, PANEL]}
                                           with PANEL = {"x": LABEL, "y": LABEL, "caption": TEXT,
                                           "points": [[X, Y], ...]}, x ascending
-  plot.py check                           only check that matplotlib is installed
 
 '-' instead of the JSON file reads standard input. The exit status is 1 if matplotlib is missing or
 the picture cannot be written, and 2 if the command or the JSON file is invalid.
@@ -313,17 +312,13 @@ def parse_options():
         if name == "curve":
             command.add_argument("--measure", choices=[key for key, _ in MEASURES],
                                  default="avgerr", help="of the panels of degraded images")
-    commands.add_parser("check", help="check that matplotlib is installed")
     return parser.parse_args()
 
 
 def main():
     options = parse_options()
     try:
-        if options.command == "check":
-            matplotlib_modules()
-        else:
-            plot(options)
+        plot(options)
     except InputError as error:
         print(f"plot.py: {error}", file=sys.stderr)
         return 2

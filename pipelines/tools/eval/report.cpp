@@ -114,31 +114,24 @@ json means_json(const std::vector<Summary>& means) {
   return result;
 }
 
-// The means of the degradations, and the curves of all kinds.
+// The means of the degradations, and the curves of all kinds, which plot.py reads.
 void add_kinds(const Report& report, json& result) {
   for (const std::string& kind : report.kinds) {
     if (kind == kCleanKind) continue;
     result["degraded"].push_back({{"kind", kind}, {"mean", means_json(summarize(report, kind))}});
   }
-  add_curves(report, result);
-}
-
-}  // namespace
-
-void add_curves(const Report& report, json& result) {
   for (const CurveReport& curve : report.curves) {
     if (curve.kind == kCleanKind) {
       result["curve"] = curves_json(curve);
       continue;
     }
-    json& degraded = result["degraded"];
-    const auto found = std::find_if(degraded.begin(), degraded.end(),
-                                    [&](const json& entry) { return entry["kind"] == curve.kind; });
-    json& entry =
-        found == degraded.end() ? degraded.emplace_back(json{{"kind", curve.kind}}) : *found;
-    entry["curve"] = curves_json(curve);
+    for (json& entry : result["degraded"]) {
+      if (entry["kind"] == curve.kind) entry["curve"] = curves_json(curve);
+    }
   }
 }
+
+}  // namespace
 
 std::string parameter_text(const Report& report, const std::string& name) {
   for (const auto& [key, text] : report.parameters) {

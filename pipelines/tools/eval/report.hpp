@@ -34,10 +34,6 @@ void print_flicker(std::ostream& out, const Report& report);
 /// All figures; null if one could not be measured.
 nlohmann::json to_json(const Report& report);
 
-/// Adds the curves of all kinds to a JSON object, as plot.py reads them: "curve" and
-/// "degraded"[i]["curve"].
-void add_curves(const Report& report, nlohmann::json& result);
-
 /// All figures, one line per pair, kind, method and region, followed by the means. A figure that
 /// could not be measured is empty. Fields with a comma or a quote are quoted (RFC 4180).
 std::string to_csv(const Report& report);

@@ -172,15 +172,14 @@ TEST_F(DegradeProgram, MeasuresTheFlickerOfEachMethod) {
 }
 
 TEST_F(DegradeProgram, DrawsTheCurveOfEachKind) {
-  const Outcome run = run_eval({set(), "--degrade", "noise=5,bright=1.5", "--curve",
-                                folder_ / "curve.png", "--json", folder_ / "r.json"});
+  const Outcome run =
+      run_eval({set(), "--degrade", "noise=5,bright=1.5", "--curve", "--json", folder_ / "r.json"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("errors at equal density, middlebury, noise=5, unweighted"));
   const json degraded = report()["degraded"];
   ASSERT_EQ(degraded.size(), 2U);
   for (const json& kind : degraded) EXPECT_EQ(kind["curve"]["pairs"], 2);
   EXPECT_EQ(report()["curve"]["kind"], "clean");
-  EXPECT_EQ(cv::imread(folder_ / "curve.png").cols, 1200);
 }
 
 TEST_F(DegradeProgram, EvaluatesSeveralFoldersTogether) {
