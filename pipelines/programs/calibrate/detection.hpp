@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "programs/calibrate/bundle.hpp"
 #include "programs/calibrate/board.hpp"
+#include "programs/calibrate/bundle.hpp"
 #include "programs/calibrate/charuco.hpp"
 
 namespace mtstereo::calibrate {

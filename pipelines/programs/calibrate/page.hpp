@@ -7,7 +7,8 @@
 
 #include "programs/calibrate/board.hpp"
 
-// The board on paper, in true size.
+// The board on paper, in true size. By hand on purpose: cairo can neither forbid printers to scale
+// the PDF nor state the resolution of the PNG.
 
 namespace mtstereo::calibrate {
 

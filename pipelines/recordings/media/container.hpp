@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+// By hand on purpose: demultiplexers skip what is cut off or damaged without a report.
+
 namespace mtstereo::run {
 
 /// Whether the end of a video file is missing, by the lengths that its container states (MP4 and

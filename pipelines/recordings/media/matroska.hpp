@@ -11,9 +11,9 @@
 
 #include "recordings/media/matroska_format.hpp"
 
-// Matroska files with one video in FFV1. Muxers write random ids and dates into them; these files
-// depend on their frames and tags only, so that pieces that are joined are equal to one file that
-// was written at once. Each frame is a key frame in a cluster of its own.
+// Matroska files with one video in FFV1. By hand on purpose: muxers write random ids and dates into
+// them; these files depend on their frames and tags only, so that pieces that are joined are equal
+// to one file that was written at once. Each frame is a key frame in a cluster of its own.
 
 namespace mtstereo::run {
 
