@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tools/eval/layouts.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include "expect_error.hpp"
 #include "support.hpp"
 #include "tools/eval/datasets.hpp"
-#include "tools/eval/layouts.hpp"
 
 namespace mtstereo::eval {
 namespace {
