@@ -272,11 +272,12 @@ TEST(Invariants, ExactlyKnownPixelsHaveAConfidence) {
     for (const char* const mode : kModes) {
       SCOPED_TRACE(testing::Message() << preset << ", " << mode);
       Matcher matcher = test::matcher({{"preset", preset}, {"mode", mode}});
-      const auto [map, confidence, statistics] = test::match(matcher, pair.left, pair.right);
+      const auto result = test::match(matcher, pair.left, pair.right);
+      const auto& map = result.disparity;
       EXPECT_GT(test::known(map), 10);
       EXPECT_TRUE(test::same_pixels(
           map.width, map.height, [&](int x, int y) { return map(x, y) != kNoDisparity; },
-          [&](int x, int y) { return confidence(x, y) != 0; }));
+          [&](int x, int y) { return result.confidence(x, y) != 0; }));
     }
   }
 }

@@ -83,7 +83,10 @@ FilePlayer::FilePlayer(const NumberedFiles& files, const Container& container)
                 source(files.file(container, Side::kRight), "right", container)) {
   GstPad* output = gst_element_get_static_pad(pipeline_.named("m"), "src");
   gst_pad_add_probe(output, GST_PAD_PROBE_TYPE_BUFFER, on_map, this, nullptr);
-  gst_pad_add_probe(output, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, on_event, this, nullptr);
+  gst_pad_add_probe(output,
+                    static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM |
+                                                 GST_PAD_PROBE_TYPE_EVENT_FLUSH),
+                    on_event, this, nullptr);
   gst_object_unref(output);
   for (const char* side : {"left", "right"}) {
     GstPad* decoded = gst_element_get_static_pad(pipeline_.named(side), "src");
@@ -108,12 +111,19 @@ DifferenceCounter FilePlayer::play(const Seek& seek, int maps) {
                          GST_SEEK_TYPE_SET, time_of(seek.from), GST_SEEK_TYPE_SET,
                          seek.to < 0 ? -1 : time_of(seek.to));
   const guint32 seqnum = gst_event_get_seqnum(event);
-  DifferenceCounter before = count();
-  warned_ = false;
+  begin_count(seek.flush ? seqnum : GST_SEQNUM_INVALID);
   EXPECT_TRUE(gst_element_send_event(pipeline_.element(), event));
-  wait(seqnum, before.maps + maps);
-  const DifferenceCounter after = count();
-  return {after.maps - before.maps, after.wrong - before.wrong, after.unknown - before.unknown};
+  wait(seqnum, maps);
+  return count();
+}
+
+/// Counts from here on, or from the end of that flush on: before it, maps of the old segment still
+/// come.
+void FilePlayer::begin_count(guint32 after_flush) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  awaited_flush_ = after_flush;
+  warned_ = false;
+  count_ = {};
 }
 
 void FilePlayer::delay_right(int frames) {
@@ -128,7 +138,8 @@ GstPadProbeReturn FilePlayer::on_map(GstPad*, GstPadProbeInfo* info, gpointer se
   auto difference = frame_difference(GST_PAD_PROBE_INFO_BUFFER(info));
   if (difference) *difference += player.delay_;
   const std::lock_guard<std::mutex> lock(player.mutex_);
-  player.count_.add(player.warned_ ? 0 : difference);
+  if (player.awaited_flush_ == GST_SEQNUM_INVALID)
+    player.count_.add(player.warned_ ? 0 : difference);
   return GST_PAD_PROBE_OK;
 }
 
@@ -136,12 +147,21 @@ GstPadProbeReturn FilePlayer::on_map(GstPad*, GstPadProbeInfo* info, gpointer se
 /// event counts.
 GstPadProbeReturn FilePlayer::on_event(GstPad*, GstPadProbeInfo* info, gpointer self) {
   GstEvent* event = GST_PAD_PROBE_INFO_EVENT(info);
-  if (GST_EVENT_TYPE(event) != GST_EVENT_EOS && GST_EVENT_TYPE(event) != GST_EVENT_SEGMENT_DONE) {
-    return GST_PAD_PROBE_OK;
-  }
   auto& player = *static_cast<FilePlayer*>(self);
   const std::lock_guard<std::mutex> lock(player.mutex_);
-  player.ended_ = gst_event_get_seqnum(event);
+  switch (GST_EVENT_TYPE(event)) {
+    case GST_EVENT_FLUSH_STOP:
+      if (gst_event_get_seqnum(event) != player.awaited_flush_) break;
+      player.awaited_flush_ = GST_SEQNUM_INVALID;
+      player.warned_ = false;
+      break;
+    case GST_EVENT_EOS:
+    case GST_EVENT_SEGMENT_DONE:
+      player.ended_ = gst_event_get_seqnum(event);
+      break;
+    default:
+      break;
+  }
   return GST_PAD_PROBE_OK;
 }
 

@@ -81,6 +81,7 @@ class FilePlayer {
   static GstPadProbeReturn on_event(GstPad*, GstPadProbeInfo* info, gpointer self);
   static GstPadProbeReturn on_frame(GstPad* pad, GstPadProbeInfo* info, gpointer self);
   static GstBusSyncReply on_message(GstBus*, GstMessage* message, gpointer self);
+  void begin_count(guint32 after_flush);
   bool ended(guint32 seqnum);
   DifferenceCounter count();
   void wait(guint32 seqnum, int maps);
@@ -90,7 +91,8 @@ class FilePlayer {
   std::atomic<int> delay_ = 0;  // of the right stream [frames]
   std::mutex mutex_;
   DifferenceCounter count_;
-  guint32 ended_ = GST_SEQNUM_INVALID;  // of the last end of the stream or a segment
+  guint32 awaited_flush_ = GST_SEQNUM_INVALID;  // maps are not counted before its end
+  guint32 ended_ = GST_SEQNUM_INVALID;          // of the last end of the stream or a segment
   Pipeline pipeline_;
 };
 
