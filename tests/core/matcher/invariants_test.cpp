@@ -273,7 +273,7 @@ TEST(Invariants, ExactlyKnownPixelsHaveAConfidence) {
       SCOPED_TRACE(testing::Message() << preset << ", " << mode);
       Matcher matcher = test::matcher({{"preset", preset}, {"mode", mode}});
       const auto result = test::match(matcher, pair.left, pair.right);
-      const auto& map = result.disparity;
+      const auto& map = result.map;
       EXPECT_GT(test::known(map), 10);
       EXPECT_TRUE(test::same_pixels(
           map.width, map.height, [&](int x, int y) { return map(x, y) != kNoDisparity; },
