@@ -39,7 +39,7 @@ void PairWatch::watch(GrayView left, GrayView right) {
   const std::array<Sample, 2> now = {sample_of(left), sample_of(right)};
   for (int side = 0; side < 2; ++side) {
     const Sample& other = now[1 - side];
-    blank_[side] = now[side].deviation <= kBlankDeviation && other.deviation >= kPictureDeviation;
+    blank_[side] = now[side].deviation <= kBlankDeviation && other.deviation >= kContentDeviation;
     const bool repeated = has_last_ && now[side].checksum == last_[side];
     const bool other_changed = other.checksum != last_[1 - side];
     if (!repeated) {

@@ -8,13 +8,13 @@
 
 namespace mtstereo {
 
-/// Checks each pair for views without a picture. It reads a small part of the pixels, whatever the
-/// size of the images.
+/// Finds views that show nothing or repeat themselves. Reads a small part of the pixels, whatever
+/// the size of the images.
 
 /// A view is blank if the standard deviation of its gray values is at most this and the other view
-/// has at least kPictureDeviation.
+/// has at least kContentDeviation.
 inline constexpr double kBlankDeviation = 2.5;
-inline constexpr double kPictureDeviation = 10;
+inline constexpr double kContentDeviation = 10;
 
 /// A view is frozen if it has repeated itself in this many successive pairs while the other one
 /// changed each time. Encoders repeat single frames too.

@@ -15,6 +15,9 @@ namespace mtstereo {
 /// run() is one of them. Only one thread at a time may call run(). After a loop the threads spin
 /// for some tens of microseconds to start the next loop without delay, unless there are more
 /// threads than processors.
+///
+/// Written by hand on std::thread: the matcher needs no library for it, run() allocates nothing
+/// during a frame, and `worker` numbers the scratch memory of each thread.
 class ThreadPool {
  public:
   /// `threads` >= 1, including the caller's. Throws std::system_error if a thread cannot start.

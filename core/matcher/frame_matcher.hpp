@@ -14,7 +14,7 @@
 namespace mtstereo {
 
 /// Runs the steps on one pair after another. A Matcher owns one; tests, the benchmark and
-/// the pictures of docs/ use it directly to observe the steps. Throws; a Matcher turns exceptions
+/// the images of docs/ use it directly to observe the steps. Throws; a Matcher turns exceptions
 /// into errors.
 class FrameMatcher {
  public:

@@ -11,7 +11,7 @@ namespace mtstereo {
 /// The steps of the method, in the order in which they run: the views, one of the two matchers, the
 /// map and, after the matching along paths, the result. The order is fixed; settings select the
 /// matcher and disable steps. Everything that depends on the order of the method reads these lists:
-/// the matcher, the benchmark, the pictures of docs/ and the tests.
+/// the matcher, the benchmark, the images of docs/ and the tests.
 using StepList = std::span<const Step>;
 extern const StepList kViewSteps, kPathSteps, kNodeSteps, kMapSteps, kResultSteps;
 

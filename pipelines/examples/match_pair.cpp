@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// match-pair: a complete program with the library. It matches two rectified pictures as the element
-// mtstereo does, and writes the disparities and their confidence as pictures.
+// match-pair: a complete program with the library. It matches two rectified images as the element
+// mtstereo does, and writes the disparities and their confidence as images.
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -13,7 +13,7 @@
 
 namespace {
 
-constexpr int kScale = 256;  // px = value / 256 in the picture of the disparities, as in KITTI's
+constexpr int kScale = 256;  // px = value / 256 in the disparity image, as in KITTI
 
 void require(const mtstereo::Status& status) {
   if (!status) throw std::runtime_error(status.error().message);
@@ -27,15 +27,15 @@ T value_of(mtstereo::Result<T> result) {
 
 cv::Mat read_gray(const std::string& file) {
   cv::Mat gray = cv::imread(file, cv::IMREAD_GRAYSCALE);
-  if (gray.empty()) throw std::runtime_error(file + " is missing or no picture");
+  if (gray.empty()) throw std::runtime_error(file + " is missing or not an image");
   return gray;
 }
 
-void write(const std::string& file, const cv::Mat& picture) {
-  if (!cv::imwrite(file, picture)) throw std::runtime_error(file + " cannot be written");
+void write(const std::string& file, const cv::Mat& image) {
+  if (!cv::imwrite(file, image)) throw std::runtime_error(file + " cannot be written");
 }
 
-// The pixels stay those of the picture, which must live longer than the view.
+// The pixels stay those of the image, which must live longer than the view.
 mtstereo::GrayView view_of(const cv::Mat& gray) {
   return {gray.data, gray.cols, gray.rows, static_cast<std::ptrdiff_t>(gray.step)};
 }
@@ -55,8 +55,8 @@ void report(const mtstereo::AlignmentTracker& tracker, double density, int width
 void match(const std::string& left_file, const std::string& right_file,
            const std::string& max_disparity, const std::string& disparity_file,
            const std::string& confidence_file) {
-  const cv::Mat left_picture = read_gray(left_file), right_picture = read_gray(right_file);
-  const mtstereo::GrayView left = view_of(left_picture), right = view_of(right_picture);
+  const cv::Mat left_image = read_gray(left_file), right_image = read_gray(right_file);
+  const mtstereo::GrayView left = view_of(left_image), right = view_of(right_image);
 
   mtstereo::Parameters parameters;
   require(parameters.set(mtstereo::Parameter::kMaxDisparity, max_disparity));
@@ -71,7 +71,7 @@ void match(const std::string& left_file, const std::string& right_file,
   const mtstereo::FrameResult result = value_of(matcher.compute(left, right));
   const mtstereo::DisparityView& map = result.disparity;
 
-  cv::Mat disparity(left_picture.size(), CV_16U);
+  cv::Mat disparity(left_image.size(), CV_16U);
   require(mtstereo::write_disparity16(map, kScale,
                                       {disparity.ptr<std::uint16_t>(), map.width, map.height,
                                        static_cast<std::ptrdiff_t>(disparity.step)}));

@@ -124,7 +124,7 @@ MTSTEREO_API const char* problem_name(PairProblem problem) noexcept;
 /// One English sentence about a problem: what was found and what to do. The string is static.
 MTSTEREO_API const char* problem_text(PairProblem problem) noexcept;
 
-/// Finds the correction that a stereo camera needs from its own pictures, and what is wrong with
+/// Finds the correction that a stereo camera needs from its own images, and what is wrong with
 /// them. docs/alignment.md describes how, and the limits: a shift of all disparities, as by a
 /// rotation about the vertical axis, cannot be seen.
 ///

@@ -9,7 +9,7 @@
 /// wrong with the rows and the sharpness of the views. Include <mtstereo/mtstereo.hpp>, and compile
 /// with -std=c++20 or later and the flags of `pkg-config --cflags --libs mtstereo`.
 ///
-/// A complete program, which matches two pictures:
+/// A complete program, which matches two images:
 /// @include match_pair.cpp
 
 /// @namespace mtstereo

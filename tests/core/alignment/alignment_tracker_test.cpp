@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The public class, with pictures; correction_policy_test.cpp has the rules.
+// The public class, with images; correction_policy_test.cpp has the rules.
 #include <gtest/gtest.h>
 
 #include <set>

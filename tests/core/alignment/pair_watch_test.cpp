@@ -11,7 +11,7 @@ namespace {
 
 using test::GrayPlane;
 
-GrayPlane picture(int number) { return test::texture(120, 80, number); }
+GrayPlane scene(int number) { return test::texture(120, 80, number); }
 
 /// A view that shows nothing, with a little noise.
 GrayPlane covered(int number) {
@@ -23,11 +23,11 @@ GrayPlane covered(int number) {
 
 TEST(PairWatch, ReportsABlankView) {
   PairWatch watch;
-  watch.watch(picture(1).view(), covered(1).view());
+  watch.watch(scene(1).view(), covered(1).view());
   EXPECT_TRUE(watch.blank(1) && !watch.blank(0));
-  watch.watch(GrayPlane(120, 80, 0).view(), picture(2).view());
+  watch.watch(GrayPlane(120, 80, 0).view(), scene(2).view());
   EXPECT_TRUE(watch.blank(0) && !watch.blank(1));
-  watch.watch(picture(3).view(), picture(4).view());
+  watch.watch(scene(3).view(), scene(4).view());
   EXPECT_FALSE(watch.blank(0) || watch.blank(1));
 }
 
@@ -42,29 +42,29 @@ TEST(PairWatch, ReportsAFrozenViewUntilItChanges) {
     PairWatch watch;
     for (int i = 0; i <= kFrozenPairs; ++i) {
       EXPECT_FALSE(watch.frozen(side)) << i;
-      const GrayPlane still = picture(0), moving = picture(i + 1);
+      const GrayPlane still = scene(0), moving = scene(i + 1);
       watch.watch((side == 0 ? still : moving).view(), (side == 0 ? moving : still).view());
     }
     EXPECT_TRUE(watch.frozen(side));
     EXPECT_FALSE(watch.frozen(1 - side));
-    watch.watch(picture(100).view(), picture(101).view());
+    watch.watch(scene(100).view(), scene(101).view());
     EXPECT_FALSE(watch.frozen(side));
   }
 }
 
 TEST(PairWatch, DoesNotReportAStillSceneNorSingleRepeatedFrames) {
   PairWatch watch;
-  for (int i = 0; i < 3 * kFrozenPairs; ++i) watch.watch(picture(1).view(), picture(2).view());
+  for (int i = 0; i < 3 * kFrozenPairs; ++i) watch.watch(scene(1).view(), scene(2).view());
   EXPECT_FALSE(watch.frozen(0) || watch.frozen(1));
   for (int i = 0; i < 3 * kFrozenPairs; ++i) {
-    watch.watch(picture(i / 2).view(), picture(100 + i).view());
+    watch.watch(scene(i / 2).view(), scene(100 + i).view());
   }
   EXPECT_FALSE(watch.frozen(0) || watch.frozen(1));
 }
 
 TEST(PairWatch, ForgetsOnReset) {
   PairWatch watch;
-  for (int i = 0; i <= kFrozenPairs; ++i) watch.watch(picture(0).view(), picture(i + 1).view());
+  for (int i = 0; i <= kFrozenPairs; ++i) watch.watch(scene(0).view(), scene(i + 1).view());
   ASSERT_TRUE(watch.frozen(0));
   watch.reset();
   EXPECT_FALSE(watch.frozen(0));
