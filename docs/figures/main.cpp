@@ -224,12 +224,14 @@ std::string range(const ParameterInfo& info) {
 }
 
 void print_table() {
-  std::puts("| parameter | symbol | unit | range | default | what it does |");
-  std::puts("| --- | --- | --- | --- | --- | --- |");
+  std::puts("| parameter | range | default | what it does (symbol in the paper) |");
+  std::puts("| --- | --- | --- | --- |");
   for (const ParameterInfo& info : parameter_table()) {
-    std::printf("| `%s` | %s | %s | %s | %s | %s |\n", info.name, info.symbol, info.unit,
-                range(info).c_str(), cell(parameter_defaults_text(info.id)).c_str(),
-                cell(info.help).c_str());
+    const std::string unit = *info.unit ? std::string(" ") + info.unit : "";
+    const std::string symbol = *info.symbol ? std::string(" (") + info.symbol + ")" : "";
+    std::printf("| `%s` | %s%s | %s | %s%s |\n", info.name, range(info).c_str(), unit.c_str(),
+                cell(parameter_defaults_text(info.id)).c_str(), cell(info.help).c_str(),
+                symbol.c_str());
   }
 }
 

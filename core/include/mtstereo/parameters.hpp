@@ -26,7 +26,7 @@ inline constexpr int kModes = 4;
 /// A set of defaults for all parameters.
 enum class Preset {
   kDefault,  ///< the most accurate known settings
-  kFast,     ///< the most accurate known settings that take a third of the time
+  kFast,     ///< three times as fast, less accurate
   kPaper,    ///< the published method
 };
 /// Number of presets.
@@ -95,7 +95,7 @@ MTSTEREO_API const ParameterInfo& parameter_info(Parameter id) noexcept;
 MTSTEREO_API const char* parameter_default(Parameter id, Preset preset, Mode mode) noexcept;
 
 /// All defaults of one parameter for people to read, as in "6 (dense 2); preset paper: 4 (sparse
-/// 12)". The first value is that of all modes that are not named.
+/// 12)". The first value applies to all modes not named.
 MTSTEREO_API std::string parameter_defaults_text(Parameter id);
 
 /// The row of the parameter with this name, or nullptr if there is none.
