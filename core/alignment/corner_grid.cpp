@@ -85,7 +85,7 @@ void add_row(int y, int sign, CornerScratch& scratch) {
    scratch.sums.row(0), scratch.sums.row(1), scratch.sums.row(2));
 }
 
-/// Keeps the strongest corners of a row in those of their cells.
+/// Updates the strongest corner of each cell by the corners of a row.
 void keep_strongest(int y, const Grid& grid, int width, CornerScratch& scratch, Corner* strongest) {
   const float* strengths = scratch.strengths.data();
   for (int column = 0; column < grid.columns; ++column) {

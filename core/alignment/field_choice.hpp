@@ -18,13 +18,13 @@ inline constexpr int kFewestCells = 5;
 /// What a trusted fit has at most: corners that are found at several places, per match.
 inline constexpr double kLargestRepeatedShare = 0.25;
 
-/// By how much the capped chi-square of a smaller model may exceed that of a larger one, in all and
-/// for each term that it lacks.
+/// How much larger the capped chi-square of a smaller model may be, in all and for each term that
+/// it lacks.
 inline constexpr double kChiSquareBase = 20;
 inline constexpr double kChiSquareTerm = 6;
 
-/// A model may lack terms that the matches do not determine as long as its capped chi-square is at
-/// most this many times that of the model with all terms.
+/// A model may lack terms that the matches do not determine while its capped chi-square is at most
+/// this many times as large as with all terms.
 inline constexpr double kChiSquareFactor = 1.5;
 
 /// Fields with a smaller rms are not corrected [px].

@@ -23,7 +23,7 @@ inline constexpr int kFewestRows = 64;
 inline constexpr int kSearchedNegative = 16;
 inline constexpr int kSearchedRows = 8;
 
-/// Inspects one pair by itself. The memory is used again for the next pair.
+/// Inspects single pairs. Reuses its memory for the next pair.
 class PairInspector {
  public:
   /// Estimates the field and the sharpness of a pair of views of the same size. The smallest

@@ -49,7 +49,7 @@ std::string size_problem(int width, int height) {
          size_text(kLargestImageSide, kLargestImageSide) + " is needed";
 }
 
-/// A center outside of the image is that of another size. Rectified views, which have no
+/// A center outside of the image belongs to another size. Rectified views, which have no
 /// distortion, may be shifted by more.
 bool is_center_plausible(double center, int side, LensModel lens) {
   const double outside = (lens == LensModel::kNone ? 0.5 : 0.05) * side;
@@ -72,7 +72,7 @@ std::string camera_problem(const CameraCalibration& camera) {
     return "has the principal point (" + number_text(camera.center_x) + ", " +
            number_text(camera.center_y) + ") outside of its image of " +
            size_text(camera.width, camera.height) +
-           "; K is that of another image size. State that size in the file (image_size: [ WIDTH, "
+           "; K belongs to another image size. State that size in the file (image_size: [ WIDTH, "
            "HEIGHT ]), and the calibration is scaled";
   }
   if (!is_coefficient_count(camera.lens, camera.coefficients.size())) {

@@ -13,7 +13,7 @@ namespace mtstereo {
 /// Why images of the camera cannot be computed with, as the end of a sentence; "" if they can.
 std::string camera_problem(const CameraCalibration& camera);
 
-/// Why the position of the cameras to each other is none, as a sentence; "" if it is one.
+/// Why the relative pose of the cameras is invalid, as a sentence; "" if it is valid.
 std::string pose_problem(const StereoCalibration& calibration);
 
 }  // namespace mtstereo

@@ -46,7 +46,7 @@ void note_center(const CameraCalibration& camera, const char* name,
       ", " + digits(camera.center_y) + "), is " + std::to_string(std::lround(100 * shift)) +
       " % of a side away from the middle of its image of " + std::to_string(camera.width) + "x" +
       std::to_string(camera.height) +
-      " px: unless the image is a crop, the calibration is that of another size. State the size of "
+      " px: unless the image is a crop, the calibration belongs to another size. State the size of "
       "the calibration in its file (image_size: [ WIDTH, HEIGHT ]), and it is scaled.");
 }
 
@@ -66,8 +66,8 @@ void put_in_order(StereoCalibration& calibration) {
   if (calibration.rectification) exchange(*calibration.rectification);
   calibration.remarks.emplace_back(
       "By its translation, the first camera of the calibration is to the right of the second one: "
-      "they are exchanged, and the left view must be that of the second camera. If it is that of "
-      "the first one, exchange the views.");
+      "they are exchanged, and the left view must be from the second camera. If it is from the "
+      "first one, exchange the views.");
 }
 
 void note_length(StereoCalibration& calibration) {

@@ -182,7 +182,7 @@ Lens::Point Lens::undistort(const Point& distorted) const {
   }
   const Point reached = distort(x, y);
   const double error = std::hypot(distorted[0] - reached[0], distorted[1] - reached[1]);
-  // The limit is that of the radial part: the other terms may move a point a little beyond it.
+  // The limit applies to the radial part: the other terms may move a point a little beyond it.
   if (!(error < 1e-9) || std::hypot(x, y) > limit_) return {kNone, kNone};
   return {x, y};
 }

@@ -40,7 +40,7 @@ class Lens {
   std::array<double, 14> k_{};  // as in CameraCalibration::coefficients, absent ones are 0
   Matrix3 tilt_{1, 0, 0, 0, 1, 0, 0, 0, 1};
   bool tilted_ = false;
-  double xi_ = 0;  // of an omnidirectional lens: the distance of its center from that of the sphere
+  double xi_ = 0;     // of an omnidirectional lens: from the center of the sphere to its own
   double limit_ = 0;  // of the radius: tangent, or angle [rad] of a fisheye lens, or on the plane
                       // at the distance 1 from the center of an omnidirectional lens
 };

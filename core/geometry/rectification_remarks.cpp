@@ -111,7 +111,7 @@ void Remarks::note_empty(Side side) {
        "The " + name_of(side) + " camera fills only " + percent(part) + " of its rectified view (" +
            whole(part * rectification_.width) + " of " + std::to_string(rectification_.width) +
            " columns on average): nothing can be matched in the rest. Unless alpha is near 1, the "
-           "calibration is that of other cameras or of another size.",
+           "calibration belongs to other cameras or another size.",
        true});
 }
 

@@ -85,7 +85,7 @@ std::string ViewBorder::problem() const {
   const double angle = std::atan2(std::hypot(ray[0], ray[1]), ray[2]);
   if (std::isnan(angle)) {
     return "has a lens model that cannot be inverted, not even at the principal point: the "
-           "coefficients are wrong, or those of another model";
+           "coefficients are wrong or belong to another model";
   }
   return "looks " + std::to_string(std::lround(angle / kDegree)) +
          " degrees away from the common direction of both cameras; both must look in about the "

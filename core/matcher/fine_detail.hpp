@@ -14,10 +14,10 @@ namespace mtstereo {
 /// At pixels that are matched at nearly whole disparities, the two views show the same points of
 /// the scene, so that the product of their high frequencies is the energy of what both have in
 /// common. Noise and compression differ in the views and cancel out. The energy in the finest
-/// octave, divided by that in the next one, depends on lens, focus and processing of the camera
-/// more than on the scene.
+/// octave, divided by the energy in the next one, depends on lens, focus and processing of the
+/// camera more than on the scene.
 
-/// What is compared. `disparity` and `confidence` are those of the left view.
+/// What is compared. `disparity` and `confidence` belong to the left view.
 struct DetailViews {
   GrayView left;
   GrayView right;  ///< as it was matched

@@ -55,7 +55,7 @@ struct Views {
 void align(const StepContext& step, Views& views);
 /// Blurs the sharper view.
 void match_sharpness(const StepContext& step, Views& views);
-/// Makes the smallest disparity that of 0 px of the views to match.
+/// Shifts the views so that the smallest disparity becomes 0 px.
 void shift_views(const StepContext& step, Views& views);
 /// Halves the views.
 void halve(const StepContext& step, Views& views);

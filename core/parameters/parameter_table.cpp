@@ -38,7 +38,7 @@ struct Joined {
 // Type, smallest and largest value, and words of a choice.
 #define CHOICE(choice) \
   T::kChoice, 0, ChoiceOf<choice>::kWords.size() - 1.0, Joined<choice>::kText.data()
-// The defaults of a row: those of the presets default, fast and paper, each in the modes sparse,
+// The defaults of a row: of the presets default, fast and paper, each in the modes sparse,
 // semi-dense, dense and full.
 #define MODES(sparse, semi_dense, dense, full) {{sparse, semi_dense, dense, full}}
 #define BY_MODE(standard, fast, paper) {{standard, fast, paper}}

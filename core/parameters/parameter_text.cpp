@@ -83,8 +83,7 @@ std::string size_text(int width, int height) {
 
 namespace {
 
-/// The defaults of one preset: that of mode semi-dense, and in parentheses those of the modes that
-/// differ from it.
+/// The defaults of one preset: of mode semi-dense, and in parentheses of the modes that differ.
 std::string preset_defaults_text(Parameter id, Preset preset) {
   const std::string main = parameter_default(id, preset, Mode::kSemiDense);
   std::string others;

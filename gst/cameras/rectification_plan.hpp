@@ -15,7 +15,7 @@ namespace mtstereo::plugin {
 struct RectifySettings {
   Rectifier::Side side = Rectifier::Side::kLeft;
   std::string calibration;         ///< one file, or two separated by a comma
-  RectificationOptions options{};  ///< 0 as a size: that of the video or of the file
+  RectificationOptions options{};  ///< 0 as a size: from the video or the file
   int border = 0;                  ///< gray value of pixels that the camera does not see
   bool color = false;              ///< keep the channels of the input
   unsigned files = 0;              ///< how often `calibration` has been set
@@ -39,7 +39,7 @@ struct RectificationPlan {
   const CameraCalibration& camera() const {
     return settings.side == Rectifier::Side::kLeft ? calibration.left : calibration.right;
   }
-  /// True if the maps of the other plan are those of this one.
+  /// True if the other plan has the same maps.
   bool has_maps_of(const RectificationPlan& other) const;
 };
 

@@ -40,16 +40,13 @@ const PropertyTable<RectifySettings>& rectify_properties() {
        set_calibration, get_calibration},
       Row("alpha", {&Values::options, &Options::alpha}, -1, 1,
           "Part of the scene in the output: 0 = only what both cameras see, without a border; 1 = "
-          "all "
-          "pixels of both cameras, with a border; -1 = keep the focal length of the cameras"),
+          "all pixels of both cameras, with a border; -1 = keep the focal length of the cameras"),
       Row("width", {&Values::options, &Options::width}, 0, kLargestImageSide,
-          "Width of the output in px (0: what downstream requires, otherwise that of the "
-          "calibration "
-          "file's rectification or of the video)"),
+          "Width of the output in px (0: as downstream requires, else from the rectification in "
+          "the calibration file or the video)"),
       Row("height", {&Values::options, &Options::height}, 0, kLargestImageSide,
-          "Height of the output in px (0: what downstream requires, otherwise that of the "
-          "calibration "
-          "file's rectification or of the video)"),
+          "Height of the output in px (0: as downstream requires, else from the rectification in "
+          "the calibration file or the video)"),
       Row("zero-disparity", {&Values::options, &Options::zero_disparity},
           "Give points at infinity the disparity 0; otherwise the views are shifted to share more "
           "of "

@@ -9,7 +9,7 @@
 namespace mtstereo::plugin {
 namespace {
 
-/// The side of a whole frame that is twice as long as that of a half.
+/// The side of a whole frame that is twice as long as in a half.
 const char* split_field(SplitLayout layout) {
   return layout == SplitLayout::kSideBySide ? "width" : "height";
 }

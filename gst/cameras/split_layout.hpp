@@ -11,7 +11,7 @@
 
 namespace mtstereo::plugin {
 
-/// How both views are in a frame. The values are those of the property.
+/// How both views are in a frame. The values are the property's.
 enum class SplitLayout : int { kSideBySide, kTopBottom };
 
 /// The formats whose frames can be split without a copy, as text for caps: a pixel is at a whole

@@ -82,8 +82,8 @@ const PropertyTable<ColorSettings>& properties() {
        {ColorScale::kLog, "Evenly over the logarithm of the depth", "log"}});
   static const PropertyTable<Values> table({
       {"max-disparity", &Values::max_disparity, 0, kLargestMaxDisparity,
-       "Disparity of the last color, in px, the same in every frame (0: that of the caps or of "
-       "the meta, which mtstereo sets, or 64 without them)"},
+       "Disparity of the last color, in px, the same in every frame (0: from the caps or the "
+       "meta of mtstereo, else 64)"},
       {"disparity-scale", &Values::scale, 1, 65535, kScaleBlurb},
       Row("near", {&Values::depths, &DepthRange::near}, kSmallestDepthLimit, kLargestDepthLimit,
           "For depth maps: depth of the last color (red), in meters, the same in every frame"),

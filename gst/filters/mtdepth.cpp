@@ -99,7 +99,7 @@ void remove_depth_fields(GstStructure* fields) {
                               kPrincipalOffsetField, kPrincipalXField, kPrincipalYField, nullptr);
 }
 
-/// From the fields of a disparity map to those of its depth map.
+/// From the fields of a disparity map to the fields of its depth map.
 void to_depth(GstStructure* fields, GeometrySource& source, const DepthProperties& properties) {
   if (has_fixed_size(fields)) {
     const Result<StereoGeometry> geometry = source.geometry(fields, properties.geometry);

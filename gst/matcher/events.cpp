@@ -31,12 +31,11 @@ bool refuse_segment(ElementState& state, Side side, GstEvent* event, GstFormat f
 constexpr gint64 kLongestOffset = gint64{1} << 61;  // 73 years [ns]
 
 bool refuse_offset(ElementState& state, Side side, GstEvent* event, gint64 offset) {
-  state.messages.error(
-      GST_LIBRARY_ERROR, GST_LIBRARY_ERROR_SETTINGS,
-      std::string(pad_name(side)) + "::offset is " + std::to_string(offset) +
-          " ns, but an offset must be between -" + std::to_string(kLongestOffset) + " and " +
-          std::to_string(kLongestOffset) +
-          " ns: set it to the delay of one stream to the other, 0 if there is none.");
+  state.messages.error(GST_LIBRARY_ERROR, GST_LIBRARY_ERROR_SETTINGS,
+                       std::string(pad_name(side)) + "::offset is " + std::to_string(offset) +
+                           " ns, but an offset must be between -" + std::to_string(kLongestOffset) +
+                           " and " + std::to_string(kLongestOffset) +
+                           " ns: set it to the delay between the streams, or 0.");
   gst_event_unref(event);
   return false;
 }

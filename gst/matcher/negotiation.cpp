@@ -45,8 +45,8 @@ std::string camera_problem(const GstCaps* caps, Side side) {
   const std::string other = side == Side::kLeft ? "right" : "left";
   if (camera == nullptr || other != camera) return {};
   const std::string here = pad_name(side);
-  return "The view on " + here + " is that of the " + other +
-         " camera, as its caps state. If both cameras are linked to the wrong pads, exchange the "
+  return "The view on " + here + " is from the " + other +
+         " camera, by its caps. If both cameras are linked to the wrong pads, exchange the "
          "links. If both mtrectify have camera=" +
          other + ", set camera=" + (side == Side::kLeft ? "left" : "right") +
          " of the one upstream of " + here + ".";
@@ -91,7 +91,7 @@ CapsPointer sink_caps(const ElementState& state, Side side, GstCaps* filter) {
     CapsPointer preferred = intersection(wish.get(), result.get());
     result.reset(gst_caps_merge(preferred.release(), result.release()));
   }
-  // The order of preference is that of this element: GRAY8 and the size of the other stream first.
+  // In this element's order of preference: GRAY8 and the size of the other stream first.
   return filter != nullptr ? intersection(result.get(), filter) : std::move(result);
 }
 
@@ -127,8 +127,8 @@ bool negotiate_output(ElementState& state) {
       output_caps(state.formats[Side::kLeft], state.engine.settings().unit());
   state.messages.error(
       GST_CORE_ERROR, GST_CORE_ERROR_NEGOTIATION,
-      "Downstream does not accept the disparity map. Its size and framerate are those of "
-      "the left stream, its scale is the property disparity-scale, its format is GRAY16_LE: "
+      "Downstream does not accept the disparity map. It has the size and framerate of "
+      "the left stream, the scale of the property disparity-scale, and the format GRAY16_LE: "
       "change these, or put a converter (mtcolor, videoconvert) downstream.",
       "offered: " + caps_text(offered.get()) + "; accepted: " + caps_text(downstream.get()));
   return false;

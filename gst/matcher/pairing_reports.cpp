@@ -95,8 +95,8 @@ void PairingReports::refuse_mixed_stamping(bool left_has_time) {
   messages_.error(
       GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED,
       std::string("The frames of ") + (left_has_time ? "sink_left" : "sink_right") +
-          " have time stamps and those of " + (left_has_time ? "sink_right" : "sink_left") +
-          " have none, so they cannot be paired. Provide time stamps on both streams (for example "
+          " have time stamps, the frames of " + (left_has_time ? "sink_right" : "sink_left") +
+          " do not, so they cannot be paired. Provide time stamps on both streams (for example "
           "by appsrc do-timestamp=true) or on neither.");
 }
 

@@ -9,7 +9,7 @@
 namespace mtstereo::plugin {
 
 /// A property for every row of the parameter table. Type, range, default (of preset default and
-/// mode semi-dense), blurb and the descriptions of enumeration values are those of the row.
+/// mode semi-dense), blurb and the descriptions of enumeration values come from the row.
 ///
 /// Each parameter is a property of its own, also those that only experts change: the names are
 /// those of the library, the programs and the paper, gst-launch-1.0 sets them one by one, and

@@ -67,7 +67,7 @@ bool answer_duration(const ElementState& state, GstQuery* query) {
   return true;
 }
 
-/// The position of the last map; without one, that of the left stream.
+/// The position of the last map, or of the left stream before the first map.
 bool answer_position(const ElementState& state, GstQuery* query) {
   GstFormat format = GST_FORMAT_UNDEFINED;
   gst_query_parse_position(query, &format, nullptr);

@@ -51,8 +51,8 @@ std::string format_problem(const GstStructure* fields, const GstStructure* accep
     return problem + " is not supported: put videoconvert upstream of it";
   }
   return problem +
-         " is not that of a disparity map, GRAY16_LE: link an mtstereo to it, or a "
-         "decoder that outputs its maps unchanged";
+         " is not GRAY16_LE, the format of disparity maps: link an mtstereo to it, or a decoder "
+         "that outputs its maps unchanged";
 }
 
 }  // namespace

@@ -47,22 +47,21 @@ std::vector<Property<State>> geometry_rows() {
   using Row = Property<State>;
   return {
       Row("focal-length", {&State::geometry, &Geometry::focal_length}, 0, kLargestFocalLength,
-          "Focal length of the rectified views, in px (0: that of the calibration or of the caps, "
-          "which mtrectify sets)"),
+          "Focal length of the rectified views, in px (0: from the calibration or the caps)"),
       Row("baseline", {&State::geometry, &Geometry::baseline}, 0, kLongestBaseline,
-          "Distance of the cameras, in meters (0: that of the calibration or of the caps)"),
+          "Distance between the cameras, in meters (0: from the calibration or the caps)"),
       Row("principal-offset", {&State::geometry, &Geometry::principal_offset}, -kLargestOffset,
           kLargestOffset,
-          "Column of the principal point of the right view minus that of the left view, in px; it "
-          "is added to the disparities (not set: that of the calibration or of the caps, or 0)"),
+          "Column of the right principal point minus that of the left, in px, added to the "
+          "disparities (not set: from the calibration or the caps, else 0)"),
       Row("principal-x", {&State::geometry, &Geometry::principal_x}, -kLargestOffset,
           kLargestOffset,
-          "Column of the principal point of the left view, in px (not set: that of the calibration "
-          "or of the caps, or the center)"),
+          "Column of the left principal point, in px (not set: from the calibration or the caps, "
+          "else the center)"),
       Row("principal-y", {&State::geometry, &Geometry::principal_y}, -kLargestOffset,
           kLargestOffset,
-          "Row of the principal point of the left view, in px (not set: that of the calibration or "
-          "of the caps, or the center)"),
+          "Row of the left principal point, in px (not set: from the calibration or the caps, else "
+          "the center)"),
       Row("calibration", {&State::geometry, &Geometry::calibration},
           "Calibration file of the cameras, if the caps do not have the geometry: the views were "
           "rectified with it and the defaults of mtrectify, or by the rectification that it "

@@ -20,7 +20,7 @@ bool is_readable(GstVideoFormat format);
 std::string luma_formats();
 
 /// Reads the 8-bit luma of the frames of one stream. The luma of YUV is read as it is stored, by
-/// its 8 most significant bits; that of RGB is computed by the weights of BT.601, in full range.
+/// its 8 most significant bits; the luma of RGB has the weights of BT.601, in full range.
 /// Any stride and offset is accepted.
 class LumaReader {
  public:

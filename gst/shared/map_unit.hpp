@@ -26,7 +26,7 @@ struct MapUnit {
 /// values are not valid, or if the maps are depths.
 Result<std::optional<MapUnit>> disparity_unit_in(const GstStructure* fields);
 
-/// The unit of a disparity map: that of the caps, of the meta of the buffer, or of the property
+/// The unit of a disparity map: from the caps, the meta of the buffer, or the property
 /// disparity-scale.
 MapUnit map_unit(const std::optional<MapUnit>& caps, GstBuffer* map, int property);
 

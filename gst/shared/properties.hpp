@@ -15,7 +15,7 @@
 #include "mtstereo/result.hpp"
 
 // The properties of an element as a table: a row for each one, with its field in the structure of
-// the values. The default of a property is that of its field.
+// the values. The default of a property is its field's initial value.
 
 namespace mtstereo::plugin {
 

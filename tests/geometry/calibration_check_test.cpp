@@ -47,7 +47,7 @@ TEST(CheckCalibration, RefusesCamerasThatCannotBe) {
   EXPECT_THAT(refused([](auto& c) { c.left.focal_y = kNan; }), HasSubstr("focal lengths"));
   EXPECT_THAT(refused([](auto& c) { c.left.center_y = kNan; }), HasSubstr("not finite"));
   EXPECT_THAT(refused([](auto& c) { c.left.center_x = 1100; }),
-              HasSubstr("K is that of another image size"));
+              HasSubstr("K belongs to another image size"));
   EXPECT_THAT(refused([](auto& c) { c.left.coefficients.resize(3); }),
               HasSubstr("has 3 coefficients, 4, 5, 8, 12 or 14 are needed"));
   EXPECT_THAT(refused([](auto& c) { c.right.lens = LensModel::kFisheye; }),
@@ -129,7 +129,7 @@ TEST(ScaleCalibration, AdoptsTheSizeIfTheFileHasNone) {
   // K does not fit a much smaller image.
   const Result<StereoCalibration> small = scale_calibration(pair, 160, 120);
   ASSERT_FALSE(small.ok());
-  EXPECT_THAT(small.error().message, HasSubstr("K is that of another image size"));
+  EXPECT_THAT(small.error().message, HasSubstr("K belongs to another image size"));
 }
 
 TEST(ScaleCalibration, AcceptsRoundedSizesAndRefusesOtherAspectRatios) {

@@ -293,7 +293,7 @@ TEST_F(BrokenFile, WithSizesThatContradict) {
 TEST_F(BrokenFile, WithDuplicatesOrNamesThatAreLists) {
   EXPECT_THAT(refused("P0: 1 0 0 0 0 1 0 0 0 0 1 0\nP0: 1 0 0 0 0 1 0 0 0 0 1 0\n"
                       "P1: 1 0 0 0 0 1 0 0 0 0 1 0\n"),
-              HasSubstr("P0 is there twice"));
+              HasSubstr("P0 appears twice"));
   EXPECT_THAT(refused("? [1, 2]\n: 3\nM1: 4\n"), HasSubstr("name of an entry is a list"));
 }
 

@@ -114,11 +114,11 @@ StereoCalibration read_camera_info(const Entry& left_file, const Entry& right_fi
   const Entry& p2 = right.projection_entry;
   Rectification rectification = rectification_from(views, p1, p2);
   if (rectification.baseline == 0) {
-    p2.fail("states a baseline of 0: its fourth value is that of " + left_file.file() +
+    p2.fail("states a baseline of 0: its fourth value equals that in " + left_file.file() +
             "; calibrate both cameras together as a pair");
   }
   if (left.region.binning != right.region.binning) {
-    right_file.fail("binning_x is not that of " + left_file.file() + "; they must be equal");
+    right_file.fail("binning_x differs from " + left_file.file() + "; they must be equal");
   }
   apply_region(left.region, rectification);
   rectification.width = left.calibration.width;

@@ -43,7 +43,7 @@ const Entry& camera_of(const Entry& file, const std::vector<Socket>& sockets, in
   return found->entry;
 }
 
-/// The sockets of the pair: selected, or those of the board's own stereo matcher.
+/// The sockets of the pair: as selected, else as the board's own stereo matcher uses them.
 Selection choose_sockets(const Entry& file, const std::string& selection) {
   if (!selection.empty()) return selected_pair(file, selection, "1-2");
   const std::optional<Entry> stereo = file.find("stereoRectificationData");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Kalibr's camchain, also that of open_vins: cam0, cam1 and so on. T_cn_cnm1 moves points from the
+// The camchain of Kalibr and open_vins: cam0, cam1 and so on. T_cn_cnm1 moves points from the
 // camera before, T_cam_imu from the IMU to the camera, T_imu_cam from the camera to the IMU.
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Middlebury's calib.txt, and that of ETH3D: rectified cameras, the baseline in millimeters.
+// The calib.txt of Middlebury and ETH3D: rectified cameras, the baseline in millimeters.
 #include <cmath>
 #include <optional>
 #include <string>

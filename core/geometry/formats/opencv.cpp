@@ -24,7 +24,7 @@ constexpr Names kHeight =
     "imageheight height leftheight leftimageheight imagesizeheight resolutionheight";
 constexpr Names kRightProjection = "p2 pr pright rightp";
 
-/// The size that the files state, or that of the caller.
+/// The size that the files state, else the caller's.
 void read_sizes(const OpenCvEntries& files, const Request& request,
                 StereoCalibration& calibration) {
   CameraCalibration& left = calibration.left;

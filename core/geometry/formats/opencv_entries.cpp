@@ -38,7 +38,7 @@ bool is_matrix(const Value& value) {
   return std::find(value.names.begin(), value.names.end(), "data") != value.names.end();
 }
 
-/// Adds the entries of a map, and instead of a map in it that is no matrix those of that map.
+/// Adds the entries of a map; a nested map that is no matrix is replaced by its entries.
 void flatten(const Entry& map, std::vector<Entry>& entries) {
   const Value& value = map.value();
   for (std::size_t i = 0; i < value.names.size() && i < value.items.size(); ++i) {
@@ -67,7 +67,7 @@ std::optional<Entry> OpenCvEntries::find(Names names) const {
     if (!is_one_of(plain_name(entry.name()), names)) continue;
     const bool same_file = found && found->file() == entry.file();
     if (same_file && found->name() == entry.name()) {
-      entry.fail("is there twice; remove one of them");
+      entry.fail("appears twice; remove one of them");
     }
     if (found && !(found->value() == entry.value())) {
       entry.fail(same_file ? "has another value than " + found->name() + "; remove one of them"

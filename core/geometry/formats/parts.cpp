@@ -17,7 +17,7 @@ constexpr double kRelativeFocalDifference = 1e-3;
 /// Largest difference of the rows of the principal points of rectified views [px].
 constexpr double kRowDifference = 0.1;
 
-/// Checks that a projection is that of a rectified view, and returns its focal length.
+/// Checks that a projection is a rectified view's, and returns its focal length.
 double focal_length_of(const std::vector<double>& p, const Entry& entry) {
   if (p[0] <= 0 || p[5] <= 0) {
     entry.fail("has the focal lengths " + number_text(p[0]) + " and " + number_text(p[5]) +
@@ -152,7 +152,7 @@ void set_lens(CameraCalibration& camera, LensModel lens, const Entry& coefficien
   if (lens == LensModel::kNone) {
     const bool zero = std::all_of(camera.coefficients.begin(), camera.coefficients.end(),
                                   [](double value) { return value == 0; });
-    if (!zero) coefficients.fail("has values, but the lens model is none");
+    if (!zero) coefficients.fail("has values, but the lens model is \"none\"");
     camera.coefficients.clear();
     return;
   }
@@ -213,13 +213,12 @@ Rectification rectification_from(const RectifiedViews& views, const Entry& left,
   rectification.focal_length = focal_length_of(p1, left);
   const double right_focal = focal_length_of(p2, right);
   if (std::abs(right_focal - p1[0]) > kRelativeFocalDifference * p1[0]) {
-    right.fail("has the focal length " + number_text(right_focal) + ", that of the left view is " +
+    right.fail("has the focal length " + number_text(right_focal) + ", the left view has " +
                number_text(p1[0]) + "; the views are not rectified to each other");
   }
   if (std::abs(p1[6] - p2[6]) > kRowDifference) {
-    right.fail("has the row of the principal point " + number_text(p2[6]) +
-               ", that of the left view is " + number_text(p1[6]) +
-               "; the views are not rectified to each other");
+    right.fail("has the row of the principal point " + number_text(p2[6]) + ", the left view has " +
+               number_text(p1[6]) + "; the views are not rectified to each other");
   }
   rectification.left_center_x = p1[2];
   rectification.right_center_x = p2[2];

@@ -31,7 +31,7 @@ StereoCalibration read_euroc(const Entry& left, const Entry& right, const Reques
 StereoCalibration read_kitti_raw(const Entry& file, const Request& request);
 /// The calib.txt of KITTI's odometry and object data: a map of P0 to P3, or a list without names.
 StereoCalibration read_kitti_odometry(const Entry& file, const Request& request);
-/// Middlebury's calib.txt, also that of ETH3D.
+/// The calib.txt of Middlebury and ETH3D.
 StereoCalibration read_middlebury(const Entry& file, const Request& request);
 /// The calibration of a DepthAI board as JSON.
 StereoCalibration read_depthai(const Entry& file, const Request& request);
@@ -39,7 +39,7 @@ StereoCalibration read_depthai(const Entry& file, const Request& request);
 StereoCalibration read_zed(const Entry& file, const Request& request);
 /// A file of ORB-SLAM2 or ORB-SLAM3.
 StereoCalibration read_orbslam(const Entry& file, const Request& request);
-/// A file of VINS-Fusion, and those of its cameras, which it names.
+/// A file of VINS-Fusion, and the camera files that it names.
 StereoCalibration read_vins(const Entry& file, const Request& request);
 /// A calibration of Basalt.
 StereoCalibration read_basalt(const Entry& file, const Request& request);

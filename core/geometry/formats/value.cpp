@@ -82,7 +82,7 @@ std::optional<Entry> Entry::find_by(std::string_view name, Matches matches) cons
     if (!matches(value_->names[i], name)) continue;
     std::string path = name_.empty() ? "" : name_ + ".";
     path += printable(value_->names[i]);
-    if (found) found->fail("is there twice; remove one of them");
+    if (found) found->fail("appears twice; remove one of them");
     found.emplace(value_->items[i], file_, std::move(path));
   }
   return found;

@@ -58,7 +58,7 @@ class Entry {
   bool is_list() const { return value_->kind == Value::Kind::kList; }
   bool is_map() const { return value_->kind == Value::Kind::kMap; }
 
-  /// The entry of a map with this name. An error if it is there twice.
+  /// The entry of a map with this name. An error if it appears twice.
   std::optional<Entry> find(std::string_view name) const;
   /// The same, but upper and lower case are equal.
   std::optional<Entry> find_any_case(std::string_view name) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// VINS-Fusion: a file that names those of its cameras, which are beside it. body_T_cam0 moves
+// VINS-Fusion: a file that names the files of its cameras, in the same folder. body_T_cam0 moves
 // points from the camera to the body.
 #include <filesystem>
 #include <optional>

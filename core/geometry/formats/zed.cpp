@@ -80,7 +80,7 @@ double number(const Entry& section, const std::string& name) {
 }
 
 /// The distortion is in the section of the camera, or for all resolutions in one of its own.
-/// There, four coefficients without p1 are those of a fisheye lens.
+/// There, four coefficients without p1 belong to a fisheye lens.
 void read_lens(CameraCalibration& camera, const Entry& section, bool shared) {
   const auto k = [&](const char* name) { return number_or_zero(section, name); };
   (void)number(section, "k1");

@@ -98,8 +98,8 @@ struct PairFindings {
   RowField field;
   int terms = 0;         ///< number of terms in use: 0, 1 (offset), 3 (with roll, stretch) or 5
   double deviation = 0;  ///< predicted standard deviation of the field where it is largest [px]
-  /// Sharpness of the left view divided by that of the right one; 1 if they are equal, 0 if it is
-  /// unknown.
+  /// Sharpness of the left view divided by the sharpness of the right one; 1 if they are equal, 0
+  /// if unknown.
   double sharpness_ratio = 0;
   float left_blur = 0;  ///< sigma of the blur that makes the left view as blurred as the right [px]
   float right_blur = 0;  ///< the same for the right view [px]; at least one of the two is 0
@@ -155,11 +155,11 @@ class MTSTEREO_API AlignmentTracker {
   /// kInvalidImage or kSizeMismatch.
   Status watch(GrayView left, GrayView right) noexcept;
 
-  /// Estimates the row field and the sharpness of a pair, and updates the correction. The views are
-  /// those of the cameras, without the correction. Disparities up to `max_disparity` [px] are
-  /// searched, which must be positive. A new image size forgets everything, as reset() does. Fails
-  /// with kInvalidImage, kSizeMismatch, kInvalidParameter, kOutOfMemory or kSystem; a pair that
-  /// gives no trusted field is a success.
+  /// Estimates the row field and the sharpness of a pair, and updates the correction. Pass the
+  /// views as the cameras deliver them, without the correction. Disparities up to `max_disparity`
+  /// [px] are searched, which must be positive. A new image size forgets everything, as reset()
+  /// does. Fails with kInvalidImage, kSizeMismatch, kInvalidParameter, kOutOfMemory or kSystem; a
+  /// pair that gives no trusted field is a success.
   Status inspect(GrayView left, GrayView right, int max_disparity) noexcept;
   /// The same for a stereo camera with negative disparities: those from `min_disparity`
   /// (Parameter::kMinDisparity) on are searched, and are not taken for swapped views.

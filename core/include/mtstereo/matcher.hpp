@@ -21,8 +21,8 @@ struct FrameStatistics {
   double density = 0;            ///< fraction of pixels with a disparity, 0 .. 1
   bool half_resolution = false;  ///< the views were matched at half resolution
   /// With resolution=auto: energy of the finest octave of spatial frequencies that both views have
-  /// in common, divided by that of the next octave; a soft camera has less than 0.08. 0 if it was
-  /// not measured: with another resolution, or too few matched pixels or too little texture.
+  /// in common, divided by the energy of the next octave; a soft camera has less than 0.08. 0 if it
+  /// was not measured: with another resolution, or too few matched pixels or too little texture.
   double fine_detail = 0;
 };
 

@@ -80,7 +80,7 @@ void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1)
   }
 }
 
-/// Counts those of the row that enters the window, and sums the counts of all its rows.
+/// Counts the bits of the row that enters the window, and sums the counts of all its rows.
 template <int kSize, bool kRunning, class D8>
 void sum_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
   with_vectors(

@@ -18,7 +18,7 @@ struct CensusRow {
   std::uint8_t* right[kCensusBytes];
 };
 
-/// With windows, columns whose sums are stored: those of a tile and around it, a power of 2.
+/// With windows, columns whose sums are stored: a tile and its surroundings, a power of 2.
 inline constexpr int kSummedColumns = 2 * kWindowTile;
 
 /// The rows of the window.
@@ -28,10 +28,10 @@ struct CensusWindow {
   CensusRow in;               ///< the row that enters the window
   std::uint8_t* rows[5];      ///< differing bits of the entering row and those before it
   const CostWindow* matched;  ///< the windows of the row whose costs are written
-  const CostWindow* counted;  ///< those of all rows whose costs need the entering row
+  const CostWindow* counted;  ///< windows that cover all rows whose costs need the entering row
   std::uint8_t* sums;         ///< over the window's rows, see CensusCostScratch
 
-  /// Without windows the sums of the row before become those of the next one.
+  /// Without windows the sums are updated from row to row.
   bool running() const { return matched == nullptr; }
   std::uint8_t* sums_of(int x) const {
     return sums + static_cast<std::ptrdiff_t>(running() ? x : x & (kSummedColumns - 1)) * lanes;

@@ -25,9 +25,9 @@ struct ColumnStep {
 };
 
 /// Advances the paths by one row: writes the path costs of its cells, as defined at
-/// start_scanline(), from those of the previous row. `before` may be `paths`; it is nullptr in the
-/// paths' first row. Overwrites cells of `before` outside of the windows. `least` holds the least
-/// path cost of each column of the previous row, and then that of this one.
+/// start_scanline(), from the costs of the previous row. `before` may be `paths`; it is nullptr in
+/// the paths' first row. Overwrites cells of `before` outside of the windows. `least` holds the
+/// least path cost of each column, first of the previous row, then of this one.
 void step_columns(const ColumnStep& row, std::uint8_t* before, std::uint8_t* paths,
                   std::uint8_t* least);
 

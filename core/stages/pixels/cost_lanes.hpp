@@ -32,7 +32,7 @@ inline constexpr int kWindowStep = 16;
 /// Side of the tiles whose pixels have the same window [px].
 inline constexpr int kWindowTile = 16;
 
-/// The window of column x, given those of the row's tiles; nullptr = all lanes.
+/// The window of column x; `windows` has one per tile of the row, nullptr = all lanes.
 inline CostWindow window_at(const CostWindow* windows, int lanes, int x) {
   if (windows == nullptr) return {0, static_cast<std::uint16_t>(lanes)};
   return windows[x / kWindowTile];

@@ -23,10 +23,10 @@ RunnerUpTable runner_up_table(double confidence);
 /// Starts a row.
 void start_selection(SelectionScratch& scratch);
 
-/// Passes the costs of the columns begin .. end - 1: that of column x and disparity d is at
-/// (x - begin) * cost_lanes() + d. Costs are below kCostLimit; those of the cells d >= D are
-/// kCostLimit - 1. Pixels with low > high have no expected range. `windows` are those of the row's
-/// tiles, nullptr = all lanes; disparities outside of them do not exist.
+/// Passes the costs of the columns begin .. end - 1: the cost of column x and disparity d is at
+/// (x - begin) * cost_lanes() + d. Costs are below kCostLimit; cells d >= D have kCostLimit - 1.
+/// Pixels with low > high have no expected range. `windows` has one per tile of the row, nullptr =
+/// all lanes; disparities outside of them do not exist.
 void offer_costs(const std::uint16_t* costs, int begin, int end, int width,
                  const SelectionOptions& options, const std::uint16_t* low,
                  const std::uint16_t* high, const CostWindow* windows, SelectionScratch& scratch);

@@ -61,9 +61,9 @@ HWY_INLINE V lanes_after(Bytes d8, V v, V after) {
   }
 }
 
-/// The path costs of a pixel: its costs plus those of the cheapest step from the path's previous
-/// pixel, minus `least`, the least path cost there. `before`, `same` and `after` are successive
-/// vectors of the previous pixel's path costs, `any` is `least` plus the cost of a large step.
+/// The path costs of a pixel: its costs plus the cheapest step from the path's previous pixel,
+/// minus `least`, the least path cost there. `before`, `same` and `after` are successive vectors of
+/// the previous pixel's path costs, `any` is `least` plus the cost of a large step.
 template <class V>
 HWY_INLINE V path_costs(Bytes d8, V costs, V before, V same, V after, V small_step, V any,
                         V least) {
@@ -73,7 +73,7 @@ HWY_INLINE V path_costs(Bytes d8, V costs, V before, V same, V after, V small_st
 }
 
 /// The inputs of a path's step, in every lane: the cost of a small step, and the previous pixel's
-/// least cost without and with that of a large step.
+/// least cost without and with a large step.
 struct StepCosts {
   hn::Vec<Bytes> small_step, least, any;
 };

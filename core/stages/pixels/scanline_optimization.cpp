@@ -80,7 +80,7 @@ class Path {
     }
   }
 
-  /// Writes the sums of the last pixel's costs and of those that the other path has stored for it.
+  /// Writes the last pixel's costs plus the costs that the other path has stored for it.
   template <int kVectors>
   HWY_INLINE void add(const std::uint8_t* paths, int x, std::uint16_t* sums) const {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * lanes_;

@@ -77,8 +77,8 @@ int scanline_blocks(int width);
 /// from a disparity that is in the windows of both pixels, a larger one from any.
 void start_scanline(const ScanlineRow& row, ScanlineScratch& scratch);
 
-/// The sums of the next columns of both paths: first those of the path from the left, then those of
-/// the path from the right. Either may have no columns. Valid until the next call.
+/// The sums of the next columns of both paths, the path from the left first. Either may have no
+/// columns. Valid until the next call.
 std::array<ScanlineSums, 2> scanline_block(const ScanlineRow& row, int block,
                                            ScanlineScratch& scratch);
 

@@ -18,7 +18,7 @@ constexpr int kMostBins = (kLargestMaxDisparity + kCostStep) / kWindowStep;
 
 using BinVotes = std::array<int, kMostBins>;
 
-/// Votes for all bins within kVoteReach of twice each known disparity. Returns the number of those.
+/// Votes for all bins within kVoteReach of twice each known disparity. Returns how many are known.
 int vote(const std::int32_t* disparities, int count, int bins, std::uint8_t* votes) {
   int known = 0;
   for (int i = 0; i < count; ++i) {

@@ -12,8 +12,8 @@ namespace mtstereo {
 /// points to. This takes less than half the time and changes hardly any pixel.
 ///
 /// The views at half the resolution vote, pixel by pixel, for disparities: with the result of their
-/// paths, and with that of their costs alone, which also finds objects that are too thin for
-/// the paths. The pixels of a tile are matched in one window, which contains all disparities that
+/// paths, and with the result of their costs alone, which also finds objects too thin for the
+/// paths. The pixels of a tile are matched in one window, which contains all disparities that
 /// got votes in this tile and the eight around it.
 
 /// The votes in each tile for each kWindowStep disparities ("bin"). A tile of the views has
@@ -29,7 +29,7 @@ struct WindowVotes {
   Buffer<std::uint8_t> by_path;  ///< [row][column][bin]
   Buffer<std::uint8_t> by_cost;
   Buffer<std::uint8_t> compared;  ///< [row][column]: pixels in rows that are matched in both ways
-  Buffer<std::uint8_t> agreeing;  ///< those of them with about the same disparity in both ways
+  Buffer<std::uint8_t> agreeing;  ///< of these, pixels with about the same disparity in both
 };
 
 /// Rows of the views at half the resolution in a tile.
@@ -70,7 +70,7 @@ class SearchWindows {
   /// The windows of the tiles of row y; nullptr = all lanes.
   const CostWindow* row(int y) const;
 
-  /// Windows that contain those of the rows y - reach .. y + reach, and perhaps more.
+  /// Windows that contain the windows of the rows y - reach .. y + reach, and perhaps more.
   const CostWindow* around(int y, int reach) const;
 
  private:

@@ -14,7 +14,7 @@ namespace mtstereo {
 /// Number of half pixels that cover a side of `side` pixels.
 constexpr int half_of(int side) { return (side + 1) / 2; }
 
-/// Writes the rows y0 .. y1 - 1 of `half`, whose sides are half_of() those of the view: the rounded
+/// Writes the rows y0 .. y1 - 1 of `half`, whose sides are half_of() the view's: the rounded
 /// mean of 2x2 pixels. The last column or row of an odd side is repeated.
 void halve_rows(GrayView view, int y0, int y1, Image<std::uint8_t>& half);
 

@@ -33,8 +33,8 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
                     const Image<std::uint8_t>& confidence, const ClueMaps& clues, int y,
                     ReliabilityScratch& scratch);
 
-/// Whether the confidence of inferred disparities stays at most kMostInferred, and that of matched
-/// ones above it.
+/// Whether inferred disparities keep a confidence of at most kMostInferred, and matched ones a
+/// higher one.
 enum class Inferred { kApart, kLikeMatched };
 
 /// Replaces the confidence of the rows y0 .. y1 - 1 by the sum of the table's entries, 1 .. 255.

@@ -84,7 +84,7 @@ bool is_thin(const std::int32_t* row, int before, int begin, int end, int after,
   return run.disparity - background > kThinStep;
 }
 
-/// The run of a line with the most columns in common with `run`, the first of those, or -1. `from`
+/// The first run of a line with the most columns in common with `run`, or -1. `from`
 /// is the first run that may overlap; it moves on with the runs.
 std::int32_t best_overlap(const ThinRun* line, int count, const ThinRun& run, int& from) {
   while (from < count && line[from].end <= run.begin) ++from;

@@ -12,7 +12,7 @@ namespace mtstereo {
 /// Finds thin structures in the map of the matching: posts, rails, wires. They are too small for
 /// the speckle removal and too narrow for the confidence, although most of their disparities are
 /// right. They differ from wrong disparities in two ways: they continue over many lines, and the
-/// right view agrees with their disparity and not with that of the background.
+/// right view agrees with their disparity, not with the background's.
 ///
 /// A *line* is a row, or a column for objects that lie along the rows. A *thin run* is a run of
 /// connected pixels of a line that is nearer than what is before and after it. Thin runs of
@@ -63,7 +63,7 @@ inline constexpr int kMostPixelMisfit = 4;  ///< its difference from the right v
 /// A pixel, in means along the chain or of one run.
 struct ThinPixel {
   std::int16_t gain;  ///< evidence: by how much the right view is more like the pixel at the run's
-                      ///< disparity than at that of the background
+                      ///< disparity than at the background's
   std::int16_t misfit;  ///< difference from the right view at the run's disparity
   std::int16_t gray;    ///< gray value
 };
@@ -140,9 +140,9 @@ void rate_thin_runs(const ThinViews& views, int line0, int line1, ThinRuns& runs
 void accept_chains(ThinRuns& runs);
 
 /// Replaces the disparities of the pixels of accepted chains by their negatives, in these lines of
-/// a copy of the map. A pixel stays as it is if the right view does not agree with it along the
-/// chain, or if its gray value is more like that outside of the run than like that of its middle:
-/// then the matching has widened the object.
+/// a copy of the map. A pixel stays unchanged if the right view does not agree with it along the
+/// chain, or if its gray value is more like the outside of the run than like its middle: then the
+/// matching has widened the object.
 void mark_thin_pixels(const ThinRuns& runs, int line0, int line1, Image<std::int32_t>& copy);
 
 }  // namespace mtstereo

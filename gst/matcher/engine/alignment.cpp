@@ -33,7 +33,7 @@ void PairAlignment::switch_off() {
   report_.applied = {};
 }
 
-/// Whether there is a stored field for frames of this size: that of its first use.
+/// Whether there is a stored field for frames of this size. Its first use determines its size.
 bool PairAlignment::field_fits(const AlignmentSettings& settings, Size size) {
   if (settings.field_revision != field_revision_) {
     field_revision_ = settings.field_revision;

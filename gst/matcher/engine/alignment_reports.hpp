@@ -10,7 +10,7 @@
 
 namespace mtstereo::plugin {
 
-/// Adds the fields on alignment to a structure: those of the property `stats` and of the message
+/// Adds the fields on alignment to a structure, for the property `stats` and the message
 /// `mtstereo-alignment`.
 void add_alignment_fields(GstStructure* structure, const AlignmentReport& report);
 

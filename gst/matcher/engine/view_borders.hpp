@@ -22,7 +22,7 @@ struct BorderedView {
 /// The borders of both views of a stream, as mtrectify attaches them to the frames.
 class Borders {
  public:
-  /// Takes those of the frames of a pair. Costs nothing if they are those of the last pair.
+  /// Takes the borders of the frames of a pair. Costs nothing if they have not changed.
   void take(GstBuffer* left, GstBuffer* right, const BorderedView& view);
   /// True if a view has a border.
   bool any() const { return !views_[0].columns.empty() || !views_[1].columns.empty(); }

@@ -26,7 +26,7 @@ class SourceEvents {
   SourceEvents(const SourceEvents&) = delete;
   SourceEvents& operator=(const SourceEvents&) = delete;
 
-  /// The segment of the frames that follow. False if it is that of the last frame.
+  /// The segment of the frames that follow. False if it has not changed since the last frame.
   bool adopt_segment(const std::shared_ptr<const StreamSegment>& segment);
   /// Signals that a span of time has no disparity. Send it only if no map can follow soon: a sink
   /// waits until the time of a gap.

@@ -39,7 +39,7 @@ std::size_t ordered_length(std::span<const Nanoseconds> times) {
 
 }  // namespace
 
-/// The median of the steps between frames: of those that have passed and of those that wait.
+/// The median of the steps between frames, passed and waiting.
 Nanoseconds PairFinder::Stream::period(std::span<const Nanoseconds> waiting) const {
   std::array<Nanoseconds, std::tuple_size_v<decltype(steps)> + kMostFrames> all{};
   auto end = std::copy_n(steps.begin(), std::min(count, steps.size()), all.begin());

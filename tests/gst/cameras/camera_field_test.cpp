@@ -39,7 +39,7 @@ TEST(CameraField, OfTheOtherPadIsAnError) {
     const Report error = harness.error();
     const std::string refused = each.refused;
     const std::string camera = refused == "sink_left" ? "right" : "left";
-    EXPECT_NE(error.text.find("on " + refused + " is that of the " + camera + " camera"),
+    EXPECT_NE(error.text.find("on " + refused + " is from the " + camera + " camera"),
               std::string::npos)
         << error.text;
     EXPECT_NE(error.text.find("mtrectify"), std::string::npos) << error.text;
@@ -65,7 +65,7 @@ class RectifiedCameras : public testing::Test {
 
 TEST_F(RectifiedCameras, BothLeftByDefaultAreAnError) {
   const std::string error = Pipeline(launch("", "", "")).run();
-  EXPECT_NE(error.find("on sink_right is that of the left camera"), std::string::npos) << error;
+  EXPECT_NE(error.find("on sink_right is from the left camera"), std::string::npos) << error;
   EXPECT_NE(error.find("set camera=right"), std::string::npos) << error;
 }
 

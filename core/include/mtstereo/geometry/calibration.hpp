@@ -61,7 +61,7 @@ struct Rectification {
   double baseline = 0;        ///< distance of the cameras [m]
 
   /// What to add to a disparity before focal_length * baseline / disparity is the depth [px]: the
-  /// column of the principal point of the right view minus that of the left view. Middlebury calls
+  /// column of the principal point of the right view minus the left view's. Middlebury calls
   /// it doffs.
   double principal_offset() const { return right_center_x - left_center_x; }
 
@@ -118,7 +118,7 @@ MTSTEREO_API Result<StereoCalibration> read_calibration(const std::string& path,
 /// Writes a calibration as YAML that OpenCV's FileStorage reads, and plain YAML readers too: K, D,
 /// R, T [m], the rectification if there is one, the units and the date. The file is written aside
 /// and renamed, so that an interrupted program leaves no half of it. Without a date, the
-/// calibration gets that of the call. Fails with kInvalidCalibration or kSystem.
+/// calibration gets the current one. Fails with kInvalidCalibration or kSystem.
 MTSTEREO_API Status write_calibration(const StereoCalibration& calibration,
                                       const std::string& path) noexcept;
 

@@ -31,7 +31,7 @@ class MTSTEREO_API FreeSpace {
   /// bound (0) if there is no disparity to its left or none to its right: what is beyond the last
   /// disparity of a row is often nearer.
   ///
-  /// The values are those of the map, in its scale and with its offset; DepthConverter turns both
+  /// The values have the scale and the offset of the map; DepthConverter turns both
   /// maps into depths. `disparity` and `bounds` may be the same image. The time is proportional to
   /// the number of pixels. Allocates only for a map with more pixels than all before. Fails with
   /// kInvalidImage, kSizeMismatch or kOutOfMemory; then `bounds` is unchanged.

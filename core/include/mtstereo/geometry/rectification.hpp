@@ -18,10 +18,10 @@ namespace mtstereo {
 struct RectificationOptions {
   /// 0: only pixels that both cameras see are kept, the image is cropped; 1: all pixels of both
   /// cameras are kept, with empty borders; values between are between. kKeepScale: the focal length
-  /// stays that of the cameras.
+  /// of the cameras is kept.
   double alpha = 0;
-  int width = 0;   ///< of the rectified images [px]; 0 = that of the cameras
-  int height = 0;  ///< of the rectified images [px]; 0 = that of the cameras
+  int width = 0;   ///< of the rectified images [px]; 0 = as the cameras
+  int height = 0;  ///< of the rectified images [px]; 0 = as the cameras
   /// The principal points of both views get the same column, so that points at infinity have the
   /// disparity 0. Otherwise the views are moved to share as much of the scene as possible.
   bool zero_disparity = true;
@@ -86,7 +86,7 @@ class MTSTEREO_API Rectifier {
   /// Resamples one plane with `channels` interleaved 8-bit values per pixel (1, 3 or 4; widths and
   /// strides of the views count pixels and bytes). Bilinear, in fixed point. Pixels that the
   /// camera does not see get `border` in every channel. Allocates nothing. Fails with kSizeMismatch
-  /// unless `in` has the size of the camera and `out` that of the rectification.
+  /// unless `in` has the size of the camera and `out` the size of the rectification.
   Status apply(ImageView<const std::uint8_t> in, ImageView<std::uint8_t> out, int channels = 1,
                std::uint8_t border = 0) noexcept;
 
