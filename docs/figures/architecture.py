@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The generated parts of docs/architecture.md: the table of steps and the picture.
+"""The generated parts of docs/architecture.md: the table of steps and the diagram.
 
   mtstereo-figures --steps | architecture.py table
   mtstereo-figures --steps | architecture.py picture PICTURE.png
@@ -19,7 +19,7 @@ ROWS = "core/matcher/steps.cpp"  # the lists
 STEPS = ("view_steps", "path_steps", "node_steps", "map_steps", "result_steps", "rating")  # their functions
 GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "ResultMaps", "ResultBuffers")
 MODES = ("sparse", "semi-dense", "dense", "full")
-INK, FAINT, GIVEN, EDGE = "#282828", "#767676", "#1464be", "#b4b4b4"
+INK, FAINT, EDGE = "#282828", "#767676", "#b4b4b4"
 GST, CORE, ROOM = "#fdf0dc", "#e4eefa", "#f4f4f4"
 
 
@@ -144,9 +144,8 @@ def table(steps):
 
 # The path of a frame before and after the steps: color, place, what it does.
 BEFORE = [
-    (GST, "gst/matcher: the element mtstereo", ["aggregation, pairing: two frames of the same time",
-                                                "matching: one pair from start to end"]),
-    (GST, "gst/shared/frame_views: MappedFrame", ["maps a GstBuffer as a GrayView"]),
+    (GST, "gst/matcher/pairing: Pairing", ["finds two frames of the same time"]),
+    (GST, "gst/matcher/engine: Engine", ["maps both buffers, inspects their alignment if due"]),
     (CORE, "core/matcher/matcher: Matcher", ["makes Settings of the Parameters; checks the views",
                                                       "base/guard: turns exceptions into errors"]),
     (CORE, "core/matcher/frame_matcher: FrameMatcher", ["owns the memory (frame_memory) and the threads",
@@ -154,14 +153,14 @@ BEFORE = [
 ]
 AFTER = [
     (CORE, "core/matcher/matcher: write_disparity16()", ["converts a DisparityView to the 16-bit output"]),
-    (GST, "gst/matcher: confidence, allocation", ["attach the confidence map and the left frame's times"]),
-    (GST, "gst/filters: mtconfidence, mtcolor", ["elements downstream"]),
+    (GST, "gst/matcher/engine: confidence", ["attaches the confidence map"]),
+    (GST, "gst/matcher/output: Output", ["sends the map with the times of the left frame"]),
 ]
 
 
 class Drawing:
     """A picture in pixels, y downwards."""
-    WIDTH, DPI = 1415, 100
+    WIDTH, DPI = 846, 100
 
     def __init__(self, height):
         # pylint: disable=import-outside-toplevel
@@ -191,10 +190,6 @@ class Drawing:
         self.axes.annotate("", points[-1], points[-2], arrowprops={
             "arrowstyle": "-|>", "color": INK, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0})
 
-    def dot(self, x, y, filled):
-        self.axes.add_patch(self.patches.Circle((x, y), 5.5, edgecolor=GIVEN, linewidth=1.4,
-                                                facecolor=GIVEN if filled else "white"))
-
     def write(self, path):
         self.canvas.print_png(path, metadata={"Software": None})
 
@@ -202,7 +197,7 @@ class Drawing:
 def draw_way(drawing, boxes, top):
     """Boxes from top to bottom with arrows between them. Returns the middle heights of the first
     and of the last one."""
-    x, width, y, middles = 20, 385, top, []
+    x, width, y, middles = 16, 370, top, []
     for color, title, lines in boxes:
         height = 34 + 19 * len(lines)
         drawing.box(x, y, width, height, color)
@@ -216,51 +211,37 @@ def draw_way(drawing, boxes, top):
     return middles[0], middles[-1]
 
 
-def draw_steps(drawing, steps, top):
-    """The lists with their steps and the memory of each. Returns the heights of the first and of
-    the last list's middle."""
-    x, right, row, columns = 470, 1395, 25, 965
-    spacing = (right - columns) / len(GROUPS)
-    drawing.text(x, top, "core/matcher/steps", 9.5, weight="bold")
-    drawing.text(x + 205, top, "presets that run it")
-    for i, group in enumerate(GROUPS):
-        drawing.text(columns + spacing * (i + 0.5), top, re.sub("(t)(Maps|Buffers)", r"\1\n\2", group), 8.5,
-                     ha="center", linespacing=0.95)
-    y, middles = top + 20, []
-    lists = list(dict.fromkeys(step.list for step in steps))
-    for which in lists:
-        inside = [step for step in steps if step.list == which]
-        height = 12 + row * (len(inside) + 1)
-        drawing.box(x, y, right - x, height, ROOM)
-        drawing.text(x + 12, y + 18, f"k{which}Steps", 9.5, weight="bold")
-        for i, step in enumerate(inside):
-            at = y + 18 + row * (i + 1)
-            default = "semi-dense" in step.runs.get("default", [])
-            drawing.text(x + 28, at, step.name, 9.5, INK if default else FAINT)
-            drawing.text(x + 205, at, presets_of(step, steps), 9, INK if default else FAINT)
-            for k, group in enumerate(GROUPS):
-                if group in step.reads + step.writes:
-                    drawing.dot(columns + spacing * (k + 0.5), at, group in step.writes)
-        middles.append(y + height / 2)
-        y += height + 10
-    legend = y + 10
-    drawing.dot(x + 8, legend, True)
-    drawing.text(x + 20, legend, "reads and writes the group")
-    drawing.dot(x + 218, legend, False)
-    drawing.text(x + 230, legend, "only reads it")
-    drawing.text(x + 345, legend, "gray: not with the defaults", color=FAINT)
-    return middles[0], middles[-1]
+def draw_list(drawing, which, steps, x, top):
+    """The box of a list with its steps. Returns the top of the box below."""
+    inside = [step for step in steps if step.list == which]
+    drawing.box(x, top, 190, 12 + 25 * (len(inside) + 1), ROOM)
+    drawing.text(x + 12, top + 18, f"k{which}Steps", 9.5, weight="bold")
+    for i, step in enumerate(inside):
+        default = "semi-dense" in step.runs.get("default", [])
+        drawing.text(x + 28, top + 43 + 25 * i, step.name, 9.5, INK if default else FAINT)
+    return top + 59 + 25 * len(inside)
 
 
 def picture(steps, path):
-    lists = len({step.list for step in steps})
-    drawing = Drawing(115 + 25 * len(steps) + 47 * lists)
-    first_list, last_list = draw_steps(drawing, steps, 28)
-    drawing.text(20, 28, "The path of a frame", 9.5, weight="bold")
-    _, last = draw_way(drawing, BEFORE, 48)
-    drawing.arrow((405, last), (438, last), (438, first_list), (470, first_list))
-    first, _ = draw_way(drawing, AFTER, 640)
-    drawing.arrow((470, last_list), (438, last_list), (438, first), (405, first))
+    drawing = Drawing(925)
+    drawing.text(16, 24, "The path of a frame", 9.5, weight="bold")
+    drawing.text(434, 24, "core/matcher/steps", 9.5, weight="bold")
+    drawing.text(640, 24, "gray: not with the defaults", color=FAINT)
+    tops, column, center = {}, 434, 529
+    top = 44
+    for which in ("View", "Path", "Map", "Result"):
+        tops[which] = top
+        if which != "View":
+            drawing.arrow((center, top - 22), (center, top))
+        top = draw_list(drawing, which, steps, column, top)
+    drawing.text(column + 120, tops["Result"] + 18, "after paths")
+    draw_list(drawing, "Node", steps, 640, tops["Path"])
+    drawing.arrow((624, tops["View"] + 60), (735, tops["View"] + 60), (735, tops["Path"]))
+    drawing.arrow((640, tops["Map"] + 60), (624, tops["Map"] + 60))
+    _, last = draw_way(drawing, BEFORE, 44)
+    drawing.arrow((386, last), (410, last), (410, tops["View"] + 60), (column, tops["View"] + 60))
+    first, _ = draw_way(drawing, AFTER, 700)
+    drawing.arrow((column, tops["Result"] + 60), (410, tops["Result"] + 60), (410, first), (386, first))
     drawing.write(path)
 
 
