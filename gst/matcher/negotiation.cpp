@@ -46,7 +46,7 @@ std::string camera_problem(const GstCaps* caps, Side side) {
   if (camera == nullptr || other != camera) return {};
   const std::string here = pad_name(side);
   return "The view on " + here + " is from the " + other +
-         " camera, by its caps. If both cameras are linked to the wrong pads, exchange the "
+         " camera, as its caps state. If both cameras are linked to the wrong pads, exchange the "
          "links. If both mtrectify have camera=" +
          other + ", set camera=" + (side == Side::kLeft ? "left" : "right") +
          " of the one upstream of " + here + ".";
