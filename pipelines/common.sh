@@ -43,11 +43,11 @@ Options of every pipeline script:
   --depth METERS      output depths up to this distance, in millimeters, instead of disparities
   --cloud PATTERN     also write the points of each map, such as clouds/%05d.ply (needs --calibration)
   --out FILE.mkv      record the disparity or the depth losslessly instead of showing it; a pattern
-                      such as depth/%06d.png writes 16-bit pictures
+                      such as depth/%06d.png writes 16-bit images
   --mode MODE         sparse, semi-dense, dense or full
   --max-disparity N   search range [px]
   --set NAME=VALUE    any other property of mtstereo (gst-inspect-1.0 mtstereo lists them)
-  --sink ELEMENT      sink for the color picture instead of autovideosink
+  --sink ELEMENT      sink for the color video instead of autovideosink
   --seconds N         stop after N seconds
 END
   plugin_help

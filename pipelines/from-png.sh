@@ -6,7 +6,7 @@
 #
 # The output is 16-bit PNG images in KITTI's format: px = value / 256, 0 = no disparity; with
 # --depth, it is millimeters. The folder of the result is created if missing. Without DISPARITY, the
-# color pictures are shown.
+# color images are shown.
 #
 # Options:
 #   --first N           number of the first image (default 0)

@@ -29,8 +29,8 @@ void add_sources(CLI::App& app, Texts& texts, Options& options) {
   const std::string group = "Sources";
   app.add_option("--left", options.source.left,
                  "the left camera: a device (/dev/video0), a video file, a folder or pattern of "
-                 "pictures (left/*.png, left/%04d.png), a URI, or a part of a gst-launch line in "
-                 "quotes whose end gives video")
+                 "images (left/*.png, left/%04d.png), a URI, or a part of a gst-launch line in "
+                 "quotes that ends with video")
       ->type_name("SOURCE")
       ->group(group);
   app.add_option("--right", options.source.right, "the right camera")
@@ -44,15 +44,16 @@ void add_sources(CLI::App& app, Texts& texts, Options& options) {
                  "one source with the left view in its upper half")
       ->type_name("SOURCE")
       ->group(group);
-  app.add_option("--pairing", texts.pairing,
-                 "frames of two videos are paired by their time stamps, as mtstereo pairs them, or "
-                 "by their index; pictures always by their order")
+  app.add_option(
+         "--pairing", texts.pairing,
+         "pair the frames of two videos by their time stamps, as mtstereo does, or by their "
+         "index; images are always paired in order")
       ->check(CLI::IsMember({"time", "index"}))
       ->capture_default_str()
       ->group(group);
-  app.add_option("--size", texts.size, "size that devices are asked for, such as 1280x720")
+  app.add_option("--size", texts.size, "size requested from devices, such as 1280x720")
       ->group(group);
-  app.add_option("--rate", options.source.rate, "frame rate that devices are asked for")
+  app.add_option("--rate", options.source.rate, "frame rate requested from devices")
       ->check(outputs::finite_range(0.1, 1000))
       ->group(group);
   app.add_option("--timeout", options.source.timeout,
@@ -83,7 +84,7 @@ void add_board(CLI::App& app, Texts& texts, Options& options) {
       ->check(CLI::IsMember({"charuco", "checkerboard"}))
       ->capture_default_str()
       ->group(group);
-  app.add_option("--squares", texts.squares, "columns and rows of squares (not of corners)")
+  app.add_option("--squares", texts.squares, "columns and rows of squares (not of inner corners)")
       ->capture_default_str()
       ->group(group);
   app.add_option("--square", texts.square, "side of a square, as measured on the board [mm]")
@@ -183,10 +184,11 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       "mtcalibrate"};
   app.set_version_flag("--version", MTSTEREO_VERSION);
   app.footer(
-      "The folder of --out gets calibration.yml for mtrectify, report.json, and pictures of the "
-      "views, of what they cover, of the residuals and of a rectified pair.\n"
-      "Exit status: 0 = the calibration was written, 1 = it was not, and the reason is printed, 2 "
-      "= the command is invalid, 3 = it was written with warnings (only with --strict).");
+      "The folder of --out gets calibration.yml for mtrectify, report.json, and images of the "
+      "views, "
+      "their coverage, the residuals and a rectified pair.\n"
+      "Exit status: 0 = the calibration was written, 1 = it was not (the reason is printed), 2 = "
+      "invalid command, 3 = written with warnings (only with --strict).");
   app.get_formatter()->column_width(36);
   app.failure_message(options::failure_message);
   Texts texts;

@@ -88,15 +88,16 @@ void apply_shape(const Texts& texts, RectifiedShape& shape) {
 
 void add_inputs(CLI::App& app, Texts& texts, Options& options) {
   const std::string group = "Inputs";
-  app.add_option("INPUT", options.inputs,
-                 "two videos, two folders or patterns of pictures (left/%06d.png), one file or "
-                 "folder with both views, a folder of a data set (KITTI, EuRoC, Middlebury, "
-                 "ETH3D), or a folder with any of these below it")
+  app.add_option(
+         "INPUT", options.inputs,
+         "two videos, two images, folders or patterns of images (left/%06d.png), one file or "
+         "folder with both views, a folder of a data set (KITTI, EuRoC, Middlebury, "
+         "ETH3D), or a folder with any of these below it")
       ->required()
       ->expected(1, 2)
       ->type_name("");
   app.add_option("--layout", texts.layout,
-                 "where the views of one file are [default: by the size and the pictures]")
+                 "arrangement of both views in one file [default: by size and content]")
       ->check(CLI::IsMember(names_of(kLayouts)))
       ->group(group);
   app.add_flag(
@@ -104,25 +105,25 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
          "exchange the views: the second input, or the second half of the frames, is the left one")
       ->group(group);
   app.add_option("--calibration", options.input.calibration,
-                 "calibration of the cameras; two files are separated by a comma [default: what "
-                 "lies beside the input]")
+                 "calibration of the cameras; two files are separated by a comma [default: the "
+                 "file beside the input]")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--rectified", texts.rectified,
-                 "yes: the views are rectified, and the calibration only gives the meters; no: it "
+                 "yes: the views are rectified, and the calibration serves for meters only; no: it "
                  "rectifies them [default: by the input]")
       ->check(CLI::IsMember({"yes", "no"}))
       ->group(group);
   add_shape(app, texts, options.input.shape);
-  app.add_option("--rate", options.input.frame_rate, "frames per second of pictures without times")
+  app.add_option("--rate", options.input.frame_rate, "frames per second of images without times")
       ->type_name("N")
       ->check(outputs::finite_range(0.001, 100000))
       ->capture_default_str()
       ->group(group);
   app.add_option("--sync", texts.sync,
-                 "two recorders that were started apart: auto finds offset and drift from the "
-                 "pictures; a number is the time by which an event is later in the right "
-                 "recording; none: the times of the frames count")
+                 "for recorders started apart: auto finds offset and drift from the images; a "
+                 "number states by how much later an event is in the right recording; none uses "
+                 "the times of the frames")
       ->type_name("auto|none|SECONDS")
       ->capture_default_str()
       ->group(group);
@@ -135,13 +136,13 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
 
 void add_limits(CLI::App& app, WorkOptions& work, const std::string& group) {
   constexpr double kFarthest = 1e6;  // of mtdepth [m]
-  app.add_option("--near", work.near, "nearer depths and points are left out")
+  app.add_option("--near", work.near, "omit nearer depths and points")
       ->type_name("METERS")
       ->check(outputs::finite_range(0, kFarthest))
       ->capture_default_str()
       ->group(group);
   app.add_option("--far", work.far,
-                 "farther depths and points are left out, 0 = no limit [default: clouds end where "
+                 "omit farther depths and points, 0 = no limit [default: clouds end where "
                  "the disparity is 4 px, depth maps have no limit]")
       ->type_name("METERS")
       ->check(outputs::finite_range(0, kFarthest))
@@ -159,16 +160,15 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
       ->group(group);
   app.add_option("--what", texts.what,
                  "results of each pair: disparity, depth, color, confidence, cloud, rectified (the "
-                 "views that are matched), stats. The "
-                 "figures of each pair (stats) are always written")
+                 "matched views), stats (figures, always written)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(products))
       ->group(group);
   app.add_option("--format", texts.format,
-                 "mkv: one lossless video (FFV1); png: pictures of 16 bits; pfm: pictures with "
-                 "floating-point numbers (px, m)")
+                 "mkv: one lossless video (FFV1); png: 16-bit images; pfm: floating-point images "
+                 "(px, m)")
       ->check(CLI::IsMember(names_of(kFormats)))
       ->capture_default_str()
       ->group(group);
@@ -293,7 +293,7 @@ std::string examples(bool plan) {
          "  mtstereo-run both.mp4 --calibration stereo.yaml --what depth,cloud --far 40 --out "
          "meters\n"
          "  mtstereo-run left right --rate 24 --format png --what disparity,rectified --out "
-         "pictures\n\n";
+         "images\n\n";
 }
 
 void describe(CLI::App& app, bool plan) {
@@ -310,11 +310,10 @@ void describe(CLI::App& app, bool plan) {
       std::string(plan ? "An interrupted call can be repeated: recordings that are prepared are "
                          "kept.\n"
                        : "") +
-      "Exit status: 0 = everything was done, 1 = nothing was done, and the reason is printed, 2 = "
-      "the command is invalid, 3 = a part was done: inputs that cannot be used, or that are "
-      "damaged, were printed, 4 = the results are of no use: views exchanged, at other times or "
-      "not "
-      "rectified, or disparities for less than 5 % of the pixels; the remedy was printed.");
+      "Exit status: 0 = done, 1 = nothing was done (the reason is printed), 2 = invalid command, 3 "
+      "= "
+      "partly done (unusable or damaged inputs are printed), 4 = useless results: views exchanged, "
+      "at different times or not rectified, or less than 5 % density (the remedy is printed).");
 }
 
 }  // namespace

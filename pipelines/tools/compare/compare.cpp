@@ -40,20 +40,20 @@ struct Options {
 
 void define(CLI::App& app, Options& o) {
   app.add_option("--disparity", o.disparity,
-                 "folder of 16-bit PNG pictures: px = value / 256, 0 = none");
+                 "folder of 16-bit PNG images: px = value / 256, 0 = unknown");
   app.add_option("--truth", o.truth, "folder of PFM files with the same names: the ground truth");
   app.add_option("--mask", o.mask, "folder of masks: 255 = visible in both views, 128 = occluded");
   app.add_option("--depth", o.depth,
-                 "folder of 16-bit PNG pictures of depths: mm, 0 = none; compared in meters");
+                 "folder of 16-bit PNG depth images: mm, 0 = unknown; compared in meters");
   app.add_option("--true-depth", o.true_depth,
                  "folder of PFM files with the same names: the true depths [m]");
   app.add_option("--label", o.label, "text of the first column")->capture_default_str();
   app.add_option("--picture", o.picture, "PNG to write: left image, disparity, ground truth");
-  app.add_option("--left", o.left, "folder of left images, or one image, for the picture");
-  app.add_option("--frame", o.frame, "frame that the picture shows, counted from 0")
+  app.add_option("--left", o.left, "folder of left images, or one image, for --picture");
+  app.add_option("--frame", o.frame, "frame shown by --picture, counted from 0")
       ->check(CLI::Range(0, 999999))
       ->capture_default_str();
-  app.add_option("--width", o.width, "scale the picture down to this width [px]; 0 = original size")
+  app.add_option("--width", o.width, "scale --picture down to this width [px]; 0 = original size")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   app.add_option("--max-disparity", o.max_disparity,

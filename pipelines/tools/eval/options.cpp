@@ -152,7 +152,7 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
       ->capture_default_str()
       ->group(group);
   app.add_option("--write-pictures", texts.picture_folder,
-                 "write a picture of each pair to this folder: left image, ground truth, disparity "
+                 "write an image of each pair to this folder: left image, ground truth, disparity "
                  "and error")
       ->type_name("DIR")
       ->group(group);

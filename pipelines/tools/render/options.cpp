@@ -117,8 +117,8 @@ void define_scenes(CLI::App& app, Options& o) {
   app.add_option("--squares", o.board.squares, "board: columns and rows of the checkerboard")
       ->capture_default_str();
   number("--square", o.board.square, "board: edge of a square [m]");
-  app.add_option("--picture", o.board.picture, "board: picture that replaces the checkerboard");
-  number("--picture-width", o.board.picture_width, "board: width of that picture [m]");
+  app.add_option("--picture", o.board.picture, "board: image that replaces the checkerboard");
+  number("--picture-width", o.board.picture_width, "board: width of that image [m]");
   number("--poses", o.board.poses.count, "board: number of poses");
   number("--rest", o.board.rest, "board: frames at each pose");
   number("--move", o.board.move, "board: frames between two poses");
