@@ -25,8 +25,9 @@ namespace mtstereo {
 /// Whether the lines that a chain crosses are rows or columns.
 enum class Lines { kRows, kColumns };
 
-/// Largest width of a thin run, and of the gap between it and the background [px].
-inline constexpr int kMostThinWidth = 10;
+/// Largest width of a thin run, and of the gap between it and the background [px]. The matching
+/// widens what is thin by half of its window on both sides: a post of 8 px is up to 13 px wide.
+inline constexpr int kMostThinWidth = 13;
 
 /// The background is at least this much farther [1/256 px].
 inline constexpr std::int32_t kThinStep = 2 * kDisparityOne;

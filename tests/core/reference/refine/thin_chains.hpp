@@ -36,9 +36,9 @@ struct ThinLines {
   }
 };
 
-/// The nearest known disparity among ten pixels from `i` on in steps of `step`; 0 = none.
+/// The nearest known disparity among 13 pixels from `i` on in steps of `step`; 0 = none.
 inline int nearest_known(const ThinLines& lines, int line, int i, int step) {
-  for (int k = 0; k < 10; ++k) {
+  for (int k = 0; k < 13; ++k) {
     if (lines.at(line, i + k * step) != 0) return lines.at(line, i + k * step);
   }
   return 0;
@@ -60,7 +60,7 @@ inline std::vector<ThinPiece> thin_pieces(const ThinLines& lines) {
       const int before = nearest_known(lines, line, begin - 1, -1);
       const int after = nearest_known(lines, line, end, 1);
       const bool nearer = mean - before > 512 && mean - after > 512;
-      if (end - begin > 10 || !nearer || (before == 0 && after == 0)) continue;
+      if (end - begin > 13 || !nearer || (before == 0 && after == 0)) continue;
       if (kept++ > lines.length() / 8) continue;
       pieces.push_back({line, begin, end, mean, before, after});
     }
