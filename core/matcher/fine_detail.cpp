@@ -2,6 +2,7 @@
 #include "matcher/fine_detail.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 
 namespace mtstereo {
@@ -47,6 +48,17 @@ FineDetail measure_detail(const DetailViews& views, int y0, int y1) {
   const int first = (y0 + kDetailRows - 1) / kDetailRows * kDetailRows;
   for (int y = first; y < y1; y += kDetailRows) add_row(views, y, sums);
   return sums;
+}
+
+FineDetail measure_detail(const Bands& bands, const DetailViews& views) {
+  std::atomic<std::int64_t> fine{0}, coarse{0}, points{0};
+  bands.rows([&](int y0, int y1, int) {
+    const FineDetail in_band = measure_detail(views, y0, y1);
+    fine += in_band.fine;
+    coarse += in_band.coarse;
+    points += in_band.points;
+  });
+  return {fine, coarse, points};
 }
 
 }  // namespace mtstereo

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/bands.hpp"
 #include "mtstereo/image.hpp"
 
 namespace mtstereo {
@@ -56,5 +57,8 @@ inline constexpr double kLeastCoarseEnergy = 0.5;
 
 /// Measures the points in the rows y0 .. y1 - 1.
 FineDetail measure_detail(const DetailViews& views, int y0, int y1);
+
+/// Measures those of all rows.
+FineDetail measure_detail(const Bands& bands, const DetailViews& views);
 
 }  // namespace mtstereo

@@ -102,15 +102,8 @@ FrameResult FrameMatcher::run_steps(const Observer& observer) {
 double FrameMatcher::choose_resolution(const FrameResult& result) {
   const DetailViews compared = {memory_.views.left, memory_.views.input[1], result.disparity,
                                 result.confidence, memory_.result.place.disparity_offset()};
-  std::atomic<std::int64_t> fine{0}, coarse{0}, points{0};
-  Bands(*pool_, result.disparity.height).rows([&](int y0, int y1, int) {
-    const FineDetail in_band = measure_detail(compared, y0, y1);
-    fine += in_band.fine;
-    coarse += in_band.coarse;
-    points += in_band.points;
-  });
-  const FineDetail detail = {fine, coarse, points};
-  const std::optional<double> share = detail.share();
+  const Bands bands(*pool_, result.disparity.height);
+  const std::optional<double> share = measure_detail(bands, compared).share();
   choice_.take(share);
   if (choice_.resolution() != settings_.resolution) {
     settings_.match_at(choice_.resolution());

@@ -34,6 +34,7 @@ void ResultMaps::start(Maps& maps) {
   disparity = &maps.disparity;
   confidence = &maps.confidence;
   place = {};
+  fine_detail = kUnknownDetail;
 }
 
 void ResultMaps::resize(const Settings& settings, const FrameSize& size) {

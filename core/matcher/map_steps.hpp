@@ -9,6 +9,7 @@
 #include "matcher/frame_size.hpp"
 #include "matcher/step.hpp"
 #include "matcher/view_steps.hpp"
+#include "stages/refine/clues.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/disparity_refinement.hpp"
 #include "stages/refine/map_place.hpp"
@@ -49,7 +50,8 @@ struct Maps {
 struct ResultMaps {
   Image<std::int32_t>* disparity = nullptr;
   Image<std::uint8_t>* confidence = nullptr;
-  MapPlace place;  ///< of the matched views in the result
+  MapPlace place;                      ///< of the matched views in the result
+  float fine_detail = kUnknownDetail;  ///< of the views, FineDetail::share()
 
   Image<std::int32_t> enlarged;
   Image<std::uint8_t> enlarged_confidence;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "matcher/fine_detail.hpp"
 #include "stages/refine/completion.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/gap_filling.hpp"
@@ -24,6 +25,13 @@ void ResultBuffers::resize(const Settings& settings, const FrameSize& size) {
     worker.columns.resize(Bands::kColumns);
   }
   if (settings.keeps_likely_only()) islands.resize(width, height);
+}
+
+void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps& result) {
+  const DetailViews compared = {views.left, views.input[1], result.disparity->view(),
+                                result.confidence->view(), result.place.disparity_offset()};
+  const std::optional<double> share = measure_detail(step.input_bands, compared).share();
+  if (share) result.fine_detail = static_cast<float>(*share);
 }
 
 void complete_map(const StepContext& step, ResultMaps& result) {
@@ -53,7 +61,8 @@ RatedViews rated_views(const Views& views, const Pyramid& pyramid, const ResultM
           kWindowTile * place.scale,
           -place.column,
           {&pyramid.levels[0].disparity, &pyramid.confidence, 2 * place.scale, -place.column,
-           place.added}};
+           place.added},
+          result.fine_detail};
 }
 
 void calibrate_confidence(const StepContext& step, const Views& views, const Pyramid& pyramid,

@@ -31,6 +31,9 @@ struct ResultBuffers {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
+/// Measures how sharp the views are, at the pixels that were matched.
+void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps& result);
+
 /// Gives the remaining pixels a disparity.
 void complete_map(const StepContext& step, ResultMaps& result);
 

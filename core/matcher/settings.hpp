@@ -111,6 +111,9 @@ struct Settings {
     if (mode == Mode::kSemiDense) return RatedMap::kMatched;
     return half() ? RatedMap::kEnlarged : RatedMap::kComplete;
   }
+  /// Whether the sharpness of the views is a clue for the reliability. Only the table of this kind
+  /// of map has it: the others keep about as few errors on soft views without it.
+  bool rates_detail() const { return rated_map() == RatedMap::kMatched; }
   /// The options of the paths for the views at 1 / 2^level of the matched resolution.
   PathMatchingOptions path_matching(int level) const;
   /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost

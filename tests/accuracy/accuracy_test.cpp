@@ -64,7 +64,7 @@ TEST_P(RenderedScenes, KeepTheirAccuracy) {
 INSTANTIATE_TEST_SUITE_P(
     Modes, RenderedScenes,
     testing::Values(Gate{"Sparse", "mode=sparse", {0.16, 0.12, 15.0}},
-                    Gate{"SemiDense", "mode=semi-dense", {0.245, 1.15, 73.0}},
+                    Gate{"SemiDense", "mode=semi-dense", {0.24, 1.1, 73.0}},
                     Gate{"Dense", "mode=dense", {0.385, 2.7, 86.7}},
                     Gate{"Full", "mode=full", {0.53, 4.6, 100}},
                     Gate{"FastFull", "preset=fast mode=full", {0.63, 5.6, 100}},

@@ -69,6 +69,9 @@ struct RatedGuide {
   int added = 0;          ///< added to the matched disparities in the rated map [px]
 };
 
+/// The fine detail of views in which it was not measured: they are taken for sharp ones.
+inline constexpr float kUnknownDetail = 1;
+
 /// What the clues are about, beside the map.
 struct RatedViews {
   GrayView left;         ///< of the map's size
@@ -83,6 +86,7 @@ struct RatedViews {
   int agreement_offset;
 
   RatedGuide guide = {};
+  float fine_detail = kUnknownDetail;  ///< FineDetail::share()
 };
 
 /// The gray value of the left view for each of the right one.

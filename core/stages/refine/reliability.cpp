@@ -111,8 +111,8 @@ void rate_row(const RatedBins& row, int width, std::uint8_t* confidence) {
   const hn::Half<Sixteen> half;
   const Eight d16;
   for (int x = 0; x < width; x += 16) {
-    auto lower = hn::Set(d16, static_cast<std::int16_t>(row.noise)), upper = lower;
-    for (int clue = 0; clue < kNoiseClue; ++clue) {
+    auto lower = hn::Set(d16, static_cast<std::int16_t>(row.same)), upper = lower;
+    for (int clue = 0; clue < kPixelClues; ++clue) {
       const auto bins = hn::LoadU(d8, row.bins[clue] + x);
       const auto first = look_up(row.entries[clue].of[0], bins);
       const auto second = look_up(row.entries[clue].of[1], bins);
@@ -148,6 +148,7 @@ constexpr int kVector = static_cast<int>(kAlignment);
 constexpr int kMismatchEnds[] = {3, 5, 7, 9, 14, 18, 23, 27, 36, 45, 54, 72, 90, 126, 180, 270};
 constexpr int kTextureEnds[] = {1, 3, 8, 14, 20, 27, 40, 54, 75, 100, 135, 175, 230, 300, 400, 500};
 constexpr float kNoiseEnds[] = {.1F, .3F, .6F, 1, 1.5F, 2, 2.5F, 3, 4, 5, 7, 10};
+constexpr float kDetailEnds[] = {.024F, .03F, .037F, .045F, .06F, .1F, .2F};
 
 template <typename Value, std::size_t kEnds>
 constexpr std::uint8_t bin_of(Value value, const Value (&ends)[kEnds]) {
@@ -246,9 +247,9 @@ void find_agreement_bins(const RatedViews& views, int y, int width, std::uint8_t
 }
 
 /// The columns of the table for rate_row().
-std::array<EntryBytes, kNoiseClue> entry_bytes(const ReliabilityTable& table) {
-  std::array<EntryBytes, kNoiseClue> columns;
-  for (int clue = 0; clue < kNoiseClue; ++clue) {
+std::array<EntryBytes, kPixelClues> entry_bytes(const ReliabilityTable& table) {
+  std::array<EntryBytes, kPixelClues> columns;
+  for (int clue = 0; clue < kPixelClues; ++clue) {
     for (int bin = 0; bin < kClueBins; ++bin) {
       std::uint8_t bytes[2];
       std::memcpy(bytes, &table[clue][bin], 2);
@@ -284,18 +285,20 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
   find_agreement_bins(views, y, width, scratch.bins[kAgreementClue].data());
   find_guide_bins(views.guide, map, y, scratch.expected.data(), scratch.bins[kGuideClue].data());
   std::memset(scratch.bins[kNoiseClue].data(), bin_of(views.noise_level, kNoiseEnds), width);
+  std::memset(scratch.bins[kDetailClue].data(), bin_of(views.fine_detail, kDetailEnds), width);
 }
 
 void rate_reliability(const RatedViews& views, const Image<std::int32_t>& map,
                       const ClueMaps& clues, const ReliabilityTable& table, Inferred inferred,
                       int y0, int y1, ReliabilityScratch& scratch,
                       Image<std::uint8_t>& confidence) {
-  static_assert(kNoiseClue == kClues - 1);
-  const std::array<EntryBytes, kNoiseClue> entries = entry_bytes(table);
+  static_assert(kPixelClues == kClues - 2);
+  const std::array<EntryBytes, kPixelClues> entries = entry_bytes(table);
   RatedBins row{};
-  for (int clue = 0; clue < kNoiseClue; ++clue) row.bins[clue] = scratch.bins[clue].data();
+  for (int clue = 0; clue < kPixelClues; ++clue) row.bins[clue] = scratch.bins[clue].data();
   row.entries = entries.data();
-  row.noise = table[kNoiseClue][bin_of(views.noise_level, kNoiseEnds)];
+  row.same = table[kNoiseClue][bin_of(views.noise_level, kNoiseEnds)] +
+             table[kDetailClue][bin_of(views.fine_detail, kDetailEnds)];
   row.apart = inferred == Inferred::kApart;
   for (int y = y0; y < y1; ++y) {
     find_clue_bins(views, map, confidence, clues, y, scratch);

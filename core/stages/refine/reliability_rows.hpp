@@ -24,9 +24,9 @@ struct EntryBytes {
 
 /// What the rating of a row reads.
 struct RatedBins {
-  const std::uint8_t* bins[kNoiseClue];
+  const std::uint8_t* bins[kPixelClues];
   const EntryBytes* entries;  ///< per clue
-  int noise;                  ///< the entry of the noise
+  int same;                   ///< the sum of the entries that are the same for all pixels
   bool apart;                 ///< Inferred::kApart
 };
 

@@ -19,9 +19,14 @@ enum Clue : int {
   kTextureClue,    ///< the gray values' changes along the rows around it
   kAgreementClue,  ///< how often the costs alone agree with the paths around it
   kGuideClue,      ///< the confidence of the map of half the resolution, and the distance from it
-  kNoiseClue,      ///< the noise of the views, the same for all pixels
+  kNoiseClue,      ///< the noise of the views
+  kDetailClue,     ///< how much of the scene their finest octave shows
 };
-inline constexpr int kClues = 10;
+inline constexpr int kClues = 11;
+
+/// The clues about single pixels; the others are the same for all pixels of a pair.
+inline constexpr int kPixelClues = kNoiseClue;
+
 inline constexpr int kClueBins = 32;
 
 /// Steps per 1 of the table's entries.

@@ -26,6 +26,13 @@ struct Fitting {
   std::vector<double> odds;  ///< the logarithm of each sample's odds
 };
 
+/// Whether a clue is the same for all samples, so that it says nothing.
+bool is_constant(int clue, const Fitting& fitting) {
+  return std::all_of(fitting.samples.begin(), fitting.samples.end(), [&](const Sample* sample) {
+    return sample->bins[clue] == fitting.samples.front()->bins[clue];
+  });
+}
+
 /// One Newton step of the entries of a clue.
 void improve(int clue, Fitting& fitting, LogOdds& table) {
   BinSums sums;
@@ -58,8 +65,12 @@ LogOdds fit(const std::vector<const PairSamples*>& pairs) {
   }
   fitting.odds.assign(fitting.samples.size(), 0.0);
   LogOdds table{};
+  std::vector<int> clues;
+  for (int clue = 0; clue < kClues; ++clue) {
+    if (!is_constant(clue, fitting)) clues.push_back(clue);
+  }
   for (int round = 0; round < kRounds; ++round) {
-    for (int clue = 0; clue < kClues; ++clue) improve(clue, fitting, table);
+    for (const int clue : clues) improve(clue, fitting, table);
   }
   return table;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "matcher/resolution_choice.hpp"
+#include "reference/fine_detail.hpp"
 #include "support/plane.hpp"
 #include "support/soft_pair.hpp"
 
@@ -62,28 +63,6 @@ void add_noise(int amount, std::uint64_t seed, GrayPlane& image) {
   }
 }
 
-/// The two filters and the choice of the points, pixel by pixel.
-FineDetail expected(const Matched& in) {
-  FineDetail sums;
-  for (int y = 0; y < in.left.height; y += kDetailRows) {
-    for (int x = kDetailReach; x + kDetailReach < in.left.width; ++x) {
-      const double disparity = in.disparity(x, y) / double{kDisparityOne};
-      const int partner = x - static_cast<int>(std::lround(disparity)) - in.offset;
-      if (in.disparity(x, y) == kNoDisparity || in.confidence(x, y) <= kMostInferred) continue;
-      if (std::abs(disparity - std::lround(disparity)) > 0.125) continue;
-      if (partner < kDetailReach || partner + kDetailReach >= in.left.width) continue;
-      const auto band = [&](const GrayPlane& view, int column, int step) -> std::int64_t {
-        return view(column + 3 * step, y) - 9 * view(column + step, y) + 16 * view(column, y) -
-               9 * view(column - step, y) + view(column - 3 * step, y);
-      };
-      sums.fine += band(in.left, x, 1) * band(in.right, partner, 1);
-      sums.coarse += band(in.left, x, 2) * band(in.right, partner, 2);
-      ++sums.points;
-    }
-  }
-  return sums;
-}
-
 TEST(FineDetail, EqualsTheSumsOfItsPointsAtEveryWidthAndBand) {
   test::Random random(1);
   for (int width = 1; width <= 60; ++width) {
@@ -95,7 +74,8 @@ TEST(FineDetail, EqualsTheSumsOfItsPointsAtEveryWidthAndBand) {
       for (std::uint8_t& value : in.confidence.pixels) {
         value = static_cast<std::uint8_t>(random.below(60));
       }
-      const FineDetail sums = expected(in);
+      const FineDetail sums =
+          reference::measure_detail(in.left, in.right, {in.disparity, in.confidence}, in.offset);
       for (const int band : {1, 3, 32}) {
         const FineDetail measured = in.measure(band);
         EXPECT_EQ(sums.points, measured.points) << width << ", band " << band;

@@ -249,8 +249,8 @@ TEST(Invariants, AWideImageHasItsLargeDisparities) {
 
 TEST(Invariants, DisparitiesDoNotDependOnDistantRows) {
   // The image is cut after kRows rows. Rows farther away from the cut than kReach, the reach of
-  // neighbors, smoothing and votes, must not change. The noise and the sizes of areas are those of
-  // the whole view.
+  // neighbors, smoothing and votes, must not change. The noise, the sharpness and the sizes of
+  // areas are those of the whole view.
   const Pair whole = test::slanted_pair(160, 200, 24, 9);
   constexpr int kRows = 140, kReach = 5 + 2 * 21 + 2 * 10 * 2 + 4;
   const auto top = [](const GrayPlane& image) {
@@ -258,7 +258,8 @@ TEST(Invariants, DisparitiesDoNotDependOnDistantRows) {
     std::copy_n(image.pixels.begin(), cut.pixels.size(), cut.pixels.begin());
     return cut;
   };
-  Matcher matcher = test::matcher({{"noise-filter", "false"}, {"speckle-size", "0"}});
+  Matcher matcher =
+      test::matcher({{"noise-filter", "false"}, {"speckle-size", "0"}, {"min-confidence", "0"}});
   const DisparityPlane expected = test::compute(matcher, whole.left, whole.right);
   const DisparityPlane map = test::compute(matcher, top(whole.left), top(whole.right));
   EXPECT_TRUE(test::same_pixels(

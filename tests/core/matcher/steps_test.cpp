@@ -45,8 +45,8 @@ void expect_none_of(const Parameters& parameters, const Names& absent) {
 TEST(Steps, RunInOrderWithTheDefaults) {
   expect_order({}, {"noise-filter", "census", "reduced-matching", "search-windows", "path-matching",
                     "guide-support", "guide-rating", "thin-search", "speckle-removal", "confidence",
-                    "smoothing", "completion", "edge-alignment", "reliability", "rejection",
-                    "gap-closing", "thin-drawing"});
+                    "smoothing", "fine-detail", "completion", "edge-alignment", "reliability",
+                    "rejection", "gap-closing", "thin-drawing"});
   expect_none_of({}, {"halving", "preprocessing", "max-trees", "node-matching", "census-matching",
                       "island-removal", "thin-restoring", "gap-filling", "foreground-check",
                       "enlarging", "input-census", "refinement"});
@@ -90,8 +90,9 @@ TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
   expect_order(dense,
                {"path-matching", "guide-support", "guide-rating", "thin-search", "speckle-removal",
                 "completion", "edge-alignment", "reliability", "rejection", "thin-drawing"});
-  expect_none_of(dense, {"left-strip", "node-matching", "census-matching", "island-removal",
-                         "thin-restoring", "gap-filling", "foreground-check", "gap-closing"});
+  expect_none_of(dense,
+                 {"fine-detail", "left-strip", "node-matching", "census-matching", "island-removal",
+                  "thin-restoring", "gap-filling", "foreground-check", "gap-closing"});
   expect_none_of(test::parameters({{"mode", "dense"}, {"min-confidence", "0"}}), {"rejection"});
 }
 
@@ -101,8 +102,9 @@ TEST(Steps, MatchAlongPathsInsteadOfNodesInModeFull) {
                {"noise-filter", "census", "reduced-matching", "search-windows", "path-matching",
                 "guide-support", "guide-rating", "speckle-removal", "confidence", "smoothing",
                 "completion", "edge-alignment", "reliability", "left-strip"});
-  expect_none_of(full, {"rejection", "thin-drawing", "preprocessing", "max-trees", "node-matching",
-                        "node-extrapolation", "census-matching", "gap-filling", "island-removal"});
+  expect_none_of(full, {"fine-detail", "rejection", "thin-drawing", "preprocessing", "max-trees",
+                        "node-matching", "node-extrapolation", "census-matching", "gap-filling",
+                        "island-removal"});
 }
 
 TEST(Steps, CompleteTheMapAfterItHasTheSizeOfTheViewsInModeFull) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "matcher/settings.hpp"
+#include "reference/fine_detail.hpp"
 #include "reference/nodes/node_extrapolation.hpp"
 #include "reference/nodes/outlier_removal.hpp"
 #include "reference/pixels/agreement.hpp"
@@ -42,6 +43,7 @@ struct Frame {
   std::array<GrayPlane, 2> input;
   std::array<GrayPlane, 2> views;  ///< the matched views
   float noise = 0;                 ///< of the noisier view, if the noise filter runs
+  float detail = 1;                ///< the share of the finest octave, if it is measured
   std::array<GrayPlane, 2> medians;
   std::array<GrayPlane, 2> levels;
   std::array<Trees, 2> trees;
@@ -269,6 +271,13 @@ inline void fill_gaps(Frame& f) {
   take(f, filled);
 }
 
+inline void measure_fine_detail(Frame& f) {
+  const int offset = std::min(f.settings.min_disparity, 0);
+  const FineDetail detail =
+      measure_detail(f.left, f.input[1], ConfidentMap{f.map, f.confidence}, offset);
+  if (detail.share()) f.detail = static_cast<float>(*detail.share());
+}
+
 inline void complete(Frame& f) { take(f, complete(ConfidentMap{f.map, f.confidence})); }
 
 inline void align_edges(Frame& f) {
@@ -280,8 +289,8 @@ inline void calibrate_confidence(Frame& f) {
   const int tile = f.settings.half() ? 32 : 16;
   const ConfidentMap complete = {f.map, f.confidence};
   const Grays grays = map_grays(f.left, f.input[1], std::min(least, 0), complete);
-  const RatedPair pair = {f.left, f.input[1], std::min(least, 0), f.noise, f.agreement, tile,
-                          -least, grays,      &f.guide,           tile / 8};
+  const RatedPair pair = {f.left, f.input[1], std::min(least, 0), f.noise,  f.agreement, tile,
+                          -least, grays,      &f.guide,           tile / 8, f.detail};
   const bool apart = !f.settings.keeps_inferred();
   const auto table = static_cast<int>(f.settings.rated_map());
   f.confidence = rate_reliability(pair, complete, kReliabilityTables[table], apart);
@@ -368,6 +377,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"input-census", nothing},
     {"refinement", refine},
     {"map-shift", shift_map},
+    {"fine-detail", measure_fine_detail},
     {"completion", complete},
     {"edge-alignment", align_edges},
     {"reliability", calibrate_confidence},

@@ -73,15 +73,18 @@ struct RandomRating {
   Image<std::int32_t> guide_map;  ///< the same
   Image<std::uint8_t> guide_confidence;
   int guide_scale = 2;
+  float fine_detail = kUnknownDetail;
 
   RatedViews views(int offset, float noise) const {
     return {left.view(), right.view(),
             offset,      noise,
             &tiles,      tile,
-            added,       {&guide_map, &guide_confidence, guide_scale, added, std::max(-added, 0)}};
+            added,       {&guide_map, &guide_confidence, guide_scale, added, std::max(-added, 0)},
+            fine_detail};
   }
   reference::RatedPair pair(int offset, float noise) const {
-    return {left, right, offset, noise, agreement, tile, added, plain_grays, &guide, guide_scale};
+    return {left,  right,       offset, noise,       agreement,  tile,
+            added, plain_grays, &guide, guide_scale, fine_detail};
   }
 };
 

@@ -24,6 +24,7 @@ struct RatedPair {
   const Grays& grays;          ///< of the right view
   const ConfidentMap* guide = nullptr;
   int guide_scale = 2;
+  float detail = 1;  ///< the share of the finest octave
 };
 
 /// The bins of the clues about one pixel, each found on its own.
@@ -60,6 +61,8 @@ class PixelClues {
             std::min(y_ / pair_.tile, pair_.agreement.height - 1));
       case kGuideClue:
         return pair_.guide == nullptr ? 0 : guide();
+      case kDetailClue:
+        return bin_of(pair_.detail, {.024F, .03F, .037F, .045F, .06F, .1F, .2F});
       default:
         return bin_of(pair_.noise, {.1F, .3F, .6F, 1, 1.5F, 2, 2.5F, 3, 4, 5, 7, 10});
     }

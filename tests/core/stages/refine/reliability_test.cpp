@@ -52,7 +52,8 @@ void expect_reference(const Rated& rated, int offset, float noise) {
 TEST(Reliability, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
   test::for_each_simd_target([] {
     for (int width = 1; width <= 90; ++width) {
-      const Rated rated(width, 1 + width % 41, width);
+      Rated rated(width, 1 + width % 41, width);
+      rated.fine_detail = 0.003F * static_cast<float>(width);
       expect_reference(rated, width % 3 == 0 ? -5 : 0, 0.13F * static_cast<float>(width));
     }
   });
