@@ -77,11 +77,10 @@ void Settings::match_at(Resolution chosen) {
 }
 
 PathMatchingOptions Settings::path_matching(int level) const {
-  const bool complete = mode != Mode::kSemiDense;
   PathMatchingOptions options = {census_cost, smoothness, selection,
-                                 complete ? ColumnPaths::kBoth : ColumnPaths::kNone};
+                                 infers() ? ColumnPaths::kBoth : ColumnPaths::kNone};
   if (level == 0) {
-    if (!complete) options.selection.guided_margin = kPathReach - kGuidedTolerance;
+    if (!infers()) options.selection.guided_margin = kPathReach - kGuidedTolerance;
     return options;
   }
   for (int i = 0; i < level; ++i) {
@@ -93,7 +92,7 @@ PathMatchingOptions Settings::path_matching(int level) const {
   options.cost.range_penalty = kHalvedRangePenalty;
   options.smoothness = kHalvedSmoothness;
   // Thin posts need other rows, but not those on both sides.
-  options.column_paths = complete ? ColumnPaths::kBoth : ColumnPaths::kFromAbove;
+  options.column_paths = infers() ? ColumnPaths::kBoth : ColumnPaths::kFromAbove;
   return options;
 }
 

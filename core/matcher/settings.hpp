@@ -85,7 +85,9 @@ struct Settings {
   }
   /// Whether all pixels are matched along paths, without nodes, and the rest is inferred. With
   /// nodes, the modes dense and full run the steps of semi-dense.
-  bool by_paths() const { return guide == Guide::kPyramid && mode != Mode::kSparse && census(); }
+  bool by_paths() const { return guide == Guide::kPyramid && census(); }
+  /// Whether the map has inferred disparities that are not only those of filled gaps.
+  bool infers() const { return mode == Mode::kDense || mode == Mode::kFull; }
   /// Whether min_confidence applies to the complete map, and not to the matched one.
   bool keeps_likely_only() const { return by_paths() && mode != Mode::kFull; }
   /// Whether min_confidence applies to inferred disparities as to matched ones.
@@ -108,7 +110,7 @@ struct Settings {
   }
   /// The kind of the complete map, for its reliability.
   RatedMap rated_map() const {
-    if (mode == Mode::kSemiDense) return RatedMap::kMatched;
+    if (!infers()) return RatedMap::kMatched;
     return half() ? RatedMap::kEnlarged : RatedMap::kComplete;
   }
   /// Whether the sharpness of the views is a clue for the reliability. Only the table of this kind
@@ -118,7 +120,7 @@ struct Settings {
   PathMatchingOptions path_matching(int level) const;
   /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost
   /// the nodes themselves are drawn at their ends only, see drawn_end_width().
-  bool keeps_only_ends() const { return mode == Mode::kSparse && census(); }
+  bool keeps_only_ends() const { return mode == Mode::kSparse && census() && !by_paths(); }
   /// Whether the smallest disparity differs from 0.
   bool shifted() const { return min_disparity != 0; }
   /// Whether the rows of the right view are resampled, and whether a view is blurred.

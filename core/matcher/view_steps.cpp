@@ -99,7 +99,7 @@ void filter_views(const StepContext& step, Views& views) {
   const float levels[] = {noise_level(views.noise[0]), noise_level(views.noise[1])};
   views.noise_level = std::max(levels[0], levels[1]);
   const bool lightly = step.settings.by_paths() && !paths_need_filter(views.noise_level);
-  if (lightly && step.settings.mode != Mode::kSemiDense) return;
+  if (lightly && step.settings.infers()) return;
   const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
     NoiseFilterScratch& scratch = views.scratch[worker].noise_filter;

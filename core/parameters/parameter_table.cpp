@@ -46,10 +46,6 @@ struct Joined {
 #define EACH(standard, fast, paper) \
   BY_MODE(MODES(standard, standard, standard, standard), MODES(fast, fast, fast, fast), \
           MODES(paper, paper, paper, paper))
-// The same, with other defaults where the guide is the pyramid.
-#define BY_GUIDE(standard, fast, paper, standard_pyramid, fast_pyramid) \
-  BY_MODE(MODES(standard, standard_pyramid, standard_pyramid, standard_pyramid), MODES(fast, fast, fast_pyramid, fast_pyramid), \
-          MODES(paper, paper, paper, paper))
 // One default for every preset and mode.
 #define ALL(value) EACH(value, value, value)
 // clang-format on
@@ -60,7 +56,6 @@ constexpr ParameterInfo kTable[] = {
 #undef MTSTEREO_PARAMETER
 };
 #undef ALL
-#undef BY_GUIDE
 #undef EACH
 #undef BY_MODE
 #undef MODES

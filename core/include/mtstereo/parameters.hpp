@@ -15,7 +15,7 @@ namespace mtstereo {
 /// How many pixels get a disparity (paper, section II-A "Disparity map"; kDense and kFull are
 /// extensions).
 enum class Mode {
-  kSparse,     ///< only pixels at the ends of the finest nodes: few pixels, few errors
+  kSparse,     ///< only the most reliable pixels; with nodes only those at their ends
   kSemiDense,  ///< all pixels with a reliable disparity
   kDense,      ///< also less reliable and inferred disparities, if they are likely to be right
   kFull,       ///< all pixels: those that cannot be matched are inferred, at low confidence

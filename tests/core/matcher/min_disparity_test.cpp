@@ -34,6 +34,7 @@ Parameters range_from(int least, const char* preset, const char* mode) {
   return test::parameters({{"preset", preset},
                            {"mode", mode},
                            {"guide", "nodes"},
+                           {"min-confidence", "0"},
                            {"noise-filter", "false"},
                            {"min-disparity", std::to_string(least)},
                            {"max-disparity", std::to_string(least + 48)}});

@@ -33,10 +33,11 @@ const Mapping kMappings[] = {
     {"mode", "full", 1, [](const Settings& s) { return s.by_paths(); }},
     {"mode", "dense", 1, [](const Settings& s) { return s.by_paths(); }},
     {"mode", "semi-dense", 1, [](const Settings& s) { return s.by_paths(); }},
-    {"mode", "sparse", 0, [](const Settings& s) { return s.by_paths(); }},
+    {"mode", "sparse", 1, [](const Settings& s) { return s.by_paths(); }},
     {"guide", "nodes", 0, [](const Settings& s) { return s.by_paths(); }},
     {"cost", "gradient", 0, [](const Settings& s) { return s.by_paths(); }},
     {"preset", "fast", 0, [](const Settings& s) { return s.by_paths(); }},
+    {"mode", "sparse", 0, [](const Settings& s) { return column_paths(s, 0); }},
     {"mode", "semi-dense", 0, [](const Settings& s) { return column_paths(s, 0); }},
     {"mode", "semi-dense", 1, [](const Settings& s) { return column_paths(s, 1); }},
     {"mode", "dense", 2, [](const Settings& s) { return column_paths(s, 0); }},
@@ -144,16 +145,18 @@ TEST(Settings, KeepInferredPixelsInModeDenseOnly) {
   EXPECT_EQ(150, least("semi-dense", "150"));
 }
 
-TEST(Settings, DrawOnlyTheEndsOfNodesInModeSparseWithTheGradientCost) {
-  const auto settings = [](const char* mode, const char* cost) {
-    return Settings(test::parameters({{"mode", mode}, {"cost", cost}, {"node-end-width", "7"}}));
+TEST(Settings, KeepOnlyTheEndsOfNodesInModeSparse) {
+  const auto settings = [](const char* mode, const char* cost, const char* guide) {
+    return Settings(test::parameters(
+        {{"mode", mode}, {"cost", cost}, {"guide", guide}, {"node-end-width", "7"}}));
   };
-  EXPECT_EQ(7, settings("sparse", "gradient").drawn_end_width());
-  EXPECT_EQ(0, settings("sparse", "census").drawn_end_width());
-  EXPECT_EQ(0, settings("semi-dense", "gradient").drawn_end_width());
-  EXPECT_TRUE(settings("sparse", "census").keeps_only_ends());
-  EXPECT_FALSE(settings("sparse", "gradient").keeps_only_ends());
-  EXPECT_FALSE(settings("dense", "census").keeps_only_ends());
+  EXPECT_EQ(7, settings("sparse", "gradient", "pyramid").drawn_end_width());
+  EXPECT_EQ(0, settings("sparse", "census", "nodes").drawn_end_width());
+  EXPECT_EQ(0, settings("semi-dense", "gradient", "nodes").drawn_end_width());
+  EXPECT_TRUE(settings("sparse", "census", "nodes").keeps_only_ends());
+  EXPECT_FALSE(settings("sparse", "census", "pyramid").keeps_only_ends());
+  EXPECT_FALSE(settings("sparse", "gradient", "nodes").keeps_only_ends());
+  EXPECT_FALSE(settings("dense", "census", "nodes").keeps_only_ends());
 }
 
 /// Sets each word of a choice and compares the enum value with the index of the word.

@@ -65,7 +65,7 @@ TEST(Steps, RunInOrderWithNodes) {
 
 TEST(Steps, LeaveTheEndsOfNodesAloneInModeSparse) {
   expect_none_of(
-      test::parameters({{"mode", "sparse"}}),
+      test::parameters({{"mode", "sparse"}, {"guide", "nodes"}}),
       {"thin-search", "island-removal", "thin-restoring", "gap-filling", "foreground-check"});
 }
 

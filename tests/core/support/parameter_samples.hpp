@@ -74,7 +74,7 @@ inline const std::vector<ParameterSample>& parameter_samples() {
       {"speckle-size", {"0", "0", "1", "5", "20"}, {}, "65535", [](S s) { return 1.0 * s.speckle_size; }},
       {"min-confidence", {"0", "0", "0", "40", "90", "200"}, {}, "3", [](S s) { return 1.0 * s.min_confidence; }},
       {"thin-objects", {"true", "false"}, kWrongGaps, "false", [](S s) { return 1.0 * s.thin_objects; }},
-      {"node-end-width", {"3", "1", "9", "31"}, {{"mode", "sparse"}}, "1", [](S s) { return 1.0 * s.node_end_width; }},
+      {"node-end-width", {"3", "1", "9", "31"}, {{"mode", "sparse"}, {"guide", "nodes"}, {"min-confidence", "0"}}, "1", [](S s) { return 1.0 * s.node_end_width; }},
       {"max-gap", {"0", "1", "6", "30"}, {}, "0", [](S s) { return 1.0 * s.max_gap; }},
       {"smoothing-radius", {"0", "0", "1", "3", "31"}, {}, "3", [](S s) { return 1.0 * s.smoothing_radius; }},
   };
