@@ -113,10 +113,10 @@ cv::Mat matched_leaves(const Nodes& nodes) {
   return eval::to_float(map.view());
 }
 
-/// The maps after the steps whose pictures show two modes with the guidance of nodes.
+/// The maps after the steps with the guidance of nodes, and other drawings.
 using Maps = std::map<std::string, cv::Mat>;
 
-Maps maps_of_steps(const char* mode, const render::StereoFrame& frame,
+Maps maps_of_steps(const render::StereoFrame& frame,
                    std::map<std::string_view, Drawing> drawings) {
   Maps maps;
   drawings["node-matching"] = [&](const FrameMemory& memory) {
@@ -128,7 +128,7 @@ Maps maps_of_steps(const char* mode, const render::StereoFrame& frame,
       maps[name] = eval::to_float(memory.maps.disparity.view());
     };
   }
-  Parameters parameters = parameters_of("default", mode);
+  Parameters parameters = parameters_of("default", "semi-dense");
   if (!parameters.set("guide", "nodes")) throw std::runtime_error("there is no guide=nodes");
   match(FrameMatcher(Settings(parameters)), frame, drawings);
   return maps;
@@ -171,11 +171,9 @@ void draw_pictures(const fs::path& folder) {
           figures::side_by_side(figures::draw_nodes(parents(left, settings), frame.left),
                                 figures::draw_nodes(memory.nodes.leaves().left, frame.left)));
   };
-  const Maps semi_dense =
-      maps_of_steps("semi-dense", frame, {{"preprocessing", preprocessed}, {"max-trees", trees}});
-  for (const auto& [name, map] : maps_of_steps("sparse", frame, {})) {
-    write((name + ".png").c_str(),
-          figures::side_by_side(colored(semi_dense.at(name)), colored(map)));
+  for (const auto& [name, map] :
+       maps_of_steps(frame, {{"preprocessing", preprocessed}, {"max-trees", trees}})) {
+    write((name + ".png").c_str(), figures::side_by_side(colored(map), colored(frame.truth)));
   }
   write("path-matching.png",
         figures::side_by_side(colored(matched_along_paths("semi-dense", frame)),
