@@ -57,10 +57,10 @@ def sources():
 def declared_functions():
     """{function: "room/stage"} of the stages that the files of the steps include."""
     functions = {}
-    for stage in re.findall(r'^#include "stages/(\w+/\w+)\.hpp"', sources(), re.MULTILINE):
-        header = (SOURCE / f"core/stages/{stage}.hpp").read_text()
+    for stage in re.findall(r'^#include "(stages/\w+/\w+|matcher/fine_detail)\.hpp"', sources(), re.MULTILINE):
+        header = (SOURCE / f"core/{stage}.hpp").read_text()
         for name in re.findall(r"^[A-Za-z][\w:<>&*, ]* (\w+)\(", header, re.MULTILINE):
-            functions[name] = stage
+            functions[name] = stage.removeprefix("stages/")
     return functions
 
 
@@ -103,7 +103,9 @@ def check(steps, printed):
                 raise Mismatch(f"{step.name}: {group} is no group of the memory")
         if not step.stages:
             raise Mismatch(f"{step.name} calls no stage")
-        for path in [f"tests/core/stages/{stage}_test.cpp" for stage in step.stages]:
+        for stage in step.stages:
+            folder = "" if stage.startswith("matcher/") else "stages/"
+            path = f"tests/core/{folder}{stage}_test.cpp"
             if not (SOURCE / path).exists():
                 raise Mismatch(f"{step.name}: there is no {path}")
 

@@ -44,7 +44,7 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0xdcc79ee35426552a},
+    {"default", "sparse", 0xd06adf84cac74cae},
     {"default", "semi-dense", 0x643311c42a8eb6ef},
     {"default", "dense", 0xa4f86f5e2a0fb157},
     {"default", "full", 0xc8c049df833eba9e},
