@@ -116,8 +116,7 @@ cv::Mat matched_leaves(const Nodes& nodes) {
 /// The maps after the steps with the guidance of nodes, and other drawings.
 using Maps = std::map<std::string, cv::Mat>;
 
-Maps maps_of_steps(const render::StereoFrame& frame,
-                   std::map<std::string_view, Drawing> drawings) {
+Maps maps_of_steps(const render::StereoFrame& frame, std::map<std::string_view, Drawing> drawings) {
   Maps maps;
   drawings["node-matching"] = [&](const FrameMemory& memory) {
     maps["node-matching"] = matched_leaves(memory.nodes);
