@@ -114,8 +114,9 @@ struct Settings {
     return half() ? RatedMap::kEnlarged : RatedMap::kComplete;
   }
   /// Whether the sharpness of the views is a clue for the reliability. Only the table of this kind
-  /// of map has it: the others keep about as few errors on soft views without it.
-  bool rates_detail() const { return rated_map() == RatedMap::kMatched; }
+  /// of map has it: the others keep about as few errors on soft views without it. It is fitted at
+  /// full resolution; views that are soft there are sharp when they are matched at half of it.
+  bool rates_detail() const { return rated_map() == RatedMap::kMatched && !half(); }
   /// The options of the paths for the views at 1 / 2^level of the matched resolution.
   PathMatchingOptions path_matching(int level) const;
   /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost

@@ -52,6 +52,11 @@ TEST(Steps, RunInOrderWithTheDefaults) {
                       "enlarging", "input-census", "refinement"});
 }
 
+TEST(Steps, MeasureTheDetailOfViewsThatAreMatchedAtFullResolution) {
+  expect_order({}, {"path-matching", "fine-detail", "reliability"});
+  expect_none_of(test::parameters({{"resolution", "half-refined"}}), {"fine-detail"});
+}
+
 TEST(Steps, RunInOrderWithNodes) {
   const Parameters nodes = test::parameters({{"guide", "nodes"}, {"max-gap", "8"}});
   expect_order(nodes, {"noise-filter", "census", "preprocessing", "max-trees", "node-matching",
