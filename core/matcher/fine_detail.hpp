@@ -58,7 +58,7 @@ inline constexpr double kLeastCoarseEnergy = 0.5;
 /// Measures the points in the rows y0 .. y1 - 1.
 FineDetail measure_detail(const DetailViews& views, int y0, int y1);
 
-/// Measures those of all rows.
+/// The same for all rows.
 FineDetail measure_detail(const Bands& bands, const DetailViews& views);
 
 }  // namespace mtstereo

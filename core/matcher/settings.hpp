@@ -86,7 +86,7 @@ struct Settings {
   /// Whether all pixels are matched along paths, without nodes, and the rest is inferred. With
   /// nodes, the modes dense and full run the steps of semi-dense.
   bool by_paths() const { return guide == Guide::kPyramid && census(); }
-  /// Whether the map has inferred disparities that are not only those of filled gaps.
+  /// Whether the map has inferred disparities other than filled gaps.
   bool infers() const { return mode == Mode::kDense || mode == Mode::kFull; }
   /// Whether min_confidence applies to the complete map, and not to the matched one.
   bool keeps_likely_only() const { return by_paths() && mode != Mode::kFull; }

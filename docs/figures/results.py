@@ -32,6 +32,7 @@ METHODS = {**{mode: ("--mode", mode) for mode in MODES},
 BASELINES = {"sgbm-3way": "OpenCV SGBM 3WAY", "sgbm-hh": "OpenCV SGBM HH"}
 KINDS = ("noise=5", "noise=10", "jpeg=50", "jpeg=20", "h264=35", "dark=0.15", "bright=1.8", "blur-right=1", "soft2x",
          "cam", "cam2x", "lower-right=1")
+THRESHOLDS = (100, 120, 140, 160, 180)
 DENSITIES = (20, 30, 40, 50, 60, 70, 75, 80)
 CURVES = {"mtstereo": "mtstereo", "sgbm-hh": "SGBM HH", "sgbm-hh + filters": "SGBM HH, best filters"}
 
@@ -60,8 +61,21 @@ def family_means(report, method):
     return found
 
 
+def confidence_figures(program, data):
+    """{kind: {group: {threshold: D-all}}} of mode semi-dense."""
+    found = {}
+    for group in GROUPS:
+        report = evaluate(program, data, group, "--min-confidence", "0", "--curve", "--degrade", ",".join(KINDS))
+        for kind in [{"kind": "clean", "curve": report["curve"]}, *report["degraded"]]:
+            points = {point["threshold"]: point["d_all"] for point in kind["curve"]["curves"][0]["points"]}
+            row = {str(threshold): round(points[threshold], 5) for threshold in THRESHOLDS}
+            found.setdefault(kind["kind"], {})[group] = row
+    return found
+
+
 def measure(program, data):
-    found = {"methods": {}, "families": {}, "degraded": {}, "equal": {}}
+    found = {"methods": {}, "families": {}, "degraded": {}, "equal": {},
+             "confidence": confidence_figures(program, data)}
     baselines = ("--compare", ",".join(BASELINES))
     for group in GROUPS:
         for name, options in METHODS.items():
@@ -132,7 +146,15 @@ def equal_table(found):
     return table(["D-all % at density", *(f"{density} %" for density in DENSITIES)], rows)
 
 
-TABLES = {"methods": methods_table, "families": families_table, "degraded": degraded_table, "equal": equal_table}
+def confidence_table(found):
+    rows = [[f"`{kind}`" if kind in KINDS else kind,
+             *(f"{row['ten'][str(threshold)]:.2f} / {row['more'][str(threshold)]:.2f}" for threshold in THRESHOLDS)]
+            for kind, row in found["confidence"].items()]
+    return table(["D-all %, ten / 17 pairs", *(f"confidence >= {threshold}" for threshold in THRESHOLDS)], rows)
+
+
+TABLES = {"methods": methods_table, "families": families_table, "degraded": degraded_table, "equal": equal_table,
+          "confidence": confidence_table}
 
 
 def filled(text, found):

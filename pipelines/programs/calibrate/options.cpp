@@ -185,8 +185,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.set_version_flag("--version", MTSTEREO_VERSION);
   app.footer(
       "The folder of --out gets calibration.yml for mtrectify, report.json, and images of the "
-      "views, "
-      "their coverage, the residuals and a rectified pair.\n"
+      "views, their coverage, the residuals and a rectified pair.\n"
       "Exit status: 0 = the calibration was written, 1 = it was not (the reason is printed), 2 = "
       "invalid command, 3 = written with warnings (only with --strict).");
   app.get_formatter()->column_width(36);

@@ -311,9 +311,9 @@ void describe(CLI::App& app, bool plan) {
                          "kept.\n"
                        : "") +
       "Exit status: 0 = done, 1 = nothing was done (the reason is printed), 2 = invalid command, 3 "
-      "= "
-      "partly done (unusable or damaged inputs are printed), 4 = useless results: views exchanged, "
-      "at different times or not rectified, or less than 5 % density (the remedy is printed).");
+      "= partly done (unusable or damaged inputs are printed), 4 = useless results: views "
+      "exchanged, at different times or not rectified, or less than 5 % density (the remedy is "
+      "printed).");
 }
 
 }  // namespace

@@ -52,8 +52,7 @@ TEST(Steps, RunInOrderWithTheDefaults) {
                       "enlarging", "input-census", "refinement"});
 }
 
-TEST(Steps, MeasureTheDetailOfViewsThatAreMatchedAtFullResolution) {
-  expect_order({}, {"path-matching", "fine-detail", "reliability"});
+TEST(Steps, MeasureNoDetailAtHalfResolution) {
   expect_none_of(test::parameters({{"resolution", "half-refined"}}), {"fine-detail"});
 }
 
