@@ -39,6 +39,7 @@ void FrameMatcher::set(const Settings& settings) {
 
 void FrameMatcher::restart() {
   choice_.restart();
+  forget();
   set(settings_);
 }
 

@@ -24,9 +24,10 @@ struct FrameMemory {
   Maps maps;
   ResultMaps result;
   ResultBuffers buffers;
+  LastPair last;
 
   /// References to all groups.
-  auto all() { return std::tie(views, nodes, costs, pyramid, maps, result, buffers); }
+  auto all() { return std::tie(views, nodes, costs, pyramid, maps, result, buffers, last); }
 
   /// The group of this type.
   template <typename Group>

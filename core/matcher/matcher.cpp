@@ -48,6 +48,18 @@ void copy_row16(const std::int32_t* __restrict__ in, int width, std::uint16_t* _
   }
 }
 
+bool are_equal(const Parameters& a, const Parameters& b) {
+  const Parameters::Levels ours = a.node_levels(), theirs = b.node_levels();
+  if (!std::equal(ours.level.begin(), ours.level.begin() + ours.count, theirs.level.begin(),
+                  theirs.level.begin() + theirs.count)) {
+    return false;
+  }
+  return std::all_of(
+      parameter_table().begin(), parameter_table().end(), [&](const ParameterInfo& info) {
+        return info.type == ParameterType::kLevels || a.get(info.id) == b.get(info.id);
+      });
+}
+
 }  // namespace
 
 /// The state of the public class. Hidden, since it would otherwise be exported together with that
@@ -78,6 +90,7 @@ Status Matcher::set_parameters(const Parameters& parameters) noexcept {
   return guarded([&]() -> Status {
     Settings settings(parameters);
     settings.correction = correction();
+    if (!are_equal(parameters, state_->parameters)) state_->matcher.forget();
     state_->matcher.set(settings);
     state_->parameters = parameters;
     return {};
@@ -108,6 +121,8 @@ const ViewCorrection& Matcher::correction() const noexcept {
 }
 
 void Matcher::restart() noexcept { state_->matcher.restart(); }
+
+void Matcher::forget() noexcept { state_->matcher.forget(); }
 
 Result<FrameResult> Matcher::compute(GrayView left, GrayView right) noexcept {
   return guarded([&]() -> Result<FrameResult> {

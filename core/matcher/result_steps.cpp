@@ -2,16 +2,27 @@
 #include "matcher/result_steps.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "matcher/fine_detail.hpp"
 #include "stages/refine/completion.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/gap_filling.hpp"
+#include "stages/refine/holding.hpp"
 #include "stages/refine/left_strip.hpp"
 #include "stages/refine/reliability_table.hpp"
 #include "stages/refine/thin_structures.hpp"
 
 namespace mtstereo {
+namespace {
+
+/// The view must be still in this share of its blocks for the last pair to decide anything. After a
+/// cut it is in 0.25 of them or less, even if both scenes have the same sky.
+constexpr double kLeastStill = 0.4;
+
+static_assert(Bands::kRows % kStillBlock == 0);
+
+}  // namespace
 
 void ResultBuffers::resize(const Settings& settings, const FrameSize& size) {
   if (!settings.by_paths()) return;
@@ -32,6 +43,18 @@ void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps
                                 result.confidence->view(), result.place.disparity_offset()};
   const std::optional<double> share = measure_detail(step.input_bands, compared).share();
   if (share) result.fine_detail = static_cast<float>(*share);
+}
+
+void LastPair::resize(const Settings& settings, const FrameSize& size) {
+  const auto [width, height] = size.input;
+  if (settings.holds() && view.width() == width && view.height() == height) return;
+  restart();
+  if (!settings.holds()) return;
+  view.resize(width, height);
+  disparity.resize(width, height);
+  still.resize(still_blocks(width), still_blocks(height));
+  least.resize(width, height);
+  noise.resize(width, height);
 }
 
 void complete_map(const StepContext& step, ResultMaps& result) {
@@ -81,11 +104,37 @@ void correct_strip(const StepContext& step, ResultMaps& result) {
   });
 }
 
-void reject_unlikely(const StepContext& step, ResultMaps& result, ResultBuffers& buffers) {
+void hold_known(const StepContext& step, const Views& views, const ResultMaps& result,
+                LastPair& last) {
+  last.decides = false;
+  if (!last.valid) return;
+  const Bands& bands = step.input_bands;
+  bands.rows([&](int y0, int y1, int) { measure_blocks(views.left, y0, y1, last.noise); });
+  const float noise = noise_level(last.noise);
+  std::atomic<int> still{0};
+  bands.rows([&](int y0, int y1, int) {
+    still += find_still(views.left, last.view, noise, y0, y1, last.still);
+  });
+  const int blocks = last.still.width() * last.still.height();
+  last.decides = still >= kLeastStill * blocks;
+  if (!last.decides) return;
+  const LeastConfidence least = step.settings.least_confidence();
+  bands.rows([&](int y0, int y1, int) {
+    choose_least(least, last.still, last.disparity, *result.disparity, y0, y1, last.least);
+  });
+}
+
+void reject_unlikely(const StepContext& step, const LastPair& last, ResultMaps& result,
+                     ResultBuffers& buffers) {
   const Settings& settings = step.settings;
+  const bool each = settings.holds() && last.decides;
   step.input_bands.rows([&](int y0, int y1, int) {
-    threshold_confidence(settings.least_reliability(), y0, y1, *result.disparity,
-                         *result.confidence);
+    if (each) {
+      threshold_each(last.least, y0, y1, *result.disparity, *result.confidence);
+    } else {
+      threshold_confidence(settings.least_reliability(), y0, y1, *result.disparity,
+                           *result.confidence);
+    }
     find_runs(*result.disparity, kDisparityOne, y0, y1, buffers.islands);
   });
   join_bands(*result.disparity, kDisparityOne, Bands::kRows, buffers.islands);
@@ -116,6 +165,17 @@ void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps&
     if (!settings.keeps_likely_only()) return;
     remove_covered(maps.unfiltered, result.place, y0, y1, *result.disparity, *result.confidence);
   });
+}
+
+void keep_pair(const StepContext& step, const Views& views, const ResultMaps& result,
+               LastPair& last) {
+  step.input_bands.rows([&](int y0, int y1, int) {
+    for (int y = y0; y < y1; ++y) {
+      std::copy_n(views.left.row(y), views.left.width, last.view.row(y));
+    }
+    copy_last(*result.disparity, y0, y1, last.disparity);
+  });
+  last.valid = true;
 }
 
 }  // namespace mtstereo

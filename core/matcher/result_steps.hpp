@@ -9,6 +9,7 @@
 #include "matcher/path_steps.hpp"
 #include "matcher/rating.hpp"
 #include "matcher/view_steps.hpp"
+#include "stages/prepare/noise_level.hpp"
 #include "stages/refine/edge_alignment.hpp"
 #include "stages/refine/speckle_removal.hpp"
 
@@ -34,6 +35,23 @@ struct ResultBuffers {
 /// Measures how sharp the views are, at the pixels that were matched.
 void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps& result);
 
+/// The last pair of the stream: all that the steps of a pair know of those before.
+struct LastPair {
+  Image<std::uint8_t> view;        ///< the left one
+  Image<std::uint16_t> disparity;  ///< its map [1 / kHeldOne px], 0 = unknown
+  bool valid = false;              ///< there was one
+
+  // of the present pair
+  bool decides = false;       ///< the scene is the same, and `least` applies
+  Image<std::uint8_t> still;  ///< 1 for each block of the view that has not changed
+  Image<std::uint8_t> least;  ///< confidence that each pixel needs
+  NoiseBlocks noise;
+
+  /// Begins anew, as for another stream.
+  void restart() { valid = false; }
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
 /// Gives the remaining pixels a disparity.
 void complete_map(const StepContext& step, ResultMaps& result);
 
@@ -51,8 +69,13 @@ void calibrate_confidence(const StepContext& step, const Views& views, const Pyr
 /// Corrects what the right camera may not see at the left of the complete, rated map.
 void correct_strip(const StepContext& step, ResultMaps& result);
 
+/// Decides by the last pair what confidence each pixel of the complete map needs.
+void hold_known(const StepContext& step, const Views& views, const ResultMaps& result,
+                LastPair& last);
+
 /// Removes what is less reliable than asked for, and small islands that are left.
-void reject_unlikely(const StepContext& step, ResultMaps& result, ResultBuffers& buffers);
+void reject_unlikely(const StepContext& step, const LastPair& last, ResultMaps& result,
+                     ResultBuffers& buffers);
 
 /// Fills small gaps that the rejection has left in a surface. What it fills is inferred, not
 /// matched.
@@ -60,5 +83,9 @@ void close_gaps(const StepContext& step, ResultMaps& result, ResultBuffers& buff
 
 /// Draws the thin structures into the map.
 void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps& result);
+
+/// Keeps the map and the left view for the next pair.
+void keep_pair(const StepContext& step, const Views& views, const ResultMaps& result,
+               LastPair& last);
 
 }  // namespace mtstereo

@@ -2,6 +2,7 @@
 #include "matcher/settings.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "stages/nodes/node_census_cost.hpp"
@@ -22,6 +23,13 @@ constexpr int kHalvedTolerance = 2;     // of the left-right check [px]
 constexpr int kHalvedKernel = 3;        // [px]
 constexpr int kHalvedRangePenalty = 2;  // [bits]
 constexpr SmoothnessOptions kHalvedSmoothness = {12, 51};
+
+/// With Temporal::kHold, what a known pixel of the last map needs less than the usual confidence,
+/// and what others need more. With both, a still stream has the density and the errors of single
+/// frames, and half of their flicker; a lower threshold alone has those of a lower min-confidence.
+constexpr int kHeldLess = 30;
+constexpr int kFreshMore = 10;
+constexpr int kFreshMoreOfDense = 5;
 
 /// Converts a percentage to a fraction.
 double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
@@ -74,6 +82,15 @@ void Settings::match_at(Resolution chosen) {
   search_range.disparities = disparities;
   census_cost.disparities = disparities;
   selection.disparities = disparities;
+}
+
+LeastConfidence Settings::least_confidence() const {
+  const int usual = least_reliability();
+  const int lowest = keeps_inferred() ? 1 : kMostInferred + 1;
+  const int more = keeps_inferred() ? kFreshMoreOfDense : kFreshMore;
+  return {static_cast<std::uint8_t>(usual),
+          static_cast<std::uint8_t>(std::max(usual - kHeldLess, lowest)),
+          static_cast<std::uint8_t>(std::min(usual + more, 255))};
 }
 
 PathMatchingOptions Settings::path_matching(int level) const {

@@ -14,6 +14,7 @@
 #include "stages/pixels/path_matching.hpp"
 #include "stages/pixels/scanline_optimization.hpp"
 #include "stages/pixels/search_range.hpp"
+#include "stages/refine/holding.hpp"
 #include "stages/refine/reliability_table.hpp"
 
 namespace mtstereo {
@@ -70,6 +71,8 @@ struct Settings {
   int max_gap = set_.integer(P::kMaxGap);                ///< [px]
   int smoothing_radius = set_.integer(P::kSmoothingRadius);  ///< [px]
 
+  Temporal temporal = choice<Temporal>(set_);
+
   /// What is done to the input views; no parameter sets it.
   ViewCorrection correction;
 
@@ -108,6 +111,10 @@ struct Settings {
   int least_reliability() const {
     return keeps_inferred() ? min_confidence : std::max(min_confidence, kMostInferred + 1);
   }
+  /// Whether the last map of the stream decides what confidence a pixel of the next one needs.
+  bool holds() const { return temporal == Temporal::kHold && by_paths() && rejects_unlikely(); }
+  /// The least confidence of pixels that the last map does not decide, that it knows, and others.
+  LeastConfidence least_confidence() const;
   /// The kind of the complete map, for its reliability.
   RatedMap rated_map() const {
     if (!infers()) return RatedMap::kMatched;

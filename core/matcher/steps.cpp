@@ -87,9 +87,11 @@ constexpr Step kResultList[] = {
     {"edge-alignment",     always,                                   on<align_map_edges>},
     {"reliability",        always,                                   on<calibrate_confidence>},
     {"left-strip",         [](S s) { return s.mode == Mode::kFull; }, on<correct_strip>},
+    {"holding",            [](S s) { return s.holds(); },            on<hold_known>},
     {"rejection",          [](S s) { return s.rejects_unlikely(); }, on<reject_unlikely>},
     {"gap-closing",        [](S s) { return s.rejects_unlikely() && s.max_gap > 0; }, on<close_gaps>},
     {"thin-drawing",       [](S s) { return s.thin_objects; },       on<draw_thin_structures>},
+    {"pair-keeping",       [](S s) { return s.holds(); },            on<keep_pair>},
 };
 // clang-format on
 

@@ -34,6 +34,9 @@ enum class BetweenNodes { kNone, kSpan, kAll };
 /// Disparities among which the second-best one is searched.
 enum class RunnerUp { kAny, kExpected };
 
+/// What the last pair of a stream decides.
+enum class Temporal { kOff, kHold };
+
 template <typename Enum>
 struct ChoiceOf;
 
@@ -93,9 +96,15 @@ struct ChoiceOf<RunnerUp> {
   static constexpr std::array<std::string_view, 2> kWords = {"any", "expected"};
 };
 
+template <>
+struct ChoiceOf<Temporal> {
+  static constexpr Parameter kParameter = Parameter::kTemporal;
+  static constexpr std::array<std::string_view, 2> kWords = {"off", "hold"};
+};
+
 /// The enums of all choices.
 using Choices = std::tuple<Preset, Mode, Resolution, Guide, Cost, CostVolumeResolution,
-                           OutlierRemoval, BetweenNodes, RunnerUp>;
+                           OutlierRemoval, BetweenNodes, RunnerUp, Temporal>;
 
 /// The effective value of a choice.
 template <typename Enum>

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 ROWS = "core/matcher/steps.cpp"  # the lists
 STEPS = ("view_steps", "path_steps", "node_steps", "map_steps", "result_steps", "rating")  # their functions
-GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "ResultMaps", "ResultBuffers")
+GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "ResultMaps", "ResultBuffers", "LastPair")
 MODES = ("sparse", "semi-dense", "dense", "full")
 INK, FAINT, EDGE = "#282828", "#767676", "#b4b4b4"
 GST, CORE, ROOM = "#fdf0dc", "#e4eefa", "#f4f4f4"
@@ -225,7 +225,8 @@ def draw_list(drawing, which, steps, x, top):
 
 
 def picture(steps, path):
-    drawing = Drawing(925)
+    drawing = Drawing(44 + sum(59 if which != "Node" else 0 for which in {step.list for step in steps}) +
+                      25 * sum(step.list != "Node" for step in steps))
     drawing.text(16, 24, "The path of a frame", 9.5, weight="bold")
     drawing.text(434, 24, "core/matcher/steps", 9.5, weight="bold")
     drawing.text(640, 24, "gray: not with the defaults", color=FAINT)

@@ -45,7 +45,7 @@ struct FrameResult {
 /// not allocate memory. One matcher may be used by one thread at a time; different matchers
 /// share nothing and may be used at the same time. A matcher runs Parameter::kThreads threads of
 /// its own. The result does not depend on their number. It depends on the frames before only with
-/// Parameter::kResolution = "auto".
+/// Parameter::kResolution = "auto" and Parameter::kTemporal = "hold".
 class MTSTEREO_API Matcher {
  public:
   /// Creates a matcher with these parameters. Fails with kOutOfMemory.
@@ -58,7 +58,7 @@ class MTSTEREO_API Matcher {
   ~Matcher();
 
   /// Sets the parameters for the next frames. Fails with kOutOfMemory; the parameters are unchanged
-  /// then.
+  /// then. Other parameters than before forget() the last pair.
   Status set_parameters(const Parameters& parameters) noexcept;
   /// The parameters for the next frame. The reference is valid as long as the matcher.
   const Parameters& parameters() const noexcept;
@@ -72,9 +72,13 @@ class MTSTEREO_API Matcher {
   const ViewCorrection& correction() const noexcept;
 
   /// Begins anew what depends on the frames so far, as for another stream or after a seek: the
-  /// choice of Parameter::kResolution = "auto". The next frame is matched at full resolution then.
-  /// Another image size and set_parameters() with another resolution do the same.
+  /// choice of Parameter::kResolution = "auto", so that the next frame is matched at full
+  /// resolution, and the last pair. Another image size does the same, and set_parameters() with
+  /// another resolution.
   void restart() noexcept;
+  /// Forgets only the last pair, with which Parameter::kTemporal = "hold" compares the next one, as
+  /// after a gap in the stream. The next map is that of "off" then.
+  void forget() noexcept;
 
   /// Matches one pair of images of the same size. They are only read, and only during the call.
   /// Fails with kInvalidImage, kSizeMismatch, kFrameDoesNotFit, kInvalidCombination, kOutOfMemory

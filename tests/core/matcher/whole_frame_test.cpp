@@ -73,6 +73,11 @@ void expect_step(const reference::Frame& expected, const Step& step, const Frame
           << "costs of disparity " << d;
     }
   }
+  if (step.name == "holding") {
+    const bool decides = expected.least.width > 0;
+    EXPECT_EQ(decides, memory.last.decides);
+    EXPECT_TRUE(!decides || same_image(expected.least, memory.last.least.view()));
+  }
   if (step.name == "node-matching") expect_ends(expected, memory.nodes);
   const DisparityView map = test::map_after(step, memory);
   if (map.width > 0) {
@@ -86,8 +91,9 @@ void expect_step(const reference::Frame& expected, const Step& step, const Frame
 
 /// Matches a pair and compares it with the scalar versions step by step. Returns the map.
 test::DisparityPlane expect_reference(FrameMatcher& matcher, const test::Pair& pair, GrayView left,
-                                      GrayView right) {
+                                      GrayView right, const reference::LastPair& last = {}) {
   reference::Frame expected(pair.left, pair.right, matcher.settings());
+  expected.last = last;
   const auto compare = [&](const Step& step, const FrameMemory& memory) {
     reference::run(step.name, expected);
     expect_step(expected, step, memory);
@@ -110,6 +116,16 @@ test::Pair random_pair(int width, int height, Random& random) {
   }
 }
 
+/// The next frame of a camera at rest, with other noise.
+test::Pair with_noise(test::Pair pair, Random& random) {
+  for (test::GrayPlane* view : {&pair.left, &pair.right}) {
+    for (std::uint8_t& pixel : view->pixels) {
+      pixel = static_cast<std::uint8_t>(std::clamp(pixel + random.between(-1, 1), 0, 255));
+    }
+  }
+  return pair;
+}
+
 /// Compares one matcher with the reference over frames of changing size and parameters. Returns the
 /// number of disparities found.
 long expect_reference_frames(int frames, std::uint64_t seed) {
@@ -127,7 +143,13 @@ long expect_reference_frames(int frames, std::uint64_t seed) {
     const test::PaddedImage<std::uint8_t> right(pair.right, random.below(70), random.below(9));
     if (!parameters.check_frame(width, height).ok()) continue;
     matcher.set(Settings(parameters));
-    found += test::known(expect_reference(matcher, pair, left.view(), right.view()));
+    matcher.forget();
+    const test::DisparityPlane map = expect_reference(matcher, pair, left.view(), right.view());
+    found += test::known(map);
+    if (matcher.settings().holds()) {
+      const test::Pair next = with_noise(pair, random);
+      expect_reference(matcher, next, next.left.view(), next.right.view(), {map, pair.left});
+    }
     EXPECT_TRUE(left.unchanged() && right.unchanged()) << "the input was written to";
   }
   return found;
@@ -185,6 +207,32 @@ TEST(WholeFrame, EqualsReferenceWithThinObjects) {
   };
   for (const char* const mode : {"semi-dense", "dense"}) {
     EXPECT_GT(near(map_of(mode, "true")), near(map_of(mode, "false")) + 100) << mode;
+  }
+}
+
+TEST(WholeFrame, EqualsReferenceInASequenceWithHold) {
+  for (const char* const mode : {"sparse", "semi-dense", "dense"}) {
+    for (const char* const resolution : {"full", "half-refined"}) {
+      for (const char* const least : {"-8", "0", "8"}) {
+        SCOPED_TRACE(testing::Message() << mode << ", " << resolution << ", from " << least);
+        FrameMatcher matcher{Settings(test::parameters({{"mode", mode},
+                                                        {"resolution", resolution},
+                                                        {"min-disparity", least},
+                                                        {"max-disparity", "40"},
+                                                        {"temporal", "hold"}}))};
+        Random random(4);
+        const test::Pair scene = test::slanted_pair(140, 60, 30, 9);
+        reference::LastPair last;
+        for (int frame = 0; frame < 3; ++frame) {
+          test::Pair pair = with_noise(scene, random);
+          for (int x = 0; x < 60; ++x) pair.left(x, 30) = static_cast<std::uint8_t>(60 * frame);
+          const test::DisparityPlane map =
+              expect_reference(matcher, pair, pair.left.view(), pair.right.view(), last);
+          EXPECT_GT(test::known(map), 1000);
+          last = {map, pair.left};
+        }
+      }
+    }
   }
 }
 

@@ -22,6 +22,7 @@
 #include "reference/refine/enlarging.hpp"
 #include "reference/refine/gap_filling.hpp"
 #include "reference/refine/gray_mapping.hpp"
+#include "reference/refine/holding.hpp"
 #include "reference/refine/left_strip.hpp"
 #include "reference/refine/map_smoothing.hpp"
 #include "reference/refine/reliability.hpp"
@@ -63,6 +64,8 @@ struct Frame {
   GrayPlane ratio;
   GrayPlane area;  ///< weights of the areas
   GrayPlane confidence;
+  LastPair last;    ///< with an empty map: the pair is the first one
+  GrayPlane least;  ///< confidence that each pixel needs; empty: all the same
 };
 
 /// Left pixels before the first column, and right ones after the last one, repeat these.
@@ -307,9 +310,19 @@ inline void draw_thin_structures(Frame& f) {
                        f.map, f.confidence);
 }
 
+inline void hold_known(Frame& f) {
+  if (f.last.map.width == 0) return;
+  const GrayPlane still = still_blocks(f.left, f.last.view, noise_level(f.left));
+  const auto count = std::count(still.pixels.begin(), still.pixels.end(), 1);
+  if (5 * count < 2 * static_cast<long>(still.pixels.size())) return;
+  const auto [usual, known, fresh] = f.settings.least_confidence();
+  f.least = least_confidence(f.map, f.last.map, still, {usual, known, fresh});
+}
+
 inline void reject_unlikely(Frame& f) {
   for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
-    if (f.confidence.pixels[i] >= f.settings.least_reliability()) continue;
+    const int least = f.least.width > 0 ? f.least.pixels[i] : f.settings.least_reliability();
+    if (f.confidence.pixels[i] >= least) continue;
     f.map.pixels[i] = f.confidence.pixels[i] = 0;
   }
   f.map = remove_speckles(f.map, 256, f.settings.speckle_size).map;
@@ -382,6 +395,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"edge-alignment", align_edges},
     {"reliability", calibrate_confidence},
     {"left-strip", correct_strip},
+    {"holding", hold_known},
     {"rejection", reject_unlikely},
     {"gap-closing", close_gaps},
     {"thin-drawing", draw_thin_structures},

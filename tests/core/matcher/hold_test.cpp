@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// temporal=hold: what the last pair of a stream changes, and when the matcher forgets it.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "support/compare.hpp"
+#include "support/matching.hpp"
+#include "support/random.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::DisparityPlane;
+using test::Matched;
+using test::Pair;
+using test::same_image;
+
+constexpr const char* kModes[] = {"sparse", "semi-dense", "dense"};
+
+/// A scene whose disparities are at the limit of what is kept if there is noise.
+const Pair& scene() {
+  static const Pair pair = test::slanted_pair(240, 120, 30, 1);
+  return pair;
+}
+
+/// A frame of a camera at rest.
+Pair frame(int number, const Pair& pair = scene()) {
+  Pair noisy = pair;
+  test::Random random(number + 1);
+  for (test::GrayPlane* view : {&noisy.left, &noisy.right}) {
+    for (std::uint8_t& pixel : view->pixels) {
+      const int noise = random.between(-15, 15) + random.between(-15, 15);
+      pixel = static_cast<std::uint8_t>(std::clamp(pixel + noise, 0, 255));
+    }
+  }
+  return noisy;
+}
+
+Matched match(Matcher& matcher, const Pair& pair) {
+  return test::match(matcher, pair.left, pair.right);
+}
+
+/// The map of a pair without a last one.
+Matched alone(const Pair& pair, const char* mode = "semi-dense") {
+  Matcher matcher = test::matcher({{"mode", mode}});
+  return match(matcher, pair);
+}
+
+bool equal(const Matched& a, const Matched& b) {
+  return a.map == b.map && a.confidence == b.confidence;
+}
+
+/// A matcher that holds the pixels of a stream.
+Matcher holding(const char* mode = "semi-dense") {
+  Matcher matcher = test::matcher({{"mode", mode}, {"temporal", "hold"}});
+  EXPECT_TRUE(equal(alone(frame(0), mode), match(matcher, frame(0)))) << "the first pair";
+  for (int i = 1; i < 4; ++i) match(matcher, frame(i));
+  return matcher;
+}
+
+/// Of the pixels that any of six maps knows, the share that another one does not know.
+struct Flicker {
+  double come_and_go = 0;
+  double density = 0;
+};
+
+Flicker flicker(Matcher& matcher) {
+  test::GrayPlane times(scene().left.width, scene().left.height);
+  for (int i = 10; i < 16; ++i) {
+    const DisparityPlane map = match(matcher, frame(i)).map;
+    for (std::size_t k = 0; k < map.pixels.size(); ++k) times.pixels[k] += map.pixels[k] != 0;
+  }
+  double any = 0, all = 0, sum = 0;
+  for (const std::uint8_t count : times.pixels) {
+    any += count > 0;
+    all += count == 6;
+    sum += count;
+  }
+  return {(any - all) / any, sum / 6 / static_cast<double>(times.pixels.size())};
+}
+
+TEST(Hold, ReducesTheFlickerAndNotTheDensity) {
+  for (const char* const mode : kModes) {
+    Matcher off = test::matcher({{"mode", mode}}), hold = holding(mode);
+    const Flicker before = flicker(off), after = flicker(hold);
+    EXPECT_GT(before.come_and_go, 0.09) << mode << ": too little to compare";
+    EXPECT_LT(after.come_and_go, 0.85 * before.come_and_go) << mode;
+    EXPECT_GT(after.density, before.density - 0.02) << mode;
+    const double most = mode == std::string("sparse") ? 1 : 0.02;
+    EXPECT_LT(after.density, before.density + most) << mode;
+  }
+}
+
+TEST(Hold, KeepsOnlyWhatThePresentPairChose) {
+  for (const char* const mode : kModes) {
+    // Without steps that infer disparities from those that are kept.
+    const auto with = [&](const char* temporal, int least) {
+      return test::matcher({{"mode", mode},
+                            {"temporal", temporal},
+                            {"min-confidence", std::to_string(least)},
+                            {"max-gap", "0"},
+                            {"thin-objects", "false"}});
+    };
+    Matcher hold = with("hold", 140), lower = with("off", 110), higher = with("off", 150);
+    for (int i = 0; i < 4; ++i) {
+      const Matched held = match(hold, frame(i));
+      const Matched most = match(lower, frame(i)), least = match(higher, frame(i));
+      for (std::size_t k = 0; k < held.map.pixels.size(); ++k) {
+        const int disparity = held.map.pixels[k];
+        ASSERT_TRUE(disparity == 0 || disparity == most.map.pixels[k]) << mode << ", pixel " << k;
+        ASSERT_TRUE(disparity != 0 || least.map.pixels[k] == 0) << mode << ", pixel " << k;
+      }
+    }
+  }
+}
+
+TEST(Hold, IsOffAfterACut) {
+  const Pair other = frame(7, test::slanted_pair(240, 120, 30, 8));
+  for (const char* const mode : kModes) {
+    Matcher matcher = holding(mode);
+    EXPECT_TRUE(equal(alone(other, mode), match(matcher, other))) << mode;
+  }
+}
+
+TEST(Hold, IsOffWhileTheCameraMoves) {
+  const Pair wide = test::slanted_pair(280, 120, 30, 1);
+  Matcher matcher = test::matcher({{"temporal", "hold"}});
+  for (int i = 0; i < 5; ++i) {
+    Pair moved{test::GrayPlane(240, 120), test::GrayPlane(240, 120)};
+    for (int y = 0; y < 120; ++y) {
+      for (int x = 0; x < 240; ++x) {
+        moved.left(x, y) = wide.left(x + 3 * i, y);
+        moved.right(x, y) = wide.right(x + 3 * i, y);
+      }
+    }
+    moved = frame(i, moved);
+    EXPECT_TRUE(equal(alone(moved), match(matcher, moved))) << i;
+  }
+}
+
+TEST(Hold, ForgetsAtEveryNewBeginning) {
+  const Pair next = frame(20);
+  Matcher kept = holding();
+  EXPECT_FALSE(equal(alone(next), match(kept, next))) << "the test shows nothing";
+
+  const std::vector<std::pair<const char*, std::function<void(Matcher&)>>> beginnings = {
+      {"restart", [](Matcher& matcher) { matcher.restart(); }},
+      {"forget", [](Matcher& matcher) { matcher.forget(); }},
+      {"another size",
+       [](Matcher& matcher) { match(matcher, test::slanted_pair(200, 100, 20, 2)); }},
+      {"another parameter",
+       [](Matcher& matcher) {
+         for (const char* const least : {"100", "136"}) {
+           const Parameters next =
+               test::parameters({{"temporal", "hold"}, {"min-confidence", least}});
+           ASSERT_TRUE(matcher.set_parameters(next).ok());
+         }
+       }},
+      {"off and on", [](Matcher& matcher) {
+         for (const char* const temporal : {"off", "hold"}) {
+           ASSERT_TRUE(matcher.set_parameters(test::parameters({{"temporal", temporal}})).ok());
+         }
+       }}};
+  for (const auto& [name, begin] : beginnings) {
+    Matcher matcher = holding();
+    begin(matcher);
+    EXPECT_TRUE(equal(alone(next), match(matcher, next))) << name;
+  }
+}
+
+TEST(Hold, GoesOnWithTheSameParametersAndAnotherCorrection) {
+  const Pair next = frame(20);
+  Matcher kept = holding(), corrected = holding(), same = holding();
+  const Matched expected = match(kept, next);
+  ASSERT_TRUE(same.set_parameters(Parameters(same.parameters())).ok());
+  EXPECT_TRUE(equal(expected, match(same, next)));
+  ASSERT_TRUE(corrected.set_correction({{1e-4, 0, 0, 0, 0}, 0, 0}).ok());
+  EXPECT_GT(test::known(match(corrected, next).map), test::known(alone(next).map));
+}
+
+TEST(Hold, IsTheSameForAnyNumberOfThreads) {
+  std::vector<DisparityPlane> expected;
+  for (const char* const threads : {"1", "2", "5"}) {
+    Matcher matcher = test::matcher({{"temporal", "hold"}, {"threads", threads}});
+    for (int i = 0; i < 4; ++i) {
+      const DisparityPlane map = match(matcher, frame(i)).map;
+      if (threads == std::string("1")) expected.push_back(map);
+      EXPECT_TRUE(same_image(expected[i], map)) << threads << " threads, frame " << i;
+    }
+  }
+}
+
+TEST(Hold, ChangesNothingWhereNoConfidenceIsAskedOfTheCompleteMap) {
+  for (const auto& [preset, mode] :
+       {std::pair("default", "full"), {"fast", "semi-dense"}, {"paper", "dense"}}) {
+    Matcher off = test::matcher({{"preset", preset}, {"mode", mode}});
+    Matcher hold = test::matcher({{"preset", preset}, {"mode", mode}, {"temporal", "hold"}});
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_TRUE(equal(match(off, frame(i)), match(hold, frame(i)))) << preset << ' ' << mode;
+    }
+  }
+}
+
+TEST(Hold, IsNoDefault) {
+  for (const char* const preset : {"default", "fast", "paper"}) {
+    EXPECT_EQ("off", test::parameters({{"preset", preset}}).text(Parameter::kTemporal));
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo
