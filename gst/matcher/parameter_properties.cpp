@@ -43,7 +43,7 @@ bool is_for_experts(Parameter id) {
       Parameter::kPreset,       Parameter::kMode,        Parameter::kMaxDisparity,
       Parameter::kMinDisparity, Parameter::kResolution,  Parameter::kThreads,
       Parameter::kNoiseFilter,  Parameter::kSpeckleSize, Parameter::kMinConfidence,
-      Parameter::kThinObjects,  Parameter::kMaxGap};
+      Parameter::kThinObjects,  Parameter::kMaxGap,      Parameter::kTemporal};
   return std::find(std::begin(kMain), std::end(kMain), id) == std::end(kMain);
 }
 

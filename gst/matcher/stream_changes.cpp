@@ -17,6 +17,7 @@ void take_stream_info(ElementState& state, Side side, StreamInfo info) {
 void adopt_caps(ElementState& state, Side side, const std::shared_ptr<const StreamInfo>& info) {
   if (!state.formats.adopt(side, info)) return;
   state.geometry_compared = false;
+  state.engine.forget();
   state.pairing.set_duration(side, frame_duration(info->video));
   if (side == Side::kLeft) gst_pad_mark_reconfigure(state.output.pad());
   update_pairing_latency(state);

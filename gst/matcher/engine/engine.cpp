@@ -23,6 +23,11 @@ void to_little_endian(ImageView<std::uint16_t> map) {
   }
 }
 
+/// A pair is compared with the last one if it follows within this number of frames or within this
+/// time, in which a slow computer skips many.
+constexpr guint64 kLongestGap = 5;
+constexpr GstClockTime kShortestGap = GST_SECOND / 2;
+
 }  // namespace
 
 Status Engine::fit(const MatchSettings& settings) {
@@ -114,6 +119,21 @@ GstFlowReturn Engine::compute(GstBuffer* left, GstBuffer* right, GstBuffer* map,
   return GST_FLOW_OK;
 }
 
+/// True if the pair may be compared with the last one.
+bool Engine::continues(GstBuffer* left, GstBuffer* right) const {
+  if (GST_BUFFER_IS_DISCONT(left) || GST_BUFFER_IS_DISCONT(right)) return false;
+  const GstClockTime time = GST_BUFFER_PTS(left);
+  if (!GST_CLOCK_TIME_IS_VALID(time) || !GST_CLOCK_TIME_IS_VALID(last_time_)) return true;
+  const GstClockTime gap = time > last_time_ ? time - last_time_ : last_time_ - time;
+  const GstVideoInfo& video = formats_[Side::kLeft].video;
+  const bool constant = GST_VIDEO_INFO_FPS_N(&video) > 0;
+  const GstClockTime frames =
+      constant ? gst_util_uint64_scale(kLongestGap * GST_SECOND, GST_VIDEO_INFO_FPS_D(&video),
+                                       GST_VIDEO_INFO_FPS_N(&video))
+               : 0;
+  return gap <= std::max(kShortestGap, frames);
+}
+
 void Engine::count_pair(const GstVideoInfo& map_info) {
   const FrameStatistics& frame = result_.statistics;
   const bool chosen = settings_.parameters.text(Parameter::kResolution) == "auto";
@@ -136,6 +156,8 @@ void Engine::count_pair(const GstVideoInfo& map_info) {
 
 GstFlowReturn Engine::match(GstBuffer* left, GstBuffer* right, GstBuffer* map,
                             const GstVideoInfo& map_info) {
+  if (!continues(left, right)) forget();
+  last_time_ = GST_BUFFER_PTS(left);
   const GstFlowReturn flow = compute(left, right, map, map_info);
   if (flow != GST_FLOW_OK) return flow;
   set_disparity_unit(map, settings_.unit());
@@ -154,6 +176,10 @@ GstFlowReturn Engine::match(GstBuffer* left, GstBuffer* right, GstBuffer* map,
 void Engine::restart() {
   alignment_.restart();
   if (matcher_) matcher_->restart();
+}
+
+void Engine::forget() {
+  if (matcher_) matcher_->forget();
 }
 
 void Engine::start() {

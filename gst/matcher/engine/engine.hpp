@@ -47,6 +47,8 @@ class Engine {
 
   /// The output of a segment does not depend on earlier ones.
   void restart();
+  /// The next map does not depend on the last one.
+  void forget();
   void start();
   void stop();
 
@@ -60,6 +62,7 @@ class Engine {
   Status match_views(const MappedFrame& left, const MappedFrame& right,
                      ImageView<std::uint16_t> map);
   GstFlowReturn refuse_frame(const char* source, const MappedFrame& frame);
+  bool continues(GstBuffer* left, GstBuffer* right) const;
   void publish_alignment();
   void count_pair(const GstVideoInfo& map_info);
 
@@ -69,8 +72,9 @@ class Engine {
   guint64 revision_ = 0;                    // of the matcher's parameters
   std::optional<guint64> logged_revision_;  // of the settings in the log
   std::optional<Matcher> matcher_;
-  FrameResult result_;              // of the last pair, in the memory of the matcher
-  std::array<LumaReader, 2> luma_;  // by side
+  FrameResult result_;                            // of the last pair, in the memory of the matcher
+  GstClockTime last_time_ = GST_CLOCK_TIME_NONE;  // of the last left frame
+  std::array<LumaReader, 2> luma_;                // by side
   PairAlignment alignment_;
   AlignmentReports reports_;
   Borders borders_;         // of the last pair
