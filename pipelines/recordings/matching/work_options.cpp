@@ -60,6 +60,11 @@ Parameters matcher_parameters(const WorkOptions& options) {
         "resolution = auto chooses by the frames before, but the pairs of a recording are matched "
         "side by side and in pieces: set full, or half-refined for a soft camera");
   }
+  if (parameters.text(Parameter::kTemporal) != "off") {
+    throw UserError(
+        "temporal = hold compares each pair with the one before, but the pairs of a recording are "
+        "matched side by side and in pieces: use mtstereo in a pipeline");
+  }
   if (options.threads > 0) check(parameters.set(Parameter::kThreads, options.threads));
   return parameters;
 }

@@ -203,6 +203,20 @@ TEST(WorkOptions, RefuseAResolutionThatDependsOnTheFramesBefore) {
   EXPECT_NO_THROW(matcher_parameters(options));
 }
 
+TEST(WorkOptions, RefuseMapsThatDependOnThePairBefore) {
+  WorkOptions options;
+  options.parameters = {{"temporal", "hold"}};
+  try {
+    matcher_parameters(options);
+    FAIL() << "it was not refused";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("use mtstereo in a pipeline"), std::string::npos)
+        << error.what();
+  }
+  options.parameters = {{"temporal", "off"}};
+  EXPECT_NO_THROW(matcher_parameters(options));
+}
+
 TEST_F(Preparation, FindsTheGeometry) {
   write(3, 0);
   EXPECT_FALSE(prepared().geometry);
