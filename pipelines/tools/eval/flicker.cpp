@@ -30,6 +30,18 @@ PixelSum sum_of(const std::vector<cv::Mat>& maps, int y, int x) {
 
 double ratio(double part, double whole) { return whole > 0 ? part / whole : kNone; }
 
+// The mean of the figures that are known.
+template <typename List, typename Figure>
+double mean_of(const List& list, Figure figure) {
+  double sum = 0, count = 0;
+  for (const auto& each : list) {
+    if (std::isnan(each.*figure)) continue;
+    sum += each.*figure;
+    ++count;
+  }
+  return ratio(sum, count);
+}
+
 }  // namespace
 
 Flicker measure_flicker(const std::vector<cv::Mat>& maps) {
@@ -54,16 +66,27 @@ Flicker measure_flicker(const std::vector<cv::Mat>& maps) {
           100 * ratio(any - all, any), ratio(deviations, all)};
 }
 
+void FlickerWindow::add(const cv::Mat& map, const Metrics& errors) {
+  maps_.push_back(map);
+  errors_.push_back(errors);
+  if (maps_.size() <= kFlickerFrames) return;
+  maps_.pop_front();
+  errors_.pop_front();
+}
+
+std::optional<Flicker> FlickerWindow::measure() const {
+  if (maps_.size() < kFlickerFrames) return std::nullopt;
+  Flicker flicker = measure_flicker({maps_.begin(), maps_.end()});
+  flicker.d_all = mean_of(errors_, &Metrics::d_all);
+  flicker.avgerr = mean_of(errors_, &Metrics::avgerr);
+  return flicker;
+}
+
 Flicker mean(const std::vector<Flicker>& list) {
   Flicker result;
-  for (double Flicker::*figure : {&Flicker::density, &Flicker::come_and_go, &Flicker::spread}) {
-    double sum = 0, count = 0;
-    for (const Flicker& flicker : list) {
-      if (std::isnan(flicker.*figure)) continue;
-      sum += flicker.*figure;
-      ++count;
-    }
-    result.*figure = ratio(sum, count);
+  for (double Flicker::*figure : {&Flicker::density, &Flicker::come_and_go, &Flicker::spread,
+                                  &Flicker::d_all, &Flicker::avgerr}) {
+    result.*figure = mean_of(list, figure);
   }
   return result;
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "tools/eval/metrics.hpp"
@@ -12,21 +14,40 @@ namespace mtstereo::eval {
 /// The number of frames that flicker is measured on.
 inline constexpr int kFlickerFrames = 6;
 
-/// How the disparity maps of an unmoving scene change from frame to frame.
+/// The frames before them with parameters that use the last map: from then on the density is that
+/// of a long stream.
+inline constexpr int kFlickerLead = 12;
+
+/// How the disparity maps of a scene change from frame to frame.
 struct Flicker {
   double density = kNone;      ///< mean share of all pixels with a disparity [%]
   double come_and_go = kNone;  ///< of the pixels with a disparity in any map: not in all maps [%]
   double spread = kNone;       ///< mean standard deviation of the pixels with one in all maps [px]
+  double d_all = kNone;        ///< mean of the maps [%], over all pixels with ground truth
+  double avgerr = kNone;       ///< the same [px]
 };
 
 /// Compares disparity maps of the same size (CV_32FC1 [px], NaN = none). Throws UserError if the
 /// sizes differ or there are fewer than two maps.
 Flicker measure_flicker(const std::vector<cv::Mat>& maps);
 
+/// The last kFlickerFrames maps of a stream and their errors.
+class FlickerWindow {
+ public:
+  void add(const cv::Mat& map, const Metrics& errors);
+  /// Their flicker and mean errors; none if there are fewer maps. Throws UserError as
+  /// measure_flicker().
+  std::optional<Flicker> measure() const;
+
+ private:
+  std::deque<cv::Mat> maps_;
+  std::deque<Metrics> errors_;
+};
+
 /// The mean over pairs; a figure that is NaN is left out.
 Flicker mean(const std::vector<Flicker>& list);
 
-/// The views of frame 0 .. kFlickerFrames - 1: fresh Gaussian noise of this standard deviation
+/// The views of frame 0, 1, ...: fresh Gaussian noise of this standard deviation
 /// [gray values] in both views.
 void add_flicker_noise(double sigma, int frame, cv::Mat& left, cv::Mat& right);
 

@@ -26,8 +26,13 @@ TableRow kind_row(const std::string& kind, const Summary& mean, double clean_den
 
 TableRow flicker_row(const std::string& pair, const MethodFlicker& entry) {
   const Flicker& flicker = entry.flicker;
-  return {pair, entry.method, fixed(flicker.density, 1), fixed(flicker.come_and_go, 1),
-          fixed(flicker.spread, 3)};
+  return {pair,
+          entry.method,
+          fixed(flicker.density, 1),
+          fixed(flicker.come_and_go, 1),
+          fixed(flicker.spread, 3),
+          fixed(flicker.d_all, 2),
+          fixed(flicker.avgerr, 3)};
 }
 
 }  // namespace
@@ -50,7 +55,8 @@ void print_kinds(std::ostream& out, const Report& report) {
 }
 
 void print_flicker(std::ostream& out, const Report& report) {
-  std::vector<TableRow> rows{{"pair", "method", "density", "come and go", "spread"}};
+  std::vector<TableRow> rows{
+      {"pair", "method", "density", "come and go", "spread", "D-all", "avgerr"}};
   for (const PairReport& pair : report.pairs) {
     for (const MethodFlicker& entry : pair.flicker) {
       rows.push_back(flicker_row(pair.pair.name, entry));
@@ -59,9 +65,13 @@ void print_flicker(std::ostream& out, const Report& report) {
   for (const MethodFlicker& entry : summarize_flicker(report)) {
     rows.push_back(flicker_row("mean", entry));
   }
-  out << "flicker, " << kFlickerFrames << " frames with fresh noise of standard deviation "
-      << report.flicker.value_or(0)
-      << "; come and go: of the pixels with a disparity in\nany frame, those without one in "
+  out << "flicker, " << kFlickerFrames;
+  if (report.flicker) {
+    out << " frames with fresh noise of standard deviation " << *report.flicker;
+  } else {
+    out << " frames of the stream up to each";
+  }
+  out << "; come and go: of the pixels with a disparity in\nany frame, those without one in "
          "another, %; spread: standard deviation of the other pixels, px\n";
   print_rows(out, rows);
 }

@@ -74,6 +74,7 @@ Report start_report(const Options& options, const DataSet& set) {
   report.folder = set.folder;
   report.kinds = kinds_of(options.run);
   report.flicker = options.run.flicker;
+  report.stream = options.run.stream;
   report.official = options.run.official;
   report.warm_up = options.run.warm_up;
   report.repeat = options.run.repeat;
@@ -172,7 +173,7 @@ void print(const Report& report) {
     std::cout << '\n';
     print_kinds(std::cout, report);
   }
-  if (report.flicker) {
+  if (report.flicker || report.stream) {
     std::cout << '\n';
     print_flicker(std::cout, report);
   }

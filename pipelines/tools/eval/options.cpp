@@ -126,6 +126,11 @@ void add_methods(CLI::App& app, Texts& texts, Options& options) {
                      " frames differ that have fresh noise of this standard deviation")
       ->type_name("SIGMA")
       ->check(outputs::finite_range(0.1, 100));
+  app.add_flag("--stream", options.run.stream,
+               "the pairs, in the order of their names, are successive frames of a stream; also "
+               "measure how the disparities of each " +
+                   std::to_string(kFlickerFrames) + " differ")
+      ->excludes("--flicker", "--degrade", "--warm-up", "--repeat");
 }
 
 void add_outputs(CLI::App& app, Texts& texts, Options& options) {
@@ -203,6 +208,7 @@ void apply(const Texts& texts, Options& options) {
   options.csv = path_of(texts.csv);
   options.run.disparity_folder = path_of(texts.disparity_folder);
   options.run.picture_folder = path_of(texts.picture_folder);
+  if (options.run.stream) options.run.warm_up = 0;  // it would be an earlier frame
   if (texts.format == "kitti") options.run.disparity_format = DisparityFormat::kKitti;
 }
 

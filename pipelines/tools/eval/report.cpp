@@ -45,7 +45,9 @@ json flicker_json(const std::vector<MethodFlicker>& list) {
   for (const auto& [method, flicker] : list) {
     result[method] = {{"density", json_number(flicker.density)},
                       {"come_and_go", json_number(flicker.come_and_go)},
-                      {"spread", json_number(flicker.spread)}};
+                      {"spread", json_number(flicker.spread)},
+                      {"d_all", json_number(flicker.d_all)},
+                      {"avgerr", json_number(flicker.avgerr)}};
   }
   return result;
 }
@@ -178,8 +180,8 @@ json to_json(const Report& report) {
   for (const PairReport& pair : report.pairs) {
     if (!pair.results.empty()) result["pairs"].push_back(pair_json(pair));
   }
-  if (report.flicker) {
-    result["flicker"] = {{"noise", *report.flicker},
+  if (report.flicker || report.stream) {
+    result["flicker"] = {{"noise", report.flicker ? json(*report.flicker) : json()},
                          {"frames", kFlickerFrames},
                          {"mean", flicker_json(summarize_flicker(report))}};
   }

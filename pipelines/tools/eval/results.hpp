@@ -32,6 +32,7 @@ struct Report {
   std::vector<std::pair<std::string, std::string>> rival_settings;  ///< method and its settings
   std::vector<std::string> kinds{kCleanKind};                       ///< of images, see kinds_of()
   std::optional<double> flicker;  ///< with --flicker: standard deviation of the noise [gray values]
+  bool stream = false;            ///< with --stream: the pairs are successive frames
   bool official = false;          ///< with --official: the results have official counts
   std::vector<PairReport> pairs;  ///< of all kinds
   std::vector<Problem> failures;

@@ -200,7 +200,7 @@ void Runner::prepare_matcher(const LoadedPair& images, int max_disparity) {
   require(parameters.set(Parameter::kMinDisparity, min_disparity));
   if (matcher_) {
     require(matcher_->set_parameters(parameters));
-    matcher_->restart();  // each pair is a stream of its own
+    if (!settings_.stream) matcher_->restart();  // each pair is a stream of its own
   } else {
     Result<Matcher> made = Matcher::create(parameters);
     if (!made) throw UserError(made.error().message);
@@ -212,7 +212,7 @@ void Runner::prepare_matcher(const LoadedPair& images, int max_disparity) {
     if (!made) throw UserError(made.error().message);
     tracker_.emplace(std::move(*made));
   }
-  tracker_->reset();
+  if (!settings_.stream) tracker_->reset();
   require(
       tracker_->inspect(view_of(images.left), view_of(images.right), max_disparity, min_disparity));
   require(matcher_->set_correction(tracker_->correction()));
@@ -222,6 +222,7 @@ void Runner::run_own(const LoadedPair& images, PairReport& report) {
   prepare_matcher(images, report.max_disparity);
   FrameResult found;
   const double seconds = median_seconds(warm_up(report), settings_.repeat, [&] {
+    if (!settings_.stream) matcher_->forget();  // the frame is the same one
     Result<FrameResult> result = matcher_->compute(view_of(images.left), view_of(images.right));
     if (!result) throw UserError(result.error().message);
     found = *result;
@@ -250,6 +251,11 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
   result.method = method;
   result.evaluation = evaluate(disparity, images);
   if (settings_.official) result.official = count_official(disparity, report.pair, images.truth);
+  if (settings_.stream) {
+    stream_[method].add(disparity, result.evaluation.all);
+    if (const auto flicker = stream_[method].measure())
+      report.flicker.push_back({method, *flicker});
+  }
   result.seconds = seconds;
   result.seconds_per_megapixel = seconds * 1e6 / static_cast<double>(images.left.total());
   report.results.push_back(std::move(result));
@@ -269,32 +275,45 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
   }
 }
 
-void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
-  std::vector<LoadedPair> frames;
-  for (int i = 0; i < kFlickerFrames; ++i) {
-    frames.push_back({images.left.clone(), images.right.clone(), {}});
-    add_flicker_noise(*settings_.flicker, i, frames.back().left, frames.back().right);
+cv::Mat Runner::own_map(const LoadedPair& images) {
+  Result<FrameResult> result = matcher_->compute(view_of(images.left), view_of(images.right));
+  if (!result) throw UserError(result.error().message);
+  return to_float(result->disparity, matcher_->parameters().disparity_offset());
+}
+
+// The frame of a still scene.
+LoadedPair Runner::noisy(const LoadedPair& images, int frame) const {
+  LoadedPair result{images.left.clone(), images.right.clone(), {}};
+  add_flicker_noise(*settings_.flicker, frame, result.left, result.right);
+  return result;
+}
+
+void Runner::run_own_flicker(const LoadedPair& images, PairReport& report) {
+  prepare_matcher(noisy(images, 0), report.max_disparity);
+  if (settings_.parameters.text(Parameter::kTemporal) != "off") {
+    for (int i = 0; i < kFlickerLead; ++i) own_map(noisy(images, kFlickerFrames + i));
   }
-  attempt(report, std::string("flicker: ") + kOwnMethod, [&] {
-    prepare_matcher(frames.front(), report.max_disparity);
-    std::vector<cv::Mat> maps;
-    for (const LoadedPair& frame : frames) {
-      Result<FrameResult> result = matcher_->compute(view_of(frame.left), view_of(frame.right));
-      if (!result) throw UserError(result.error().message);
-      maps.push_back(to_float(result->disparity, matcher_->parameters().disparity_offset()));
-    }
-    report.flicker.push_back({kOwnMethod, measure_flicker(maps)});
-  });
+  FlickerWindow window;
+  for (int i = 0; i < kFlickerFrames; ++i) {
+    const cv::Mat map = own_map(noisy(images, i));
+    window.add(map, evaluate(map, images.truth).all);
+  }
+  report.flicker.push_back({kOwnMethod, *window.measure()});
+}
+
+void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
+  attempt(report, std::string("flicker: ") + kOwnMethod, [&] { run_own_flicker(images, report); });
   for (const Rival rival : settings_.rivals) {
     const std::string name(rival_name(rival));
     attempt(report, "flicker: " + name, [&] {
       RivalMatcher matcher(rival, report.max_disparity);
-      std::vector<cv::Mat> maps;
-      for (const LoadedPair& frame : frames) {
+      FlickerWindow window;
+      for (int i = 0; i < kFlickerFrames; ++i) {
+        const LoadedPair frame = noisy(images, i);
         matcher.compute(frame.left, frame.right);
-        maps.push_back(matcher.disparity());
+        window.add(matcher.disparity(), evaluate(matcher.disparity(), images.truth).all);
       }
-      report.flicker.push_back({name, measure_flicker(maps)});
+      report.flicker.push_back({name, *window.measure()});
     });
   }
 }

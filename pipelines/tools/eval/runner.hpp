@@ -43,6 +43,7 @@ struct RunSettings {
   bool curve = false;                     ///< sweep the confidence of every method
   std::vector<Degradation> degradations;  ///< evaluated in addition to the images as they are
   std::optional<double> flicker;          ///< standard deviation of its noise [gray values]
+  bool stream = false;  ///< the pairs are successive frames, whose flicker is measured
 };
 
 /// Whether pairs are aligned.
@@ -70,13 +71,14 @@ struct MethodFlicker {
 struct PairReport {
   StereoPair pair;
   std::string kind = kCleanKind;
-  cv::Size size;                       ///< of the images
-  double scale = 1;                    ///< px per px of the original, of an enlarged kind
-  int max_disparity = 0;               ///< search range [px]
-  std::vector<MethodResult> results;   ///< the library's first; without methods that failed
-  std::vector<MethodSweep> sweeps;     ///< with --curve, one per method
-  std::vector<MethodFlicker> flicker;  ///< with --flicker, of the images as they are
-  std::vector<std::string> failures;   ///< one sentence each
+  cv::Size size;                      ///< of the images
+  double scale = 1;                   ///< px per px of the original, of an enlarged kind
+  int max_disparity = 0;              ///< search range [px]
+  std::vector<MethodResult> results;  ///< the library's first; without methods that failed
+  std::vector<MethodSweep> sweeps;    ///< with --curve, one per method
+  /// with --flicker, of the images as they are; with --stream, of the frames up to this one
+  std::vector<MethodFlicker> flicker;
+  std::vector<std::string> failures;  ///< one sentence each
   std::vector<std::string> notes;
 };
 
@@ -115,6 +117,9 @@ class Runner {
   void run_own(const LoadedPair& images, PairReport& report);
   void run_rival(Rival rival, const LoadedPair& images, PairReport& report);
   void run_flicker(const LoadedPair& images, PairReport& report);
+  void run_own_flicker(const LoadedPair& images, PairReport& report);
+  LoadedPair noisy(const LoadedPair& images, int frame) const;
+  cv::Mat own_map(const LoadedPair& images);
   void prepare_matcher(const LoadedPair& images, int max_disparity);
   int warm_up(const PairReport& report) const;
   void finish(const std::string& method, const cv::Mat& disparity, double seconds,
@@ -124,6 +129,7 @@ class Runner {
   std::map<std::filesystem::path, std::unique_ptr<outputs::ListedFolder>> folders_;
   std::optional<Matcher> matcher_;
   std::optional<AlignmentTracker> tracker_;
+  std::map<std::string, FlickerWindow> stream_;  // by method
 };
 
 }  // namespace mtstereo::eval

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "support.hpp"
+#include "tools/eval/flicker.hpp"
 #include "tools/eval/pfm.hpp"
 
 namespace mtstereo::eval {
@@ -169,6 +170,34 @@ TEST_F(DegradeProgram, MeasuresTheFlickerOfEachMethod) {
   EXPECT_EQ(report()["pairs"][0]["flicker"].size(), 2U);
   EXPECT_EQ(run_eval({set(), "--flicker", "0"}).status, 2);
   EXPECT_EQ(run_eval({set(), "--flicker", "much"}).status, 2);
+}
+
+TEST_F(DegradeProgram, MeasuresTheFlickerOfAStream) {
+  fs::remove_all(folder_ / "set");
+  for (int i = 0; i < kFlickerFrames + 2; ++i) {
+    testing::TestPair pair = testing::make_pair(240, 120, 9);
+    add_flicker_noise(8, i, pair.left, pair.right);
+    testing::write_pair_folder(folder_ / "set" / std::to_string(i), pair, 32);
+  }
+  const auto run = [&](const char* temporal) {
+    const Outcome outcome = run_eval({set(), "--stream", "--temporal", temporal, "--compare", "bm",
+                                      "--json", folder_ / "r.json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("flicker, 6 frames of the stream up to each"));
+    return report();
+  };
+  const json off = run("off"), hold = run("hold");
+  EXPECT_TRUE(off["flicker"]["noise"].is_null());
+  EXPECT_FALSE(off["pairs"][kFlickerFrames - 2].contains("flicker"));
+  EXPECT_EQ(off["pairs"][kFlickerFrames - 1]["flicker"].size(), 2U);
+  const auto own = [](const json& each) { return each["flicker"]["mean"]["mtstereo"]; };
+  EXPECT_LT(own(hold)["come_and_go"], own(off)["come_and_go"]);
+  EXPECT_GE(own(off)["d_all"], 0);
+  EXPECT_EQ(off["pairs"][0]["results"]["mtstereo"]["density"],
+            hold["pairs"][0]["results"]["mtstereo"]["density"]);
+  for (const char* const other : {"--flicker=3", "--degrade=noise=5", "--repeat=3"}) {
+    EXPECT_EQ(run_eval({set(), "--stream", other}).status, 2) << other;
+  }
 }
 
 TEST_F(DegradeProgram, DrawsTheCurveOfEachKind) {

@@ -54,6 +54,23 @@ TEST(Flicker, MeanIgnoresUnknownFigures) {
   EXPECT_EQ(result.spread, 0.1);
 }
 
+TEST(FlickerWindow, IsThatOfTheLastMaps) {
+  FlickerWindow window;
+  const Metrics errors[] = {{.avgerr = 9, .d_all = 90}, {.avgerr = 1, .d_all = 3}, {}};
+  window.add(row({5, 6}), errors[0]);
+  for (int i = 1; i < kFlickerFrames; ++i) {
+    EXPECT_FALSE(window.measure()) << i;
+    window.add(row({5, kNaN}), errors[i == 1 ? 2 : 1]);
+  }
+  EXPECT_NEAR(window.measure()->come_and_go, 50, 1e-9);
+  window.add(row({5, kNaN}), errors[1]);
+  const Flicker flicker = *window.measure();
+  EXPECT_EQ(flicker.come_and_go, 0) << "the first map has left";
+  EXPECT_EQ(flicker.density, 50);
+  EXPECT_EQ(flicker.avgerr, 1) << "unknown errors do not count";
+  EXPECT_EQ(flicker.d_all, 3);
+}
+
 TEST(Flicker, NoiseIsFreshInEachFrameAndView) {
   const cv::Mat gray(50, 50, CV_8UC1, cv::Scalar(100));
   std::vector<cv::Mat> images;

@@ -138,6 +138,16 @@ TEST_F(Running, TakesEachPairForAStreamOfItsOwn) {
   EXPECT_NE(expected, longer.run(pairs_[0]).results.at(0).evaluation.all.avgerr);
 }
 
+TEST_F(Running, DoesNotCompareAPairWithItself) {
+  RunSettings settings;
+  settings.repeat = 3;
+  Runner off(settings);
+  ASSERT_TRUE(settings.parameters.set("temporal", "hold").ok());
+  Runner hold(settings);
+  EXPECT_EQ(off.run(pairs_[0]).results.at(0).evaluation.density,
+            hold.run(pairs_[0]).results.at(0).evaluation.density);
+}
+
 TEST_F(Running, ReportsACorruptPairAndContinues) {
   Runner runner({});
   testing::write_file(folder_ / "A/im1.png", "broken");
