@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// temporal=hold on still scenes with fresh noise in every frame: how much less their maps flicker
+// than with off, at what density and errors. On rendered scenes, and on real pairs if
+// MTSTEREO_TEST_DATA names a folder with them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "mtstereo/matcher.hpp"
+#include "pairs.hpp"
+#include "tools/eval/flicker.hpp"
+
+namespace mtstereo::tests {
+namespace {
+
+GrayView view_of(const cv::Mat& image) {
+  return {image.ptr<std::uint8_t>(), image.cols, image.rows,
+          static_cast<std::ptrdiff_t>(image.step)};
+}
+
+/// The flicker of the last frames of a stream.
+eval::Flicker flicker_of(const eval::LoadedPair& pair, const char* temporal, const char* mode,
+                         int max_disparity, double noise) {
+  Parameters parameters;
+  EXPECT_TRUE(parameters.set("temporal", temporal).ok());
+  EXPECT_TRUE(parameters.set("mode", mode).ok());
+  EXPECT_TRUE(parameters.set(Parameter::kMaxDisparity, max_disparity).ok());
+  Matcher matcher = std::move(Matcher::create(parameters).value());
+  eval::FlickerWindow window;
+  for (int frame = 0; frame < eval::kFlickerLead + eval::kFlickerFrames; ++frame) {
+    eval::LoadedPair noisy{pair.left.clone(), pair.right.clone(), {}};
+    eval::add_flicker_noise(noise, frame, noisy.left, noisy.right);
+    const Result<FrameResult> result = matcher.compute(view_of(noisy.left), view_of(noisy.right));
+    if (!result.ok()) {
+      ADD_FAILURE() << result.error().message;
+      return {};
+    }
+    const cv::Mat map = eval::to_float(result->disparity);
+    window.add(map, eval::evaluate(map, pair.truth).all);
+  }
+  return *window.measure();
+}
+
+/// The mean flicker over pairs with both values of temporal.
+struct Compared {
+  eval::Flicker off, hold;
+};
+
+void print(const char* name, const eval::Flicker& flicker) {
+  std::printf("  %s: come and go %.1f %%, density %.1f %%, D-all %.2f %%, avgerr %.3f px\n", name,
+              flicker.come_and_go, flicker.density, flicker.d_all, flicker.avgerr);
+}
+
+/// Limits for what hold changes.
+struct Limits {
+  double flicker;  ///< factor
+  double density;  ///< least change [%]
+  double d_all;    ///< largest change [%]
+  double avgerr;   ///< largest change [px]
+};
+
+void expect_within(const Compared& mean, const Limits& limits) {
+  print("off ", mean.off);
+  print("hold", mean.hold);
+  EXPECT_LE(mean.hold.come_and_go, limits.flicker * mean.off.come_and_go);
+  EXPECT_GE(mean.hold.density, mean.off.density + limits.density);
+  EXPECT_LE(mean.hold.d_all, mean.off.d_all + limits.d_all);
+  EXPECT_LE(mean.hold.avgerr, mean.off.avgerr + limits.avgerr);
+}
+
+/// A pair and its range of disparities.
+struct Scene {
+  eval::LoadedPair pair;
+  int max_disparity;
+};
+
+Compared compare(const std::vector<Scene>& scenes, const char* mode, double noise) {
+  std::vector<eval::Flicker> off, hold;
+  for (const Scene& scene : scenes) {
+    off.push_back(flicker_of(scene.pair, "off", mode, scene.max_disparity, noise));
+    hold.push_back(flicker_of(scene.pair, "hold", mode, scene.max_disparity, noise));
+  }
+  return {eval::mean(off), eval::mean(hold)};
+}
+
+std::vector<Scene> rendered() {
+  std::vector<Scene> scenes;
+  for (const char* const name : {"street", "garden", "room"}) {
+    scenes.push_back({rendered_pair(name, 0), 64});
+  }
+  return scenes;
+}
+
+TEST(HoldOnRenderedScenes, ReducesTheFlicker) {
+  expect_within(compare(rendered(), "semi-dense", 1), {0.7, -0.1, 0.2, 0.02});
+}
+
+TEST(HoldOnRenderedScenes, ReducesTheFlickerOfModeDense) {
+  expect_within(compare(rendered(), "dense", 1), {0.8, -0.2, 0.2, 0.015});
+}
+
+TEST(HoldOnRealPairs, ReducesTheFlicker) {
+  const std::string folder = data_folder();
+  if (folder.empty()) GTEST_SKIP() << "no test data";
+  std::vector<Scene> scenes;
+  for (const eval::StereoPair& pair : ten_pairs(folder)) {
+    for (const char* const name : {"Teddy", "Books", "playground_1l", "000046_10", "0000"}) {
+      if (!pair.name.ends_with(name)) continue;
+      scenes.push_back({eval::load_pair(pair), *pair.max_disparity});
+    }
+  }
+  ASSERT_EQ(5U, scenes.size());
+  expect_within(compare(scenes, "semi-dense", 1), {0.45, 0.5, 0.04, 0.006});
+  expect_within(compare(scenes, "semi-dense", 3), {0.8, -0.5, 0.02, 0.005});
+}
+
+}  // namespace
+}  // namespace mtstereo::tests
