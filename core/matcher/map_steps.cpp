@@ -35,6 +35,7 @@ void ResultMaps::start(Maps& maps) {
   confidence = &maps.confidence;
   place = {};
   fine_detail = kUnknownDetail;
+  grid_level = 0;
 }
 
 void ResultMaps::resize(const Settings& settings, const FrameSize& size) {

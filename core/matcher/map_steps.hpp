@@ -52,6 +52,7 @@ struct ResultMaps {
   Image<std::uint8_t>* confidence = nullptr;
   MapPlace place;                      ///< of the matched views in the result
   float fine_detail = kUnknownDetail;  ///< of the views, FineDetail::share()
+  int grid_level = 0;                  ///< of the left view and the map, BlockGrid::level()
 
   Image<std::int32_t> enlarged;
   Image<std::uint8_t> enlarged_confidence;

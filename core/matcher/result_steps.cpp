@@ -57,6 +57,19 @@ void LastPair::resize(const Settings& settings, const FrameSize& size) {
   noise.resize(width, height);
 }
 
+void measure_block_grid(const StepContext& step, const Views& views, ResultMaps& result,
+                        ResultBuffers& buffers) {
+  const GridViews measured = {views.left, result.disparity->view(), result.confidence->view(),
+                              result.place.disparity_offset()};
+  for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grid = {};
+  step.input_bands.rows([&](int y0, int y1, int worker) {
+    buffers.scratch[worker].grid.add(measure_grid(measured, y0, y1));
+  });
+  BlockGrid grid;
+  for (const ResultBuffers::Scratch& worker : buffers.scratch) grid.add(worker.grid);
+  result.grid_level = grid.level();
+}
+
 void complete_map(const StepContext& step, ResultMaps& result) {
   step.input_bands.rows(
       [&](int y0, int y1, int) { complete_rows(y0, y1, *result.disparity, *result.confidence); });
@@ -85,7 +98,8 @@ RatedViews rated_views(const Views& views, const Pyramid& pyramid, const ResultM
           -place.column,
           {&pyramid.levels[0].disparity, &pyramid.confidence, 2 * place.scale, -place.column,
            place.added},
-          result.fine_detail};
+          result.fine_detail,
+          result.grid_level};
 }
 
 void calibrate_confidence(const StepContext& step, const Views& views, const Pyramid& pyramid,

@@ -10,6 +10,7 @@
 #include "matcher/rating.hpp"
 #include "matcher/view_steps.hpp"
 #include "stages/prepare/noise_level.hpp"
+#include "stages/refine/block_grid.hpp"
 #include "stages/refine/edge_alignment.hpp"
 #include "stages/refine/speckle_removal.hpp"
 
@@ -24,6 +25,7 @@ struct ResultBuffers {
   SpeckleRuns islands;  ///< of what the rejection leaves
 
   struct Scratch {
+    BlockGrid grid;  ///< of the thread's rows
     EdgeScratch edges;
     Buffer<std::int32_t> columns;  ///< a block of columns
   };
@@ -51,6 +53,10 @@ struct LastPair {
   void restart() { valid = false; }
   void resize(const Settings& settings, const FrameSize& size);
 };
+
+/// Finds whether the map matches the blocks of the views' compression.
+void measure_block_grid(const StepContext& step, const Views& views, ResultMaps& result,
+                        ResultBuffers& buffers);
 
 /// Gives the remaining pixels a disparity.
 void complete_map(const StepContext& step, ResultMaps& result);

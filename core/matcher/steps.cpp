@@ -83,6 +83,7 @@ constexpr Step kMapList[] = {
 /// Completes the map of the paths, rates it, and rejects what is not reliable.
 constexpr Step kResultList[] = {
     {"fine-detail",        [](S s) { return s.rates_detail(); },     on<measure_fine_detail>},
+    {"block-grid",         always,                                   on<measure_block_grid>},
     {"completion",         always,                                   on<complete_map>},
     {"edge-alignment",     always,                                   on<align_map_edges>},
     {"reliability",        always,                                   on<calibrate_confidence>},

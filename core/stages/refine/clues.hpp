@@ -87,6 +87,7 @@ struct RatedViews {
 
   RatedGuide guide = {};
   float fine_detail = kUnknownDetail;  ///< FineDetail::share()
+  int grid_level = 0;                  ///< BlockGrid::level()
 };
 
 /// The gray value of the left view for each of the right one.

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "stages/refine/block_grid.hpp"
 #include "stages/refine/guide_clue.hpp"
 #include "stages/refine/reliability_rows.hpp"
 
@@ -284,6 +285,8 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
   (map.row(y), width, views.disparity_offset, scratch.bins[kPartnerClue].data());
   find_agreement_bins(views, y, width, scratch.bins[kAgreementClue].data());
   find_guide_bins(views.guide, map, y, scratch.expected.data(), scratch.bins[kGuideClue].data());
+  find_grid_bins(views.grid_level, map.row(y), views.disparity_offset, width,
+                 scratch.bins[kGridClue].data());
   std::memset(scratch.bins[kNoiseClue].data(), bin_of(views.noise_level, kNoiseEnds), width);
   std::memset(scratch.bins[kDetailClue].data(), bin_of(views.fine_detail, kDetailEnds), width);
 }

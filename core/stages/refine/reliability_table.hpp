@@ -19,10 +19,11 @@ enum Clue : int {
   kTextureClue,    ///< the gray values' changes along the rows around it
   kAgreementClue,  ///< how often the costs alone agree with the paths around it
   kGuideClue,      ///< the confidence of the map of half the resolution, and the distance from it
+  kGridClue,       ///< how near it is to a multiple of the block size of the views' compression
   kNoiseClue,      ///< the noise of the views
   kDetailClue,     ///< how much of the scene their finest octave shows
 };
-inline constexpr int kClues = 11;
+inline constexpr int kClues = 12;
 
 /// The clues about single pixels; the others are the same for all pixels of a pair.
 inline constexpr int kPixelClues = kNoiseClue;

@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0xd06adf84cac74cae},
-    {"default", "semi-dense", 0x643311c42a8eb6ef},
-    {"default", "dense", 0xa4f86f5e2a0fb157},
-    {"default", "full", 0xc8c049df833eba9e},
+    {"default", "sparse", 0x54dfce1f97aaae9d},
+    {"default", "semi-dense", 0xc6588f1c2482d7c5},
+    {"default", "dense", 0x7963d2e64972c92b},
+    {"default", "full", 0xc7aff1fd7f39f2a1},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0xcbe3457c3f6fc940},
-    {"fast", "dense", 0xe5f447a4286ab2e2},
-    {"fast", "full", 0x435cd77beb604e3f},
+    {"fast", "dense", 0xd04c7d61d8d57f78},
+    {"fast", "full", 0xb7c4e7003a987e83},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

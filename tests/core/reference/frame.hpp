@@ -45,6 +45,7 @@ struct Frame {
   std::array<GrayPlane, 2> views;  ///< the matched views
   float noise = 0;                 ///< of the noisier view, if the noise filter runs
   float detail = 1;                ///< the share of the finest octave, if it is measured
+  int grid = 0;                    ///< the level of the block grid
   std::array<GrayPlane, 2> medians;
   std::array<GrayPlane, 2> levels;
   std::array<Trees, 2> trees;
@@ -281,6 +282,11 @@ inline void measure_fine_detail(Frame& f) {
   if (detail.share()) f.detail = static_cast<float>(*detail.share());
 }
 
+inline void measure_block_grid(Frame& f) {
+  const int offset = std::min(f.settings.min_disparity, 0);
+  f.grid = grid_level(f.left, ConfidentMap{f.map, f.confidence}, offset);
+}
+
 inline void complete(Frame& f) { take(f, complete(ConfidentMap{f.map, f.confidence})); }
 
 inline void align_edges(Frame& f) {
@@ -293,7 +299,7 @@ inline void calibrate_confidence(Frame& f) {
   const ConfidentMap complete = {f.map, f.confidence};
   const Grays grays = map_grays(f.left, f.input[1], std::min(least, 0), complete);
   const RatedPair pair = {f.left, f.input[1], std::min(least, 0), f.noise,  f.agreement, tile,
-                          -least, grays,      &f.guide,           tile / 8, f.detail};
+                          -least, grays,      &f.guide,           tile / 8, f.detail,    f.grid};
   const bool apart = !f.settings.keeps_inferred();
   const auto table = static_cast<int>(f.settings.rated_map());
   f.confidence = rate_reliability(pair, complete, kReliabilityTables[table], apart);
@@ -391,6 +397,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"refinement", refine},
     {"map-shift", shift_map},
     {"fine-detail", measure_fine_detail},
+    {"block-grid", measure_block_grid},
     {"completion", complete},
     {"edge-alignment", align_edges},
     {"reliability", calibrate_confidence},

@@ -74,17 +74,18 @@ struct RandomRating {
   Image<std::uint8_t> guide_confidence;
   int guide_scale = 2;
   float fine_detail = kUnknownDetail;
+  int grid_level = 0;
 
   RatedViews views(int offset, float noise) const {
     return {left.view(), right.view(),
             offset,      noise,
             &tiles,      tile,
             added,       {&guide_map, &guide_confidence, guide_scale, added, std::max(-added, 0)},
-            fine_detail};
+            fine_detail, grid_level};
   }
   reference::RatedPair pair(int offset, float noise) const {
-    return {left,  right,       offset, noise,       agreement,  tile,
-            added, plain_grays, &guide, guide_scale, fine_detail};
+    return {left,  right,       offset, noise,       agreement,   tile,
+            added, plain_grays, &guide, guide_scale, fine_detail, grid_level};
   }
 };
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "reference/refine/block_grid.hpp"
 #include "reference/refine/gap_filling.hpp"
 #include "reference/refine/gray_mapping.hpp"
 #include "stages/refine/reliability_table.hpp"
@@ -25,6 +26,7 @@ struct RatedPair {
   const ConfidentMap* guide = nullptr;
   int guide_scale = 2;
   float detail = 1;  ///< the share of the finest octave
+  int grid = 0;      ///< the level of the block grid
 };
 
 /// The bins of the clues about one pixel, each found on its own.
@@ -61,6 +63,8 @@ class PixelClues {
             std::min(y_ / pair_.tile, pair_.agreement.height - 1));
       case kGuideClue:
         return pair_.guide == nullptr ? 0 : guide();
+      case kGridClue:
+        return grid_bin(pair_.grid, in_.map(x_, y_) / 256.0 + pair_.offset);
       case kDetailClue:
         return bin_of(pair_.detail, {.024F, .03F, .037F, .045F, .06F, .1F, .2F});
       default:

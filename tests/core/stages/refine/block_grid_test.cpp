@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/refine/block_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reference/refine/block_grid.hpp"
+#include "support/plane.hpp"
+#include "support/random.hpp"
+
+namespace mtstereo {
+namespace {
+
+using test::DisparityPlane;
+using test::GrayPlane;
+
+/// A view and its map.
+struct Matched {
+  GrayPlane left;
+  reference::ConfidentMap in;
+  int offset = 0;
+
+  int level(int band = 1 << 20) const {
+    BlockGrid grid;
+    const GridViews views = {left.view(), in.map.view(), in.confidence.view(), offset};
+    for (int y = 0; y < left.height; y += band) {
+      grid.add(measure_grid(views, y, std::min(y + band, left.height)));
+    }
+    return grid.level();
+  }
+  int expected() const { return reference::grid_level(left, in, offset); }
+};
+
+/// Blocks of constant gray value, the first of them cut off by `phase` columns; `noise` is added.
+GrayPlane blocks(int width, int height, int phase, int noise, std::uint64_t seed) {
+  test::Random random(seed);
+  GrayPlane grays(width / 8 + 2, height / 8 + 1);
+  for (std::uint8_t& gray : grays.pixels) gray = static_cast<std::uint8_t>(random.between(98, 104));
+  GrayPlane view(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      view(x, y) =
+          static_cast<std::uint8_t>(grays((x + phase) / 8, y / 8) + random.between(-noise, noise));
+    }
+  }
+  return view;
+}
+
+/// Disparities of 4 to 60 px, `percent` of them multiples of 8.
+Matched matched(const GrayPlane& left, int percent, std::uint64_t seed) {
+  test::Random random(seed);
+  Matched made{left,
+               {DisparityPlane(left.width, left.height), GrayPlane(left.width, left.height, 200)}};
+  for (std::int32_t& value : made.in.map.pixels) {
+    const bool block = random.below(100) < percent;
+    value = block ? random.between(1, 7) * 8 * kDisparityOne
+                  : random.between(4 * kDisparityOne, 60 * kDisparityOne);
+  }
+  return made;
+}
+
+TEST(BlockGrid, HasTheLevelOfThePlainSumsAtEveryWidthAndBand) {
+  std::array<int, 5> levels{};
+  test::Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const int width = random.between(1, 90), height = random.between(1, 60);
+    const GrayPlane left = blocks(width, height, random.between(0, 7), random.between(0, 2), i);
+    Matched in = matched(left, random.between(0, 14), i);
+    in.offset = random.below(3) == 0 ? -9 : 0;
+    for (std::uint8_t& value : in.in.confidence.pixels) {
+      value = static_cast<std::uint8_t>(random.between(10, 60));
+    }
+    for (std::int32_t& value : in.in.map.pixels) {
+      if (random.below(10) == 0) value = kNoDisparity;
+    }
+    const int expected = in.expected();
+    ++levels[expected];
+    for (const int band : {1, 7, 32}) ASSERT_EQ(expected, in.level(band)) << i << ", band " << band;
+  }
+  for (const int count : levels) EXPECT_GT(count, 0) << "not every level was tried";
+}
+
+TEST(BlockGrid, IsMatchedWhereManyDisparitiesAreMultiplesOfBlocks) {
+  const GrayPlane left = blocks(200, 120, 0, 0, 2);
+  EXPECT_EQ(0, matched(left, 0, 3).level());
+  int last = 0;
+  for (const int percent : {3, 6, 12, 40}) {
+    const int level = matched(left, percent, 4).level();
+    EXPECT_GE(level, last) << percent;
+    last = level;
+  }
+  EXPECT_EQ(4, last);
+}
+
+TEST(BlockGrid, IsNotThatOfViewsWithoutBlocks) {
+  test::Random random(5);
+  GrayPlane noise(200, 120);
+  for (std::uint8_t& pixel : noise.pixels)
+    pixel = static_cast<std::uint8_t>(random.between(90, 110));
+  EXPECT_EQ(0, matched(noise, 40, 6).level()) << "a wall at 8 px in views without compression";
+}
+
+TEST(BlockGrid, IsFoundInCroppedViews) {
+  for (int phase = 0; phase < 8; ++phase) {
+    EXPECT_EQ(4, matched(blocks(200, 120, phase, 1, 7), 40, 8).level()) << phase;
+  }
+}
+
+TEST(BlockGrid, IgnoresTheFarDistanceAndInferredPixels) {
+  const GrayPlane left = blocks(200, 120, 0, 0, 9);
+  Matched sky = matched(left, 0, 10);
+  for (int i = 0; i < 100 * 60; ++i) sky.in.map.pixels[i] = 1;
+  EXPECT_EQ(0, sky.level());
+
+  Matched inferred = matched(left, 40, 11);
+  ASSERT_EQ(4, inferred.level());
+  for (std::uint8_t& value : inferred.in.confidence.pixels) value = kMostInferred;
+  EXPECT_EQ(0, inferred.level());
+}
+
+TEST(BlockGrid, HasABinForEachLevelAndDistance) {
+  std::vector<std::int32_t> map;
+  for (int value = 1; value < 40 * kDisparityOne; value += 3) map.push_back(value);
+  const int width = static_cast<int>(map.size());
+  std::vector<std::uint8_t> bins(map.size());
+  for (const int offset : {0, -13}) {
+    for (int level = 0; level <= 4; ++level) {
+      find_grid_bins(level, map.data(), offset, width, bins.data());
+      for (int i = 0; i < width; ++i) {
+        ASSERT_EQ(reference::grid_bin(level, map[i] / double{kDisparityOne} + offset), bins[i])
+            << map[i] << " at level " << level;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mtstereo
