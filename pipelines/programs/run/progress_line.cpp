@@ -15,6 +15,9 @@ namespace {
 constexpr std::chrono::milliseconds kOnTerminal{200};
 constexpr std::chrono::seconds kElsewhere{10};
 
+// Several pairs are often finished at once. Before that, a speed would say little.
+constexpr double kSpeedKnown = 1;  // [s]
+
 std::string time_left(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));
   if (whole < 120) return std::to_string(whole) + " s";
@@ -51,7 +54,7 @@ void ProgressLine::clear() const {
 std::string ProgressLine::text() const {
   const double seconds = std::chrono::duration<double>(last_ - first_).count();
   const auto pairs = static_cast<double>(pairs_ - 1);
-  const bool known = pairs_ > 1 && seconds > 0;
+  const bool known = pairs_ > 1 && seconds >= kSpeedKnown;
   return name_ + ": " +
          progress_text(done_, total_, known ? pairs / seconds : 0,
                        known ? std::min(milliseconds_ / 1000 / seconds, 1.0) : 0);

@@ -24,7 +24,7 @@ class ProgressLine {
   /// A pair was done; `milliseconds` is the time of the matcher, divided by the number of matchers
   /// that work at the same time.
   void show(std::int64_t done, std::int64_t total, double milliseconds);
-  /// The last line, with the mean speed of all pairs.
+  /// The last line, with the mean speed of all pairs if they took at least a second.
   void finish();
   /// Since the start [s].
   double seconds() const;
