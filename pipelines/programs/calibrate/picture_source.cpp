@@ -2,16 +2,12 @@
 
 // Pairs from picture files.
 
-#include <fnmatch.h>
-
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
-#include <regex>
 #include <vector>
 
+#include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
 #include "programs/calibrate/texts.hpp"
@@ -21,80 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_picture_name(const fs::path& file) {
-  constexpr std::array kExtensions{".png", ".jpg", ".jpeg", ".pgm",
-                                   ".ppm", ".bmp", ".tif",  ".tiff"};
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::any_of(kExtensions.begin(), kExtensions.end(),
-                     [&](const char* each) { return extension == each; });
-}
-
-// left/%04d.png
-const std::regex& number_pattern() {
-  static const std::regex pattern("%0?([1-9]?)d");
-  return pattern;
-}
-
-std::vector<fs::path> numbered(const std::string& text) {
-  std::smatch match;
-  std::regex_search(text, match, number_pattern());
-  const std::string digits = match[1].length() > 0 ? match[1].str() : "1";
-  const std::regex name("\\d{" + digits + ",}");
-  const std::string before = match.prefix(), after = match.suffix();
-  const fs::path folder = fs::path(text).parent_path();
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder)) {
-    const std::string file = (folder / entry.path().filename()).string();
-    if (file.size() <= before.size() + after.size() || !file.starts_with(before) ||
-        !file.ends_with(after)) {
-      continue;
-    }
-    const std::string number =
-        file.substr(before.size(), file.size() - before.size() - after.size());
-    if (std::regex_match(number, name)) files.emplace_back(file);
-  }
-  return files;
-}
-
-std::vector<fs::path> matching(const std::string& text) {
-  const fs::path pattern(text);
-  const fs::path folder = pattern.parent_path();
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder)) {
-    const fs::path name = entry.path().filename();
-    if (fnmatch(pattern.filename().c_str(), name.c_str(), 0) == 0) files.push_back(folder / name);
-  }
-  return files;
-}
-
-// By name; numbers without leading zeros by their value.
-void sort_names(std::vector<fs::path>& files) {
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return strverscmp(a.filename().c_str(), b.filename().c_str()) < 0;
-  });
-}
-
 std::vector<fs::path> list_pictures(const std::string& source) {
-  std::vector<fs::path> files;
-  try {
-    if (fs::is_directory(source)) {
-      for (const auto& entry : fs::directory_iterator(source)) {
-        if (has_picture_name(entry.path())) files.push_back(entry.path());
-      }
-    } else if (std::regex_search(source, number_pattern())) {
-      files = numbered(source);
-    } else if (source.find_first_of("*?[") != std::string::npos) {
-      files = matching(source);
-    } else {
-      files.emplace_back(source);
-    }
-  } catch (const fs::filesystem_error& error) {
-    throw UserError(source + ": " + error.code().message());
+  std::vector<fs::path> files{source};
+  if (fs::is_directory(source)) {
+    files = files::pictures_in(source);
+  } else if (files::is_pattern(source)) {
+    files = files::files_of_pattern(source);
   }
   if (files.empty()) throw UserError(source + ": there are no pictures");
-  sort_names(files);
   return files;
 }
 
@@ -148,14 +78,9 @@ bool is_line(const std::string& source) {
   return source.find('!') != std::string::npos || source.find("://") != std::string::npos;
 }
 
-bool is_picture_pattern(const std::string& source) {
-  return std::regex_search(source, number_pattern()) ||
-         source.find_first_of("*?[") != std::string::npos;
-}
-
 // Names of elements have no dot and no slash.
 void check_exists(const std::string& source) {
-  if (is_line(source) || source.starts_with("/dev/") || is_picture_pattern(source)) return;
+  if (is_line(source) || source.starts_with("/dev/") || files::is_pattern(source)) return;
   const fs::file_status status = fs::status(source);
   if (!fs::exists(status)) {
     const bool is_name = source.find_first_of("./") != std::string::npos;
@@ -201,7 +126,7 @@ class Pictures : public PairSource {
 
 bool is_pictures(const std::string& source) {
   if (is_line(source)) return false;
-  return fs::is_directory(source) || has_picture_name(source);
+  return fs::is_directory(source) || files::is_picture(source);
 }
 
 void split(const cv::Mat& image, Arrangement arrangement, ImagePair& pair) {

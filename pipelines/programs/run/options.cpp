@@ -88,11 +88,10 @@ void apply_shape(const Texts& texts, RectifiedShape& shape) {
 
 void add_inputs(CLI::App& app, Texts& texts, Options& options) {
   const std::string group = "Inputs";
-  app.add_option(
-         "INPUT", options.inputs,
-         "two videos, two images, folders or patterns of images (left/%06d.png), one file or "
-         "folder with both views, a folder of a data set (KITTI, EuRoC, Middlebury, "
-         "ETH3D), or a folder with any of these below it")
+  app.add_option("INPUT", options.inputs,
+                 "two videos, two images, folders or patterns of images (left/%06d.png, "
+                 "'left/*.png'), one file or folder with both views, a folder of a data set "
+                 "(KITTI, EuRoC, Middlebury, ETH3D), or a folder with any of these below it")
       ->required()
       ->expected(1, 2)
       ->type_name("");

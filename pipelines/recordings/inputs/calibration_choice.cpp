@@ -8,11 +8,11 @@
 #include <string_view>
 #include <utility>
 
+#include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/calibration.hpp"
 #include "recordings/inputs/recording_files.hpp"
 #include "recordings/inputs/view_names.hpp"
-#include "recordings/media/file_names.hpp"
 
 namespace mtstereo::run {
 
@@ -29,14 +29,14 @@ std::string lower_stem(const fs::path& file) {
 bool may_be_calibration(const fs::path& file) {
   constexpr std::array<std::string_view, 6> kExtensions{".yml",  ".yaml", ".txt",
                                                         ".json", ".xml",  ".conf"};
-  const std::string extension = extension_of(file);
+  const std::string extension = files::extension_of(file);
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
 // Whether the name is that of a calibration of both cameras.
 bool is_calibration_name(const fs::path& file) {
   const std::string stem = lower_stem(file);
-  if (extension_of(file) == ".conf" && stem.starts_with("sn")) return true;
+  if (files::extension_of(file) == ".conf" && stem.starts_with("sn")) return true;
   constexpr std::array<std::string_view, 3> kWords{"calib", "stereo", "camchain"};
   return std::any_of(kWords.begin(), kWords.end(), [&stem](std::string_view word) {
     return stem.find(word) != std::string::npos;
@@ -130,7 +130,7 @@ Usable usable_of(const std::vector<std::string>& beside, int width, int height) 
 std::vector<std::string> calibrations_in(const std::vector<fs::path>& folders) {
   std::vector<std::string> found;
   for (const fs::path& folder : folders) {
-    std::vector<fs::path> files = files_in(folder);
+    std::vector<fs::path> files = files::files_in(folder);
     std::erase_if(files, [](const fs::path& file) { return !may_be_calibration(file); });
     for (const fs::path& file : files) {
       if (is_calibration_name(file)) found.push_back(file.string());

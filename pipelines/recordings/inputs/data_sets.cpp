@@ -11,9 +11,9 @@
 #include <map>
 #include <utility>
 
+#include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/picture_lists.hpp"
-#include "recordings/media/file_names.hpp"
 
 namespace mtstereo::run {
 
@@ -86,8 +86,8 @@ Source with_times(Recording& recording, const std::vector<fs::path>& pictures,
 
 // The pictures of a camera of KITTI raw, with or without the folder data.
 std::vector<fs::path> pictures_of_camera(const fs::path& folder) {
-  std::vector<fs::path> pictures = pictures_in(folder / "data");
-  return pictures.empty() ? pictures_in(folder) : pictures;
+  std::vector<fs::path> pictures = files::pictures_in(folder / "data");
+  return pictures.empty() ? files::pictures_in(folder) : pictures;
 }
 
 struct Cameras {
@@ -201,7 +201,7 @@ std::optional<FoundRecording> find_kitti_odometry(const fs::path& folder) {
   recording.kind = "KITTI odometry sequence";
   set_kitti_pictures(recording, folder / cameras->left, folder / cameras->right, times, times);
   if (is_there(calibration)) found.calibrations.push_back(calibration.string() + cameras->choice);
-  found.used_folders = folders_in(folder);
+  found.used_folders = files::folders_in(folder);
   return found;
 }
 
@@ -225,7 +225,7 @@ std::optional<FoundRecording> find_kitti_raw(const fs::path& folder) {
   set_kitti_pictures(recording, left, right, left / "timestamps.txt",
                      (synchronized ? left : right) / "timestamps.txt");
   if (is_there(calibration)) found.calibrations.push_back(calibration.string() + cameras->choice);
-  found.used_folders = folders_in(folder);
+  found.used_folders = files::folders_in(folder);
   return found;
 }
 
@@ -249,7 +249,7 @@ std::optional<FoundRecording> find_euroc(const fs::path& folder) {
     found.calibrations.push_back((left / "sensor.yaml").string() + "," +
                                  (right / "sensor.yaml").string());
   }
-  found.used_folders = folders_in(folder);
+  found.used_folders = files::folders_in(folder);
   return found;
 }
 
@@ -280,7 +280,7 @@ std::optional<FoundRecording> find_pair_folder(const fs::path& folder) {
   }
   // Older sets have a calib.txt without cameras, for the range of disparities.
   if (has_entry(calibration, "cam0")) found.calibrations.push_back(calibration.string());
-  found.used_folders = folders_in(folder);
+  found.used_folders = files::folders_in(folder);
   return found;
 }
 

@@ -11,8 +11,8 @@
 #include <set>
 #include <utility>
 
+#include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
-#include "recordings/media/file_names.hpp"
 
 namespace mtstereo::run {
 
@@ -211,7 +211,7 @@ std::optional<Nanoseconds> time_in_name(const fs::path& picture) {
 std::string picture_problem(const fs::path& picture) {
   const std::string head = bytes_of(picture, 0, 8);
   if (head.empty()) return "is empty or cannot be read";
-  const std::string extension = extension_of(picture);
+  const std::string extension = files::extension_of(picture);
   if (extension == ".png") {
     if (!head.starts_with("\x89PNG")) return "is no PNG file";
     if (bytes_of(picture, 64, 64).find("IEND") == std::string::npos) return "is truncated";

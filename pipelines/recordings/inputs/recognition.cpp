@@ -8,11 +8,11 @@
 #include <system_error>
 #include <utility>
 
+#include "lib/files/file_names.hpp"
 #include "lib/outputs/printable.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/own_names.hpp"
 #include "recordings/inputs/search.hpp"
-#include "recordings/media/file_names.hpp"
 
 namespace mtstereo::run {
 
@@ -85,7 +85,7 @@ class ArchiveSearch {
       recordings_.push_back(std::move(recording));
     }
     problems_.insert(problems_.end(), contents.problems.begin(), contents.problems.end());
-    for (const fs::path& inner : folders_in(folder)) {
+    for (const fs::path& inner : files::folders_in(folder)) {
       const auto& used = contents.used_folders;
       if (std::find(used.begin(), used.end(), inner) == used.end()) enter(inner);
     }

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "lib/files/file_names.hpp"
 #include "lib/outputs/printable.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/calibration.hpp"
@@ -13,7 +14,6 @@
 #include "recordings/inputs/halves.hpp"
 #include "recordings/inputs/picture_lists.hpp"
 #include "recordings/inputs/view_names.hpp"
-#include "recordings/media/file_names.hpp"
 #include "recordings/media/sample_frames.hpp"
 
 namespace mtstereo::run {
@@ -24,8 +24,8 @@ namespace {
 
 // The pictures of a folder, or of the folder data in it.
 std::vector<fs::path> pictures_of_folder(const fs::path& folder) {
-  std::vector<fs::path> pictures = pictures_in(folder);
-  return pictures.empty() ? pictures_in(folder / "data") : pictures;
+  std::vector<fs::path> pictures = files::pictures_in(folder);
+  return pictures.empty() ? files::pictures_in(folder / "data") : pictures;
 }
 
 const fs::path& file_of(const Source& source) {
@@ -39,8 +39,8 @@ fs::path folder_of(const Source& source) {
 }
 
 std::vector<fs::path> videos_in(const fs::path& folder) {
-  std::vector<fs::path> files = files_in(folder);
-  std::erase_if(files, [](const fs::path& file) { return !is_video(file); });
+  std::vector<fs::path> files = files::files_in(folder);
+  std::erase_if(files, [](const fs::path& file) { return !files::is_video(file); });
   return files;
 }
 
@@ -99,7 +99,7 @@ class FolderSearch {
       contents_.recordings.push_back(completed(*found, options_));
     } catch (const UserError& error) {
       contents_.problems.push_back({folder_.string(), error.what()});
-      contents_.used_folders = folders_in(folder_);
+      contents_.used_folders = files::folders_in(folder_);
     }
     return true;
   }
@@ -132,7 +132,7 @@ class FolderSearch {
   }
 
   void add_folders() {
-    std::vector<fs::path> folders = folders_in(folder_);
+    std::vector<fs::path> folders = files::folders_in(folder_);
     std::erase_if(folders, [](const fs::path& folder) {
       return pictures_of_folder(folder).empty() && videos_in(folder).size() != 1;
     });
@@ -152,7 +152,7 @@ class FolderSearch {
 
   // Pictures of both views in one folder, or pictures with both views.
   void add_pictures() {
-    std::vector<fs::path> rest = pictures_in(folder_);
+    std::vector<fs::path> rest = files::pictures_in(folder_);
     const std::vector<PathPair> pairs = take_pairs(rest);
     if (!pairs.empty()) {
       Source left, right;
@@ -279,8 +279,8 @@ Recording completed(FoundRecording found, const InputOptions& options) {
 Source source_of(const std::string& input) {
   std::error_code error;
   Source source;
-  if (is_pattern(input)) {
-    source.pictures = files_of_pattern(input);
+  if (files::is_pattern(input)) {
+    source.pictures = files::files_of_pattern(input);
     if (source.pictures.empty()) throw UserError(input + ": no file has such a name");
   } else if (fs::is_directory(input, error)) {
     source.pictures = pictures_of_folder(input);
@@ -291,7 +291,7 @@ Source source_of(const std::string& input) {
     throw UserError(input + ": no such file or folder");
   } else if (!fs::is_regular_file(input, error)) {
     throw UserError(input + ": is a pipe or a device, which may never end: record it into a file");
-  } else if (is_picture(input)) {
+  } else if (files::is_picture(input)) {
     source.pictures = {input};
   } else {
     source.video = input;

@@ -9,10 +9,10 @@
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
 
+#include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/damage_notes.hpp"
-#include "recordings/media/file_names.hpp"
 #include "recordings/media/video_times.hpp"
 
 namespace mtstereo::run {
@@ -147,7 +147,7 @@ FrameIndex index_of_video(const fs::path& file) {
 }
 
 std::string name_of_format(const fs::path& picture) {
-  std::string name = extension_of(picture);
+  std::string name = files::extension_of(picture);
   if (!name.empty()) name.erase(0, 1);
   for (char& each : name) each = static_cast<char>(std::toupper(static_cast<unsigned char>(each)));
   return name == "JPG" ? "JPEG" : name;

@@ -11,8 +11,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
+#include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
-#include "recordings/media/file_names.hpp"
 #include "recordings/media/frame_reader.hpp"
 #include "recordings/media/jpeg_check.hpp"
 
@@ -121,7 +121,7 @@ class PictureReader : public FrameReader {
   DecodedFrame read(std::int64_t number) override {
     const std::filesystem::path& file = files_[static_cast<std::size_t>(number)];
     problem_ = "it cannot be read";
-    const std::string extension = extension_of(file);
+    const std::string extension = files::extension_of(file);
     DecodedFrame frame =
         extension == ".jpg" || extension == ".jpeg" ? read_jpeg(file) : read_other(file);
     if (frame.state == FrameState::kMissing) problem_ = file.string() + ": " + problem_;

@@ -3,12 +3,12 @@
 
 #include <stdexcept>
 
+#include "lib/files/file_names.hpp"
 #include "tools/eval/files.hpp"
 
 namespace mtstereo::apps {
 
 namespace fs = std::filesystem;
-using eval::extension_of;
 using eval::files_in;
 
 std::map<std::string, fs::path> by_name(const fs::path& folder, const std::string& extension) {
@@ -17,7 +17,7 @@ std::map<std::string, fs::path> by_name(const fs::path& folder, const std::strin
   }
   std::map<std::string, fs::path> files;
   for (const auto& file : files_in(folder)) {
-    if (extension_of(file) == extension) files[file.stem().string()] = file;
+    if (files::extension_of(file) == extension) files[file.stem().string()] = file;
   }
   if (files.empty()) {
     throw std::runtime_error(folder.string() + ": contains no " + extension + " file");

@@ -5,6 +5,7 @@
 #include <array>
 #include <system_error>
 
+#include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
 #include "tools/eval/layouts.hpp"
@@ -28,7 +29,7 @@ void require_folder(const fs::path& root) {
 }
 
 cv::Mat read_truth(const StereoPair& pair, cv::Size size, DmapMeaning meaning) {
-  const std::string extension = extension_of(pair.truth);
+  const std::string extension = files::extension_of(pair.truth);
   if (extension == ".pfm") return read_pfm_disparity(pair.truth);
   if (extension != ".bin") return read_png_disparity(pair.truth);
 

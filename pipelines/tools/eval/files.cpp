@@ -88,17 +88,4 @@ std::vector<fs::path> folders_below(const fs::path& root) {
   return found;
 }
 
-std::string extension_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
-bool is_image(const fs::path& file) {
-  static const std::set<std::string> kExtensions{".png",  ".jpg", ".jpeg", ".webp", ".tif",
-                                                 ".tiff", ".bmp", ".pgm",  ".ppm"};
-  return kExtensions.contains(extension_of(file));
-}
-
 }  // namespace mtstereo::eval

@@ -24,10 +24,4 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder)
 /// that was already listed is not entered again. Throws UserError if one cannot be read.
 std::vector<std::filesystem::path> folders_below(const std::filesystem::path& root);
 
-/// The extension of a file in lower case, with the dot.
-std::string extension_of(const std::filesystem::path& file);
-
-/// True for the image extensions that occur in the data sets.
-bool is_image(const std::filesystem::path& file);
-
 }  // namespace mtstereo::eval

@@ -7,6 +7,7 @@
 #include <string>
 #include <system_error>
 
+#include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
 #include "tools/eval/layouts.hpp"
@@ -95,7 +96,7 @@ void find_kitti(DataSet& set) {
   }
   for (const fs::path& file : files_in(folders->left)) {
     // Frame 10 of a sequence has ground truth; frame 11 is for optical flow.
-    if (extension_of(file) == ".png" && file.stem().string().ends_with("_10")) {
+    if (files::extension_of(file) == ".png" && file.stem().string().ends_with("_10")) {
       add_frame(set, *folders, file);
     }
   }

@@ -10,6 +10,7 @@
 #include <string>
 #include <system_error>
 
+#include "lib/files/file_names.hpp"
 #include "tools/eval/files.hpp"
 #include "tools/eval/layouts.hpp"
 
@@ -60,7 +61,7 @@ std::string frame_of(const fs::path& file) {
 
 // Label images, overlays and depth pictures are stored beside the images.
 bool is_view(const fs::path& file) {
-  if (!is_image(file)) return false;
+  if (!files::is_picture(file)) return false;
   const std::string stem = file.stem().string();
   for (const char* other : {"_gtr", "_over", "_dmap", "_disp", "_depth", "_vis"}) {
     if (stem.ends_with(other)) return false;
@@ -69,7 +70,7 @@ bool is_view(const fs::path& file) {
 }
 
 bool is_truth(const fs::path& file, bool beside_images) {
-  const std::string extension = extension_of(file);
+  const std::string extension = files::extension_of(file);
   if (extension == ".bin") return file.stem().string().ends_with("dmap");
   return extension == ".pfm" || (extension == ".png" && !beside_images);
 }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mtstereo::run {
+namespace mtstereo::files {
 
 /// The order of numbered files: digits are compared as numbers, so that 9.png is before 10.png.
 bool numbered_less(std::string_view a, std::string_view b);
@@ -25,10 +25,11 @@ std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folde
 /// The pictures in a folder in the order of numbered files.
 std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);
 
-/// Whether a path is a pattern of numbered files, such as left/%04d.png.
+/// Whether a path is a pattern of files: with a number, such as left/%04d.png, or of a shell, such
+/// as left/*.png.
 bool is_pattern(const std::string& path);
-/// The files that exist of a pattern, by their numbers. Throws UserError for a pattern that has not
-/// exactly one number.
+/// The files that exist of a pattern, in the order of numbered files. Throws UserError for a
+/// pattern with % that has not exactly one number.
 std::vector<std::filesystem::path> files_of_pattern(const std::string& pattern);
 
-}  // namespace mtstereo::run
+}  // namespace mtstereo::files

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "recordings/media/file_names.hpp"
+#include "lib/files/file_names.hpp"
+
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +14,7 @@
 
 #include "lib/outputs/user_error.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::files {
 
 namespace fs = std::filesystem;
 
@@ -159,19 +161,23 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
 }
 
 bool is_pattern(const std::string& path) {
-  return fs::path(path).filename().string().find('%') != std::string::npos && !fs::exists(path);
+  return fs::path(path).filename().string().find_first_of("%*?[") != std::string::npos &&
+         !fs::exists(path);
 }
 
-std::vector<fs::path> files_of_pattern(const std::string& pattern) {
-  const fs::path path(pattern);
-  const std::optional<Pattern> parsed = parse_pattern(path.filename().string());
-  if (!parsed) {
-    throw UserError(pattern + ": the name of the files must have one number, such as %d or %06d");
-  }
+namespace {
+
+std::vector<fs::path> files_of_shell_pattern(const fs::path& folder, const std::string& name) {
+  return entries_of(folder, [&name](const fs::path& file) {
+    return fnmatch(name.c_str(), file.filename().c_str(), 0) == 0 && is_file(file);
+  });
+}
+
+std::vector<fs::path> numbered_files(const fs::path& folder, const Pattern& pattern) {
   std::vector<std::pair<std::uint64_t, fs::path>> numbered;
-  for (const fs::path& file : files_in(path.has_parent_path() ? path.parent_path() : ".")) {
-    const std::optional<std::uint64_t> number = number_in(*parsed, file.filename().string());
-    if (number) numbered.emplace_back(*number, path.parent_path() / file.filename());
+  for (const fs::path& file : files_in(folder)) {
+    const std::optional<std::uint64_t> number = number_in(pattern, file.filename().string());
+    if (number) numbered.emplace_back(*number, file);
   }
   std::sort(numbered.begin(), numbered.end());
   std::vector<fs::path> files;
@@ -180,4 +186,22 @@ std::vector<fs::path> files_of_pattern(const std::string& pattern) {
   return files;
 }
 
-}  // namespace mtstereo::run
+}  // namespace
+
+std::vector<fs::path> files_of_pattern(const std::string& pattern) {
+  const fs::path path(pattern);
+  const std::string name = path.filename().string();
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::vector<fs::path> files;
+  if (name.find('%') == std::string::npos) {
+    files = files_of_shell_pattern(folder, name);
+  } else if (const std::optional<Pattern> parsed = parse_pattern(name)) {
+    files = numbered_files(folder, *parsed);
+  } else {
+    throw UserError(pattern + ": the name of the files must have one number, such as %d or %06d");
+  }
+  for (fs::path& file : files) file = path.parent_path() / file.filename();
+  return files;
+}
+
+}  // namespace mtstereo::files

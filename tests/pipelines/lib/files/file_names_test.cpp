@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "recordings/media/file_names.hpp"
+#include "lib/files/file_names.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "lib/outputs/user_error.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -61,6 +61,18 @@ TEST_F(FileNames, PatternMatchesItsWidth) {
   EXPECT_THAT(match("left_%d.png"), ElementsAre("left_3.png", "left_10000.png"));
 }
 
+TEST_F(FileNames, PatternMayBeThatOfAShell) {
+  create({"l10.png", "l9.png", "r9.png", "l9.txt", ".l1.png"});
+  EXPECT_TRUE(is_pattern((folder_ / "l*.png").string()));
+  EXPECT_THAT(match("l*.png"), ElementsAre("l9.png", "l10.png"));
+  EXPECT_THAT(match("?9.png"), ElementsAre("l9.png", "r9.png"));
+  EXPECT_THAT(match("[a-m]9.*"), ElementsAre("l9.png", "l9.txt"));
+  EXPECT_TRUE(match("z*").empty());
+
+  create({"[x].png"});
+  EXPECT_FALSE(is_pattern((folder_ / "[x].png").string())) << "the name of a file that exists";
+}
+
 TEST_F(FileNames, PatternMayHavePercentSigns) {
   create({"50%_7.png"});
   EXPECT_THAT(match("50%%_%d.png"), ElementsAre("50%_7.png"));
@@ -79,4 +91,4 @@ TEST_F(FileNames, FolderThatDoesNotExistIsEmpty) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::files
