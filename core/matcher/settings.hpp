@@ -12,8 +12,8 @@
 #include "stages/pixels/census_matching.hpp"
 #include "stages/pixels/disparity_selection.hpp"
 #include "stages/pixels/path_matching.hpp"
-#include "stages/pixels/scanline_optimization.hpp"
 #include "stages/pixels/search_range.hpp"
+#include "stages/pixels/smoothness.hpp"
 #include "stages/refine/holding.hpp"
 #include "stages/refine/reliability_table.hpp"
 

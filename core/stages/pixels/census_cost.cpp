@@ -83,30 +83,29 @@ void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1)
 /// Counts the bits of the row that enters the window, and sums the counts of all its rows.
 template <int kSize, bool kRunning, class D8>
 void sum_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
-  with_vectors(
-      vectors_of(D8(), lanes), [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-        for (int x = x0; x < x1; ++x) {
-          const D8 d8;
-          const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
-          std::uint8_t* sums = window.sums_of(x);
-          const Difference<D8> in(window.in, window.width, x);
-          for_each_vector<kVectors, D8>(lanes, [&](int d) HWY_ATTR {
-            std::uint8_t* counts = window.rows[0] + first + d;
-            const auto count = in.count(d);
-            auto sum = count;
-            if constexpr (kRunning) {
-              // The entering row takes the place of the leaving one.
-              sum = hn::Add(hn::Sub(hn::LoadU(d8, sums + d), hn::LoadU(d8, counts)), count);
-            } else {
-              for (int i = 1; i < kSize; ++i) {
-                sum = hn::Add(sum, hn::LoadU(d8, window.rows[i] + first + d));
-              }
-            }
-            hn::StoreU(count, d8, counts);
-            hn::StoreU(sum, d8, sums + d);
-          });
+  with_vectors<D8>(lanes, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+    for (int x = x0; x < x1; ++x) {
+      const D8 d8;
+      const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
+      std::uint8_t* sums = window.sums_of(x);
+      const Difference<D8> in(window.in, window.width, x);
+      for_each_vector<kVectors, D8>(lanes, [&](int d) HWY_ATTR {
+        std::uint8_t* counts = window.rows[0] + first + d;
+        const auto count = in.count(d);
+        auto sum = count;
+        if constexpr (kRunning) {
+          // The entering row takes the place of the leaving one.
+          sum = hn::Add(hn::Sub(hn::LoadU(d8, sums + d), hn::LoadU(d8, counts)), count);
+        } else {
+          for (int i = 1; i < kSize; ++i) {
+            sum = hn::Add(sum, hn::LoadU(d8, window.rows[i] + first + d));
+          }
         }
+        hn::StoreU(count, d8, counts);
+        hn::StoreU(sum, d8, sums + d);
       });
+    }
+  });
 }
 
 /// Divides the columns x0 .. x1 - 1 by the lanes that must be counted for the costs of the columns
@@ -201,13 +200,12 @@ void write_row_of(const CensusWindow& of_window, int disparities, const std::uin
     });
     summed = needed;
     const CostWindow matched = window_at(window.matched, window.lanes, x0);
-    with_vectors(vectors_of(D8(), matched),
-                 [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-                   for (int x = x0; x < x1; ++x) {
-                     write_costs<kSize, kVectors, D8>(window, matched, disparities, x, low[x],
-                                                      high[x], tables, costs);
-                   }
-                 });
+    with_vectors<D8>(matched, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+      for (int x = x0; x < x1; ++x) {
+        write_costs<kSize, kVectors, D8>(window, matched, disparities, x, low[x], high[x], tables,
+                                         costs);
+      }
+    });
   }
 }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
 #include "stages/pixels/census_cost.hpp"
 #include "stages/pixels/disparity_selection.hpp"
-#include "stages/pixels/scanline_optimization.hpp"
+#include "stages/pixels/row_pair.hpp"
 #include "stages/pixels/search_range.hpp"
 #include "stages/pixels/texture.hpp"
 #include "stages/prepare/census.hpp"
@@ -15,7 +16,7 @@
 namespace mtstereo {
 
 /// Guided pixel matching by the census cost: runs search_range, texture, census_cost,
-/// scanline_optimization and disparity_selection row by row, the last two of them block by block.
+/// row_pair and disparity_selection, two rows at a time.
 
 struct CensusMatchingOptions {
   SearchRangeOptions range;
@@ -26,13 +27,16 @@ struct CensusMatchingOptions {
 
 /// Scratch memory of one thread: a few rows of costs.
 struct CensusMatchingScratch {
-  Buffer<std::uint16_t> low;
-  Buffer<std::uint16_t> high;
+  struct Row {
+    Buffer<std::uint16_t> low;
+    Buffer<std::uint16_t> high;
+    Buffer<std::uint8_t> costs;
+    Candidates candidates;
+  };
+  std::array<Row, 2> rows;
   TextureScratch texture;
   CensusCostScratch cost;
-  ScanlineScratch scanline;
-  SelectionScratch selection;
-  Buffer<std::uint8_t> costs;
+  RowPairScratch pair;
 
   void resize(int width, const CensusMatchingOptions& options);
 };

@@ -66,10 +66,9 @@ void continue_columns(const ColumnStep& of_row, std::uint8_t* before, std::uint8
     for (int x = x0; x < x1 && last != window; ++x) {
       extend_lanes(last, window, before + x * lanes);
     }
-    with_vectors(vectors_of(Bytes(), window),
-                 [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-                   continue_tile<kVectors>(row, window, x0, x1, before, paths, least);
-                 });
+    with_vectors<Bytes>(window, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
+      continue_tile<kVectors>(row, window, x0, x1, before, paths, least);
+    });
   }
 }
 

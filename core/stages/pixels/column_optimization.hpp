@@ -3,12 +3,13 @@
 
 #include <cstdint>
 
-#include "stages/pixels/scanline_optimization.hpp"
+#include "stages/pixels/cost_lanes.hpp"
+#include "stages/pixels/smoothness.hpp"
 
 namespace mtstereo {
 
 /// Paths of semi-global matching along the columns, for path_matching: the counterpart of
-/// scanline_optimization. A path goes from row to row, upwards or downwards, so that one call
+/// row_pair. A path goes from row to row, upwards or downwards, so that one call
 /// advances the paths of all columns by one row.
 
 /// The input of one row.
@@ -25,7 +26,7 @@ struct ColumnStep {
 };
 
 /// Advances the paths by one row: writes the path costs of its cells, as defined at
-/// start_scanline(), from the costs of the previous row. `before` may be `paths`; it is nullptr in
+/// match_row_pair(), from the costs of the previous row. `before` may be `paths`; it is nullptr in
 /// the paths' first row. Overwrites cells of `before` outside of the windows. `least` holds the
 /// least path cost of each column, first of the previous row, then of this one.
 void step_columns(const ColumnStep& row, std::uint8_t* before, std::uint8_t* paths,

@@ -2,41 +2,69 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
-#include "stages/pixels/cost_lanes.hpp"
-#include "stages/pixels/selection_data.hpp"
+#include "base/buffer.hpp"
 
 namespace mtstereo {
 
-/// The last part of guided pixel matching: selects each pixel's disparity of least cost and checks
-/// it. For each row: call start_selection(), then offer_costs() for its pixels in any order, then
-/// finish_selection().
+/// The last part of guided pixel matching: decides about each pixel's disparity of least cost,
+/// which row_pair found.
+
+struct SelectionOptions {
+  int disparities;           ///< D
+  double confidence;         ///< omega_Pi: the runner-up has to exceed the best by more, as a share
+  bool runner_up_in_range;   ///< only disparities of the expected range can be runner-up
+  int left_right_tolerance;  ///< largest difference to the right pixel's disparity [px], -1 = any
+  bool subpixel;             ///< refine by the V of equal slopes through the best and its neighbors
+  int ratio_offset;          ///< peak_ratio()'s offset [steps of the costs]
+  /// A disparity at least this far from both ends of its expected range needs no check [px]; -1 =
+  /// all need it. An end at 0 or D - 1 may be closer. A pixel that expects all disparities needs
+  /// it.
+  int guided_margin = -1;
+};
 
 /// The offset of the peak ratio for one path [bits of one pixel].
 inline constexpr int kRatioOffset = 10;
+
+/// All valid costs are below this.
+inline constexpr int kCostLimit = 511;
+
+/// In place of a cost.
+inline constexpr std::int16_t kNoCost = 0x7FFF;
+
+/// Pixels that are finished together, at most.
+inline constexpr int kFinishedTogether = 8;
 
 /// Maps the best cost to the least cost that is sufficient for its runner-up.
 using RunnerUpTable = std::array<std::uint16_t, kCostLimit>;
 RunnerUpTable runner_up_table(double confidence);
 
-/// Starts a row.
-void start_selection(SelectionScratch& scratch);
+/// What is known of each pixel of a row before it is decided. Memory of one thread.
+struct Candidates {
+  /// The disparity of least cost, that cost, the runner-up's if it is sufficient, and those of the
+  /// disparities before and after the best one; kNoCost where there is none.
+  Buffer<std::int16_t> best, least, second, before, after;
+  Buffer<std::int16_t> other;  ///< the best disparity of the pixel's right pixel
 
-/// Passes the costs of the columns begin .. end - 1: the cost of column x and disparity d is at
-/// (x - begin) * cost_lanes() + d. Costs are below kCostLimit; cells d >= D have kCostLimit - 1.
-/// Pixels with low > high have no expected range. `windows` has one per tile of the row, nullptr =
-/// all lanes; disparities outside of them do not exist.
-void offer_costs(const std::uint16_t* costs, int begin, int end, int width,
-                 const SelectionOptions& options, const std::uint16_t* low,
-                 const std::uint16_t* high, const CostWindow* windows, SelectionScratch& scratch);
+  /// The right pixels' least costs so far and their disparities, mirrored: the right pixel of
+  /// column x at disparity d is at width - 1 - x + d. Successive pixels use copies in turn: with
+  /// one copy, each pixel's loads would wait for its neighbor's stores.
+  static constexpr int kTurns = 2;
+  enum Plane { kCosts, kEvens, kHigh, kLow, kPlanes };  // a byte each
+  Buffer<std::uint8_t> right;       ///< [plane][turn]: PathSums, disparities / 256 and % 256
+  std::ptrdiff_t right_stride = 0;  ///< from turn to turn
+
+  std::uint8_t* decided(Plane plane) { return right.data() + plane * kTurns * right_stride; }
+
+  void resize(int width, int disparities);
+};
 
 /// Writes the row of the disparity map [1 / kDisparityOne px] and of the peak ratios (0 for pixels
-/// without a disparity). Of equal costs the smallest disparity is the best. The runner-up is the
-/// least cost of the disparities that differ from the best by more than 1. A pixel without a
-/// runner-up or with low > high gets no disparity.
+/// without a disparity). A pixel without a runner-up or with low > high gets no disparity.
 void finish_selection(int width, const SelectionOptions& options, const std::uint16_t* low,
-                      const std::uint16_t* high, const RunnerUpTable& runner_up,
-                      SelectionScratch& scratch, std::int32_t* disparity, std::uint8_t* ratio);
+                      const std::uint16_t* high, const Candidates& candidates,
+                      std::int32_t* disparity, std::uint8_t* ratio);
 
 }  // namespace mtstereo

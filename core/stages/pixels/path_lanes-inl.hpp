@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Internal to scanline_optimization.cpp and column_optimization.cpp: the costs of a path's pixel in
+// Internal to row_pair.cpp and column_optimization.cpp: the costs of a path's pixel in
 // vectors of bytes. Every SIMD target includes this header again, after base/simd.hpp.
 #if defined(MTSTEREO_PATH_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef MTSTEREO_PATH_LANES_INL_HPP
@@ -22,22 +22,33 @@ namespace mtstereo::HWY_NAMESPACE {
 // neighboring block; wider ones have none for that.
 using Bytes = hn::CappedTag<std::uint8_t, 32>;
 
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_SSE4
+/// The least of 16 bytes, in the first one.
+HWY_INLINE __m128i least_of_words(__m128i v) {
+  return _mm_minpos_epu16(_mm_min_epu8(v, _mm_srli_epi16(v, 8)));
+}
+#endif
+
 /// The least of all lanes, in every lane.
 template <class V>
 HWY_INLINE V least_of_lanes(Bytes d8, V v) {
-#if HWY_TARGET == HWY_SSSE3
-  // SSSE3 has no minimum of unsigned words.
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_SSE4
+  // Highway has no minimum of unsigned bytes. The processors have one of eight unsigned words.
+  if constexpr (hn::MaxLanes(d8) == 32) {
+    const hn::Half<Bytes> half;
+    const auto least = least_of_words(hn::Min(hn::LowerHalf(half, v), hn::UpperHalf(half, v)).raw);
+    return V{_mm256_broadcastb_epi8(least)};
+  } else {
+    return hn::TableLookupBytes(V{least_of_words(v.raw)}, hn::Zero(d8));
+  }
+#elif HWY_ARCH_ARM_A64
+  return hn::Set(d8, vminvq_u8(v.raw));
+#else
   v = hn::Min(v, hn::ShiftRightBytes<8>(d8, v));
   v = hn::Min(v, hn::ShiftRightBytes<4>(d8, v));
   v = hn::Min(v, hn::ShiftRightBytes<2>(d8, v));
   v = hn::Min(v, hn::ShiftRightBytes<1>(d8, v));
   return hn::TableLookupBytes(v, hn::Zero(d8));
-#else
-  const hn::Repartition<std::uint16_t, Bytes> d16;
-  const auto pairs = hn::BitCast(d16, v);
-  const auto least =
-      hn::MinOfLanes(d16, hn::Min(hn::And(pairs, hn::Set(d16, 0xFF)), hn::ShiftRight<8>(pairs)));
-  return hn::BitCast(d8, hn::Or(least, hn::ShiftLeft<8>(least)));
 #endif
 }
 
@@ -104,16 +115,6 @@ HWY_INLINE hn::Vec<Bytes> step_vectors(CostWindow window, const std::uint8_t* co
     same = after;
   }
   return least_of_lanes(d8, least);
-}
-
-/// step_vectors() for the window's number of vectors.
-HWY_INLINE hn::Vec<Bytes> step_window(CostWindow window, const std::uint8_t* costs,
-                                      const std::uint8_t* before, const StepCosts& steps,
-                                      std::uint8_t* paths) {
-  return with_vectors(vectors_of(Bytes(), window),
-                      [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-                        return step_vectors<kVectors>(window, costs, before, steps, paths);
-                      });
 }
 
 /// Between pixels of different windows: makes the costs of the pixel before never the least where

@@ -51,13 +51,14 @@ class ChunkMatching {
     }
     if (votes != nullptr) clear_votes(chunk_.y0, chunk_.y1, *votes);
     std::uint8_t* before = nullptr;
-    for (int y = chunk_.first; y < chunk_.y1; ++y) {
-      if (!from_below()) find_costs(y);
-      if (from_above()) step(y, y - 1, before, scratch_.above.data());
-      before = scratch_.above.data();
-      if (y < chunk_.y0) continue;
-      select(y, map.row(y), ratio.row(y));
-      if (votes != nullptr) vote(y, map.row(y), *votes);
+    // Chunks and their margins begin at even rows, so that a pair has one row of windows.
+    for (int y = chunk_.first; y < chunk_.y1; y += 2) {
+      for (int row = y; row < std::min(y + 2, chunk_.y1); ++row) {
+        if (!from_below()) find_costs(row);
+        if (from_above()) step(row, row - 1, before, above(row));
+        before = above(row);
+      }
+      if (y >= chunk_.y0) match_pair(y, map, ratio, votes);
     }
   }
 
@@ -65,10 +66,12 @@ class ChunkMatching {
   bool from_above() const { return options_.column_paths != ColumnPaths::kNone; }
   bool from_below() const { return options_.column_paths == ColumnPaths::kBoth; }
 
-  /// Without paths from below, each row replaces the one before it.
+  /// Without paths from below, each pair replaces the one before it.
   std::uint8_t* costs(int y) const {
-    return scratch_.costs.data() + (from_below() ? (y - chunk_.first) * cells_ : 0);
+    return scratch_.costs.data() + (from_below() ? y - chunk_.first : y % 2) * cells_;
   }
+
+  std::uint8_t* above(int y) const { return scratch_.above.data() + y % 2 * cells_; }
 
   std::uint8_t* below(int y) const { return scratch_.below.data() + (y - chunk_.y0) * cells_; }
 
@@ -105,54 +108,48 @@ class ChunkMatching {
     step_columns(row, before, paths, scratch_.least.data());
   }
 
-  void select(int y, std::int32_t* disparity, std::uint8_t* ratio) {
-    const CostWindow* windows = input_.windows.row(y);
-    const ScanlineRow row = {
-        costs(y),    input_.image.row(y), width_,     options_.cost.disparities,
-        small_step_, &large_step_,        columns(y), windows};
-    const std::uint16_t* low = scratch_.low.data();
-    const std::uint16_t* high = scratch_.high.data();
+  PathRow path_row(int y, Candidates& candidates) const {
+    const std::uint8_t* upper = from_above() ? above(y) : nullptr;
+    return {costs(y),
+            input_.image.row(y),
+            upper,
+            from_below() ? below(y) : upper,
+            scratch_.low.data(),
+            scratch_.high.data(),
+            &candidates};
+  }
+
+  /// Matches the rows y and y + 1, or the chunk's last row.
+  void match_pair(int y, Image<std::int32_t>& map, Image<std::uint8_t>& ratio, WindowVotes* votes) {
+    const int last = std::min(y + 1, chunk_.y1 - 1);
     expect(y);
-    start_scanline(row, scratch_.scanline);
-    start_selection(scratch_.selection);
-    for (int block = 0; block < scanline_blocks(width_); ++block) {
-      for (const ScanlineSums& part : scanline_block(row, block, scratch_.scanline)) {
-        offer_costs(part.sums, part.begin, part.end, width_, options_.selection, low, high, windows,
-                    scratch_.selection);
-      }
+    const RowPair pair = {
+        {path_row(y, scratch_.candidates[0]), path_row(last, scratch_.candidates[1])},
+        width_,
+        small_step_,
+        &large_step_,
+        input_.windows.row(y),
+        from_above() ? PathSums::kFour : PathSums::kTwoHalved};
+    match_row_pair(pair, options_.selection, runner_up_, scratch_.pair);
+    for (int row = y; row <= last; ++row) {
+      finish_selection(width_, options_.selection, scratch_.low.data(), scratch_.high.data(),
+                       scratch_.candidates[row - y], map.row(row), ratio.row(row));
     }
-    finish_selection(width_, options_.selection, low, high, runner_up_, scratch_.selection,
-                     disparity, ratio);
+    if (votes == nullptr) return;
+    static_assert(kCostVotingRows == 2);
+    select_by_cost(pair);
+    count_votes(map.row(y), scratch_.by_cost.data(), width_, y, *votes);
+    if (last > y) count_votes(map.row(last), nullptr, width_, last, *votes);
   }
 
-  ColumnCosts columns(int y) const {
-    if (!from_above()) return {};
-    return {scratch_.above.data(), from_below() ? below(y) : scratch_.above.data()};
-  }
-
-  void vote(int y, const std::int32_t* by_path, WindowVotes& votes) {
-    const bool by_cost = y % kCostVotingRows == 0;
-    if (by_cost) select_by_cost(y);
-    count_votes(by_path, by_cost ? scratch_.by_cost.data() : nullptr, width_, y, votes);
-  }
-
-  /// The disparities of row y by its costs alone.
-  void select_by_cost(int y) {
+  /// The disparities of the pair's first row by its costs alone.
+  void select_by_cost(const RowPair& pair) {
     const SelectionOptions options = {
         options_.cost.disparities, 0, false, kCostTolerance, false, 0};
-    const std::uint8_t* row = costs(y);
-    // Twice the costs have the range of the sums of paths.
-    std::uint16_t* twice = scratch_.twice.data();
-    for (std::ptrdiff_t i = 0; i < cells_; ++i) {
-      twice[i] = static_cast<std::uint16_t>(2 * row[i]);
-    }
-    const std::uint16_t* low = scratch_.low.data();
-    const std::uint16_t* high = scratch_.high.data();
-    start_selection(scratch_.selection);
-    offer_costs(twice, 0, width_, width_, options, low, high, input_.windows.row(y),
-                scratch_.selection);
-    finish_selection(width_, options, low, high, any_runner_up_, scratch_.selection,
-                     scratch_.by_cost.data(), scratch_.by_cost_ratio.data());
+    match_row_by_cost(pair, options, any_runner_up_, scratch_.pair);
+    finish_selection(width_, options, scratch_.low.data(), scratch_.high.data(),
+                     scratch_.candidates[0], scratch_.by_cost.data(),
+                     scratch_.by_cost_ratio.data());
   }
 
   const PathMatchingInput& input_;
@@ -176,14 +173,13 @@ void PathMatchingScratch::resize(int width, int height, const PathMatchingOption
   low.resize(width);
   high.resize(width);
   cost.resize(width, options.cost);
-  scanline.resize(width, disparities);
-  selection.resize(width, disparities);
+  pair.resize(width, disparities);
+  for (Candidates& row : candidates) row.resize(width, disparities);
   const bool from_below = options.column_paths == ColumnPaths::kBoth;
-  costs.resize(cells * (from_below ? std::min(height, kPathRows + 2 * kPathMargin) : 1));
+  costs.resize(cells * (from_below ? std::min(height, kPathRows + 2 * kPathMargin) : 2));
   below.resize(from_below ? cells * (std::min(height, kPathRows) + 1) : 0);
-  above.resize(cells);
+  above.resize(options.column_paths == ColumnPaths::kNone ? 0 : 2 * cells);
   least.resize(width);
-  twice.resize(cells);
   by_cost.resize(width);
   by_cost_ratio.resize(width);
 }

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
 #include "stages/pixels/census_cost.hpp"
 #include "stages/pixels/disparity_selection.hpp"
-#include "stages/pixels/scanline_optimization.hpp"
+#include "stages/pixels/row_pair.hpp"
 #include "stages/pixels/search_windows.hpp"
 #include "stages/prepare/census.hpp"
 
 namespace mtstereo {
 
 /// Matching of all pixels by the census cost and paths, two along the row and up to two along the
-/// column: runs census_cost, column_optimization, scanline_optimization and disparity_selection.
+/// column: runs census_cost, column_optimization, row_pair and disparity_selection.
 /// Instead of the nodes, the map of the views at half the resolution says which disparities are
 /// expected.
 
@@ -62,18 +63,17 @@ inline int path_rows(ColumnPaths paths) {
 }
 
 /// Scratch memory of one thread. With paths from below, the costs of a chunk and its margins and
-/// the path costs from below of a chunk, otherwise the costs of one row.
+/// the path costs from below of a chunk, otherwise the costs of two rows.
 struct PathMatchingScratch {
   Buffer<std::uint16_t> low;
   Buffer<std::uint16_t> high;
   CensusCostScratch cost;
-  ScanlineScratch scanline;
-  SelectionScratch selection;
+  RowPairScratch pair;
+  std::array<Candidates, 2> candidates;
   Buffer<std::uint8_t> costs;
   Buffer<std::uint8_t> below;    ///< of the chunk's rows and the one after them
-  Buffer<std::uint8_t> above;    ///< of one row
+  Buffer<std::uint8_t> above;    ///< of two rows
   Buffer<std::uint8_t> least;    ///< of a row's columns
-  Buffer<std::uint16_t> twice;   ///< twice the costs of a row
   Buffer<std::int32_t> by_cost;  ///< the disparities of a row by its costs alone
   Buffer<std::uint8_t> by_cost_ratio;
 

@@ -22,18 +22,26 @@ HWY_INLINE int vectors_of(D8, CostWindow window) {
   return (window.end - window.begin) / static_cast<int>(hn::MaxLanes(D8()));
 }
 
-/// Calls `work` with a number of vectors as a constant if it is at most four, else with 0.
-template <class Work>
-HWY_INLINE auto with_vectors(int vectors, const Work& work) {
-  switch (vectors) {
+/// The vectors of so many kCostStep lanes; 0 if they do not fill whole ones.
+template <class D8>
+constexpr int vectors_of_steps(int steps) {
+  const int lanes = steps * kCostStep, vector = static_cast<int>(hn::MaxLanes(D8()));
+  return lanes % vector == 0 ? lanes / vector : 0;
+}
+
+/// Calls `work` with the window's number of vectors as a constant if it has at most four times
+/// kCostStep lanes, else with 0.
+template <class D8, class Work>
+HWY_INLINE auto with_vectors(CostWindow window, const Work& work) {
+  switch ((window.end - window.begin) / kCostStep) {
     case 1:
-      return work(std::integral_constant<int, 1>());
+      return work(std::integral_constant<int, vectors_of_steps<D8>(1)>());
     case 2:
-      return work(std::integral_constant<int, 2>());
+      return work(std::integral_constant<int, vectors_of_steps<D8>(2)>());
     case 3:
-      return work(std::integral_constant<int, 3>());
+      return work(std::integral_constant<int, vectors_of_steps<D8>(3)>());
     case 4:
-      return work(std::integral_constant<int, 4>());
+      return work(std::integral_constant<int, vectors_of_steps<D8>(4)>());
     default:
       return work(std::integral_constant<int, 0>());
   }

@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0x54dfce1f97aaae9d},
-    {"default", "semi-dense", 0xc6588f1c2482d7c5},
-    {"default", "dense", 0x7963d2e64972c92b},
-    {"default", "full", 0xc7aff1fd7f39f2a1},
+    {"default", "sparse", 0x59306d365bd4dd7f},
+    {"default", "semi-dense", 0x790b6f9d2a6a9133},
+    {"default", "dense", 0x4856355add80bfc5},
+    {"default", "full", 0x072dfe5eb5baa3e3},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0xcbe3457c3f6fc940},
-    {"fast", "dense", 0xd04c7d61d8d57f78},
-    {"fast", "full", 0xb7c4e7003a987e83},
+    {"fast", "dense", 0x3e7f8dc44d720fcf},
+    {"fast", "full", 0xd924d36330b4f59e},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

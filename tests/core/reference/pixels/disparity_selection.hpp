@@ -14,6 +14,9 @@ struct Selected {
   int ratio = 0;
 };
 
+/// Sums of paths from here on count as none.
+inline constexpr int kNoSum = 509;
+
 /// The curve through the best cost and its two neighbors whose minimum refines the disparity.
 enum class Refinement {
   kParabola,    ///< for the gradient cost
@@ -49,6 +52,7 @@ inline Selected judge(const std::vector<int>& costs, int best, int low, int high
   }
   if (others.empty()) return {};
   const int other = *std::min_element(others.begin(), others.end());
+  if (curve == Refinement::kSymmetricV && other >= kNoSum) return {};
   if (!(other > cost * (1 + options.confidence))) return {};
   int disparity = 256 * best;
   const auto inside = [&](int d) { return d >= 0 && d <= last && costs[d] != kOutside; };
@@ -97,7 +101,7 @@ std::vector<Selected> select_disparities(const RowCosts& sums, const SelectionOp
     std::vector<int> costs = sums[x];
     costs.resize(std::min(options.disparities, x + 1));
     const int best = first_least(costs);
-    if (best < 0) continue;
+    if (best < 0 || costs[best] >= kNoSum) continue;
     const auto cost = [&](int column, int d) { return sums[column][d]; };
     if (!right_agrees(x, best, width, options, cost) &&
         !guide_agrees(best, low[x], high[x], options)) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reference/pixels/pixel_matching.hpp"
-#include "reference/pixels/scanline_optimization.hpp"
+#include "reference/pixels/row_pair.hpp"
 #include "reference/pixels/search_windows.hpp"
 #include "stages/pixels/path_matching.hpp"
 
@@ -83,17 +83,16 @@ inline DisparityPlane match_by_cost(const PathInput& input, const PathMatchingOp
   const SelectionOptions selection = {options.cost.disparities, 0, false, 1, false, 0};
   DisparityPlane out(input.left.width, input.left.height);
   for (int y = 0; y < out.height; y += 2) {
-    const std::vector<Selected> selected = select_row(input, y, costs[y], selection);
+    const std::vector<Selected> selected = select_row(input, y, twice(costs[y]), selection);
     for (int x = 0; x < out.width; ++x) out(x, y) = selected[x].disparity;
   }
   return out;
 }
 
-/// Half the sums of four paths: `sums` are those of the paths along row y, and those along the
-/// columns start kPathMargin rows before and after the row's chunk of kPathRows rows. The path from
-/// above alone counts twice.
-inline void add_column_paths(const PathInput& input, const std::vector<RowCosts>& costs,
-                             const SmoothnessOptions& steps, bool both, int y, RowCosts& sums) {
+/// The sums of four paths of row y: those along the columns start kPathMargin rows before and after
+/// the row's chunk of kPathRows rows. The path from above alone counts twice.
+inline RowCosts four_paths(const PathInput& input, const std::vector<RowCosts>& costs,
+                           const SmoothnessOptions& steps, bool both, int y) {
   const GrayPlane& left = input.left;
   const int height = left.height;
   const int y0 = y / kPathRows * kPathRows, y1 = std::min(y0 + kPathRows, height);
@@ -105,13 +104,7 @@ inline void add_column_paths(const PathInput& input, const std::vector<RowCosts>
     below = column_step(costs[row], below, &left(0, row), &left(0, std::min(row + 1, height - 1)),
                         steps);
   }
-  if (!both) below = above;
-  for (std::size_t x = 0; x < sums.size(); ++x) {
-    for (std::size_t d = 0; d < sums[x].size(); ++d) {
-      if (sums[x][d] == kOutside) continue;
-      sums[x][d] = (sums[x][d] + above[x][d] + below[x][d]) / 2;
-    }
-  }
+  return path_sums(costs[y], &left(0, y), steps, PathSums::kFour, above, both ? below : above);
 }
 
 /// Matches a view along two, three or four paths.
@@ -122,10 +115,10 @@ inline RatedMap match_along_paths(const PathInput& input, const PathMatchingOpti
   const std::vector<RowCosts> costs = path_matching_costs(input, options);
   RatedMap out(width, height);
   for (int y = 0; y < height; ++y) {
-    RowCosts sums = optimize_scanline(costs[y], &input.left(0, y), steps);
-    if (options.column_paths != ColumnPaths::kNone) {
-      add_column_paths(input, costs, steps, options.column_paths == ColumnPaths::kBoth, y, sums);
-    }
+    const RowCosts sums =
+        options.column_paths == ColumnPaths::kNone
+            ? path_sums(costs[y], &input.left(0, y), steps, PathSums::kTwoHalved)
+            : four_paths(input, costs, steps, options.column_paths == ColumnPaths::kBoth, y);
     const std::vector<Selected> selected = select_row(input, y, sums, options.selection);
     for (int x = 0; x < width; ++x) out.set(x, y, selected[x]);
   }

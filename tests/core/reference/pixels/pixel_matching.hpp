@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reference/pixels/disparity_selection.hpp"
-#include "reference/pixels/scanline_optimization.hpp"
+#include "reference/pixels/row_pair.hpp"
 #include "reference/pixels/search_range.hpp"
 #include "reference/prepare/cost_volume.hpp"
 #include "stages/pixels/census_matching.hpp"
@@ -90,7 +90,7 @@ inline RatedMap match_pixels_by_census(const GrayPlane& left, const GrayPlane& r
         row[x].push_back(costs.cost(x, y, d, low[x], high[x]));
       }
     }
-    const RowCosts sums = optimize_scanline(row, &left(0, y), steps);
+    const RowCosts sums = path_sums(row, &left(0, y), steps, PathSums::kTwo);
     const std::vector<Selected> selected = select_disparities(sums, options.selection, low, high);
     for (int x = 0; x < map.width; ++x) out.set(x, y, selected[x]);
   }

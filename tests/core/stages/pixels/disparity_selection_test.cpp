@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "reference/pixels/disparity_selection.hpp"
+#include "reference/pixels/row_pair.hpp"
+#include "stages/pixels/row_pair.hpp"
 #include "support/compare.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
@@ -41,65 +43,66 @@ Ranges random_ranges(int width, int disparities, Random& random) {
 
 /// Costs with many equal ones, and with a best disparity that often continues from pixel to pixel,
 /// so that the right view sometimes agrees.
-RowCosts random_sums(int width, int disparities, int largest, Random& random) {
-  RowCosts sums(width, std::vector<int>(disparities));
+RowCosts random_costs(int width, int disparities, int largest, Random& random) {
+  RowCosts costs(width, std::vector<int>(disparities));
   int best = random.below(disparities);
-  for (std::vector<int>& pixel : sums) {
+  for (std::vector<int>& pixel : costs) {
     for (int& cost : pixel) cost = random.below(largest + 1);
     if (random.below(8) == 0) best = random.below(disparities);
     if (random.below(4) == 0) best = std::clamp(best + random.between(-1, 1), 0, disparities - 1);
     pixel[best] /= 16;
   }
-  return sums;
+  return costs;
 }
 
-/// Selects one row, with `scratch` from an earlier row.
-std::vector<Selected> selected(const RowCosts& sums, const SelectionOptions& options,
-                               const Ranges& ranges, SelectionScratch& scratch,
+/// Memory of earlier rows.
+struct Scratch {
+  RowPairScratch pair;
+  Candidates candidates;
+};
+
+/// Selects one row by its costs.
+std::vector<Selected> selected(const RowCosts& costs, const SelectionOptions& options,
+                               const Ranges& ranges, Scratch& scratch,
                                const CostWindow* windows = nullptr) {
-  constexpr int kNever = 510;
-  const int width = static_cast<int>(sums.size());
+  const int width = static_cast<int>(costs.size());
   const int lanes = cost_lanes(options.disparities);
-  Buffer<std::uint16_t> cells;
+  Buffer<std::uint8_t> cells;
   cells.resize(static_cast<std::size_t>(width) * lanes);
-  std::fill_n(cells.data(), cells.size(), std::uint16_t{kNever});
+  std::fill_n(cells.data(), cells.size(), std::uint8_t{kCensusNever});
   for (int x = 0; x < width; ++x) {
     for (int d = 0; d < options.disparities; ++d) {
       // Outside of the window a cost that would be the least.
       cells[static_cast<std::size_t>(x) * lanes + d] =
-          static_cast<std::uint16_t>(std::max(sums[x][d], 0));
+          static_cast<std::uint8_t>(std::max(costs[x][d], 0));
     }
   }
   std::vector<std::int32_t> disparity(width, -77);
   std::vector<std::uint8_t> ratio(width, 77);
-  scratch.resize(width, options.disparities);
-  start_selection(scratch);
-  // In parts, in arbitrary order.
-  const auto offer = [&](int begin, int end) {
-    offer_costs(cells.data() + static_cast<std::ptrdiff_t>(begin) * lanes, begin, end, width,
-                options, ranges.low.data(), ranges.high.data(), windows, scratch);
-  };
-  const int third = width / 3;
-  offer(2 * third, width);
-  offer(0, third);
-  offer(third, 2 * third);
-  finish_selection(width, options, ranges.low.data(), ranges.high.data(),
-                   runner_up_table(options.confidence), scratch, disparity.data(), ratio.data());
-  std::vector<Selected> row;
-  for (int x = 0; x < width; ++x) row.push_back({disparity[x], ratio[x]});
-  return row;
+  scratch.pair.resize(width, options.disparities);
+  scratch.candidates.resize(width, options.disparities);
+  const PathRow row = {
+      cells.data(),       nullptr, nullptr, nullptr, ranges.low.data(), ranges.high.data(),
+      &scratch.candidates};
+  match_row_by_cost({{row, row}, width, 0, nullptr, windows, PathSums::kTwo}, options,
+                    runner_up_table(options.confidence), scratch.pair);
+  finish_selection(width, options, ranges.low.data(), ranges.high.data(), scratch.candidates,
+                   disparity.data(), ratio.data());
+  std::vector<Selected> out;
+  for (int x = 0; x < width; ++x) out.push_back({disparity[x], ratio[x]});
+  return out;
 }
 
 /// Compares disparities and peak ratios; returns the number of disparities.
-long expect_reference(const RowCosts& sums, const SelectionOptions& options, const Ranges& ranges,
-                      SelectionScratch& scratch, const CostWindow* windows = nullptr) {
+long expect_reference(const RowCosts& costs, const SelectionOptions& options, const Ranges& ranges,
+                      Scratch& scratch, const CostWindow* windows = nullptr) {
   const std::vector<Selected> expected =
-      reference::select_disparities(sums, options, ranges.low, ranges.high);
-  const std::vector<Selected> actual = selected(sums, options, ranges, scratch, windows);
+      reference::select_disparities(reference::twice(costs), options, ranges.low, ranges.high);
+  const std::vector<Selected> actual = selected(costs, options, ranges, scratch, windows);
   const auto value = [](const std::vector<Selected>& row) {
     return [&row](int x, int y) { return y == 0 ? row[x].disparity : row[x].ratio; };
   };
-  EXPECT_TRUE(test::same_pixels(static_cast<int>(sums.size()), 2, value(expected), value(actual)))
+  EXPECT_TRUE(test::same_pixels(static_cast<int>(costs.size()), 2, value(expected), value(actual)))
       << "disparities (row 0) and ratios (row 1), D " << options.disparities << ", confidence "
       << options.confidence << ", runner-up in range " << options.runner_up_in_range
       << ", tolerance " << options.left_right_tolerance << ", subpixel " << options.subpixel;
@@ -109,13 +112,13 @@ long expect_reference(const RowCosts& sums, const SelectionOptions& options, con
 
 /// All combinations of options on random rows of this size.
 long expect_reference_with_all_options(int width, int disparities, Random& random,
-                                       SelectionScratch& scratch) {
+                                       Scratch& scratch) {
   long known = 0;
   for (const double confidence : {0.0, 0.06, 1.0}) {
     for (const bool in_range : {false, true}) {
       for (const int tolerance : {-1, 0, 1}) {
-        const int largest = random.below(3) == 0 ? 12 : 510;
-        known += expect_reference(random_sums(width, disparities, largest, random),
+        const int largest = random.below(3) == 0 ? 12 : 255;
+        known += expect_reference(random_costs(width, disparities, largest, random),
                                   {disparities, confidence, in_range, tolerance,
                                    random.below(2) == 0, random.below(50), random.between(-1, 3)},
                                   random_ranges(width, disparities, random), scratch);
@@ -127,16 +130,17 @@ long expect_reference_with_all_options(int width, int disparities, Random& rando
 
 TEST(DisparitySelection, EqualsReferenceInWindowsOnEveryInstructionSet) {
   test::for_each_simd_target([] {
-    SelectionScratch scratch;
+    Scratch scratch;
     Random random(1);
     long known = 0;
     for (int i = 0; i < 150; ++i) {
       const int width = random.between(1, 300), disparities = random.between(1, 400);
       const SearchWindows windows = test::random_windows(width, 1, cost_lanes(disparities), random);
-      RowCosts sums = random_sums(width, disparities, 510, random);
-      reference::leave_out(test::copy_of(windows, width, 1), 0, sums);
+      RowCosts costs = random_costs(width, disparities, 255, random);
+      reference::leave_out(test::copy_of(windows, width, 1), 0, costs);
       known += expect_reference(
-          sums, {disparities, 0.06, i % 2 == 0, random.between(-1, 1), i % 3 > 0, random.below(50)},
+          costs,
+          {disparities, 0.06, i % 2 == 0, random.between(-1, 1), i % 3 > 0, random.below(50)},
           random_ranges(width, disparities, random), scratch, windows.row(0));
     }
     EXPECT_GT(known, 500);
@@ -146,7 +150,7 @@ TEST(DisparitySelection, EqualsReferenceInWindowsOnEveryInstructionSet) {
 TEST(DisparitySelection, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstructionSet) {
   test::for_each_simd_target([] {
     long known = 0;
-    SelectionScratch scratch;
+    Scratch scratch;
     for (int disparities = 1; disparities <= 70; ++disparities) {
       Random random(disparities);
       known += expect_reference_with_all_options(disparities + random.below(60), disparities,
@@ -161,7 +165,7 @@ TEST(DisparitySelection, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstru
 }
 
 TEST(DisparitySelection, EqualsReferenceAtEveryWidth) {
-  SelectionScratch scratch;
+  Scratch scratch;
   for (int width = 1; width <= 70; ++width) {
     Random random(width);
     expect_reference_with_all_options(width, random.between(1, width), random, scratch);
@@ -169,11 +173,11 @@ TEST(DisparitySelection, EqualsReferenceAtEveryWidth) {
 }
 
 TEST(DisparitySelection, EqualsReferenceForEqualCosts) {
-  SelectionScratch scratch;
-  for (const int cost : {0, 1, 510}) {
-    const RowCosts sums(60, std::vector<int>(40, cost));
+  Scratch scratch;
+  for (const int cost : {0, 1, 255}) {
+    const RowCosts costs(60, std::vector<int>(40, cost));
     for (const int tolerance : {-1, 0}) {
-      EXPECT_EQ(0, expect_reference(sums, {40, 0, false, tolerance, true, 0}, all_expected(60, 40),
+      EXPECT_EQ(0, expect_reference(costs, {40, 0, false, tolerance, true, 0}, all_expected(60, 40),
                                     scratch))
           << "equal costs have no best disparity";
     }
@@ -182,47 +186,47 @@ TEST(DisparitySelection, EqualsReferenceForEqualCosts) {
 
 /// A row of 60 px in which pixel 50 has these costs and all other pixels have equal ones.
 struct OnePixel {
-  explicit OnePixel(const std::vector<int>& costs)
-      : disparities(static_cast<int>(costs.size())), sums(60, std::vector<int>(disparities, 500)) {
-    sums[50] = costs;
+  explicit OnePixel(const std::vector<int>& pixel)
+      : disparities(static_cast<int>(pixel.size())), costs(60, std::vector<int>(disparities, 250)) {
+    costs[50] = pixel;
   }
   Selected select(double confidence, bool in_range = false, int low = 0, int high = 39,
                   int tolerance = -1, bool subpixel = false) const {
     Ranges ranges = all_expected(60, disparities);
     ranges.low[50] = static_cast<std::uint16_t>(low);
     ranges.high[50] = static_cast<std::uint16_t>(high);
-    SelectionScratch scratch;
-    return selected(sums, {disparities, confidence, in_range, tolerance, subpixel, 0}, ranges,
+    Scratch scratch;
+    return selected(costs, {disparities, confidence, in_range, tolerance, subpixel, 0}, ranges,
                     scratch)[50];
   }
   int disparities;
-  RowCosts sums;
+  RowCosts costs;
 };
 
 TEST(DisparitySelection, SelectsTheSmallestDisparityOfEqualCosts) {
-  std::vector<int> costs(40, 400);
-  costs[20] = costs[21] = 100;
+  std::vector<int> costs(40, 200);
+  costs[20] = costs[21] = 50;
   EXPECT_EQ(20 * 256, OnePixel(costs).select(0.5).disparity);
 }
 
 TEST(DisparitySelection, RejectsADisparityWithACloseRunnerUp) {
-  std::vector<int> costs(40, 400);
-  costs[20] = 100;
+  std::vector<int> costs(40, 200);
+  costs[20] = 50;
   for (const int runner_up : {0, 18, 22, 39}) {
     std::vector<int> rival = costs;
-    rival[runner_up] = 112;
+    rival[runner_up] = 56;
     EXPECT_EQ(0, OnePixel(rival).select(0.12).disparity) << "12 % is not more than 12 %";
     EXPECT_EQ(0, OnePixel(rival).select(0.12).ratio);
-    rival[runner_up] = 113;
+    rival[runner_up] = 57;
     EXPECT_EQ(20 * 256, OnePixel(rival).select(0.12).disparity);
-    EXPECT_EQ(13 * 255 / 113, OnePixel(rival).select(0.12).ratio);
+    EXPECT_EQ(14 * 255 / 114, OnePixel(rival).select(0.12).ratio);
   }
 }
 
 TEST(DisparitySelection, SearchesTheRunnerUpInTheGivenRange) {
-  std::vector<int> costs(40, 400);
-  costs[20] = 100;
-  costs[30] = 101;
+  std::vector<int> costs(40, 200);
+  costs[20] = 50;
+  costs[30] = 51;
   EXPECT_EQ(0, OnePixel(costs).select(0.12, false, 15, 25).disparity);
   EXPECT_EQ(20 * 256, OnePixel(costs).select(0.12, true, 15, 25).disparity);
   EXPECT_EQ(0, OnePixel(costs).select(0.12, true, 15, 30).disparity)
@@ -232,7 +236,7 @@ TEST(DisparitySelection, SearchesTheRunnerUpInTheGivenRange) {
 }
 
 TEST(DisparitySelection, RejectsPixelsWithoutExpectedDisparities) {
-  std::vector<int> costs(40, 400);
+  std::vector<int> costs(40, 200);
   costs[20] = 0;
   EXPECT_EQ(255, OnePixel(costs).select(0.12).ratio);
   EXPECT_EQ(0, OnePixel(costs).select(0.12, false, 1, 0).disparity);
@@ -241,45 +245,45 @@ TEST(DisparitySelection, RejectsPixelsWithoutExpectedDisparities) {
 
 TEST(DisparitySelection, RejectsADisparityThatTheRightPixelContradicts) {
   // Right pixel 30 corresponds to left pixel 50 at 20 px and to left pixel 50 + n at 20 + n px.
-  std::vector<int> costs(40, 400);
-  costs[20] = 100;
+  std::vector<int> costs(40, 200);
+  costs[20] = 50;
   for (const int away : {1, 2}) {
     OnePixel pixel(costs);
-    pixel.sums[50 + away][20 + away] = 99;
+    pixel.costs[50 + away][20 + away] = 49;
     for (const int tolerance : {0, 1, 2, 3}) {
       EXPECT_EQ(tolerance >= away ? 20 * 256 : 0,
                 pixel.select(0.12, false, 0, 39, tolerance).disparity)
           << away << " px away, tolerance " << tolerance;
     }
     EXPECT_EQ(20 * 256, pixel.select(0.12, false, 0, 39, -1).disparity) << "no check";
-    pixel.sums[50 + away][20 + away] = 100;
+    pixel.costs[50 + away][20 + away] = 50;
     EXPECT_EQ(20 * 256, pixel.select(0.12, false, 0, 39, 0).disparity)
         << "the first of equal costs must win";
   }
 }
 
 TEST(DisparitySelection, RefinesByTwoLinesOfEqualSlopeThroughThreeCosts) {
-  for (const auto& [before, after] : {std::pair{300, 300}, {200, 400}, {101, 399}, {400, 100}}) {
-    std::vector<int> costs(40, 500);
+  for (const auto& [before, after] : {std::pair{150, 150}, {100, 200}, {51, 199}, {200, 50}}) {
+    std::vector<int> costs(40, 250);
     costs[19] = before;
-    costs[20] = 100;
+    costs[20] = 50;
     costs[21] = after;
     // The steeper side determines the slope; the other side lies on a line of the opposite slope.
-    const double slope = std::max(before, after) - 100;
+    const double slope = std::max(before, after) - 50;
     EXPECT_NEAR(256 * (20 + (before - after) / (2 * slope)),
                 OnePixel(costs).select(0.12, false, 0, 39, -1, true).disparity, 1)
-        << before << ", 100, " << after;
+        << before << ", 50, " << after;
   }
 }
 
 TEST(DisparitySelection, SelectsOnlyPossibleDisparitiesAtTheBorder) {
   // Disparities beyond the left border would all cost less.
-  RowCosts sums(40, std::vector<int>(40));
+  RowCosts costs(40, std::vector<int>(40));
   for (int x = 0; x < 40; ++x) {
-    for (int d = 0; d < 40; ++d) sums[x][d] = d > x ? 0 : 400 - d;
+    for (int d = 0; d < 40; ++d) costs[x][d] = d > x ? 0 : 200 - d;
   }
-  SelectionScratch scratch;
-  const auto row = selected(sums, {40, 0, false, -1, true, 0}, all_expected(40, 40), scratch);
+  Scratch scratch;
+  const auto row = selected(costs, {40, 0, false, -1, true, 0}, all_expected(40, 40), scratch);
   for (int x = 0; x < 40; ++x) {
     EXPECT_EQ(x < 2 ? 0 : 256 * x, row[x].disparity)
         << "columns 0 and 1 have too few disparities to compare";

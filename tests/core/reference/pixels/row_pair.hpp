@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "reference/prepare/census.hpp"
-#include "stages/pixels/scanline_optimization.hpp"
+#include "stages/pixels/row_pair.hpp"
 
 namespace mtstereo::reference {
 
@@ -43,17 +43,37 @@ inline RowCosts path_costs(const RowCosts& costs, const std::uint8_t* gray,
   return path;
 }
 
-/// The sums of the costs of both paths.
-inline RowCosts optimize_scanline(const RowCosts& costs, const std::uint8_t* gray,
-                                  const SmoothnessOptions& options) {
-  RowCosts sums = path_costs(costs, gray, options, 1);
+/// The sums of the costs of both paths along the row, and of those along the column if there are
+/// any; in the range of two paths.
+inline RowCosts path_sums(const RowCosts& costs, const std::uint8_t* gray,
+                          const SmoothnessOptions& options, PathSums kind,
+                          const RowCosts& above = {}, const RowCosts& below = {}) {
+  const auto mean = [](int a, int b) { return (a + b + 1) / 2; };
+  const RowCosts from_left = path_costs(costs, gray, options, 1);
   const RowCosts from_right = path_costs(costs, gray, options, -1);
+  RowCosts sums = costs;
   for (std::size_t x = 0; x < sums.size(); ++x) {
     for (std::size_t d = 0; d < sums[x].size(); ++d) {
-      if (sums[x][d] != kOutside) sums[x][d] += from_right[x][d];
+      if (sums[x][d] == kOutside) continue;
+      const int left = from_left[x][d], right = from_right[x][d];
+      if (kind == PathSums::kTwo) {
+        sums[x][d] = left + right;
+      } else if (kind == PathSums::kTwoHalved) {
+        sums[x][d] = 2 * mean(left, right);
+      } else {
+        sums[x][d] = 2 * mean(mean(left, right), mean(above[x][d], below[x][d]));
+      }
     }
   }
   return sums;
+}
+
+/// Twice the costs, which have the range of two paths.
+inline RowCosts twice(RowCosts costs) {
+  for (std::vector<int>& pixel : costs) {
+    for (int& cost : pixel) cost = cost == kOutside ? kOutside : 2 * cost;
+  }
+  return costs;
 }
 
 }  // namespace mtstereo::reference

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "base/buffer.hpp"
+#include "stages/pixels/cost_lanes.hpp"
+#include "stages/pixels/disparity_selection.hpp"
+#include "stages/pixels/smoothness.hpp"
+
+namespace mtstereo {
+
+/// The part of pixel matching that smooths the disparities along the row: two paths of semi-global
+/// matching, from the left and from the right, and the disparity of least cost of each pixel.
+///
+/// Two adjacent rows have the same windows, so that one walk advances the paths of both, and the
+/// steps of one row hide the latency of the other's. The first walk goes from right to left and
+/// stores the path costs. The second one goes from left to right, sums the costs of all paths of a
+/// pixel while they are in registers, and finds the best disparity of both views at once.
+
+/// How the costs of a pixel's paths are summed, in bytes. They have the range of two paths; the
+/// highest ones, of which bytes are 255, count as no disparity.
+enum class PathSums {
+  kTwo,        ///< of the two paths along the row: half of it, rounded up, and whether it is even
+  kTwoHalved,  ///< the half alone, which takes less time
+  kFour,       ///< with those along the column: mean(mean(left, right), mean(above, below)), each
+               ///< rounded up
+};
+
+/// One row of a pair. Cells of costs are at [x][d], x * cost_lanes(disparities) + d; those of
+/// disparities that do not exist have 255. Pixels with low > high have no expected range.
+struct PathRow {
+  const std::uint8_t* costs;
+  const std::uint8_t* gray;        ///< of the left view
+  const std::uint8_t* from_above;  ///< the costs of the paths along the columns, with kFour
+  const std::uint8_t* from_below;
+  const std::uint16_t* low;
+  const std::uint16_t* high;
+  Candidates* candidates;
+};
+
+struct RowPair {
+  PathRow rows[2];  ///< two different rows, or one row twice
+  int width;
+  int small_step;  ///< in units of the costs
+  const LargeStepTable* large_step;
+  const CostWindow* windows;  ///< of both rows' tiles; nullptr = all lanes
+  PathSums sums;
+};
+
+/// Scratch memory of one thread.
+struct RowPairScratch {
+  Buffer<std::uint8_t> paths;   ///< the path costs from the right of both rows
+  Buffer<std::uint8_t> steps;   ///< per row and column: P2 of the step from the column before
+  Buffer<std::uint8_t> ends;    ///< the path costs of the last pixel of both rows, and its sums
+  Buffer<std::uint8_t> limits;  ///< a third 0, then 255, then 0
+  Buffer<std::uint8_t> beside;  ///< 255 at the best disparity and those next to it, 0 elsewhere
+
+  void resize(int width, int disparities);
+};
+
+/// Finds the candidates of both rows: of equal costs the smallest disparity is the best. The
+/// runner-up is the least cost of the disparities that differ from the best by more than 1.
+///
+/// The path costs of a pixel are its costs plus those of the cheapest step from the path's previous
+/// pixel, minus the least path cost there; they saturate at 255. Steps come from the disparities in
+/// the windows of both pixels, larger ones from the least of all.
+void match_row_pair(const RowPair& pair, const SelectionOptions& options,
+                    const RunnerUpTable& runner_up, RowPairScratch& scratch);
+
+/// The same for the first row alone by its costs, twice of which have the range of two paths.
+void match_row_by_cost(const RowPair& pair, const SelectionOptions& options,
+                       const RunnerUpTable& runner_up, RowPairScratch& scratch);
+
+}  // namespace mtstereo

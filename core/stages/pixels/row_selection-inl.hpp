@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Internal to row_pair.cpp: the candidates of a pixel from its sums. Every SIMD target includes
+// this header again, after base/simd.hpp.
+#if defined(MTSTEREO_ROW_SELECTION_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef MTSTEREO_ROW_SELECTION_INL_HPP
+#undef MTSTEREO_ROW_SELECTION_INL_HPP
+#else
+#define MTSTEREO_ROW_SELECTION_INL_HPP
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "base/simd.hpp"
+#include "stages/pixels/path_lanes-inl.hpp"
+#include "stages/pixels/row_selection.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo::HWY_NAMESPACE {
+
+using ByteVector = hn::Vec<Bytes>;
+constexpr int kByteLanes = static_cast<int>(hn::MaxLanes(Bytes()));
+
+/// The vectors of a pixel: in registers, or in memory if their number is not known (0).
+template <int kVectors>
+class PixelLanes {
+ public:
+  PixelLanes(std::uint8_t*, CostWindow) {}
+  HWY_INLINE static constexpr int count() { return kVectors; }
+  HWY_INLINE ByteVector get(int i) const { return vectors_[i]; }
+  HWY_INLINE void set(int i, ByteVector v) { vectors_[i] = v; }
+
+ private:
+  ByteVector vectors_[kVectors];
+};
+
+template <>
+class PixelLanes<0> {
+ public:
+  PixelLanes(std::uint8_t* memory, CostWindow window)
+      : memory_(memory), count_(vectors_of(Bytes(), window)) {}
+  HWY_INLINE int count() const { return count_; }
+  HWY_INLINE ByteVector get(int i) const { return hn::LoadU(Bytes(), memory_ + i * kByteLanes); }
+  HWY_INLINE void set(int i, ByteVector v) { hn::StoreU(v, Bytes(), memory_ + i * kByteLanes); }
+
+ private:
+  std::uint8_t* memory_;
+  int count_;
+};
+
+/// The first lane that is equal to `least`, which is one of them.
+template <int kVectors>
+HWY_INLINE int first_equal(const PixelLanes<kVectors>& lanes, ByteVector least) {
+  const Bytes d8;
+#if HWY_ARCH_ARM_A64
+  for (int i = 0; i < lanes.count(); ++i) {
+    const auto equal = hn::Eq(lanes.get(i), least);
+    if (!hn::AllFalse(d8, equal)) {
+      return i * kByteLanes + static_cast<int>(hn::FindKnownFirstTrue(d8, equal));
+    }
+  }
+#else
+  // The bits of several masks are compared together.
+  constexpr int kTogether = 64 / kByteLanes;
+  for (int i = 0; i < lanes.count(); i += kTogether) {
+    std::uint64_t bits = 0;
+    for (int k = 0; k < kTogether && i + k < lanes.count(); ++k) {
+      std::uint8_t bytes[8] = {};
+      hn::StoreMaskBits(d8, hn::Eq(lanes.get(i + k), least), bytes);
+      std::uint64_t mask;
+      std::memcpy(&mask, bytes, sizeof(mask));
+      bits |= mask << (k * kByteLanes);
+    }
+    if (bits != 0) return i * kByteLanes + std::countr_zero(bits);
+  }
+#endif
+  return 0;
+}
+
+/// Each sum of column x from disparity d on replaces that of its right pixel if it is less.
+template <bool kExact>
+HWY_INLINE void compete(const RowSelection& row, int x, int d, ByteVector sums, ByteVector evens) {
+  const Bytes d8;
+  const std::ptrdiff_t plane = Candidates::kTurns * row.right_stride;
+  std::uint8_t* costs =
+      row.right + x % Candidates::kTurns * row.right_stride + row.width - 1 - x + d;
+  const auto before = hn::LoadU(d8, costs);
+  const auto least = hn::Min(before, sums);
+  auto stays = hn::Eq(least, before);
+  hn::StoreU(least, d8, costs);
+  if constexpr (kExact) {
+    std::uint8_t* all = costs + Candidates::kEvens * plane;
+    const auto even = hn::LoadU(d8, all);
+    stays = hn::And(stays, hn::Or(hn::Ne(sums, before), hn::Eq(hn::Min(even, evens), even)));
+    hn::StoreU(hn::IfThenElse(stays, even, evens), d8, all);
+  }
+  const auto lanes = hn::Iota(d8, 0);
+  const auto low = hn::Add(lanes, hn::Set(d8, static_cast<std::uint8_t>(d)));
+  std::uint8_t* lows = costs + Candidates::kLow * plane;
+  hn::StoreU(hn::IfThenElse(stays, hn::LoadU(d8, lows), low), d8, lows);
+  if (!row.high_planes) return;
+  std::uint8_t* highs = costs + Candidates::kHigh * plane;
+  const auto carry = hn::IfThenElseZero(hn::Lt(low, lanes), hn::Set(d8, 1));
+  const auto high = hn::Add(hn::Set(d8, static_cast<std::uint8_t>(d >> 8)), carry);
+  hn::StoreU(hn::IfThenElse(stays, hn::LoadU(d8, highs), high), d8, highs);
+}
+
+/// Sets those of the sums that cannot be runner-up to 255.
+HWY_INLINE ByteVector without(const RowSelection& row, int x, int begin, int best, int d,
+                              ByteVector sums) {
+  const Bytes d8;
+  const auto others = hn::Or(sums, hn::LoadU(d8, row.beside - best + d));
+  if (row.low == nullptr) return others;
+  const std::uint8_t* below = row.limits + 2 * row.lanes - row.low[x] + begin;
+  const std::uint8_t* above = row.limits + row.lanes - 1 - row.high[x] + begin;
+  return hn::Or(others, hn::Or(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d)));
+}
+
+/// The candidates of a column, relative to the window.
+struct Found {
+  int best;
+  int least, second;            // sums; 255 = none
+  int least_even, second_even;  // with exact sums
+};
+
+/// Writes the candidates of column x; `memory` as in select().
+template <bool kExact>
+HWY_INLINE void write(const RowSelection& row, int x, CostWindow window, const Found& found,
+                      const std::uint8_t* memory) {
+  const auto cost = [](int sum, int even) {
+    return static_cast<std::int16_t>(kExact ? 2 * sum - 1 + even : 2 * sum);
+  };
+  const auto at = [&](int lane) { return cost(memory[lane], memory[row.lanes + lane]); };
+  const int last = std::min<int>(std::min(row.disparities, x + 1), window.end) - window.begin - 1;
+  const bool inside = found.best > 0 && found.best < last;
+  const std::int16_t least = cost(found.least, found.least_even);
+  const std::int16_t second = cost(found.second, found.second_even);
+  const bool sure = found.second < 255 && second >= row.runner_up[least];
+  row.best[x] = static_cast<std::int16_t>(window.begin + found.best);
+  row.least[x] = least;
+  row.second[x] = sure ? second : kNoCost;
+  row.before[x] = inside ? at(found.best - 1) : kNoCost;
+  row.after[x] = inside ? at(found.best + 1) : kNoCost;
+}
+
+/// Finds the candidates of column x. `memory` has the same sums as `sums`, then `evens`, then room
+/// for as many.
+template <bool kExact, int kVectors>
+HWY_INLINE void select(const RowSelection& row, int x, CostWindow window,
+                       const PixelLanes<kVectors>& sums, const PixelLanes<kVectors>& evens,
+                       std::uint8_t* memory) {
+  const Bytes d8;
+  const auto none = hn::Set(d8, 255);
+  auto least = none;
+  for (int i = 0; i < sums.count(); ++i) {
+    least = hn::Min(least, sums.get(i));
+    if (row.right == nullptr) continue;
+    compete<kExact>(row, x, window.begin + i * kByteLanes, sums.get(i),
+                    kExact ? evens.get(i) : none);
+  }
+  least = least_of_lanes(d8, least);
+  Found found = {};
+  found.least = hn::GetLane(least);
+  if constexpr (kExact) {
+    PixelLanes<kVectors> keys(memory + 2 * row.lanes, window);
+    auto key = none;
+    for (int i = 0; i < sums.count(); ++i) {
+      keys.set(i, hn::IfThenElse(hn::Eq(sums.get(i), least), evens.get(i), none));
+      key = hn::Min(key, keys.get(i));
+    }
+    key = least_of_lanes(d8, key);
+    found.least_even = hn::GetLane(key);
+    found.best = first_equal(keys, key);
+  } else {
+    found.best = first_equal(sums, least);
+  }
+  auto second = none;
+  for (int i = 0; i < sums.count(); ++i) {
+    second =
+        hn::Min(second, without(row, x, window.begin, found.best, i * kByteLanes, sums.get(i)));
+  }
+  second = least_of_lanes(d8, second);
+  found.second = hn::GetLane(second);
+  if constexpr (kExact) {
+    auto key = none;
+    for (int i = 0; i < sums.count(); ++i) {
+      const auto others = without(row, x, window.begin, found.best, i * kByteLanes, sums.get(i));
+      key = hn::Min(key, hn::IfThenElse(hn::Eq(others, second), evens.get(i), none));
+    }
+    found.second_even = hn::GetLane(least_of_lanes(d8, key));
+  }
+  write<kExact>(row, x, window, found, memory);
+}
+
+/// Lets disparities without a right pixel cost 255.
+HWY_INLINE ByteVector with_border(const RowSelection& row, int x, int d, ByteVector sums) {
+  return hn::Max(sums, hn::LoadU(Bytes(), row.limits + row.lanes - 1 - x + d));
+}
+
+/// Decides between the turns: writes the disparities of all right pixels to those of the first.
+HWY_INLINE void decide_right(const RowSelection& row) {
+  const Bytes d8;
+  const std::ptrdiff_t turn = row.right_stride, plane = Candidates::kTurns * turn;
+  for (int x = 0; x < row.width; x += kByteLanes) {
+    // The planes in the order in which they decide.
+    auto less = hn::FirstN(d8, 0), equal = hn::FirstN(d8, kByteLanes);
+    for (int p = 0; p < Candidates::kPlanes; ++p) {
+      if (p == Candidates::kEvens ? !row.exact : p == Candidates::kHigh && !row.high_planes)
+        continue;
+      const auto first = hn::LoadU(d8, row.right + p * plane + x);
+      const auto second = hn::LoadU(d8, row.right + p * plane + turn + x);
+      less = hn::Or(less, hn::And(equal, hn::Lt(second, first)));
+      equal = hn::And(equal, hn::Eq(second, first));
+    }
+    for (const int p : {Candidates::kHigh, Candidates::kLow}) {
+      std::uint8_t* first = row.right + p * plane + x;
+      hn::StoreU(hn::IfThenElse(less, hn::LoadU(d8, first + turn), hn::LoadU(d8, first)), d8,
+                 first);
+    }
+  }
+}
+
+}  // namespace mtstereo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard of each target
