@@ -29,10 +29,13 @@ class FrameMatcher {
   void set(const Settings& settings);
   const Settings& settings() const { return settings_; }
 
-  /// Begins the choice of the resolution anew, and forgets the last pair, as for another stream.
+  /// Begins the choice of the resolution anew, and forgets the pairs so far, as for another stream.
   void restart();
-  /// Forgets the last pair.
-  void forget() { memory_.last.restart(); }
+  /// Forgets the pairs so far.
+  void forget() {
+    memory_.past.restart();
+    memory_.last.restart();
+  }
 
   /// Matches a pair of views of equal size, which must fit the settings. Allocates memory for the
   /// first pair and after a change of settings or size only. Throws std::bad_alloc, and

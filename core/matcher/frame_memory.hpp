@@ -24,10 +24,11 @@ struct FrameMemory {
   Maps maps;
   ResultMaps result;
   ResultBuffers buffers;
+  PastViews past;
   LastPair last;
 
   /// References to all groups.
-  auto all() { return std::tie(views, nodes, costs, pyramid, maps, result, buffers, last); }
+  auto all() { return std::tie(views, nodes, costs, pyramid, maps, result, buffers, past, last); }
 
   /// The group of this type.
   template <typename Group>

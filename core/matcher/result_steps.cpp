@@ -20,7 +20,7 @@ namespace {
 /// cut it is in 0.25 of them or less, even if both scenes have the same sky.
 constexpr double kLeastStill = 0.4;
 
-static_assert(Bands::kRows % kStillBlock == 0);
+static_assert(Bands::kRows % kStillBlock == 0 && kStillBlock == kTimeBlock);
 
 }  // namespace
 
@@ -47,13 +47,17 @@ void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps
 
 void LastPair::resize(const Settings& settings, const FrameSize& size) {
   const auto [width, height] = size.input;
-  if (settings.holds() && view.width() == width && view.height() == height) return;
+  const bool compares = settings.holds() && !settings.filters();
+  const bool sized = disparity.width() == width && disparity.height() == height;
+  if (settings.holds() && sized && compares == (view.width() > 0)) return;
   restart();
+  view.resize(0, 0);
   if (!settings.holds()) return;
-  view.resize(width, height);
   disparity.resize(width, height);
-  still.resize(still_blocks(width), still_blocks(height));
   least.resize(width, height);
+  if (!compares) return;
+  view.resize(width, height);
+  still.resize(still_blocks(width), still_blocks(height));
   noise.resize(width, height);
 }
 
@@ -92,7 +96,7 @@ RatedViews rated_views(const Views& views, const Pyramid& pyramid, const ResultM
   return {views.left,
           views.input[1],
           place.disparity_offset(),
-          views.noise_level,
+          views.rated_noise,
           &pyramid.agreement,
           kWindowTile * place.scale,
           -place.column,
@@ -118,10 +122,7 @@ void correct_strip(const StepContext& step, ResultMaps& result) {
   });
 }
 
-void hold_known(const StepContext& step, const Views& views, const ResultMaps& result,
-                LastPair& last) {
-  last.decides = false;
-  if (!last.valid) return;
+void compare_views(const StepContext& step, const Views& views, LastPair& last) {
   const Bands& bands = step.input_bands;
   bands.rows([&](int y0, int y1, int) { measure_blocks(views.left, y0, y1, last.noise); });
   const float noise = noise_level(last.noise);
@@ -129,12 +130,21 @@ void hold_known(const StepContext& step, const Views& views, const ResultMaps& r
   bands.rows([&](int y0, int y1, int) {
     still += find_still(views.left, last.view, noise, y0, y1, last.still);
   });
-  const int blocks = last.still.width() * last.still.height();
-  last.decides = still >= kLeastStill * blocks;
+  last.share = still / (static_cast<double>(last.still.width()) * last.still.height());
+}
+
+void hold_known(const StepContext& step, const Views& views, const PastViews& past,
+                const ResultMaps& result, LastPair& last) {
+  last.decides = false;
+  if (!last.valid) return;
+  const bool filters = step.settings.filters();
+  if (!filters) compare_views(step, views, last);
+  last.decides = filters ? past.averaged : last.share >= kLeastStill;
   if (!last.decides) return;
+  const Image<std::uint8_t>& still = filters ? past.views[0].blocks.still : last.still;
   const LeastConfidence least = step.settings.least_confidence();
-  bands.rows([&](int y0, int y1, int) {
-    choose_least(least, last.still, last.disparity, *result.disparity, y0, y1, last.least);
+  step.input_bands.rows([&](int y0, int y1, int) {
+    choose_least(least, still, last.disparity, *result.disparity, y0, y1, last.least);
   });
 }
 
@@ -183,8 +193,9 @@ void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps&
 
 void keep_pair(const StepContext& step, const Views& views, const ResultMaps& result,
                LastPair& last) {
+  const bool compares = !step.settings.filters();
   step.input_bands.rows([&](int y0, int y1, int) {
-    for (int y = y0; y < y1; ++y) {
+    for (int y = y0; compares && y < y1; ++y) {
       std::copy_n(views.left.row(y), views.left.width, last.view.row(y));
     }
     copy_last(*result.disparity, y0, y1, last.disparity);

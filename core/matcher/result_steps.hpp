@@ -39,14 +39,15 @@ void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps
 
 /// The last pair of the stream: all that the steps of a pair know of those before.
 struct LastPair {
-  Image<std::uint8_t> view;        ///< the left one
+  Image<std::uint8_t> view;        ///< the left one; empty with Settings::filters()
   Image<std::uint16_t> disparity;  ///< its map [1 / kHeldOne px], 0 = unknown
   bool valid = false;              ///< there was one
 
   // of the present pair
   bool decides = false;       ///< the scene is the same, and `least` applies
-  Image<std::uint8_t> still;  ///< 1 for each block of the view that has not changed
+  Image<std::uint8_t> still;  ///< 1 for each block that equals that of `view`
   Image<std::uint8_t> least;  ///< confidence that each pixel needs
+  double share = 0;           ///< of these blocks
   NoiseBlocks noise;
 
   /// Begins anew, as for another stream.
@@ -75,9 +76,12 @@ void calibrate_confidence(const StepContext& step, const Views& views, const Pyr
 /// Corrects what the right camera may not see at the left of the complete, rated map.
 void correct_strip(const StepContext& step, ResultMaps& result);
 
+/// Finds the blocks of the left view that equal those of the last one.
+void compare_views(const StepContext& step, const Views& views, LastPair& last);
+
 /// Decides by the last pair what confidence each pixel of the complete map needs.
-void hold_known(const StepContext& step, const Views& views, const ResultMaps& result,
-                LastPair& last);
+void hold_known(const StepContext& step, const Views& views, const PastViews& past,
+                const ResultMaps& result, LastPair& last);
 
 /// Removes what is less reliable than asked for, and small islands that are left.
 void reject_unlikely(const StepContext& step, const LastPair& last, ResultMaps& result,

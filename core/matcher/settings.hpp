@@ -111,8 +111,10 @@ struct Settings {
   int least_reliability() const {
     return keeps_inferred() ? min_confidence : std::max(min_confidence, kMostInferred + 1);
   }
+  /// Whether the views are averaged over time where they are still.
+  bool filters() const { return temporal == Temporal::kFilter; }
   /// Whether the last map of the stream decides what confidence a pixel of the next one needs.
-  bool holds() const { return temporal == Temporal::kHold && by_paths() && rejects_unlikely(); }
+  bool holds() const { return temporal != Temporal::kOff && rejects_unlikely(); }
   /// The least confidence of pixels that the last map does not decide, that it knows, and others.
   LeastConfidence least_confidence() const;
   /// The kind of the complete map, for its reliability.

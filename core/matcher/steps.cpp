@@ -30,6 +30,7 @@ constexpr bool always(S) { return true; }
 
 /// Prepares the views.
 constexpr Step kViewList[] = {
+    {"time-filter",        [](S s) { return s.filters(); },          on<filter_in_time>},
     {"row-alignment",      [](S s) { return s.aligned(); },          on<align>},
     {"sharpness",          [](S s) { return s.blurred(); },          on<match_sharpness>},
     {"view-shift",         [](S s) { return s.shifted(); },          on<shift_views>},

@@ -7,10 +7,33 @@
 #include "stages/prepare/view_shift.hpp"
 
 namespace mtstereo {
+namespace {
+
+/// Both views must be still in this share of their blocks to be averaged. A slow camera has less,
+/// and moves what the means have seen: at low noise its maps would have more errors.
+constexpr double kLeastSteady = 0.85;
+
+static_assert(Bands::kRows % kTimeBlock == 0);
+
+/// Whether the views, which are compared, may be averaged. Halved views have half of their noise.
+bool is_steady(const Settings& settings, Views& views, PastViews& past) {
+  double still[2];
+  for (int side = 0; side < 2; ++side) {
+    PastViews::View& view = past.views[side];
+    const float noise = noise_level(view.noise);
+    still[side] = rate_changes(noise, view.blocks);
+    views.input_noise = std::max(views.input_noise, settings.half() ? noise / 2 : noise);
+  }
+  if (std::min(still[0], still[1]) >= kLeastSteady) return true;
+  views.input_noise = 0;
+  return false;
+}
+
+}  // namespace
 
 void Views::start(const Settings& settings, GrayView left_view, GrayView right_view) {
   left = left_view;
-  noise_level = 0;
+  input_noise = noise_level = rated_noise = 0;
   input = {left_view, right_view};
   matched = input;
   if (settings.half()) matched = {halves[0].view(), halves[1].view()};
@@ -49,6 +72,41 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
     const ImageSize& largest = settings.refined() ? size.frame : size.matched;
     worker.census.resize(largest.width, largest.band_rows());
   }
+}
+
+void PastViews::resize(const Settings& settings, const FrameSize& size) {
+  const auto [width, height] = size.input;
+  const Image<std::uint8_t>& left = views[0].filtered;
+  if (settings.filters() && left.width() == width && left.height() == height) return;
+  restart();
+  if (!settings.filters()) return;
+  for (View& view : views) {
+    view.mean.resize(width, height);
+    for (int y = 0; y < height; ++y) std::fill_n(view.mean.row(y), width, std::uint16_t{0});
+    view.filtered.resize(width, height);
+    view.blocks.resize(width, height);
+    view.noise.resize(width, height);
+  }
+}
+
+void filter_in_time(const StepContext& step, Views& views, PastViews& past) {
+  past.averaged = false;
+  if (past.valid) {
+    step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int) {
+      PastViews::View& view = past.views[side];
+      measure_blocks(views.input[side], y0, y1, view.noise);
+      measure_changes(views.input[side], view.filtered, y0, y1, view.blocks);
+    });
+    past.averaged = is_steady(step.settings, views, past);
+  }
+  for (PastViews::View& view : past.views) count_frames(!past.averaged, view.blocks);
+  step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int) {
+    PastViews::View& view = past.views[side];
+    average_rows(views.input[side], y0, y1, view.blocks, view.mean, view.filtered);
+  });
+  for (int side = 0; side < 2; ++side) views.replace_input(side, past.views[side].filtered.view());
+  views.left = views.input[0];
+  past.valid = true;
 }
 
 void align(const StepContext& step, Views& views) {
@@ -98,6 +156,7 @@ void filter_views(const StepContext& step, Views& views) {
   });
   const float levels[] = {noise_level(views.noise[0]), noise_level(views.noise[1])};
   views.noise_level = std::max(levels[0], levels[1]);
+  views.rated_noise = std::max(views.noise_level, views.input_noise);
   const bool lightly = step.settings.by_paths() && !paths_need_filter(views.noise_level);
   if (lightly && step.settings.infers()) return;
   const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));

@@ -13,6 +13,7 @@
 #include "stages/prepare/noise_filter.hpp"
 #include "stages/prepare/noise_level.hpp"
 #include "stages/prepare/row_alignment.hpp"
+#include "stages/prepare/time_filter.hpp"
 #include "stages/prepare/view_blur.hpp"
 
 /// The steps that prepare the views, and their memory.
@@ -21,7 +22,7 @@ namespace mtstereo {
 
 /// The two views and what is computed from them. All arrays are indexed by Side.
 struct Views {
-  GrayView left;                    ///< the caller's left view
+  GrayView left;                    ///< the caller's left view, averaged or not
   std::array<GrayView, 2> input;    ///< the views of this frame: the caller's or corrected ones
   std::array<GrayView, 2> matched;  ///< those to match: the input, its halves, or these filtered
   Image<std::uint8_t> aligned;      ///< the right view with its rows aligned
@@ -29,7 +30,9 @@ struct Views {
   std::array<Image<std::uint8_t>, 2> extended;  ///< with more columns, for negative disparities
   std::array<Image<std::uint8_t>, 2> halves;
   std::array<NoiseBlocks, 2> noise;
+  float input_noise = 0;  ///< of the noisier view of the caller, if the views are averaged
   float noise_level = 0;  ///< of the noisier view, before it was filtered; 0 without the filter
+  float rated_noise = 0;  ///< the same for the confidence: before the views were averaged
   std::array<Image<std::uint8_t>, 2> filtered;  ///< without noise
   std::array<CensusImage, 2> census;            ///< of the matched views
   std::array<CensusImage, 2> input_census;      ///< of the input views, for the refinement
@@ -51,6 +54,27 @@ struct Views {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
+/// What the steps of a pair know of the views before: their means.
+struct PastViews {
+  struct View {
+    Image<std::uint16_t> mean;     ///< [1 / kMeanOne gray values]
+    Image<std::uint8_t> filtered;  ///< the same in gray values: the view of this frame
+    TimeBlocks blocks;
+    NoiseBlocks noise;
+  };
+  std::array<View, 2> views;  ///< by Side
+  bool valid = false;         ///< there was a pair
+
+  // of the present pair
+  bool averaged = false;  ///< both views are still: they are averages over time
+
+  /// Begins anew, as for another stream.
+  void restart() { valid = averaged = false; }
+  void resize(const Settings& settings, const FrameSize& size);
+};
+
+/// Averages the views over time where they are still.
+void filter_in_time(const StepContext& step, Views& views, PastViews& past);
 /// Aligns the rows of the right view.
 void align(const StepContext& step, Views& views);
 /// Blurs the sharper view.

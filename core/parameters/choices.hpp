@@ -34,8 +34,8 @@ enum class BetweenNodes { kNone, kSpan, kAll };
 /// Disparities among which the second-best one is searched.
 enum class RunnerUp { kAny, kExpected };
 
-/// What the last pair of a stream decides.
-enum class Temporal { kOff, kHold };
+/// What the pairs of a stream so far decide.
+enum class Temporal { kOff, kHold, kFilter };
 
 template <typename Enum>
 struct ChoiceOf;
@@ -99,7 +99,7 @@ struct ChoiceOf<RunnerUp> {
 template <>
 struct ChoiceOf<Temporal> {
   static constexpr Parameter kParameter = Parameter::kTemporal;
-  static constexpr std::array<std::string_view, 2> kWords = {"off", "hold"};
+  static constexpr std::array<std::string_view, 3> kWords = {"off", "hold", "filter"};
 };
 
 /// The enums of all choices.

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 ROWS = "core/matcher/steps.cpp"  # the lists
 STEPS = ("view_steps", "path_steps", "node_steps", "map_steps", "result_steps", "rating")  # their functions
-GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "ResultMaps", "ResultBuffers", "LastPair")
+GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "ResultMaps", "ResultBuffers", "PastViews",
+          "LastPair")
 MODES = ("sparse", "semi-dense", "dense", "full")
 INK, FAINT, EDGE = "#282828", "#767676", "#b4b4b4"
 GST, CORE, ROOM = "#fdf0dc", "#e4eefa", "#f4f4f4"

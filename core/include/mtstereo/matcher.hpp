@@ -45,7 +45,7 @@ struct FrameResult {
 /// not allocate memory. One matcher may be used by one thread at a time; different matchers
 /// share nothing and may be used at the same time. A matcher runs Parameter::kThreads threads of
 /// its own. The result does not depend on their number. It depends on the frames before only with
-/// Parameter::kResolution = "auto" and Parameter::kTemporal = "hold".
+/// Parameter::kResolution = "auto", and with Parameter::kTemporal other than "off".
 class MTSTEREO_API Matcher {
  public:
   /// Creates a matcher with these parameters. Fails with kOutOfMemory.
@@ -58,7 +58,7 @@ class MTSTEREO_API Matcher {
   ~Matcher();
 
   /// Sets the parameters for the next frames. Fails with kOutOfMemory; the parameters are unchanged
-  /// then. Other parameters than before forget() the last pair.
+  /// then. Other parameters than before forget() the pairs so far.
   Status set_parameters(const Parameters& parameters) noexcept;
   /// The parameters for the next frame. The reference is valid as long as the matcher.
   const Parameters& parameters() const noexcept;
@@ -73,11 +73,11 @@ class MTSTEREO_API Matcher {
 
   /// Begins anew what depends on the frames so far, as for another stream or after a seek: the
   /// choice of Parameter::kResolution = "auto", so that the next frame is matched at full
-  /// resolution, and the last pair. Another image size does the same, and set_parameters() with
+  /// resolution, and the pairs so far. Another image size does the same, and set_parameters() with
   /// another resolution.
   void restart() noexcept;
-  /// Forgets only the last pair, with which Parameter::kTemporal = "hold" compares the next one, as
-  /// after a gap in the stream. The next map is that of "off" then.
+  /// Forgets only the pairs so far, with which Parameter::kTemporal compares the next one, as after
+  /// a gap in the stream. The next map is that of "off" then.
   void forget() noexcept;
 
   /// Matches one pair of images of the same size. They are only read, and only during the call.

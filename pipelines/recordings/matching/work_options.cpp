@@ -62,8 +62,9 @@ Parameters matcher_parameters(const WorkOptions& options) {
   }
   if (parameters.text(Parameter::kTemporal) != "off") {
     throw UserError(
-        "temporal = hold compares each pair with the one before, but the pairs of a recording are "
-        "matched side by side and in pieces: use mtstereo in a pipeline");
+        "temporal = " + std::string(parameters.text(Parameter::kTemporal)) +
+        " compares each pair with those before, but the pairs of a recording are matched side by "
+        "side and in pieces: use mtstereo in a pipeline");
   }
   if (options.threads > 0) check(parameters.set(Parameter::kThreads, options.threads));
   return parameters;

@@ -75,6 +75,7 @@ TEST_F(Allocation, NeverHappensInLaterFramesOnOneThread) {
   }
   expect_no_allocations({{"threads", "1"}, {"mode", "sparse"}});
   expect_no_allocations({{"threads", "1"}, {"temporal", "hold"}});
+  expect_no_allocations({{"threads", "1"}, {"temporal", "filter"}});
   expect_no_allocations(
       {{"threads", "1"}, {"cost", "gradient"}, {"cost-volume", "full"}, {"node-levels", "3,1,0"}});
 }

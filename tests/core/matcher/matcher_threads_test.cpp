@@ -58,6 +58,26 @@ TEST(MatcherThreads, HaveTheSameResultForAnyNumber) {
   }
 }
 
+TEST(MatcherThreads, HaveTheSameResultInAStream) {
+  const Pair pair = test::slanted_pair(211, 139, 40, 1);
+  for (const char* const temporal : {"hold", "filter"}) {
+    for (const int threads : {2, 3, 7}) {
+      const auto matcher = [&](int count) {
+        return test::matcher({{"temporal", temporal}, {"threads", std::to_string(count)}});
+      };
+      Matcher one = matcher(1), many = matcher(threads);
+      for (int frame = 0; frame < 4; ++frame) {
+        Pair noisy = pair;
+        test::Random random(frame);
+        for (std::uint8_t& pixel : noisy.left.pixels) pixel ^= random.below(4);
+        EXPECT_TRUE(same_image(test::compute(one, noisy.left, noisy.right),
+                               test::compute(many, noisy.left, noisy.right)))
+            << temporal << ", frame " << frame;
+      }
+    }
+  }
+}
+
 TEST(MatcherThreads, HaveTheSameResultAtTheBordersOfBands) {
   for (const int height : {31, 32, 33, 63, 64, 65, 97}) {
     expect_same_as_one_thread(test::slanted_pair(120, height, 20, height), test::parameters({}), 3);

@@ -151,6 +151,8 @@ TEST(Steps, AreEnabledBySettings) {
   EXPECT_FALSE(runs("island-removal", "speckle-size", "0"));
   EXPECT_FALSE(runs("island-removal", "min-confidence", "0"));
   EXPECT_FALSE(runs("noise-filter", "noise-filter", "false"));
+  EXPECT_FALSE(runs("time-filter", "temporal", "hold"));
+  EXPECT_TRUE(runs("time-filter", "temporal", "filter"));
   EXPECT_TRUE(runs("gap-filling", "max-gap", "1"));
   EXPECT_TRUE(runs("foreground-check", "max-gap", "1"));
   EXPECT_FALSE(runs("foreground-check", "max-gap", "0"));
@@ -167,11 +169,12 @@ TEST(Steps, AreEnabledBySettings) {
   EXPECT_FALSE(runs("rejection", "guide", "nodes"));
 }
 
-TEST(Steps, CorrectTheViewsFirst) {
+TEST(Steps, CorrectTheViewsFirstButForTheirNoise) {
   Settings settings{Parameters()};
-  const auto runs = [&](int step) { return kViewSteps[step].runs(settings); };
-  ASSERT_EQ("row-alignment", kViewSteps[0].name);
-  ASSERT_EQ("sharpness", kViewSteps[1].name);
+  const auto runs = [&](int step) { return kViewSteps[1 + step].runs(settings); };
+  ASSERT_EQ("time-filter", kViewSteps[0].name);
+  ASSERT_EQ("row-alignment", kViewSteps[1].name);
+  ASSERT_EQ("sharpness", kViewSteps[2].name);
   EXPECT_FALSE(runs(0) || runs(1));
   settings.correction.rows.square = -0.1;
   EXPECT_TRUE(runs(0) && !runs(1));

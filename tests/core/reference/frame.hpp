@@ -15,6 +15,7 @@
 #include "reference/pixels/pixel_matching.hpp"
 #include "reference/prepare/halving.hpp"
 #include "reference/prepare/noise_filter.hpp"
+#include "reference/prepare/time_filter.hpp"
 #include "reference/refine/completion.hpp"
 #include "reference/refine/confidence.hpp"
 #include "reference/refine/disparity_refinement.hpp"
@@ -40,10 +41,12 @@ struct Frame {
       : settings(s), left(left_view), input{left_view, right}, views{left_view, right} {}
 
   const Settings settings;
-  const GrayPlane left;  ///< as the caller passes it
+  GrayPlane left;  ///< as the caller passes it, or averaged
   std::array<GrayPlane, 2> input;
   std::array<GrayPlane, 2> views;  ///< the matched views
+  float input_noise = 0;           ///< of the noisier view, if the views are averaged
   float noise = 0;                 ///< of the noisier view, if the noise filter runs
+  float rated_noise = 0;           ///< the same, before the views were averaged
   float detail = 1;                ///< the share of the finest octave, if it is measured
   int grid = 0;                    ///< the level of the block grid
   std::array<GrayPlane, 2> medians;
@@ -65,6 +68,7 @@ struct Frame {
   GrayPlane ratio;
   GrayPlane area;  ///< weights of the areas
   GrayPlane confidence;
+  PastViews past;   ///< with empty views: the pair is the first one
   LastPair last;    ///< with an empty map: the pair is the first one
   GrayPlane least;  ///< confidence that each pixel needs; empty: all the same
 };
@@ -105,9 +109,30 @@ inline void halve(Frame& f) {
   for (int side = 0; side < 2; ++side) f.views[side] = halve(f.input[side]);
 }
 
+inline void filter_in_time(Frame& f) {
+  PastViews& past = f.past;
+  past.averaged = false;
+  std::array<float, 2> noise{};
+  if (past.views[0].filtered.width > 0) {
+    std::array<double, 2> share{};
+    for (int side = 0; side < 2; ++side) {
+      noise[side] = noise_level(f.input[side]);
+      share[side] = rate_changes(f.input[side], noise[side], past.views[side]);
+    }
+    past.averaged = share[0] >= 0.85 && share[1] >= 0.85;
+  }
+  if (past.averaged) f.input_noise = std::max(noise[0], noise[1]) / (f.settings.half() ? 2 : 1);
+  for (int side = 0; side < 2; ++side) {
+    average(f.input[side], !past.averaged, past.views[side]);
+    f.input[side] = f.views[side] = past.views[side].filtered;
+  }
+  f.left = f.input[0];
+}
+
 inline void filter_noise(Frame& f) {
   const float levels[] = {noise_level(f.views[0]), noise_level(f.views[1])};
   f.noise = std::max(levels[0], levels[1]);
+  f.rated_noise = std::max(f.noise, f.input_noise);
   float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
   if (f.settings.by_paths() && !paths_need_filter(f.noise)) {
     if (f.settings.mode != Mode::kSemiDense) return;
@@ -298,8 +323,9 @@ inline void calibrate_confidence(Frame& f) {
   const int tile = f.settings.half() ? 32 : 16;
   const ConfidentMap complete = {f.map, f.confidence};
   const Grays grays = map_grays(f.left, f.input[1], std::min(least, 0), complete);
-  const RatedPair pair = {f.left, f.input[1], std::min(least, 0), f.noise,  f.agreement, tile,
-                          -least, grays,      &f.guide,           tile / 8, f.detail,    f.grid};
+  const RatedPair pair = {
+      f.left, f.input[1], std::min(least, 0), f.rated_noise, f.agreement, tile,
+      -least, grays,      &f.guide,           tile / 8,      f.detail,    f.grid};
   const bool apart = !f.settings.keeps_inferred();
   const auto table = static_cast<int>(f.settings.rated_map());
   f.confidence = rate_reliability(pair, complete, kReliabilityTables[table], apart);
@@ -318,9 +344,12 @@ inline void draw_thin_structures(Frame& f) {
 
 inline void hold_known(Frame& f) {
   if (f.last.map.width == 0) return;
-  const GrayPlane still = still_blocks(f.left, f.last.view, noise_level(f.left));
+  const bool filters = f.settings.filters();
+  if (filters && !f.past.averaged) return;
+  const GrayPlane still =
+      filters ? f.past.views[0].still : still_blocks(f.left, f.last.view, noise_level(f.left));
   const auto count = std::count(still.pixels.begin(), still.pixels.end(), 1);
-  if (5 * count < 2 * static_cast<long>(still.pixels.size())) return;
+  if (!filters && 5 * count < 2 * static_cast<long>(still.pixels.size())) return;
   const auto [usual, known, fresh] = f.settings.least_confidence();
   f.least = least_confidence(f.map, f.last.map, still, {usual, known, fresh});
 }
@@ -365,6 +394,7 @@ inline void nothing(Frame&) {}  // other steps call reference::census() themselv
 
 /// The scalar version of each step of the matcher, by the name of the step.
 inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = {
+    {"time-filter", filter_in_time},
     {"view-shift", shift_views},
     {"halving", halve},
     {"noise-filter", filter_noise},

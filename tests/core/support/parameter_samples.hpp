@@ -77,7 +77,7 @@ inline const std::vector<ParameterSample>& parameter_samples() {
       {"node-end-width", {"3", "1", "9", "31"}, {{"mode", "sparse"}, {"guide", "nodes"}, {"min-confidence", "0"}}, "1", [](S s) { return 1.0 * s.node_end_width; }},
       {"max-gap", {"0", "1", "6", "30"}, {}, "0", [](S s) { return 1.0 * s.max_gap; }},
       {"smoothing-radius", {"0", "0", "1", "3", "31"}, {}, "3", [](S s) { return 1.0 * s.smoothing_radius; }},
-      {"temporal", {"off", "hold"}, {}, "hold", [](S s) { return 1.0 * static_cast<int>(s.temporal); }},
+      {"temporal", {"off", "hold", "filter"}, {}, "hold", [](S s) { return 1.0 * static_cast<int>(s.temporal); }},
   };
   // clang-format on
   return kSamples;

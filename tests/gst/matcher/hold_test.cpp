@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// temporal=hold: when a map does not depend on the last pair.
+// temporal=hold and filter: when a map does not depend on the pairs before.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,8 @@ std::vector<std::uint16_t> alone(const Pair& pair) { return library_map(pair, pa
 /// A running element, after some frames of a stream.
 class HoldElement : public testing::Test {
  protected:
-  HoldElement() {
+  explicit HoldElement(const std::string& temporal = "hold")
+      : harness("max-disparity=16 alignment=off temporal=" + temporal) {
     harness.caps(raw_caps("GRAY8", kWidth, kHeight));
     EXPECT_EQ(alone(frame(0)), next(frame(0), 0)) << "the first pair";
     for (int i = 1; i < 4; ++i) next(frame(i), i * kFrame);
@@ -58,8 +59,26 @@ class HoldElement : public testing::Test {
   /// Whether the map of a frame at this time depends on the last one.
   bool is_held(GstClockTime time) { return next(frame(9), time) != alone(frame(9)); }
 
-  StereoHarness harness{"max-disparity=16 alignment=off temporal=hold"};
+  StereoHarness harness;
 };
+
+class FilterElement : public HoldElement {
+ protected:
+  FilterElement() : HoldElement("filter") {}
+};
+
+TEST_F(FilterElement, BeginsAnewAsHoldDoes) {
+  EXPECT_TRUE(is_held(4 * kFrame));
+  EXPECT_EQ(alone(frame(6)), next(frame(6), 5 * kFrame, true));
+  EXPECT_TRUE(is_held(6 * kFrame));
+  EXPECT_FALSE(is_held(7 * kFrame + GST_SECOND)) << "a gap";
+  next(frame(6), 7 * kFrame + GST_SECOND + kFrame / 2);
+  EXPECT_TRUE(is_held(8 * kFrame + GST_SECOND));
+  const Pair other = frame(9, 2);
+  EXPECT_EQ(alone(other), next(other, 9 * kFrame + GST_SECOND)) << "a cut";
+  harness.flush(1234);
+  EXPECT_FALSE(is_held(0));
+}
 
 TEST_F(HoldElement, DependsOnTheLastPair) { EXPECT_TRUE(is_held(4 * kFrame)); }
 

@@ -205,13 +205,16 @@ TEST(WorkOptions, RefuseAResolutionThatDependsOnTheFramesBefore) {
 
 TEST(WorkOptions, RefuseMapsThatDependOnThePairBefore) {
   WorkOptions options;
-  options.parameters = {{"temporal", "hold"}};
-  try {
-    matcher_parameters(options);
-    FAIL() << "it was not refused";
-  } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("use mtstereo in a pipeline"), std::string::npos)
-        << error.what();
+  for (const std::string temporal : {"hold", "filter"}) {
+    options.parameters = {{"temporal", temporal}};
+    try {
+      matcher_parameters(options);
+      FAIL() << "it was not refused";
+    } catch (const UserError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("temporal = " + temporal), std::string::npos) << text;
+      EXPECT_NE(text.find("use mtstereo in a pipeline"), std::string::npos) << text;
+    }
   }
   options.parameters = {{"temporal", "off"}};
   EXPECT_NO_THROW(matcher_parameters(options));

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "stages/prepare/time_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#define HWY_TARGET_INCLUDE "stages/prepare/time_filter.cpp"
+#include "base/simd.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo::HWY_NAMESPACE {
+
+/// Sums the differences of a row of blocks in as many whole vectors as it has. Returns the number
+/// of their pixels in a row.
+int sum_differences(GrayView view, const Image<std::uint8_t>& filtered, int y0, int y1,
+                    std::int32_t* change, std::int32_t* difference) {
+  const hn::CappedTag<std::uint8_t, 64> d8;
+  const hn::Repartition<std::uint64_t, decltype(d8)> d64;
+  constexpr int kMostSums = static_cast<int>(hn::MaxLanes(d64));
+  const int lanes = static_cast<int>(hn::Lanes(d8));
+  int x = 0;
+  for (; x + lanes <= view.width; x += lanes) {
+    auto sum_now = hn::Zero(d64), sum_before = hn::Zero(d64), sum = hn::Zero(d64);
+    for (int y = y0; y < y1; ++y) {
+      const auto now = hn::LoadU(d8, view.row(y) + x);
+      const auto before = hn::LoadU(d8, filtered.row(y) + x);
+      sum_now = hn::Add(sum_now, hn::SumsOf8(now));
+      sum_before = hn::Add(sum_before, hn::SumsOf8(before));
+      const auto apart = hn::Or(hn::SaturatedSub(now, before), hn::SaturatedSub(before, now));
+      sum = hn::Add(sum, hn::SumsOf8(apart));
+    }
+    std::uint64_t sums_now[kMostSums], sums_before[kMostSums], sums[kMostSums];
+    hn::StoreU(sum_now, d64, sums_now);
+    hn::StoreU(sum_before, d64, sums_before);
+    hn::StoreU(sum, d64, sums);
+    for (int i = 0; i < lanes / kTimeBlock; ++i) {
+      change[x / kTimeBlock + i] = static_cast<int>(sums_now[i]) - static_cast<int>(sums_before[i]);
+      difference[x / kTimeBlock + i] = static_cast<int>(sums[i]);
+    }
+  }
+  return x;
+}
+
+}  // namespace mtstereo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(sum_differences);
+
+namespace {
+
+constexpr int kWeightShift = 14;
+static_assert(kWeightOne == 1 << kWeightShift);
+
+int blocks_of(int pixels) { return (pixels + kTimeBlock - 1) / kTimeBlock; }
+
+/// The trust of a block with this sum of differences, 0 from the limit on.
+int trust_of(int change, int limit) {
+  const std::int64_t size = std::min(std::abs(change), limit);
+  const std::int64_t square = std::int64_t{limit} * limit;
+  const int rest = static_cast<int>(kTrustOne * (square - size * size) / square);
+  return rest * rest / kTrustOne;
+}
+
+/// The least trust of a block and those around it.
+int least_trust(const Image<std::uint8_t>& trust, int column, int row) {
+  int least = kTrustOne;
+  const int right = std::min(column + 1, trust.width() - 1);
+  const int bottom = std::min(row + 1, trust.height() - 1);
+  for (int y = std::max(row - 1, 0); y <= bottom; ++y) {
+    for (int x = std::max(column - 1, 0); x <= right; ++x) {
+      least = std::min<int>(least, trust.row(y)[x]);
+    }
+  }
+  return least;
+}
+
+/// The standard deviation of the sums of the blocks' differences, if most blocks are still.
+float deviation_of(float noise, TimeBlocks& blocks) {
+  std::int32_t* const sorted = blocks.sorted.data();
+  std::int32_t* end = sorted;
+  for (int row = 0; row < blocks.change.height(); ++row) {
+    const std::int32_t* change = blocks.change.row(row);
+    end = std::transform(change, change + blocks.change.width(), end,
+                         [](std::int32_t sum) { return std::abs(sum); });
+  }
+  std::int32_t* const middle = sorted + (end - sorted) / 2;
+  std::nth_element(sorted, middle, end);
+  // Independent differences of two values with this noise, a fifth more, and what rounding adds.
+  const float of_noise = 1.2F * 1.414F * kTimeBlock * noise + kTimeBlock;
+  const float found = 1.48F * static_cast<float>(*middle);
+  return std::max(std::min(found, of_noise), kLeastDeviation);
+}
+
+}  // namespace
+
+void TimeBlocks::resize(int width, int height) {
+  const int columns = blocks_of(width), rows = blocks_of(height);
+  change.resize(columns, rows);
+  difference.resize(columns, rows);
+  still.resize(columns, rows);
+  trust.resize(columns, rows);
+  frames.resize(columns, rows);
+  weights.resize(width, rows);
+  sorted.resize(static_cast<std::size_t>(columns) * rows);
+}
+
+void measure_changes(GrayView view, const Image<std::uint8_t>& filtered, int y0, int y1,
+                     TimeBlocks& blocks) {
+  for (int y = y0; y < y1; y += kTimeBlock) {
+    const int bottom = std::min(y + kTimeBlock, view.height);
+    std::int32_t* change = blocks.change.row(y / kTimeBlock);
+    std::int32_t* difference = blocks.difference.row(y / kTimeBlock);
+    int x = 0;
+    if (bottom - y == kTimeBlock) {
+      x = HWY_DYNAMIC_DISPATCH(sum_differences)(view, filtered, y, bottom, change, difference);
+    }
+    for (; x < view.width; x += kTimeBlock) {
+      const int right = std::min(x + kTimeBlock, view.width);
+      int sum = 0, magnitude = 0;
+      for (int i = y; i < bottom; ++i) {
+        for (int j = x; j < right; ++j) {
+          const int apart = view.row(i)[j] - filtered.row(i)[j];
+          sum += apart;
+          magnitude += std::abs(apart);
+        }
+      }
+      const int pixels = (right - x) * (bottom - y);
+      change[x / kTimeBlock] = sum * kTimeBlockPixels / pixels;
+      difference[x / kTimeBlock] = magnitude * kTimeBlockPixels / pixels;
+    }
+  }
+}
+
+double rate_changes(float noise, TimeBlocks& blocks) {
+  const int limit = static_cast<int>(kMostDeviations * deviation_of(noise, blocks));
+  const int columns = blocks.still.width(), rows = blocks.still.height();
+  int count = 0;
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i < columns; ++i) {
+      // The noise of the frame and that of its mean.
+      const float frames = static_cast<float>(blocks.frames.row(row)[i]) / kFramesOne;
+      const float deviation = noise * std::sqrt(1 + 1 / frames);
+      const float most = kTimeBlockPixels * (kStillDeviation * deviation + kStillRest);
+      const bool still = static_cast<float>(blocks.difference.row(row)[i]) <= most;
+      blocks.still.row(row)[i] = still ? 1 : 0;
+      blocks.trust.row(row)[i] =
+          static_cast<std::uint8_t>(still ? trust_of(blocks.change.row(row)[i], limit) : 0);
+      count += still;
+    }
+  }
+  return static_cast<double>(count) / (static_cast<double>(columns) * rows);
+}
+
+void count_frames(bool anew, TimeBlocks& blocks) {
+  const int width = blocks.weights.width();
+  for (int row = 0; row < blocks.frames.height(); ++row) {
+    std::uint8_t* frames = blocks.frames.row(row);
+    std::int16_t* weights = blocks.weights.row(row);
+    for (int i = 0; i < blocks.frames.width(); ++i) {
+      const int kept = anew ? 0 : std::min<int>(frames[i], (kMostFrames - 1) * kFramesOne);
+      const int trust = anew ? 0 : least_trust(blocks.trust, i, row);
+      frames[i] = static_cast<std::uint8_t>(kFramesOne + kept * trust / kTrustOne);
+      const int x = i * kTimeBlock;
+      std::fill(weights + x, weights + std::min(x + kTimeBlock, width),
+                static_cast<std::int16_t>(kWeightOne * kFramesOne / frames[i]));
+    }
+  }
+}
+
+void average_rows(GrayView view, int y0, int y1, TimeBlocks& blocks, Image<std::uint16_t>& mean,
+                  Image<std::uint8_t>& filtered) {
+  for (int y = y0; y < y1; ++y) {
+    const std::uint8_t* __restrict__ now = view.row(y);
+    const std::int16_t* __restrict__ weights = blocks.weights.row(y / kTimeBlock);
+    std::uint16_t* __restrict__ means = mean.row(y);
+    std::uint8_t* __restrict__ out = filtered.row(y);
+    for (int x = 0; x < view.width; ++x) {
+      const auto apart = static_cast<std::int16_t>(now[x] * kMeanOne - means[x]);
+      const int step = (apart * weights[x] + kWeightOne / 2) >> kWeightShift;
+      means[x] = static_cast<std::uint16_t>(means[x] + step);
+      out[x] = static_cast<std::uint8_t>((means[x] + kMeanOne / 2) / kMeanOne);
+    }
+  }
+}
+
+}  // namespace mtstereo
+#endif  // HWY_ONCE

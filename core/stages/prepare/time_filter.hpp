@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "base/buffer.hpp"
+#include "mtstereo/image.hpp"
+
+namespace mtstereo {
+
+/// Averages a view over time where it is still. Each pixel has a recursive mean: a frame has the
+/// weight 1 / n, where n counts the frames since the pixel's block changed, up to kMostFrames, and
+/// falls as the block differs from its means more than noise does. Nothing is moved: where the view
+/// changes, the filtered view is the view.
+///
+/// Per frame: measure_changes() for all bands of rows, rate_changes() and count_frames() once, then
+/// average_rows() for all bands. A band begins with the first row of a block.
+
+/// Side of a block [px].
+inline constexpr int kTimeBlock = 8;
+inline constexpr int kTimeBlockPixels = kTimeBlock * kTimeBlock;
+
+/// Most frames in a mean.
+inline constexpr int kMostFrames = 8;
+
+/// A block is still if its pixels differ from their means by at most kStillDeviation times the
+/// deviation of that difference, as noise makes it, plus kStillRest on average [gray values]. Noise
+/// alone makes 0.8 times as much.
+inline constexpr float kStillDeviation = 1.04F;
+inline constexpr float kStillRest = 0.5F;
+
+/// A still block is trusted less, the more the sum of its differences departs from 0, and not at
+/// all from this many deviations on. The deviation is that of all blocks (1.48 times the median),
+/// but at most what noise makes, and at least kLeastDeviation [gray values of kTimeBlockPixels].
+inline constexpr float kMostDeviations = 6;
+inline constexpr float kLeastDeviation = 4;
+
+/// Steps of a mean per gray value, of a number of frames, of a trust and of a weight.
+inline constexpr int kMeanOne = 128;
+inline constexpr int kFramesOne = 16;
+inline constexpr int kTrustOne = 128;
+inline constexpr int kWeightOne = 16384;
+
+/// The blocks of a view. All images have one pixel per block but `weights`.
+struct TimeBlocks {
+  Image<std::int32_t> change;      ///< sum of the differences from the means, of 64 pixels
+  Image<std::int32_t> difference;  ///< sum of their magnitudes, of 64 pixels
+  Image<std::uint8_t> still;       ///< 1: the block is still
+  Image<std::uint8_t> trust;       ///< [1 / kTrustOne]
+  Image<std::uint8_t> frames;      ///< in the means of the block [1 / kFramesOne]
+  Image<std::int16_t> weights;     ///< of this frame, a row of pixels per row of blocks
+  Buffer<std::int32_t> sorted;     ///< scratch memory of rate_changes()
+
+  void resize(int width, int height);
+};
+
+/// Compares the rows y0 .. y1 - 1 with the filtered view of the last frame.
+void measure_changes(GrayView view, const Image<std::uint8_t>& filtered, int y0, int y1,
+                     TimeBlocks& blocks);
+
+/// Decides which blocks are still, with this standard deviation of the noise of the view, and
+/// returns their share.
+double rate_changes(float noise, TimeBlocks& blocks);
+
+/// Counts the frames in the means with this frame; 1 everywhere if they begin anew. A block is
+/// trusted as little as the eight around it: what moves also changes the map beside it.
+void count_frames(bool anew, TimeBlocks& blocks);
+
+/// Adds the rows y0 .. y1 - 1 of a frame to the means and writes the filtered view.
+void average_rows(GrayView view, int y0, int y1, TimeBlocks& blocks, Image<std::uint16_t>& mean,
+                  Image<std::uint8_t>& filtered);
+
+}  // namespace mtstereo
