@@ -135,7 +135,7 @@ inline void filter_noise(Frame& f) {
   f.rated_noise = std::max(f.noise, f.input_noise);
   float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
   if (f.settings.by_paths() && !paths_need_filter(f.noise)) {
-    if (f.settings.mode != Mode::kSemiDense) return;
+    if (f.settings.mode == Mode::kDense || f.settings.mode == Mode::kFull) return;
     threshold = 0;
   }
   for (GrayPlane& view : f.views) view = filter_noise(view, threshold);
