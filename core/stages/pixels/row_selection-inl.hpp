@@ -12,6 +12,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "base/simd.hpp"
 #include "stages/pixels/path_lanes-inl.hpp"
@@ -67,11 +68,12 @@ HWY_INLINE int first_equal(const PixelLanes<kVectors>& lanes, ByteVector least) 
   for (int i = 0; i < lanes.count(); i += kTogether) {
     std::uint64_t bits = 0;
     for (int k = 0; k < kTogether && i + k < lanes.count(); ++k) {
-      std::uint8_t bytes[8] = {};
+      // As many bits as the mask has, so that the compiler needs no memory for them.
+      std::conditional_t<kByteLanes == 32, std::uint32_t, std::uint16_t> mask;
+      std::uint8_t bytes[sizeof(mask)];
       hn::StoreMaskBits(d8, hn::Eq(lanes.get(i + k), least), bytes);
-      std::uint64_t mask;
       std::memcpy(&mask, bytes, sizeof(mask));
-      bits |= mask << (k * kByteLanes);
+      bits |= std::uint64_t{mask} << (k * kByteLanes);
     }
     if (bits != 0) return i * kByteLanes + std::countr_zero(bits);
   }
