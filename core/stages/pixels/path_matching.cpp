@@ -55,7 +55,8 @@ class ChunkMatching {
     for (int y = chunk_.first; y < chunk_.y1; y += 2) {
       for (int row = y; row < std::min(y + 2, chunk_.y1); ++row) {
         if (!from_below()) find_costs(row);
-        if (from_above()) step(row, row - 1, before, above(row));
+        if (!from_above()) continue;
+        step(row, row - 1, before, above(row));
         before = above(row);
       }
       if (y >= chunk_.y0) match_pair(y, map, ratio, votes);
