@@ -141,6 +141,23 @@ class Installed(Installation):
         self.assertFalse((FOLDER / "none.mkv").exists())
 
 
+class PythonModule(Installation):
+    def test_is_installed_as_a_package_and_finds_its_library(self):
+        if not os.environ["PYTHON_PACKAGE"]:
+            self.skipTest("the Python module is not built (option python)")
+        package = below(os.environ["PYTHON_PACKAGE"])
+        self.assertLessEqual({"__init__.py", "__init__.pyi", "gst.py", "py.typed"},
+                             {file.name for file in package.iterdir()})
+        done = self.use("ldd", next(package.glob("_mtstereo*.so")))
+        found = re.findall(r"(libmtstereo\S*) => (\S+)", done.output)
+        self.assertTrue(found, str(done))
+        for name, file in found:
+            self.assertTrue(os.path.samefile(LIBRARIES / name, file), str(done))
+        done = self.use(os.environ["PYTHON"], "-c", "import mtstereo; print(mtstereo.Matcher().parameters['mode'])",
+                        PYTHONPATH=package.parent, PYTHONDONTWRITEBYTECODE="1")
+        self.assertEqual(done.output, "semi-dense\n", str(done))
+
+
 class Examples(Installation):
     """The installed examples, built as their users build them."""
 

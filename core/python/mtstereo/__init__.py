@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Stereo depth on NumPy arrays: disparity and confidence of rectified pairs of images.
+
+    import cv2, mtstereo
+    matcher = mtstereo.Matcher(mode="semi-dense", max_disparity=128)
+    left, right = (cv2.imread(file, cv2.IMREAD_GRAYSCALE) for file in ("left.png", "right.png"))
+    disparity, confidence = matcher(left, right)  # float32 px, NaN = unknown; uint8
+
+help(mtstereo.Matcher) describes all parameters. mtstereo.gst reads the maps of the GStreamer element.
+
+The module works in the main interpreter of a process, in any of its threads. A Matcher is not used in another process
+than the one that made it, and cannot be copied or pickled.
+"""
+from . import _mtstereo
+
+_mtstereo.require_main_interpreter()
+
+from ._mtstereo import (Alignment, Matcher, MatchResult, PairFindings, ParameterInfo,  # noqa: E402
+                        RowField, ViewCorrection, __version__, parameter_table)
+
+__all__ = ["Alignment", "Matcher", "MatchResult", "PairFindings", "ParameterInfo", "RowField", "ViewCorrection",
+           "__version__", "parameter_table"]
+
+for _name in __all__:
+    if isinstance(globals()[_name], type):
+        globals()[_name].__module__ = __name__  # where users find it
+del _name
