@@ -3,6 +3,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -26,16 +29,19 @@ struct MatchResult {
   FrameStatistics statistics;
 };
 
-/// Copies a map as floating point; exact, since a value has less than 24 bits.
+/// Copies a map as floating point; exact, since a value has less than 24 bits. Written without a
+/// choice between floating-point values, so that the compiler makes vectors of it.
 void write_pixels(DisparityView map, int offset, ImageView<float> out) {
-  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  constexpr auto kUnknown = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN());
   const auto added = static_cast<float>(offset);
   for (int y = 0; y < map.height; ++y) {
     const std::int32_t* values = map.row(y);
     float* pixels = out.row(y);
     for (int x = 0; x < map.width; ++x) {
       const float disparity = static_cast<float>(values[x]) * (1.0F / kDisparityOne) + added;
-      pixels[x] = values[x] == kNoDisparity ? kUnknown : disparity;
+      const std::uint32_t unknown = values[x] == kNoDisparity ? ~std::uint32_t{0} : 0;
+      pixels[x] = std::bit_cast<float>((std::bit_cast<std::uint32_t>(disparity) & ~unknown) |
+                                       (kUnknown & unknown));
     }
   }
 }
