@@ -25,6 +25,17 @@ struct ArrayView {
 /// and what to do.
 ArrayView<std::uint8_t> gray_view(const char* name, pybind11::handle value);
 
+/// The same for an image with 3 or 4 interleaved values per pixel, or a gray one. The width counts
+/// pixels.
+ArrayView<std::uint8_t> color_view(const char* name, pybind11::handle value);
+
+/// The view of a disparity map. Throws as gray_view() does, unless it has floating-point values;
+/// those of another precision than float32 are converted.
+ArrayView<float> disparity_view(const char* name, pybind11::handle value);
+
+/// A matrix, row by row.
+pybind11::array_t<double> matrix3(const std::array<double, 9>& values);
+
 /// A new, contiguous array of this size.
 template <typename T>
 pybind11::array_t<T> new_image(int height, int width) {

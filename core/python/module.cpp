@@ -3,8 +3,11 @@
 
 #include "mtstereo/matcher.hpp"
 #include "python/alignment.hpp"
+#include "python/calibration.hpp"
+#include "python/depth.hpp"
 #include "python/keywords.hpp"
 #include "python/matcher.hpp"
+#include "python/rectification.hpp"
 
 namespace py = pybind11;
 
@@ -29,4 +32,7 @@ PYBIND11_MODULE(_mtstereo, module) {
   python::bind_parameters(module);
   python::bind_alignment(module);
   python::bind_matcher(module);
+  python::bind_calibration(module);
+  python::bind_rectification(module);
+  python::bind_depth(module);
 }

@@ -15,11 +15,13 @@ from . import _mtstereo
 
 _mtstereo.require_main_interpreter()
 
-from ._mtstereo import (Alignment, Matcher, MatchResult, PairFindings, ParameterInfo,  # noqa: E402
-                        RowField, ViewCorrection, __version__, parameter_table)
+from ._mtstereo import (Alignment, Calibration, Camera, Cloud, Matcher, MatchResult,  # noqa: E402
+                        PairFindings, ParameterInfo, Rectification, Rectifier, RowField, ViewCorrection, __version__,
+                        cloud, depth, parameter_table, rectification_remarks, rectify)
 
-__all__ = ["Alignment", "Matcher", "MatchResult", "PairFindings", "ParameterInfo", "RowField", "ViewCorrection",
-           "__version__", "parameter_table"]
+__all__ = ["Alignment", "Calibration", "Camera", "Cloud", "Matcher", "MatchResult", "PairFindings", "ParameterInfo",
+           "Rectification", "Rectifier", "RowField", "ViewCorrection", "__version__", "cloud", "depth",
+           "parameter_table", "rectification_remarks", "rectify"]
 
 for _name in __all__:
     if isinstance(globals()[_name], type):
