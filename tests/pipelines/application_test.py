@@ -13,7 +13,6 @@ from support import BUILD, SOURCE, make_clip, make_videos, require, run
 PAGE = SOURCE / "docs/application.md"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PYTHON = "/usr/bin/python3"
-MODULES = "import gi, numpy; gi.require_version('GstApp', '1.0'); from gi.repository import GstApp"
 FRAMES = 8
 FOCAL_TIMES_BASELINE = 13.6  # of the rendered room at 160 px [px m]
 
@@ -56,10 +55,9 @@ class Application(unittest.TestCase):
         make_clip(cls.folder, FRAMES)
         make_videos(cls.folder)
 
-    def need_python_modules(self):
-        if run([PYTHON, "-c", MODULES], self.folder).status != 0:
-            self.skipTest("NumPy or GStreamer's Python bindings are missing (python3-numpy, python3-gi, "
-                          "gir1.2-gst-plugins-base-1.0)")
+    def need_numpy(self):
+        if run([PYTHON, "-c", "import numpy"], self.folder).status != 0:
+            self.skipTest("NumPy is missing (python3-numpy)")
 
     def test_the_program_of_the_library_is_the_installed_example(self):
         shown = programs("cpp")
@@ -97,20 +95,8 @@ class Application(unittest.TestCase):
         program.write_text(text)
         return run([PYTHON, program, *arguments], self.folder, 120)
 
-    def test_python_runs_and_finds_the_confidence(self):
-        self.need_python_modules()
-        text = programs("python")[0]
-        done = require(self.run_python(text, "left.mp4", "right.mp4"))
-        found = re.findall(r"^160x120: (\d+) % known, median ([\d.]+) px; (\d+) % with", done.output, re.MULTILINE)
-        self.assertEqual(len(found), FRAMES, str(done))
-        for known, median, confident in found:
-            self.assertTrue(0 < int(confident) <= int(known) <= 100 and 1 < float(median) < 64, str(done))
-        missing = self.run_python(text, "left.mp4", "no.mp4")
-        self.assertEqual(missing.status, 1, str(missing))
-        self.assertIn("RuntimeError", missing.errors)
-
     def test_python_reads_the_results_of_recordings(self):
-        self.need_python_modules()
+        self.need_numpy()
         if not shutil.which("ffmpeg"):
             self.skipTest("ffmpeg is not installed")
         (self.folder / "stereo.yaml").write_text(CALIBRATION)
@@ -118,14 +104,14 @@ class Application(unittest.TestCase):
             require(run([BUILD / "pipelines/programs/run/mtstereo-run", "left.mp4", "right.mp4", "--calibration",
                          "stereo.yaml", "--what", "disparity,depth,confidence,rectified", "--format", form, "--out",
                          out], self.folder))
-        done = require(self.run_python(programs("python")[1] + CHECK_OF_RESULTS))
+        done = require(self.run_python(programs("python")[0] + CHECK_OF_RESULTS))
         self.assertRegex(done.output, r"^\d+ maps, median \d+\.\d+ px, \d+\.\d+ m\n")
         self.assertIn("all formats are equal", done.output)
 
     def test_no_program_is_left_out(self):
         languages = {name for name, _ in BLOCK.findall(PAGE.read_text())} - {"console", "sh"}
         self.assertEqual(languages, {"c", "cpp", "python"})
-        self.assertEqual([len(programs(name)) for name in sorted(languages)], [1, 1, 2])
+        self.assertEqual([len(programs(name)) for name in sorted(languages)], [1, 1, 1])
 
 
 if __name__ == "__main__":
