@@ -9,7 +9,7 @@
 #   tidy     clang-tidy of core/, gst/ and pipelines/, as build-clang-asan/ compiles them
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-folders=(core docs gst pipelines tests)
+folders=(core debian docs gst pipelines tests)
 
 format() {
   find "${folders[@]}" '(' -name '*.[ch]' -o -name '*.[ch]pp' ')' -print0 |
