@@ -8,7 +8,8 @@
 # Options:
 #   --quick             only the release build
 #   --thorough          the sanitizers run all tests, the programs and scripts too (those that measure
-#                       accuracy or time with fewer cases), and clang-tidy checks the sources
+#                       accuracy or time with fewer cases), clang-tidy checks the sources, and the Debian
+#                       packages are built and used in minimal systems
 #   --summarize FILE... only add up the results in saved outputs of 'meson test'
 #
 # Builds into build/, build-clang-asan/ and build-clang-tsan/. With CI=true warnings are errors, and the tests
@@ -126,6 +127,7 @@ test_scripts_with_asan() {
 
 marks=()
 [ "$quick" = yes ] || marks+=(checks)
+[ "$thorough" = no ] || marks+=(debian)
 [ "$quick" = yes ] || [ "${CI:-}" != true ] || marks+=(arm)
 ./pipelines/install-packages.sh "${marks[@]}" || { echo "packages are missing" >&2 && exit 1; }
 
@@ -136,6 +138,7 @@ if [ "$quick" = no ]; then
 fi
 
 if build build all -Dbuildtype=release; then
+  [ "$thorough" = no ] || export MTSTEREO_PACKAGES=yes
   run_tests build --no-rebuild
 fi
 

@@ -1,0 +1,163 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# run.sh [OPTION...]: builds the Debian packages in a minimal Debian 12, installs them in another one without packages
+# for development, runs their tests (debian/tests), and removes them again. States how long each step takes.
+#
+# Options:
+#   --packages DIR  test the packages in this folder, and build none
+#   --out DIR       keep the packages that are built in this folder
+#   --twice         build a second time, in another folder with other settings, and compare the packages
+#   --if-asked      for `meson test`: is skipped (status 77) unless MTSTEREO_PACKAGES is set and the tools are there
+#
+# Needs root and the packages with the mark debian of pipelines/packages.txt. The mirror of Debian 12 is that of
+# this machine's own sources of packages.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+repository=$(cd "$here/../.." && pwd)
+# shellcheck source=tests/packages/rooms.sh
+source "$here/rooms.sh"
+
+given='' out='' twice=no skip_status=1
+while [ $# -gt 0 ]; do
+  case $1 in
+    --packages | --out)
+      [ $# -ge 2 ] || { echo "run.sh: $1 needs a folder" >&2 && exit 2; }
+      if [ "$1" = --out ]; then out=$(realpath -m "$2"); else given=$(realpath "$2"); fi
+      shift
+      ;;
+    --twice) twice=yes ;;
+    --if-asked)
+      [ -n "${MTSTEREO_PACKAGES:-}" ] || { echo "skipped: MTSTEREO_PACKAGES is not set" && exit 77; }
+      skip_status=77
+      ;;
+    --help | -h)
+      sed -n -e '1,2d' -e '/^#/!q' -e 's/^# \{0,1\}//p' "$0"
+      exit 0
+      ;;
+    *)
+      echo "run.sh: there is no option $1 (--help lists them)" >&2
+      exit 2
+      ;;
+  esac
+  shift
+done
+
+missing=$(what_is_missing)
+[ -z "$missing" ] || { echo "run.sh: not run: $missing" >&2 && exit "$skip_status"; }
+enter_own_mounts "$@"
+
+work=$(mktemp -d)
+chmod 755 "$work"
+trap leave_rooms EXIT
+# The files under version control, as they are now.
+mkdir "$work/source"
+git -C "$repository" ls-files -z | tar -C "$repository" --null -T - -c | tar -x -C "$work/source"
+
+# The packages that debian/control names for the build, and no others.
+install_build_dependencies() {
+  mkdir "$work/build/control"
+  cp -r "$work/source/debian" "$work/build/control"
+  in_room build sh -c 'cd /control && apt-get build-dep -q -y --no-install-recommends ./' >"$work/build.log" 2>&1 || {
+    tail -n 20 "$work/build.log"
+    return 1
+  }
+}
+
+# build_packages FOLDER [NAME=VALUE...]: builds in this folder of the room, with these variables.
+build_packages() {
+  local folder=$1
+  shift
+  mkdir -p "$work/build/$folder"
+  cp -r "$work/source/." "$work/build/$folder"
+  in_room build "DEB_BUILD_OPTIONS=nocheck parallel=$(nproc)" "$@" \
+    sh -c "cd /$folder && dpkg-buildpackage -us -uc -b" >"$work/build.log" 2>&1 || {
+    tail -n 40 "$work/build.log"
+    return 1
+  }
+}
+
+compare_builds() {
+  local package different=0
+  for package in "$work"/build/first/*.deb; do
+    if cmp -s "$package" "$work/build/second/other/${package##*/}"; then
+      echo "reproducible: ${package##*/}"
+    else
+      echo "NOT reproducible: ${package##*/}"
+      different=1
+    fi
+  done
+  return "$different"
+}
+
+check_packages() {
+  lintian --allow-root --fail-on error,warning "$packages"/*.deb
+}
+
+# Packages for use. Those with debug information and for development are not installed.
+for_use() {
+  find "$1" -name '*.deb' ! -name '*-dbgsym_*' ! -name '*-dev_*' -printf '/packages/%f\n'
+}
+
+install_packages() {
+  mkdir "$work/use/packages"
+  cp "$packages"/*.deb "$work/use/packages"
+  local list
+  mapfile -t list < <(for_use "$work/use/packages")
+  in_room use apt-get install -q -y --no-install-recommends "${list[@]}" >"$work/install.log" 2>&1 || {
+    tail -n 20 "$work/install.log"
+    return 1
+  }
+  ! in_room use dpkg --get-selections | grep -E -- '-dev(:|[[:space:]])' || {
+    echo "packages for development are installed"
+    return 1
+  }
+}
+
+first_map() {
+  in_room use gst-launch-1.0 -q videotestsrc pattern=snow num-buffers=1 ! \
+    video/x-raw,width=328,height=240 ! tee name=n ! queue ! videocrop right=8 ! m.sink_left \
+    n. ! queue ! videocrop left=8 ! m.sink_right \
+    mtstereo name=m ! mtcolor ! videoconvert ! pngenc ! filesink location=/tmp/map.png
+  [ -s "$work/use/tmp/map.png" ]
+}
+
+run_package_tests() {
+  autopkgtest --no-built-binaries "$work"/use/packages/*.deb "$work/source" \
+    --summary-file="$work/summary" --output-dir="$work/tests" -- chroot "$work/use" >"$work/tests.log" 2>&1 || {
+    tail -n 60 "$work/tests.log"
+    return 1
+  }
+  cat "$work/summary"
+}
+
+remove_packages() {
+  in_room use apt-get purge -q -y '?installed?name(mtstereo)' >"$work/remove.log" 2>&1 || {
+    tail -n 20 "$work/remove.log"
+    return 1
+  }
+  local left
+  left=$(find "$work/use" -xdev '(' -name '*mtstereo*' -o -name mtcalibrate ')' \
+    ! -path "$work/use/packages/*" ! -path "$work/use/tmp/*" ! -path "$work/use/var/log/*")
+  [ -z "$left" ] || { echo "left behind: $left"; return 1; }
+}
+
+if [ -n "$given" ]; then
+  packages=$given
+else
+  step "a room to build in" make_room build --variant=buildd
+  step "the packages that the build needs" install_build_dependencies
+  step "building" build_packages first/source
+  packages=$work/build/first
+  if [ "$twice" = yes ]; then
+    step "building again" build_packages second/other/folder TZ=Asia/Tokyo LC_ALL=POSIX
+    step "comparing both builds" compare_builds
+  fi
+fi
+[ -z "$out" ] || { mkdir -p "$out" && cp "$packages"/*.deb "$out"; }
+stat -c '%s %n' "$packages"/*.deb | sed "s#$packages/##"
+step "lintian" check_packages
+step "a room to use them in" make_room use --variant=minbase
+step "installing" install_packages
+step "the first map" first_map
+step "the tests of the packages" run_package_tests
+step "removing" remove_packages
