@@ -3,7 +3,7 @@
 # man-pages.sh ROOT VERSION: makes the manual page ROOT/man/NAME.1 of each command below ROOT, from its --help.
 set -eu
 root=$1 version=$2
-LD_LIBRARY_PATH=$(echo "$root"/usr/lib/*/)
+LD_LIBRARY_PATH=$(dirname "$root"/usr/lib/*/libmtstereo.so)
 export LD_LIBRARY_PATH
 mkdir -p "$root/man"
 for command in "$root"/usr/bin/*; do
