@@ -59,10 +59,11 @@ step() {
 }
 
 leave_rooms() {
-  local room
+  local folder
   [ -z "$running" ] || echo "FAILED: $running"
-  for room in build use; do
-    ! mountpoint -q "$work/$room/proc" || umount "$work/$room/proc"
-  done
+  # Ours, and those of an mmdebstrap that was interrupted.
+  while read -r folder; do
+    umount --lazy "$folder"
+  done < <(awk -v below="$work/" 'index($2, below) == 1 { print $2 }' /proc/mounts | sort -r)
   rm -rf --one-file-system "$work"
 }

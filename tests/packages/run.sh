@@ -17,6 +17,7 @@ repository=$(cd "$here/../.." && pwd)
 # shellcheck source=tests/packages/rooms.sh
 source "$here/rooms.sh"
 
+arguments=("$@")
 given='' out='' twice=no skip_status=1
 while [ $# -gt 0 ]; do
   case $1 in
@@ -44,7 +45,7 @@ done
 
 missing=$(what_is_missing)
 [ -z "$missing" ] || { echo "run.sh: not run: $missing" >&2 && exit "$skip_status"; }
-enter_own_mounts "$@"
+enter_own_mounts "${arguments[@]}"
 
 work=$(mktemp -d)
 chmod 755 "$work"
@@ -71,7 +72,7 @@ build_packages() {
   cp -r "$work/source/." "$work/build/$folder"
   in_room build "DEB_BUILD_OPTIONS=nocheck parallel=$(nproc)" "$@" \
     sh -c "cd /$folder && dpkg-buildpackage -us -uc -b" >"$work/build.log" 2>&1 || {
-    tail -n 40 "$work/build.log"
+    tail -n 40 "$work/build.log" | cut -c1-500
     return 1
   }
 }
