@@ -20,6 +20,9 @@ namespace {
 /// cut it is in 0.25 of them or less, even if both scenes have the same sky.
 constexpr double kLeastStill = 0.4;
 
+/// Areas that a thread takes at once; most are small.
+constexpr int kAreasAtOnce = 8;
+
 static_assert(Bands::kRows % kStillBlock == 0 && kStillBlock == kTimeBlock);
 
 }  // namespace
@@ -36,6 +39,10 @@ void ResultBuffers::resize(const Settings& settings, const FrameSize& size) {
     worker.columns.resize(Bands::kColumns);
   }
   if (settings.keeps_likely_only()) islands.resize(width, height);
+  if (settings.mode != Mode::kFull) return;
+  areas.resize(width, height);
+  planes.resize(areas.first.size());
+  for (Scratch& worker : scratch) worker.votes.resize();
 }
 
 void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps& result) {
@@ -119,6 +126,30 @@ void correct_strip(const StepContext& step, ResultMaps& result) {
   const int strip = result.place.column + step.settings.view_disparities;
   step.input_bands.rows([&](int y0, int y1, int) {
     correct_left_strip(strip, y0, y1, *result.disparity, *result.confidence);
+  });
+}
+
+void complete_flat_areas(const StepContext& step, const Views& views, ResultMaps& result,
+                         ResultBuffers& buffers) {
+  FlatAreas& areas = buffers.areas;
+  if (areas.gray.width() == 0 || areas.gray.height() == 0) return;
+  const Bands bands = step.input_bands.of_height(areas.gray.height());
+  for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grays = {};
+  bands.rows([&](int y0, int y1, int worker) {
+    buffers.scratch[worker].grays.add(sum_grays(views.left, y0, y1, areas));
+  });
+  GrayTotals grays;
+  for (const ResultBuffers::Scratch& worker : buffers.scratch) grays.add(worker.grays);
+  const int connected = flat_step(grays, views.rated_noise);
+  bands.rows([&](int y0, int y1, int) { find_runs(areas.gray, connected, y0, y1, areas.runs); });
+  join_bands(areas.gray, connected, Bands::kRows, areas.runs);
+  number_areas(areas);
+  bands.blocks(areas.count, kAreasAtOnce, [&](int first, int last, int worker) {
+    fit_planes(areas, first, last, *result.disparity, *result.confidence,
+               buffers.scratch[worker].votes, buffers.planes);
+  });
+  step.input_bands.rows([&](int y0, int y1, int) {
+    complete_planes(areas, buffers.planes, y0, y1, *result.confidence, *result.disparity);
   });
 }
 

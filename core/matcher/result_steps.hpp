@@ -12,6 +12,7 @@
 #include "stages/prepare/noise_level.hpp"
 #include "stages/refine/block_grid.hpp"
 #include "stages/refine/edge_alignment.hpp"
+#include "stages/refine/flat_planes.hpp"
 #include "stages/refine/speckle_removal.hpp"
 
 /// The steps that complete the map of the paths, rate it and reject what is not reliable, and their
@@ -23,10 +24,14 @@ struct ResultBuffers {
   EdgeMap edges;
   Rating rating;
   SpeckleRuns islands;  ///< of what the rejection leaves
+  FlatAreas areas;
+  Buffer<FlatPlane> planes;  ///< of the areas
 
   struct Scratch {
     BlockGrid grid;  ///< of the thread's rows
     EdgeScratch edges;
+    GrayTotals grays;  ///< of the thread's rows
+    PlaneVotes votes;
     Buffer<std::int32_t> columns;  ///< a block of columns
   };
   std::vector<Scratch> scratch;  ///< one for each thread
@@ -75,6 +80,10 @@ void calibrate_confidence(const StepContext& step, const Views& views, const Pyr
 
 /// Corrects what the right camera may not see at the left of the complete, rated map.
 void correct_strip(const StepContext& step, ResultMaps& result);
+
+/// Gives the doubted pixels of flat areas of the left view the planes of the believed ones.
+void complete_flat_areas(const StepContext& step, const Views& views, ResultMaps& result,
+                         ResultBuffers& buffers);
 
 /// Finds the blocks of the left view that equal those of the last one.
 void compare_views(const StepContext& step, const Views& views, LastPair& last);

@@ -89,6 +89,8 @@ constexpr Step kResultList[] = {
     {"edge-alignment",     always,                                   on<align_map_edges>},
     {"reliability",        always,                                   on<calibrate_confidence>},
     {"left-strip",         [](S s) { return s.mode == Mode::kFull; }, on<correct_strip>},
+    {"flat-planes",        [](S s) { return s.mode == Mode::kFull; }, on<complete_flat_areas>},
+    {"plane-edges",        [](S s) { return s.mode == Mode::kFull; }, on<align_map_edges>},
     {"holding",            [](S s) { return s.holds(); },            on<hold_known>},
     {"rejection",          [](S s) { return s.rejects_unlikely(); }, on<reject_unlikely>},
     {"gap-closing",        [](S s) { return s.rejects_unlikely() && s.max_gap > 0; }, on<close_gaps>},

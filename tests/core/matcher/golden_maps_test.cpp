@@ -47,11 +47,11 @@ constexpr Golden kGolden[] = {
     {"default", "sparse", 0x59306d365bd4dd7f},
     {"default", "semi-dense", 0x790b6f9d2a6a9133},
     {"default", "dense", 0x4856355add80bfc5},
-    {"default", "full", 0x072dfe5eb5baa3e3},
+    {"default", "full", 0x5de1ed8019ea212e},
     {"fast", "sparse", 0x551fbc1754b1b581},
     {"fast", "semi-dense", 0xcbe3457c3f6fc940},
     {"fast", "dense", 0x3e7f8dc44d720fcf},
-    {"fast", "full", 0xd924d36330b4f59e},
+    {"fast", "full", 0x0b9fd93f67275d0a},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -21,6 +21,7 @@
 #include "reference/refine/disparity_refinement.hpp"
 #include "reference/refine/edge_alignment.hpp"
 #include "reference/refine/enlarging.hpp"
+#include "reference/refine/flat_planes.hpp"
 #include "reference/refine/gap_filling.hpp"
 #include "reference/refine/gray_mapping.hpp"
 #include "reference/refine/holding.hpp"
@@ -336,6 +337,10 @@ inline void correct_strip(Frame& f) {
   take(f, correct_left_strip(ConfidentMap{f.map, f.confidence}, strip));
 }
 
+inline void complete_flat_areas(Frame& f) {
+  take(f, complete_flat_areas(f.left, f.rated_noise, ConfidentMap{f.map, f.confidence}));
+}
+
 inline void draw_thin_structures(Frame& f) {
   draw_thin_structures(f.found, f.settings.min_disparity, f.settings.half() ? 2 : 1,
                        std::max(f.settings.min_confidence, 16), f.settings.keeps_likely_only(),
@@ -432,6 +437,8 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"edge-alignment", align_edges},
     {"reliability", calibrate_confidence},
     {"left-strip", correct_strip},
+    {"flat-planes", complete_flat_areas},
+    {"plane-edges", align_edges},
     {"holding", hold_known},
     {"rejection", reject_unlikely},
     {"gap-closing", close_gaps},

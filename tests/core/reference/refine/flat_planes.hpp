@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "reference/refine/gap_filling.hpp"
+#include "reference/refine/speckle_removal.hpp"
+
+namespace mtstereo::reference {
+
+/// Sums of squares of four pixels, plus 1.
+inline DisparityPlane halved_sums(const GrayPlane& view) {
+  DisparityPlane half(view.width / 2, view.height / 2);
+  for (int y = 0; y < half.height; ++y) {
+    for (int x = 0; x < half.width; ++x) {
+      half(x, y) = 1 + view(2 * x, 2 * y) + view(2 * x + 1, 2 * y) + view(2 * x, 2 * y + 1) +
+                   view(2 * x + 1, 2 * y + 1);
+    }
+  }
+  return half;
+}
+
+/// 8 quarters of a gray value, less if the standard deviation is below 40, at least twice the
+/// noise.
+inline int flat_step(const DisparityPlane& half, float noise) {
+  double sum = 0, squares = 0;
+  for (const int gray : half.pixels) {
+    sum += gray - 1;
+    squares += (gray - 1.0) * (gray - 1.0);
+  }
+  const double count = static_cast<double>(half.pixels.size());
+  const double variance = squares / count - sum / count * (sum / count);
+  const double deviation = std::sqrt(std::max(variance, 0.0)) / 4;
+  const int step = static_cast<int>(std::round(8 * std::min(1.0, deviation / 40)));
+  return std::max(step, static_cast<int>(2 * noise));
+}
+
+using Pixels = std::vector<std::pair<int, int>>;  ///< columns and rows
+
+/// The areas of at least 75 pixels, each from top to bottom and from left to right.
+inline std::vector<Pixels> flat_areas(const DisparityPlane& half, int step) {
+  std::vector<Pixels> areas;
+  GrayPlane seen(half.width, half.height);
+  for (int y = 0; y < half.height; ++y) {
+    for (int x = 0; x < half.width; ++x) {
+      if (seen(x, y) != 0) continue;
+      Pixels area = flood(half, step, {x, y}, seen);
+      if (area.size() < 75) continue;
+      std::sort(area.begin(), area.end(), [](auto a, auto b) {
+        return std::pair{a.second, a.first} < std::pair{b.second, b.first};
+      });
+      areas.push_back(std::move(area));
+    }
+  }
+  return areas;
+}
+
+struct PlaneVote {
+  float x, y, disparity;
+  int weight;
+};
+
+/// At most 1500 of the pixels with a confidence above 60; none if no pixel has one below 100 or if
+/// fewer than 12 have one above 60.
+inline std::vector<PlaneVote> plane_votes(const Pixels& area, const ConfidentMap& in) {
+  std::vector<PlaneVote> all;
+  bool doubted = false;
+  for (const auto& [x, y] : area) {
+    const int confidence = in.confidence(2 * x, 2 * y);
+    doubted = doubted || confidence < 100;
+    if (confidence <= 60) continue;
+    all.push_back({2.0F * static_cast<float>(x), 2.0F * static_cast<float>(y),
+                   static_cast<float>(in.map(2 * x, 2 * y)) / 256, confidence - 60});
+  }
+  if (!doubted || all.size() < 12) return {};
+  const std::size_t taken = std::min<std::size_t>(all.size(), 1500);
+  std::vector<PlaneVote> votes;
+  for (std::size_t i = 0; i < taken; ++i) votes.push_back(all[i * all.size() / taken]);
+  return votes;
+}
+
+struct VotedPlane {
+  float a = 0, b = 0, c = 0;
+  float at(float x, float y) const { return a * x + b * y + c; }
+  bool fits(const PlaneVote& vote) const {
+    return std::abs(at(vote.x, vote.y) - vote.disparity) <= std::max(1.0F, 0.02F * vote.disparity);
+  }
+};
+
+inline int agreeing(const std::vector<PlaneVote>& votes, const VotedPlane& plane) {
+  int weight = 0;
+  for (const PlaneVote& vote : votes) weight += plane.fits(vote) ? vote.weight : 0;
+  return weight;
+}
+
+/// The plane through three votes if it is not too steep and they are not in a line.
+inline bool plane_through(const PlaneVote& u, const PlaneVote& v, const PlaneVote& w,
+                          VotedPlane& plane) {
+  const float spread = (v.x - u.x) * (w.y - u.y) - (w.x - u.x) * (v.y - u.y);
+  if (std::abs(spread) < 100) return false;
+  const float z1 = v.disparity - u.disparity, z2 = w.disparity - u.disparity;
+  plane.a = (z1 * (w.y - u.y) - z2 * (v.y - u.y)) / spread;
+  plane.b = ((v.x - u.x) * z2 - (w.x - u.x) * z1) / spread;
+  plane.c = u.disparity - plane.a * u.x - plane.b * u.y;
+  return std::abs(plane.a) <= 0.5F && std::abs(plane.b) <= 1;
+}
+
+/// The best of 40 planes, the first 10 of which are level.
+inline VotedPlane voted_plane(const std::vector<PlaneVote>& votes) {
+  VotedPlane best;
+  int most = -1;
+  std::uint32_t state = 20;
+  const auto any = [&]() -> const PlaneVote& {
+    state = state * 1664525 + 1013904223;
+    return votes[std::uint64_t{state} * votes.size() >> 32];
+  };
+  for (int trial = 0; trial < 40; ++trial) {
+    const PlaneVote& u = any();
+    const PlaneVote& v = any();
+    const PlaneVote& w = any();
+    VotedPlane plane = {0, 0, u.disparity};
+    if (trial >= 10 && !plane_through(u, v, w, plane)) continue;
+    if (agreeing(votes, plane) <= most) continue;
+    most = agreeing(votes, plane);
+    best = plane;
+  }
+  return best;
+}
+
+/// Weighted least squares of the votes that agree; a slope of 1 costs as much as 5 px of each vote.
+inline VotedPlane least_squares(const std::vector<PlaneVote>& votes, const VotedPlane& plane) {
+  double w = 0, x = 0, y = 0, d = 0, xx = 0, xy = 0, yy = 0, xd = 0, yd = 0;
+  for (const PlaneVote& vote : votes) {
+    if (!plane.fits(vote)) continue;
+    const double weight = vote.weight, vx = vote.x, vy = vote.y, vd = vote.disparity;
+    w += weight;
+    x += weight * vx;
+    y += weight * vy;
+    d += weight * vd;
+    xx += weight * vx * vx;
+    xy += weight * vx * vy;
+    yy += weight * vy * vy;
+    xd += weight * vx * vd;
+    yd += weight * vy * vd;
+  }
+  if (w == 0) return plane;
+  xx += 25 * w - x * x / w;
+  yy += 25 * w - y * y / w;
+  xy -= x * y / w;
+  xd -= x * d / w;
+  yd -= y * d / w;
+  const double det = xx * yy - xy * xy;
+  const double a = (xd * yy - yd * xy) / det, b = (yd * xx - xd * xy) / det;
+  return {static_cast<float>(a), static_cast<float>(b),
+          static_cast<float>((d - a * x - b * y) / w)};
+}
+
+/// Gives the doubted pixels of one area the plane on which half of the votes agree.
+inline void complete_area(const Pixels& area, const ConfidentMap& in, ConfidentMap& out) {
+  const std::vector<PlaneVote> votes = plane_votes(area, in);
+  if (votes.empty()) return;
+  VotedPlane plane = voted_plane(votes);
+  for (int i = 0; i < 2; ++i) plane = least_squares(votes, plane);
+  float least = 1e9F, most = -1e9F;
+  long all = 0;
+  for (const PlaneVote& vote : votes) {
+    all += vote.weight;
+    if (!plane.fits(vote)) continue;
+    least = std::min(least, vote.disparity - 4);
+    most = std::max(most, vote.disparity + 4);
+  }
+  if (2L * agreeing(votes, plane) < all) return;
+  const int width = in.map.width, height = in.map.height;
+  for (const auto& [half_x, half_y] : area) {
+    // The last pixel of a halved row or column stands for three of an odd size.
+    const int end_x = half_x == width / 2 - 1 ? width : 2 * half_x + 2;
+    const int end_y = half_y == height / 2 - 1 ? height : 2 * half_y + 2;
+    for (int y = 2 * half_y; y < end_y; ++y) {
+      for (int x = 2 * half_x; x < end_x; ++x) {
+        if (in.confidence(x, y) >= 100) continue;
+        const float disparity = plane.at(static_cast<float>(x), static_cast<float>(y));
+        const float limited = std::min(std::max(disparity, least), most);
+        out.map(x, y) = std::max(1, static_cast<int>(std::lround(limited * 256)));
+      }
+    }
+  }
+}
+
+/// Gives the doubted pixels of the left view's flat areas the planes of the believed ones.
+inline ConfidentMap complete_flat_areas(const GrayPlane& left, float noise,
+                                        const ConfidentMap& in) {
+  ConfidentMap out = in;
+  const DisparityPlane half = halved_sums(left);
+  if (half.pixels.empty()) return out;
+  for (const Pixels& area : flat_areas(half, flat_step(half, noise))) complete_area(area, in, out);
+  return out;
+}
+
+}  // namespace mtstereo::reference
