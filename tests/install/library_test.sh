@@ -4,7 +4,7 @@
 # Installs the build to a temporary folder, builds a program against that folder with pkg-config
 # alone, runs it, and checks the exported names of the library.
 #
-# CPP_STANDARDS has the standards of the language to compile for.
+# CPP_STANDARDS has the standards of the language to compile for, MTSTEREO_SOURCE the folder of the sources.
 #
 # usage: library_test.sh PROGRAM.cpp VERSION PREFIX LIBRARY_FOLDER INSTALL_TO BUILD MESON -- COMPILER...
 set -eu
@@ -66,6 +66,46 @@ output=$(LD_LIBRARY_PATH="$library_path${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" "$
 echo "the program printed: $output"
 [ "${output%% *}" = "$version" ] || fail "the program prints another version: $output"
 [ "${output##* }" -gt 500 ] || fail "the program found too few pixels: $output"
+
+# The same program by CMake.
+if command -v cmake >/dev/null; then
+  mkdir "$root/by-cmake"
+  cp "$program" "$root/by-cmake/program.cpp"
+  cat >"$root/by-cmake/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.18)
+project(user CXX)
+find_package(mtstereo ${version%.*} REQUIRED)
+add_executable(user program.cpp)
+target_link_libraries(user mtstereo::mtstereo)
+find_package(mtstereo $((${version%%.*} + 1)).0 QUIET)
+if(mtstereo_FOUND)
+  message(FATAL_ERROR "another version is accepted")
+endif()
+END
+  if ! { cmake -S "$root/by-cmake" -B "$root/by-cmake/build" -Dmtstereo_DIR="$library_path/cmake/mtstereo" &&
+    cmake --build "$root/by-cmake/build"; } >"$root/cmake.log" 2>&1; then
+    cat "$root/cmake.log"
+    fail "CMake does not build the program"
+  fi
+  [ "$("$root/by-cmake/build/user")" = "$output" ] || fail "the program by CMake prints something else"
+else
+  echo "skipped: there is no cmake for the CMake package"
+fi
+
+# A Meson project that has the sources as its subproject finds the dependency.
+mkdir -p "$root/by-meson/subprojects"
+ln -s "$MTSTEREO_SOURCE" "$root/by-meson/subprojects/mtstereo"
+cp "$program" "$root/by-meson/program.cpp"
+cat >"$root/by-meson/meson.build" <<'END'
+project('user', 'cpp', default_options: ['cpp_std=c++20'])
+parts = ['gst=disabled', 'programs=disabled', 'python=disabled', 'tools=disabled', 'tests=disabled']
+executable('user', 'program.cpp', dependencies: dependency('mtstereo', fallback: 'mtstereo', default_options: parts))
+END
+if ! PKG_CONFIG_PATH='' PKG_CONFIG_SYSROOT_DIR='' "$meson" setup "$root/by-meson/build" "$root/by-meson" \
+  >"$root/meson.log" 2>&1 || ! grep -q "mtstereo *: YES" "$root/meson.log"; then
+  cat "$root/meson.log"
+  fail "a project with the sources as its subproject is not configured"
+fi
 
 # A program that was linked against x.y.z runs with every later x.y.* and with no other x.y.
 library=$library_path/libmtstereo.so
