@@ -113,8 +113,7 @@ class PythonMatcher {
     if (getpid() == process_) return *matcher_;
     throw std::runtime_error(
         "this Matcher was made before the process was forked, and its threads are in the other "
-        "one: make a "
-        "Matcher in each process");
+        "one: make a Matcher in each process");
   }
 
   std::unique_ptr<Exclusive<Matcher>> matcher_;
