@@ -5,7 +5,7 @@
 #
 # Options:
 #   --packages DIR  test the packages in this folder, and build none
-#   --out DIR       keep the packages that are built in this folder
+#   --out DIR       keep the packages that are built in this new folder
 #   --twice         build a second time, in another folder with other settings, and compare the packages
 #   --if-asked      for `meson test`: is skipped (status 77) unless MTSTEREO_PACKAGES is set and the tools are there
 #
@@ -43,6 +43,7 @@ while [ $# -gt 0 ]; do
   shift
 done
 
+[ -z "$out" ] || [ ! -e "$out" ] || { echo "run.sh: $out exists: name a folder that does not exist" >&2 && exit 2; }
 missing=$(what_is_missing)
 [ -z "$missing" ] || { echo "run.sh: not run: $missing" >&2 && exit "$skip_status"; }
 enter_own_mounts "${arguments[@]}"
