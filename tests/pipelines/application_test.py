@@ -8,24 +8,13 @@ import subprocess
 import tempfile
 import unittest
 
-from support import BUILD, SOURCE, make_clip, make_videos, require, run
+from support import BUILD, CALIBRATION, SOURCE, make_clip, make_videos, require, run
 
 PAGE = SOURCE / "docs/application.md"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PYTHON = "/usr/bin/python3"
 FRAMES = 8
 FOCAL_TIMES_BASELINE = 13.6  # of the rendered room at 160 px [px m]
-
-CALIBRATION = """%YAML 1.0
----
-image_size: [ 160, 120 ]
-K1: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
-D1: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
-K2: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
-D2: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
-R: { rows: 3, cols: 3, dt: d, data: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ] }
-T: { rows: 3, cols: 1, dt: d, data: [ -0.1, 0, 0 ] }
-"""
 
 # Appended to the program that reads results: every format gives the same.
 CHECK_OF_RESULTS = """

@@ -16,7 +16,7 @@ import tempfile
 import unittest
 
 from network_support import is_receiver, is_sender, receive, send
-from support import BUILD, SOURCE, make_clip, make_videos, require, run
+from support import BUILD, CALIBRATION, SOURCE, make_clip, make_videos, require, run
 
 DOCUMENTS = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md")),
              *sorted((SOURCE / "docs/elements").glob("*.md"))]
@@ -87,18 +87,6 @@ def make_data_sets(folder):
         for n in range(2):
             shutil.copy(folder / side / f"{n:06d}.png", pictures / f"{n + 1:04d}.png")
             shutil.copy(folder / f"clip/truth/{n:06d}.pfm", truth / f"{n + 1:04d}.pfm")
-
-
-CALIBRATION = """%YAML 1.0
----
-image_size: [ 160, 120 ]
-K1: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
-D1: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
-K2: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
-D2: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
-R: { rows: 3, cols: 3, dt: d, data: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ] }
-T: { rows: 3, cols: 1, dt: d, data: [ -0.1, 0, 0 ] }
-"""
 
 
 def prepare(folder):

@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-from support import SOURCE, make_clip, make_videos, require, run
+from support import CALIBRATION, SOURCE, make_clip, make_videos, require, run
 
 PAGE = SOURCE / "docs/python.md"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -20,17 +20,6 @@ if "MODULE_FOLDER" not in os.environ:
     sys.exit(77)
 os.environ["PYTHONPATH"] = os.environ["MODULE_FOLDER"]
 PYTHON = os.environ["MODULE_PYTHON"]
-
-CALIBRATION = """%YAML 1.0
----
-image_size: [ 160, 120 ]
-K1: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
-D1: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
-K2: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
-D2: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
-R: { rows: 3, cols: 3, dt: d, data: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ] }
-T: { rows: 3, cols: 1, dt: d, data: [ -0.1, 0, 0 ] }
-"""
 
 # Appended to the first program: the images have the disparities.
 CHECK_OF_IMAGES = """

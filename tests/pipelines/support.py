@@ -17,6 +17,18 @@ RENDER = BUILD / "pipelines/tools/render/mtstereo-render"
 COMPARE = BUILD / "pipelines/tools/compare/mtstereo-compare"
 CENTER = BUILD / "pipelines/examples/depth-of-center"
 
+# Two cameras with lenses that distort, for clips of the size of make_clip().
+CALIBRATION = """%YAML 1.0
+---
+image_size: [ 160, 120 ]
+K1: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
+D1: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
+K2: { rows: 3, cols: 3, dt: d, data: [ 136, 0, 79.5, 0, 136, 59.5, 0, 0, 1 ] }
+D2: { rows: 1, cols: 4, dt: d, data: [ -0.02, 0.01, 0, 0 ] }
+R: { rows: 3, cols: 3, dt: d, data: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ] }
+T: { rows: 3, cols: 1, dt: d, data: [ -0.1, 0, 0 ] }
+"""
+
 
 class Outcome:
     """The exit status and the outputs of a command."""

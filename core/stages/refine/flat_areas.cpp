@@ -16,11 +16,6 @@ void for_each_run(const SpeckleRuns& runs, Body&& body) {
   }
 }
 
-std::uint32_t root_of(const SpeckleRuns& runs, std::uint32_t run) {
-  while ((runs.link[run] & kRootRun) == 0) run = runs.link[run];
-  return run;
-}
-
 }  // namespace
 
 void GrayTotals::add(const GrayTotals& other) {

@@ -210,6 +210,11 @@ void join_bands(const Image<std::int32_t>& map, std::int32_t tolerance, int band
   for (int y = band; y < runs.height; y += band) join_rows(map, tolerance, y, runs);
 }
 
+std::uint32_t root_of(const SpeckleRuns& runs, std::uint32_t run) {
+  while (!is_root(runs.link[run])) run = runs.link[run];
+  return run;
+}
+
 void remove_small(const SpeckleRuns& runs, int size, int y0, int y1, Image<std::int32_t>& map,
                   Image<std::uint8_t>* area) {
   const std::uint32_t* link = runs.link.data();
@@ -220,8 +225,7 @@ void remove_small(const SpeckleRuns& runs, int size, int y0, int y1, Image<std::
     std::uint8_t* weights = area != nullptr ? area->row(y) : nullptr;
     if (weights != nullptr) std::fill_n(weights, runs.width, std::uint8_t{0});
     for (std::uint32_t i = runs.first[y]; i < runs.last[y]; ++i) {
-      std::uint32_t root = i;  // no path halving here, since other bands read the links
-      while (!is_root(link[root])) root = link[root];
+      const std::uint32_t root = root_of(runs, i);
       if (link[root] < enough) {
         std::fill(row + runs.begin[i], row + runs.end[i], kNoDisparity);
       } else if (weights != nullptr) {

@@ -52,6 +52,9 @@ void find_runs(const Image<std::int32_t>& map, std::int32_t tolerance, int y0, i
 void join_bands(const Image<std::int32_t>& map, std::int32_t tolerance, int band,
                 SpeckleRuns& runs);
 
+/// The root of the run's component. Changes nothing, so that several threads may call it.
+std::uint32_t root_of(const SpeckleRuns& runs, std::uint32_t run);
+
 /// Share of a map's pixels from which on a component has full weight: 1 / kFullArea.
 inline constexpr int kFullArea = 10;
 
