@@ -1,15 +1,16 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# Compares the library's ABI with that of the last release, which libmtstereo.abi describes. They may
-# differ only if the soname does: docs/quality.md.
+# Compares a library's ABI with that of the last release, which libmtstereo.abi or libmtstereo-geometry.abi
+# describes. They may differ only if the soname does: docs/quality.md.
 #
 # usage: abi_test.sh LIBRARY LIBRARY_WITH_DEBUG_INFORMATION HEADER_FOLDER SONAME
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 
 library=$1 debug_library=$2 headers=$3 soname=$4
-released=$here/libmtstereo.abi
+name=${soname%.so.*}
+released=$here/$name.abi
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -24,19 +25,19 @@ sorted() {
 
 "$here/describe.sh" "$debug_library" "$headers" >"$work/current.abi" || fail "abidw"
 
-# The description is complete: the library with debug information is made from core_api_sources alone.
+# The description is complete: the library with debug information is made from the sources of the API alone.
 nm -D --defined-only "$library" | awk '$2 == "T" { print $3 }' | sorted >"$work/exported"
 [ -s "$work/exported" ] || fail "$library exports no function"
 sed -n "s/.* elf-symbol-id='\([^']*\)'.*/\1/p" "$work/current.abi" | sorted >"$work/described"
 missing=$(LC_ALL=C comm -23 "$work/exported" "$work/described" | c++filt)
 [ -z "$missing" ] || fail "the ABI description lacks functions that the library exports. Add the source
-files that define them to core_api_sources in core/meson.build:
+files that define them to core_api_sources (core/meson.build) or geometry_api_sources (core/geometry/meson.build):
 $missing"
 
 released_soname=$(sed -n "1s/.* soname='\([^']*\)'.*/\1/p" "$released")
 case $released_soname in
-  libmtstereo.so.*) ;;
-  *) fail "libmtstereo.abi has no soname" ;;
+  "$name".so.*) ;;
+  *) fail "$name.abi has no soname" ;;
 esac
 if [ "$released_soname" != "$soname" ]; then
   newest=$(printf '%s\n' "$released_soname" "$soname" | sort -V | tail -n 1)
