@@ -126,6 +126,29 @@ class Release(unittest.TestCase):
         for name in ("index.html", "docs/quickstart.html", "api/index.html", "search/search_index.js"):
             self.assertIn(f"mtstereo-{self.version}-site/{name}", names)
 
+    def replace_builder(self, text):
+        """Replaces the script that builds the packages, and what says whether it can."""
+        (self.repository / "tests/packages/rooms.sh").write_text("what_is_missing() { :; }\n")
+        builder = self.repository / "tests/packages/run.sh"
+        builder.write_text("#!/bin/sh\n" + text)
+        builder.chmod(0o755)
+        run(["git", "add", "-A"], self.repository)
+        self.assertEqual(run(["git", *AUTHOR, "commit", "-qm", "builder"], self.repository).returncode, 0)
+
+    def test_the_packages_are_those_of_the_commit(self):
+        self.replace_builder('echo "$1 $2"; mkdir "$3"; git -C "${0%/*}" rev-parse HEAD >"$3/a.deb"\n')
+        done = self.release(self.out, "--without", "site", "--without", "abi")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("--twice --out\n", done.stdout)
+        self.assertEqual((self.out / "a.deb").read_text(), run(["git", "rev-parse", "HEAD"], self.repository).stdout)
+        self.assertIn("  a.deb\n", (self.out / "SHA256SUMS").read_text())
+
+    def test_a_part_that_fails_leaves_nothing(self):
+        self.replace_builder("echo no compiler; exit 1\n")
+        done = self.release(self.out, "--without", "site", "--without", "abi")
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (1, "no compiler"))
+        self.assertFalse(self.out.exists())
+
     def test_parts_without_their_tools_are_named(self):
         programs = self.folder / "programs"
         programs.mkdir()
