@@ -19,6 +19,7 @@
 #include "recordings/clocks/motion_signature.hpp"
 #include "recordings/clocks/row_clock.hpp"
 #include "recordings/clocks/row_matches.hpp"
+#include "recordings/clocks/undecided_clocks.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -56,9 +57,10 @@ struct Views {
 double seconds(Nanoseconds time) { return kNanoseconds * static_cast<double>(time); }
 
 [[noreturn]] void refuse(const Views& views, const std::string& reason) {
-  throw UserError(views.recording.name +
-                  ": the clocks of the recordings cannot be compared by the pictures: " + reason +
-                  "." + kByHand);
+  throw UndecidedClocks(views.recording.name +
+                            ": the clocks of the recordings cannot be compared by the pictures: " +
+                            reason + "." + kByHand,
+                        reason);
 }
 
 MotionSignature signature_of(const Source& source, const FrameIndex& index, double length) {

@@ -21,12 +21,12 @@ std::optional<Arrangement> arrangement_by_shape(int width, int height) {
   return std::nullopt;
 }
 
-cv::Mat half_of(const cv::Mat& frame, Arrangement arrangement, int number) {
+cv::Mat half_of(const cv::Mat& frame, Arrangement arrangement, int number, int width) {
   const bool beside = arrangement == Arrangement::kSideBySide;
   const cv::Size size(beside ? frame.cols / 2 : frame.cols, beside ? frame.rows : frame.rows / 2);
   const cv::Mat half = frame({number * (beside ? size.width : 0),
                               number * (beside ? 0 : size.height), size.width, size.height});
-  const double scale = std::min(1.0, static_cast<double>(kMatchedWidth) / size.width);
+  const double scale = std::min(1.0, static_cast<double>(width) / size.width);
   cv::Mat small;
   cv::resize(half, small, {}, scale, scale, cv::INTER_AREA);
   return small;
@@ -42,7 +42,8 @@ HalvesMatch match_halves(const std::vector<cv::Mat>& frames, Arrangement arrange
   ViewMatcher matcher;
   ViewMatch forward, backward;
   for (const cv::Mat& frame : frames) {
-    const cv::Mat first = half_of(frame, arrangement, 0), second = half_of(frame, arrangement, 1);
+    const cv::Mat first = half_of(frame, arrangement, 0, kMatchedWidth);
+    const cv::Mat second = half_of(frame, arrangement, 1, kMatchedWidth);
     const DisparityRange range{0, static_cast<int>(kRangeShare * first.cols)};
     const auto add = [&](const cv::Mat& a, const cv::Mat& b, ViewMatch& match) {
       matcher.add(left ? left->apply(a) : a, right ? right->apply(b) : b, range, match);

@@ -21,8 +21,8 @@ struct HalvesMatch {
   bool swapped = false;    ///< the first half is the right view
 };
 
-/// A half of a frame with both views, reduced to the width for ViewMatcher. `number`: 0 or 1.
-cv::Mat half_of(const cv::Mat& frame, Arrangement arrangement, int number);
+/// A half of a frame with both views, of at most this width [px]. `number`: 0 or 1.
+cv::Mat half_of(const cv::Mat& frame, Arrangement arrangement, int number, int width);
 
 /// Matches the halves of gray frames with each other, in both orders. With a calibration, they are
 /// rectified first. The order of views that are not rectified cannot be seen: they are not swapped.

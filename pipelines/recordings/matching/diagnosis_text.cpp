@@ -31,47 +31,56 @@ std::string frames(int number) {
          (number > 0 ? "later" : "earlier");
 }
 
-std::string turned(const ViewDiagnosis& found, const char* how) {
-  return std::string("One view is ") + how + ": after undoing this, " + comparison(found) +
-         ". Turn that camera's frames before, for example by ffmpeg or videoflip.";
+Advice turned(const ViewDiagnosis& found, const char* how) {
+  return {std::string("One view is ") + how + ": after undoing this, " + comparison(found) + ".",
+          "Turn that camera's frames before, for example by ffmpeg or videoflip."};
 }
 
-std::string out_of_step(const ViewDiagnosis& found, bool two) {
-  return "The two views were not taken at the same time: with the right view " +
-         frames(found.frames) + ", " + comparison(found) +
-         (two ? ". --sync auto finds the offset of two recorders." : ". Synchronize the cameras.");
+Advice out_of_step(const ViewDiagnosis& found, bool two) {
+  return {"The two views were not taken at the same time: with the right view " +
+              frames(found.frames) + ", " + comparison(found) + ".",
+          two ? "--sync auto finds the offset of two recorders." : "Synchronize the cameras."};
 }
 
-std::string not_rectified(const ViewDiagnosis& found, const std::string& calibration) {
-  return "The views are not rectified: " + rows(found) + ". " +
-         (calibration.empty() ? "Give the calibration of the cameras (--calibration FILE)."
-                              : "Rectify them by " + calibration + " (--rectified no).");
+Advice not_rectified(const ViewDiagnosis& found, const std::string& calibration) {
+  return {"The views are not rectified: " + rows(found) + ".",
+          calibration.empty() ? "Give the calibration of the cameras (--calibration FILE)."
+                              : "Rectify them by " + calibration + " (--rectified no)."};
 }
 
-std::string wrong_calibration(const ViewDiagnosis& found, const std::string& calibration) {
+Advice wrong_calibration(const ViewDiagnosis& found, const std::string& calibration) {
   const std::string reason = found.matched >= found.better
                                  ? "after the rectification " + rows(found)
                                  : "without the rectification " + comparison(found);
-  return "The calibration " + calibration + " does not fit these views: " + reason +
-         ". Give that of these cameras, lenses and video size (--calibration FILE).";
+  return {"The calibration " + calibration + " does not fit these views: " + reason + ".",
+          "Give that of these cameras, lenses and video size (--calibration FILE)."};
 }
 
-std::string range(const ViewDiagnosis& found) {
-  return "The search range is too small: in a larger one, " + comparison(found) +
-         ". --max-disparity " + std::to_string(found.max_disparity) + " suffices.";
+Advice range(const ViewDiagnosis& found) {
+  return {"The search range is too small: in a larger one, " + comparison(found) + ".",
+          "--max-disparity " + std::to_string(found.max_disparity) + " suffices."};
+}
+
+Advice unknown(const ViewDiagnosis& found, bool two) {
+  return {"Few points of the left view are found in the right one (" + percent(found.matched) +
+              "). Neither the other order, nor turned views, a larger range, or frames close in "
+              "time match better.",
+          std::string("Check that both views show the same scene") +
+              (two ? ", at the same time (--sync auto)." : ".")};
 }
 
 }  // namespace
 
-std::string diagnosis_text(const ViewDiagnosis& found, const std::string& calibration, bool two) {
+Advice diagnosis_advice(const ViewDiagnosis& found, const std::string& calibration, bool two) {
   switch (found.problem) {
     case ViewProblem::kNone:
-      return "";
+      return {};
     case ViewProblem::kTooLittleTexture:
-      return "The views have too little texture to check whether they belong together.";
+      return {"The views have too little texture to check whether they belong together.", ""};
     case ViewProblem::kSwapped:
-      return "The left and the right view are exchanged: in the other order, " + comparison(found) +
-             ". --swap exchanges them; leave it out if it is set.";
+      return {"The left and the right view are exchanged: in the other order, " +
+                  comparison(found) + ".",
+              "--swap exchanges them; leave it out if it is set."};
     case ViewProblem::kRangeTooSmall:
       return range(found);
     case ViewProblem::kUpsideDown:
@@ -87,14 +96,16 @@ std::string diagnosis_text(const ViewDiagnosis& found, const std::string& calibr
     case ViewProblem::kWrongCalibration:
       return wrong_calibration(found, calibration);
     case ViewProblem::kSameView:
-      return "Both views are the same picture: check the inputs.";
+      return {"Both views are the same picture.", "Check the inputs."};
     case ViewProblem::kUnknown:
       break;
   }
-  return "Few points of the left view are found in the right one (" + percent(found.matched) +
-         "). Neither the other order, nor turned views, a larger range, or frames close in time "
-         "match better. Check that both views show the same scene" +
-         (two ? ", at the same time (--sync auto)." : ".");
+  return unknown(found, two);
+}
+
+std::string diagnosis_text(const ViewDiagnosis& found, const std::string& calibration, bool two) {
+  const Advice advice = diagnosis_advice(found, calibration, two);
+  return advice.problem + (advice.remedy.empty() ? "" : " " + advice.remedy);
 }
 
 }  // namespace mtstereo::run

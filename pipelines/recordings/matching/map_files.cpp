@@ -58,14 +58,20 @@ double disparity_of(std::size_t value, const plugin::MapUnit& unit) {
   return static_cast<double>(value) / unit.scale + unit.offset;
 }
 
-// How many pixels have each value.
-std::vector<std::int64_t> count_values(GstSample* map) {
+// How many pixels have each value, without those of less confidence.
+std::vector<std::int64_t> count_values(GstSample* map, int least_confidence = 0) {
   const Frame frame(map);
+  GstSample* const rating = plugin::confidence_of(gst_sample_get_buffer(map));
+  std::optional<Frame> confidence;
+  if (least_confidence > 0 && rating != nullptr) confidence.emplace(rating);
   std::vector<std::int64_t> counts(kValues);
   const ImageView<const std::uint16_t> values = frame.values();
   for (int y = 0; y < values.height; ++y) {
     const std::uint16_t* row = values.row(y);
-    for (int x = 0; x < values.width; ++x) ++counts[row[x]];
+    const std::uint8_t* ratings = confidence ? confidence->bytes().row(y) : nullptr;
+    for (int x = 0; x < values.width; ++x) {
+      if (ratings == nullptr || ratings[x] >= least_confidence) ++counts[row[x]];
+    }
   }
   return counts;
 }
@@ -97,8 +103,8 @@ void measure_map(GstSample* map, FrameFigures& figures) {
   figures.median_disparity = value == 0 ? 0 : disparity_of(value, unit_of(map));
 }
 
-double disparity_below(GstSample* map, double share) {
-  const std::size_t value = value_below(count_values(map), share);
+double disparity_below(GstSample* map, double share, int least_confidence) {
+  const std::size_t value = value_below(count_values(map, least_confidence), share);
   return value == 0 ? 0 : disparity_of(value, unit_of(map));
 }
 
@@ -111,6 +117,27 @@ double share_from(GstSample* map, double disparity) {
     if (disparity_of(value, unit) >= disparity) beyond += counts[value];
   }
   return known > 0 ? static_cast<double>(beyond) / static_cast<double>(known) : 0;
+}
+
+std::optional<double> stated_errors(GstSample* map) {
+  constexpr int kFirstMatched = 16;                  // smaller values mark inferred disparities
+  constexpr double kEvenOdds = 64, kSteepness = 24;  // odds = e^((confidence - 64) / 24)
+  GstSample* const sample = plugin::confidence_of(gst_sample_get_buffer(map));
+  if (sample == nullptr) return std::nullopt;
+  const Frame frame(sample);
+  const GrayView confidence = frame.bytes();
+  std::int64_t pixels = 0;
+  double wrong = 0;
+  for (int y = 0; y < confidence.height; ++y) {
+    const std::uint8_t* row = confidence.row(y);
+    for (int x = 0; x < confidence.width; ++x) {
+      if (row[x] < kFirstMatched) continue;
+      wrong += 1 / (1 + std::exp((row[x] - kEvenOdds) / kSteepness));
+      ++pixels;
+    }
+  }
+  if (pixels == 0) return std::nullopt;
+  return wrong / static_cast<double>(pixels);
 }
 
 MapGeometry::MapGeometry(const Recording& recording) {

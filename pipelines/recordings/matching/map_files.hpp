@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "mtstereo/geometry/depth.hpp"
 #include "recordings/matching/piece.hpp"
@@ -19,9 +20,13 @@ void measure_map(GstSample* map, FrameFigures& figures);
 /// The share of the pixels with a disparity that have at least this one [0 .. 1].
 double share_from(GstSample* map, double disparity);
 
-/// The disparity [px] that a share of the known disparities of a map does not exceed. 0 without
-/// any.
-double disparity_below(GstSample* map, double share);
+/// The disparity [px] that a share of the known disparities of a map does not exceed: of those with
+/// at least this confidence, if the map has one. 0 without any.
+double disparity_below(GstSample* map, double share, int least_confidence = 0);
+
+/// The share of the matched disparities that are wrong by the odds that their confidence states, as
+/// it does with guide=pyramid [0 .. 1]. None for a map without any.
+std::optional<double> stated_errors(GstSample* map);
 
 /// What turns the disparities of maps into depths: from their caps, or from the calibration of a
 /// recording whose views are rectified.

@@ -54,11 +54,13 @@ GstPadProbeReturn MatchingRun::on_map(GstPad* pad, GstPadProbeInfo* /*info*/,
   auto& lane = *static_cast<Lane*>(self);
   GstStructure* stats = nullptr;
   g_object_get(GST_PAD_PARENT(pad), "stats", &stats, nullptr);
-  double milliseconds = 0;
-  gst_structure_get_double(stats, "last-ms", &milliseconds);
+  MapFigures figures;
+  gst_structure_get_double(stats, "last-ms", &figures.milliseconds);
+  gst_structure_get_double(stats, "fine-detail", &figures.fine_detail);
+  gst_structure_get_double(stats, "sharpness", &figures.sharpness);
   gst_structure_free(stats);
   const std::lock_guard lock(lane.mutex);
-  lane.times.push_back(milliseconds);
+  lane.figures.push_back(figures);
   return GST_PAD_PROBE_OK;
 }
 
@@ -81,12 +83,12 @@ SamplePointer MatchingRun::take(GstElement* sink) {
   }
 }
 
-double MatchingRun::Lane::next_time() {
+MatchingRun::MapFigures MatchingRun::Lane::next_figures() {
   const std::lock_guard lock(mutex);
-  if (times.empty()) return 0;
-  const double milliseconds = times.front();
-  times.pop_front();
-  return milliseconds;
+  if (figures.empty()) return {};
+  const MapFigures first = figures.front();
+  figures.pop_front();
+  return first;
 }
 
 std::optional<PairResult> MatchingRun::next() {
@@ -98,7 +100,10 @@ std::optional<PairResult> MatchingRun::next() {
   result.pair = static_cast<Nanoseconds>(time) / work_.period;
   if (result.pair <= last_)
     fail("a disparity map before that of pair " + std::to_string(last_) + " is missing");
-  result.matching_ms = lane.next_time();
+  const MapFigures figures = lane.next_figures();
+  result.matching_ms = figures.milliseconds;
+  result.fine_detail = figures.fine_detail;
+  result.sharpness = figures.sharpness;
   for (const Sink& sink : lane.sinks) {
     SamplePointer sample = take(sink.element.get());
     if (!sample || running_time(sample.get()) != time) {

@@ -20,6 +20,8 @@ namespace mtstereo::run {
 struct PairResult {
   std::int64_t pair = 0;
   double matching_ms = 0;
+  double fine_detail = 0;  ///< with resolution=auto: the detail of the views; 0: unknown
+  double sharpness = 0;    ///< of the left view / the right one in the last inspection; 0: unknown
   SamplePointer map;
   std::map<Product, SamplePointer> products;  ///< of the sinks of products
   SamplePointer view;                         ///< the left view, for clouds
@@ -50,13 +52,16 @@ class MatchingRun {
     std::optional<Product> product;  // none: the left view
     ElementPointer element;
   };
+  struct MapFigures {
+    double milliseconds = 0, fine_detail = 0, sharpness = 0;
+  };
   struct Lane {
     ElementPointer matcher, maps;
     std::vector<Sink> sinks;
     std::mutex mutex;
-    std::deque<double> times;  // of the matcher for the maps that have left it [ms]; mutex
+    std::deque<MapFigures> figures;  // of the maps that have left the matcher; mutex
 
-    double next_time();
+    MapFigures next_figures();
   };
   static GstPadProbeReturn on_map(GstPad* pad, GstPadProbeInfo* info, gpointer lane) noexcept;
   void add_lane(int number);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// prepare(): what decides the results of a recording.
+// What decides the results of a recording.
 
 #include <gst/video/video.h>
 
@@ -11,6 +11,7 @@
 
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/piece.hpp"
+#include "recordings/matching/prepare_pairs.hpp"
 #include "recordings/matching/range_search.hpp"
 #include "recordings/matching/view_correction.hpp"
 #include "recordings/matching/view_geometry.hpp"
@@ -130,8 +131,8 @@ void find_pairs(Work& work, const std::optional<ClockRelation>& relation, bool e
 
 }  // namespace
 
-Work prepare(const Recording& recording, const WorkOptions& options,
-             const std::optional<ClockRelation>& relation, bool estimate) {
+Work prepare_pairs(const Recording& recording, const WorkOptions& options,
+                   const std::optional<ClockRelation>& relation, bool estimate) {
   Work work;
   work.recording = recording;
   work.options = options;
@@ -143,6 +144,12 @@ Work prepare(const Recording& recording, const WorkOptions& options,
   if (!finds_range(options)) complete_options(work);
   find_pairs(work, relation, estimate);
   work.period = period_of(work);
+  return work;
+}
+
+Work prepare(const Recording& recording, const WorkOptions& options,
+             const std::optional<ClockRelation>& relation, bool estimate) {
+  Work work = prepare_pairs(recording, options, relation, estimate);
   if (finds_range(options)) {
     find_range(work);
     complete_options(work);

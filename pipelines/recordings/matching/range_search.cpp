@@ -9,8 +9,8 @@
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/map_files.hpp"
 #include "recordings/matching/matching_run.hpp"
-#include "recordings/matching/view_correction.hpp"
 #include "recordings/matching/view_geometry.hpp"
+#include "recordings/matching/view_inspection.hpp"
 #include "recordings/matching/work_options.hpp"
 
 namespace mtstereo::run {
@@ -20,6 +20,7 @@ constexpr const char* kName = "max-disparity";
 constexpr int kStep = 16;              // ranges are multiples of it [px]
 constexpr double kShare = 0.998;       // of the disparities of a pair: the others may be wrong
 constexpr double kMargin = 1.1;        // nearer things between the pairs that are matched
+constexpr int kReliable = 170;         // confidence
 constexpr double kLeastDensity = 0.1;  // of views that match
 
 // Half of the width: beyond it, most of a view has no counterpart.
@@ -41,16 +42,18 @@ Work inspected(const Work& work, int range) {
   return copy;
 }
 
-// What the samples show.
-struct Found {
-  int pairs = 0;       // that match
-  double largest = 0;  // [px]
-};
+}  // namespace
 
-Found inspect(const Work& work) {
+bool finds_range(const WorkOptions& options) {
+  return is_range_to_find(property_of(options, kName));
+}
+
+std::optional<FoundRange> search_range(const Work& work) {
+  const int widest_range = widest(work);
+  const Work searched = inspected(work, widest_range);
   const auto pairs = static_cast<std::int64_t>(work.pairs.pairs.size());
-  MatchingRun run(work, sample_pairs(pairs), map_pipeline(work), 1);
-  Found found;
+  MatchingRun run(searched, sample_pairs(pairs), map_pipeline(searched), 1);
+  FoundRange found;
   bool any = false;
   while (const std::optional<PairResult> result = run.next()) {
     any = true;
@@ -59,36 +62,37 @@ Found inspect(const Work& work) {
     if (figures.density < kLeastDensity) continue;
     const double largest = disparity_below(result->map.get(), kShare);
     found.largest = found.pairs == 0 ? largest : std::max(found.largest, largest);
+    found.reliable =
+        std::max(found.reliable, disparity_below(result->map.get(), kShare, kReliable));
     ++found.pairs;
   }
   if (!any) throw UserError(work.recording.name + ": " + run.damage());
+  if (found.pairs == 0) return std::nullopt;
+  const double needed = std::max(found.largest, 1.0) * kMargin;
+  found.max_disparity = std::min(static_cast<int>(std::ceil(needed / kStep)) * kStep, widest_range);
   return found;
 }
 
-}  // namespace
-
-bool finds_range(const WorkOptions& options) {
-  return is_range_to_find(property_of(options, kName));
+void set_range(Work& work, int max_disparity) {
+  auto& parameters = work.options.parameters;
+  std::erase_if(parameters, [](const auto& each) { return each.first == kName; });
+  parameters.emplace_back(kName, std::to_string(max_disparity));
 }
 
 void find_range(Work& work) {
-  auto& parameters = work.options.parameters;
-  std::erase_if(parameters, [](const auto& each) { return each.first == kName; });
-  const int range = widest(work);
-  const Found found = inspect(inspected(work, range));
-  if (found.pairs == 0) {
+  const std::optional<FoundRange> found = search_range(work);
+  if (!found) {
+    std::erase_if(work.options.parameters, [](const auto& each) { return each.first == kName; });
     work.remarks.emplace_back(
         "The range of disparities cannot be found: the views do not match. The default range is "
         "used; --max-disparity sets another one.");
     return;
   }
-  const double needed = std::max(found.largest, 1.0) * kMargin;
-  const int result = std::min(static_cast<int>(std::ceil(needed / kStep)) * kStep, range);
-  parameters.emplace_back(kName, std::to_string(result));
+  set_range(work, found->max_disparity);
   char text[160];
   std::snprintf(text, sizeof text,
                 "max-disparity is %d: 99.8 %% of the disparities in %d pairs are below %.1f px.",
-                result, found.pairs, found.largest);
+                found->max_disparity, found->pairs, found->largest);
   work.remarks.emplace_back(text);
 }
 

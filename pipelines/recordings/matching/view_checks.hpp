@@ -70,8 +70,15 @@ struct ViewDiagnosis {
 /// Finds what is wrong with views that match badly. Throws UserError.
 ViewDiagnosis diagnose(const ViewSamples& views);
 
-/// What to say about a diagnosis, with the remedy; empty for kNone. `calibration`: that of the
-/// recording, or empty. `two`: the views are in two sources whose clocks were not compared.
+/// What is wrong, and what to do about it: sentences for the user, or empty.
+struct Advice {
+  std::string problem, remedy;
+};
+
+/// What to say about a diagnosis; empty for kNone. `calibration`: that of the recording, or empty.
+/// `two`: the views are in two sources whose clocks were not compared.
+Advice diagnosis_advice(const ViewDiagnosis& diagnosis, const std::string& calibration, bool two);
+/// The same as one text.
 std::string diagnosis_text(const ViewDiagnosis& diagnosis, const std::string& calibration,
                            bool two);
 

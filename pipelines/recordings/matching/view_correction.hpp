@@ -5,8 +5,8 @@
 
 namespace mtstereo::run {
 
-/// The numbers of at most twelve of so many pairs, spread evenly over the recording.
-std::vector<std::int64_t> sample_pairs(std::int64_t pairs);
+/// Whether rows and sharpness are corrected: not with alignment=off, the default of preset paper.
+bool is_corrected(const WorkOptions& options);
 
 /// Measures the correction of the views on pairs from the whole recording, and sets
 /// Work::correction. What is wrong with the views becomes remarks. Throws UserError.
