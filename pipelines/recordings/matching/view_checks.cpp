@@ -6,6 +6,7 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
+#include "alignment/pair_inspection.hpp"
 #include "recordings/inputs/view_match.hpp"
 #include "recordings/inputs/view_rectifier.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 constexpr int kFewestCorners = 40;
 constexpr double kFactor = 2;                         // between shares that differ clearly
 constexpr double kStepFactor = 1.3, kStepGain = 0.1;  // the same, for views of other frames
+constexpr double kRowsGain = 0.03;                    // the same, if only those match along rows
 constexpr double kRangeFactor = 1.08;                 // the same, for a larger range
 constexpr double kBeyond = 0.05;                      // of the points: disparities beyond the range
 constexpr double kOutliers = 0.05;                    // of the rows, at each end
@@ -101,6 +103,12 @@ class Checks {
     result_.most_rows = scale * match.row_at(1 - kOutliers);
   }
 
+  // All rows differ alike, by more than is searched.
+  bool far_rows() const {
+    return std::min(std::abs(result_.least_rows), std::abs(result_.most_rows)) >
+           kSearchedRows * input_.scale;
+  }
+
   bool same_view() const {
     return std::all_of(input_.samples.begin(), input_.samples.end(), [](const ViewSample& s) {
       const double pixels = static_cast<double>(s.left.total());
@@ -140,8 +148,12 @@ class Checks {
       best = shifted;
       result_.frames = input_.samples.front().shifted[i].frames;
     }
-    return best.confirmed() && best.share() >= kStepFactor * now_.share() &&
-           best.share() >= now_.share() + kStepGain && claim(ViewProblem::kOutOfStep, best);
+    const bool clearly =
+        best.share() >= kStepFactor * now_.share() && best.share() >= now_.share() + kStepGain;
+    // Only views of the same time match along rows.
+    const bool by_rows = best.aligned() && wider_.confirmed() && !wider_.aligned() &&
+                         best.share() >= now_.share() + kRowsGain;
+    return best.confirmed() && (clearly || by_rows) && claim(ViewProblem::kOutOfStep, best);
   }
 
   bool find_range() {
@@ -177,7 +189,7 @@ class Checks {
       if (!clearly_better(raw, wider_)) continue;
       set_rows(raw, input_.scale * factor);
       if (input_.calibration) return claim(ViewProblem::kWrongCalibration, raw);
-      if (!raw.aligned()) return claim(ViewProblem::kNotRectified, raw);
+      if (!raw.aligned() || far_rows()) return claim(ViewProblem::kNotRectified, raw);
     }
     return false;
   }

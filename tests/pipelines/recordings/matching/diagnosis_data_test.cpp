@@ -173,15 +173,15 @@ TEST_F(RealViews, OfOtherCamerasDoNotFitTheCalibration) {
 TEST_F(RealViews, OutOfStepAreFoundByTheFramesAround) {
   const std::vector<fs::path> left = sorted(folder_ / "kitti_sequence/image_l"),
                               right = sorted(folder_ / "kitti_sequence/image_r");
-  for (const int late : {-2, -1, 1, 2}) {
+  for (const int late : {-2, -1, 0, 1, 2}) {
     ViewSamples samples = samples_of({"", left[8], right[8 + static_cast<std::size_t>(late)], 100});
     for (const int frames : {-3, -2, -1, 1, 2, 3}) {
       samples.samples[0].shifted.push_back(
           {frames, small(right[8 + static_cast<std::size_t>(late + frames)])});
     }
     const ViewDiagnosis found = diagnose(samples);
-    EXPECT_EQ(found.problem, ViewProblem::kOutOfStep) << late;
-    EXPECT_EQ(found.frames, -late);
+    EXPECT_EQ(found.problem, late == 0 ? ViewProblem::kNone : ViewProblem::kOutOfStep) << late;
+    EXPECT_TRUE(late == 0 || found.frames == -late) << late << ", " << found.frames;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "recordings/inputs/view_rectifier.hpp"
 #include "recordings/matching/view_checks.hpp"
 #include "recordings/support/rig_views.hpp"
 
@@ -109,6 +110,22 @@ TEST(SmallRange, IsFoundWithTheOneThatSuffices) {
   EXPECT_EQ(found.problem, ViewProblem::kRangeTooSmall) << ::testing::PrintToString(found);
   samples.max_disparity = found.max_disparity;
   EXPECT_EQ(diagnose(samples).problem, ViewProblem::kNone);
+}
+
+TEST(Rows, FarOffEverywhereAreNamed) {
+  const StereoCalibration rig = random_rig(1);
+  const RawViews raw = raw_views(rig, "garden");
+  const cv::Mat left = ViewRectifier(rig, Rectifier::Side::kLeft).apply(raw.left);
+  const cv::Mat right = ViewRectifier(rig, Rectifier::Side::kRight).apply(raw.right);
+  constexpr int kLower = 14;
+  cv::Mat lower(right.size(), CV_8U, cv::Scalar(0));
+  right.rowRange(0, right.rows - kLower).copyTo(lower.rowRange(kLower, right.rows));
+  ViewSamples samples = samples_of({left, lower}, rig);
+  samples.calibration.reset();
+  const ViewDiagnosis found = diagnose(samples);
+  EXPECT_EQ(found.problem, ViewProblem::kNotRectified) << ::testing::PrintToString(found);
+  EXPECT_NEAR(found.least_rows, kLower, 1);
+  EXPECT_NEAR(found.most_rows, kLower, 1);
 }
 
 // The moving scene; frames are 0.2 s apart.
