@@ -13,6 +13,7 @@
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/printable.hpp"
 #include "lib/outputs/user_error.hpp"
+#include "programs/run/check_command.hpp"
 #include "programs/run/cluster_commands.hpp"
 #include "programs/run/interruption.hpp"
 #include "programs/run/options.hpp"
@@ -85,6 +86,10 @@ int run(const Options& options) {
     print_list(recordings);
     for (const Problem& problem : problems) print_problem(problem);
     return problems.empty() ? kDone : kIncomplete;
+  }
+  if (options.check) {
+    for (const Problem& problem : problems) print_problem(problem);
+    return run_check_command(recordings, problems, options);
   }
   if (!options.plan && options.jobs == 1) return run_all(recordings, problems, options);
   const auto prepare = [&options](const Recording& recording) {

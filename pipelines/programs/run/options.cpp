@@ -185,6 +185,16 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
   add_limits(app, options.work, group);
 }
 
+void add_check(CLI::App& app, Options& options) {
+  CLI::Option* const check = app.add_flag(
+      "--check", options.check,
+      "measure some pairs, and print a page: what is wrong with the views, what to do, and which "
+      "density, errors and time to expect; --out is not needed, and gets a picture of the rows");
+  for (const char* const other : {"--resume", "--overwrite", "--list", "--jobs"}) {
+    check->excludes(app.get_option(other));
+  }
+}
+
 std::string value_name(const ParameterInfo& info) {
   if (info.type == ParameterType::kChoice) return info.choices;
   if (info.type == ParameterType::kBoolean) return "true|false";
@@ -288,6 +298,7 @@ std::string examples(bool plan) {
   }
   return "Examples:\n"
          "  mtstereo-run left.mp4 right.mp4 --out result\n"
+         "  mtstereo-run left.mp4 right.mp4 --check\n"
          "  mtstereo-run left.mp4 right.mp4 --max-disparity auto --sync auto --out result\n"
          "  mtstereo-run both.mp4 --calibration stereo.yaml --what depth,cloud --far 40 --out "
          "meters\n"
@@ -301,6 +312,8 @@ void describe(CLI::App& app, bool plan) {
   app.formatter(
       std::make_shared<HelpFormatter>(plan ? "mtstereo-run plan INPUT [INPUT] --out DIR [OPTIONS]"
                                            : "mtstereo-run INPUT [INPUT] --out DIR [OPTIONS]\n"
+                                             "       mtstereo-run INPUT [INPUT] --check "
+                                             "[OPTIONS]\n"
                                              "       mtstereo-run plan|task|merge ...    (archives "
                                              "on many machines; each has its own "
                                              "--help)"));
@@ -312,7 +325,8 @@ void describe(CLI::App& app, bool plan) {
       "Exit status: 0 = done, 1 = nothing was done (the reason is printed), 2 = invalid command, 3 "
       "= partly done (unusable or damaged inputs are printed), 4 = useless results: views "
       "exchanged, at different times or not rectified, or less than 5 % density (the remedy is "
-      "printed).");
+      "printed)" +
+      (plan ? "." : "; --check: a finding harms the results."));
 }
 
 }  // namespace
@@ -336,13 +350,14 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       ->type_name("N")
       ->capture_default_str();
   app.add_flag("--list", options.list, "print the recordings that are found, and exit");
-  if (options.plan) add_plan_options(app, options.plan_options);
+  options.plan ? add_plan_options(app, options.plan_options) : add_check(app, options);
   add_parameters(app, texts);
   try {
     // The parser sees the arguments after the name of the program.
     app.parse(options.plan ? argc - 1 : argc, options.plan ? std::next(argv) : argv);
     apply(texts, options);
-    if (options.folder.empty() && !options.list) throw CLI::RequiredError("--out");
+    if (options.folder.empty() && !options.list && !options.check)
+      throw CLI::RequiredError("--out");
   } catch (const CLI::ParseError& error) {
     const bool asked_for = error.get_exit_code() == 0;  // --help, --version
     outputs::print_parse_error(app, error);

@@ -22,6 +22,7 @@ struct Options {
   bool resume = false;
   bool overwrite = false;
   bool list = false;
+  bool check = false;
   bool quiet = false;
   /// Of resume and overwrite.
   Existing existing() const {
