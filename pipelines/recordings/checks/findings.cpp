@@ -22,6 +22,7 @@ constexpr double kRowsNote = 1, kRowsUncorrected = 0.5;   // RMS of the displace
 constexpr double kApartNote = 0.1, kApart = 0.4;          // of a frame
 constexpr double kHalfFrame = 0.55;                       // pairing by the times leaves less
 constexpr double kMostDeviation = 0.1;                    // of a frame: of a time that counts
+constexpr double kDroppedNote = 0.1;                      // of the frames of a view
 constexpr double kExposureNote = 1.4;                     // ratio of the mean gray values
 constexpr double kSharpnessHarm = 2;                      // ratio
 constexpr double kSaturatedNote = 0.2, kSaturated = 0.4;  // of the pixels
@@ -51,6 +52,7 @@ class Judge {
   std::vector<Finding> run() {
     judge_streams();
     judge_diagnosis();
+    judge_partners();
     if (!figures_.diagnosis.worthless()) {
       judge_times();
       judge_rows();
@@ -116,6 +118,7 @@ class Judge {
     }
     if (found.problem == ViewProblem::kOutOfStep) {
       const TimeFigures& times = figures_.times;
+      if (figures_.work.clocks) advice.remedy = "Check the offset of --sync.";
       advice.problem += times.measured ? " By the motion it is " + apart(times.apart) + "."
                                        : format(" That is about %.0f ms.",
                                                 1e3 * std::abs(found.frames) * period());
@@ -132,6 +135,19 @@ class Judge {
   double density() const {
     const ModeFigures* const usual = figures_.mode(kSemiDense);
     return usual != nullptr ? usual->density : figures_.inspection.density;
+  }
+
+  void judge_partners() {
+    const PairList& pairs = figures_.work.pairs;
+    const auto paired = static_cast<double>(pairs.pairs.size());
+    const auto dropped = static_cast<double>(std::max(pairs.dropped_left, pairs.dropped_right));
+    if (dropped <= kDroppedNote * (paired + dropped)) return;
+    add(false,
+        format("%lld left and %lld right frames have no partner at their time.",
+               static_cast<long long>(pairs.dropped_left),
+               static_cast<long long>(pairs.dropped_right)),
+        "Record both views from start to end at the same rate; recorders that lose frames need a "
+        "lower one.");
   }
 
   double period() const { return static_cast<double>(figures_.work.period) * 1e-9; }

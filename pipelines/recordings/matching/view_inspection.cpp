@@ -114,14 +114,17 @@ double RowExtremes::largest() const { return std::max(-least, most); }
 RowExtremes rows_of(const ViewInspection& inspection, ViewSize size) {
   const Result<RowField> parsed = RowField::parse(inspection.field);
   const RowField field = parsed.ok() ? *parsed : RowField{};
-  constexpr int kPoints = 5;
+  constexpr int kSteps = 4;
   RowExtremes extremes;
-  for (int i = 0; i < kPoints * kPoints; ++i) {
-    const double rows = field.displacement((size.width - 1.0) * (i % kPoints) / (kPoints - 1),
-                                           (size.height - 1.0) * (i / kPoints) / (kPoints - 1),
-                                           size.width, size.height);
-    extremes.least = i == 0 ? rows : std::min(extremes.least, rows);
-    extremes.most = i == 0 ? rows : std::max(extremes.most, rows);
+  for (int row = 0; row <= kSteps; ++row) {
+    for (int column = 0; column <= kSteps; ++column) {
+      const double x = (size.width - 1.0) * column / kSteps;
+      const double y = (size.height - 1.0) * row / kSteps;
+      const double rows = field.displacement(x, y, size.width, size.height);
+      const bool first = row == 0 && column == 0;
+      extremes.least = first ? rows : std::min(extremes.least, rows);
+      extremes.most = first ? rows : std::max(extremes.most, rows);
+    }
   }
   return extremes;
 }

@@ -103,6 +103,16 @@ TEST_F(Findings, NameTheFramesBetweenTheViews) {
   figures_.times.measured = true;
   figures_.times.apart = 0.06;
   expect(true, "By the motion it is 60 ms (1.80 frames) later", "--sync auto");
+  figures_.work.clocks.emplace();  // given by the user
+  expect(true, "By the motion it is 60 ms (1.80 frames) later", "Check the offset of --sync");
+}
+
+TEST_F(Findings, NoteFramesWithoutAPartner) {
+  figures_.work.pairs.pairs.resize(100);
+  figures_.work.pairs.dropped_left = 5;
+  expect_none();
+  figures_.work.pairs.dropped_right = 20;
+  expect(false, "5 left and 20 right frames have no partner", "at the same rate");
 }
 
 TEST_F(Findings, NoteATimeThatIsShortOrNotSure) {
