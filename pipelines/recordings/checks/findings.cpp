@@ -19,6 +19,7 @@ namespace {
 constexpr double kUselessDensity = 0.05;  // as mtstereo-run: less is of no use
 constexpr double kLowDensity = 0.3;
 constexpr double kRowsNote = 1, kRowsUncorrected = 0.5;   // RMS of the displacement [px]
+constexpr double kRowsSpread = 0.01;                      // of the width: from least to most
 constexpr double kApartNote = 0.1, kApart = 0.4;          // of a frame
 constexpr double kHalfFrame = 0.55;                       // pairing by the times leaves less
 constexpr double kMostDeviation = 0.1;                    // of a frame: of a time that counts
@@ -184,13 +185,25 @@ class Judge {
     const Result<RowField> field = RowField::parse(figures_.inspection.field);
     const double rms = field ? field->rms(size.width, size.height) : 0;
     const RowExtremes rows = rows_of(figures_.inspection, size);
-    const bool calibrated = !figures_.work.recording.rectified;
-    const std::string found = std::string(calibrated ? "After the rectification, the" : "The") +
-                              " rows of the right view are " + rows_text(rows);
+    const Recording& recording = figures_.work.recording;
+    const bool calibrated = !recording.rectified;
+    const std::string found = "rows of the right view are " + rows_text(rows);
     if (!figures_.corrected && rms >= kRowsUncorrected) {
-      add(true, found + ", and are not corrected.", "Set --alignment correct.");
+      add(true, "The " + found + ", and are not corrected.", "Set --alignment correct.");
+    } else if (rows.most - rows.least >= kRowsSpread * size.width) {
+      add(true,
+          (calibrated
+               ? "The calibration " + recording.calibration + " does not fit these views: the "
+               : "The views are not rectified: the ") +
+              found + ". Matching corrects rows, but depths are wrong.",
+          calibrated
+              ? "Give that of these cameras, lenses and video size, or calibrate again "
+                "(docs/cameras.md)."
+              : "Calibrate the cameras (docs/cameras.md), and give the file by --calibration.");
     } else if (rms >= kRowsNote) {
-      add(false, found + ": alignment=correct, the default, corrects the rows.",
+      add(false,
+          (calibrated ? "After the rectification, the " : "The ") + found +
+              ": alignment=correct, the default, corrects the rows.",
           calibrated ? "Calibrate again: depths may be wrong too (docs/cameras.md)."
                      : "Rectify the views by a calibration (--calibration FILE) for exact depths.");
     }

@@ -145,6 +145,15 @@ TEST_F(Findings, NoteRowsThatAreCorrected) {
   expect(false, "After the rectification, the rows", "Calibrate again");
 }
 
+TEST_F(Findings, HarmIfRowsDifferOverTheView) {
+  figures_.inspection.field = "0,4,0,0,0";
+  expect(true, "not rectified: the rows of the right view are 4.0 px higher to 4.0 px lower",
+         "Calibrate the cameras");
+  figures_.work.recording.rectified = false;
+  figures_.work.recording.calibration = "old.yml";
+  expect(true, "The calibration old.yml does not fit these views", "or calibrate again");
+}
+
 TEST_F(Findings, HarmIfRowsAreNotCorrected) {
   figures_.corrected = false;
   expect_none();
