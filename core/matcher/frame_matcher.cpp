@@ -102,7 +102,7 @@ FrameResult FrameMatcher::run_steps(const Observer& observer) {
 /// of fine detail, 0 if it is unknown.
 double FrameMatcher::choose_resolution(const FrameResult& result) {
   const DetailViews compared = {memory_.views.left, memory_.views.input[1], result.disparity,
-                                result.confidence, memory_.result.place.disparity_offset()};
+                                result.confidence, std::min(settings_.min_disparity, 0)};
   const Bands bands(*pool_, result.disparity.height);
   const std::optional<double> share = measure_detail(bands, compared).share();
   choice_.take(share);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "stages/refine/completion.hpp"
 #include "stages/refine/enlarging.hpp"
 #include "stages/refine/map_shift.hpp"
 
@@ -33,9 +34,9 @@ void Maps::resize(const Settings& settings, const FrameSize& size) {
 void ResultMaps::start(Maps& maps) {
   disparity = &maps.disparity;
   confidence = &maps.confidence;
-  place = {};
   fine_detail = kUnknownDetail;
   grid_level = 0;
+  block_side = kBlockSide;
 }
 
 void ResultMaps::resize(const Settings& settings, const FrameSize& size) {
@@ -131,14 +132,19 @@ void smooth(const StepContext& step, Maps& maps) {
   });
 }
 
-void enlarge(const StepContext& step, const Maps& maps, ResultMaps& result) {
+void complete_all(const Bands& bands, ResultMaps& result) {
+  bands.rows(
+      [&](int y0, int y1, int) { complete_rows(y0, y1, *result.disparity, *result.confidence); });
+  complete_empty_rows(*result.disparity, *result.confidence);
+}
+
+void enlarge(const StepContext& step, ResultMaps& result) {
   step.input_bands.rows([&](int y0, int y1, int) {
-    enlarge_rows(maps.disparity, step.settings.view_disparities, y0, y1, result.enlarged);
-    enlarge_confidence(maps.confidence, y0, y1, result.enlarged_confidence);
+    enlarge_rows(*result.disparity, step.settings.view_disparities, y0, y1, result.enlarged);
+    enlarge_confidence(*result.confidence, y0, y1, result.enlarged_confidence);
   });
   result.disparity = &result.enlarged;
   result.confidence = &result.enlarged_confidence;
-  result.place.scale = 2;
 }
 
 void refine(const StepContext& step, const Views& views, ResultMaps& result) {
@@ -158,8 +164,7 @@ void shift_result(const StepContext& step, ResultMaps& result) {
   });
   result.disparity = &result.shifted;
   result.confidence = &result.shifted_confidence;
-  result.place.column = least;
-  result.place.added = std::max(least, 0);
+  if (step.settings.keeps_all()) complete_all(step.input_bands, result);
 }
 
 }  // namespace mtstereo

@@ -12,7 +12,6 @@
 #include "stages/refine/clues.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/disparity_refinement.hpp"
-#include "stages/refine/map_place.hpp"
 #include "stages/refine/map_smoothing.hpp"
 #include "stages/refine/speckle_removal.hpp"
 #include "stages/refine/thin_chains.hpp"
@@ -50,9 +49,9 @@ struct Maps {
 struct ResultMaps {
   Image<std::int32_t>* disparity = nullptr;
   Image<std::uint8_t>* confidence = nullptr;
-  MapPlace place;                      ///< of the matched views in the result
   float fine_detail = kUnknownDetail;  ///< of the views, FineDetail::share()
   int grid_level = 0;                  ///< of the left view and the map, BlockGrid::level()
+  int block_side = kBlockSide;         ///< of the blocks of that level
 
   Image<std::int32_t> enlarged;
   Image<std::uint8_t> enlarged_confidence;
@@ -86,13 +85,17 @@ void threshold_support(const StepContext& step, Maps& maps);
 /// Smooths the map along each surface.
 void smooth(const StepContext& step, Maps& maps);
 
-/// Enlarges the map of halved views to the size of the input views.
-void enlarge(const StepContext& step, const Maps& maps, ResultMaps& result);
+/// Enlarges the result of halved views to the size of the input views.
+void enlarge(const StepContext& step, ResultMaps& result);
 
 /// Refines the enlarged map by the input views.
 void refine(const StepContext& step, const Views& views, ResultMaps& result);
 
-/// Undoes the shift of the views in the map.
+/// Gives all pixels without a disparity one.
+void complete_all(const Bands& bands, ResultMaps& result);
+
+/// Undoes the shift of the views in the map. In mode full, columns that only one shifted view has
+/// continue what is beside them.
 void shift_result(const StepContext& step, ResultMaps& result);
 
 }  // namespace mtstereo

@@ -25,7 +25,7 @@ std::string ways_to_save(const Settings& settings) {
   } else if (settings.refined()) {
     ways += ", or set resolution = half";
   }
-  if (!settings.census()) ways += ", or set cost = census, which needs no cost volume";
+  if (!settings.by_paths()) ways += ", or set cost = census, which needs no cost volume";
   return ways;
 }
 

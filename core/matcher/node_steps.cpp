@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "stages/nodes/disparity_drawing.hpp"
-#include "stages/refine/gap_filling.hpp"
 
 namespace mtstereo {
 
@@ -13,7 +12,7 @@ void Nodes::resize(const Settings& settings, const FrameSize& size) {
   const auto [width, height] = size.matched;
   for (int side = 0; side < 2; ++side) {
     preprocessed[side].resize(width, height);
-    if (!settings.census()) preprocessed[side].resize_costs(width, height);
+    preprocessed[side].resize_costs(width, height);
     trees[side].resize(width, height);
   }
   level_count = settings.node_levels.count;
@@ -25,15 +24,12 @@ void Nodes::resize(const Settings& settings, const FrameSize& size) {
   }
   ends.resize(leaves().left);
   if (settings.outlier_radius > 0) votes.resize(width, height, settings.outlier_radius);
-  if (settings.thin_objects && settings.max_gap > 0) foreground.resize(width, height);
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
     worker.median.resize(width);
     worker.sobel.resize(width);
     worker.intervals.resize(width);
     worker.match.resize(width, settings.disparities, settings.max_neighbors);
-    worker.marks.resize(width);
-    worker.columns.resize(Bands::kColumns);
   }
 }
 
@@ -41,10 +37,6 @@ void Costs::resize(const Settings& settings, const FrameSize& size) {
   const auto [width, height] = size.matched;
   if (settings.by_paths()) return;
   scratch.resize(size.threads);
-  if (settings.census()) {
-    for (Scratch& worker : scratch) worker.census.resize(width, settings.census_matching());
-    return;
-  }
   const int shift = settings.cost_volume == CostVolumeResolution::kHalf ? 1 : 0;
   if (kernel.empty() || kernel_size != settings.cost_kernel_size || kernel_shift != shift) {
     kernel = smoothing_kernel(settings.cost_kernel_size, shift);
@@ -67,7 +59,7 @@ void preprocess(const StepContext& step, const Views& views, Nodes& nodes) {
     PreprocessedView& view = nodes.preprocessed[side];
     SobelScratch& scratch = nodes.scratch[worker].sobel;
     level_rows(step.settings.gray_levels, y0, y1, scratch, view);
-    if (!step.settings.census()) cost_rows(view.median.view(), y0, y1, scratch, view);
+    cost_rows(view.median.view(), y0, y1, scratch, view);
   });
 }
 
@@ -120,25 +112,20 @@ void remove_outliers(const StepContext& step, VoteMap& votes, Image<std::int32_t
 
 }  // namespace
 
-void match_levels(const StepContext& step, const Views& views, const Costs& costs, Nodes& nodes) {
+void match_levels(const StepContext& step, const Costs& costs, Nodes& nodes) {
   const Settings& settings = step.settings;
   for (int i = 0; i < nodes.level_count; ++i) {
     prepare_level(step, i, nodes);
     NodeLevelMatches& level = nodes.levels[i];
-    const PairCostInput input = {nodes.trees[0],
-                                 nodes.trees[1],
-                                 level.left,
-                                 level.right,
-                                 settings.census() ? nullptr : &costs.volume,
-                                 &views.census,
-                                 settings.intensity_weight};
+    const PairCostInput input = {nodes.trees[0], nodes.trees[1], level.left,
+                                 level.right,    costs.volume,   settings.intensity_weight};
     // Nodes may concentrate in one part of the view: a row costs as much time as it has possible
     // pairs.
     const auto work = [&](int y) {
       return 1 + std::int64_t{level.left.count[y]} * level.right.count[y];
     };
     step.bands.rows_by_work(work, [&](int y0, int y1, int worker) {
-      match_nodes(input, level.intervals, settings.max_neighbors, settings.node_acceptance, y0, y1,
+      match_nodes(input, level.intervals, settings.max_neighbors, settings.node_confidence, y0, y1,
                   nodes.scratch[worker].match, level.matches);
       const bool leaves = i + 1 == nodes.level_count;
       if (leaves) take_match_ends(level.left, level.matches, y0, y1, nodes.ends);
@@ -168,14 +155,6 @@ void extrapolate(const StepContext& step, Nodes& nodes, Maps& maps) {
   });
 }
 
-void match_by_census(const StepContext& step, const Views& views, Costs& costs, Maps& maps) {
-  const CensusMatchingOptions options = step.settings.census_matching();
-  step.bands.rows_per_thread([&](int y0, int y1, int worker) {
-    match_pixels_by_census(views.matched[0], views.census[0], views.census[1], options, y0, y1,
-                           costs.scratch[worker].census, maps.disparity, maps.ratio);
-  });
-}
-
 void match_by_gradient(const StepContext& step, Costs& costs, Maps& maps) {
   const PixelMatchingOptions options = {step.settings.search_range, step.settings.selection};
   step.bands.rows([&](int y0, int y1, int worker) {
@@ -186,56 +165,6 @@ void match_by_gradient(const StepContext& step, Costs& costs, Maps& maps) {
 
 void remove_pixel_outliers(const StepContext& step, Nodes& nodes, Maps& maps) {
   remove_outliers(step, nodes.votes, maps.disparity);
-}
-
-void rate_node_confidence(const StepContext& step, Nodes& nodes, Maps& maps) {
-  const Settings& settings = step.settings;
-  step.bands.rows([&](int y0, int y1, int worker) {
-    copy_support(maps.disparity, maps.ratio, y0, y1, maps.support);
-    // Pixels that lose their disparity here still support others, but need no confidence.
-    if (settings.keeps_only_ends()) {
-      keep_leaf_ends(nodes.leaves().left, nodes.ends, settings.node_end_width, y0, y1,
-                     nodes.scratch[worker].marks, maps.disparity, maps.ratio);
-    }
-  });
-  threshold_support(step, maps);
-}
-
-/// Only small islands are left of some areas, with the disparities of highest confidence.
-void remove_islands(const StepContext& step, Maps& maps) {
-  constexpr int kSpeckleParts = 3;  // an island may be this much smaller than a speckle
-  remove_areas(step.bands, step.settings.speckle_size / kSpeckleParts, maps.speckles,
-               maps.disparity, nullptr);
-  step.bands.rows(
-      [&](int y0, int y1, int) { clear_unknown(maps.disparity, y0, y1, maps.confidence); });
-}
-
-void restore_thin_structures(const StepContext& step, Maps& maps) {
-  step.bands.rows([&](int y0, int y1, int) {
-    restore_thin(step.settings.min_confidence, y0, y1, maps.unfiltered, maps.disparity,
-                 maps.confidence);
-  });
-}
-
-void fill_gaps(const StepContext& step, Nodes& nodes, Maps& maps) {
-  const GapFilling gaps = {step.settings.max_gap, kDisparityOne};
-  step.bands.rows([&](int y0, int y1, int) {
-    fill_gaps_along_rows(gaps, y0, y1, maps.disparity, maps.confidence);
-  });
-  step.bands.columns(maps.disparity.width(), [&](int x0, int x1, int worker) {
-    fill_gaps_along_columns(gaps, x0, x1, nodes.scratch[worker].columns, maps.disparity,
-                            maps.confidence);
-  });
-}
-
-void check_foreground(const StepContext& step, Nodes& nodes, Maps& maps) {
-  step.bands.rows([&](int y0, int y1, int) {
-    mark_foreground(maps.disparity, maps.unfiltered, y0, y1, nodes.foreground);
-  });
-  step.bands.rows([&](int y0, int y1, int) {
-    clear_over_foreground(maps.unfiltered, nodes.foreground, y0, y1, maps.disparity,
-                          maps.confidence);
-  });
 }
 
 }  // namespace mtstereo

@@ -13,7 +13,6 @@
 #include "stages/nodes/node_levels.hpp"
 #include "stages/nodes/node_matching.hpp"
 #include "stages/nodes/outlier_removal.hpp"
-#include "stages/pixels/census_matching.hpp"
 #include "stages/pixels/pixel_matching.hpp"
 #include "stages/prepare/cost_volume.hpp"
 #include "stages/prepare/max_tree.hpp"
@@ -40,15 +39,12 @@ struct Nodes {
   int level_count = 0;                                   ///< number of levels in use
   LeafDisparities ends;                                  ///< of the leaves, the finest level
   VoteMap votes;                                         ///< for the removal of outliers
-  Image<std::uint8_t> foreground;                        ///< 1 where something nearer is in a gap
 
   struct Scratch {
     MedianScratch median;
     SobelScratch sobel;
     IntervalScratch intervals;
     MatchScratch match;
-    Buffer<std::uint8_t> marks;    ///< a row
-    Buffer<std::int32_t> columns;  ///< a block of columns
   };
   std::vector<Scratch> scratch;  ///< one for each thread
 
@@ -56,8 +52,7 @@ struct Nodes {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
-/// The costs of pixels: the cost volume (gradient cost), or a few rows of census costs in the
-/// scratch memory of each thread.
+/// The cost volume.
 struct Costs {
   SmoothingKernel kernel;
   int kernel_size = 0;   ///< the size [px] that the kernel was made for
@@ -66,7 +61,6 @@ struct Costs {
 
   struct Scratch {
     CostScratch volume;
-    CensusMatchingScratch census;
     PixelMatchingScratch gradient;
   };
   std::vector<Scratch> scratch;  ///< one for each thread
@@ -84,7 +78,7 @@ void build_trees(const StepContext& step, const Views& views, Nodes& nodes);
 void compute_cost_volume(const StepContext& step, const Nodes& nodes, Costs& costs);
 
 /// Matches the nodes of all levels, coarse to fine.
-void match_levels(const StepContext& step, const Views& views, const Costs& costs, Nodes& nodes);
+void match_levels(const StepContext& step, const Costs& costs, Nodes& nodes);
 
 /// Draws the matched leaves into the map.
 void draw_leaves(const StepContext& step, const Nodes& nodes, Maps& maps);
@@ -96,27 +90,10 @@ void remove_node_outliers(const StepContext& step, Nodes& nodes, Maps& maps);
 /// Gives leaves without a match the disparities of their neighbors and draws all leaves.
 void extrapolate(const StepContext& step, Nodes& nodes, Maps& maps);
 
-/// Match the pixels that the nodes guide, by one of the two costs.
-void match_by_census(const StepContext& step, const Views& views, Costs& costs, Maps& maps);
+/// Matches the pixels that the nodes guide.
 void match_by_gradient(const StepContext& step, Costs& costs, Maps& maps);
 
 /// Removes outliers from the map of the pixels.
 void remove_pixel_outliers(const StepContext& step, Nodes& nodes, Maps& maps);
-
-/// Rates the confidence and removes pixels of low confidence and, in mode sparse, those that are
-/// not at the ends of leaves.
-void rate_node_confidence(const StepContext& step, Nodes& nodes, Maps& maps);
-
-/// Removes small islands of areas whose other pixels had a low confidence.
-void remove_islands(const StepContext& step, Maps& maps);
-
-/// Gives pixels of thin structures their disparities back where the filters have removed them.
-void restore_thin_structures(const StepContext& step, Maps& maps);
-
-/// Fills small gaps in surfaces.
-void fill_gaps(const StepContext& step, Nodes& nodes, Maps& maps);
-
-/// Removes filled pixels where the matching had seen something nearer.
-void check_foreground(const StepContext& step, Nodes& nodes, Maps& maps);
 
 }  // namespace mtstereo

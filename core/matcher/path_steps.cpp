@@ -32,7 +32,7 @@ void Pyramid::resize(const Settings& settings, const FrameSize& size) {
   const ImageSize half = {half_of(reduced.width), half_of(reduced.height)};
   support.resize(half.width, half.height);
   confidence.resize(half.width, half.height);
-  rating.resize(half.width, half.height, half.width, size.threads);
+  rating.resize(half.width, half.height, size.threads);
   const auto prepare_scratch = [&](int level) {
     for (Scratch& worker : scratch) {
       worker.matching.resize(reduced.width, reduced.height, settings.path_matching(level));
@@ -112,8 +112,8 @@ void support_guide(const StepContext& step, Pyramid& pyramid) {
 
 RatedViews rated_guide_views(const Views& views, const Pyramid& pyramid) {
   const PyramidLevel& level = pyramid.levels[0];
-  return {level.views[0].view(), level.views[1].view(), 0, views.noise_level,
-          &pyramid.agreement,    kWindowTile / 2,       0};
+  return {level.views[0].view(), level.views[1].view(), views.noise_level, &pyramid.agreement,
+          kWindowTile / 2};
 }
 
 void rate_guide(const StepContext& step, const Views& views, Pyramid& pyramid) {

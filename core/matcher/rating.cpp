@@ -5,12 +5,12 @@
 
 namespace mtstereo {
 
-void Rating::resize(int width, int height, int widest, int threads) {
+void Rating::resize(int width, int height, int threads) {
   clues.resize(width, height);
   scratch.resize(threads);
   for (Scratch& worker : scratch) {
-    worker.clues.resize(widest);
-    worker.reliability.resize(widest);
+    worker.clues.resize(width);
+    worker.reliability.resize(width);
   }
 }
 

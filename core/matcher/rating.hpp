@@ -23,8 +23,7 @@ struct Rating {
   };
   std::vector<Scratch> scratch;  ///< one for each thread
 
-  /// For a map of this size, and for a map and a right view of at most this width.
-  void resize(int width, int height, int widest, int threads);
+  void resize(int width, int height, int threads);
 };
 
 /// Replaces the confidence of a complete map by its reliability.

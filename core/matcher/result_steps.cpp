@@ -29,13 +29,13 @@ static_assert(Bands::kRows % kStillBlock == 0 && kStillBlock == kTimeBlock);
 
 void ResultBuffers::resize(const Settings& settings, const FrameSize& size) {
   if (!settings.by_paths()) return;
-  const auto [width, height] = size.input;
-  edges.resize(width, height);
-  // With a negative min-disparity, the right view and the guide may be wider than the map.
-  rating.resize(width, height, std::max(width, size.frame.width), size.threads);
+  const auto [width, height] = size.matched;
+  const ImageSize aligned = settings.keeps_all() ? size.frame : size.matched;
+  edges.resize(aligned.width, aligned.height);
+  rating.resize(width, height, size.threads);
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
-    worker.edges.resize(width);
+    worker.edges.resize(aligned.width);
     worker.columns.resize(Bands::kColumns);
   }
   if (settings.keeps_likely_only()) islands.resize(width, height);
@@ -46,14 +46,14 @@ void ResultBuffers::resize(const Settings& settings, const FrameSize& size) {
 }
 
 void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps& result) {
-  const DetailViews compared = {views.left, views.input[1], result.disparity->view(),
-                                result.confidence->view(), result.place.disparity_offset()};
-  const std::optional<double> share = measure_detail(step.input_bands, compared).share();
+  const DetailViews compared = {views.plain[0], views.plain[1], result.disparity->view(),
+                                result.confidence->view(), 0};
+  const std::optional<double> share = measure_detail(step.bands, compared).share();
   if (share) result.fine_detail = static_cast<float>(*share);
 }
 
 void LastPair::resize(const Settings& settings, const FrameSize& size) {
-  const auto [width, height] = size.input;
+  const auto [width, height] = size.matched;
   const bool compares = settings.holds() && !settings.filters();
   const bool sized = disparity.width() == width && disparity.height() == height;
   if (settings.holds() && sized && compares == (view.width() > 0)) return;
@@ -62,55 +62,58 @@ void LastPair::resize(const Settings& settings, const FrameSize& size) {
   if (!settings.holds()) return;
   disparity.resize(width, height);
   least.resize(width, height);
+  still.resize(still_blocks(width), still_blocks(height));
   if (!compares) return;
   view.resize(width, height);
-  still.resize(still_blocks(width), still_blocks(height));
   noise.resize(width, height);
 }
 
 void measure_block_grid(const StepContext& step, const Views& views, ResultMaps& result,
                         ResultBuffers& buffers) {
-  const GridViews measured = {views.left, result.disparity->view(), result.confidence->view(),
-                              result.place.disparity_offset()};
-  for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grid = {};
-  step.input_bands.rows([&](int y0, int y1, int worker) {
+  const GridViews measured = {views.plain[0], result.disparity->view(), result.confidence->view(),
+                              step.settings.half() ? kHalvedBlockSide : kBlockSide};
+  for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grid = {measured.side};
+  step.bands.rows([&](int y0, int y1, int worker) {
     buffers.scratch[worker].grid.add(measure_grid(measured, y0, y1));
   });
-  BlockGrid grid;
+  BlockGrid grid = {measured.side};
   for (const ResultBuffers::Scratch& worker : buffers.scratch) grid.add(worker.grid);
   result.grid_level = grid.level();
+  result.block_side = measured.side;
 }
 
-void complete_map(const StepContext& step, ResultMaps& result) {
-  step.input_bands.rows(
-      [&](int y0, int y1, int) { complete_rows(y0, y1, *result.disparity, *result.confidence); });
-  complete_empty_rows(*result.disparity, *result.confidence);
-}
+void complete_map(const StepContext& step, ResultMaps& result) { complete_all(step.bands, result); }
 
-void align_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
-                     ResultBuffers& buffers) {
-  step.input_bands.rows([&](int y0, int y1, int) {
-    find_jumps(views.left, *result.disparity, y0, y1, buffers.edges);
+namespace {
+
+void align_edges_of(const Bands& bands, GrayView left_view, ResultMaps& result,
+                    ResultBuffers& buffers) {
+  bands.rows([&](int y0, int y1, int) {
+    find_jumps(left_view, *result.disparity, y0, y1, buffers.edges);
   });
-  step.input_bands.rows([&](int y0, int y1, int worker) {
+  bands.rows([&](int y0, int y1, int worker) {
     align_edges(buffers.edges, y0, y1, buffers.scratch[worker].edges, *result.disparity,
                 *result.confidence);
   });
 }
 
+}  // namespace
+
+void align_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
+                     ResultBuffers& buffers) {
+  align_edges_of(step.bands, views.plain[0], result, buffers);
+}
+
+void align_enlarged_edges(const StepContext& step, const Views& views, ResultMaps& result,
+                          ResultBuffers& buffers) {
+  align_edges_of(step.input_bands, views.input[0], result, buffers);
+}
+
 RatedViews rated_views(const Views& views, const Pyramid& pyramid, const ResultMaps& result) {
-  const MapPlace& place = result.place;
-  return {views.left,
-          views.input[1],
-          place.disparity_offset(),
-          views.rated_noise,
-          &pyramid.agreement,
-          kWindowTile * place.scale,
-          -place.column,
-          {&pyramid.levels[0].disparity, &pyramid.confidence, 2 * place.scale, -place.column,
-           place.added},
-          result.fine_detail,
-          result.grid_level};
+  return {
+      views.plain[0],     views.plain[1],    views.rated_noise,
+      &pyramid.agreement, kWindowTile,       {&pyramid.levels[0].disparity, &pyramid.confidence},
+      result.fine_detail, result.grid_level, result.block_side};
 }
 
 void calibrate_confidence(const StepContext& step, const Views& views, const Pyramid& pyramid,
@@ -118,13 +121,13 @@ void calibrate_confidence(const StepContext& step, const Views& views, const Pyr
   const Settings& settings = step.settings;
   const ReliabilityTable& table = kReliabilityTables[static_cast<int>(settings.rated_map())];
   const Inferred inferred = settings.keeps_inferred() ? Inferred::kLikeMatched : Inferred::kApart;
-  rate(step.input_bands, rated_views(views, pyramid, result), *result.disparity, table, inferred,
+  rate(step.bands, rated_views(views, pyramid, result), *result.disparity, table, inferred,
        buffers.rating, *result.confidence);
 }
 
 void correct_strip(const StepContext& step, ResultMaps& result) {
-  const int strip = result.place.column + step.settings.view_disparities;
-  step.input_bands.rows([&](int y0, int y1, int) {
+  const int strip = step.settings.disparities;
+  step.bands.rows([&](int y0, int y1, int) {
     correct_left_strip(strip, y0, y1, *result.disparity, *result.confidence);
   });
 }
@@ -133,10 +136,10 @@ void complete_flat_areas(const StepContext& step, const Views& views, ResultMaps
                          ResultBuffers& buffers) {
   FlatAreas& areas = buffers.areas;
   if (areas.gray.width() == 0 || areas.gray.height() == 0) return;
-  const Bands bands = step.input_bands.of_height(areas.gray.height());
+  const Bands bands = step.bands.of_height(areas.gray.height());
   for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grays = {};
   bands.rows([&](int y0, int y1, int worker) {
-    buffers.scratch[worker].grays.add(sum_grays(views.left, y0, y1, areas));
+    buffers.scratch[worker].grays.add(sum_grays(views.plain[0], y0, y1, areas));
   });
   GrayTotals grays;
   for (const ResultBuffers::Scratch& worker : buffers.scratch) grays.add(worker.grays);
@@ -148,18 +151,18 @@ void complete_flat_areas(const StepContext& step, const Views& views, ResultMaps
     fit_planes(areas, first, last, *result.disparity, *result.confidence,
                buffers.scratch[worker].votes, buffers.planes);
   });
-  step.input_bands.rows([&](int y0, int y1, int) {
+  step.bands.rows([&](int y0, int y1, int) {
     complete_planes(areas, buffers.planes, y0, y1, *result.confidence, *result.disparity);
   });
 }
 
 void compare_views(const StepContext& step, const Views& views, LastPair& last) {
-  const Bands& bands = step.input_bands;
-  bands.rows([&](int y0, int y1, int) { measure_blocks(views.left, y0, y1, last.noise); });
+  const Bands& bands = step.bands;
+  bands.rows([&](int y0, int y1, int) { measure_blocks(views.plain[0], y0, y1, last.noise); });
   const float noise = noise_level(last.noise);
   std::atomic<int> still{0};
   bands.rows([&](int y0, int y1, int) {
-    still += find_still(views.left, last.view, noise, y0, y1, last.still);
+    still += find_still(views.plain[0], last.view, noise, y0, y1, last.still);
   });
   last.share = still / (static_cast<double>(last.still.width()) * last.still.height());
 }
@@ -172,10 +175,13 @@ void hold_known(const StepContext& step, const Views& views, const PastViews& pa
   if (!filters) compare_views(step, views, last);
   last.decides = filters ? past.averaged : last.share >= kLeastStill;
   if (!last.decides) return;
-  const Image<std::uint8_t>& still = filters ? past.views[0].blocks.still : last.still;
+  if (filters) {
+    const int scale = step.settings.half() ? 2 : 1;
+    place_still(past.views[0].blocks.still, scale, step.settings.min_disparity, last.still);
+  }
   const LeastConfidence least = step.settings.least_confidence();
-  step.input_bands.rows([&](int y0, int y1, int) {
-    choose_least(least, still, last.disparity, *result.disparity, y0, y1, last.least);
+  step.bands.rows([&](int y0, int y1, int) {
+    choose_least(least, last.still, last.disparity, *result.disparity, y0, y1, last.least);
   });
 }
 
@@ -183,7 +189,7 @@ void reject_unlikely(const StepContext& step, const LastPair& last, ResultMaps& 
                      ResultBuffers& buffers) {
   const Settings& settings = step.settings;
   const bool each = settings.holds() && last.decides;
-  step.input_bands.rows([&](int y0, int y1, int) {
+  step.bands.rows([&](int y0, int y1, int) {
     if (each) {
       threshold_each(last.least, y0, y1, *result.disparity, *result.confidence);
     } else {
@@ -193,19 +199,18 @@ void reject_unlikely(const StepContext& step, const LastPair& last, ResultMaps& 
     find_runs(*result.disparity, kDisparityOne, y0, y1, buffers.islands);
   });
   join_bands(*result.disparity, kDisparityOne, Bands::kRows, buffers.islands);
-  step.input_bands.rows([&](int y0, int y1, int) {
+  step.bands.rows([&](int y0, int y1, int) {
     remove_small(buffers.islands, settings.speckle_size, y0, y1, *result.disparity, nullptr);
     clear_unknown(*result.disparity, y0, y1, *result.confidence);
   });
 }
 
 void close_gaps(const StepContext& step, ResultMaps& result, ResultBuffers& buffers) {
-  const GapFilling gaps = {step.settings.max_gap * result.place.scale, kDisparityOne,
-                           kMostInferred};
-  step.input_bands.rows([&](int y0, int y1, int) {
+  const GapFilling gaps = {step.settings.max_gap, kDisparityOne, kMostInferred};
+  step.bands.rows([&](int y0, int y1, int) {
     fill_gaps_along_rows(gaps, y0, y1, *result.disparity, *result.confidence);
   });
-  step.input_bands.columns(result.disparity->width(), [&](int x0, int x1, int worker) {
+  step.bands.columns(result.disparity->width(), [&](int x0, int x1, int worker) {
     fill_gaps_along_columns(gaps, x0, x1, buffers.scratch[worker].columns, *result.disparity,
                             *result.confidence);
   });
@@ -214,20 +219,19 @@ void close_gaps(const StepContext& step, ResultMaps& result, ResultBuffers& buff
 void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps& result) {
   const Settings& settings = step.settings;
   const int confidence = std::max(settings.min_confidence, kMostInferred + 1);
-  step.input_bands.rows([&](int y0, int y1, int) {
-    draw_thin(maps.unfiltered, result.place, confidence, y0, y1, *result.disparity,
-              *result.confidence);
+  step.bands.rows([&](int y0, int y1, int) {
+    draw_thin(maps.unfiltered, confidence, y0, y1, *result.disparity, *result.confidence);
     if (!settings.keeps_likely_only()) return;
-    remove_covered(maps.unfiltered, result.place, y0, y1, *result.disparity, *result.confidence);
+    remove_covered(maps.unfiltered, y0, y1, *result.disparity, *result.confidence);
   });
 }
 
 void keep_pair(const StepContext& step, const Views& views, const ResultMaps& result,
                LastPair& last) {
   const bool compares = !step.settings.filters();
-  step.input_bands.rows([&](int y0, int y1, int) {
+  step.bands.rows([&](int y0, int y1, int) {
     for (int y = y0; compares && y < y1; ++y) {
-      std::copy_n(views.left.row(y), views.left.width, last.view.row(y));
+      std::copy_n(views.plain[0].row(y), views.plain[0].width, last.view.row(y));
     }
     copy_last(*result.disparity, y0, y1, last.disparity);
   });

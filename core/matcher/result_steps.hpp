@@ -16,7 +16,7 @@
 #include "stages/refine/speckle_removal.hpp"
 
 /// The steps that complete the map of the paths, rate it and reject what is not reliable, and their
-/// memory. The map has the size of the caller's views.
+/// memory. The map has the size of the matched views.
 
 namespace mtstereo {
 
@@ -70,6 +70,10 @@ void complete_map(const StepContext& step, ResultMaps& result);
 /// Moves jumps of the complete map to the edges of the left view.
 void align_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
                      ResultBuffers& buffers);
+
+/// The same of the map that is enlarged to the size of the input views.
+void align_enlarged_edges(const StepContext& step, const Views& views, ResultMaps& result,
+                          ResultBuffers& buffers);
 
 /// What the clues of the reliability are about; all arguments must outlive it.
 RatedViews rated_views(const Views& views, const Pyramid& pyramid, const ResultMaps& result);

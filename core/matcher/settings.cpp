@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 
-#include "stages/nodes/node_census_cost.hpp"
 #include "stages/prepare/halving.hpp"
 
 namespace mtstereo {
@@ -39,12 +37,6 @@ constexpr Held kHeldOfAveraged = {20, 20, 10};
 /// Converts a percentage to a fraction.
 double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
 
-/// Without a limit, the ratio of the costs alone decides.
-float most_node_cost(const Parameters& p) {
-  return choice<Cost>(p) == Cost::kCensus ? kMostNodeBits * kBitCost
-                                          : std::numeric_limits<float>::infinity();
-}
-
 /// The offset of the peak ratio in the sums of two paths' costs.
 int ratio_offset(const Parameters& p) { return 2 * kRatioOffset * p.integer(P::kCensusKernelSize); }
 
@@ -70,8 +62,8 @@ Settings::Settings(const Parameters& p)
       resolution(first_resolution(p)),
       view_disparities(mtstereo::view_disparities(p)),
       disparities(matched_disparities(resolution, view_disparities)),
-      node_acceptance{static_cast<float>(share(p, P::kNodeConfidence)), most_node_cost(p)},
-      search_range{share(p, P::kPixelSearchRange), choice<BetweenNodes>(p), disparities},
+      node_confidence(static_cast<float>(share(p, P::kNodeConfidence))),
+      search_range{share(p, P::kPixelSearchRange), disparities},
       census_cost{disparities, p.integer(P::kCensusKernelSize), p.integer(P::kRangePenalty)},
       smoothness{p.integer(P::kSmallStepPenalty), p.integer(P::kLargeStepPenalty)},
       selection{disparities,

@@ -9,7 +9,6 @@
 #include "parameters/choices.hpp"
 #include "stages/nodes/node_matching.hpp"
 #include "stages/pixels/census_cost.hpp"
-#include "stages/pixels/census_matching.hpp"
 #include "stages/pixels/disparity_selection.hpp"
 #include "stages/pixels/path_matching.hpp"
 #include "stages/pixels/search_range.hpp"
@@ -41,8 +40,6 @@ struct Settings {
   int disparities;                                     ///< D [px]
   bool noise_filter = set_.get(P::kNoiseFilter) != 0;
 
-  Guide guide = choice<Guide>(set_);
-
   // nodes
   int gray_levels = set_.integer(P::kGrayLevels);           ///< q
   int min_node_width = set_.integer(P::kMinNodeWidth);      ///< omega_alpha [px]
@@ -52,7 +49,7 @@ struct Settings {
   int cost_kernel_size = set_.integer(P::kCostKernelSize);  ///< omega_cv [px]
   CostVolumeResolution cost_volume = choice<CostVolumeResolution>(set_);
   float intensity_weight = static_cast<float>(set_.get(P::kIntensityWeight));  ///< alpha, 0 .. 1
-  NodeAcceptance node_acceptance;
+  float node_confidence;                                 ///< omega_Pi, as a share
   int outlier_radius = set_.integer(P::kOutlierRadius);  ///< [px], 0 = no outlier removal
   OutlierRemoval outlier_removal = choice<OutlierRemoval>(set_);
 
@@ -82,25 +79,19 @@ struct Settings {
   bool half() const { return resolution != Resolution::kFull; }
   /// Whether the disparities are then refined at full resolution.
   bool refined() const { return resolution == Resolution::kHalfRefined; }
-  bool census() const { return cost == Cost::kCensus; }
-  CensusMatchingOptions census_matching() const {
-    return {search_range, census_cost, smoothness, selection};
-  }
   /// Whether all pixels are matched along paths, without nodes, and the rest is inferred. With
   /// nodes, the modes dense and full run the steps of semi-dense.
-  bool by_paths() const { return guide == Guide::kPyramid && census(); }
+  bool by_paths() const { return cost == Cost::kCensus; }
   /// Whether the map has inferred disparities other than filled gaps.
   bool infers() const { return mode == Mode::kDense || mode == Mode::kFull; }
+  /// Whether every pixel gets a disparity.
+  bool keeps_all() const { return by_paths() && mode == Mode::kFull; }
   /// Whether min_confidence applies to the complete map, and not to the matched one.
   bool keeps_likely_only() const { return by_paths() && mode != Mode::kFull; }
   /// Whether min_confidence applies to inferred disparities as to matched ones.
   bool keeps_inferred() const { return by_paths() && mode == Mode::kDense; }
   /// Whether areas of fewer pixels than speckle_size are removed.
   bool removes_speckles() const { return speckle_size > 1; }
-  /// Whether min_confidence may leave small islands of areas that were large enough; with nodes.
-  bool removes_islands() const {
-    return removes_speckles() && min_confidence > 0 && !keeps_only_ends();
-  }
   /// Whether outliers are removed from the pixels as well; with nodes.
   bool removes_pixel_outliers() const {
     return outlier_radius > 0 && outlier_removal == OutlierRemoval::kNodesAndPixels;
@@ -119,26 +110,22 @@ struct Settings {
   LeastConfidence least_confidence() const;
   /// The kind of the complete map, for its reliability.
   RatedMap rated_map() const {
-    if (!infers()) return RatedMap::kMatched;
-    return half() ? RatedMap::kEnlarged : RatedMap::kComplete;
+    if (half()) return infers() ? RatedMap::kHalfComplete : RatedMap::kHalfMatched;
+    return infers() ? RatedMap::kComplete : RatedMap::kMatched;
   }
-  /// Whether the sharpness of the views is a clue for the reliability. Only the table of this kind
-  /// of map has it: the others keep about as few errors on soft views without it. It is fitted at
-  /// full resolution; views that are soft there are sharp when they are matched at half of it.
-  bool rates_detail() const { return rated_map() == RatedMap::kMatched && !half(); }
+  /// Whether the sharpness of the views is a clue for the reliability. Only the tables of these
+  /// kinds of maps have it: the others keep about as few errors on soft views without it.
+  bool rates_detail() const { return !infers(); }
   /// The options of the paths for the views at 1 / 2^level of the matched resolution.
   PathMatchingOptions path_matching(int level) const;
-  /// Whether pixels keep a disparity at the ends of the finest nodes only. With the gradient cost
-  /// the nodes themselves are drawn at their ends only, see drawn_end_width().
-  bool keeps_only_ends() const { return mode == Mode::kSparse && census() && !by_paths(); }
   /// Whether the smallest disparity differs from 0.
   bool shifted() const { return min_disparity != 0; }
   /// Whether the rows of the right view are resampled, and whether a view is blurred.
   bool aligned() const { return !(correction.rows == RowField()); }
   bool blurred() const { return correction.left_blur > 0 || correction.right_blur > 0; }
   /// Number of pixels around each end of a leaf that start guided pixel matching; 0: the whole
-  /// leaf. With the census cost it is always 0, since there the nodes only guide the search.
-  int drawn_end_width() const { return mode == Mode::kSparse && !census() ? node_end_width : 0; }
+  /// leaf.
+  int drawn_end_width() const { return mode == Mode::kSparse ? node_end_width : 0; }
 };
 
 }  // namespace mtstereo

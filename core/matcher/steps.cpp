@@ -36,7 +36,7 @@ constexpr Step kViewList[] = {
     {"view-shift",         [](S s) { return s.shifted(); },          on<shift_views>},
     {"halving",            [](S s) { return s.half(); },             on<halve>},
     {"noise-filter",       [](S s) { return s.noise_filter; },       on<filter_views>},
-    {"census",             [](S s) { return s.census(); },           on<transform>},
+    {"census",             [](S s) { return s.by_paths(); },         on<transform>},
 };
 
 /// Matches all pixels along paths, coarse to fine.
@@ -49,36 +49,23 @@ constexpr Step kPathList[] = {
     {"thin-search",        [](S s) { return s.thin_objects; },       on<find_thin_structures>},
     {"speckle-removal",    [](S s) { return s.removes_speckles(); }, on<remove_speckles>},
     {"confidence",         always,                                   on<rate_confidence>},
+    {"smoothing",          [](S s) { return s.smoothing_radius > 0; }, on<smooth>},
 };
 
 /// Matches nodes of the Max-trees, then the pixels that they guide.
 constexpr Step kNodeList[] = {
     {"preprocessing",      always,                                   on<preprocess>},
     {"max-trees",          always,                                   on<build_trees>},
-    {"cost-volume",        [](S s) { return !s.census(); },          on<compute_cost_volume>},
+    {"cost-volume",        always,                                   on<compute_cost_volume>},
     {"node-matching",      always,                                   on<match_levels>},
     {"node-drawing",       [](S s) { return s.outlier_radius > 0; }, on<draw_leaves>},
     {"node-outliers",      [](S s) { return s.outlier_radius > 0; }, on<remove_node_outliers>},
     {"node-extrapolation", always,                                   on<extrapolate>},
-    {"census-matching",    [](S s) { return s.census(); },           on<match_by_census>},
-    {"gradient-matching",  [](S s) { return !s.census(); },          on<match_by_gradient>},
+    {"gradient-matching",  always,                                   on<match_by_gradient>},
     {"pixel-outliers",     [](S s) { return s.removes_pixel_outliers(); }, on<remove_pixel_outliers>},
-    {"thin-search",        [](S s) { return s.thin_objects; },       on<find_thin_structures>},
     {"speckle-removal",    [](S s) { return s.removes_speckles(); }, on<remove_speckles>},
-    {"confidence",         always,                                   on<rate_node_confidence>},
-    {"island-removal",     [](S s) { return s.removes_islands(); },  on<remove_islands>},
-    {"thin-restoring",     [](S s) { return s.thin_objects; },       on<restore_thin_structures>},
-    {"gap-filling",        [](S s) { return s.max_gap > 0; },        on<fill_gaps>},
-    {"foreground-check",   [](S s) { return s.thin_objects && s.max_gap > 0; }, on<check_foreground>},
-};
-
-/// Smooths the map and gives it the size of the caller's views.
-constexpr Step kMapList[] = {
+    {"confidence",         always,                                   on<rate_confidence>},
     {"smoothing",          [](S s) { return s.smoothing_radius > 0; }, on<smooth>},
-    {"enlarging",          [](S s) { return s.half(); },             on<enlarge>},
-    {"input-census",       [](S s) { return s.refined(); },          on<transform_input>},
-    {"refinement",         [](S s) { return s.refined(); },          on<refine>},
-    {"map-shift",          [](S s) { return s.shifted(); },          on<shift_result>},
 };
 
 /// Completes the map of the paths, rates it, and rejects what is not reliable.
@@ -90,12 +77,21 @@ constexpr Step kResultList[] = {
     {"reliability",        always,                                   on<calibrate_confidence>},
     {"left-strip",         [](S s) { return s.mode == Mode::kFull; }, on<correct_strip>},
     {"flat-planes",        [](S s) { return s.mode == Mode::kFull; }, on<complete_flat_areas>},
-    {"plane-edges",        [](S s) { return s.mode == Mode::kFull; }, on<align_map_edges>},
+    {"plane-edges",        [](S s) { return s.mode == Mode::kFull && !s.half(); }, on<align_map_edges>},
     {"holding",            [](S s) { return s.holds(); },            on<hold_known>},
     {"rejection",          [](S s) { return s.rejects_unlikely(); }, on<reject_unlikely>},
     {"gap-closing",        [](S s) { return s.rejects_unlikely() && s.max_gap > 0; }, on<close_gaps>},
     {"thin-drawing",       [](S s) { return s.thin_objects; },       on<draw_thin_structures>},
     {"pair-keeping",       [](S s) { return s.holds(); },            on<keep_pair>},
+};
+
+/// Gives the map the size of the caller's views.
+constexpr Step kSizeList[] = {
+    {"enlarging",          [](S s) { return s.half(); },             on<enlarge>},
+    {"input-census",       [](S s) { return s.refined(); },          on<transform_input>},
+    {"refinement",         [](S s) { return s.refined(); },          on<refine>},
+    {"enlarged-edges",     [](S s) { return s.keeps_all() && s.half(); }, on<align_enlarged_edges>},
+    {"map-shift",          [](S s) { return s.shifted(); },          on<shift_result>},
 };
 // clang-format on
 
@@ -104,7 +100,7 @@ constexpr Step kResultList[] = {
 constinit const StepList kViewSteps = kViewList;
 constinit const StepList kPathSteps = kPathList;
 constinit const StepList kNodeSteps = kNodeList;
-constinit const StepList kMapSteps = kMapList;
 constinit const StepList kResultSteps = kResultList;
+constinit const StepList kSizeSteps = kSizeList;
 
 }  // namespace mtstereo

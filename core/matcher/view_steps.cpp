@@ -37,16 +37,17 @@ void Views::start(const Settings& settings, GrayView left_view, GrayView right_v
   input = {left_view, right_view};
   matched = input;
   if (settings.half()) matched = {halves[0].view(), halves[1].view()};
+  plain = matched;
 }
 
 void Views::replace_input(int side, GrayView corrected) {
-  if (matched[side].data == input[side].data) matched[side] = corrected;
+  if (matched[side].data == input[side].data) matched[side] = plain[side] = corrected;
   input[side] = corrected;
 }
 
 void Views::release() {
   left = {};
-  input = matched = {};
+  input = plain = matched = {};
 }
 
 void Views::resize(const Settings& settings, const FrameSize& size) {
@@ -61,7 +62,7 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
       noise[side].resize(width, height);
       filtered[side].resize(width, height);
     }
-    if (settings.census()) census[side].resize(width, height);
+    if (settings.by_paths()) census[side].resize(width, height);
     if (settings.refined()) input_census[side].resize(size.frame.width, size.frame.height);
   }
   scratch.resize(size.threads);
@@ -126,7 +127,9 @@ void match_sharpness(const StepContext& step, Views& views) {
     step.input_bands.rows([&](int y0, int y1, int worker) {
       blur_rows(views.input[side], kernel, y0, y1, views.scratch[worker].blur, views.blurred[side]);
     });
+    const GrayView sharp = views.plain[side];
     views.replace_input(side, views.blurred[side].view());
+    if (side == 0) views.plain[side] = sharp;  // its edges are those of the map
   }
 }
 

@@ -24,7 +24,8 @@ namespace mtstereo {
 struct Views {
   GrayView left;                    ///< the caller's left view, averaged or not
   std::array<GrayView, 2> input;    ///< the views of this frame: the caller's or corrected ones
-  std::array<GrayView, 2> matched;  ///< those to match: the input, its halves, or these filtered
+  std::array<GrayView, 2> plain;    ///< the input or its halves, the left one not blurred
+  std::array<GrayView, 2> matched;  ///< those to match: the same, or filtered
   Image<std::uint8_t> aligned;      ///< the right view with its rows aligned
   std::array<Image<std::uint8_t>, 2> blurred;
   std::array<Image<std::uint8_t>, 2> extended;  ///< with more columns, for negative disparities

@@ -16,9 +16,6 @@ namespace mtstereo {
 /// Resolution at which the views are matched. kAuto: full or half-refined, chosen for each frame.
 enum class Resolution { kFull, kHalfRefined, kHalf, kAuto };
 
-/// Source of the disparities that are expected of a pixel.
-enum class Guide { kNodes, kPyramid };
-
 /// Matching cost of nodes and pixels.
 enum class Cost { kCensus, kGradient };
 
@@ -27,9 +24,6 @@ enum class CostVolumeResolution { kHalf, kFull };
 
 /// Stages after which outliers are removed.
 enum class OutlierRemoval { kNodes, kNodesAndPixels };
-
-/// Disparities expected of a pixel between two nodes.
-enum class BetweenNodes { kNone, kSpan, kAll };
 
 /// Disparities among which the second-best one is searched.
 enum class RunnerUp { kAny, kExpected };
@@ -61,12 +55,6 @@ struct ChoiceOf<Resolution> {
 };
 
 template <>
-struct ChoiceOf<Guide> {
-  static constexpr Parameter kParameter = Parameter::kGuide;
-  static constexpr std::array<std::string_view, 2> kWords = {"nodes", "pyramid"};
-};
-
-template <>
 struct ChoiceOf<Cost> {
   static constexpr Parameter kParameter = Parameter::kCost;
   static constexpr std::array<std::string_view, 2> kWords = {"census", "gradient"};
@@ -85,12 +73,6 @@ struct ChoiceOf<OutlierRemoval> {
 };
 
 template <>
-struct ChoiceOf<BetweenNodes> {
-  static constexpr Parameter kParameter = Parameter::kBetweenNodes;
-  static constexpr std::array<std::string_view, 3> kWords = {"none", "span", "all"};
-};
-
-template <>
 struct ChoiceOf<RunnerUp> {
   static constexpr Parameter kParameter = Parameter::kRunnerUp;
   static constexpr std::array<std::string_view, 2> kWords = {"any", "expected"};
@@ -103,8 +85,8 @@ struct ChoiceOf<Temporal> {
 };
 
 /// The enums of all choices.
-using Choices = std::tuple<Preset, Mode, Resolution, Guide, Cost, CostVolumeResolution,
-                           OutlierRemoval, BetweenNodes, RunnerUp, Temporal>;
+using Choices = std::tuple<Preset, Mode, Resolution, Cost, CostVolumeResolution, OutlierRemoval,
+                           RunnerUp, Temporal>;
 
 /// The effective value of a choice.
 template <typename Enum>

@@ -95,7 +95,7 @@ cv::Mat cheapest_disparity(const CostVolume& volume, cv::Size size) {
   return map;
 }
 
-/// The nodes of level 1, the parents, which preset default does not match.
+/// The nodes of level 1, the parents.
 NodeLevel parents(const MaxTrees& trees, const Settings& settings) {
   const WidthRange widths = {1.0 * settings.min_node_width, settings.max_node_width * trees.width};
   NodeLevel level;
@@ -104,7 +104,7 @@ NodeLevel parents(const MaxTrees& trees, const Settings& settings) {
   return level;
 }
 
-/// The map of the matched leaves, which preset default does not draw.
+/// The map of the matched leaves.
 cv::Mat matched_leaves(const Nodes& nodes) {
   const NodeLevelMatches& leaves = nodes.leaves();
   Image<std::int32_t> map;
@@ -113,7 +113,7 @@ cv::Mat matched_leaves(const Nodes& nodes) {
   return eval::to_float(map.view());
 }
 
-/// The maps after the steps with the guidance of nodes, and other drawings.
+/// The maps after the steps of preset paper, and other drawings.
 using Maps = std::map<std::string, cv::Mat>;
 
 Maps maps_of_steps(const render::StereoFrame& frame, std::map<std::string_view, Drawing> drawings) {
@@ -121,15 +121,10 @@ Maps maps_of_steps(const render::StereoFrame& frame, std::map<std::string_view, 
   drawings["node-matching"] = [&](const FrameMemory& memory) {
     maps["node-matching"] = matched_leaves(memory.nodes);
   };
-  for (const auto& [step, name] :
-       {std::pair{"node-extrapolation", "extrapolated"}, {"census-matching", "pixel-matching"}}) {
-    drawings[step] = [&maps, name = name](const FrameMemory& memory) {
-      maps[name] = eval::to_float(memory.maps.disparity.view());
-    };
-  }
-  Parameters parameters = parameters_of("default", "semi-dense");
-  if (!parameters.set("guide", "nodes")) throw std::runtime_error("there is no guide=nodes");
-  match(FrameMatcher(Settings(parameters)), frame, drawings);
+  drawings["node-extrapolation"] = [&maps](const FrameMemory& memory) {
+    maps["extrapolated"] = eval::to_float(memory.maps.disparity.view());
+  };
+  match(matcher_of("paper", "semi-dense"), frame, drawings);
   return maps;
 }
 
@@ -155,7 +150,7 @@ void draw_pictures(const fs::path& folder) {
     eval::write_picture(folder / name, picture);
   };
   write("pair.png", figures::side_by_side(frame.left, frame.right));
-  const Settings settings{Parameters()};
+  const Settings settings(parameters_of("paper", "semi-dense"));
   const Drawing preprocessed = [&](const FrameMemory& memory) {
     const auto draw = [&](int side) {
       return figures::draw_levels(memory.nodes.preprocessed[side].level.view(),
@@ -245,8 +240,8 @@ void print_steps() {
   const std::pair<const char*, StepList> lists[] = {{"View", kViewSteps},
                                                     {"Path", kPathSteps},
                                                     {"Node", kNodeSteps},
-                                                    {"Map", kMapSteps},
-                                                    {"Result", kResultSteps}};
+                                                    {"Result", kResultSteps},
+                                                    {"Size", kSizeSteps}};
   for (const auto& [name, list] : lists) {
     for (const Step& step : list) {
       std::printf("%s %s", name, std::string(step.name).c_str());

@@ -20,8 +20,8 @@ SLOW = float(os.environ.get("MTSTEREO_SLOW", "1"))  # how much slower a sanitize
 COMPARE = pathlib.Path(__file__).resolve().parent / "compare.py"
 METHODS = ("semi-dense", "fast", "sparse", "dense", "full", "paper", "sgbm", "sgbm-3way", "bm")
 STAGES = ("preprocessing", "max-trees", "cost-volume", "node-matching",
-          "node-drawing", "node-extrapolation", "census", "census-matching", "speckle-removal",
-          "confidence", "gap-filling", "node-outliers", "gradient-matching",
+          "node-drawing", "node-extrapolation", "census", "speckle-removal",
+          "confidence", "node-outliers", "gradient-matching",
           "halving", "smoothing", "enlarging", "input-census", "refinement")
 
 

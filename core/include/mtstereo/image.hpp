@@ -41,7 +41,7 @@ inline constexpr std::int32_t kDisparityOne = 256;
 inline constexpr std::int32_t kNoDisparity = 0;
 
 /// The highest confidence of a disparity that was inferred and not matched in Mode::kFull, and of a
-/// filled gap in Mode::kSemiDense with guide=pyramid: the confidence of matched ones is higher.
+/// filled gap in Mode::kSemiDense with cost=census: the confidence of matched ones is higher.
 inline constexpr int kMostInferred = 15;
 
 }  // namespace mtstereo

@@ -11,7 +11,6 @@ namespace mtstereo {
 void LeafDisparities::resize(const NodeLevel& leaves) {
   begin.resize(leaves.size());
   end.resize(leaves.size());
-  given.resize(leaves.size());
 }
 
 void read_leaf_ends(const NodeLevel& leaves, const Image<std::int32_t>& map, int y0, int y1,
@@ -75,7 +74,6 @@ void extrapolate_leaves(const NodeLevel& leaves, int max_neighbors, int end_widt
     std::fill_n(row, map.width(), kNoDisparity);
     for (int i = 0; i < leaves.count[y]; ++i) {
       const LeafLine line = line_of(leaves, ends, max_neighbors, y, i);
-      ends.given[leaves.first[y] + i] = line.known() ? 1 : 0;
       if (!line.known()) continue;
       const int begin = leaves.begin[leaves.first[y] + i];
       const int end = leaves.end[leaves.first[y] + i];
@@ -90,34 +88,6 @@ void extrapolate_leaves(const NodeLevel& leaves, int max_neighbors, int end_widt
         draw_node(first, first, line.at_begin, line.at_begin, row);
         draw_node(last, last, line.at_end, line.at_end, row);
       }
-    }
-  }
-}
-
-void keep_leaf_ends(const NodeLevel& leaves, const LeafDisparities& ends, int end_width, int y0,
-                    int y1, Buffer<std::uint8_t>& marks, Image<std::int32_t>& map,
-                    Image<std::uint8_t>& values) {
-  const int width = map.width();
-  for (int y = y0; y < y1; ++y) {
-    std::fill_n(marks.data(), width, std::uint8_t{0});
-    for (int i = 0; i < leaves.count[y]; ++i) {
-      if (ends.given[leaves.first[y] + i] == 0) continue;
-      const int begin = leaves.begin[leaves.first[y] + i];
-      const int end = leaves.end[leaves.first[y] + i];
-      const int inside = inset(begin, end);
-      for (const int middle : {begin + inside, end - inside}) {
-        const int first = std::max(middle - end_width / 2, 0);
-        const int last = std::min(middle + end_width / 2, width - 1);
-        std::fill(marks.data() + first, marks.data() + last + 1, std::uint8_t{1});
-      }
-    }
-    static_assert(kNoDisparity == 0);
-    const std::uint8_t* __restrict__ mark = marks.data();
-    std::int32_t* __restrict__ row = map.row(y);
-    std::uint8_t* __restrict__ row_values = values.row(y);
-    for (int x = 0; x < width; ++x) {
-      row[x] = mark[x] != 0 ? row[x] : kNoDisparity;
-      row_values[x] = mark[x] != 0 ? row_values[x] : std::uint8_t{0};
     }
   }
 }

@@ -18,7 +18,6 @@ namespace mtstereo {
 struct LeafDisparities {
   Buffer<std::int32_t> begin;
   Buffer<std::int32_t> end;
-  Buffer<std::uint8_t> given;  ///< 1 if extrapolate_leaves() has assigned disparities to the leaf
 
   void resize(const NodeLevel& leaves);
 };
@@ -33,18 +32,10 @@ void take_match_ends(const NodeLevel& leaves, const NodeMatches& matches, int y0
 
 /// Writes the rows y0 .. y1 - 1 of the map. Each leaf takes the median begin disparity and the
 /// median end disparity of itself and its neighbors, linearly interpolated; other pixels become
-/// kNoDisparity. With `end_width` 0 the whole leaf is drawn, otherwise that many pixels around each
-/// of its ends, see keep_leaf_ends().
+/// kNoDisparity. With `end_width` 0 the whole leaf is drawn, otherwise that many pixels (an odd
+/// number) around each of its ends: the middle one is the leaf's first or last pixel; if the leaf
+/// is wider than 4 px, it lies 2 px further inside.
 void extrapolate_leaves(const NodeLevel& leaves, int max_neighbors, int end_width, int y0, int y1,
                         LeafDisparities& ends, Image<std::int32_t>& map);
-
-/// Sets all but `end_width` pixels (an odd number) around the ends of the leaves to kNoDisparity in
-/// the rows y0 .. y1 - 1 of the map, and to 0 in those rows of `values`. The middle one of these
-/// pixels is the leaf's first or last pixel; if the leaf is wider than 4 px, it lies 2 px further
-/// inside. Only leaves to which extrapolate_leaves() assigns disparities are kept. `marks` is
-/// scratch memory of one row.
-void keep_leaf_ends(const NodeLevel& leaves, const LeafDisparities& ends, int end_width, int y0,
-                    int y1, Buffer<std::uint8_t>& marks, Image<std::int32_t>& map,
-                    Image<std::uint8_t>& values);
 
 }  // namespace mtstereo

@@ -21,8 +21,8 @@ void offer(Best& best, float cost, int partner) {
   }
 }
 
-bool accepted(const Best& best, const NodeAcceptance& acceptance) {
-  return best.second > best.cost * (1 + acceptance.confidence) && best.cost < acceptance.most_cost;
+bool accepted(const Best& best, float confidence) {
+  return best.second > best.cost * (1 + confidence) && best.cost < kInfinity;
 }
 
 /// Sum and number of the costs along a chain of pairs in adjacent rows.
@@ -126,8 +126,7 @@ void finer_intervals(const NodeLevel& left, const NodeLevel& before, const NodeM
 }
 
 void match_nodes(const PairCostInput& input, const SearchIntervals& intervals, int max_neighbors,
-                 const NodeAcceptance& acceptance, int y0, int y1, MatchScratch& scratch,
-                 NodeMatches& matches) {
+                 float confidence, int y0, int y1, MatchScratch& scratch, NodeMatches& matches) {
   const NodeLevel& left = input.left;
   const NodeLevel& right = input.right;
   scratch.costs.start(input);
@@ -157,7 +156,7 @@ void match_nodes(const PairCostInput& input, const SearchIntervals& intervals, i
         const Best& back = scratch.right[best.partner];
         const std::ptrdiff_t l = left_row + i;
         const std::ptrdiff_t r = right_row + best.partner;
-        if (back.partner == i && accepted(best, acceptance) && accepted(back, acceptance) &&
+        if (back.partner == i && accepted(best, confidence) && accepted(back, confidence) &&
             !at_border(left, l) && !at_border(right, r)) {
           begin = static_cast<std::int16_t>(left.begin[l] - right.begin[r]);
           end = static_cast<std::int16_t>(left.end[l] - right.end[r]);

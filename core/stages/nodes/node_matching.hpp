@@ -69,18 +69,12 @@ struct MatchScratch {
   void resize(int width, int disparities, int max_neighbors);
 };
 
-/// When a pair of nodes is accepted.
-struct NodeAcceptance {
-  float confidence;  ///< omega_Pi: the second-best cost has to exceed the best by more, as a share
-  float most_cost;   ///< a best cost of this or more is no match
-};
-
 /// Matches the nodes of the rows y0 .. y1 - 1. The cost of a pair is the mean cost of it and its
 /// neighbors: the chains of the left and of the right node are followed side by side. A pair is
-/// accepted if each node is the other's best partner, both costs satisfy `acceptance`, and neither
-/// node touches the left or right border.
+/// accepted if each node is the other's best partner, the second-best costs of both exceed the best
+/// by more than `confidence` (omega_Pi, as a share), and neither node touches the left or right
+/// border.
 void match_nodes(const PairCostInput& input, const SearchIntervals& intervals, int max_neighbors,
-                 const NodeAcceptance& acceptance, int y0, int y1, MatchScratch& scratch,
-                 NodeMatches& matches);
+                 float confidence, int y0, int y1, MatchScratch& scratch, NodeMatches& matches);
 
 }  // namespace mtstereo

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "stages/nodes/node_census_cost.hpp"
-
 namespace mtstereo {
 namespace {
 
@@ -135,10 +133,7 @@ float PairCosts::compute(int y, int i, int j) const {
   const NodeLevel& right = input_->right;
   const float alpha = input_->intensity_weight;
   const NodePair pair = node_pair(left, right, y, i, j);
-  const float intensity =
-      input_->volume != nullptr
-          ? intensity_cost(*input_->volume, y, pair)
-          : census_intensity_cost((*input_->census)[0], (*input_->census)[1], y, pair);
+  const float intensity = intensity_cost(input_->volume, y, pair);
   if (alpha == 1) return intensity;
   const float context = context_cost(input_->left_trees, input_->right_trees, y,
                                      left.node[left.first[y] + i], right.node[right.first[y] + j]);

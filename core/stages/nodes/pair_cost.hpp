@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
-
 #include "base/buffer.hpp"
 #include "stages/nodes/node_levels.hpp"
 #include "stages/nodes/node_pair.hpp"
-#include "stages/prepare/census.hpp"
 #include "stages/prepare/cost_volume.hpp"
 #include "stages/prepare/max_tree.hpp"
 
@@ -21,9 +18,8 @@ struct PairCostInput {
   const MaxTrees& right_trees;
   const NodeLevel& left;
   const NodeLevel& right;
-  const CostVolume* volume;                  ///< source of the intensity cost; may be null, then
-  const std::array<CensusImage, 2>* census;  ///< both views' census transforms are the source
-  float intensity_weight;                    ///< alpha
+  const CostVolume& volume;  ///< source of the intensity cost
+  float intensity_weight;    ///< alpha
 };
 
 /// Mean of the cost volume along the left node of row y [gray values], at disparities interpolated

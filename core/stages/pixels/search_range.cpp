@@ -80,32 +80,9 @@ namespace mtstereo {
 
 HWY_EXPORT(write_row);
 
-namespace {
-
-/// Between two nodes: from the low end of the smaller disparity's range to the high end of the
-/// larger one's.
-void span_gaps(const std::int32_t* nodes, int width, std::uint16_t* low, std::uint16_t* high) {
-  int last = -1;  // the last column with a node
-  for (int x = 0; x < width; ++x) {
-    if (nodes[x] == kNoDisparity) continue;
-    if (last >= 0 && last + 1 < x) {
-      const bool rising = nodes[last] < nodes[x];
-      std::fill(low + last + 1, low + x, low[rising ? last : x]);
-      std::fill(high + last + 1, high + x, high[rising ? x : last]);
-    }
-    last = x;
-  }
-}
-
-}  // namespace
-
 void find_search_ranges(const std::int32_t* nodes, int width, const SearchRangeOptions& options,
                         std::uint16_t* low, std::uint16_t* high) {
-  const bool all = options.between_nodes == BetweenNodes::kAll;
-  const SearchRange none =
-      all ? SearchRange{0, static_cast<std::uint16_t>(options.disparities - 1)} : SearchRange{1, 0};
-  HWY_DYNAMIC_DISPATCH(write_row)(nodes, width, options, none, low, high);
-  if (options.between_nodes == BetweenNodes::kSpan) span_gaps(nodes, width, low, high);
+  HWY_DYNAMIC_DISPATCH(write_row)(nodes, width, options, SearchRange{1, 0}, low, high);
 }
 
 }  // namespace mtstereo

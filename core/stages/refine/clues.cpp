@@ -25,10 +25,10 @@ void add_columns(const std::uint8_t* row, int count, int width, std::uint8_t* su
 
 /// In loops that compilers vectorize for the target: the place of the pixel left of each pixel's
 /// partner, in a row whose border is 2 pixels wide.
-void find_partners(const std::int32_t* __restrict__ map, int width, int right_width, int offset,
+void find_partners(const std::int32_t* __restrict__ map, int width, int right_width,
                    std::uint32_t* __restrict__ places) {
   for (int x = 0; x < width; ++x) {
-    const int partner = ((x - offset) * kDisparityOne - map[x] + kDisparityOne / 2) >> 8;
+    const int partner = (x * kDisparityOne - map[x] + kDisparityOne / 2) >> 8;
     const int least = partner < -1 ? -1 : partner;
     places[x] = static_cast<std::uint32_t>((least > right_width ? right_width : least) + 1);
   }
@@ -85,7 +85,7 @@ void find_mismatch(const RatedViews& views, const GrayMapping& grays, const std:
   std::memset(right, right[2], 2);
   std::memset(right + 2 + right_width, right[1 + right_width], 3);
   std::uint32_t* partner = scratch.partner.data();
-  HWY_DYNAMIC_DISPATCH(find_partners)(map, width, right_width, views.disparity_offset, partner);
+  HWY_DYNAMIC_DISPATCH(find_partners)(map, width, right_width, partner);
   for (int x = 0; x < width; ++x) std::memcpy(partner + x, right + partner[x], sizeof *partner);
   std::uint8_t* mismatch = scratch.values.data();
   HWY_DYNAMIC_DISPATCH(find_least)(views.left.row(y), partner, width, mismatch + 1);

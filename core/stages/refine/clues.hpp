@@ -6,6 +6,7 @@
 
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
+#include "stages/refine/block_grid.hpp"
 
 namespace mtstereo {
 
@@ -64,9 +65,6 @@ struct ClueScratch {
 struct RatedGuide {
   const Image<std::int32_t>* disparity = nullptr;  ///< nullptr: there is none
   const Image<std::uint8_t>* confidence = nullptr;
-  int scale = 2;          ///< px of the rated map per px of the guide, 2 or 4
-  int column_offset = 0;  ///< columns that the matched views have more on the left, may be negative
-  int added = 0;          ///< added to the matched disparities in the rated map [px]
 };
 
 /// The fine detail of views in which it was not measured: they are taken for sharp ones.
@@ -74,20 +72,18 @@ inline constexpr float kUnknownDetail = 1;
 
 /// What the clues are about, beside the map.
 struct RatedViews {
-  GrayView left;         ///< of the map's size
-  GrayView right;        ///< as it was matched; of the same height
-  int disparity_offset;  ///< added to the map's disparities [px]
-  float noise_level;     ///< of the noisier view
+  GrayView left;      ///< of the map's size
+  GrayView right;     ///< as it was matched; of the same size
+  float noise_level;  ///< of the noisier view
 
-  /// The shares of agreeing pixels in tiles of this size, of views to which `agreement_offset`
-  /// columns are added on the left (agreement.hpp).
+  /// The shares of agreeing pixels in tiles of this size (agreement.hpp).
   const Image<std::uint8_t>* agreement;
   int agreement_tile;
-  int agreement_offset;
 
   RatedGuide guide = {};
   float fine_detail = kUnknownDetail;  ///< FineDetail::share()
   int grid_level = 0;                  ///< BlockGrid::level()
+  int block_side = kBlockSide;         ///< BlockGrid::side
 };
 
 /// The gray value of the left view for each of the right one.

@@ -45,9 +45,10 @@ void round_row(const std::int32_t* __restrict__ disparity, int width,
                std::uint8_t* __restrict__ known) {
   for (int x = 0; x < width; ++x) {
     const std::int32_t whole = (disparity[x] + kDisparityOne / 2) / kDisparityOne;
-    places[x] = x - whole;
-    rounded[x] = static_cast<std::int8_t>(disparity[x] - whole * kDisparityOne);
-    known[x] = disparity[x] != kNoDisparity;
+    const bool inside = whole <= x;
+    places[x] = inside ? x - whole : 0;
+    rounded[x] = static_cast<std::int8_t>(inside ? disparity[x] - whole * kDisparityOne : 0);
+    known[x] = (disparity[x] != kNoDisparity) & inside;
   }
 }
 
@@ -225,7 +226,8 @@ void refine_row(const std::int32_t* map, int width, int limit, const Scratch& sc
     const auto change = hn::ConvertTo(di32, hn::Sub(between, ratio(rounded, known)));
     const auto refined = hn::Add(given, hn::Add(at.shift, change));
     const auto column = hn::ShiftLeft<8>(hn::Iota(di32, x));
-    const auto possible = hn::Max(hn::Min(refined, hn::Min(column, hn::Set(di32, limit))), unit);
+    const auto possible =
+        hn::Max(hn::Min(refined, hn::Min(hn::Max(column, given), hn::Set(di32, limit))), unit);
     // A minimum is below at least one neighbor and above none.
     const auto is_minimum =
         hn::AndNot(hn::Lt(hn::Min(at.before, at.after), at.best), hn::Gt(slope, zero));

@@ -45,8 +45,9 @@ struct RefinementScratch {
 };
 
 /// Writes the rows y0 .. y1 - 1 of `refined`, which has the size of the map; reads
-/// kRefinementRadius further rows of the other images on both sides. In the map and in `refined` no
-/// disparity exceeds its column; in `refined` all are below max_disparity [px]. The result does not
+/// kRefinementRadius further rows of the other images on both sides. A disparity that exceeds its
+/// column has no partner and is not raised; the others stay below their columns, and all below
+/// max_disparity [px]. The result does not
 /// depend on how the image is divided into bands.
 void refine_disparities(const CensusImage& left, const CensusImage& right,
                         const Image<std::int32_t>& map, int max_disparity, int y0, int y1,

@@ -33,7 +33,10 @@ HWY_INLINE Vec enlarged(D di32, const EnlargedRow& row, int column, int beside, 
       hn::Add(hn::Add(nine, continued(row.next + beside)), hn::Add(hn::ShiftLeft<1>(three), three));
   // Sixteenths of a half pixel's disparity are eighths of a pixel's.
   const auto rounded = hn::ShiftRight<3>(hn::Add(sum, hn::Set(di32, 4)));
-  const auto most = hn::Min(hn::ShiftLeft<8>(columns), hn::Set(di32, row.limit));
+  // What is inferred may be beyond the first column.
+  const auto beyond = hn::Gt(disparity, hn::ShiftLeft<7>(columns));
+  const auto limit = hn::Set(di32, row.limit);
+  const auto most = hn::IfThenElse(beyond, limit, hn::Min(hn::ShiftLeft<8>(columns), limit));
   return hn::IfThenElse(hn::Eq(disparity, zero), zero, hn::Min(rounded, most));
 }
 

@@ -16,8 +16,8 @@ namespace mtstereo {
 /// than 1 (in half pixels) are replaced by the half pixel's: they belong to another surface.
 /// Without a disparity of the half pixel there is none.
 ///
-/// In `half`, as in all maps, the disparity of column X is at most X; in `map` it is at most the
-/// column too, and below max_disparity [px].
+/// Where the disparity of column X of `half` is at most X, that of `map` is at most the column,
+/// too. All of `map` are below max_disparity [px].
 void enlarge_rows(const Image<std::int32_t>& half, int max_disparity, int y0, int y1,
                   Image<std::int32_t>& map);
 

@@ -31,8 +31,7 @@ void add_row(const RatedViews& views, const std::int32_t* map, const std::uint8_
   const std::uint8_t* right = views.right.row(y);
   for (int x = 0; x < width; ++x) {
     if (confidence[x] <= kMostInferred) continue;
-    const int partner =
-        ((x - views.disparity_offset) * kDisparityOne - map[x] + kDisparityOne / 2) >> 8;
+    const int partner = (x * kDisparityOne - map[x] + kDisparityOne / 2) >> 8;
     if (partner < 0 || partner >= views.right.width) continue;
     Bin& bin = bins[right[partner] / kMappedGrays];
     ++bin.pixels;

@@ -64,6 +64,27 @@ int find_still(GrayView view, const Image<std::uint8_t>& last, float noise, int 
   return count;
 }
 
+void place_still(const Image<std::uint8_t>& still, int scale, int column,
+                 Image<std::uint8_t>& placed) {
+  const auto block = [](int pixel, int blocks) {
+    return std::clamp(pixel, 0, blocks * kStillBlock - 1) / kStillBlock;
+  };
+  const int side = scale * kStillBlock;
+  for (int y = 0; y < placed.height(); ++y) {
+    const int top = block(y * side, still.height());
+    const int bottom = block((y + 1) * side - 1, still.height());
+    for (int x = 0; x < placed.width(); ++x) {
+      const int left = block(x * side + column, still.width());
+      const int right = block((x + 1) * side + column - 1, still.width());
+      std::uint8_t all = 1;
+      for (int row = top; row <= bottom; ++row) {
+        for (int i = left; i <= right; ++i) all &= still.row(row)[i];
+      }
+      placed.row(y)[x] = all;
+    }
+  }
+}
+
 void choose_least(const LeastConfidence& least, const Image<std::uint8_t>& still,
                   const Image<std::uint16_t>& last, const Image<std::int32_t>& map, int y0, int y1,
                   Image<std::uint8_t>& chosen) {

@@ -42,6 +42,11 @@ inline constexpr int still_blocks(int pixels) { return (pixels + kStillBlock - 1
 int find_still(GrayView view, const Image<std::uint8_t>& last, float noise, int y0, int y1,
                Image<std::uint8_t>& still);
 
+/// The same blocks in views that are `scale` times smaller and begin `column` pixels further right,
+/// or further left if negative: a block is still if all are that it shows.
+void place_still(const Image<std::uint8_t>& still, int scale, int column,
+                 Image<std::uint8_t>& placed);
+
 /// The least confidence of each pixel of the rows y0 .. y1 - 1. The view is still at a pixel if its
 /// block and the eight around are: what moves also changes the map beside it.
 void choose_least(const LeastConfidence& least, const Image<std::uint8_t>& still,

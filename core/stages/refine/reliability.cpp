@@ -63,11 +63,11 @@ void add_rows(const std::uint8_t* const* rows, int count, int width, std::uint16
 }
 
 /// The bins of the clue about the columns that show the pixels.
-void find_partner_bins(const std::int32_t* __restrict__ map, int width, int offset,
+void find_partner_bins(const std::int32_t* __restrict__ map, int width,
                        std::uint8_t* __restrict__ bins) {
   constexpr int kLeast = kPartnerEnds[0] - 1, kMost = 24;
   for (int x = 0; x < width; ++x) {
-    const int partner = ((x - offset) * kDisparityOne - map[x]) >> 8;
+    const int partner = (x * kDisparityOne - map[x]) >> 8;
     const int limited = partner < kLeast ? kLeast : partner;
     bins[x] = static_cast<std::uint8_t>(limited > kMost ? kMost : limited);
   }
@@ -238,10 +238,10 @@ void find_agreement_bins(const RatedViews& views, int y, int width, std::uint8_t
   const int tile = views.agreement_tile;
   const std::uint8_t* row = shares.row(std::min(y / tile, shares.height() - 1));
   for (int x = 0; x < width;) {
-    const int column = std::clamp(x + views.agreement_offset, 0, shares.width() * tile - 1) / tile;
-    // The first and the last tile reach to the ends of the row.
+    const int column = std::min(x / tile, shares.width() - 1);
+    // The last tile reaches to the end of the row.
     const bool last = column == shares.width() - 1;
-    const int end = last ? width : std::min((column + 1) * tile - views.agreement_offset, width);
+    const int end = last ? width : std::min((column + 1) * tile, width);
     std::memset(bins + x, row[column], end - x);
     x = end;
   }
@@ -282,10 +282,10 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
   std::uint8_t* support = scratch.bins[kSupportClue].data();
   for (int x = 0; x < width; ++x) support[x] = row_confidence[x] / 8;
   HWY_DYNAMIC_DISPATCH(find_partner_bins)
-  (map.row(y), width, views.disparity_offset, scratch.bins[kPartnerClue].data());
+  (map.row(y), width, scratch.bins[kPartnerClue].data());
   find_agreement_bins(views, y, width, scratch.bins[kAgreementClue].data());
   find_guide_bins(views.guide, map, y, scratch.expected.data(), scratch.bins[kGuideClue].data());
-  find_grid_bins(views.grid_level, map.row(y), views.disparity_offset, width,
+  find_grid_bins(views.grid_level, views.block_side, map.row(y), width,
                  scratch.bins[kGridClue].data());
   std::memset(scratch.bins[kNoiseClue].data(), bin_of(views.noise_level, kNoiseEnds), width);
   std::memset(scratch.bins[kDetailClue].data(), bin_of(views.fine_detail, kDetailEnds), width);

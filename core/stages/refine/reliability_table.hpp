@@ -37,12 +37,13 @@ using ReliabilityTable = std::array<std::array<std::int16_t, kClueBins>, kClues>
 
 /// The kinds of maps whose pixels are rated, each by a table of its own.
 enum class RatedMap {
-  kComplete,  ///< any pixel may be kept
-  kEnlarged,  ///< the same, matched at half the resolution
-  kMatched,   ///< only matched pixels are kept
-  kGuide,     ///< the map of half the resolution, for kGuideClue of the others
+  kComplete,      ///< any pixel may be kept
+  kHalfComplete,  ///< the same of views that are matched at half resolution
+  kMatched,       ///< only matched pixels are kept
+  kHalfMatched,   ///< the same of views that are matched at half resolution
+  kGuide,         ///< the map of half the matched resolution, for kGuideClue of the others
 };
-inline constexpr int kRatedMaps = 4;
+inline constexpr int kRatedMaps = 5;
 
 /// The fitted tables, by RatedMap.
 extern const std::array<ReliabilityTable, kRatedMaps> kReliabilityTables;

@@ -88,7 +88,7 @@ ModeFigures match(const Work& work, const std::string& name, const std::string& 
     return each.first == "mode" || (!resolution.empty() && each.first == "resolution");
   });
   parameters.emplace_back("mode", mode);
-  const bool rated = matcher_parameters(matched.options).text(Parameter::kGuide) == "pyramid";
+  const bool rated = matcher_parameters(matched.options).text(Parameter::kCost) == "census";
   if (!resolution.empty()) parameters.emplace_back("resolution", resolution);
   MatchingRun run(matched, mode_pairs(work), map_pipeline(matched), 1);
   std::vector<double> densities, wrong, times, details;

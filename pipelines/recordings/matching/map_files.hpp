@@ -25,7 +25,7 @@ double share_from(GstSample* map, double disparity);
 double disparity_below(GstSample* map, double share, int least_confidence = 0);
 
 /// The share of the matched disparities that are wrong by the odds that their confidence states, as
-/// it does with guide=pyramid [0 .. 1]. None for a map without any.
+/// it does with cost=census [0 .. 1]. None for a map without any.
 std::optional<double> stated_errors(GstSample* map);
 
 /// What turns the disparities of maps into depths: from their caps, or from the calibration of a

@@ -103,9 +103,9 @@ ReliabilityTable fitted(const std::vector<TrainingPair>& pairs, RatedMap rated,
                         const ReliabilityTable& guide, int count) {
   const std::vector<PairSamples> samples = sample_all(pairs, rated, guide, count);
   const ReliabilityTable table = library_table(fit(without(samples, "")));
-  constexpr std::array kTitles = {"Mode full", "Mode full of preset fast",
+  constexpr std::array kTitles = {"Mode full", "Mode full at half resolution",
                                   "Matched pixels of mode semi-dense",
-                                  "The map of half the resolution"};
+                                  "The same at half resolution", "The map of half the resolution"};
   std::printf("%s\n", kTitles[static_cast<int>(rated)]);
   report(samples, table);
   return table;

@@ -107,11 +107,15 @@ Image<std::uint8_t> rated_guide(const FrameMemory& memory, const ReliabilityTabl
   return rated;
 }
 
+bool is_half(RatedMap rated) {
+  return rated == RatedMap::kHalfComplete || rated == RatedMap::kHalfMatched;
+}
+
 Settings settings_for(int max_disparity, RatedMap rated) {
   Parameters parameters;
-  (void)parameters.set("preset", rated == RatedMap::kEnlarged ? "fast" : "default");
-  (void)parameters.set(
-      "mode", rated == RatedMap::kMatched || rated == RatedMap::kGuide ? "semi-dense" : "full");
+  const bool complete = rated == RatedMap::kComplete || rated == RatedMap::kHalfComplete;
+  (void)parameters.set("preset", is_half(rated) ? "fast" : "default");
+  (void)parameters.set("mode", complete ? "full" : "semi-dense");
   (void)parameters.set("max-disparity", std::to_string(max_disparity));
   return Settings(parameters);
 }
@@ -161,10 +165,11 @@ PairSamples take_samples(const TrainingPair& pair, const std::string& kind, Rate
   const cv::Mat& truth = degraded.images.truth.disparity;
   const double scale = degraded.images.truth.scale;
   const Settings settings = settings_for(degraded.max_disparity, rated);
+  const bool is_guide = rated == RatedMap::kGuide;
   const auto sample = [&](Bins& bins, int shrinking) {
     for (const cv::Point pixel : random_pixels(pair.name + kind, truth.size(), count)) {
       const cv::Point place = pixel / shrinking;
-      if (rated == RatedMap::kMatched && !bins.is_matched(place)) continue;
+      if (!settings.infers() && !is_guide && !bins.is_matched(place)) continue;
       const double expected = truth.at<float>(pixel);
       const double found = shrinking * bins.disparity(place);
       const bool known = std::isfinite(expected);
@@ -176,7 +181,6 @@ PairSamples take_samples(const TrainingPair& pair, const std::string& kind, Rate
   Image<std::uint8_t> guide_confidence;
   const auto observe = [&](const Step& step, const FrameMemory& memory) {
     const Pyramid& pyramid = memory.pyramid;
-    const bool is_guide = rated == RatedMap::kGuide;
     if (step.name == "guide-support" && is_guide) {
       Bins bins(rated_guide_views(memory.views, pyramid), pyramid.levels[0].disparity,
                 pyramid.confidence);
@@ -187,7 +191,7 @@ PairSamples take_samples(const TrainingPair& pair, const std::string& kind, Rate
       RatedViews views = rated_views(memory.views, pyramid, memory.result);
       views.guide.confidence = &guide_confidence;
       Bins bins(views, *memory.result.disparity, *memory.result.confidence);
-      sample(bins, 1);
+      sample(bins, is_half(rated) ? 2 : 1);
     }
   };
   FrameMatcher(settings).compute(view_of(degraded.images.left), view_of(degraded.images.right),

@@ -62,7 +62,7 @@ void expect_no_allocations(std::initializer_list<std::pair<const char*, std::str
     const Result<FrameResult> result = matcher.compute(now.left.view(), now.right.view());
     const long count = test::allocations();
     ASSERT_TRUE(result.ok());
-    EXPECT_GT(result->statistics.density, 0.05);
+    EXPECT_GT(result->statistics.density, 0.001);
     if (frame < 2) continue;
     EXPECT_EQ(0, count) << "frame " << frame;
   }

@@ -52,12 +52,12 @@ constexpr ViewCorrection kCorrections[] = {
 
 TEST(Correction, IsAppliedBeforeAllOtherSteps) {
   for (const char* const preset : kPresetNames) {
-    for (const char* const guide : {"nodes", "pyramid"}) {
-      Matcher corrects = test::matcher({{"preset", preset}, {"guide", guide}, {"threads", "3"}});
-      Matcher plain = test::matcher({{"preset", preset}, {"guide", guide}});
+    for (const char* const mode : {"semi-dense", "dense"}) {
+      Matcher corrects = test::matcher({{"preset", preset}, {"mode", mode}, {"threads", "3"}});
+      Matcher plain = test::matcher({{"preset", preset}, {"mode", mode}});
       for (const ViewCorrection& correction : kCorrections) {
-        // Edges follow the caller's left view.
-        if (guide == std::string("pyramid") && correction.left_blur > 0) continue;
+        // At full resolution, edges follow the caller's left view.
+        if (preset == std::string("default") && correction.left_blur > 0) continue;
         ASSERT_TRUE(corrects.set_correction(correction).ok());
         EXPECT_EQ(correction, corrects.correction());
         GrayPlane left = pair().left, right = pair().right;

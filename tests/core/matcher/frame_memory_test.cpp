@@ -17,15 +17,14 @@ constexpr FrameSize kHalf = {{101, 51}, {101, 51}, {51, 26}, 3};
 
 TEST(FrameMemory, HasTheBuffersOfNodesAndPixels) {
   FrameMemory memory;
-  memory.resize(settings_of({{"guide", "nodes"}}), kFull);
+  memory.resize(settings_of({{"preset", "paper"}, {"outlier-radius", "0"}}), kFull);
   for (int side = 0; side < 2; ++side) {
     EXPECT_EQ(101, memory.nodes.preprocessed[side].level.width());
-    EXPECT_EQ(51, memory.views.census[side].bits.height());
+    EXPECT_EQ(101, memory.nodes.preprocessed[side].gray.width());
+    EXPECT_EQ(0, memory.views.census[side].bits.height());
     EXPECT_EQ(0, memory.views.halves[side].width());
-    EXPECT_EQ(0, memory.nodes.preprocessed[side].gray.width()) << "only a cost volume needs it";
   }
-  EXPECT_EQ(1, memory.nodes.level_count);
-  EXPECT_EQ(0u, memory.costs.volume.cells.size());
+  EXPECT_EQ(2, memory.nodes.level_count);
   EXPECT_EQ(101, memory.maps.disparity.width());
   EXPECT_EQ(0, memory.nodes.votes.disparity.width());
   EXPECT_EQ(0, memory.result.enlarged.width());

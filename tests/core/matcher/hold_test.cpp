@@ -195,7 +195,7 @@ TEST(Hold, IsTheSameForAnyNumberOfThreads) {
 
 TEST(Hold, ChangesNothingWhereNoConfidenceIsAskedOfTheCompleteMap) {
   for (const auto& [preset, mode] :
-       {std::pair("default", "full"), {"fast", "semi-dense"}, {"paper", "dense"}}) {
+       {std::pair("default", "full"), {"fast", "full"}, {"paper", "dense"}}) {
     Matcher off = test::matcher({{"preset", preset}, {"mode", mode}});
     Matcher hold = test::matcher({{"preset", preset}, {"mode", mode}, {"temporal", "hold"}});
     for (int i = 0; i < 3; ++i) {

@@ -34,9 +34,9 @@ const Mapping kMappings[] = {
     {"mode", "dense", 1, [](const Settings& s) { return s.by_paths(); }},
     {"mode", "semi-dense", 1, [](const Settings& s) { return s.by_paths(); }},
     {"mode", "sparse", 1, [](const Settings& s) { return s.by_paths(); }},
-    {"guide", "nodes", 0, [](const Settings& s) { return s.by_paths(); }},
     {"cost", "gradient", 0, [](const Settings& s) { return s.by_paths(); }},
-    {"preset", "fast", 0, [](const Settings& s) { return s.by_paths(); }},
+    {"preset", "fast", 1, [](const Settings& s) { return s.by_paths(); }},
+    {"preset", "paper", 0, [](const Settings& s) { return s.by_paths(); }},
     {"mode", "sparse", 0, [](const Settings& s) { return column_paths(s, 0); }},
     {"mode", "semi-dense", 0, [](const Settings& s) { return column_paths(s, 0); }},
     {"mode", "semi-dense", 1, [](const Settings& s) { return column_paths(s, 1); }},
@@ -75,8 +75,6 @@ const Mapping kMappings[] = {
     {"resolution", "full", 0, [](const Settings& s) { return s.chooses_resolution; }},
     {"resolution", "half", 32, [](const Settings& s) { return s.disparities; }},
     {"node-levels", "7,2,0", 2, [](const Settings& s) { return s.node_levels.level[1]; }},
-    {"cost", "census", 1, [](const Settings& s) { return s.census(); }},
-    {"cost", "gradient", 0, [](const Settings& s) { return s.census(); }},
     {"census-kernel-size", "3", 60, [](const Settings& s) { return s.selection.ratio_offset; }},
 };
 
@@ -145,18 +143,14 @@ TEST(Settings, KeepInferredPixelsInModeDenseOnly) {
   EXPECT_EQ(150, least("semi-dense", "150"));
 }
 
-TEST(Settings, KeepOnlyTheEndsOfNodesInModeSparse) {
-  const auto settings = [](const char* mode, const char* cost, const char* guide) {
-    return Settings(test::parameters(
-        {{"mode", mode}, {"cost", cost}, {"guide", guide}, {"node-end-width", "7"}}));
+TEST(Settings, DrawOnlyTheEndsOfNodesInModeSparse) {
+  const auto width = [](const char* mode) {
+    return Settings(
+               test::parameters({{"mode", mode}, {"cost", "gradient"}, {"node-end-width", "7"}}))
+        .drawn_end_width();
   };
-  EXPECT_EQ(7, settings("sparse", "gradient", "pyramid").drawn_end_width());
-  EXPECT_EQ(0, settings("sparse", "census", "nodes").drawn_end_width());
-  EXPECT_EQ(0, settings("semi-dense", "gradient", "nodes").drawn_end_width());
-  EXPECT_TRUE(settings("sparse", "census", "nodes").keeps_only_ends());
-  EXPECT_FALSE(settings("sparse", "census", "pyramid").keeps_only_ends());
-  EXPECT_FALSE(settings("sparse", "gradient", "nodes").keeps_only_ends());
-  EXPECT_FALSE(settings("dense", "census", "nodes").keeps_only_ends());
+  EXPECT_EQ(7, width("sparse"));
+  EXPECT_EQ(0, width("semi-dense"));
 }
 
 /// Sets each word of a choice and compares the enum value with the index of the word.

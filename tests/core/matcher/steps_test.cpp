@@ -16,7 +16,7 @@ using Names = std::vector<std::string>;
 TEST(Steps, HaveUniqueNames) {
   for (const StepList& matcher : {kPathSteps, kNodeSteps}) {
     std::set<std::string_view> names;
-    for (const StepList& list : {kViewSteps, matcher, kMapSteps, kResultSteps}) {
+    for (const StepList& list : {kViewSteps, matcher, kResultSteps, kSizeSteps}) {
       for (const Step& step : list) EXPECT_TRUE(names.insert(step.name).second) << step.name;
     }
   }
@@ -47,46 +47,17 @@ TEST(Steps, RunInOrderWithTheDefaults) {
                     "guide-support", "guide-rating", "thin-search", "speckle-removal", "confidence",
                     "smoothing", "fine-detail", "completion", "edge-alignment", "reliability",
                     "rejection", "gap-closing", "thin-drawing"});
-  expect_none_of({}, {"halving", "preprocessing", "max-trees", "node-matching", "census-matching",
-                      "island-removal", "thin-restoring", "gap-filling", "foreground-check",
-                      "enlarging", "input-census", "refinement"});
-}
-
-TEST(Steps, MeasureNoDetailAtHalfResolution) {
-  expect_none_of(test::parameters({{"resolution", "half-refined"}}), {"fine-detail"});
-}
-
-TEST(Steps, RunInOrderWithNodes) {
-  const Parameters nodes = test::parameters({{"guide", "nodes"}, {"max-gap", "8"}});
-  expect_order(nodes, {"noise-filter", "census", "preprocessing", "max-trees", "node-matching",
-                       "node-extrapolation", "census-matching", "thin-search", "speckle-removal",
-                       "confidence", "island-removal", "thin-restoring", "gap-filling",
-                       "foreground-check", "smoothing"});
-  expect_none_of(nodes, {"halving", "cost-volume", "node-drawing", "node-outliers",
-                         "gradient-matching", "pixel-outliers", "enlarging", "input-census",
-                         "refinement", "reduced-matching", "completion", "rejection"});
-}
-
-TEST(Steps, LeaveTheEndsOfNodesAloneInModeSparse) {
-  expect_none_of(
-      test::parameters({{"mode", "sparse"}, {"guide", "nodes"}}),
-      {"thin-search", "island-removal", "thin-restoring", "gap-filling", "foreground-check"});
-}
-
-TEST(Steps, FillGapsAfterConfidence) {
-  expect_order(test::parameters({{"guide", "nodes"}, {"max-gap", "1"}}),
-               {"census-matching", "speckle-removal", "confidence", "gap-filling"});
+  expect_none_of({}, {"halving", "preprocessing", "max-trees", "node-matching", "enlarging",
+                      "input-census", "refinement"});
 }
 
 TEST(Steps, CloseGapsOfTheCompleteMapAfterTheRejection) {
   const Parameters dense = test::parameters({{"mode", "dense"}, {"max-gap", "1"}});
   expect_order(dense, {"completion", "rejection", "gap-closing", "thin-drawing"});
-  expect_none_of(dense, {"gap-filling", "foreground-check"});
   for (const char* const mode : {"semi-dense", "dense"}) {
     expect_none_of(test::parameters({{"mode", mode}, {"max-gap", "0"}}), {"gap-closing"});
   }
-  expect_none_of(test::parameters({{"mode", "full"}, {"max-gap", "9"}}),
-                 {"gap-closing", "gap-filling"});
+  expect_none_of(test::parameters({{"mode", "full"}, {"max-gap", "9"}}), {"gap-closing"});
 }
 
 TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
@@ -94,9 +65,7 @@ TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
   expect_order(dense,
                {"path-matching", "guide-support", "guide-rating", "thin-search", "speckle-removal",
                 "completion", "edge-alignment", "reliability", "rejection", "thin-drawing"});
-  expect_none_of(dense,
-                 {"fine-detail", "left-strip", "node-matching", "census-matching", "island-removal",
-                  "thin-restoring", "gap-filling", "foreground-check", "gap-closing"});
+  expect_none_of(dense, {"fine-detail", "left-strip", "node-matching", "gap-closing"});
   expect_none_of(test::parameters({{"mode", "dense"}, {"min-confidence", "0"}}), {"rejection"});
 }
 
@@ -107,14 +76,17 @@ TEST(Steps, MatchAlongPathsInsteadOfNodesInModeFull) {
                 "guide-support", "guide-rating", "speckle-removal", "confidence", "smoothing",
                 "completion", "edge-alignment", "reliability", "left-strip"});
   expect_none_of(full, {"fine-detail", "rejection", "thin-drawing", "preprocessing", "max-trees",
-                        "node-matching", "node-extrapolation", "census-matching", "gap-filling",
-                        "island-removal"});
+                        "node-matching", "node-extrapolation"});
 }
 
-TEST(Steps, CompleteTheMapAfterItHasTheSizeOfTheViewsInModeFull) {
-  expect_order(test::parameters({{"mode", "full"}, {"preset", "fast"}, {"min-disparity", "3"}}),
-               {"halving", "path-matching", "guide-support", "guide-rating", "enlarging",
-                "refinement", "map-shift", "completion", "edge-alignment"});
+TEST(Steps, EnlargeTheCompleteMapOfHalvedViews) {
+  const Parameters fast =
+      test::parameters({{"mode", "full"}, {"preset", "fast"}, {"min-disparity", "3"}});
+  expect_order(fast, {"halving", "path-matching", "guide-rating", "completion", "edge-alignment",
+                      "reliability", "flat-planes", "enlarging", "input-census", "refinement",
+                      "enlarged-edges", "map-shift"});
+  expect_none_of(fast, {"plane-edges"});
+  expect_none_of(test::parameters({{"mode", "full"}}), {"enlarged-edges"});
 }
 
 TEST(Steps, AreThoseOfSemiDenseInModeFullOfThePaper) {
@@ -123,10 +95,11 @@ TEST(Steps, AreThoseOfSemiDenseInModeFullOfThePaper) {
 }
 
 TEST(Steps, MatchHalvedViewsInPresetFast) {
-  expect_order(test::parameters({{"preset", "fast"}}),
-               {"halving", "census", "preprocessing", "max-trees", "node-matching",
-                "node-extrapolation", "census-matching", "speckle-removal", "confidence",
-                "smoothing", "enlarging", "input-census", "refinement"});
+  const Parameters fast = test::parameters({{"preset", "fast"}});
+  expect_order(fast, {"halving", "census", "reduced-matching", "path-matching", "confidence",
+                      "smoothing", "fine-detail", "reliability", "rejection", "thin-drawing",
+                      "enlarging", "input-census", "refinement"});
+  expect_none_of(fast, {"max-trees", "noise-filter", "enlarged-edges"});
 }
 
 TEST(Steps, AreThoseOfThePaperInPresetPaper) {
@@ -134,39 +107,35 @@ TEST(Steps, AreThoseOfThePaperInPresetPaper) {
   expect_order(paper, {"preprocessing", "max-trees", "cost-volume", "node-matching", "node-drawing",
                        "node-outliers", "node-extrapolation", "gradient-matching", "pixel-outliers",
                        "confidence"});
-  expect_none_of(paper, {"halving", "noise-filter", "island-removal", "census", "census-matching",
-                         "thin-search", "speckle-removal", "gap-filling", "smoothing", "enlarging",
-                         "input-census", "refinement"});
+  expect_none_of(paper, {"halving", "noise-filter", "census", "speckle-removal", "smoothing",
+                         "reduced-matching", "completion", "rejection", "enlarging", "input-census",
+                         "refinement"});
 }
 
 TEST(Steps, AreEnabledBySettings) {
-  const auto runs = [](const char* step, const char* parameter, const char* value) {
+  const auto runs = [](const char* step, const char* parameter, const char* value,
+                       const char* cost = "census") {
     const Names names =
-        test::names_of_steps(test::parameters({{"guide", "nodes"}, {parameter, value}}));
+        test::names_of_steps(test::parameters({{"cost", cost}, {parameter, value}}));
     return std::count(names.begin(), names.end(), step) > 0;
   };
   EXPECT_FALSE(runs("speckle-removal", "speckle-size", "0"));
   EXPECT_FALSE(runs("speckle-removal", "speckle-size", "1"));
   EXPECT_TRUE(runs("speckle-removal", "speckle-size", "2"));
-  EXPECT_FALSE(runs("island-removal", "speckle-size", "0"));
-  EXPECT_FALSE(runs("island-removal", "min-confidence", "0"));
   EXPECT_FALSE(runs("noise-filter", "noise-filter", "false"));
   EXPECT_FALSE(runs("time-filter", "temporal", "hold"));
   EXPECT_TRUE(runs("time-filter", "temporal", "filter"));
-  EXPECT_TRUE(runs("gap-filling", "max-gap", "1"));
-  EXPECT_TRUE(runs("foreground-check", "max-gap", "1"));
-  EXPECT_FALSE(runs("foreground-check", "max-gap", "0"));
-  EXPECT_FALSE(runs("foreground-check", "thin-objects", "false"));
+  EXPECT_TRUE(runs("gap-closing", "max-gap", "1"));
+  EXPECT_FALSE(runs("gap-closing", "max-gap", "0"));
   EXPECT_FALSE(runs("thin-search", "thin-objects", "false"));
-  EXPECT_FALSE(runs("thin-restoring", "thin-objects", "false"));
   EXPECT_TRUE(runs("smoothing", "smoothing-radius", "1"));
-  EXPECT_TRUE(runs("node-outliers", "outlier-radius", "1"));
-  EXPECT_FALSE(runs("pixel-outliers", "outlier-radius", "1"));
+  EXPECT_TRUE(runs("node-outliers", "outlier-radius", "1", "gradient"));
+  EXPECT_FALSE(runs("pixel-outliers", "outlier-radius", "1", "gradient"));
   EXPECT_TRUE(runs("enlarging", "resolution", "half"));
   EXPECT_FALSE(runs("refinement", "resolution", "half"));
-  EXPECT_TRUE(runs("reduced-matching", "guide", "pyramid"));
-  EXPECT_FALSE(runs("max-trees", "guide", "pyramid"));
-  EXPECT_FALSE(runs("rejection", "guide", "nodes"));
+  EXPECT_FALSE(runs("max-trees", "max-gap", "1"));
+  EXPECT_TRUE(runs("max-trees", "max-gap", "1", "gradient"));
+  EXPECT_FALSE(runs("rejection", "max-gap", "1", "gradient"));
 }
 
 TEST(Steps, CorrectTheViewsFirstButForTheirNoise) {

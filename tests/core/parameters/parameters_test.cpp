@@ -151,9 +151,8 @@ TEST(ParameterTable, HasTheDefaultsAsText) {
   EXPECT_EQ("default", parameter_defaults_text(Parameter::kPreset));
   EXPECT_EQ("semi-dense", parameter_defaults_text(Parameter::kMode));
   EXPECT_EQ("full; preset fast: half-refined", parameter_defaults_text(Parameter::kResolution));
-  EXPECT_EQ(
-      "3 (sparse 0, dense 0, full 0); preset fast: 4 (sparse 0, dense 0, full 0); preset paper: 0",
-      parameter_defaults_text(Parameter::kMaxGap));
+  EXPECT_EQ("3 (sparse 0, dense 0, full 0); preset paper: 0",
+            parameter_defaults_text(Parameter::kMaxGap));
   EXPECT_EQ("16; preset paper: 8 (sparse 16)", parameter_defaults_text(Parameter::kGrayLevels));
   EXPECT_EQ("census; preset paper: gradient", parameter_defaults_text(Parameter::kCost));
 }

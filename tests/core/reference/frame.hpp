@@ -39,17 +39,19 @@ namespace mtstereo::reference {
 /// The data that the scalar versions of the steps keep for one frame.
 struct Frame {
   Frame(const GrayPlane& left_view, const GrayPlane& right, const Settings& s)
-      : settings(s), left(left_view), input{left_view, right}, views{left_view, right} {}
+      : settings(s), left(left_view), input{left_view, right}, plain(input), views(input) {}
 
   const Settings settings;
   GrayPlane left;  ///< as the caller passes it, or averaged
   std::array<GrayPlane, 2> input;
+  std::array<GrayPlane, 2> plain;  ///< the matched views with their noise
   std::array<GrayPlane, 2> views;  ///< the matched views
   float input_noise = 0;           ///< of the noisier view, if the views are averaged
   float noise = 0;                 ///< of the noisier view, if the noise filter runs
   float rated_noise = 0;           ///< the same, before the views were averaged
   float detail = 1;                ///< the share of the finest octave, if it is measured
   int grid = 0;                    ///< the level of the block grid
+  int block = 8;                   ///< side of its blocks [px]
   std::array<GrayPlane, 2> medians;
   std::array<GrayPlane, 2> levels;
   std::array<Trees, 2> trees;
@@ -64,13 +66,13 @@ struct Frame {
   GrayPlane agreement;              ///< of the tiles of the views
   DisparityPlane nodes;             ///< the drawn leaves; without outliers after their removal
   DisparityPlane map;
-  DisparityPlane found;     ///< the map before the filters, negative at thin structures
-  DisparityPlane unfilled;  ///< the map before the gap filling
+  DisparityPlane found;  ///< the map before the filters, negative at thin structures
   GrayPlane ratio;
   GrayPlane area;  ///< weights of the areas
   GrayPlane confidence;
   PastViews past;   ///< with empty views: the pair is the first one
   LastPair last;    ///< with an empty map: the pair is the first one
+  LastPair kept;    ///< this pair, to be the last one of the next
   GrayPlane least;  ///< confidence that each pixel needs; empty: all the same
 };
 
@@ -85,9 +87,16 @@ inline void shift_views(Frame& f) {
         shifted(x, y) = f.input[side](std::clamp(from, 0, width - 1), y);
       }
     }
-    f.views[side] = f.input[side] = shifted;
+    f.views[side] = f.plain[side] = f.input[side] = shifted;
   }
 }
+
+inline void take(Frame& f, const ConfidentMap& result) {
+  f.map = result.map;
+  f.confidence = result.confidence;
+}
+
+inline void complete(Frame& f) { take(f, complete(ConfidentMap{f.map, f.confidence})); }
 
 inline void shift_map(Frame& f) {
   const int least = f.settings.min_disparity, width = f.map.width + least;
@@ -104,10 +113,11 @@ inline void shift_map(Frame& f) {
   }
   f.map = map;
   f.confidence = confidence;
+  if (f.settings.keeps_all()) complete(f);
 }
 
 inline void halve(Frame& f) {
-  for (int side = 0; side < 2; ++side) f.views[side] = halve(f.input[side]);
+  for (int side = 0; side < 2; ++side) f.views[side] = f.plain[side] = halve(f.input[side]);
 }
 
 inline void filter_in_time(Frame& f) {
@@ -125,7 +135,7 @@ inline void filter_in_time(Frame& f) {
   if (past.averaged) f.input_noise = std::max(noise[0], noise[1]) / (f.settings.half() ? 2 : 1);
   for (int side = 0; side < 2; ++side) {
     average(f.input[side], !past.averaged, past.views[side]);
-    f.input[side] = f.views[side] = past.views[side].filtered;
+    f.input[side] = f.plain[side] = f.views[side] = past.views[side].filtered;
   }
   f.left = f.input[0];
 }
@@ -162,8 +172,6 @@ inline void compute_costs(Frame& f) {
 inline void match_levels(Frame& f) {
   const Settings& s = f.settings;
   const int width = f.views[0].width;
-  const CensusPair census_pair = {census(f.views[0], s.census_scales),
-                                  census(f.views[1], s.census_scales)};
   for (int n = 0; n < s.node_levels.count; ++n) {
     const double below = s.max_node_width * width;
     const Level left = select_nodes(f.trees[0], s.node_levels.level[n], s.min_node_width, below);
@@ -171,11 +179,9 @@ inline void match_levels(Frame& f) {
     const Intervals intervals = n == 0
                                     ? first_intervals(left, s.disparities)
                                     : finer_intervals(left, f.leaves, f.matches, s.max_neighbors);
-    const PairInput input{
-        f.trees[0],   f.trees[1],        left, right, s.census() ? nullptr : &f.volume,
-        &census_pair, s.intensity_weight};
+    const PairInput input{f.trees[0], f.trees[1], left, right, f.volume, s.intensity_weight};
     f.matches =
-        match_nodes(input, intervals, s.max_neighbors, s.disparities, s.node_acceptance, width);
+        match_nodes(input, intervals, s.max_neighbors, s.disparities, s.node_confidence, width);
     f.leaves = left;
   }
   f.nodes = draw_matches(f.leaves, f.matches, width);
@@ -194,11 +200,6 @@ inline void extrapolate(Frame& f) {
 inline void take(Frame& f, const RatedMap& pixels) {
   f.map = pixels.map;
   f.ratio = pixels.ratio;
-}
-
-inline void match_by_census(Frame& f) {
-  take(f, match_pixels_by_census(f.views[0], f.views[1], f.settings.census_matching(), f.map,
-                                 f.settings.census_scales));
 }
 
 inline void match_by_gradient(Frame& f) {
@@ -240,8 +241,8 @@ inline void support_guide(Frame& f) {
 inline void rate_guide(Frame& f) {
   std::array<GrayPlane, 2> halves;
   for (int side = 0; side < 2; ++side) halves[side] = halve(f.views[side]);
-  const Grays grays = map_grays(halves[0], halves[1], 0, f.guide);
-  const RatedPair pair = {halves[0], halves[1], 0, f.noise, f.agreement, 8, 0, grays};
+  const Grays grays = map_grays(halves[0], halves[1], f.guide);
+  const RatedPair pair = {halves[0], halves[1], f.noise, f.agreement, 8, grays};
   const auto table = static_cast<int>(mtstereo::RatedMap::kGuide);
   f.guide.confidence = rate_reliability(pair, f.guide, kReliabilityTables[table], false);
 }
@@ -272,87 +273,53 @@ inline void rate_confidence(Frame& f) {
   };
   const int least = s.keeps_likely_only() ? 0 : s.min_confidence;
   keep_where([&](std::size_t i) { return f.confidence.pixels[i] >= least; });
-  if (!s.keeps_only_ends()) return;
-  const Plane<int> ends = leaf_ends(f.leaves, f.nodes, s.max_neighbors, s.node_end_width);
-  keep_where([&](std::size_t i) { return ends.pixels[i] != 0; });
-}
-
-inline void remove_islands(Frame& f) {
-  f.map = remove_speckles(f.map, 256, f.settings.speckle_size / 3).map;
-  for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
-    if (f.map.pixels[i] == 0) f.confidence.pixels[i] = 0;
-  }
-}
-
-inline void restore_thin(Frame& f) {
-  restore_thin(f.found, f.settings.min_confidence, f.map, f.confidence);
-}
-
-inline void take(Frame& f, const ConfidentMap& result) {
-  f.map = result.map;
-  f.confidence = result.confidence;
-}
-
-inline void fill_gaps(Frame& f) {
-  f.unfilled = f.map;
-  ConfidentMap filled = {f.map, f.confidence};
-  filled = fill_gaps(filled, f.settings.max_gap, 256, 1, 0);
-  filled = fill_gaps(filled, f.settings.max_gap, 256, 0, 1);
-  take(f, filled);
 }
 
 inline void measure_fine_detail(Frame& f) {
-  const int offset = std::min(f.settings.min_disparity, 0);
   const FineDetail detail =
-      measure_detail(f.left, f.input[1], ConfidentMap{f.map, f.confidence}, offset);
+      measure_detail(f.plain[0], f.plain[1], ConfidentMap{f.map, f.confidence}, 0);
   if (detail.share()) f.detail = static_cast<float>(*detail.share());
 }
 
 inline void measure_block_grid(Frame& f) {
-  const int offset = std::min(f.settings.min_disparity, 0);
-  f.grid = grid_level(f.left, ConfidentMap{f.map, f.confidence}, offset);
+  f.block = f.settings.half() ? 4 : 8;
+  f.grid = grid_level(f.plain[0], ConfidentMap{f.map, f.confidence}, f.block);
 }
 
-inline void complete(Frame& f) { take(f, complete(ConfidentMap{f.map, f.confidence})); }
-
 inline void align_edges(Frame& f) {
-  take(f, align_edges(f.left, ConfidentMap{f.map, f.confidence}));
+  take(f, align_edges(f.plain[0], ConfidentMap{f.map, f.confidence}));
 }
 
 inline void calibrate_confidence(Frame& f) {
-  const int least = f.settings.min_disparity;
-  const int tile = f.settings.half() ? 32 : 16;
   const ConfidentMap complete = {f.map, f.confidence};
-  const Grays grays = map_grays(f.left, f.input[1], std::min(least, 0), complete);
-  const RatedPair pair = {
-      f.left, f.input[1], std::min(least, 0), f.rated_noise, f.agreement, tile,
-      -least, grays,      &f.guide,           tile / 8,      f.detail,    f.grid};
+  const Grays grays = map_grays(f.plain[0], f.plain[1], complete);
+  const RatedPair pair = {f.plain[0], f.plain[1], f.rated_noise, f.agreement, 16,
+                          grays,      &f.guide,   f.detail,      f.grid,      f.block};
   const bool apart = !f.settings.keeps_inferred();
   const auto table = static_cast<int>(f.settings.rated_map());
   f.confidence = rate_reliability(pair, complete, kReliabilityTables[table], apart);
 }
 
 inline void correct_strip(Frame& f) {
-  const int strip = f.settings.min_disparity + f.settings.view_disparities;
-  take(f, correct_left_strip(ConfidentMap{f.map, f.confidence}, strip));
+  take(f, correct_left_strip(ConfidentMap{f.map, f.confidence}, f.settings.disparities));
 }
 
 inline void complete_flat_areas(Frame& f) {
-  take(f, complete_flat_areas(f.left, f.rated_noise, ConfidentMap{f.map, f.confidence}));
+  take(f, complete_flat_areas(f.plain[0], f.rated_noise, ConfidentMap{f.map, f.confidence}));
 }
 
 inline void draw_thin_structures(Frame& f) {
-  draw_thin_structures(f.found, f.settings.min_disparity, f.settings.half() ? 2 : 1,
-                       std::max(f.settings.min_confidence, 16), f.settings.keeps_likely_only(),
-                       f.map, f.confidence);
+  draw_thin_structures(f.found, std::max(f.settings.min_confidence, 16),
+                       f.settings.keeps_likely_only(), f.map, f.confidence);
 }
 
 inline void hold_known(Frame& f) {
   if (f.last.map.width == 0) return;
   const bool filters = f.settings.filters();
   if (filters && !f.past.averaged) return;
-  const GrayPlane still =
-      filters ? f.past.views[0].still : still_blocks(f.left, f.last.view, noise_level(f.left));
+  const GrayPlane still = filters ? placed(f.past.views[0].still, f.settings.half() ? 2 : 1,
+                                           f.settings.min_disparity, f.map.width, f.map.height)
+                                  : still_blocks(f.plain[0], f.last.view, noise_level(f.plain[0]));
   const auto count = std::count(still.pixels.begin(), still.pixels.end(), 1);
   if (!filters && 5 * count < 2 * static_cast<long>(still.pixels.size())) return;
   const auto [usual, known, fresh] = f.settings.least_confidence();
@@ -371,14 +338,12 @@ inline void reject_unlikely(Frame& f) {
   }
 }
 
+inline void keep_pair(Frame& f) { f.kept = {f.map, f.plain[0]}; }
+
 inline void close_gaps(Frame& f) {
-  const int max_gap = f.settings.max_gap * (f.settings.half() ? 2 : 1);
+  const int max_gap = f.settings.max_gap;
   const ConfidentMap rows = fill_gaps({f.map, f.confidence}, max_gap, 256, 1, 0, 15);
   take(f, fill_gaps(rows, max_gap, 256, 0, 1, 15));
-}
-
-inline void check_foreground(Frame& f) {
-  check_foreground(f.found, f.unfilled, f.map, f.confidence);
 }
 
 inline void smooth(Frame& f) { f.map = smooth(f.map, f.settings.smoothing_radius); }
@@ -387,6 +352,10 @@ inline void enlarge(Frame& f) {
   const int width = f.input[0].width, height = f.input[0].height;
   f.map = enlarge(f.map, width, height, f.settings.view_disparities);
   f.confidence = enlarge_confidence(f.confidence, width, height);
+}
+
+inline void align_enlarged(Frame& f) {
+  take(f, align_edges(f.input[0], ConfidentMap{f.map, f.confidence}));
 }
 
 inline void refine(Frame& f) {
@@ -416,20 +385,16 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"path-matching", match_by_paths},
     {"guide-support", support_guide},
     {"guide-rating", rate_guide},
-    {"census-matching", match_by_census},
     {"gradient-matching", match_by_gradient},
     {"pixel-outliers", remove_pixel_outliers},
     {"thin-search", find_thin},
     {"speckle-removal", remove_speckles},
     {"confidence", rate_confidence},
-    {"island-removal", remove_islands},
-    {"thin-restoring", restore_thin},
-    {"gap-filling", fill_gaps},
-    {"foreground-check", check_foreground},
     {"smoothing", smooth},
     {"enlarging", enlarge},
     {"input-census", nothing},
     {"refinement", refine},
+    {"enlarged-edges", align_enlarged},
     {"map-shift", shift_map},
     {"fine-detail", measure_fine_detail},
     {"block-grid", measure_block_grid},
@@ -443,6 +408,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"rejection", reject_unlikely},
     {"gap-closing", close_gaps},
     {"thin-drawing", draw_thin_structures},
+    {"pair-keeping", keep_pair},
 };
 
 /// Runs the scalar version of a step. A step without one leaves the frame unchanged: if the step

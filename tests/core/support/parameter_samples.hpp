@@ -29,10 +29,11 @@ inline const std::vector<ParameterSample>& parameter_samples() {
   using Base = decltype(ParameterSample::base);
   static const Base kPaper = {{"preset", "paper"}};
   // With costs that leave outliers, and with wrong disparities in the gaps.
-  static const Base kOutliers = {{"preset", "paper"},         {"cost", "census"},
-                                 {"census-kernel-size", "1"}, {"large-step-penalty", "0"},
-                                 {"range-penalty", "0"},      {"pixel-confidence", "0"},
-                                 {"between-nodes", "all"}};
+  static const Base kOutliers = {{"preset", "paper"},
+                                 {"cost-kernel-size", "1"},
+                                 {"pixel-confidence", "0"},
+                                 {"pixel-search-range", "100"},
+                                 {"outlier-radius", "2"}};
   static const Base kWrongGaps = {{"large-step-penalty", "0"},
                                   {"range-penalty", "0"},
                                   {"pixel-confidence", "0"},
@@ -47,7 +48,6 @@ inline const std::vector<ParameterSample>& parameter_samples() {
       {"resolution", {"full", "full", "half", "half-refined"}, {}, "half", [](S s) { return 1.0 * static_cast<int>(s.resolution); }},
       {"threads", {"1", "2", "3"}, {}, "3", [](S s) { return 1.0 * s.threads; }},
       {"noise-filter", {"true", "false"}, {}, "false", [](S s) { return 1.0 * s.noise_filter; }},
-      {"guide", {"pyramid", "pyramid", "nodes"}, {}, "nodes", [](S s) { return 1.0 * static_cast<int>(s.guide); }},
       {"gray-levels", {"2", "8", "16", "37", "256"}, kPaper, "3", [](S s) { return 1.0 * s.gray_levels; }},
       {"min-node-width", {"0", "0", "1", "2"}, kPaper, "3", [](S s) { return 1.0 * s.min_node_width; }},
       {"max-node-width", {"0.5", "0.5", "0.4", "1"}, kPaper, "0.05", [](S s) { return s.max_node_width; }},
@@ -57,13 +57,12 @@ inline const std::vector<ParameterSample>& parameter_samples() {
       {"cost-kernel-size", {"21", "1", "3", "9", "41"}, kPaper, "3", [](S s) { return 1.0 * s.cost_kernel_size; }},
       {"cost-volume", {"half", "full"}, kPaper, "full", [](S s) { return 1.0 * static_cast<int>(s.cost_volume); }},
       {"intensity-weight", {"0.8", "0", "0.5", "1"}, kPaper, "0.2", [](S s) { return 1.0 * s.intensity_weight; }},
-      {"node-confidence", {"12", "0", "0", "3"}, kPaper, "3", [](S s) { return 1.0 * s.node_acceptance.confidence; }, 0.01},
+      {"node-confidence", {"12", "0", "0", "3"}, kPaper, "3", [](S s) { return 1.0 * s.node_confidence; }, 0.01},
       {"outlier-radius", {"21", "0", "1", "6", "31"}, kPaper, "3", [](S s) { return 1.0 * s.outlier_radius; }},
       {"outlier-removal", {"nodes", "nodes-and-pixels"}, kOutliers, "nodes", [](S s) { return 1.0 * static_cast<int>(s.outlier_removal); }},
       {"census-scales", {"1", "2"}, {}, "1", [](S s) { return 1.0 * s.census_scales; }},
       {"census-kernel-size", {"5", "3", "1"}, {}, "3", [](S s) { return 1.0 * s.census_cost.kernel_size; }},
       {"pixel-search-range", {"15", "0", "60", "100"}, kPaper, "90", [](S s) { return s.search_range.range; }, 0.01},
-      {"between-nodes", {"all", "span", "none"}, {{"guide", "nodes"}}, "none", [](S s) { return 1.0 * static_cast<int>(s.search_range.between_nodes); }},
       {"range-penalty", {"2", "0", "5", "24"}, {{"min-confidence", "0"}, {"large-step-penalty", "0"}}, "24", [](S s) { return 1.0 * s.census_cost.range_penalty; }},
       {"small-step-penalty", {"4", "0", "1", "50"}, {}, "3", [](S s) { return 1.0 * s.smoothness.small_step; }},
       {"large-step-penalty", {"30", "0", "3", "50"}, {}, "3", [](S s) { return 1.0 * s.smoothness.large_step; }},
@@ -74,7 +73,7 @@ inline const std::vector<ParameterSample>& parameter_samples() {
       {"speckle-size", {"0", "0", "1", "5", "20"}, {}, "65535", [](S s) { return 1.0 * s.speckle_size; }},
       {"min-confidence", {"0", "0", "0", "40", "90", "200"}, {}, "3", [](S s) { return 1.0 * s.min_confidence; }},
       {"thin-objects", {"true", "false"}, kWrongGaps, "false", [](S s) { return 1.0 * s.thin_objects; }},
-      {"node-end-width", {"3", "1", "9", "31"}, {{"mode", "sparse"}, {"guide", "nodes"}, {"min-confidence", "0"}}, "1", [](S s) { return 1.0 * s.node_end_width; }},
+      {"node-end-width", {"3", "1", "9", "31"}, {{"preset", "paper"}, {"mode", "sparse"}}, "9", [](S s) { return 1.0 * s.node_end_width; }},
       {"max-gap", {"0", "1", "6", "30"}, {}, "0", [](S s) { return 1.0 * s.max_gap; }},
       {"smoothing-radius", {"0", "0", "1", "3", "31"}, {}, "3", [](S s) { return 1.0 * s.smoothing_radius; }},
       {"temporal", {"off", "hold", "filter"}, {}, "hold", [](S s) { return 1.0 * static_cast<int>(s.temporal); }},

@@ -12,11 +12,11 @@ namespace mtstereo::test {
 
 /// A complete map with a confidence of each pixel, and views of its size.
 struct RandomRating {
+  static constexpr int kTile = 16;
+
   RandomRating(int width, int height, std::uint64_t seed)
-      : RandomRating(width, height, width, seed) {}
-  RandomRating(int width, int height, int right_width, std::uint64_t seed)
       : left(width, height),
-        right(right_width, height),
+        right(width, height),
         in{patches(width, height, 0, seed), GrayPlane(width, height)} {
     Random random(seed);
     for (int& disparity : in.map.pixels) disparity = std::max(disparity, 1);
@@ -28,26 +28,21 @@ struct RandomRating {
       for (int x = 0; x < width; ++x) {
         left(x, y) = static_cast<std::uint8_t>(x < width / 4 ? 90 : random.between(0, contrast));
       }
-      for (int x = 0; x < right_width; ++x) {
+      for (int x = 0; x < width; ++x) {
         right(x, y) = static_cast<std::uint8_t>(x < width / 4 ? 90 : random.between(0, contrast));
       }
     }
-    tile = random.below(2) == 0 ? 16 : 32;
-    added = random.between(-40, 40);
-    agreement =
-        GrayPlane(std::max((width + added + tile - 1) / tile, 1), (height + tile - 1) / tile);
+    agreement = GrayPlane((width + kTile - 1) / kTile, (height + kTile - 1) / kTile);
     for (std::uint8_t& share : agreement.pixels) {
       share = static_cast<std::uint8_t>(random.between(0, 31));
     }
     tiles = image_of(agreement);
-    guide_scale = tile / 8;
-    const int guide_width = std::max((width + added + guide_scale - 1) / guide_scale, 1);
-    const int guide_height = (height + guide_scale - 1) / guide_scale;
+    const int guide_width = (width + 1) / 2, guide_height = (height + 1) / 2;
     guide = {patches(guide_width, guide_height, 0, seed + 1), GrayPlane(guide_width, guide_height)};
     for (int y = 0; y < guide_height; ++y) {
       for (int x = 0; x < guide_width; ++x) {
         // Often near the pixel's own disparity.
-        const int own = in.map.clamped(guide_scale * x - added, guide_scale * y) / guide_scale;
+        const int own = in.map.clamped(2 * x, 2 * y) / 2;
         const int near = std::max(own + random.between(-256, 256), 1);
         if (random.below(3) > 0) guide.map(x, y) = near;
         guide.confidence(x, y) = static_cast<std::uint8_t>(random.between(1, 255));
@@ -68,24 +63,20 @@ struct RandomRating {
   Image<std::uint8_t> tiles;  ///< the same
   GrayMapping grays;
   reference::Grays plain_grays{};  ///< the same
-  int tile = 16, added = 0;
   reference::ConfidentMap guide{DisparityPlane(1, 1), GrayPlane(1, 1)};
   Image<std::int32_t> guide_map;  ///< the same
   Image<std::uint8_t> guide_confidence;
-  int guide_scale = 2;
   float fine_detail = kUnknownDetail;
   int grid_level = 0;
+  int block_side = 8;
 
-  RatedViews views(int offset, float noise) const {
-    return {left.view(), right.view(),
-            offset,      noise,
-            &tiles,      tile,
-            added,       {&guide_map, &guide_confidence, guide_scale, added, std::max(-added, 0)},
-            fine_detail, grid_level};
+  RatedViews views(float noise) const {
+    return {left.view(), right.view(), noise,     &tiles, kTile, {&guide_map, &guide_confidence},
+            fine_detail, grid_level,   block_side};
   }
-  reference::RatedPair pair(int offset, float noise) const {
-    return {left,  right,       offset, noise,       agreement,   tile,
-            added, plain_grays, &guide, guide_scale, fine_detail, grid_level};
+  reference::RatedPair pair(float noise) const {
+    return {left,        right,  noise,       agreement,  kTile,
+            plain_grays, &guide, fine_detail, grid_level, block_side};
   }
 };
 

@@ -114,11 +114,10 @@ struct RandomLevels {
   reference::Level plain_left, plain_right;
 
   PairCostInput input(const RandomVolume& volume, float alpha) const {
-    return {left_trees, right_trees, left, right, &volume.fast, nullptr, alpha};
+    return {left_trees, right_trees, left, right, volume.fast, alpha};
   }
   reference::PairInput plain_input(const RandomVolume& volume, float alpha) const {
-    return {plain_left_trees, plain_right_trees, plain_left, plain_right,
-            &volume.plain,    nullptr,           alpha};
+    return {plain_left_trees, plain_right_trees, plain_left, plain_right, volume.plain, alpha};
   }
 };
 

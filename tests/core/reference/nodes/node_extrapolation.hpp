@@ -55,31 +55,4 @@ inline DisparityPlane extrapolate(const Level& leaves, const DisparityPlane& map
   return out;
 }
 
-/// 1 on `end_width` pixels around both ends of each leaf that has a line in `nodes`, otherwise 0.
-inline Plane<int> leaf_ends(const Level& leaves, const DisparityPlane& nodes, int most,
-                            int end_width) {
-  Plane<int> ends(nodes.width, nodes.height);
-  for (int y = 0; y < nodes.height; ++y) {
-    for (int i = 0; i < static_cast<int>(leaves[y].size()); ++i) {
-      if (!line_of(leaves, nodes, {y, i}, most)) continue;
-      const LevelNode& leaf = leaves[y][i];
-      for (int x = 0; x < nodes.width; ++x) {
-        const int away = std::min(std::abs(x - (leaf.begin + inset(leaf))),
-                                  std::abs(x - (leaf.end - inset(leaf))));
-        if (2 * away < end_width) ends(x, y) = 1;
-      }
-    }
-  }
-  return ends;
-}
-
-/// Keeps the map, or its confidence, around the ends of the leaves only.
-template <typename T>
-Plane<T> keep_leaf_ends(const Plane<int>& ends, Plane<T> kept) {
-  for (std::size_t i = 0; i < kept.pixels.size(); ++i) {
-    if (ends.pixels[i] == 0) kept.pixels[i] = 0;
-  }
-  return kept;
-}
-
 }  // namespace mtstereo::reference

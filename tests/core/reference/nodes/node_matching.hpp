@@ -79,21 +79,21 @@ inline float aggregated_cost(const PairInput& input, int most, int disparities, 
   return sum / static_cast<float>(count);
 }
 
-/// The partner of least cost, and whether it is acceptable: its cost is low enough, and all others
-/// cost more than (1 + confidence) times as much.
+/// The partner of least cost, and whether it is acceptable: all others cost more than (1 +
+/// confidence) times as much.
 struct Choice {
   int partner = -1;
   bool clear = false;
 };
 
-inline Choice choose(const std::vector<float>& costs, const NodeAcceptance& acceptance) {
+inline Choice choose(const std::vector<float>& costs, float confidence) {
   Choice choice;
   const auto best = std::min_element(costs.begin(), costs.end());
   if (best == costs.end() || std::isinf(*best)) return choice;
   choice.partner = static_cast<int>(best - costs.begin());
-  choice.clear = *best < acceptance.most_cost;
+  choice.clear = true;
   for (auto other = costs.begin(); other != costs.end(); ++other) {
-    if (other != best && !(*other > *best * (1 + acceptance.confidence))) choice.clear = false;
+    if (other != best && !(*other > *best * (1 + confidence))) choice.clear = false;
   }
   return choice;
 }
@@ -118,7 +118,7 @@ inline std::vector<std::vector<float>> cost_table(const PairInput& input,
 }
 
 inline Matches match_nodes(const PairInput& input, const Intervals& intervals, int most,
-                           int disparities, const NodeAcceptance& acceptance, int width) {
+                           int disparities, float confidence, int width) {
   const auto at_border = [&](const LevelNode& node) {
     return node.begin == 0 || node.end == width - 1;
   };
@@ -127,11 +127,11 @@ inline Matches match_nodes(const PairInput& input, const Intervals& intervals, i
     matches.emplace_back(input.left[y].size());
     const auto costs = cost_table(input, intervals, most, disparities, y);
     for (int i = 0; i < static_cast<int>(costs.size()); ++i) {
-      const Choice forth = choose(costs[i], acceptance);
+      const Choice forth = choose(costs[i], confidence);
       if (!forth.clear) continue;
       std::vector<float> column;
       for (const auto& row : costs) column.push_back(row[forth.partner]);
-      const Choice back = choose(column, acceptance);
+      const Choice back = choose(column, confidence);
       const LevelNode& left = input.left[y][i];
       const LevelNode& right = input.right[y][forth.partner];
       if (!back.clear || back.partner != i || at_border(left) || at_border(right)) continue;

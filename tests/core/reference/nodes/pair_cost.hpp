@@ -4,7 +4,6 @@
 #include <cstdlib>
 
 #include "reference/nodes/node_levels.hpp"
-#include "reference/prepare/census.hpp"
 #include "reference/prepare/cost_volume.hpp"
 
 namespace mtstereo::reference {
@@ -15,8 +14,7 @@ struct PairInput {
   const Trees& right_trees;
   const Level& left;
   const Level& right;
-  const Volume* volume;      ///< source of the intensity costs,
-  const CensusPair* census;  ///< or, without a volume, the census of both views
+  const Volume& volume;  ///< source of the intensity costs
   float alpha;
 };
 
@@ -55,24 +53,6 @@ Real intensity_cost(const Volume& volume, int y, const LevelNode& left, const Le
   return static_cast<Real>(sum) / static_cast<Real>(count * 16);
 }
 
-/// Mean number of different bits, times 3, over every second column from 5 px before to 5 px after
-/// the left node, as far as both views have these columns.
-template <typename Real>
-Real census_intensity_cost(const CensusPair& census, int y, const LevelNode& left,
-                           const LevelNode& right) {
-  const Ends disparities = ends(left, right);
-  long sum = 0;
-  int count = 0;
-  const int first = std::max(left.begin - 5, disparities.begin);
-  for (int x = first; x < left.end + 6 && x < census.left.width; x += 2) {
-    const int offset = std::min(std::max(x, left.begin), left.end) - left.begin;
-    const int d = disparity_along(disparities, left.end - left.begin, offset);
-    sum += std::popcount(census.left(x, y) ^ census.right(x - d, y));
-    ++count;
-  }
-  return static_cast<Real>(3 * sum) / static_cast<Real>(count);
-}
-
 /// Mean of |aL / (aL + aR) - 1/2| = |aL - aR| / (2 (aL + aR)) over the pair and its ancestors,
 /// times 225.
 template <typename Real>
@@ -95,9 +75,7 @@ Real pair_cost(const PairInput& input, int y, int i, int j) {
   const LevelNode& left = input.left[y][i];
   const LevelNode& right = input.right[y][j];
   const Real alpha = input.alpha;
-  const Real intensity = input.volume != nullptr
-                             ? intensity_cost<Real>(*input.volume, y, left, right)
-                             : census_intensity_cost<Real>(*input.census, y, left, right);
+  const Real intensity = intensity_cost<Real>(input.volume, y, left, right);
   return alpha * intensity + (1 - alpha) * context_cost<Real>(input.left_trees[y],
                                                               input.right_trees[y], left.tree_node,
                                                               right.tree_node);

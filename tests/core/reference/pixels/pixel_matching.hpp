@@ -5,7 +5,6 @@
 #include "reference/pixels/row_pair.hpp"
 #include "reference/pixels/search_range.hpp"
 #include "reference/prepare/cost_volume.hpp"
-#include "stages/pixels/census_matching.hpp"
 #include "stages/pixels/pixel_matching.hpp"
 
 namespace mtstereo::reference {
@@ -53,46 +52,6 @@ inline RatedMap match_pixels(const Volume& volume, const PixelMatchingOptions& o
     for (int x = 0; x < map.width; ++x) {
       out.set(x, y, match_pixel(volume, options, x, y, nodes));
     }
-  }
-  return out;
-}
-
-/// Whether no pixel of the 5x5 window has a census bit. The pixels of the border are repeated.
-inline bool is_flat(const Plane<std::uint32_t>& census, int x, int y) {
-  for (int dy = -2; dy <= 2; ++dy) {
-    for (int dx = -2; dx <= 2; ++dx) {
-      if (census.clamped(x + dx, y + dy) != 0) return false;
-    }
-  }
-  return true;
-}
-
-/// The same with the census cost. Pixels in flat areas get no disparity. The step penalties are
-/// scaled by the rows of the window, as the costs are sums over these rows.
-inline RatedMap match_pixels_by_census(const GrayPlane& left, const GrayPlane& right,
-                                       const CensusMatchingOptions& options,
-                                       const DisparityPlane& map, int scales = 2) {
-  const CensusCosts costs{census(left, scales), census(right, scales), options.cost};
-  const int rows = options.cost.kernel_size;
-  const SmoothnessOptions steps = {options.smoothness.small_step * rows,
-                                   options.smoothness.large_step * rows};
-  RatedMap out(map.width, map.height);
-  for (int y = 0; y < map.height; ++y) {
-    const std::vector<std::int32_t> nodes = row_of(map, y);
-    std::vector<int> low, high;
-    RowCosts row(map.width);
-    for (int x = 0; x < map.width; ++x) {
-      std::vector<int> expected = expected_disparities(nodes, x, options.range);
-      if (is_flat(costs.left, x, y)) expected.clear();
-      low.push_back(expected.empty() ? 1 : expected.front());
-      high.push_back(expected.empty() ? 0 : expected.back());
-      for (int d = 0; d < options.cost.disparities; ++d) {
-        row[x].push_back(costs.cost(x, y, d, low[x], high[x]));
-      }
-    }
-    const RowCosts sums = path_sums(row, &left(0, y), steps, PathSums::kTwo);
-    const std::vector<Selected> selected = select_disparities(sums, options.selection, low, high);
-    for (int x = 0; x < map.width; ++x) out.set(x, y, selected[x]);
   }
   return out;
 }

@@ -20,8 +20,8 @@ inline int refined_disparity(const Plane<std::uint32_t>& left, const Plane<std::
   std::array<int, 5> costs{};  // of the shifts -2 .. 2
   for (int v = std::max(y - 3, 0); v <= std::min(y + 3, map.height - 1); ++v) {
     for (int u = std::max(x - 3, 0); u <= std::min(x + 3, map.width - 1); ++u) {
-      if (map(u, v) == 0) continue;
       const int whole = (map(u, v) + 128) / 256;
+      if (map(u, v) == 0 || whole > u) continue;  // without a partner
       ++known;
       rounded += map(u, v) - 256 * whole;
       for (int shift = -2; shift <= 2; ++shift) {
@@ -40,9 +40,9 @@ inline int refined_disparity(const Plane<std::uint32_t>& left, const Plane<std::
   const int slope = std::max(before, after) - least;
   if (before < least || after < least || slope == 0) return map(x, y);
   const float between = static_cast<float>((before - after) * 128) / static_cast<float>(slope);
-  const float off = static_cast<float>(rounded) / static_cast<float>(known);
+  const float off = static_cast<float>(rounded) / static_cast<float>(std::max(known, 1));
   const int refined = map(x, y) + 256 * best + static_cast<int>(between - off);
-  return std::max(std::min({refined, 256 * x, 256 * max_disparity - 1}), 1);
+  return std::max(std::min({refined, std::max(256 * x, map(x, y)), 256 * max_disparity - 1}), 1);
 }
 
 inline DisparityPlane refine(const Plane<std::uint32_t>& left, const Plane<std::uint32_t>& right,

@@ -31,7 +31,8 @@ inline DisparityPlane enlarge(const DisparityPlane& half, int width, int height,
         }
       }
       const int disparity = static_cast<int>(2 * sum + 0.5);
-      map(x, y) = std::min({disparity, 256 * x, 256 * max_disparity - 1});
+      const int most = nearest > 128 * x ? disparity : 256 * x;  // it may be beyond column 0
+      map(x, y) = std::min({disparity, most, 256 * max_disparity - 1});
     }
   }
   return map;

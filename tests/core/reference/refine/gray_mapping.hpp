@@ -23,8 +23,7 @@ inline Grays same_grays() {
 
 /// The mapping by the matched pixels of every 16th row: the mean differences of 16 gray values
 /// each, with straight lines in between; none up to a mean difference of 3, all of it from 6 on.
-inline Grays map_grays(const GrayPlane& left, const GrayPlane& right, int offset,
-                       const ConfidentMap& in) {
+inline Grays map_grays(const GrayPlane& left, const GrayPlane& right, const ConfidentMap& in) {
   struct Sum {
     long pixels = 0, left = 0, right = 0;
   };
@@ -32,7 +31,7 @@ inline Grays map_grays(const GrayPlane& left, const GrayPlane& right, int offset
   for (int y = 0; y < in.map.height; y += 16) {
     for (int x = 0; x < in.map.width; ++x) {
       if (in.confidence(x, y) <= 15) continue;
-      const double partner = std::floor(x - offset - in.map(x, y) / 256.0 + 0.5);
+      const double partner = std::floor(x - in.map(x, y) / 256.0 + 0.5);
       if (partner < 0 || partner >= right.width) continue;
       const int seen = right(static_cast<int>(partner), y);
       Sum& sum = sums[seen / 16];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -47,6 +48,19 @@ inline GrayPlane still_blocks(const GrayPlane& view, const GrayPlane& last, floa
     }
   }
   return still;
+}
+
+/// These blocks in a view of this size that is `scale` times smaller and begins `column` px further
+/// right: those of which all pixels are in still blocks.
+inline GrayPlane placed(const GrayPlane& still, int scale, int column, int width, int height) {
+  GrayPlane out((width + 7) / 8, (height + 7) / 8, 1);
+  for (int y = 0; y < 8 * scale * out.height; ++y) {
+    for (int x = 0; x < 8 * scale * out.width; ++x) {
+      const int block = std::clamp(x + column, 0, 8 * still.width - 1) / 8;
+      if (still.clamped(block, y / 8) == 0) out(x / (8 * scale), y / (8 * scale)) = 0;
+    }
+  }
+  return out;
 }
 
 /// The least confidence of each pixel: the first one next to a block that is not still, the second

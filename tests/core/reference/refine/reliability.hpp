@@ -17,16 +17,14 @@ namespace mtstereo::reference {
 struct RatedPair {
   const GrayPlane& left;
   const GrayPlane& right;
-  int offset;  ///< of the disparities [px]
   float noise;
-  const GrayPlane& agreement;  ///< of tiles of the matched views
+  const GrayPlane& agreement;  ///< of tiles
   int tile;                    ///< [px]
-  int added;                   ///< columns on the left of the matched views
   const Grays& grays;          ///< of the right view
   const ConfidentMap* guide = nullptr;
-  int guide_scale = 2;
   float detail = 1;  ///< the share of the finest octave
   int grid = 0;      ///< the level of the block grid
+  int block = 8;     ///< side of its blocks [px]
 };
 
 /// The bins of the clues about one pixel, each found on its own.
@@ -58,13 +56,11 @@ class PixelClues {
         return bin_of(texture(-4) + texture(0) + texture(4),
                       {1, 3, 8, 14, 20, 27, 40, 54, 75, 100, 135, 175, 230, 300, 400, 500});
       case kAgreementClue:
-        return pair_.agreement(
-            std::clamp((x_ + pair_.added) / pair_.tile, 0, pair_.agreement.width - 1),
-            std::min(y_ / pair_.tile, pair_.agreement.height - 1));
+        return pair_.agreement.clamped(x_ / pair_.tile, y_ / pair_.tile);
       case kGuideClue:
         return pair_.guide == nullptr ? 0 : guide();
       case kGridClue:
-        return grid_bin(pair_.grid, in_.map(x_, y_) / 256.0 + pair_.offset);
+        return grid_bin(pair_.grid, pair_.block, in_.map(x_, y_) / 256.0);
       case kDetailClue:
         return bin_of(pair_.detail, {.024F, .03F, .037F, .045F, .06F, .1F, .2F});
       default:
@@ -79,8 +75,7 @@ class PixelClues {
     int sum = 0;
     for (int i = -1; i <= 1; ++i) {
       const int x = std::clamp(x_ + i, 0, in_.map.width - 1);
-      const int partner =
-          static_cast<int>(std::floor(x - in_.map(x, y) / 256.0 - pair_.offset + 0.5));
+      const int partner = static_cast<int>(std::floor(x - in_.map(x, y) / 256.0 + 0.5));
       int least = 85;
       for (int k = -1; k <= 1; ++k) {
         const int right = pair_.right(std::clamp(partner + k, 0, pair_.right.width - 1), y);
@@ -122,7 +117,7 @@ class PixelClues {
   }
   int own() const { return steps(x_, y_); }
 
-  double partner() const { return x_ - in_.map(x_, y_) / 256.0 - pair_.offset; }
+  double partner() const { return x_ - in_.map(x_, y_) / 256.0; }
 
   /// The share of matched pixels in 16ths, by a factor that is rounded up.
   int share() const {
@@ -138,12 +133,8 @@ class PixelClues {
 
   /// Four distances from the guide for each of eight levels of its confidence.
   int guide() const {
-    const DisparityPlane& map = pair_.guide->map;
-    const int x = std::min(std::max(x_ + pair_.added, 0) / pair_.guide_scale, map.width - 1);
-    const int y = std::min(y_ / pair_.guide_scale, map.height - 1);
-    const int added = std::max(-pair_.added, 0);
-    const double distance =
-        std::abs(in_.map(x_, y_) / 256.0 - added - map(x, y) / 256.0 * pair_.guide_scale);
+    const int x = x_ / 2, y = y_ / 2;
+    const double distance = std::abs(in_.map(x_, y_) - 2 * pair_.guide->map(x, y)) / 256.0;
     const int level = std::clamp((pair_.guide->confidence(x, y) - 28) / 24, 0, 7);
     return 4 * level + bin_of(distance, {.5F, 1, 3});
   }

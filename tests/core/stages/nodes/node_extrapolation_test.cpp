@@ -80,31 +80,6 @@ TEST(NodeExtrapolation, TakeMatchEndsEqualsReadingADrawnMap) {
   EXPECT_GT(known, 500) << "too few results to compare";
 }
 
-/// Keeps a map and its confidence around the ends of the leaves only, in bands of `band` rows.
-struct Kept {
-  DisparityPlane map;
-  GrayPlane confidence;
-};
-
-Kept kept(const NodeLevel& leaves, const DisparityPlane& nodes, int neighbors, int end_width,
-          const Kept& of, int band) {
-  const int width = nodes.width, height = nodes.height;
-  LeafDisparities ends;
-  ends.resize(leaves);
-  read_leaf_ends(leaves, image_of(nodes), 0, height, ends);
-  Image<std::int32_t> map = image_of(of.map);
-  extrapolate_leaves(leaves, neighbors, 0, 0, height, ends, map);
-  map = image_of(of.map);
-  Image<std::uint8_t> confidence = image_of(of.confidence);
-  Buffer<std::uint8_t> marks;
-  marks.resize(width);
-  std::fill_n(marks.data(), width, std::uint8_t{0xA5});
-  for (int y = 0; y < height; y += band) {
-    keep_leaf_ends(leaves, ends, end_width, y, std::min(y + band, height), marks, map, confidence);
-  }
-  return {copy_of(map), copy_of(confidence)};
-}
-
 TEST(NodeExtrapolation, EqualsReferenceAtEveryWidthInBothModes) {
   for (int width = 1; width <= 70; ++width) {
     const test::RandomLevels levels(width, 14, 0, 700 + width);
@@ -117,28 +92,6 @@ TEST(NodeExtrapolation, EqualsReferenceAtEveryWidthInBothModes) {
       }
     }
   }
-}
-
-TEST(NodeExtrapolation, KeepLeafEndsEqualsReference) {
-  long kept_pixels = 0;
-  for (int width = 1; width <= 70; ++width) {
-    const test::RandomLevels levels(width, 14, 0, 900 + width);
-    const DisparityPlane nodes = random_map(width, 14, width);
-    const Kept of = {DisparityPlane(width, 14, 3 * 256), test::noise(width, 14, width)};
-    for (const int neighbors : {0, 1, 10}) {
-      for (const int end_width : {1, 3, 7, 31}) {
-        const test::Plane<int> ends =
-            reference::leaf_ends(levels.plain_left, nodes, neighbors, end_width);
-        const Kept actual = kept(levels.left, nodes, neighbors, end_width, of, 5);
-        EXPECT_TRUE(same_image(reference::keep_leaf_ends(ends, of.map), actual.map))
-            << width << " px, " << neighbors << " neighbors, ends of " << end_width;
-        EXPECT_TRUE(same_image(reference::keep_leaf_ends(ends, of.confidence), actual.confidence))
-            << width << " px, " << neighbors << " neighbors, ends of " << end_width;
-        kept_pixels += std::count(ends.pixels.begin(), ends.pixels.end(), 1);
-      }
-    }
-  }
-  EXPECT_GT(kept_pixels, 10000) << "too few results to compare";
 }
 
 /// Three rows with one leaf [10, 17] each; the first and the last one have disparities.
@@ -197,22 +150,6 @@ TEST(NodeExtrapolation, DrawsSparseDisparitiesAtTheEndsOfNarrowLeaves) {
       EXPECT_EQ(end ? 5 * 256 : 0, out(x, 0)) << "column " << x << ", leaf of " << width << " px";
     }
   }
-}
-
-TEST(NodeExtrapolation, KeepLeafEndsRemovesLeavesWithoutALine) {
-  const Column column;
-  const Kept of = {DisparityPlane(40, 3, 512), GrayPlane(40, 3, 99)};
-  const Kept alone = kept(column.leaves, column.map, 0, 3, of, 3);
-  for (int x = 0; x < 40; ++x) {
-    const bool end = (x >= 11 && x <= 13) || (x >= 14 && x <= 16);
-    EXPECT_EQ(end ? 512 : 0, alone.map(x, 0)) << "column " << x;
-    EXPECT_EQ(end ? 99 : 0, alone.confidence(x, 0)) << "column " << x;
-    EXPECT_EQ(0, alone.map(x, 1)) << "column " << x << " of a leaf without a line";
-  }
-  const Kept neighbors = kept(column.leaves, column.map, 1, 1, of, 3);
-  EXPECT_EQ(512, neighbors.map(12, 1));
-  EXPECT_EQ(0, neighbors.map(13, 1));
-  EXPECT_EQ(512, neighbors.map(15, 1));
 }
 
 TEST(NodeExtrapolation, NeedsBothEnds) {

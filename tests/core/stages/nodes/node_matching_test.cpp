@@ -24,9 +24,6 @@ struct Options {
   float alpha;
   float confidence;
   int band = 1 << 20;
-  float most_cost = std::numeric_limits<float>::infinity();
-
-  NodeAcceptance acceptance() const { return {confidence, most_cost}; }
 };
 
 NodeMatches matches_of(const PairCostInput& input, const SearchIntervals& intervals,
@@ -36,7 +33,7 @@ NodeMatches matches_of(const PairCostInput& input, const SearchIntervals& interv
   MatchScratch scratch;
   scratch.resize(input.left.width, options.disparities, options.neighbors);
   for (int y = 0; y < input.left.height; y += options.band) {
-    match_nodes(input, intervals, options.neighbors, options.acceptance(), y,
+    match_nodes(input, intervals, options.neighbors, options.confidence, y,
                 std::min(y + options.band, input.left.height), scratch, matches);
   }
   return matches;
@@ -90,7 +87,7 @@ int expect_first_level(const RandomLevels& levels, const Options& options, std::
   const NodeMatches matches = matches_of(levels.input(volume, options.alpha), intervals, options);
   return expect_matches(
       reference::match_nodes(levels.plain_input(volume, options.alpha), plain_intervals,
-                             options.neighbors, options.disparities, options.acceptance(),
+                             options.neighbors, options.disparities, options.confidence,
                              levels.left.width),
       levels.left, matches);
 }
@@ -113,20 +110,6 @@ TEST(NodeMatching, EqualsReferenceForEveryOption) {
       }
     }
   }
-}
-
-TEST(NodeMatching, AcceptsNoPairThatCostsTooMuch) {
-  const RandomLevels levels(90, 25, 0, 7);
-  Options options{40, 4, 1, 1.0f, 0.02f};
-  int last = expect_first_level(levels, options, 5);
-  EXPECT_GT(last, 0);
-  for (const float most : {60.0f, 30.0f, 10.0f, 0.0f}) {
-    options.most_cost = most;
-    const int matched = expect_first_level(levels, options, 5);
-    EXPECT_LE(matched, last);
-    last = matched;
-  }
-  EXPECT_EQ(0, last);
 }
 
 TEST(NodeMatching, DoesNotDependOnBands) {
@@ -170,7 +153,7 @@ TEST(NodeMatching, EqualsReferenceAtAFinerLevel) {
     const RandomVolume volume = test::random_volume(100, 20, 50, 0, random);
     matched +=
         expect_matches(reference::match_nodes(fine.plain_input(volume, 0.8f), plain_intervals,
-                                              options.neighbors, 50, options.acceptance(), 100),
+                                              options.neighbors, 50, options.confidence, 100),
                        fine.left, matches_of(fine.input(volume, 0.8f), intervals, options));
   }
   EXPECT_GT(matched, 50) << "too few results to compare";

@@ -17,7 +17,7 @@ using test::RandomVolume;
 
 /// The options of the paper's method; range and confidence are fractions.
 PixelMatchingOptions paper(double range, double confidence, bool subpixel) {
-  return {{range, BetweenNodes::kNone, 0}, {0, confidence, true, -1, subpixel, 0}};
+  return {{range, 0}, {0, confidence, true, -1, subpixel, 0}};
 }
 
 /// The options with the number of disparities of the volume.
@@ -62,9 +62,8 @@ long expect_reference(const RandomVolume& volume, const PixelMatchingOptions& op
       reference::match_pixels(volume.plain, fitting(volume.fast, options), map);
   const reference::RatedMap actual = rated(volume.fast, options, map);
   const SelectionOptions& selection = options.selection;
-  SCOPED_TRACE(testing::Message() << "range " << options.range.range << ", between "
-                                  << static_cast<int>(options.range.between_nodes)
-                                  << ", confidence " << selection.confidence << ", in range "
+  SCOPED_TRACE(testing::Message() << "range " << options.range.range << ", confidence "
+                                  << selection.confidence << ", in range "
                                   << selection.runner_up_in_range << ", tolerance "
                                   << selection.left_right_tolerance << ", subpixel "
                                   << selection.subpixel);
@@ -114,14 +113,11 @@ TEST(PixelMatching, EqualsReferenceWithEveryChoice) {
     const RandomVolume volume =
         test::random_volume(width, 5, disparities, width % 2, random, largest);
     const DisparityPlane map = random_guesses(width, 5, disparities, random);
-    for (const BetweenNodes between :
-         {BetweenNodes::kNone, BetweenNodes::kSpan, BetweenNodes::kAll}) {
-      for (const int tolerance : {-1, 0, 1, 20}) {
-        for (const bool in_range : {false, true}) {
-          const SelectionOptions selection = {0,         0.04 * random.below(2), in_range,
-                                              tolerance, random.below(2) == 0,   0};
-          known += expect_reference(volume, {{0.15, between, 0}, selection}, map);
-        }
+    for (const int tolerance : {-1, 0, 1, 20}) {
+      for (const bool in_range : {false, true}) {
+        const SelectionOptions selection = {0,         0.04 * random.below(2), in_range,
+                                            tolerance, random.below(2) == 0,   0};
+        known += expect_reference(volume, {{0.15, 0}, selection}, map);
       }
     }
   }
@@ -226,26 +222,6 @@ TEST(PixelMatching, RejectsADisparityThatTheRightPixelContradicts) {
     EXPECT_EQ(tolerance < 0 || tolerance >= 2 ? 20 * 256 : 0, pixel.match(20 * 256, options))
         << "tolerance " << tolerance;
   }
-}
-
-TEST(PixelMatching, SearchesBetweenNodesAsSet) {
-  std::vector<int> costs(60, 1000);
-  costs[30] = 100;
-  const OnePixel pixel(costs);
-  const auto between = [&](BetweenNodes between_nodes, int left, int right) {
-    PixelMatchingOptions options = paper(0.15, 0.12, false);
-    options.range.between_nodes = between_nodes;
-    DisparityPlane map(100, 1);
-    map(80, 0) = 256 * left;
-    map(95, 0) = 256 * right;
-    return matched(pixel.volume.fast, options, map)(OnePixel::kColumn, 0);
-  };
-  EXPECT_EQ(0, between(BetweenNodes::kNone, 20, 40));
-  EXPECT_EQ(30 * 256, between(BetweenNodes::kSpan, 20, 40));
-  EXPECT_EQ(30 * 256, between(BetweenNodes::kSpan, 40, 20));
-  EXPECT_EQ(0, between(BetweenNodes::kSpan, 10, 20)) << "outside of the span";
-  EXPECT_EQ(0, between(BetweenNodes::kSpan, 0, 40)) << "one node only";
-  EXPECT_EQ(30 * 256, between(BetweenNodes::kAll, 0, 0));
 }
 
 TEST(PixelMatching, RefinesByTheParabolaThroughThreeCosts) {

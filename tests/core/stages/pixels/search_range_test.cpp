@@ -36,8 +36,7 @@ void expect_reference(const Row& nodes, const SearchRangeOptions& options) {
     const std::vector<int> expected = reference::expected_disparities(nodes, x, options);
     SCOPED_TRACE(testing::Message()
                  << "column " << x << " of " << nodes.size() << ", node " << nodes[x] << ", range "
-                 << options.range << ", D " << options.disparities << ", between "
-                 << static_cast<int>(options.between_nodes));
+                 << options.range << ", D " << options.disparities);
     if (expected.empty()) {
       EXPECT_TRUE(actual[x].none()) << actual[x].low << " .. " << actual[x].high;
     } else {
@@ -58,17 +57,13 @@ Row random_nodes(int width, int disparities, Random& random) {
   return nodes;
 }
 
-constexpr BetweenNodes kAllWays[] = {BetweenNodes::kNone, BetweenNodes::kSpan, BetweenNodes::kAll};
-
 TEST(SearchRange, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
   test::for_each_simd_target([] {
     for (int width = 1; width <= 70; ++width) {
       Random random(width);
-      for (const BetweenNodes between : kAllWays) {
-        for (const double range : {0.0, 0.15, 0.6, 1.0}) {
-          const int disparities = random.between(1, 90);
-          expect_reference(random_nodes(width, disparities, random), {range, between, disparities});
-        }
+      for (const double range : {0.0, 0.15, 0.6, 1.0}) {
+        const int disparities = random.between(1, 90);
+        expect_reference(random_nodes(width, disparities, random), {range, disparities});
       }
     }
   });
@@ -80,8 +75,7 @@ TEST(SearchRange, RoundsTheEndsInwardsForEveryDisparity) {
   for (int disparity = 1; disparity < 256 * kDisparities; ++disparity) nodes.push_back(disparity);
   test::for_each_simd_target([&] {
     for (const double range : {0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 1.0 / 3, 0.7, 1.0}) {
-      const std::vector<Range> ranges =
-          ranges_of(nodes, {range, BetweenNodes::kNone, kDisparities});
+      const std::vector<Range> ranges = ranges_of(nodes, {range, kDisparities});
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         const double disparity = nodes[i] / 256.0;
         const double reach = std::max(disparity * range, 3.0);
@@ -98,8 +92,7 @@ TEST(SearchRange, WritesNothingAfterTheRow) {
     for (int width = 1; width <= 20; ++width) {
       const Row nodes(width, 2560);
       std::vector<std::uint16_t> low(width + 1, 0x5A5A), high(width + 1, 0x5A5A);
-      find_search_ranges(nodes.data(), width, {0.15, BetweenNodes::kSpan, 40}, low.data(),
-                         high.data());
+      find_search_ranges(nodes.data(), width, {0.15, 40}, low.data(), high.data());
       EXPECT_EQ(0x5A5A, low[width]) << width;
       EXPECT_EQ(0x5A5A, high[width]) << width;
     }
@@ -108,10 +101,8 @@ TEST(SearchRange, WritesNothingAfterTheRow) {
 
 TEST(SearchRange, EqualsReferenceWithTheLargestNumberOfDisparities) {
   Random random(1);
-  for (const BetweenNodes between : kAllWays) {
-    for (const double range : {0.0, 0.15, 1.0}) {
-      expect_reference(random_nodes(200, 1984, random), {range, between, 1984});
-    }
+  for (const double range : {0.0, 0.15, 1.0}) {
+    expect_reference(random_nodes(200, 1984, random), {range, 1984});
   }
 }
 
@@ -123,45 +114,20 @@ TEST(SearchRange, ReachesAFewPixelsAroundSmallDisparities) {
                                              {256 * 10 - 1, 7, 12},
                                              {256 * 20, 17, 23},
                                              {256 * 40, 34, 46}}) {
-    const Range range = ranges_of({disparity}, {0.15, BetweenNodes::kNone, 64})[0];
+    const Range range = ranges_of({disparity}, {0.15, 64})[0];
     EXPECT_EQ(low, range.low) << disparity;
     EXPECT_EQ(high, range.high) << disparity;
   }
 }
 
 TEST(SearchRange, EndsAtTheLargestDisparity) {
-  const Range range = ranges_of({256 * 39}, {1.0, BetweenNodes::kNone, 40})[0];
+  const Range range = ranges_of({256 * 39}, {1.0, 40})[0];
   EXPECT_EQ(0, range.low);
   EXPECT_EQ(39, range.high);
 }
 
-TEST(SearchRange, IsEmptyWithoutNodesUnlessAllDisparitiesAreExpected) {
-  const Row none(30);
-  for (const Range& range : ranges_of(none, {0.15, BetweenNodes::kNone, 40})) {
-    EXPECT_TRUE(range.none());
-  }
-  for (const Range& range : ranges_of(none, {0.15, BetweenNodes::kSpan, 40})) {
-    EXPECT_TRUE(range.none());
-  }
-  for (const Range& range : ranges_of(none, {0.15, BetweenNodes::kAll, 40})) {
-    EXPECT_EQ(0, range.low);
-    EXPECT_EQ(39, range.high);
-  }
-}
-
-TEST(SearchRange, SpansTheNodesOnBothSides) {
-  Row nodes(12);
-  nodes[3] = 256 * 10;
-  nodes[7] = 256 * 30;
-  const std::vector<Range> ranges = ranges_of(nodes, {0.1, BetweenNodes::kSpan, 64});
-  for (int x = 0; x < 12; ++x) {
-    if (x < 3 || x > 7) {
-      EXPECT_TRUE(ranges[x].none()) << "column " << x << " has a node on one side only";
-    } else {
-      EXPECT_EQ(x == 7 ? 27 : 7, ranges[x].low) << "column " << x;
-      EXPECT_EQ(x == 3 ? 13 : 33, ranges[x].high) << "column " << x;
-    }
-  }
+TEST(SearchRange, IsEmptyWithoutNodes) {
+  for (const Range& range : ranges_of(Row(30), {0.15, 40})) EXPECT_TRUE(range.none());
 }
 
 }  // namespace

@@ -17,17 +17,17 @@ using test::GrayPlane;
 struct Matched {
   GrayPlane left;
   reference::ConfidentMap in;
-  int offset = 0;
+  int side = 8;
 
   int level(int band = 1 << 20) const {
-    BlockGrid grid;
-    const GridViews views = {left.view(), in.map.view(), in.confidence.view(), offset};
+    BlockGrid grid = {side};
+    const GridViews views = {left.view(), in.map.view(), in.confidence.view(), side};
     for (int y = 0; y < left.height; y += band) {
       grid.add(measure_grid(views, y, std::min(y + band, left.height)));
     }
     return grid.level();
   }
-  int expected() const { return reference::grid_level(left, in, offset); }
+  int expected() const { return reference::grid_level(left, in, side); }
 };
 
 /// Blocks of constant gray value, the first of them cut off by `phase` columns; `noise` is added.
@@ -65,7 +65,7 @@ TEST(BlockGrid, HasTheLevelOfThePlainSumsAtEveryWidthAndBand) {
     const int width = random.between(1, 90), height = random.between(1, 60);
     const GrayPlane left = blocks(width, height, random.between(0, 7), random.between(0, 2), i);
     Matched in = matched(left, random.between(0, 14), i);
-    in.offset = random.below(3) == 0 ? -9 : 0;
+    in.side = random.below(3) == 0 ? 4 : 8;
     for (std::uint8_t& value : in.in.confidence.pixels) {
       value = static_cast<std::uint8_t>(random.between(10, 60));
     }
@@ -105,6 +105,21 @@ TEST(BlockGrid, IsFoundInCroppedViews) {
   }
 }
 
+TEST(BlockGrid, IsFoundInHalvedViews) {
+  Matched halved = matched(blocks(200, 120, 0, 0, 12), 0, 13);
+  GrayPlane half(100, 60);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 100; ++x) half(x, y) = halved.left(2 * x, 2 * y);
+  }
+  halved = matched(half, 0, 14);
+  halved.side = kHalvedBlockSide;
+  EXPECT_EQ(0, halved.level());
+  for (std::size_t i = 0; i < halved.in.map.pixels.size(); i += 2) {
+    halved.in.map.pixels[i] = 12 * kDisparityOne;
+  }
+  EXPECT_EQ(4, halved.level());
+}
+
 TEST(BlockGrid, IgnoresTheFarDistanceAndInferredPixels) {
   const GrayPlane left = blocks(200, 120, 0, 0, 9);
   Matched sky = matched(left, 0, 10);
@@ -122,11 +137,11 @@ TEST(BlockGrid, HasABinForEachLevelAndDistance) {
   for (int value = 1; value < 40 * kDisparityOne; value += 3) map.push_back(value);
   const int width = static_cast<int>(map.size());
   std::vector<std::uint8_t> bins(map.size());
-  for (const int offset : {0, -13}) {
+  for (const int side : {4, 8}) {
     for (int level = 0; level <= 4; ++level) {
-      find_grid_bins(level, map.data(), offset, width, bins.data());
+      find_grid_bins(level, side, map.data(), width, bins.data());
       for (int i = 0; i < width; ++i) {
-        ASSERT_EQ(reference::grid_bin(level, map[i] / double{kDisparityOne} + offset), bins[i])
+        ASSERT_EQ(reference::grid_bin(level, side, map[i] / double{kDisparityOne}), bins[i])
             << map[i] << " at level " << level;
       }
     }

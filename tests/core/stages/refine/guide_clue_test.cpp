@@ -9,7 +9,7 @@
 #include "support/compare.hpp"
 #include "support/plane.hpp"
 
-// The reference of all clues, with guides of every place and size, is in reliability_test.cpp.
+// The reference of all clues, with guides of every size, is in reliability_test.cpp.
 
 namespace mtstereo {
 namespace {
@@ -27,16 +27,11 @@ std::vector<int> bins_of(const std::vector<int>& row, const RatedGuide& guide) {
   return {bins.begin(), bins.end()};
 }
 
-/// A guide of one pixel.
-struct OnePixel {
-  OnePixel(int of_disparity, int of_confidence) {
-    DisparityPlane map(1, 1);
-    GrayPlane rating(1, 1);
-    map(0, 0) = of_disparity;
-    rating(0, 0) = static_cast<std::uint8_t>(of_confidence);
-    disparity = image_of(map);
-    confidence = image_of(rating);
-  }
+/// A guide of one row in which all pixels are equal.
+struct ConstantGuide {
+  ConstantGuide(int of_disparity, int of_confidence)
+      : disparity(image_of(DisparityPlane(3, 1, of_disparity))),
+        confidence(image_of(GrayPlane(3, 1, static_cast<std::uint8_t>(of_confidence)))) {}
   RatedGuide guide() const { return {&disparity, &confidence}; }
   Image<std::int32_t> disparity;
   Image<std::uint8_t> confidence;
@@ -47,7 +42,7 @@ TEST(GuideClue, IsOneBinWithoutAGuide) {
 }
 
 TEST(GuideClue, CountsTheDistanceFromTwiceTheGuidesDisparity) {
-  const OnePixel sure(5 * 256, 255);
+  const ConstantGuide sure(5 * 256, 255);
   // 10 px is expected.
   const std::vector row = {2560, 2560 - 127, 2560 + 128, 2560 - 255, 2560 + 256, 2560 - 768};
   EXPECT_EQ((std::vector{28, 28, 29, 29, 30, 31}), bins_of(row, sure.guide()));
@@ -55,24 +50,21 @@ TEST(GuideClue, CountsTheDistanceFromTwiceTheGuidesDisparity) {
 
 TEST(GuideClue, HasALevelForEach24StepsOfTheConfidence) {
   for (int confidence = 1; confidence <= 255; ++confidence) {
-    const OnePixel pixel(256, confidence);
+    const ConstantGuide pixel(256, confidence);
     const int level = confidence < 52 ? 0 : confidence >= 196 ? 7 : (confidence - 28) / 24;
     EXPECT_EQ((std::vector{4 * level}), bins_of({512}, pixel.guide())) << confidence;
   }
 }
 
-TEST(GuideClue, FollowsTheShiftOfTheMap) {
+TEST(GuideClue, SaysTheSameAboutTwoPixels) {
   DisparityPlane map(2, 1);
-  GrayPlane rating(2, 1, 255);
   map(0, 0) = 256;
   map(1, 0) = 512;
   const Image<std::int32_t> disparity = image_of(map);
-  const Image<std::uint8_t> confidence = image_of(rating);
-  // Two columns of the map are before the guide's, and 3 px are added to its disparities.
-  const RatedGuide guide = {&disparity, &confidence, 2, -2, 3};
-  const int near = 5 * 256, far = 7 * 256;
-  EXPECT_EQ((std::vector{28, 28, 28, 28, 28, 28}),
-            bins_of({near, near, near, near, far, far}, guide));
+  const Image<std::uint8_t> confidence = image_of(GrayPlane(2, 1, 255));
+  EXPECT_EQ((std::vector{28, 28, 28}), bins_of({512, 512, 1024}, {&disparity, &confidence}));
+  EXPECT_EQ((std::vector{28, 28, 28, 28}),
+            bins_of({512, 512, 1024, 1024}, {&disparity, &confidence}));
 }
 
 }  // namespace
