@@ -52,7 +52,7 @@ struct Candidates {
   /// column x at disparity d is at width - 1 - x + d. Successive pixels use copies in turn: with
   /// one copy, each pixel's loads would wait for its neighbor's stores.
   static constexpr int kTurns = 2;
-  enum Plane { kCosts, kEvens, kHigh, kLow, kPlanes };  // a byte each
+  enum Plane { kCosts, kHigh, kLow, kPlanes };  // a byte each
   Buffer<std::uint8_t> right;       ///< [plane][turn]: PathSums, disparities / 256 and % 256
   std::ptrdiff_t right_stride = 0;  ///< from turn to turn
 

@@ -130,7 +130,7 @@ class ChunkMatching {
         small_step_,
         &large_step_,
         input_.windows.row(y),
-        from_above() ? PathSums::kFour : PathSums::kTwoHalved};
+        from_above() ? PathSums::kFour : PathSums::kTwo};
     match_row_pair(pair, options_.selection, runner_up_, scratch_.pair);
     for (int row = y; row <= last; ++row) {
       finish_selection(width_, options_.selection, scratch_.low.data(), scratch_.high.data(),

@@ -95,9 +95,8 @@ class PairWalk {
                               const PixelLanes<kVectors>& path, const std::uint8_t* from_right) {
     const Bytes d8;
     const RowSelection& row = rows_[r];
-    constexpr bool kExact = kSums == PathSums::kTwo;
     std::uint8_t* memory = ends_ + 2 * lanes_;
-    PixelLanes<kVectors> sums(memory, window), evens(memory + lanes_, window);
+    PixelLanes<kVectors> sums(memory, window);
     const bool at_border = x + 1 < window.end;
     for (int i = 0; i < sums.count(); ++i) {
       const int d = i * kByteLanes;
@@ -110,13 +109,9 @@ class PairWalk {
       }
       if (at_border) sum = with_border(row, x, window.begin + d, sum);
       sums.set(i, sum);
-      if constexpr (kExact) {
-        evens.set(i, hn::AndNot(hn::Xor(path.get(i), other), hn::Set(d8, 1)));
-      }
     }
     store(sums, memory);
-    if constexpr (kExact) store(evens, memory + lanes_);
-    select<kExact>(row, x, window, sums, evens, memory);
+    select(row, x, window, sums, memory);
   }
 
   template <int kVectors>
@@ -155,9 +150,6 @@ void walk_pair(const RowPair& pair, const RowSelection (&rows)[2], const RowPair
     case PathSums::kTwo:
       walk_both_ways<PathSums::kTwo>(pair, rows, scratch);
       break;
-    case PathSums::kTwoHalved:
-      walk_both_ways<PathSums::kTwoHalved>(pair, rows, scratch);
-      break;
     case PathSums::kFour:
       walk_both_ways<PathSums::kFour>(pair, rows, scratch);
       break;
@@ -183,7 +175,7 @@ void select_by_cost(const RowPair& pair, const RowSelection& of_row, std::uint8_
         sums.set(i, cost);
         hn::StoreU(cost, d8, memory + d);
       }
-      select<false>(row, x, window, sums, sums, memory);
+      select(row, x, window, sums, memory);
     });
   }
   if (row.right != nullptr) decide_right(row);
@@ -209,9 +201,8 @@ void find_steps(const RowPair& pair, int r, std::uint8_t* steps) {
 }
 
 /// Starts the selection of a row.
-RowSelection selection_of(const RowPair& pair, const PathRow& row, bool exact,
-                          const SelectionOptions& options, const RunnerUpTable& runner_up,
-                          RowPairScratch& scratch) {
+RowSelection selection_of(const RowPair& pair, const PathRow& row, const SelectionOptions& options,
+                          const RunnerUpTable& runner_up, RowPairScratch& scratch) {
   Candidates& to = *row.candidates;
   const bool checks = options.left_right_tolerance >= 0;
   if (checks) std::memset(to.right.data(), 255, Candidates::kTurns * to.right_stride);
@@ -231,8 +222,7 @@ RowSelection selection_of(const RowPair& pair, const PathRow& row, bool exact,
           to.after.data(),
           checks ? to.right.data() : nullptr,
           to.right_stride,
-          lanes > 256,
-          exact};
+          lanes > 256};
 }
 
 /// The disparities of the right pixels of the best ones.
@@ -252,7 +242,7 @@ void RowPairScratch::resize(int width, int disparities) {
   const std::size_t lanes = cost_lanes(disparities);
   paths.resize(2 * width * lanes);
   steps.resize(2 * (width + 1));
-  ends.resize(5 * lanes);
+  ends.resize(3 * lanes);
   limits.resize(3 * lanes);
   std::memset(limits.data(), 0, 3 * lanes);
   std::memset(limits.data() + lanes, 255, lanes);
@@ -266,8 +256,7 @@ void match_row_pair(const RowPair& pair, const SelectionOptions& options,
   RowSelection rows[2];
   for (int r = 0; r < 2; ++r) {
     find_steps(pair, r, scratch.steps.data() + r * (pair.width + 1));
-    rows[r] =
-        selection_of(pair, pair.rows[r], pair.sums == PathSums::kTwo, options, runner_up, scratch);
+    rows[r] = selection_of(pair, pair.rows[r], options, runner_up, scratch);
   }
   HWY_DYNAMIC_DISPATCH(walk_pair)(pair, rows, scratch);
   for (const PathRow& row : pair.rows) find_other(pair.width, options, *row.candidates);
@@ -275,7 +264,7 @@ void match_row_pair(const RowPair& pair, const SelectionOptions& options,
 
 void match_row_by_cost(const RowPair& pair, const SelectionOptions& options,
                        const RunnerUpTable& runner_up, RowPairScratch& scratch) {
-  const RowSelection row = selection_of(pair, pair.rows[0], false, options, runner_up, scratch);
+  const RowSelection row = selection_of(pair, pair.rows[0], options, runner_up, scratch);
   HWY_DYNAMIC_DISPATCH(select_by_cost)(pair, row, scratch.ends.data());
   find_other(pair.width, options, *pair.rows[0].candidates);
 }

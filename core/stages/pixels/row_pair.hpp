@@ -18,13 +18,11 @@ namespace mtstereo {
 /// stores the path costs. The second one goes from left to right, sums the costs of all paths of a
 /// pixel while they are in registers, and finds the best disparity of both views at once.
 
-/// How the costs of a pixel's paths are summed, in bytes. They have the range of two paths; the
-/// highest ones, of which bytes are 255, count as no disparity.
+/// How the costs of a pixel's paths are averaged, in bytes, each time rounded up. They have the
+/// range of two paths; the highest ones, of which bytes are 255, count as no disparity.
 enum class PathSums {
-  kTwo,        ///< of the two paths along the row: half of it, rounded up, and whether it is even
-  kTwoHalved,  ///< the half alone, which takes less time
-  kFour,       ///< with those along the column: mean(mean(left, right), mean(above, below)), each
-               ///< rounded up
+  kTwo,   ///< of those along the row: mean(left, right)
+  kFour,  ///< with those along the column: mean(mean(left, right), mean(above, below))
 };
 
 /// One row of a pair. Cells of costs are at [x][d], x * cost_lanes(disparities) + d; those of

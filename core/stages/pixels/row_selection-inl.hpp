@@ -82,22 +82,15 @@ HWY_INLINE int first_equal(const PixelLanes<kVectors>& lanes, ByteVector least) 
 }
 
 /// Each sum of column x from disparity d on replaces that of its right pixel if it is less.
-template <bool kExact>
-HWY_INLINE void compete(const RowSelection& row, int x, int d, ByteVector sums, ByteVector evens) {
+HWY_INLINE void compete(const RowSelection& row, int x, int d, ByteVector sums) {
   const Bytes d8;
   const std::ptrdiff_t plane = Candidates::kTurns * row.right_stride;
   std::uint8_t* costs =
       row.right + x % Candidates::kTurns * row.right_stride + row.width - 1 - x + d;
   const auto before = hn::LoadU(d8, costs);
   const auto least = hn::Min(before, sums);
-  auto stays = hn::Eq(least, before);
+  const auto stays = hn::Eq(least, before);
   hn::StoreU(least, d8, costs);
-  if constexpr (kExact) {
-    std::uint8_t* all = costs + Candidates::kEvens * plane;
-    const auto even = hn::LoadU(d8, all);
-    stays = hn::And(stays, hn::Or(hn::Ne(sums, before), hn::Eq(hn::Min(even, evens), even)));
-    hn::StoreU(hn::IfThenElse(stays, even, evens), d8, all);
-  }
   const auto lanes = hn::Iota(d8, 0);
   const auto low = hn::Add(lanes, hn::Set(d8, static_cast<std::uint8_t>(d)));
   std::uint8_t* lows = costs + Candidates::kLow * plane;
@@ -123,77 +116,47 @@ HWY_INLINE ByteVector without(const RowSelection& row, int x, int begin, int bes
 /// The candidates of a column, relative to the window.
 struct Found {
   int best;
-  int least, second;            // sums; 255 = none
-  int least_even, second_even;  // with exact sums
+  int least, second;  // sums; 255 = none
 };
 
 /// Writes the candidates of column x; `memory` as in select().
-template <bool kExact>
 HWY_INLINE void write(const RowSelection& row, int x, CostWindow window, const Found& found,
                       const std::uint8_t* memory) {
-  const auto cost = [](int sum, int even) {
-    return static_cast<std::int16_t>(kExact ? 2 * sum - 1 + even : 2 * sum);
-  };
-  const auto at = [&](int lane) { return cost(memory[lane], memory[row.lanes + lane]); };
+  const auto cost = [](int sum) { return static_cast<std::int16_t>(2 * sum); };
   const int last = std::min<int>(std::min(row.disparities, x + 1), window.end) - window.begin - 1;
   const bool inside = found.best > 0 && found.best < last;
-  const std::int16_t least = cost(found.least, found.least_even);
-  const std::int16_t second = cost(found.second, found.second_even);
+  const std::int16_t least = cost(found.least);
+  const std::int16_t second = cost(found.second);
   const bool sure = found.second < 255 && second >= row.runner_up[least];
   row.best[x] = static_cast<std::int16_t>(window.begin + found.best);
   row.least[x] = least;
   row.second[x] = sure ? second : kNoCost;
-  row.before[x] = inside ? at(found.best - 1) : kNoCost;
-  row.after[x] = inside ? at(found.best + 1) : kNoCost;
+  row.before[x] = inside ? cost(memory[found.best - 1]) : kNoCost;
+  row.after[x] = inside ? cost(memory[found.best + 1]) : kNoCost;
 }
 
-/// Finds the candidates of column x. `memory` has the same sums as `sums`, then `evens`, then room
-/// for as many.
-template <bool kExact, int kVectors>
+/// Finds the candidates of column x. `memory` has the same sums as `sums`.
+template <int kVectors>
 HWY_INLINE void select(const RowSelection& row, int x, CostWindow window,
-                       const PixelLanes<kVectors>& sums, const PixelLanes<kVectors>& evens,
-                       std::uint8_t* memory) {
+                       const PixelLanes<kVectors>& sums, const std::uint8_t* memory) {
   const Bytes d8;
-  const auto none = hn::Set(d8, 255);
-  auto least = none;
+  auto least = hn::Set(d8, 255), second = least;
   for (int i = 0; i < sums.count(); ++i) {
     least = hn::Min(least, sums.get(i));
     if (row.right == nullptr) continue;
-    compete<kExact>(row, x, window.begin + i * kByteLanes, sums.get(i),
-                    kExact ? evens.get(i) : none);
+    compete(row, x, window.begin + i * kByteLanes, sums.get(i));
   }
   least = least_of_lanes(d8, least);
   Found found = {};
   found.least = hn::GetLane(least);
-  if constexpr (kExact) {
-    PixelLanes<kVectors> keys(memory + 2 * row.lanes, window);
-    auto key = none;
-    for (int i = 0; i < sums.count(); ++i) {
-      keys.set(i, hn::IfThenElse(hn::Eq(sums.get(i), least), evens.get(i), none));
-      key = hn::Min(key, keys.get(i));
-    }
-    key = least_of_lanes(d8, key);
-    found.least_even = hn::GetLane(key);
-    found.best = first_equal(keys, key);
-  } else {
-    found.best = first_equal(sums, least);
-  }
-  auto second = none;
+  found.best = first_equal(sums, least);
   for (int i = 0; i < sums.count(); ++i) {
     second =
         hn::Min(second, without(row, x, window.begin, found.best, i * kByteLanes, sums.get(i)));
   }
   second = least_of_lanes(d8, second);
   found.second = hn::GetLane(second);
-  if constexpr (kExact) {
-    auto key = none;
-    for (int i = 0; i < sums.count(); ++i) {
-      const auto others = without(row, x, window.begin, found.best, i * kByteLanes, sums.get(i));
-      key = hn::Min(key, hn::IfThenElse(hn::Eq(others, second), evens.get(i), none));
-    }
-    found.second_even = hn::GetLane(least_of_lanes(d8, key));
-  }
-  write<kExact>(row, x, window, found, memory);
+  write(row, x, window, found, memory);
 }
 
 /// Lets disparities without a right pixel cost 255.
@@ -209,8 +172,7 @@ HWY_INLINE void decide_right(const RowSelection& row) {
     // The planes in the order in which they decide.
     auto less = hn::FirstN(d8, 0), equal = hn::FirstN(d8, kByteLanes);
     for (int p = 0; p < Candidates::kPlanes; ++p) {
-      if (p == Candidates::kEvens ? !row.exact : p == Candidates::kHigh && !row.high_planes)
-        continue;
+      if (p == Candidates::kHigh && !row.high_planes) continue;
       const auto first = hn::LoadU(d8, row.right + p * plane + x);
       const auto second = hn::LoadU(d8, row.right + p * plane + turn + x);
       less = hn::Or(less, hn::And(equal, hn::Lt(second, first)));

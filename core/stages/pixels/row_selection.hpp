@@ -25,7 +25,6 @@ struct RowSelection {
   std::uint8_t* right;                                   ///< Candidates::right, or nullptr
   std::ptrdiff_t right_stride;
   bool high_planes;  ///< whether disparities exceed a byte
-  bool exact;        ///< PathSums::kTwo
 };
 
 }  // namespace mtstereo

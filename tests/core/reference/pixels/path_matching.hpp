@@ -117,7 +117,7 @@ inline RatedMap match_along_paths(const PathInput& input, const PathMatchingOpti
   for (int y = 0; y < height; ++y) {
     const RowCosts sums =
         options.column_paths == ColumnPaths::kNone
-            ? path_sums(costs[y], &input.left(0, y), steps, PathSums::kTwoHalved)
+            ? path_sums(costs[y], &input.left(0, y), steps, PathSums::kTwo)
             : four_paths(input, costs, steps, options.column_paths == ColumnPaths::kBoth, y);
     const std::vector<Selected> selected = select_row(input, y, sums, options.selection);
     for (int x = 0; x < width; ++x) out.set(x, y, selected[x]);

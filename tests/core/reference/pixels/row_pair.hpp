@@ -43,7 +43,7 @@ inline RowCosts path_costs(const RowCosts& costs, const std::uint8_t* gray,
   return path;
 }
 
-/// The sums of the costs of both paths along the row, and of those along the column if there are
+/// Twice the mean costs of both paths along the row, and of those along the column if there are
 /// any; in the range of two paths.
 inline RowCosts path_sums(const RowCosts& costs, const std::uint8_t* gray,
                           const SmoothnessOptions& options, PathSums kind,
@@ -57,8 +57,6 @@ inline RowCosts path_sums(const RowCosts& costs, const std::uint8_t* gray,
       if (sums[x][d] == kOutside) continue;
       const int left = from_left[x][d], right = from_right[x][d];
       if (kind == PathSums::kTwo) {
-        sums[x][d] = left + right;
-      } else if (kind == PathSums::kTwoHalved) {
         sums[x][d] = 2 * mean(left, right);
       } else {
         sums[x][d] = 2 * mean(mean(left, right), mean(above[x][d], below[x][d]));

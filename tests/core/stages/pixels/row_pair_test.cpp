@@ -165,7 +165,7 @@ long expect_reference(const Rows& rows, const Setting& setting, Scratch& scratch
 
 Setting random_setting(int disparities, const SmoothnessOptions& steps, Random& random) {
   return {steps,
-          static_cast<PathSums>(random.below(3)),
+          static_cast<PathSums>(random.below(2)),
           {disparities, 0.06 * random.below(2), false, random.between(-1, 2), random.below(2) == 0,
            random.below(50)}};
 }
