@@ -32,8 +32,8 @@ constexpr bool always(S) { return true; }
 constexpr Step kViewList[] = {
     {"time-filter",        [](S s) { return s.filters(); },          on<filter_in_time>},
     {"row-alignment",      [](S s) { return s.aligned(); },          on<align>},
-    {"sharpness",          [](S s) { return s.blurred(); },          on<match_sharpness>},
     {"view-shift",         [](S s) { return s.shifted(); },          on<shift_views>},
+    {"sharpness",          [](S s) { return s.blurred(); },          on<match_sharpness>},
     {"halving",            [](S s) { return s.half(); },             on<halve>},
     {"noise-filter",       [](S s) { return s.noise_filter; },       on<filter_views>},
     {"census",             [](S s) { return s.by_paths(); },         on<transform>},

@@ -55,7 +55,7 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
   if (settings.aligned()) aligned.resize(size.input.width, size.input.height);
   const float blurs[] = {settings.correction.left_blur, settings.correction.right_blur};
   for (int side = 0; side < 2; ++side) {
-    if (blurs[side] > 0) blurred[side].resize(size.input.width, size.input.height);
+    if (blurs[side] > 0) blurred[side].resize(size.frame.width, size.frame.height);
     if (settings.min_disparity < 0) extended[side].resize(size.frame.width, size.frame.height);
     if (settings.half()) halves[side].resize(width, height);
     if (settings.noise_filter) {
@@ -68,7 +68,7 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
     if (settings.aligned()) worker.alignment.resize(size.input.width);
-    if (settings.blurred()) worker.blur.resize(size.input.width);
+    if (settings.blurred()) worker.blur.resize(size.frame.width);
     if (settings.noise_filter) worker.noise_filter.resize(width, size.matched.band_rows());
     const ImageSize& largest = settings.refined() ? size.frame : size.matched;
     worker.census.resize(largest.width, largest.band_rows());

@@ -81,7 +81,7 @@ TEST(MinDisparity, IsAppliedAfterTheCorrection) {
   const Pair pair = test::slanted_pair(640, 60, 40, 6);
   ViewCorrection correction;  // one that does not depend on the column
   correction.rows.offset = 0.5;
-  correction.right_blur = 1;
+  correction.left_blur = 1;
   Matcher matcher = std::move(Matcher::create(range_from(0, "default", "semi-dense")).value());
   ASSERT_TRUE(matcher.set_correction(correction).ok());
   const DisparityPlane unmoved = disparities(matcher, pair.left, pair.right);

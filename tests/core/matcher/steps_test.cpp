@@ -140,17 +140,19 @@ TEST(Steps, AreEnabledBySettings) {
 
 TEST(Steps, CorrectTheViewsFirstButForTheirNoise) {
   Settings settings{Parameters()};
-  const auto runs = [&](int step) { return kViewSteps[1 + step].runs(settings); };
   ASSERT_EQ("time-filter", kViewSteps[0].name);
-  ASSERT_EQ("row-alignment", kViewSteps[1].name);
-  ASSERT_EQ("sharpness", kViewSteps[2].name);
-  EXPECT_FALSE(runs(0) || runs(1));
+  const Step& rows = kViewSteps[1];
+  ASSERT_EQ("row-alignment", rows.name);
+  ASSERT_EQ("view-shift", kViewSteps[2].name);
+  const Step& sharpness = kViewSteps[3];
+  ASSERT_EQ("sharpness", sharpness.name);
+  EXPECT_FALSE(rows.runs(settings) || sharpness.runs(settings));
   settings.correction.rows.square = -0.1;
-  EXPECT_TRUE(runs(0) && !runs(1));
+  EXPECT_TRUE(rows.runs(settings) && !sharpness.runs(settings));
   settings.correction = {{}, 0, 0.5F};
-  EXPECT_TRUE(!runs(0) && runs(1));
+  EXPECT_TRUE(!rows.runs(settings) && sharpness.runs(settings));
   settings.correction = {{}, 0.5F, 0};
-  EXPECT_TRUE(!runs(0) && runs(1));
+  EXPECT_TRUE(!rows.runs(settings) && sharpness.runs(settings));
 }
 
 }  // namespace
