@@ -79,8 +79,9 @@ def stages_of(function, bodies, declared, seen=()):
 def read_steps(text):
     """The lists of core/matcher/steps.cpp, with the presets that the program has printed."""
     printed, declared = printed_steps(text), declared_functions()
+    # A body is on lines of its own, or on that of its function.
     bodies = {name: (arguments, body) for name, arguments, body in
-              re.findall(r"^void (\w+)\(([^{;]*)\) \{\n(.*?)^}", sources(), re.MULTILINE | re.DOTALL)}
+              re.findall(r"^void (\w+)\(([^{;]*)\) \{(\n.*?^| [^\n]* )\}$", sources(), re.MULTILINE | re.DOTALL)}
     steps = []
     lists = re.findall(r"^constexpr Step k(\w+)List\[\] = \{\n(.*?)^\};", (SOURCE / ROWS).read_text(),
                        re.MULTILINE | re.DOTALL)
