@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # install-packages.sh [MARK...]: installs the missing Debian packages of packages.txt; does nothing if
-# none is missing. A package with a mark after its name is only installed if that mark is given.
+# none is missing. A package with marks after its name is only installed if one of them is given.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 marks=" $* "
 
 missing=() architectures=()
-while read -r package mark; do
-  [ -z "$mark" ] || [[ $marks == *" $mark "* ]] || continue
+while read -r package needed_for; do
+  [ -z "$needed_for" ] || [[ $marks =~ " "(${needed_for// /|})" " ]] || continue
   ! dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || continue
   missing+=("$package")
   case $package in
