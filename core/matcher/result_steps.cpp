@@ -2,7 +2,7 @@
 #include "matcher/result_steps.hpp"
 
 #include <algorithm>
-#include <atomic>
+#include <utility>
 
 #include "matcher/fine_detail.hpp"
 #include "stages/refine/completion.hpp"
@@ -16,14 +16,8 @@
 namespace mtstereo {
 namespace {
 
-/// The view must be still in this share of its blocks for the last pair to decide anything. After a
-/// cut it is in 0.25 of them or less, even if both scenes have the same sky.
-constexpr double kLeastStill = 0.4;
-
 /// Areas that a thread takes at once; most are small.
 constexpr int kAreasAtOnce = 8;
-
-static_assert(Bands::kRows % kStillBlock == 0 && kStillBlock == kTimeBlock);
 
 }  // namespace
 
@@ -54,18 +48,13 @@ void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps
 
 void LastPair::resize(const Settings& settings, const FrameSize& size) {
   const auto [width, height] = size.matched;
-  const bool compares = settings.holds() && !settings.filters();
-  const bool sized = disparity.width() == width && disparity.height() == height;
-  if (settings.holds() && sized && compares == (view.width() > 0)) return;
+  if (!settings.holds()) restart();
+  if (!settings.holds() || (disparity.width() == width && disparity.height() == height)) return;
   restart();
-  view.resize(0, 0);
-  if (!settings.holds()) return;
+  for (ViewPyramid* pyramid : {&view, &present}) pyramid->resize(width, height);
+  points.resize(width, height);
   disparity.resize(width, height);
   least.resize(width, height);
-  still.resize(still_blocks(width), still_blocks(height));
-  if (!compares) return;
-  view.resize(width, height);
-  noise.resize(width, height);
 }
 
 void measure_block_grid(const StepContext& step, const Views& views, ResultMaps& result,
@@ -156,39 +145,38 @@ void complete_flat_areas(const StepContext& step, const Views& views, ResultMaps
   });
 }
 
-void compare_views(const StepContext& step, const Views& views, LastPair& last) {
-  const Bands& bands = step.bands;
-  bands.rows([&](int y0, int y1, int) { measure_blocks(views.plain[0], y0, y1, last.noise); });
-  const float noise = noise_level(last.noise);
-  std::atomic<int> still{0};
-  bands.rows([&](int y0, int y1, int) {
-    still += find_still(views.plain[0], last.view, noise, y0, y1, last.still);
+void find_camera_motion(const StepContext& step, const Views& views, const ResultMaps& result,
+                        LastPair& last) {
+  GrayView view = views.plain[0];
+  for (int i = 0; i < last.present.count; ++i) {
+    Image<std::uint8_t>& half = last.present.levels[i];
+    step.bands.of_height(half.height()).rows([&](int y0, int y1, int) {
+      halve_rows(view, y0, y1, half);
+    });
+    view = half.view();
+  }
+  last.motion.reset();
+  if (!last.valid || last.present.count == 0) return;
+  step.bands.blocks(last.points.rows, 1, [&](int row0, int row1, int) {
+    choose_points(last.present.levels[0], *result.disparity, *result.confidence,
+                  step.settings.matched_offset(), row0, row1, last.points);
   });
-  last.share = still / (static_cast<double>(last.still.width()) * last.still.height());
+  last.motion = find_motion(last.points, last.present, last.view, result.disparity->width(),
+                            result.disparity->height());
 }
 
-void hold_known(const StepContext& step, const Views& views, const PastViews& past,
-                const ResultMaps& result, LastPair& last) {
-  last.decides = false;
-  if (!last.valid) return;
-  const bool filters = step.settings.filters();
-  if (!filters) compare_views(step, views, last);
-  last.decides = filters ? past.averaged : last.share >= kLeastStill;
-  if (!last.decides) return;
-  if (filters) {
-    const int scale = step.settings.half() ? 2 : 1;
-    place_still(past.views[0].blocks.still, scale, step.settings.min_disparity, last.still);
-  }
-  const LeastConfidence least = step.settings.least_confidence();
+void hold_known(const StepContext& step, const ResultMaps& result, LastPair& last) {
+  if (!last.motion) return;
   step.bands.rows([&](int y0, int y1, int) {
-    choose_least(least, last.still, last.disparity, *result.disparity, y0, y1, last.least);
+    choose_least(step.settings.least_confidence(), *last.motion, step.settings.matched_offset(),
+                 last.disparity, *result.disparity, y0, y1, last.least);
   });
 }
 
 void reject_unlikely(const StepContext& step, const LastPair& last, ResultMaps& result,
                      ResultBuffers& buffers) {
   const Settings& settings = step.settings;
-  const bool each = settings.holds() && last.decides;
+  const bool each = settings.holds() && last.motion.has_value();
   step.bands.rows([&](int y0, int y1, int) {
     if (each) {
       threshold_each(last.least, y0, y1, *result.disparity, *result.confidence);
@@ -226,15 +214,10 @@ void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps&
   });
 }
 
-void keep_pair(const StepContext& step, const Views& views, const ResultMaps& result,
-               LastPair& last) {
-  const bool compares = !step.settings.filters();
-  step.bands.rows([&](int y0, int y1, int) {
-    for (int y = y0; compares && y < y1; ++y) {
-      std::copy_n(views.plain[0].row(y), views.plain[0].width, last.view.row(y));
-    }
-    copy_last(*result.disparity, y0, y1, last.disparity);
-  });
+void keep_pair(const StepContext& step, const ResultMaps& result, LastPair& last) {
+  step.bands.rows(
+      [&](int y0, int y1, int) { copy_last(*result.disparity, y0, y1, last.disparity); });
+  std::swap(last.view, last.present);
   last.valid = true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/buffer.hpp"
@@ -9,8 +10,8 @@
 #include "matcher/path_steps.hpp"
 #include "matcher/rating.hpp"
 #include "matcher/view_steps.hpp"
-#include "stages/prepare/noise_level.hpp"
 #include "stages/refine/block_grid.hpp"
+#include "stages/refine/camera_motion.hpp"
 #include "stages/refine/edge_alignment.hpp"
 #include "stages/refine/flat_planes.hpp"
 #include "stages/refine/speckle_removal.hpp"
@@ -44,16 +45,15 @@ void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps
 
 /// The last pair of the stream: all that the steps of a pair know of those before.
 struct LastPair {
-  Image<std::uint8_t> view;        ///< the left one; empty with Settings::filters()
+  ViewPyramid view;                ///< the left one
   Image<std::uint16_t> disparity;  ///< its map [1 / kHeldOne px], 0 = unknown
   bool valid = false;              ///< there was one
 
   // of the present pair
-  bool decides = false;       ///< the scene is the same, and `least` applies
-  Image<std::uint8_t> still;  ///< 1 for each block that equals that of `view`
-  Image<std::uint8_t> least;  ///< confidence that each pixel needs
-  double share = 0;           ///< of these blocks
-  NoiseBlocks noise;
+  ViewPyramid present;                 ///< the left view
+  MotionPoints points;                 ///< of the left view and the map
+  std::optional<CameraMotion> motion;  ///< if the last pair shows the same scene
+  Image<std::uint8_t> least;           ///< confidence that each pixel needs, if there is a motion
 
   /// Begins anew, as for another stream.
   void restart() { valid = false; }
@@ -89,12 +89,12 @@ void correct_strip(const StepContext& step, ResultMaps& result);
 void complete_flat_areas(const StepContext& step, const Views& views, ResultMaps& result,
                          ResultBuffers& buffers);
 
-/// Finds the blocks of the left view that equal those of the last one.
-void compare_views(const StepContext& step, const Views& views, LastPair& last);
+/// Finds how the camera moved since the last pair.
+void find_camera_motion(const StepContext& step, const Views& views, const ResultMaps& result,
+                        LastPair& last);
 
 /// Decides by the last pair what confidence each pixel of the complete map needs.
-void hold_known(const StepContext& step, const Views& views, const PastViews& past,
-                const ResultMaps& result, LastPair& last);
+void hold_known(const StepContext& step, const ResultMaps& result, LastPair& last);
 
 /// Removes what is less reliable than asked for, and small islands that are left.
 void reject_unlikely(const StepContext& step, const LastPair& last, ResultMaps& result,
@@ -108,7 +108,6 @@ void close_gaps(const StepContext& step, ResultMaps& result, ResultBuffers& buff
 void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps& result);
 
 /// Keeps the map and the left view for the next pair.
-void keep_pair(const StepContext& step, const Views& views, const ResultMaps& result,
-               LastPair& last);
+void keep_pair(const StepContext& step, const ResultMaps& result, LastPair& last);
 
 }  // namespace mtstereo

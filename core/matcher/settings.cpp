@@ -22,17 +22,12 @@ constexpr int kHalvedKernel = 3;        // [px]
 constexpr int kHalvedRangePenalty = 2;  // [bits]
 constexpr SmoothnessOptions kHalvedSmoothness = {12, 51};
 
-/// What a known pixel of the last map needs less than the usual confidence, and what others need
-/// more. With both, a still stream has the density and the errors of single frames, and half of
-/// their flicker; a lower threshold alone has those of a lower min-confidence. Averaged views know
-/// more pixels, with more errors of the scene: there others need still more.
-struct Held {
-  int less;
-  int more;
-  int more_of_dense;
-};
-constexpr Held kHeld = {30, 10, 5};
-constexpr Held kHeldOfAveraged = {20, 20, 10};
+/// What a pixel that the last map knows too needs less than the usual confidence, and what pixels
+/// need more that it does not know. With both, a stream has the errors of single frames, and half of
+/// their flicker; a lower threshold alone has those of a lower min-confidence.
+constexpr int kHeldLess = 20;
+constexpr int kHeldMore = 20;
+constexpr int kHeldMoreOfDense = 10;
 
 /// Converts a percentage to a fraction.
 double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
@@ -82,12 +77,11 @@ void Settings::match_at(Resolution chosen) {
 }
 
 LeastConfidence Settings::least_confidence() const {
-  const Held& held = filters() ? kHeldOfAveraged : kHeld;
   const int usual = least_reliability();
   const int lowest = keeps_inferred() ? 1 : kMostInferred + 1;
-  const int more = keeps_inferred() ? held.more_of_dense : held.more;
+  const int more = keeps_inferred() ? kHeldMoreOfDense : kHeldMore;
   return {static_cast<std::uint8_t>(usual),
-          static_cast<std::uint8_t>(std::max(usual - held.less, lowest)),
+          static_cast<std::uint8_t>(std::max(usual - kHeldLess, lowest)),
           static_cast<std::uint8_t>(std::min(usual + more, 255))};
 }
 

@@ -106,7 +106,7 @@ struct Settings {
   bool filters() const { return temporal == Temporal::kFilter; }
   /// Whether the last map of the stream decides what confidence a pixel of the next one needs.
   bool holds() const { return temporal != Temporal::kOff && rejects_unlikely(); }
-  /// The least confidence of pixels that the last map does not decide, that it knows, and others.
+  /// The least confidence of pixels, by what the last map knows of them.
   LeastConfidence least_confidence() const;
   /// The kind of the complete map, for its reliability.
   RatedMap rated_map() const {
@@ -120,6 +120,10 @@ struct Settings {
   PathMatchingOptions path_matching(int level) const;
   /// Whether the smallest disparity differs from 0.
   bool shifted() const { return min_disparity != 0; }
+  /// What a disparity of 0 px of the matched views stands for [px of these views].
+  float matched_offset() const {
+    return static_cast<float>(min_disparity) / static_cast<float>(half() ? 2 : 1);
+  }
   /// Whether the rows of the right view are resampled, and whether a view is blurred.
   bool aligned() const { return !(correction.rows == RowField()); }
   bool blurred() const { return correction.left_blur > 0 || correction.right_blur > 0; }

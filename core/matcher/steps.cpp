@@ -78,6 +78,7 @@ constexpr Step kResultList[] = {
     {"left-strip",         [](S s) { return s.mode == Mode::kFull; }, on<correct_strip>},
     {"flat-planes",        [](S s) { return s.mode == Mode::kFull; }, on<complete_flat_areas>},
     {"plane-edges",        [](S s) { return s.mode == Mode::kFull && !s.half(); }, on<align_map_edges>},
+    {"camera-motion",      [](S s) { return s.holds(); },            on<find_camera_motion>},
     {"holding",            [](S s) { return s.holds(); },            on<hold_known>},
     {"rejection",          [](S s) { return s.rejects_unlikely(); }, on<reject_unlikely>},
     {"gap-closing",        [](S s) { return s.rejects_unlikely() && s.max_gap > 0; }, on<close_gaps>},

@@ -96,11 +96,11 @@ std::vector<Scene> rendered() {
 }
 
 TEST(HoldOnRenderedScenes, ReducesTheFlicker) {
-  expect_within(compare(rendered(), "semi-dense", 1), {0.7, -0.1, 0.2, 0.02});
+  expect_within(compare(rendered(), "semi-dense", 1), {0.4, -0.5, 0.02, 0});
 }
 
 TEST(HoldOnRenderedScenes, ReducesTheFlickerOfModeDense) {
-  expect_within(compare(rendered(), "dense", 1), {0.8, -0.2, 0.2, 0.015});
+  expect_within(compare(rendered(), "dense", 1), {0.7, -1, 0.04, 0.002});
 }
 
 TEST(FilterOnRenderedScenes, ReducesTheFlicker) {
@@ -126,8 +126,8 @@ std::vector<Scene> real() {
 TEST(HoldOnRealPairs, ReducesTheFlicker) {
   const std::vector<Scene> scenes = real();
   if (scenes.empty()) GTEST_SKIP() << "no test data";
-  expect_within(compare(scenes, "semi-dense", 1), {0.45, 0.5, 0.04, 0.006});
-  expect_within(compare(scenes, "semi-dense", 3), {0.8, -0.5, 0.02, 0.005});
+  expect_within(compare(scenes, "semi-dense", 1), {0.35, -1, 0, 0});
+  expect_within(compare(scenes, "semi-dense", 3), {0.65, -2.6, -0.1, -0.02});
 }
 
 TEST(FilterOnRealPairs, ReducesTheFlickerAndTheErrors) {

@@ -59,11 +59,16 @@ std::vector<eval::StereoPair> further_pairs(const std::string& folder) {
                    {"kitti2015", eval::Layout::kKitti2015, 128}});
 }
 
-eval::LoadedPair rendered_pair(const std::string& scene, double time) {
+render::Settings rendered_settings(const std::string& scene) {
   render::Settings settings;
   settings.width = 480;
   settings.height = 270;
-  const render::StereoFrame frame = render::render(render::make_scene(scene, 1), time, settings);
+  return render::complete(render::make_scene(scene, 1), settings);
+}
+
+eval::LoadedPair rendered_pair(const std::string& scene, double time) {
+  const render::StereoFrame frame =
+      render::render(render::make_scene(scene, 1), time, rendered_settings(scene));
   eval::LoadedPair pair{frame.left, frame.right, {frame.truth, {}}};
   for (float& disparity : cv::Mat_<float>(pair.truth.disparity)) {
     if (!std::isfinite(disparity)) disparity = std::numeric_limits<float>::quiet_NaN();

@@ -6,6 +6,7 @@
 
 #include "tools/eval/datasets.hpp"
 #include "tools/eval/metrics.hpp"
+#include "tools/render/settings.hpp"
 
 namespace mtstereo::tests {
 
@@ -19,7 +20,10 @@ std::vector<eval::StereoPair> ten_pairs(const std::string& folder);
 /// The 17 further pairs in its folder `more`.
 std::vector<eval::StereoPair> further_pairs(const std::string& folder);
 
-/// A pair of a rendered scene, 480x270 px, with disparities below 64 px.
+/// The settings of the pairs of a rendered scene: 480x270 px, with disparities below 64 px.
+render::Settings rendered_settings(const std::string& scene);
+
+/// A pair of a rendered scene.
 eval::LoadedPair rendered_pair(const std::string& scene, double time);
 
 /// The unweighted mean.

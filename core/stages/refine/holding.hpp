@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
+#include "stages/refine/camera_motion.hpp"
 
 namespace mtstereo {
 
-/// What the last pair of a stream decides about the map of the present one, where the left view is
-/// still: a pixel that the last map knows needs less confidence if the present pair chose the same
-/// disparity, and another one more. No disparity of the last map gets into the present one.
-
-/// Side of the blocks of the view that are still or not [px].
-inline constexpr int kStillBlock = 8;
-
-/// A block is still if its pixels differ from those of the last view by at most kStillNoise times
-/// the noise plus kStillOffset on average [gray values]. Noise alone makes 1.13 times as much.
-inline constexpr float kStillNoise = 1.4F;
-inline constexpr float kStillOffset = 1;
+/// What the last pair of a stream decides about the map of the present one, where the motion of the
+/// camera is known: a pixel needs less confidence if the last map has the same point of the scene,
+/// and more if the last map knows nothing there. No disparity of the last map gets into the present
+/// one.
 
 /// Steps of a disparity of the last map per px.
 inline constexpr int kHeldOne = 32;
@@ -28,28 +23,22 @@ inline constexpr int kHeldTolerance = kHeldOne;
 
 /// The least confidence of a pixel.
 struct LeastConfidence {
-  std::uint8_t usual = 0;  ///< where the view is not still
-  std::uint8_t known = 0;  ///< of a disparity that the last map has too
-  std::uint8_t fresh = 0;  ///< of another one
+  std::uint8_t usual = 0;  ///< where the last map has another point of the scene, or ends
+  std::uint8_t known = 0;  ///< of a point that the last map has too
+  std::uint8_t fresh = 0;  ///< where the last map knows nothing
 };
 
-/// Number of blocks for this many pixels.
-inline constexpr int still_blocks(int pixels) { return (pixels + kStillBlock - 1) / kStillBlock; }
+/// Where some pixels of a row were in the last map.
+struct HeldPlaces {
+  static constexpr int kMost = 64;
+  static constexpr std::int32_t kOutside = -1;
+  alignas(kAlignment) std::array<std::int32_t, kMost> index;  ///< from its first pixel, or kOutside
+  alignas(kAlignment) std::array<std::int32_t, kMost> disparity;  ///< [1 / kHeldOne px]
+};
 
-/// Finds the blocks of the rows y0 .. y1 - 1 that are still, with this standard deviation of the
-/// noise, and returns their number. `still` has a pixel per block, which becomes 1 or 0; y0 is the
-/// first row of a block.
-int find_still(GrayView view, const Image<std::uint8_t>& last, float noise, int y0, int y1,
-               Image<std::uint8_t>& still);
-
-/// The same blocks in views that are `scale` times smaller and begin `column` pixels further right,
-/// or further left if negative: a block is still if all are that it shows.
-void place_still(const Image<std::uint8_t>& still, int scale, int column,
-                 Image<std::uint8_t>& placed);
-
-/// The least confidence of each pixel of the rows y0 .. y1 - 1. The view is still at a pixel if its
-/// block and the eight around are: what moves also changes the map beside it.
-void choose_least(const LeastConfidence& least, const Image<std::uint8_t>& still,
+/// The least confidence of each pixel of the rows y0 .. y1 - 1. `offset` is what a
+/// disparity of 0 px of the maps stands for [px].
+void choose_least(const LeastConfidence& least, const CameraMotion& motion, float offset,
                   const Image<std::uint16_t>& last, const Image<std::int32_t>& map, int y0, int y1,
                   Image<std::uint8_t>& chosen);
 

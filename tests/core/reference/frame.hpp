@@ -71,8 +71,9 @@ struct Frame {
   GrayPlane area;  ///< weights of the areas
   GrayPlane confidence;
   PastViews past;   ///< with empty views: the pair is the first one
-  LastPair last;    ///< with an empty map: the pair is the first one
-  LastPair kept;    ///< this pair, to be the last one of the next
+  DisparityPlane last;  ///< the last map, empty for the first pair
+  DisparityPlane kept;  ///< this map, to be the last one of the next pair
+  std::optional<CameraMotion> motion;  ///< since the last pair; the caller finds it
   GrayPlane least;  ///< confidence that each pixel needs; empty: all the same
 };
 
@@ -314,16 +315,10 @@ inline void draw_thin_structures(Frame& f) {
 }
 
 inline void hold_known(Frame& f) {
-  if (f.last.map.width == 0) return;
-  const bool filters = f.settings.filters();
-  if (filters && !f.past.averaged) return;
-  const GrayPlane still = filters ? placed(f.past.views[0].still, f.settings.half() ? 2 : 1,
-                                           f.settings.min_disparity, f.map.width, f.map.height)
-                                  : still_blocks(f.plain[0], f.last.view, noise_level(f.plain[0]));
-  const auto count = std::count(still.pixels.begin(), still.pixels.end(), 1);
-  if (!filters && 5 * count < 2 * static_cast<long>(still.pixels.size())) return;
+  if (!f.motion) return;
   const auto [usual, known, fresh] = f.settings.least_confidence();
-  f.least = least_confidence(f.map, f.last.map, still, {usual, known, fresh});
+  const float offset = f.settings.min_disparity / (f.settings.half() ? 2.0F : 1.0F);
+  f.least = least_confidence(f.map, f.last, *f.motion, offset, {usual, known, fresh});
 }
 
 inline void reject_unlikely(Frame& f) {
@@ -338,7 +333,7 @@ inline void reject_unlikely(Frame& f) {
   }
 }
 
-inline void keep_pair(Frame& f) { f.kept = {f.map, f.plain[0]}; }
+inline void keep_pair(Frame& f) { f.kept = f.map; }
 
 inline void close_gaps(Frame& f) {
   const int max_gap = f.settings.max_gap;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "mtstereo/parameters.hpp"
 #include "reference/refine/holding.hpp"
 #include "support/compare.hpp"
@@ -25,106 +27,88 @@ void in_bands(int rows, int height, Body body) {
   for (int y = 0; y < height; y += rows) body(y, std::min(y + rows, height));
 }
 
-GrayPlane still_in(const GrayPlane& view, const GrayPlane& last, float noise, int rows = 1 << 20) {
-  const Image<std::uint8_t> before = image_of(last);
-  Image<std::uint8_t> still;
-  still.resize(still_blocks(view.width), still_blocks(view.height));
-  int count = 0;
-  in_bands(rows, view.height,
-           [&](int y0, int y1) { count += find_still(view.view(), before, noise, y0, y1, still); });
-  const GrayPlane found = copy_of(still);
-  EXPECT_EQ(std::count(found.pixels.begin(), found.pixels.end(), 1), count);
-  return found;
-}
-
-GrayPlane chosen(const DisparityPlane& map, const DisparityPlane& last, const GrayPlane& still,
-                 int rows = 1 << 20) {
+GrayPlane chosen(const DisparityPlane& map, const DisparityPlane& last, const CameraMotion& motion,
+                 float offset = 0, int rows = 1 << 20) {
   Image<std::uint16_t> before;
   before.resize(map.width, map.height);
   Image<std::uint8_t> least;
   least.resize(map.width, map.height);
   in_bands(rows, map.height, [&](int y0, int y1) { copy_last(image_of(last), y0, y1, before); });
   in_bands(rows, map.height, [&](int y0, int y1) {
-    choose_least(kLeast, image_of(still), before, image_of(map), y0, y1, least);
+    choose_least(kLeast, motion, offset, before, image_of(map), y0, y1, least);
   });
   return copy_of(least);
 }
 
 /// The least confidence of one pixel of a still view, with these disparities [1/256 px].
 int least_of(int now, int last) {
-  return chosen(DisparityPlane(1, 1, now), DisparityPlane(1, 1, last), GrayPlane(1, 1, 1))(0, 0);
-}
-
-TEST(Holding, FindsTheStillBlocksOfTheReference) {
-  Random random(1);
-  for (int width = 1; width <= 40; ++width) {
-    const int height = random.between(1, 40);
-    const GrayPlane last = test::noise(width, height, width);
-    GrayPlane view = last;
-    const int most = random.between(1, 9);
-    for (std::uint8_t& pixel : view.pixels) {
-      pixel = static_cast<std::uint8_t>(pixel ^ random.below(most + 1));
-    }
-    for (const float noise : {0.0F, 1.0F, 2.3F}) {
-      const GrayPlane expected = reference::still_blocks(view, last, noise);
-      for (const int rows : {8, 32, 1 << 20}) {
-        EXPECT_TRUE(same_image(expected, still_in(view, last, noise, rows))) << width;
-      }
-    }
-  }
-}
-
-TEST(Holding, ABlockIsStillUpToItsNoise) {
-  const GrayPlane last(8, 8, 100);
-  EXPECT_EQ(1, still_in(GrayPlane(8, 8, 101), last, 0)(0, 0));
-  EXPECT_EQ(0, still_in(GrayPlane(8, 8, 102), last, 0)(0, 0));
-  EXPECT_EQ(1, still_in(GrayPlane(8, 8, 103), last, 1.5F)(0, 0));
-  EXPECT_EQ(0, still_in(GrayPlane(8, 8, 97), last, 1.4F)(0, 0));
+  return chosen(DisparityPlane(1, 1, now), DisparityPlane(1, 1, last), {})(0, 0);
 }
 
 TEST(Holding, ChoosesTheLeastConfidenceOfTheReferenceAtEveryWidth) {
   Random random(2);
-  for (int width = 1; width <= 70; ++width) {
-    const int height = 19;
+  for (int width = 1; width <= 140; ++width) {
+    const int height = random.between(1, 19);
     DisparityPlane map(width, height), last(width, height);
     for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-      const int most = random.below(3) == 0 ? 12 : kLargestMaxDisparity * kDisparityOne;
-      map.pixels[i] = random.below(most + 1);
+      map.pixels[i] = random.below(random.below(3) == 0 ? 12 : 60 * kDisparityOne);
       if (random.below(4) == 0) continue;
-      last.pixels[i] = std::clamp(map.pixels[i] + random.between(-290, 290), 1,
-                                  kLargestMaxDisparity * kDisparityOne);
+      last.pixels[i] = std::max(map.pixels[i] + random.between(-290, 290), 1);
     }
-    GrayPlane still(still_blocks(width), still_blocks(height));
-    for (std::uint8_t& block : still.pixels) block = random.below(6) > 0 ? 1 : 0;
-    const GrayPlane expected =
-        reference::least_confidence(map, last, still, {kLeast.usual, kLeast.known, kLeast.fresh});
+    const auto term = [&](float most) { return most * random.between(-100, 100) / 100.0F; };
+    const CameraMotion motion = {term(3),    term(3),     term(0.05F), term(0.1F),
+                                 term(0.1F), term(0.01F), term(0.01F), term(0.01F)};
+    const float offset = random.below(2) == 0 ? 0 : -7.5F;
+    const GrayPlane expected = reference::least_confidence(
+        map, last, motion, offset, {kLeast.usual, kLeast.known, kLeast.fresh});
     for (const int rows : {1, 8, 1 << 20}) {
-      EXPECT_TRUE(same_image(expected, chosen(map, last, still, rows))) << width;
+      EXPECT_TRUE(same_image(expected, chosen(map, last, motion, offset, rows))) << width;
     }
   }
 }
 
-TEST(Holding, AKnownPixelNeedsLessWhileItsDisparityIsTheSame) {
+TEST(Holding, AKnownPointNeedsLess) {
   for (const int last : {2560, 2560 + 256, 2560 - 256})
     EXPECT_EQ(kLeast.known, least_of(2560, last));
   EXPECT_EQ(kLeast.known, least_of(1, 1)) << "the smallest disparity is not unknown";
 }
 
-TEST(Holding, AnotherPixelNeedsMore) {
-  for (const int last : {0, 2560 + 265, 2560 - 265}) EXPECT_EQ(kLeast.fresh, least_of(2560, last));
+TEST(Holding, AnotherPointNeedsWhatItUsuallyDoes) {
+  for (const int last : {2560 + 265, 2560 - 265}) EXPECT_EQ(kLeast.usual, least_of(2560, last));
+}
+
+TEST(Holding, APointWhereTheLastMapKnowsNothingNeedsMore) {
+  EXPECT_EQ(kLeast.fresh, least_of(2560, 0));
   EXPECT_EQ(kLeast.fresh, least_of(200, 0)) << "unknown is not a disparity near 0";
 }
 
-TEST(Holding, NothingIsDecidedBesideWhatMoves) {
-  const DisparityPlane map(48, 48, 2560);
-  GrayPlane still(6, 6, 1);
-  still(2, 3) = 0;
-  const GrayPlane least = chosen(map, map, still);
-  for (int y = 0; y < 48; ++y) {
-    for (int x = 0; x < 48; ++x) {
-      const bool beside = x >= 8 && x < 32 && y >= 16 && y < 40;
-      ASSERT_EQ(beside ? kLeast.usual : kLeast.known, least(x, y)) << x << ", " << y;
+TEST(Holding, FollowsTheMotion) {
+  const DisparityPlane map(20, 10, 2560);
+  DisparityPlane last(20, 10);
+  last(12, 4) = 2560;
+  const CameraMotion motion = {.shift_x = 7.2F, .shift_y = -2.1F};
+  const GrayPlane least = chosen(map, last, motion);
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 20; ++x) {
+      const bool known = x == 5 && y == 6, inside = x + 7 < 20 && y >= 2;
+      const int expected = known ? kLeast.known : inside ? kLeast.fresh : kLeast.usual;
+      ASSERT_EQ(expected, least(x, y)) << x << ", " << y;
     }
+  }
+}
+
+TEST(Holding, KnowsThePointsOfACameraThatApproaches) {
+  // Half of the disparity, and of the distance from the center.
+  const DisparityPlane map(9, 9, 2560), last(9, 9, 1280);
+  const GrayPlane least = chosen(map, last, {.approach = -0.1F});
+  EXPECT_EQ(std::vector<std::uint8_t>(81, kLeast.known), least.pixels);
+}
+
+TEST(Holding, WithstandsMotionsWithoutSense) {
+  const DisparityPlane map(40, 9, 60 * kDisparityOne);
+  for (const float term : {1e30F, -1e30F, std::numeric_limits<float>::quiet_NaN()}) {
+    const GrayPlane least = chosen(map, map, {term, term, term, term, term, term, term, term});
+    EXPECT_EQ(std::vector<std::uint8_t>(360, kLeast.usual), least.pixels) << term;
   }
 }
 
