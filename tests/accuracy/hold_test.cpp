@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "mtstereo/matcher.hpp"
@@ -77,21 +79,35 @@ struct Scene {
   int max_disparity;
 };
 
-Compared compare(const std::vector<Scene>& scenes, const char* mode, double noise,
-                 const char* temporal = "hold") {
-  std::vector<eval::Flicker> off, on;
+/// The mean flicker over scenes. Each is measured once for all tests.
+eval::Flicker mean_flicker(const std::vector<Scene>& scenes, const char* temporal, const char* mode,
+                           double noise) {
+  using Key = std::tuple<const Scene*, std::string, std::string, double>;
+  static std::map<Key, eval::Flicker> measured;
+  const Key key(scenes.data(), temporal, mode, noise);
+  if (const auto found = measured.find(key); found != measured.end()) return found->second;
+  std::vector<eval::Flicker> flicker;
   for (const Scene& scene : scenes) {
-    off.push_back(flicker_of(scene.pair, "off", mode, scene.max_disparity, noise));
-    on.push_back(flicker_of(scene.pair, temporal, mode, scene.max_disparity, noise));
+    flicker.push_back(flicker_of(scene.pair, temporal, mode, scene.max_disparity, noise));
   }
-  return {eval::mean(off), eval::mean(on)};
+  return measured[key] = eval::mean(flicker);
 }
 
-std::vector<Scene> rendered() {
+Compared compare(const std::vector<Scene>& scenes, const char* mode, double noise,
+                 const char* temporal = "hold") {
+  return {mean_flicker(scenes, "off", mode, noise), mean_flicker(scenes, temporal, mode, noise)};
+}
+
+std::vector<Scene> render_scenes() {
   std::vector<Scene> scenes;
   for (const char* const name : {"street", "garden", "room"}) {
     scenes.push_back({rendered_pair(name, 0), 64});
   }
+  return scenes;
+}
+
+const std::vector<Scene>& rendered() {
+  static const std::vector<Scene> scenes = render_scenes();
   return scenes;
 }
 
@@ -109,7 +125,7 @@ TEST(FilterOnRenderedScenes, ReducesTheFlicker) {
 }
 
 /// The five real pairs; none without test data.
-std::vector<Scene> real() {
+std::vector<Scene> load_real() {
   std::vector<Scene> scenes;
   const std::string folder = data_folder();
   if (folder.empty()) return scenes;
@@ -123,15 +139,20 @@ std::vector<Scene> real() {
   return scenes;
 }
 
+const std::vector<Scene>& real() {
+  static const std::vector<Scene> scenes = load_real();
+  return scenes;
+}
+
 TEST(HoldOnRealPairs, ReducesTheFlicker) {
-  const std::vector<Scene> scenes = real();
+  const std::vector<Scene>& scenes = real();
   if (scenes.empty()) GTEST_SKIP() << "no test data";
   expect_within(compare(scenes, "semi-dense", 1), {0.35, -1, 0, 0});
   expect_within(compare(scenes, "semi-dense", 3), {0.65, -2.6, -0.1, -0.02});
 }
 
 TEST(FilterOnRealPairs, ReducesTheFlickerAndTheErrors) {
-  const std::vector<Scene> scenes = real();
+  const std::vector<Scene>& scenes = real();
   if (scenes.empty()) GTEST_SKIP() << "no test data";
   expect_within(compare(scenes, "semi-dense", 1, "filter"), {0.2, 0.5, -0.02, -0.01});
   expect_within(compare(scenes, "semi-dense", 3, "filter"), {0.4, 1, -0.2, -0.04});

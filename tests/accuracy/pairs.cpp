@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "element_matcher.hpp"
 #include "tools/render/render.hpp"
@@ -66,7 +68,9 @@ render::Settings rendered_settings(const std::string& scene) {
   return render::complete(render::make_scene(scene, 1), settings);
 }
 
-eval::LoadedPair rendered_pair(const std::string& scene, double time) {
+namespace {
+
+eval::LoadedPair render_pair(const std::string& scene, double time) {
   const render::StereoFrame frame =
       render::render(render::make_scene(scene, 1), time, rendered_settings(scene));
   eval::LoadedPair pair{frame.left, frame.right, {frame.truth, {}}};
@@ -74,6 +78,15 @@ eval::LoadedPair rendered_pair(const std::string& scene, double time) {
     if (!std::isfinite(disparity)) disparity = std::numeric_limits<float>::quiet_NaN();
   }
   return pair;
+}
+
+}  // namespace
+
+const eval::LoadedPair& rendered_pair(const std::string& scene, double time) {
+  static std::map<std::pair<std::string, double>, eval::LoadedPair> rendered;
+  const auto [place, missing] = rendered.try_emplace({scene, time});
+  if (missing) place->second = render_pair(scene, time);
+  return place->second;
 }
 
 eval::Evaluation mean_of(const std::vector<eval::Evaluation>& evaluations) {

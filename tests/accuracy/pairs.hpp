@@ -23,8 +23,8 @@ std::vector<eval::StereoPair> further_pairs(const std::string& folder);
 /// The settings of the pairs of a rendered scene: 480x270 px, with disparities below 64 px.
 render::Settings rendered_settings(const std::string& scene);
 
-/// A pair of a rendered scene.
-eval::LoadedPair rendered_pair(const std::string& scene, double time);
+/// A pair of a rendered scene, which is rendered once.
+const eval::LoadedPair& rendered_pair(const std::string& scene, double time);
 
 /// The unweighted mean.
 eval::Evaluation mean_of(const std::vector<eval::Evaluation>& evaluations);

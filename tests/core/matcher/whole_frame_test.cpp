@@ -247,18 +247,21 @@ void expect_reference_sequence(const Parameters& parameters) {
   }
 }
 
+// Every pair of values of two parameters, not every combination: each runs the scalar version for
+// seconds.
 TEST(WholeFrame, EqualsReferenceInASequence) {
+  const char* const least[] = {"-8", "0", "8"};
+  std::size_t turn = 0;
   for (const char* const temporal : {"hold", "filter"}) {
-    for (const char* const mode : {"sparse", "semi-dense", "dense"}) {
-      for (const char* const resolution : {"full", "half-refined"}) {
-        for (const char* const least : {"-8", "0", "8"}) {
-          expect_reference_sequence(test::parameters({{"mode", mode},
-                                                      {"resolution", resolution},
-                                                      {"min-disparity", least},
-                                                      {"max-disparity", "40"},
-                                                      {"temporal", temporal}}));
-        }
+    for (const char* const resolution : {"full", "half-refined"}) {
+      for (const char* const mode : {"sparse", "semi-dense", "dense"}) {
+        expect_reference_sequence(test::parameters({{"mode", mode},
+                                                    {"resolution", resolution},
+                                                    {"min-disparity", least[turn++ % 3]},
+                                                    {"max-disparity", "40"},
+                                                    {"temporal", temporal}}));
       }
+      ++turn;
     }
   }
 }
