@@ -164,7 +164,7 @@ if [ "$quick" = no ]; then
   fi
 
   if CC=$clang CXX=$clang++ build build-clang-tsan threads-tests -Dbuildtype=debugoptimized \
-    -Db_sanitize=thread -Db_lundef=false \
+    -Doptimization=1 -Db_sanitize=thread -Db_lundef=false \
     -Dgst=disabled -Dtools=disabled; then
     run_tests build-clang-tsan --no-rebuild --suite threads -t 5
   fi
