@@ -7,9 +7,10 @@
 #
 # Options:
 #   --quick             only the release build
-#   --thorough          the sanitizers run all tests, the programs and scripts too (those that measure
-#                       accuracy or time with fewer cases), clang-tidy checks the sources, and the Debian
-#                       packages are built and used in minimal systems
+#   --thorough          the release build also runs the suite thorough, the sanitizers run all tests, the
+#                       programs and scripts too (those that measure accuracy or time with fewer cases),
+#                       clang-tidy checks the sources, and the Debian packages are built and used in minimal
+#                       systems
 #   --summarize FILE... only add up the results in saved outputs of 'meson test'
 #
 # Builds into build/, build-clang-asan/ and build-clang-tsan/. With CI=true warnings are errors, and the tests
@@ -138,8 +139,9 @@ if [ "$quick" = no ]; then
 fi
 
 if build build all -Dbuildtype=release; then
-  [ "$thorough" = no ] || export MTSTEREO_PACKAGES=yes
-  run_tests build --no-rebuild
+  suites=(--no-suite thorough)
+  [ "$thorough" = no ] || { suites=() && export MTSTEREO_PACKAGES=yes; }
+  run_tests build --no-rebuild "${suites[@]}"
 fi
 
 if [ "$quick" = no ]; then
