@@ -5,7 +5,8 @@
 # the ABI of both libraries with that of the last tag, or else with the descriptions in tests/abi/.
 #
 # Options:
-#   --without PART  leave out a part: site, packages or abi; may be repeated
+#   --without PART   leave out a part: site, packages or abi; may be repeated
+#   --before FOLDER  test that the packages of an earlier release, in this folder, are upgraded
 #
 # Refuses changes that are not committed, versions that differ, and a folder that is not empty. Parts whose tools are
 # missing are skipped: the last lines name them, and the exit status is 3.
@@ -18,7 +19,7 @@ refuse() {
   exit "${status:-1}"
 }
 
-folder='' left_out=' '
+folder='' left_out=' ' before=()
 while [ $# -gt 0 ]; do
   case $1 in
     --without)
@@ -26,6 +27,12 @@ while [ $# -gt 0 ]; do
         site | packages | abi) left_out+="$2 " ;;
         *) status=2 refuse "--without needs a part: site, packages or abi" ;;
       esac
+      shift
+      ;;
+    --before)
+      compgen -G "${2:-/dev/null}/*.deb" >/dev/null ||
+        status=2 refuse "--before needs a folder with packages, got '${2:-}'"
+      before=(--before "$(realpath "$2")")
       shift
       ;;
     --help | -h)
@@ -113,7 +120,7 @@ needs_packages() {
 }
 
 make_packages() {
-  "$source/tests/packages/run.sh" --twice --out "$work/packages"
+  "$source/tests/packages/run.sh" --twice "${before[@]}" --out "$work/packages"
   cp "$work"/packages/*.deb "$out"
 }
 

@@ -143,6 +143,20 @@ class Release(unittest.TestCase):
         self.assertEqual((self.out / "a.deb").read_text(), run(["git", "rev-parse", "HEAD"], self.repository).stdout)
         self.assertIn("  a.deb\n", (self.out / "SHA256SUMS").read_text())
 
+    def test_the_packages_of_the_release_before_are_upgraded(self):
+        before = self.folder / "before"
+        before.mkdir()
+        for words in (["--before"], ["--before", before], ["--before", self.folder / "none"]):
+            got = words[1] if len(words) > 1 else ""
+            self.assert_refuses(f"--before needs a folder with packages, got '{got}'", self.out, *words, status=2)
+        (before / "old.deb").touch()
+        self.replace_builder('echo "$@"; mkdir "$5"; touch "$5/new.deb"\n')
+        done = self.release("before/../out", "--before", "before", "--without", "site", "--without", "abi")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn(f"--twice --before {before} --out /", done.stdout)
+        self.assertTrue((self.out / "new.deb").is_file())
+        self.assertFalse((self.out / "old.deb").exists())
+
     def test_a_part_that_fails_leaves_nothing(self):
         self.replace_builder("echo no compiler; exit 1\n")
         done = self.release(self.out, "--without", "site", "--without", "abi")

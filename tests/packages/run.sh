@@ -7,6 +7,7 @@
 #   --packages DIR  test the packages in this folder, and build none
 #   --out DIR       keep the packages that are built in this new folder
 #   --twice         build a second time, in another folder with other settings, and compare the packages
+#   --before DIR    install the packages of an earlier version, in this folder, first, and upgrade them
 #   --if-asked      for `meson test`: is skipped (status 77) unless MTSTEREO_PACKAGES is set and the tools are there
 #
 # Needs root and the packages with the mark debian of pipelines/packages.txt. The mirror of Debian 12 is that of
@@ -18,12 +19,16 @@ repository=$(cd "$here/../.." && pwd)
 source "$here/rooms.sh"
 
 arguments=("$@")
-given='' out='' twice=no skip_status=1
+given='' out='' before='' twice=no skip_status=1
 while [ $# -gt 0 ]; do
   case $1 in
-    --packages | --out)
+    --packages | --out | --before)
       [ $# -ge 2 ] || { echo "run.sh: $1 needs a folder" >&2 && exit 2; }
-      if [ "$1" = --out ]; then out=$(realpath -m "$2"); else given=$(realpath "$2"); fi
+      case $1 in
+        --packages) given=$(realpath "$2") ;;
+        --out) out=$(realpath -m "$2") ;;
+        --before) before=$(realpath "$2") ;;
+      esac
       shift
       ;;
     --twice) twice=yes ;;
@@ -44,6 +49,10 @@ while [ $# -gt 0 ]; do
 done
 
 [ -z "$out" ] || [ ! -e "$out" ] || { echo "run.sh: $out exists: name a folder that does not exist" >&2 && exit 2; }
+for folder in "$given" "$before"; do
+  [ -z "$folder" ] || compgen -G "$folder/*.deb" >/dev/null ||
+    { echo "run.sh: there are no packages in $folder" >&2 && exit 2; }
+done
 missing=$(what_is_missing)
 [ -z "$missing" ] || { echo "run.sh: not run: $missing" >&2 && exit "$skip_status"; }
 enter_own_mounts "${arguments[@]}"
@@ -95,16 +104,12 @@ check_packages() {
   lintian --allow-root --fail-on error,warning "$packages"/*.deb
 }
 
-# Packages for use. Those with debug information and for development are not installed.
-for_use() {
-  find "$1" -name '*.deb' ! -name '*-dbgsym_*' ! -name '*-dev_*' -printf '/packages/%f\n'
-}
-
+# install_packages FOLDER: installs those for use, not those with debug information and for development.
 install_packages() {
-  mkdir "$work/use/packages"
-  cp "$packages"/*.deb "$work/use/packages"
+  mkdir -p "$work/use/packages"
+  cp "$1"/*.deb "$work/use/packages"
   local list
-  mapfile -t list < <(for_use "$work/use/packages")
+  mapfile -t list < <(find "$1" -name '*.deb' ! -name '*-dbgsym_*' ! -name '*-dev_*' -printf '/packages/%f\n')
   in_room use apt-get install -q -y --no-install-recommends "${list[@]}" >"$work/install.log" 2>&1 || {
     tail -n 20 "$work/install.log"
     return 1
@@ -113,6 +118,30 @@ install_packages() {
     echo "packages for development are installed"
     return 1
   }
+}
+
+# upgrade_packages BEFORE FOLDER: installs an earlier version, and then this one. A package that this version does not
+# have, such as a library with another soname, stays.
+# shellcheck disable=SC2016 # the variables are those of dpkg-query
+upgrade_packages() {
+  local package version now
+  install_packages "$1"
+  in_room use dpkg-query -W -f '${Package} ${Version}\n' '*mtstereo*' >"$work/before"
+  rm "$work"/use/packages/*
+  install_packages "$2"
+  while read -r package version; do
+    now=$(in_room use dpkg-query -W -f '${db:Status-Status} ${Version}' "$package" 2>&1) || true
+    [[ $now = "installed "* ]] || { echo "$package $version was removed: $now" && return 1; }
+    now=${now#installed }
+    if ! compgen -G "$2/${package}_*.deb" >/dev/null; then
+      echo "stays: $package $version"
+    elif dpkg --compare-versions "$now" gt "$version"; then
+      echo "upgraded: $package $version to $now"
+    else
+      echo "$package had version $version, which this one does not replace"
+      return 1
+    fi
+  done <"$work/before"
 }
 
 first_map() {
@@ -159,7 +188,11 @@ fi
 stat -c '%s %n' "$packages"/*.deb | sed "s#$packages/##"
 step "lintian" check_packages
 step "a room to use them in" make_room use --variant=minbase
-step "installing" install_packages
+if [ -n "$before" ]; then
+  step "upgrading" upgrade_packages "$before" "$packages"
+else
+  step "installing" install_packages "$packages"
+fi
 step "the first map" first_map
 step "the tests of the packages" run_package_tests
 step "removing" remove_packages
