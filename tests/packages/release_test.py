@@ -12,6 +12,7 @@ import tempfile
 import unittest
 
 SOURCE = pathlib.Path(os.environ["MTSTEREO_SOURCE"])
+VERSION = re.search(r"version: '(.*)',", (SOURCE / "meson.build").read_text()).group(1)
 AUTHOR = ["-c", "user.name=test", "-c", "user.email=test@localhost", "-c", "commit.gpgsign=false"]
 FEW_FILES = ["CHANGELOG.md", "README.md", "debian/changelog", "debian/release.sh", "meson.build",
              "tests/packages/rooms.sh"]
@@ -29,10 +30,12 @@ def tracked_files():
 
 
 def make_repository(folder, names):
-    """A repository with copies of some files of this one."""
+    """A repository with copies of some files of this one, as for a release: without changes that have no version."""
     for name in names:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(SOURCE / name, folder / name)
+    changes = (folder / "CHANGELOG.md").read_text()
+    (folder / "CHANGELOG.md").write_text(re.sub(r"^## \[Unreleased\]", f"## [{VERSION}]", changes, flags=re.MULTILINE))
     for command in (["init", "-q"], ["add", "-A"], [*AUTHOR, "commit", "-q", "-m", "all"]):
         done = run(["git", *command], folder)
         assert done.returncode == 0, done.stdout
@@ -44,7 +47,6 @@ class Release(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = pathlib.Path(temporary.name).resolve()
         self.repository, self.out = self.folder / "repository", self.folder / "out"
-        self.version = re.search(r"version: '(.*)',", (SOURCE / "meson.build").read_text()).group(1)
         make_repository(self.repository, FEW_FILES)
 
     def release(self, *arguments, **environment):
@@ -82,15 +84,15 @@ class Release(unittest.TestCase):
         self.assert_refuses(f"{self.repository} is not a git checkout", self.out)
 
     def test_versions_that_differ_are_refused(self):
-        self.change("CHANGELOG.md", f"## [{self.version}]", "## [Unreleased]")
-        self.assert_refuses(f"CHANGELOG.md begins with Unreleased, but meson.build has version {self.version}",
+        self.change("CHANGELOG.md", f"## [{VERSION}]", "## [Unreleased]")
+        self.assert_refuses(f"CHANGELOG.md begins with Unreleased, but meson.build has version {VERSION}",
                             self.out)
-        self.change("CHANGELOG.md", "## [Unreleased]", f"## [{self.version}]")
-        self.change("debian/changelog", f"({self.version})", "(0.0.1)")
-        self.assert_refuses(f"debian/changelog begins with 0.0.1, but meson.build has version {self.version}: "
-                            f"debian/set-version.sh {self.version}", self.out)
-        self.change("meson.build", f"version: '{self.version}'", "version: '0.0.1'")
-        self.assert_refuses(f"CHANGELOG.md begins with {self.version}, but meson.build has version 0.0.1", self.out)
+        self.change("CHANGELOG.md", "## [Unreleased]", f"## [{VERSION}]")
+        self.change("debian/changelog", f"({VERSION})", "(0.0.1)")
+        self.assert_refuses(f"debian/changelog begins with 0.0.1, but meson.build has version {VERSION}: "
+                            f"debian/set-version.sh {VERSION}", self.out)
+        self.change("meson.build", f"version: '{VERSION}'", "version: '0.0.1'")
+        self.assert_refuses(f"CHANGELOG.md begins with {VERSION}, but meson.build has version 0.0.1", self.out)
 
     def test_nothing_is_replaced(self):
         self.out.mkdir()
@@ -109,8 +111,8 @@ class Release(unittest.TestCase):
             self.assertEqual(run(["sha256sum", "--check", "--strict", "SHA256SUMS"], out).returncode, 0)
         self.assertEqual(sums[0], sums[1])
         self.assertEqual(sorted(file.name for file in self.out.iterdir()),
-                         ["SHA256SUMS", f"mtstereo-{self.version}.tar.gz"])
-        with tarfile.open(self.out / f"mtstereo-{self.version}.tar.gz") as archive:
+                         ["SHA256SUMS", f"mtstereo-{VERSION}.tar.gz"])
+        with tarfile.open(self.out / f"mtstereo-{VERSION}.tar.gz") as archive:
             names = {entry.name.partition("/")[2] for entry in archive if entry.isfile()}
         self.assertEqual(names, set(FEW_FILES))
 
@@ -121,10 +123,10 @@ class Release(unittest.TestCase):
         if done.returncode == 3 and "skipped: site: " in done.stdout:
             self.skipTest(done.stdout.splitlines()[-1])
         self.assertEqual(done.returncode, 0, done.stdout)
-        with tarfile.open(self.out / f"mtstereo-{self.version}-site.tar.gz") as site:
+        with tarfile.open(self.out / f"mtstereo-{VERSION}-site.tar.gz") as site:
             names = site.getnames()
         for name in ("index.html", "docs/quickstart.html", "api/index.html", "search/search_index.js"):
-            self.assertIn(f"mtstereo-{self.version}-site/{name}", names)
+            self.assertIn(f"mtstereo-{VERSION}-site/{name}", names)
 
     def replace_builder(self, text):
         """Replaces the script that builds the packages, and what says whether it can."""
