@@ -70,11 +70,11 @@ struct Frame {
   GrayPlane ratio;
   GrayPlane area;  ///< weights of the areas
   GrayPlane confidence;
-  PastViews past;   ///< with empty views: the pair is the first one
-  DisparityPlane last;  ///< the last map, empty for the first pair
-  DisparityPlane kept;  ///< this map, to be the last one of the next pair
+  PastViews past;                      ///< with empty views: the pair is the first one
+  DisparityPlane last;                 ///< the last map, empty for the first pair
+  DisparityPlane kept;                 ///< this map, to be the last one of the next pair
   std::optional<CameraMotion> motion;  ///< since the last pair; the caller finds it
-  GrayPlane least;  ///< confidence that each pixel needs; empty: all the same
+  GrayPlane least;                     ///< confidence that each pixel needs; empty: all the same
 };
 
 /// Left pixels before the first column, and right ones after the last one, repeat these.
