@@ -8,6 +8,7 @@
 #include "matcher/node_steps.hpp"
 #include "matcher/path_steps.hpp"
 #include "matcher/result_steps.hpp"
+#include "matcher/time_steps.hpp"
 #include "matcher/view_steps.hpp"
 
 namespace mtstereo {

@@ -48,8 +48,8 @@ void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps
 
 void LastPair::resize(const Settings& settings, const FrameSize& size) {
   const auto [width, height] = size.matched;
-  if (!settings.holds()) restart();
-  if (!settings.holds() || (disparity.width() == width && disparity.height() == height)) return;
+  if (!settings.follows()) restart();
+  if (!settings.follows() || (disparity.width() == width && disparity.height() == height)) return;
   restart();
   for (ViewPyramid* pyramid : {&view, &present}) pyramid->resize(width, height);
   points.resize(width, height);
@@ -147,20 +147,14 @@ void complete_flat_areas(const StepContext& step, const Views& views, ResultMaps
 
 void find_camera_motion(const StepContext& step, const Views& views, const ResultMaps& result,
                         LastPair& last) {
-  GrayView view = views.plain[0];
-  for (int i = 0; i < last.present.count; ++i) {
-    Image<std::uint8_t>& half = last.present.levels[i];
-    step.bands.of_height(half.height()).rows([&](int y0, int y1, int) {
-      halve_rows(view, y0, y1, half);
-    });
-    view = half.view();
-  }
   last.motion.reset();
-  if (!last.valid || last.present.count == 0) return;
+  build_pyramid(step.bands, views.plain[0], last.present);
+  if (last.present.count == 0) return;
   step.bands.blocks(last.points.rows, 1, [&](int row0, int row1, int) {
     choose_points(last.present.levels[0], *result.disparity, *result.confidence,
                   step.settings.matched_offset(), row0, row1, last.points);
   });
+  if (!last.valid || !step.settings.holds()) return;
   last.motion = find_motion(last.points, last.present, last.view, result.disparity->width(),
                             result.disparity->height());
 }

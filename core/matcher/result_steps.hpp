@@ -10,8 +10,8 @@
 #include "matcher/path_steps.hpp"
 #include "matcher/rating.hpp"
 #include "matcher/view_steps.hpp"
+#include "stages/prepare/camera_motion.hpp"
 #include "stages/refine/block_grid.hpp"
-#include "stages/refine/camera_motion.hpp"
 #include "stages/refine/edge_alignment.hpp"
 #include "stages/refine/flat_planes.hpp"
 #include "stages/refine/speckle_removal.hpp"
@@ -51,7 +51,7 @@ struct LastPair {
 
   // of the present pair
   ViewPyramid present;                 ///< the left view
-  MotionPoints points;                 ///< of the left view and the map
+  MotionPoints points;                 ///< of the left view and the map; kept for the next pair
   std::optional<CameraMotion> motion;  ///< if the last pair shows the same scene
   Image<std::uint8_t> least;           ///< confidence that each pixel needs, if there is a motion
 

@@ -106,6 +106,8 @@ struct Settings {
   bool filters() const { return temporal == Temporal::kFilter; }
   /// Whether the last map of the stream decides what confidence a pixel of the next one needs.
   bool holds() const { return temporal != Temporal::kOff && rejects_unlikely(); }
+  /// Whether the motion of the camera is found.
+  bool follows() const { return by_paths() && (filters() || holds()); }
   /// The least confidence of pixels, by what the last map knows of them.
   LeastConfidence least_confidence() const;
   /// The kind of the complete map, for its reliability.

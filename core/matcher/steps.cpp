@@ -78,12 +78,12 @@ constexpr Step kResultList[] = {
     {"left-strip",         [](S s) { return s.mode == Mode::kFull; }, on<correct_strip>},
     {"flat-planes",        [](S s) { return s.mode == Mode::kFull; }, on<complete_flat_areas>},
     {"plane-edges",        [](S s) { return s.mode == Mode::kFull && !s.half(); }, on<align_map_edges>},
-    {"camera-motion",      [](S s) { return s.holds(); },            on<find_camera_motion>},
+    {"camera-motion",      [](S s) { return s.follows(); },          on<find_camera_motion>},
     {"holding",            [](S s) { return s.holds(); },            on<hold_known>},
     {"rejection",          [](S s) { return s.rejects_unlikely(); }, on<reject_unlikely>},
     {"gap-closing",        [](S s) { return s.rejects_unlikely() && s.max_gap > 0; }, on<close_gaps>},
     {"thin-drawing",       [](S s) { return s.thin_objects; },       on<draw_thin_structures>},
-    {"pair-keeping",       [](S s) { return s.holds(); },            on<keep_pair>},
+    {"pair-keeping",       [](S s) { return s.follows(); },          on<keep_pair>},
 };
 
 /// Gives the map the size of the caller's views.

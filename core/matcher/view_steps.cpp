@@ -7,30 +7,6 @@
 #include "stages/prepare/view_shift.hpp"
 
 namespace mtstereo {
-namespace {
-
-/// Both views must be still in this share of their blocks to be averaged. A slow camera has less,
-/// and moves what the means have seen: at low noise its maps would have more errors.
-constexpr double kLeastSteady = 0.85;
-
-static_assert(Bands::kRows % kTimeBlock == 0);
-
-/// Whether the views, which are compared, may be averaged. Halved views have half of their noise.
-bool is_steady(const Settings& settings, Views& views, PastViews& past) {
-  double still[2];
-  for (int side = 0; side < 2; ++side) {
-    PastViews::View& view = past.views[side];
-    const float noise = noise_level(view.noise);
-    still[side] = rate_changes(noise, view.blocks);
-    views.input_noise = std::max(views.input_noise, settings.half() ? noise / 2 : noise);
-  }
-  if (std::min(still[0], still[1]) >= kLeastSteady) return true;
-  views.input_noise = 0;
-  return false;
-}
-
-}  // namespace
-
 void Views::start(const Settings& settings, GrayView left_view, GrayView right_view) {
   left = left_view;
   input_noise = noise_level = rated_noise = 0;
@@ -75,39 +51,14 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
   }
 }
 
-void PastViews::resize(const Settings& settings, const FrameSize& size) {
-  const auto [width, height] = size.input;
-  const Image<std::uint8_t>& left = views[0].filtered;
-  if (settings.filters() && left.width() == width && left.height() == height) return;
-  restart();
-  if (!settings.filters()) return;
-  for (View& view : views) {
-    view.mean.resize(width, height);
-    for (int y = 0; y < height; ++y) std::fill_n(view.mean.row(y), width, std::uint16_t{0});
-    view.filtered.resize(width, height);
-    view.blocks.resize(width, height);
-    view.noise.resize(width, height);
-  }
-}
-
-void filter_in_time(const StepContext& step, Views& views, PastViews& past) {
-  past.averaged = false;
-  if (past.valid) {
-    step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int) {
-      PastViews::View& view = past.views[side];
-      measure_blocks(views.input[side], y0, y1, view.noise);
-      measure_changes(views.input[side], view.filtered, y0, y1, view.blocks);
+void build_pyramid(const Bands& bands, GrayView view, ViewPyramid& pyramid) {
+  for (int i = 0; i < pyramid.count; ++i) {
+    Image<std::uint8_t>& half = pyramid.levels[i];
+    bands.of_height(half.height()).rows([&](int y0, int y1, int) {
+      halve_rows(view, y0, y1, half);
     });
-    past.averaged = is_steady(step.settings, views, past);
+    view = half.view();
   }
-  for (PastViews::View& view : past.views) count_frames(!past.averaged, view.blocks);
-  step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int) {
-    PastViews::View& view = past.views[side];
-    average_rows(views.input[side], y0, y1, view.blocks, view.mean, view.filtered);
-  });
-  for (int side = 0; side < 2; ++side) views.replace_input(side, past.views[side].filtered.view());
-  views.left = views.input[0];
-  past.valid = true;
 }
 
 void align(const StepContext& step, Views& views) {

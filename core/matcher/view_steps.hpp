@@ -9,11 +9,11 @@
 #include "matcher/frame_size.hpp"
 #include "matcher/step.hpp"
 #include "mtstereo/image.hpp"
+#include "stages/prepare/camera_motion.hpp"
 #include "stages/prepare/census.hpp"
 #include "stages/prepare/noise_filter.hpp"
 #include "stages/prepare/noise_level.hpp"
 #include "stages/prepare/row_alignment.hpp"
-#include "stages/prepare/time_filter.hpp"
 #include "stages/prepare/view_blur.hpp"
 
 /// The steps that prepare the views, and their memory.
@@ -55,27 +55,9 @@ struct Views {
   void resize(const Settings& settings, const FrameSize& size);
 };
 
-/// What the steps of a pair know of the views before: their means.
-struct PastViews {
-  struct View {
-    Image<std::uint16_t> mean;     ///< [1 / kMeanOne gray values]
-    Image<std::uint8_t> filtered;  ///< the same in gray values: the view of this frame
-    TimeBlocks blocks;
-    NoiseBlocks noise;
-  };
-  std::array<View, 2> views;  ///< by Side
-  bool valid = false;         ///< there was a pair
+/// Halves a view repeatedly.
+void build_pyramid(const Bands& bands, GrayView view, ViewPyramid& pyramid);
 
-  // of the present pair
-  bool averaged = false;  ///< both views are still: they are averages over time
-
-  /// Begins anew, as for another stream.
-  void restart() { valid = averaged = false; }
-  void resize(const Settings& settings, const FrameSize& size);
-};
-
-/// Averages the views over time where they are still.
-void filter_in_time(const StepContext& step, Views& views, PastViews& past);
 /// Aligns the rows of the right view.
 void align(const StepContext& step, Views& views);
 /// Blurs the sharper view.

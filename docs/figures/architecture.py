@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 ROWS = "core/matcher/steps.cpp"  # the lists
-STEPS = ("view_steps", "path_steps", "node_steps", "map_steps", "result_steps", "rating")  # their functions
+STEPS = ("view_steps", "time_steps", "path_steps", "node_steps", "map_steps", "result_steps", "rating")  # their functions
 GROUPS = ("Views", "Nodes", "Costs", "Pyramid", "Maps", "ResultMaps", "ResultBuffers", "PastViews",
           "LastPair")
 MODES = ("sparse", "semi-dense", "dense", "full")

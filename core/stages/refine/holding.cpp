@@ -31,7 +31,7 @@ HWY_INLINE hn::Mask<Ints> is_below(hn::Vec<Ints> values, int end) {
   return hn::And(hn::Gt(values, hn::Set(di, -1)), hn::Lt(values, hn::Set(di, end)));
 }
 
-/// CameraMotion::last() for a vector of points.
+/// CameraMotion::moved() for a vector of points.
 struct Points {
   Vec x, y, disparity;
 };

@@ -6,7 +6,7 @@
 
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
-#include "stages/refine/camera_motion.hpp"
+#include "stages/prepare/camera_motion.hpp"
 
 namespace mtstereo {
 
@@ -14,9 +14,6 @@ namespace mtstereo {
 /// camera is known: a pixel needs less confidence if the last map has the same point of the scene,
 /// and more if the last map knows nothing there. No disparity of the last map gets into the present
 /// one.
-
-/// Steps of a disparity of the last map per px.
-inline constexpr int kHeldOne = 32;
 
 /// Disparities are the same if they differ by at most this [1 / kHeldOne px].
 inline constexpr int kHeldTolerance = kHeldOne;

@@ -106,7 +106,8 @@ test::DisparityPlane expect_reference(FrameMatcher& matcher, const test::Pair& p
   expected.past = past.views;
   expected.last = past.last;
   const auto compare = [&](const Step& step, const FrameMemory& memory) {
-    // camera_motion_test.cpp compares it with the true motion.
+    // camera_motion_test.cpp compares the motions with true ones.
+    if (step.name == "time-filter") expected.followed = memory.past.motion;
     if (step.name == "camera-motion") expected.motion = memory.last.motion;
     reference::run(step.name, expected);
     expect_step(expected, step, memory);
@@ -136,10 +137,10 @@ test::Pair random_pair(int width, int height, Random& random) {
 }
 
 /// The next frame of a camera at rest, with other noise.
-test::Pair with_noise(test::Pair pair, Random& random) {
+test::Pair with_noise(test::Pair pair, Random& random, int most = 1) {
   for (test::GrayPlane* view : {&pair.left, &pair.right}) {
     for (std::uint8_t& pixel : view->pixels) {
-      pixel = static_cast<std::uint8_t>(std::clamp(pixel + random.between(-1, 1), 0, 255));
+      pixel = static_cast<std::uint8_t>(std::clamp(pixel + random.between(-most, most), 0, 255));
     }
   }
   return pair;
@@ -263,6 +264,33 @@ TEST(WholeFrame, EqualsReferenceInASequence) {
       }
       ++turn;
     }
+  }
+}
+
+TEST(WholeFrame, EqualsReferenceBeforeAMovingCamera) {
+  for (const auto& [mode, resolution, least] :
+       {std::tuple("semi-dense", "full", "0"), {"full", "full", "-8"}, {"dense", "half", "8"}}) {
+    SCOPED_TRACE(testing::Message() << mode << ", " << resolution);
+    FrameMatcher matcher{Settings(test::parameters({{"mode", mode},
+                                                    {"resolution", resolution},
+                                                    {"min-disparity", least},
+                                                    {"max-disparity", "40"},
+                                                    {"temporal", "filter"}}))};
+    Random random(5);
+    const test::Pair wide = test::slanted_pair(220, 90, 30, 9);
+    Past past;
+    int followed = 0;
+    for (int frame = 0; frame < 4; ++frame) {
+      test::Pair crop{test::GrayPlane(181, 83), test::GrayPlane(181, 83)};
+      for (int y = 0; y < 83; ++y) {
+        std::copy_n(&wide.left(3 * frame, y + frame), 181, &crop.left(0, y));
+        std::copy_n(&wide.right(3 * frame, y + frame), 181, &crop.right(0, y));
+      }
+      crop = with_noise(crop, random, 6);
+      expect_reference(matcher, crop, crop.left.view(), crop.right.view(), past);
+      followed += past.views.followed;
+    }
+    EXPECT_EQ(3, followed);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "reference/pixels/agreement.hpp"
 #include "reference/pixels/path_matching.hpp"
 #include "reference/pixels/pixel_matching.hpp"
+#include "reference/prepare/block_moves.hpp"
 #include "reference/prepare/halving.hpp"
 #include "reference/prepare/noise_filter.hpp"
 #include "reference/prepare/time_filter.hpp"
@@ -70,11 +71,12 @@ struct Frame {
   GrayPlane ratio;
   GrayPlane area;  ///< weights of the areas
   GrayPlane confidence;
-  PastViews past;                      ///< with empty views: the pair is the first one
-  DisparityPlane last;                 ///< the last map, empty for the first pair
-  DisparityPlane kept;                 ///< this map, to be the last one of the next pair
-  std::optional<CameraMotion> motion;  ///< since the last pair; the caller finds it
-  GrayPlane least;                     ///< confidence that each pixel needs; empty: all the same
+  PastViews past;                        ///< with empty views: the pair is the first one
+  DisparityPlane last;                   ///< the last map, empty for the first pair
+  DisparityPlane kept;                   ///< this map, to be the last one of the next pair
+  std::optional<CameraMotion> motion;    ///< to the last pair; the caller finds it
+  std::optional<CameraMotion> followed;  ///< from the last pair, by the views; likewise
+  GrayPlane least;                       ///< confidence that each pixel needs; empty: all the same
 };
 
 /// Left pixels before the first column, and right ones after the last one, repeat these.
@@ -121,17 +123,34 @@ inline void halve(Frame& f) {
   for (int side = 0; side < 2; ++side) f.views[side] = f.plain[side] = halve(f.input[side]);
 }
 
+/// Moves the means of both views along the motion of the camera.
+inline void follow_camera(Frame& f) {
+  const int width = f.input[0].width, height = f.input[0].height;
+  const auto disparities =
+      block_disparities(f.last, f.settings.half() ? 2 : 1, f.settings.min_disparity, width, height);
+  for (int side = 0; side < 2; ++side) {
+    move(f.input[side], offsets(*f.followed, disparities, side, width, height), f.past.views[side]);
+  }
+}
+
 inline void filter_in_time(Frame& f) {
   PastViews& past = f.past;
-  past.averaged = false;
+  past.averaged = past.followed = false;
   std::array<float, 2> noise{};
   if (past.views[0].filtered.width > 0) {
-    std::array<double, 2> share{};
-    for (int side = 0; side < 2; ++side) {
-      noise[side] = noise_level(f.input[side]);
-      share[side] = rate_changes(f.input[side], noise[side], past.views[side]);
+    const auto still = [&] {
+      std::array<double, 2> share{};
+      for (int side = 0; side < 2; ++side) {
+        noise[side] = noise_level(f.input[side]);
+        share[side] = rate_changes(f.input[side], noise[side], past.views[side]);
+      }
+      return std::min(share[0], share[1]);
+    };
+    past.averaged = still() >= 0.85;
+    if (!past.averaged && f.followed) {
+      follow_camera(f);
+      past.averaged = past.followed = still() >= 0.4;
     }
-    past.averaged = share[0] >= 0.85 && share[1] >= 0.85;
   }
   if (past.averaged) f.input_noise = std::max(noise[0], noise[1]) / (f.settings.half() ? 2 : 1);
   for (int side = 0; side < 2; ++side) {

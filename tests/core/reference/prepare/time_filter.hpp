@@ -26,6 +26,7 @@ struct PastView {
 struct PastViews {
   std::array<PastView, 2> views;
   bool averaged = false;  ///< those of the present pair are averages
+  bool followed = false;  ///< along the motion of the camera
 };
 
 /// The sum of the differences of each block from the last filtered view, and that of their

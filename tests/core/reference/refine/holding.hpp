@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "stages/refine/camera_motion.hpp"
+#include "stages/prepare/camera_motion.hpp"
 #include "support/plane.hpp"
 
 namespace mtstereo::reference {
@@ -29,7 +29,8 @@ inline GrayPlane least_confidence(const DisparityPlane& map, const DisparityPlan
   const float center_x = map.width / 2.0F, center_y = map.height / 2.0F;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
-      const ScenePoint was = motion.last({x - center_x, y - center_y, map(x, y) / 256.0F + offset});
+      const ScenePoint was =
+          motion.moved({x - center_x, y - center_y, map(x, y) / 256.0F + offset});
       const float last_x = std::floor(was.x + center_x + 1 + 0.5F) - 1;
       const float last_y = std::floor(was.y + center_y + 1 + 0.5F) - 1;
       if (!(last_x >= 0 && last_y >= 0 && last_x < map.width && last_y < map.height)) continue;

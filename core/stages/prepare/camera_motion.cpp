@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "stages/refine/camera_motion.hpp"
+#include "stages/prepare/camera_motion.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -33,7 +33,7 @@ constexpr double kLeastDeviation = 0.5;
 /// The mean difference before the first round.
 constexpr double kFirstMean = 20;
 
-/// Fewer points, or a smaller share of them inside the last view, decide nothing.
+/// Fewer points, or a smaller share of them inside the other view, decide nothing.
 constexpr int kFewestPoints = 24;
 constexpr double kLeastInside = 0.3;
 
@@ -73,8 +73,8 @@ Sample sample(const Image<std::uint8_t>& image, double x, double y) {
 /// Two views and the scale of their pixels. The unknowns are in units of half the width, so that
 /// all have about the same size.
 struct Level {
-  const Image<std::uint8_t>& now;
-  const Image<std::uint8_t>& last;
+  const Image<std::uint8_t>& from;
+  const Image<std::uint8_t>& to;
   double scale;  ///< pixels of the view in a pixel of the level
   double unit, center_x, center_y;
 
@@ -91,7 +91,7 @@ Scaled scaled(const Level& level, const ScenePoint& point) {
           point.disparity / level.unit};
 }
 
-/// The point in the last view [px].
+/// The point in the other view [px].
 Scaled moved(const Level& level, const Terms& terms, const Scaled& p) {
   const double depth = 1 - terms[5] * p.disparity - terms[6] * p.x - terms[7] * p.y;
   const double growth = level.unit / std::max(depth, double{CameraMotion::kLeastDepth});
@@ -100,9 +100,9 @@ Scaled moved(const Level& level, const Terms& terms, const Scaled& p) {
           p.disparity * growth};
 }
 
-/// The gray value of the last view less what the present one predicts.
-double difference_of(const Terms& terms, const Sample& now, const Sample& last) {
-  return last.gray - now.gray - terms[kGain] * now.gray / kGrayUnit - terms[kOffset];
+/// The gray value of the other view less what this one predicts.
+double difference_of(const Terms& terms, const Sample& from, const Sample& to) {
+  return to.gray - from.gray - terms[kGain] * from.gray / kGrayUnit - terms[kOffset];
 }
 
 /// How the difference changes with the terms, where the views have this gradient.
@@ -114,7 +114,7 @@ Terms change(const Scaled& p, double dx, double dy, double gray) {
   return terms;
 }
 
-/// Calls body(point, sample of the present view, sample of the last view) for the points that both
+/// Calls body(point, sample of this view, sample of the other one) for the points that both
 /// views show, and returns their number.
 template <typename Body>
 int compare(const Level& level, const MotionPoints& points, const Terms& terms, Body body) {
@@ -125,10 +125,10 @@ int compare(const Level& level, const MotionPoints& points, const Terms& terms, 
     if (point.disparity < 0) continue;
     const double x = level.place(point.x), y = level.place(point.y);
     const Scaled scene = scaled(level, point);
-    const Scaled before = moved(level, terms, scene);
-    const double last_x = level.place(before.x), last_y = level.place(before.y);
-    if (!is_inside(level.now, x, y) || !is_inside(level.last, last_x, last_y)) continue;
-    body(scene, sample(level.now, x, y), sample(level.last, last_x, last_y));
+    const Scaled there = moved(level, terms, scene);
+    const double to_x = level.place(there.x), to_y = level.place(there.y);
+    if (!is_inside(level.from, x, y) || !is_inside(level.to, to_x, to_y)) continue;
+    body(scene, sample(level.from, x, y), sample(level.to, to_x, to_y));
     ++compared;
   }
   return compared;
@@ -142,13 +142,13 @@ void improve(const Level& level, const MotionPoints& points, Terms& terms, doubl
   double sum = 0;
   const double deviation = kMeanFactor * mean + kLeastDeviation;
   const double per_unit = level.unit / level.scale;
-  const int count = compare(
-      level, points, terms, [&](const Scaled& point, const Sample& now, const Sample& last) {
-        const double difference = difference_of(terms, now, last);
+  const int count =
+      compare(level, points, terms, [&](const Scaled& point, const Sample& from, const Sample& to) {
+        const double difference = difference_of(terms, from, to);
         const double ratio = difference / deviation;
         const double weight = 1 / (1 + ratio * ratio);
-        const Terms factors = change(point, 0.5 * per_unit * (now.dx + last.dx),
-                                     0.5 * per_unit * (now.dy + last.dy), now.gray);
+        const Terms factors = change(point, 0.5 * per_unit * (from.dx + to.dx),
+                                     0.5 * per_unit * (from.dy + to.dy), from.gray);
         normal.selfadjointView<Eigen::Lower>().rankUpdate(factors, weight);
         right -= weight * difference * factors;
         sum += std::abs(difference);
@@ -164,9 +164,9 @@ void improve(const Level& level, const MotionPoints& points, Terms& terms, doubl
 bool is_same_scene(const Level& level, const MotionPoints& points, const Terms& terms) {
   double product = 0, squares = 0;
   const int compared =
-      compare(level, points, terms, [&](const Scaled&, const Sample& now, const Sample& last) {
-        product += now.dx * last.dx + now.dy * last.dy;
-        squares += now.dx * now.dx + now.dy * now.dy + last.dx * last.dx + last.dy * last.dy;
+      compare(level, points, terms, [&](const Scaled&, const Sample& from, const Sample& to) {
+        product += from.dx * to.dx + from.dy * to.dy;
+        squares += from.dx * from.dx + from.dy * from.dy + to.dx * to.dx + to.dy * to.dy;
       });
   const int blocks = points.columns * points.rows;
   const auto all = std::count_if(points.points.data(), points.points.data() + blocks,
@@ -232,19 +232,19 @@ void choose_points(const Image<std::uint8_t>& halved, const Image<std::int32_t>&
   }
 }
 
-std::optional<CameraMotion> find_motion(const MotionPoints& points, const ViewPyramid& now,
-                                        const ViewPyramid& last, int width, int height) {
-  if (now.count == 0) return std::nullopt;
+std::optional<CameraMotion> find_motion(const MotionPoints& points, const ViewPyramid& from,
+                                        const ViewPyramid& to, int width, int height) {
+  if (from.count == 0) return std::nullopt;
   const auto level = [&](int i) {
-    return Level{now.levels[i], last.levels[i], static_cast<double>(2 << i),
-                 width / 2.0,   width / 2.0,    height / 2.0};
+    return Level{from.levels[i], to.levels[i], static_cast<double>(2 << i),
+                 width / 2.0,    width / 2.0,  height / 2.0};
   };
   Terms terms = Terms::Zero();
   double mean = kFirstMean;
-  for (int i = now.count - 1; i >= 0; --i) {
+  for (int i = from.count - 1; i >= 0; --i) {
     for (int round = 0; round < kRounds; ++round) improve(level(i), points, terms, mean);
   }
-  const Level compared = level(std::min(kComparedLevel, now.count - 1));
+  const Level compared = level(std::min(kComparedLevel, from.count - 1));
   if (!is_same_scene(compared, points, terms)) return std::nullopt;
   const auto term = [&](int i, double unit) { return static_cast<float>(terms[i] * unit); };
   const double unit = compared.unit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "stages/refine/camera_motion.hpp"
+#include "stages/prepare/camera_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -69,8 +69,8 @@ Scene scene_of(int width, int height, const CameraMotion& was, double noise = 0,
     for (int x = 0; x < width; ++x) {
       const double disparity = disparity_at(x, y, width, height);
       const ScenePoint last =
-          was.last({static_cast<float>(x - width / 2.0), static_cast<float>(y - height / 2.0),
-                    static_cast<float>(disparity)});
+          was.moved({static_cast<float>(x - width / 2.0), static_cast<float>(y - height / 2.0),
+                     static_cast<float>(disparity)});
       scene.now(x, y) = gray(gain * texture.at(last.x, last.y));
       scene.last(x, y) = gray(texture.at(x - width / 2.0, y - height / 2.0));
       scene.map(x, y) = static_cast<int>(std::lround(disparity * kDisparityOne));
@@ -113,7 +113,7 @@ double error(const Scene& scene, const CameraMotion& expected, const CameraMotio
       const ScenePoint now = {static_cast<float>(x - scene.width / 2.0),
                               static_cast<float>(y - scene.height / 2.0),
                               static_cast<float>(scene.map(x, y)) / kDisparityOne};
-      const ScenePoint a = expected.last(now), b = motion.last(now);
+      const ScenePoint a = expected.moved(now), b = motion.moved(now);
       most = std::max<double>(
           {most, std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.disparity - b.disparity)});
     }

@@ -12,14 +12,17 @@
 
 namespace mtstereo {
 
-/// How the camera moved between two pairs of a stream, from their left views and the map of the
-/// present pair.
+/// How the camera moved between two pairs of a stream, from their left views and the map of one of
+/// them.
 ///
 /// A pixel with a disparity is a point of the scene: column, row and disparity are its coordinates
 /// up to a projective transformation, and so a motion of the camera transforms them projectively.
 /// For the small angles between two frames that has eight unknowns, and neither the focal length
 /// nor the baseline is needed. They are found by comparing gray values around the edges of the
 /// views, from a small resolution to half of the full one (direct alignment).
+
+/// Steps per px of the disparities of a map that is kept for the next pair.
+inline constexpr int kHeldOne = 32;
 
 /// A point of the scene in a left view.
 struct ScenePoint {
@@ -28,8 +31,8 @@ struct ScenePoint {
   float disparity;  ///< [px]
 };
 
-/// Where the points of the present view were in the last one. Coordinates are relative to the
-/// center of the view.
+/// Where the points of one view are in another one. Coordinates are relative to the center of the
+/// view.
 struct CameraMotion {
   float shift_x = 0;     ///< of a far point in the center [px]
   float shift_y = 0;     ///< [px]
@@ -40,15 +43,15 @@ struct CameraMotion {
   float turn_x = 0;    ///< growth by the column [1 / px]
   float turn_y = 0;    ///< growth by the row [1 / px]
 
-  /// Depths of the last pair are at least this share of the present ones.
+  /// Depths become at least this share of what they are.
   static constexpr float kLeastDepth = 0.1F;
 
-  ScenePoint last(const ScenePoint& now) const {
-    const float depth = 1 - approach * now.disparity - turn_x * now.x - turn_y * now.y;
+  ScenePoint moved(const ScenePoint& from) const {
+    const float depth = 1 - approach * from.disparity - turn_x * from.x - turn_y * from.y;
     const float growth = 1 / std::max(depth, kLeastDepth);
-    return {(now.x + shift_x + roll * now.y - parallax_x * now.disparity) * growth,
-            (now.y + shift_y - roll * now.x - parallax_y * now.disparity) * growth,
-            now.disparity * growth};
+    return {(from.x + shift_x + roll * from.y - parallax_x * from.disparity) * growth,
+            (from.y + shift_y - roll * from.x - parallax_y * from.disparity) * growth,
+            from.disparity * growth};
   }
 };
 
@@ -86,9 +89,9 @@ void choose_points(const Image<std::uint8_t>& halved, const Image<std::int32_t>&
                    const Image<std::uint8_t>& confidence, float offset, int row0, int row1,
                    MotionPoints& points);
 
-/// The motion between two views of this size. Nothing if they do not show the same scene, as after
-/// a cut, or if too little can be compared.
-std::optional<CameraMotion> find_motion(const MotionPoints& points, const ViewPyramid& now,
-                                        const ViewPyramid& last, int width, int height);
+/// The motion from the view that has the points to another one, both of this size. Nothing if they
+/// do not show the same scene, as after a cut, or if too little can be compared.
+std::optional<CameraMotion> find_motion(const MotionPoints& points, const ViewPyramid& from,
+                                        const ViewPyramid& to, int width, int height);
 
 }  // namespace mtstereo
