@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "drawings.hpp"
 #include "matcher/frame_matcher.hpp"
@@ -21,6 +22,7 @@
 #include "stages/nodes/disparity_drawing.hpp"
 #include "stages/nodes/node_levels.hpp"
 #include "stages/prepare/max_tree.hpp"
+#include "tools/eval/flicker.hpp"
 #include "tools/eval/metrics.hpp"
 #include "tools/eval/pictures.hpp"
 #include "tools/render/render.hpp"
@@ -32,12 +34,17 @@ namespace fs = std::filesystem;
 
 constexpr int kDisparities = 40;
 
-/// A frame of the demo's scene, a little smaller.
-render::StereoFrame demo_frame() {
+/// A frame of a scene.
+render::StereoFrame frame_of(const char* scene, double time) {
   render::Settings settings;
   settings.width = 480;
   settings.height = 270;
-  render::StereoFrame frame = render::render(render::make_scene("street", 1), 1.0, settings);
+  return render::render(render::make_scene(scene, 1), time, settings);
+}
+
+/// A frame of the demo's scene, a little smaller.
+render::StereoFrame demo_frame() {
+  render::StereoFrame frame = frame_of("street", 1.0);
   for (float& disparity : cv::Mat_<float>(frame.truth)) {
     if (std::isinf(disparity)) disparity = std::numeric_limits<float>::quiet_NaN();  // the sky
   }
@@ -143,6 +150,28 @@ cv::Mat result_of(const char* mode, const render::StereoFrame& frame) {
   return eval::to_float(matcher.compute(view_of(frame.left), view_of(frame.right)).disparity);
 }
 
+/// The maps of the last of ten noisy frames before a moving camera, without and with the frames
+/// before.
+cv::Mat draw_moving_camera() {
+  constexpr double kNoise = 5, kInterval = 1.0 / 15;
+  std::vector<cv::Mat> maps;
+  for (const char* const temporal : {"off", "filter"}) {
+    Parameters parameters = parameters_of("default", "semi-dense");
+    if (const Status status = parameters.set("temporal", temporal); !status) {
+      throw std::runtime_error(status.error().message);
+    }
+    FrameMatcher matcher{Settings(parameters)};
+    cv::Mat map;
+    for (int i = 0; i < 10; ++i) {
+      render::StereoFrame frame = frame_of("room", kInterval * i);
+      eval::add_flicker_noise(kNoise, i, frame.left, frame.right);
+      map = eval::to_float(matcher.compute(view_of(frame.left), view_of(frame.right)).disparity);
+    }
+    maps.push_back(colored(map));
+  }
+  return figures::side_by_side(maps[0], maps[1]);
+}
+
 void draw_pictures(const fs::path& folder) {
   fs::create_directories(folder);
   const render::StereoFrame frame = demo_frame();
@@ -150,6 +179,7 @@ void draw_pictures(const fs::path& folder) {
     eval::write_picture(folder / name, picture);
   };
   write("pair.png", figures::side_by_side(frame.left, frame.right));
+  write("moving-camera.png", draw_moving_camera());
   const Settings settings(parameters_of("paper", "semi-dense"));
   const Drawing preprocessed = [&](const FrameMemory& memory) {
     const auto draw = [&](int side) {
