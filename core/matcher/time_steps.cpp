@@ -46,16 +46,14 @@ bool follow_camera(const StepContext& step, const LastPair& last, const Views& v
     find_block_disparities(last.disparity, place, row0, row1, past.disparities);
   });
   for (int side = 0; side < 2; ++side) {
-    find_moves(*past.motion, past.disparities, side, width, height, past.views[side].moves);
-  }
-  step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int) {
     PastViews::View& view = past.views[side];
-    move_means(views.input[side], view.moves, view.means.mean, view.blocks.frames, y0, y1,
-               view.moved, view.filtered);
-  });
-  for (PastViews::View& view : past.views) {
-    std::swap(view.means, view.moved);
-    std::swap(view.blocks.frames, view.means.frames);
+    find_moves(*past.motion, past.disparities, side, width, height, view.moves);
+    step.input_bands.rows([&](int y0, int y1, int) {
+      move_means(views.input[side], view.moves, view.mean, view.blocks.frames, y0, y1, past.moved,
+                 view.filtered);
+    });
+    std::swap(view.mean, past.moved.mean);
+    std::swap(view.blocks.frames, past.moved.frames);
   }
   return true;
 }
@@ -83,13 +81,14 @@ void PastViews::resize(const Settings& settings, const FrameSize& size) {
   restart();
   if (!settings.filters()) return;
   for (View& view : views) {
-    for (Means* means : {&view.means, &view.moved}) means->resize(width, height);
-    for (int y = 0; y < height; ++y) std::fill_n(view.means.mean.row(y), width, std::uint16_t{0});
+    view.mean.resize(width, height);
+    for (int y = 0; y < height; ++y) std::fill_n(view.mean.row(y), width, std::uint16_t{0});
     view.filtered.resize(width, height);
     view.blocks.resize(width, height);
     view.noise.resize(width, height);
     view.moves.resize(width, height);
   }
+  moved.resize(width, height);
   for (ViewPyramid* pyramid : {&last, &present}) pyramid->resize(width, height);
   points.resize(size.matched.width, size.matched.height);
   disparities.resize(views[0].blocks.still.width(), views[0].blocks.still.height());
@@ -107,7 +106,7 @@ void filter_in_time(const StepContext& step, const LastPair& last, Views& views,
   }
   step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int) {
     PastViews::View& view = past.views[side];
-    average_rows(views.input[side], y0, y1, view.blocks, view.means.mean, view.filtered);
+    average_rows(views.input[side], y0, y1, view.blocks, view.mean, view.filtered);
   });
   for (int side = 0; side < 2; ++side) views.replace_input(side, past.views[side].filtered.view());
   views.left = views.input[0];

@@ -20,14 +20,14 @@ namespace mtstereo {
 /// What the steps of a pair know of the views before: their means.
 struct PastViews {
   struct View {
-    Means means;
+    Image<std::uint16_t> mean;     ///< [1 / kMeanOne gray values]
     Image<std::uint8_t> filtered;  ///< the same in gray values: the view of this frame
     TimeBlocks blocks;
     NoiseBlocks noise;
     BlockMoves moves;
-    Means moved;  ///< the means along the motion of the camera
   };
   std::array<View, 2> views;  ///< by Side
+  Means moved;                ///< the means of a view along the motion of the camera
   ViewPyramid last, present;  ///< the left views, as the caller passes them
   bool valid = false;         ///< there was a pair
 
