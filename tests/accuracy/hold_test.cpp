@@ -41,7 +41,7 @@ eval::Flicker flicker_of(const eval::LoadedPair& pair, const char* temporal, con
       return {};
     }
     const cv::Mat map = eval::to_float(result->disparity);
-    window.add(map, eval::evaluate(map, pair.truth).all);
+    window.add(map, pair.truth);
   }
   return *window.measure();
 }

@@ -66,26 +66,49 @@ Flicker measure_flicker(const std::vector<cv::Mat>& maps) {
           100 * ratio(any - all, any), ratio(deviations, all)};
 }
 
-void FlickerWindow::add(const cv::Mat& map, const Metrics& errors) {
+void measure_tepe(const std::vector<cv::Mat>& errors, Flicker& flicker) {
+  double count = 0, sum = 0, above1 = 0, above3 = 0;
+  for (std::size_t i = 1; i < errors.size(); ++i) {
+    for (int y = 0; y < errors[i].rows; ++y) {
+      for (int x = 0; x < errors[i].cols; ++x) {
+        const double error = std::abs(errors[i].at<float>(y, x) - errors[i - 1].at<float>(y, x));
+        if (std::isnan(error)) continue;
+        count += 1;
+        sum += error;
+        above1 += error > 1 ? 1 : 0;
+        above3 += error > 3 ? 1 : 0;
+      }
+    }
+  }
+  flicker.tepe = ratio(sum, count);
+  flicker.tepe1 = 100 * ratio(above1, count);
+  flicker.tepe3 = 100 * ratio(above3, count);
+}
+
+void FlickerWindow::add(const cv::Mat& map, const GroundTruth& truth) {
   maps_.push_back(map);
-  errors_.push_back(errors);
+  metrics_.push_back(evaluate(map, truth).all);
+  errors_.push_back((map - truth.disparity) / truth.scale);
   if (maps_.size() <= kFlickerFrames) return;
   maps_.pop_front();
+  metrics_.pop_front();
   errors_.pop_front();
 }
 
 std::optional<Flicker> FlickerWindow::measure() const {
   if (maps_.size() < kFlickerFrames) return std::nullopt;
   Flicker flicker = measure_flicker({maps_.begin(), maps_.end()});
-  flicker.d_all = mean_of(errors_, &Metrics::d_all);
-  flicker.avgerr = mean_of(errors_, &Metrics::avgerr);
+  flicker.d_all = mean_of(metrics_, &Metrics::d_all);
+  flicker.avgerr = mean_of(metrics_, &Metrics::avgerr);
+  measure_tepe({errors_.begin(), errors_.end()}, flicker);
   return flicker;
 }
 
 Flicker mean(const std::vector<Flicker>& list) {
   Flicker result;
-  for (double Flicker::*figure : {&Flicker::density, &Flicker::come_and_go, &Flicker::spread,
-                                  &Flicker::d_all, &Flicker::avgerr}) {
+  for (double Flicker::*figure :
+       {&Flicker::density, &Flicker::come_and_go, &Flicker::spread, &Flicker::d_all,
+        &Flicker::avgerr, &Flicker::tepe, &Flicker::tepe1, &Flicker::tepe3}) {
     result.*figure = mean_of(list, figure);
   }
   return result;

@@ -25,23 +25,34 @@ struct Flicker {
   double spread = kNone;       ///< mean standard deviation of the pixels with one in all maps [px]
   double d_all = kNone;        ///< mean of the maps [%], over all pixels with ground truth
   double avgerr = kNone;       ///< the same [px]
+  /// Temporal end-point error (TEPE): the mean error of the change of a pixel's disparity from one
+  /// map to the next [px], and the shares of those above 1 and 3 px [%].
+  double tepe = kNone;
+  double tepe1 = kNone;
+  double tepe3 = kNone;
 };
 
 /// Compares disparity maps of the same size (CV_32FC1 [px], NaN = none). Throws UserError if the
 /// sizes differ or there are fewer than two maps.
 Flicker measure_flicker(const std::vector<cv::Mat>& maps);
 
+/// Measures the temporal end-point errors of successive maps into `flicker`, from the errors of
+/// their disparities (CV_32FC1 [px], NaN = unknown).
+void measure_tepe(const std::vector<cv::Mat>& errors, Flicker& flicker);
+
 /// The last kFlickerFrames maps of a stream and their errors.
 class FlickerWindow {
  public:
-  void add(const cv::Mat& map, const Metrics& errors);
-  /// Their flicker and mean errors; none if there are fewer maps. Throws UserError as
+  /// Adds a map and its ground truth, which have the same size.
+  void add(const cv::Mat& map, const GroundTruth& truth);
+  /// Their flicker and errors; none if there are fewer maps. Throws UserError as
   /// measure_flicker().
   std::optional<Flicker> measure() const;
 
  private:
   std::deque<cv::Mat> maps_;
-  std::deque<Metrics> errors_;
+  std::deque<Metrics> metrics_;
+  std::deque<cv::Mat> errors_;
 };
 
 /// The mean over pairs; a figure that is NaN is left out.

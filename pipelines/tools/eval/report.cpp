@@ -47,7 +47,10 @@ json flicker_json(const std::vector<MethodFlicker>& list) {
                       {"come_and_go", json_number(flicker.come_and_go)},
                       {"spread", json_number(flicker.spread)},
                       {"d_all", json_number(flicker.d_all)},
-                      {"avgerr", json_number(flicker.avgerr)}};
+                      {"avgerr", json_number(flicker.avgerr)},
+                      {"tepe", json_number(flicker.tepe)},
+                      {"tepe1", json_number(flicker.tepe1)},
+                      {"tepe3", json_number(flicker.tepe3)}};
   }
   return result;
 }

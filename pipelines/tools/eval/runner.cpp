@@ -252,7 +252,7 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
   result.evaluation = evaluate(disparity, images);
   if (settings_.official) result.official = count_official(disparity, report.pair, images.truth);
   if (settings_.stream) {
-    stream_[method].add(disparity, result.evaluation.all);
+    stream_[method].add(disparity, images.truth);
     if (const auto flicker = stream_[method].measure())
       report.flicker.push_back({method, *flicker});
   }
@@ -296,7 +296,7 @@ void Runner::run_own_flicker(const LoadedPair& images, PairReport& report) {
   FlickerWindow window;
   for (int i = 0; i < kFlickerFrames; ++i) {
     const cv::Mat map = own_map(noisy(images, i));
-    window.add(map, evaluate(map, images.truth).all);
+    window.add(map, images.truth);
   }
   report.flicker.push_back({kOwnMethod, *window.measure()});
 }
@@ -311,7 +311,7 @@ void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
       for (int i = 0; i < kFlickerFrames; ++i) {
         const LoadedPair frame = noisy(images, i);
         matcher.compute(frame.left, frame.right);
-        window.add(matcher.disparity(), evaluate(matcher.disparity(), images.truth).all);
+        window.add(matcher.disparity(), images.truth);
       }
       report.flicker.push_back({name, *window.measure()});
     });

@@ -56,19 +56,39 @@ TEST(Flicker, MeanIgnoresUnknownFigures) {
 
 TEST(FlickerWindow, IsThatOfTheLastMaps) {
   FlickerWindow window;
-  const Metrics errors[] = {{.avgerr = 9, .d_all = 90}, {.avgerr = 1, .d_all = 3}, {}};
-  window.add(row({5, 6}), errors[0]);
+  const GroundTruth none{row({kNaN, kNaN}), {}}, near{row({4, 20}), {}}, far{row({90, 20}), {}};
+  window.add(row({5, 6}), far);
   for (int i = 1; i < kFlickerFrames; ++i) {
     EXPECT_FALSE(window.measure()) << i;
-    window.add(row({5, kNaN}), errors[i == 1 ? 2 : 1]);
+    window.add(row({5, kNaN}), i == 1 ? none : near);
   }
   EXPECT_NEAR(window.measure()->come_and_go, 50, 1e-9);
-  window.add(row({5, kNaN}), errors[1]);
+  window.add(row({5, kNaN}), near);
   const Flicker flicker = *window.measure();
   EXPECT_EQ(flicker.come_and_go, 0) << "the first map has left";
   EXPECT_EQ(flicker.density, 50);
   EXPECT_EQ(flicker.avgerr, 1) << "unknown errors do not count";
-  EXPECT_EQ(flicker.d_all, 3);
+  EXPECT_EQ(flicker.d_all, 0);
+  EXPECT_EQ(flicker.tepe, 0) << "the error of the near point does not change";
+}
+
+TEST(Flicker, TepeIsTheErrorOfTheChange) {
+  // Errors of a pixel change by 0.5, 2 and 4 px; the other one is known in both maps once.
+  Flicker flicker;
+  measure_tepe({row({1, kNaN}), row({1.5, 3}), row({-0.5, 3}), row({3.5, kNaN})}, flicker);
+  EXPECT_NEAR(flicker.tepe, (0.5 + 2 + 4 + 0) / 4, 1e-6);
+  EXPECT_EQ(flicker.tepe1, 50);
+  EXPECT_EQ(flicker.tepe3, 25);
+  measure_tepe({row({kNaN}), row({1})}, flicker);
+  EXPECT_TRUE(std::isnan(flicker.tepe));
+}
+
+TEST(FlickerWindow, MeasuresChangesInPixelsOfTheOriginal) {
+  FlickerWindow window;
+  for (int i = 0; i < kFlickerFrames; ++i) {
+    window.add(row({i % 2 == 0 ? 10.0F : 14.0F}), {row({10}), {}, {}, 2});
+  }
+  EXPECT_EQ(window.measure()->tepe, 2);
 }
 
 TEST(Flicker, NoiseIsFreshInEachFrameAndView) {
