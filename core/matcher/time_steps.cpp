@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "stages/prepare/halving.hpp"
+
 namespace mtstereo {
 namespace {
 
@@ -90,7 +92,9 @@ void PastViews::resize(const Settings& settings, const FrameSize& size) {
   }
   moved.resize(width, height);
   for (ViewPyramid* pyramid : {&last, &present}) pyramid->resize(width, height);
-  points.resize(size.matched.width, size.matched.height);
+  // For maps of both resolutions.
+  points.resize(half_of(size.frame.width), half_of(size.frame.height));
+  points.resize(size.frame.width, size.frame.height);
   disparities.resize(views[0].blocks.still.width(), views[0].blocks.still.height());
 }
 
