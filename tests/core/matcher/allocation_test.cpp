@@ -51,20 +51,34 @@ TEST_F(Allocation, IsCountedAndFailsOnRequest) {
   EXPECT_NO_THROW(second = std::make_unique<int>(1)) << "only one allocation must fail";
 }
 
-/// Expects no allocations from the third frame on, with input frames that exist already.
-void expect_no_allocations(std::initializer_list<std::pair<const char*, std::string>> values) {
-  const test::Pair pair = test::slanted_pair(333, 201, 40, 1);
-  const test::Pair other = test::slanted_pair(333, 201, 40, 2);
+using Values = std::initializer_list<std::pair<const char*, std::string>>;
+
+/// Expects no allocations from the third of these frames on.
+void expect_no_allocations(const std::vector<test::Pair>& frames, Values values) {
   Matcher matcher = test::matcher(values);
-  for (int frame = 0; frame < 12; ++frame) {
-    const test::Pair& now = frame % 2 == 0 ? pair : other;
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
     test::count_allocations();
-    const Result<FrameResult> result = matcher.compute(now.left.view(), now.right.view());
+    const Result<FrameResult> result =
+        matcher.compute(frames[frame].left.view(), frames[frame].right.view());
     const long count = test::allocations();
     ASSERT_TRUE(result.ok());
     EXPECT_GT(result->statistics.density, 0.05);
     if (frame < 2) continue;
     EXPECT_EQ(0, count) << "frame " << frame;
+  }
+}
+
+/// The same with two frames in turn.
+void expect_no_allocations(Values values) {
+  const test::Pair pair = test::slanted_pair(333, 201, 40, 1);
+  const test::Pair other = test::slanted_pair(333, 201, 40, 2);
+  expect_no_allocations({pair, other, pair, other, pair, other, pair, other}, values);
+}
+
+TEST_F(Allocation, NeverHappensBeforeAMovingCamera) {
+  for (const char* const temporal : {"hold", "filter"}) {
+    expect_no_allocations(test::moving_frames(6, 240, 120),
+                          {{"threads", "1"}, {"temporal", temporal}});
   }
 }
 

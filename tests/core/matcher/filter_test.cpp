@@ -98,12 +98,7 @@ TEST(Filter, FollowsAMovingCamera) {
     Matcher filter = matcher(kind, "filter"), off = matcher(kind, "off");
     double before = 0, after = 0;
     for (int i = 0; i < 8; ++i) {
-      Pair crop{test::GrayPlane(240, 120), test::GrayPlane(240, 120)};
-      for (int y = 0; y < 120; ++y) {
-        std::copy_n(&wide.left(5 * i, y + 2 * i), 240, &crop.left(0, y));
-        std::copy_n(&wide.right(5 * i, y + 2 * i), 240, &crop.right(0, y));
-      }
-      crop = frame(i, crop);
+      const Pair crop = frame(i, test::crop(wide, 5 * i, 2 * i, 240, 120));
       before = error(match(off, crop));
       after = error(match(filter, crop));
     }

@@ -70,14 +70,7 @@ struct Flicker {
 /// A frame of a camera that moves by `speed` px along a flat scene: a crop of a wide pair.
 Pair passing_frame(int number, int speed) {
   static const Pair wide = test::slanted_pair(300, 120, 30, 1);
-  Pair crop{test::GrayPlane(240, 120), test::GrayPlane(240, 120)};
-  for (int y = 0; y < 120; ++y) {
-    for (int x = 0; x < 240; ++x) {
-      crop.left(x, y) = wide.left(x + speed * number, y);
-      crop.right(x, y) = wide.right(x + speed * number, y);
-    }
-  }
-  return frame(number, crop);
+  return frame(number, test::crop(wide, speed * number, 0, 240, 120));
 }
 
 Flicker flicker(Matcher& matcher, int speed) {

@@ -59,20 +59,17 @@ TEST(MatcherThreads, HaveTheSameResultForAnyNumber) {
 }
 
 TEST(MatcherThreads, HaveTheSameResultInAStream) {
-  const Pair pair = test::slanted_pair(211, 139, 40, 1);
+  const std::vector<Pair> frames = test::moving_frames(4, 211, 139);
   for (const char* const temporal : {"hold", "filter"}) {
     for (const int threads : {2, 3, 7}) {
       const auto matcher = [&](int count) {
         return test::matcher({{"temporal", temporal}, {"threads", std::to_string(count)}});
       };
       Matcher one = matcher(1), many = matcher(threads);
-      for (int frame = 0; frame < 4; ++frame) {
-        Pair noisy = pair;
-        test::Random random(frame);
-        for (std::uint8_t& pixel : noisy.left.pixels) pixel ^= random.below(4);
-        EXPECT_TRUE(same_image(test::compute(one, noisy.left, noisy.right),
-                               test::compute(many, noisy.left, noisy.right)))
-            << temporal << ", frame " << frame;
+      for (const Pair& pair : frames) {
+        EXPECT_TRUE(same_image(test::compute(one, pair.left, pair.right),
+                               test::compute(many, pair.left, pair.right)))
+            << temporal << ", " << threads << " threads";
       }
     }
   }

@@ -136,16 +136,6 @@ test::Pair random_pair(int width, int height, Random& random) {
   }
 }
 
-/// The next frame of a camera at rest, with other noise.
-test::Pair with_noise(test::Pair pair, Random& random, int most = 1) {
-  for (test::GrayPlane* view : {&pair.left, &pair.right}) {
-    for (std::uint8_t& pixel : view->pixels) {
-      pixel = static_cast<std::uint8_t>(std::clamp(pixel + random.between(-most, most), 0, 255));
-    }
-  }
-  return pair;
-}
-
 /// Compares one matcher with the reference over frames of changing size and parameters. Returns the
 /// number of disparities found.
 long expect_reference_frames(int frames, std::uint64_t seed) {
@@ -167,7 +157,7 @@ long expect_reference_frames(int frames, std::uint64_t seed) {
     Past past;
     found += test::known(expect_reference(matcher, pair, left.view(), right.view(), past));
     if (matcher.settings().temporal != Temporal::kOff) {
-      const test::Pair next = with_noise(pair, random);
+      const test::Pair next = test::with_noise(pair, random, 1);
       expect_reference(matcher, next, next.left.view(), next.right.view(), past);
     }
     EXPECT_TRUE(left.unchanged() && right.unchanged()) << "the input was written to";
@@ -238,7 +228,7 @@ void expect_reference_sequence(const Parameters& parameters) {
   const test::Pair scene = test::slanted_pair(140, 60, 30, 9);
   Past past;
   for (int frame = 0; frame < 4; ++frame) {
-    test::Pair pair = with_noise(scene, random);
+    test::Pair pair = test::with_noise(scene, random, 1);
     for (int x = 0; x < 30; ++x) pair.left(x, 30) = static_cast<std::uint8_t>(60 * frame);
     const test::DisparityPlane map =
         expect_reference(matcher, pair, pair.left.view(), pair.right.view(), past);
@@ -276,18 +266,10 @@ TEST(WholeFrame, EqualsReferenceBeforeAMovingCamera) {
                                                     {"min-disparity", least},
                                                     {"max-disparity", "40"},
                                                     {"temporal", "filter"}}))};
-    Random random(5);
-    const test::Pair wide = test::slanted_pair(220, 90, 30, 9);
     Past past;
     int followed = 0;
-    for (int frame = 0; frame < 4; ++frame) {
-      test::Pair crop{test::GrayPlane(181, 83), test::GrayPlane(181, 83)};
-      for (int y = 0; y < 83; ++y) {
-        std::copy_n(&wide.left(3 * frame, y + frame), 181, &crop.left(0, y));
-        std::copy_n(&wide.right(3 * frame, y + frame), 181, &crop.right(0, y));
-      }
-      crop = with_noise(crop, random, 6);
-      expect_reference(matcher, crop, crop.left.view(), crop.right.view(), past);
+    for (const test::Pair& pair : test::moving_frames(4, 181, 83)) {
+      expect_reference(matcher, pair, pair.left.view(), pair.right.view(), past);
       followed += past.views.followed;
     }
     EXPECT_EQ(3, followed);

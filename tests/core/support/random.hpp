@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "support/plane.hpp"
 
@@ -100,6 +102,26 @@ inline Pair shifted_pair(int width, int height, int disparity, std::uint64_t see
   return pair;
 }
 
+/// The part of a pair from (x, y) on: what a camera sees that has moved.
+inline Pair crop(const Pair& pair, int x, int y, int width, int height) {
+  Pair part{GrayPlane(width, height), GrayPlane(width, height)};
+  for (int row = 0; row < height; ++row) {
+    std::copy_n(&pair.left(x, y + row), width, &part.left(0, row));
+    std::copy_n(&pair.right(x, y + row), width, &part.right(0, row));
+  }
+  return part;
+}
+
+/// The same pair with up to this much noise in both views.
+inline Pair with_noise(Pair pair, Random& random, int most) {
+  for (GrayPlane* view : {&pair.left, &pair.right}) {
+    for (std::uint8_t& pixel : view->pixels) {
+      pixel = static_cast<std::uint8_t>(std::clamp(pixel + random.between(-most, most), 0, 255));
+    }
+  }
+  return pair;
+}
+
 /// A pair whose disparity increases from row to row and has a step in the middle. Each view has its
 /// own noise, as with cameras, so that no match is perfect.
 inline Pair slanted_pair(int width, int height, int largest, std::uint64_t seed) {
@@ -118,6 +140,17 @@ inline Pair slanted_pair(int width, int height, int largest, std::uint64_t seed)
     }
   }
   return pair;
+}
+
+/// Frames before a camera that moves down and to the right along a flat scene, with noise.
+inline std::vector<Pair> moving_frames(int count, int width, int height) {
+  const Pair wide = slanted_pair(width + 3 * count, height + count, 30, 9);
+  Random random(5);
+  std::vector<Pair> frames;
+  for (int i = 0; i < count; ++i) {
+    frames.push_back(with_noise(crop(wide, 3 * i, i, width, height), random, 6));
+  }
+  return frames;
 }
 
 }  // namespace mtstereo::test
