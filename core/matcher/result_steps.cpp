@@ -161,9 +161,11 @@ void find_camera_motion(const StepContext& step, const Views& views, const Resul
 
 void hold_known(const StepContext& step, const ResultMaps& result, LastPair& last) {
   if (!last.motion) return;
+  const LeastConfidence least = step.settings.least_confidence();
+  const float offset = step.settings.matched_offset();
   step.bands.rows([&](int y0, int y1, int) {
-    choose_least(step.settings.least_confidence(), *last.motion, step.settings.matched_offset(),
-                 last.disparity, *result.disparity, y0, y1, last.least);
+    choose_least(least, *last.motion, offset, last.disparity, *result.disparity, y0, y1,
+                 last.least);
   });
 }
 

@@ -95,7 +95,7 @@ void PastViews::resize(const Settings& settings, const FrameSize& size) {
   // For maps of both resolutions.
   points.resize(half_of(size.frame.width), half_of(size.frame.height));
   points.resize(size.frame.width, size.frame.height);
-  disparities.resize(views[0].blocks.still.width(), views[0].blocks.still.height());
+  disparities.resize(time_blocks(width), time_blocks(height));
 }
 
 void filter_in_time(const StepContext& step, const LastPair& last, Views& views, PastViews& past) {

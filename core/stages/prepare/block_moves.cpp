@@ -52,8 +52,6 @@ HWY_EXPORT(move_block);
 
 namespace {
 
-int blocks_of(int pixels) { return (pixels + kTimeBlock - 1) / kTimeBlock; }
-
 /// The median of some pixels of a block.
 float block_disparity(const Image<std::uint16_t>& map, const MapPlace& place, int x0, int y0) {
   constexpr std::array kSampled = {1, 3, 4, 6};
@@ -62,8 +60,8 @@ float block_disparity(const Image<std::uint16_t>& map, const MapPlace& place, in
   for (const int dy : kSampled) {
     const int y = (y0 + dy) / place.scale;
     for (const int dx : kSampled) {
-      const int x = (x0 + dx - place.column) / place.scale;
-      if (y >= map.height() || x < 0 || x >= map.width() || map.row(y)[x] == 0) continue;
+      const int from_first = x0 + dx - place.column, x = from_first / place.scale;
+      if (y >= map.height() || from_first < 0 || x >= map.width() || map.row(y)[x] == 0) continue;
       known[count++] = map.row(y)[x];
     }
   }
@@ -83,8 +81,9 @@ bool is_inside(int x0, int y0, int x, int y, int width, int height) {
   return fits(x0, x, width) && fits(y0, y, height);
 }
 
-/// Blocks without an offset take that of the block before or above.
-void fill_forward(BlockMoves& moves, int step) {
+/// Blocks without an offset take that of the block before or above, with a step of -1 of the block
+/// after or below.
+void fill_unknown(BlockMoves& moves, int step) {
   const int columns = moves.x.width(), rows = moves.x.height();
   const auto take = [&](int column, int row, int from_column, int from_row) {
     if (from_column < 0 || from_column >= columns || from_row < 0 || from_row >= rows) return;
@@ -109,7 +108,7 @@ std::int16_t in_steps(float offset) {
   return std::abs(steps) <= kMost ? static_cast<std::int16_t>(steps) : BlockMoves::kUnknown;
 }
 
-/// Lets a block of the last left view, whose center is (x, y), take its place.
+/// Sets the offset of the block to which a block of the last left view moved; `last` is its center.
 void place_block(const CameraMotion& motion, const ScenePoint& last, int side, int width,
                  int height, BlockMoves& moves) {
   const float center_x = static_cast<float>(width) / 2, center_y = static_cast<float>(height) / 2;
@@ -149,7 +148,7 @@ void take_view(GrayView view, int x0, int y0, int y1, Image<std::uint16_t>& mean
 }  // namespace
 
 void BlockMoves::resize(int width, int height) {
-  const int columns = blocks_of(width), rows = blocks_of(height);
+  const int columns = time_blocks(width), rows = time_blocks(height);
   x.resize(columns, rows);
   y.resize(columns, rows);
   disparity.resize(columns, rows);
@@ -157,7 +156,7 @@ void BlockMoves::resize(int width, int height) {
 
 void Means::resize(int width, int height) {
   mean.resize(width, height);
-  frames.resize(blocks_of(width), blocks_of(height));
+  frames.resize(time_blocks(width), time_blocks(height));
 }
 
 void find_block_disparities(const Image<std::uint16_t>& map, const MapPlace& place, int row0,
@@ -187,8 +186,8 @@ void find_moves(const CameraMotion& motion, const Image<float>& disparities, int
       if (block.disparity > kNoBlock) place_block(motion, block, side, width, height, moves);
     }
   }
-  fill_forward(moves, 1);
-  fill_forward(moves, -1);
+  fill_unknown(moves, 1);
+  fill_unknown(moves, -1);
 }
 
 void place_points(const MotionPoints& points, const MapPlace& place, MotionPoints& placed) {

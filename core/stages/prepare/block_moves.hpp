@@ -27,23 +27,24 @@ struct MapPlace {
 /// Steps of an offset per px.
 inline constexpr int kMoveOne = 8;
 
+/// The disparity of a block about which the map knows nothing [px].
+inline constexpr float kNoBlock = -1e9F;
+
 /// The offsets of the blocks of a view: where each was in the last view, less where it is.
 struct BlockMoves {
-  /// The offset of a block whose place is unknown, or not inside the last view.
+  /// The offset of a block whose place is unknown.
   static constexpr std::int16_t kUnknown = -32768;
 
   Image<std::int16_t> x;   ///< [1 / kMoveOne px]
   Image<std::int16_t> y;   ///< [1 / kMoveOne px]
-  Image<float> disparity;  ///< of the nearest block of the last map that moved here; -1: none
+  Image<float> disparity;  ///< of the nearest block of the last map that moved here, or kNoBlock
 
   /// For a view of this size.
   void resize(int width, int height);
 };
 
 /// Finds the disparities of the rows of blocks row0 .. row1 - 1 of the left view: medians of the
-/// last map (0 = unknown) [1 / kHeldOne px]. `disparities` has a pixel for each block [px], with
-/// kNoBlock where the map knows nothing.
-inline constexpr float kNoBlock = -1e9F;
+/// last map (0 = unknown) [1 / kHeldOne px]. `disparities` has a pixel for each block [px].
 void find_block_disparities(const Image<std::uint16_t>& map, const MapPlace& place, int row0,
                             int row1, Image<float>& disparities);
 

@@ -55,8 +55,6 @@ namespace {
 constexpr int kWeightShift = 14;
 static_assert(kWeightOne == 1 << kWeightShift);
 
-int blocks_of(int pixels) { return (pixels + kTimeBlock - 1) / kTimeBlock; }
-
 /// The trust of a block with this sum of differences, 0 from the limit on.
 int trust_of(int change, int limit) {
   const std::int64_t size = std::min(std::abs(change), limit);
@@ -98,10 +96,9 @@ float deviation_of(float noise, TimeBlocks& blocks) {
 }  // namespace
 
 void TimeBlocks::resize(int width, int height) {
-  const int columns = blocks_of(width), rows = blocks_of(height);
+  const int columns = time_blocks(width), rows = time_blocks(height);
   change.resize(columns, rows);
   difference.resize(columns, rows);
-  still.resize(columns, rows);
   trust.resize(columns, rows);
   frames.resize(columns, rows);
   weights.resize(width, rows);
@@ -137,7 +134,7 @@ void measure_changes(GrayView view, const Image<std::uint8_t>& filtered, int y0,
 
 double rate_changes(float noise, TimeBlocks& blocks) {
   const int limit = static_cast<int>(kMostDeviations * deviation_of(noise, blocks));
-  const int columns = blocks.still.width(), rows = blocks.still.height();
+  const int columns = blocks.trust.width(), rows = blocks.trust.height();
   int count = 0;
   for (int row = 0; row < rows; ++row) {
     for (int i = 0; i < columns; ++i) {
@@ -146,7 +143,6 @@ double rate_changes(float noise, TimeBlocks& blocks) {
       const float deviation = noise * std::sqrt(1 + 1 / frames);
       const float most = kTimeBlockPixels * (kStillDeviation * deviation + kStillRest);
       const bool still = static_cast<float>(blocks.difference.row(row)[i]) <= most;
-      blocks.still.row(row)[i] = still ? 1 : 0;
       blocks.trust.row(row)[i] =
           static_cast<std::uint8_t>(still ? trust_of(blocks.change.row(row)[i], limit) : 0);
       count += still;

@@ -10,8 +10,8 @@ namespace mtstereo {
 
 /// Averages a view over time where it is still. Each pixel has a recursive mean: a frame has the
 /// weight 1 / n, where n counts the frames since the pixel's block changed, up to kMostFrames, and
-/// falls as the block differs from its means more than noise does. Nothing is moved: where the view
-/// changes, the filtered view is the view.
+/// falls as the block differs from its means more than noise does. Where the view changes, the
+/// filtered view is the view; block_moves.hpp moves the means before a moving camera.
 ///
 /// Per frame: measure_changes() for all bands of rows, rate_changes() and count_frames() once, then
 /// average_rows() for all bands. A band begins with the first row of a block.
@@ -19,6 +19,9 @@ namespace mtstereo {
 /// Side of a block [px].
 inline constexpr int kTimeBlock = 8;
 inline constexpr int kTimeBlockPixels = kTimeBlock * kTimeBlock;
+
+/// Number of blocks for this many pixels.
+inline constexpr int time_blocks(int pixels) { return (pixels + kTimeBlock - 1) / kTimeBlock; }
 
 /// Most frames in a mean.
 inline constexpr int kMostFrames = 8;
@@ -45,7 +48,6 @@ inline constexpr int kWeightOne = 16384;
 struct TimeBlocks {
   Image<std::int32_t> change;      ///< sum of the differences from the means, of 64 pixels
   Image<std::int32_t> difference;  ///< sum of their magnitudes, of 64 pixels
-  Image<std::uint8_t> still;       ///< 1: the block is still
   Image<std::uint8_t> trust;       ///< [1 / kTrustOne]
   Image<std::uint8_t> frames;      ///< in the means of the block [1 / kFramesOne]
   Image<std::int16_t> weights;     ///< of this frame, a row of pixels per row of blocks

@@ -29,8 +29,8 @@ inline test::Plane<std::optional<float>> block_disparities(const DisparityPlane&
       std::vector<int> known;
       for (const int dy : {1, 3, 4, 6}) {
         for (const int dx : {1, 3, 4, 6}) {
-          const int x = (8 * u + dx - column) / scale, y = (8 * v + dy) / scale;
-          const bool inside = x >= 0 && x < map.width && y < map.height;
+          const int left = 8 * u + dx - column, x = left / scale, y = (8 * v + dy) / scale;
+          const bool inside = left >= 0 && x < map.width && y < map.height;
           if (inside && map(x, y) != 0) known.push_back(in_thirty_seconds(map(x, y)));
         }
       }

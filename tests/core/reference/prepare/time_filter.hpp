@@ -17,7 +17,6 @@ using test::GrayPlane;
 struct PastView {
   test::Plane<int> mean;  ///< [1/128 gray values]
   GrayPlane filtered;     ///< the same in gray values
-  GrayPlane still;        ///< per block: it has not changed
   GrayPlane trust;        ///< per block: that it has not, 0 .. 128
   GrayPlane frames;       ///< per block: in its means [1/16]
 };
@@ -64,7 +63,7 @@ inline double rate_changes(const GrayPlane& view, float noise, PastView& past) {
   const float deviation =
       std::clamp(1.48F * median, 4.0F, std::max(1.2F * 1.414F * 8 * noise + 8, 4.0F));
   const long limit = static_cast<long>(6 * deviation);
-  past.still = past.trust = GrayPlane(past.frames.width, past.frames.height);
+  past.trust = GrayPlane(past.frames.width, past.frames.height);
   double count = 0;
   for (std::size_t i = 0; i < found.sum.pixels.size(); ++i) {
     const float frames = past.frames.pixels[i] / 16.0F;
@@ -72,7 +71,6 @@ inline double rate_changes(const GrayPlane& view, float noise, PastView& past) {
     if (static_cast<float>(found.magnitude.pixels[i]) > most) continue;
     const long sum = std::min<long>(std::abs(found.sum.pixels[i]), limit);
     const int rest = static_cast<int>(128 * (limit * limit - sum * sum) / (limit * limit));
-    past.still.pixels[i] = 1;
     past.trust.pixels[i] = static_cast<std::uint8_t>(rest * rest / 128);
     ++count;
   }
