@@ -56,10 +56,10 @@ inline std::vector<RowCosts> path_matching_costs(const PathInput& input,
     for (int x = 0; x < width; ++x) {
       const auto [low, high] = expected_at(input.half_map, x, y, options.cost.disparities);
       for (int d = 0; d < options.cost.disparities; ++d) {
-        costs[y][x].push_back(census_costs.cost(x, y, d, low, high));
+        const bool inside = input.windows.contain(x, y, d);
+        costs[y][x].push_back(inside ? census_costs.cost(x, y, d, low, high) : kOutside);
       }
     }
-    leave_out(input.windows, y, costs[y]);
   }
   return costs;
 }
@@ -89,22 +89,26 @@ inline DisparityPlane match_by_cost(const PathInput& input, const PathMatchingOp
   return out;
 }
 
-/// The sums of four paths of row y: those along the columns start kPathMargin rows before and after
-/// the row's chunk of kPathRows rows. The path from above alone counts twice.
-inline RowCosts four_paths(const PathInput& input, const std::vector<RowCosts>& costs,
-                           const SmoothnessOptions& steps, bool both, int y) {
-  const GrayPlane& left = input.left;
-  const int height = left.height;
-  const int y0 = y / kPathRows * kPathRows, y1 = std::min(y0 + kPathRows, height);
-  RowCosts above, below;
-  for (int row = std::max(y0 - kPathMargin, 0); row <= y; ++row) {
-    above = column_step(costs[row], above, &left(0, row), &left(0, std::max(row - 1, 0)), steps);
+/// The paths along the columns in all rows: from above (direction 1) or from below (-1). Each chunk
+/// of kPathRows rows has its own, which start kPathMargin rows before it.
+inline std::vector<RowCosts> column_paths(const PathInput& input,
+                                          const std::vector<RowCosts>& costs,
+                                          const SmoothnessOptions& steps, int direction) {
+  const int height = input.left.height;
+  std::vector<RowCosts> paths(height);
+  for (int y0 = 0; y0 < height; y0 += kPathRows) {
+    const int y1 = std::min(y0 + kPathRows, height);
+    const int rows = y1 - y0 + kPathMargin;
+    RowCosts path;
+    for (int i = 0; i < rows; ++i) {
+      const int y = direction > 0 ? y0 - kPathMargin + i : y1 + kPathMargin - 1 - i;
+      if (y < 0 || y >= height) continue;
+      const int before = std::clamp(y - direction, 0, height - 1);
+      path = column_step(costs[y], path, &input.left(0, y), &input.left(0, before), steps);
+      if (y0 <= y && y < y1) paths[y] = path;
+    }
   }
-  for (int row = std::min(y1 + kPathMargin, height) - 1; row >= y; --row) {
-    below = column_step(costs[row], below, &left(0, row), &left(0, std::min(row + 1, height - 1)),
-                        steps);
-  }
-  return path_sums(costs[y], &left(0, y), steps, PathSums::kFour, above, both ? below : above);
+  return paths;
 }
 
 /// Matches a view along two, three or four paths.
@@ -113,12 +117,18 @@ inline RatedMap match_along_paths(const PathInput& input, const PathMatchingOpti
   const SmoothnessOptions steps = {options.smoothness.small_step * rows,
                                    options.smoothness.large_step * rows};
   const std::vector<RowCosts> costs = path_matching_costs(input, options);
+  const bool columns = options.column_paths != ColumnPaths::kNone;
+  std::vector<RowCosts> above(height), below(height);
+  if (columns) {
+    above = column_paths(input, costs, steps, 1);
+    // The path from above alone counts twice.
+    const bool both = options.column_paths == ColumnPaths::kBoth;
+    below = both ? column_paths(input, costs, steps, -1) : above;
+  }
   RatedMap out(width, height);
   for (int y = 0; y < height; ++y) {
-    const RowCosts sums =
-        options.column_paths == ColumnPaths::kNone
-            ? path_sums(costs[y], &input.left(0, y), steps, PathSums::kTwo)
-            : four_paths(input, costs, steps, options.column_paths == ColumnPaths::kBoth, y);
+    const RowCosts sums = path_sums(costs[y], &input.left(0, y), steps,
+                                    columns ? PathSums::kFour : PathSums::kTwo, above[y], below[y]);
     const std::vector<Selected> selected = select_row(input, y, sums, options.selection);
     for (int x = 0; x < width; ++x) out.set(x, y, selected[x]);
   }

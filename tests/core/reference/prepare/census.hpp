@@ -29,6 +29,11 @@ inline int smoothed(const GrayPlane& image, int x, int y) {
 /// by row from the top left, then those at 2 px. In one scale, then the other pixels of the 5x5
 /// window; in two, those at 4 px in the smoothed view.
 inline Plane<std::uint32_t> census(const GrayPlane& image, int scales = 2) {
+  constexpr int kReach = 4;
+  Plane<int> wide(image.width + 2 * kReach, image.height + 2 * kReach);
+  for (int y = 0; y < wide.height && scales == 2; ++y) {
+    for (int x = 0; x < wide.width; ++x) wide(x, y) = smoothed(image, x - kReach, y - kReach);
+  }
   Plane<std::uint32_t> out(image.width, image.height);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
@@ -43,11 +48,11 @@ inline Plane<std::uint32_t> census(const GrayPlane& image, int scales = 2) {
         }
       };
       const auto fine = [&](int column, int row) { return int{image.clamped(column, row)}; };
-      const auto coarse = [&](int column, int row) { return smoothed(image, column, row); };
+      const auto coarse = [&](int column, int row) { return wide(column + kReach, row + kReach); };
       add(1, fine);
       add(2, fine);
       if (scales == 2) {
-        add(4, coarse);
+        add(kReach, coarse);
         continue;
       }
       for (int dy = -2; dy <= 2; ++dy) {
