@@ -48,7 +48,7 @@ FeedResult play_live(const Speed& speed, const Defects& left, const Defects& rig
                      unsigned seed) {
   const GstClockTime interval = GST_SECOND / static_cast<GstClockTime>(speed.framerate);
   FeedOptions options;
-  options.properties = "max-disparity=64 threads=1 newest-pair=true";
+  options.properties = std::string(kNumberedMatching) + " newest-pair=true";
   options.upstream = "queue";
   options.tail = "fakesink sync=false qos=false";
   options.live = true;
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Speeds, NewestPair,
 
 TEST(NewestPairOfFiles, SkipsNothing) {
   FeedOptions options;
-  options.properties = "max-disparity=64 threads=1 newest-pair=true";
+  options.properties = std::string(kNumberedMatching) + " newest-pair=true";
   options.upstream = "queue";
   options.delay = 5 * GST_MSECOND;
   const FeedResult result = feed(numbered_sequence(60), numbered_sequence(60), options);

@@ -98,7 +98,7 @@ void send_segments(StereoHarness& harness, double applied_rate) {
 
 TEST(AppliedRate, PairsTheSameFrames) {
   for (const int rate : {1, 4, -8}) {
-    StereoHarness harness("max-disparity=64 threads=1");
+    StereoHarness harness(kNumberedMatching);
     harness.caps(raw_caps("GRAY8", kNumberedWidth, kNumberedHeight));
     send_segments(harness, rate);
     const auto push = [&](Side side, int lost) {

@@ -11,7 +11,7 @@ constexpr Nanoseconds kMs = 1'000'000;
 
 FeedOptions with_mode(const std::string& mode) {
   FeedOptions options;
-  options.properties = "max-disparity=64 threads=1 sync-mode=" + mode;
+  options.properties = std::string(kNumberedMatching) + " sync-mode=" + mode;
   return options;
 }
 

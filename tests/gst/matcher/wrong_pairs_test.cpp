@@ -14,7 +14,7 @@ constexpr Nanoseconds kMs = 1'000'000;
 
 FeedOptions with_tolerance(int milliseconds) {
   FeedOptions options;
-  options.properties = "max-disparity=64 threads=1";
+  options.properties = kNumberedMatching;
   if (milliseconds > 0) {
     options.properties += " sync-tolerance=" + std::to_string(milliseconds * kMs);
   }

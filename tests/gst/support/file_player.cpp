@@ -78,7 +78,7 @@ std::string seek_text(const Seek& seek) {
 }
 
 FilePlayer::FilePlayer(const NumberedFiles& files, const Container& container)
-    : pipeline_("mtstereo name=m max-disparity=64 threads=1 ! fakesink sync=false" +
+    : pipeline_(std::string("mtstereo name=m ") + kNumberedMatching + " ! fakesink sync=false" +
                 source(files.file(container, Side::kLeft), "left", container) +
                 source(files.file(container, Side::kRight), "right", container)) {
   GstPad* output = gst_element_get_static_pad(pipeline_.named("m"), "src");

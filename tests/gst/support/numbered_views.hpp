@@ -28,6 +28,8 @@ inline constexpr int kNumberedBase = 32;
 inline constexpr int kNumberedStep = 4;
 /// Larger differences cannot be recognised with max-disparity=64.
 inline constexpr int kMaxDifference = 6;
+/// Properties of mtstereo for tests of many pairs: the fastest matching that states the difference.
+inline constexpr const char* kNumberedMatching = "preset=fast max-disparity=64 threads=1";
 
 /// The image of a frame.
 Picture numbered_picture(Side side, std::int64_t number);

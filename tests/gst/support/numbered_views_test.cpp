@@ -7,7 +7,7 @@
 namespace mtstereo::test {
 namespace {
 
-class NumberedViews : public testing::Test {
+class NumberedViews : public testing::TestWithParam<const char*> {
  protected:
   /// The map of the left frame `number` and the right frame `number + difference`.
   std::optional<int> difference_of(StereoHarness& harness, std::int64_t number, int difference) {
@@ -26,8 +26,8 @@ class NumberedViews : public testing::Test {
   GstClockTime next_ = 0;
 };
 
-TEST_F(NumberedViews, StateEveryDifference) {
-  StereoHarness harness("max-disparity=64");
+TEST_P(NumberedViews, StateEveryDifference) {
+  StereoHarness harness(GetParam());
   negotiate(harness);
   for (const std::int64_t number : {0, 1, 1000, -77, 123'456}) {
     for (int difference = -kMaxDifference; difference <= kMaxDifference; ++difference) {
@@ -36,16 +36,16 @@ TEST_F(NumberedViews, StateEveryDifference) {
   }
 }
 
-TEST_F(NumberedViews, DoNotStateALargeDifference) {
-  StereoHarness harness("max-disparity=64");
+TEST_P(NumberedViews, DoNotStateALargeDifference) {
+  StereoHarness harness(GetParam());
   negotiate(harness);
   for (const int difference : {-1000, -60, -20, 12, 20, 60, 1000}) {
     EXPECT_EQ(difference_of(harness, 3, difference), std::nullopt) << difference;
   }
 }
 
-TEST_F(NumberedViews, AreNotCorrected) {
-  StereoHarness harness("max-disparity=64");
+TEST_P(NumberedViews, AreNotCorrected) {
+  StereoHarness harness(GetParam());
   negotiate(harness);
   for (int number = 0; number < 40; ++number) {
     EXPECT_EQ(difference_of(harness, number, number % 5 - 2), number % 5 - 2);
@@ -53,6 +53,10 @@ TEST_F(NumberedViews, AreNotCorrected) {
   EXPECT_EQ(harness.message("mtstereo-alignment", 0.1), nullptr);
   EXPECT_TRUE(harness.warnings().empty());
 }
+
+INSTANTIATE_TEST_SUITE_P(Matching, NumberedViews,
+                         testing::Values("max-disparity=64", kNumberedMatching),
+                         [](const auto& info) { return info.index == 0 ? "Default" : "Fast"; });
 
 TEST(Feed, CountsTheMapsOfSequences) {
   const auto left = numbered_sequence(20);
