@@ -4,57 +4,36 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 #include <optional>
 
 extern "C" {
 #include <libavutil/crc.h>
 }
 
+#include "recordings/media/matroska_format.hpp"
+
 namespace mtstereo::run {
 namespace {
 
-constexpr std::uint64_t kSegment = 0x18538067, kCluster = 0x1F43B675, kChecksum = 0xBF;
+using ebml::kCluster, ebml::kSegment, ebml::kUnknown;
+constexpr std::uint32_t kChecksum = 0xBF;
 // A cluster has a time, blocks, groups of blocks, and few others (RFC 9559, section 5.1.3).
-constexpr std::array<std::uint64_t, 9> kInClusters{0xE7, 0xA3, 0xA0,   0xAB,     0xA7,
+constexpr std::array<std::uint32_t, 9> kInClusters{0xE7, 0xA3, 0xA0,   0xAB,     0xA7,
                                                    0xAF, 0xEC, 0x5854, kChecksum};
-constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
 
 // Elements have a name, a length and data.
 struct Element {
-  std::uint64_t name = 0;
+  std::uint32_t name = 0;
   std::uint64_t data = 0;    // where it begins
   std::uint64_t length = 0;  // kUnknown: up to the next element of the same level
 
   std::uint64_t end() const { return length == kUnknown ? kUnknown : data + length; }
 };
 
-// A number of Matroska, whose first byte states its length. Names keep the mark of the length.
-struct Number {
-  std::uint64_t value = 0;
-  std::size_t length = 0;
-};
-
-std::optional<Number> number_in(std::string_view bytes, bool is_name) {
-  if (bytes.empty()) return std::nullopt;
-  const auto head = static_cast<unsigned char>(bytes[0]);
-  const auto length = static_cast<std::size_t>(std::countl_zero(head)) + 1;
-  if (length > (is_name ? 4 : 8) || length > bytes.size()) return std::nullopt;
-  const std::uint64_t whole = big_endian(bytes.substr(0, length));
-  const std::uint64_t bits = (std::uint64_t{1} << (7 * length)) - 1;
-  if (is_name) return Number{whole, length};
-  const bool unknown = (whole & bits) == bits;
-  return Number{unknown ? kUnknown : whole & bits, length};
-}
-
 std::optional<Element> element_at(Bytes& bytes, std::uint64_t position) {
-  const std::string head = bytes.up_to(position, 12);
-  const std::optional<Number> name = number_in(head, true);
-  if (!name) return std::nullopt;
-  const std::optional<Number> length =
-      number_in(std::string_view(head).substr(name->length), false);
-  if (!length) return std::nullopt;
-  return Element{name->value, position + name->length + length->length, length->value};
+  const auto start = ebml::start_of(bytes.up_to(position, 12));
+  if (!start) return std::nullopt;
+  return Element{start->id, position + start->bytes, start->length};
 }
 
 std::uint32_t checksum_of(Bytes& bytes, std::uint64_t from, std::uint64_t to) {
@@ -88,7 +67,7 @@ void check_cluster(Bytes& bytes, const Element& cluster, DamagedParts& damage) {
 }
 
 // One or two wrong bits in the name: programs skip all of its frames.
-bool was_cluster(std::uint64_t name) {
+bool was_cluster(std::uint32_t name) {
   return name != kCluster && std::popcount(name ^ kCluster) <= 2;
 }
 

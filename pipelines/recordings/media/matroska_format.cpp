@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/media/matroska_format.hpp"
 
+#include <bit>
+
+#include "recordings/media/container_bytes.hpp"
+
 namespace mtstereo::run::ebml {
 namespace {
 
@@ -13,7 +17,6 @@ enum Id : std::uint32_t {
   kDocType = 0x4282,
   kDocTypeVersion = 0x4287,
   kDocTypeReadVersion = 0x4285,
-  kSegment = 0x18538067,
   kSeekHead = 0x114D9B74,
   kSeek = 0x4DBB,
   kSeekId = 0x53AB,
@@ -100,12 +103,6 @@ std::string big_endian(std::uint64_t value, int bytes) {
   return text;
 }
 
-std::uint64_t from_big_endian(std::string_view bytes) {
-  std::uint64_t value = 0;
-  for (const char each : bytes) value = value << 8 | static_cast<unsigned char>(each);
-  return value;
-}
-
 std::string element(std::uint32_t id, std::string_view content) {
   const int bytes = content.size() < 0x7f ? 1 : 4;
   return id_text(id) + length_text(content.size(), bytes) + std::string(content);
@@ -113,6 +110,21 @@ std::string element(std::uint32_t id, std::string_view content) {
 
 std::string number(std::uint32_t id, std::uint64_t value, int bytes) {
   return element(id, big_endian(value, bytes > 0 ? bytes : bytes_of(value)));
+}
+
+std::optional<Start> start_of(std::string_view bytes) {
+  const auto width = [](std::string_view number) {  // by its first byte
+    if (number.empty()) return std::size_t{9};
+    return static_cast<std::size_t>(std::countl_zero(static_cast<unsigned char>(number[0]))) + 1;
+  };
+  const std::size_t id = width(bytes);
+  if (id > 4 || id >= bytes.size()) return std::nullopt;
+  const std::size_t length = width(bytes.substr(id));
+  if (length > 8 || id + length > bytes.size()) return std::nullopt;
+  const std::uint64_t most = (std::uint64_t{1} << (7 * length)) - 1;
+  const std::uint64_t stated = run::big_endian(bytes.substr(id, length)) & most;
+  return Start{static_cast<std::uint32_t>(run::big_endian(bytes.substr(0, id))), id + length,
+               stated == most ? kUnknown : stated};
 }
 
 std::string cluster_head(std::uint64_t time, std::size_t frame) {
@@ -125,9 +137,9 @@ std::string cluster_head(std::uint64_t time, std::size_t frame) {
 }
 
 bool parse_cluster_head(std::string_view head, std::uint64_t& length, std::uint64_t& time) {
-  if (head.size() < kClusterHead || from_big_endian(head.substr(0, 4)) != kCluster) return false;
-  length = 9 + (from_big_endian(head.substr(4, 5)) & 0x7'ffff'ffff);
-  time = from_big_endian(head.substr(11, 8));
+  if (head.size() < kClusterHead || run::big_endian(head.substr(0, 4)) != kCluster) return false;
+  length = 9 + (run::big_endian(head.substr(4, 5)) & 0x7'ffff'ffff);
+  time = run::big_endian(head.substr(11, 8));
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,6 +29,7 @@ struct MatroskaTrack {
 
 namespace mtstereo::run::ebml {
 
+inline constexpr std::uint32_t kSegment = 0x18538067;
 inline constexpr std::uint32_t kCluster = 0x1F43B675;
 inline constexpr std::uint32_t kCues = 0x1C53BB6B;
 inline constexpr std::uint32_t kTags = 0x1254C367;
@@ -36,16 +38,26 @@ inline constexpr std::uint32_t kTagName = 0x45A3;
 inline constexpr std::uint32_t kTagString = 0x4487;
 inline constexpr Nanoseconds kTimeStep = 1000;  ///< of time stamps in the file [ns]
 
-/// A number of the file's format: big-endian.
+/// A number of the file's format, which big_endian(bytes) reads.
 std::string big_endian(std::uint64_t value, int bytes);
-std::uint64_t from_big_endian(std::string_view bytes);
 
 /// An element whose content is text or other elements.
 std::string element(std::uint32_t id, std::string_view content);
 /// An element with a number, in as few bytes as possible or in exactly so many.
 std::string number(std::uint32_t id, std::uint64_t value, int bytes = 0);
 
-/// The first bytes of a cluster, and those of its frame before the picture.
+/// The start of an element.
+struct Start {
+  std::uint32_t id = 0;
+  std::size_t bytes = 0;     ///< of id and length: the content begins after them
+  std::uint64_t length = 0;  ///< of the content [bytes]; kUnknown: up to the next of its level
+};
+/// More than any length that can be stated.
+inline constexpr std::uint64_t kUnknown = (std::uint64_t{1} << 56) - 1;
+/// The element at the beginning of these bytes; std::nullopt if its start is not there.
+std::optional<Start> start_of(std::string_view bytes);
+
+/// The first bytes of a cluster, and those of its frame before the coded data.
 std::string cluster_head(std::uint64_t time, std::size_t frame);
 /// The length of cluster_head().
 inline constexpr std::size_t kClusterHead = 28;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "lib/outputs/user_error.hpp"
+#include "recordings/media/container_bytes.hpp"
 #include "recordings/media/matroska.hpp"
 
 namespace mtstereo::run {
@@ -16,29 +17,11 @@ struct Element {
   std::uint64_t length = 0;  // of the content
 };
 
-// The length of a variable-length number by its first byte.
-int width_of(char first) {
-  const auto byte = static_cast<unsigned char>(first);
-  int width = 1;
-  while (width < 8 && (byte << (width - 1) & 0x80) == 0) ++width;
-  return width;
-}
-
-// The element at a place; std::nullopt if its head is not there.
+// The element at a place; std::nullopt if its start is not there.
 std::optional<Element> element_at(std::string_view bytes, std::size_t at) {
-  if (at >= bytes.size()) return std::nullopt;
-  const auto id_width = static_cast<std::size_t>(width_of(bytes[at]));
-  if (id_width > 4 || at + id_width >= bytes.size()) return std::nullopt;
-  Element found;
-  found.id = static_cast<std::uint32_t>(ebml::from_big_endian(bytes.substr(at, id_width)));
-  at += id_width;
-  const int width = width_of(bytes[at]);
-  if (at + static_cast<std::size_t>(width) > bytes.size()) return std::nullopt;
-  const std::uint64_t value =
-      ebml::from_big_endian(bytes.substr(at, static_cast<std::size_t>(width)));
-  found.length = value & ((std::uint64_t{1} << (7 * width)) - 1);
-  found.content = at + static_cast<std::size_t>(width);
-  return found;
+  const auto start = ebml::start_of(bytes.substr(std::min(at, bytes.size())));
+  if (!start) return std::nullopt;
+  return Element{start->id, at + start->bytes, start->length};
 }
 
 // Reads what decides the frames from the elements of a track.
@@ -48,7 +31,7 @@ void read_track(std::string_view content, MatroskaTrack& track) {
   for (std::size_t at = 0; const std::optional<Element> found = element_at(content, at);) {
     const std::string_view value = content.substr(found->content, found->length);
     if (found->id == kTrackEntry || found->id == kVideo) read_track(value, track);
-    const std::uint64_t number = value.size() <= 8 ? ebml::from_big_endian(value) : 0;
+    const std::uint64_t number = value.size() <= 8 ? big_endian(value) : 0;
     if (found->id == kWidth) track.width = static_cast<int>(number);
     if (found->id == kHeight) track.height = static_cast<int>(number);
     if (found->id == kPeriod) track.period = static_cast<Nanoseconds>(number);
@@ -74,12 +57,12 @@ void read_tags(std::string_view content, MatroskaTrack& track) {
 
 // Reads everything before the first cluster and returns its length; 0 if it is not whole.
 std::size_t read_head(std::string_view bytes, MatroskaTrack& track) {
-  constexpr std::uint32_t kSegment = 0x18538067, kTracks = 0x1654AE6B;
+  constexpr std::uint32_t kTracks = 0x1654AE6B;
   std::size_t at = 0;
   bool whole = false;
   while (const std::optional<Element> found = element_at(bytes, at)) {
     if (found->id == ebml::kCluster || found->id == ebml::kCues) break;
-    if (found->id == kSegment) {
+    if (found->id == ebml::kSegment) {
       at = found->content;
       continue;
     }
