@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Updates the generated parts of docs/: the pictures of the stages and of the architecture, the
+# Updates the generated parts of docs/: the images of the stages and of the architecture, the
 # table of parameters and the table of steps.
 # Usage: docs/update.sh [BUILD]; with --check it only reports whether the table of parameters is up to
 # date and docs/method.md describes every step.
@@ -41,7 +41,7 @@ done < "$work/list"
 if [ -z "$check" ]; then
   "$here/figures/architecture.py" table < "$work/list" > "$work/steps"
   update architecture.md steps
-  "$figures" --pictures "$here/images/stages"
-  "$here/figures/architecture.py" picture "$here/images/architecture.png" < "$work/list"
+  "$figures" --images "$here/images/stages"
+  "$here/figures/architecture.py" image "$here/images/architecture.png" < "$work/list"
 fi
 exit "$status"

@@ -191,7 +191,7 @@ view_to() {
   fi
 }
 
-# The elements downstream of mtstereo: a color picture on the screen, or a lossless file, and clouds.
+# The elements downstream of mtstereo: a color image on the screen, or a lossless file, and clouds.
 output_of() {
   if [ -n "$cloud" ]; then
     printf '%s\n' '!' queue '!' tee name=maps '!' queue '!' mtcloud name=cloud "location=$cloud" \

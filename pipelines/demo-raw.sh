@@ -57,8 +57,8 @@ demo_of_raw_cameras() {
     ${alpha:+--alpha "$alpha"} ${rectified_size:+--rectified-size "$rectified_size"}
   step "Rectifying and matching the two files, mode $mode"
   measure
-  step "Color video and picture"
-  to_pictures "$mode"
+  step "Color video and image"
+  to_images "$mode"
   to_color
   echo
   echo "Disparities against the ground truth: avgerr px, D-all %, density %, mean over the clip."

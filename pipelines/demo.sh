@@ -207,7 +207,7 @@ odd() {
 
 # Lossless disparity -> 16-bit PNG images, px = value / 256. Further arguments are properties of
 # pngenc, such as snapshot=true for the first frame only.
-to_pictures() {
+to_images() {
   rm -rf "$out/disparity-$1"
   mkdir -p "$out/disparity-$1"
   play filesrc "location=$out/disparity-$1.mkv" '!' matroskademux '!' avdec_ffv1 '!' \
@@ -215,7 +215,7 @@ to_pictures() {
     multifilesink "location=$out/disparity-$1/%06d.png"
 }
 
-# H.264 in the usual 4:2:0 needs even sizes, so an odd picture loses its last column or row.
+# H.264 in the usual 4:2:0 needs even sizes, so an odd image loses its last column or row.
 to_color() {
   local color=(mtcolor)
   [ -z "$max_disparity" ] || color+=("max-disparity=$max_disparity")
@@ -235,13 +235,13 @@ demo_of_clip() {
     step "Matching the two files, mode $m"
     match "$m"
     seconds=$(played_seconds)
-    to_pictures "$m"
+    to_images "$m"
     row=$(compare --label "$m" --disparity "$out/disparity-$m" --truth "$out/clip/truth" \
       --mask "$out/clip/mask")
     speed=$(awk -v n="$frames" -v s="$seconds" 'BEGIN { printf("%.1f", (s > 0) ? n / s : 0) }')
     table+=("$row $(printf '%8s' "$speed")")
   done
-  step "Color video and picture"
+  step "Color video and image"
   to_color
   compare --disparity "$out/disparity-$mode" --truth "$out/clip/truth" --left "$out/clip/left" \
     --picture "$out/demo.png" --width 1200 --frame $((frames / 2)) --max-disparity "$max_disparity" >/dev/null
@@ -257,9 +257,9 @@ demo_of_files() {
   limit=86400
   step "Matching the two files, mode $mode"
   match "$mode"
-  step "Color video and picture"
+  step "Color video and image"
   to_color
-  to_pictures "$mode" snapshot=true
+  to_images "$mode" snapshot=true
   play filesrc "location=${files[0]}" '!' decodebin '!' videoconvert '!' pngenc snapshot=true '!' \
     filesink "location=$out/left.png"
   compare --disparity "$out/disparity-$mode" --left "$out/left.png" --picture "$out/demo.png" \

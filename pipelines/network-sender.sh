@@ -64,9 +64,9 @@ if [ "$dry_run" = no ]; then
   done
 fi
 
-# The pictures of a camera or a file, at the times at which they are to be sent. A camera gives raw
+# The frames of a camera or a file, at the times at which they are to be sent. A camera gives raw
 # video or MJPEG, whichever it has at this size; decodebin passes raw video through.
-pictures_of() {
+frames_of() {
   local raw=('!' decodebin '!' videoconvert '!' 'video/x-raw,format=I420')
   if [[ $1 == /dev/* ]]; then
     printf '%s\n' v4l2src "device=$1" '!' "video/x-raw,$wanted;image/jpeg,$wanted" "${raw[@]}"
@@ -115,6 +115,6 @@ to_rtp() {
     "${right[@]}" "${encode[@]}" "${right_session[@]}"
 }
 
-mapfile -t left < <(pictures_of "${arguments[0]}")
-mapfile -t right < <(pictures_of "${arguments[1]}")
+mapfile -t left < <(frames_of "${arguments[0]}")
+mapfile -t right < <(frames_of "${arguments[1]}")
 if [[ $to == srt://* ]]; then to_srt; else to_rtp; fi

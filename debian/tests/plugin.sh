@@ -13,4 +13,4 @@ done
 views 1 'm.sink_left' 'm.sink_right mtstereo name=m ! filesink location=map.raw'
 require_8_px map.raw
 views 1 'm.sink_left' 'm.sink_right mtstereo name=m ! mtcolor ! videoconvert ! pngenc ! filesink location=map.png'
-[ "$(head -c 4 map.png | tail -c 3)" = PNG ] || fail "map.png is no picture"
+[ "$(head -c 4 map.png | tail -c 3)" = PNG ] || fail "map.png is no image"

@@ -5,7 +5,7 @@ set -euo pipefail
 # shellcheck source=debian/tests/views.sh
 source "$(dirname "${BASH_SOURCE[0]}")/views.sh"
 
-# Values of a 16-bit picture, in the order of this machine.
+# Values of a 16-bit image, in the order of this machine.
 pixels() {
   gst-launch-1.0 -q filesrc location="$1" ! pngdec ! videoconvert ! video/x-raw,format=GRAY16_LE ! filesink location="$2"
 }

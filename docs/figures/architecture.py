@@ -3,11 +3,11 @@
 """The generated parts of docs/architecture.md: the table of steps and the diagram.
 
   mtstereo-figures --steps | architecture.py table
-  mtstereo-figures --steps | architecture.py picture PICTURE.png
+  mtstereo-figures --steps | architecture.py image IMAGE.png
 
 The program prints the steps and the presets that run them. The memory that each step is given and
 the stages that it calls are read from the files of the steps. The exit status is 1 if the two do not fit
-together or a stage has no test, and if the picture cannot be made.
+together or a stage has no test, and if the image cannot be made.
 """
 import pathlib
 import re
@@ -163,7 +163,7 @@ AFTER = [
 
 
 class Drawing:
-    """A picture in pixels, y downwards."""
+    """An image in pixels, y downwards."""
     WIDTH, DPI = 846, 100
 
     def __init__(self, height):
@@ -226,7 +226,7 @@ def draw_list(drawing, which, steps, x, top):
     return top + 59 + 25 * len(inside)
 
 
-def picture(steps, path):
+def image(steps, path):
     drawing = Drawing(44 + sum(59 if which != "Node" else 0 for which in {step.list for step in steps}) +
                       25 * sum(step.list != "Node" for step in steps))
     drawing.text(16, 24, "The path of a frame", 9.5, weight="bold")
@@ -253,8 +253,8 @@ def picture(steps, path):
 def main(arguments):
     if arguments[:1] == ["table"] and len(arguments) == 1:
         print(table(read_steps(sys.stdin.read())))
-    elif arguments[:1] == ["picture"] and len(arguments) == 2:
-        picture(read_steps(sys.stdin.read()), arguments[1])
+    elif arguments[:1] == ["image"] and len(arguments) == 2:
+        image(read_steps(sys.stdin.read()), arguments[1])
     else:
         print(__doc__, file=sys.stderr)
         return 2

@@ -8,10 +8,10 @@
 namespace mtstereo::figures {
 namespace {
 
-cv::Mat to_color(const cv::Mat& picture) {
-  if (picture.channels() == 3) return picture;
+cv::Mat to_color(const cv::Mat& image) {
+  if (image.channels() == 3) return image;
   cv::Mat color;
-  cv::cvtColor(picture, color, cv::COLOR_GRAY2BGR);
+  cv::cvtColor(image, color, cv::COLOR_GRAY2BGR);
   return color;
 }
 
@@ -26,14 +26,14 @@ cv::Vec3b color_of(int index) {
 }  // namespace
 
 cv::Mat draw_levels(GrayView levels, int gray_levels) {
-  cv::Mat picture(levels.height, levels.width, CV_8UC1);
+  cv::Mat image(levels.height, levels.width, CV_8UC1);
   for (int y = 0; y < levels.height; ++y) {
     for (int x = 0; x < levels.width; ++x) {
-      picture.at<std::uint8_t>(y, x) =
+      image.at<std::uint8_t>(y, x) =
           static_cast<std::uint8_t>(levels.row(y)[x] * 255 / (gray_levels - 1));
     }
   }
-  return picture;
+  return image;
 }
 
 cv::Mat draw_tree(const MaxTrees& trees, int y, int bar_height) {
@@ -48,35 +48,35 @@ cv::Mat draw_tree(const MaxTrees& trees, int y, int bar_height) {
     }
   }
   const int deepest = *std::max_element(depth.begin(), depth.end());
-  cv::Mat picture((deepest + 1) * bar_height, trees.width, CV_8UC3, cv::Scalar::all(255));
+  cv::Mat image((deepest + 1) * bar_height, trees.width, CV_8UC3, cv::Scalar::all(255));
   for (int node = 0; node < count; ++node) {
     const double shade = 220 - 160.0 * depth[node] / std::max(deepest, 1);
     const cv::Scalar color = leaf[node] ? cv::Scalar(40, 40, 210) : cv::Scalar(shade, shade, shade);
     const cv::Rect bar(trees.begin[row + node], depth[node] * bar_height,
                        trees.end[row + node] - trees.begin[row + node] + 1, bar_height - 1);
-    cv::rectangle(picture, bar, color, cv::FILLED);
+    cv::rectangle(image, bar, color, cv::FILLED);
   }
-  return picture;
+  return image;
 }
 
 cv::Mat draw_nodes(const NodeLevel& level, const cv::Mat& gray) {
-  cv::Mat picture = to_color(gray) * 0.4;
+  cv::Mat image = to_color(gray) * 0.4;
   for (int y = 0; y < level.height; ++y) {
     for (int i = 0; i < level.count[y]; ++i) {
       const int begin = level.begin[level.first[y] + i];
       const int end = level.end[level.first[y] + i];
       // Colored by where a node begins, so that neighbors of a shape look alike.
-      for (int x = begin; x <= end; ++x) picture.at<cv::Vec3b>(y, x) = color_of(begin / 4);
+      for (int x = begin; x <= end; ++x) image.at<cv::Vec3b>(y, x) = color_of(begin / 4);
     }
   }
-  return picture;
+  return image;
 }
 
 cv::Mat side_by_side(const cv::Mat& left, const cv::Mat& right) {
   const cv::Mat gap(left.rows, 6, CV_8UC3, cv::Scalar::all(255));
-  cv::Mat picture;
-  cv::hconcat(std::vector<cv::Mat>{to_color(left), gap, to_color(right)}, picture);
-  return picture;
+  cv::Mat image;
+  cv::hconcat(std::vector<cv::Mat>{to_color(left), gap, to_color(right)}, image);
+  return image;
 }
 
 }  // namespace mtstereo::figures

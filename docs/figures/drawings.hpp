@@ -20,7 +20,7 @@ cv::Mat draw_tree(const MaxTrees& trees, int y, int bar_height);
 /// The nodes of a level, each in a color of its own, over the dimmed image.
 cv::Mat draw_nodes(const NodeLevel& level, const cv::Mat& gray);
 
-/// Pictures side by side with a thin gap; gray ones become color.
+/// Images side by side with a thin gap; gray ones become color.
 cv::Mat side_by_side(const cv::Mat& left, const cv::Mat& right);
 
 }  // namespace mtstereo::figures

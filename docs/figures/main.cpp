@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// mtstereo-figures: the pictures of docs/method.md, the table of docs/parameters.md, and the
+// mtstereo-figures: the images of docs/method.md, the table of docs/parameters.md, and the
 // steps for docs/architecture.md.
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -23,8 +23,8 @@
 #include "stages/nodes/node_levels.hpp"
 #include "stages/prepare/max_tree.hpp"
 #include "tools/eval/flicker.hpp"
+#include "tools/eval/images.hpp"
 #include "tools/eval/metrics.hpp"
-#include "tools/eval/pictures.hpp"
 #include "tools/render/render.hpp"
 
 namespace {
@@ -172,11 +172,11 @@ cv::Mat draw_moving_camera() {
   return figures::side_by_side(maps[0], maps[1]);
 }
 
-void draw_pictures(const fs::path& folder) {
+void draw_images(const fs::path& folder) {
   fs::create_directories(folder);
   const render::StereoFrame frame = demo_frame();
-  const auto write = [&](const char* name, const cv::Mat& picture) {
-    eval::write_picture(folder / name, picture);
+  const auto write = [&](const char* name, const cv::Mat& image) {
+    eval::write_image(folder / name, image);
   };
   write("pair.png", figures::side_by_side(frame.left, frame.right));
   write("moving-camera.png", draw_moving_camera());
@@ -290,18 +290,18 @@ void print_steps() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Pictures and tables of docs/");
+  CLI::App app("Images and tables of docs/");
   std::string folder;
   bool table = false;
   bool steps = false;
-  app.add_option("--pictures", folder, "write the pictures of every stage into this folder");
+  app.add_option("--images", folder, "write the images of every stage into this folder");
   app.add_flag("--parameters", table, "print the parameter table in Markdown");
   app.add_flag("--steps", steps, "print all steps, each with the presets and modes that run it");
   CLI11_PARSE(app, argc, argv);
   try {
     if (table) print_table();
     if (steps) print_steps();
-    if (!folder.empty()) draw_pictures(folder);
+    if (!folder.empty()) draw_images(folder);
   } catch (const std::exception& exception) {
     std::fprintf(stderr, "mtstereo-figures: %s\n", exception.what());
     return 1;

@@ -13,7 +13,7 @@ from mkdocs.structure.nav import Link
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 INDEX = "docs/README.md"
 OTHER_PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "tests/README.md")
-# What pages link to besides pages and pictures; a link to another file is an error.
+# What pages link to besides pages and images; a link to another file is an error.
 LINKED_FILES = ("COPYING", "pipelines/demo.sh", "tests/abi/libmtstereo.abi")
 DOXYGEN = shutil.which("doxygen")
 log = logging.getLogger("mkdocs.site")
@@ -57,7 +57,7 @@ def on_config(config):
 
 
 def on_files(files, config):
-    """Pages and pictures at their paths in the tree, and the files of the theme."""
+    """Pages and images at their paths in the tree, and the files of the theme."""
     docs = ROOT / "docs"
     of_docs = [pathlib.Path(file.src_uri) for file in files if (docs / file.src_uri).is_file()]
     of_theme = [file for file in files if not (docs / file.src_uri).is_file()]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Thin things in rendered scenes: how many are found, and what is wrong around them. With --table,
-// the program measures all kinds and prints the table of docs/evaluation.md.
+// Thin structures in rendered scenes: how many are found, and what is wrong around them. With
+// --table, the program measures all kinds and prints the table of docs/evaluation.md.
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "element_matcher.hpp"
-#include "tools/eval/thin_things.hpp"
+#include "tools/eval/thin_structures.hpp"
 #include "tools/render/render.hpp"
 #include "tools/render/scene.hpp"
 

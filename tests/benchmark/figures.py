@@ -20,7 +20,7 @@ from results import Result
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
-PICTURE = "benchmark-growth.png"
+IMAGE = "benchmark-growth.png"
 PLOTTER = SOURCE / "pipelines/tools/eval/plot.py"
 
 
@@ -47,7 +47,7 @@ def measure(build, result, element_result):
         run(element, f"--benchmark_out={element_result}", GST_PLUGIN_PATH=plugins)
 
 
-def draw_growth(result, picture):
+def draw_growth(result, image):
     panels = tables.growth_panels(result)
     if not panels:
         return
@@ -55,12 +55,12 @@ def draw_growth(result, picture):
         plot = pathlib.Path(folder) / "plot.json"
         plot.write_text(json.dumps({"title": tables.GROWTH_TITLE, "panels": panels}),
                         encoding="utf-8")
-        run(PLOTTER, "growth", plot, picture)
+        run(PLOTTER, "growth", plot, image)
 
 
-def section(result, element_result, picture):
+def section(result, element_result, image):
     parts = [tables.machine(result, element_result), tables.frames(result), tables.stages(result),
-             tables.targets(result), tables.growth(result, picture), tables.memory(result)]
+             tables.targets(result), tables.growth(result, image), tables.memory(result)]
     if element_result:
         parts.append(tables.element(element_result))
     return "\n\n".join(part for part in parts if part)
@@ -87,14 +87,14 @@ def update(options):
     result = Result(result_file)
     has_element = options.element_result or element_file.exists()
     element_result = Result(element_file) if has_element else None
-    picture = options.page.parent / "images" / PICTURE
+    image = options.page.parent / "images" / IMAGE
     try:
-        text = section(result, element_result, f"images/{PICTURE}")
+        text = section(result, element_result, f"images/{IMAGE}")
         doubts = tables.doubts(result)
     except (ValueError, KeyError, IndexError, TypeError, ArithmeticError) as error:
         raise InputError(f"{result_file} or {element_file}: lacks figures that the current "
                          f"programs write: {error!r}") from error
-    draw_growth(result, picture)
+    draw_growth(result, image)
     options.page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{after}", encoding="utf-8")
     for panel in tables.growth_panels(result):
         print(f"time over {panel['x']}: {panel['caption']}")

@@ -66,8 +66,8 @@ class Figures(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.build = pathlib.Path(folder.name) / "build"
         self.page = pathlib.Path(folder.name) / "docs/benchmark.md"
-        self.picture = self.page.parent / "images/benchmark-growth.png"
-        self.picture.parent.mkdir(parents=True)
+        self.image = self.page.parent / "images/benchmark-growth.png"
+        self.image.parent.mkdir(parents=True)
         self.page.write_text(PAGE, encoding="utf-8")
         self.build.mkdir()
 
@@ -147,7 +147,7 @@ class Page(Figures):
         text = self.figures_of(FRAMES)
         for heading in ("Stages", "SIMD", "Growth", "Memory", "Element"):
             self.assertNotIn(f"### {heading}", text)
-        self.assertFalse(self.picture.exists())
+        self.assertFalse(self.image.exists())
 
     def test_repetitions_without_aggregates_give_their_median(self):
         name = "target/street-640x480-64/AVX2/real_time"
@@ -169,17 +169,17 @@ class Growth(Figures):
         self.assertIn("Exponent over disparities: 0.50.", text)
         self.assertIn("time over pixels [MP]: 64 disparities, exponent 1.00", self.said.stdout)
 
-    def test_picture_has_both_panels(self):
+    def test_image_has_both_panels(self):
         text = self.figures_of(GROWTH)
         self.assertIn("(images/benchmark-growth.png)", text)
-        data = self.picture.read_bytes()
+        data = self.image.read_bytes()
         self.assertEqual(b"\x89PNG", data[:4])
         self.assertEqual((1200, 420), struct.unpack(">II", data[16:24]))
         self.assertGreater(len(data), 5000)
         script = ("import sys, matplotlib.image; pixels = (matplotlib.image.imread(sys.argv[1])"
                   "[..., :3] * 255).round().astype(int).reshape(-1, 3).tolist(); "
                   "print(pixels.count([210, 40, 40]), pixels.count([150, 150, 150]))")
-        done = subprocess.run(["/usr/bin/python3", "-c", script, self.picture], check=True,
+        done = subprocess.run(["/usr/bin/python3", "-c", script, self.image], check=True,
                               capture_output=True, text=True, timeout=60)
         measured, proportional = map(int, done.stdout.split())
         self.assertGreater(measured, 300)
@@ -191,14 +191,14 @@ class Growth(Figures):
         with unittest.mock.patch.dict(os.environ, PYTHONPATH=str(self.build)):
             self.expect_rejection(1, "python3-matplotlib", "--no-run")
         self.assertEqual(PAGE, self.page.read_text(encoding="utf-8"))
-        self.assertFalse(self.picture.exists())
+        self.assertFalse(self.image.exists())
 
     def test_one_point_is_not_a_growth_plot(self):
         self.assertNotIn("Growth", self.figures_of(GROWTH[:3]))
 
     def test_one_variable_is_one_panel(self):
         self.figures_of(GROWTH[:6])
-        self.assertEqual((600, 420), struct.unpack(">II", self.picture.read_bytes()[16:24]))
+        self.assertEqual((600, 420), struct.unpack(">II", self.image.read_bytes()[16:24]))
 
     def test_invalid_plots_are_rejected_by_name(self):
         panel = {"x": "x", "y": "y", "caption": "c", "points": [[1, 1], [2, 2]]}
@@ -212,12 +212,12 @@ class Growth(Figures):
             with self.subTest(plot):
                 file = self.build / "plot.json"
                 file.write_text(plot if isinstance(plot, str) else json.dumps(plot))
-                done = subprocess.run([PLOTTER, "growth", file, self.picture], check=False,
+                done = subprocess.run([PLOTTER, "growth", file, self.image], check=False,
                                       capture_output=True, text=True, timeout=60)
                 self.assertEqual(2, done.returncode, done.stderr)
                 self.assertIn("plot.json: ", done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
-                self.assertFalse(self.picture.exists())
+                self.assertFalse(self.image.exists())
 
 
 class Rejections(Figures):

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "tools/eval/rivals.hpp"
+#include "tools/eval/opencv_matchers.hpp"
 
 namespace mtstereo::bench {
 namespace {
@@ -42,8 +42,9 @@ std::vector<eval::TableRow> frame_table(const std::vector<FrameTiming>& timings)
                     fixed(timing.seconds * 1e3, 1), fixed(timing.seconds_per_megapixel, 3),
                     fixed(1 / timing.seconds, 1), fixed(timing.density * 100, 1),
                     fixed(seconds_of(timings, of.frame, of.method, 1) / timing.seconds, 2),
-                    ratio_to(kDefaultMethod), ratio_to(eval::rival_name(eval::Rival::kSgbm3Way)),
-                    ratio_to(eval::rival_name(eval::Rival::kBm))});
+                    ratio_to(kDefaultMethod),
+                    ratio_to(eval::opencv_name(eval::OpenCvMethod::kSgbm3Way)),
+                    ratio_to(eval::opencv_name(eval::OpenCvMethod::kBm))});
   }
   return rows;
 }

@@ -141,11 +141,11 @@ def growth_panels(result):
     return panels
 
 
-def growth(result, picture):
+def growth(result, image):
     if not growth_panels(result):
         return ""
     parts = ["### Growth with pixels and disparities",
-             f"![Time over pixels and over disparities]({picture})",
+             f"![Time over pixels and over disparities]({image})",
              "Rendered street, `semi-dense`, 1 thread. The exponent is the slope of a line fitted "
              "to the logarithms: 1 is proportional growth, less is better."]
     for what, head in (("pixels", "frame"), ("disparities", "disparities")):

@@ -9,7 +9,7 @@
 #include "frame_timing.hpp"
 #include "guarded.hpp"
 #include "outcome.hpp"
-#include "tools/eval/rivals.hpp"
+#include "tools/eval/opencv_matchers.hpp"
 
 namespace mtstereo::bench {
 namespace {
@@ -28,11 +28,13 @@ constexpr FrameVariant kVariants[] = {
     {{"full", "default", "full"}, true},
     {{"paper", "paper", "semi-dense"}, false},
 };
-constexpr eval::Rival kRivals[] = {eval::Rival::kSgbm, eval::Rival::kSgbm3Way, eval::Rival::kBm};
+constexpr eval::OpenCvMethod kOpenCvMethods[] = {
+    eval::OpenCvMethod::kSgbm, eval::OpenCvMethod::kSgbm3Way, eval::OpenCvMethod::kBm};
 
-void time_rival(benchmark::State& state, eval::Rival rival, const Frame& frame, int threads) {
+void time_opencv(benchmark::State& state, eval::OpenCvMethod method, const Frame& frame,
+                 int threads) {
   const OpenCvThreads opencv_threads(threads);
-  eval::RivalMatcher matcher(rival, frame.disparities());
+  eval::OpenCvMatcher matcher(method, frame.disparities());
   const Pair& pair = frame.images();
   matcher.compute(pair.left, pair.right);
   for ([[maybe_unused]] auto _ : state) matcher.compute(pair.left, pair.right);
@@ -71,9 +73,9 @@ void register_whole_frames(const std::vector<FramePointer>& all, Summary& summar
         if (!variant.on_all_frames && frame != main_frame(all)) continue;
         if (has_preset(variant.of.preset)) add_library(frame, variant.of, threads, summary);
       }
-      for (const eval::Rival rival : kRivals) {
-        add(frame, std::string(eval::rival_name(rival)), threads, summary,
-            [=](benchmark::State& state) { time_rival(state, rival, *frame, threads); });
+      for (const eval::OpenCvMethod method : kOpenCvMethods) {
+        add(frame, std::string(eval::opencv_name(method)), threads, summary,
+            [=](benchmark::State& state) { time_opencv(state, method, *frame, threads); });
       }
     }
   }

@@ -175,9 +175,9 @@ class Examples(Installation):
                                   program, *flags], FOLDER))
         return program
 
-    def pixels(self, picture):
-        """The values of a 16-bit picture."""
-        require(self.use("gst-launch-1.0", "-q", "filesrc", f"location={picture}", "!", "pngdec", "!", "filesink",
+    def pixels(self, image):
+        """The values of a 16-bit image."""
+        require(self.use("gst-launch-1.0", "-q", "filesrc", f"location={image}", "!", "pngdec", "!", "filesink",
                          "location=pixels"))
         return (FOLDER / "pixels").read_bytes()
 

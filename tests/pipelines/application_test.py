@@ -18,7 +18,7 @@ FOCAL_TIMES_BASELINE = 13.6  # of the rendered room at 160 px [px m]
 
 # Appended to the program that reads results: every format gives the same.
 CHECK_OF_RESULTS = """
-assert np.array_equal(values, read_frames("pictures/disparity/%06d.png"))
+assert np.array_equal(values, read_frames("images/disparity/%06d.png"))
 floats = np.stack([read_pfm(f"floats/disparity/{n:06d}.pfm") for n in range(len(values))])
 assert np.array_equal(np.where(np.isinf(floats), np.nan, floats), disparity.astype("f4"), equal_nan=True)
 meters = np.stack([read_pfm(f"floats/depth/{n:06d}.pfm") for n in range(len(values))])
@@ -26,7 +26,7 @@ known = (depth > 0) & np.isfinite(meters)
 assert known.any() and np.abs(depth - meters)[known].max() < 0.0006
 assert np.array_equal(confidence > 0, values > 0)
 assert views.shape == (*values.shape, 3) and views.std() > 10
-assert np.array_equal(views, read_frames("pictures/rectified-left/%06d.png", "bgr24"))
+assert np.array_equal(views, read_frames("images/rectified-left/%06d.png", "bgr24"))
 print("all formats are equal")
 """
 
@@ -89,7 +89,7 @@ class Application(unittest.TestCase):
         if not shutil.which("ffmpeg"):
             self.skipTest("ffmpeg is not installed")
         (self.folder / "stereo.yaml").write_text(CALIBRATION)
-        for out, form in (("result", "mkv"), ("pictures", "png"), ("floats", "pfm")):
+        for out, form in (("result", "mkv"), ("images", "png"), ("floats", "pfm")):
             require(run([BUILD / "pipelines/programs/run/mtstereo-run", "left.mp4", "right.mp4", "--calibration",
                          "stereo.yaml", "--what", "disparity,depth,confidence,rectified", "--format", form, "--out",
                          out], self.folder))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""mtstereo-compare: its figures on synthetic maps, its picture, and invalid input."""
+"""mtstereo-compare: its figures on synthetic maps, its image, and invalid input."""
 import pathlib
 import struct
 import tempfile
@@ -85,14 +85,14 @@ class Compare(unittest.TestCase):
             write_pfm(self.folder / f"t/{name}.pfm", [[10.0] * 7 + [infinite]] * HEIGHT)
         self.assertEqual(self.figures()[2:4], ["2.500", "50.00"])
 
-    def test_picture_shows_left_disparity_and_truth(self):
+    def test_image_shows_left_disparity_and_truth(self):
         write_png(self.folder / "l/000000.png", everywhere(100), 8)
         write_png(self.folder / "l/000001.png", everywhere(100), 8)
         self.figures("--left", "l", "--picture", "new/p.png", "--frame", "1")
         data = (self.folder / "new/p.png").read_bytes()
         self.assertEqual(struct.unpack(">II", data[16:24]), (3 * WIDTH, HEIGHT))
 
-    def test_picture_can_be_scaled_down(self):
+    def test_image_can_be_scaled_down(self):
         done = self.compare("--disparity", "d", "--picture", "p.png", "--width", "4")
         self.assertEqual(done.status, 0, str(done))
         data = (self.folder / "p.png").read_bytes()
@@ -115,8 +115,8 @@ class Compare(unittest.TestCase):
         write_pfm(self.folder / "t/000001.pfm", [[10.0] * 3] * 3)
         self.assert_rejects(self.compare("--disparity", "d", "--truth", "t"), "000001.pfm")
 
-    def test_corrupt_picture_is_named(self):
-        (self.folder / "d/000001.png").write_bytes(b"no picture")
+    def test_corrupt_image_is_named(self):
+        (self.folder / "d/000001.png").write_bytes(b"no image")
         self.assert_rejects(self.compare("--disparity", "d", "--truth", "t"), "000001.png")
 
     def test_corrupt_truth_is_named(self):
@@ -135,7 +135,7 @@ class Compare(unittest.TestCase):
         done = self.compare("--disparity", "d", "--picture", "p.png", "--frame", "2")
         self.assert_rejects(done, "frame 2")
 
-    def test_unwritable_picture_is_named(self):
+    def test_unwritable_image_is_named(self):
         done = self.compare("--disparity", "d", "--picture", "/dev/null/p.png")
         self.assert_rejects(done, "/dev/null")
 
@@ -158,7 +158,7 @@ class Compare(unittest.TestCase):
         write_pfm(self.folder / "z/000000.pfm", [[4.0] * 3] * 3)
         self.assert_rejects(self.compare("--depth", "e", "--true-depth", "z"), "another size")
 
-    def test_depths_need_pictures_of_16_bits_and_their_truth(self):
+    def test_depths_need_images_of_16_bits_and_their_truth(self):
         self.write_depths()
         write_png(self.folder / "e/000000.png", everywhere(40), 8)
         self.assert_rejects(self.compare("--depth", "e", "--true-depth", "z"), "16 bits")

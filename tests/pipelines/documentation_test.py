@@ -5,7 +5,7 @@ with PARTS above 1 only those of every PARTS-th document, beginning with number 
 
 The commands are the lines of ```sh blocks. Each document runs in its own folder, which contains the
 files that its examples name. Only hardware that a test machine lacks is replaced: the screen by a
-fakesink and cameras by test pictures. For commands after "# needs a sender" and "# needs a receiver",
+fakesink and cameras by test images. For commands after "# needs a sender" and "# needs a receiver",
 the other end is started on the loopback network.
 """
 import pathlib
@@ -80,12 +80,12 @@ def make_data_sets(folder):
     shutil.rmtree(folder / "estimate")
     scene = "35mm_focallength/scene_forwards/fast"
     for side in ("left", "right"):
-        pictures = folder / "driving/frames_cleanpass" / scene / side
-        pictures.mkdir(parents=True)
+        images = folder / "driving/frames_cleanpass" / scene / side
+        images.mkdir(parents=True)
         truth = folder / "driving/disparity" / scene / side
         truth.mkdir(parents=True)
         for n in range(2):
-            shutil.copy(folder / side / f"{n:06d}.png", pictures / f"{n + 1:04d}.png")
+            shutil.copy(folder / side / f"{n:06d}.png", images / f"{n + 1:04d}.png")
             shutil.copy(folder / f"clip/truth/{n:06d}.pfm", truth / f"{n + 1:04d}.pfm")
 
 
@@ -121,7 +121,7 @@ def headless(text):
 
 
 def without_camera(text):
-    """Test pictures instead of cameras, as JPEG if the camera is asked for it."""
+    """Test images instead of cameras, as JPEG if the camera is asked for it."""
     if text.startswith("mtcalibrate "):
         for side in ("left", "right"):
             text = re.sub(rf"--{side} /dev/video\d+", f"--{side} camera-boards/{side}", text)

@@ -86,7 +86,7 @@ class Rig:
         self.left = turn(0.008, -0.012, 0.006)  # from the rig's axes to those of the camera
         self.right = transposed(self.left)
 
-    def picture(self, left, distance, cell, texture):
+    def image(self, left, distance, cell, texture):
         camera, start = (self.left, 0.0) if left else (self.right, BASELINE)
         back = transposed(camera)
         pixels = bytearray()
@@ -142,7 +142,7 @@ class Lenses(unittest.TestCase):
         """What the elements make of a wall, in meters, without pixels that have no depth."""
         texture = noise()
         for side in ("left", "right"):
-            (self.folder / side).write_bytes(rig.picture(side == "left", distance, cell, texture))
+            (self.folder / side).write_bytes(rig.image(side == "left", distance, cell, texture))
         (self.folder / "rig.yml").write_text(rig.calibration())
         read = f"rawvideoparse format=gray8 width={rig.width} height={rig.height}"
         require(launch(

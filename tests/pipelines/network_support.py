@@ -5,7 +5,7 @@ import time
 
 from support import PIPELINES, SLOW, free_port, open_udp_ports, start, stop
 
-# A connection that ends loses the last pictures, as long as the latency, and the clips are short [ms].
+# A connection that ends loses the last frames, as long as the latency, and the clips are short [ms].
 LATENCY = 40
 
 
@@ -81,7 +81,7 @@ def exchange(receiver, sender, port, receiver_waits, folder):
     return process.returncode == 0 and maps > 0, f"{output}{errors}\nlast sender:\n{log}"
 
 
-# A connection of a short clip can end before the first picture is received, more often with sanitizers.
+# A connection of a short clip can end before the first frame is received, more often with sanitizers.
 ATTEMPTS = 3 if SLOW == 1 else 10
 
 

@@ -156,8 +156,8 @@ class Pairs(unittest.TestCase):
         self.check(srt + rtp + [Case("rtp", (0, 100), (0, 100), share) for share in loss])
 
     @unittest.skipUnless(MEASURE, "MTSTEREO_NETWORK=1 measures more networks")
-    def test_short_latency_loses_pictures(self):
-        # The demultiplexer can correct its times at the first gap: between two pictures of a pair.
+    def test_short_latency_loses_frames(self):
+        # The demultiplexer can correct its times at the first gap: between two frames of a pair.
         short = ("--latency", "40")
         self.check([Case("srt", (0, 0), both=short), Case("srt", (30, 30), both=short),
                     Case("srt", (100, 100), both=short), Case("srt", (30, 30), loss=0.1, both=short)],
@@ -186,7 +186,7 @@ class Use(ClipTest):
                                f"srt://127.0.0.1:{free_port()}")
         self.assert_rejects(sent, "Failed to write to SRT socket", 1)
 
-    def test_connection_without_pictures_ends_the_receiver(self):
+    def test_connection_without_frames_ends_the_receiver(self):
         port = free_port()  # the clip is shorter than the latency
         receiver = start([PIPELINES / "from-network.sh", f"srt://:{port}", "--sink", "fakesink",
                           "--latency", "2000"], self.folder)

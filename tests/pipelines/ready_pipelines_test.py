@@ -16,7 +16,7 @@ HEADLESS = ("--sink", "fakesink")
 
 class ReadyPipelines(ClipTest):
     def compare(self, disparity):
-        """avgerr [px], D-all [%] and density [%] of a folder of disparity pictures."""
+        """avgerr [px], D-all [%] and density [%] of a folder of disparity images."""
         done = require(run([COMPARE, "--disparity", disparity, "--truth", "clip/truth"],
                            self.folder))
         return [float(word) for word in done.output.split()[2:5]]
@@ -155,7 +155,7 @@ class ReadyPipelines(ClipTest):
                       "width=320,height=240,framerate=15/1"):
             self.assertIn(words, done.output)
 
-    def test_camera_pipelines_run_on_test_pictures(self):
+    def test_camera_pipelines_run_on_test_images(self):
         for words in (["from-cameras.sh", "/dev/video0", "/dev/video2"],
                       ["from-side-by-side.sh", "/dev/video0", "--size", "640x240"]):
             done = self.run_script(*words, "--sink", "fakesink num-buffers=3", "--dry-run")

@@ -13,7 +13,7 @@ namespace mtstereo::plugin {
 
 /// The distance from a border up to which disparities are removed [px]: the border is in the
 /// neighborhood by which they were found. In textured pairs with borders, 0.1 % or less of the
-/// answers farther away are wrong because of it; of those within the distance it is up to 20 %.
+/// disparities farther away are wrong because of it; of those within the distance it is up to 20 %.
 inline int border_margin(Preset preset) { return preset == Preset::kPaper ? 8 : 5; }
 
 /// The columns without the pixels that are at most `margin` from a border, in their row or another

@@ -139,7 +139,7 @@ std::string extension_of(const fs::path& file) {
   return extension;
 }
 
-bool is_picture(const fs::path& file) {
+bool is_image(const fs::path& file) {
   constexpr std::array<std::string_view, 10> kKnown{".png", ".jpg", ".jpeg", ".tif", ".tiff",
                                                     ".bmp", ".pgm", ".ppm",  ".pnm", ".webp"};
   return has_extension(file, kKnown);
@@ -156,8 +156,8 @@ std::vector<fs::path> files_in(const fs::path& folder) { return entries_of(folde
 
 std::vector<fs::path> folders_in(const fs::path& folder) { return entries_of(folder, is_folder); }
 
-std::vector<fs::path> pictures_in(const fs::path& folder) {
-  return entries_of(folder, [](const fs::path& path) { return is_picture(path) && is_file(path); });
+std::vector<fs::path> images_in(const fs::path& folder) {
+  return entries_of(folder, [](const fs::path& path) { return is_image(path) && is_file(path); });
 }
 
 bool is_pattern(const std::string& path) {

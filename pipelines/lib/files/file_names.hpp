@@ -13,8 +13,8 @@ bool numbered_less(std::string_view a, std::string_view b);
 
 /// The extension in lower case, with its dot.
 std::string extension_of(const std::filesystem::path& file);
-/// By its extension: a picture that OpenCV reads.
-bool is_picture(const std::filesystem::path& file);
+/// By its extension: an image that OpenCV reads.
+bool is_image(const std::filesystem::path& file);
 /// By its extension: a container with video.
 bool is_video(const std::filesystem::path& file);
 
@@ -22,8 +22,8 @@ bool is_video(const std::filesystem::path& file);
 /// if it cannot be read.
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> folders_in(const std::filesystem::path& folder);
-/// The pictures in a folder in the order of numbered files.
-std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);
+/// The images in a folder in the order of numbered files.
+std::vector<std::filesystem::path> images_in(const std::filesystem::path& folder);
 
 /// Whether a path is a pattern of files: with a number, such as left/%04d.png, or of a shell, such
 /// as left/*.png.

@@ -97,20 +97,20 @@ std::vector<cv::Rect2d> black_rectangles(const BoardOptions& options) {
   return result;
 }
 
-cv::Mat board_picture(const BoardOptions& options, int scale, double border) {
+cv::Mat board_image(const BoardOptions& options, int scale, double border) {
   const double pixels = scale / options.square;  // per meter
   const int margin = static_cast<int>(std::lround(border * scale));
-  cv::Mat picture(options.rows * scale + 2 * margin, options.columns * scale + 2 * margin, CV_8UC1,
-                  cv::Scalar(255));
+  cv::Mat image(options.rows * scale + 2 * margin, options.columns * scale + 2 * margin, CV_8UC1,
+                cv::Scalar(255));
   for (const cv::Rect2d& black : black_rectangles(options)) {
     const cv::Point from(static_cast<int>(std::lround(black.x * pixels)),
                          static_cast<int>(std::lround(black.y * pixels)));
     const cv::Point to(static_cast<int>(std::lround((black.x + black.width) * pixels)),
                        static_cast<int>(std::lround((black.y + black.height) * pixels)));
     const cv::Point shift(margin, margin);
-    picture(cv::Rect(from + shift, to + shift)).setTo(0);
+    image(cv::Rect(from + shift, to + shift)).setTo(0);
   }
-  return picture;
+  return image;
 }
 
 }  // namespace mtstereo::calibrate

@@ -23,8 +23,8 @@ std::vector<Eigen::Vector3d> corner_points(const BoardOptions& options);
 /// What is black on the board [m].
 std::vector<cv::Rect2d> black_rectangles(const BoardOptions& options);
 
-/// The board as a gray picture, for renderers and tests: `scale` pixels per square and `border`
+/// The board as a gray image, for renderers and tests: `scale` pixels per square and `border`
 /// squares of white on each side.
-cv::Mat board_picture(const BoardOptions& options, int scale, double border = 1);
+cv::Mat board_image(const BoardOptions& options, int scale, double border = 1);
 
 }  // namespace mtstereo::calibrate

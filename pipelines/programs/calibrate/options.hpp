@@ -26,7 +26,7 @@ struct Options {
   bool overwrite = false;
   int most_views = 40;   ///< of video
   double give_up = 120;  ///< without a new view of live video [s]; 0 = never
-  bool stills = false;   ///< each frame of the video is a picture of a board at rest
+  bool stills = false;   ///< each frame of the video shows a board at rest
   bool strict = false;
   std::filesystem::path board_file;  ///< write the board instead
   std::string paper = "A4";

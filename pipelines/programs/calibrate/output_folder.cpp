@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lib/outputs/user_error.hpp"
-#include "programs/calibrate/pictures.hpp"
+#include "programs/calibrate/drawings.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -76,8 +76,8 @@ void OutputFolder::swap_sides() {
   }
 }
 
-void OutputFolder::write_picture(const std::string& name, const cv::Mat& picture) {
-  if (!picture.empty()) files_.write(name, encoded(name, picture));
+void OutputFolder::write_image(const std::string& name, const cv::Mat& image) {
+  if (!image.empty()) files_.write(name, encoded(name, image));
 }
 
 void OutputFolder::write_text(const std::string& name, const std::string& text) {

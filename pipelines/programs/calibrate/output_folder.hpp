@@ -12,7 +12,7 @@
 namespace mtstereo::calibrate {
 
 /// The folder of the results: calibration.yml, report.json, the views that were taken as files
-/// that can be calibrated again (left/, right/), and pictures.
+/// that can be calibrated again (left/, right/), and images.
 class OutputFolder {
  public:
   /// Creates and locks the folder. Throws UserError if there is a calibration already and
@@ -21,15 +21,15 @@ class OutputFolder {
   OutputFolder(std::filesystem::path folder, bool overwrite,
                const std::vector<std::filesystem::path>& inputs);
 
-  /// Writes both images of a view, and a picture of them with their corners.
+  /// Writes both images of a view, and one image of both with their corners.
   void write_view(std::size_t index, const ImagePair& images, const CornerPair& corners);
   /// Reads the image of a view.
   cv::Mat view(std::size_t index, bool left) const;
   /// left/ and right/ change their names: the sources were given in the wrong order.
   void swap_sides();
 
-  /// Writes a picture, unless it is empty.
-  void write_picture(const std::string& name, const cv::Mat& picture);
+  /// Writes an image, unless it is empty.
+  void write_image(const std::string& name, const cv::Mat& image);
   void write_text(const std::string& name, const std::string& text);
   /// The file of the calibration, which is about to be written.
   std::filesystem::path calibration();

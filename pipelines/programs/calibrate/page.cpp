@@ -176,19 +176,19 @@ std::string png_of(const Page& page, double pixels_per_mm) {
   const auto per_meter = static_cast<std::uint32_t>(std::lround(1000 * pixels_per_mm));
   const double scale = per_meter / 1000.0;
   const auto pixel = [&](double mm) { return static_cast<int>(std::lround(mm * scale)); };
-  cv::Mat picture(pixel(page.height), pixel(page.width), CV_8UC1, cv::Scalar(255));
+  cv::Mat image(pixel(page.height), pixel(page.width), CV_8UC1, cv::Scalar(255));
   for (const cv::Rect2d& each : page.black) {
     const cv::Point from(pixel(each.x), pixel(each.y));
     const cv::Point to(pixel(each.x + each.width), pixel(each.y + each.height));
-    picture(cv::Rect(from, to) & cv::Rect({}, picture.size())).setTo(0);
+    image(cv::Rect(from, to) & cv::Rect({}, image.size())).setTo(0);
   }
   for (const PageText& each : page.texts) {
     // The simplex font is 21 px high at scale 1, and a third wider than Helvetica.
-    cv::putText(picture, each.text, {pixel(each.x), pixel(each.y)}, cv::FONT_HERSHEY_SIMPLEX,
+    cv::putText(image, each.text, {pixel(each.x), pixel(each.y)}, cv::FONT_HERSHEY_SIMPLEX,
                 each.size * scale / 36, cv::Scalar(0), std::max(1, pixel(0.15)), cv::LINE_AA);
   }
   std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", picture, bytes);
+  cv::imencode(".png", image, bytes);
   constexpr std::size_t kAfterHeader = 8 + 25;  // signature, IHDR
   const auto begin = bytes.begin();
   const auto middle = begin + static_cast<std::ptrdiff_t>(kAfterHeader);

@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "lib/outputs/user_error.hpp"
-#include "programs/calibrate/pictures.hpp"
+#include "programs/calibrate/drawings.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -96,7 +96,7 @@ void Session::check_sizes(const ImagePair& images) {
   if (!choice_) {
     left_size_ = images.left.size();
     right_size_ = images.right.size();
-    const bool stills = options_.stills || is_pictures(options_.source.left);
+    const bool stills = options_.stills || is_images(options_.source.left);
     choice_.emplace(options_.board, left_size_, right_size_,
                     stills ? Choice::kStills : Choice::kVideo);
   }
@@ -120,7 +120,7 @@ void Session::take(const ImagePair& images, bool video) {
     names_.push_back(images.name);
     last_view_ = Clock::now();
     if (status_ != nullptr) *status_ << "\r\033[K" << std::flush;
-    // Of finished pictures, nobody holds the board any more.
+    // Of stored images, nobody holds the board any more.
     const std::string missing = choice_->coverage().missing();
     const std::string next = missing.empty() ? "; all is covered"
                              : video         ? "; next, " + missing
@@ -170,11 +170,11 @@ int Session::finish(bool video) {
   report.names = names_;
   report.date = today();
   const std::size_t shown = calibrated.solution.indices[calibrated.solution.indices.size() / 2];
-  folder_.write_picture("rectified.png", draw_rectified(calibrated, folder_.view(shown, true),
-                                                        folder_.view(shown, false)));
-  folder_.write_picture("coverage.png",
-                        draw_coverage(choice_->coverage(), views_, left_size_, right_size_));
-  folder_.write_picture("residuals.png", draw_residuals(calibrated.solution));
+  folder_.write_image("rectified.png", draw_rectified(calibrated, folder_.view(shown, true),
+                                                      folder_.view(shown, false)));
+  folder_.write_image("coverage.png",
+                      draw_coverage(choice_->coverage(), views_, left_size_, right_size_));
+  folder_.write_image("residuals.png", draw_residuals(calibrated.solution));
   folder_.write_text("report.json", json_of(report));
   StereoCalibration file = calibration_of(calibrated.solution.rig);
   file.format = "mtstereo";

@@ -13,7 +13,7 @@ namespace mtstereo::calibrate {
 struct ImagePair {
   cv::Mat left;      ///< CV_8UC1
   cv::Mat right;     ///< CV_8UC1
-  double time = 0;   ///< of the left image in its stream [s]; pictures count up
+  double time = 0;   ///< of the left image in its stream [s]; images count up
   std::string name;  ///< for messages: a file's name, or a time
 };
 
@@ -32,7 +32,7 @@ enum class Pairing {
 
 struct SourceOptions {
   /// Of each side; the second one is empty if both come from one source. A device (/dev/video0), a
-  /// video file, a folder of pictures, a pattern of pictures (left/%04d.png, left/*.png), a URI, or
+  /// video file, a folder of images, a pattern of images (left/%04d.png, left/*.png), a URI, or
   /// a part of a gst-launch line whose end gives video.
   std::string left, right;
   Arrangement arrangement = Arrangement::kTwoSources;
@@ -60,7 +60,7 @@ class PairSource {
   /// Waits for the next pair, but only for a part of a second. Throws UserError, which
   /// names the source, if it fails or does not deliver.
   virtual SourceState next(ImagePair& pair) = 0;
-  /// Pictures, not video.
+  /// Images, not video.
   virtual bool stills() const = 0;
   /// It never ends, and frames that are not taken are lost.
   virtual bool live() const { return false; }
@@ -69,17 +69,17 @@ class PairSource {
 /// Opens a source. Throws UserError.
 std::unique_ptr<PairSource> open_source(const SourceOptions& options);
 
-/// The files of a source: pictures, or a video; none for others. Throws UserError if a file
+/// The files of a source: images, or a video; none for others. Throws UserError if a file
 /// or folder does not exist, or never ends.
 std::vector<std::filesystem::path> input_files(const SourceOptions& options);
 
-/// Whether a source is a folder, a pattern or a file of pictures.
-bool is_pictures(const std::string& source);
+/// Whether a source is a folder, a pattern or a file of images.
+bool is_images(const std::string& source);
 
 /// Both halves of an image. Throws UserError if it cannot be halved.
 void split(const cv::Mat& image, Arrangement arrangement, ImagePair& pair);
 
-std::unique_ptr<PairSource> open_pictures(const SourceOptions& options);
+std::unique_ptr<PairSource> open_images(const SourceOptions& options);
 std::unique_ptr<PairSource> open_streams(const SourceOptions& options);
 
 }  // namespace mtstereo::calibrate

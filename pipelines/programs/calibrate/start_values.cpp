@@ -20,7 +20,7 @@ constexpr double kLongestFocal = 9;
 constexpr double kFocalStep = 1.25;
 constexpr std::size_t kViewsOfSearch = 12;
 constexpr std::size_t kStarts = 4;  // focal lengths that an adjustment starts from
-// Rays farther from the axis than this are of no use for a pose by a plane's image.
+// Rays farther from the axis than this are useless for a pose by a plane's image.
 constexpr double kSmallestCosine = 0.25;
 constexpr double kLooseScale = 3;  // of the first robust adjustments [px]
 

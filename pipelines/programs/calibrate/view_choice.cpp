@@ -9,7 +9,7 @@ namespace mtstereo::calibrate {
 namespace {
 
 constexpr double kDifference = 0.2;         // of placements, in video
-constexpr double kRepetition = 0.02;        // of placements, in pictures
+constexpr double kRepetition = 0.02;        // of placements, in images
 constexpr double kStillSpeed = 0.04;        // of the diagonal of the image, per second
 constexpr double kStillDistance = 0.01;     // of the diagonal, between two images
 constexpr double kShortestStep = 1.0 / 60;  // [s]; corners jitter even if nothing moves

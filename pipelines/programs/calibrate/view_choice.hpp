@@ -18,7 +18,7 @@ enum class Verdict {
 /// How views are chosen.
 enum class Choice {
   kVideo,   ///< the board must be still, and the views must differ clearly
-  kStills,  ///< each image is a picture of a board at rest; only repetitions are left out
+  kStills,  ///< each image shows a board at rest; only repetitions are left out
 };
 
 /// Captures a pair automatically if it is worth it.

@@ -14,7 +14,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "programs/run/check_page.hpp"
 #include "programs/run/interruption.hpp"
-#include "recordings/checks/rows_picture.hpp"
+#include "recordings/checks/rows_image.hpp"
 #include "recordings/inputs/recording_files.hpp"
 
 namespace mtstereo::run {
@@ -22,24 +22,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPicture = "rows.png";
+constexpr const char* kImage = "rows.png";
 
-void write_picture(const Work& work, outputs::ListedFolder& files) {
-  const cv::Mat picture = draw_rows(work);
-  if (picture.empty()) return;
+void write_image(const Work& work, outputs::ListedFolder& files) {
+  const cv::Mat image = draw_rows(work);
+  if (image.empty()) return;
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", picture, bytes)) {
-    throw UserError(std::string(kPicture) + ": cannot be encoded");
+  if (!cv::imencode(".png", image, bytes)) {
+    throw UserError(std::string(kImage) + ": cannot be encoded");
   }
-  files.write(kPicture, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  files.write(kImage, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 int check(const Recording& recording, const Options& options, const fs::path& folder) {
-  // What is in the way of the picture is found before anything is measured.
+  // What is in the way of the image is found before anything is measured.
   std::optional<outputs::ListedFolder> files;
   if (!folder.empty()) {
     files.emplace(folder, "mtstereo-check");
-    files->check({kPicture}, outputs::FileSet(recording_files(recording)));
+    files->check({kImage}, outputs::FileSet(recording_files(recording)));
   }
   const bool two = recording.arrangement == Arrangement::kTwoSources;
   const CheckFigures figures = measure(
@@ -47,8 +47,8 @@ int check(const Recording& recording, const Options& options, const fs::path& fo
   const std::vector<Finding> findings = find_problems(figures);
   std::cout << check_page(figures, findings) << std::flush;
   if (files) {
-    write_picture(figures.work, *files);
-    std::cout << "Rows: " << outputs::printable((folder / kPicture).string()) << std::endl;
+    write_image(figures.work, *files);
+    std::cout << "Rows: " << outputs::printable((folder / kImage).string()) << std::endl;
   }
   const bool harms =
       std::any_of(findings.begin(), findings.end(), [](const Finding& each) { return each.harms; });

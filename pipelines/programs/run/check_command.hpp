@@ -7,7 +7,7 @@
 
 namespace mtstereo::run {
 
-/// mtstereo-run --check: prints a page about each recording, and with --out writes a picture of the
+/// mtstereo-run --check: prints a page about each recording, and with --out writes an image of the
 /// rows. Returns the exit status: kDone if all are good, kWorthless if a finding harms, kIncomplete
 /// if some cannot be checked. Throws UserError if the only one cannot be.
 int run_check_command(const std::vector<Recording>& recordings,

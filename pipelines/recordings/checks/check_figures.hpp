@@ -43,7 +43,7 @@ struct CheckFigures {
   ViewDiagnosis diagnosis;
   std::array<ViewFigures, 2> views;  ///< left, right
   TimeFigures times;
-  std::vector<ModeFigures> modes;  ///< empty if the results are of no use
+  std::vector<ModeFigures> modes;  ///< empty if the results are useless
 
   /// The figures of a mode, or none.
   const ModeFigures* mode(const std::string& name) const;

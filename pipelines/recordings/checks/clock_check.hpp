@@ -12,7 +12,7 @@ struct TimeFigures {
   /// How much later the right view of a pair is, on the average; negative: earlier. By the times
   /// of the frames alone unless `measured` [s].
   double apart = 0;
-  bool measured = false;   ///< in the pictures
+  bool measured = false;   ///< in the images
   bool confirmed = false;  ///< by the matches of points in motion
   double deviation = 0;    ///< standard deviation of what was measured [s]
   std::string reason;      ///< why nothing was measured

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// estimate_clocks(): the lag from what changes in the pictures, the fraction of a frame and the
+// estimate_clocks(): the lag from what changes in the images, the fraction of a frame and the
 // drift from the rows of matches.
 
 #include <algorithm>
@@ -25,13 +25,13 @@ namespace mtstereo::run {
 namespace {
 
 constexpr double kNanoseconds = 1e-9;
-constexpr int kSignatureWidth = 160;        // of the pictures [px]
-constexpr int kMatchingWidth = 480;         // of the pictures [px]
+constexpr int kSignatureWidth = 160;        // of the images [px]
+constexpr int kMatchingWidth = 480;         // of the images [px]
 constexpr double kSearched[] = {120, 900};  // from the start, the second if the first fails [s]
 constexpr double kLargestDrift = 3e-4;      // that the search for the lag allows for
 constexpr int kCandidates = 5;
 constexpr double kLeastScore = 0.2;    // of a lag
-constexpr double kRival = 0.6;         // of the best score: a lag that is tried as well
+constexpr double kCandidate = 0.6;     // of the best score: a lag that is tried as well
 constexpr double kAmbiguous = 0.85;    // of the best support: a lag that cannot be excluded
 constexpr int kTrials = 8;             // pairs by which a lag is tried
 constexpr double kLeastQuality = 0.1;  // inliers per corner of views that belong together
@@ -58,7 +58,7 @@ double seconds(Nanoseconds time) { return kNanoseconds * static_cast<double>(tim
 
 [[noreturn]] void refuse(const Views& views, const std::string& reason) {
   throw UndecidedClocks(views.recording.name +
-                            ": the clocks of the recordings cannot be compared by the pictures: " +
+                            ": the clocks of the recordings cannot be compared by the images: " +
                             reason + "." + kByHand,
                         reason);
 }
@@ -68,8 +68,8 @@ MotionSignature signature_of(const Source& source, const FrameIndex& index, doub
   SignatureMaker maker;
   for (std::size_t i = 0; i < index.times.size(); ++i) {
     if (seconds(index.times[i] - index.times.front()) > length) break;
-    const cv::Mat picture = frames.at(static_cast<std::int64_t>(i));
-    if (!picture.empty()) maker.add(picture, seconds(index.times[i]));
+    const cv::Mat image = frames.at(static_cast<std::int64_t>(i));
+    if (!image.empty()) maker.add(image, seconds(index.times[i]));
   }
   return maker.take();
 }
@@ -146,7 +146,7 @@ std::optional<Candidate> find_lag(const Views& views, RowMatcher& matcher, doubl
   std::vector<Candidate> candidates;
   for (const Lag& lag : search_lags(left, right, views.period, kLargestDrift, kCandidates)) {
     if (lag.score < kLeastScore) break;
-    if (!candidates.empty() && lag.score < kRival * candidates.front().lag.score) break;
+    if (!candidates.empty() && lag.score < kCandidate * candidates.front().lag.score) break;
     candidates.push_back({lag});
     try_candidate(views, matcher, length, candidates.back());
   }
@@ -249,7 +249,7 @@ std::string describe(const Views& views, const ClockEstimate& estimate) {
   const ClockRelation& relation = estimate.relation;
   if (relation.offset == 0 && relation.drift == 0) {
     std::snprintf(text, sizeof text,
-                  "The pictures of both recordings are in step (to %.1f ms): no offset is applied; "
+                  "The images of both recordings are in step (to %.1f ms): no offset is applied; "
                   "%s.",
                   1e3 * std::max(estimate.uncertainty, kNone * views.period), sure);
     return text;
@@ -274,7 +274,7 @@ void rectify_views(const Recording& recording, const FrameIndex& index, GrayFram
   right.rectify_as(*calibration, Rectifier::Side::kRight);
 }
 
-// Small pictures of both recordings, and their matcher.
+// Small images of both recordings, and their matcher.
 struct Matching {
   explicit Matching(const Views& views)
       : left(views.recording.left, views.left, kMatchingWidth),

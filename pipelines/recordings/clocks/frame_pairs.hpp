@@ -32,13 +32,13 @@ struct ClockEstimate {
 };
 
 /// The offset of the right recording to about a frame [s], from the first two minutes; none if the
-/// pictures do not decide.
+/// images do not decide.
 std::optional<double> find_offset(const Recording& recording, const FrameIndex& left,
                                   const FrameIndex& right);
 
-/// Finds offset and drift from the pictures, as docs/appendix/clocks.md describes. A recording
+/// Finds offset and drift from the images, as docs/appendix/clocks.md describes. A recording
 /// whose frames are together already gets exactly the relation 0, 0. Throws UserError if the
-/// pictures do not decide; the message states why and how to give the offset by hand.
+/// images do not decide; the message states why and how to give the offset by hand.
 ClockEstimate estimate_clocks(const Recording& recording, const FrameIndex& left,
                               const FrameIndex& right);
 

@@ -11,8 +11,8 @@
 namespace mtstereo::run {
 namespace {
 
-constexpr std::size_t kKept = 8;  // pictures
-constexpr int kFewestRows = 16;   // of a picture [px]
+constexpr std::size_t kKept = 8;  // images
+constexpr int kFewestRows = 16;   // of an image [px]
 
 }  // namespace
 
@@ -51,10 +51,10 @@ cv::Mat GrayFrames::convert(const DecodedFrame& frame) {
   gst_video_converter_frame(converter_.get(), &in, &out);
   const cv::Mat view(out_.height, out_.width, CV_8UC1, GST_VIDEO_FRAME_PLANE_DATA(&out, 0),
                      static_cast<std::size_t>(GST_VIDEO_FRAME_PLANE_STRIDE(&out, 0)));
-  cv::Mat picture = view.clone();
+  cv::Mat image = view.clone();
   gst_video_frame_unmap(&out);
   gst_video_frame_unmap(&in);
-  return picture;
+  return image;
 }
 
 void GrayFrames::rectify_as(const StereoCalibration& calibration, Rectifier::Side side) {
@@ -66,16 +66,16 @@ cv::Mat GrayFrames::at(std::int64_t number) {
   const auto known = kept_.find(number);
   if (known != kept_.end()) return known->second;
   const DecodedFrame frame = reader_->read(number);
-  cv::Mat picture = frame.state == FrameState::kDecoded ? convert(frame) : cv::Mat();
-  if (rectifier_) picture = rectifier_->apply(picture);
+  cv::Mat image = frame.state == FrameState::kDecoded ? convert(frame) : cv::Mat();
+  if (rectifier_) image = rectifier_->apply(image);
   if (kept_.size() >= kKept) {
     // Frames are asked for in increasing order, so the farthest one is the oldest.
     const bool first =
         std::abs(kept_.begin()->first - number) >= std::abs(kept_.rbegin()->first - number);
     kept_.erase(first ? kept_.begin() : std::prev(kept_.end()));
   }
-  kept_.emplace(number, picture);
-  return picture;
+  kept_.emplace(number, image);
+  return image;
 }
 
 }  // namespace mtstereo::run

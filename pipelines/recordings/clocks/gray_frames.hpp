@@ -14,18 +14,18 @@
 
 namespace mtstereo::run {
 
-/// Decodes frames of one source and reduces them to small gray pictures.
+/// Decodes frames of one source and reduces them to small gray images.
 class GrayFrames {
  public:
-  /// Pictures of at most this width [px]. Both references must outlive the object. Throws
+  /// Images of at most this width [px]. Both references must outlive the object. Throws
   /// UserError.
   GrayFrames(const Source& source, const FrameIndex& index, int width);
 
-  /// Rectifies the pictures as one side of this calibration, which is for whole frames.
+  /// Rectifies the images as one side of this calibration, which is for whole frames.
   void rectify_as(const StereoCalibration& calibration, Rectifier::Side side);
 
-  /// The picture of a frame; empty if it cannot be decoded. Numbers that increase are fast. The
-  /// last few pictures are kept.
+  /// The image of a frame; empty if it cannot be decoded. Numbers that increase are fast. The
+  /// last few images are kept.
   cv::Mat at(std::int64_t number);
 
   const FrameIndex& index() const { return index_; }

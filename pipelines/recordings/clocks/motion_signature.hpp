@@ -19,7 +19,7 @@ struct MotionSignature {
 
   std::vector<double> times;  ///< the middles between the frames [s]
   cv::Mat features;           ///< CV_32F: one row per time, kFeatures columns [1/s]
-  /// How much the picture changes over half a second, and from frame to frame: root mean squares of
+  /// How much the image changes over half a second, and from frame to frame: root mean squares of
   /// the differences of blocks [gray values].
   double slow_change = 0, fast_change = 0;
 

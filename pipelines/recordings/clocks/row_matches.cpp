@@ -34,17 +34,17 @@ struct Motion {
   bool complete() const { return !before.empty() && !now.empty() && !after.empty(); }
 };
 
-// Noise hides more than a blur does: the picture with as much blur as its noise demands.
-cv::Mat without_noise(const cv::Mat& picture, SharpnessScratch& scratch) {
+// Noise hides more than a blur does: the image with as much blur as its noise demands.
+cv::Mat without_noise(const cv::Mat& image, SharpnessScratch& scratch) {
   constexpr double kHarmless = 2.7;                    // standard deviation [gray values]
   constexpr double kRise = 0.3;                        // [px per gray value]
   constexpr double kLeastSigma = 0.2, kMostSigma = 1;  // [px]
-  if (picture.empty()) return picture;
+  if (image.empty()) return image;
   const double sigma =
-      std::min(kRise * (noise_of(view_of(picture), scratch) - kHarmless), kMostSigma);
-  if (sigma < kLeastSigma) return picture;
+      std::min(kRise * (noise_of(view_of(image), scratch) - kHarmless), kMostSigma);
+  if (sigma < kLeastSigma) return image;
   cv::Mat result;
-  cv::GaussianBlur(picture, result, cv::Size(), sigma);
+  cv::GaussianBlur(image, result, cv::Size(), sigma);
   return result;
 }
 

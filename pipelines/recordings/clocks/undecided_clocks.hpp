@@ -8,7 +8,7 @@
 
 namespace mtstereo::run {
 
-/// estimate_clocks(): the pictures do not decide how the clocks differ.
+/// estimate_clocks(): the images do not decide how the clocks differ.
 class UndecidedClocks : public UserError {
  public:
   UndecidedClocks(const std::string& message, std::string reason)

@@ -13,7 +13,7 @@
 
 #include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
-#include "recordings/inputs/picture_lists.hpp"
+#include "recordings/inputs/image_lists.hpp"
 
 namespace mtstereo::run {
 
@@ -67,65 +67,65 @@ std::vector<Nanoseconds> times_in(const fs::path& file) {
   return times;
 }
 
-// The pictures whose number has a line in the file of times.
-Source with_times(Recording& recording, const std::vector<fs::path>& pictures,
+// The images whose number has a line in the file of times.
+Source with_times(Recording& recording, const std::vector<fs::path>& images,
                   const std::vector<Nanoseconds>& times) {
   Source source;
-  for (const fs::path& picture : pictures) {
-    const std::optional<std::int64_t> number = frame_number(picture);
+  for (const fs::path& image : images) {
+    const std::optional<std::int64_t> number = frame_number(image);
     if (!number || *number >= static_cast<std::int64_t>(times.size())) {
-      recording.remarks.push_back(picture.string() +
+      recording.remarks.push_back(image.string() +
                                   " is left out: the file of times has no line for it.");
       continue;
     }
-    source.pictures.push_back(picture);
+    source.images.push_back(image);
     source.times.push_back(times[static_cast<std::size_t>(*number)] - times.front());
   }
   return source;
 }
 
-// The pictures of a camera of KITTI raw, with or without the folder data.
-std::vector<fs::path> pictures_of_camera(const fs::path& folder) {
-  std::vector<fs::path> pictures = files::pictures_in(folder / "data");
-  return pictures.empty() ? files::pictures_in(folder) : pictures;
+// The images of a camera of KITTI raw, with or without the folder data.
+std::vector<fs::path> images_of_camera(const fs::path& folder) {
+  std::vector<fs::path> images = files::images_in(folder / "data");
+  return images.empty() ? files::images_in(folder) : images;
 }
 
 struct Cameras {
   const char *left, *right, *choice;
 };
 
-// The cameras of which both have pictures; color first.
+// The cameras of which both have images; color first.
 std::optional<Cameras> cameras_in(const fs::path& folder, const std::array<Cameras, 2>& known) {
   for (const Cameras& cameras : known) {
-    if (!pictures_of_camera(folder / cameras.left).empty() &&
-        !pictures_of_camera(folder / cameras.right).empty()) {
+    if (!images_of_camera(folder / cameras.left).empty() &&
+        !images_of_camera(folder / cameras.right).empty()) {
       return cameras;
     }
   }
   return std::nullopt;
 }
 
-// Sets pictures by a file of times for both views, or by the rate of KITTI.
-void set_kitti_pictures(Recording& recording, const fs::path& left, const fs::path& right,
-                        const fs::path& left_times, const fs::path& right_times) {
-  const std::vector<fs::path> left_pictures = pictures_of_camera(left);
-  const std::vector<fs::path> right_pictures = pictures_of_camera(right);
+// Sets images by a file of times for both views, or by the rate of KITTI.
+void set_kitti_images(Recording& recording, const fs::path& left, const fs::path& right,
+                      const fs::path& left_times, const fs::path& right_times) {
+  const std::vector<fs::path> left_images = images_of_camera(left);
+  const std::vector<fs::path> right_images = images_of_camera(right);
   const std::vector<Nanoseconds> times = times_in(left_times);
   const std::vector<Nanoseconds> other = left_times == right_times ? times : times_in(right_times);
   if (times.empty() || other.empty()) {
     recording.remarks.push_back(left_times.string() +
-                                " is missing or damaged: 10 pictures per second are assumed.");
-    set_pictures(recording, left_pictures, right_pictures, kKittiRate);
+                                " is missing or damaged: 10 images per second are assumed.");
+    set_images(recording, left_images, right_images, kKittiRate);
     return;
   }
   const Nanoseconds shift = other.front() - times.front();
-  Source right_source = with_times(recording, right_pictures, other);
+  Source right_source = with_times(recording, right_images, other);
   for (Nanoseconds& time : right_source.times) time += shift;
-  const Source left_source = with_times(recording, left_pictures, times);
-  set_timed_pictures(recording, left_source, right_source);
+  const Source left_source = with_times(recording, left_images, times);
+  set_timed_images(recording, left_source, right_source);
 }
 
-// The names of pictures by their times, from data.csv.
+// The names of images by their times, from data.csv.
 Source euroc_source(Recording& recording, const fs::path& camera) {
   Source source;
   std::size_t missing = 0;
@@ -139,18 +139,17 @@ Source euroc_source(Recording& recording, const fs::path& camera) {
                       "' is not 'TIME,NAME'");
     }
     const std::size_t begin = line.find_first_not_of(" \t", comma + 1);
-    const fs::path picture =
-        camera / "data" / (begin == std::string::npos ? "" : line.substr(begin));
-    if (!fs::is_regular_file(picture)) {
+    const fs::path image = camera / "data" / (begin == std::string::npos ? "" : line.substr(begin));
+    if (!fs::is_regular_file(image)) {
       ++missing;
       continue;
     }
-    source.pictures.push_back(picture);
+    source.images.push_back(image);
     source.times.push_back(time);
   }
   if (missing > 0) {
     recording.remarks.push_back((camera / "data.csv").string() + " names " +
-                                std::to_string(missing) + " pictures that do not exist.");
+                                std::to_string(missing) + " images that do not exist.");
   }
   return source;
 }
@@ -199,7 +198,7 @@ std::optional<FoundRecording> find_kitti_odometry(const fs::path& folder) {
   Recording& recording = found.recording;
   recording.name = folder_name(folder);
   recording.kind = "KITTI odometry sequence";
-  set_kitti_pictures(recording, folder / cameras->left, folder / cameras->right, times, times);
+  set_kitti_images(recording, folder / cameras->left, folder / cameras->right, times, times);
   if (is_there(calibration)) found.calibrations.push_back(calibration.string() + cameras->choice);
   found.used_folders = files::folders_in(folder);
   return found;
@@ -222,8 +221,8 @@ std::optional<FoundRecording> find_kitti_raw(const fs::path& folder) {
   // The frames of a synchronized drive with the same number belong together, whatever the time
   // stamps of the cameras.
   const bool synchronized = !recording.name.ends_with("_extract");
-  set_kitti_pictures(recording, left, right, left / "timestamps.txt",
-                     (synchronized ? left : right) / "timestamps.txt");
+  set_kitti_images(recording, left, right, left / "timestamps.txt",
+                   (synchronized ? left : right) / "timestamps.txt");
   if (is_there(calibration)) found.calibrations.push_back(calibration.string() + cameras->choice);
   found.used_folders = files::folders_in(folder);
   return found;
@@ -241,10 +240,10 @@ std::optional<FoundRecording> find_euroc(const fs::path& folder) {
   Source left_source = euroc_source(recording, left), right_source = euroc_source(recording, right);
   if (left_source.empty() || right_source.empty()) {
     throw UserError((left_source.empty() ? left : right).string() +
-                    ": data.csv names no picture that exists in data");
+                    ": data.csv names no image that exists in data");
   }
   start_at_zero(left_source, right_source);
-  set_timed_pictures(recording, left_source, right_source);
+  set_timed_images(recording, left_source, right_source);
   if (is_there(left / "sensor.yaml") && is_there(right / "sensor.yaml")) {
     found.calibrations.push_back((left / "sensor.yaml").string() + "," +
                                  (right / "sensor.yaml").string());
@@ -259,13 +258,13 @@ std::optional<FoundRecording> find_pair_folder(const fs::path& folder) {
   FoundRecording found;
   Recording& recording = found.recording;
   recording.name = folder_name(folder);
-  for (const fs::path& picture : {left, right}) {
-    if (!is_there(picture)) throw UserError(picture.string() + ": no such file");
-    const std::string problem = picture_problem(picture);
-    if (!problem.empty()) throw UserError(picture.string() + ": the picture " + problem);
+  for (const fs::path& image : {left, right}) {
+    if (!is_there(image)) throw UserError(image.string() + ": no such file");
+    const std::string problem = image_problem(image);
+    if (!problem.empty()) throw UserError(image.string() + ": the image " + problem);
   }
-  recording.left.pictures = {left};
-  recording.right.pictures = {right};
+  recording.left.images = {left};
+  recording.right.images = {right};
   recording.frame_rate = 1;
   const fs::path calibration = folder / "calib.txt";
   recording.max_disparity = entry_of(calibration, "ndisp");

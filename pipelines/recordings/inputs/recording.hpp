@@ -37,7 +37,7 @@ struct Recording {
   /// The views are rectified. The calibration, if there is one, only gives the meters.
   bool rectified = true;
   RectifiedShape shape;              ///< of views that are rectified by the calibration
-  double frame_rate = 0;             ///< of pictures without times [1/s]; 0 for videos
+  double frame_rate = 0;             ///< of images without times [1/s]; 0 for videos
   std::optional<int> max_disparity;  ///< that the data set states [px]
   std::vector<std::string> remarks;  ///< what was guessed, as sentences for the user
 };
@@ -49,7 +49,7 @@ struct InputOptions {
   std::string calibration;        ///< for read_calibration(); empty = what lies beside the input
   std::optional<bool> rectified;  ///< none: recognised
   RectifiedShape shape;
-  double frame_rate = 30;  ///< of pictures without times [1/s]
+  double frame_rate = 30;  ///< of images without times [1/s]
 };
 
 /// An input that cannot be used, found while a folder is searched.

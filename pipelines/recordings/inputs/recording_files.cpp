@@ -28,7 +28,7 @@ std::vector<fs::path> recording_files(const Recording& recording) {
   std::vector<fs::path> files;
   for (const Source* source : {&recording.left, &recording.right}) {
     if (!source->video.empty()) files.push_back(source->video);
-    files.insert(files.end(), source->pictures.begin(), source->pictures.end());
+    files.insert(files.end(), source->images.begin(), source->images.end());
   }
   add_calibration(recording.calibration, files);
   return files;

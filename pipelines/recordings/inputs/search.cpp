@@ -12,7 +12,7 @@
 #include "mtstereo/geometry/calibration.hpp"
 #include "recordings/inputs/calibration_choice.hpp"
 #include "recordings/inputs/halves.hpp"
-#include "recordings/inputs/picture_lists.hpp"
+#include "recordings/inputs/image_lists.hpp"
 #include "recordings/inputs/view_names.hpp"
 #include "recordings/media/sample_frames.hpp"
 
@@ -22,14 +22,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The pictures of a folder, or of the folder data in it.
-std::vector<fs::path> pictures_of_folder(const fs::path& folder) {
-  std::vector<fs::path> pictures = files::pictures_in(folder);
-  return pictures.empty() ? files::pictures_in(folder / "data") : pictures;
+// The images of a folder, or of the folder data in it.
+std::vector<fs::path> images_of_folder(const fs::path& folder) {
+  std::vector<fs::path> images = files::images_in(folder);
+  return images.empty() ? files::images_in(folder / "data") : images;
 }
 
 const fs::path& file_of(const Source& source) {
-  return source.video.empty() ? source.pictures.front() : source.video;
+  return source.video.empty() ? source.images.front() : source.video;
 }
 
 // The folder in which the calibration of a source is.
@@ -67,7 +67,7 @@ std::string name_of_two(const Source& left, const Source& right) {
 
 // Whether both views have the same files, also by links.
 bool are_same(const Source& left, const Source& right) {
-  const std::vector<fs::path>&a = left.pictures, &b = right.pictures;
+  const std::vector<fs::path>&a = left.images, &b = right.images;
   std::error_code error;
   if (a.size() != b.size() || !fs::equivalent(file_of(left), file_of(right), error)) return false;
   return a.empty() || fs::equivalent(a.back(), b.back(), error);
@@ -84,7 +84,7 @@ class FolderSearch {
     }
     add_videos();
     add_folders();
-    add_pictures();
+    add_images();
     return std::move(contents_);
   }
 
@@ -134,7 +134,7 @@ class FolderSearch {
   void add_folders() {
     std::vector<fs::path> folders = files::folders_in(folder_);
     std::erase_if(folders, [](const fs::path& folder) {
-      return pictures_of_folder(folder).empty() && videos_in(folder).size() != 1;
+      return images_of_folder(folder).empty() && videos_in(folder).size() != 1;
     });
     const std::vector<PathPair> pairs = take_pairs(folders);
     for (const PathPair& pair : pairs) {
@@ -150,15 +150,15 @@ class FolderSearch {
     }
   }
 
-  // Pictures of both views in one folder, or pictures with both views.
-  void add_pictures() {
-    std::vector<fs::path> rest = files::pictures_in(folder_);
+  // Images of both views in one folder, or images with both views.
+  void add_images() {
+    std::vector<fs::path> rest = files::images_in(folder_);
     const std::vector<PathPair> pairs = take_pairs(rest);
     if (!pairs.empty()) {
       Source left, right;
       for (const PathPair& pair : pairs) {
-        left.pictures.push_back(pair.left);
-        right.pictures.push_back(pair.right);
+        left.images.push_back(pair.left);
+        right.images.push_back(pair.right);
       }
       add(left, right, folder_name(folder_), folder_.string());
     } else if (!rest.empty() && contents_.recordings.empty() && contents_.problems.empty()) {
@@ -280,19 +280,19 @@ Source source_of(const std::string& input) {
   std::error_code error;
   Source source;
   if (files::is_pattern(input)) {
-    source.pictures = files::files_of_pattern(input);
-    if (source.pictures.empty()) throw UserError(input + ": no file has such a name");
+    source.images = files::files_of_pattern(input);
+    if (source.images.empty()) throw UserError(input + ": no file has such a name");
   } else if (fs::is_directory(input, error)) {
-    source.pictures = pictures_of_folder(input);
+    source.images = images_of_folder(input);
     const std::vector<fs::path> videos = videos_in(input);
-    if (source.pictures.empty() && videos.size() == 1) source.video = videos.front();
-    if (source.empty()) throw UserError(input + ": the folder has neither pictures nor one video");
+    if (source.images.empty() && videos.size() == 1) source.video = videos.front();
+    if (source.empty()) throw UserError(input + ": the folder has neither images nor one video");
   } else if (!fs::exists(input, error)) {
     throw UserError(input + ": no such file or folder");
   } else if (!fs::is_regular_file(input, error)) {
     throw UserError(input + ": is a pipe or a device, which may never end: record it into a file");
-  } else if (files::is_picture(input)) {
-    source.pictures = {input};
+  } else if (files::is_image(input)) {
+    source.images = {input};
   } else {
     source.video = input;
   }
@@ -317,11 +317,11 @@ FoundRecording recording_of(const Source& left, const Source& right, const Input
   }
   FoundRecording found;
   Recording& recording = found.recording;
-  const bool pictures = left.video.empty();
-  recording.kind = two ? (pictures ? "two lists of pictures" : "two video files")
-                       : (pictures ? "pictures with both views" : "video file with both views");
-  if (pictures) {
-    set_pictures(recording, left.pictures, right.pictures, options.frame_rate);
+  const bool images = left.video.empty();
+  recording.kind = two ? (images ? "two lists of images" : "two video files")
+                       : (images ? "images with both views" : "video file with both views");
+  if (images) {
+    set_images(recording, left.images, right.images, options.frame_rate);
   } else {
     recording.left = left;
     recording.right = right;

@@ -17,7 +17,7 @@ struct FolderContents {
   std::vector<std::filesystem::path> used_folders;  ///< in which nothing else is searched
 };
 
-/// Searches a folder. `asked`: the user has named it, so that pictures of any kind in it count.
+/// Searches a folder. `asked`: the user has named it, so that images of any kind in it count.
 FolderContents search_folder(const std::filesystem::path& folder, const InputOptions& options,
                              bool asked);
 
@@ -25,8 +25,8 @@ FolderContents search_folder(const std::filesystem::path& folder, const InputOpt
 /// the calibration. Throws UserError.
 Recording completed(FoundRecording found, const InputOptions& options);
 
-/// A source by what the user gives: a video, a picture, a pattern, a folder with pictures or with
-/// one video. Pictures are not checked. Throws UserError.
+/// A source by what the user gives: a video, an image, a pattern, a folder with images or with
+/// one video. Images are not checked. Throws UserError.
 Source source_of(const std::string& input);
 
 /// A recording of one or two such sources, for completed(). Throws UserError.

@@ -7,7 +7,7 @@
 
 namespace mtstereo::run {
 
-/// The width of the pictures that are matched [px]. Their rows may differ by 8 px, which are some
+/// The width of the images that are matched [px]. Their rows may differ by 8 px, which are some
 /// 20 px of the frames.
 inline constexpr int kMatchedWidth = 480;
 
@@ -38,7 +38,7 @@ struct ViewMatch {
 /// twice as many points. Views that are not rectified match along rows in neither order.
 bool is_better_order(const ViewMatch& other, const ViewMatch& now);
 
-/// Matches small gray pictures, several pairs together. Pictures below 96x64 px have no corners.
+/// Matches small gray images, several pairs together. Images below 96x64 px have no corners.
 class ViewMatcher {
  public:
   ViewMatcher();
@@ -46,7 +46,7 @@ class ViewMatcher {
   ViewMatcher(const ViewMatcher&) = delete;
   ViewMatcher& operator=(const ViewMatcher&) = delete;
 
-  /// Matches a pair, and adds what is found. Pictures that are empty or of different sizes
+  /// Matches a pair, and adds what is found. Images that are empty or of different sizes
   /// add nothing.
   void add(const cv::Mat& left, const cv::Mat& right, DisparityRange range, ViewMatch& match);
 

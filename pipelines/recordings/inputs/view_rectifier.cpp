@@ -29,12 +29,12 @@ void ViewRectifier::prepare(cv::Size size) {
   out_ = {rectification.width, rectification.height};
 }
 
-cv::Mat ViewRectifier::apply(const cv::Mat& picture) {
-  if (picture.empty()) return picture;
-  prepare(picture.size());
+cv::Mat ViewRectifier::apply(const cv::Mat& image) {
+  if (image.empty()) return image;
+  prepare(image.size());
   cv::Mat result(out_, CV_8UC1);
   const Status status = rectifier_->apply(
-      {picture.data, picture.cols, picture.rows, static_cast<std::ptrdiff_t>(picture.step)},
+      {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)},
       {result.data, result.cols, result.rows, static_cast<std::ptrdiff_t>(result.step)});
   if (!status) throw UserError("the views cannot be rectified: " + status.error().message);
   return result;

@@ -8,14 +8,14 @@
 
 namespace mtstereo::run {
 
-/// Rectifies gray pictures of one camera. They may be smaller than the frames that the calibration
+/// Rectifies gray images of one camera. They may be smaller than the frames that the calibration
 /// is for.
 class ViewRectifier {
  public:
   ViewRectifier(StereoCalibration calibration, Rectifier::Side side);
 
-  /// The rectified picture; an empty one stays empty. Throws UserError.
-  cv::Mat apply(const cv::Mat& picture);
+  /// The rectified image; an empty one stays empty. Throws UserError.
+  cv::Mat apply(const cv::Mat& image);
 
  private:
   void prepare(cv::Size size);

@@ -41,8 +41,8 @@ Means means_of(const std::vector<FrameFigures>& frames) {
 Json source_summary(const Source& source, const FrameIndex& index) {
   const bool video = !source.video.empty();
   Json summary{{"file", video ? outputs::escaped(source.video.string()) : ""},
-               {"pictures", source.pictures.size()},
-               {"first_picture", video ? "" : outputs::escaped(source.pictures.front().string())},
+               {"pictures", source.images.size()},
+               {"first_picture", video ? "" : outputs::escaped(source.images.front().string())},
                {"codec", index.codec},
                {"width", index.width},
                {"height", index.height},

@@ -35,7 +35,7 @@ inline constexpr std::array kReportFiles{kPieceFile, kRunFile};
 /// frames, remarks.
 void write_run_report(const Work& work, const PieceReport& report, double seconds,
                       const std::filesystem::path& file);
-/// Why the results of a work are of no use: Work::doubt, or a mean density below 5 %. Empty if they
+/// Why the results of a work are useless: Work::doubt, or a mean density below 5 %. Empty if they
 /// can be used.
 std::string verdict(const Work& work, const PieceReport& report);
 /// The verdict in such a report; empty if there is none.

@@ -55,19 +55,18 @@ std::vector<Nanoseconds> sums(const Json& list) {
 }
 
 Json source_json(const Source& source) {
-  Json pictures = Json::array();
-  for (const auto& picture : source.pictures)
-    pictures.push_back(outputs::escaped(picture.string()));
+  Json images = Json::array();
+  for (const auto& image : source.images) images.push_back(outputs::escaped(image.string()));
   return {{"video", outputs::escaped(source.video.string())},
-          {"pictures", std::move(pictures)},
+          {"pictures", std::move(images)},
           {"times", differences(source.times)}};
 }
 
 Source read_source(const Json& json) {
   Source source;
   source.video = outputs::unescaped(json.at("video").get<std::string>());
-  for (const Json& picture : json.at("pictures")) {
-    source.pictures.emplace_back(outputs::unescaped(picture.get<std::string>()));
+  for (const Json& image : json.at("pictures")) {
+    source.images.emplace_back(outputs::unescaped(image.get<std::string>()));
   }
   source.times = sums(json.at("times"));
   return source;

@@ -70,7 +70,7 @@ struct Work {
   /// of mtstereo. It does not change within the recording.
   std::vector<std::pair<std::string, std::string>> correction;
   std::vector<std::string> remarks;  ///< about clocks, alignment, damage: sentences for the user
-  std::string doubt;  ///< why the results are of no use, with the remedy; empty if they can be used
+  std::string doubt;  ///< why the results are useless, with the remedy; empty if they can be used
 };
 
 /// Some successive pairs of a recording.

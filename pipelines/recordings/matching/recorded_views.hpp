@@ -9,11 +9,11 @@
 
 namespace mtstereo::run {
 
-/// The views of a recording as gray pictures, by the numbers of their frames. They are as the
+/// The views of a recording as gray images, by the numbers of their frames. They are as the
 /// cameras deliver them: not rectified.
 class RecordedViews {
  public:
-  /// Pictures of at most this width [px]. The work must outlive the object. Throws UserError.
+  /// Images of at most this width [px]. The work must outlive the object. Throws UserError.
   RecordedViews(const Work& work, int width);
 
   /// Empty if the frame does not exist or cannot be decoded. Numbers that increase are fast.

@@ -23,7 +23,7 @@ constexpr double kOutliers = 0.05;                    // of the rows, at each en
 constexpr double kWideShare = 0.4;  // of the width, for the test of a larger range
 constexpr double kReserve = 1.1;    // of the range that suffices
 constexpr int kRangeStep = 16;      // the range that suffices is a multiple of it [px]
-constexpr double kSameGray = 0.75;  // mean difference of pictures that are the same [gray values]
+constexpr double kSameGray = 0.75;  // mean difference of images that are the same [gray values]
 
 cv::Mat flipped(const cv::Mat& view, int code) {
   cv::Mat result;
@@ -181,7 +181,7 @@ class Checks {
                    wider_);
     }
     // Points of views that are not rectified have disparities of both signs, and rows farther away
-    // than the search in the pictures reaches.
+    // than the search in the images reaches.
     for (const int factor : {1, 2}) {
       const ViewMatch raw = match({-wide_.most / factor, wide_.most / factor}, [&](const auto& s) {
         return factor == 1 ? Views{s.left, s.right} : Views{halved(s.left), halved(s.right)};

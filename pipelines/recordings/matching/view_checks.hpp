@@ -19,7 +19,7 @@ struct ShiftedView {
   cv::Mat view;
 };
 
-/// The views of one pair: gray pictures of kMatchedWidth, as the cameras deliver them.
+/// The views of one pair: gray images of kMatchedWidth, as the cameras deliver them.
 struct ViewSample {
   cv::Mat left, right;
   std::vector<ShiftedView> shifted;  ///< the same ones in all samples; a view may be empty
@@ -28,7 +28,7 @@ struct ViewSample {
 /// What diagnose() needs.
 struct ViewSamples {
   std::vector<ViewSample> samples;
-  double scale = 1;       ///< px of the frames per px of the pictures
+  double scale = 1;       ///< px of the frames per px of the images
   int min_disparity = 0;  ///< of the frames [px]
   int max_disparity = 0;  ///< of the frames [px]
   /// Rectifies the views; none: they are taken as they are.
@@ -50,7 +50,7 @@ enum class ViewProblem {
   kOutOfStep,         ///< views of other frames match better
   kNotRectified,      ///< the views match, but not along rows
   kWrongCalibration,  ///< the views match, but not along rows after they are rectified
-  kSameView,          ///< both views are the same picture
+  kSameView,          ///< both views are the same image
 };
 
 /// A problem, and the figures that belong to it.
@@ -63,7 +63,7 @@ struct ViewDiagnosis {
   /// The rows of nearly all points, right minus left [px of the frames].
   double least_rows = 0, most_rows = 0;
 
-  /// The results are of no use.
+  /// The results are useless.
   bool worthless() const;
 };
 

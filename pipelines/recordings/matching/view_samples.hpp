@@ -8,7 +8,7 @@
 
 namespace mtstereo::run {
 
-/// Reads small pictures of a few pairs from the whole recording, with right views that are so many
+/// Reads small images of a few pairs from the whole recording, with right views that are so many
 /// frames later; negative: earlier. Needs the pairs and the complete options of a work. Throws
 /// UserError.
 ViewSamples read_view_samples(const Work& work, const std::vector<int>& shifts);

@@ -146,30 +146,30 @@ FrameIndex index_of_video(const fs::path& file) {
   return index;
 }
 
-std::string name_of_format(const fs::path& picture) {
-  std::string name = files::extension_of(picture);
+std::string name_of_format(const fs::path& image) {
+  std::string name = files::extension_of(image);
   if (!name.empty()) name.erase(0, 1);
   for (char& each : name) each = static_cast<char>(std::toupper(static_cast<unsigned char>(each)));
   return name == "JPG" ? "JPEG" : name;
 }
 
-FrameIndex index_of_pictures(const Source& source, double frame_rate) {
+FrameIndex index_of_images(const Source& source, double frame_rate) {
   FrameIndex index;
-  const cv::Mat first = cv::imread(source.pictures.front().string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat first = cv::imread(source.images.front().string(), cv::IMREAD_UNCHANGED);
   if (first.empty()) {
-    throw UserError(source.pictures.front().string() + ": the picture cannot be read");
+    throw UserError(source.images.front().string() + ": the image cannot be read");
   }
   index.width = first.cols;
   index.height = first.rows;
-  index.codec = name_of_format(source.pictures.front());
+  index.codec = name_of_format(source.images.front());
   index.times = source.times;
   index.damage = source.damage;
   if (index.times.empty()) {
     if (!(frame_rate > 0)) {
-      throw UserError(source.pictures.front().parent_path().string() +
-                      ": pictures without times need a frame rate above 0");
+      throw UserError(source.images.front().parent_path().string() +
+                      ": images without times need a frame rate above 0");
     }
-    for (std::size_t i = 0; i < source.pictures.size(); ++i) {
+    for (std::size_t i = 0; i < source.images.size(); ++i) {
       index.times.push_back(std::llround(static_cast<double>(i) * kSecond / frame_rate));
     }
   }
@@ -181,8 +181,7 @@ FrameIndex index_of_pictures(const Source& source, double frame_rate) {
 
 FrameIndex index_frames(const Source& source, double frame_rate) {
   if (source.empty()) throw UserError("there is no source");
-  return source.video.empty() ? index_of_pictures(source, frame_rate)
-                              : index_of_video(source.video);
+  return source.video.empty() ? index_of_images(source, frame_rate) : index_of_video(source.video);
 }
 
 }  // namespace mtstereo::run

@@ -48,7 +48,7 @@ std::unique_ptr<FrameReader> open_reader(const Source& source, const FrameIndex&
 
 /// The reader of a video file.
 std::unique_ptr<FrameReader> open_video(const std::filesystem::path& file, const FrameIndex& index);
-/// The reader of pictures.
-std::unique_ptr<FrameReader> open_pictures(const std::vector<std::filesystem::path>& files);
+/// The reader of images.
+std::unique_ptr<FrameReader> open_images(const std::vector<std::filesystem::path>& files);
 
 }  // namespace mtstereo::run

@@ -8,7 +8,7 @@ struct _GstBuffer;
 
 namespace mtstereo::run {
 
-/// What the library for JPEG reports about the coded data of a picture, such as "Corrupt JPEG data:
+/// What the library for JPEG reports about the coded data of an image, such as "Corrupt JPEG data:
 /// premature end of data segment"; empty if it reports nothing. Decodes the coefficients, but not
 /// the pixels. Tables that a frame of Motion JPEG leaves out are the usual ones.
 std::string damage_of_jpeg(std::string_view bytes);

@@ -42,13 +42,13 @@ std::vector<cv::Mat> frames_of_video(const fs::path& file, int count) {
   return frames;
 }
 
-std::vector<cv::Mat> frames_of_pictures(const std::vector<fs::path>& pictures, int count) {
+std::vector<cv::Mat> frames_of_images(const std::vector<fs::path>& images, int count) {
   std::vector<cv::Mat> frames;
-  const auto wanted = std::min(static_cast<std::size_t>(count), pictures.size());
+  const auto wanted = std::min(static_cast<std::size_t>(count), images.size());
   for (std::size_t i = 0; i < wanted; ++i) {
-    const fs::path& picture = pictures[i * pictures.size() / wanted];
-    cv::Mat frame = cv::imread(picture.string(), cv::IMREAD_GRAYSCALE);
-    if (frame.empty()) throw UserError(picture.string() + ": the picture cannot be read");
+    const fs::path& image = images[i * images.size() / wanted];
+    cv::Mat frame = cv::imread(image.string(), cv::IMREAD_GRAYSCALE);
+    if (frame.empty()) throw UserError(image.string() + ": the image cannot be read");
     frames.push_back(std::move(frame));
   }
   return frames;
@@ -60,7 +60,7 @@ cv::Mat first_frame(const Source& source) { return sample_frames(source, 1).fron
 
 std::vector<cv::Mat> sample_frames(const Source& source, int count) {
   if (source.empty()) throw UserError("there is no source");
-  return source.video.empty() ? frames_of_pictures(source.pictures, count)
+  return source.video.empty() ? frames_of_images(source.images, count)
                               : frames_of_video(source.video, count);
 }
 

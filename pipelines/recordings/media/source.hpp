@@ -11,17 +11,17 @@ namespace mtstereo::run {
 /// A time or a difference of two [ns].
 using Nanoseconds = std::int64_t;
 
-/// Where the frames of one source are: a video file, or pictures.
+/// Where the frames of one source are: a video file, or images.
 struct Source {
-  std::filesystem::path video;                  ///< empty for pictures
-  std::vector<std::filesystem::path> pictures;  ///< one per frame, in order; empty for a video
-  /// Of the pictures, from the data set [ns]; empty: by Recording::frame_rate.
+  std::filesystem::path video;                ///< empty for images
+  std::vector<std::filesystem::path> images;  ///< one per frame, in order; empty for a video
+  /// Of the images, from the data set [ns]; empty: by Recording::frame_rate.
   std::vector<Nanoseconds> times;
-  /// Pictures that were found but are left out; empty if there are none. FrameIndex::damage has it.
+  /// Images that were found but are left out; empty if there are none. FrameIndex::damage has it.
   std::string damage{};
 
   /// No source.
-  bool empty() const { return video.empty() && pictures.empty(); }
+  bool empty() const { return video.empty() && images.empty(); }
 };
 
 }  // namespace mtstereo::run

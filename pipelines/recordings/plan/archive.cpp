@@ -32,7 +32,7 @@ std::int64_t pairs_per_task(std::int64_t pairs, const ArchiveOptions& options) {
 
 std::string source_of(const Source& source) {
   if (!source.video.empty()) return source.video.string();
-  if (!source.pictures.empty()) return source.pictures.front().parent_path().string();
+  if (!source.images.empty()) return source.images.front().parent_path().string();
   return {};
 }
 
@@ -130,7 +130,7 @@ std::string absolute_calibration(const std::string& path) {
 
 void make_absolute(Source& source) {
   if (!source.video.empty()) source.video = fs::absolute(source.video);
-  for (fs::path& picture : source.pictures) picture = fs::absolute(picture);
+  for (fs::path& image : source.images) image = fs::absolute(image);
 }
 
 }  // namespace

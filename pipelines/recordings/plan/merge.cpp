@@ -24,7 +24,7 @@ constexpr int kVersion = 1;
 // The outcome for a recording.
 struct Joined {
   std::optional<Figures> figures;  // if it is whole
-  std::string doubt;               // why its results are of no use
+  std::string doubt;               // why its results are useless
   std::vector<std::size_t> missing;
   std::vector<Problem> problems;
 };

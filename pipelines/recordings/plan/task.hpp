@@ -46,7 +46,7 @@ struct MergeResult {
   std::vector<std::size_t> missing;  ///< tasks whose pieces are missing or were damaged
   std::vector<Problem> problems;     ///< damaged pieces, recordings that cannot be joined
   std::vector<Problem> damaged;      ///< recordings of which tasks could not read every frame
-  std::vector<Problem> doubtful;     ///< recordings whose results are of no use
+  std::vector<Problem> doubtful;     ///< recordings whose results are useless
   std::size_t joined = 0;            ///< recordings that are whole
   Figures sum;                       ///< of the recordings that are whole
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// mtstereo-compare: compares recorded disparity pictures with the ground truth of their clip, and
-// makes a picture of one frame.
+// mtstereo-compare: compares recorded disparity maps with the ground truth of their clip, and
+// makes an image of one frame.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -20,8 +20,8 @@
 #include "tools/compare/frame_files.hpp"
 #include "tools/eval/files.hpp"
 #include "tools/eval/ground_truth.hpp"
+#include "tools/eval/images.hpp"
 #include "tools/eval/metrics.hpp"
-#include "tools/eval/pictures.hpp"
 
 namespace {
 
@@ -31,7 +31,7 @@ using mtstereo::apps::by_name;
 using mtstereo::apps::partner;
 
 struct Options {
-  fs::path disparity, truth, mask, left, picture, depth, true_depth;
+  fs::path disparity, truth, mask, left, image, depth, true_depth;
   std::string label = "clip";
   int frame = 0;
   int width = 0;
@@ -48,7 +48,7 @@ void define(CLI::App& app, Options& o) {
   app.add_option("--true-depth", o.true_depth,
                  "folder of PFM files with the same names: the true depths [m]");
   app.add_option("--label", o.label, "text of the first column")->capture_default_str();
-  app.add_option("--picture", o.picture, "PNG to write: left image, disparity, ground truth");
+  app.add_option("--picture", o.image, "PNG to write: left image, disparity, ground truth");
   app.add_option("--left", o.left, "folder of left images, or one image, for --picture");
   app.add_option("--frame", o.frame, "frame shown by --picture, counted from 0")
       ->check(CLI::Range(0, 999999))
@@ -57,7 +57,7 @@ void define(CLI::App& app, Options& o) {
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   app.add_option("--max-disparity", o.max_disparity,
-                 "upper end of the color range of the picture [px]")
+                 "upper end of the color range of the image [px]")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
 }
@@ -101,11 +101,11 @@ void print(const std::string& label, const ClipEvaluation& evaluated) {
   std::printf("\n");
 }
 
-cv::Mat labeled(const cv::Mat& picture, const std::string& text) {
-  cv::Mat out = picture.clone();
+cv::Mat labeled(const cv::Mat& image, const std::string& text) {
+  cv::Mat out = image.clone();
   // Bright text over a dark outline: readable on any background.
-  const double size = std::max(0.35, picture.rows / 500.0);
-  const cv::Point at(picture.cols / 60 + 2, picture.rows - picture.rows / 30 - 2);
+  const double size = std::max(0.35, image.rows / 500.0);
+  const cv::Point at(image.cols / 60 + 2, image.rows - image.rows / 30 - 2);
   cv::putText(out, text, at, cv::FONT_HERSHEY_SIMPLEX, size, {0, 0, 0}, 3, cv::LINE_AA);
   cv::putText(out, text, at, cv::FONT_HERSHEY_SIMPLEX, size, {255, 255, 255}, 1, cv::LINE_AA);
   return out;
@@ -144,7 +144,7 @@ void write_montage(const Options& o) {
     const double factor = static_cast<double>(o.width) / montage.cols;
     cv::resize(montage, montage, cv::Size(), factor, factor, cv::INTER_AREA);
   }
-  write_picture(o.picture, montage);
+  write_image(o.image, montage);
 }
 
 int run(const Options& o) {
@@ -152,7 +152,7 @@ int run(const Options& o) {
     std::cerr << "mtstereo-compare: --depth and --true-depth need each other\n";
     return 2;
   }
-  const bool of_disparity = !o.truth.empty() || !o.picture.empty();
+  const bool of_disparity = !o.truth.empty() || !o.image.empty();
   if (o.disparity.empty() ? of_disparity || o.depth.empty() : !of_disparity) {
     std::cerr << "mtstereo-compare: nothing to do: --disparity needs --truth, --picture or both, "
                  "and --depth needs --true-depth\n";
@@ -160,7 +160,7 @@ int run(const Options& o) {
   }
   if (!o.depth.empty()) mtstereo::apps::print_depth_errors(o.depth, o.true_depth);
   if (!o.truth.empty()) print(o.label, evaluate_clip(o));
-  if (!o.picture.empty()) write_montage(o);
+  if (!o.image.empty()) write_montage(o);
   return 0;
 }
 

@@ -29,7 +29,7 @@ struct Range {
 cv::Mat read_depth(const fs::path& file) {
   const cv::Mat depth = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
   if (depth.type() != CV_16UC1) {
-    throw std::runtime_error(file.string() + ": is not a gray PNG picture with 16 bits");
+    throw std::runtime_error(file.string() + ": is not a gray PNG image with 16 bits");
   }
   return depth;
 }

@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "tools/eval/json_number.hpp"
-#include "tools/eval/rival_sweep.hpp"
+#include "tools/eval/opencv_sweep.hpp"
 #include "tools/eval/runner.hpp"
 #include "tools/eval/text_table.hpp"
 
@@ -30,15 +30,16 @@ Curve own_curve(const MethodSweep& own, const ParameterTexts& parameters) {
   return {own.method, own_settings(parameters), 0, false, own.sweep};
 }
 
-void add_rival(const MethodSweep& rival, std::size_t method, CurveReport& report) {
+void add_opencv(const MethodSweep& matcher, std::size_t method, CurveReport& report) {
   const std::string settings =
-      "OpenCV, " + rival_settings(*find_rival(rival.method), uniqueness_ratios_text());
-  report.curves.push_back({rival.method, settings, method, false, at_threshold(rival.sweep, 0)});
-  report.curves.push_back({rival.method + " + filters",
-                           "the smallest error of " + rival.method +
+      "OpenCV, " + opencv_settings(*find_opencv(matcher.method), uniqueness_ratios_text());
+  report.curves.push_back(
+      {matcher.method, settings, method, false, at_threshold(matcher.sweep, 0)});
+  report.curves.push_back({matcher.method + " + filters",
+                           "the smallest error of " + matcher.method +
                                " as above, with and without the filters: " + report.filters +
                                ", >= " + kThresholds,
-                           method, true, rival.sweep});
+                           method, true, matcher.sweep});
 }
 
 const char* key_of(const CurveMeasure& measure) {
@@ -107,7 +108,7 @@ CurveReport make_curves(const std::string& dataset, const ParameterTexts& parame
     if (means.methods[i].method == kOwnMethod) {
       report.curves.push_back(own_curve(means.methods[i], parameters));
     } else {
-      add_rival(means.methods[i], i, report);
+      add_opencv(means.methods[i], i, report);
     }
   }
   return report;

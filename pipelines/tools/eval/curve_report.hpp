@@ -9,11 +9,11 @@
 
 #include "tools/eval/curve_means.hpp"
 #include "tools/eval/degradation.hpp"
-#include "tools/eval/rival_filters.hpp"
+#include "tools/eval/map_filters.hpp"
 
 namespace mtstereo::eval {
 
-/// One line of the picture and the table.
+/// One line of the image and the table.
 struct Curve {
   std::string name;
   std::string settings;    ///< the swept setting and the fixed ones
@@ -26,7 +26,7 @@ struct Curve {
 struct CurveReport {
   std::string dataset;
   std::string mode;     ///< of the library
-  std::string filters;  ///< the settings of the filters that are applied to the rivals' maps
+  std::string filters;  ///< the settings of the filters that are applied to maps of OpenCV
   int pairs = 0;
   std::vector<Problem> left_out;
   std::vector<Curve> curves;
@@ -36,8 +36,8 @@ struct CurveReport {
 /// The library's parameters as name and value.
 using ParameterTexts = std::vector<std::pair<std::string, std::string>>;
 
-/// The curves of these means, the library's first. The library has one curve. Each rival has two:
-/// one over its uniquenessRatio, and the lower envelope with the library's filters.
+/// The curves of these means, the library's first. The library has one curve. Each matcher of
+/// OpenCV has two: one over its uniquenessRatio, and the lower envelope with the library's filters.
 CurveReport make_curves(const std::string& dataset, const ParameterTexts& parameters,
                         const FilterSettings& filters, const CurveMeans& means);
 

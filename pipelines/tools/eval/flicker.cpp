@@ -11,7 +11,7 @@ namespace {
 
 // The disparities of one pixel in all maps.
 struct PixelSum {
-  int answers = 0;
+  int estimates = 0;
   double sum = 0;
   double squares = 0;
 };
@@ -21,7 +21,7 @@ PixelSum sum_of(const std::vector<cv::Mat>& maps, int y, int x) {
   for (const cv::Mat& map : maps) {
     const double value = map.at<float>(y, x);
     if (std::isnan(value)) continue;
-    ++pixel.answers;
+    ++pixel.estimates;
     pixel.sum += value;
     pixel.squares += value * value;
   }
@@ -50,19 +50,19 @@ Flicker measure_flicker(const std::vector<cv::Mat>& maps) {
     if (map.size() != maps[0].size()) throw UserError("disparity maps have different sizes");
   }
   const auto count = static_cast<double>(maps.size());
-  double answers = 0, any = 0, all = 0, deviations = 0;
+  double estimates = 0, any = 0, all = 0, deviations = 0;
   for (int y = 0; y < maps[0].rows; ++y) {
     for (int x = 0; x < maps[0].cols; ++x) {
       const PixelSum pixel = sum_of(maps, y, x);
-      answers += pixel.answers;
-      any += pixel.answers > 0 ? 1 : 0;
-      if (pixel.answers < static_cast<int>(maps.size())) continue;
+      estimates += pixel.estimates;
+      any += pixel.estimates > 0 ? 1 : 0;
+      if (pixel.estimates < static_cast<int>(maps.size())) continue;
       const double mean = pixel.sum / count;
       all += 1;
       deviations += std::sqrt(std::max(0.0, pixel.squares / count - mean * mean));
     }
   }
-  return {100 * ratio(answers / count, static_cast<double>(maps[0].total())),
+  return {100 * ratio(estimates / count, static_cast<double>(maps[0].total())),
           100 * ratio(any - all, any), ratio(deviations, all)};
 }
 

@@ -25,8 +25,8 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// The picture as stored. The bytes are read first, because OpenCV does not distinguish a missing
-// file, a folder and a corrupt picture.
+// The image as stored. The bytes are read first, because OpenCV does not distinguish a missing
+// file, a folder and a corrupt image.
 cv::Mat read_stored(const fs::path& file) {
   const std::string bytes = read_bytes(file);
   if (bytes.empty()) throw UserError(file, "is empty");
@@ -38,7 +38,7 @@ cv::Mat read_stored(const fs::path& file) {
   } catch (const cv::Exception& error) {
     throw UserError(file, "cannot be decoded: " + error.err);
   }
-  if (image.empty()) throw UserError(file, "is corrupt or not a picture in a known format");
+  if (image.empty()) throw UserError(file, "is corrupt or not an image in a known format");
   return image;
 }
 

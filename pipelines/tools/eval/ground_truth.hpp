@@ -53,7 +53,7 @@ Camera read_camera(const std::filesystem::path& file);
 /// Throws UserError if the cameras have the same optical center.
 cv::Mat depth_to_disparity(const cv::Mat& depth, const Camera& left, const Camera& right);
 
-/// Reads a picture of any depth and number of channels as 8-bit gray (BT.601 luma; alpha ignored,
+/// Reads an image of any depth and number of channels as 8-bit gray (BT.601 luma; alpha ignored,
 /// 16 bit scaled to 8).
 cv::Mat read_gray(const std::filesystem::path& file);
 

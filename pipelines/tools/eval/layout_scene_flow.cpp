@@ -49,7 +49,7 @@ class Finder {
   void add_folder(const fs::path& left_folder) {
     const fs::path below = left_folder.parent_path().lexically_relative(frames_);
     for (const fs::path& left : files_in(left_folder)) {
-      if (files::is_picture(left)) add_frame(left, below.lexically_normal());
+      if (files::is_image(left)) add_frame(left, below.lexically_normal());
     }
   }
 

@@ -59,9 +59,9 @@ std::string frame_of(const fs::path& file) {
   return digits;
 }
 
-// Label images, overlays and depth pictures are stored beside the images.
+// Label images, overlays and depth images are stored beside the views.
 bool is_view(const fs::path& file) {
-  if (!files::is_picture(file)) return false;
+  if (!files::is_image(file)) return false;
   const std::string stem = file.stem().string();
   for (const char* other : {"_gtr", "_over", "_dmap", "_disp", "_depth", "_vis"}) {
     if (stem.ends_with(other)) return false;

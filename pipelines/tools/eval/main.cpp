@@ -86,9 +86,9 @@ Report start_report(const Options& options, const DataSet& set) {
   }
   report.parameters.emplace_back("alignment", aligns(options.run) ? "correct" : "off");
   report.methods.emplace_back(kOwnMethod);
-  for (const Rival rival : options.run.rivals) {
-    report.methods.emplace_back(rival_name(rival));
-    report.rival_settings.emplace_back(rival_name(rival), rival_settings(rival));
+  for (const OpenCvMethod method : options.run.opencv_methods) {
+    report.methods.emplace_back(opencv_name(method));
+    report.opencv_settings.emplace_back(opencv_name(method), opencv_settings(method));
   }
   report.failures = set.problems;
   return report;

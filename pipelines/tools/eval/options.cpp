@@ -22,7 +22,7 @@ struct Texts {
   std::string dataset = "auto";
   std::string dmap = "auto";
   std::string format = "pfm";
-  std::string json, csv, disparity_folder, picture_folder;
+  std::string json, csv, disparity_folder, image_folder;
   std::vector<std::string> compare;
   std::vector<std::string> degrade;
   std::string alignment;
@@ -106,7 +106,7 @@ void add_methods(CLI::App& app, Texts& texts, Options& options) {
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(rival_names()));
+      ->check(CLI::IsMember(opencv_names()));
   app.add_flag("--official", options.run.official,
                "also print the measures of KITTI 2015, Middlebury v3 and ETH3D as these benchmarks "
                "count them");
@@ -156,7 +156,7 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
       ->check(CLI::IsMember({"pfm", "kitti"}))
       ->capture_default_str()
       ->group(group);
-  app.add_option("--write-pictures", texts.picture_folder,
+  app.add_option("--write-pictures", texts.image_folder,
                  "write an image of each pair to this folder: left image, ground truth, disparity "
                  "and error")
       ->type_name("DIR")
@@ -197,17 +197,17 @@ void apply(const Texts& texts, Options& options) {
   if (texts.dmap == "depth") options.run.dmap = DmapMeaning::kDepth;
   if (texts.dmap == "disparity") options.run.dmap = DmapMeaning::kDisparity;
   for (const std::string& name : texts.compare) {
-    const Rival rival = *find_rival(name);
-    const std::vector<Rival>& known = options.run.rivals;
-    const bool twice = std::find(known.begin(), known.end(), rival) != known.end();
-    if (!twice) options.run.rivals.push_back(rival);
+    const OpenCvMethod method = *find_opencv(name);
+    const std::vector<OpenCvMethod>& known = options.run.opencv_methods;
+    const bool twice = std::find(known.begin(), known.end(), method) != known.end();
+    if (!twice) options.run.opencv_methods.push_back(method);
   }
   if (!texts.alignment.empty()) options.run.align = texts.alignment == "correct";
   apply_degradations(texts, options.run.degradations);
   options.json = path_of(texts.json);
   options.csv = path_of(texts.csv);
   options.run.disparity_folder = path_of(texts.disparity_folder);
-  options.run.picture_folder = path_of(texts.picture_folder);
+  options.run.image_folder = path_of(texts.image_folder);
   if (options.run.stream) options.run.warm_up = 0;  // it would be an earlier frame
   if (texts.format == "kitti") options.run.disparity_format = DisparityFormat::kKitti;
 }
@@ -217,8 +217,7 @@ void apply(const Texts& texts, Options& options) {
 ParsedOptions parse_options(int argc, const char* const* argv) {
   CLI::App app{
       "Runs MTStereo on a folder of stereo pairs with ground truth and measures errors, density "
-      "and "
-      "time.",
+      "and time.",
       "mtstereo-eval"};
   app.set_version_flag("--version", version());
   app.footer(

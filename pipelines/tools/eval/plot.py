@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Plots the figures that mtstereo's programs write as JSON.
 
-  plot.py curve REPORT.json PICTURE.png   error against density; REPORT.json comes from
+  plot.py curve REPORT.json IMAGE.png   error against density; REPORT.json comes from
                                           'mtstereo-eval --curve ... --json REPORT.json'; with
                                           '--degrade ...', one panel for each kind of images
-  plot.py growth PLOT.json PICTURE.png    frame time against problem size; PLOT.json is
+  plot.py growth PLOT.json IMAGE.png    frame time against problem size; PLOT.json is
                                           {"title": TEXT, "panels": [PANEL] or [PANEL, PANEL]}
                                           with PANEL = {"x": LABEL, "y": LABEL, "caption": TEXT,
                                           "points": [[X, Y], ...]}, x ascending
 
 '-' instead of the JSON file reads standard input. The exit status is 1 if matplotlib is missing or
-the picture cannot be written, and 2 if the command or the JSON file is invalid.
+the image cannot be written, and 2 if the command or the JSON file is invalid.
 """
 import argparse
 import io
@@ -36,7 +36,7 @@ class InputError(Exception):
 
 
 class PlotError(Exception):
-    """The picture cannot be made; the message states why."""
+    """The image cannot be made; the message states why."""
 
 
 def matplotlib_modules():
@@ -57,7 +57,7 @@ def matplotlib_modules():
 
 
 class Canvas:
-    """A picture of this size [px], written as PNG."""
+    """An image of this size [px], written as PNG."""
 
     def __init__(self, width, height):
         figure, canvas, self.ticker = matplotlib_modules()
@@ -97,13 +97,13 @@ class Canvas:
                            bbox_to_anchor=(50 / self.size[0], 1 - y / self.size[1]),
                            fontsize=LARGE, labelcolor=INK, borderaxespad=0, columnspacing=1.5)
 
-    def write(self, picture):
+    def write(self, image):
         data = io.BytesIO()
         self.figure.savefig(data, format="png", dpi=DPI, metadata={"Software": "mtstereo-eval"})
         try:
-            pathlib.Path(picture).write_bytes(data.getvalue())
+            pathlib.Path(image).write_bytes(data.getvalue())
         except OSError as error:
-            raise PlotError(f"{picture}: cannot be written: {error.strerror}") from error
+            raise PlotError(f"{image}: cannot be written: {error.strerror}") from error
 
 
 def number(value):
@@ -296,7 +296,7 @@ def plot(options):
         raise InputError(f"{name}: {error}") from error
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise InputError(f"{name}: is not a {options.command} plot: {error!r}") from error
-    canvas.write(options.picture)
+    canvas.write(options.image)
 
 
 def parse_options():
@@ -307,7 +307,7 @@ def parse_options():
                        ("growth", "plot frame time against problem size")):
         command = commands.add_parser(name, help=what)
         command.add_argument("json", metavar="FILE.json", help="'-' reads standard input")
-        command.add_argument("picture", metavar="PICTURE.png")
+        command.add_argument("image", metavar="IMAGE.png")
         command.add_argument("--title", metavar="TEXT", help="replaces the title")
         if name == "curve":
             command.add_argument("--measure", choices=[key for key, _ in MEASURES],

@@ -179,7 +179,7 @@ json to_json(const Report& report) {
               {"mean", means_json(summarize(report))},
               {"failures", json::array()}};
   for (const auto& [name, text] : report.parameters) result["parameters"][name] = text;
-  for (const auto& [name, text] : report.rival_settings) result["compared_methods"][name] = text;
+  for (const auto& [name, text] : report.opencv_settings) result["compared_methods"][name] = text;
   for (const PairReport& pair : report.pairs) {
     if (!pair.results.empty()) result["pairs"].push_back(pair_json(pair));
   }

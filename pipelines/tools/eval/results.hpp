@@ -28,9 +28,9 @@ struct Report {
   std::vector<std::pair<std::string, std::string>> parameters;  ///< effective values: name and text
   int warm_up = 1;
   int repeat = 1;
-  std::vector<std::string> methods;                                 ///< the library's first
-  std::vector<std::pair<std::string, std::string>> rival_settings;  ///< method and its settings
-  std::vector<std::string> kinds{kCleanKind};                       ///< of images, see kinds_of()
+  std::vector<std::string> methods;                                  ///< the library's first
+  std::vector<std::pair<std::string, std::string>> opencv_settings;  ///< method and its settings
+  std::vector<std::string> kinds{kCleanKind};                        ///< of images, see kinds_of()
   std::optional<double> flicker;  ///< with --flicker: standard deviation of the noise [gray values]
   bool stream = false;            ///< with --stream: the pairs are successive frames
   bool official = false;          ///< with --official: the results have official counts

@@ -10,7 +10,7 @@
 
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/degrade.hpp"
-#include "tools/eval/rival_sweep.hpp"
+#include "tools/eval/opencv_sweep.hpp"
 
 namespace mtstereo::eval {
 namespace fs = std::filesystem;
@@ -47,7 +47,7 @@ bool attempt(PairReport& report, const std::string& who, Step step) {
 }
 
 // The library's own files go directly into the folder, as the benchmark servers require. Each
-// degradation and each rival has a subfolder.
+// degradation and each method of OpenCV has a subfolder.
 std::string output_name(const std::string& method, const PairReport& report,
                         const char* extension) {
   fs::path base = report.kind == kCleanKind ? fs::path() : fs::path(report.kind);
@@ -102,12 +102,12 @@ bool aligns(const RunSettings& settings) {
 }
 
 Runner::Runner(RunSettings settings) : settings_(std::move(settings)) {
-  for (const auto& folder : {settings_.disparity_folder, settings_.picture_folder}) {
+  for (const auto& folder : {settings_.disparity_folder, settings_.image_folder}) {
     if (folder) listed(*folder);
   }
 }
 
-// Maps and pictures may be in the same folder.
+// Maps and images may be in the same folder.
 outputs::ListedFolder& Runner::listed(const fs::path& folder) {
   std::unique_ptr<outputs::ListedFolder>& files =
       folders_[fs::weakly_canonical(fs::absolute(folder))];
@@ -181,9 +181,9 @@ void Runner::run_degraded(const Degradation& degradation, const LoadedPair& imag
 void Runner::run_methods(const LoadedPair& images, PairReport& report) {
   const std::string prefix = report.kind == kCleanKind ? "" : report.kind + ": ";
   attempt(report, prefix + kOwnMethod, [&] { run_own(images, report); });
-  for (const Rival rival : settings_.rivals) {
-    attempt(report, prefix + std::string(rival_name(rival)),
-            [&] { run_rival(rival, images, report); });
+  for (const OpenCvMethod method : settings_.opencv_methods) {
+    attempt(report, prefix + std::string(opencv_name(method)),
+            [&] { run_opencv(method, images, report); });
   }
 }
 
@@ -234,15 +234,15 @@ void Runner::run_own(const LoadedPair& images, PairReport& report) {
   report.sweeps.push_back({kOwnMethod, confidence_sweep(map, confidence, images.truth)});
 }
 
-void Runner::run_rival(Rival rival, const LoadedPair& images, PairReport& report) {
-  RivalMatcher matcher(rival, report.max_disparity);
+void Runner::run_opencv(OpenCvMethod method, const LoadedPair& images, PairReport& report) {
+  OpenCvMatcher matcher(method, report.max_disparity);
   const double seconds = median_seconds(warm_up(report), settings_.repeat,
                                         [&] { matcher.compute(images.left, images.right); });
-  const std::string name(rival_name(rival));
+  const std::string name(opencv_name(method));
   finish(name, matcher.disparity(), seconds, images, report);
   if (!settings_.curve) return;
-  report.sweeps.push_back({name, sweep_rival(rival, report.max_disparity, images,
-                                             filter_settings(settings_.parameters))});
+  report.sweeps.push_back({name, sweep_opencv(method, report.max_disparity, images,
+                                              filter_settings(settings_.parameters))});
 }
 
 void Runner::finish(const std::string& method, const cv::Mat& disparity, double seconds,
@@ -267,10 +267,10 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
     write_disparity(files.listed(name), disparity, settings_.disparity_format);
     files.measure(name);
   }
-  if (settings_.picture_folder) {
+  if (settings_.image_folder) {
     const std::string name = output_name(method, report, ".png");
-    outputs::ListedFolder& files = listed(*settings_.picture_folder);
-    write_picture(files.listed(name), overview(images, disparity, report.max_disparity));
+    outputs::ListedFolder& files = listed(*settings_.image_folder);
+    write_image(files.listed(name), overview(images, disparity, report.max_disparity));
     files.measure(name);
   }
 }
@@ -303,10 +303,10 @@ void Runner::run_own_flicker(const LoadedPair& images, PairReport& report) {
 
 void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
   attempt(report, std::string("flicker: ") + kOwnMethod, [&] { run_own_flicker(images, report); });
-  for (const Rival rival : settings_.rivals) {
-    const std::string name(rival_name(rival));
+  for (const OpenCvMethod method : settings_.opencv_methods) {
+    const std::string name(opencv_name(method));
     attempt(report, "flicker: " + name, [&] {
-      RivalMatcher matcher(rival, report.max_disparity);
+      OpenCvMatcher matcher(method, report.max_disparity);
       FlickerWindow window;
       for (int i = 0; i < kFlickerFrames; ++i) {
         const LoadedPair frame = noisy(images, i);

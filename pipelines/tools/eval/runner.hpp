@@ -16,10 +16,10 @@
 #include "tools/eval/datasets.hpp"
 #include "tools/eval/degradation.hpp"
 #include "tools/eval/flicker.hpp"
+#include "tools/eval/images.hpp"
 #include "tools/eval/metrics.hpp"
 #include "tools/eval/official.hpp"
-#include "tools/eval/pictures.hpp"
-#include "tools/eval/rivals.hpp"
+#include "tools/eval/opencv_matchers.hpp"
 
 namespace mtstereo::eval {
 
@@ -32,13 +32,13 @@ struct RunSettings {
   /// Align each pair before the library matches it, as the element does; std::nullopt: unless the
   /// preset is the paper's.
   std::optional<bool> align;
-  std::vector<Rival> rivals;
+  std::vector<OpenCvMethod> opencv_methods;
   int warm_up = 1;  ///< untimed frames before the timed ones
   int repeat = 1;   ///< timed frames; the result is their median
   DmapMeaning dmap = DmapMeaning::kAuto;
   std::optional<std::filesystem::path> disparity_folder;
   DisparityFormat disparity_format = DisparityFormat::kPfm;
-  std::optional<std::filesystem::path> picture_folder;
+  std::optional<std::filesystem::path> image_folder;
   bool official = false;                  ///< count as the benchmarks do
   bool curve = false;                     ///< sweep the confidence of every method
   std::vector<Degradation> degradations;  ///< evaluated in addition to the images as they are
@@ -95,10 +95,10 @@ int limited_range(const std::string& who, int wanted, int width, std::vector<std
 /// Calls `frame` warm_up times, then times `repeat` calls and returns their median [s].
 double median_seconds(int warm_up, int repeat, const std::function<void()>& frame);
 
-/// Runs the library and the rivals on each pair.
+/// Runs the library and the methods of OpenCV on each pair.
 class Runner {
  public:
-  /// Creates and locks the folders of maps and pictures. Throws UserError.
+  /// Creates and locks the folders of maps and images. Throws UserError.
   explicit Runner(RunSettings settings);
 
   /// The images as they are. Does not throw for a pair that cannot be used: `failures` has the
@@ -115,7 +115,7 @@ class Runner {
   void run_degraded(const Degradation& degradation, const LoadedPair& images, PairReport& report);
   void run_methods(const LoadedPair& images, PairReport& report);
   void run_own(const LoadedPair& images, PairReport& report);
-  void run_rival(Rival rival, const LoadedPair& images, PairReport& report);
+  void run_opencv(OpenCvMethod method, const LoadedPair& images, PairReport& report);
   void run_flicker(const LoadedPair& images, PairReport& report);
   void run_own_flicker(const LoadedPair& images, PairReport& report);
   LoadedPair noisy(const LoadedPair& images, int frame) const;

@@ -74,7 +74,7 @@ void print_table(std::ostream& out, const Report& report) {
     out << "\npixels with ground truth that are visible in both views\n";
     print_rows(out, noc);
   }
-  for (const auto& [method, settings] : report.rival_settings) {
+  for (const auto& [method, settings] : report.opencv_settings) {
     out << '\n' << method << ": OpenCV, " << settings;
     for (const Summary& mean : means) {
       if (mean.method == method && std::isfinite(mean.time_ratio)) {
@@ -82,7 +82,7 @@ void print_table(std::ostream& out, const Report& report) {
       }
     }
   }
-  if (!report.rival_settings.empty()) out << '\n';
+  if (!report.opencv_settings.empty()) out << '\n';
 }
 
 }  // namespace mtstereo::eval

@@ -116,7 +116,7 @@ std::vector<Isometry3d> choose_poses(const BoardPoses& options, double width, do
   return poses;
 }
 
-Scene make_board(const std::shared_ptr<const Picture>& picture, std::vector<Isometry3d> poses,
+Scene make_board(const std::shared_ptr<const ImageTexture>& image, std::vector<Isometry3d> poses,
                  const BoardTimes& times, std::uint32_t seed) {
   SceneBuilder b("board", seed);
   double farthest = 0;
@@ -125,8 +125,8 @@ Scene make_board(const std::shared_ptr<const Picture>& picture, std::vector<Isom
   b.rectangle({0, 0, wall}, 15 * wall, 15 * wall, wall_paint());
 
   Texture print;
-  print.picture = picture;
-  Object& board = b.rectangle({0, 0, 0}, picture->width() / 2, picture->height() / 2, print);
+  print.image = image;
+  Object& board = b.rectangle({0, 0, 0}, image->width() / 2, image->height() / 2, print);
   board.motion.path = std::make_shared<const Path>(Path{std::move(poses), times.rest, times.move});
   b.scene().to_light = {0.3, -0.5, -1};
   b.scene().ambient = 0.6;

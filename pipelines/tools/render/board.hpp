@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "tools/render/picture.hpp"
+#include "tools/render/image_texture.hpp"
 #include "tools/render/raw.hpp"
 #include "tools/render/scene.hpp"
 
@@ -41,7 +41,7 @@ struct BoardTimes {
 
 /// A board that rests at each pose and moves to the next one, in front of a plain wall. The camera
 /// does not move. The board arrives at pose i at the time i * (rest + move).
-Scene make_board(const std::shared_ptr<const Picture>& picture,
+Scene make_board(const std::shared_ptr<const ImageTexture>& image,
                  std::vector<Eigen::Isometry3d> poses, const BoardTimes& times, std::uint32_t seed);
 
 }  // namespace mtstereo::render

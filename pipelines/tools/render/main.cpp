@@ -58,23 +58,23 @@ std::optional<RawRig> rig_of(const Options& o, const Settings& settings) {
   return RawRig(c);
 }
 
-std::shared_ptr<const Picture> picture_of(const BoardOptions& board) {
-  if (board.picture.empty()) {
+std::shared_ptr<const ImageTexture> image_of(const BoardOptions& board) {
+  if (board.image.empty()) {
     const auto [columns, rows] = parse_pair("--squares", board.squares, "10x7");
-    return std::make_shared<const Picture>(checkerboard(columns, rows, board.square));
+    return std::make_shared<const ImageTexture>(checkerboard(columns, rows, board.square));
   }
-  const cv::Mat image = cv::imread(board.picture, cv::IMREAD_GRAYSCALE);
-  if (image.empty()) throw std::runtime_error("cannot read the picture " + board.picture);
+  const cv::Mat image = cv::imread(board.image, cv::IMREAD_GRAYSCALE);
+  if (image.empty()) throw std::runtime_error("cannot read the image " + board.image);
   std::vector<std::uint8_t> pixels(image.begin<std::uint8_t>(), image.end<std::uint8_t>());
-  return std::make_shared<const Picture>(image.cols, image.rows, pixels,
-                                         image.cols / board.picture_width);
+  return std::make_shared<const ImageTexture>(image.cols, image.rows, pixels,
+                                              image.cols / board.image_width);
 }
 
 Scene board_scene(const Options& o, const RawRig& rig) {
-  const auto picture = picture_of(o.board);
+  const auto image = image_of(o.board);
   const BoardTimes times{(o.board.rest - 1) / o.rate, (o.board.move + 1) / o.rate};
-  return make_board(picture, choose_poses(o.board.poses, picture->width(), picture->height(), rig),
-                    times, o.settings.seed);
+  return make_board(image, choose_poses(o.board.poses, image->width(), image->height(), rig), times,
+                    o.settings.seed);
 }
 
 // The rectified pair that the truth shows.
@@ -114,7 +114,7 @@ class Clip {
 
   void write() {
     ClipWriter writer(o_.folder, o_.layout, o_.overwrite, o_.depth,
-                      {o_.raw, o_.rectification, o_.board.picture});
+                      {o_.raw, o_.rectification, o_.board.image});
     const bool terminal = isatty(STDERR_FILENO) != 0;
     for (int i = 0; i < frames(); ++i) {
       writer.write(i, frame(o_.start + i / o_.rate), rectification_);

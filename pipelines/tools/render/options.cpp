@@ -88,10 +88,9 @@ void define_rig(CLI::App& app, Options& o) {
       "--lens", o.lens,
       "built-in raw cameras with distortion and rotation: wide, or fisheye (120 degrees)");
   app.add_option("--raw", o.raw, "raw cameras of this calibration file");
-  app.add_option(
-      "--rectification", o.rectification,
-      "raw cameras: the truth is that of the rectified pair of this calibration, such as "
-      "one of mtcalibrate, instead of the exact one");
+  app.add_option("--rectification", o.rectification,
+                 "raw cameras: the truth is that of the rectified pair of this calibration, such "
+                 "as one of mtcalibrate, instead of the exact one");
   number("--alpha", o.alpha, "of that rectification, as for mtrectify: 0 to 1, or -1");
   app.add_option("--rectified-size", o.rectified_size,
                  "width and height of the views of that rectified pair [px]");
@@ -107,18 +106,18 @@ void define_scenes(CLI::App& app, Options& o) {
       ->check(outputs::finite())
       ->capture_default_str();
   number("--slant", o.wall.slant, "wall: its right side is farther [degrees]");
-  const std::map<std::string, ThinKind> things = {
+  const std::map<std::string, ThinKind> kinds = {
       {"posts", ThinKind::kPosts}, {"leaning", ThinKind::kLeaning}, {"rails", ThinKind::kRails},
       {"wires", ThinKind::kWires}, {"fence", ThinKind::kFence},     {"stems", ThinKind::kStems}};
   app.add_option("--thin", o.thin.kind, "thin: posts, leaning, rails, wires, fence or stems")
-      ->transform(CLI::CheckedTransformer(things, CLI::ignore_case))
+      ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case))
       ->default_str("posts");
   number("--thin-width", o.thin.width, "thin: their width in a view 640 px wide [px]");
   app.add_option("--squares", o.board.squares, "board: columns and rows of the checkerboard")
       ->capture_default_str();
   number("--square", o.board.square, "board: edge of a square [m]");
-  app.add_option("--picture", o.board.picture, "board: image that replaces the checkerboard");
-  number("--picture-width", o.board.picture_width, "board: width of that image [m]");
+  app.add_option("--picture", o.board.image, "board: image that replaces the checkerboard");
+  number("--picture-width", o.board.image_width, "board: width of that image [m]");
   number("--poses", o.board.poses.count, "board: number of poses");
   number("--rest", o.board.rest, "board: frames at each pose");
   number("--move", o.board.move, "board: frames between two poses");
@@ -144,7 +143,7 @@ void check_board(const BoardOptions& b) {
     return value >= low && value <= high;
   };
   require(between(b.square, 0.001, 10), "square must be 0.001 to 10 m");
-  require(b.picture.empty() || between(b.picture_width, 0.001, 100),
+  require(b.image.empty() || between(b.image_width, 0.001, 100),
           "picture needs picture-width, 0.001 to 100 m");
   require(between(b.poses.count, 1, 100000), "poses must be 1 to 100000");
   require(between(b.rest, 1, 1000), "rest must be 1 to 1000 frames");

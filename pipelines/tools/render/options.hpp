@@ -19,8 +19,8 @@ namespace mtstereo::render {
 struct BoardOptions {
   std::string squares = "10x7";  ///< of the checkerboard
   double square = 0.05;          ///< edge of a square [m]
-  std::string picture;           ///< file that replaces the checkerboard
-  double picture_width = 0;      ///< of that picture on the board [m]
+  std::string image;             ///< file that replaces the checkerboard
+  double image_width = 0;        ///< of that image on the board [m]
   BoardPoses poses;              ///< its seed is that of the settings
   int rest = 1;                  ///< frames at each pose
   int move = 0;                  ///< frames between two poses

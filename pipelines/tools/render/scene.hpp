@@ -72,7 +72,7 @@ struct Wall {
 /// setting.
 Scene make_wall(const Wall& wall, std::uint32_t seed);
 
-/// What the things of the scene `thin` are.
+/// What the structures of the scene `thin` are.
 enum class ThinKind {
   kPosts,    ///< upright bars
   kLeaning,  ///< bars that lean by 0.2 to 0.6 px per row
@@ -82,14 +82,14 @@ enum class ThinKind {
   kStems,    ///< stems of plants, with leaves
 };
 
-/// Thin things in front of a slanted wall.
+/// Thin structures in front of a slanted wall.
 struct Thin {
   ThinKind kind = ThinKind::kPosts;
   double width = 3;  ///< of a bar along a row, or along a column [px of a view 640 px wide]
 };
 
 /// The scene with these things, at disparities 5 to 45 px above those of the wall in a view 640 px
-/// wide. Its first object is the wall; the others are the things. Throws std::invalid_argument,
+/// wide. Its first object is the wall; the others are the structures. Throws std::invalid_argument,
 /// naming the setting.
 Scene make_thin(const Thin& thin, std::uint32_t seed);
 

@@ -36,7 +36,7 @@ Texture fabric(double mean, const Eigen::Vector3f& color) {
   return t;
 }
 
-Texture picture() {
+Texture painting() {
   Texture t;
   t.mean = 0.5, t.noise_contrast = 0.5, t.noise_size = 0.3, t.octaves = 6, t.persistence = 0.65;
   t.color = {1.0f, 0.85f, 0.7f};
@@ -86,8 +86,8 @@ void walls(SceneBuilder& b) {
   b.rectangle({0, kFloor - 1.3, 4.6}, 3.2, 1.3, plaster(0.7));
   b.rectangle({-2.3, kFloor - 1.3, 2}, 3, 1.3, plaster(0.62), kQuarter);
   b.rectangle({2.5, kFloor - 1.3, 2}, 3, 1.3, plaster(0.66), kQuarter);
-  b.rectangle({0.95, kFloor - 1.6, 4.57}, 0.55, 0.4, picture());
-  b.rectangle({-2.27, kFloor - 1.5, 2.9}, 0.5, 0.4, picture(), kQuarter);
+  b.rectangle({0.95, kFloor - 1.6, 4.57}, 0.55, 0.4, painting());
+  b.rectangle({-2.27, kFloor - 1.5, 2.9}, 0.5, 0.4, painting(), kQuarter);
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ Scene make_room(std::uint32_t seed, bool lights) {
   walls(b);
   table(b, {0.35, kFloor, 2.5}, 0.55, 0.35);
   b.box({0.15, kFloor - 0.86, 2.45}, {0.11, 0.1, 0.08}, chequers(), 0.5);
-  b.pole({0.65, kFloor - 0.76, 2.5}, 0.24, 0.04, picture());
+  b.pole({0.65, kFloor - 0.76, 2.5}, 0.24, 0.04, painting());
   b.sphere({0.4, kFloor - 0.83, 2.3}, 0.07, fabric(0.55, {0.4f, 0.6f, 1.0f}));
   shelf(b, {-0.95, kFloor, 4.2}, 0.6);
 
@@ -123,7 +123,7 @@ Scene make_room(std::uint32_t seed, bool lights) {
   ball.motion.swing = {0.25, 0.03, 0.1};
   ball.motion.swing_rate = 0.6;
   ball.motion.spin = 2;
-  b.box({0.9, kFloor - 0.2, 1.9}, {0.16, 0.2, 0.16}, picture(), 0.7).motion.spin = 0.5;
+  b.box({0.9, kFloor - 0.2, 1.9}, {0.16, 0.2, 0.16}, painting(), 0.7).motion.spin = 0.5;
   if (lights) {
     scene.objects.front().wet = 0.4;  // polished parquet
     b.lamp({1.9, kFloor - 1.56, 3.6}, 0.09, 10);

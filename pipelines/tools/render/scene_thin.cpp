@@ -13,15 +13,15 @@ namespace {
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
 
-// Positions and lengths are in px of a picture that is 640 px wide; the camera sees the same
-// picture in every size.
+// Positions and lengths are in px of an image that is 640 px wide; the camera sees the same
+// image in every size.
 constexpr double kWidth = 640, kHeight = 384, kFocal = 0.85 * kWidth;
 constexpr double kBaseline = 0.1;
 constexpr int kThings = 8;
 
 double distance_at(double disparity) { return kFocal * kBaseline / disparity; }
 
-/// A place in the picture, as seen from the left camera.
+/// A place in the image, as seen from the left camera.
 struct Place {
   double x, y, disparity;
 
@@ -33,7 +33,7 @@ struct Place {
 
 double either(SceneBuilder& b) { return b.random(0, 1) < 0.5 ? -1 : 1; }
 
-// The background: grain at every scale of the picture, on a plane that turns away to one side.
+// The background: grain at every scale of the image, on a plane that turns away to one side.
 void add_background(SceneBuilder& b) {
   Texture t;
   const double z = distance_at(b.random(7, 11));
@@ -61,7 +61,7 @@ Object& bar(SceneBuilder& b, const Place& middle, double width, double length, d
   return o;
 }
 
-/// Where the i-th of the things is: side by side, or one below the other.
+/// Where the i-th of the structures is: side by side, or one below the other.
 Place place_of(SceneBuilder& b, int i, bool side_by_side) {
   const double along = (i + b.random(0.25, 0.75)) / kThings;
   const double x = side_by_side ? 40 + 580 * along : b.random(260, 400);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/render/picture.hpp"
+#include "tools/render/image_texture.hpp"
 
 namespace mtstereo::render {
 namespace {
@@ -137,7 +137,7 @@ double hash_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 }
 
 double gray_value(const Texture& texture, double u, double v, double footprint) {
-  if (texture.picture) return texture.picture->mean(u, v, footprint);
+  if (texture.image) return texture.image->mean(u, v, footprint);
   double value = texture.mean;
   double size = texture.noise_size, amplitude = texture.noise_contrast;
   for (int octave = 0; octave < texture.octaves; ++octave) {

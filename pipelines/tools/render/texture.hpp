@@ -7,7 +7,7 @@
 
 namespace mtstereo::render {
 
-class Picture;
+class ImageTexture;
 
 /// The pattern on top of a texture's noise.
 enum class Pattern {
@@ -32,7 +32,7 @@ struct Texture {
   double period_v = 1;                ///< period of the pattern [m]
   Eigen::Vector3f color = {1, 1, 1};  ///< tint (blue, green, red)
   std::uint32_t seed = 0;
-  std::shared_ptr<const Picture> picture{};  ///< replaces all but the color
+  std::shared_ptr<const ImageTexture> image{};  ///< replaces all but the color
 };
 
 /// A hash of three numbers; the source of all random choices of the renderer.

@@ -164,8 +164,8 @@ std::optional<Seen> View::look(double x, double y) const {
   const double lit = std::abs(hit.normal.dot(placed.to_light));
   const double shade = scene_.ambient + (1 - scene_.ambient) * lit;
   const Texture& texture = placed.object->texture;
-  // Pictures are sharp: each ray has its own part of the pixel.
-  const double width = footprint(hit, ray, facing) / (texture.picture ? samples_ : 1);
+  // Image textures are sharp: each ray has its own part of the pixel.
+  const double width = footprint(hit, ray, facing) / (texture.image ? samples_ : 1);
   double gray = shade * gray_value(texture, hit.u, hit.v, width);
   if (placed.object->wet > 0) gray += reflection(placed, hit, ray);
   return Seen{hit.t, static_cast<float>(gray), placed.object};

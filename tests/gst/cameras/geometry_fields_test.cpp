@@ -77,12 +77,12 @@ TEST(GeometryFields, TwoRectificationsAreAWarning) {
 }
 
 /// A frame that is black outside of these columns in every row, with the meta that says so.
-GstBuffer* bordered(Picture picture, ValidColumns columns, bool meta) {
+GstBuffer* bordered(GrayImage image, ValidColumns columns, bool meta) {
   for (int i = 0; i < kWidth * kHeight; ++i) {
     if (i % kWidth >= columns.begin && i % kWidth < columns.end) continue;
-    picture.pixels[static_cast<std::size_t>(i)] = 0;
+    image.pixels[static_cast<std::size_t>(i)] = 0;
   }
-  GstBuffer* frame = frame_buffer(picture, 0, kFrame);
+  GstBuffer* frame = frame_buffer(image, 0, kFrame);
   if (!meta) return frame;
   GBytes* bytes = plugin::pack_valid_columns(std::vector<ValidColumns>(kHeight, columns));
   plugin::set_valid_columns(frame, bytes);
@@ -105,7 +105,7 @@ class Border : public testing::Test {
     density = harness.stats().density;
     EXPECT_EQ(plugin::valid_columns_of(out.get()), nullptr);  // it is of the view, not of the map
   }
-  int answers(int begin, int end) const {
+  int estimates(int begin, int end) const {
     int count = 0;
     for (int i = 0; i < kWidth * kHeight; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -123,24 +123,24 @@ class Border : public testing::Test {
 TEST_F(Border, PixelsOfTheBorderHaveNoDisparity) {
   match(true);
   // The right view begins at 24: the left pixel of its first pixels is at 30.
-  EXPECT_EQ(answers(0, 24 + kShift), 0);
-  EXPECT_EQ(answers(kWidth - 20 + kShift, kWidth), 0);
-  EXPECT_EQ(answers(kWidth - 8, kWidth), 0);
-  const int inside = answers(0, kWidth);
+  EXPECT_EQ(estimates(0, 24 + kShift), 0);
+  EXPECT_EQ(estimates(kWidth - 20 + kShift, kWidth), 0);
+  EXPECT_EQ(estimates(kWidth - 8, kWidth), 0);
+  const int inside = estimates(0, kWidth);
   EXPECT_GT(inside, 50 * kHeight);
   EXPECT_NEAR(density, static_cast<double>(inside) / (kWidth * kHeight), 1e-6);
 }
 
 TEST_F(Border, FramesWithoutTheMetaAreNotChanged) {
   match(false);
-  EXPECT_GT(answers(0, 24 + kShift), 0);
+  EXPECT_GT(estimates(0, 24 + kShift), 0);
 }
 
 TEST_F(Border, AppliesWithNegativeDisparitiesToo) {
   match(true, "min-disparity=-4 max-disparity=16 mode=dense");
-  EXPECT_EQ(answers(0, 24 + kShift), 0);
-  EXPECT_EQ(answers(kWidth - 20 + kShift, kWidth), 0);
-  EXPECT_GT(answers(0, kWidth), 50 * kHeight);
+  EXPECT_EQ(estimates(0, 24 + kShift), 0);
+  EXPECT_EQ(estimates(kWidth - 20 + kShift, kWidth), 0);
+  EXPECT_GT(estimates(0, kWidth), 50 * kHeight);
 }
 
 TEST(Chain, RectifiedPairStatesItsGeometryAndHasNoDisparityInTheBorder) {

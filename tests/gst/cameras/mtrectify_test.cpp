@@ -19,7 +19,7 @@ namespace {
 constexpr int kWidth = 160;
 constexpr int kHeight = 120;
 
-Picture picture(int width = kWidth, int height = kHeight) {
+GrayImage noise_image(int width = kWidth, int height = kHeight) {
   return noise_pair(width, height, 0, 7).left;
 }
 
@@ -43,7 +43,7 @@ class MtRectify : public testing::Test {
         .value_or(plugin::StereoGeometry());
   }
   /// What the library makes of an image.
-  std::vector<std::uint8_t> expected(const Picture& image, const RectificationOptions& options,
+  std::vector<std::uint8_t> expected(const GrayImage& image, const RectificationOptions& options,
                                      Rectifier::Side side, int border = 0) const {
     const Rectification rectification = rectify(rig, options).value();
     Rectifier rectifier = std::move(Rectifier::create(rig, rectification, side).value());
@@ -68,7 +68,7 @@ class MtRectify : public testing::Test {
 };
 
 TEST_F(MtRectify, FramesAreThoseOfTheLibrary) {
-  const Picture image = picture();
+  const GrayImage image = noise_image();
   for (const bool left : {true, false}) {
     const auto side = left ? Rectifier::Side::kLeft : Rectifier::Side::kRight;
     for (const char* format : {"GRAY8", "I420", "NV12", "Y42B"}) {
@@ -91,7 +91,7 @@ TEST_F(MtRectify, CapsStateTheGeometryOfTheView) {
       make(std::string("alpha=0.5 camera=") + (left ? "left" : "right") +
            " zero-disparity=" + (zero_disparity ? "true" : "false"))
           .caps(raw_caps("GRAY8", kWidth, kHeight));
-      ASSERT_TRUE(harness->pass(frame_buffer(picture(), 0, kFrame)));
+      ASSERT_TRUE(harness->pass(frame_buffer(noise_image(), 0, kFrame)));
       const Rectification r =
           rectify(rig, {.alpha = 0.5, .zero_disparity = zero_disparity}).value();
       const plugin::StereoGeometry found = geometry();
@@ -110,7 +110,7 @@ TEST_F(MtRectify, CapsStateTheGeometryOfTheView) {
 
 TEST_F(MtRectify, SizeIsThatOfThePropertiesOrOfDownstream) {
   make("width=81 height=63").caps(raw_caps("GRAY8", kWidth, kHeight));
-  const Picture image = picture();
+  const GrayImage image = noise_image();
   EXPECT_EQ(output(frame_buffer(image, 0, kFrame)),
             expected(image, {.width = 81, .height = 63}, Rectifier::Side::kLeft));
   make();
@@ -122,7 +122,7 @@ TEST_F(MtRectify, SizeIsThatOfThePropertiesOrOfDownstream) {
 
 TEST_F(MtRectify, CalibrationIsScaledToTheVideo) {
   make("", plumb_bob_rig(2 * kWidth, 2 * kHeight)).caps(raw_caps("GRAY8", kWidth, kHeight));
-  const Picture image = picture();
+  const GrayImage image = noise_image();
   const auto out = output(frame_buffer(image, 0, kFrame));
   rig = scale_calibration(rig, kWidth, kHeight).value();
   EXPECT_EQ(out, expected(image, {}, Rectifier::Side::kLeft));
@@ -150,12 +150,12 @@ TEST_F(MtRectify, RemarksOnTheCalibrationAreWarningsOfTheLeftElement) {
     CameraHarness element("mtrectify", "calibration=" + folder.path("rig.yml") +
                                            (left ? " camera=left" : " camera=right"));
     element.caps(raw_caps("GRAY8", kWidth, kHeight));
-    ASSERT_TRUE(element.pass(frame_buffer(picture(), 0, kFrame)));
+    ASSERT_TRUE(element.pass(frame_buffer(noise_image(), 0, kFrame)));
     const std::string warning = element.report(GST_MESSAGE_WARNING);
     EXPECT_EQ(warning.find("The baseline is 3.3") == 0, left) << warning;
     // Another value of another property is no reason to repeat it.
     g_object_set(element.element(), "alpha", 0.5, nullptr);
-    ASSERT_TRUE(element.pass(frame_buffer(picture(), kFrame, kFrame)));
+    ASSERT_TRUE(element.pass(frame_buffer(noise_image(), kFrame, kFrame)));
     EXPECT_EQ(element.report(GST_MESSAGE_WARNING), "");
   }
 }
@@ -165,10 +165,10 @@ TEST_F(MtRectify, AViewThatIsNearlyEmptyIsAWarning) {
   shifted.rectification = rectify(shifted).value();
   shifted.rectification->right_center_x += 0.9 * kWidth;
   make("camera=left", shifted).caps(raw_caps("GRAY8", kWidth, kHeight));
-  ASSERT_TRUE(harness->pass(frame_buffer(picture(), 0, kFrame)));
+  ASSERT_TRUE(harness->pass(frame_buffer(noise_image(), 0, kFrame)));
   EXPECT_EQ(harness->report(GST_MESSAGE_WARNING), "");
   make("camera=right", shifted).caps(raw_caps("GRAY8", kWidth, kHeight));
-  ASSERT_TRUE(harness->pass(frame_buffer(picture(), 0, kFrame)));
+  ASSERT_TRUE(harness->pass(frame_buffer(noise_image(), 0, kFrame)));
   const std::string warning = harness->report(GST_MESSAGE_WARNING);
   EXPECT_NE(warning.find("right camera fills only 1"), std::string::npos) << warning;
   EXPECT_NE(warning.find("of 160 columns"), std::string::npos) << warning;
@@ -176,7 +176,7 @@ TEST_F(MtRectify, AViewThatIsNearlyEmptyIsAWarning) {
 
 TEST_F(MtRectify, VideoOfAnotherShapeIsAnError) {
   make().caps(raw_caps("GRAY8", 100, 100));
-  EXPECT_NE(harness->push(frame_buffer(picture(100, 100), 0, kFrame)), GST_FLOW_OK);
+  EXPECT_NE(harness->push(frame_buffer(noise_image(100, 100), 0, kFrame)), GST_FLOW_OK);
   const std::string text = harness->error();
   EXPECT_NE(text.find("100x100"), std::string::npos) << text;
   EXPECT_NE(text.find("160x120"), std::string::npos) << text;
@@ -185,7 +185,7 @@ TEST_F(MtRectify, VideoOfAnotherShapeIsAnError) {
 TEST_F(MtRectify, FileThatCannotBeReadIsAnError) {
   harness = std::make_unique<CameraHarness>("mtrectify", "calibration=/nowhere/rig.yaml");
   harness->caps(raw_caps("GRAY8", kWidth, kHeight));
-  EXPECT_NE(harness->push(frame_buffer(picture(), 0, kFrame)), GST_FLOW_OK);
+  EXPECT_NE(harness->push(frame_buffer(noise_image(), 0, kFrame)), GST_FLOW_OK);
   const std::string text = harness->error();
   EXPECT_NE(text.find("/nowhere/rig.yaml"), std::string::npos) << text;
 }
@@ -199,7 +199,7 @@ TEST_F(MtRectify, StartWithoutACalibrationIsAnError) {
 }
 
 TEST_F(MtRectify, ChangedPropertiesApplyToTheNextFrame) {
-  const Picture image = picture();
+  const GrayImage image = noise_image();
   make().caps(raw_caps("GRAY8", kWidth, kHeight));
   EXPECT_EQ(output(frame_buffer(image, 0, kFrame)), expected(image, {}, Rectifier::Side::kLeft));
   const double before = geometry().focal_length;
@@ -220,7 +220,7 @@ TEST_F(MtRectify, ChangedPropertiesApplyToTheNextFrame) {
 }
 
 TEST_F(MtRectify, ChangedFileAppliesToTheNextFrame) {
-  const Picture image = picture();
+  const GrayImage image = noise_image();
   make().caps(raw_caps("GRAY8", kWidth, kHeight));
   EXPECT_EQ(output(frame_buffer(image, 0, kFrame)), expected(image, {}, Rectifier::Side::kLeft));
   rig = fisheye_rig(kWidth, kHeight);
@@ -234,7 +234,7 @@ TEST_F(MtRectify, ChangedFileAppliesToTheNextFrame) {
 }
 
 TEST_F(MtRectify, ChangeThatIsNotValidIsRefused) {
-  const Picture image = picture();
+  const GrayImage image = noise_image();
   make().caps(raw_caps("GRAY8", kWidth, kHeight));
   const auto before = output(frame_buffer(image, 0, kFrame));
   for (const auto& [property, value] : {std::pair("calibration", "/nowhere/rig.yaml"),
@@ -254,9 +254,9 @@ TEST_F(MtRectify, ChangeThatIsNotValidIsRefused) {
 
 TEST_F(MtRectify, NewSizeOfTheVideoMakesNewMaps) {
   make().caps(raw_caps("GRAY8", kWidth, kHeight));
-  ASSERT_TRUE(harness->pass(frame_buffer(picture(), 0, kFrame)));
+  ASSERT_TRUE(harness->pass(frame_buffer(noise_image(), 0, kFrame)));
   harness->caps(raw_caps("GRAY8", 80, 60));
-  const Picture image = picture(80, 60);
+  const GrayImage image = noise_image(80, 60);
   const auto out = output(frame_buffer(image, kFrame, kFrame));
   rig = scale_calibration(rig, 80, 60).value();
   EXPECT_EQ(out, expected(image, {}, Rectifier::Side::kLeft));
@@ -270,7 +270,7 @@ TEST_F(MtRectify, ColorKeepsTheFormat) {
     GstBuffer* frame = gst_buffer_new_allocate(nullptr, info.size, nullptr);
     const int channels = GST_VIDEO_INFO_COMP_PSTRIDE(&info, 0);
     // Each channel has an image of its own.
-    std::vector<Picture> parts;
+    std::vector<GrayImage> parts;
     for (unsigned c = 0; c < static_cast<unsigned>(channels); ++c) {
       parts.push_back(noise_pair(kWidth, kHeight, 0, 20 + c).left);
     }
@@ -295,7 +295,7 @@ TEST_F(MtRectify, ColorKeepsTheFormat) {
 }
 
 TEST_F(MtRectify, ColorOfVideoWithoutRgbIsRefused) {
-  const Picture image = picture();
+  const GrayImage image = noise_image();
   const Layout layout{.format = "I420"};
   make().caps(raw_caps("I420", kWidth, kHeight));
   const auto before = output(frame_buffer(image, 0, kFrame, layout));
@@ -307,8 +307,8 @@ TEST_F(MtRectify, ColorOfVideoWithoutRgbIsRefused) {
 
 TEST_F(MtRectify, FramesCarryTheirValidColumns) {
   make("alpha=1").caps(raw_caps("GRAY8", kWidth, kHeight));
-  const BufferPointer first = harness->pass(frame_buffer(picture(), 0, kFrame));
-  const BufferPointer second = harness->pass(frame_buffer(picture(), kFrame, kFrame));
+  const BufferPointer first = harness->pass(frame_buffer(noise_image(), 0, kFrame));
+  const BufferPointer second = harness->pass(frame_buffer(noise_image(), kFrame, kFrame));
   GBytes* columns = plugin::valid_columns_of(first.get());
   ASSERT_NE(columns, nullptr);
   EXPECT_EQ(columns, plugin::valid_columns_of(second.get()));  // shared
@@ -324,7 +324,7 @@ TEST_F(MtRectify, FrameThatDoesNotMatchItsCapsIsAnError) {
 }
 
 TEST_F(MtRectify, PlaysAgainAfterAStop) {
-  const Picture image = picture();
+  const GrayImage image = noise_image();
   make().caps(raw_caps("GRAY8", kWidth, kHeight));
   const auto before = output(frame_buffer(image, 0, kFrame));
   gst_element_set_state(harness->element(), GST_STATE_NULL);

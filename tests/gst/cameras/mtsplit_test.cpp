@@ -104,7 +104,7 @@ std::vector<std::uint8_t> cropped(GstBuffer* whole, const GstVideoInfo& info, in
 }
 
 GstBuffer* random_frame(const GstVideoInfo& info, unsigned seed) {
-  const Picture noise = noise_pair(static_cast<int>(info.size), 1, 0, seed).left;
+  const GrayImage noise = noise_pair(static_cast<int>(info.size), 1, 0, seed).left;
   return gst_buffer_new_memdup(noise.pixels.data(), info.size);
 }
 
@@ -177,7 +177,7 @@ TEST(MtSplit, ReadsPaddingAndOffset) {
 TEST(MtSplit, CopiesForConsumersThatReadNoVideoMeta) {
   Splitter splitter("", false);
   splitter.input().caps(raw_caps("GRAY8", 64, 48));
-  const Picture image = noise_pair(64, 48, 0, 5).left;
+  const GrayImage image = noise_pair(64, 48, 0, 5).left;
   ASSERT_EQ(splitter.input().push(frame_buffer(image, 0, kFrame)), GST_FLOW_OK);
   const BufferPointer right = splitter.pull(Side::kRight);
   EXPECT_EQ(gst_buffer_get_video_meta(right.get()), nullptr);
@@ -193,7 +193,7 @@ TEST(MtSplit, CopiesForConsumersThatReadNoVideoMeta) {
 TEST(MtSplit, AWriterDoesNotChangeTheOtherHalf) {
   Splitter splitter;
   splitter.input().caps(raw_caps("GRAY8", 64, 48));
-  const Picture image = noise_pair(64, 48, 0, 5).left;
+  const GrayImage image = noise_pair(64, 48, 0, 5).left;
   ASSERT_EQ(splitter.input().push(frame_buffer(image, 0, kFrame)), GST_FLOW_OK);
   BufferPointer left = splitter.pull(Side::kLeft);
   const BufferPointer right = splitter.pull(Side::kRight);
@@ -329,7 +329,7 @@ TEST(MtSplit, BothViewsEndAndFlush) {
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_TIME);
   EXPECT_TRUE(gst_harness_push_event(input, gst_event_new_segment(&segment)));
-  const Picture image = noise_pair(64, 48, 0, 5).left;
+  const GrayImage image = noise_pair(64, 48, 0, 5).left;
   EXPECT_EQ(splitter.input().push(frame_buffer(image, 0, kFrame)), GST_FLOW_OK);
 }
 
@@ -351,7 +351,7 @@ TEST(MtSplit, SeekOfBothViewsArrivesOnce) {
 }
 
 TEST(MtSplit, FlowsOfBothPadsAreCombined) {
-  const Picture image = noise_pair(64, 48, 0, 5).left;
+  const GrayImage image = noise_pair(64, 48, 0, 5).left;
   // The right pad is not linked: the left view continues.
   CameraHarness single("mtsplit", "", "left");
   gst_harness_add_propose_allocation_meta(single.harness(), GST_VIDEO_META_API_TYPE, nullptr);
@@ -376,7 +376,7 @@ TEST(MtSplit, FlowsOfBothPadsAreCombined) {
 TEST(MtSplit, LayoutAndSwapChangeBetweenFrames) {
   Splitter splitter;
   splitter.input().caps(raw_caps("GRAY8", 64, 48));
-  const Picture image = noise_pair(64, 48, 0, 5).left;
+  const GrayImage image = noise_pair(64, 48, 0, 5).left;
   ASSERT_EQ(splitter.input().push(frame_buffer(image, 0, kFrame)), GST_FLOW_OK);
   splitter.pull(Side::kLeft);
   splitter.pull(Side::kRight);

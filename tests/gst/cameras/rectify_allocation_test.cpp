@@ -14,7 +14,7 @@ long allocations_for(const char* format, int frames) {
   CameraHarness harness("mtrectify",
                         "alpha=1 calibration=" + folder.write(plumb_bob_rig(320, 240)));
   harness.caps(raw_caps(format, 320, 240));
-  const Picture image = noise_pair(320, 240, 0, 3).left;
+  const GrayImage image = noise_pair(320, 240, 0, 3).left;
   const BufferPointer frame(frame_buffer(image, 0, kFrame, {.format = format}));
   const BufferPointer out = harness.pass(gst_buffer_ref(frame.get()));
   EXPECT_NE(gst_buffer_get_custom_meta(out.get(), "MtStereoValidColumnsMeta"), nullptr);

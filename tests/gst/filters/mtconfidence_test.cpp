@@ -178,8 +178,8 @@ TEST(MtConfidence, ReadsRowsWithPaddingAndOffset) {
       const BufferPointer out = disparity.pass(Filter::map(padding, offset, 13 - padding, offset));
       EXPECT_EQ(map_of(out.get(), kWidth, kHeight), kept(80)) << padding << " " << offset;
       EXPECT_EQ(confidence_of(out.get()), kept_confidence(80)) << padding << " " << offset;
-      Filter picture("output=confidence");
-      EXPECT_EQ(bytes_of(picture.pass(Filter::map(padding, offset, 3, offset)).get()), kSure);
+      Filter image("output=confidence");
+      EXPECT_EQ(bytes_of(image.pass(Filter::map(padding, offset, 3, offset)).get()), kSure);
     }
   }
 }

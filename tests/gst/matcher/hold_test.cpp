@@ -16,7 +16,7 @@ constexpr int kWidth = 160, kHeight = 96;
 Pair frame(unsigned number, unsigned scene = 1) {
   Pair pair = noise_pair(kWidth, kHeight, 6, scene);
   std::mt19937 random(number);
-  for (Picture* view : {&pair.left, &pair.right}) {
+  for (GrayImage* view : {&pair.left, &pair.right}) {
     for (std::uint8_t& pixel : view->pixels) {
       const int noise = static_cast<int>(random() % 31 + random() % 31) - 30;
       pixel = static_cast<std::uint8_t>(std::clamp(pixel + noise, 0, 255));
@@ -47,7 +47,7 @@ class HoldElement : public testing::Test {
   std::vector<std::uint16_t> next(const Pair& pair, GstClockTime time, bool discontinuous = false,
                                   Side flagged = Side::kLeft) {
     for (const Side side : {Side::kLeft, Side::kRight}) {
-      const Picture& view = side == Side::kLeft ? pair.left : pair.right;
+      const GrayImage& view = side == Side::kLeft ? pair.left : pair.right;
       GstBuffer* buffer = frame_buffer(view, time, kFrame);
       if (discontinuous && side == flagged) GST_BUFFER_FLAG_SET(buffer, GST_BUFFER_FLAG_DISCONT);
       harness.push(side, buffer);

@@ -45,45 +45,44 @@ std::vector<std::uint8_t> noise(std::size_t size) {
 
 /// A frame in which every byte that is not luma is noise. The luma is the high byte at `first` and
 /// every `step` bytes. Rows are `padding` bytes longer than necessary; row 0 starts at `offset`.
-GstBuffer* noisy_frame(const Picture& picture, const char* format, int first, int step,
+GstBuffer* noisy_frame(const GrayImage& image, const char* format, int first, int step,
                        int padding = 0, int offset = 0) {
-  GstVideoInfo info = info_of(format, picture.width, picture.height);
-  const int grown = offset + padding * picture.height;
+  GstVideoInfo info = info_of(format, image.width, image.height);
+  const int grown = offset + padding * image.height;
   info.stride[0] += padding;
   info.offset[0] += static_cast<gsize>(offset);
   for (guint plane = 1; plane < GST_VIDEO_INFO_N_PLANES(&info); ++plane) {
     info.offset[plane] += static_cast<gsize>(grown);
   }
   std::vector<std::uint8_t> bytes = noise(info.size + static_cast<gsize>(grown));
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
       bytes[info.offset[0] + static_cast<gsize>(y * info.stride[0] + x * step + first)] =
-          picture.pixels[static_cast<std::size_t>(y * picture.width + x)];
+          image.pixels[static_cast<std::size_t>(y * image.width + x)];
     }
   }
   GstBuffer* buffer = gst_buffer_new_memdup(bytes.data(), bytes.size());
   if (grown != 0) {
     gst_buffer_add_video_meta_full(buffer, GST_VIDEO_FRAME_FLAG_NONE, GST_VIDEO_INFO_FORMAT(&info),
-                                   static_cast<guint>(picture.width),
-                                   static_cast<guint>(picture.height),
-                                   GST_VIDEO_INFO_N_PLANES(&info), info.offset, info.stride);
+                                   static_cast<guint>(image.width),
+                                   static_cast<guint>(image.height), GST_VIDEO_INFO_N_PLANES(&info),
+                                   info.offset, info.stride);
   }
   return stamped(buffer);
 }
 
 /// A frame that GStreamer converted from GRAY8.
-GstBuffer* converted_frame(const Picture& picture, const char* format) {
-  GstVideoInfo from = info_of("GRAY8", picture.width, picture.height);
-  GstVideoInfo to = info_of(format, picture.width, picture.height);
+GstBuffer* converted_frame(const GrayImage& image, const char* format) {
+  GstVideoInfo from = info_of("GRAY8", image.width, image.height);
+  GstVideoInfo to = info_of(format, image.width, image.height);
   if (!GST_VIDEO_INFO_IS_RGB(&to)) from.colorimetry = to.colorimetry;
   GstBuffer* gray = gst_buffer_new_allocate(nullptr, from.size, nullptr);
   GstBuffer* buffer = gst_buffer_new_allocate(nullptr, to.size, nullptr);
   GstVideoFrame source, target;
   EXPECT_TRUE(gst_video_frame_map(&source, &from, gray, GST_MAP_WRITE));
   EXPECT_TRUE(gst_video_frame_map(&target, &to, buffer, GST_MAP_WRITE));
-  for (int y = 0; y < picture.height; ++y) {
-    std::copy_n(picture.pixels.begin() + y * picture.width, picture.width,
-                plugin::plane_row(source, y));
+  for (int y = 0; y < image.height; ++y) {
+    std::copy_n(image.pixels.begin() + y * image.width, image.width, plugin::plane_row(source, y));
   }
   GstVideoConverter* converter = gst_video_converter_new(
       &from, &to,
@@ -182,20 +181,20 @@ TEST(Luma, OfEveryYuvAndGrayFormatHasTheMapOfGray8) {
 }
 
 TEST(Luma, OfGrayInEveryRgbFormatIsNearThatOfGray8) {
-  const Picture picture = noise_pair(64, 48, 3, 1).left;
+  const GrayImage image = noise_pair(64, 48, 3, 1).left;
   int formats = 0;
   for (const std::string& format : readable_formats()) {
     if (!is_rgb(format)) continue;
     ++formats;
     const GstVideoInfo info = info_of(format.c_str(), 64, 48);
-    const BufferPointer buffer(converted_frame(picture, format.c_str()));
+    const BufferPointer buffer(converted_frame(image, format.c_str()));
     const MappedFrame frame(info, buffer.get(), GST_MAP_READ);
     ASSERT_TRUE(frame.mapped());
     LumaReader reader;
     const GrayView luma = reader.read(frame);
     const int rounding = GST_VIDEO_INFO_COMP_DEPTH(&info, 0) < 8 ? 8 : 1;
     for (int i = 0; i < 64 * 48; ++i) {
-      ASSERT_NEAR(luma.row(i / 64)[i % 64], picture.pixels[static_cast<std::size_t>(i)], rounding)
+      ASSERT_NEAR(luma.row(i / 64)[i % 64], image.pixels[static_cast<std::size_t>(i)], rounding)
           << format;
     }
   }
@@ -218,12 +217,12 @@ TEST(Luma, OfRgbHasTheWeightsOfBt601) {
 // --- the reader ---
 
 TEST(LumaReading, UsesOneBufferForAllFrames) {
-  const Picture picture = noise_pair(64, 48, 3, 1).left;
+  const GrayImage image = noise_pair(64, 48, 3, 1).left;
   const GstVideoInfo info = info_of("YUY2", 64, 48);
   LumaReader reader;
   const std::uint8_t* first = nullptr;
   for (int i = 0; i < 3; ++i) {
-    const BufferPointer buffer(noisy_frame(picture, "YUY2", 0, 2));
+    const BufferPointer buffer(noisy_frame(image, "YUY2", 0, 2));
     const MappedFrame frame(info, buffer.get(), GST_MAP_READ);
     const GrayView luma = reader.read(frame);
     if (i == 0) first = luma.data;
@@ -232,10 +231,10 @@ TEST(LumaReading, UsesOneBufferForAllFrames) {
 }
 
 TEST(LumaReading, TakesALumaPlaneInPlace) {
-  const Picture picture = noise_pair(64, 48, 3, 1).left;
+  const GrayImage image = noise_pair(64, 48, 3, 1).left;
   for (const char* format : {"GRAY8", "I420", "NV12", "Y42B"}) {
     const GstVideoInfo info = info_of(format, 64, 48);
-    const BufferPointer buffer(frame_buffer(picture, 0, kFrame, {.format = format}));
+    const BufferPointer buffer(frame_buffer(image, 0, kFrame, {.format = format}));
     const MappedFrame frame(info, buffer.get(), GST_MAP_READ);
     LumaReader reader;
     EXPECT_EQ(reader.read(frame).data, frame.luma().data) << format;

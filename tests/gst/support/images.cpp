@@ -40,15 +40,15 @@ std::string raw_caps(const char* format, int width, int height, const char* fram
          ",height=" + std::to_string(height) + ",framerate=" + framerate;
 }
 
-GstBuffer* frame_buffer(const Picture& picture, GstClockTime pts, GstClockTime duration,
+GstBuffer* frame_buffer(const GrayImage& image, GstClockTime pts, GstClockTime duration,
                         const Layout& layout) {
   GstVideoInfo info;
   gst_video_info_set_format(&info, gst_video_format_from_string(layout.format),
-                            static_cast<guint>(picture.width), static_cast<guint>(picture.height));
+                            static_cast<guint>(image.width), static_cast<guint>(image.height));
   const bool padded = layout.padding != 0 || layout.offset != 0;
   if (padded) {
     const gsize grown = static_cast<gsize>(layout.offset) +
-                        static_cast<gsize>(layout.padding) * static_cast<gsize>(picture.height);
+                        static_cast<gsize>(layout.padding) * static_cast<gsize>(image.height);
     info.stride[0] += layout.padding;
     info.offset[0] = static_cast<gsize>(layout.offset);
     for (guint plane = 1; plane < GST_VIDEO_INFO_N_PLANES(&info); ++plane) {
@@ -57,18 +57,17 @@ GstBuffer* frame_buffer(const Picture& picture, GstClockTime pts, GstClockTime d
     info.size += grown;
   }
   std::vector<std::uint8_t> bytes(info.size, layout.poison);
-  for (int y = 0; y < picture.height; ++y) {
-    std::copy_n(picture.pixels.begin() + static_cast<std::ptrdiff_t>(y) * picture.width,
-                picture.width,
+  for (int y = 0; y < image.height; ++y) {
+    std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(y) * image.width, image.width,
                 bytes.begin() + static_cast<std::ptrdiff_t>(info.offset[0]) +
                     static_cast<std::ptrdiff_t>(y) * info.stride[0]);
   }
   GstBuffer* buffer = gst_buffer_new_memdup(bytes.data(), bytes.size());
   if (padded) {
     gst_buffer_add_video_meta_full(buffer, GST_VIDEO_FRAME_FLAG_NONE, GST_VIDEO_INFO_FORMAT(&info),
-                                   static_cast<guint>(picture.width),
-                                   static_cast<guint>(picture.height),
-                                   GST_VIDEO_INFO_N_PLANES(&info), info.offset, info.stride);
+                                   static_cast<guint>(image.width),
+                                   static_cast<guint>(image.height), GST_VIDEO_INFO_N_PLANES(&info),
+                                   info.offset, info.stride);
   }
   GST_BUFFER_PTS(buffer) = pts;
   GST_BUFFER_DURATION(buffer) = duration;
@@ -84,8 +83,8 @@ struct Matched {
 };
 
 Matched match(const Pair& pair, const Parameters& parameters) {
-  const auto view = [](const Picture& picture) {
-    return GrayView{picture.pixels.data(), picture.width, picture.height, picture.width};
+  const auto view = [](const GrayImage& image) {
+    return GrayView{image.pixels.data(), image.width, image.height, image.width};
   };
   auto matcher = Matcher::create(parameters);
   if (!matcher) {

@@ -12,7 +12,7 @@
 namespace mtstereo::test {
 
 /// An 8-bit image without padding.
-struct Picture {
+struct GrayImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;
@@ -20,8 +20,8 @@ struct Picture {
 
 /// A rectified pair with a uniform disparity.
 struct Pair {
-  Picture left;
-  Picture right;
+  GrayImage left;
+  GrayImage right;
 };
 
 /// A pair of smooth noise images, shifted by `disparity` px. The image depends on the seed.
@@ -40,7 +40,7 @@ struct Layout {
 
 /// A frame with this image as luma. With padding or offset it has a GstVideoMeta. The times are in
 /// ns or GST_CLOCK_TIME_NONE.
-GstBuffer* frame_buffer(const Picture& picture, GstClockTime pts, GstClockTime duration,
+GstBuffer* frame_buffer(const GrayImage& image, GstClockTime pts, GstClockTime duration,
                         const Layout& layout = {});
 
 /// The disparity map of the library: 16-bit fixed point, row by row.

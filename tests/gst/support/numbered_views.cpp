@@ -188,19 +188,19 @@ void collect_messages(GstElement* pipeline, double seconds, FeedResult& result) 
 
 }  // namespace
 
-Picture numbered_picture(Side side, std::int64_t number) {
+GrayImage numbered_image(Side side, std::int64_t number) {
   // x in the left view is x - disparity in the right one.
   const std::int64_t shift = number * kNumberedStep + (side == Side::kRight ? kNumberedBase : 0);
-  Picture picture{kNumberedWidth, kNumberedHeight, {}};
-  picture.pixels.reserve(static_cast<std::size_t>(kNumberedWidth) * kNumberedHeight);
+  GrayImage image{kNumberedWidth, kNumberedHeight, {}};
+  image.pixels.reserve(static_cast<std::size_t>(kNumberedWidth) * kNumberedHeight);
   for (int y = 0; y < kNumberedHeight; ++y) {
-    for (int x = 0; x < kNumberedWidth; ++x) picture.pixels.push_back(texture(x + shift, y));
+    for (int x = 0; x < kNumberedWidth; ++x) image.pixels.push_back(texture(x + shift, y));
   }
-  return picture;
+  return image;
 }
 
 GstBuffer* numbered_frame(Side side, std::int64_t number, GstClockTime pts, GstClockTime duration) {
-  return frame_buffer(numbered_picture(side, number), pts, duration);
+  return frame_buffer(numbered_image(side, number), pts, duration);
 }
 
 std::optional<int> frame_difference(const std::vector<std::uint16_t>& map, int scale) {

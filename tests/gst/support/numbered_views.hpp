@@ -32,7 +32,7 @@ inline constexpr int kMaxDifference = 6;
 inline constexpr const char* kNumberedMatching = "preset=fast max-disparity=64 threads=1";
 
 /// The image of a frame.
-Picture numbered_picture(Side side, std::int64_t number);
+GrayImage numbered_image(Side side, std::int64_t number);
 
 /// A GRAY8 frame with this image.
 GstBuffer* numbered_frame(Side side, std::int64_t number, GstClockTime pts,

@@ -23,9 +23,9 @@ using mtstereo::test::kNumberedWidth;
 bool write_views(Side side, int count, const std::string& file) {
   std::ofstream output(file, std::ios::binary);
   for (int number = 0; number < count; ++number) {
-    const auto picture = mtstereo::test::numbered_picture(side, number);
-    output.write(reinterpret_cast<const char*>(picture.pixels.data()),
-                 static_cast<std::streamsize>(picture.pixels.size()));
+    const auto image = mtstereo::test::numbered_image(side, number);
+    output.write(reinterpret_cast<const char*>(image.pixels.data()),
+                 static_cast<std::streamsize>(image.pixels.size()));
   }
   output.close();
   return output.good();

@@ -9,13 +9,13 @@
 namespace mtstereo::test {
 namespace {
 
-Picture picture_of(const cv::Mat& image) {
-  Picture picture{image.cols, image.rows, {}};
-  for (int y = 0; y < image.rows; ++y) {
-    const auto* row = image.ptr<std::uint8_t>(y);
-    picture.pixels.insert(picture.pixels.end(), row, row + image.cols);
+GrayImage image_of(const cv::Mat& gray) {
+  GrayImage image{gray.cols, gray.rows, {}};
+  for (int y = 0; y < gray.rows; ++y) {
+    const auto* row = gray.ptr<std::uint8_t>(y);
+    image.pixels.insert(image.pixels.end(), row, row + gray.cols);
   }
-  return picture;
+  return image;
 }
 
 }  // namespace
@@ -39,17 +39,17 @@ std::vector<Pair> rendered_pairs(const std::string& scene, int count, double ste
 }
 
 Pair pair_of(const cv::Mat& left, const cv::Mat& right) {
-  return {picture_of(left), picture_of(right)};
+  return {image_of(left), image_of(right)};
 }
 
 Pair swapped(const Pair& pair) { return {pair.right, pair.left}; }
 
-Picture blurred(const Picture& picture, double sigma) {
-  Picture copy = picture;
-  const cv::Mat image(copy.height, copy.width, CV_8UC1, copy.pixels.data());
+GrayImage blurred(const GrayImage& image, double sigma) {
+  GrayImage copy = image;
+  const cv::Mat gray(copy.height, copy.width, CV_8UC1, copy.pixels.data());
   cv::Mat result;
-  cv::GaussianBlur(image, result, {}, sigma);
-  return picture_of(result);
+  cv::GaussianBlur(gray, result, {}, sigma);
+  return image_of(result);
 }
 
 std::vector<std::vector<std::uint16_t>> match_all(StereoHarness& harness,
@@ -57,7 +57,7 @@ std::vector<std::vector<std::uint16_t>> match_all(StereoHarness& harness,
                                                   GstClockTime first) {
   std::vector<std::vector<std::uint16_t>> maps;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Picture& left = pairs[i].left;
+    const GrayImage& left = pairs[i].left;
     harness.push_pair(pairs[i], first + i * kFrame);
     const BufferPointer map = harness.pull();
     if (!map) {

@@ -27,8 +27,8 @@ Pair pair_of(const cv::Mat& left, const cv::Mat& right);
 /// The pair with the left view as right view.
 Pair swapped(const Pair& pair);
 
-/// The picture blurred by a Gaussian [px].
-Picture blurred(const Picture& picture, double sigma);
+/// The image blurred by a Gaussian [px].
+GrayImage blurred(const GrayImage& image, double sigma);
 
 /// Pushes the pairs from `first` on and returns their disparity maps, row by row.
 std::vector<std::vector<std::uint16_t>> match_all(StereoHarness& harness,

@@ -202,9 +202,9 @@ CapsPointer StereoHarness::output_caps() const {
 Feeder::Feeder(StereoHarness& harness, Side side, const Pair& pair,
                std::vector<GstClockTime> times) {
   thread_ = std::thread([&harness, side, &pair, times = std::move(times)] {
-    const Picture& picture = side == Side::kLeft ? pair.left : pair.right;
+    const GrayImage& image = side == Side::kLeft ? pair.left : pair.right;
     for (const GstClockTime time : times) {
-      if (harness.push(side, frame_buffer(picture, time, kFrame)) != GST_FLOW_OK) return;
+      if (harness.push(side, frame_buffer(image, time, kFrame)) != GST_FLOW_OK) return;
     }
     harness.end(side);
   });

@@ -64,8 +64,8 @@ std::vector<Pair> apart(const std::vector<Pair>& pairs, std::size_t frames) {
   return result;
 }
 
-void blacken(Picture& picture) {
-  std::fill(picture.pixels.begin(), picture.pixels.end(), std::uint8_t{0});
+void blacken(GrayImage& image) {
+  std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{0});
 }
 
 // --- rendered pairs ---

@@ -220,8 +220,8 @@ TEST(AlignmentField, CanBeStoredAndRestored) {
 
   // A pair that gives no field of its own is corrected by the restored one.
   Pair flat = crooked_pairs()[0];
-  for (Picture* picture : {&flat.left, &flat.right}) {
-    for (std::uint8_t& pixel : picture->pixels) pixel = 100;
+  for (GrayImage* image : {&flat.left, &flat.right}) {
+    for (std::uint8_t& pixel : image->pixels) pixel = 100;
   }
   StereoHarness next(kRange + "alignment-field=" + field->to_text());
   next.caps(rendered_caps());

@@ -43,8 +43,7 @@ class FileNames : public testing::Test {
 
 TEST_F(FileNames, SortsByNumbers) {
   create({"f10.png", "f9.png", "f009.png", "f1.png", "notes.txt", ".hidden.png"});
-  EXPECT_THAT(names_of(pictures_in(folder_)),
-              ElementsAre("f1.png", "f009.png", "f9.png", "f10.png"));
+  EXPECT_THAT(names_of(images_in(folder_)), ElementsAre("f1.png", "f009.png", "f9.png", "f10.png"));
 }
 
 TEST_F(FileNames, ComparesNumbersLongerThanAnInteger) {

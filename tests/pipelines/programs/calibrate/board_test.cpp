@@ -46,8 +46,8 @@ TEST(Board, AllCornersOfADrawnCharucoBoardAreFoundWhereTheyAre) {
   for (const char* dictionary : {"4x4_100", "5x5_100", "6x6_250"}) {
     BoardOptions board;
     board.dictionary = dictionary;
-    const cv::Mat picture = board_picture(board, 64);
-    const Corners corners = BoardFinder(board).find(picture);
+    const cv::Mat image = board_image(board, 64);
+    const Corners corners = BoardFinder(board).find(image);
     EXPECT_EQ(corners.ids.size(), 40U) << dictionary;
     EXPECT_LT(largest_error(corners, board, 64 / board.square, 64), 0.1) << dictionary;
   }
@@ -58,7 +58,7 @@ TEST(Board, EvenAndOddBoardsHaveTheirCornersInTheSameOrder) {
     BoardOptions board;
     board.columns = columns;
     board.rows = rows;
-    const Corners corners = BoardFinder(board).find(board_picture(board, 64));
+    const Corners corners = BoardFinder(board).find(board_image(board, 64));
     EXPECT_EQ(corners.ids.size(), static_cast<std::size_t>((columns - 1) * (rows - 1)));
     EXPECT_LT(largest_error(corners, board, 64 / board.square, 64), 0.1) << columns << "x" << rows;
   }
@@ -66,7 +66,7 @@ TEST(Board, EvenAndOddBoardsHaveTheirCornersInTheSameOrder) {
 
 TEST(Board, AllCornersOfADrawnCheckerboardAreFound) {
   const BoardOptions board = checkerboard();
-  Corners corners = BoardFinder(board).find(board_picture(board, 48));
+  Corners corners = BoardFinder(board).find(board_image(board, 48));
   ASSERT_EQ(corners.ids.size(), 40U);
   if (corners.pixels.front().x > corners.pixels.back().x) {
     std::reverse(corners.pixels.begin(), corners.pixels.end());
@@ -99,8 +99,8 @@ TEST(Board, InvalidBoardsAreRefusedByName) {
 
 TEST(Detection, APartOfACharucoBoardIsEnough) {
   const BoardOptions board;
-  const cv::Mat picture = board_picture(board, 64);
-  const Corners corners = BoardFinder(board).find(picture.colRange(0, picture.cols / 2).clone());
+  const cv::Mat image = board_image(board, 64);
+  const Corners corners = BoardFinder(board).find(image.colRange(0, image.cols / 2).clone());
   EXPECT_GT(corners.ids.size(), 12U);
   EXPECT_LT(corners.ids.size(), 40U);
   EXPECT_LT(largest_error(corners, board, 64 / board.square, 64), 0.1);
@@ -121,15 +121,15 @@ TEST(Detection, ImagesWithoutABoardGiveNoCorners) {
 TEST(Detection, AnotherBoardsMarkersAreCountedButGiveNoCorners) {
   BoardOptions other;
   other.dictionary = "5x5_100";
-  const Corners none = BoardFinder(other).find(board_picture(BoardOptions(), 64));
+  const Corners none = BoardFinder(other).find(board_image(BoardOptions(), 64));
   EXPECT_TRUE(none.ids.empty());
   EXPECT_EQ(none.markers, 0);
 }
 
 TEST(Detection, CornersOfATurnedBoardAreNumberedAlike) {
   const BoardOptions board = checkerboard();
-  const cv::Mat picture = board_picture(board, 48);
-  const CornerPair pair = BoardFinder(board).find(picture, picture);
+  const cv::Mat image = board_image(board, 48);
+  const CornerPair pair = BoardFinder(board).find(image, image);
   ASSERT_TRUE(pair.usable());
   Corners turned = pair.right;
   std::reverse(turned.pixels.begin(), turned.pixels.end());
@@ -167,11 +167,11 @@ TEST(Page, ThePngStatesItsResolutionAndShowsTheBoard) {
   const std::string png = png_of(make_page(board, "A4"), 8);
   EXPECT_EQ(png.substr(37, 4), "pHYs");
   EXPECT_EQ(png.substr(41, 9), std::string("\0\0\x1f\x40\0\0\x1f\x40\x01", 9)) << "8000 per m";
-  const cv::Mat picture =
+  const cv::Mat image =
       cv::imdecode(std::vector<std::uint8_t>(png.begin(), png.end()), cv::IMREAD_GRAYSCALE);
-  ASSERT_EQ(picture.size(), cv::Size(297 * 8, 210 * 8));
+  ASSERT_EQ(image.size(), cv::Size(297 * 8, 210 * 8));
   cv::Mat half;
-  cv::resize(picture, half, {}, 0.5, 0.5, cv::INTER_AREA);
+  cv::resize(image, half, {}, 0.5, 0.5, cv::INTER_AREA);
   const Corners corners = BoardFinder(board).find(half);
   ASSERT_EQ(corners.ids.size(), 40U);
   EXPECT_NEAR(cv::norm(corners.pixels[0] - corners.pixels[7]), 7 * 28 * 4, 0.2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// board-views: writes pictures of a board in front of two ideal cameras, as left/%03d.png and
+// board-views: writes images of a board in front of two ideal cameras, as left/%03d.png and
 // right/%03d.png.
 //
 // usage: board-views FOLDER POSES        the board at rest at this number of poses
@@ -26,7 +26,7 @@ using namespace mtstereo::calibrate;
 constexpr int kWidth = 480;
 constexpr int kHeight = 360;
 constexpr double kFocal = 420;
-constexpr int kScale = 32;  // pixels of the board's picture per square
+constexpr int kScale = 32;  // pixels of the printed board per square
 constexpr double kRate = 30;
 constexpr int kRest = 3;
 constexpr int kMove = 7;
@@ -63,18 +63,18 @@ Place place_at(const std::vector<Place>& all, double frame) {
           all[index].center + blend * (next.center - all[index].center)};
 }
 
-cv::Mat see(const cv::Mat& picture, const BoardOptions& board, const Place& place, double camera_x,
+cv::Mat see(const cv::Mat& print, const BoardOptions& board, const Place& place, double camera_x,
             std::mt19937& random) {
   Eigen::Matrix<double, 6, 1> step;
   step << place.turn, Eigen::Vector3d::Zero();
   const Pose turned = Pose().moved(step);
   const double meters = board.square / kScale;
-  // From a pixel of the picture to the image.
+  // From a pixel of the print to the image.
   Eigen::Matrix3d plane;
   plane.col(0) = turned.rotation.col(0) * meters;
   plane.col(1) = turned.rotation.col(1) * meters;
   plane.col(2) = place.center - Eigen::Vector3d(camera_x, 0, 0) -
-                 plane.col(0) * (picture.cols - 1) / 2.0 - plane.col(1) * (picture.rows - 1) / 2.0;
+                 plane.col(0) * (print.cols - 1) / 2.0 - plane.col(1) * (print.rows - 1) / 2.0;
   Eigen::Matrix3d camera;
   camera << kFocal, 0, (kWidth - 1) / 2.0, 0, kFocal, (kHeight - 1) / 2.0, 0, 0, 1;
   const Eigen::Matrix3d homography = camera * plane;
@@ -82,7 +82,7 @@ cv::Mat see(const cv::Mat& picture, const BoardOptions& board, const Place& plac
   for (int i = 0; i < 9; ++i) map(i / 3, i % 3) = homography(i / 3, i % 3);
   cv::Mat image;
   const cv::Matx33d twice(2, 0, 0.5, 0, 2, 0.5, 0, 0, 1);
-  cv::warpPerspective(picture, image, twice * map, {2 * kWidth, 2 * kHeight}, cv::INTER_LINEAR,
+  cv::warpPerspective(print, image, twice * map, {2 * kWidth, 2 * kHeight}, cv::INTER_LINEAR,
                       cv::BORDER_CONSTANT, cv::Scalar(110));
   cv::resize(image, image, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
   cv::GaussianBlur(image, image, {}, 0.5);
@@ -104,7 +104,7 @@ int main(int argc, char** argv) {
   }
   const std::filesystem::path folder = argv[1];
   const BoardOptions board;
-  const cv::Mat picture = board_picture(board, kScale);
+  const cv::Mat print = board_image(board, kScale);
   const std::vector<Place> all = places(std::atoi(argv[2]));
   const bool film = argc == 4;
   const double delay = film ? std::atof(argv[3]) / 1000 * kRate : 0;
@@ -117,9 +117,9 @@ int main(int argc, char** argv) {
     char name[16];
     std::snprintf(name, sizeof name, "%03d.png", i);
     cv::imwrite((folder / "left" / name).string(),
-                see(picture, board, place_at(all, frame), 0, random));
+                see(print, board, place_at(all, frame), 0, random));
     cv::imwrite((folder / "right" / name).string(),
-                see(picture, board, place_at(all, frame + delay), 0.1, random));
+                see(print, board, place_at(all, frame + delay), 0.1, random));
   }
   return 0;
 }

@@ -27,7 +27,7 @@ def setUpModule():
     (FOLDER / "empty").mkdir()
     (FOLDER / "text.txt").write_text("no video\n")
     (FOLDER / "broken").mkdir()
-    (FOLDER / "broken/0.png").write_text("no picture\n")
+    (FOLDER / "broken/0.png").write_text("no image\n")
 
 
 def tearDownModule():
@@ -67,7 +67,7 @@ class Program(unittest.TestCase):
 
 
 class Calibration(Program):
-    def test_folders_of_pictures(self):
+    def test_folders_of_images(self):
         output, report, folder = self.calibrate("--left", "stills/left", "--right", "stills/right")
         self.check_figures(report)
         self.assertEqual(report["pairs"]["taken"], 14)
@@ -85,7 +85,7 @@ class Calibration(Program):
         _, again, _ = self.calibrate("--left", folder / "left", "--right", folder / "right")
         self.assertEqual(again["left"], report["left"])
 
-    def test_patterns_of_pictures_and_a_choice_of_the_model(self):
+    def test_patterns_of_images_and_a_choice_of_the_model(self):
         output, report, _ = self.calibrate("--left", "stills/left/%03d.png", "--right",
                                            "stills/right/*.png", "--model", "auto")
         self.check_figures(report)
@@ -154,18 +154,18 @@ class Refusal(Program):
         self.refuse("none.mp4: no such file", "--left", "none.mp4", "--right", "none2.mp4")
         self.refuse("/dev/video99: no such device", "--left", "/dev/video99", "--right",
                     "/dev/video98")
-        self.refuse("empty: there are no pictures", "--left", "empty", "--right", "stills/right")
+        self.refuse("empty: there are no images", "--left", "empty", "--right", "stills/right")
 
     def test_sources_that_do_not_work(self):
         test = "videotestsrc num-buffers=4"
         self.refuse(r"left source \(text.txt\): ", "--left", "text.txt", "--right", test)
         self.refuse('right source .*no element "nonsense"', "--left", test, "--right",
                     "videotestsrc ! nonsense")
-        self.refuse("0.png: is not a picture", "--left", "broken", "--right", "broken/0.png")
-        self.refuse("one source gives pictures", "--left", "stills/left", "--right", test)
+        self.refuse("0.png: is not an image", "--left", "broken", "--right", "broken/0.png")
+        self.refuse("one source gives images", "--left", "stills/left", "--right", test)
         self.refuse("left image is 64x48, the right one 320x240", "--left",
                     test + " ! video/x-raw,width=64,height=48", "--right", test)
-        self.refuse("14 pictures, but film/right has 110", "--left", "stills/left", "--right",
+        self.refuse("14 images, but film/right has 110", "--left", "stills/left", "--right",
                     "film/right")
 
     def test_a_source_that_sends_nothing(self):
@@ -198,15 +198,15 @@ class Refusal(Program):
         self.assertEqual((folder / "calibration.yml").read_bytes(), before)
         self.assertEqual(self.run_program(*self.both, "--out", folder, "--overwrite").returncode, 0)
 
-    def test_foreign_pictures_and_inputs_stay(self):
+    def test_foreign_images_and_inputs_stay(self):
         folder = FOLDER / "foreign"
         (folder / "left").mkdir(parents=True)
-        picture = folder / "left/000.png"
-        picture.write_text("mine")
+        image = folder / "left/000.png"
+        image.write_text("mine")
         done = self.run_program(*self.both, "--out", folder, "--overwrite")
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, "left/000.png is in the way, and no earlier run wrote it")
-        self.assertEqual(picture.read_text(), "mine")
+        self.assertEqual(image.read_text(), "mine")
         _, _, folder = self.calibrate(*self.both)
         before = {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
         done = self.run_program("--left", folder / "left", "--right", folder / "right", "--out",
@@ -217,10 +217,10 @@ class Refusal(Program):
         self.assertEqual(after, before)
 
     def test_missing_files_are_named_and_leave_no_folder(self):
-        pictures = FOLDER / "one-less"
-        shutil.copytree(FOLDER / "stills/right", pictures)
-        (pictures / "003.png").unlink()
-        for right, text in ((pictures, "stills/left/003.png has no partner"),
+        images = FOLDER / "one-less"
+        shutil.copytree(FOLDER / "stills/right", images)
+        (images / "003.png").unlink()
+        for right, text in ((images, "stills/left/003.png has no partner"),
                             ("stills/none", "stills/none: no such file or folder"),
                             ("none.png", "none.png: no such file or folder")):
             done = self.run_program("--left", "stills/left", "--right", right, "--out", "new/out")

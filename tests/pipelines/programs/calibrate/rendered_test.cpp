@@ -16,11 +16,11 @@
 namespace mtstereo::calibrate {
 namespace {
 
-constexpr int kScale = 64;  // pixels of the board's picture per square
+constexpr int kScale = 64;  // pixels of the board's image per square
 constexpr int kPoses = 40;
 
-render::Picture picture_of(const BoardOptions& board) {
-  const cv::Mat gray = board_picture(board, kScale);
+render::ImageTexture image_of(const BoardOptions& board) {
+  const cv::Mat gray = board_image(board, kScale);
   return {gray.cols, gray.rows,
           std::vector<std::uint8_t>(gray.begin<std::uint8_t>(), gray.end<std::uint8_t>()),
           kScale / board.square};
@@ -31,13 +31,13 @@ class Film {
  public:
   Film(const char* rig, const BoardOptions& board, double visible)
       : calibration_(render::built_in_rig(rig, settings())), coverage_(board, size(), size()) {
-    const auto picture = std::make_shared<const render::Picture>(picture_of(board));
+    const auto image = std::make_shared<const render::ImageTexture>(image_of(board));
     const render::RawRig cameras(calibration_);
     render::BoardPoses poses;
     poses.count = kPoses;
     poses.visible = visible;
     const render::Scene scene = render::make_board(
-        picture, render::choose_poses(poses, picture->width(), picture->height(), cameras), {}, 1);
+        image, render::choose_poses(poses, image->width(), image->height(), cameras), {}, 1);
     const BoardFinder finder(board);
     for (int i = 0; i < kPoses; ++i) {
       const render::RawFrame frame = render::render_raw(scene, i, settings(), cameras);
@@ -56,7 +56,7 @@ class Film {
     settings.baseline = 0.12;
     settings.noise = 2;
     settings.blur = 0.6;
-    settings.samples = 1;  // the picture of the board has exact means
+    settings.samples = 1;  // the image of the board has exact means
     return settings;
   }
   static cv::Size size() { return {640, 480}; }

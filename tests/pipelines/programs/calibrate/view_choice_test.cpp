@@ -57,7 +57,7 @@ TEST_F(Choosing, ASlowDriftIsMotionAtAnyFrameRate) {
   }
 }
 
-TEST_F(Choosing, PicturesNeedNoRestAndOnlyRepetitionsAreLeftOut) {
+TEST_F(Choosing, ImagesNeedNoRestAndOnlyRepetitionsAreLeftOut) {
   ViewChoice choice(board_, kSize, kSize, Choice::kStills);
   EXPECT_EQ(choice.offer(see(at(0, 0, 0.6)), 0), Verdict::kTaken);
   EXPECT_EQ(choice.offer(see(at(0, 0, 0.6)), 1), Verdict::kSimilar);

@@ -21,7 +21,7 @@ PROGRAM = None  # set below
 FRAMES = 180
 SKIPPED = 77
 OPTIONS = ["--max-disparity", "16"]
-VIEWS = {"left": 0, "right": 8}  # columns of a moving test picture
+VIEWS = {"left": 0, "right": 8}  # columns of a moving test image
 
 
 def run(*arguments):

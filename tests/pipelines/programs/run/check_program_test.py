@@ -168,7 +168,7 @@ class Checks(unittest.TestCase):
 
     def test_the_same_view_twice(self):
         copy = self.altered(self.left, "null")
-        self.check(BAD, "HARM Both views are the same picture", self.left, copy)
+        self.check(BAD, "HARM Both views are the same image", self.left, copy)
 
     def test_a_covered_lens_and_a_frozen_stream(self):
         black = self.altered(self.right, "lutyuv=y=16:u=128:v=128")
@@ -187,7 +187,7 @@ class Checks(unittest.TestCase):
         left, right = (self.altered(view, "scale=48:36") for view in (self.left, self.right))
         self.check(GOOD, "note The views are too small to check", left, right)
 
-    def test_writes_only_its_own_picture(self):
+    def test_writes_only_its_own_image(self):
         out = self.folder / "out"
         command = ["--check", self.left, self.right, "--out", out]
         for _ in range(2):
@@ -214,8 +214,8 @@ class Checks(unittest.TestCase):
             ([self.left, self.folder / "missing.mp4"], "missing.mp4: no such file"),
             ([single], "is the shape of one view"),
             ([self.left, self.left], "are the same file"),
-            ([empty], "neither pictures nor one video|no recording"),
-            ([self.left, empty], "neither pictures nor one video"),
+            ([empty], "neither images nor one video|no recording"),
+            ([self.left, empty], "neither images nor one video"),
             ([self.left, self.right, "--calibration", self.folder / "no.yml"], "no.yml"),
             ([self.left, self.right, "--calibration", single], "000000.png"),
         ):

@@ -98,7 +98,7 @@ class Combination:
 
     def place_inputs(self, clips):
         """Copies the inputs, maybe into the folder of the results, and maybe with links to them."""
-        kind = self.chance.choice(("videos", "videos", "videos", "pictures", "archive"))
+        kind = self.chance.choice(("videos", "videos", "videos", "images", "archive"))
         inside = self.chance.random() < 0.4
         home = self.out if inside else self.folder / "in"
         home.mkdir(parents=True)
@@ -106,10 +106,10 @@ class Combination:
             for name in ("a", "b"):
                 shutil.copytree(clips / "videos", home / "archive" / name)
             inputs = [home / "archive"]
-        elif kind == "pictures":
+        elif kind == "images":
             inputs = [home / name for name in self.chance.choice((("left", "right"), ("disparity", "color")))]
             for view, path in zip(("left", "right"), inputs):
-                shutil.copytree(clips / "pictures" / view, path)
+                shutil.copytree(clips / "images" / view, path)
         else:
             names = self.chance.choice((("left.mp4", "right.mp4"), ("color.mkv", "disparity.mkv")))
             inputs = [home / name for name in names]
@@ -165,7 +165,7 @@ class Combination:
             return
         path = self.chance.choice(sorted(results))
         path.unlink()
-        path.write_text("the user's own picture\n")
+        path.write_text("the user's own image\n")
         self.log.append(f"replace {path.relative_to(self.folder)}")
         self.keep(path)
 
@@ -236,14 +236,14 @@ class Combination:
 
 
 def make_clips(folder):
-    for name in ("videos", "pictures/left", "pictures/right"):
+    for name in ("videos", "images/left", "images/right"):
         (folder / name).mkdir(parents=True)
     for view, column in {"left": 0, "right": 4}.items():
         video = folder / "videos" / f"{view}.mp4"
         subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", "testsrc2=size=100x64:rate=30",
                         "-frames:v", "6", "-vf", f"crop=96:64:{column}:0", "-c:v", "libx264", video],
                        check=True, stdin=subprocess.DEVNULL)  # fmt: skip
-        subprocess.run(["ffmpeg", "-v", "error", "-i", video, folder / "pictures" / view / "%02d.png"],
+        subprocess.run(["ffmpeg", "-v", "error", "-i", video, folder / "images" / view / "%02d.png"],
                        check=True, stdin=subprocess.DEVNULL)  # fmt: skip
 
 

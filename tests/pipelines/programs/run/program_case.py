@@ -22,7 +22,7 @@ def run(*arguments):
 
 
 def make_video(file, column, frames=FRAMES):
-    """A part of a moving test picture by ffmpeg: views whose columns differ are a stereo pair."""
+    """A part of a moving test image by ffmpeg: views whose columns differ are a stereo pair."""
     subprocess.run(
         ["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", "testsrc2=size=336x192:rate=30"]
         + ["-frames:v", str(frames), "-vf", f"crop=320:192:{column}:0"]

@@ -62,8 +62,7 @@ class Clocks : public testing::Test {
     return estimate_clocks(recording, index_frames(left, 0), index_frames(right, 0));
   }
   ClockEstimate estimate(const Shot& left, const Shot& right) {
-    return estimate(write_pictures(left, folder_ / "left"),
-                    write_pictures(right, folder_ / "right"));
+    return estimate(write_images(left, folder_ / "left"), write_images(right, folder_ / "right"));
   }
   // The message with which recordings are refused.
   std::string refusal(const Shot& left, const Shot& right) {
@@ -214,8 +213,8 @@ TEST_F(Clocks, NameTheFramesThatRecordingsAreOutOfStep) {
   for (const auto& [right, text] : shots) {
     Recording recording;
     recording.name = "street";
-    recording.left = write_pictures(left(), folder_ / "left");
-    recording.right = write_pictures(*right, folder_ / text);
+    recording.left = write_images(left(), folder_ / "left");
+    recording.right = write_images(*right, folder_ / text);
     WorkOptions options;
     options.parameters = {{"max-disparity", "16"}};
     const Work work = prepare(recording, options, std::nullopt, false);
@@ -231,8 +230,8 @@ TEST_F(Clocks, AreNoMatterOfUnrelatedRecordings) {
   garden.frames = kFrames / 2;
   Recording recording;
   recording.name = "street";
-  recording.left = write_pictures(left(), folder_ / "left");
-  recording.right = write_pictures(shoot(garden), folder_ / "right");
+  recording.left = write_images(left(), folder_ / "left");
+  recording.right = write_images(shoot(garden), folder_ / "right");
   const Work work = prepare(recording, {}, std::nullopt, false);
   for (const std::string& remark : work.remarks) {
     EXPECT_THAT(remark, Not(HasSubstr("not taken at the same time")));

@@ -15,7 +15,7 @@
 namespace mtstereo::run {
 namespace {
 
-std::string picture_name(std::size_t number) {
+std::string image_name(std::size_t number) {
   char name[32];
   std::snprintf(name, sizeof name, "%06zu.pgm", number);
   return name;
@@ -60,13 +60,13 @@ Shot degraded(const Shot& shot, double factor, double noise) {
   });
 }
 
-Source write_pictures(const Shot& shot, const std::filesystem::path& folder) {
+Source write_images(const Shot& shot, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   Source source;
   for (const cv::Mat& frame : shot.frames) {
-    const std::size_t number = source.pictures.size();
-    source.pictures.push_back(folder / picture_name(number));
-    cv::imwrite(source.pictures.back().string(), frame);
+    const std::size_t number = source.images.size();
+    source.images.push_back(folder / image_name(number));
+    cv::imwrite(source.images.back().string(), frame);
     source.times.push_back(std::llround(1e9 * static_cast<double>(number) / shot.rate));
   }
   return source;

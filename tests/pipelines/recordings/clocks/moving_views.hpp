@@ -35,8 +35,8 @@ Shot changed(const Shot& shot, const std::function<cv::Mat(int, const cv::Mat&)>
 /// With a factor for the brightness and noise of this standard deviation.
 Shot degraded(const Shot& shot, double factor, double noise);
 
-/// Writes the frames as pictures.
-Source write_pictures(const Shot& shot, const std::filesystem::path& folder);
+/// Writes the frames as images.
+Source write_images(const Shot& shot, const std::filesystem::path& folder);
 /// Writes the frames as H.264 in MP4 with this bit rate [kbit/s].
 Source write_video(const Shot& shot, const std::filesystem::path& file, int bitrate);
 

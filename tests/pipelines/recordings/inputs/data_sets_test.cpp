@@ -27,8 +27,8 @@ using testing::write_text;
 
 class DataSets : public ::testing::Test {
  protected:
-  void write_pictures(const std::string& folder, std::initializer_list<const char*> names,
-                      cv::Size size) const {
+  void write_images(const std::string& folder, std::initializer_list<const char*> names,
+                    cv::Size size) const {
     for (const char* name : names) {
       const fs::path file = folder_ / (folder + "/" + name);
       ASSERT_TRUE(cv::imwrite(file.string(), cv::Mat(size, CV_8UC1, cv::Scalar(80)))) << file;
@@ -57,15 +57,15 @@ constexpr Nanoseconds kMillisecond = 1'000'000;
 TEST_F(DataSets, KittiOdometry) {
   const cv::Size size(1241, 376);
   for (const char* camera : {"00/image_0", "00/image_1", "00/image_2", "00/image_3"}) {
-    write_pictures(camera, {"000000.png", "000001.png", "000003.png"}, size);
+    write_images(camera, {"000000.png", "000001.png", "000003.png"}, size);
   }
   write_text(folder_ / "00/times.txt", "0.000000e+00\n1.037360e-01\n2.073640e-01\n3.110040e-01\n");
   copy_calibration("kitti_calib.txt", "00/calib.txt");
   const Recording recording = recognized("00");
   EXPECT_EQ(recording.kind, "KITTI odometry sequence");
   EXPECT_EQ(recording.name, "00");
-  EXPECT_EQ(recording.left.pictures.front(), path("00/image_2/000000.png"));
-  EXPECT_EQ(recording.right.pictures.back(), path("00/image_3/000003.png"));
+  EXPECT_EQ(recording.left.images.front(), path("00/image_2/000000.png"));
+  EXPECT_EQ(recording.right.images.back(), path("00/image_3/000003.png"));
   EXPECT_THAT(recording.left.times, ElementsAre(0, 103'736'000, 311'004'000));
   EXPECT_EQ(recording.right.times, recording.left.times);
   EXPECT_EQ(recording.calibration, path("00/calib.txt"));
@@ -75,7 +75,7 @@ TEST_F(DataSets, KittiOdometry) {
 
 TEST_F(DataSets, KittiOdometryInGray) {
   for (const char* camera : {"00/image_0", "00/image_1"}) {
-    write_pictures(camera, {"000000.png", "000001.png"}, {1241, 376});
+    write_images(camera, {"000000.png", "000001.png"}, {1241, 376});
   }
   copy_calibration("kitti_calib.txt", "00/calib.txt");
   const Recording recording = recognized("00");
@@ -87,7 +87,7 @@ TEST_F(DataSets, KittiOdometryInGray) {
 
 TEST_F(DataSets, KittiOdometryWithTooFewTimes) {
   for (const char* camera : {"00/image_0", "00/image_1"}) {
-    write_pictures(camera, {"000000.png", "000001.png", "000002.png"}, {1241, 376});
+    write_images(camera, {"000000.png", "000001.png", "000002.png"}, {1241, 376});
   }
   write_text(folder_ / "00/times.txt", "0\n0.1\n");
   const Recording recording = recognized("00");
@@ -100,8 +100,8 @@ TEST_F(DataSets, KittiRaw) {
     const std::string day = synchronized ? "a" : "b";
     const std::string drive = day + "/drive_0001" + (synchronized ? "_sync" : "_extract");
     for (const char* camera : {"/image_02", "/image_03"}) {
-      write_pictures(drive + camera + "/data", {"0000000000.png", "0000000001.png"},
-                     synchronized ? cv::Size(1242, 375) : cv::Size(1392, 512));
+      write_images(drive + camera + "/data", {"0000000000.png", "0000000001.png"},
+                   synchronized ? cv::Size(1242, 375) : cv::Size(1392, 512));
     }
     write_text(folder_ / (drive + "/image_02/timestamps.txt"),
                "2011-09-26 13:59:59.950000000\n2011-09-26 14:00:00.053333333\n");
@@ -123,10 +123,10 @@ TEST_F(DataSets, KittiRaw) {
 
 TEST_F(DataSets, Euroc) {
   const std::string base = "MH_01/mav0/";
-  write_pictures(base + "cam0/data", {"1403636579763555584.png", "1403636579813555456.png"},
-                 {752, 480});
-  write_pictures(base + "cam1/data", {"1403636579763555584.png", "1403636579813555456.png"},
-                 {752, 480});
+  write_images(base + "cam0/data", {"1403636579763555584.png", "1403636579813555456.png"},
+               {752, 480});
+  write_images(base + "cam1/data", {"1403636579763555584.png", "1403636579813555456.png"},
+               {752, 480});
   write_text(folder_ / (base + "cam0/data.csv"),
              "#timestamp [ns],filename\r\n"
              "1403636579763555584,1403636579763555584.png\r\n"
@@ -146,14 +146,14 @@ TEST_F(DataSets, Euroc) {
     EXPECT_THAT(recording.right.times, ElementsAre(0, 49'999'872));
     EXPECT_THAT(recording.calibration, HasSubstr("cam0/sensor.yaml,"));
     EXPECT_FALSE(recording.rectified);
-    EXPECT_THAT(recording.remarks, Contains(HasSubstr("names 1 pictures that do not exist")));
+    EXPECT_THAT(recording.remarks, Contains(HasSubstr("names 1 images that do not exist")));
   }
   write_text(folder_ / (base + "cam1/data.csv"), "nonsense\n");
   EXPECT_THROW(recognized("MH_01"), UserError);
 }
 
 TEST_F(DataSets, MiddleburyPair) {
-  write_pictures("Piano", {"im0.png", "im1.png"}, {2964, 1988});
+  write_images("Piano", {"im0.png", "im1.png"}, {2964, 1988});
   copy_calibration("middlebury_calib.txt", "Piano/calib.txt");
   const Recording recording = recognized("Piano");
   EXPECT_EQ(recording.kind, "Middlebury pair");
@@ -165,8 +165,8 @@ TEST_F(DataSets, MiddleburyPair) {
 }
 
 TEST_F(DataSets, CalibrationBesideTheInput) {
-  write_pictures("left", {"0.png"}, {848, 480});
-  write_pictures("right", {"0.png"}, {848, 480});
+  write_images("left", {"0.png"}, {848, 480});
+  write_images("right", {"0.png"}, {848, 480});
   copy_calibration("camchain.yaml", "camchain.yaml");
   const Recording recording = recognized("");
   EXPECT_EQ(recording.calibration, path("camchain.yaml"));
@@ -178,8 +178,8 @@ TEST_F(DataSets, CalibrationBesideTheInput) {
 }
 
 TEST_F(DataSets, TwoCalibrationsBesideTheInputAreRefused) {
-  write_pictures("left", {"0.png"}, {848, 480});
-  write_pictures("right", {"0.png"}, {848, 480});
+  write_images("left", {"0.png"}, {848, 480});
+  write_images("right", {"0.png"}, {848, 480});
   copy_calibration("camchain.yaml", "camchain.yaml");
   copy_calibration("camchain.yaml", "left/calibration.yaml");
   try {
@@ -202,9 +202,9 @@ TEST_F(DataSets, TwoCalibrationsBesideTheInputAreRefused) {
 }
 
 TEST_F(DataSets, CalibrationOutsideOfTheInputIsNotUsed) {
-  write_pictures("rig/left", {"0.png"}, {848, 480});
-  write_pictures("rig/right", {"0.png"}, {848, 480});
-  write_pictures("other/right", {"0.png"}, {848, 480});
+  write_images("rig/left", {"0.png"}, {848, 480});
+  write_images("rig/right", {"0.png"}, {848, 480});
+  write_images("other/right", {"0.png"}, {848, 480});
   copy_calibration("camchain.yaml", "camchain.yaml");
   EXPECT_THAT(recognize({path("rig/left"), path("rig/right")}, {}).calibration, IsEmpty());
   // Not that of one view only, if the folders of the views do not lie side by side.
@@ -215,16 +215,16 @@ TEST_F(DataSets, CalibrationOutsideOfTheInputIsNotUsed) {
 }
 
 TEST_F(DataSets, CalibrationWithAnotherNameIsNotUsed) {
-  write_pictures("left", {"0.png"}, {848, 480});
-  write_pictures("right", {"0.png"}, {848, 480});
+  write_images("left", {"0.png"}, {848, 480});
+  write_images("right", {"0.png"}, {848, 480});
   copy_calibration("camchain.yaml", "rig.yaml");
   copy_calibration("camchain.yaml", "camchain.bak");
   EXPECT_THAT(recognized("").calibration, IsEmpty());
 }
 
 TEST_F(DataSets, BrokenCalibrationIsNamed) {
-  write_pictures("left", {"0.png"}, {752, 480});
-  write_pictures("right", {"0.png"}, {752, 480});
+  write_images("left", {"0.png"}, {752, 480});
+  write_images("right", {"0.png"}, {752, 480});
   write_text(folder_ / "calibration.yml", "nonsense");
   const Recording recording = recognized("");
   EXPECT_THAT(recording.calibration, IsEmpty());
@@ -247,13 +247,13 @@ TEST_F(DataSets, RealFolders) {
   EXPECT_EQ(drive.kind, "KITTI raw drive");
   EXPECT_FALSE(drive.rectified);
   EXPECT_THAT(drive.calibration, HasSubstr("#gray"));
-  EXPECT_THAT(drive.left.pictures, SizeIs(8));
+  EXPECT_THAT(drive.left.images, SizeIs(8));
   EXPECT_EQ(drive.left.times, drive.right.times);
 
   const Recording street = recognize({sequence}, {});
   EXPECT_EQ(street.name, "kitti_sequence");
-  EXPECT_GT(street.left.pictures.size(), 10U);
-  EXPECT_EQ(street.left.pictures.size(), street.right.pictures.size());
+  EXPECT_GT(street.left.images.size(), 10U);
+  EXPECT_EQ(street.left.images.size(), street.right.images.size());
   EXPECT_TRUE(street.rectified);
   EXPECT_THAT(street.calibration, HasSubstr("calib.txt"));
 

@@ -56,15 +56,15 @@ cv::Mat both(bool below, bool swapped) {
 
 class Recordings : public ::testing::Test {
  protected:
-  void write_pictures(const std::string& folder, std::initializer_list<const char*> names,
-                      bool right = false) const {
+  void write_images(const std::string& folder, std::initializer_list<const char*> names,
+                    bool right = false) const {
     for (const char* name : names) {
       const fs::path file = folder_ / (folder + "/" + name);
       ASSERT_TRUE(cv::imwrite(file.string(), view(right))) << file;
     }
   }
 
-  // A pair of pictures or folders is recognised by this path in the folder of the test.
+  // A pair of images or folders is recognised by this path in the folder of the test.
   Recording recognized(std::initializer_list<const char*> inputs,
                        const InputOptions& options = {}) const {
     std::vector<std::string> paths;
@@ -134,7 +134,7 @@ TEST_F(Recordings, RefusesVideosOfDifferentSizes) {
 }
 
 TEST_F(Recordings, NamesInputsThatCannotBeRead) {
-  write_pictures("left", {"0.png"});
+  write_images("left", {"0.png"});
   write_text(folder_ / "broken.mp4", "no video");
   fs::create_directory(path("empty"));
   EXPECT_THAT(error_of({"none.mp4", "left"}), HasSubstr(path("none.mp4") + ": no such file"));
@@ -149,25 +149,25 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   EXPECT_THROW(recognize({"a", "b", "c"}, {}), UserError);
 }
 
-TEST_F(Recordings, FoldersOfPictures) {
-  write_pictures("run/left", {"8.png", "9.png", "10.png"});
-  write_pictures("run/right", {"8.png", "9.png", "10.png"}, true);
+TEST_F(Recordings, FoldersOfImages) {
+  write_images("run/left", {"8.png", "9.png", "10.png"});
+  write_images("run/right", {"8.png", "9.png", "10.png"}, true);
   InputOptions options;
   options.frame_rate = 15;
   for (const Recording& recording :
        {recognized({"run/left", "run/right"}, options), recognized({"run"}, options)}) {
     EXPECT_EQ(recording.name, "run");
     EXPECT_EQ(recording.frame_rate, 15);
-    EXPECT_THAT(names_of(recording.left.pictures), ElementsAre("8.png", "9.png", "10.png"));
-    EXPECT_EQ(recording.right.pictures.front(), path("run/right/8.png"));
+    EXPECT_THAT(names_of(recording.left.images), ElementsAre("8.png", "9.png", "10.png"));
+    EXPECT_EQ(recording.right.images.front(), path("run/right/8.png"));
     EXPECT_THAT(recording.remarks, IsEmpty());
   }
 }
 
-// Pictures are pairs by their numbers, also where some are missing or broken.
-TEST_F(Recordings, PicturesWithTheSameNumberHaveTheSameTime) {
-  write_pictures("left", {"a_0010.png", "a_0011.png", "a_0012.png", "a_0014.png"});
-  write_pictures("right", {"b_10.png", "b_12.png", "b_13.png", "b_14.png"}, true);
+// Images are pairs by their numbers, also where some are missing or broken.
+TEST_F(Recordings, ImagesWithTheSameNumberHaveTheSameTime) {
+  write_images("left", {"a_0010.png", "a_0011.png", "a_0012.png", "a_0014.png"});
+  write_images("right", {"b_10.png", "b_12.png", "b_13.png", "b_14.png"}, true);
   write_beginning(path("right/b_14.png"), path("right/b_15.png"), 0.5);
   write_text(folder_ / "left/a_0015.png", "");
   InputOptions options;
@@ -176,49 +176,49 @@ TEST_F(Recordings, PicturesWithTheSameNumberHaveTheSameTime) {
   const Nanoseconds step = 100'000'000;
   EXPECT_THAT(recording.left.times, ElementsAre(0, step, 2 * step, 4 * step));
   EXPECT_THAT(recording.right.times, ElementsAre(0, 2 * step, 3 * step, 4 * step));
-  EXPECT_THAT(recording.left.pictures, SizeIs(4));
+  EXPECT_THAT(recording.left.images, SizeIs(4));
   EXPECT_THAT(recording.remarks,
               Contains(path("right/b_15.png") + " is left out: it is truncated."));
   EXPECT_THAT(recording.remarks, Contains(HasSubstr(path("left/a_0015.png"))));
-  EXPECT_EQ(recording.left.damage, "1 of 5 pictures is left out");
-  EXPECT_EQ(recording.right.damage, "1 of 5 pictures is left out");
+  EXPECT_EQ(recording.left.damage, "1 of 5 images is left out");
+  EXPECT_EQ(recording.right.damage, "1 of 5 images is left out");
 }
 
-TEST_F(Recordings, EachTenthPictureIsAFrame) {
-  write_pictures("left", {"000.png", "010.png", "020.png"});
-  write_pictures("right", {"000.png", "010.png", "020.png"}, true);
+TEST_F(Recordings, EachTenthImageIsAFrame) {
+  write_images("left", {"000.png", "010.png", "020.png"});
+  write_images("right", {"000.png", "010.png", "020.png"}, true);
   const Recording recording = recognized({"left", "right"});
   EXPECT_THAT(recording.left.times, IsEmpty());
   EXPECT_EQ(recording.frame_rate, 30);
 }
 
 TEST_F(Recordings, NamesThatAreTimes) {
-  write_pictures("cam0", {"1403636579763555584.png", "1403636579813555456.png"});
-  write_pictures("cam1", {"1403636579763555999.png", "1403636579813555456.png"}, true);
+  write_images("cam0", {"1403636579763555584.png", "1403636579813555456.png"});
+  write_images("cam1", {"1403636579763555999.png", "1403636579813555456.png"}, true);
   const Recording recording = recognized({"cam0", "cam1"});
   EXPECT_THAT(recording.left.times, ElementsAre(0, 49'999'872));
   EXPECT_THAT(recording.right.times, ElementsAre(415, 49'999'872));
 }
 
-TEST_F(Recordings, PatternsOfPictures) {
-  write_pictures("all", {"left_001.png", "left_002.png", "x_left_001.png"});
-  write_pictures("all", {"right_001.png", "right_002.png"}, true);
+TEST_F(Recordings, PatternsOfImages) {
+  write_images("all", {"left_001.png", "left_002.png", "x_left_001.png"});
+  write_images("all", {"right_001.png", "right_002.png"}, true);
   const Recording recording = recognized({"all/left_%03d.png", "all/right_%03d.png"});
-  EXPECT_THAT(names_of(recording.left.pictures), ElementsAre("left_001.png", "left_002.png"));
-  EXPECT_THAT(names_of(recording.right.pictures), ElementsAre("right_001.png", "right_002.png"));
+  EXPECT_THAT(names_of(recording.left.images), ElementsAre("left_001.png", "left_002.png"));
+  EXPECT_THAT(names_of(recording.right.images), ElementsAre("right_001.png", "right_002.png"));
 }
 
-TEST_F(Recordings, PicturesOfBothViewsInOneFolder) {
-  write_pictures("all", {"left_001.png", "left_002.png"});
-  write_pictures("all", {"right_001.png", "right_002.png"}, true);
+TEST_F(Recordings, ImagesOfBothViewsInOneFolder) {
+  write_images("all", {"left_001.png", "left_002.png"});
+  write_images("all", {"right_001.png", "right_002.png"}, true);
   const Recording recording = recognized({"all"});
-  EXPECT_THAT(names_of(recording.left.pictures), ElementsAre("left_001.png", "left_002.png"));
-  EXPECT_THAT(names_of(recording.right.pictures), ElementsAre("right_001.png", "right_002.png"));
+  EXPECT_THAT(names_of(recording.left.images), ElementsAre("left_001.png", "left_002.png"));
+  EXPECT_THAT(names_of(recording.right.images), ElementsAre("right_001.png", "right_002.png"));
 }
 
-TEST_F(Recordings, PicturesWithoutCommonNumbersArePairsByTheirOrder) {
-  write_pictures("left", {"1.png", "2.png"});
-  write_pictures("right", {"101.png", "102.png"}, true);
+TEST_F(Recordings, ImagesWithoutCommonNumbersArePairsByTheirOrder) {
+  write_images("left", {"1.png", "2.png"});
+  write_images("right", {"101.png", "102.png"}, true);
   const Recording recording = recognized({"left", "right"});
   EXPECT_THAT(recording.left.times, IsEmpty());
   EXPECT_THAT(recording.remarks, ElementsAre(HasSubstr("no numbers in common")));
@@ -227,9 +227,9 @@ TEST_F(Recordings, PicturesWithoutCommonNumbersArePairsByTheirOrder) {
 TEST_F(Recordings, GuessesTheArrangement) {
   for (const bool below : {false, true}) {
     for (const bool swapped : {false, true}) {
-      const fs::path file = folder_ / "pictures/1.png";
+      const fs::path file = folder_ / "images/1.png";
       cv::imwrite(file.string(), both(below, swapped));
-      const Recording recording = recognized({"pictures"});
+      const Recording recording = recognized({"images"});
       EXPECT_EQ(recording.arrangement, below ? Arrangement::kTopBottom : Arrangement::kSideBySide);
       EXPECT_EQ(recording.swapped, swapped);
       EXPECT_TRUE(recording.right.empty());
@@ -283,13 +283,13 @@ TEST_F(Recordings, RefusesFolderWithSeveralRecordings) {
 }
 
 TEST_F(Recordings, FindsAllOfAnArchive) {
-  write_pictures("one/left", {"1.png"});
-  write_pictures("one/right", {"1.png"}, true);
-  write_pictures("sets/Teddy", {"im0.png", "im1.png"});
-  write_pictures("lonely/left", {"1.png"});
-  write_pictures("thumbnails", {"1.png", "2.png"});
-  write_pictures("results/maps/left", {"1.png"});
-  write_pictures("results/maps/right", {"1.png"});
+  write_images("one/left", {"1.png"});
+  write_images("one/right", {"1.png"}, true);
+  write_images("sets/Teddy", {"im0.png", "im1.png"});
+  write_images("lonely/left", {"1.png"});
+  write_images("thumbnails", {"1.png", "2.png"});
+  write_images("results/maps/left", {"1.png"});
+  write_images("results/maps/right", {"1.png"});
   write_text(folder_ / "results/run.json", "{}");
   for (const char* name : {"videos/a_left.avi", "videos/a_right.avi", "videos/b_left.avi"}) {
     write_video(folder_ / name, "jpegenc ! avimux", constant_times(2));

@@ -41,17 +41,17 @@ class Inputs : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  void write_picture(const std::string& name, View view, int number) const {
+  void write_image(const std::string& name, View view, int number) const {
     std::vector<std::uint8_t> pixels = testing::stereo_frame(number, view);
     const cv::Mat image(kStereoHeight, kStereoWidth, CV_8UC1, pixels.data());
     ASSERT_TRUE(cv::imwrite(path(name), image)) << name;
   }
-  // The pictures of a view; `names`: printf pattern.
-  void write_pictures(const std::string& names, View view) const {
+  // The images of a view; `names`: printf pattern.
+  void write_images(const std::string& names, View view) const {
     for (int i = 0; i < kFrames; ++i) {
       char name[200];
       std::snprintf(name, sizeof name, names.c_str(), i);
-      write_picture(name, view, i);
+      write_image(name, view, i);
     }
   }
   // A video by ffmpeg, without loss.
@@ -87,10 +87,10 @@ class Inputs : public ::testing::Test {
     return joined(frames_of(sources + " mtstereo name=m max-disparity=24 alignment=off ! " +
                             downstream + "appsink name=out sync=false"));
   }
-  // The sources of a usual pipeline for pictures, with an element after each.
-  std::string pictures(const std::string& left, const std::string& right,
-                       const std::string& left_element = "",
-                       const std::string& right_element = "") const {
+  // The sources of a usual pipeline for images, with an element after each.
+  std::string images(const std::string& left, const std::string& right,
+                     const std::string& left_element = "",
+                     const std::string& right_element = "") const {
     const auto source = [this](const std::string& names, const std::string& element) {
       return " multifilesrc location=" + path(names) +
              " caps=image/png,framerate=30/1 ! pngdec ! queue ! " + element;
@@ -134,31 +134,31 @@ TEST_F(Inputs, VideosWithBothViews) {
   expect_maps(both("swapped.mkv", "top-bottom", true));
 }
 
-TEST_F(Inputs, NumberedPictures) {
-  write_pictures("left/%d.png", View::kLeft);
-  write_pictures("right/%d.png", View::kRight);
-  EXPECT_EQ(process_input({path("left"), path("right")}, false).left.pictures.size(),
+TEST_F(Inputs, NumberedImages) {
+  write_images("left/%d.png", View::kLeft);
+  write_images("right/%d.png", View::kRight);
+  EXPECT_EQ(process_input({path("left"), path("right")}, false).left.images.size(),
             static_cast<std::size_t>(kFrames));
-  expect_maps(pictures("left/%d.png", "right/%d.png"));
+  expect_maps(images("left/%d.png", "right/%d.png"));
 }
 
 TEST_F(Inputs, KittiOdometry) {
-  write_pictures("00/image_0/%06d.png", View::kLeft);
-  write_pictures("00/image_1/%06d.png", View::kRight);
+  write_images("00/image_0/%06d.png", View::kLeft);
+  write_images("00/image_1/%06d.png", View::kRight);
   write_text(path("00/times.txt"), "0.000000e+00\n1.037360e-01\n2.073640e-01\n");
   write_text(path("00/calib.txt"),
              "P0: 150 0 80 0 0 150 48 0 0 0 1 0\nP1: 150 0 80 -15 0 150 48 0 0 0 1 0\n");
   const Recording recording = process_input({path("00")}, true);
   EXPECT_EQ(recording.kind, "KITTI odometry sequence");
-  const std::string sources = pictures("00/image_0/%06d.png", "00/image_1/%06d.png");
+  const std::string sources = images("00/image_0/%06d.png", "00/image_1/%06d.png");
   expect_maps(sources);
   expect_depths(sources, "mtdepth calibration=" + path("00/calib.txt") + "#gray");
 }
 
 TEST_F(Inputs, KittiRaw) {
   const std::string drive = "day/drive_0001_sync";
-  write_pictures(drive + "/image_02/data/%010d.png", View::kLeft);
-  write_pictures(drive + "/image_03/data/%010d.png", View::kRight);
+  write_images(drive + "/image_02/data/%010d.png", View::kLeft);
+  write_images(drive + "/image_03/data/%010d.png", View::kRight);
   write_text(path(drive + "/image_02/timestamps.txt"),
              "2011-09-26 13:59:59.950000000\n2011-09-26 14:00:00.053333333\n"
              "2011-09-26 14:00:00.156666666\n");
@@ -174,22 +174,22 @@ TEST_F(Inputs, KittiRaw) {
   write_text(path("day/calib_cam_to_cam.txt"), calibration);
   EXPECT_EQ(process_input({path(drive)}, true).kind, "KITTI raw drive");
   const std::string sources =
-      pictures(drive + "/image_02/data/%010d.png", drive + "/image_03/data/%010d.png");
+      images(drive + "/image_02/data/%010d.png", drive + "/image_03/data/%010d.png");
   expect_maps(sources);
   expect_depths(sources, "mtdepth calibration=" + path("day/calib_cam_to_cam.txt") + "#color");
 }
 
 TEST_F(Inputs, Euroc) {
   const std::string base = "MH_01/mav0/";
-  write_pictures("left/%d.png", View::kLeft);
-  write_pictures("right/%d.png", View::kRight);
+  write_images("left/%d.png", View::kLeft);
+  write_images("right/%d.png", View::kRight);
   for (const char* camera : {"0", "1"}) {
     const bool left = camera[0] == '0';
     const std::string folder = base + "cam" + camera;
     std::string list = "#timestamp [ns],filename\n";
     for (int i = 0; i < kFrames; ++i) {
       const std::string time = std::to_string(1403636579763555584 + 50'000'000LL * i);
-      write_picture(folder + "/data/" + time + ".png", left ? View::kLeft : View::kRight, i);
+      write_image(folder + "/data/" + time + ".png", left ? View::kLeft : View::kRight, i);
       list += time + "," + time + ".png\n";
     }
     write_text(path(folder + "/data.csv"), list);
@@ -205,7 +205,7 @@ TEST_F(Inputs, Euroc) {
   EXPECT_EQ(recording.kind, "EuRoC (ASL) sequence");
   const std::string rectify = "mtrectify calibration=" + recording.calibration + " camera=";
   const std::string sources =
-      pictures("left/%d.png", "right/%d.png", rectify + "left ! ", rectify + "right ! ");
+      images("left/%d.png", "right/%d.png", rectify + "left ! ", rectify + "right ! ");
   expect_maps(sources);
   expect_depths(sources, "mtdepth");
 }
@@ -213,8 +213,8 @@ TEST_F(Inputs, Euroc) {
 TEST_F(Inputs, PairFolders) {
   for (const char* name : {"Piano", "playground_1l"}) {
     const std::string folder = name;
-    write_picture(folder + "/im0.png", View::kLeft, 0);
-    write_picture(folder + "/im1.png", View::kRight, 0);
+    write_image(folder + "/im0.png", View::kLeft, 0);
+    write_image(folder + "/im1.png", View::kRight, 0);
     testing::write_stereo_calibration(path(folder));
     const Recording recording = recognize({path(folder)}, {});
     EXPECT_EQ(recording.kind, folder == "Piano" ? "Middlebury pair" : "ETH3D pair");

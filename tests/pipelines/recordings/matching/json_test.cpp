@@ -23,7 +23,7 @@ Work example() {
   work.recording.name = "street \"1\"";
   work.recording.kind = "two video files";
   work.recording.left.video = "/a/left.mp4";
-  work.recording.right.pictures = {"/b/0.png", "/b/1.png", "/b/2.png", "/b/3.png", "/b/4.png"};
+  work.recording.right.images = {"/b/0.png", "/b/1.png", "/b/2.png", "/b/3.png", "/b/4.png"};
   work.recording.right.times = {5, 1000, 2000, 3001, 4000};
   work.recording.calibration = "/a/calibration.yml";
   work.recording.rectified = false;
@@ -104,7 +104,7 @@ TEST(WorkJson, IsReadAsItWasWritten) {
   const Work read = read_work(folder / "work.json");
   EXPECT_EQ(fingerprint(read), fingerprint(work));
   EXPECT_EQ(read.recording.name, work.recording.name);
-  EXPECT_EQ(read.recording.right.pictures, work.recording.right.pictures);
+  EXPECT_EQ(read.recording.right.images, work.recording.right.images);
   EXPECT_EQ(read.right.times, work.right.times);
   EXPECT_EQ(read.left.damage, work.left.damage);
   EXPECT_EQ(read.pairs.pairs, work.pairs.pairs);

@@ -143,7 +143,7 @@ TEST_F(Preparation, FindsTheSearchRangeInsteadOfThatOfTheDataSet) {
 
 TEST_F(Preparation, KeepsTheDefaultRangeIfNothingMatches) {
   write(6, 0);
-  // Flat pictures.
+  // Flat images.
   const std::string flat =
       "videobalance contrast=0 ! videoconvert ! video/x-raw,format=GRAY8 ! avenc_ffv1 ! "
       "matroskamux";

@@ -163,7 +163,7 @@ TEST_F(Products, RectifiedViewsAreThoseOfTheElement) {
   process(work, whole(work), results, kNoProgress, Existing::kReplace);
   work.options.products = {Product::kRectifiedLeft, Product::kRectifiedRight};
   work.options.format = MapFormat::kPng;
-  process(work, whole(work), file("pictures"), kNoProgress);
+  process(work, whole(work), file("images"), kNoProgress);
   for (const std::string side : {"left", "right"}) {
     const std::vector<std::string> frames = frames_of(
         "filesrc location=" + file(side + ".mkv").string() +
@@ -172,10 +172,10 @@ TEST_F(Products, RectifiedViewsAreThoseOfTheElement) {
     ASSERT_EQ(frames.size(), static_cast<std::size_t>(kFrames));
     const fs::path video = results / ("rectified-" + side + ".mkv");
     EXPECT_EQ(by_gstreamer(video, "BGR"), joined(frames)) << side;
-    const fs::path picture = file("pictures") / ("rectified-" + side) / "000004.png";
-    const cv::Mat image = cv::imread(picture.string(), cv::IMREAD_UNCHANGED);
-    ASSERT_EQ(image.total() * image.elemSize(), frames[4].size()) << picture;
-    EXPECT_EQ(std::memcmp(image.data, frames[4].data(), frames[4].size()), 0) << picture;
+    const fs::path path = file("images") / ("rectified-" + side) / "000004.png";
+    const cv::Mat image = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(image.total() * image.elemSize(), frames[4].size()) << path;
+    EXPECT_EQ(std::memcmp(image.data, frames[4].data(), frames[4].size()), 0) << path;
   }
 }
 

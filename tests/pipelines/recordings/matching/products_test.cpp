@@ -89,7 +89,7 @@ TEST_F(Products, VideosStateWhatWasUsed) {
   }
 }
 
-TEST_F(Products, PicturesAreReadByOpenCv) {
+TEST_F(Products, ImagesAreReadByOpenCv) {
   const fs::path results =
       make({Product::kDisparity, Product::kDepth, Product::kColor, Product::kConfidence},
            MapFormat::kPng);
@@ -101,12 +101,12 @@ TEST_F(Products, PicturesAreReadByOpenCv) {
   for (const auto& [name, downstream] : kinds) {
     const std::vector<std::string> frames = expected(downstream);
     for (int i = 0; i < kFrames; ++i) {
-      const fs::path picture = results / name / ("00000" + std::to_string(i) + ".png");
-      const cv::Mat image = cv::imread(picture.string(), cv::IMREAD_UNCHANGED);
-      ASSERT_EQ(image.size(), cv::Size(kStereoWidth, kStereoHeight)) << picture;
+      const fs::path path = results / name / ("00000" + std::to_string(i) + ".png");
+      const cv::Mat image = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+      ASSERT_EQ(image.size(), cv::Size(kStereoWidth, kStereoHeight)) << path;
       const std::string& frame = frames[static_cast<std::size_t>(i)];
-      ASSERT_EQ(image.total() * image.elemSize(), frame.size()) << picture;
-      EXPECT_EQ(std::memcmp(image.data, frame.data(), frame.size()), 0) << picture;
+      ASSERT_EQ(image.total() * image.elemSize(), frame.size()) << path;
+      EXPECT_EQ(std::memcmp(image.data, frame.data(), frame.size()), 0) << path;
     }
   }
 }

@@ -240,7 +240,7 @@ TEST(DamageText, StatesCountTimeAndReason) {
 class JpegCheck : public ::testing::Test {
  protected:
   // One frame with the markers of its start and end.
-  std::string picture() const {
+  std::string image() const {
     const fs::path file = folder_ / "one.jpg";
     write_video(file, "jpegenc", constant_times(1));
     return bytes_of_file(file);
@@ -249,22 +249,22 @@ class JpegCheck : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(JpegCheck, AcceptsWholePicture) { EXPECT_EQ(damage_of_jpeg(picture()), ""); }
+TEST_F(JpegCheck, AcceptsWholeImage) { EXPECT_EQ(damage_of_jpeg(image()), ""); }
 
 // Some cameras write such bytes.
 TEST_F(JpegCheck, AcceptsFillBytesBeforeTheEnd) {
-  std::string bytes = picture();
+  std::string bytes = image();
   bytes.insert(bytes.size() - 2, std::string(4, '\0'));
   EXPECT_EQ(damage_of_jpeg(bytes), "");
 }
 
-TEST_F(JpegCheck, ReportsTruncatedPicture) {
-  const std::string bytes = picture();
+TEST_F(JpegCheck, ReportsTruncatedImage) {
+  const std::string bytes = image();
   EXPECT_THAT(damage_of_jpeg(std::string_view(bytes).substr(0, bytes.size() * 3 / 4)),
               HasSubstr("Premature end"));
 }
 
-TEST_F(JpegCheck, ReportsWhatIsNoPicture) {
+TEST_F(JpegCheck, ReportsWhatIsNoImage) {
   EXPECT_NE(damage_of_jpeg(std::string_view()), "");
   EXPECT_NE(damage_of_jpeg(std::string(500, 'x')), "");
   EXPECT_NE(damage_of_jpeg(std::string_view("\xff\xd8")), "");

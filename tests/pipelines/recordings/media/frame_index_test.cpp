@@ -198,7 +198,7 @@ TEST_F(FrameIndexTest, ListsVideosWithoutBFrames) {
   }
 }
 
-// Groups of pictures that refer to frames of the group before.
+// Groups of images that refer to frames of the group before.
 TEST_F(FrameIndexTest, ListsOpenGroups) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   for (const char* coding : {"libx264 -x264-params open_gop=1:keyint=50:bframes=3",
@@ -310,11 +310,11 @@ TEST_F(FrameIndexTest, ContainersThatAreWholeHaveNoMissingEnd) {
   EXPECT_THAT(missing_end(folder_ / "none.mkv"), IsEmpty());
 }
 
-TEST_F(FrameIndexTest, PicturesHaveTheirTimes) {
+TEST_F(FrameIndexTest, ImagesHaveTheirTimes) {
   Source source;
   for (const char* name : {"0.png", "1.png", "2.png"}) {
-    source.pictures.push_back(folder_ / name);
-    cv::imwrite(source.pictures.back().string(), cv::Mat(30, 40, CV_8UC1, cv::Scalar(9)));
+    source.images.push_back(folder_ / name);
+    cv::imwrite(source.images.back().string(), cv::Mat(30, 40, CV_8UC1, cv::Scalar(9)));
   }
   const FrameIndex by_rate = index_frames(source, 25);
   EXPECT_THAT(by_rate.times, ElementsAre(0, 40'000'000, 80'000'000));

@@ -47,7 +47,7 @@ std::vector<Nanoseconds> constant_times(int count);
 /// Times of frames with periods between 17 ms and 100 ms.
 std::vector<Nanoseconds> variable_times(int count);
 
-/// Encodes moving pictures of 64x48 px by GStreamer. `coding`: what follows the source, such as
+/// Encodes moving frames of 64x48 px by GStreamer. `coding`: what follows the source, such as
 /// "x264enc bframes=2 ! h264parse ! mp4mux".
 void write_video(const std::filesystem::path& file, const std::string& coding,
                  const std::vector<Nanoseconds>& times);

@@ -21,15 +21,9 @@ using testing::Outcome;
 using testing::read_file;
 using testing::run_eval;
 
-class CurveProgram : public ::testing::Test {
+class CurveProgram : public testing::TwoPairs {
  protected:
-  void SetUp() override {
-    testing::write_pair_folder(folder_ / "set/A", testing::make_pair(240, 120, 9), 32);
-    testing::write_pair_folder(folder_ / "set/B", testing::make_pair(200, 100, 5), 16);
-  }
-  std::string set() const { return folder_ / "set"; }
   json report() const { return json::parse(read_file(folder_ / "r.json")); }
-  testing::TempFolder folder_;
 };
 
 TEST_F(CurveProgram, PrintsAndReportsTheCurveOfTheLibrary) {
@@ -53,7 +47,7 @@ TEST_F(CurveProgram, PrintsAndReportsTheCurveOfTheLibrary) {
   EXPECT_NEAR(points[0]["density"], report()["mean"]["mtstereo"]["density"], 1e-9);
 }
 
-TEST_F(CurveProgram, SweepsTheRequestedRivals) {
+TEST_F(CurveProgram, SweepsTheRequestedMethodsOfOpenCv) {
   // Noise reduces the difference between the best and the second-best cost.
   cv::RNG random(5);
   for (const char* pair : {"A", "B"}) {
@@ -75,7 +69,7 @@ TEST_F(CurveProgram, SweepsTheRequestedRivals) {
   ASSERT_EQ(curves.size(), 7U);
   EXPECT_EQ(curves[1]["points"].size(), 20U);
   EXPECT_GT(curves[2]["points"].size(), 30U);
-  // The envelope of a rival is nowhere above its own line.
+  // The envelope of a method of OpenCV is nowhere above its own line.
   int compared = 0;
   for (std::size_t i = 0; i < curves[1]["at_density"].size(); ++i) {
     const json alone = curves[1]["at_density"][i]["avgerr"];

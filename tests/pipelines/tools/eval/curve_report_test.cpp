@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tools/eval/rival_sweep.hpp"
+#include "tools/eval/opencv_sweep.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// The library at 60 and 20 %, and a rival whose second ratio is better with filters.
+// The library at 60 and 20 %, and a matcher of OpenCV whose second ratio is better with filters.
 CurveMeans small_means() {
   CurveMeans means;
   means.pairs = 2;
@@ -60,7 +60,7 @@ const json& at_density(const json& curve, double density) {
   throw std::runtime_error("no such density");
 }
 
-TEST(MakeCurves, HasOneLineForTheLibraryAndTwoForEachRival) {
+TEST(MakeCurves, HasOneLineForTheLibraryAndTwoForEachMethodOfOpenCv) {
   const CurveReport report = small_report();
   ASSERT_EQ(report.curves.size(), 3U);
   EXPECT_EQ(report.mode, "sparse");
@@ -140,11 +140,11 @@ TEST(CurvesJson, HasThePointsWithTheirSettings) {
   EXPECT_EQ(own[1]["threshold"], 2);
   EXPECT_EQ(own[1]["density"], 20);
   EXPECT_FALSE(own[1].contains("uniqueness_ratio"));
-  const json& rival = result["curves"][1]["points"];
-  ASSERT_EQ(rival.size(), 2U);
-  EXPECT_EQ(rival[1]["uniqueness_ratio"], 50);
-  EXPECT_EQ(rival[1]["avgerr"], 3);
-  EXPECT_FALSE(rival[1].contains("threshold"));
+  const json& opencv = result["curves"][1]["points"];
+  ASSERT_EQ(opencv.size(), 2U);
+  EXPECT_EQ(opencv[1]["uniqueness_ratio"], 50);
+  EXPECT_EQ(opencv[1]["avgerr"], 3);
+  EXPECT_FALSE(opencv[1].contains("threshold"));
 }
 
 TEST(CurvesJson, HasTheDataForTitleAndCaptionsOfAPlot) {

@@ -25,15 +25,9 @@ using testing::Outcome;
 using testing::read_file;
 using testing::run_eval;
 
-class DegradeProgram : public ::testing::Test {
+class DegradeProgram : public testing::TwoPairs {
  protected:
-  void SetUp() override {
-    testing::write_pair_folder(folder_ / "set/A", testing::make_pair(240, 120, 9), 32);
-    testing::write_pair_folder(folder_ / "set/B", testing::make_pair(200, 100, 5), 16);
-  }
-  std::string set() const { return folder_ / "set"; }
   json report() const { return json::parse(read_file(folder_ / "r.json")); }
-  testing::TempFolder folder_;
 };
 
 TEST_F(DegradeProgram, EvaluatesEachKindWithEachMethod) {

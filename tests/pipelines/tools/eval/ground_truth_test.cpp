@@ -7,7 +7,7 @@
 
 #include "expect_error.hpp"
 #include "support.hpp"
-#include "tools/eval/pictures.hpp"
+#include "tools/eval/images.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -168,7 +168,7 @@ TEST_F(GroundTruthFiles, CorruptEmptyOrMissingImageIsNamed) {
   write_image(folder_ / "good.png", cv::Mat(64, 64, CV_8UC1, cv::Scalar(7)));
   const std::string bytes = testing::read_file(folder_ / "good.png");
   write_file(folder_ / "cut.png", bytes.substr(0, bytes.size() / 2));
-  write_file(folder_ / "text.png", "this is not a picture");
+  write_file(folder_ / "text.png", "this is not an image");
   write_file(folder_ / "empty.png", "");
   EXPECT_INPUT_ERROR(read_gray(folder_ / "cut.png"), "cut.png: ");
   EXPECT_INPUT_ERROR(read_gray(folder_ / "text.png"), "text.png: is corrupt");

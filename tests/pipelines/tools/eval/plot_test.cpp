@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// plot.py as a process: the picture of the curves, and invalid input. The tests of the benchmark
+// plot.py as a process: the image of the curves, and invalid input. The tests of the benchmark
 // cover the growth plot.
 
 #include <gmock/gmock.h>
@@ -51,14 +51,14 @@ json report_of(const List& curves) {
 }
 
 // Whether the color occurs within 2 px of a density and a fraction of the height of an axis.
-bool has_color(const cv::Mat& picture, int panel, double density, double height,
+bool has_color(const cv::Mat& image, int panel, double density, double height,
                const cv::Scalar& color) {
   const cv::Rect area(panel == 0 ? 60 : 665, 120, 510, 375);
   const cv::Point at(static_cast<int>(std::lround(area.x + area.width * density / 100)),
                      static_cast<int>(std::lround(area.y + area.height * (1 - height))));
   cv::Mat mask;
   const cv::Rect around(at.x - 2, at.y - 2, 5, 5);
-  cv::inRange(picture(around), color - cv::Scalar::all(3), color + cv::Scalar::all(3), mask);
+  cv::inRange(image(around), color - cv::Scalar::all(3), color + cv::Scalar::all(3), mask);
   return cv::countNonZero(mask) > 0;
 }
 
@@ -69,25 +69,25 @@ class Plot : public ::testing::Test {
     testing::write_file(folder_ / "report.json", text);
     return folder_ / "report.json";
   }
-  std::string picture() const { return folder_ / "curve.png"; }
+  std::string image() const { return folder_ / "curve.png"; }
 
-  // The picture of a valid report.
+  // The image of a valid report.
   cv::Mat plotted(const json& report) const {
-    const Outcome run = run_plot({"curve", file(report), picture()});
+    const Outcome run = run_plot({"curve", file(report), image()});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.err, "");
-    cv::Mat result = cv::imread(picture());
+    cv::Mat result = cv::imread(image());
     EXPECT_EQ(result.size(), cv::Size(1200, 600));
     return result;
   }
 
   void expect_rejection(const std::string& text, const std::string& words) const {
-    const Outcome run = run_plot({"curve", file_of(text), picture()});
+    const Outcome run = run_plot({"curve", file_of(text), image()});
     EXPECT_EQ(run.status, 2) << text;
     EXPECT_THAT(run.err,
                 AllOf(HasSubstr("report.json: "), HasSubstr(words), Not(HasSubstr("Traceback"))))
         << text;
-    EXPECT_FALSE(fs::exists(picture())) << text;
+    EXPECT_FALSE(fs::exists(image())) << text;
   }
 
   testing::TempFolder folder_;
@@ -95,39 +95,39 @@ class Plot : public ::testing::Test {
 
 TEST_F(Plot, DrawsPointsAtTheirCoordinates) {
   // 1 px is the top of the left axis, and 1 % of the right one; the line at 0.5 is 1 px wide.
-  const cv::Mat picture = plotted(report_of(
+  const cv::Mat image = plotted(report_of(
       {curve_of(0, {point(60, 1), point(20, 1)}), curve_of(1, {point(90, 0.5), point(10, 0.5)})}));
   for (const int panel : {0, 1}) {
     for (const double density : {21.0, 40.0, 59.0}) {
-      EXPECT_TRUE(has_color(picture, panel, density, 1, kColors[0])) << density;
+      EXPECT_TRUE(has_color(image, panel, density, 1, kColors[0])) << density;
     }
     for (const double density : {5.0, 15.0, 65.0, 90.0}) {
-      EXPECT_FALSE(has_color(picture, panel, density, 1, kColors[0])) << density;
+      EXPECT_FALSE(has_color(image, panel, density, 1, kColors[0])) << density;
     }
-    EXPECT_TRUE(has_color(picture, panel, 10, 0.5, kColors[1])) << "the dot at a point";
-    EXPECT_FALSE(has_color(picture, panel, 40, 0.5, kColors[0]));
+    EXPECT_TRUE(has_color(image, panel, 10, 0.5, kColors[1])) << "the dot at a point";
+    EXPECT_FALSE(has_color(image, panel, 40, 0.5, kColors[0]));
   }
 }
 
 TEST_F(Plot, InterruptsALineAtMissingErrors) {
   json gap = point(50, 1);
   gap["avgerr"] = nullptr;
-  const cv::Mat picture = plotted(
+  const cv::Mat image = plotted(
       report_of({curve_of(0, {point(90, 1), point(70, 1), gap, point(30, 1), point(10, 1)})}));
-  EXPECT_TRUE(has_color(picture, 0, 80, 1, kColors[0]));
-  EXPECT_TRUE(has_color(picture, 0, 20, 1, kColors[0]));
-  EXPECT_FALSE(has_color(picture, 0, 50, 1, kColors[0]));
-  EXPECT_TRUE(has_color(picture, 1, 50, 1, kColors[0])) << "D-all is not missing";
+  EXPECT_TRUE(has_color(image, 0, 80, 1, kColors[0]));
+  EXPECT_TRUE(has_color(image, 0, 20, 1, kColors[0]));
+  EXPECT_FALSE(has_color(image, 0, 50, 1, kColors[0]));
+  EXPECT_TRUE(has_color(image, 1, 50, 1, kColors[0])) << "D-all is not missing";
 }
 
 TEST_F(Plot, DrawsDotsOnlyForFewPointsOfASweep) {
   List many;
   for (int i = 0; i <= 40; ++i) many.push_back(point(90 - 2 * i, 0.5));
   const auto pixels = [&](const List& points, bool envelope) {
-    const cv::Mat picture = plotted(
+    const cv::Mat image = plotted(
         report_of({curve_of(0, {point(5, 1), point(1, 1)}), curve_of(1, points, envelope)}));
     cv::Mat mask;
-    cv::inRange(picture(cv::Rect(60, 290, 510, 35)), kColors[1] - cv::Scalar::all(3),
+    cv::inRange(image(cv::Rect(60, 290, 510, 35)), kColors[1] - cv::Scalar::all(3),
                 kColors[1] + cv::Scalar::all(3), mask);
     return cv::countNonZero(mask);
   };
@@ -141,8 +141,8 @@ TEST_F(Plot, DrawsDotsOnlyForFewPointsOfASweep) {
 TEST_F(Plot, HasAColorAndALegendForEachMethod) {
   List curves;
   for (int i = 0; i < 5; ++i) curves.push_back(curve_of(i, {}));
-  const cv::Mat picture = plotted(report_of(curves));
-  const cv::Mat legend = picture.rowRange(30, 90);
+  const cv::Mat image = plotted(report_of(curves));
+  const cv::Mat legend = image.rowRange(30, 90);
   for (std::size_t i = 0; i < 5; ++i) {
     cv::Mat mask;
     cv::inRange(legend, kColors[i] - cv::Scalar::all(2), kColors[i] + cv::Scalar::all(2), mask);
@@ -159,9 +159,9 @@ TEST_F(Plot, DrawsAPanelForEachKindOfImages) {
   // A kind whose pairs no method completed has no panel.
   report["degraded"].push_back({{"kind", "dark=0"}, {"curve", report_of({})["curve"]}});
   report["degraded"].push_back({{"kind", "without a curve"}});
-  const Outcome run = run_plot({"curve", file(report), picture()});
+  const Outcome run = run_plot({"curve", file(report), image()});
   ASSERT_EQ(run.status, 0) << run.err;
-  const cv::Mat drawn = cv::imread(picture());
+  const cv::Mat drawn = cv::imread(image());
   ASSERT_EQ(drawn.size(), cv::Size(1200, 120 + 2 * 250 + 45));
   // The lines at the top of the six panels.
   for (int i = 0; i < 8; ++i) {
@@ -178,16 +178,16 @@ TEST_F(Plot, DrawsTheRequestedMeasureOfEachKind) {
   json curve = report["curve"];
   for (json& each : curve["curves"][0]["points"]) each["d_all"] = 7;
   report["degraded"] = {{{"kind", "noise=5"}, {"curve", curve}}};
-  ASSERT_EQ(run_plot({"curve", file(report), picture()}).status, 0);
-  const std::string avgerr = testing::read_file(picture());
-  ASSERT_EQ(run_plot({"curve", file(report), picture(), "--measure", "d_all"}).status, 0);
-  EXPECT_NE(testing::read_file(picture()), avgerr);
-  EXPECT_EQ(run_plot({"curve", file(report), picture(), "--measure", "beauty"}).status, 2);
+  ASSERT_EQ(run_plot({"curve", file(report), image()}).status, 0);
+  const std::string avgerr = testing::read_file(image());
+  ASSERT_EQ(run_plot({"curve", file(report), image(), "--measure", "d_all"}).status, 0);
+  EXPECT_NE(testing::read_file(image()), avgerr);
+  EXPECT_EQ(run_plot({"curve", file(report), image(), "--measure", "beauty"}).status, 2);
 }
 
 TEST_F(Plot, ReadsTheReportFromStandardInput) {
   // The tests start programs with an empty standard input.
-  const Outcome run = run_plot({"curve", "-", picture()});
+  const Outcome run = run_plot({"curve", "-", image()});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr("plot.py: standard input: is not JSON"));
 }
@@ -222,7 +222,7 @@ TEST_F(Plot, RejectsReportsWithWrongOrMissingValues) {
 }
 
 TEST_F(Plot, NamesUnreadableAndUnwritableFiles) {
-  const Outcome unread = run_plot({"curve", folder_ / "none.json", picture()});
+  const Outcome unread = run_plot({"curve", folder_ / "none.json", image()});
   EXPECT_EQ(unread.status, 2);
   EXPECT_THAT(unread.err, HasSubstr("none.json: cannot be read"));
   const Outcome unwritten =
@@ -243,10 +243,10 @@ TEST_F(Plot, RejectsAnInvalidCommand) {
 TEST_F(Plot, NamesThePackageIfMatplotlibIsMissing) {
   const std::string hidden = testing::without_matplotlib(folder_ / "modules");
   const std::string report = file(report_of({curve_of(0, {point(60, 1)})}));
-  const Outcome run = run_plot({"curve", report, picture()}, {hidden});
+  const Outcome run = run_plot({"curve", report, image()}, {hidden});
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(run.err, AllOf(HasSubstr("python3-matplotlib"), Not(HasSubstr("Traceback"))));
-  EXPECT_FALSE(fs::exists(picture()));
+  EXPECT_FALSE(fs::exists(image()));
 }
 
 }  // namespace

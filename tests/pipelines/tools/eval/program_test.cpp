@@ -22,19 +22,10 @@ using ::testing::Not;
 using testing::Outcome;
 using testing::read_file;
 using testing::run_eval;
-using testing::TempFolder;
 using testing::write_file;
 using testing::write_pair_folder;
 
-class Program : public ::testing::Test {
- protected:
-  void SetUp() override {
-    write_pair_folder(folder_ / "set/A", make_pair(240, 120, 9), 32);
-    write_pair_folder(folder_ / "set/B", make_pair(200, 100, 5), 16);
-  }
-  std::string set() const { return folder_ / "set"; }
-  TempFolder folder_;
-};
+class Program : public testing::TwoPairs {};
 
 TEST_F(Program, EvaluatesAllPairsAndExitsWith0) {
   const Outcome run =
@@ -145,12 +136,12 @@ TEST_F(Program, RunsTheRivalsOnTheSamePairs) {
   EXPECT_THAT(run.out, HasSubstr("times as long as mtstereo"));
 }
 
-TEST_F(Program, WritesDisparityMapsAndPictures) {
+TEST_F(Program, WritesDisparityMapsAndImages) {
   const Outcome pfm = run_eval({set(), "--only", "A", "--write-disparity", folder_ / "maps",
-                                "--write-pictures", folder_ / "pictures"});
+                                "--write-pictures", folder_ / "images"});
   ASSERT_EQ(pfm.status, 0) << pfm.err;
   EXPECT_EQ(read_pfm(folder_ / "maps/A.pfm").size(), cv::Size(240, 120));
-  EXPECT_EQ(cv::imread(folder_ / "pictures/A.png").size(), cv::Size(480, 240));
+  EXPECT_EQ(cv::imread(folder_ / "images/A.png").size(), cv::Size(480, 240));
 
   const Outcome kitti =
       run_eval({set(), "--only", "A", "--write-disparity", folder_ / "maps", "--format", "kitti"});

@@ -32,14 +32,14 @@ MethodResult result_of(const std::string& method, double avgerr, double seconds)
   return result;
 }
 
-// Two pairs; the second has a mask and no result of the rival.
+// Two pairs; the second has a mask and no result of OpenCV.
 Report small_report() {
   Report report;
   report.dataset = "middlebury";
   report.folder = "some/folder";
   report.parameters = {{"mode", "sparse"}, {"threads", "2"}};
   report.methods = {"mtstereo", "bm"};
-  report.rival_settings = {{"bm", "block 15"}};
+  report.opencv_settings = {{"bm", "block 15"}};
   PairReport a;
   a.pair.name = "A, \"the first\"";
   a.size = {640, 480};
@@ -87,9 +87,9 @@ TEST(Summary, IsWeightedAndComparesTimesOfTheSamePairs) {
 
 TEST(Summary, ComputesTheRatioOnlyOverPairsOfBoth) {
   Report report = small_report();
-  PairReport rival_only = report.pairs[0];
-  rival_only.results = {result_of("bm", 3, 100)};
-  report.pairs.push_back(rival_only);
+  PairReport opencv_only = report.pairs[0];
+  opencv_only.results = {result_of("bm", 3, 100)};
+  report.pairs.push_back(opencv_only);
   const std::vector<Summary> means = summarize(report);
   EXPECT_EQ(means[1].pairs, 2);
   EXPECT_DOUBLE_EQ(means[1].time_ratio, 0.5);

@@ -100,7 +100,8 @@ TEST_F(Running, FindsTheShiftOfARenderedPair) {
 
 TEST_F(Running, FindsTheShiftWithTheRivals) {
   RunSettings settings;
-  settings.rivals = {Rival::kSgbm, Rival::kSgbm3Way, Rival::kSgbmHh, Rival::kBm};
+  settings.opencv_methods = {OpenCvMethod::kSgbm, OpenCvMethod::kSgbm3Way, OpenCvMethod::kSgbmHh,
+                             OpenCvMethod::kBm};
   Runner runner(settings);
   const PairReport report = runner.run(pairs_[0]);
   ASSERT_TRUE(report.failures.empty()) << report.failures[0];
@@ -162,45 +163,45 @@ TEST_F(Running, ReportsParametersThatDoNotFitTheImages) {
   RunSettings settings;
   ASSERT_TRUE(settings.parameters.set("min-node-width", "150").ok());
   ASSERT_TRUE(settings.parameters.set("max-node-width", "0.5").ok());
-  settings.rivals = {Rival::kBm};
+  settings.opencv_methods = {OpenCvMethod::kBm};
   Runner runner(settings);
   const PairReport report = runner.run(pairs_[0]);
   ASSERT_EQ(report.failures.size(), 1U);
   EXPECT_THAT(report.failures[0], ::testing::HasSubstr("min-node-width"));
-  EXPECT_EQ(report.results.size(), 1U) << "the rival accepts the images";
+  EXPECT_EQ(report.results.size(), 1U) << "OpenCV accepts the images";
 }
 
-TEST_F(Running, WritesMapsAndPicturesOfEveryMethod) {
+TEST_F(Running, WritesMapsAndImagesOfEveryMethod) {
   RunSettings settings;
-  settings.rivals = {Rival::kBm};
+  settings.opencv_methods = {OpenCvMethod::kBm};
   settings.disparity_folder = folder_ / "maps";
-  settings.picture_folder = folder_ / "pictures";
+  settings.image_folder = folder_ / "images";
   Runner runner(settings);
   ASSERT_TRUE(runner.run(pairs_[1]).failures.empty());
   EXPECT_EQ(read_pfm(folder_ / "maps/B.pfm").size(), cv::Size(200, 100));
   EXPECT_EQ(read_pfm(folder_ / "maps/bm/B.pfm").size(), cv::Size(200, 100));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "pictures/B.png"));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "pictures/bm/B.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "images/B.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "images/bm/B.png"));
 }
 
-TEST(Rivals, SearchAMultipleOf16) {
-  EXPECT_EQ(rival_disparities(1), 16);
-  EXPECT_EQ(rival_disparities(64), 64);
-  EXPECT_EQ(rival_disparities(70), 80);
+TEST(OpenCvMatchers, SearchAMultipleOf16) {
+  EXPECT_EQ(opencv_disparities(1), 16);
+  EXPECT_EQ(opencv_disparities(64), 64);
+  EXPECT_EQ(opencv_disparities(70), 80);
 }
 
-TEST(Rivals, RejectImagesOfDifferentSizes) {
-  RivalMatcher matcher(Rival::kBm, 16);
+TEST(OpenCvMatchers, RejectImagesOfDifferentSizes) {
+  OpenCvMatcher matcher(OpenCvMethod::kBm, 16);
   EXPECT_INPUT_ERROR(matcher.compute(cv::Mat::zeros(60, 80, CV_8U), cv::Mat::zeros(60, 81, CV_8U)),
                      "OpenCV rejects");
 }
 
-TEST(Rivals, AreFoundByTheirNames) {
-  for (const std::string& name : rival_names()) {
-    ASSERT_TRUE(find_rival(name).has_value()) << name;
-    EXPECT_EQ(rival_name(*find_rival(name)), name);
+TEST(OpenCvMatchers, AreFoundByTheirNames) {
+  for (const std::string& name : opencv_names()) {
+    ASSERT_TRUE(find_opencv(name).has_value()) << name;
+    EXPECT_EQ(opencv_name(*find_opencv(name)), name);
   }
-  EXPECT_FALSE(find_rival("elas").has_value());
+  EXPECT_FALSE(find_opencv("elas").has_value());
 }
 
 }  // namespace

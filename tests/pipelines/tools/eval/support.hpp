@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <string>
@@ -44,6 +46,17 @@ TestPair make_pair(int width, int height, int disparity);
 /// Writes a pair as a Middlebury folder with im0.png, im1.png, disp0GT.pfm and, if `ndisp` is not
 /// 0, calib.txt.
 void write_pair_folder(const std::filesystem::path& folder, const TestPair& pair, int ndisp);
+
+/// A set of two pairs in Middlebury's layout, A and B.
+class TwoPairs : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_pair_folder(folder_ / "set/A", make_pair(240, 120, 9), 32);
+    write_pair_folder(folder_ / "set/B", make_pair(200, 100, 5), 16);
+  }
+  std::string set() const { return folder_ / "set"; }
+  TempFolder folder_;
+};
 
 /// Writes CV_32FC1 ground truth as KITTI's 16-bit PNG; values that are not finite become 0.
 void write_kitti_truth(const std::filesystem::path& file, const cv::Mat& truth);

@@ -48,7 +48,7 @@ TEST_F(TrimBot, SyntheticGardenPairsTheFramesOfTheTwoCameras) {
   rendered_frame("clear_0288", "00001");
   rendered_frame("clear_0288", "00012");
   rendered_frame("sunset_0288", "00001");
-  // Other pictures beside the images in the data set do not belong to the pair.
+  // Other files beside the images in the data set do not belong to the pair.
   image("clear_0288/vcam_0/vcam_0_f00001_over.png");
   image("clear_0288/vcam_0/vcam_0_f00001_dmap.png");
   image("clear_0288/vcam_0/vcam_0_f00001_gtr.png");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Boards: the picture, the poses, and corners at their projected places.
+// Boards: the image, the poses, and corners at their projected places.
 #include "tools/render/board.hpp"
 
 #include <gtest/gtest.h>
@@ -33,12 +33,12 @@ Settings camera() {
   return s;
 }
 
-std::shared_ptr<const Picture> picture() {
-  return std::make_shared<const Picture>(checkerboard(kColumns, kRows, kSquare));
+std::shared_ptr<const ImageTexture> image() {
+  return std::make_shared<const ImageTexture>(checkerboard(kColumns, kRows, kSquare));
 }
 
-TEST(Picture, MeanIsThatOfTheSquare) {
-  const Picture p(2, 2, {0, 255, 255, 0}, 10);  // pixels of 0.1 m
+TEST(ImageTexture, MeanIsThatOfTheSquare) {
+  const ImageTexture p(2, 2, {0, 255, 255, 0}, 10);  // pixels of 0.1 m
   EXPECT_DOUBLE_EQ(p.width(), 0.2);
   EXPECT_NEAR(p.mean(-0.05, -0.05, 0.02), 0, 1e-9);
   EXPECT_NEAR(p.mean(0.05, -0.05, 0.02), 1, 1e-9);
@@ -49,10 +49,10 @@ TEST(Picture, MeanIsThatOfTheSquare) {
   EXPECT_NEAR(p.mean(5, 5, 0.1), 1, 1e-9);
 }
 
-TEST(Picture, RefusesSizesThatDoNotFit) {
-  EXPECT_THROW(Picture(2, 2, {0, 1, 2}, 10), std::invalid_argument);
-  EXPECT_THROW(Picture(0, 2, {}, 10), std::invalid_argument);
-  EXPECT_THROW(Picture(1, 1, {0}, 0), std::invalid_argument);
+TEST(ImageTexture, RefusesSizesThatDoNotFit) {
+  EXPECT_THROW(ImageTexture(2, 2, {0, 1, 2}, 10), std::invalid_argument);
+  EXPECT_THROW(ImageTexture(0, 2, {}, 10), std::invalid_argument);
+  EXPECT_THROW(ImageTexture(1, 1, {0}, 0), std::invalid_argument);
   EXPECT_THROW(checkerboard(1, 5, 0.1), std::invalid_argument);
 }
 
@@ -90,7 +90,7 @@ TEST_P(Corners, AreAtTheirProjectedPlaces) {
   BoardPoses options;
   options.count = 2, options.tilt = 30;
   const auto poses = choose_poses(options, kWidth, kHeight, rig);
-  const Scene scene = make_board(picture(), poses, {}, 1);
+  const Scene scene = make_board(image(), poses, {}, 1);
   std::vector<cv::Point2d> errors;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const RawFrame f = render_raw(scene, static_cast<double>(i), s, rig);

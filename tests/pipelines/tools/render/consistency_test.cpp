@@ -95,7 +95,7 @@ TEST_P(BuiltInScene, DisparitiesArePositiveAndWithinAQuarterOfTheWidth) {
   }
 }
 
-TEST_P(BuiltInScene, PictureHasContrastAndIsNotClipped) {
+TEST_P(BuiltInScene, ImageHasContrastAndIsNotClipped) {
   const StereoFrame f = render(make_scene(GetParam(), 2), 0, clean());
   cv::Scalar mean, deviation;
   cv::meanStdDev(f.left, mean, deviation);

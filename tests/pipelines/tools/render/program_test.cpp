@@ -161,15 +161,15 @@ TEST_F(Program, RendersABoardWithItsPoses) {
   EXPECT_NE(poses.find("\n4 1 "), std::string::npos) << poses;
 }
 
-TEST_F(Program, ShowsAPictureOnTheBoard) {
+TEST_F(Program, ShowsAImageOnTheBoard) {
   ASSERT_EQ(run(out() + "--size 64x48 --frames 1").status, 0);
-  std::ostringstream picture;
-  picture << "--picture " << folder_ / "clip/left/000000.png"
-          << " --picture-width 0.4";
+  std::ostringstream image;
+  image << "--picture " << folder_ / "clip/left/000000.png"
+        << " --picture-width 0.4";
   std::ostringstream board;
   board << folder_ / "board"
         << " --size 96x72 --scene board --poses 1 --samples 1 --lens wide ";
-  const Outcome r = run(board.str() + picture.str());
+  const Outcome r = run(board.str() + image.str());
   EXPECT_EQ(r.status, 0) << r.errors;
   const Outcome missing = run(board.str() + "--overwrite --picture /dev/null/x --picture-width 1");
   EXPECT_EQ(missing.status, 1);

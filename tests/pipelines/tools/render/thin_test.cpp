@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Thin things in front of a slanted wall.
+// Thin structures in front of a slanted wall.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ cv::Mat truth_of(const Scene& scene, const Settings& given) {
   return render_truth(scene, 0, settings, rectification_of(settings)).disparity;
 }
 
-/// 255 at the things.
+/// 255 at the structures.
 cv::Mat things_of(Scene scene, const Settings& settings) {
   const cv::Mat truth = truth_of(scene, settings);
   scene.objects.resize(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "recordings/inputs/picture_lists.hpp"
+#include "recordings/inputs/image_lists.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -23,8 +23,8 @@ namespace {
 constexpr double kSecond = 1e9;  // [ns]
 
 // The last digits of a name.
-std::string digits_of(const fs::path& picture) {
-  const std::string stem = picture.stem().string();
+std::string digits_of(const fs::path& image) {
+  const std::string stem = image.stem().string();
   const std::size_t end = stem.find_last_of("0123456789");
   if (end == std::string::npos) return {};
   const std::size_t before = stem.find_last_not_of("0123456789", end);
@@ -46,11 +46,11 @@ std::string bytes_of(const fs::path& file, std::int64_t from_end, std::size_t co
 
 using Numbers = std::vector<std::int64_t>;
 
-// The numbers of pictures, if they increase.
-Numbers numbers_of(const std::vector<fs::path>& pictures) {
+// The numbers of images, if they increase.
+Numbers numbers_of(const std::vector<fs::path>& images) {
   Numbers numbers;
-  for (const fs::path& picture : pictures) {
-    const std::optional<std::int64_t> number = frame_number(picture);
+  for (const fs::path& image : images) {
+    const std::optional<std::int64_t> number = frame_number(image);
     if (!number || (!numbers.empty() && *number <= numbers.back())) return {};
     numbers.push_back(*number);
   }
@@ -61,13 +61,13 @@ Numbers numbers_of(const std::vector<fs::path>& pictures) {
 std::pair<Numbers, Numbers> places_of(const std::vector<fs::path>& left,
                                       const std::vector<fs::path>& right) {
   std::map<std::string, std::int64_t> places;
-  for (const fs::path& picture : left) places[picture.stem().string()] = 0;
-  for (const fs::path& picture : right) places[picture.stem().string()] = 0;
+  for (const fs::path& image : left) places[image.stem().string()] = 0;
+  for (const fs::path& image : right) places[image.stem().string()] = 0;
   std::int64_t place = 0;
   for (auto& each : places) each.second = place++;
-  const auto place_of = [&places](const std::vector<fs::path>& pictures) {
+  const auto place_of = [&places](const std::vector<fs::path>& images) {
     Numbers numbers;
-    for (const fs::path& picture : pictures) numbers.push_back(places[picture.stem().string()]);
+    for (const fs::path& image : images) numbers.push_back(places[image.stem().string()]);
     return numbers;
   };
   return {place_of(left), place_of(right)};
@@ -128,11 +128,11 @@ std::pair<Numbers, Numbers> common_numbers(Recording& recording, const std::vect
   std::iota(numbers.first.begin(), numbers.first.end(), 0);
   std::iota(numbers.second.begin(), numbers.second.end(), 0);
   recording.remarks.push_back(
-      "The names of the left and right pictures have no numbers in common: the n-th of both are a "
+      "The names of the left and right images have no numbers in common: the n-th of both are a "
       "pair" +
       (left.size() == right.size() ? "."
                                    : ", with " + std::to_string(left.size()) + " left and " +
-                                         std::to_string(right.size()) + " right pictures."));
+                                         std::to_string(right.size()) + " right images."));
   return numbers;
 }
 
@@ -140,8 +140,8 @@ std::pair<Numbers, Numbers> common_numbers(Recording& recording, const std::vect
 bool set_times_of_names(Source& left, Source& right) {
   for (Source* source : {&left, &right}) {
     source->times.clear();
-    for (const fs::path& picture : source->pictures) {
-      const std::optional<Nanoseconds> time = time_in_name(picture);
+    for (const fs::path& image : source->images) {
+      const std::optional<Nanoseconds> time = time_in_name(image);
       if (!time || (!source->times.empty() && *time <= source->times.back())) return false;
       source->times.push_back(*time);
     }
@@ -157,44 +157,43 @@ bool set_times_of_names(Source& left, Source& right) {
 // Removes what cannot be read, and what has no later time than its predecessor.
 void remove_broken(Recording& recording, Source& source) {
   Source good;
-  for (std::size_t i = 0; i < source.pictures.size(); ++i) {
-    std::string problem = picture_problem(source.pictures[i]);
+  for (std::size_t i = 0; i < source.images.size(); ++i) {
+    std::string problem = image_problem(source.images[i]);
     if (problem.empty() && !good.times.empty() && source.times[i] <= good.times.back()) {
       problem = "has no later time than its predecessor";
     }
     if (problem.empty()) {
-      good.pictures.push_back(source.pictures[i]);
+      good.images.push_back(source.images[i]);
       good.times.push_back(source.times[i]);
     } else {
-      recording.remarks.push_back(source.pictures[i].string() + " is left out: it " + problem +
-                                  ".");
+      recording.remarks.push_back(source.images[i].string() + " is left out: it " + problem + ".");
     }
   }
-  const std::size_t left_out = source.pictures.size() - good.pictures.size();
+  const std::size_t left_out = source.images.size() - good.images.size();
   if (left_out > 0) {
-    good.damage = std::to_string(left_out) + " of " + std::to_string(source.pictures.size()) +
-                  (left_out == 1 ? " pictures is left out" : " pictures are left out");
+    good.damage = std::to_string(left_out) + " of " + std::to_string(source.images.size()) +
+                  (left_out == 1 ? " images is left out" : " images are left out");
   }
-  if (good.pictures.empty() && !source.pictures.empty()) {
-    throw UserError(source.pictures.front().parent_path().string() +
-                    ": no picture can be read: the first one " +
-                    picture_problem(source.pictures.front()));
+  if (good.images.empty() && !source.images.empty()) {
+    throw UserError(source.images.front().parent_path().string() +
+                    ": no image can be read: the first one " +
+                    image_problem(source.images.front()));
   }
   source = std::move(good);
 }
 
 }  // namespace
 
-std::optional<std::int64_t> frame_number(const fs::path& picture) {
-  const std::string digits = digits_of(picture);
+std::optional<std::int64_t> frame_number(const fs::path& image) {
+  const std::string digits = digits_of(image);
   std::int64_t number = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   return error == std::errc() ? std::optional(number) : std::nullopt;
 }
 
-std::optional<Nanoseconds> time_in_name(const fs::path& picture) {
-  const std::optional<std::int64_t> number = frame_number(picture);
-  const std::string digits = digits_of(picture);
+std::optional<Nanoseconds> time_in_name(const fs::path& image) {
+  const std::optional<std::int64_t> number = frame_number(image);
+  const std::string digits = digits_of(image);
   if (!number || digits.starts_with('0')) return std::nullopt;
   switch (digits.size()) {
     case 19:
@@ -208,25 +207,25 @@ std::optional<Nanoseconds> time_in_name(const fs::path& picture) {
   }
 }
 
-std::string picture_problem(const fs::path& picture) {
-  const std::string head = bytes_of(picture, 0, 8);
+std::string image_problem(const fs::path& image) {
+  const std::string head = bytes_of(image, 0, 8);
   if (head.empty()) return "is empty or cannot be read";
-  const std::string extension = files::extension_of(picture);
+  const std::string extension = files::extension_of(image);
   if (extension == ".png") {
     if (!head.starts_with("\x89PNG")) return "is no PNG file";
-    if (bytes_of(picture, 64, 64).find("IEND") == std::string::npos) return "is truncated";
+    if (bytes_of(image, 64, 64).find("IEND") == std::string::npos) return "is truncated";
   }
   if (extension == ".jpg" || extension == ".jpeg") {
     if (!head.starts_with("\xff\xd8")) return "is no JPEG file";
-    constexpr std::size_t kEnd = 4096;  // some cameras write more after the end of the picture
-    if (bytes_of(picture, kEnd, kEnd).find("\xff\xd9") == std::string::npos) return "is truncated";
+    constexpr std::size_t kEnd = 4096;  // some cameras write more after the end of the image
+    if (bytes_of(image, kEnd, kEnd).find("\xff\xd9") == std::string::npos) return "is truncated";
   }
   return "";
 }
 
-void set_pictures(Recording& recording, const std::vector<fs::path>& left,
-                  const std::vector<fs::path>& right, double frame_rate) {
-  if (!(frame_rate > 0)) throw UserError("the frame rate of pictures must be above 0");
+void set_images(Recording& recording, const std::vector<fs::path>& left,
+                const std::vector<fs::path>& right, double frame_rate) {
+  if (!(frame_rate > 0)) throw UserError("the frame rate of images must be above 0");
   Source left_source{{}, left, {}}, right_source{{}, right, {}};
   bool needs_times = true;
   if (!set_times_of_names(left_source, right_source)) {
@@ -242,16 +241,16 @@ void set_pictures(Recording& recording, const std::vector<fs::path>& left,
     left_source.times = times_of(left_numbers, frame_rate);
     right_source.times = times_of(right_numbers, frame_rate);
   }
-  set_timed_pictures(recording, left_source, right_source);
-  needs_times |= recording.left.pictures.size() != left.size() ||
-                 recording.right.pictures.size() != right.size();
+  set_timed_images(recording, left_source, right_source);
+  needs_times |=
+      recording.left.images.size() != left.size() || recording.right.images.size() != right.size();
   if (needs_times) return;
   recording.left.times.clear();
   recording.right.times.clear();
   recording.frame_rate = frame_rate;
 }
 
-void set_timed_pictures(Recording& recording, const Source& left, const Source& right) {
+void set_timed_images(Recording& recording, const Source& left, const Source& right) {
   recording.left = left;
   recording.right = right;
   remove_broken(recording, recording.left);

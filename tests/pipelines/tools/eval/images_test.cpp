@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/eval/pictures.hpp"
+#include "tools/eval/images.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using testing::TempFolder;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 const cv::Vec3b kBlack(0, 0, 0);
 
-TEST(Pictures, DisparityIsBlackOnlyWhereThereIsNone) {
+TEST(Images, DisparityIsBlackOnlyWhereThereIsNone) {
   const cv::Mat map = (cv::Mat_<float>(1, 4) << kNan, 0, 32, 64);
   const cv::Mat color = color_disparity(map, 64);
   EXPECT_EQ(color.at<cv::Vec3b>(0, 0), kBlack);
@@ -28,13 +28,13 @@ TEST(Pictures, DisparityIsBlackOnlyWhereThereIsNone) {
   EXPECT_GT(color.at<cv::Vec3b>(0, 1)[0], color.at<cv::Vec3b>(0, 3)[0]);
 }
 
-TEST(Pictures, DisparityColorDependsOnlyOnTheRange) {
+TEST(Images, DisparityColorDependsOnlyOnTheRange) {
   const cv::Mat one = color_disparity(cv::Mat((cv::Mat_<float>(1, 2) << 20, 64)), 64);
   const cv::Mat other = color_disparity(cv::Mat((cv::Mat_<float>(1, 2) << 20, 21)), 64);
   EXPECT_EQ(one.at<cv::Vec3b>(0, 0), other.at<cv::Vec3b>(0, 0));
 }
 
-TEST(Pictures, ErrorDistinguishesNoTruthFromNoEstimate) {
+TEST(Images, ErrorDistinguishesNoTruthFromNoEstimate) {
   const cv::Mat truth = (cv::Mat_<float>(1, 4) << kNan, 10, 10, 10);
   const cv::Mat found = (cv::Mat_<float>(1, 4) << 10, kNan, 10, 90);
   const cv::Mat color = color_error(found, {truth, {}});
@@ -47,34 +47,34 @@ TEST(Pictures, ErrorDistinguishesNoTruthFromNoEstimate) {
   EXPECT_NE(color.at<cv::Vec3b>(0, 2), color.at<cv::Vec3b>(0, 3));
 }
 
-TEST(Pictures, ErrorsOfEnlargedImagesHaveTheColorsOfTheOriginal) {
+TEST(Images, ErrorsOfEnlargedImagesHaveTheColorsOfTheOriginal) {
   const cv::Mat truth = (cv::Mat_<float>(1, 3) << 10, 10, 10);
   const cv::Mat found = (cv::Mat_<float>(1, 3) << 11, 13, 20);
   const cv::Mat original = color_error(found, {truth, {}});
   EXPECT_EQ(cv::norm(original, color_error(2 * found, {2 * truth, {}, {}, 2}), cv::NORM_INF), 0);
 }
 
-TEST(Pictures, OverviewShowsTheLeftImageInItsCorner) {
+TEST(Images, OverviewShowsTheLeftImageInItsCorner) {
   const cv::Mat left(3, 5, CV_8UC1, cv::Scalar(77));
   const cv::Mat map(3, 5, CV_32FC1, cv::Scalar(2));
-  const cv::Mat picture = overview({left, left, {map, {}}}, map, 16);
-  EXPECT_EQ(picture.size(), cv::Size(10, 6));
-  EXPECT_EQ(picture.at<cv::Vec3b>(2, 4), cv::Vec3b(77, 77, 77));
-  EXPECT_EQ(picture.at<cv::Vec3b>(0, 9), picture.at<cv::Vec3b>(5, 0)) << "truth, estimate";
+  const cv::Mat image = overview({left, left, {map, {}}}, map, 16);
+  EXPECT_EQ(image.size(), cv::Size(10, 6));
+  EXPECT_EQ(image.at<cv::Vec3b>(2, 4), cv::Vec3b(77, 77, 77));
+  EXPECT_EQ(image.at<cv::Vec3b>(0, 9), image.at<cv::Vec3b>(5, 0)) << "truth, estimate";
 }
 
-TEST(Pictures, AreWrittenIntoCreatedFolders) {
+TEST(Images, AreWrittenIntoCreatedFolders) {
   const TempFolder folder;
-  write_picture(folder / "a/b.c/0001.png", cv::Mat(2, 2, CV_8UC3, cv::Scalar(9, 8, 7)));
+  write_image(folder / "a/b.c/0001.png", cv::Mat(2, 2, CV_8UC3, cv::Scalar(9, 8, 7)));
   const cv::Mat again = cv::imread((folder / "a/b.c/0001.png").string());
   ASSERT_FALSE(again.empty());
   EXPECT_EQ(again.at<cv::Vec3b>(0, 0), cv::Vec3b(9, 8, 7));
 }
 
-TEST(Pictures, UnwritableOnesAreNamed) {
+TEST(Images, UnwritableOnesAreNamed) {
   const TempFolder folder;
   testing::write_file(folder / "file", "");
-  EXPECT_INPUT_ERROR(write_picture(folder / "file/a.png", cv::Mat(2, 2, CV_8UC3)), "file");
+  EXPECT_INPUT_ERROR(write_image(folder / "file/a.png", cv::Mat(2, 2, CV_8UC3)), "file");
 }
 
 TEST(DisparityFiles, PfmHasInfinityForNone) {

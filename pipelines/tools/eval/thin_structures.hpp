@@ -6,21 +6,21 @@
 
 namespace mtstereo::eval {
 
-/// Thin things: posts, wires, bars. A pixel belongs to one if its true disparity is more than
-/// kThinStep above the background on both sides, and the thing is at most kMostThin wide there,
+/// Thin structures: posts, wires, bars. A pixel belongs to one if its true disparity is more than
+/// kThinStep above the background on both sides, and the structure is at most kMostThin wide there,
 /// along the row or along the column.
 inline constexpr double kThinStep = 3;  ///< [px]
 inline constexpr int kMostThin = 12;    ///< [px]
 
-/// Distance from a thin thing up to which the background is its rim [px].
+/// Distance from a thin structure up to which the background is its rim [px].
 inline constexpr int kThinRim = 5;
 
-/// What a disparity map has at thin things and around them. Numbers of pixels.
+/// What a disparity map has at thin structures and around them. Numbers of pixels.
 struct ThinCounts {
-  std::int64_t thin = 0;       ///< pixels of thin things
+  std::int64_t thin = 0;       ///< pixels of thin structures
   std::int64_t found = 0;      ///< of these, within 10 % of the truth
   std::int64_t painted = 0;    ///< of these, with the disparity of the background
-  std::int64_t rim = 0;        ///< background within kThinRim px of a thin thing
+  std::int64_t rim = 0;        ///< background within kThinRim px of a thin structure
   std::int64_t false_rim = 0;  ///< of this, more than 1 px too near
   std::int64_t far = 0;        ///< other background
   std::int64_t false_far = 0;  ///< of this, more than 1 px too near
@@ -34,7 +34,7 @@ struct ThinCounts {
 /// Adds the numbers of another map.
 ThinCounts& operator+=(ThinCounts& sum, const ThinCounts& counts);
 
-/// The background of each pixel (CV_32FC1 [px]): the truth without thin things. Pixels without
+/// The background of each pixel (CV_32FC1 [px]): the truth without thin structures. Pixels without
 /// truth (NaN) limit nothing and have none.
 cv::Mat background_of(const cv::Mat& truth);
 

@@ -40,7 +40,7 @@ struct Kind {
 
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.file << ' ' << kind.format; }
 
-class Pictures : public ::testing::TestWithParam<Kind> {};
+class Images : public ::testing::TestWithParam<Kind> {};
 
 cv::Mat image_of(int type) {
   cv::Mat image = CV_MAT_CN(type) == 1 ? gray() : color();
@@ -49,12 +49,12 @@ cv::Mat image_of(int type) {
   return image;
 }
 
-TEST_P(Pictures, AreDecodedAsByPipelines) {
+TEST_P(Images, AreDecodedAsByPipelines) {
   const Kind& kind = GetParam();
   const TemporaryFolder folder;
   const fs::path file = folder / kind.file;
   ASSERT_TRUE(cv::imwrite(file.string(), image_of(kind.type)));
-  const auto reader = open_pictures({file, file});
+  const auto reader = open_images({file, file});
   DecodedFrame frame = reader->read(1);
   ASSERT_EQ(frame.state, FrameState::kDecoded) << reader->problem();
   const std::vector<std::string> expected = frames_of(
@@ -64,7 +64,7 @@ TEST_P(Pictures, AreDecodedAsByPipelines) {
   EXPECT_EQ(rows_of(frame.buffer.get(), frame.caps.get()), expected[0]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Pictures,
+INSTANTIATE_TEST_SUITE_P(Kinds, Images,
                          ::testing::Values(Kind{"a.png", CV_8UC1, "pngdec", "GRAY8"},
                                            Kind{"a.png", CV_8UC3, "pngdec", "BGR"},
                                            Kind{"a.png", CV_8UC4, "pngdec", "BGRA"},
@@ -74,11 +74,11 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Pictures,
                                            Kind{"a.pgm", CV_8UC1, "pnmdec", "GRAY8"},
                                            Kind{"a.ppm", CV_8UC3, "pnmdec", "BGR"}));
 
-TEST(Pictures16Bit, KeepTheirColors) {
+TEST(Images16Bit, KeepTheirColors) {
   const TemporaryFolder folder;
   const cv::Mat image = image_of(CV_16UC3);
   ASSERT_TRUE(cv::imwrite((folder / "a.png").string(), image));
-  const DecodedFrame frame = open_pictures({folder / "a.png"})->read(0);
+  const DecodedFrame frame = open_images({folder / "a.png"})->read(0);
   ASSERT_EQ(frame.state, FrameState::kDecoded);
   const std::string rows = rows_of(frame.buffer.get(), frame.caps.get());
   for (int y = 0; y < image.rows; ++y) {
@@ -92,16 +92,16 @@ TEST(Pictures16Bit, KeepTheirColors) {
   }
 }
 
-TEST(BrokenPicture, IsNamedAndTheNextOneIsRead) {
+TEST(BrokenImage, IsNamedAndTheNextOneIsRead) {
   const TemporaryFolder folder;
   const fs::path good = folder / "good.jpg", good_png = folder / "good.png";
   ASSERT_TRUE(cv::imwrite(good.string(), color()));
   ASSERT_TRUE(cv::imwrite(good_png.string(), color()));
-  testing::write_text(folder / "text.jpg", "no picture");
-  testing::write_text(folder / "text.png", "no picture");
+  testing::write_text(folder / "text.jpg", "no image");
+  testing::write_text(folder / "text.png", "no image");
   testing::write_text(folder / "empty.jpg", "");
-  const auto reader = open_pictures({folder / "text.jpg", good, folder / "text.png", good_png,
-                                     folder / "empty.jpg", good, folder / "missing.png"});
+  const auto reader = open_images({folder / "text.jpg", good, folder / "text.png", good_png,
+                                   folder / "empty.jpg", good, folder / "missing.png"});
   for (const std::int64_t number : {0, 2, 4, 6}) {
     EXPECT_EQ(reader->read(number).state, FrameState::kMissing) << number;
     EXPECT_NE(reader->problem().find(number == 6   ? "missing.png"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/eval/rival_sweep.hpp"
+#include "tools/eval/opencv_sweep.hpp"
 
 #include <exception>
 #include <numeric>
@@ -18,7 +18,7 @@ std::string uniqueness_ratios_text() {
 namespace {
 
 // The points at one ratio: unfiltered, then filtered at all thresholds.
-std::vector<CurvePoint> points_at(RivalMatcher& matcher, const LoadedPair& images,
+std::vector<CurvePoint> points_at(OpenCvMatcher& matcher, const LoadedPair& images,
                                   const FilterSettings& filters) {
   matcher.compute(images.left, images.right);
   const cv::Mat disparity = matcher.disparity();
@@ -32,8 +32,8 @@ std::vector<CurvePoint> points_at(RivalMatcher& matcher, const LoadedPair& image
 
 }  // namespace
 
-Sweep sweep_rival(Rival rival, int max_disparity, const LoadedPair& images,
-                  const FilterSettings& filters) {
+Sweep sweep_opencv(OpenCvMethod method, int max_disparity, const LoadedPair& images,
+                   const FilterSettings& filters) {
   Sweep sweep;
   sweep.ratios.assign(kUniquenessRatios.begin(), kUniquenessRatios.end());
   sweep.thresholds.resize(kMostConfidence + 1);
@@ -45,7 +45,7 @@ Sweep sweep_rival(Rival rival, int max_disparity, const LoadedPair& images,
     for (auto i = static_cast<std::size_t>(range.start); i < static_cast<std::size_t>(range.end);
          ++i) {
       try {
-        RivalMatcher matcher(rival, max_disparity, sweep.ratios[i]);
+        OpenCvMatcher matcher(method, max_disparity, sweep.ratios[i]);
         rows[i] = points_at(matcher, images, filters);
       } catch (...) {
         errors[i] = std::current_exception();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/render/picture.hpp"
+#include "tools/render/image_texture.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,13 @@
 
 namespace mtstereo::render {
 
-Picture::Picture(int width, int height, const std::vector<std::uint8_t>& pixels, double scale)
+ImageTexture::ImageTexture(int width, int height, const std::vector<std::uint8_t>& pixels,
+                           double scale)
     : columns_(width), rows_(height), scale_(scale) {
   const bool fits =
       width > 0 && height > 0 && scale > 0 && std::isfinite(scale) &&
       pixels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (!fits) throw std::invalid_argument("the picture has no pixels or no scale");
+  if (!fits) throw std::invalid_argument("the image has no pixels or no scale");
   const auto stride = static_cast<std::size_t>(width) + 1;
   sums_.resize(stride * (static_cast<std::size_t>(height) + 1));
   const std::uint8_t* pixel = pixels.data();
@@ -26,7 +27,7 @@ Picture::Picture(int width, int height, const std::vector<std::uint8_t>& pixels,
 }
 
 // The integral of the gray values from the upper left corner to a point [px].
-double Picture::integral(double column, double row) const {
+double ImageTexture::integral(double column, double row) const {
   const double x = std::clamp(column, 0.0, static_cast<double>(columns_));
   const double y = std::clamp(row, 0.0, static_cast<double>(rows_));
   const int i = std::min(static_cast<int>(x), columns_ - 1);
@@ -38,7 +39,7 @@ double Picture::integral(double column, double row) const {
          v * ((1 - u) * sum[stride] + u * sum[stride + 1]);
 }
 
-double Picture::mean(double u, double v, double edge) const {
+double ImageTexture::mean(double u, double v, double edge) const {
   const double half = std::max(edge * scale_, 1e-6) / 2;
   const double x = u * scale_ + columns_ / 2.0, y = v * scale_ + rows_ / 2.0;
   const double left = x - half, right = x + half, top = y - half, bottom = y + half;
@@ -52,7 +53,7 @@ double Picture::mean(double u, double v, double edge) const {
   return (inside + white) / area;
 }
 
-Picture checkerboard(int squares_x, int squares_y, double square) {
+ImageTexture checkerboard(int squares_x, int squares_y, double square) {
   const bool valid = squares_x >= 2 && squares_x <= 100 && squares_y >= 2 && squares_y <= 100;
   if (!valid) throw std::invalid_argument("a checkerboard has 2 to 100 squares in each direction");
   constexpr int kPixels = 16;  // per square; the edges are exact at any number

@@ -7,7 +7,7 @@
 #include "programs/calibrate/coverage.hpp"
 #include "programs/calibrate/source.hpp"
 
-// Pictures for the user. All are CV_8UC3.
+// Images for the user. All are CV_8UC3.
 
 namespace mtstereo::calibrate {
 

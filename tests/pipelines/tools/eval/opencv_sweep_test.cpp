@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/eval/rival_sweep.hpp"
+#include "tools/eval/opencv_sweep.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,12 +30,12 @@ FilterSettings filters(int speckle_size) {
 
 TEST(RivalSweep, HasTheUnfilteredAndTheFilteredMaps) {
   const LoadedPair images = test_images();
-  const Sweep sweep = sweep_rival(Rival::kSgbm3Way, 32, images, filters(20));
+  const Sweep sweep = sweep_opencv(OpenCvMethod::kSgbm3Way, 32, images, filters(20));
   ASSERT_EQ(sweep.ratios.size(), kUniquenessRatios.size());
   ASSERT_EQ(sweep.thresholds.size(), 256U);
   ASSERT_EQ(sweep.points.size(), sweep.ratios.size() * sweep.thresholds.size());
 
-  RivalMatcher matcher(Rival::kSgbm3Way, 32);
+  OpenCvMatcher matcher(OpenCvMethod::kSgbm3Way, 32);
   matcher.compute(images.left, images.right);
   const CurvePoint expected = point_of(evaluate(matcher.disparity(), images.truth));
   ASSERT_EQ(sweep.ratios[2], kUniquenessRatio);
@@ -46,9 +46,9 @@ TEST(RivalSweep, HasTheUnfilteredAndTheFilteredMaps) {
 TEST(RivalSweep, CountsErrorsAtTheScaleOfTheTruth) {
   LoadedPair images = test_images();
   images.truth.disparity += 1;
-  const Sweep original = sweep_rival(Rival::kBm, 32, images, filters(20));
+  const Sweep original = sweep_opencv(OpenCvMethod::kBm, 32, images, filters(20));
   images.truth.scale = 2;
-  const Sweep halved = sweep_rival(Rival::kBm, 32, images, filters(20));
+  const Sweep halved = sweep_opencv(OpenCvMethod::kBm, 32, images, filters(20));
   for (const std::size_t threshold : {0, 1, 200}) {
     ASSERT_GT(original.at(0, threshold).avgerr, 0.5);
     EXPECT_NEAR(halved.at(0, threshold).avgerr, original.at(0, threshold).avgerr / 2, 1e-9);
@@ -57,7 +57,7 @@ TEST(RivalSweep, CountsErrorsAtTheScaleOfTheTruth) {
 }
 
 TEST(RivalSweep, GetsSparserWithEveryThreshold) {
-  const Sweep sweep = sweep_rival(Rival::kSgbm, 32, test_images(), filters(20));
+  const Sweep sweep = sweep_opencv(OpenCvMethod::kSgbm, 32, test_images(), filters(20));
   for (std::size_t i = 0; i < sweep.ratios.size(); ++i) {
     for (std::size_t j = 1; j < sweep.thresholds.size(); ++j) {
       ASSERT_LE(sweep.at(i, j).density, sweep.at(i, j - 1).density) << i << "," << j;
@@ -73,15 +73,16 @@ TEST(RivalSweep, GetsSparserWithTheUniquenessRatio) {
   cv::RNG random(5);
   random.fill(noise, cv::RNG::UNIFORM, 0, 90);
   images.right = images.right * 0.6 + noise;
-  for (const Rival rival : {Rival::kSgbm, Rival::kSgbm3Way, Rival::kSgbmHh, Rival::kBm}) {
-    const Sweep sweep = sweep_rival(rival, 32, images, filters(20));
-    EXPECT_LT(sweep.at(19, 0).density, 0.9 * sweep.at(0, 0).density) << rival_name(rival);
+  for (const OpenCvMethod method :
+       {OpenCvMethod::kSgbm, OpenCvMethod::kSgbm3Way, OpenCvMethod::kSgbmHh, OpenCvMethod::kBm}) {
+    const Sweep sweep = sweep_opencv(method, 32, images, filters(20));
+    EXPECT_LT(sweep.at(19, 0).density, 0.9 * sweep.at(0, 0).density) << opencv_name(method);
   }
 }
 
 TEST(RivalSweep, RemovesComponentsBelowTheSize) {
-  const Sweep all = sweep_rival(Rival::kBm, 32, test_images(), filters(0));
-  const Sweep none = sweep_rival(Rival::kBm, 32, test_images(), filters(240 * 120 + 1));
+  const Sweep all = sweep_opencv(OpenCvMethod::kBm, 32, test_images(), filters(0));
+  const Sweep none = sweep_opencv(OpenCvMethod::kBm, 32, test_images(), filters(240 * 120 + 1));
   EXPECT_EQ(all.at(0, 1).density, all.at(0, 0).density);
   EXPECT_GT(none.at(0, 0).density, 0);
   EXPECT_EQ(none.at(0, 1).density, 0);
@@ -90,14 +91,14 @@ TEST(RivalSweep, RemovesComponentsBelowTheSize) {
 TEST(RivalSweep, ReportsThatOpenCvRejectsTheImages) {
   LoadedPair images = test_images();
   images.right = images.right.colRange(0, 200);
-  EXPECT_INPUT_ERROR(sweep_rival(Rival::kSgbm, 32, images, filters(20)), "OpenCV rejects");
+  EXPECT_INPUT_ERROR(sweep_opencv(OpenCvMethod::kSgbm, 32, images, filters(20)), "OpenCV rejects");
 }
 
 TEST(RivalSweep, ReportsItsRatios) {
-  const std::string text = rival_settings(Rival::kSgbm, uniqueness_ratios_text());
+  const std::string text = opencv_settings(OpenCvMethod::kSgbm, uniqueness_ratios_text());
   EXPECT_THAT(text, HasSubstr("uniquenessRatio 0 5 10 "));
   EXPECT_THAT(text, HasSubstr("90 95,"));
-  EXPECT_THAT(rival_settings(Rival::kSgbm), HasSubstr("uniquenessRatio 10,"));
+  EXPECT_THAT(opencv_settings(OpenCvMethod::kSgbm), HasSubstr("uniquenessRatio 10,"));
 }
 
 class RunningWithACurve : public ::testing::Test {
@@ -105,7 +106,7 @@ class RunningWithACurve : public ::testing::Test {
   void SetUp() override {
     testing::write_pair_folder(folder_ / "A", testing::make_pair(240, 120, 9), 32);
     pairs_ = find_pairs(folder_.path(), Layout::kMiddlebury).pairs;
-    settings_.rivals = {Rival::kBm};
+    settings_.opencv_methods = {OpenCvMethod::kBm};
   }
   testing::TempFolder folder_;
   std::vector<StereoPair> pairs_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "programs/calibrate/pictures.hpp"
+#include "programs/calibrate/drawings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ const cv::Scalar kRed(60, 60, 220);
 const cv::Scalar kWhite(255, 255, 255);
 const cv::Scalar kGray(160, 160, 160);
 const cv::Scalar kBlack(0, 0, 0);
-constexpr int kGap = 8;  // between the pictures of both sides [px]
+constexpr int kGap = 8;  // between the images of both sides [px]
 constexpr int kResidualSize = 400;
 constexpr double kResidualRange = 2;  // from the center to the edge [px]
 
@@ -33,17 +33,17 @@ cv::Mat side_by_side(const cv::Mat& left, const cv::Mat& right) {
 }
 
 cv::Mat with_corners(const cv::Mat& gray, const Corners& corners) {
-  cv::Mat picture = in_color(gray);
+  cv::Mat image = in_color(gray);
   const int radius = std::max(3, gray.cols / 160);
   for (const cv::Point2f& pixel : corners.pixels) {
-    cv::circle(picture, pixel, radius, kGreen, std::max(1, radius / 3), cv::LINE_AA);
+    cv::circle(image, pixel, radius, kGreen, std::max(1, radius / 3), cv::LINE_AA);
   }
-  return picture;
+  return image;
 }
 
 cv::Mat draw_grid(const CoverageGrid& grid, const std::vector<BoardView>& views, bool left,
                   cv::Size size) {
-  cv::Mat picture(size, CV_8UC3, kWhite);
+  cv::Mat image(size, CV_8UC3, kWhite);
   for (int row = 0; row < CoverageGrid::kRows; ++row) {
     for (int column = 0; column < CoverageGrid::kColumns; ++column) {
       const cv::Point from(column * size.width / CoverageGrid::kColumns,
@@ -54,16 +54,16 @@ cv::Mat draw_grid(const CoverageGrid& grid, const std::vector<BoardView>& views,
       // Pale green for one corner, full green for 40 and more.
       const double part = count == 0 ? 0 : 0.3 + 0.7 * std::min(1.0, count / 40.0);
       const cv::Scalar color = kWhite * (1 - part) + kGreen * part;
-      cv::rectangle(picture, from, to, color, cv::FILLED);
-      cv::rectangle(picture, from, to, kGray, 1);
+      cv::rectangle(image, from, to, color, cv::FILLED);
+      cv::rectangle(image, from, to, kGray, 1);
     }
   }
   for (const BoardView& view : views) {
     for (const Observation& each : left ? view.left : view.right) {
-      cv::circle(picture, cv::Point2d(each.pixel.x(), each.pixel.y()), 1, kBlack, cv::FILLED);
+      cv::circle(image, cv::Point2d(each.pixel.x(), each.pixel.y()), 1, kBlack, cv::FILLED);
     }
   }
-  return picture;
+  return image;
 }
 
 cv::Mat rectify_view(const Calibrated& calibrated, Rectifier::Side side, const cv::Mat& gray) {
@@ -82,14 +82,14 @@ cv::Mat rectify_view(const Calibrated& calibrated, Rectifier::Side side, const c
 cv::Mat draw_scatter(const std::vector<Eigen::Vector2d>& residuals) {
   constexpr double kScale = kResidualSize / (2 * kResidualRange);
   const cv::Point2d center(kResidualSize / 2.0, kResidualSize / 2.0);
-  cv::Mat picture(kResidualSize, kResidualSize, CV_8UC3, kWhite);
+  cv::Mat image(kResidualSize, kResidualSize, CV_8UC3, kWhite);
   for (double radius = 0.5; radius <= kResidualRange; radius += 0.5) {
-    cv::circle(picture, center, static_cast<int>(radius * kScale), kGray, 1, cv::LINE_AA);
+    cv::circle(image, center, static_cast<int>(radius * kScale), kGray, 1, cv::LINE_AA);
   }
   for (const Eigen::Vector2d& each : residuals) {
-    cv::circle(picture, center + kScale * cv::Point2d(each.x(), each.y()), 1, kRed, cv::FILLED);
+    cv::circle(image, center + kScale * cv::Point2d(each.x(), each.y()), 1, kRed, cv::FILLED);
   }
-  return picture;
+  return image;
 }
 
 }  // namespace
@@ -109,12 +109,12 @@ cv::Mat draw_rectified(const Calibrated& calibrated, const cv::Mat& left, const 
   const cv::Mat first = rectify_view(calibrated, Rectifier::Side::kLeft, left);
   const cv::Mat second = rectify_view(calibrated, Rectifier::Side::kRight, right);
   if (first.empty() || second.empty()) return {};
-  cv::Mat picture = side_by_side(first, second);
-  const int step = std::max(8, picture.rows / 20);
-  for (int y = step / 2; y < picture.rows; y += step) {
-    cv::line(picture, {0, y}, {picture.cols - 1, y}, kGreen, 1);
+  cv::Mat image = side_by_side(first, second);
+  const int step = std::max(8, image.rows / 20);
+  for (int y = step / 2; y < image.rows; y += step) {
+    cv::line(image, {0, y}, {image.cols - 1, y}, kGreen, 1);
   }
-  return picture;
+  return image;
 }
 
 cv::Mat draw_residuals(const Solution& solution) {

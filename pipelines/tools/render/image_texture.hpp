@@ -6,13 +6,13 @@
 
 namespace mtstereo::render {
 
-/// A gray picture on a surface. The center of the picture is at the origin of the surface; rows go
-/// along v. Outside of the picture, the surface is white.
-class Picture {
+/// A gray image on a surface. The center of the image is at the origin of the surface; rows go
+/// along v. Outside of the image, the surface is white.
+class ImageTexture {
  public:
   /// `pixels`: width * height gray values, row by row; `scale` [px/m]. Throws std::invalid_argument
   /// if the numbers do not fit.
-  Picture(int width, int height, const std::vector<std::uint8_t>& pixels, double scale);
+  ImageTexture(int width, int height, const std::vector<std::uint8_t>& pixels, double scale);
 
   /// Its size [m].
   double width() const { return columns_ / scale_; }
@@ -29,9 +29,9 @@ class Picture {
   std::vector<double> sums_;  // of the pixels above and to the left of each pixel corner
 };
 
-/// The picture of a checkerboard whose first square is black, on white paper with a margin of one
+/// The image of a checkerboard whose first square is black, on white paper with a margin of one
 /// square. `square` is the edge of a square [m]. Throws
 /// std::invalid_argument for less than 2 or more than 100 squares in a direction.
-Picture checkerboard(int squares_x, int squares_y, double square);
+ImageTexture checkerboard(int squares_x, int squares_y, double square);
 
 }  // namespace mtstereo::render

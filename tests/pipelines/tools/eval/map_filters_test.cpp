@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/eval/rival_filters.hpp"
+#include "tools/eval/map_filters.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

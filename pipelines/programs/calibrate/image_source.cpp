@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Pairs from picture files.
+// Pairs from image files.
 
 #include <algorithm>
 #include <filesystem>
@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> list_pictures(const std::string& source) {
+std::vector<fs::path> list_images(const std::string& source) {
   std::vector<fs::path> files{source};
   if (fs::is_directory(source)) {
-    files = files::pictures_in(source);
+    files = files::images_in(source);
   } else if (files::is_pattern(source)) {
     files = files::files_of_pattern(source);
   }
-  if (files.empty()) throw UserError(source + ": there are no pictures");
+  if (files.empty()) throw UserError(source + ": there are no images");
   return files;
 }
 
@@ -35,7 +35,7 @@ cv::Mat read(const fs::path& file) {
   } catch (const cv::Exception&) {
     image.release();
   }
-  if (image.empty()) throw UserError(file.string() + ": is not a picture that can be read");
+  if (image.empty()) throw UserError(file.string() + ": is not an image that can be read");
   return image;
 }
 
@@ -50,16 +50,15 @@ std::string number_of(const fs::path& file) {
   return stem.substr(first, end - first + 1);
 }
 
-// The first picture whose number the others do not have; empty if numbers do not tell.
-fs::path without_partner(const std::vector<fs::path>& pictures,
-                         const std::vector<fs::path>& others) {
-  for (const fs::path& picture : pictures) {
-    const std::string number = number_of(picture);
+// The first image whose number the others do not have; empty if numbers do not tell.
+fs::path without_partner(const std::vector<fs::path>& images, const std::vector<fs::path>& others) {
+  for (const fs::path& image : images) {
+    const std::string number = number_of(image);
     if (number.empty()) return {};
     const bool found = std::any_of(others.begin(), others.end(), [&](const fs::path& other) {
       return number_of(other) == number;
     });
-    if (!found) return picture;
+    if (!found) return image;
   }
   return {};
 }
@@ -68,7 +67,7 @@ fs::path without_partner(const std::vector<fs::path>& pictures,
                                 const std::vector<fs::path>& right) {
   fs::path alone = without_partner(left, right);
   if (alone.empty()) alone = without_partner(right, left);
-  throw UserError(options.left + " has " + counted(left.size(), "picture") + ", but " +
+  throw UserError(options.left + " has " + counted(left.size(), "image") + ", but " +
                   options.right + " has " + std::to_string(right.size()) +
                   ": they are paired in order" +
                   (alone.empty() ? "" : "; " + alone.string() + " has no partner"));
@@ -91,12 +90,12 @@ void check_exists(const std::string& source) {
   throw UserError(source + ": is a pipe or a device, which may never end: record it first");
 }
 
-class Pictures : public PairSource {
+class ImageSource : public PairSource {
  public:
-  explicit Pictures(const SourceOptions& options)
-      : arrangement_(options.arrangement), left_(list_pictures(options.left)) {
+  explicit ImageSource(const SourceOptions& options)
+      : arrangement_(options.arrangement), left_(list_images(options.left)) {
     if (arrangement_ != Arrangement::kTwoSources) return;
-    right_ = list_pictures(options.right);
+    right_ = list_images(options.right);
     if (left_.size() != right_.size()) refuse_counts(options, left_, right_);
   }
 
@@ -124,9 +123,9 @@ class Pictures : public PairSource {
 
 }  // namespace
 
-bool is_pictures(const std::string& source) {
+bool is_images(const std::string& source) {
   if (is_line(source)) return false;
-  return fs::is_directory(source) || files::is_picture(source);
+  return fs::is_directory(source) || files::is_image(source);
 }
 
 void split(const cv::Mat& image, Arrangement arrangement, ImagePair& pair) {
@@ -143,8 +142,8 @@ void split(const cv::Mat& image, Arrangement arrangement, ImagePair& pair) {
   pair.right = pair.right.clone();
 }
 
-std::unique_ptr<PairSource> open_pictures(const SourceOptions& options) {
-  return std::make_unique<Pictures>(options);
+std::unique_ptr<PairSource> open_images(const SourceOptions& options) {
+  return std::make_unique<ImageSource>(options);
 }
 
 std::vector<fs::path> input_files(const SourceOptions& options) {
@@ -152,21 +151,21 @@ std::vector<fs::path> input_files(const SourceOptions& options) {
   for (const std::string& source : {options.left, options.right}) {
     if (source.empty()) continue;
     check_exists(source);
-    const std::vector<fs::path> pictures =
-        is_pictures(source) ? list_pictures(source) : std::vector<fs::path>{source};
-    files.insert(files.end(), pictures.begin(), pictures.end());
+    const std::vector<fs::path> images =
+        is_images(source) ? list_images(source) : std::vector<fs::path>{source};
+    files.insert(files.end(), images.begin(), images.end());
   }
   return files;
 }
 
 std::unique_ptr<PairSource> open_source(const SourceOptions& options) {
   const bool two = options.arrangement == Arrangement::kTwoSources;
-  const bool left = is_pictures(options.left);
-  if (two && left != is_pictures(options.right)) {
-    throw UserError("one source gives pictures and the other one video: " + options.left + ", " +
+  const bool left = is_images(options.left);
+  if (two && left != is_images(options.right)) {
+    throw UserError("one source gives images and the other one video: " + options.left + ", " +
                     options.right);
   }
-  return left ? open_pictures(options) : open_streams(options);
+  return left ? open_images(options) : open_streams(options);
 }
 
 }  // namespace mtstereo::calibrate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/eval/pictures.hpp"
+#include "tools/eval/images.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +82,7 @@ const char* extension_of(DisparityFormat format) {
 
 void write_disparity(const fs::path& file, const cv::Mat& disparity, DisparityFormat format) {
   if (format == DisparityFormat::kKitti) {
-    write_picture(file, to_kitti(file, disparity));
+    write_image(file, to_kitti(file, disparity));
     return;
   }
   cv::Mat values = disparity.clone();
@@ -100,27 +100,27 @@ cv::Mat color_disparity(const cv::Mat& disparity, int max_disparity) {
 
 cv::Mat color_error(const cv::Mat& disparity, const GroundTruth& truth) {
   const cv::Mat error = cv::abs(disparity - truth.disparity);
-  cv::Mat color = color_of(error, kErrorPictureRange * truth.scale);
+  cv::Mat color = color_of(error, kErrorImageRange * truth.scale);
   color.setTo(kGray, is_nan(disparity));
   color.setTo(kBlack, is_nan(truth.disparity));
   return color;
 }
 
 cv::Mat overview(const LoadedPair& images, const cv::Mat& disparity, int max_disparity) {
-  cv::Mat image, above, below, picture;
-  cv::cvtColor(images.left, image, cv::COLOR_GRAY2BGR);
-  cv::hconcat(image, color_disparity(images.truth.disparity, max_disparity), above);
+  cv::Mat left, above, below, whole;
+  cv::cvtColor(images.left, left, cv::COLOR_GRAY2BGR);
+  cv::hconcat(left, color_disparity(images.truth.disparity, max_disparity), above);
   cv::hconcat(color_disparity(disparity, max_disparity), color_error(disparity, images.truth),
               below);
-  cv::vconcat(above, below, picture);
-  return picture;
+  cv::vconcat(above, below, whole);
+  return whole;
 }
 
-void write_picture(const fs::path& file, const cv::Mat& picture) {
+void write_image(const fs::path& file, const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
   bool encoded = false;
   try {
-    encoded = cv::imencode(".png", picture, bytes);
+    encoded = cv::imencode(".png", image, bytes);
   } catch (const cv::Exception& error) {
     throw UserError(file, "cannot be encoded: " + error.err);
   }

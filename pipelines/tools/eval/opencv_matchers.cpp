@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/eval/rivals.hpp"
+#include "tools/eval/opencv_matchers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,17 +24,18 @@ constexpr int kSpeckleRange = 2;
 constexpr int kPreFilterCap = 63;
 constexpr int kBmBlock = 15;
 
-int sgbm_mode(Rival rival) {
-  if (rival == Rival::kSgbm3Way) return cv::StereoSGBM::MODE_SGBM_3WAY;
-  if (rival == Rival::kSgbmHh) return cv::StereoSGBM::MODE_HH;
+int sgbm_mode(OpenCvMethod method) {
+  if (method == OpenCvMethod::kSgbm3Way) return cv::StereoSGBM::MODE_SGBM_3WAY;
+  if (method == OpenCvMethod::kSgbmHh) return cv::StereoSGBM::MODE_HH;
   return cv::StereoSGBM::MODE_SGBM;
 }
 
-cv::Ptr<cv::StereoMatcher> make_matcher(Rival rival, int disparities, int uniqueness_ratio) {
-  if (rival != Rival::kBm) {
+cv::Ptr<cv::StereoMatcher> make_matcher(OpenCvMethod method, int disparities,
+                                        int uniqueness_ratio) {
+  if (method != OpenCvMethod::kBm) {
     return cv::StereoSGBM::create(0, disparities, kSgbmBlock, kP1, kP2, kDisp12MaxDiff,
                                   kPreFilterCap, uniqueness_ratio, kSpeckleWindowSize,
-                                  kSpeckleRange, sgbm_mode(rival));
+                                  kSpeckleRange, sgbm_mode(method));
   }
   cv::Ptr<cv::StereoBM> bm = cv::StereoBM::create(disparities, kBmBlock);
   bm->setDisp12MaxDiff(kDisp12MaxDiff);
@@ -47,41 +48,43 @@ cv::Ptr<cv::StereoMatcher> make_matcher(Rival rival, int disparities, int unique
 
 }  // namespace
 
-struct RivalMatcher::State {
+struct OpenCvMatcher::State {
   cv::Ptr<cv::StereoMatcher> matcher;
   cv::Mat fixed_point;  // CV_16SC1, px * 16, negative = none
 };
 
-std::string_view rival_name(Rival rival) { return kNames[static_cast<std::size_t>(rival)]; }
-
-std::optional<Rival> find_rival(std::string_view name) {
-  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<Rival>(found - kNames.begin());
+std::string_view opencv_name(OpenCvMethod method) {
+  return kNames[static_cast<std::size_t>(method)];
 }
 
-std::vector<std::string> rival_names() { return {kNames.begin(), kNames.end()}; }
+std::optional<OpenCvMethod> find_opencv(std::string_view name) {
+  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) return std::nullopt;
+  return static_cast<OpenCvMethod>(found - kNames.begin());
+}
 
-int rival_disparities(int max_disparity) { return (max_disparity + 15) / 16 * 16; }
+std::vector<std::string> opencv_names() { return {kNames.begin(), kNames.end()}; }
 
-std::string rival_settings(Rival rival, const std::string& uniqueness_ratio) {
+int opencv_disparities(int max_disparity) { return (max_disparity + 15) / 16 * 16; }
+
+std::string opencv_settings(OpenCvMethod method, const std::string& uniqueness_ratio) {
   const std::string common =
       "disp12MaxDiff " + std::to_string(kDisp12MaxDiff) + ", uniquenessRatio " + uniqueness_ratio +
       ", speckleWindowSize " + std::to_string(kSpeckleWindowSize) + ", speckleRange " +
       std::to_string(kSpeckleRange) + ", preFilterCap " + std::to_string(kPreFilterCap);
-  if (rival == Rival::kBm) return "block " + std::to_string(kBmBlock) + ", " + common;
+  if (method == OpenCvMethod::kBm) return "block " + std::to_string(kBmBlock) + ", " + common;
   return "block " + std::to_string(kSgbmBlock) + ", P1 " + std::to_string(kP1) + ", P2 " +
          std::to_string(kP2) + ", " + common;
 }
 
-RivalMatcher::RivalMatcher(Rival rival, int max_disparity, int uniqueness_ratio)
+OpenCvMatcher::OpenCvMatcher(OpenCvMethod method, int max_disparity, int uniqueness_ratio)
     : state_(std::make_unique<State>()) {
-  state_->matcher = make_matcher(rival, rival_disparities(max_disparity), uniqueness_ratio);
+  state_->matcher = make_matcher(method, opencv_disparities(max_disparity), uniqueness_ratio);
 }
 
-RivalMatcher::~RivalMatcher() = default;
+OpenCvMatcher::~OpenCvMatcher() = default;
 
-void RivalMatcher::compute(const cv::Mat& left, const cv::Mat& right) {
+void OpenCvMatcher::compute(const cv::Mat& left, const cv::Mat& right) {
   try {
     state_->matcher->compute(left, right, state_->fixed_point);
   } catch (const cv::Exception& error) {
@@ -89,7 +92,7 @@ void RivalMatcher::compute(const cv::Mat& left, const cv::Mat& right) {
   }
 }
 
-cv::Mat RivalMatcher::disparity() const {
+cv::Mat OpenCvMatcher::disparity() const {
   constexpr int kOnePixel = cv::StereoMatcher::DISP_SCALE;
   cv::Mat result;
   state_->fixed_point.convertTo(result, CV_32F, 1.0 / kOnePixel);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/eval/thin_things.hpp"
+#include "tools/eval/thin_structures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ cv::Mat with_bar(int x0, int x1) {
   return truth;
 }
 
-TEST(ThinThings, AreNarrowerThanTheLimitInOneDirection) {
+TEST(ThinStructures, AreNarrowerThanTheLimitInOneDirection) {
   EXPECT_EQ(40 * 3, measure_thin(with_bar(20, 23), with_bar(20, 23)).thin);
   EXPECT_EQ(40 * kMostThin,
             measure_thin(with_bar(20, 20 + kMostThin), with_bar(20, 20 + kMostThin)).thin);
@@ -27,7 +27,7 @@ TEST(ThinThings, AreNarrowerThanTheLimitInOneDirection) {
   EXPECT_EQ(40 * 3, measure_thin(level, level).thin);
 }
 
-TEST(ThinThings, AreFoundOrPaintedOverOrUnknown) {
+TEST(ThinStructures, AreFoundOrPaintedOverOrUnknown) {
   const cv::Mat truth = with_bar(20, 24);
   cv::Mat estimate = truth.clone();
   estimate.col(20).setTo(5.5);
@@ -41,7 +41,7 @@ TEST(ThinThings, AreFoundOrPaintedOverOrUnknown) {
   EXPECT_DOUBLE_EQ(25, counts.painted_over());
 }
 
-TEST(ThinThings, HaveARim) {
+TEST(ThinStructures, HaveARim) {
   const cv::Mat truth = with_bar(20, 24);
   cv::Mat estimate = truth.clone();
   estimate.col(24).setTo(15);
@@ -59,7 +59,7 @@ TEST(ThinThings, HaveARim) {
   EXPECT_EQ(2 * 40 * 46, twice.far);
 }
 
-TEST(ThinThings, NeedATruth) {
+TEST(ThinStructures, NeedATruth) {
   cv::Mat truth = with_bar(20, 24);
   truth.rowRange(0, 10).setTo(kNone);
   truth.col(19).setTo(kNone);
@@ -69,7 +69,7 @@ TEST(ThinThings, NeedATruth) {
   EXPECT_EQ(0, ThinCounts().recall());
 }
 
-TEST(ThinThings, RefuseAnotherSize) {
+TEST(ThinStructures, RefuseAnotherSize) {
   EXPECT_THROW(measure_thin(cv::Mat(40, 59, CV_32FC1), with_bar(20, 24)), UserError);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Frames from pictures.
+// Frames from images.
 
 #include <gst/app/gstappsrc.h>
 #include <gst/video/video.h>
@@ -29,7 +29,7 @@ DecodedFrame missing() {
 class JpegDecoder {
  public:
   JpegDecoder()
-      // With a frame rate the decoder takes each buffer as one picture.
+      // With a frame rate the decoder takes each buffer as one image.
       : pipeline_(parse_pipeline("appsrc name=in caps=image/jpeg,framerate=30000/1001 ! jpegdec ! "
                                  "appsink name=out sync=false enable-last-sample=false")),
         in_(element_of(pipeline_, "in")),
@@ -96,8 +96,8 @@ cv::Mat with_alpha(const cv::Mat& image) {
   return result;
 }
 
-DecodedFrame frame_of(const cv::Mat& picture) {
-  const cv::Mat image = with_alpha(picture);
+DecodedFrame frame_of(const cv::Mat& decoded) {
+  const cv::Mat image = with_alpha(decoded);
   const GstVideoFormat format = format_of(image);
   if (image.empty() || format == GST_VIDEO_FORMAT_UNKNOWN) return missing();
   GstVideoInfo info;
@@ -114,9 +114,9 @@ DecodedFrame frame_of(const cv::Mat& picture) {
   return frame;
 }
 
-class PictureReader : public FrameReader {
+class ImageReader : public FrameReader {
  public:
-  explicit PictureReader(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
+  explicit ImageReader(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
 
   DecodedFrame read(std::int64_t number) override {
     const std::filesystem::path& file = files_[static_cast<std::size_t>(number)];
@@ -166,8 +166,8 @@ class PictureReader : public FrameReader {
 
 }  // namespace
 
-std::unique_ptr<FrameReader> open_pictures(const std::vector<std::filesystem::path>& files) {
-  return std::make_unique<PictureReader>(files);
+std::unique_ptr<FrameReader> open_images(const std::vector<std::filesystem::path>& files) {
+  return std::make_unique<ImageReader>(files);
 }
 
 }  // namespace mtstereo::run

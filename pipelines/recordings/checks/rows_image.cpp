@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "recordings/checks/rows_picture.hpp"
+#include "recordings/checks/rows_image.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,10 +24,10 @@ GrayView view_of(const cv::Mat& image) {
 }
 
 cv::Mat side_by_side(const cv::Mat& left, const cv::Mat& right) {
-  cv::Mat picture(left.rows, left.cols + kGap + right.cols, CV_8UC3, kWhite);
-  cv::cvtColor(left, picture(cv::Rect({}, left.size())), cv::COLOR_GRAY2BGR);
-  cv::cvtColor(right, picture(cv::Rect({left.cols + kGap, 0}, right.size())), cv::COLOR_GRAY2BGR);
-  return picture;
+  cv::Mat image(left.rows, left.cols + kGap + right.cols, CV_8UC3, kWhite);
+  cv::cvtColor(left, image(cv::Rect({}, left.size())), cv::COLOR_GRAY2BGR);
+  cv::cvtColor(right, image(cv::Rect({left.cols + kGap, 0}, right.size())), cv::COLOR_GRAY2BGR);
+  return image;
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ cv::Mat draw_rows(const Work& work) {
   PairInspector inspector;
   inspector.inspect(view_of(left), view_of(right),
                     std::max(1, scaled(parameters.integer(Parameter::kMaxDisparity))));
-  cv::Mat picture = side_by_side(left, right);
+  cv::Mat image = side_by_side(left, right);
   const auto matches = inspector.matches();
   const std::size_t step = matches.size() / kLines + 1;
   for (std::size_t i = 0; i < matches.size(); i += step) {
@@ -56,10 +56,10 @@ cv::Mat draw_rows(const Work& work) {
     const cv::Point from(cv::Point2d(match.x_left, row));
     const cv::Point to(cv::Point2d(left.cols + kGap + match.x_right, row + match.rows));
     const cv::Scalar color = std::abs(match.rows) * scale < kLevel ? kGreen : kRed;
-    cv::line(picture, from, to, color, 1, cv::LINE_AA);
-    for (const cv::Point& point : {from, to}) cv::circle(picture, point, 3, color, 1, cv::LINE_AA);
+    cv::line(image, from, to, color, 1, cv::LINE_AA);
+    for (const cv::Point& point : {from, to}) cv::circle(image, point, 3, color, 1, cv::LINE_AA);
   }
-  return picture;
+  return image;
 }
 
 }  // namespace mtstereo::run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/eval/thin_things.hpp"
+#include "tools/eval/thin_structures.hpp"
 
 #include <cmath>
 #include <limits>
