@@ -30,7 +30,7 @@ const PropertyTable<RectifySettings>& rectify_properties() {
   using Row = Property<Values>;
   using Options = RectificationOptions;
   static const PropertyTable<Values> table({
-      {"camera", &Values::side, camera_type(), "The camera that the video is from"},
+      {"camera", &Values::side, camera_type(), "Camera of the video"},
       {g_param_spec_string("calibration", "calibration",
                            "Calibration file of both cameras: of OpenCV, ROS, Kalibr, EuRoC, "
                            "KITTI, Middlebury, DepthAI, ZED, ORB-SLAM, VINS-Fusion, Basalt, mrcal "

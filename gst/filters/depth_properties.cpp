@@ -29,9 +29,9 @@ const PropertyTable<DepthProperties>& depth_properties() {
           {"overflow", &Values::overflow, overflow_type(),
            "Depths that do not fit in 16 bits: more than 65535 units, or infinite"},
           {"free-space", &Values::free_space,
-           "Give pixels without a disparity the distance up to which their rays are free, "
-           "estimated from the nearest disparities to the left, to the right, above and below, if "
-           "there are some to the left and right; not guaranteed (false: no depth)"},
+           "Give unknown pixels the distance up to which their rays are free, estimated from the "
+           "nearest disparities to the left, right, above and below; needs one on the left and the "
+           "right; not guaranteed (false: no depth)"},
       },
       geometry_rows<Values>());
   return table;

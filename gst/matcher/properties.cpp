@@ -30,18 +30,16 @@ const PropertyTable<FlowSettings>& flow_properties() {
   static const PropertyTable<FlowSettings> table(
       {
           {"sync-tolerance", &FlowSettings::sync_tolerance, -1, G_MAXINT64,
-           "Largest difference of the running times of a left and a right frame that are a pair, "
-           "in nanoseconds (-1: half the frame duration of the faster stream; more than one hour: "
+           "Largest difference of running times within a pair, in nanoseconds (-1: half the frame "
+           "duration of the faster stream; more than one hour: "
            "one hour)"},
-          {"sync-mode", &FlowSettings::sync_mode, sync_mode_type(),
-           "The times by which frames are paired"},
+          {"sync-mode", &FlowSettings::sync_mode, sync_mode_type(), "Times used to pair frames"},
           {"newest-pair", &FlowSettings::newest_pair,
-           "Live pipelines: match the newest pair, and skip older ones that have arrived while a "
-           "pair was matched, for sinks that report no lateness"},
+           "Live pipelines: match the newest pair, and skip older ones that arrived during "
+           "matching; for sinks that report no lateness"},
           {"timeout", &FlowSettings::timeout, 0, G_MAXUINT64,
-           "Streams that are not live: how long frames wait for a frame of the other pad, in "
-           "nanoseconds, until the element reports an error if that pad is not linked, or a "
-           "warning if it is silent (0: wait without a report)"},
+           "Streams that are not live: time in nanoseconds until a pad without frames is reported, "
+           "as an error if it is not linked, as a warning if it is silent (0: never)"},
           {"qos", &FlowSettings::qos,
            "Skip pairs whose maps would be too late at the sink; sinks with sync=false report no "
            "lateness"},

@@ -108,7 +108,7 @@ void add_rest(CLI::App& app, Texts& texts, Options& options) {
   app.add_flag("--overwrite", options.overwrite, "replace a calibration in this folder");
   app.add_option("--model", texts.model,
                  "lens model: plumb-bob (5 coefficients), rational (8, for wide lenses), fisheye "
-                 "(equidistant), or auto = the one that fits held-out views best")
+                 "(equidistant), or auto = the best on held-out views")
       ->check(CLI::IsMember({"plumb-bob", "rational", "fisheye", "auto"}))
       ->capture_default_str();
   app.add_option("--views", options.most_views,
@@ -179,8 +179,8 @@ void apply(const Texts& texts, Options& options) {
 
 ParsedOptions parse_options(int argc, const char* const* argv) {
   CLI::App app{
-      "Calibrates two cameras from views of a printed board, and states how good the calibration "
-      "is. Print the board by --board first.",
+      "Calibrates two cameras from views of a printed board, and rates the calibration. Print the "
+      "board with --board first.",
       "mtcalibrate"};
   app.set_version_flag("--version", MTSTEREO_VERSION);
   app.footer(

@@ -165,7 +165,7 @@ int report(const fs::path& folder, const Plan& plan, const MergeResult& result,
   if (result.missing.size() == plan.tasks.size()) return kFailed;
   for (const Problem& problem : result.doubtful) {
     std::cerr << "mtstereo-run: " << problem.input
-              << ": the results are of no use: " << problem.reason << '\n';
+              << ": the results are useless: " << problem.reason << '\n';
   }
   if (!result.doubtful.empty()) return kWorthless;
   const bool complete = plan.problems.empty() && result.problems.empty() && result.missing.empty();

@@ -84,15 +84,15 @@ int allocated_threads() {
 }
 
 std::optional<int> parse_task(int argc, const char* const* argv, TaskCommand& command) {
-  CLI::App app{"Does one task of a plan, unless it is done."};
+  CLI::App app{"Runs one task of a plan, unless it is done."};
   set_usage(app, "mtstereo-run task [N] [--plan DIR] [OPTIONS]");
   app.footer(
       "The number may come from a scheduler's index: SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX "
       "(Kubernetes) or AWS_BATCH_JOB_ARRAY_INDEX. Several processes may do the same task: one "
       "result is kept.\nExit status: 0 = the task is done, 1 = it is not, and the reason is "
       "printed, "
-      "2 = the command is invalid. A task whose input is damaged is done when all that can be read "
-      "is processed; merge returns 3 then.");
+      "2 = the command is invalid. A task with a damaged input is done when all readable frames "
+      "are processed; merge then returns 3.");
   std::string number;
   std::size_t first = 0;
   app.add_option("N", number, "number of the task, from 0; none: from the variables below")
@@ -102,8 +102,8 @@ std::optional<int> parse_task(int argc, const char* const* argv, TaskCommand& co
       ->type_name("N")
       ->capture_default_str();
   app.add_option("--threads", command.threads,
-                 "threads of the matcher; 0 = the processors that Slurm allocated, or what the "
-                 "plan states")
+                 "threads of the matcher; 0 = the processors that Slurm allocated, else the number "
+                 "in the plan")
       ->type_name("N")
       ->check(in_range(0, kMostJobs))
       ->capture_default_str();
@@ -116,13 +116,13 @@ std::optional<int> parse_task(int argc, const char* const* argv, TaskCommand& co
 
 std::optional<int> parse_merge(int argc, const char* const* argv, MergeCommand& command) {
   CLI::App app{
-      "Joins the pieces of every recording whose tasks are done, after their contents were "
-      "checked, and writes summary.json."};
+      "Checks and joins the pieces of every recording whose tasks are done, and writes "
+      "summary.json."};
   set_usage(app, "mtstereo-run merge [--plan DIR] [OPTIONS]");
   app.footer(
       "Exit status: 0 = all recordings are joined, 1 = nothing could be done, and the reason is "
-      "printed, 2 = the command is invalid, 3 = tasks are missing, or inputs cannot be used or are "
-      "damaged, 4 = the results of a recording are of no use.");
+      "printed, 2 = the command is invalid, 3 = tasks are missing, or inputs are unusable or "
+      "damaged, 4 = the results of a recording are useless.");
   add_folder(app, command.folder);
   app.add_option("--jobs", command.jobs, "recordings that are joined at the same time")
       ->type_name("N")

@@ -23,7 +23,7 @@ enum ExitStatus {
   kFailed = 1,      ///< nothing was done; the reason was printed
   kWrongUsage = 2,  ///< the command is invalid
   kIncomplete = 3,  ///< a part was done; inputs or tasks that are missing were printed
-  kWorthless = 4,   ///< done, but the results are of no use; the reason and the remedy were printed
+  kWorthless = 4,   ///< done, but the results are useless; the reason and the remedy were printed
 };
 
 /// mtstereo-run plan INPUT... --out DIR, with the options of a run.

@@ -104,13 +104,13 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
          "exchange the views: the second input, or the second half of the frames, is the left one")
       ->group(group);
   app.add_option("--calibration", options.input.calibration,
-                 "calibration of the cameras; two files are separated by a comma [default: the "
+                 "calibration file; a comma separates two [default: the "
                  "file beside the input]")
       ->type_name("FILE")
       ->group(group);
   app.add_option("--rectified", texts.rectified,
-                 "yes: the views are rectified, and the calibration serves for meters only; no: it "
-                 "rectifies them [default: by the input]")
+                 "yes: the views are rectified, and the calibration only gives meters; no: rectify "
+                 "them [default: by the input]")
       ->check(CLI::IsMember({"yes", "no"}))
       ->group(group);
   add_shape(app, texts, options.input.shape);
@@ -119,10 +119,10 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
       ->check(outputs::finite_range(0.001, 100000))
       ->capture_default_str()
       ->group(group);
-  app.add_option("--sync", texts.sync,
-                 "for recorders started apart: auto finds offset and drift from the images; a "
-                 "number states by how much later an event is in the right recording; none uses "
-                 "the times of the frames")
+  app.add_option(
+         "--sync", texts.sync,
+         "for recorders started apart: auto finds offset and drift from the images; a number: how "
+         "much later events are in the right recording; none: the times of the frames")
       ->type_name("auto|none|SECONDS")
       ->capture_default_str()
       ->group(group);
@@ -173,7 +173,7 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
       ->group(group);
   CLI::Option* const resume =
       app.add_flag("--resume", options.resume,
-                   options.plan ? "plan again, and keep what is prepared and done"
+                   options.plan ? "plan again, and keep prepared recordings and finished tasks"
                                 : "continue a run that was interrupted")
           ->group(group);
   app.add_flag("--overwrite", options.overwrite,
@@ -186,10 +186,10 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
 }
 
 void add_check(CLI::App& app, Options& options) {
-  CLI::Option* const check = app.add_flag(
-      "--check", options.check,
-      "measure some pairs, and print a page: what is wrong with the views, what to do, and which "
-      "density, errors and time to expect; --out is not needed, and gets a picture of the rows");
+  CLI::Option* const check =
+      app.add_flag("--check", options.check,
+                   "measure some pairs, and print a page: problems, remedies, and the density, "
+                   "errors and time to expect; --out is optional, and gets an image of the rows");
   for (const char* const other : {"--resume", "--overwrite", "--list", "--jobs"}) {
     check->excludes(app.get_option(other));
   }
@@ -231,8 +231,8 @@ void add_parameters(CLI::App& app, Texts& texts) {
                 "steps per px of the maps [default: 256, or as many as fit the search range]",
                 "NUMBER");
   add_parameter(app, texts, "alignment",
-                "correct: measure the rows of the right view that are out of place once, and "
-                "correct them in all pairs [default: correct; preset paper: off]",
+                "correct: measure misaligned rows of the right view once, and correct them in all "
+                "pairs [default: correct; preset paper: off]",
                 "off|correct");
   add_parameter(app, texts, "sharpness",
                 "match: blur the sharper view like the other one [default: match; preset paper: "

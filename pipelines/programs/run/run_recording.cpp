@@ -89,7 +89,7 @@ int status_of(const Recording& recording, const fs::path& folder, bool whole) {
   const std::string doubt = verdict_in(folder / kRunFile);
   if (doubt.empty()) return whole ? kDone : kIncomplete;
   std::cerr << "mtstereo-run: " << recording.name
-            << ": the results are of no use: " << outputs::printable(doubt) << '\n';
+            << ": the results are useless: " << outputs::printable(doubt) << '\n';
   return kWorthless;
 }
 

@@ -33,7 +33,7 @@ std::string frames(int number) {
 
 Advice turned(const ViewDiagnosis& found, const char* how) {
   return {std::string("One view is ") + how + ": after undoing this, " + comparison(found) + ".",
-          "Turn that camera's frames before, for example by ffmpeg or videoflip."};
+          "Turn that camera's frames first, for example with ffmpeg or videoflip."};
 }
 
 Advice out_of_step(const ViewDiagnosis& found, bool two) {
@@ -96,7 +96,7 @@ Advice diagnosis_advice(const ViewDiagnosis& found, const std::string& calibrati
     case ViewProblem::kWrongCalibration:
       return wrong_calibration(found, calibration);
     case ViewProblem::kSameView:
-      return {"Both views are the same picture.", "Check the inputs."};
+      return {"Both views are the same image.", "Check the inputs."};
     case ViewProblem::kUnknown:
       break;
   }

@@ -127,8 +127,8 @@ void add_methods(CLI::App& app, Texts& texts, Options& options) {
       ->type_name("SIGMA")
       ->check(outputs::finite_range(0.1, 100));
   app.add_flag("--stream", options.run.stream,
-               "the pairs, in the order of their names, are successive frames of a stream; also "
-               "measure how the disparities of each " +
+               "the pairs, in the order of their names, are frames of one stream; also measure how "
+               "the disparities of each " +
                    std::to_string(kFlickerFrames) + " differ")
       ->excludes("--flicker", "--degrade", "--warm-up", "--repeat");
 }
@@ -215,10 +215,8 @@ void apply(const Texts& texts, Options& options) {
 }  // namespace
 
 ParsedOptions parse_options(int argc, const char* const* argv) {
-  CLI::App app{
-      "Runs MTStereo on a folder of stereo pairs with ground truth and measures errors, density "
-      "and time.",
-      "mtstereo-eval"};
+  CLI::App app{"Matches stereo pairs with ground truth, and measures errors, density and time.",
+               "mtstereo-eval"};
   app.set_version_flag("--version", version());
   app.footer(
       "Exit status: 0 = all pairs were evaluated, 1 = some could not be evaluated or a file could "

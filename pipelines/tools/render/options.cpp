@@ -60,15 +60,15 @@ void define_sensor(CLI::App& app, Settings& s) {
   };
   number("--noise", s.noise, "standard deviation of the constant sensor noise [gray values]");
   number("--shot-noise", s.shot_noise, "variance of the shot noise per gray value of the signal");
-  number("--light", s.light, "light of both views; what exceeds white is clipped");
+  number("--light", s.light, "light of both views; values above white are clipped");
   number("--gain", s.gain, "amplification of signal and noise in both views");
   number("--exposure", s.exposure, "brightness of the right view relative to the left");
   number("--sky", s.sky, "brightness of the sky at the bottom of the image; 1 = white");
   number("--sky-gradient", s.sky_gradient,
-         "what the sky loses up to the top of the image; 0 = a flat sky");
+         "loss of brightness up to the top of the image; 0 = a uniform sky");
   number("--vignette", s.vignette, "fraction of the light that is lost in the corners");
   number("--blur", s.blur, "standard deviation of the blur of the lenses in the center [px]");
-  number("--rim-blur", s.rim_blur, "what the blur of the lenses gains up to the corners [px]");
+  number("--rim-blur", s.rim_blur, "additional blur of the lenses in the corners [px]");
   app.add_flag("--mosaic", s.mosaic,
                "sensors with a Bayer mosaic: demosaicing, noise reduction and sharpening");
   number("--jpeg", s.jpeg, "quality of JPEG compression, 1 to 100; 0 = no compression");
@@ -89,8 +89,8 @@ void define_rig(CLI::App& app, Options& o) {
       "built-in raw cameras with distortion and rotation: wide, or fisheye (120 degrees)");
   app.add_option("--raw", o.raw, "raw cameras of this calibration file");
   app.add_option("--rectification", o.rectification,
-                 "raw cameras: the truth is that of the rectified pair of this calibration, such "
-                 "as one of mtcalibrate, instead of the exact one");
+                 "raw cameras: rectify the truth by this calibration, such as one of mtcalibrate, "
+                 "instead of the exact one");
   number("--alpha", o.alpha, "of that rectification, as for mtrectify: 0 to 1, or -1");
   app.add_option("--rectified-size", o.rectified_size,
                  "width and height of the views of that rectified pair [px]");
@@ -122,7 +122,7 @@ void define_scenes(CLI::App& app, Options& o) {
   number("--rest", o.board.rest, "board: frames at each pose");
   number("--move", o.board.move, "board: frames between two poses");
   number("--tilt", o.board.poses.tilt, "board: largest tilt [degrees]");
-  number("--visible", o.board.poses.visible, "board: part that both views show at least");
+  number("--visible", o.board.poses.visible, "board: smallest part that both views show");
 }
 
 void require(bool valid, const char* sentence) {

@@ -71,7 +71,7 @@ class Program(ProgramCase):
         self.assertEqual(found[0].read_bytes(), (self.whole / "disparity.mkv").read_bytes())
 
     def test_says_that_results_are_of_no_use(self):
-        remedy = r"results are of no use: The left and the right view are exchanged: .*--swap"
+        remedy = r"results are useless: The left and the right view are exchanged: .*--swap"
         result = run(self.right, self.left, "--out", self.out(), "--max-disparity", 32)
         self.assertEqual(result.returncode, 4, result.stderr)
         self.assertRegex(result.stderr, remedy)
@@ -94,7 +94,7 @@ class Program(ProgramCase):
             out = self.out() / str(jobs)
             result = run(archive, "--out", out, "--max-disparity", 32, "--jobs", jobs)
             self.assertEqual(result.returncode, 4, result.stderr)
-            self.assertRegex(result.stderr, "mtstereo-run: bad: the results are of no use")
+            self.assertRegex(result.stderr, "mtstereo-run: bad: the results are useless")
             self.assertNotIn("good: the results", result.stderr)
 
     def test_processes_truncated_files(self):
