@@ -142,7 +142,7 @@ TEST(AutoResolution, WorksInEveryModeOfEveryPreset) {
   for (const char* const preset : {"default", "fast", "paper"}) {
     for (const char* const mode : {"sparse", "semi-dense", "dense", "full"}) {
       SCOPED_TRACE(testing::Message() << preset << ", " << mode);
-      const Pair large = softened(test::slanted_pair(640, 240, 30, 3));
+      const Pair large = softened(test::slanted_pair(320, 160, 30, 3));
       Matcher matcher = test::matcher({{"resolution", "auto"}, {"preset", preset}, {"mode", mode}});
       EXPECT_EQ(repeated("full ", kFrames) + "half ", resolutions(matcher, large, kFrames + 1));
     }

@@ -156,9 +156,13 @@ TEST(DisparitySelection, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstru
       known += expect_reference_with_all_options(disparities + random.below(60), disparities,
                                                  random, scratch);
     }
-    for (const int disparities : {300, 1984}) {
-      Random random(disparities);
-      known += expect_reference_with_all_options(disparities + 5, disparities, random, scratch);
+    Random random(300);
+    known += expect_reference_with_all_options(305, 300, random, scratch);
+    // Two rows of the largest number; all options would take seconds.
+    for (const bool in_range : {false, true}) {
+      known += expect_reference(random_costs(1989, 1984, 255, random),
+                                {1984, 0.06, in_range, in_range ? 1 : -1, in_range, 30, 1},
+                                random_ranges(1989, 1984, random), scratch);
     }
     EXPECT_GT(known, 10000) << "too few results to compare";
   });

@@ -25,20 +25,20 @@ class Texture {
     double frequency = 0.42;
     for (Wave& wave : waves_) {
       const double angle = random.between(0, 628) / 100.0;
-      wave = {frequency * std::cos(angle), frequency * std::sin(angle),
-              random.between(0, 628) / 100.0};
+      wave = {static_cast<float>(frequency * std::cos(angle)),
+              static_cast<float>(frequency * std::sin(angle)), random.between(0, 628) / 100.0F};
       frequency *= 0.75;
     }
   }
-  double at(double x, double y) const {
-    double sum = 128;
+  double at(float x, float y) const {
+    float sum = 128;
     for (const Wave& wave : waves_) sum += 11 * std::sin(wave.x * x + wave.y * y + wave.phase);
     return sum;
   }
 
  private:
   struct Wave {
-    double x, y, phase;
+    float x, y, phase;
   };
   std::array<Wave, 13> waves_;
 };
@@ -72,7 +72,7 @@ Scene scene_of(int width, int height, const CameraMotion& was, double noise = 0,
           was.moved({static_cast<float>(x - width / 2.0), static_cast<float>(y - height / 2.0),
                      static_cast<float>(disparity)});
       scene.now(x, y) = gray(gain * texture.at(last.x, last.y));
-      scene.last(x, y) = gray(texture.at(x - width / 2.0, y - height / 2.0));
+      scene.last(x, y) = gray(texture.at(x - width / 2.0F, y - height / 2.0F));
       scene.map(x, y) = static_cast<int>(std::lround(disparity * kDisparityOne));
     }
   }
@@ -171,7 +171,8 @@ TEST(CameraMotion, IsUnknownBetweenDifferentScenes) {
   const Texture other(8);
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
-      scene.last(x, y) = static_cast<std::uint8_t>(std::clamp(other.at(x, y), 0.0, 255.0));
+      scene.last(x, y) = static_cast<std::uint8_t>(
+          std::clamp(other.at(static_cast<float>(x), static_cast<float>(y)), 0.0, 255.0));
     }
   }
   EXPECT_FALSE(found(scene));
