@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "calibration_support.hpp"
 
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-
 namespace mtstereo::test {
 namespace fs = std::filesystem;
 
@@ -12,34 +8,17 @@ std::string stored(const std::string& name) { return std::string(MTSTEREO_TEST_F
 
 std::string stored_text(const std::string& name) { return read_text(stored(name)); }
 
-CalibrationFolder::CalibrationFolder() {
-  std::string pattern = (fs::temp_directory_path() / "mtstereo-calibration-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) std::abort();
-  path_ = pattern;
-}
-
-CalibrationFolder::~CalibrationFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 std::string CalibrationFolder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
+  write_text(*this / name, text);
   return path(name);
 }
 
 std::vector<std::string> CalibrationFolder::names() const {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(TemporaryFolder::path())) {
     names.push_back(entry.path().filename().string());
   }
   return names;
-}
-
-std::string read_text(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  EXPECT_TRUE(stream.is_open()) << file;
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

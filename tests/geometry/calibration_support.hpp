@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mtstereo/geometry/calibration.hpp"
+#include "support/temporary_folder.hpp"
 
 // For the tests of calibration files.
 
@@ -20,25 +21,15 @@ std::string stored(const std::string& name);
 /// Its text.
 std::string stored_text(const std::string& name);
 
-/// A temporary folder, removed with its contents by the destructor.
-class CalibrationFolder {
+/// A temporary folder for calibration files.
+class CalibrationFolder : public TemporaryFolder {
  public:
-  CalibrationFolder();
-  ~CalibrationFolder();
-  CalibrationFolder(const CalibrationFolder&) = delete;
-  CalibrationFolder& operator=(const CalibrationFolder&) = delete;
-
-  std::string path(const std::string& name) const { return (path_ / name).string(); }
+  std::string path(const std::string& name) const { return *this / name; }
   /// Writes a file and returns its path.
   std::string write(const std::string& name, const std::string& text) const;
   /// The names of all files.
   std::vector<std::string> names() const;
-
- private:
-  std::filesystem::path path_;
 };
-
-std::string read_text(const std::string& file);
 
 /// The text with the first occurrence of `from` replaced, which must be there.
 std::string replaced(std::string text, const std::string& from, const std::string& to);

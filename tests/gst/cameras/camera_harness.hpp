@@ -3,43 +3,27 @@
 
 #include <gst/check/gstharness.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include "mtstereo/geometry/calibration.hpp"
 #include "support/stereo_harness.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mtstereo::test {
 
 /// A temporary folder with calibration files.
-class CalibrationFolder {
+class CalibrationFolder : public TemporaryFolder {
  public:
-  CalibrationFolder() {
-    char name[] = "/tmp/mtstereo-calibration-XXXXXX";
-    if (mkdtemp(name) == nullptr) std::abort();
-    folder_ = name;
-  }
-  ~CalibrationFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  CalibrationFolder(const CalibrationFolder&) = delete;
-  CalibrationFolder& operator=(const CalibrationFolder&) = delete;
-
   /// Writes a file and returns its path.
   std::string write(const StereoCalibration& calibration, const std::string& name = "rig.yaml") {
-    const std::string path = folder_ + "/" + name;
+    const std::string path = this->path(name);
     const Status status = write_calibration(calibration, path);
     EXPECT_TRUE(status.ok()) << status.error().message;
     return path;
   }
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
-
- private:
-  std::string folder_;
+  std::string path(const std::string& name) const { return *this / name; }
 };
 
 /// An element with one sink pad and one source pad in a harness.

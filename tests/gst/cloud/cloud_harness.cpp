@@ -36,20 +36,9 @@ int first_red(const std::filesystem::path& file) {
   return points.empty() ? -1 : points.front().red;
 }
 
-CloudFolder::CloudFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "mtstereo-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
-  path_ = name;
-}
-
-CloudFolder::~CloudFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 std::string CloudFolder::files() const {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+  for (const auto& entry : std::filesystem::directory_iterator(path())) {
     names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());

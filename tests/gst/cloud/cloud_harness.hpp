@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/map_harness.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mtstereo::test {
 
@@ -28,21 +29,11 @@ std::vector<PlyPoint> read_ply(const std::filesystem::path& file);
 /// The number of the red component of the first point of a PLY file; -1 without a point.
 int first_red(const std::filesystem::path& file);
 
-/// A folder for the files of one test, removed by the destructor.
-class CloudFolder {
+/// A folder for the files of one test.
+class CloudFolder : public TemporaryFolder {
  public:
-  CloudFolder();
-  ~CloudFolder();
-  CloudFolder(const CloudFolder&) = delete;
-  CloudFolder& operator=(const CloudFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
   /// The names of the files, in order, separated by spaces.
   std::string files() const;
-
- private:
-  std::filesystem::path path_;
 };
 
 /// The property location for a pattern in this folder.

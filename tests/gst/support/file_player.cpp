@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <filesystem>
 #include <ostream>
 
 namespace mtstereo::test {
@@ -58,18 +57,14 @@ std::string missing_element() {
 }
 
 NumberedFiles::NumberedFiles() {
-  folder_ = (std::filesystem::temp_directory_path() / "mtstereo-XXXXXX").string();
-  EXPECT_NE(mkdtemp(folder_.data()), nullptr);
   for (const Container& container : {kMatroska, kMp4}) {
     encode(file(container, Side::kLeft), container, Side::kLeft, kLeftFrames, 15);
     encode(file(container, Side::kRight), container, Side::kRight, kRightFrames, 40);
   }
 }
 
-NumberedFiles::~NumberedFiles() { std::filesystem::remove_all(folder_); }
-
 std::string NumberedFiles::file(const Container& container, Side side) const {
-  return folder_ + "/" + container.name + (side == Side::kLeft ? "-left" : "-right");
+  return folder_ / (std::string(container.name) + (side == Side::kLeft ? "-left" : "-right"));
 }
 
 std::string seek_text(const Seek& seek) {

@@ -10,6 +10,7 @@
 
 #include "support/numbered_views.hpp"
 #include "support/pipeline.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mtstereo::test {
 
@@ -28,21 +29,18 @@ void PrintTo(const Container& container, std::ostream* stream);
 std::string missing_element();
 
 /// Numbered views of two files in a temporary folder, as H.264: kLeftFrames with a key frame every
-/// 15, and kRightFrames with one every 40. The destructor removes the folder.
+/// 15, and kRightFrames with one every 40.
 class NumberedFiles {
  public:
   static constexpr int kLeftFrames = 60;
   static constexpr int kRightFrames = 57;
 
   NumberedFiles();
-  ~NumberedFiles();
-  NumberedFiles(const NumberedFiles&) = delete;
-  NumberedFiles& operator=(const NumberedFiles&) = delete;
 
   std::string file(const Container& container, Side side) const;
 
  private:
-  std::string folder_;
+  TemporaryFolder folder_;
 };
 
 /// A seek in steps of frames.

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "lib/outputs/user_error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mtstereo::files {
 namespace {
@@ -17,13 +17,6 @@ using testing::ElementsAre;
 
 class FileNames : public testing::Test {
  protected:
-  FileNames() {
-    std::string name = (fs::temp_directory_path() / "mtstereo-names-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~FileNames() override { fs::remove_all(folder_); }
-
   void create(std::initializer_list<const char*> names) const {
     for (const char* name : names) std::ofstream(folder_ / name).put('x');
   }
@@ -38,12 +31,13 @@ class FileNames : public testing::Test {
     return names;
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(FileNames, SortsByNumbers) {
   create({"f10.png", "f9.png", "f009.png", "f1.png", "notes.txt", ".hidden.png"});
-  EXPECT_THAT(names_of(images_in(folder_)), ElementsAre("f1.png", "f009.png", "f9.png", "f10.png"));
+  EXPECT_THAT(names_of(images_in(folder_.path())),
+              ElementsAre("f1.png", "f009.png", "f9.png", "f10.png"));
 }
 
 TEST_F(FileNames, ComparesNumbersLongerThanAnInteger) {

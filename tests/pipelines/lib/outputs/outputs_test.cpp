@@ -8,8 +8,6 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
-#include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -23,6 +21,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
 #include "lib/outputs/written_files.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace mtstereo::outputs {
 namespace {
@@ -34,25 +33,16 @@ using namespace std::string_literals;
 
 class Folder : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "mtstereo-outputs-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
     fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << text;
+    test::write_text(folder_ / name, text);
     return folder_ / name;
   }
-  std::string read(const std::string& name) const {
-    std::ifstream in(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string read(const std::string& name) const { return test::read_text(folder_ / name); }
   std::string obstacle(const Intent& intent) const { return obstacle_in(folder_, intent); }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 std::string error_of(const std::function<void()>& call) {

@@ -85,21 +85,10 @@ std::string output_of(const std::string& command) {
 const char* const kBFrames =
     "x264enc bframes=2 b-adapt=false key-int-max=30 speed-preset=veryfast bitrate=300 ! h264parse";
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "mtstereo-run-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code error;
-  fs::remove_all(path_, error);
-}
-
 fs::path TemporaryFolder::operator/(const std::string& name) const {
-  const fs::path path = path_ / name;
-  fs::create_directories(path.parent_path());
-  return path;
+  const fs::path file = path() / name;
+  fs::create_directories(file.parent_path());
+  return file;
 }
 
 void write_text(const fs::path& file, const std::string& text) {

@@ -6,25 +6,16 @@
 #include <vector>
 
 #include "recordings/inputs/recording.hpp"
+#include "support/temporary_folder.hpp"
 
 // Files for the tests: made and read back by programs that are not part of this project.
 
 namespace mtstereo::run::testing {
 
-/// A folder that is removed at the end.
-class TemporaryFolder {
+/// A temporary folder whose paths have their folders.
+class TemporaryFolder : public test::TemporaryFolder {
  public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  /// A path in it; the folders above it are created.
   std::filesystem::path operator/(const std::string& name) const;
-
- private:
-  std::filesystem::path path_;
 };
 
 /// Writes a text file.

@@ -13,7 +13,7 @@ namespace mtstereo::eval {
 namespace {
 
 using testing::float_bytes;
-using testing::TempFolder;
+using testing::TemporaryFolder;
 using testing::write_file;
 using testing::write_image;
 
@@ -36,7 +36,7 @@ void expect_row(const cv::Mat& map, int y, const std::vector<float>& wanted) {
 
 class GroundTruthFiles : public ::testing::Test {
  protected:
-  TempFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(GroundTruthFiles, PfmHasNonFiniteAndNegativeValuesAsUnknown) {

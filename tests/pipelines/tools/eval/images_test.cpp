@@ -13,7 +13,7 @@
 namespace mtstereo::eval {
 namespace {
 
-using testing::TempFolder;
+using testing::TemporaryFolder;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 const cv::Vec3b kBlack(0, 0, 0);
@@ -64,7 +64,7 @@ TEST(Images, OverviewShowsTheLeftImageInItsCorner) {
 }
 
 TEST(Images, AreWrittenIntoCreatedFolders) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_image(folder / "a/b.c/0001.png", cv::Mat(2, 2, CV_8UC3, cv::Scalar(9, 8, 7)));
   const cv::Mat again = cv::imread((folder / "a/b.c/0001.png").string());
   ASSERT_FALSE(again.empty());
@@ -72,13 +72,13 @@ TEST(Images, AreWrittenIntoCreatedFolders) {
 }
 
 TEST(Images, UnwritableOnesAreNamed) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   testing::write_file(folder / "file", "");
   EXPECT_INPUT_ERROR(write_image(folder / "file/a.png", cv::Mat(2, 2, CV_8UC3)), "file");
 }
 
 TEST(DisparityFiles, PfmHasInfinityForNone) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_disparity(folder / "a.pfm", cv::Mat((cv::Mat_<float>(1, 2) << kNan, 3.25F)),
                   DisparityFormat::kPfm);
   const cv::Mat again = read_pfm(folder / "a.pfm");
@@ -87,7 +87,7 @@ TEST(DisparityFiles, PfmHasInfinityForNone) {
 }
 
 TEST(DisparityFiles, KittiRejectsDisparitiesOutOfRange) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   EXPECT_INPUT_ERROR(
       write_disparity(folder / "a.png", cv::Mat_<float>(1, 1, 256.F), DisparityFormat::kKitti),
       "a.png: a disparity of 256");

@@ -27,7 +27,7 @@ class Kinds : public ::testing::Test {
     testing::write_file(folder_ / name, report.dump());
     return folder_ / name;
   }
-  testing::TempFolder folder_;
+  testing::TemporaryFolder folder_;
 };
 
 json means(double avgerr) {

@@ -14,7 +14,7 @@ namespace mtstereo::eval {
 namespace {
 
 using testing::make_pair;
-using testing::TempFolder;
+using testing::TemporaryFolder;
 using testing::TestPair;
 using testing::write_file;
 using testing::write_image;
@@ -39,7 +39,7 @@ class Layouts : public ::testing::Test {
     EXPECT_EQ(layout_name(detect_layout(folder_.path())), layout_name(layout));
     return find_pairs(folder_.path(), layout);
   }
-  TempFolder folder_;
+  TemporaryFolder folder_;
 };
 
 // --- Middlebury and ETH3D
@@ -123,7 +123,7 @@ TEST_F(Layouts, Eth3dIsDetectedByItsNamesAndHasASmallerRange) {
 
 // --- KITTI 2015
 
-void write_kitti_frame(const TempFolder& folder, const std::string& name, bool occ, bool noc) {
+void write_kitti_frame(const TemporaryFolder& folder, const std::string& name, bool occ, bool noc) {
   write_image(folder / ("training/image_2/" + name), small_pair().left);
   write_image(folder / ("training/image_3/" + name), small_pair().right);
   if (occ) write_kitti_truth(folder / ("training/disp_occ_0/" + name), small_pair().truth);
@@ -198,7 +198,7 @@ TEST_F(Layouts, KittiReadsTheObjectMapOfAFrameThatHasOne) {
 
 // --- Scene Flow
 
-void write_scene_flow(const TempFolder& folder, const std::string& between,
+void write_scene_flow(const TemporaryFolder& folder, const std::string& between,
                       const std::string& frame) {
   cv::Mat with_alpha(24, 48, CV_8UC4, cv::Scalar(50, 100, 150, 0));
   write_image(folder / ("frames_cleanpass/" + between + "left/" + frame + ".png"), with_alpha);

@@ -20,7 +20,7 @@ using ::testing::Not;
 using testing::Outcome;
 using testing::read_file;
 using testing::run_eval;
-using testing::TempFolder;
+using testing::TemporaryFolder;
 using testing::TestPair;
 using testing::write_image;
 using testing::write_kitti_truth;
@@ -50,7 +50,7 @@ class OfficialProgram : public ::testing::Test {
   }
   json report() const { return json::parse(read_file(folder_ / "r.json")); }
 
-  TempFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(OfficialProgram, PrintsD1WithAnObjectMap) {

@@ -108,7 +108,7 @@ class RunningWithACurve : public ::testing::Test {
     pairs_ = find_pairs(folder_.path(), Layout::kMiddlebury).pairs;
     settings_.opencv_methods = {OpenCvMethod::kBm};
   }
-  testing::TempFolder folder_;
+  testing::TemporaryFolder folder_;
   std::vector<StereoPair> pairs_;
   RunSettings settings_;
 };

@@ -13,7 +13,7 @@ namespace mtstereo::eval {
 namespace {
 
 using testing::float_bytes;
-using testing::TempFolder;
+using testing::TemporaryFolder;
 using testing::write_file;
 
 // Two columns and three rows; the file starts with the last row.
@@ -35,7 +35,7 @@ class Pfm : public ::testing::Test {
     write_file(file_, bytes);
     return read_pfm(file_);
   }
-  TempFolder folder_;
+  TemporaryFolder folder_;
   std::filesystem::path file_ = folder_ / "map.pfm";
 };
 

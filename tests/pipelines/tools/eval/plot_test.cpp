@@ -90,7 +90,7 @@ class Plot : public ::testing::Test {
     EXPECT_FALSE(fs::exists(image())) << text;
   }
 
-  testing::TempFolder folder_;
+  testing::TemporaryFolder folder_;
 };
 
 TEST_F(Plot, DrawsPointsAtTheirCoordinates) {

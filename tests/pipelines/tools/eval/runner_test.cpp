@@ -16,7 +16,7 @@ namespace mtstereo::eval {
 namespace {
 
 using testing::make_pair;
-using testing::TempFolder;
+using testing::TemporaryFolder;
 using testing::write_pair_folder;
 
 StereoPair pair_with_range(std::optional<int> range) {
@@ -80,7 +80,7 @@ class Running : public ::testing::Test {
     write_pair_folder(folder_ / "B", make_pair(200, 100, 5), 16);
     pairs_ = find_pairs(folder_.path(), Layout::kMiddlebury).pairs;
   }
-  TempFolder folder_;
+  TemporaryFolder folder_;
   std::vector<StereoPair> pairs_;
 };
 

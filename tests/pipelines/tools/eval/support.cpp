@@ -23,18 +23,6 @@ extern char** environ;
 namespace mtstereo::eval::testing {
 namespace fs = std::filesystem;
 
-TempFolder::TempFolder() {
-  std::string name = (fs::temp_directory_path() / "mtstereo-eval-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error("cannot create the temporary folder " + name);
-  path_ = name;
-}
-
-TempFolder::~TempFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 void write_file(const fs::path& file, const std::string& bytes) {
   fs::create_directories(file.parent_path());
   std::ofstream stream(file, std::ios::binary);
@@ -140,7 +128,7 @@ Outcome run_plot(const std::vector<std::string>& arguments,
 
 Outcome run_program(const std::string& program, const std::vector<std::string>& arguments,
                     const std::vector<std::string>& environment) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string out = folder / "out", err = folder / "err";
 
   std::vector<std::string> words{program};

@@ -8,22 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "support/temporary_folder.hpp"
+
 namespace mtstereo::eval::testing {
 
-/// A temporary folder, removed with its contents by the destructor.
-class TempFolder {
- public:
-  TempFolder();
-  ~TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
+using test::TemporaryFolder;
 
 /// Writes text or bytes and creates the folders of the path.
 void write_file(const std::filesystem::path& file, const std::string& bytes);
@@ -55,7 +44,7 @@ class TwoPairs : public ::testing::Test {
     write_pair_folder(folder_ / "set/B", make_pair(200, 100, 5), 16);
   }
   std::string set() const { return folder_ / "set"; }
-  TempFolder folder_;
+  TemporaryFolder folder_;
 };
 
 /// Writes CV_32FC1 ground truth as KITTI's 16-bit PNG; values that are not finite become 0.

@@ -9,7 +9,7 @@ namespace mtstereo::eval {
 namespace {
 
 using testing::float_bytes;
-using testing::TempFolder;
+using testing::TemporaryFolder;
 using testing::write_file;
 using testing::write_image;
 
@@ -41,7 +41,7 @@ class TrimBot : public ::testing::Test {
     EXPECT_EQ(layout_name(detect_layout(folder_.path())), layout_name(layout));
     return find_pairs(folder_.path(), layout);
   }
-  TempFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(TrimBot, SyntheticGardenPairsTheFramesOfTheTwoCameras) {
