@@ -65,44 +65,47 @@ HWY_INLINE void for_each_vector(CostWindow window, const Vector& vector) {
   }
 }
 
-/// Counts the differing bits of the columns x0 .. x1 - 1 of one of the window's first rows.
-void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
+/// Counts the differing bits of the columns x0 .. x1 - 1 of the entering rows.
+void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1,
+                   std::uint8_t* const (&rows)[kPairedRows]) {
   const Narrow d8;
-  for (int x = x0; x < x1; ++x) {
-    std::uint8_t* counts = window.rows[0] + static_cast<std::ptrdiff_t>(x) * window.lanes;
-    std::uint8_t* sums = window.sums_of(x);
-    const Difference<Narrow> in(window.in, window.width, x);
-    for_each_vector<0, Narrow>(lanes, [&](int d) HWY_ATTR {
-      const auto count = in.count(d);
-      hn::StoreU(count, d8, counts + d);
-      if (window.running()) hn::StoreU(hn::Add(hn::LoadU(d8, sums + d), count), d8, sums + d);
-    });
+  for (int row = 0; row < kPairedRows; ++row) {
+    for (int x = x0; x < x1; ++x) {
+      std::uint8_t* counts = rows[row] + static_cast<std::ptrdiff_t>(x) * window.lanes;
+      const Difference<Narrow> in(window.in[row], window.width, x);
+      for_each_vector<0, Narrow>(lanes,
+                                 [&](int d) HWY_ATTR { hn::StoreU(in.count(d), d8, counts + d); });
+    }
   }
 }
 
-/// Counts the bits of the row that enters the window, and sums the counts of all its rows.
-template <int kSize, bool kRunning, class D8>
+/// Counts the bits of the entering rows, and sums the counts of the rows of both windows.
+template <int kSize, class D8>
 void sum_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
   with_vectors<D8>(lanes, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
     for (int x = x0; x < x1; ++x) {
       const D8 d8;
       const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
       std::uint8_t* sums = window.sums_of(x);
-      const Difference<D8> in(window.in, window.width, x);
+      const Difference<D8> upper(window.in[0], window.width, x);
+      const Difference<D8> lower(window.in[1], window.width, x);
       for_each_vector<kVectors, D8>(lanes, [&](int d) HWY_ATTR {
-        std::uint8_t* counts = window.rows[0] + first + d;
-        const auto count = in.count(d);
-        auto sum = count;
-        if constexpr (kRunning) {
-          // The entering row takes the place of the leaving one.
-          sum = hn::Add(hn::Sub(hn::LoadU(d8, sums + d), hn::LoadU(d8, counts)), count);
+        const auto upper_count = upper.count(d);
+        const auto lower_count = lower.count(d);
+        if constexpr (kSize == 1) {
+          hn::StoreU(upper_count, d8, sums + d);
+          hn::StoreU(lower_count, d8, sums + window.lanes + d);
         } else {
-          for (int i = 1; i < kSize; ++i) {
-            sum = hn::Add(sum, hn::LoadU(d8, window.rows[i] + first + d));
+          auto shared = upper_count;
+          for (int i = 1; i < kSize - 1; ++i) {
+            shared = hn::Add(shared, hn::LoadU(d8, window.rows[i] + first + d));
           }
+          const auto leaving = hn::LoadU(d8, window.rows[0] + first + d);
+          hn::StoreU(hn::Add(shared, leaving), d8, sums + d);
+          hn::StoreU(hn::Add(shared, lower_count), d8, sums + window.lanes + d);
+          hn::StoreU(upper_count, d8, window.rows[kSize - 1] + first + d);
+          hn::StoreU(lower_count, d8, window.rows[kSize] + first + d);
         }
-        hn::StoreU(count, d8, counts);
-        hn::StoreU(sum, d8, sums + d);
       });
     }
   });
@@ -128,42 +131,43 @@ HWY_INLINE void for_counted_lanes(const CensusWindow& window, int reach, int x0,
   }
 }
 
-/// Counts one of the window's first rows.
-void add_row(const CensusWindow& of_window, int reach) {
+/// Counts two of the window's first rows.
+void add_rows(const CensusWindow& of_window, int reach) {
   const CensusWindow window = of_window;
+  std::uint8_t* const rows[] = {window.rows[2 * reach], window.rows[2 * reach + 1]};
   for_counted_lanes(window, reach, 0, window.width, [&](CostWindow lanes, int x0, int x1) {
-    count_columns(window, lanes, x0, x1);
+    count_columns(window, lanes, x0, x1, rows);
   });
 }
 
-/// The binomially weighted mean of 1, 3 or 5 columns' sums at disparity d.
+/// The binomially weighted mean of 1, 3 or 5 columns' sums from `at` on.
 template <int kSize, class D8>
-HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const ColumnSums& sums, int d) {
-  const auto middle = hn::LoadU(d8, sums.of[2] + d);
+HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const ColumnSums& sums, int at) {
+  const auto middle = hn::LoadU(d8, sums.of[2] + at);
   if (kSize == 1) return middle;
-  const auto near = hn::AverageRound(hn::LoadU(d8, sums.of[1] + d), hn::LoadU(d8, sums.of[3] + d));
+  const auto near =
+      hn::AverageRound(hn::LoadU(d8, sums.of[1] + at), hn::LoadU(d8, sums.of[3] + at));
   if (kSize == 3) return hn::AverageRound(near, middle);
   // Weights 1 4 6 4 1, in sixteenths.
-  const auto far = hn::AverageRound(hn::LoadU(d8, sums.of[0] + d), hn::LoadU(d8, sums.of[4] + d));
+  const auto far = hn::AverageRound(hn::LoadU(d8, sums.of[0] + at), hn::LoadU(d8, sums.of[4] + at));
   const auto rest = hn::AverageRound(middle, hn::AverageRound(far, middle));
   return hn::AverageRound(near, rest);
 }
 
-/// Writes the costs of column x in its window, where the disparities low .. high are expected.
+/// Writes the costs of both rows' pixels in one column, where the disparities low .. high are
+/// expected.
 template <int kSize, int kVectors, class D8>
-HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int disparities, int x,
-                            int low, int high, const CensusTables& tables, std::uint8_t* costs) {
+HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int disparities,
+                            const ColumnSums& sums, int low, int high, const CensusTables& tables,
+                            std::uint8_t* upper, std::uint8_t* lower) {
   const D8 d8;
-  const int last = window.width - 1;
   const int lanes = window.lanes;
-  const ColumnSums sums = {{window.sums_of(std::max(x - 2, 0)), window.sums_of(std::max(x - 1, 0)),
-                            window.sums_of(x), window.sums_of(std::min(x + 1, last)),
-                            window.sums_of(std::min(x + 2, last))}};
-  std::uint8_t* out = costs + static_cast<std::ptrdiff_t>(x) * lanes;
-  const auto mean = [&](int d) HWY_ATTR { return mean_along_row<kSize>(d8, sums, d); };
+  const auto mean = [&](int at) HWY_ATTR { return mean_along_row<kSize>(d8, sums, at); };
   if (low > high || (low == 0 && high == disparities - 1)) {
     for_each_vector<kVectors, D8>(matched, [&](int d) HWY_ATTR {
-      hn::StoreU(hn::Max(mean(d), hn::LoadU(d8, tables.never + d)), d8, out + d);
+      const auto never = hn::LoadU(d8, tables.never + d);
+      hn::StoreU(hn::Max(mean(d), never), d8, upper + d);
+      hn::StoreU(hn::Max(mean(lanes + d), never), d8, lower + d);
     });
     return;
   }
@@ -173,49 +177,54 @@ HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int 
   const std::uint8_t* above = tables.above + lanes - 1 - high;
   for_each_vector<kVectors, D8>(matched, [&](int d) HWY_ATTR {
     const auto penalty = hn::Max(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d));
-    const auto cost = hn::SaturatedAdd(mean(d), penalty);
-    hn::StoreU(hn::Max(cost, hn::LoadU(d8, tables.never + d)), d8, out + d);
+    const auto never = hn::LoadU(d8, tables.never + d);
+    hn::StoreU(hn::Max(hn::SaturatedAdd(mean(d), penalty), never), d8, upper + d);
+    hn::StoreU(hn::Max(hn::SaturatedAdd(mean(lanes + d), penalty), never), d8, lower + d);
   });
 }
 
-/// Counts the row that enters the window and writes the costs, tile by tile, while the sums of the
+/// Counts the rows that enter the windows and writes the costs, tile by tile, while the sums of the
 /// adjacent columns are in the cache.
 template <int kSize, class D8>
-void write_row_of(const CensusWindow& of_window, int disparities, const std::uint16_t* low,
-                  const std::uint16_t* high, const CensusTables& of_tables, std::uint8_t* costs) {
+void write_rows_of(const CensusWindow& of_window, int disparities, const std::uint16_t* low,
+                   const std::uint16_t* high, const CensusTables& of_tables, std::uint8_t* costs) {
   // Copies: the compiler knows that no store of bytes changes them.
   const CensusWindow window = of_window;
   const CensusTables tables = of_tables;
   constexpr int kReach = kSize / 2;
+  const int last = window.width - 1;
+  const std::ptrdiff_t lanes = window.lanes;
+  const auto sums_at = [&](int x) { return window.sums_of(std::clamp(x, 0, last)); };
   int summed = 0;
   for (int x0 = 0; x0 < window.width; x0 += kWindowTile) {
     const int x1 = std::min(x0 + kWindowTile, window.width);
     const int needed = std::min(x1 + kReach, window.width);
-    for_counted_lanes(window, kReach, summed, needed, [&](CostWindow lanes, int begin, int end) {
-      if (window.running()) {
-        sum_columns<kSize, true, D8>(window, lanes, begin, end);
-      } else {
-        sum_columns<kSize, false, D8>(window, lanes, begin, end);
-      }
+    for_counted_lanes(window, kReach, summed, needed, [&](CostWindow counted, int begin, int end) {
+      sum_columns<kSize, D8>(window, counted, begin, end);
     });
     summed = needed;
     const CostWindow matched = window_at(window.matched, window.lanes, x0);
     with_vectors<D8>(matched, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-      for (int x = x0; x < x1; ++x) {
-        write_costs<kSize, kVectors, D8>(window, matched, disparities, x, low[x], high[x], tables,
-                                         costs);
+      std::uint8_t* upper = costs + x0 * lanes;
+      std::uint8_t* lower = upper + window.width * lanes;
+      ColumnSums sums = {{sums_at(x0 - 2), sums_at(x0 - 1), sums_at(x0), sums_at(x0 + 1), nullptr}};
+      for (int x = x0; x < x1; ++x, upper += lanes, lower += lanes) {
+        sums.of[4] = sums_at(x + 2);
+        write_costs<kSize, kVectors, D8>(window, matched, disparities, sums, low[x], high[x],
+                                         tables, upper, lower);
+        for (int i = 0; i < 4; ++i) sums.of[i] = sums.of[i + 1];
       }
     });
   }
 }
 
-void write_row(const CensusWindow& window, const CensusCostOptions& options,
-               const std::uint16_t* low, const std::uint16_t* high, const CensusTables& tables,
-               std::uint8_t* costs) {
+void write_rows(const CensusWindow& window, const CensusCostOptions& options,
+                const std::uint16_t* low, const std::uint16_t* high, const CensusTables& tables,
+                std::uint8_t* costs) {
   const auto by_size = [&]<class D8>(D8) {
-    return options.kernel_size == 5   ? write_row_of<5, D8>
-           : options.kernel_size == 3 ? write_row_of<3, D8>
-                                      : write_row_of<1, D8>;
+    return options.kernel_size == 5   ? write_rows_of<5, D8>
+           : options.kernel_size == 3 ? write_rows_of<3, D8>
+                                      : write_rows_of<1, D8>;
   };
   const auto write = is_wide(window) ? by_size(Wide()) : by_size(Narrow());
   write(window, options.disparities, low, high, tables, costs);
@@ -227,55 +236,68 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mtstereo {
 
-HWY_EXPORT(add_row);
-HWY_EXPORT(write_row);
+HWY_EXPORT(add_rows);
+HWY_EXPORT(write_rows);
 
 namespace {
 
 int wrapped(int i, int count) { return (i % count + count) % count; }
 
-/// The planes of the row that enters the window.
-CensusRow planes_of(int width, int lanes, CensusCostScratch& scratch) {
-  const int right_width = width + lanes;
-  std::uint8_t* bytes = scratch.planes.data();
+/// Rows of which two successive windows consist.
+int window_rows(const CensusCostOptions& options) { return options.kernel_size + 1; }
+
+/// Bytes of the planes of a row of both views.
+std::size_t plane_bytes(int width, int lanes) {
+  return kCensusBytes * (2 * static_cast<std::size_t>(width) + lanes);
+}
+
+/// Splits row y of both views into planes. Rows outside of the image repeat the border's row.
+CensusRow split_row(const CensusImage& left, const CensusImage& right, int y, int lanes,
+                    std::uint8_t* planes) {
+  const int width = left.bits.width();
+  const int inside = std::clamp(y, 0, left.bits.height() - 1);
   CensusRow row{};
-  for (std::uint8_t*& plane : row.left) plane = std::exchange(bytes, bytes + width);
-  for (std::uint8_t*& plane : row.right) plane = std::exchange(bytes, bytes + right_width);
+  for (std::uint8_t*& plane : row.left) plane = std::exchange(planes, planes + width);
+  for (std::uint8_t*& plane : row.right) plane = std::exchange(planes, planes + width + lanes);
+  split_census_row(left.bits.row(inside), width, RowOrder::kForward, 0, row.left);
+  split_census_row(right.bits.row(inside), width, RowOrder::kMirrored, lanes, row.right);
   return row;
 }
 
-/// Prepares row y to enter the window. Rows outside of the image repeat the border's row.
-CensusWindow window_with(const CensusImage& left, const CensusImage& right,
-                         const SearchWindows& windows, const CensusCostOptions& options, int y,
-                         CensusCostScratch& scratch) {
+/// Prepares the windows of the rows y and y + 1, which the last two of their rows enter.
+CensusWindow windows_of(const CensusImage& left, const CensusImage& right,
+                        const SearchWindows& windows, const CensusCostOptions& options, int y,
+                        CensusCostScratch& scratch) {
   const int width = left.bits.width();
   const int lanes = cost_lanes(options.disparities);
-  const int inside = std::clamp(y, 0, left.bits.height() - 1);
-  const CensusRow in = planes_of(width, lanes, scratch);
-  split_census_row(left.bits.row(inside), width, RowOrder::kForward, 0, in.left);
-  split_census_row(right.bits.row(inside), width, RowOrder::kMirrored, lanes, in.right);
-  CensusWindow window = {width,
-                         lanes,
-                         in,
-                         {},
-                         windows.row(inside),
-                         windows.around(y, options.kernel_size / 2),
-                         scratch.sums.data()};
-  for (int i = 0; i < options.kernel_size; ++i) {
-    const std::ptrdiff_t row = wrapped(y - i, options.kernel_size);
-    window.rows[i] = scratch.counts.data() + row * width * lanes;
+  const int reach = options.kernel_size / 2, rows = window_rows(options);
+  const int entering = y + reach;
+  CensusWindow window = {};
+  window.width = width;
+  window.lanes = lanes;
+  std::uint8_t* planes = scratch.planes.data();
+  for (CensusRow& row : window.in) {
+    row = split_row(left, right, entering + static_cast<int>(&row - window.in), lanes, planes);
+    planes += plane_bytes(width, lanes);
   }
+  for (int i = 0; i < rows; ++i) {
+    const std::ptrdiff_t slot = wrapped(y - reach + i, rows);
+    window.rows[i] = scratch.counts.data() + slot * width * lanes;
+  }
+  window.matched = windows.row(std::max(y, 0));
+  window.counted = windows.covering(entering - reach, entering + 1 + reach);
+  window.sums = scratch.sums.data();
   return window;
 }
 
 }  // namespace
 
 void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
-  const std::size_t lanes = cost_lanes(options.disparities);
-  planes.resize(kCensusBytes * (2 * width + lanes));
-  counts.resize(width * lanes * options.kernel_size);
-  sums.resize(std::max(width, kSummedColumns) * lanes);
-  tables.resize(5 * lanes);
+  const int lanes = cost_lanes(options.disparities);
+  planes.resize(kPairedRows * plane_bytes(width, lanes));
+  counts.resize(static_cast<std::size_t>(width) * lanes * window_rows(options));
+  sums.resize(static_cast<std::size_t>(kSummedColumns) * kPairedRows * lanes);
+  tables.resize(5 * static_cast<std::size_t>(lanes));
   const int penalty = std::min(options.range_penalty * cost_scale(options), 255);
   std::uint8_t* below = tables.data();
   std::uint8_t* above = below + 2 * lanes;
@@ -292,25 +314,21 @@ void start_census_costs(const CensusImage& left, const CensusImage& right,
                         const SearchWindows& windows, const CensusCostOptions& options, int y,
                         CensusCostScratch& scratch) {
   const int reach = options.kernel_size / 2;
-  std::memset(scratch.counts.data(), 0, scratch.counts.size());
-  std::memset(scratch.sums.data(), 0, scratch.sums.size());
-  for (int i = -reach; i < reach; ++i) {
-    HWY_DYNAMIC_DISPATCH(add_row)
-    (window_with(left, right, windows, options, y + i, scratch), reach);
+  for (int before = reach; before > 0; --before) {
+    HWY_DYNAMIC_DISPATCH(add_rows)
+    (windows_of(left, right, windows, options, y - kPairedRows * before, scratch), reach);
   }
 }
 
-void census_cost_row(const CensusImage& left, const CensusImage& right,
-                     const SearchWindows& windows, const CensusCostOptions& options, int y,
-                     const std::uint16_t* low, const std::uint16_t* high,
-                     CensusCostScratch& scratch, std::uint8_t* costs) {
+void census_cost_rows(const CensusImage& left, const CensusImage& right,
+                      const SearchWindows& windows, const CensusCostOptions& options, int y,
+                      const std::uint16_t* low, const std::uint16_t* high,
+                      CensusCostScratch& scratch, std::uint8_t* costs) {
   const std::size_t lanes = cost_lanes(options.disparities);
   const std::uint8_t* tables = scratch.tables.data();
-  const int entering = y + options.kernel_size / 2;
-  CensusWindow window = window_with(left, right, windows, options, entering, scratch);
-  window.matched = windows.row(y);
-  HWY_DYNAMIC_DISPATCH(write_row)
-  (window, options, low, high, {tables, tables + 2 * lanes, tables + 4 * lanes}, costs);
+  HWY_DYNAMIC_DISPATCH(write_rows)
+  (windows_of(left, right, windows, options, y, scratch), options, low, high,
+   {tables, tables + 2 * lanes, tables + 4 * lanes}, costs);
 }
 
 }  // namespace mtstereo

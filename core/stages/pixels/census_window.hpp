@@ -18,23 +18,29 @@ struct CensusRow {
   std::uint8_t* right[kCensusBytes];
 };
 
-/// With windows, columns whose sums are stored: a tile and its surroundings, a power of 2.
+/// Columns whose sums are stored: a tile and its surroundings, a power of 2.
 inline constexpr int kSummedColumns = 2 * kWindowTile;
 
-/// The rows of the window.
+/// Rows whose costs are written at once, and which enter the window.
+inline constexpr int kPairedRows = 2;
+
+/// Largest window_rows().
+inline constexpr int kMostWindowRows = 5 + 1;
+
+/// The windows of two successive rows.
 struct CensusWindow {
   int width;
-  int lanes;                  ///< cost_lanes()
-  CensusRow in;               ///< the row that enters the window
-  std::uint8_t* rows[5];      ///< differing bits of the entering row and those before it
-  const CostWindow* matched;  ///< the windows of the row whose costs are written
-  const CostWindow* counted;  ///< windows that cover all rows whose costs need the entering row
-  std::uint8_t* sums;         ///< over the window's rows, see CensusCostScratch
+  int lanes;                            ///< cost_lanes()
+  CensusRow in[kPairedRows];            ///< the rows that enter the window
+  std::uint8_t* rows[kMostWindowRows];  ///< differing bits of all rows from the first on; the last
+                                        ///< two entered last
+  const CostWindow* matched;            ///< the windows of the rows whose costs are written
+  const CostWindow* counted;  ///< windows that cover all rows that the entering ones concern
+  std::uint8_t* sums;         ///< [column][row of the pair][disparity]
 
-  /// Without windows the sums are updated from row to row.
-  bool running() const { return matched == nullptr; }
+  /// The sums of column x, those of the pair's first row before those of the second.
   std::uint8_t* sums_of(int x) const {
-    return sums + static_cast<std::ptrdiff_t>(running() ? x : x & (kSummedColumns - 1)) * lanes;
+    return sums + static_cast<std::ptrdiff_t>(x & (kSummedColumns - 1)) * kPairedRows * lanes;
   }
 };
 

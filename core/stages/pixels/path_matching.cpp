@@ -46,16 +46,15 @@ class ChunkMatching {
     start_census_costs(input_.left, input_.right, input_.windows, options_.cost, chunk_.first,
                        scratch_.cost);
     if (from_below()) {
-      for (int y = chunk_.first; y < chunk_.last; ++y) find_costs(y);
+      for (int y = chunk_.first; y < chunk_.last; y += 2) find_costs(y);
       walk_up();
     }
     if (votes != nullptr) clear_votes(chunk_.y0, chunk_.y1, *votes);
     std::uint8_t* before = nullptr;
     // Chunks and their margins begin at even rows, so that a pair has one row of windows.
     for (int y = chunk_.first; y < chunk_.y1; y += 2) {
-      for (int row = y; row < std::min(y + 2, chunk_.y1); ++row) {
-        if (!from_below()) find_costs(row);
-        if (!from_above()) continue;
+      if (!from_below()) find_costs(y);
+      for (int row = y; from_above() && row < std::min(y + 2, chunk_.y1); ++row) {
         step(row, row - 1, before, above(row));
         before = above(row);
       }
@@ -84,10 +83,11 @@ class ChunkMatching {
                   scratch_.high.data());
   }
 
+  /// The costs of the rows y and y + 1.
   void find_costs(int y) {
     expect(y);
-    census_cost_row(input_.left, input_.right, input_.windows, options_.cost, y,
-                    scratch_.low.data(), scratch_.high.data(), scratch_.cost, costs(y));
+    census_cost_rows(input_.left, input_.right, input_.windows, options_.cost, y,
+                     scratch_.low.data(), scratch_.high.data(), scratch_.cost, costs(y));
   }
 
   /// Outside of the chunk only the state is kept.
@@ -177,7 +177,8 @@ void PathMatchingScratch::resize(int width, int height, const PathMatchingOption
   pair.resize(width, disparities);
   for (Candidates& row : candidates) row.resize(width, disparities);
   const bool from_below = options.column_paths == ColumnPaths::kBoth;
-  costs.resize(cells * (from_below ? std::min(height, kPathRows + 2 * kPathMargin) : 2));
+  const int rows = std::min(height + 1, kPathRows + 2 * kPathMargin);  // whole pairs
+  costs.resize(cells * (from_below ? rows : 2));
   below.resize(from_below ? cells * (std::min(height, kPathRows) + 1) : 0);
   above.resize(options.column_paths == ColumnPaths::kNone ? 0 : 2 * cells);
   least.resize(width);

@@ -159,12 +159,11 @@ const CostWindow* SearchWindows::row(int y) const {
   return own_.data() + static_cast<std::ptrdiff_t>(y / kWindowTile) * columns_;
 }
 
-const CostWindow* SearchWindows::around(int y, int reach) const {
+const CostWindow* SearchWindows::covering(int first, int last) const {
   if (columns_ == 0) return nullptr;
-  const int first = std::clamp(y - reach, 0, height_ - 1) / kWindowTile;
-  const int last = std::clamp(y + reach, 0, height_ - 1) / kWindowTile;
-  const Buffer<CostWindow>& windows = first == last ? own_ : joined_;
-  return windows.data() + static_cast<std::ptrdiff_t>(first) * columns_;
+  const auto tile_row = [&](int y) { return std::clamp(y, 0, height_ - 1) / kWindowTile; };
+  const Buffer<CostWindow>& windows = tile_row(first) == tile_row(last) ? own_ : joined_;
+  return windows.data() + static_cast<std::ptrdiff_t>(tile_row(first)) * columns_;
 }
 
 void choose_windows(const WindowVotes& votes, SearchWindows& windows) {

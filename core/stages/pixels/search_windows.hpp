@@ -70,8 +70,9 @@ class SearchWindows {
   /// The windows of the tiles of row y; nullptr = all lanes.
   const CostWindow* row(int y) const;
 
-  /// Windows that contain the windows of the rows y - reach .. y + reach, and perhaps more.
-  const CostWindow* around(int y, int reach) const;
+  /// Windows that contain the windows of the rows first .. last, at most kWindowTile, and perhaps
+  /// more.
+  const CostWindow* covering(int first, int last) const;
 
  private:
   friend void choose_windows(const WindowVotes& votes, SearchWindows& windows);

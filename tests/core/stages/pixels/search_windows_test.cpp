@@ -71,20 +71,20 @@ TEST(SearchWindows, ConsistOfWholeVectorsInsideOfTheLanes) {
   }
 }
 
-TEST(SearchWindows, AroundRowsContainTheirWindows) {
+TEST(SearchWindows, CoverTheWindowsOfSeveralRows) {
   Random random(3);
   for (int i = 0; i < 50; ++i) {
     const int width = random.between(1, 100), height = random.between(1, 100);
     const SearchWindows windows = test::random_windows(width, height, 256, random);
     for (int y = -2; y < height + 2; ++y) {
-      for (const int reach : {0, 1, 2}) {
-        const CostWindow* around = windows.around(y, reach);
-        for (int other = y - reach; other <= y + reach; ++other) {
+      for (const int rows : {1, 2, 6, kWindowTile}) {
+        const CostWindow* covering = windows.covering(y, y + rows - 1);
+        for (int other = y; other < y + rows; ++other) {
           const CostWindow* row = windows.row(std::clamp(other, 0, height - 1));
           for (int tile = 0; tile < (width + 15) / 16; ++tile) {
-            EXPECT_LE(around[tile].begin, row[tile].begin);
-            EXPECT_GE(around[tile].end, row[tile].end);
-            EXPECT_EQ(0, (around[tile].end - around[tile].begin) % 32);
+            EXPECT_LE(covering[tile].begin, row[tile].begin);
+            EXPECT_GE(covering[tile].end, row[tile].end);
+            EXPECT_EQ(0, (covering[tile].end - covering[tile].begin) % 32);
           }
         }
       }
@@ -95,7 +95,7 @@ TEST(SearchWindows, AroundRowsContainTheirWindows) {
 TEST(SearchWindows, AreAllDisparitiesWithoutVotes) {
   const SearchWindows none;
   EXPECT_EQ(nullptr, none.row(5));
-  EXPECT_EQ(nullptr, none.around(5, 2));
+  EXPECT_EQ(nullptr, none.covering(3, 8));
   EXPECT_EQ((CostWindow{0, 96}), window_at(none.row(5), 96, 70));
   const DisparityPlane unknown(20, 20);
   const SearchWindows windows = chosen(unknown, unknown, 40, 40, 96);
