@@ -19,14 +19,16 @@ void Maps::resize(const Settings& settings, const FrameSize& size) {
   support.resize(width, height);
   if (settings.thin_objects) {
     thin.resize(width, height);
-    columns.resize(height, width);
     unfiltered.resize(width, height);
   }
   if (settings.smoothing_radius > 0) smoothed.resize(width, height);
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
     worker.support.resize(width);
-    if (settings.thin_objects) worker.thin.resize(width, height);
+    if (settings.thin_objects) {
+      worker.thin.resize(width, height);
+      worker.columns.resize(height, Bands::kColumns);
+    }
     worker.smoothing.resize(width, settings.smoothing_radius);
   }
 }
@@ -77,7 +79,7 @@ void find_thin_structures(const StepContext& step, const Views& views, Maps& map
   maps.thin.start(Lines::kRows, width, height);
   step.bands.rows([&](int y0, int y1, int worker) {
     copy_map(maps.disparity, y0, y1, maps.unfiltered);
-    find_thin_runs(maps.disparity, y0, y1, maps.scratch[worker].thin, maps.thin);
+    find_thin_runs(maps.disparity, y0, y0, y1, maps.scratch[worker].thin, maps.thin);
   });
   if (views.noise_level > kMostThinNoise) return;
   follow_chains(
@@ -85,8 +87,9 @@ void find_thin_structures(const StepContext& step, const Views& views, Maps& map
 
   maps.thin.start(Lines::kColumns, width, height);
   step.bands.columns(width, [&](int x0, int x1, int worker) {
-    transpose(maps.disparity, x0, x1, maps.columns);
-    find_thin_runs(maps.columns, x0, x1, maps.scratch[worker].thin, maps.thin);
+    Maps::Scratch& scratch = maps.scratch[worker];
+    transpose(maps.disparity, x0, x1, scratch.columns);
+    find_thin_runs(scratch.columns, 0, x0, x1, scratch.thin, maps.thin);
   });
   follow_chains(
       views, [&](auto&& body) { step.bands.columns(width, body); }, maps);

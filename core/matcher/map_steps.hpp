@@ -27,17 +27,17 @@ struct Maps {
   Image<std::int32_t> disparity;
   Image<std::uint8_t> ratio;       ///< peak ratios
   Image<std::uint8_t> confidence;  ///< 1 .. 255, 0 where there is no disparity
-  SpeckleRuns speckles;
-  Image<std::uint8_t> area;  ///< weights of the areas' sizes in the confidence
+  SpeckleRuns speckles;            ///< of this map, then of the one that the rejection leaves
+  Image<std::uint8_t> area;        ///< weights of the areas' sizes in the confidence
   SupportMap support;
   ThinRuns thin;
-  Image<std::int32_t> columns;   ///< the map with its columns as rows
   UnfilteredMap unfiltered;      ///< the map before the filters
   Image<std::int32_t> smoothed;  ///< smoothed along the rows only
 
   struct Scratch {
     SupportScratch support;
     ThinScratch thin;
+    Image<std::int32_t> columns;  ///< a block of the map's columns as rows
     SmoothingScratch smoothing;
   };
   std::vector<Scratch> scratch;  ///< one for each thread

@@ -32,7 +32,6 @@ void ResultBuffers::resize(const Settings& settings, const FrameSize& size) {
     worker.edges.resize(aligned.width);
     worker.columns.resize(Bands::kColumns);
   }
-  if (settings.keeps_likely_only()) islands.resize(width, height);
   if (settings.mode != Mode::kFull) return;
   areas.resize(width, height);
   planes.resize(areas.first.size());
@@ -169,8 +168,8 @@ void hold_known(const StepContext& step, const ResultMaps& result, LastPair& las
   });
 }
 
-void reject_unlikely(const StepContext& step, const LastPair& last, ResultMaps& result,
-                     ResultBuffers& buffers) {
+void reject_unlikely(const StepContext& step, const LastPair& last, Maps& maps,
+                     ResultMaps& result) {
   const Settings& settings = step.settings;
   const bool each = settings.holds() && last.motion.has_value();
   step.bands.rows([&](int y0, int y1, int) {
@@ -180,11 +179,11 @@ void reject_unlikely(const StepContext& step, const LastPair& last, ResultMaps& 
       threshold_confidence(settings.least_reliability(), y0, y1, *result.disparity,
                            *result.confidence);
     }
-    find_runs(*result.disparity, kDisparityOne, y0, y1, buffers.islands);
+    find_runs(*result.disparity, kDisparityOne, y0, y1, maps.speckles);
   });
-  join_bands(*result.disparity, kDisparityOne, Bands::kRows, buffers.islands);
+  join_bands(*result.disparity, kDisparityOne, Bands::kRows, maps.speckles);
   step.bands.rows([&](int y0, int y1, int) {
-    remove_small(buffers.islands, settings.speckle_size, y0, y1, *result.disparity, nullptr);
+    remove_small(maps.speckles, settings.speckle_size, y0, y1, *result.disparity, nullptr);
     clear_unknown(*result.disparity, y0, y1, *result.confidence);
   });
 }

@@ -24,7 +24,6 @@ namespace mtstereo {
 struct ResultBuffers {
   EdgeMap edges;
   Rating rating;
-  SpeckleRuns islands;  ///< of what the rejection leaves
   FlatAreas areas;
   Buffer<FlatPlane> planes;  ///< of the areas
 
@@ -97,8 +96,7 @@ void find_camera_motion(const StepContext& step, const Views& views, const Resul
 void hold_known(const StepContext& step, const ResultMaps& result, LastPair& last);
 
 /// Removes what is less reliable than asked for, and small islands that are left.
-void reject_unlikely(const StepContext& step, const LastPair& last, ResultMaps& result,
-                     ResultBuffers& buffers);
+void reject_unlikely(const StepContext& step, const LastPair& last, Maps& maps, ResultMaps& result);
 
 /// Fills small gaps that the rejection has left in a surface. What it fills is inferred, not
 /// matched.

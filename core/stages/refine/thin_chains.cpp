@@ -29,7 +29,8 @@ HWY_INLINE void transpose_four(const std::int32_t* const* rows, int x, std::int3
   hn::StoreU(hn::BitCast(d32, hn::InterleaveUpper(d64, ab2, cd2)), d32, out[3] + y);
 }
 
-/// Writes the columns x0 .. x1 - 1 of the map as rows, where their number is a multiple of four.
+/// Writes the columns x0 .. x1 - 1 of the map as the first rows, where their number is a multiple
+/// of four.
 /// May write three elements after the end of a row.
 void transpose_columns(const Image<std::int32_t>& map, int x0, int x1,
                        Image<std::int32_t>& columns) {
@@ -40,8 +41,8 @@ void transpose_columns(const Image<std::int32_t>& map, int x0, int x1,
     for (int i = 0; i < kBlock; ++i) rows[i] = map.row(y0 + i < last ? y0 + i : last);
     const int end = map.height() - y0 < kBlock ? map.height() - y0 : kBlock;
     for (int x = x0; x < x1; x += 4) {
-      std::int32_t* const out[4] = {columns.row(x) + y0, columns.row(x + 1) + y0,
-                                    columns.row(x + 2) + y0, columns.row(x + 3) + y0};
+      std::int32_t* out[4];
+      for (int i = 0; i < 4; ++i) out[i] = columns.row(x - x0 + i) + y0;
       for (int i = 0; i < end; i += 4) transpose_four(rows + i, x, out, i);
     }
   }
@@ -128,8 +129,9 @@ void rate_run(const ThinViews& views, Lines direction, int line, ThinRun& run) {
     };
     const int own = from(run.disparity);
     const int behind = std::min(from(before), from(after));
-    pixel = {static_cast<std::int16_t>(behind - own), static_cast<std::int16_t>(own),
-             static_cast<std::int16_t>(gray)};
+    static_assert(kMostThinDifference <= 127);
+    pixel = {static_cast<std::int8_t>(behind - own), static_cast<std::uint8_t>(own),
+             static_cast<std::uint8_t>(gray)};
     if (at != inside) continue;
     gain += pixel.gain;
     misfit += own;
@@ -199,6 +201,7 @@ void ThinRuns::resize(int width, int height) {
     return static_cast<std::size_t>(line_count) * (length / kThinSpacing + 1);
   };
   const std::size_t runs = std::max(most(width, height), most(height, width));
+  first.resize(std::max(width, height));
   count.resize(std::max(width, height));
   run.resize(runs);
   chain.resize(runs);
@@ -219,27 +222,30 @@ void transpose(const Image<std::int32_t>& map, int x0, int x1, Image<std::int32_
   const int fours = x0 + (x1 - x0) / 4 * 4;
   HWY_DYNAMIC_DISPATCH(transpose_columns)(map, x0, fours, columns);
   for (int x = fours; x < x1; ++x) {
-    for (int y = 0; y < map.height(); ++y) columns.row(x)[y] = map.row(y)[x];
+    for (int y = 0; y < map.height(); ++y) columns.row(x - x0)[y] = map.row(y)[x];
   }
 }
 
-void find_thin_runs(const Image<std::int32_t>& map, int line0, int line1, ThinScratch& scratch,
-                    ThinRuns& runs) {
+void find_thin_runs(const Image<std::int32_t>& map, int row, int line0, int line1,
+                    ThinScratch& scratch, ThinRuns& runs) {
   constexpr int kFarAway = 1 << 20;
   const std::uint16_t* begin = scratch.begin.data();
   const std::uint16_t* last = scratch.last.data();
+  std::int32_t first = line0 * runs.capacity;
   for (int line = line0; line < line1; ++line) {
-    const std::int32_t* row = map.row(line);
-    const int all = find_runs_of_row(row, map.width(), kDisparityOne, scratch.begin.data(),
+    const std::int32_t* pixels = map.row(row + line - line0);
+    const int all = find_runs_of_row(pixels, map.width(), kDisparityOne, scratch.begin.data(),
                                      scratch.last.data());
-    ThinRun* out = runs.run.data() + static_cast<std::ptrdiff_t>(line) * runs.capacity;
+    ThinRun* out = runs.run.data() + first;
     int count = 0;
     for (int i = 0; i < all && count < runs.capacity; ++i) {
       const int before = i == 0 ? -kFarAway : last[i - 1];
       const int after = i + 1 == all ? kFarAway : begin[i + 1];
-      count += is_thin(row, before, begin[i], last[i] + 1, after, out[count]);
+      count += is_thin(pixels, before, begin[i], last[i] + 1, after, out[count]);
     }
+    runs.first[line] = first;
     runs.count[line] = count;
+    first += count;
   }
 }
 
@@ -248,11 +254,11 @@ void link_thin_runs(ThinRuns& runs) {
   for (int line = 0; line < runs.lines; ++line) {
     int from[2] = {0, 0};
     for (int i = 0; i < runs.count[line]; ++i) {
-      const std::int32_t index = line * runs.capacity + i;
+      const std::int32_t index = runs.first[line] + i;
       ThinRun& run = all[index];
       run.previous = run.next = -1;
       for (int back = 1; back <= 2 && back <= line && run.previous < 0; ++back) {
-        const std::int32_t first = (line - back) * runs.capacity;
+        const std::int32_t first = runs.first[line - back];
         const int best = best_overlap(all + first, runs.count[line - back], run, from[back - 1]);
         if (best >= 0) run.previous = first + best;
       }
@@ -273,7 +279,7 @@ void rate_thin_runs(const ThinViews& views, int line0, int line1, ThinRuns& runs
   const int least = rules_of(runs).runs;
   for (int line = line0; line < line1; ++line) {
     for (int i = 0; i < runs.count[line]; ++i) {
-      ThinRun& run = runs.run[line * runs.capacity + i];
+      ThinRun& run = runs.run[runs.first[line] + i];
       if (runs.chain[run.chain].runs >= least) rate_run(views, runs.direction, line, run);
     }
   }
@@ -283,7 +289,7 @@ void accept_chains(ThinRuns& runs) {
   const ThinRules& rules = rules_of(runs);
   for (int line = 0; line < runs.lines; ++line) {
     for (int i = 0; i < runs.count[line]; ++i) {
-      const ThinRun& run = runs.run[line * runs.capacity + i];
+      const ThinRun& run = runs.run[runs.first[line] + i];
       ThinChain& chain = runs.chain[run.chain];
       if (chain.runs < rules.runs) continue;
       chain.gain += run.gain;
@@ -303,7 +309,7 @@ void accept_chains(ThinRuns& runs) {
 void mark_thin_pixels(const ThinRuns& runs, int line0, int line1, Image<std::int32_t>& copy) {
   for (int line = line0; line < line1; ++line) {
     for (int i = 0; i < runs.count[line]; ++i) {
-      const ThinRun& run = runs.run[line * runs.capacity + i];
+      const ThinRun& run = runs.run[runs.first[line] + i];
       if (runs.chain[run.chain].accepted == 0) continue;
       unsigned kept = kept_pixels(sums_around(runs.run.data(), run), run.end - run.begin);
       for (int at = run.begin; kept != 0; ++at, kept >>= 1) {

@@ -63,10 +63,10 @@ inline constexpr int kMostPixelMisfit = 4;  ///< its difference from the right v
 
 /// A pixel, in means along the chain or of one run.
 struct ThinPixel {
-  std::int16_t gain;  ///< evidence: by how much the right view is more like the pixel at the run's
-                      ///< disparity than at the background's
-  std::int16_t misfit;  ///< difference from the right view at the run's disparity
-  std::int16_t gray;    ///< gray value
+  std::int8_t gain;  ///< evidence: by how much the right view is more like the pixel at the run's
+                     ///< disparity than at the background's
+  std::uint8_t misfit;  ///< difference from the right view at the run's disparity
+  std::uint8_t gray;    ///< gray value
 };
 
 /// The pixels of a run, and one before and after it.
@@ -97,11 +97,13 @@ struct ThinChain {
   std::int32_t accepted;  ///< 0 or 1
 };
 
-/// The thin runs of all lines.
+/// The thin runs of all lines. Those of a band are packed, so that few memory pages are accessed if
+/// there are few runs.
 struct ThinRuns {
   Lines direction = Lines::kRows;
   int lines = 0;
-  int capacity = 0;            ///< of a line; its runs are those from line * capacity on
+  int capacity = 0;            ///< of a line; the runs of a band begin at its first line * capacity
+  Buffer<std::int32_t> first;  ///< per line: index of its first run
   Buffer<std::int32_t> count;  ///< per line: number of its runs
   Buffer<ThinRun> run;
   Buffer<ThinChain> chain;
@@ -124,12 +126,13 @@ struct ThinViews {
   GrayView left, right;
 };
 
-/// Writes the columns x0 .. x1 - 1 of the map as rows of `columns`.
+/// Writes the columns x0 .. x1 - 1 of the map as the first rows of `columns`.
 void transpose(const Image<std::int32_t>& map, int x0, int x1, Image<std::int32_t>& columns);
 
-/// Finds the thin runs of these lines of the map, or of its transpose.
-void find_thin_runs(const Image<std::int32_t>& map, int line0, int line1, ThinScratch& scratch,
-                    ThinRuns& runs);
+/// Finds the thin runs of these lines, which are the rows from `row` on of the map or of its
+/// transposed columns.
+void find_thin_runs(const Image<std::int32_t>& map, int row, int line0, int line1,
+                    ThinScratch& scratch, ThinRuns& runs);
 
 /// Links the runs to chains.
 void link_thin_runs(ThinRuns& runs);

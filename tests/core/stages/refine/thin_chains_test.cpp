@@ -76,7 +76,7 @@ void mark(const Scene& scene, const Image<std::int32_t>& lines, Lines direction,
     }
   };
   const ThinViews views = {scene.left.view(), scene.right.view()};
-  in_bands([&](int l0, int l1) { find_thin_runs(lines, l0, l1, scratch, runs); });
+  in_bands([&](int l0, int l1) { find_thin_runs(lines, l0, l0, l1, scratch, runs); });
   link_thin_runs(runs);
   in_bands([&](int l0, int l1) { rate_thin_runs(views, l0, l1, runs); });
   accept_chains(runs);
@@ -88,10 +88,8 @@ DisparityPlane marked(const Scene& scene, int band = kWhole) {
   const Image<std::int32_t> map = image_of(scene.map);
   Image<std::int32_t> found = image_of(scene.map);
   mark(scene, map, Lines::kRows, band, found);
-  Image<std::int32_t> columns = image_of(DisparityPlane(scene.map.height, scene.map.width, -7));
-  for (int x = 0; x < scene.map.width; x += 64) {
-    transpose(map, x, std::min(x + 64, scene.map.width), columns);
-  }
+  Image<std::int32_t> columns = image_of(DisparityPlane(scene.map.height, scene.map.width));
+  transpose(map, 0, scene.map.width, columns);
   mark(scene, columns, Lines::kColumns, band, found);
   return copy_of(found);
 }
@@ -197,7 +195,7 @@ TEST(ThinChains, TransposeAnyColumnsOnEveryInstructionSet) {
       transpose(image_of(map), x0, x1, columns);
       for (int x = 0; x < width; ++x) {
         for (int y = 0; y < height; ++y) {
-          EXPECT_EQ(x >= x0 && x < x1 ? map(x, y) : -7, columns.row(x)[y]) << width << " columns";
+          EXPECT_EQ(x < x1 - x0 ? map(x0 + x, y) : -7, columns.row(x)[y]) << width << " columns";
         }
       }
     }
