@@ -53,7 +53,7 @@ TEST_F(Layout, MapsPerCameraHaveTheNamesOfBoth) {
               "\nStereo_Parameters:\n  R: " + kR + "\n  T: " + kT + "\n");
 }
 
-TEST_F(Layout, UnknownNamesAreRecognisedByStructure) {
+TEST_F(Layout, UnknownNamesAreRecognizedByStructure) {
   expect_pair(lines({{"Camera_Matrix_0", kLeftK},
                      {"Dist_0", kLeftD},
                      {"Camera_Matrix_1", kRightK},

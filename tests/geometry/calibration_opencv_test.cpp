@@ -39,7 +39,7 @@ constexpr Names kOfStereoCalib = {"M1", "D1", "M2", "D2", "R", "T"};
 
 class FileStorage : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(FileStorage, SyntaxIsRecognisedFromTheContent) {
+TEST_P(FileStorage, SyntaxIsRecognizedFromTheContent) {
   const CalibrationFolder folder;
   // FileStorage takes the syntax from the name; the reader must not need it.
   const std::string written = folder.path(std::string("c") + GetParam());

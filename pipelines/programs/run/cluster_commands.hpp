@@ -19,7 +19,7 @@ namespace mtstereo::run {
 std::optional<int> run_cluster_command(int argc, const char* const* argv,
                                        const PieceFunctions& functions = piece_functions());
 
-/// What plan and --jobs need, after the inputs were recognised.
+/// The input of plan and --jobs, after recordings were recognized.
 struct ArchiveInput {
   std::vector<Recording> recordings;
   std::vector<Problem> problems;

@@ -9,7 +9,7 @@
 
 namespace mtstereo::run {
 
-/// Recognises one recording: two video files, two folders (or patterns, left/%04d.png) of images,
+/// Recognizes one recording: two video files, two folders (or patterns, left/%04d.png) of images,
 /// one file or folder with both views side by side or one above the other, or a folder of a data
 /// set (KITTI odometry and raw, EuRoC ASL, Middlebury and ETH3D pair folders). Decodes at most a
 /// few frames. Throws UserError.

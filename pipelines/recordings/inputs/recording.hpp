@@ -24,7 +24,7 @@ struct RectifiedShape {
   bool operator==(const RectifiedShape&) const = default;
 };
 
-/// A recording of two cameras: what was recognised, before any frame is decoded.
+/// A recording of two cameras: what was recognized, before any frame is decoded.
 struct Recording {
   std::string name;  ///< of its folder of results; unique in an archive
   std::string kind;  ///< such as "two video files" or "KITTI odometry sequence", for messages
@@ -42,12 +42,12 @@ struct Recording {
   std::vector<std::string> remarks;  ///< what was guessed, as sentences for the user
 };
 
-/// What the command line states about inputs; the rest is recognised.
+/// What the command line states about inputs; the rest is recognized.
 struct InputOptions {
   std::optional<Arrangement> arrangement;
   bool swap = false;              ///< exchange left and right
   std::string calibration;        ///< for read_calibration(); empty = what lies beside the input
-  std::optional<bool> rectified;  ///< none: recognised
+  std::optional<bool> rectified;  ///< none: recognized
   RectifiedShape shape;
   double frame_rate = 30;  ///< of images without times [1/s]
 };

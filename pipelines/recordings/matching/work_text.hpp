@@ -8,7 +8,7 @@
 
 namespace mtstereo::run {
 
-/// What was recognised and assumed, for people: input, views, matching and results, a line each.
+/// What was recognized and assumed, for people: input, views, matching and results, a line each.
 std::vector<std::string> recognized(const Work& work);
 
 }  // namespace mtstereo::run

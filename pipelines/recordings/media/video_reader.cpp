@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Frames of a video by their numbers: after a seek a frame is recognised by its time.
+// Frames of a video by their numbers: after a seek a frame is recognized by its time.
 
 #include <algorithm>
 #include <array>

@@ -26,7 +26,7 @@ inline constexpr int kNumberedHeight = 64;
 inline constexpr int kNumberedBase = 32;
 /// The change of the disparity per frame [px].
 inline constexpr int kNumberedStep = 4;
-/// Larger differences cannot be recognised with max-disparity=64.
+/// Larger differences cannot be recognized with max-disparity=64.
 inline constexpr int kMaxDifference = 6;
 /// Properties of mtstereo for tests of many pairs: the fastest matching that states the difference.
 inline constexpr const char* kNumberedMatching = "preset=fast max-disparity=64 threads=1";

@@ -272,7 +272,7 @@ TEST_F(DataSets, RealViewsAreNotTakenForTwo) {
   if (sequence.empty()) GTEST_SKIP() << "no data in MTSTEREO_TEST_DATA";
   try {
     recognize({sequence + "/image_l/%06d.png"}, {});
-    FAIL() << "it was recognised";
+    FAIL() << "it was recognized";
   } catch (const UserError& error) {
     EXPECT_THAT(error.what(), HasSubstr("its halves do not match"));
   }

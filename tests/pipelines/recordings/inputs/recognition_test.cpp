@@ -64,7 +64,7 @@ class Recordings : public ::testing::Test {
     }
   }
 
-  // A pair of images or folders is recognised by this path in the folder of the test.
+  // A pair of images or folders is recognized by this path in the folder of the test.
   Recording recognized(std::initializer_list<const char*> inputs,
                        const InputOptions& options = {}) const {
     std::vector<std::string> paths;
