@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "support/pipeline.hpp"
+#include "support/sanitizers.hpp"
 #include "support/stereo_harness.hpp"
 
 namespace mtstereo::test {
@@ -19,9 +20,10 @@ const std::string kDirect = kSink;
 const std::string kQueue = std::string("queue ! ") + kSink;
 const std::string kDisplay = std::string("queue ! mtcolor ! videoconvert ! queue ! ") + kSink;
 
-/// The size of the video, as caps, and what is downstream of mtstereo.
+/// The size of the video, as caps, and what is downstream of mtstereo. The length of a video grows
+/// with the time of matching, so it is smaller with a sanitizer.
 struct Video {
-  const char* size = "width=320,height=240";
+  const char* size = test::kSanitized ? "width=160,height=120" : "width=320,height=240";
   std::string tail = kDisplay;
 };
 
