@@ -57,7 +57,7 @@ void bind_calibration(py::module_& module) {
   py::class_<Calibration>(module, "Calibration",
                           "Two cameras and how they stand to each other; read() reads a file.")
       .def_static("read", &read, py::arg("path"), py::arg("width") = 0, py::arg("height") = 0,
-                  R"(Reads a calibration file; the format is recognised from the content.
+                  R"(Reads a calibration file; the format is recognized from the content.
 
 path: a file, or "LEFT,RIGHT" for formats with one file per camera; "FILE#CHOICE" selects (docs/calibration.md).
 width, height: of the video [px], if known. ValueError: the file cannot be read or is not a sound calibration; the
@@ -86,7 +86,7 @@ message names the file, the entry and what to do.)")
           "T: float64, (3,) [m].")
       .def_property_readonly("baseline", &Calibration::baseline, "Distance of the cameras [m].")
       .def_readonly("format", &Calibration::format,
-                    "What the file was recognised as, as in 'OpenCV'.")
+                    "What the file was recognized as, as in 'OpenCV'.")
       .def_readonly("date", &Calibration::date, "Of the calibration, ISO 8601, or ''.")
       .def_readonly("remarks", &Calibration::remarks,
                     "What is unusual about it: a list of sentences.");

@@ -6,7 +6,7 @@
 
 #include "geometry/formats/value.hpp"
 
-// A file of a calibration, parsed and recognised.
+// A file of a calibration, parsed and recognized.
 
 namespace mtstereo::formats {
 

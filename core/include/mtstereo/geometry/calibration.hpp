@@ -80,7 +80,7 @@ struct StereoCalibration {
   /// The rectification that the file states; files without one have none, and rectify() computes
   /// it.
   std::optional<Rectification> rectification;
-  /// What the file was recognised as, such as "OpenCV" or "Kalibr camchain"; for messages.
+  /// What the file was recognized as, such as "OpenCV" or "Kalibr camchain"; for messages.
   std::string format;
   /// The date of the calibration in ISO 8601, if the file states it; otherwise empty.
   std::string date;
@@ -95,7 +95,7 @@ struct StereoCalibration {
 /// The longest baseline that is accepted [m]. A longer one is most likely in millimeters.
 inline constexpr double kLongestBaseline = 10;
 
-/// Reads a calibration. The format is recognised from the content: OpenCV FileStorage (YAML, XML or
+/// Reads a calibration. The format is recognized from the content: OpenCV FileStorage (YAML, XML or
 /// JSON, also with intrinsics and extrinsics in two files), ROS camera_info (one file per camera),
 /// Kalibr camchain, EuRoC sensor.yaml (one file per camera), KITTI calib_cam_to_cam.txt and
 /// odometry calib.txt, Middlebury calib.txt, DepthAI JSON, ZED .conf, ORB-SLAM, VINS-Fusion,
@@ -109,7 +109,7 @@ inline constexpr double kLongestBaseline = 10;
 /// odometry, OpenCV) takes it. Where nothing states a size, it stays 0.
 ///
 /// Prints nothing. Fails with kInvalidCalibration, and a message that names the file, the entry and
-/// what to do: a file that cannot be read or is not recognised, a missing camera or entry, a
+/// what to do: a file that cannot be read or is not recognized, a missing camera or entry, a
 /// baseline that is zero or longer than kLongestBaseline, values that are not finite. Cameras in
 /// the other order are exchanged; StereoCalibration::remarks states that, and what else is unusual.
 MTSTEREO_API Result<StereoCalibration> read_calibration(const std::string& path, int width = 0,

@@ -16,7 +16,7 @@ using test::DisparityPlane;
 using test::GrayPlane;
 using test::Random;
 
-/// A picture that is defined between its pixels too: waves of 15 to 500 px, as coarse and fine
+/// An image that is defined between its pixels too: waves of 15 to 500 px, as coarse and fine
 /// parts of a scene.
 class Texture {
  public:

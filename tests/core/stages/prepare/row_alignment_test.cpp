@@ -107,8 +107,8 @@ TEST(RowAlignment, MovesSidewaysOnlyForLargeRollAndStretch) {
   EXPECT_NEAR(0, row.shift + row.zoom * (kWidth - 1) / 2.0, 1e-9) << "at the center";
 }
 
-/// A smooth picture, 0 .. 255.
-double picture(double x, double y) {
+/// A smooth image, 0 .. 255.
+double image_at(double x, double y) {
   return 127.5 + 60 * std::sin(x / 5 + y / 11) + 60 * std::cos(y / 4 - x / 9);
 }
 
@@ -118,8 +118,8 @@ TEST(RowAlignment, UndoesARotation) {
   GrayPlane straight(kWidth, kHeight), rolled(kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      straight(x, y) = reference::gray(picture(x, y));
-      rolled(x, y) = reference::gray(picture(x + angle * (y - cy), y - angle * (x - cx)));
+      straight(x, y) = reference::gray(image_at(x, y));
+      rolled(x, y) = reference::gray(image_at(x + angle * (y - cy), y - angle * (x - cx)));
     }
   }
   RowField field;
