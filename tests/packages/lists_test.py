@@ -43,7 +43,8 @@ def version():
 
 def installed_files():
     """What the build of the packages installs, relative to /."""
-    options = re.search(r"dh_auto_configure -- (.*)", (DEBIAN / "rules").read_text()).group(1).split()
+    words = re.search(r"dh_auto_configure -- (.*)", (DEBIAN / "rules").read_text()).group(1).split()
+    options = [word for word in words if not word.startswith("$")]
     with tempfile.TemporaryDirectory(prefix="mtstereo-") as folder:
         setup = [*MESON, "setup", folder, SOURCE, "--prefix", "/usr", "--libexecdir", "libexec", *options]
         done = subprocess.run(setup, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)

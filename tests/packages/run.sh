@@ -8,6 +8,8 @@
 #   --out DIR       keep the packages that are built in this new folder
 #   --twice         build a second time, in another folder with other settings, and compare the packages
 #   --before DIR    install the packages of an earlier version, in this folder, first, and upgrade them
+#   --arch ARCH     packages for another architecture of Debian, such as arm64: cross-compiled, without the Python
+#                   module; in place of their tests, QEMU starts the programs
 #   --if-asked      for `meson test`: is skipped (status 77) unless MTSTEREO_PACKAGES is set and the tools are there
 #
 # Needs root and the packages with the mark debian of pipelines/packages.txt. The mirror of Debian 12 is that of
@@ -19,12 +21,13 @@ repository=$(cd "$here/../.." && pwd)
 source "$here/rooms.sh"
 
 arguments=("$@")
-given='' out='' before='' twice=no skip_status=1
+given='' out='' before='' arch='' twice=no skip_status=1
 while [ $# -gt 0 ]; do
   case $1 in
-    --packages | --out | --before)
-      [ $# -ge 2 ] || { echo "run.sh: $1 needs a folder" >&2 && exit 2; }
+    --packages | --out | --before | --arch)
+      [ $# -ge 2 ] || { echo "run.sh: $1 needs a value" >&2 && exit 2; }
       case $1 in
+        --arch) arch=$2 ;;
         --packages) given=$(realpath "$2") ;;
         --out) out=$(realpath -m "$2") ;;
         --before) before=$(realpath "$2") ;;
@@ -55,6 +58,17 @@ for folder in "$given" "$before"; do
 done
 missing=$(what_is_missing)
 [ -z "$missing" ] || { echo "run.sh: not run: $missing" >&2 && exit "$skip_status"; }
+build=(-b) emulator=() room_options=() tools_to_build=() tools_to_use=()
+if [ -n "$arch" ]; then
+  cpu=$(dpkg-architecture -a "$arch" -q DEB_HOST_GNU_CPU 2>/dev/null) ||
+    { echo "run.sh: Debian has no architecture $arch" >&2 && exit 2; }
+  room_options=("--architectures=$(dpkg --print-architecture),$arch")
+  build=(-B "-a$arch" "-Pcross,nocheck")
+  tools_to_build=("--include=crossbuild-essential-$arch")
+  tools_to_use=(--include=qemu-user)
+  # GStreamer would start its helper that reads plugins without an emulator.
+  emulator=(GST_REGISTRY_FORK=no "qemu-$cpu")
+fi
 enter_own_mounts "${arguments[@]}"
 
 work=$(mktemp -d)
@@ -68,7 +82,8 @@ git -C "$repository" ls-files -z | tar -C "$repository" --null -T - -c | tar -x 
 install_build_dependencies() {
   mkdir "$work/build/control"
   cp -r "$work/source/debian" "$work/build/control"
-  in_room build sh -c 'cd /control && apt-get build-dep -q -y --no-install-recommends ./' >"$work/build.log" 2>&1 || {
+  in_room build sh -c 'cd /control && apt-get build-dep -q -y --no-install-recommends "$@" ./' sh \
+    ${arch:+"-a$arch" -Pcross,nocheck --arch-only} >"$work/build.log" 2>&1 || {
     tail -n 20 "$work/build.log"
     return 1
   }
@@ -81,7 +96,7 @@ build_packages() {
   mkdir -p "$work/build/$folder"
   cp -r "$work/source/." "$work/build/$folder"
   in_room build "DEB_BUILD_OPTIONS=nocheck parallel=$(nproc)" "$@" \
-    sh -c "cd /$folder && dpkg-buildpackage -us -uc -b" >"$work/build.log" 2>&1 || {
+    sh -c "cd /$folder && dpkg-buildpackage -us -uc ${build[*]}" >"$work/build.log" 2>&1 || {
     tail -n 40 "$work/build.log" | cut -c1-500
     return 1
   }
@@ -110,6 +125,7 @@ install_packages() {
   cp "$1"/*.deb "$work/use/packages"
   local list
   mapfile -t list < <(find "$1" -name '*.deb' ! -name '*-dbgsym_*' ! -name '*-dev_*' -printf '/packages/%f\n')
+  [ -z "$arch" ] || list+=("gstreamer1.0-tools:$arch")
   in_room use apt-get install -q -y --no-install-recommends "${list[@]}" >"$work/install.log" 2>&1 || {
     tail -n 20 "$work/install.log"
     return 1
@@ -145,7 +161,7 @@ upgrade_packages() {
 }
 
 first_map() {
-  in_room use gst-launch-1.0 -q videotestsrc pattern=snow num-buffers=1 ! \
+  in_room use "${emulator[@]}" /usr/bin/gst-launch-1.0 -q videotestsrc pattern=snow num-buffers=1 ! \
     video/x-raw,width=328,height=240 ! tee name=n ! queue ! videocrop right=8 ! m.sink_left \
     n. ! queue ! videocrop left=8 ! m.sink_right \
     mtstereo name=m ! mtcolor ! videoconvert ! pngenc ! filesink location=/tmp/map.png
@@ -159,6 +175,13 @@ run_package_tests() {
     return 1
   }
   cat "$work/summary"
+}
+
+start_programs() {
+  local program
+  for program in mtstereo-run mtcalibrate; do
+    in_room use "${emulator[@]}" "/usr/bin/$program" --version
+  done
 }
 
 remove_packages() {
@@ -175,7 +198,8 @@ remove_packages() {
 if [ -n "$given" ]; then
   packages=$given
 else
-  step "a room to build in" make_room build --variant=buildd
+  step "a room to build in" make_room build --variant=buildd \
+    "${room_options[@]}" "${tools_to_build[@]}"
   step "the packages that the build needs" install_build_dependencies
   step "building" build_packages first/source
   packages=$work/build/first
@@ -187,12 +211,16 @@ fi
 [ -z "$out" ] || { mkdir -p "$out" && cp "$packages"/*.deb "$out"; }
 stat -c '%s %n' "$packages"/*.deb | sed "s#$packages/##"
 step "lintian" check_packages
-step "a room to use them in" make_room use --variant=minbase
+step "a room to use them in" make_room use --variant=minbase "${room_options[@]}" "${tools_to_use[@]}"
 if [ -n "$before" ]; then
   step "upgrading" upgrade_packages "$before" "$packages"
 else
   step "installing" install_packages "$packages"
 fi
 step "the first map" first_map
-step "the tests of the packages" run_package_tests
+if [ -n "$arch" ]; then
+  step "the programs" start_programs
+else
+  step "the tests of the packages" run_package_tests
+fi
 step "removing" remove_packages
