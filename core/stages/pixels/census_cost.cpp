@@ -275,16 +275,14 @@ CensusWindow windows_of(const CensusImage& left, const CensusImage& right,
   CensusWindow window = {};
   window.width = width;
   window.lanes = lanes;
-  std::uint8_t* planes = scratch.planes.data();
-  for (CensusRow& row : window.in) {
-    row = split_row(left, right, entering + static_cast<int>(&row - window.in), lanes, planes);
-    planes += plane_bytes(width, lanes);
+  for (int i = 0; i < kPairedRows; ++i) {
+    std::uint8_t* planes = scratch.planes.data() + i * plane_bytes(width, lanes);
+    window.in[i] = split_row(left, right, entering + i, lanes, planes);
   }
   for (int i = 0; i < rows; ++i) {
     const std::ptrdiff_t slot = wrapped(y - reach + i, rows);
     window.rows[i] = scratch.counts.data() + slot * width * lanes;
   }
-  window.matched = windows.row(std::max(y, 0));
   window.counted = windows.covering(entering - reach, entering + 1 + reach);
   window.sums = scratch.sums.data();
   return window;
@@ -326,9 +324,10 @@ void census_cost_rows(const CensusImage& left, const CensusImage& right,
                       CensusCostScratch& scratch, std::uint8_t* costs) {
   const std::size_t lanes = cost_lanes(options.disparities);
   const std::uint8_t* tables = scratch.tables.data();
+  CensusWindow window = windows_of(left, right, windows, options, y, scratch);
+  window.matched = windows.row(y);
   HWY_DYNAMIC_DISPATCH(write_rows)
-  (windows_of(left, right, windows, options, y, scratch), options, low, high,
-   {tables, tables + 2 * lanes, tables + 4 * lanes}, costs);
+  (window, options, low, high, {tables, tables + 2 * lanes, tables + 4 * lanes}, costs);
 }
 
 }  // namespace mtstereo
