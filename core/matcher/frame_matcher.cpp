@@ -2,7 +2,6 @@
 #include "matcher/frame_matcher.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <optional>
 #include <thread>
@@ -18,11 +17,25 @@ int thread_count(const Settings& settings) {
   return std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
 }
 
-/// The counter is as wide as the disparities, 32 bits, so that compilers vectorize the loop.
-int known_pixels(const std::int32_t* row, int width) {
+/// Pixels with a disparity have a confidence, which takes a quarter of the disparity's memory. The
+/// counter of a block is as wide as a confidence, so that compilers vectorize the loop.
+int known_pixels(const std::uint8_t* confidence, int width) {
   int known = 0;
-  for (int x = 0; x < width; ++x) known += row[x] != kNoDisparity;
+  for (int first = 0; first < width; first += 128) {
+    std::uint8_t in_block = 0;
+    const int last = std::min(first + 128, width);
+    for (int x = first; x < last; ++x) in_block += confidence[x] != 0;
+    known += in_block;
+  }
   return known;
+}
+
+double density(const GrayView& confidence) {
+  std::int64_t known = 0;
+  for (int y = 0; y < confidence.height; ++y) {
+    known += known_pixels(confidence.row(y), confidence.width);
+  }
+  return static_cast<double>(known) / (static_cast<double>(confidence.width) * confidence.height);
 }
 
 }  // namespace
@@ -80,10 +93,10 @@ FrameResult FrameMatcher::compute(GrayView left, GrayView right, const Observer&
   FrameResult result = run_steps(observer);
   result.statistics.half_resolution = settings_.half();
   if (settings_.chooses_resolution) result.statistics.fine_detail = choose_resolution(result);
+  result.statistics.density = density(result.confidence);
   views.release();
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   result.statistics.milliseconds = took.count();
-  result.statistics.density = density(result.disparity);
   return result;
 }
 
@@ -111,16 +124,6 @@ double FrameMatcher::choose_resolution(const FrameResult& result) {
     sized_ = false;
   }
   return share.value_or(0);
-}
-
-double FrameMatcher::density(const DisparityView& disparity) {
-  std::atomic<std::int64_t> known{0};
-  Bands(*pool_, disparity.height).rows([&](int y0, int y1, int) {
-    std::int64_t in_band = 0;
-    for (int y = y0; y < y1; ++y) in_band += known_pixels(disparity.row(y), disparity.width);
-    known += in_band;
-  });
-  return static_cast<double>(known) / (static_cast<double>(disparity.width) * disparity.height);
 }
 
 }  // namespace mtstereo

@@ -46,7 +46,6 @@ class FrameMatcher {
   void resize(ImageSize input);
   void size_memory(const Settings& settings);
   FrameResult run_steps(const Observer& observer);
-  double density(const DisparityView& disparity);
   double choose_resolution(const FrameResult& result);
 
   Settings settings_;
