@@ -70,15 +70,15 @@ void put_in_order(StereoCalibration& calibration) {
       "first one, exchange the views.");
 }
 
-void note_length(StereoCalibration& calibration) {
+void note_length(StereoCalibration& calibration, std::string_view remedy) {
   const double baseline = calibration.baseline();
   if (!std::isfinite(baseline) || (baseline >= kShortBaseline && baseline <= kLongBaseline)) return;
   calibration.remarks.push_back(
       "The baseline is " + digits(baseline) + " m, which is unusually " +
       (baseline < kShortBaseline ? "short" : "long") +
-      ", and the file states no unit: depths are wrong unless its lengths are in meters. Otherwise "
-      "add the line 'length_unit: mm' (or cm, in, or the meters that the length 1 has, such as the "
-      "side of a square of the board: 'length_unit: 0.025').");
+      ", and the file states no unit: depths are wrong unless its lengths are in meters. "
+      "Otherwise " +
+      std::string(remedy) + ".");
 }
 
 void note_centers(StereoCalibration& calibration) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <string_view>
+
 #include "mtstereo/geometry/calibration.hpp"
 
 // What read_calibration() changes or finds unusual, as StereoCalibration::remarks.
@@ -11,8 +13,8 @@ namespace mtstereo {
 void put_in_order(StereoCalibration& calibration);
 
 /// Notes a baseline that no usual pair of cameras has, for a file that does not state the unit of
-/// its lengths.
-void note_length(StereoCalibration& calibration);
+/// its lengths. `remedy` is what to do if they are not in meters.
+void note_length(StereoCalibration& calibration, std::string_view remedy);
 
 /// Notes principal points that are far from the middle of their images. Unknown sizes are ignored.
 void note_centers(StereoCalibration& calibration);

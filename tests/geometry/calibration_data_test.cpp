@@ -157,7 +157,7 @@ TEST_F(CalibrationsOfPrograms, ThatAreNoPairAreRefusedByName) {
   const std::string ini = file("ros.ini");
   if (!ini.empty()) {
     EXPECT_THAT(read_refused(ini), HasSubstr("which has one camera; give two files"));
-    EXPECT_THAT(read_refused(ini + "," + ini), HasSubstr("calibrate again with square pixels"));
+    EXPECT_THAT(read_refused(ini + "," + ini), HasSubstr("calibrate both cameras together"));
   }
 }
 

@@ -86,6 +86,19 @@ TEST_F(BrokenFile, ThatIsEmptyBinaryOrCompressed) {
   EXPECT_THAT(refused("\x1f\x8b\x08\x01"), HasSubstr("decompress it"));
 }
 
+TEST_F(BrokenFile, OfAnotherKindIsNamed) {
+  const char* remedy = "write its matrices to a YAML file";
+  EXPECT_THAT(refused(std::string("PK\x03\x04\x14\0\0\0", 8)),
+              AllOf(HasSubstr("NumPy's .npz"), HasSubstr(remedy)));
+  EXPECT_THAT(refused(std::string("\x93NUMPY\x01\0", 8)), HasSubstr("is a NumPy array; "));
+  EXPECT_THAT(refused(std::string("MATLAB 5.0 MAT-file\0", 20)), HasSubstr("a MATLAB .mat"));
+  EXPECT_THAT(refused(std::string("\x80\x04\x95\0", 4)), HasSubstr("a Python pickle"));
+  EXPECT_THAT(refused("% Stereo calibration parameters:\nom = [ 0.01 ; 0.02 ; 0.03 ];\n"),
+              AllOf(HasSubstr("is a MATLAB script; "), HasSubstr(remedy)));
+  EXPECT_THAT(refused("Calibration results\n====\nCamera-system parameters:\n\tcam0 (/left):\n"),
+              HasSubstr("is a report of Kalibr; give its camchain"));
+}
+
 TEST_F(BrokenFile, ThatIsHuge) {
   const std::string path = folder_.write("huge", "");
   std::filesystem::resize_file(path, std::uintmax_t{1} << 40);

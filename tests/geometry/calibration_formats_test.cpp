@@ -68,6 +68,43 @@ TEST(CameraInfo, IsAlsoReadAsTheMessageOfATopic) {
   EXPECT_EQ(calibration.rectification->left_center_x, 322);
 }
 
+TEST(CameraInfo, MayNameItsLensModelOtherwiseOrNot) {
+  const CalibrationFolder folder;
+  const auto pair = [&](const std::string& from, const std::string& to) {
+    std::string paths;
+    for (const char* name : {"camera_info_left.yaml", "camera_info_right.yaml"}) {
+      paths += (paths.empty() ? "" : ",") +
+               folder.write(
+                   name, replaced(stored_text(name), "distortion_model: plumb_bob\n" + from, to));
+    }
+    return paths;
+  };
+  expect_near(read_valid(pair("", "camera_model: plumb_bob\n")), plumb_bob_pair(), 3e-6);
+  expect_near(read_valid(pair("", "")), plumb_bob_pair(), 3e-6);
+  // Four coefficients may be those of a fisheye lens.
+  const std::string four = "distortion_coefficients: [0.1, 0.2, 0.01, 0.02]\nunused:\n";
+  EXPECT_THAT(read_refused(pair("distortion_coefficients:\n", four)),
+              HasSubstr("there is no entry distortion_model (plumb_bob"));
+}
+
+TEST(CameraInfo, OfCamerasCalibratedAloneIsNoPair) {
+  const CalibrationFolder folder;
+  const std::string left = stored_text("camera_info_left.yaml");
+  const auto write = [&](const char* name, const std::string& columns) {
+    std::string text = left.substr(0, left.find("projection_matrix"));
+    return folder.write(name, text + "projection_matrix: [" + columns + "]\n");
+  };
+  // Each projection is that of the camera alone, with focal lengths of its own.
+  EXPECT_THAT(read_refused(write("l", "500, 0, 320, 0, 0, 510, 240, 0, 0, 0, 1, 0") + "," +
+                           write("r", "520, 0, 322, 0, 0, 530, 250, 0, 0, 0, 1, 0")),
+              HasSubstr("a baseline of 0: its fourth value equals that in"));
+  const std::string none =
+      folder.write("none", left.substr(0, left.find("projection_matrix")) + "\n");
+  EXPECT_THAT(read_refused(none + "," + none),
+              HasSubstr("no entry projection_matrix, which states the position of the cameras; "
+                        "calibrate both cameras together"));
+}
+
 TEST(CameraInfo, KnowsFisheyeLenses) {
   const CalibrationFolder folder;
   const auto fisheye = [&](const std::string& name) {

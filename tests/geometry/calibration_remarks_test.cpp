@@ -111,6 +111,44 @@ TEST_F(Remarks, ABaselineWithoutAUnit) {
   EXPECT_THAT(with_extrinsics(kT, kT).remarks, ElementsAre());
 }
 
+TEST_F(Remarks, ABaselineOfRosInAnotherUnit) {
+  const auto right = [&](const std::string& fourth) {
+    const std::string text = replaced(stored_text("camera_info_right.yaml"), "-64.455658", fourth);
+    return stored("camera_info_left.yaml") + "," + folder_.write("right.yaml", text);
+  };
+  const StereoCalibration centimeters = read_valid(right("-3977.0"));
+  EXPECT_NEAR(centimeters.baseline(), 7.5, 0.01);
+  EXPECT_THAT(centimeters.remarks,
+              ElementsAre(AllOf(HasSubstr("7.5 m, which is unusually long"),
+                                HasSubstr("projection_matrix in the file of the right camera by "
+                                          "100 if it is in centimeters"))));
+  EXPECT_THAT(read_refused(right("-6445.6")),
+              HasSubstr("by 1000, or by 100 if it is in centimeters"));
+}
+
+TEST_F(Remarks, ARectificationThatNoViewCanHaveIsLeftOut) {
+  const std::string left = "530.25, 0, 330.125, 0, 0, 530.25, 240.5, 0, 0, 0, 1, 0 ]\n";
+  const std::string right = "530.25, 0, 330.125, -64.4, 0, 530.25, 240.5, 0, 0, 0, 1, 0 ]\n";
+  const auto read = [&](const std::string& extrinsics) {
+    return kIntrinsics + "," + folder_.write("extrinsics.yml", extrinsics);
+  };
+  const std::string text = stored_text("extrinsics.yml");
+  const std::string start = text.substr(0, text.find("P1:"));
+  const auto negative = [](const std::string& p) {
+    return replaced(replaced(p, "530.25", "-8800.5"), " 530.25", " -8800.5");
+  };
+  const std::string views = start + "P1: [ " + negative(left) + "P2: [ " + negative(right);
+  const StereoCalibration calibration = read_valid(read(views), 640, 480);
+  EXPECT_FALSE(calibration.rectification.has_value());
+  EXPECT_NEAR(calibration.baseline(), plumb_bob_pair().baseline(), 1e-6);
+  EXPECT_THAT(calibration.remarks,
+              ElementsAre(HasSubstr("P1 has the focal length -8800.5, which no view can have")));
+  // Without R and T nothing else states the position.
+  const std::string alone = "%YAML:1.0\n---\n" + views.substr(views.find("R1:"));
+  EXPECT_THAT(read_refused(read(alone), 640, 480),
+              HasSubstr("P1 has the focal lengths -8800.5 and -8800.5"));
+}
+
 TEST_F(Remarks, ABaselineWithAUnitIsNotQuestioned) {
   const StereoCalibration meters = with_extrinsics(kT, "-3.34", "length_unit: m");
   EXPECT_THAT(meters.remarks, ElementsAre());

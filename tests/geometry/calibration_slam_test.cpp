@@ -290,7 +290,11 @@ TEST_F(SlamFile, OfRosAsIniHasOneCameraOrBoth) {
   const std::string left = write(camera_ini("narrow_stereo/left", "0.000000"), "left.ini");
   const std::string right = write(camera_ini("narrow_stereo/right", "-36.06"), "right.ini");
   const std::string both = write(read_text(left) + read_text(right), "ost.txt");
-  for (const std::string& path : {left + "," + right, both}) {
+  // What camera_calibration prints begins with other words.
+  const std::string printed = write(
+      "Left:\nD = [-0.25, 0.125]\nR = [1.0, 0.0]\n\nRight:\nself.T = [0.1]\n" + read_text(both),
+      "printed.txt");
+  for (const std::string& path : {left + "," + right, both, printed}) {
     const StereoCalibration calibration = read_valid(path);
     EXPECT_EQ(calibration.format, "ROS camera_info");
     EXPECT_EQ(calibration.left.width, 640);

@@ -6,12 +6,15 @@
 #include <string>
 #include <utility>
 
+#include "geometry/calibration_remarks.hpp"
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"
 #include "mtstereo/parameters.hpp"
 
 namespace mtstereo::formats {
 namespace {
+
+constexpr const char* kAsPair = "calibrate both cameras together as a pair";
 
 /// The entry with one of the names: of the file, of the message of ROS 2, of that of ROS 1.
 Entry any_of(const Entry& file, std::string_view name, std::string_view ros2,
@@ -72,6 +75,17 @@ void apply_region(const Region& region, Rectification& rectification) {
   rectification.center_y = (rectification.center_y - region.y + 0.5) * scale - 0.5;
 }
 
+/// The lens model. Some programs name it camera_model; a file without it has the plumb bob for the
+/// readers of ROS, which is only possible with five coefficients.
+LensModel stated_lens(const Entry& file, const Entry& coefficients) {
+  constexpr std::size_t kPlumbBobCount = 5;
+  if (const auto model = file.find_any({"distortion_model", "camera_model"})) {
+    return lens_model(*model);
+  }
+  if (coefficients.numbers().size() == kPlumbBobCount) return LensModel::kPlumbBob;
+  file.fail("there is no entry distortion_model (plumb_bob, rational_polynomial or equidistant)");
+}
+
 /// One camera of the pair.
 struct Camera {
   CameraCalibration calibration;  ///< of the region
@@ -82,13 +96,17 @@ struct Camera {
 };
 
 Camera read_camera(const Entry& file) {
+  if (!file.find_any({"projection_matrix", "p", "P"})) {
+    file.fail("there is no entry projection_matrix, which states the position of the cameras; " +
+              std::string(kAsPair));
+  }
   const Entry projection = any_of(file, "projection_matrix", "p", "P");
   Camera camera{{}, {}, projection.numbers(12, "a 3x4 projection"), projection, read_region(file)};
   set_size(camera.calibration, any_of(file, "image_width", "width", "width"),
            any_of(file, "image_height", "height", "height"));
   set_camera_matrix(camera.calibration, any_of(file, "camera_matrix", "k", "K"));
   const Entry coefficients = any_of(file, "distortion_coefficients", "d", "D");
-  set_lens(camera.calibration, lens_model(file.at("distortion_model")), coefficients);
+  set_lens(camera.calibration, stated_lens(file, coefficients), coefficients);
   camera.rotation = rotation_from(any_of(file, "rectification_matrix", "r", "R"));
   apply_region(camera.region, camera.calibration);
   return camera;
@@ -112,11 +130,12 @@ StereoCalibration read_camera_info(const Entry& left_file, const Entry& right_fi
   const RectifiedViews views = {left.rotation, right.rotation, left.projection, right.projection};
   const Entry& p1 = left.projection_entry;
   const Entry& p2 = right.projection_entry;
-  Rectification rectification = rectification_from(views, p1, p2);
-  if (rectification.baseline == 0) {
-    p2.fail("states a baseline of 0: its fourth value equals that in " + left_file.file() +
-            "; calibrate both cameras together as a pair");
+  // Before the rest: the projections of cameras that are calibrated alone differ in all values.
+  if (left.projection[3] == right.projection[3] && left.projection[7] == right.projection[7]) {
+    p2.fail("states a baseline of 0: its fourth value equals that in " + left_file.file() + "; " +
+            kAsPair);
   }
+  Rectification rectification = rectification_from(views, p1, p2);
   if (left.region.binning != right.region.binning) {
     right_file.fail("binning_x differs from " + left_file.file() + "; they must be equal");
   }
@@ -131,8 +150,12 @@ StereoCalibration read_camera_info(const Entry& left_file, const Entry& right_fi
   // The files have no R and T.
   const Motion motion = motion_of(rectification);
   check_translation(motion.translation, p2,
-                    ": divide the fourth value of projection_matrix by 1000");
+                    ": divide the fourth value of projection_matrix by 1000, or by 100 if it is in "
+                    "centimeters");
   set_motion(calibration, motion);
+  note_length(calibration,
+              "divide the fourth value of projection_matrix in the file of the right camera by 100 "
+              "if it is in centimeters, or by 1000 if it is in millimeters");
   calibration.rectification = rectification;
   return calibration;
 }

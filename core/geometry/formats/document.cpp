@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "geometry/formats/readers.hpp"
 #include "geometry/formats/syntax.hpp"
@@ -32,6 +33,10 @@ class Descriptor {
  private:
   int number_;
 };
+
+bool starts_with(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
 
 std::string system_text(int error) { return std::generic_category().message(error); }
 
@@ -72,15 +77,25 @@ std::string read_text(const std::string& file) {
   if (text.compare(0, 2, "\x1f\x8b") == 0) {
     throw FileError(file + ": is compressed; decompress it with gunzip");
   }
+  constexpr std::array<std::pair<std::string_view, const char*>, 6> kStarts = {
+      {{"PK\x03\x04", "a zip archive, as NumPy's .npz"},
+       {"\x93NUMPY", "a NumPy array"},
+       {"MATLAB 5.0", "a MATLAB .mat"},
+       {"\x89HDF", "an HDF5 file, as MATLAB's .mat"},
+       {"\x80\x03", "a Python pickle"},
+       {"\x80\x04", "a Python pickle"}}};
+  for (const auto& [start, name] : kStarts) {
+    if (starts_with(text, start)) {
+      throw FileError(file + ": is " + name +
+                      "; write its matrices to a YAML file with cv2.FileStorage, with the names "
+                      "M1, D1, M2, D2, R, T");
+    }
+  }
   const bool binary = std::any_of(text.begin(), text.end(), [](char byte) {
     return byte >= 0 && byte < ' ' && byte != '\t' && byte != '\r' && byte != '\n' && byte != '\f';
   });
   if (binary) throw FileError(file + ": is a binary file, not a calibration");
   return text;
-}
-
-bool starts_with(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
 }
 
 /// Whether the name before a separator is one of these, as in "P0: 1 0 0".
@@ -107,8 +122,23 @@ bool is_projection(std::string_view line) {
   return count == kValues;
 }
 
+/// Fails for files that calibration programs write beside the calibration.
+void refuse_other_files(std::string_view start, const std::string& file) {
+  if (starts_with(start, "Calibration results")) {
+    throw FileError(file + ": is a report of Kalibr; give its camchain, a YAML file");
+  }
+  if (start.front() == '%' && !starts_with(start, "%YAML") && !starts_with(start, "%TAG")) {
+    throw FileError(file +
+                    ": is a MATLAB script; write its matrices to a YAML file with the names M1, "
+                    "D1, M2, D2, R, T, as OpenCV states them (stereoParametersToOpenCV)");
+  }
+}
+
 /// Recognises the formats that are lines of text, by the first line that belongs to one.
 bool parse_as_lines(std::string_view text, Document& document) {
+  // camera_calibration prints both cameras in words before it prints them as INI.
+  const std::size_t ini = text.find("# oST version");
+  if (ini != std::string_view::npos) text.remove_prefix(ini);
   std::string_view rest = text;
   while (!rest.empty()) {
     const std::string_view line = take_line(rest);
@@ -198,6 +228,7 @@ Document parse_document(const std::string& file) {
   Document document;
   document.file = file;
   const std::string_view start = std::string_view(text).substr(text.find_first_not_of(" \t\r\n"));
+  refuse_other_files(start, file);
   if (start.front() == '<') {
     document.root = parse_xml(text, file);
   } else if (is_mrcal(text)) {

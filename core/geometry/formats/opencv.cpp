@@ -93,8 +93,14 @@ std::optional<double> unit_of(const OpenCvEntries& files, const std::optional<En
               "'; m, cm, mm, in or the positive number of meters of the length 1 is needed");
 }
 
-/// The rectification, if all four matrices are there.
-void read_rectification(const OpenCvEntries& files, double unit, StereoCalibration& calibration) {
+/// Whether no view can have this projection. stereoRectify() writes such ones for lens polynomials
+/// that turn back near the border of the image; the cameras themselves may be right.
+bool is_no_view(const std::vector<double>& projection) { return projection[0] < 0; }
+
+/// The rectification, if all four matrices are there. One that no view can have is left out if R
+/// and T are there (`motion`).
+void read_rectification(const OpenCvEntries& files, double unit, bool motion,
+                        StereoCalibration& calibration) {
   const std::optional<Entry> r1 = files.find_matrix("r1 rl rleft leftr");
   const std::optional<Entry> r2 = files.find_matrix("r2 rr rright rightr");
   const std::optional<Entry> p1 = files.find_matrix("p1 pl pleft leftp");
@@ -103,6 +109,14 @@ void read_rectification(const OpenCvEntries& files, double unit, StereoCalibrati
   constexpr const char* kShape = "a 3x4 projection";
   const RectifiedViews views = {rotation_from(*r1), rotation_from(*r2), p1->numbers(12, kShape),
                                 p2->numbers(12, kShape)};
+  if (motion && is_no_view(views.left_projection)) {
+    calibration.remarks.push_back(
+        p1->name() + " has the focal length " + number_text(views.left_projection[0]) +
+        ", which no view can have: the rectification of the file is not used, but computed from "
+        "the cameras, R and T. The distortion may be wrong at the border of the image; calibrate "
+        "with views that cover it.");
+    return;
+  }
   Rectification rectification = rectification_from(views, *p1, *p2, unit);
   rectification.width = calibration.left.width;
   rectification.height = calibration.left.height;
@@ -188,9 +202,14 @@ StereoCalibration read_opencv(const std::vector<Entry>& documents, const Request
   read_cameras(files, pair, calibration);
   read_sizes(files, request, calibration);
   const std::optional<double> unit = unit_of(files, pair.translation);
-  read_rectification(files, unit.value_or(1), calibration);
+  const bool motion = pair.rotation && pair.translation;
+  read_rectification(files, unit.value_or(1), motion, calibration);
   read_motion(files, pair, unit.value_or(1), calibration);
-  if (!unit) note_length(calibration);
+  if (!unit) {
+    note_length(calibration,
+                "add the line 'length_unit: mm' (or cm, in, or the meters that the length 1 has, "
+                "such as the side of a square of the board: 'length_unit: 0.025')");
+  }
   calibration.date = date_of(files);
   return calibration;
 }
