@@ -125,6 +125,10 @@ std::string calibration_problem(const StereoCalibration& calibration) {
   if (!problem.empty()) return "the rotation between the cameras " + problem;
   problem = translation_problem(calibration.translation);
   if (!problem.empty()) return "the cameras have " + problem;
+  if (calibration.rotation[0] < 0) {
+    return "the right camera is turned by more than 90 degrees against the left one; if one of "
+           "them is mounted upside down, turn its images (videoflip) and calibrate again";
+  }
   if (calibration.translation[0] > 0) {
     return "the right camera is " + number_text(calibration.translation[0]) +
            " m to the left of the left one: the views are swapped";

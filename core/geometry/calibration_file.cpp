@@ -47,6 +47,10 @@ StereoCalibration read_one(const Document& document, const formats::Request& req
       return formats::read_vins(entry, request);
     case Format::kBasalt:
       return formats::read_basalt(entry, request);
+    case Format::kCameraList:
+      return formats::read_camera_list(entry, request);
+    case Format::kStella:
+      return formats::read_stella(entry, request);
     case Format::kVinsCamera:
       entry.fail(std::string("is ") + name_of(document.format) +
                  "; give the file that names both cameras as cam0_calib and cam1_calib");

@@ -160,6 +160,18 @@ def calibrations_of_slam():
     yield "omni", ("\0\0%YAML:1.0\n" + "".join(f"cam{i}:\n{camera}" for i in range(2)) +
                    f"  T_cn_cnm1: {pose.format(-0.12)}\n").replace("pinhole", "omni").replace(
                        "[310, 311", "[0.8, 834, 831").replace("equidistant", "radtan").encode()
+    okvis = ("{{T_SC: {}, image_dimension: [640, 480], distortion_coefficients: [0.1, 0, 0, 0], distortion_type: "
+             "equidistant, focal_length: [310, 311], principal_point: [322, 241]}}")
+    yield "okvis", ("\0\0%YAML:1.0\ncameras:\n" + "".join(
+        f"  - {okvis.format(pose.format(x))}\n" for x in (0, 0.12))).encode()
+    svo = ("{{camera: {{image_width: 640, image_height: 480, type: pinhole, intrinsics: [310, 311, 322, 241], "
+           "distortion: {{type: none, parameters: []}}}}, T_B_C: {}}}")
+    yield "svo", ("\0\0sensors:\n  - cameras:\n" + "".join(
+        f"    - {svo.format(pose.format(x))}\n" for x in (0, 0.12))).encode()
+    yield "stella", (
+        "\0\0Camera: {setup: stereo, model: perspective, fx: 310, fy: 310, cx: 322, cy: 241, cols: 640, rows: 480, "
+        f"focal_x_baseline: 31}}\nStereoRectifier: {{model: fisheye, K_left: {k}, K_right: {k}, D_left: {d}, "
+        f"D_right: {d}, R_left: {r}, R_right: {r}}}\n").encode()
     yield "basalt", b"\0\0" + json.dumps({"value0": {
         "T_imu_cam": [{"px": x, "py": 0, "pz": 0, "qx": 0, "qy": 0, "qz": 0, "qw": 1} for x in (0, 0.12)],
         "intrinsics": [{"camera_type": kind, "intrinsics": dict(

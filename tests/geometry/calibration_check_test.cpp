@@ -63,6 +63,9 @@ TEST(CheckCalibration, RefusesPositionsThatCannotBe) {
                 for (std::size_t i = 0; i < 3; ++i) c.rotation[i] = -c.rotation[i];
               }),
               HasSubstr("it mirrors"));
+  // Upside down: 180 degrees around the axis of the lens.
+  EXPECT_THAT(refused([](auto& c) { c.rotation = {-1, 0, 0, 0, -1, 0, 0, 0, 1}; }),
+              HasSubstr("turned by more than 90 degrees"));
   EXPECT_THAT(refused([](auto& c) { c.translation = {}; }), HasSubstr("a baseline of 0 m"));
   EXPECT_THAT(refused([](auto& c) { c.translation[0] = 0.1; }), HasSubstr("the views are swapped"));
   EXPECT_THAT(refused([](auto& c) { c.translation[0] = -60; }),

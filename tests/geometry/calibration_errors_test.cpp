@@ -97,6 +97,8 @@ TEST_F(BrokenFile, OfAnotherKindIsNamed) {
               AllOf(HasSubstr("is a MATLAB script; "), HasSubstr(remedy)));
   EXPECT_THAT(refused("Calibration results\n====\nCamera-system parameters:\n\tcam0 (/left):\n"),
               HasSubstr("is a report of Kalibr; give its camchain"));
+  EXPECT_THAT(refused("calib_time: 15-Mar-2012 11:37:16\nR: 1 0 0 0 1 0 0 0 1\nT: 0.1 0 0\n"),
+              HasSubstr("states no cameras (S_02, K_02 and others): KITTI has them in"));
 }
 
 TEST_F(BrokenFile, ThatIsHuge) {

@@ -69,6 +69,23 @@ TEST_F(Layout, UnknownNamesAreRecognizedByStructure) {
                      {"stereo", "{R: " + std::string(kR) + ", t: " + kT + "}"}}));
 }
 
+TEST_F(Layout, UnknownNamesMayEndInLAndR) {
+  expect_pair(lines({{"RightOnes_R", kR},
+                     {"cameraR", kRightK},
+                     {"cameraDistcoeffR", kRightD},
+                     {"cameraL", kLeftK},
+                     {"cameraDistcoeffL", kLeftD},
+                     {"T", kT}}));
+  // Other letters state no order.
+  EXPECT_THAT(refused(lines({{"cameraA", kLeftK},
+                             {"distA", kLeftD},
+                             {"cameraB", kRightK},
+                             {"distB", kRightD},
+                             {"R", kR},
+                             {"T", kT}})),
+              HasSubstr("there is no entry M1"));
+}
+
 TEST_F(Layout, OfTwoFilesWithTheSameNamesTheFirstIsTheLeftCamera) {
   const std::string left = folder_.write(
       "left.yml",
@@ -144,6 +161,11 @@ TEST_F(Layout, OfMatlabIsNamed) {
                              {"R", kR},
                              {"T", kT}})),
               HasSubstr("K1 is transposed, as MATLAB states it; transpose it"));
+  EXPECT_THAT(refused(lines({{"IntrinsicMatrix1", "[ 500., 0., 0., 0., 501., 0., 321., 243., 1. ]"},
+                             {"IntrinsicMatrix2", "[ 500., 0., 0., 0., 501., 0., 321., 243., 1. ]"},
+                             {"RotationOfCamera2", kR},
+                             {"TranslationOfCamera2", kT}})),
+              HasSubstr("IntrinsicMatrix1 is transposed, as MATLAB states it; transpose it"));
 }
 
 /// A file of ORB-SLAM2 with the rectification of raw views, as people write it: without blanks.

@@ -216,7 +216,7 @@ TEST_F(SlamFile, OfBasaltWithOtherModelsIsRefused) {
   EXPECT_THAT(refused(replaced(basalt("kb4", "kb4"), "0.7071", "0.9071")),
               HasSubstr("value0.T_imu_cam[0] has a quaternion of the length"));
   EXPECT_THAT(refused(replaced(basalt("kb4", "kb4"), "[640, 480], ", "")),
-              HasSubstr("there is no camera 1; there are 1"));
+              HasSubstr("has 1 camera, 2 are needed"));
   EXPECT_THAT(read_refused(write(basalt("kb4", "kb4")) + "#0-7"), HasSubstr("no camera 7"));
   EXPECT_THAT(refused(replaced(basalt("kb4", "kb4"), "\"px\"", "\"x\"")),
               HasSubstr("value0.T_imu_cam[0] has no entry px"));

@@ -11,8 +11,6 @@
 namespace mtstereo::formats {
 namespace {
 
-constexpr std::size_t kMostCameras = 32;
-
 CameraCalibration read_camera(const Entry& entry, const Entry& resolution) {
   CameraCalibration camera;
   set_size(camera, resolution);
@@ -52,15 +50,6 @@ Motion read_pose(const Entry& entry) {
   return motion;
 }
 
-std::size_t camera_number(const Entry& file, const std::string& text, std::size_t count) {
-  const std::size_t most = std::min(count, kMostCameras);
-  for (std::size_t number = 0; number < most; ++number) {
-    if (text == std::to_string(number)) return number;
-  }
-  file.fail("there is no camera " + printable(text) + "; there are " + std::to_string(count) +
-            ", and the first one is 0");
-}
-
 }  // namespace
 
 bool is_basalt(const Entry& file) {
@@ -74,11 +63,7 @@ StereoCalibration read_basalt(const Entry& file, const Request& request) {
   const std::vector<Entry> cameras = value.at("intrinsics").list();
   const std::vector<Entry> sizes = value.at("resolution", "the sizes of the images").list();
   const std::size_t count = std::min({poses.size(), cameras.size(), sizes.size()});
-  Selection pair = {"0", "1"};
-  if (!request.selection.empty()) pair = selected_pair(file, request.selection, "1-0");
-  const std::size_t left = camera_number(file, pair.left, count);
-  const std::size_t right = camera_number(file, pair.right, count);
-  if (left == right) file.fail("the left and the right camera are both " + pair.left);
+  const auto [left, right] = selected_cameras(file, request.selection, count);
   StereoCalibration calibration;
   calibration.format = "Basalt";
   calibration.left = read_camera(cameras[left], sizes[left]);

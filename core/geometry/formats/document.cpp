@@ -185,6 +185,8 @@ Format format_of(const Entry& root) {
   const bool chain = camera && camera->find_any({"intrinsics", "camera_model"});
   if (root.find("cameraData")) return Format::kDepthAi;
   if (is_basalt(root)) return Format::kBasalt;
+  if (is_camera_list(root)) return Format::kCameraList;
+  if (is_stella(root)) return Format::kStella;
   if (root.find("lensmodel")) return Format::kMrcal;
   if (root.find("cam0_calib")) return Format::kVins;
   if (root.find("model_type")) return Format::kVinsCamera;
@@ -197,7 +199,7 @@ Format format_of(const Entry& root) {
       "is not a calibration of a known format: none of M1 (OpenCV), projection_matrix "
       "(ROS), cam0 (Kalibr, Middlebury), T_BS (EuRoC), P0 or K_00 (KITTI), cameraData "
       "(DepthAI), [LEFT_CAM_...] (ZED), Camera1.fx (ORB-SLAM), cam0_calib (VINS-Fusion), "
-      "value0 (Basalt), lensmodel (mrcal) is in it");
+      "value0 (Basalt), lensmodel (mrcal), cameras (OKVIS, SVO, maplab) is in it");
 }
 
 /// Whether a text is a Python literal of mrcal; it may begin with comments.
@@ -214,12 +216,22 @@ bool is_mrcal(std::string_view text) {
 }  // namespace
 
 const char* name_of(Format format) {
-  constexpr std::array<const char*, 14> kNames = {
-      "an OpenCV file",          "a ROS camera_info",        "a Kalibr camchain",
-      "a EuRoC sensor.yaml",     "KITTI's calib_cam_to_cam", "KITTI's calib.txt",
-      "a Middlebury calib.txt",  "a DepthAI JSON",           "a ZED .conf",
-      "a file of ORB-SLAM",      "a file of VINS-Fusion",    "a camera of VINS-Fusion",
-      "a calibration of Basalt", "a .cameramodel of mrcal"};
+  constexpr std::array<const char*, 16> kNames = {"an OpenCV file",
+                                                  "a ROS camera_info",
+                                                  "a Kalibr camchain",
+                                                  "a EuRoC sensor.yaml",
+                                                  "KITTI's calib_cam_to_cam",
+                                                  "KITTI's calib.txt",
+                                                  "a Middlebury calib.txt",
+                                                  "a DepthAI JSON",
+                                                  "a ZED .conf",
+                                                  "a file of ORB-SLAM",
+                                                  "a file of VINS-Fusion",
+                                                  "a camera of VINS-Fusion",
+                                                  "a calibration of Basalt",
+                                                  "a .cameramodel of mrcal",
+                                                  "a list of cameras (OKVIS, SVO, maplab)",
+                                                  "a file of stella_vslam"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

@@ -29,6 +29,8 @@ enum class Format {
   kVinsCamera,
   kBasalt,
   kMrcal,
+  kCameraList,
+  kStella,
 };
 
 /// The name of a format in messages, with its article.

@@ -57,9 +57,9 @@ Pair choose_pair(const Entry& file, const Request& request) {
     }
   }
   for (const Pair& pair : kPairs) {
-    if (has(file, "K", pair.left)) return pair;
+    if (has(file, "K", pair.left) || has(file, "S", pair.left)) return pair;
   }
-  return kPairs[0];
+  file.fail("states no cameras (S_02, K_02 and others): KITTI has them in calib_cam_to_cam.txt");
 }
 
 CameraCalibration read_camera(const Entry& file, int camera) {

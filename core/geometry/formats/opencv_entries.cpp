@@ -114,7 +114,7 @@ bool OpenCvEntries::is_opencv() const {
   };
   if (std::any_of(entries_.begin(), entries_.end(), is_known)) return true;
   if (find(kRotationNames) && find(kTranslationNames)) return true;
-  return has_camera_matrix(entries_);
+  return has_camera_matrix(entries_) || !transposed_matrix(entries_).empty();
 }
 
 void OpenCvEntries::fail_without(const char* name, const char* meaning) const {
@@ -126,6 +126,11 @@ void OpenCvEntries::fail_without(const char* name, const char* meaning) const {
   }
   const std::string found = matrices_text(entries_);
   what += found.empty() ? ". No matrices were found" : ". Matrices found: " + found;
+  const std::string transposed = transposed_matrix(entries_);
+  if (!transposed.empty()) {
+    what += ". " + transposed +
+            " is transposed, as MATLAB states it; transpose it, and the rotation of camera 2";
+  }
   files_.front().fail(what + ". Names needed: M1, D1, M2, D2, R, T");
 }
 

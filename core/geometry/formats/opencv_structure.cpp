@@ -90,6 +90,15 @@ int stated_side(const std::string& name) {
   return -1;
 }
 
+/// The same for names that end in L and R, or l and r, and are equal otherwise.
+bool are_left_and_right(const std::string& a, const std::string& b) {
+  const std::string first = plain_name(a);
+  const std::string second = plain_name(b);
+  const std::size_t stem = first.size() - 1;
+  return first.size() > 1 && first.size() == second.size() && first.back() == 'l' &&
+         second.back() == 'r' && first.compare(0, stem, second, 0, stem) == 0;
+}
+
 /// The first number in a name, or -1.
 int number_in(const std::string& name) {
   const std::size_t at = name.find_first_of("0123456789");
@@ -106,6 +115,8 @@ bool put_in_order(std::vector<Entry>& two) {
   const std::string& a = two[0].name();
   const std::string& b = two[1].name();
   if (order(stated_side(a), stated_side(b)) || order(number_in(a), number_in(b))) return true;
+  if (are_left_and_right(b, a)) std::swap(two[0], two[1]);
+  if (are_left_and_right(two[0].name(), two[1].name())) return true;
   // The same names in two files: LEFT,RIGHT.
   return a == b && two[0].file() != two[1].file();
 }
@@ -162,6 +173,16 @@ void complete_by_structure(const std::vector<Entry>& entries, PairEntries& pair)
                                }),
                 vectors.end());
   complete_one(vectors, kTranslationNames, pair.translation);
+}
+
+std::string transposed_matrix(const std::vector<Entry>& entries) {
+  for (const Numbers& numbers : numbers_of(entries)) {
+    const std::vector<double>& v = numbers.values;
+    if (v.size() != 9) continue;
+    const std::vector<double> back = {v[0], v[3], v[6], v[1], v[4], v[7], v[2], v[5], v[8]};
+    if (!is_camera_matrix(v) && is_camera_matrix(back)) return printable(numbers.entry.name());
+  }
+  return {};
 }
 
 bool has_camera_matrix(const std::vector<Entry>& entries) {

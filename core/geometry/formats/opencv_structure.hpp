@@ -17,6 +17,9 @@ void complete_by_structure(const std::vector<Entry>& entries, PairEntries& pair)
 /// Whether an entry can be a camera matrix.
 bool has_camera_matrix(const std::vector<Entry>& entries);
 
+/// The name of a camera matrix that is transposed, or empty.
+std::string transposed_matrix(const std::vector<Entry>& entries);
+
 /// The names and shapes of the matrices, for a message.
 std::string matrices_text(const std::vector<Entry>& entries);
 

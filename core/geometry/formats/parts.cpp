@@ -122,10 +122,10 @@ void set_omnidirectional(CameraCalibration& camera, const Entry& xi,
 }
 
 LensModel lens_model(const Entry& entry) {
-  constexpr std::array<std::string_view, 9> kPlumbBobWords = {
-      "plumb_bob",           "radtan",   "radial-tangential",
-      "rational_polynomial", "pinhole",  "brown_conrady",
-      "thin_prism",          "rational", "plumb bob"};
+  constexpr std::array<std::string_view, 12> kPlumbBobWords = {
+      "plumb_bob", "radtan",           "radial-tangential", "rational_polynomial",
+      "pinhole",   "brown_conrady",    "thin_prism",        "rational",
+      "plumb bob", "radialtangential", "radialtangential8", "perspective"};
   constexpr std::array<std::string_view, 4> kFisheyeWords = {"equidistant", "fisheye",
                                                              "kannala_brandt", "kannala_brandt4"};
   std::string word = entry.text();
@@ -279,6 +279,30 @@ Selection selected_pair(const Entry& file, const std::string& selection, std::st
               std::string(example) + "'");
   }
   return {selection.substr(0, at), selection.substr(at + 1)};
+}
+
+CameraPair selected_cameras(const Entry& file, const std::string& selection, std::size_t count) {
+  Selection pair = {"0", "1"};
+  if (!selection.empty()) {
+    pair = selected_pair(file, selection, "1-0");
+  } else if (count < 2) {
+    file.fail("has " + std::to_string(count) + (count == 1 ? " camera" : " cameras") +
+              ", 2 are needed");
+  }
+  const auto number_of = [&](const std::string& text) {
+    constexpr std::size_t kMostCameras = 32;
+    const std::size_t most = std::min(count, kMostCameras);
+    for (std::size_t number = 0; number < most; ++number) {
+      if (text == std::to_string(number)) return number;
+    }
+    file.fail("there is no camera " + printable(text) + "; there are " + std::to_string(count) +
+              ", and the first one is 0");
+  };
+  const CameraPair cameras = {number_of(pair.left), number_of(pair.right)};
+  if (cameras.left == cameras.right) {
+    file.fail("the left and the right camera are both " + pair.left);
+  }
+  return cameras;
 }
 
 void no_selection(const Entry& file, const std::string& selection) {

@@ -93,6 +93,12 @@ struct Selection {
   std::string left, right;
 };
 Selection selected_pair(const Entry& file, const std::string& selection, std::string_view example);
+/// Two cameras of a list, by their indices. A selection such as "1-0" has them; the default is the
+/// first and the second one. `count` is the size of the list.
+struct CameraPair {
+  std::size_t left = 0, right = 1;
+};
+CameraPair selected_cameras(const Entry& file, const std::string& selection, std::size_t count);
 /// Fails if something was selected, for a format without a choice.
 void no_selection(const Entry& file, const std::string& selection);
 

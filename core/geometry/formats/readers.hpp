@@ -45,12 +45,20 @@ StereoCalibration read_vins(const Entry& file, const Request& request);
 StereoCalibration read_basalt(const Entry& file, const Request& request);
 /// The .cameramodel files of mrcal, left and right.
 StereoCalibration read_mrcal(const Entry& left, const Entry& right, const Request& request);
+/// A list of cameras on a body, of OKVIS, SVO or maplab.
+StereoCalibration read_camera_list(const Entry& file, const Request& request);
+/// A configuration of stella_vslam or OpenVSLAM.
+StereoCalibration read_stella(const Entry& file, const Request& request);
 
 /// Whether a file is one of OpenCV's FileStorage: it has an entry with a name that read_opencv()
 /// knows, or a matrix.
 bool is_opencv(const Entry& file);
 /// Whether a file is one of ORB-SLAM, without the matrices of OpenCV for raw views.
 bool is_orbslam(const Entry& file);
+/// Whether a file has a list of cameras on a body.
+bool is_camera_list(const Entry& file);
+/// Whether a file is one of stella_vslam.
+bool is_stella(const Entry& file);
 /// Whether a file is one of Basalt.
 bool is_basalt(const Entry& file);
 /// Whether a file is a camera_info of ROS.
