@@ -261,8 +261,11 @@ std::string translation_problem(const Vector3& translation) {
   const std::string length = "a baseline of " + number_text(baseline) + " m";
   if (baseline < kShortestBaseline) return length + "; the cameras must be at different places";
   if (baseline > kLongestBaseline) {
-    return length + ", more than " + number_text(kLongestBaseline) +
-           " m: the length is most likely in millimeters";
+    // Pairs of cameras are rarely closer than 4 cm; squares of boards have 1 to 10 cm.
+    constexpr double kMillimeters = 40;
+    return length + ", more than " + number_text(kLongestBaseline) + " m: the length is " +
+           (baseline < kMillimeters ? "in centimeters, millimeters or squares of the board"
+                                    : "most likely in millimeters");
   }
   if (std::abs(translation[1]) > std::abs(translation[0])) {
     return length + " that is vertical; only pairs side by side are supported";

@@ -16,7 +16,7 @@ using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 /// Baselines of usual pairs of cameras [m]: from a borescope to a vehicle.
 constexpr double kShortBaseline = 0.005;
-constexpr double kLongBaseline = 1.5;
+constexpr double kLongBaseline = 1;
 /// How far from the middle of the image a principal point is without a word, as a part of the side.
 constexpr double kUsualShift = 0.2;
 

@@ -106,6 +106,16 @@ TEST_F(Remarks, ABaselineWithoutAUnit) {
   EXPECT_THAT(with_extrinsics(kT, "-3.34").remarks,
               ElementsAre(AllOf(HasSubstr("3.34 m"), HasSubstr("unusually long"),
                                 HasSubstr("length_unit: mm"), HasSubstr("square"))));
+  // Above 10 m the unit is wrong for certain, but below 40 not for certain millimeters.
+  const auto refused = [&](const char* t) {
+    const std::string text = replaced(stored_text("extrinsics.yml"), kT, t);
+    return read_refused(kIntrinsics + "," + folder_.write("extrinsics.yml", text), 640, 480);
+  };
+  EXPECT_THAT(refused("-14.3"),
+              AllOf(HasSubstr("millimeters or squares of the board: add the line"),
+                    HasSubstr("'length_unit: 0.025'")));
+  EXPECT_THAT(refused("-60.1"), HasSubstr("most likely in millimeters: add the line"));
+  EXPECT_THAT(with_extrinsics(kT, "-1.2").remarks, ElementsAre(HasSubstr("unusually long")));
   EXPECT_THAT(with_extrinsics(kT, "-0.0041").remarks,
               ElementsAre(AllOf(HasSubstr("m, which is unusually short"))));
   EXPECT_THAT(with_extrinsics(kT, kT).remarks, ElementsAre());

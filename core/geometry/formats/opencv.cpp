@@ -22,6 +22,9 @@ constexpr Names kSize =
 constexpr Names kWidth = "imagewidth width leftwidth leftimagewidth imagesizewidth resolutionwidth";
 constexpr Names kHeight =
     "imageheight height leftheight leftimageheight imagesizeheight resolutionheight";
+constexpr const char* kUnitRemedy =
+    "add the line 'length_unit: mm' (or cm, in, or the meters that the length 1 has, such as the "
+    "side of a square of the board: 'length_unit: 0.025')";
 constexpr Names kRightProjection = "p2 pr pright rightp";
 
 /// The size that the files state, else the caller's.
@@ -155,10 +158,10 @@ void read_cameras(const OpenCvEntries& files, const PairEntries& pair,
 /// R and T, or what the rectification implies if the files state neither.
 void read_motion(const OpenCvEntries& files, const PairEntries& pair, double unit,
                  StereoCalibration& calibration) {
-  constexpr const char* kHint = ": add the line 'length_unit: mm' to the file, or divide T by 1000";
+  const std::string hint = std::string(": ") + kUnitRemedy;
   if (!pair.rotation && !pair.translation && calibration.rectification) {
     const Motion motion = motion_of(*calibration.rectification);
-    check_translation(motion.translation, files.find_matrix(kRightProjection).value(), kHint);
+    check_translation(motion.translation, files.find_matrix(kRightProjection).value(), hint);
     set_motion(calibration, motion);
     return;
   }
@@ -168,7 +171,7 @@ void read_motion(const OpenCvEntries& files, const PairEntries& pair, double uni
   Motion motion;
   motion.rotation = rotation_from(*pair.rotation);
   motion.translation = Eigen::Vector3d(v[0], v[1], v[2]) * unit;
-  check_translation(motion.translation, *pair.translation, kHint);
+  check_translation(motion.translation, *pair.translation, hint);
   set_motion(calibration, motion);
 }
 
@@ -205,11 +208,7 @@ StereoCalibration read_opencv(const std::vector<Entry>& documents, const Request
   const bool motion = pair.rotation && pair.translation;
   read_rectification(files, unit.value_or(1), motion, calibration);
   read_motion(files, pair, unit.value_or(1), calibration);
-  if (!unit) {
-    note_length(calibration,
-                "add the line 'length_unit: mm' (or cm, in, or the meters that the length 1 has, "
-                "such as the side of a square of the board: 'length_unit: 0.025')");
-  }
+  if (!unit) note_length(calibration, kUnitRemedy);
   calibration.date = date_of(files);
   return calibration;
 }
