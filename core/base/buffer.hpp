@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
 
 #include "mtstereo/image.hpp"
 
@@ -16,24 +17,65 @@ namespace mtstereo {
 /// last element [bytes]: the widest vector of the supported processors.
 inline constexpr std::size_t kAlignment = 64;
 
-/// Owner of an array of trivially copyable values. The memory only grows: resize() allocates
-/// nothing up to the largest size so far. The contents are not initialized. Throws std::bad_alloc.
+/// Aligned memory of a multiple of kAlignment [bytes]. Throws std::bad_alloc.
+inline void* allocate_aligned(std::size_t bytes) {
+  void* const memory = std::aligned_alloc(kAlignment, bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+/// Releases aligned memory, or leaves it to its owner.
+struct Free {
+  bool owned = true;
+  void operator()(void* memory) const {
+    if (owned) std::free(memory);
+  }
+};
+
+/// Memory that groups of buffers use one after the other: a group loses its contents when the next
+/// one is written. It only grows. Throws std::bad_alloc.
+class ReusedMemory {
+ public:
+  /// Begins the next group, which takes the memory of the one before.
+  void start_group() { used_ = 0; }
+  /// Memory for a buffer of the group, a multiple of kAlignment [bytes]. If it had to grow, all
+  /// buffers have to take theirs again; it does not grow then.
+  void* take(std::size_t bytes) {
+    const std::size_t end = used_ + bytes;
+    if (end > capacity_) {
+      memory_.reset();
+      capacity_ = 0;
+      memory_.reset(static_cast<std::byte*>(allocate_aligned(end)));
+      capacity_ = end;
+    }
+    return memory_.get() + std::exchange(used_, end);
+  }
+
+ private:
+  std::unique_ptr<std::byte[], Free> memory_;
+  std::size_t used_ = 0;
+  std::size_t capacity_ = 0;
+};
+
+/// An array of trivially copyable values. It owns its memory, which only grows: resize() allocates
+/// nothing up to the largest size so far. Or it has a place in reused memory, which must outlive
+/// it. The contents are not initialized. Throws std::bad_alloc.
 template <typename T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  void resize(std::size_t count) {
-    if (count > capacity_) {
+  void resize(std::size_t count, ReusedMemory* reused = nullptr) {
+    if (reused != nullptr || count > capacity_) {
       data_.reset();
       capacity_ = size_ = 0;
       if (count > (std::numeric_limits<std::size_t>::max() - 4 * kAlignment) / sizeof(T)) {
         throw std::bad_alloc();
       }
       const std::size_t bytes = (count * sizeof(T) + 2 * kAlignment) / kAlignment * kAlignment;
-      data_.reset(static_cast<T*>(std::aligned_alloc(kAlignment, bytes)));
-      if (data_ == nullptr) throw std::bad_alloc();
-      capacity_ = count;
+      void* const memory = reused != nullptr ? reused->take(bytes) : allocate_aligned(bytes);
+      data_ = {static_cast<T*>(memory), Free{reused == nullptr}};
+      if (reused == nullptr) capacity_ = count;
     }
     size_ = count;
   }
@@ -44,23 +86,20 @@ class Buffer {
   const T& operator[](std::size_t i) const { return data_.get()[i]; }
 
  private:
-  struct Free {
-    void operator()(T* data) const { std::free(data); }
-  };
   std::unique_ptr<T[], Free> data_;
   std::size_t size_ = 0;
-  std::size_t capacity_ = 0;
+  std::size_t capacity_ = 0;  ///< of own memory
 };
 
-/// Owner of an image. Rows are aligned, and one whole vector after the end of each row can be read
-/// and written (it belongs to the padding of the row).
+/// An image in a Buffer. Rows are aligned, and one whole vector after the end of each row can be
+/// read and written (it belongs to the padding of the row).
 template <typename T>
 class Image {
  public:
-  void resize(int width, int height) {
+  void resize(int width, int height, ReusedMemory* reused = nullptr) {
     const std::size_t row = (width * sizeof(T) + 2 * kAlignment - 1) / kAlignment * kAlignment;
     width_ = height_ = 0;  // the size if the next line throws
-    buffer_.resize(row / sizeof(T) * height);
+    buffer_.resize(row / sizeof(T) * height, reused);
     width_ = width;
     height_ = height;
     stride_ = row / sizeof(T);

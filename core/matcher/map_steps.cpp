@@ -9,19 +9,21 @@
 
 namespace mtstereo {
 
-void Maps::resize(const Settings& settings, const FrameSize& size) {
+void Maps::resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused) {
   const auto [width, height] = size.matched;
   disparity.resize(width, height);
   ratio.resize(width, height);
   confidence.resize(width, height);
   speckles.resize(width, height);
   if (settings.removes_speckles()) area.resize(width, height);
-  support.resize(width, height);
+  reused.start_group();  // rate_confidence() only
+  support.resize(width, height, &reused);
   if (settings.thin_objects) {
     thin.resize(width, height);
     unfiltered.resize(width, height);
   }
-  if (settings.smoothing_radius > 0) smoothed.resize(width, height);
+  reused.start_group();  // smooth() only
+  if (settings.smoothing_radius > 0) smoothed.resize(width, height, &reused);
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
     worker.support.resize(width);

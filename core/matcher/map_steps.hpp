@@ -42,7 +42,7 @@ struct Maps {
   };
   std::vector<Scratch> scratch;  ///< one for each thread
 
-  void resize(const Settings& settings, const FrameSize& size);
+  void resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused);
 };
 
 /// The map on its way to the caller. A step that writes another map makes that one the result.

@@ -22,7 +22,7 @@ void reduce(const StepContext& step, const std::array<GrayView, 2>& views,
 
 }  // namespace
 
-void Pyramid::resize(const Settings& settings, const FrameSize& size) {
+void Pyramid::resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused) {
   if (!settings.by_paths()) return;
   scratch.resize(size.threads);
   ImageSize reduced = size.matched;
@@ -30,9 +30,10 @@ void Pyramid::resize(const Settings& settings, const FrameSize& size) {
   windows.resize(reduced.width, reduced.height);
   agreement.resize(votes.columns, votes.rows);
   const ImageSize half = {half_of(reduced.width), half_of(reduced.height)};
-  support.resize(half.width, half.height);
+  reused.start_group();  // support_guide() only
+  support.resize(half.width, half.height, &reused);
   confidence.resize(half.width, half.height);
-  rating.resize(half.width, half.height, size.threads);
+  rating.resize(half.width, half.height, size.threads, reused);
   const auto prepare_scratch = [&](int level) {
     for (Scratch& worker : scratch) {
       worker.matching.resize(reduced.width, reduced.height, settings.path_matching(level));

@@ -45,7 +45,7 @@ struct Pyramid {
   };
   std::vector<Scratch> scratch;  ///< one for each thread
 
-  void resize(const Settings& settings, const FrameSize& size);
+  void resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused);
 };
 
 /// Matches the views at the reduced resolutions, coarse to fine. Each map is the expectation of the

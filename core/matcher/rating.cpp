@@ -5,8 +5,9 @@
 
 namespace mtstereo {
 
-void Rating::resize(int width, int height, int threads) {
-  clues.resize(width, height);
+void Rating::resize(int width, int height, int threads, ReusedMemory& reused) {
+  reused.start_group();
+  clues.resize(width, height, &reused);
   scratch.resize(threads);
   for (Scratch& worker : scratch) {
     worker.clues.resize(width);

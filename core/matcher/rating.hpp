@@ -23,7 +23,8 @@ struct Rating {
   };
   std::vector<Scratch> scratch;  ///< one for each thread
 
-  void resize(int width, int height, int threads);
+  /// The clues are a group of the reused memory.
+  void resize(int width, int height, int threads, ReusedMemory& reused);
 };
 
 /// Replaces the confidence of a complete map by its reliability.

@@ -21,12 +21,13 @@ constexpr int kAreasAtOnce = 8;
 
 }  // namespace
 
-void ResultBuffers::resize(const Settings& settings, const FrameSize& size) {
+void ResultBuffers::resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused) {
   if (!settings.by_paths()) return;
   const auto [width, height] = size.matched;
   const ImageSize aligned = settings.keeps_all() ? size.frame : size.matched;
-  edges.resize(aligned.width, aligned.height);
-  rating.resize(width, height, size.threads);
+  reused.start_group();  // the alignment of edges only
+  edges.resize(aligned.width, aligned.height, &reused);
+  rating.resize(width, height, size.threads, reused);
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
     worker.edges.resize(aligned.width);

@@ -36,7 +36,7 @@ struct ResultBuffers {
   };
   std::vector<Scratch> scratch;  ///< one for each thread
 
-  void resize(const Settings& settings, const FrameSize& size);
+  void resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused);
 };
 
 /// Measures how sharp the views are, at the pixels that were matched.

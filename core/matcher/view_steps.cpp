@@ -26,7 +26,7 @@ void Views::release() {
   input = plain = matched = {};
 }
 
-void Views::resize(const Settings& settings, const FrameSize& size) {
+void Views::resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused) {
   const auto [width, height] = size.matched;
   if (settings.aligned()) aligned.resize(size.input.width, size.input.height);
   const float blurs[] = {settings.correction.left_blur, settings.correction.right_blur};
@@ -38,8 +38,14 @@ void Views::resize(const Settings& settings, const FrameSize& size) {
       noise[side].resize(width, height);
       filtered[side].resize(width, height);
     }
-    if (settings.by_paths()) census[side].resize(width, height);
-    if (settings.refined()) input_census[side].resize(size.frame.width, size.frame.height);
+  }
+  reused.start_group();  // read until the end of match_by_paths()
+  for (CensusImage& view : census) {
+    if (settings.by_paths()) view.resize(width, height, &reused);
+  }
+  reused.start_group();  // refine() only
+  for (CensusImage& view : input_census) {
+    if (settings.refined()) view.resize(size.frame.width, size.frame.height, &reused);
   }
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {

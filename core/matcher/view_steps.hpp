@@ -52,7 +52,7 @@ struct Views {
   void replace_input(int side, GrayView corrected);
   /// Forgets the caller's views, which may be freed after the frame.
   void release();
-  void resize(const Settings& settings, const FrameSize& size);
+  void resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused);
 };
 
 /// Halves a view repeatedly.

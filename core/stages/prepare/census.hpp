@@ -33,7 +33,9 @@ inline constexpr int kCensusSmoothing = 5;
 struct CensusImage {
   Image<std::uint32_t> bits;
 
-  void resize(int width, int height) { bits.resize(width, height); }
+  void resize(int width, int height, ReusedMemory* reused = nullptr) {
+    bits.resize(width, height, reused);
+  }
 };
 
 /// Scratch memory of one thread: the rows of a band with their borders, as gray values - 128.

@@ -113,11 +113,11 @@ void mark_matched(const std::uint8_t* __restrict__ confidence, int width,
 
 }  // namespace
 
-void ClueMaps::resize(int width, int height) {
-  disparity.resize(width + 2 * kClueBorder, height);
-  matched.resize(width, height);
-  mismatch.resize(width, height);
-  texture.resize(width, height);
+void ClueMaps::resize(int width, int height, ReusedMemory* reused) {
+  disparity.resize(width + 2 * kClueBorder, height, reused);
+  matched.resize(width, height, reused);
+  mismatch.resize(width, height, reused);
+  texture.resize(width, height, reused);
 }
 
 void ClueScratch::resize(int width) {

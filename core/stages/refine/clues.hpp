@@ -47,7 +47,7 @@ struct ClueMaps {
   Image<std::uint8_t> mismatch;   ///< sum of three columns of differences of gray values
   Image<std::uint8_t> texture;    ///< sum of the changes in a row of kTextureSide pixels
 
-  void resize(int width, int height);
+  void resize(int width, int height, ReusedMemory* reused = nullptr);
 };
 
 /// Scratch memory of one thread.

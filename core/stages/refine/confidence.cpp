@@ -222,10 +222,10 @@ void find_border_steps(int rows, int width, SupportScratch& scratch) {
 
 }  // namespace
 
-void SupportMap::resize(int width, int height) {
+void SupportMap::resize(int width, int height, ReusedMemory* reused) {
   // The padding of the rows is wide enough for the vectors that begin inside.
-  disparity.resize(width + 2 * kSupportRadius, height);
-  ratio.resize(width + 2 * kSupportRadius, height);
+  disparity.resize(width + 2 * kSupportRadius, height, reused);
+  ratio.resize(width + 2 * kSupportRadius, height, reused);
 }
 
 void SupportScratch::resize(int width) {

@@ -38,7 +38,7 @@ struct SupportMap {
   Image<std::uint16_t> disparity;  ///< [1 / kVoteOne px], or kSupportNone
   Image<std::uint16_t> ratio;      ///< kSupportOne plus 0 .. 255; 0 without a disparity
 
-  void resize(int width, int height);
+  void resize(int width, int height, ReusedMemory* reused = nullptr);
 };
 
 /// Copies the rows y0 .. y1 - 1.

@@ -179,10 +179,10 @@ void add_marks(const std::uint8_t* __restrict__ row, int width, std::uint8_t* __
 
 }  // namespace
 
-void EdgeMap::resize(int width, int height) {
-  disparity.resize(width + 2 * kEdgeRadius, height);
-  gray.resize(width + 2 * kEdgeRadius, height);
-  near.resize(width, height);
+void EdgeMap::resize(int width, int height, ReusedMemory* reused) {
+  disparity.resize(width + 2 * kEdgeRadius, height, reused);
+  gray.resize(width + 2 * kEdgeRadius, height, reused);
+  near.resize(width, height, reused);
 }
 
 void EdgeScratch::resize(int width) { near.resize(width); }

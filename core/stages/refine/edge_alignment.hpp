@@ -38,7 +38,7 @@ struct EdgeMap {
   Image<std::uint8_t> gray;       ///< of the left view
   Image<std::uint8_t> near;       ///< without borders: 1 within kEdgeReach columns of a jump
 
-  void resize(int width, int height);
+  void resize(int width, int height, ReusedMemory* reused = nullptr);
 };
 
 /// Writes the rows y0 .. y1 - 1 of `edges`. A jump between two rows belongs to the upper one.
