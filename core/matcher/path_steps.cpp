@@ -44,13 +44,14 @@ void Pyramid::resize(const Settings& settings, const FrameSize& size, ReusedMemo
     worker.support.resize(half.width);
   }
   prepare_scratch(0);
+  reused.start_group();  // match_reduced() only
   for (int i = 0; i < kPyramidLevels; ++i) {
     PyramidLevel& level = levels[i];
     reduced = {half_of(reduced.width), half_of(reduced.height)};
     prepare_scratch(i + 1);
     for (int side = 0; side < 2; ++side) {
       level.views[side].resize(reduced.width, reduced.height);
-      level.census[side].resize(reduced.width, reduced.height);
+      level.census[side].resize(reduced.width, reduced.height, &reused);
     }
     level.disparity.resize(reduced.width, reduced.height);
     level.ratio.resize(reduced.width, reduced.height);

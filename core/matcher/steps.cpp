@@ -36,13 +36,13 @@ constexpr Step kViewList[] = {
     {"sharpness",          [](S s) { return s.blurred(); },          on<match_sharpness>},
     {"halving",            [](S s) { return s.half(); },             on<halve>},
     {"noise-filter",       [](S s) { return s.noise_filter; },       on<filter_views>},
-    {"census",             [](S s) { return s.by_paths(); },         on<transform>},
 };
 
 /// Matches all pixels along paths, coarse to fine.
 constexpr Step kPathList[] = {
     {"reduced-matching",   always,                                   on<match_reduced>},
     {"search-windows",     always,                                   on<choose_search_windows>},
+    {"census",             always,                                   on<transform>},
     {"path-matching",      always,                                   on<match_by_paths>},
     {"guide-support",      always,                                   on<support_guide>},
     {"guide-rating",       always,                                   on<rate_guide>},

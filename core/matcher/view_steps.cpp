@@ -39,7 +39,7 @@ void Views::resize(const Settings& settings, const FrameSize& size, ReusedMemory
       filtered[side].resize(width, height);
     }
   }
-  reused.start_group();  // read until the end of match_by_paths()
+  reused.start_group();  // transform() and match_by_paths()
   for (CensusImage& view : census) {
     if (settings.by_paths()) view.resize(width, height, &reused);
   }

@@ -234,19 +234,18 @@ def image(steps, path):
     drawing.text(640, 24, "gray: not with the defaults", color=FAINT)
     tops, column, center = {}, 434, 529
     top = 44
-    for which in ("View", "Path", "Map", "Result"):
+    for which in ("View", "Path", "Result", "Size"):
         tops[which] = top
         if which != "View":
             drawing.arrow((center, top - 22), (center, top))
         top = draw_list(drawing, which, steps, column, top)
-    drawing.text(column + 120, tops["Result"] + 18, "after paths")
-    draw_list(drawing, "Node", steps, 640, tops["Path"])
+    below_nodes = draw_list(drawing, "Node", steps, 640, tops["Path"]) - 22
     drawing.arrow((624, tops["View"] + 60), (735, tops["View"] + 60), (735, tops["Path"]))
-    drawing.arrow((640, tops["Map"] + 60), (624, tops["Map"] + 60))
+    drawing.arrow((735, below_nodes), (735, tops["Size"] + 60), (624, tops["Size"] + 60))
     _, last = draw_way(drawing, BEFORE, 44)
     drawing.arrow((386, last), (410, last), (410, tops["View"] + 60), (column, tops["View"] + 60))
     first, _ = draw_way(drawing, AFTER, 700)
-    drawing.arrow((column, tops["Result"] + 60), (410, tops["Result"] + 60), (410, first), (386, first))
+    drawing.arrow((column, tops["Size"] + 60), (410, tops["Size"] + 60), (410, first), (386, first))
     drawing.write(path)
 
 

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <new>
 
 namespace mtstereo {
 namespace {
@@ -38,6 +40,41 @@ TEST(Buffer, ThrowsBadAllocForImpossibleSizes) {
     EXPECT_THROW(buffer.resize(count), std::bad_alloc) << count;
   }
   buffer.resize(6);
+  buffer[5] = 1;
+  EXPECT_EQ(6u, buffer.size());
+}
+
+TEST(ReusedMemory, GivesGroupsTheSameMemoryAndBuffersOfAGroupTheirOwn) {
+  ReusedMemory memory;
+  Buffer<std::uint8_t> first, second;
+  Buffer<std::int32_t> other;
+  for (int time = 0; time < 2; ++time) {  // the memory grows the first time only
+    memory.start_group();
+    first.resize(100, &memory);
+    second.resize(3, &memory);
+    memory.start_group();
+    other.resize(1000, &memory);
+  }
+  EXPECT_EQ(static_cast<void*>(first.data()), other.data());
+  EXPECT_GE(second.data() - first.data(), static_cast<std::ptrdiff_t>(100 + kAlignment));
+  EXPECT_EQ(0u, reinterpret_cast<std::uintptr_t>(second.data()) % kAlignment);
+  EXPECT_EQ(3u, second.size());
+  for (std::size_t i = 0; i < other.size(); ++i) other[i] = 1;
+
+  first.resize(100);  // own memory again
+  EXPECT_NE(static_cast<void*>(first.data()), other.data());
+  for (std::size_t i = 0; i < first.size(); ++i) first[i] = 2;
+  EXPECT_EQ(1, other[0]);
+}
+
+TEST(ReusedMemory, ThrowsBadAllocForImpossibleSizes) {
+  ReusedMemory memory;
+  Buffer<std::int64_t> buffer;
+  EXPECT_THROW(buffer.resize(std::numeric_limits<std::size_t>::max() / 8, &memory), std::bad_alloc);
+  EXPECT_THROW(buffer.resize(std::size_t{1} << 58, &memory), std::bad_alloc);
+  EXPECT_EQ(0u, buffer.size());
+  memory.start_group();
+  buffer.resize(6, &memory);
   buffer[5] = 1;
   EXPECT_EQ(6u, buffer.size());
 }

@@ -90,5 +90,16 @@ TEST(FrameMemory, KeepsItsBuffersIfNothingLargerIsNeeded) {
   EXPECT_EQ(census, memory.views.census[0].bits.row(0));
 }
 
+TEST(FrameMemory, PlacesBuffersOfSuccessiveStepsInTheMemoryOfTheCensus) {
+  FrameMemory memory;
+  memory.resize(settings_of({}), kFull);
+  const void* const census = memory.views.census[0].bits.row(0);
+  EXPECT_EQ(census, memory.pyramid.support.disparity.row(0));
+  EXPECT_EQ(census, memory.maps.support.disparity.row(0));
+  EXPECT_EQ(census, memory.maps.smoothed.row(0));
+  EXPECT_EQ(census, memory.buffers.edges.disparity.row(0));
+  EXPECT_EQ(census, memory.buffers.rating.clues.disparity.row(0));
+}
+
 }  // namespace
 }  // namespace mtstereo

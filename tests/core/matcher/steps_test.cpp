@@ -43,7 +43,7 @@ void expect_none_of(const Parameters& parameters, const Names& absent) {
 }
 
 TEST(Steps, RunInOrderWithTheDefaults) {
-  expect_order({}, {"noise-filter", "census", "reduced-matching", "search-windows", "path-matching",
+  expect_order({}, {"noise-filter", "reduced-matching", "search-windows", "census", "path-matching",
                     "guide-support", "guide-rating", "thin-search", "speckle-removal", "confidence",
                     "smoothing", "fine-detail", "completion", "edge-alignment", "reliability",
                     "rejection", "gap-closing", "thin-drawing"});
@@ -72,7 +72,7 @@ TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
 TEST(Steps, MatchAlongPathsInsteadOfNodesInModeFull) {
   const Parameters full = test::parameters({{"mode", "full"}});
   expect_order(full,
-               {"noise-filter", "census", "reduced-matching", "search-windows", "path-matching",
+               {"noise-filter", "reduced-matching", "search-windows", "census", "path-matching",
                 "guide-support", "guide-rating", "speckle-removal", "confidence", "smoothing",
                 "completion", "edge-alignment", "reliability", "left-strip"});
   expect_none_of(full, {"fine-detail", "rejection", "thin-drawing", "preprocessing", "max-trees",
@@ -96,7 +96,7 @@ TEST(Steps, AreThoseOfSemiDenseInModeFullOfThePaper) {
 
 TEST(Steps, MatchHalvedViewsInPresetFast) {
   const Parameters fast = test::parameters({{"preset", "fast"}});
-  expect_order(fast, {"halving", "census", "reduced-matching", "path-matching", "confidence",
+  expect_order(fast, {"halving", "reduced-matching", "census", "path-matching", "confidence",
                       "smoothing", "fine-detail", "reliability", "rejection", "thin-drawing",
                       "enlarging", "input-census", "refinement"});
   expect_none_of(fast, {"max-trees", "noise-filter", "enlarged-edges"});
