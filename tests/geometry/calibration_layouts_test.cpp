@@ -143,6 +143,33 @@ TEST_F(Layout, NamesOfPythonProgramsStateTheUnitAndTheSize) {
   EXPECT_THAT(refused(plain(json("translation"))), HasSubstr("add the line 'length_unit: mm'"));
 }
 
+TEST_F(Layout, ABaselineWithAUnitStatesThatOfT) {
+  const auto pair = [](const std::string& t, const std::string& baseline) {
+    return lines({{"K1", kLeftK},
+                  {"D1", kLeftD},
+                  {"K2", kRightK},
+                  {"D2", kRightD},
+                  {"R", kR},
+                  {"T", t}}) +
+           baseline + "\nframe_width: 640\nframe_height: 480\n";
+  };
+  for (const char* baseline :
+       {"baseline_mm: 120.02", "baseline_cm: 12.0", "stereo: {baseline_mm: 120.02}"}) {
+    const std::string t = std::string(baseline).find("_cm") == std::string::npos
+                              ? "[ -120., 1., 2. ]"
+                              : "[ -12., 0.1, 0.2 ]";
+    const StereoCalibration calibration = read_valid(write(pair(t, baseline)));
+    expect_near(calibration.translation, Vector3{-0.12, 0.001, 0.002}, 1e-12);
+    EXPECT_EQ(calibration.right.width, 640);
+    EXPECT_TRUE(calibration.remarks.empty());
+  }
+  // T is in meters already.
+  EXPECT_NEAR(read_valid(write(pair(kT, "baseline_mm: 120.02"))).baseline(), 0.12, 1e-4);
+  // A wish, not what was calibrated.
+  EXPECT_THAT(refused(pair("[ -120., 1., 2. ]", "baseline_mm: 60")), HasSubstr("length_unit: mm"));
+  EXPECT_THAT(refused(pair("[ -120., 1., 2. ]", "baseline_mm: wide")), HasSubstr("length_unit"));
+}
+
 TEST_F(Layout, ARotationVectorIsNoTranslation) {
   EXPECT_THAT(refused(lines({{"K1", kLeftK},
                              {"D1", kLeftD},

@@ -31,8 +31,11 @@ constexpr Names kRightProjection = "p2 pr pright rightp";
 void read_sizes(const OpenCvEntries& files, const Request& request,
                 StereoCalibration& calibration) {
   CameraCalibration& left = calibration.left;
-  const std::optional<Entry> width = files.find(kWidth);
-  const std::optional<Entry> height = files.find(kHeight);
+  std::optional<Entry> width = files.find(kWidth);
+  std::optional<Entry> height = files.find(kHeight);
+  // Only without the others: of a video that is another size, or of the images.
+  if (!width) width = files.find("framewidth");
+  if (!height) height = files.find("frameheight");
   if (const std::optional<Entry> both = files.find(kSize)) {
     set_size(left, *both);
   } else if (width && height) {
@@ -73,10 +76,31 @@ std::optional<double> unit_in_name(const std::optional<Entry>& entry) {
   return end == "_m" ? std::optional(1.0) : std::nullopt;
 }
 
+/// The unit that an entry such as baseline_mm implies, if T has that length, in it or in meters.
+std::optional<double> unit_by_baseline(const OpenCvEntries& files,
+                                       const std::optional<Entry>& translation) {
+  if (!translation) return std::nullopt;
+  const std::vector<double> t = translation->numbers(3, "a vector");
+  const double length = std::hypot(t[0], t[1], t[2]);
+  for (const Names names : {"baselinemm stereobaselinemm", "baselinecm stereobaselinecm"}) {
+    const std::optional<Entry> entry = files.find(names);
+    const std::optional<double> unit = unit_in_name(entry);
+    if (!unit || !entry->is_scalar()) continue;
+    const double stated = parse_number(entry->text()).value_or(0);
+    constexpr double kTolerance = 0.01;
+    if (std::abs(stated - length) <= kTolerance * length) return unit;
+    if (std::abs(stated * *unit - length) <= kTolerance * length) return 1;
+  }
+  return std::nullopt;
+}
+
 /// The unit of T and of the fourth columns of P1 and P2 [m], if it is stated.
 std::optional<double> unit_of(const OpenCvEntries& files, const std::optional<Entry>& translation) {
   const std::optional<Entry> entry = files.find("lengthunit units unit");
-  if (!entry) return unit_in_name(translation);
+  if (!entry) {
+    const std::optional<double> named = unit_in_name(translation);
+    return named ? named : unit_by_baseline(files, translation);
+  }
   const std::string word = entry->text();
   constexpr std::array<std::pair<std::string_view, double>, 9> kUnits = {{{"m", 1},
                                                                           {"meter", 1},
