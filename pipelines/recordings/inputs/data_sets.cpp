@@ -254,7 +254,10 @@ std::optional<FoundRecording> find_euroc(const fs::path& folder) {
 
 std::optional<FoundRecording> find_pair_folder(const fs::path& folder) {
   const fs::path left = folder / "im0.png", right = folder / "im1.png";
-  if (!is_there(left) && !is_there(right)) return std::nullopt;
+  const fs::path calibration = folder / "calib.txt";
+  // Without the calibration, one of them may be one of many images.
+  const bool both = is_there(left) && is_there(right);
+  if (!both && !((is_there(left) || is_there(right)) && is_there(calibration))) return std::nullopt;
   FoundRecording found;
   Recording& recording = found.recording;
   recording.name = folder_name(folder);
@@ -266,7 +269,6 @@ std::optional<FoundRecording> find_pair_folder(const fs::path& folder) {
   recording.left.images = {left};
   recording.right.images = {right};
   recording.frame_rate = 1;
-  const fs::path calibration = folder / "calib.txt";
   recording.max_disparity = entry_of(calibration, "ndisp");
   const std::optional<int> width = entry_of(calibration, "width");
   const std::string& name = recording.name;

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -13,6 +15,7 @@
 
 #include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
+#include "recordings/inputs/view_names.hpp"
 
 namespace mtstereo::run {
 
@@ -57,20 +60,31 @@ Numbers numbers_of(const std::vector<fs::path>& images) {
   return numbers;
 }
 
-// Names without numbers: the place of each name among all of them.
+struct NumberedLess {
+  bool operator()(const std::string& a, const std::string& b) const {
+    return files::numbered_less(a, b);
+  }
+};
+
+// Names without numbers: the place of each name among all of them. `by_view`: without the words
+// left and right.
 std::pair<Numbers, Numbers> places_of(const std::vector<fs::path>& left,
-                                      const std::vector<fs::path>& right) {
-  std::map<std::string, std::int64_t> places;
-  for (const fs::path& image : left) places[image.stem().string()] = 0;
-  for (const fs::path& image : right) places[image.stem().string()] = 0;
+                                      const std::vector<fs::path>& right, bool by_view) {
+  std::map<std::string, std::int64_t, NumberedLess> places;
+  const auto name_of = [by_view](const fs::path& image, bool is_right) {
+    const std::string stem = image.stem().string();
+    return by_view ? name_without_view(stem, is_right) : stem;
+  };
+  for (const fs::path& image : left) places[name_of(image, false)] = 0;
+  for (const fs::path& image : right) places[name_of(image, true)] = 0;
   std::int64_t place = 0;
   for (auto& each : places) each.second = place++;
-  const auto place_of = [&places](const std::vector<fs::path>& images) {
+  const auto place_of = [&](const std::vector<fs::path>& images, bool is_right) {
     Numbers numbers;
-    for (const fs::path& image : images) numbers.push_back(places[image.stem().string()]);
+    for (const fs::path& image : images) numbers.push_back(places[name_of(image, is_right)]);
     return numbers;
   };
-  return {place_of(left), place_of(right)};
+  return {place_of(left, false), place_of(right, true)};
 }
 
 // Whether more than half of the frames of the shorter list are in the other one.
@@ -81,6 +95,11 @@ bool fit(const Numbers& left, const Numbers& right) {
     return in_left.contains(number);
   });
   return 2 * static_cast<std::size_t>(common) > std::min(left.size(), right.size());
+}
+
+bool increase(const Numbers& numbers) {
+  return std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) ==
+         numbers.end();
 }
 
 bool successive(const Numbers& numbers) {
@@ -121,12 +140,17 @@ std::pair<Numbers, Numbers> common_numbers(Recording& recording, const std::vect
                                            const std::vector<fs::path>& right) {
   std::pair<Numbers, Numbers> numbers{numbers_of(left), numbers_of(right)};
   if (fit(numbers.first, numbers.second)) return numbers;
-  numbers = places_of(left, right);
-  if (fit(numbers.first, numbers.second)) return numbers;
+  for (const bool by_view : {false, true}) {
+    numbers = places_of(left, right, by_view);
+    if (increase(numbers.first) && increase(numbers.second) && fit(numbers.first, numbers.second)) {
+      return numbers;
+    }
+  }
   numbers.first.resize(left.size());
   numbers.second.resize(right.size());
   std::iota(numbers.first.begin(), numbers.first.end(), 0);
   std::iota(numbers.second.begin(), numbers.second.end(), 0);
+  if (left.size() == 1 && right.size() == 1) return numbers;
   recording.remarks.push_back(
       "The names of the left and right images have no numbers in common: the n-th of both are a "
       "pair" +
@@ -134,6 +158,38 @@ std::pair<Numbers, Numbers> common_numbers(Recording& recording, const std::vect
                                    : ", with " + std::to_string(left.size()) + " left and " +
                                          std::to_string(right.size()) + " right images."));
   return numbers;
+}
+
+// Names with several kinds, such as 1.png and 1_mask.png, may not all be those of views.
+void note_kinds(Recording& recording, const std::vector<fs::path>& images) {
+  std::map<std::string, fs::path> kinds;
+  for (const fs::path& image : images) {
+    kinds.emplace(name_without_numbers(image.filename().string()), image);
+  }
+  if (kinds.size() < 2 || 2 * kinds.size() > images.size()) return;
+  recording.remarks.push_back(
+      "The names of images differ in more than their numbers: " + kinds.begin()->second.string() +
+      " and " + std::next(kinds.begin())->second.filename().string() +
+      " are both taken as views. A pattern takes some of them only.");
+}
+
+// The digits of a time in seconds at the end of a name, such as 1403636579.763556, in ns.
+std::optional<Nanoseconds> seconds_in(const std::string& stem) {
+  constexpr std::size_t kEpoch = 10, kMicro = 6, kNano = 9;  // digits
+  const std::size_t point = stem.find_last_not_of("0123456789");
+  if (point == std::string::npos || point == 0 || stem[point] != '.') return std::nullopt;
+  const std::size_t before = stem.find_last_not_of("0123456789", point - 1);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  std::string fraction = stem.substr(point + 1);
+  const std::size_t whole = point - begin;
+  const bool is_time = whole == kEpoch ? !fraction.empty() && fraction.size() <= kNano
+                                       : fraction.size() == kMicro || fraction.size() == kNano;
+  if (!is_time || whole == 0 || whole > kEpoch) return std::nullopt;
+  fraction.resize(kNano, '0');
+  const std::string digits = stem.substr(begin, whole) + fraction;
+  Nanoseconds time = 0;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), time);
+  return error == std::errc() ? std::optional(time) : std::nullopt;
 }
 
 // The times in the names of both lists, from the first one on. False if they state none.
@@ -192,6 +248,7 @@ std::optional<std::int64_t> frame_number(const fs::path& image) {
 }
 
 std::optional<Nanoseconds> time_in_name(const fs::path& image) {
+  if (const std::optional<Nanoseconds> time = seconds_in(image.stem().string())) return time;
   const std::optional<std::int64_t> number = frame_number(image);
   const std::string digits = digits_of(image);
   if (!number || digits.starts_with('0')) return std::nullopt;
@@ -228,6 +285,7 @@ void set_images(Recording& recording, const std::vector<fs::path>& left,
   if (!(frame_rate > 0)) throw UserError("the frame rate of images must be above 0");
   Source left_source{{}, left, {}}, right_source{{}, right, {}};
   bool needs_times = true;
+  note_kinds(recording, left.size() >= right.size() ? left : right);
   if (!set_times_of_names(left_source, right_source)) {
     auto [left_numbers, right_numbers] = right.empty() ? std::pair(numbers_of(left), Numbers())
                                                        : common_numbers(recording, left, right);

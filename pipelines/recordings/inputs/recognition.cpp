@@ -38,7 +38,9 @@ Recording only_recording(const std::string& folder, FolderContents contents) {
     if (contents.problems.empty()) {
       throw UserError(folder + ": no recording is in this folder");
     }
-    throw UserError(contents.problems.front().input + ": " + contents.problems.front().reason);
+    const Problem& problem = contents.problems.front();
+    const bool named = problem.reason.starts_with(problem.input);
+    throw UserError(named ? problem.reason : problem.input + ": " + problem.reason);
   }
   if (contents.recordings.size() > 1) {
     throw UserError(folder + ": there are " + std::to_string(contents.recordings.size()) +

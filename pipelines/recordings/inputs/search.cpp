@@ -65,6 +65,14 @@ std::string name_of_two(const Source& left, const Source& right) {
   return left.video.stem().string();
 }
 
+// What the names of the images share, or that of the only left one.
+std::string name_of_images(const ViewImages& views, const fs::path& folder) {
+  const std::string only = name_without_view(views.left.front().filename().string(), false);
+  std::string name = name_of(views.left.size() == 1 ? only : views.common, folder);
+  while (name.size() > 1 && (name.back() == '_' || name.back() == '-')) name.pop_back();
+  return name == "_" || name == "-" ? folder_name(folder) : name;
+}
+
 // Whether both views have the same files, also by links.
 bool are_same(const Source& left, const Source& right) {
   const std::vector<fs::path>&a = left.images, &b = right.images;
@@ -153,14 +161,17 @@ class FolderSearch {
   // Images of both views in one folder, or images with both views.
   void add_images() {
     std::vector<fs::path> rest = files::images_in(folder_);
-    const std::vector<PathPair> pairs = take_pairs(rest);
-    if (!pairs.empty()) {
-      Source left, right;
-      for (const PathPair& pair : pairs) {
-        left.images.push_back(pair.left);
-        right.images.push_back(pair.right);
-      }
-      add(left, right, folder_name(folder_), folder_.string());
+    const std::vector<ViewImages> all_views = take_views(rest);
+    const std::size_t before = contents_.recordings.size();
+    for (const ViewImages& views : all_views) {
+      const bool only = all_views.size() == 1;
+      add({{}, views.left, {}}, {{}, views.right, {}},
+          only ? folder_name(folder_) : name_of_images(views, folder_), folder_.string());
+    }
+    if (contents_.recordings.size() > before && !rest.empty()) {
+      contents_.recordings[before].remarks.push_back(
+          "Images that have no partner are not used: " + std::to_string(rest.size()) +
+          ", such as " + rest.front().string() + ".");
     } else if (!rest.empty() && contents_.recordings.empty() && contents_.problems.empty()) {
       add({{}, rest, {}}, {}, folder_name(folder_), asked_ ? folder_.string() : "");
     }
@@ -185,10 +196,14 @@ const char* name_of(Arrangement arrangement) {
 // The arrangement that the shape of a frame suggests.
 Arrangement guess_arrangement(const Recording& recording, cv::Size size) {
   const std::optional<Arrangement> shape = arrangement_by_shape(size.width, size.height);
-  if (shape) return *shape;
-  throw UserError(file_of(recording.left).string() + ": " + size_text(size) +
-                  " is the shape of one view: give the other view too, or state the arrangement "
-                  "(--layout)");
+  const bool odd =
+      shape && (*shape == Arrangement::kSideBySide ? size.width : size.height) % 2 != 0;
+  if (shape && !odd) return *shape;
+  const bool several = recording.left.images.size() > 1;
+  throw UserError(
+      file_of(recording.left).string() + ": " + size_text(size) + " is the shape of one view: " +
+      (several ? "give the views as two images, folders or patterns" : "give the other view too") +
+      ", or state the arrangement (--layout)");
 }
 
 // The calibration that rectifies the halves, if one does.
@@ -242,7 +257,7 @@ cv::Size size_of_two(const Recording& recording) {
   if (left == right) return left;
   throw UserError("the views have different sizes: " + file_of(recording.left).string() + " has " +
                   size_text(left) + ", " + file_of(recording.right).string() + " has " +
-                  size_text(right));
+                  size_text(right) + ": record both in the same mode, or convert one of them");
 }
 
 // One source: the calibration is for a half, and decides how the halves match.

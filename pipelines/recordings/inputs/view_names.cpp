@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -13,23 +14,34 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Words {
-  std::string_view left, right;
-  bool whole;  // not a part of a longer word or number
+enum class Place {
+  kAny,
+  kWhole,  // not a part of a longer word or number
+  kEnd     // of a word in lower case, as in imgL or imgL1
 };
 
-constexpr std::array<Words, 12> kWords{{{"left", "right", false},
-                                        {"Left", "Right", false},
-                                        {"LEFT", "RIGHT", false},
-                                        {"l", "r", true},
-                                        {"L", "R", true},
-                                        {"cam0", "cam1", true},
-                                        {"cam_0", "cam_1", true},
-                                        {"camera0", "camera1", true},
-                                        {"image_00", "image_01", true},
-                                        {"image_02", "image_03", true},
-                                        {"image_0", "image_1", true},
-                                        {"image_2", "image_3", true}}};
+struct Words {
+  std::string_view left, right;
+  Place place;
+};
+
+constexpr std::array<Words, 13> kWords{{{"left", "right", Place::kAny},
+                                        {"Left", "Right", Place::kAny},
+                                        {"LEFT", "RIGHT", Place::kAny},
+                                        {"l", "r", Place::kWhole},
+                                        {"L", "R", Place::kWhole},
+                                        {"L", "R", Place::kEnd},
+                                        {"cam0", "cam1", Place::kWhole},
+                                        {"cam_0", "cam_1", Place::kWhole},
+                                        {"camera0", "camera1", Place::kWhole},
+                                        {"image_00", "image_01", Place::kWhole},
+                                        {"image_02", "image_03", Place::kWhole},
+                                        {"image_0", "image_1", Place::kWhole},
+                                        {"image_2", "image_3", Place::kWhole}}};
+
+bool is_digit(char each) { return std::isdigit(static_cast<unsigned char>(each)) != 0; }
+
+bool is_letter(char each) { return std::isalpha(static_cast<unsigned char>(each)) != 0; }
 
 bool is_word_character(char each) { return std::isalnum(static_cast<unsigned char>(each)) != 0; }
 
@@ -37,6 +49,14 @@ bool is_whole(const std::string& name, std::size_t at, std::size_t length) {
   const std::size_t end = at + length;
   return (at == 0 || !is_word_character(name[at - 1])) &&
          (end >= name.size() || !is_word_character(name[end]));
+}
+
+bool is_in_place(const std::string& name, std::size_t at, std::size_t length, Place place) {
+  if (place == Place::kAny) return true;
+  if (place == Place::kWhole) return is_whole(name, at, length);
+  const std::size_t end = at + length;
+  return at > 0 && std::islower(static_cast<unsigned char>(name[at - 1])) != 0 &&
+         (end >= name.size() || !is_letter(name[end]));
 }
 
 bool is_separator(char each) { return each == '_' || each == '-' || each == ' ' || each == '.'; }
@@ -53,6 +73,30 @@ std::string without(const std::string& name, std::size_t at, std::size_t length)
   return before + after;
 }
 
+// The images of each view by what their names share, if no name has a partner.
+std::map<std::string, ViewImages> take_unpaired_views(std::vector<fs::path>& paths) {
+  std::map<std::string, ViewImages> found;
+  for (const fs::path& path : paths) {
+    const std::string stem = path.stem().string();
+    for (const bool right : {false, true}) {
+      const std::string common = name_without_view(stem, right);
+      if (common == stem) continue;
+      ViewImages& views = found[name_without_numbers(common)];
+      (right ? views.right : views.left).push_back(path);
+    }
+  }
+  std::erase_if(found, [](const auto& each) {
+    return each.second.left.empty() || each.second.right.empty();
+  });
+  std::set<fs::path> taken;
+  for (const auto& each : found) {
+    taken.insert(each.second.left.begin(), each.second.left.end());
+    taken.insert(each.second.right.begin(), each.second.right.end());
+  }
+  std::erase_if(paths, [&taken](const fs::path& path) { return taken.contains(path); });
+  return found;
+}
+
 }  // namespace
 
 std::vector<Partner> partners_of(const std::string& left) {
@@ -61,7 +105,7 @@ std::vector<Partner> partners_of(const std::string& left) {
     const std::size_t length = words.left.size();
     for (std::size_t at = left.find(words.left); at != std::string::npos;
          at = left.find(words.left, at + 1)) {
-      if (words.whole && !is_whole(left, at, length)) continue;
+      if (!is_in_place(left, at, length, words.place)) continue;
       Partner partner{left, without(left, at, length)};
       partner.right.replace(at, length, words.right);
       partners.push_back(std::move(partner));
@@ -99,6 +143,38 @@ std::vector<PathPair> take_pairs(std::vector<fs::path>& paths) {
   std::erase_if(
       paths, [&names](const fs::path& path) { return !names.contains(path.filename().string()); });
   return pairs;
+}
+
+std::string name_without_view(const std::string& name, bool right) {
+  for (const Words& words : kWords) {
+    const std::string_view word = right ? words.right : words.left;
+    for (std::size_t at = name.find(word); at != std::string::npos; at = name.find(word, at + 1)) {
+      if (is_in_place(name, at, word.size(), words.place)) return without(name, at, word.size());
+    }
+  }
+  return name;
+}
+
+std::string name_without_numbers(const std::string& name) {
+  std::string result = name;
+  std::erase_if(result, is_digit);
+  return result;
+}
+
+std::vector<ViewImages> take_views(std::vector<fs::path>& paths) {
+  std::map<std::string, ViewImages> found;
+  for (const PathPair& pair : take_pairs(paths)) {
+    ViewImages& views = found[name_without_numbers(pair.common)];
+    views.left.push_back(pair.left);
+    views.right.push_back(pair.right);
+  }
+  if (found.empty()) found = take_unpaired_views(paths);
+  std::vector<ViewImages> result;
+  for (auto& [common, views] : found) {
+    views.common = common;
+    result.push_back(std::move(views));
+  }
+  return result;
 }
 
 }  // namespace mtstereo::run

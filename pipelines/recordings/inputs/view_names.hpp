@@ -31,4 +31,22 @@ struct PathPair {
 /// Finds the pairs among paths of one folder and removes them from the list.
 std::vector<PathPair> take_pairs(std::vector<std::filesystem::path>& paths);
 
+/// What is left of a name without the word that states the left or the right view; the name itself
+/// if it has no such word.
+std::string name_without_view(const std::string& name, bool right);
+
+/// The name without its digits: the same for all images of one recording.
+std::string name_without_numbers(const std::string& name);
+
+/// The images of two views in one folder, whose names differ in their numbers only.
+struct ViewImages {
+  std::string common;  ///< what all names share, without digits
+  std::vector<std::filesystem::path> left, right;
+};
+
+/// Finds the images of both views among those of one folder and removes them from the list. The
+/// n-th of both views are a pair, unless no name has a partner: then each view has its own images,
+/// such as those with other times or extensions.
+std::vector<ViewImages> take_views(std::vector<std::filesystem::path>& paths);
+
 }  // namespace mtstereo::run

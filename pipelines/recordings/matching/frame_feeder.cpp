@@ -2,12 +2,10 @@
 #include "recordings/matching/frame_feeder.hpp"
 
 #include <gst/app/gstappsrc.h>
-#include <gst/video/video.h>
 
 #include <future>
 #include <utility>
 
-#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/matching_line.hpp"
 
 namespace mtstereo::run {
@@ -146,15 +144,29 @@ void FrameFeeder::note_damage(std::int64_t pair) {
   }
 }
 
-void FrameFeeder::set_caps(const Side& side, Target& target, const DecodedFrame& frame) const {
+UserError FrameFeeder::other_size(const Side& side, const GstVideoInfo& info,
+                                  std::int64_t pair) const {
+  const FramePair& frames = work_.pairs.pairs[static_cast<std::size_t>(pair)];
+  const bool first = &side == &sides_.front();
+  const Source& source = first ? work_.recording.left : work_.recording.right;
+  const auto number = static_cast<std::size_t>(first ? frames.left : frames.right);
+  const bool images = source.video.empty();
+  return UserError(side.title + ": its frames change from " + std::to_string(side.width) + "x" +
+                   std::to_string(side.height) +
+                   (images ? " (" + source.images.front().string() + ")" : "") + " to " +
+                   std::to_string(info.width) + "x" + std::to_string(info.height) + " px (" +
+                   (images ? source.images[number].string() : "frame " + std::to_string(number)) +
+                   "): give frames of one size only" + (images ? ", such as by a pattern" : ""));
+}
+
+void FrameFeeder::set_caps(const Side& side, Target& target, const DecodedFrame& frame,
+                           std::int64_t pair) const {
   GstVideoInfo info;
   if (gst_video_info_from_caps(&info, frame.caps.get()) == FALSE) {
     throw UserError(side.title + ": the decoder gives no raw video");
   }
   if (side.width > 0 && (info.width != side.width || info.height != side.height)) {
-    throw UserError(side.title + ": its frames change from " + std::to_string(side.width) + "x" +
-                    std::to_string(side.height) + " to " + std::to_string(info.width) + "x" +
-                    std::to_string(info.height) + " px");
+    throw other_size(side, info, pair);
   }
   gint numerator = 0, denominator = 1;
   gst_video_guess_framerate(static_cast<GstClockTime>(work_.period), &numerator, &denominator);
@@ -167,7 +179,7 @@ void FrameFeeder::set_caps(const Side& side, Target& target, const DecodedFrame&
 bool FrameFeeder::push(Side& side, DecodedFrame frame, std::int64_t pair) const {
   Target& target = side.targets[lane_];
   if (!target.caps || gst_caps_is_equal(target.caps.get(), frame.caps.get()) == FALSE) {
-    set_caps(side, target, frame);
+    set_caps(side, target, frame, pair);
   }
   GstBuffer* const buffer = gst_buffer_make_writable(frame.buffer.release());
   GST_BUFFER_PTS(buffer) = static_cast<GstClockTime>(pair * work_.period);

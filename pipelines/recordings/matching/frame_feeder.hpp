@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <gst/video/video.h>
+
 #include <atomic>
 #include <exception>
 #include <functional>
@@ -10,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "lib/outputs/user_error.hpp"
 #include "recordings/matching/piece.hpp"
 #include "recordings/media/damage_notes.hpp"
 #include "recordings/media/frame_reader.hpp"
@@ -58,7 +61,9 @@ class FrameFeeder {
   bool push(Side& side, DecodedFrame frame, std::int64_t pair) const;
   void note(const Side& side, std::int64_t frame, FrameState state);
   void note_damage(std::int64_t pair);
-  void set_caps(const Side& side, Target& target, const DecodedFrame& frame) const;
+  UserError other_size(const Side& side, const GstVideoInfo& info, std::int64_t pair) const;
+  void set_caps(const Side& side, Target& target, const DecodedFrame& frame,
+                std::int64_t pair) const;
 
   const Work& work_;
   std::vector<std::int64_t> pairs_;

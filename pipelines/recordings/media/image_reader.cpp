@@ -49,7 +49,10 @@ class JpegDecoder {
       if (taken == Taken::kEnd || !problem.empty()) break;
     }
     if (!sample) {
-      if (problem.empty()) problem = "it is not a whole JPEG file";
+      problem = problem.empty() ? "it is not a whole JPEG file"
+                                : "it is broken, or of a kind that is not decoded, such as CMYK: "
+                                  "convert it to PNG (" +
+                                      problem + ")";
       return missing();
     }
     DecodedFrame frame;

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "lib/outputs/user_error.hpp"
+#include "recordings/inputs/image_lists.hpp"
 #include "recordings/media/frame_index.hpp"
 #include "recordings/support/video_files.hpp"
 
@@ -114,6 +115,16 @@ TEST_F(Recordings, TwoVideoFiles) {
             path("drive_right.mkv"));
 }
 
+// GStreamer repeats such files for ever.
+TEST_F(Recordings, RefusesAnimationsWithoutEnd) {
+  write_text(folder_ / "a.gif", "GIF89a");
+  write_text(folder_ / "b.mp4", "GIF87a");
+  for (const char* name : {"a.gif", "b.mp4"}) {
+    EXPECT_THAT(error_of({name}),
+                AllOf(HasSubstr(path(name) + ": is a GIF"), HasSubstr("convert")));
+  }
+}
+
 TEST_F(Recordings, FolderWithTwoVideos) {
   write_video(folder_ / "day/left.ts", std::string(kBFrames) + " ! mpegtsmux", constant_times(5));
   write_video(folder_ / "day/right.ts", std::string(kBFrames) + " ! mpegtsmux", constant_times(5));
@@ -200,6 +211,48 @@ TEST_F(Recordings, NamesThatAreTimes) {
   EXPECT_THAT(recording.right.times, ElementsAre(415, 49'999'872));
 }
 
+TEST_F(Recordings, NamesThatAreSeconds) {
+  write_images("cam0", {"1403636579.90.png", "1403636580.10.png", "1403636580.30.png"});
+  write_images("cam1", {"1403636579.9004.png", "1403636580.3.png"}, true);
+  const Recording recording = recognized({"cam0", "cam1"});
+  EXPECT_THAT(recording.left.times, ElementsAre(0, 200'000'000, 400'000'000));
+  EXPECT_THAT(recording.right.times, ElementsAre(400'000, 400'000'000));
+  EXPECT_THAT(recording.remarks, IsEmpty());
+  EXPECT_EQ(time_in_name("left_1625.123456.png"), 1'625'123'456'000);
+  // Versions and dates are no times, and neither is what 64 bits cannot count.
+  for (const char* name : {"v2.001.png", "12345678901.123456.png", "9999999999.5.png", "a.5.png"}) {
+    EXPECT_FALSE(time_in_name(name)) << name;
+  }
+}
+
+// The last digits of such names are no numbers of frames.
+TEST_F(Recordings, NamesThatDifferInTheirView) {
+  write_images("left", {"2_leftImg8bit.png", "9_leftImg8bit.png", "10_leftImg8bit.png"});
+  write_images("right", {"2_rightImg8bit.png", "10_rightImg8bit.png"}, true);
+  const Recording recording = recognized({"left", "right"});
+  const Nanoseconds period = 33'333'333;
+  EXPECT_THAT(recording.left.times, ElementsAre(0, period, 2 * period + 1));
+  EXPECT_THAT(recording.right.times, ElementsAre(0, 2 * period + 1));
+  EXPECT_THAT(recording.remarks, IsEmpty());
+}
+
+// In the order of the names, "a2_l" is before "a_l", but "a" is before "a2".
+TEST_F(Recordings, NamesWithAndWithoutNumbers) {
+  write_images("all", {"a_l.png", "a2_l.png"});
+  write_images("all", {"a_r.png", "a2_r.png"}, true);
+  const Recording recording = recognized({"all"});
+  EXPECT_THAT(names_of(recording.left.images), ElementsAre("a2_l.png", "a_l.png"));
+  EXPECT_THAT(names_of(recording.right.images), ElementsAre("a2_r.png", "a_r.png"));
+  EXPECT_THAT(recording.left.damage, IsEmpty());
+}
+
+TEST_F(Recordings, NamesOfImagesThatMayBeNoViews) {
+  write_images("left", {"1.png", "1_mask.png", "2.png", "2_mask.png"});
+  write_images("right", {"1.png", "2.png"}, true);
+  EXPECT_THAT(recognized({"left", "right"}).remarks,
+              Contains(AllOf(HasSubstr("1.png"), HasSubstr("_mask.png are both taken as views"))));
+}
+
 TEST_F(Recordings, PatternsOfImages) {
   write_images("all", {"left_001.png", "left_002.png", "x_left_001.png"});
   write_images("all", {"right_001.png", "right_002.png"}, true);
@@ -214,6 +267,33 @@ TEST_F(Recordings, ImagesOfBothViewsInOneFolder) {
   const Recording recording = recognized({"all"});
   EXPECT_THAT(names_of(recording.left.images), ElementsAre("left_001.png", "left_002.png"));
   EXPECT_THAT(names_of(recording.right.images), ElementsAre("right_001.png", "right_002.png"));
+}
+
+TEST_F(Recordings, OtherImagesInTheFolderAreNamed) {
+  write_images("all", {"left_1.png", "left_2.png", "left_3.png"});
+  write_images("all", {"right_1.png", "right_3.png"}, true);
+  const Recording recording = recognized({"all"});
+  EXPECT_THAT(names_of(recording.left.images), ElementsAre("left_1.png", "left_3.png"));
+  EXPECT_THAT(recording.remarks, ElementsAre(HasSubstr("1, such as " + path("all/left_2.png"))));
+}
+
+TEST_F(Recordings, ImagesOfOtherKindsAreOtherRecordings) {
+  write_images("all", {"left.png", "disp_left.png", "imgL.jpg"});
+  write_images("all", {"right.png", "disp_right.png", "imgR.jpg"}, true);
+  EXPECT_THAT(error_of({"all"}), HasSubstr("3 recordings, such as all and disp"));
+  std::vector<Problem> problems;
+  std::vector<std::string> names;
+  for (const Recording& recording : found(problems)) names.push_back(recording.name);
+  EXPECT_THAT(names, ElementsAre("all", "all-disp", "all-img"));
+  EXPECT_THAT(problems, IsEmpty());
+}
+
+TEST_F(Recordings, TheFirstImagesOfASequenceAreNoPair) {
+  write_images("one", {"im1.png", "im2.png"});
+  EXPECT_EQ(error_of({"one"}).rfind(path("one/im1.png") + ": 200x120 px is the shape of one", 0),
+            0U)
+      << error_of({"one"});
+  EXPECT_THAT(error_of({"one"}), HasSubstr("patterns"));
 }
 
 TEST_F(Recordings, ImagesWithoutCommonNumbersArePairsByTheirOrder) {
@@ -273,6 +353,7 @@ TEST_F(Recordings, RefusesOddHalves) {
   InputOptions stated;
   stated.arrangement = Arrangement::kSideBySide;
   EXPECT_THAT(error_of({"odd.png"}, stated), HasSubstr("its width is odd"));
+  EXPECT_THAT(error_of({"odd.png"}), HasSubstr("is the shape of one view: give the other view"));
 }
 
 TEST_F(Recordings, RefusesFolderWithSeveralRecordings) {

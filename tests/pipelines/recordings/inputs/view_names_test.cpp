@@ -18,6 +18,8 @@ TEST(ViewNames, FindsPairs) {
       {"DriveLeft.avi", {"DriveRight.avi", "Drive.avi"}},
       {"a_l_1.mkv", {"a_r_1.mkv", "a_1.mkv"}},
       {"image_l", {"image_r", "image"}},
+      {"imgL.png", {"imgR.png", "img.png"}},
+      {"imageL10.png", {"imageR10.png", "image10.png"}},
       {"cam0", {"cam1", ""}},
       {"image_02", {"image_03", ""}},
   };
@@ -35,11 +37,43 @@ TEST(ViewNames, FindsPairs) {
 
 TEST(ViewNames, LeavesOtherNames) {
   for (const auto& [a, b] : {std::pair("small.mp4", "smarr.mp4"), std::pair("cam01", "cam11"),
-                             std::pair("left1.mp4", "right2.mp4"), std::pair("cam2", "cam3")}) {
+                             std::pair("left1.mp4", "right2.mp4"), std::pair("cam2", "cam3"),
+                             std::pair("XL1.png", "XR1.png"), std::pair("xLa.png", "xRa.png")}) {
     std::vector<fs::path> paths{a, b};
     EXPECT_TRUE(take_pairs(paths).empty()) << a;
     EXPECT_EQ(paths.size(), 2U);
   }
+}
+
+std::string text_of(std::vector<fs::path> paths) {
+  std::string text;
+  for (const ViewImages& views : take_views(paths)) {
+    text += views.common + ":";
+    for (const fs::path& left : views.left) text += " " + left.string();
+    text += " |";
+    for (const fs::path& right : views.right) text += " " + right.string();
+    text += "; ";
+  }
+  text += "rest:";
+  for (const fs::path& path : paths) text += " " + path.string();
+  return text;
+}
+
+TEST(ViewNames, SeparatesWhatDiffersInMoreThanNumbers) {
+  EXPECT_EQ(text_of({"disp_left.png", "disp_right.png", "left.png", "right.png", "readme.png"}),
+            ".png: left.png | right.png; disp.png: disp_left.png | disp_right.png; "
+            "rest: readme.png");
+  EXPECT_EQ(text_of({"left_2.png", "left_3.png", "left_10.png", "right_2.png", "right_10.png"}),
+            ".png: left_2.png left_10.png | right_2.png right_10.png; rest: left_3.png");
+}
+
+TEST(ViewNames, FindsViewsWithoutPartners) {
+  EXPECT_EQ(text_of({"left.png", "right.jpg", "x.png"}), ": left.png | right.jpg; rest: x.png");
+  EXPECT_EQ(text_of({"left_1.25.png", "left_1.50.png", "right_1.26.png"}),
+            ".: left_1.25.png left_1.50.png | right_1.26.png; rest:");
+  EXPECT_EQ(text_of({"left_1.png", "right_mask_1.png", "left_2.png"}),
+            "rest: left_1.png right_mask_1.png left_2.png");
+  EXPECT_EQ(text_of({"left_1.png", "left_2.png"}), "rest: left_1.png left_2.png");
 }
 
 TEST(ViewNames, RecognizesNamesOfOneView) {

@@ -5,6 +5,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/recognition.hpp"
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
@@ -114,6 +115,21 @@ class Inputs : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
 };
+
+TEST_F(Inputs, NamesImagesOfAnotherSize) {
+  write_images("left/%d.png", View::kLeft);
+  write_images("right/%d.png", View::kRight);
+  ASSERT_TRUE(cv::imwrite(path("left/1.png"), cv::Mat(40, 60, CV_8UC1, cv::Scalar(9))));
+  try {
+    process_input({path("left"), path("right")}, false);
+    FAIL();
+  } catch (const UserError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("(" + path("left/0.png") + ") to 60x40 px (" + path("left/1.png") + ")"),
+              std::string::npos)
+        << text;
+  }
+}
 
 TEST_F(Inputs, VideosWithBothViews) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
