@@ -49,6 +49,8 @@ StereoCalibration read_one(const Document& document, const formats::Request& req
       return formats::read_basalt(entry, request);
     case Format::kCameraList:
       return formats::read_camera_list(entry, request);
+    case Format::kFoundationStereo:
+      return formats::read_foundation_stereo(entry, request);
     case Format::kStella:
       return formats::read_stella(entry, request);
     case Format::kVinsCamera:

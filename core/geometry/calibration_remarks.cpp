@@ -70,15 +70,14 @@ void put_in_order(StereoCalibration& calibration) {
       "first one, exchange the views.");
 }
 
-void note_length(StereoCalibration& calibration, std::string_view remedy) {
+void note_length(StereoCalibration& calibration, std::string_view remedy, std::string_view unit) {
   const double baseline = calibration.baseline();
   if (!std::isfinite(baseline) || (baseline >= kShortBaseline && baseline <= kLongBaseline)) return;
   calibration.remarks.push_back(
       "The baseline is " + digits(baseline) + " m, which is unusually " +
       (baseline < kShortBaseline ? "short" : "long") +
-      ", and the file states no unit: depths are wrong unless its lengths are in meters. "
-      "Otherwise " +
-      std::string(remedy) + ".");
+      ", and the file states no unit: depths are wrong unless its lengths are in " +
+      std::string(unit) + ". Otherwise " + std::string(remedy) + ".");
 }
 
 void note_centers(StereoCalibration& calibration) {

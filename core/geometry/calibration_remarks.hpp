@@ -13,8 +13,9 @@ namespace mtstereo {
 void put_in_order(StereoCalibration& calibration);
 
 /// Notes a baseline that no usual pair of cameras has, for a file that does not state the unit of
-/// its lengths. `remedy` is what to do if they are not in meters.
-void note_length(StereoCalibration& calibration, std::string_view remedy);
+/// its lengths. `remedy` is what to do if they are not in `unit`.
+void note_length(StereoCalibration& calibration, std::string_view remedy,
+                 std::string_view unit = "meters");
 
 /// Notes principal points that are far from the middle of their images. Unknown sizes are ignored.
 void note_centers(StereoCalibration& calibration);

@@ -162,6 +162,7 @@ def calibrations_of_slam():
                        "[310, 311", "[0.8, 834, 831").replace("equidistant", "radtan").encode()
     okvis = ("{{T_SC: {}, image_dimension: [640, 480], distortion_coefficients: [0.1, 0, 0, 0], distortion_type: "
              "equidistant, focal_length: [310, 311], principal_point: [322, 241]}}")
+    yield "K.txt", b"\1\0310 0 322 0 310 241 0 0 1\n0.12\n"
     yield "okvis", ("\0\0%YAML:1.0\ncameras:\n" + "".join(
         f"  - {okvis.format(pose.format(x))}\n" for x in (0, 0.12))).encode()
     svo = ("{{camera: {{image_width: 640, image_height: 480, type: pinhole, intrinsics: [310, 311, 322, 241], "

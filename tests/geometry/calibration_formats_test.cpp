@@ -310,6 +310,25 @@ TEST(Middlebury, BaselineIsInMillimetersAndTheOffsetIsKept) {
   EXPECT_EQ(calibration.rectification->height, 1988);
 }
 
+TEST(FoundationStereo, StatesKAndTheBaselineInTwoLines) {
+  const CalibrationFolder folder;
+  const auto write = [&](const std::string& text) { return folder.write("K.txt", text); };
+  const std::string k = "500.5 0.0 321.25 0.0 500.5 240.75 0.0 0.0 1.0\n";
+  const StereoCalibration calibration = read_valid(write(k + "0.063\n"), 640, 480);
+  EXPECT_EQ(calibration.format, "FoundationStereo");
+  EXPECT_DOUBLE_EQ(calibration.right.focal_x, 500.5);
+  EXPECT_DOUBLE_EQ(calibration.left.center_y, 240.75);
+  EXPECT_DOUBLE_EQ(calibration.baseline(), 0.063);
+  EXPECT_EQ(calibration.rectification->width, 640);
+  EXPECT_THAT(read_refused(write(k)),
+              HasSubstr("baseline in the second are needed; lines of numbers: 1"));
+  EXPECT_THAT(read_refused(write(k + "0.063 1\n")), HasSubstr("line 2 has 2 values, 1 are needed"));
+  EXPECT_THAT(read_refused(write(k + "63\n")), HasSubstr("line 2 states a baseline of 63 m"));
+  EXPECT_THAT(read_refused(write("0" + k + k)), HasSubstr("line 2 has 9 values"));
+  EXPECT_THAT(read_refused(write(replaced(k, "240.75 0.0", "240.75 0.5") + "0.063\n")),
+              HasSubstr("line 1 is not a camera matrix"));
+}
+
 TEST(DepthAi, StereoSocketsAndCentimetersAreUnderstood) {
   const StereoCalibration calibration = read_valid(stored("depthai.json"));
   EXPECT_EQ(calibration.format, "DepthAI");

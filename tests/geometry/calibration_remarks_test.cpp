@@ -136,6 +136,15 @@ TEST_F(Remarks, ABaselineOfRosInAnotherUnit) {
               HasSubstr("by 1000, or by 100 if it is in centimeters"));
 }
 
+TEST_F(Remarks, ABaselineOfMiddleburyInMeters) {
+  const std::string text = stored_text("middlebury_calib.txt");
+  const std::string file =
+      folder_.write("calib.txt", replaced(text, "baseline=193.001", "baseline=0.193"));
+  EXPECT_THAT(read_valid(file).remarks,
+              ElementsAre(AllOf(HasSubstr("unusually short"), HasSubstr("are in millimeters"),
+                                HasSubstr("multiply baseline by 1000"))));
+}
+
 TEST_F(Remarks, ARectificationThatNoViewCanHaveIsLeftOut) {
   const std::string left = "530.25, 0, 330.125, 0, 0, 530.25, 240.5, 0, 0, 0, 1, 0 ]\n";
   const std::string right = "530.25, 0, 330.125, -64.4, 0, 530.25, 240.5, 0, 0, 0, 1, 0 ]\n";

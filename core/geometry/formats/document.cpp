@@ -108,18 +108,17 @@ bool has_name(std::string_view line, char separator,
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Whether a line has twelve numbers and nothing else.
-bool is_projection(std::string_view line) {
+/// How many numbers a line has; 0 if it has anything else.
+int count_numbers(std::string_view line) {
   int count = 0;
   while (!line.empty()) {
     const std::string_view word = line.substr(0, line.find_first_of(" \t"));
     line.remove_prefix(std::min(word.size() + 1, line.size()));
     if (word.empty()) continue;
-    if (!parse_number(word)) return false;
+    if (!parse_number(word)) return 0;
     ++count;
   }
-  constexpr int kValues = 12;
-  return count == kValues;
+  return count;
 }
 
 /// Fails for files that calibration programs write beside the calibration.
@@ -170,8 +169,11 @@ bool parse_as_lines(std::string_view text, Document& document) {
       document.root = parse_sections(text, document.file);
       return true;
     }
-    if (is_projection(line)) {
-      document.format = Format::kKittiOdometry;
+    constexpr int kProjection = 12;
+    constexpr int kCameraMatrix = 9;
+    const int count = count_numbers(line);
+    if (count == kProjection || count == kCameraMatrix) {
+      document.format = count == kProjection ? Format::kKittiOdometry : Format::kFoundationStereo;
       document.root = parse_number_lines(text);
       return true;
     }
@@ -216,7 +218,7 @@ bool is_mrcal(std::string_view text) {
 }  // namespace
 
 const char* name_of(Format format) {
-  constexpr std::array<const char*, 16> kNames = {"an OpenCV file",
+  constexpr std::array<const char*, 17> kNames = {"an OpenCV file",
                                                   "a ROS camera_info",
                                                   "a Kalibr camchain",
                                                   "a EuRoC sensor.yaml",
@@ -231,7 +233,8 @@ const char* name_of(Format format) {
                                                   "a calibration of Basalt",
                                                   "a .cameramodel of mrcal",
                                                   "a list of cameras (OKVIS, SVO, maplab)",
-                                                  "a file of stella_vslam"};
+                                                  "a file of stella_vslam",
+                                                  "a K.txt of FoundationStereo"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

@@ -31,6 +31,7 @@ enum class Format {
   kMrcal,
   kCameraList,
   kStella,
+  kFoundationStereo,
 };
 
 /// The name of a format in messages, with its article.

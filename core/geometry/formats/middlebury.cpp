@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "geometry/calibration_remarks.hpp"
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"
 
@@ -46,6 +47,7 @@ StereoCalibration read_middlebury(const Entry& file, const Request& request) {
   rectification.height = size.height;
   calibration = rectified_cameras(rectification);
   calibration.format = "Middlebury";
+  note_length(calibration, "multiply baseline by 1000 if it is in meters", "millimeters");
   return calibration;
 }
 

@@ -72,12 +72,8 @@ StereoCalibration read_rectified(const Entry& file, const CameraCalibration& cam
         "or LEFT.K and RIGHT.K are needed");
   }
   const double baseline = length ? length->number() : product->number() / camera.focal_x;
-  RectifiedViews views;
-  views.left_projection = {
-      camera.focal_x, 0, camera.center_x, 0, 0, camera.focal_y, camera.center_y, 0, 0, 0, 1, 0};
-  views.right_projection = views.left_projection;
-  views.right_projection[3] = -camera.focal_x * baseline;
-  Rectification rectification = rectification_from(views, file, file);
+  Rectification rectification =
+      rectification_from(views_of(camera, camera.focal_x * baseline), file, file);
   rectification.baseline = baseline;
   rectification.width = camera.width;
   rectification.height = camera.height;

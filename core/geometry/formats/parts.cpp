@@ -203,6 +203,15 @@ void set_size(CameraCalibration& camera, const Entry& both) {
   camera.height = static_cast<int>(size[1]);
 }
 
+RectifiedViews views_of(const CameraCalibration& camera, double product) {
+  RectifiedViews views;
+  views.left_projection = {
+      camera.focal_x, 0, camera.center_x, 0, 0, camera.focal_y, camera.center_y, 0, 0, 0, 1, 0};
+  views.right_projection = views.left_projection;
+  views.right_projection[3] = -product;
+  return views;
+}
+
 Rectification rectification_from(const RectifiedViews& views, const Entry& left, const Entry& right,
                                  double unit) {
   const std::vector<double>& p1 = views.left_projection;

@@ -47,6 +47,8 @@ StereoCalibration read_basalt(const Entry& file, const Request& request);
 StereoCalibration read_mrcal(const Entry& left, const Entry& right, const Request& request);
 /// A list of cameras on a body, of OKVIS, SVO or maplab.
 StereoCalibration read_camera_list(const Entry& file, const Request& request);
+/// The K.txt of FoundationStereo.
+StereoCalibration read_foundation_stereo(const Entry& file, const Request& request);
 /// A configuration of stella_vslam or OpenVSLAM.
 StereoCalibration read_stella(const Entry& file, const Request& request);
 

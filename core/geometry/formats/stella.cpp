@@ -29,15 +29,12 @@ Entry of_rectifier(const Entry& file, const char* name) {
 
 /// The projections; the rotations stay those of views that are rectified already.
 RectifiedViews read_views(const Entry& file) {
-  RectifiedViews views;
-  const double fx = of_camera(file, "fx").number();
-  const double fy = of_camera(file, "fy").number();
-  const double cx = of_camera(file, "cx").number();
-  const double cy = of_camera(file, "cy").number();
-  views.left_projection = {fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0};
-  views.right_projection = views.left_projection;
-  views.right_projection[3] = -of_camera(file, "focal_x_baseline").number();
-  return views;
+  CameraCalibration camera;
+  camera.focal_x = of_camera(file, "fx").number();
+  camera.focal_y = of_camera(file, "fy").number();
+  camera.center_x = of_camera(file, "cx").number();
+  camera.center_y = of_camera(file, "cy").number();
+  return views_of(camera, of_camera(file, "focal_x_baseline").number());
 }
 
 }  // namespace

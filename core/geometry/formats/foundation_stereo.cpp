@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The K.txt of FoundationStereo: nine numbers of K in one line, and the baseline in meters in the
+// next one. The views are rectified.
+#include <string>
+#include <vector>
+
+#include "geometry/formats/parts.hpp"
+#include "geometry/formats/readers.hpp"
+
+namespace mtstereo::formats {
+
+StereoCalibration read_foundation_stereo(const Entry& file, const Request& request) {
+  no_selection(file, request.selection);
+  const std::vector<Entry> lines = file.list();
+  constexpr std::size_t kLines = 2;
+  if (lines.size() != kLines) {
+    file.fail("K in the first line and the baseline in the second are needed; lines of numbers: " +
+              std::to_string(lines.size()));
+  }
+  const Entry k(lines[0].value(), file.file(), "line 1");
+  const Entry length(lines[1].value(), file.file(), "line 2");
+  CameraCalibration camera;
+  set_camera_matrix(camera, k);
+  const double baseline = length.numbers(1, "the baseline in meters")[0];
+  Rectification rectification =
+      rectification_from(views_of(camera, camera.focal_x * baseline), k, length);
+  check_translation({-baseline, 0, 0}, length, "; it must be in meters");
+  rectification.baseline = baseline;
+  rectification.width = request.width;
+  rectification.height = request.height;
+  StereoCalibration calibration = rectified_cameras(rectification);
+  calibration.format = "FoundationStereo";
+  return calibration;
+}
+
+}  // namespace mtstereo::formats
