@@ -32,15 +32,23 @@ bool is_of_kernel(const fs::path& folder) {
   return found.f_type == PROC_SUPER_MAGIC || found.f_type == SYSFS_MAGIC;
 }
 
+// A reason may name the input, or a file in it.
+std::string text_of(const Problem& problem, const std::string& between) {
+  const std::string name = problem.input + ": ";
+  const bool named = problem.reason.starts_with(name);
+  if (!named && problem.reason.starts_with(problem.input)) return problem.reason;
+  return problem.input + between + (named ? problem.reason.substr(name.size()) : problem.reason);
+}
+
 // What a folder has that is not the recording.
 Recording only_recording(const std::string& folder, FolderContents contents) {
   if (contents.recordings.empty()) {
     if (contents.problems.empty()) {
-      throw UserError(folder + ": no recording is in this folder");
+      throw UserError(folder +
+                      ": no recording is in this folder: give the left and the right view, as two "
+                      "videos, images, folders or patterns");
     }
-    const Problem& problem = contents.problems.front();
-    const bool named = problem.reason.starts_with(problem.input);
-    throw UserError(named ? problem.reason : problem.input + ": " + problem.reason);
+    throw UserError(text_of(contents.problems.front(), ": "));
   }
   if (contents.recordings.size() > 1) {
     throw UserError(folder + ": there are " + std::to_string(contents.recordings.size()) +
@@ -49,7 +57,7 @@ Recording only_recording(const std::string& folder, FolderContents contents) {
   }
   Recording recording = std::move(contents.recordings.front());
   for (const Problem& problem : contents.problems) {
-    recording.remarks.push_back(problem.input + " is not used: " + problem.reason);
+    recording.remarks.push_back(text_of(problem, " is not used: "));
   }
   return recording;
 }

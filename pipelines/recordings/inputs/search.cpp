@@ -13,6 +13,7 @@
 #include "recordings/inputs/calibration_choice.hpp"
 #include "recordings/inputs/halves.hpp"
 #include "recordings/inputs/image_lists.hpp"
+#include "recordings/inputs/own_names.hpp"
 #include "recordings/inputs/view_names.hpp"
 #include "recordings/media/sample_frames.hpp"
 
@@ -38,9 +39,20 @@ fs::path folder_of(const Source& source) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
+// Removes the results of earlier runs from what is in a folder.
+void erase_results(std::vector<fs::path>& paths, const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder / kRunFile, error)) return;
+  std::erase_if(paths, [](const fs::path& path) {
+    const std::string stem = path.stem().string();
+    return std::find(kResultNames.begin(), kResultNames.end(), stem) != kResultNames.end();
+  });
+}
+
 std::vector<fs::path> videos_in(const fs::path& folder) {
   std::vector<fs::path> files = files::files_in(folder);
   std::erase_if(files, [](const fs::path& file) { return !files::is_video(file); });
+  erase_results(files, folder);
   return files;
 }
 
@@ -132,7 +144,8 @@ class FolderSearch {
     }
     for (const fs::path& video : videos) {
       if (is_view_name(video.filename().string())) {
-        contents_.problems.push_back({video.string(), "the video of the other view is missing"});
+        contents_.problems.push_back(
+            {video.string(), "the video of the other view is missing: give both videos"});
       } else {
         add({video, {}, {}}, {}, video.stem().string(), video.string());
       }
@@ -141,6 +154,7 @@ class FolderSearch {
 
   void add_folders() {
     std::vector<fs::path> folders = files::folders_in(folder_);
+    erase_results(folders, folder_);
     std::erase_if(folders, [](const fs::path& folder) {
       return images_of_folder(folder).empty() && videos_in(folder).size() != 1;
     });
@@ -154,7 +168,8 @@ class FolderSearch {
     for (const fs::path& folder : folders) {
       if (!is_view_name(folder.filename().string())) continue;
       contents_.used_folders.push_back(folder);
-      contents_.problems.push_back({folder.string(), "the folder of the other view is missing"});
+      contents_.problems.push_back(
+          {folder.string(), "the folder of the other view is missing: give both folders"});
     }
   }
 

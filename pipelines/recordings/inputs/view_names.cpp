@@ -25,7 +25,7 @@ struct Words {
   Place place;
 };
 
-constexpr std::array<Words, 13> kWords{{{"left", "right", Place::kAny},
+constexpr std::array<Words, 15> kWords{{{"left", "right", Place::kAny},
                                         {"Left", "Right", Place::kAny},
                                         {"LEFT", "RIGHT", Place::kAny},
                                         {"l", "r", Place::kWhole},
@@ -34,6 +34,8 @@ constexpr std::array<Words, 13> kWords{{{"left", "right", Place::kAny},
                                         {"cam0", "cam1", Place::kWhole},
                                         {"cam_0", "cam_1", Place::kWhole},
                                         {"camera0", "camera1", Place::kWhole},
+                                        {"infra1", "infra2", Place::kWhole},
+                                        {"colored_0", "colored_1", Place::kWhole},
                                         {"image_00", "image_01", Place::kWhole},
                                         {"image_02", "image_03", Place::kWhole},
                                         {"image_0", "image_1", Place::kWhole},

@@ -11,6 +11,7 @@
 
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/image_lists.hpp"
+#include "recordings/matching/product_files.hpp"
 #include "recordings/media/frame_index.hpp"
 #include "recordings/support/video_files.hpp"
 
@@ -275,6 +276,23 @@ TEST_F(Recordings, OtherImagesInTheFolderAreNamed) {
   const Recording recording = recognized({"all"});
   EXPECT_THAT(names_of(recording.left.images), ElementsAre("left_1.png", "left_3.png"));
   EXPECT_THAT(recording.remarks, ElementsAre(HasSubstr("1, such as " + path("all/left_2.png"))));
+}
+
+TEST_F(Recordings, EarlierResultsBesideTheViewsAreNotViews) {
+  write_images("day/left", {"1.png"});
+  write_images("day/right", {"1.png"}, true);
+  for (const std::string& name : product_paths()) {
+    if (fs::path(name).has_extension()) {
+      write_text(folder_ / ("day/" + name), "no video");
+    } else {
+      write_images("day/" + name, {"000000.png"});
+    }
+  }
+  EXPECT_THAT(error_of({"day"}), HasSubstr("2 recordings, such as"));
+  write_text(folder_ / "day/run.json", "{}");
+  const Recording recording = recognized({"day"});
+  EXPECT_THAT(recording.remarks, IsEmpty());
+  EXPECT_EQ(recording.left.images.front(), path("day/left/1.png"));
 }
 
 TEST_F(Recordings, ImagesOfOtherKindsAreOtherRecordings) {

@@ -22,6 +22,8 @@ TEST(ViewNames, FindsPairs) {
       {"imageL10.png", {"imageR10.png", "image10.png"}},
       {"cam0", {"cam1", ""}},
       {"image_02", {"image_03", ""}},
+      {"infra1", {"infra2", ""}},
+      {"colored_0", {"colored_1", ""}},
   };
   for (const auto& [left, expected] : known) {
     std::vector<fs::path> paths{fs::path("x") / expected.first, fs::path("x") / left,
