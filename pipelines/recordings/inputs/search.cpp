@@ -16,6 +16,7 @@
 #include "recordings/inputs/own_names.hpp"
 #include "recordings/inputs/view_names.hpp"
 #include "recordings/media/sample_frames.hpp"
+#include "recordings/media/video_scan.hpp"
 
 namespace mtstereo::run {
 
@@ -208,17 +209,27 @@ const char* name_of(Arrangement arrangement) {
   return arrangement == Arrangement::kSideBySide ? "side by side" : "one above the other";
 }
 
+// How a user gives the other view of a source that has one.
+std::string advice_for(const Source& source) {
+  if (source.images.size() > 1) return "give the views as two images, folders or patterns";
+  if (source.video.empty()) return "give the other view too";
+  VideoScan scan(source.video, Reading::kGray);
+  scan.next();
+  if (scan.video_streams() < 2) return "give the other view too";
+  return "it has " + std::to_string(scan.video_streams()) +
+         " video streams, of which the first one is read: write them to two files (ffmpeg -i FILE "
+         "-map 0:v:0 -c copy left.mkv -map 0:v:1 -c copy right.mkv)";
+}
+
 // The arrangement that the shape of a frame suggests.
 Arrangement guess_arrangement(const Recording& recording, cv::Size size) {
   const std::optional<Arrangement> shape = arrangement_by_shape(size.width, size.height);
   const bool odd =
       shape && (*shape == Arrangement::kSideBySide ? size.width : size.height) % 2 != 0;
   if (shape && !odd) return *shape;
-  const bool several = recording.left.images.size() > 1;
-  throw UserError(
-      file_of(recording.left).string() + ": " + size_text(size) + " is the shape of one view: " +
-      (several ? "give the views as two images, folders or patterns" : "give the other view too") +
-      ", or state the arrangement (--layout)");
+  throw UserError(file_of(recording.left).string() + ": " + size_text(size) +
+                  " is the shape of one view: " + advice_for(recording.left) +
+                  ", or state the arrangement (--layout)");
 }
 
 // The calibration that rectifies the halves, if one does.

@@ -348,6 +348,16 @@ TEST_F(Recordings, GuessesTheArrangementOfVideos) {
   EXPECT_FALSE(recording.swapped);
 }
 
+TEST_F(Recordings, NamesTheStreamsOfAFileWithTwo) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  const std::string source = " -f lavfi -i testsrc=size=160x120:duration=0.2";
+  run_command("ffmpeg -v error" + source + " -c:v mjpeg '" + path("one.mkv") + "'");
+  run_command("ffmpeg -v error" + source + source + " -map 0 -map 1 -c:v mjpeg '" +
+              path("two.mkv") + "'");
+  EXPECT_THAT(error_of({"one.mkv"}), HasSubstr("one view: give the other view too"));
+  EXPECT_THAT(error_of({"two.mkv"}), HasSubstr("one view: it has 2 video streams"));
+}
+
 TEST_F(Recordings, DoesNotGuessWhatDoesNotMatch) {
   cv::Mat wide(kHeight, 2 * kWidth, CV_8UC1);
   cv::RNG(3).fill(wide, cv::RNG::UNIFORM, 0, 256);
