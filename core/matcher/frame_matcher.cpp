@@ -20,10 +20,11 @@ int thread_count(const Settings& settings) {
 /// Pixels with a disparity have a confidence, which takes a quarter of the disparity's memory. The
 /// counter of a block is as wide as a confidence, so that compilers vectorize the loop.
 int known_pixels(const std::uint8_t* confidence, int width) {
+  constexpr int kBlock = 255;  // what the counter can hold
   int known = 0;
-  for (int first = 0; first < width; first += 128) {
+  for (int first = 0; first < width; first += kBlock) {
     std::uint8_t in_block = 0;
-    const int last = std::min(first + 128, width);
+    const int last = std::min(first + kBlock, width);
     for (int x = first; x < last; ++x) in_block += confidence[x] != 0;
     known += in_block;
   }

@@ -34,10 +34,6 @@ class Descriptor {
   int number_;
 };
 
-bool starts_with(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
-}
-
 std::string system_text(int error) { return std::generic_category().message(error); }
 
 std::string read_bytes(const std::string& file) {
@@ -85,7 +81,7 @@ std::string read_text(const std::string& file) {
        {"\x80\x03", "a Python pickle"},
        {"\x80\x04", "a Python pickle"}}};
   for (const auto& [start, name] : kStarts) {
-    if (starts_with(text, start)) {
+    if (text.starts_with(start)) {
       throw FileError(file + ": is " + name +
                       "; write its matrices to a YAML file with cv2.FileStorage, with the names "
                       "M1, D1, M2, D2, R, T");
@@ -123,10 +119,10 @@ int count_numbers(std::string_view line) {
 
 /// Fails for files that calibration programs write beside the calibration.
 void refuse_other_files(std::string_view start, const std::string& file) {
-  if (starts_with(start, "Calibration results")) {
+  if (start.starts_with("Calibration results")) {
     throw FileError(file + ": is a report of Kalibr; give its camchain, a YAML file");
   }
-  if (start.front() == '%' && !starts_with(start, "%YAML") && !starts_with(start, "%TAG")) {
+  if (start.front() == '%' && !start.starts_with("%YAML") && !start.starts_with("%TAG")) {
     throw FileError(file +
                     ": is a MATLAB script; write its matrices to a YAML file with the names M1, "
                     "D1, M2, D2, R, T, as OpenCV states them (stereoParametersToOpenCV)");
@@ -250,7 +246,7 @@ Document parse_document(const std::string& file) {
     document.root = parse_mrcal(text, file);
   } else if (start.front() == '{') {
     document.root = parse_json(text, file);
-  } else if (!starts_with(start, "%YAML") && parse_as_lines(text, document)) {
+  } else if (!start.starts_with("%YAML") && parse_as_lines(text, document)) {
     return document;
   } else {
     document.root = parse_yaml(text, file);

@@ -15,6 +15,7 @@
 #include "recordings/inputs/image_lists.hpp"
 #include "recordings/inputs/own_names.hpp"
 #include "recordings/inputs/view_names.hpp"
+#include "recordings/matching/product_files.hpp"
 #include "recordings/media/sample_frames.hpp"
 #include "recordings/media/video_scan.hpp"
 
@@ -44,9 +45,9 @@ fs::path folder_of(const Source& source) {
 void erase_results(std::vector<fs::path>& paths, const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder / kRunFile, error)) return;
-  std::erase_if(paths, [](const fs::path& path) {
-    const std::string stem = path.stem().string();
-    return std::find(kResultNames.begin(), kResultNames.end(), stem) != kResultNames.end();
+  const std::vector<std::string> results = product_paths();
+  std::erase_if(paths, [&results](const fs::path& path) {
+    return std::find(results.begin(), results.end(), path.filename()) != results.end();
   });
 }
 
