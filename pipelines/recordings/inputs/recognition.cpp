@@ -11,8 +11,10 @@
 #include "lib/files/file_names.hpp"
 #include "lib/outputs/printable.hpp"
 #include "lib/outputs/user_error.hpp"
+#include "recordings/inputs/completion.hpp"
+#include "recordings/inputs/folder_search.hpp"
 #include "recordings/inputs/own_names.hpp"
-#include "recordings/inputs/search.hpp"
+#include "recordings/inputs/sources.hpp"
 
 namespace mtstereo::run {
 

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "recordings/inputs/completion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lib/outputs/printable.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "mtstereo/geometry/calibration.hpp"
+#include "recordings/inputs/calibration_choice.hpp"
+#include "recordings/inputs/halves.hpp"
+#include "recordings/inputs/sources.hpp"
+#include "recordings/media/sample_frames.hpp"
+#include "recordings/media/video_scan.hpp"
+
+namespace mtstereo::run {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string size_text(cv::Size size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height) + " px";
+}
+
+std::string percent(double fraction) { return std::to_string(std::lround(fraction * 100)) + " %"; }
+
+const char* name_of(Arrangement arrangement) {
+  return arrangement == Arrangement::kSideBySide ? "side by side" : "one above the other";
+}
+
+// How a user gives the other view of a source that has one.
+std::string advice_for(const Source& source) {
+  if (source.images.size() > 1) return "give the views as two images, folders or patterns";
+  if (source.video.empty()) return "give the other view too";
+  VideoScan scan(source.video, Reading::kGray);
+  scan.next();
+  if (scan.video_streams() < 2) return "give the other view too";
+  return "it has " + std::to_string(scan.video_streams()) +
+         " video streams, of which the first one is read: write them to two files (ffmpeg -i FILE "
+         "-map 0:v:0 -c copy left.mkv -map 0:v:1 -c copy right.mkv)";
+}
+
+// The arrangement that the shape of a frame suggests.
+Arrangement guess_arrangement(const Recording& recording, cv::Size size) {
+  const std::optional<Arrangement> shape = arrangement_by_shape(size.width, size.height);
+  const bool odd =
+      shape && (*shape == Arrangement::kSideBySide ? size.width : size.height) % 2 != 0;
+  if (shape && !odd) return *shape;
+  throw UserError(file_of(recording.left).string() + ": " + size_text(size) +
+                  " is the shape of one view: " + advice_for(recording.left) +
+                  ", or state the arrangement (--layout)");
+}
+
+// The calibration that rectifies the halves, if one does.
+std::optional<StereoCalibration> rectifying_calibration(const Recording& recording, cv::Size half) {
+  if (recording.rectified || recording.calibration.empty()) return std::nullopt;
+  const auto read = read_calibration(recording.calibration, half.width, half.height);
+  if (!read) throw UserError(read.error().message);
+  return *read;
+}
+
+// Checks that the halves match, and finds which one is the left view unless the user states it.
+void confirm_arrangement(Recording& recording, cv::Size size, cv::Size half, bool swap) {
+  constexpr int kSamples = 3;  // frames
+  const std::vector<cv::Mat> frames = sample_frames(recording.left, kSamples);
+  const std::optional<StereoCalibration> calibration = rectifying_calibration(recording, half);
+  HalvesMatch match = match_halves(frames, recording.arrangement, calibration);
+  // Views that only match before they are rectified keep their order: the calibration is wrong.
+  if (!match.confirmed && calibration) {
+    match = match_halves(frames, recording.arrangement, std::nullopt);
+    match.swapped = false;
+  }
+  const std::string text = size_text(size) + ", " + name_of(recording.arrangement) + ": " +
+                           percent(std::max(match.forward, match.backward)) +
+                           " of the points of one half are in the other one";
+  if (!match.confirmed) {
+    throw UserError(file_of(recording.left).string() +
+                    ": by its shape it may have both views, but its halves do not match (" + text +
+                    "): give the other view too, or state the arrangement (--layout)");
+  }
+  recording.remarks.push_back("Both views are in one frame (" + text + ").");
+  if (swap || !match.swapped) return;
+  recording.swapped = true;
+  recording.remarks.push_back("The first half is the right view: in the other order " +
+                              percent(match.backward) + " of the points match instead of " +
+                              percent(match.forward) + ". --layout keeps the order.");
+}
+
+cv::Size half_size(cv::Size size, Arrangement arrangement, const fs::path& file) {
+  const bool beside = arrangement == Arrangement::kSideBySide;
+  if ((beside ? size.width : size.height) % 2 != 0) {
+    throw UserError(file.string() + ": " + size_text(size) + " cannot be halved: its " +
+                    (beside ? "width" : "height") + " is odd");
+  }
+  return beside ? cv::Size(size.width / 2, size.height) : cv::Size(size.width, size.height / 2);
+}
+
+// The size of a view.
+cv::Size size_of_two(const Recording& recording) {
+  const cv::Size left = first_frame(recording.left).size();
+  const cv::Size right = first_frame(recording.right).size();
+  if (left == right) return left;
+  throw UserError("the views have different sizes: " + file_of(recording.left).string() + " has " +
+                  size_text(left) + ", " + file_of(recording.right).string() + " has " +
+                  size_text(right) + ": record both in the same mode, or convert one of them");
+}
+
+// One source: the calibration is for a half, and decides how the halves match.
+void complete_one(FoundRecording& found, const InputOptions& options) {
+  Recording& recording = found.recording;
+  const cv::Size size = first_frame(recording.left).size();
+  recording.arrangement = options.arrangement.value_or(Arrangement::kTwoSources);
+  if (!options.arrangement) recording.arrangement = guess_arrangement(recording, size);
+  recording.swapped = options.swap;
+  const cv::Size half = half_size(size, recording.arrangement, file_of(recording.left));
+  choose_calibration(recording, found.calibrations, options, half.width, half.height);
+  if (!options.arrangement) confirm_arrangement(recording, size, half, options.swap);
+}
+
+}  // namespace
+
+Recording completed(FoundRecording found, const InputOptions& options) {
+  Recording& recording = found.recording;
+  recording.name = outputs::printable(recording.name);  // it becomes that of a folder
+  if (recording.right.empty()) {
+    complete_one(found, options);
+    return std::move(recording);
+  }
+  if (options.swap) std::swap(recording.left, recording.right);
+  const cv::Size size = size_of_two(recording);
+  choose_calibration(recording, found.calibrations, options, size.width, size.height);
+  return std::move(recording);
+}
+
+}  // namespace mtstereo::run

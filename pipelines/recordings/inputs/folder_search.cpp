@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "recordings/inputs/folder_search.hpp"
+
+#include <string>
+#include <utility>
+
+#include "lib/files/file_names.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/inputs/completion.hpp"
+#include "recordings/inputs/data_sets.hpp"
+#include "recordings/inputs/sources.hpp"
+#include "recordings/inputs/view_names.hpp"
+
+namespace mtstereo::run {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// What the names of the images share, or that of the only left one.
+std::string name_of_images(const ViewImages& views, const fs::path& folder) {
+  const std::string only = name_without_view(views.left.front().filename().string(), false);
+  std::string name = name_without_extension(views.left.size() == 1 ? only : views.common, folder);
+  while (name.size() > 1 && (name.back() == '_' || name.back() == '-')) name.pop_back();
+  return name == "_" || name == "-" ? folder_name(folder) : name;
+}
+
+class FolderSearch {
+ public:
+  FolderSearch(fs::path folder, const InputOptions& options, bool asked)
+      : folder_(std::move(folder)), options_(options), asked_(asked) {}
+
+  FolderContents run() {
+    for (auto* find : {find_pair_folder, find_euroc, find_kitti_odometry, find_kitti_raw}) {
+      if (add_data_set(find)) return std::move(contents_);
+    }
+    add_videos();
+    add_folders();
+    add_images();
+    return std::move(contents_);
+  }
+
+ private:
+  using Find = std::optional<FoundRecording> (*)(const fs::path&);
+
+  bool add_data_set(Find find) {
+    try {
+      const std::optional<FoundRecording> found = find(folder_);
+      if (!found) return false;
+      contents_.used_folders = found->used_folders;
+      contents_.recordings.push_back(completed(*found, options_));
+    } catch (const UserError& error) {
+      contents_.problems.push_back({folder_.string(), error.what()});
+      contents_.used_folders = files::folders_in(folder_);
+    }
+    return true;
+  }
+
+  // `problem_of`: the input of a problem; empty if there is no problem.
+  void add(const Source& left, const Source& right, const std::string& name,
+           const std::string& problem_of) {
+    try {
+      FoundRecording found = recording_of(left, right, options_);
+      found.recording.name = name;
+      contents_.recordings.push_back(completed(std::move(found), options_));
+    } catch (const UserError& error) {
+      if (!problem_of.empty()) contents_.problems.push_back({problem_of, error.what()});
+    }
+  }
+
+  void add_videos() {
+    std::vector<fs::path> videos = videos_in(folder_);
+    for (const PathPair& pair : take_pairs(videos)) {
+      add({pair.left, {}, {}}, {pair.right, {}, {}}, name_without_extension(pair.common, folder_),
+          pair.left.string());
+    }
+    for (const fs::path& video : videos) {
+      if (is_view_name(video.filename().string())) {
+        contents_.problems.push_back(
+            {video.string(), "the video of the other view is missing: give both videos"});
+      } else {
+        add({video, {}, {}}, {}, video.stem().string(), video.string());
+      }
+    }
+  }
+
+  void add_folders() {
+    std::vector<fs::path> folders = files::folders_in(folder_);
+    erase_results(folders, folder_);
+    std::erase_if(folders, [](const fs::path& folder) {
+      return images_of_folder(folder).empty() && videos_in(folder).size() != 1;
+    });
+    const std::vector<PathPair> pairs = take_pairs(folders);
+    for (const PathPair& pair : pairs) {
+      contents_.used_folders.insert(contents_.used_folders.end(), {pair.left, pair.right});
+      const bool only = pairs.size() == 1 || pair.common.empty();
+      add(source_of(pair.left.string()), source_of(pair.right.string()),
+          only ? folder_name(folder_) : pair.common, pair.left.string());
+    }
+    for (const fs::path& folder : folders) {
+      if (!is_view_name(folder.filename().string())) continue;
+      contents_.used_folders.push_back(folder);
+      contents_.problems.push_back(
+          {folder.string(), "the folder of the other view is missing: give both folders"});
+    }
+  }
+
+  // Images of both views in one folder, or images with both views.
+  void add_images() {
+    std::vector<fs::path> rest = files::images_in(folder_);
+    const std::vector<ViewImages> all_views = take_views(rest);
+    const std::size_t before = contents_.recordings.size();
+    for (const ViewImages& views : all_views) {
+      const bool only = all_views.size() == 1;
+      add({{}, views.left, {}}, {{}, views.right, {}},
+          only ? folder_name(folder_) : name_of_images(views, folder_), folder_.string());
+    }
+    if (contents_.recordings.size() > before && !rest.empty()) {
+      contents_.recordings[before].remarks.push_back(
+          "Images that have no partner are not used: " + std::to_string(rest.size()) +
+          ", such as " + rest.front().string() + ".");
+    } else if (!rest.empty() && contents_.recordings.empty() && contents_.problems.empty()) {
+      add({{}, rest, {}}, {}, folder_name(folder_), asked_ ? folder_.string() : "");
+    }
+  }
+
+  fs::path folder_;
+  const InputOptions& options_;
+  bool asked_;
+  FolderContents contents_;
+};
+
+}  // namespace
+
+FolderContents search_folder(const fs::path& folder, const InputOptions& options, bool asked) {
+  return FolderSearch(folder, options, asked).run();
+}
+
+}  // namespace mtstereo::run

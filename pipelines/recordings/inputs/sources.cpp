@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "recordings/inputs/sources.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "lib/files/file_names.hpp"
+#include "lib/outputs/user_error.hpp"
+#include "recordings/inputs/calibration_choice.hpp"
+#include "recordings/inputs/image_lists.hpp"
+#include "recordings/inputs/own_names.hpp"
+#include "recordings/inputs/view_names.hpp"
+#include "recordings/matching/product_files.hpp"
+
+namespace mtstereo::run {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The folder in which the calibration of a source is.
+fs::path folder_of(const Source& source) {
+  const fs::path folder = file_of(source).parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+std::string name_of_one(const Source& source) {
+  return source.video.empty() ? folder_name(folder_of(source)) : source.video.stem().string();
+}
+
+// What the names of the views have in common, or the folder that has both.
+std::string name_of_two(const Source& left, const Source& right) {
+  const fs::path folder = folder_of(left);
+  if (folder != folder_of(right)) return folder_name(folder / "..");
+  if (left.video.empty()) return folder_name(folder);
+  for (const Partner& partner : partners_of(left.video.filename().string())) {
+    if (partner.right == right.video.filename().string()) {
+      return name_without_extension(partner.common, folder);
+    }
+  }
+  return left.video.stem().string();
+}
+
+// Whether both views have the same files, also by links.
+bool are_same(const Source& left, const Source& right) {
+  const std::vector<fs::path>&a = left.images, &b = right.images;
+  std::error_code error;
+  if (a.size() != b.size() || !fs::equivalent(file_of(left), file_of(right), error)) return false;
+  return a.empty() || fs::equivalent(a.back(), b.back(), error);
+}
+
+}  // namespace
+
+std::vector<fs::path> images_of_folder(const fs::path& folder) {
+  std::vector<fs::path> images = files::images_in(folder);
+  return images.empty() ? files::images_in(folder / "data") : images;
+}
+
+const fs::path& file_of(const Source& source) {
+  return source.video.empty() ? source.images.front() : source.video;
+}
+
+void erase_results(std::vector<fs::path>& paths, const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder / kRunFile, error)) return;
+  const std::vector<std::string> results = product_paths();
+  std::erase_if(paths, [&results](const fs::path& path) {
+    return std::find(results.begin(), results.end(), path.filename()) != results.end();
+  });
+}
+
+std::vector<fs::path> videos_in(const fs::path& folder) {
+  std::vector<fs::path> files = files::files_in(folder);
+  std::erase_if(files, [](const fs::path& file) { return !files::is_video(file); });
+  erase_results(files, folder);
+  return files;
+}
+
+std::string name_without_extension(const std::string& name, const fs::path& folder) {
+  const std::string stem = name.starts_with('.') ? "" : fs::path(name).stem().string();
+  return stem.empty() ? folder_name(folder) : stem;
+}
+
+Source source_of(const std::string& input) {
+  std::error_code error;
+  Source source;
+  if (files::is_pattern(input)) {
+    source.images = files::files_of_pattern(input);
+    if (source.images.empty()) throw UserError(input + ": no file has such a name");
+  } else if (fs::is_directory(input, error)) {
+    source.images = images_of_folder(input);
+    const std::vector<fs::path> videos = videos_in(input);
+    if (source.images.empty() && videos.size() == 1) source.video = videos.front();
+    if (source.empty()) throw UserError(input + ": the folder has neither images nor one video");
+  } else if (!fs::exists(input, error)) {
+    throw UserError(input + ": no such file or folder");
+  } else if (!fs::is_regular_file(input, error)) {
+    throw UserError(input + ": is a pipe or a device, which may never end: record it into a file");
+  } else if (files::is_image(input)) {
+    source.images = {input};
+  } else {
+    source.video = input;
+  }
+  return source;
+}
+
+FoundRecording recording_of(const Source& left, const Source& right, const InputOptions& options) {
+  const bool two = !right.empty();
+  if (two && left.video.empty() != right.video.empty()) {
+    throw UserError(file_of(left).string() + " and " + file_of(right).string() +
+                    ": one is a video and the other one is not");
+  }
+  const bool one_arrangement =
+      options.arrangement && *options.arrangement == Arrangement::kTwoSources;
+  if (two ? options.arrangement && !one_arrangement : one_arrangement) {
+    throw UserError(file_of(left).string() + ": the arrangement that is stated needs " +
+                    (two ? "one source, not two" : "two sources"));
+  }
+  if (two && are_same(left, right)) {
+    throw UserError(file_of(left).string() + " and " + file_of(right).string() +
+                    " are the same file: give the left view and the right one");
+  }
+  FoundRecording found;
+  Recording& recording = found.recording;
+  const bool images = left.video.empty();
+  recording.kind = two ? (images ? "two lists of images" : "two video files")
+                       : (images ? "images with both views" : "video file with both views");
+  if (images) {
+    set_images(recording, left.images, right.images, options.frame_rate);
+  } else {
+    recording.left = left;
+    recording.right = right;
+  }
+  recording.name = two ? name_of_two(left, right) : name_of_one(left);
+  const fs::path folder = folder_of(left);
+  std::vector<fs::path> beside{folder};
+  if (two && folder_of(right) != folder) {
+    beside.push_back(folder_of(right));
+    // The folder that has those of both views.
+    const fs::path both = (folder / "..").lexically_normal();
+    if (both == (folder_of(right) / "..").lexically_normal()) beside.push_back(both);
+  }
+  found.calibrations = calibrations_in(beside);
+  return found;
+}
+
+}  // namespace mtstereo::run
