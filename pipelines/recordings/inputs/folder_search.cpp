@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/inputs/folder_search.hpp"
 
+#include <algorithm>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
+#include "recordings/inputs/calibration_choice.hpp"
 #include "recordings/inputs/completion.hpp"
 #include "recordings/inputs/data_sets.hpp"
+#include "recordings/inputs/nested_views.hpp"
 #include "recordings/inputs/sources.hpp"
 #include "recordings/inputs/view_names.hpp"
 
@@ -16,6 +20,9 @@ namespace mtstereo::run {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kNoVideo = "the video of the other view is missing: give both videos";
+constexpr const char* kNoFolder = "the folder of the other view is missing: give both folders";
 
 // What the names of the images share, or that of the only left one.
 std::string name_of_images(const ViewImages& views, const fs::path& folder) {
@@ -56,11 +63,13 @@ class FolderSearch {
     return true;
   }
 
-  // `problem_of`: the input of a problem; empty if there is no problem.
+  // `problem_of`: the input of a problem; empty if there is no problem. `calibrations`: more of
+  // them than those beside the views.
   void add(const Source& left, const Source& right, const std::string& name,
-           const std::string& problem_of) {
+           const std::string& problem_of, const std::vector<std::string>& calibrations = {}) {
     try {
       FoundRecording found = recording_of(left, right, options_);
+      found.calibrations.insert(found.calibrations.end(), calibrations.begin(), calibrations.end());
       found.recording.name = name;
       contents_.recordings.push_back(completed(std::move(found), options_));
     } catch (const UserError& error) {
@@ -76,8 +85,7 @@ class FolderSearch {
     }
     for (const fs::path& video : videos) {
       if (is_view_name(video.filename().string())) {
-        contents_.problems.push_back(
-            {video.string(), "the video of the other view is missing: give both videos"});
+        contents_.problems.push_back({video.string(), kNoVideo});
       } else {
         add({video, {}, {}}, {}, video.stem().string(), video.string());
       }
@@ -87,9 +95,11 @@ class FolderSearch {
   void add_folders() {
     std::vector<fs::path> folders = files::folders_in(folder_);
     erase_results(folders, folder_);
-    std::erase_if(folders, [](const fs::path& folder) {
-      return images_of_folder(folder).empty() && videos_in(folder).size() != 1;
+    const auto rest = std::stable_partition(folders.begin(), folders.end(), [](const auto& folder) {
+      return !images_of_folder(folder).empty() || videos_in(folder).size() == 1;
     });
+    add_nested({rest, folders.end()});
+    folders.erase(rest, folders.end());
     const std::vector<PathPair> pairs = take_pairs(folders);
     for (const PathPair& pair : pairs) {
       contents_.used_folders.insert(contents_.used_folders.end(), {pair.left, pair.right});
@@ -100,8 +110,29 @@ class FolderSearch {
     for (const fs::path& folder : folders) {
       if (!is_view_name(folder.filename().string())) continue;
       contents_.used_folders.push_back(folder);
-      contents_.problems.push_back(
-          {folder.string(), "the folder of the other view is missing: give both folders"});
+      contents_.problems.push_back({folder.string(), kNoFolder});
+    }
+  }
+
+  // Folders of views that have a folder for each scene, such as left/alley and right/alley.
+  void add_nested(std::vector<fs::path> folders) {
+    const std::vector<PathPair> views = take_pairs(folders);
+    for (const PathPair& view : views) {
+      const NestedViews scenes = nested_views(view.left, view.right);
+      if (scenes.pairs.empty()) continue;
+      contents_.used_folders.insert(contents_.used_folders.end(), {view.left, view.right});
+      const std::string prefix = views.size() == 1 || view.common.empty() ? "" : view.common + "-";
+      for (const PathPair& scene : scenes.pairs) {
+        std::string name = prefix + scene.common;
+        std::replace(name.begin(), name.end(), '/', '-');
+        add(source_of(scene.left.string()), source_of(scene.right.string()), name,
+            scene.left.string(), calibrations_in({folder_}));
+      }
+      for (const fs::path& scene : scenes.lonely) {
+        std::error_code error;
+        contents_.problems.push_back(
+            {scene.string(), fs::is_directory(scene, error) ? kNoFolder : kNoVideo});
+      }
     }
   }
 

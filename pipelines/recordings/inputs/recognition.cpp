@@ -13,7 +13,6 @@
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/completion.hpp"
 #include "recordings/inputs/folder_search.hpp"
-#include "recordings/inputs/own_names.hpp"
 #include "recordings/inputs/sources.hpp"
 
 namespace mtstereo::run {
@@ -111,12 +110,6 @@ class ArchiveSearch {
   }
 
  private:
-  // Folders of results of earlier runs are not recordings.
-  static bool is_result(const fs::path& folder) {
-    std::error_code error;
-    return fs::exists(folder / kRunFile, error) || fs::exists(folder / kPlanFile, error);
-  }
-
   void make_names_unique() {
     constexpr std::size_t kLongest = 200;  // of 255 that file systems allow
     std::vector<std::string> names;

@@ -50,6 +50,17 @@ bool are_same(const Source& left, const Source& right) {
   return a.empty() || fs::equivalent(a.back(), b.back(), error);
 }
 
+[[noreturn]] void fail_without_views(const fs::path& folder) {
+  std::string what = folder.string() + ": the folder has neither images nor one video";
+  if (!files::folders_in(folder).empty()) {
+    const fs::path whole = folder.has_filename() ? folder : folder.parent_path();
+    what += "; if the folders in it have them, give the folder that has both views, " +
+            (whole.has_parent_path() ? whole.parent_path().string() : ".") +
+            ", or two folders with images";
+  }
+  throw UserError(what);
+}
+
 }  // namespace
 
 std::vector<fs::path> images_of_folder(const fs::path& folder) {
@@ -77,6 +88,11 @@ std::vector<fs::path> videos_in(const fs::path& folder) {
   return files;
 }
 
+bool is_result(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / kRunFile, error) || fs::exists(folder / kPlanFile, error);
+}
+
 std::string name_without_extension(const std::string& name, const fs::path& folder) {
   const std::string stem = name.starts_with('.') ? "" : fs::path(name).stem().string();
   return stem.empty() ? folder_name(folder) : stem;
@@ -92,7 +108,7 @@ Source source_of(const std::string& input) {
     source.images = images_of_folder(input);
     const std::vector<fs::path> videos = videos_in(input);
     if (source.images.empty() && videos.size() == 1) source.video = videos.front();
-    if (source.empty()) throw UserError(input + ": the folder has neither images nor one video");
+    if (source.empty()) fail_without_views(input);
   } else if (!fs::exists(input, error)) {
     throw UserError(input + ": no such file or folder");
   } else if (!fs::is_regular_file(input, error)) {

@@ -19,6 +19,9 @@ std::vector<std::filesystem::path> videos_in(const std::filesystem::path& folder
 /// Removes the results of earlier runs from what is in a folder.
 void erase_results(std::vector<std::filesystem::path>& paths, const std::filesystem::path& folder);
 
+/// Whether a folder has the results of an earlier run, or a plan: it is not a recording.
+bool is_result(const std::filesystem::path& folder);
+
 /// A source by what the user gives: a video, an image, a pattern, a folder with images or with
 /// one video. Images are not checked. Throws UserError.
 Source source_of(const std::string& input);
