@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Splits the path into files, and calls the reader of their format.
-#include "geometry/calibration_file.hpp"
+// Calls the reader of their format.
 
-#include <sys/stat.h>
-
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "base/guard.hpp"
+#include "geometry/calibration_path.hpp"
 #include "geometry/calibration_remarks.hpp"
 #include "geometry/formats/document.hpp"
 #include "geometry/formats/readers.hpp"
@@ -105,16 +104,29 @@ StereoCalibration read_two(const Document& first, const Document& second,
   }
 }
 
+/// Only OpenCV's calibration of single cameras leads to three files.
+StereoCalibration read_three(const std::vector<Document>& documents,
+                             const formats::Request& request) {
+  std::vector<Entry> entries;
+  for (const Document& document : documents) {
+    if (document.format != Format::kOpenCv) {
+      throw FileError(document.file + " is " + name_of(document.format) +
+                      "; only OpenCV files are read by three (LEFT,RIGHT,EXTRINSICS)");
+    }
+    entries.push_back(document.entry());
+  }
+  return formats::read_opencv(entries, request);
+}
+
 StereoCalibration read_files(const std::string& path, int width, int height) {
   const CalibrationPath parts = split_calibration_path(path);
   const formats::Request request = {width, height, parts.selection};
-  const Document first = formats::parse_document(parts.files[0]);
-  StereoCalibration calibration;
-  if (parts.files.size() == 1) {
-    calibration = read_one(first, request);
-  } else {
-    calibration = read_two(first, formats::parse_document(parts.files[1]), request);
-  }
+  std::vector<Document> documents;
+  for (const std::string& file : parts.files) documents.push_back(formats::parse_document(file));
+  StereoCalibration calibration = documents.size() == 1 ? read_one(documents[0], request)
+                                  : documents.size() == 2
+                                      ? read_two(documents[0], documents[1], request)
+                                      : read_three(documents, request);
   put_in_order(calibration);
   if (const Status status = check_calibration(calibration); !status) {
     throw FileError(path + ": " + status.error().message);
@@ -123,40 +135,7 @@ StereoCalibration read_files(const std::string& path, int width, int height) {
   return calibration;
 }
 
-bool exists(const std::string& file) {
-  struct stat status {};
-  return stat(file.c_str(), &status) == 0;
-}
-
 }  // namespace
-
-CalibrationPath split_calibration_path(const std::string& path) {
-  CalibrationPath result;
-  std::string files = path;
-  const std::size_t mark = path.rfind('#');
-  if (mark != std::string::npos && path.find('/', mark) == std::string::npos && !exists(path)) {
-    files = path.substr(0, mark);
-    result.selection = path.substr(mark + 1);
-  }
-  if (exists(files)) {
-    result.files = {files};
-    return result;
-  }
-  // Of several commas, that between two files.
-  std::size_t split = files.find(',');
-  for (std::size_t at = split; at != std::string::npos; at = files.find(',', at + 1)) {
-    if (exists(files.substr(0, at)) && exists(files.substr(at + 1))) {
-      split = at;
-      break;
-    }
-  }
-  if (split == std::string::npos) {
-    result.files = {files};
-  } else {
-    result.files = {files.substr(0, split), files.substr(split + 1)};
-  }
-  return result;
-}
 
 Result<StereoCalibration> read_calibration(const std::string& path, int width,
                                            int height) noexcept {

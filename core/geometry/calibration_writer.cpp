@@ -2,6 +2,8 @@
 // The calibration file of mtstereo: the matrices of OpenCV's stereo_calib in YAML that OpenCV's
 // FileStorage and plain YAML readers both accept. So matrices have no tag, and every number has a
 // decimal point.
+#include "geometry/calibration_writer.hpp"
+
 #include <array>
 #include <ctime>
 #include <string>
@@ -10,7 +12,6 @@
 #include <vector>
 
 #include "base/guard.hpp"
-#include "geometry/calibration_file.hpp"
 #include "geometry/formats/value.hpp"
 #include "geometry/new_file.hpp"
 

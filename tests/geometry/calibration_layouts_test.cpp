@@ -97,6 +97,43 @@ TEST_F(Layout, OfTwoFilesWithTheSameNamesTheFirstIsTheLeftCamera) {
   EXPECT_DOUBLE_EQ(calibration.right.focal_x, 510.5);
 }
 
+TEST_F(Layout, CamerasThatAreCalibratedAloneNeedAThirdFile) {
+  const auto camera = [&](const char* name, const char* k, const char* d) {
+    return folder_.write(name, lines({{"image_width", "640"},
+                                      {"image_height", "480"},
+                                      {"camera_matrix", k},
+                                      {"distortion_coefficients", d}}));
+  };
+  const std::string left = camera("left, new.yml", kLeftK, kLeftD);
+  const std::string right = camera("right.yml", kRightK, kRightD);
+  const std::string pose = folder_.write("pose.yml", lines({{"R", kR}, {"T", kT}}));
+  for (const std::string& path :
+       {left + "," + right + "," + pose, pose + "," + left + "," + right}) {
+    const StereoCalibration calibration = read_valid(path);
+    EXPECT_EQ(calibration.format, "OpenCV");
+    EXPECT_EQ(calibration.right.width, 640);
+    EXPECT_DOUBLE_EQ(calibration.left.focal_x, 500.5) << path;
+    EXPECT_DOUBLE_EQ(calibration.right.focal_x, 510.5) << path;
+    EXPECT_DOUBLE_EQ(calibration.right.coefficients[0], -0.5) << path;
+    expect_near(calibration.translation, Vector3{-0.12, 0.001, 0.002}, 1e-12);
+  }
+  for (const std::string& path : {left, right, left + "," + pose}) {
+    EXPECT_THAT(read_refused(path), AllOf(HasSubstr(" one camera; give the files of both cameras"),
+                                          HasSubstr("LEFT,RIGHT,EXTRINSICS")));
+  }
+  EXPECT_THAT(read_refused(left + "," + right),
+              AllOf(HasSubstr("have one camera each"), HasSubstr("LEFT,RIGHT,EXTRINSICS")));
+  EXPECT_THAT(read_refused(left + "," + right + "," + left), HasSubstr("have one camera each"));
+  EXPECT_THAT(read_refused(right + "," + right + "," + folder_.path("none.yml")),
+              HasSubstr("none.yml"));
+  EXPECT_THAT(read_refused("none.yml," + right + "," + pose),
+              HasSubstr("none.yml: cannot be read"));
+  EXPECT_THAT(read_refused(left + "," + stored("camchain.yaml") + "," + pose),
+              HasSubstr("is a Kalibr camchain; only OpenCV files are read by three"));
+  const std::string other = camera("other.yml", kRightK, "[ 1, 2, 3 ]");
+  EXPECT_THAT(read_refused(left + "," + other + "," + pose), HasSubstr("D1"));
+}
+
 TEST_F(Layout, WithAChoiceIsRefusedAndTheNamesAreListed) {
   // Nothing states which one is the left camera.
   EXPECT_THAT(refused(lines({{"alpha", kLeftK},

@@ -26,7 +26,7 @@ PUBLIC = ('core/include/',)
 # Who else includes headers of another room, and which ones: parts are linked statically with it.
 SHARED = {
     'pipelines/programs/calibrate/': ('gst/matcher/pairing/',),
-    'pipelines/recordings/': ('core/alignment/',),
+    'pipelines/recordings/': ('core/alignment/', 'core/geometry/calibration_path'),
     'pipelines/tools/fit/': ('core/',),
     'pipelines/lib/outputs/': ('core/geometry/new_file',),
     'pipelines/': ('gst/shared/',),

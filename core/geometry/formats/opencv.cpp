@@ -165,6 +165,24 @@ void read_rectification(const OpenCvEntries& files, double unit, bool motion,
   calibration.rectification = rectification;
 }
 
+/// Fails for files of cameras that are calibrated alone, unless others state the rest.
+void refuse_single_cameras(const OpenCvEntries& files, const std::vector<Entry>& documents,
+                           const PairEntries& pair) {
+  constexpr const char* kRemedy =
+      "; give the files of both cameras and the one with R and T, separated by commas "
+      "(LEFT,RIGHT,EXTRINSICS); if there is none, calibrate the cameras as a pair (mtcalibrate)";
+  const int cameras = files.single_cameras();
+  if (cameras == 1 && !(pair.left_matrix && pair.right_matrix)) {
+    files.file().fail(std::string(documents.size() > 1 ? "and the others have" : "has") +
+                      " one camera" + kRemedy);
+  }
+  if (cameras > 1 && !(pair.rotation && pair.translation)) {
+    files.file().fail("and " + documents[1].file() +
+                      " have one camera each, and neither states how they stand to each other" +
+                      kRemedy);
+  }
+}
+
 void read_cameras(const OpenCvEntries& files, const PairEntries& pair,
                   StereoCalibration& calibration) {
   if (!pair.left_matrix) files.fail_without("M1", "K of the left camera");
@@ -217,15 +235,11 @@ bool is_opencv(const Entry& file) { return OpenCvEntries({file}).is_opencv(); }
 StereoCalibration read_opencv(const std::vector<Entry>& documents, const Request& request) {
   const OpenCvEntries files(documents);
   no_selection(files.file(), request.selection);
-  if (files.both_have(kOneCamera)) {
-    files.file().fail("and " + documents[1].file() +
-                      " have one camera each, and neither states how they stand to each other; "
-                      "calibrate them as a pair");
-  }
   StereoCalibration calibration;
   const std::optional<Entry> writer = files.find("writtenby");
   calibration.format = writer && writer->text() == "mtstereo" ? "mtstereo" : "OpenCV";
   const PairEntries pair = files.find_pair();
+  refuse_single_cameras(files, documents, pair);
   read_cameras(files, pair, calibration);
   read_sizes(files, request, calibration);
   const std::optional<double> unit = unit_of(files, pair.translation);

@@ -97,10 +97,12 @@ PairEntries OpenCvEntries::find_pair() const {
   return pair;
 }
 
-bool OpenCvEntries::both_have(Names names) const {
-  return files_.size() == 2 && std::all_of(files_.begin(), files_.end(), [&](const Entry& file) {
-           return OpenCvEntries({file}).find(names).has_value();
-         });
+int OpenCvEntries::single_cameras() const {
+  return static_cast<int>(std::count_if(files_.begin(), files_.end(), [](const Entry& file) {
+    const OpenCvEntries own({file});
+    return !own.find(kLeftMatrix) && !own.find(kRightMatrix) &&
+           (own.find(kOneCamera) || count_camera_matrices(own.entries_) == 1);
+  }));
 }
 
 bool OpenCvEntries::is_opencv() const {
@@ -114,7 +116,7 @@ bool OpenCvEntries::is_opencv() const {
   };
   if (std::any_of(entries_.begin(), entries_.end(), is_known)) return true;
   if (find(kRotationNames) && find(kTranslationNames)) return true;
-  return has_camera_matrix(entries_) || !transposed_matrix(entries_).empty();
+  return count_camera_matrices(entries_) > 0 || !transposed_matrix(entries_).empty();
 }
 
 void OpenCvEntries::fail_without(const char* name, const char* meaning) const {
@@ -122,7 +124,7 @@ void OpenCvEntries::fail_without(const char* name, const char* meaning) const {
   if (files_.size() == 1) {
     what += "; if it is in another file, give both, separated by a comma";
   } else {
-    what += ", nor in " + files_[1].file();
+    for (std::size_t i = 1; i < files_.size(); ++i) what += ", nor in " + files_[i].file();
   }
   const std::string found = matrices_text(entries_);
   what += found.empty() ? ". No matrices were found" : ". Matrices found: " + found;

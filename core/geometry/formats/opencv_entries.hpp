@@ -17,7 +17,7 @@ namespace mtstereo::formats {
 /// K of a file with one camera.
 inline constexpr Names kOneCamera = "cameramatrix k mtx intrinsicmatrix";
 
-/// The entries of one or two files. Those of maps have the names of both: left.K.
+/// The entries of one to three files. Those of maps have the names of both: left.K.
 class OpenCvEntries {
  public:
   explicit OpenCvEntries(const std::vector<Entry>& files);
@@ -32,8 +32,8 @@ class OpenCvEntries {
   [[noreturn]] void fail_without(const char* name, const char* meaning) const;
 
   const Entry& file() const { return files_.front(); }
-  /// Whether both of two files have an entry with one of the names.
-  bool both_have(Names names) const;
+  /// How many files have one camera: a camera matrix that is neither the left nor the right one.
+  int single_cameras() const;
   /// Whether the files have a matrix of OpenCV, or a camera matrix.
   bool is_opencv() const;
 

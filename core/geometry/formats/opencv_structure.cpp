@@ -185,8 +185,8 @@ std::string transposed_matrix(const std::vector<Entry>& entries) {
   return {};
 }
 
-bool has_camera_matrix(const std::vector<Entry>& entries) {
-  return !of_shape(numbers_of(entries), Shape::kCamera).empty();
+std::size_t count_camera_matrices(const std::vector<Entry>& entries) {
+  return of_shape(numbers_of(entries), Shape::kCamera).size();
 }
 
 std::string matrices_text(const std::vector<Entry>& entries) {

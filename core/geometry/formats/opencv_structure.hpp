@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace mtstereo::formats {
 /// Adds what a pair lacks, where the structure of the entries leaves no choice.
 void complete_by_structure(const std::vector<Entry>& entries, PairEntries& pair);
 
-/// Whether an entry can be a camera matrix.
-bool has_camera_matrix(const std::vector<Entry>& entries);
+/// How many entries can be a camera matrix.
+std::size_t count_camera_matrices(const std::vector<Entry>& entries);
 
 /// The name of a camera matrix that is transposed, or empty.
 std::string transposed_matrix(const std::vector<Entry>& entries);

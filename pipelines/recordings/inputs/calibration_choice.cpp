@@ -44,15 +44,18 @@ bool is_calibration_name(const fs::path& file) {
 }
 
 void add_pairs(std::vector<std::string>& found, std::vector<fs::path> files) {
-  for (const PathPair& pair : take_pairs(files)) {
-    found.push_back(pair.left.string() + "," + pair.right.string());
-  }
+  const std::vector<PathPair> pairs = take_pairs(files);
   const auto find = [&files](const char* word) {
     return std::find_if(files.begin(), files.end(), [word](const fs::path& file) {
       return lower_stem(file).find(word) != std::string::npos;
     });
   };
   const auto intrinsics = find("intrinsic"), extrinsics = find("extrinsic");
+  for (const PathPair& pair : pairs) {
+    const std::string both = pair.left.string() + "," + pair.right.string();
+    found.push_back(both);
+    if (extrinsics != files.end()) found.push_back(both + "," + extrinsics->string());
+  }
   if (intrinsics != files.end() && extrinsics != files.end()) {
     found.push_back(intrinsics->string() + "," + extrinsics->string());
   }

@@ -3,26 +3,11 @@
 
 #include <string>
 
+#include "geometry/calibration_path.hpp"
+
 namespace mtstereo::run {
-namespace {
 
 namespace fs = std::filesystem;
-
-// The files of "FILE", "FILE,FILE" or "FILE#SELECTION".
-void add_calibration(const std::string& calibration, std::vector<fs::path>& files) {
-  const std::size_t comma = calibration.find(',');
-  std::error_code error;
-  if (calibration.empty()) return;
-  if (comma != std::string::npos && !fs::exists(calibration, error)) {
-    files.emplace_back(calibration.substr(0, comma));
-    files.emplace_back(calibration.substr(comma + 1));
-  } else {
-    const bool whole = fs::exists(calibration, error);
-    files.emplace_back(whole ? calibration : calibration.substr(0, calibration.find('#')));
-  }
-}
-
-}  // namespace
 
 std::vector<fs::path> recording_files(const Recording& recording) {
   std::vector<fs::path> files;
@@ -30,7 +15,10 @@ std::vector<fs::path> recording_files(const Recording& recording) {
     if (!source->video.empty()) files.push_back(source->video);
     files.insert(files.end(), source->images.begin(), source->images.end());
   }
-  add_calibration(recording.calibration, files);
+  if (recording.calibration.empty()) return files;
+  for (const std::string& file : split_calibration_path(recording.calibration).files) {
+    files.emplace_back(file);
+  }
   return files;
 }
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "geometry/calibration_path.hpp"
 #include "lib/outputs/printable.hpp"
 #include "recordings/matching/products.hpp"
 #include "recordings/matching/work_options.hpp"
@@ -16,14 +17,15 @@ namespace {
 
 constexpr const char* kDepthUnit = "0.001";  // of mtdepth [m]
 
-// "FILE" or "FILE,FILE" without the folders, which differ from machine to machine.
+// The names of a calibration's files without the folders, which differ from machine to machine.
 std::string names_of(const std::string& calibration) {
-  std::error_code error;
-  const std::size_t comma = calibration.find(',');
-  if (comma == std::string::npos || std::filesystem::exists(calibration, error)) {
-    return outputs::printable(std::filesystem::path(calibration).filename().string());
+  const CalibrationPath path = split_calibration_path(calibration);
+  std::string names;
+  for (const std::string& file : path.files) {
+    names += (names.empty() ? "" : ",") + std::filesystem::path(file).filename().string();
   }
-  return names_of(calibration.substr(0, comma)) + "," + names_of(calibration.substr(comma + 1));
+  if (!path.selection.empty()) names += "#" + path.selection;
+  return outputs::printable(names);
 }
 
 std::string utf8(const std::string& text) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/calibration_path.hpp"
 #include "lib/outputs/printable.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
@@ -120,12 +121,13 @@ Prepared prepare_recording(const Recording& found, const ArchiveOptions& options
 
 std::string absolute(const std::string& file) { return fs::absolute(file).string(); }
 
-// Of "FILE", "FILE,FILE" and "FILE#SELECTION". A comma may also be a part of a name.
-std::string absolute_calibration(const std::string& path) {
-  std::error_code error;
-  const std::size_t comma = path.find(',');
-  if (comma == std::string::npos || fs::exists(path, error)) return absolute(path);
-  return absolute(path.substr(0, comma)) + "," + absolute(path.substr(comma + 1));
+std::string absolute_calibration(const std::string& calibration) {
+  const CalibrationPath path = split_calibration_path(calibration);
+  std::string result;
+  for (const std::string& file : path.files) {
+    result += (result.empty() ? "" : ",") + absolute(file);
+  }
+  return path.selection.empty() ? result : result + "#" + path.selection;
 }
 
 void make_absolute(Source& source) {

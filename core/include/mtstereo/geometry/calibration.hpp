@@ -99,14 +99,16 @@ inline constexpr double kLongestBaseline = 10;
 /// JSON, also with intrinsics and extrinsics in two files), ROS camera_info (one file per camera),
 /// Kalibr camchain, EuRoC sensor.yaml (one file per camera), KITTI calib_cam_to_cam.txt and
 /// odometry calib.txt, Middlebury calib.txt, DepthAI JSON, ZED .conf, ORB-SLAM, VINS-Fusion,
-/// Basalt, mrcal .cameramodel (one file per camera), and the file of write_calibration().
+/// Basalt, mrcal .cameramodel (one file per camera), the others that docs/calibration.md lists, and
+/// the file of write_calibration().
 ///
 /// `path`: a file, or two files separated by a comma where the format has one file per camera
-/// (left, right) or one for intrinsics and one for extrinsics. "FILE#CHOICE" selects: "#gray" or
-/// "#color" (KITTI), "#cam1-cam0" (Kalibr: left-right), "#1-2" (DepthAI: sockets left-right), "#HD"
-/// (ZED: resolution). `width`, `height`: the size of the video [px], or 0 if it is not known; a
-/// format that states several resolutions (ZED) selects by it, and one that states none (KITTI
-/// odometry, OpenCV) takes it. Where nothing states a size, it stays 0.
+/// (left, right) or one for intrinsics and one for extrinsics, or three (OpenCV: left, right,
+/// extrinsics). "FILE#CHOICE" selects: "#gray" or "#color" (KITTI), "#cam1-cam0" (Kalibr:
+/// left-right), "#1-2" (DepthAI: sockets left-right), "#HD" (ZED: resolution). `width`, `height`:
+/// the size of the video [px], or 0 if it is not known; a format that states several resolutions
+/// (ZED) selects by it, and one that states none (KITTI odometry, OpenCV) takes it. Where nothing
+/// states a size, it stays 0.
 ///
 /// Prints nothing. Fails with kInvalidCalibration, and a message that names the file, the entry and
 /// what to do: a file that cannot be read or is not recognized, a missing camera or entry, a

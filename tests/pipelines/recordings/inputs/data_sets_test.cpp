@@ -10,6 +10,7 @@
 
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/recognition.hpp"
+#include "recordings/inputs/recording_files.hpp"
 #include "recordings/media/frame_index.hpp"
 #include "recordings/support/video_files.hpp"
 
@@ -235,6 +236,23 @@ TEST_F(DataSets, BrokenCalibrationIsNamed) {
   options.calibration.clear();
   options.rectified = false;
   EXPECT_THROW(recognize({path("")}, options), UserError);
+}
+
+TEST_F(DataSets, CamerasCalibratedAloneLieBesideTheirExtrinsics) {
+  write_images("views/left", {"0.png"}, {752, 480});
+  write_images("views/right", {"0.png"}, {752, 480});
+  for (const char* name : {"views/left.yml", "views/right.yml"}) {
+    write_text(folder_ / name,
+               "K: [ 460, 0, 370, 0, 460, 240, 0, 0, 1 ]\nD: [ -0.25, 0.1, 0, 0 ]\n");
+  }
+  EXPECT_THAT(recognized("views").remarks, Contains(HasSubstr("have one camera each")));
+  write_text(folder_ / "views/extrinsics.yml",
+             "R: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ]\nT: [ -0.1, 0, 0 ]\n");
+  const Recording recording = recognized("views");
+  EXPECT_EQ(recording.calibration, path("views/left.yml") + "," + path("views/right.yml") + "," +
+                                       path("views/extrinsics.yml"));
+  EXPECT_FALSE(recording.rectified);
+  EXPECT_THAT(recording_files(recording), Contains(path("views/extrinsics.yml")));
 }
 
 TEST_F(DataSets, RealFolders) {
