@@ -68,6 +68,12 @@ StereoCalibration read_one(const Document& document, const formats::Request& req
       return formats::read_kitti_odometry(entry, request);
     case Format::kMiddlebury:
       return formats::read_middlebury(entry, request);
+    case Format::kCityscapes:
+      return formats::read_cityscapes(entry, request);
+    case Format::kDsec:
+      return formats::read_dsec(entry, request);
+    case Format::kArgoverse:
+      return formats::read_argoverse(entry, request);
     case Format::kDepthAi:
       return formats::read_depthai(entry, request);
     case Format::kZed:

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Basalt: T_imu_cam moves points from a camera to the IMU, as a position and a quaternion.
-#include <Eigen/Geometry>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -39,13 +37,9 @@ CameraCalibration read_camera(const Entry& entry, const Entry& resolution) {
 
 Motion read_pose(const Entry& entry) {
   const auto number = [&](const char* name) { return entry.at(name).number(); };
-  const Eigen::Quaterniond turn(number("qw"), number("qx"), number("qy"), number("qz"));
-  constexpr double kTolerance = 1e-3;
-  if (!(std::abs(turn.norm() - 1) <= kTolerance)) {
-    entry.fail("has a quaternion of the length " + number_text(turn.norm()) + ", 1 is needed");
-  }
   Motion motion;
-  motion.rotation = turn.normalized().toRotationMatrix();
+  motion.rotation =
+      rotation_of_quaternion(entry, number("qw"), number("qx"), number("qy"), number("qz"));
   motion.translation = {number("px"), number("py"), number("pz")};
   return motion;
 }

@@ -117,10 +117,26 @@ int count_numbers(std::string_view line) {
   return count;
 }
 
+/// Whether a text is a model of COLMAP, or the configuration of a rig.
+bool is_colmap(std::string_view text) {
+  for (const std::string_view start :
+       {"# Camera list with", "# Image list with", "# Rig calib list", "# Frame list with"}) {
+    if (text.starts_with(start)) return true;
+  }
+  return text.find("\"image_prefix\"") != std::string_view::npos;
+}
+
 /// Fails for files that calibration programs write beside the calibration.
 void refuse_other_files(std::string_view start, const std::string& file) {
   if (start.starts_with("Calibration results")) {
     throw FileError(file + ": is a report of Kalibr; give its camchain, a YAML file");
+  }
+  if (is_colmap(start)) {
+    throw FileError(
+        file +
+        ": is of COLMAP, whose lengths have no unit; write K, distortion, R and T [m] of "
+        "one pair to a YAML file with the names M1, D1, M2, D2, R, T, or calibrate the "
+        "cameras as a pair (mtcalibrate)");
   }
   if (start.front() == '%' && !start.starts_with("%YAML") && !start.starts_with("%TAG")) {
     throw FileError(file +
@@ -182,6 +198,9 @@ Format format_of(const Entry& root) {
   const std::optional<Entry> camera = root.find("cam0");
   const bool chain = camera && camera->find_any({"intrinsics", "camera_model"});
   if (root.find("cameraData")) return Format::kDepthAi;
+  if (root.find("camera_data_")) return Format::kArgoverse;
+  if (is_dsec(root)) return Format::kDsec;
+  if (is_cityscapes(root)) return Format::kCityscapes;
   if (is_basalt(root)) return Format::kBasalt;
   if (is_camera_list(root)) return Format::kCameraList;
   if (is_stella(root)) return Format::kStella;
@@ -197,7 +216,8 @@ Format format_of(const Entry& root) {
       "is not a calibration of a known format: none of M1 (OpenCV), projection_matrix "
       "(ROS), cam0 (Kalibr, Middlebury), T_BS (EuRoC), P0 or K_00 (KITTI), cameraData "
       "(DepthAI), [LEFT_CAM_...] (ZED), Camera1.fx (ORB-SLAM), cam0_calib (VINS-Fusion), "
-      "value0 (Basalt), lensmodel (mrcal), cameras (OKVIS, SVO, maplab) is in it");
+      "value0 (Basalt), lensmodel (mrcal), cameras (OKVIS, SVO, maplab), intrinsic.u0 "
+      "(Cityscapes), camRect0 (DSEC), camera_data_ (Argoverse) is in it");
 }
 
 /// Whether a text is a Python literal of mrcal; it may begin with comments.
@@ -214,7 +234,7 @@ bool is_mrcal(std::string_view text) {
 }  // namespace
 
 const char* name_of(Format format) {
-  constexpr std::array<const char*, 17> kNames = {"an OpenCV file",
+  constexpr std::array<const char*, 20> kNames = {"an OpenCV file",
                                                   "a ROS camera_info",
                                                   "a Kalibr camchain",
                                                   "a EuRoC sensor.yaml",
@@ -230,7 +250,10 @@ const char* name_of(Format format) {
                                                   "a .cameramodel of mrcal",
                                                   "a list of cameras (OKVIS, SVO, maplab)",
                                                   "a file of stella_vslam",
-                                                  "a K.txt of FoundationStereo"};
+                                                  "a K.txt of FoundationStereo",
+                                                  "a camera of Cityscapes",
+                                                  "a cam_to_cam.yaml of DSEC",
+                                                  "a calibration of Argoverse"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

@@ -32,6 +32,9 @@ enum class Format {
   kCameraList,
   kStella,
   kFoundationStereo,
+  kCityscapes,
+  kDsec,
+  kArgoverse,
 };
 
 /// The name of a format in messages, with its article.

@@ -101,6 +101,15 @@ void set_camera_matrix(CameraCalibration& camera, const Entry& entry,
   }
 }
 
+Eigen::Matrix3d rotation_of_quaternion(const Entry& entry, double w, double x, double y, double z) {
+  const Eigen::Quaterniond turn(w, x, y, z);
+  constexpr double kTolerance = 1e-3;
+  if (!(std::abs(turn.norm() - 1) <= kTolerance)) {
+    entry.fail("has a quaternion of the length " + number_text(turn.norm()) + ", 1 is needed");
+  }
+  return turn.normalized().toRotationMatrix();
+}
+
 void set_camera_matrix(CameraCalibration& camera, const Entry& entry) {
   set_camera_matrix(camera, entry, entry.numbers(9, "a 3x3 camera matrix"));
 }

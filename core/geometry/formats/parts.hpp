@@ -34,6 +34,9 @@ void set_motion(StereoCalibration& calibration, const Motion& motion);
 /// The rotation by the length of the vector [rad] around it.
 Eigen::Matrix3d rotation_of_vector(double x, double y, double z);
 
+/// The rotation of a quaternion, whose length must be 1.
+Eigen::Matrix3d rotation_of_quaternion(const Entry& entry, double w, double x, double y, double z);
+
 /// K as nine numbers: sets focal lengths and center.
 void set_camera_matrix(CameraCalibration& camera, const Entry& entry);
 /// K as fx, fy, cx, cy.

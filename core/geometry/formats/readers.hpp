@@ -51,6 +51,12 @@ StereoCalibration read_camera_list(const Entry& file, const Request& request);
 StereoCalibration read_foundation_stereo(const Entry& file, const Request& request);
 /// A configuration of stella_vslam or OpenVSLAM.
 StereoCalibration read_stella(const Entry& file, const Request& request);
+/// The camera of an image of Cityscapes.
+StereoCalibration read_cityscapes(const Entry& file, const Request& request);
+/// The cam_to_cam.yaml of DSEC.
+StereoCalibration read_dsec(const Entry& file, const Request& request);
+/// The cameras of a vehicle of Argoverse.
+StereoCalibration read_argoverse(const Entry& file, const Request& request);
 
 /// Whether a file is one of OpenCV's FileStorage: it has an entry with a name that read_opencv()
 /// knows, or a matrix.
@@ -61,6 +67,10 @@ bool is_orbslam(const Entry& file);
 bool is_camera_list(const Entry& file);
 /// Whether a file is one of stella_vslam.
 bool is_stella(const Entry& file);
+/// Whether a file is the camera of an image of Cityscapes.
+bool is_cityscapes(const Entry& file);
+/// Whether a file is the cam_to_cam.yaml of DSEC.
+bool is_dsec(const Entry& file);
 /// Whether a file is one of Basalt.
 bool is_basalt(const Entry& file);
 /// Whether a file is a camera_info of ROS.
