@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lib/files/file_names.hpp"
+#include "lib/files/unread_kinds.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
 #include "programs/calibrate/texts.hpp"
@@ -24,7 +25,10 @@ std::vector<fs::path> list_images(const std::string& source) {
   } else if (files::is_pattern(source)) {
     files = files::files_of_pattern(source);
   }
-  if (files.empty()) throw UserError(source + ": there are no images");
+  if (files.empty()) {
+    const std::string unread = files::first_unread(files::files_in(source));
+    throw UserError(unread.empty() ? source + ": there are no images" : unread);
+  }
   return files;
 }
 
@@ -79,13 +83,19 @@ bool is_line(const std::string& source) {
 
 // Names of elements have no dot and no slash.
 void check_exists(const std::string& source) {
-  if (is_line(source) || source.starts_with("/dev/") || files::is_pattern(source)) return;
+  if (is_line(source) || source.starts_with("/dev/")) return;
+  if (files::is_pattern(source)) {
+    const std::string unread = files::first_unread(files::files_of_pattern(source));
+    if (!unread.empty()) throw UserError(unread);
+    return;
+  }
   const fs::file_status status = fs::status(source);
   if (!fs::exists(status)) {
     const bool is_name = source.find_first_of("./") != std::string::npos;
     if (!is_name || source.find(' ') != std::string::npos) return;
     throw UserError(source + ": no such file or folder");
   }
+  files::refuse_unread(source);
   if (fs::is_regular_file(status) || fs::is_directory(status)) return;
   throw UserError(source + ": is a pipe or a device, which may never end: record it first");
 }

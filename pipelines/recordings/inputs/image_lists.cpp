@@ -126,6 +126,20 @@ void normalize(Numbers& left, Numbers& right) {
   }
 }
 
+// Replaces numbers whose times 64 bits cannot count by their places among all of them.
+void shorten(Recording& recording, Numbers& left, Numbers& right, double frame_rate) {
+  constexpr double kLongest = 9e9;  // [s]
+  std::set<std::int64_t> all(left.begin(), left.end());
+  all.insert(right.begin(), right.end());
+  if (all.empty() || static_cast<double>(*all.rbegin()) / frame_rate < kLongest) return;
+  for (Numbers* numbers : {&left, &right}) {
+    for (std::int64_t& number : *numbers) number = std::distance(all.begin(), all.find(number));
+  }
+  recording.remarks.push_back(
+      "The numbers in the names are too far apart for frames: the images follow each other at the "
+      "frame rate.");
+}
+
 std::vector<Nanoseconds> times_of(const Numbers& numbers, double frame_rate) {
   std::vector<Nanoseconds> times;
   times.reserve(numbers.size());
@@ -255,6 +269,8 @@ std::optional<Nanoseconds> time_in_name(const fs::path& image) {
   switch (digits.size()) {
     case 19:
       return number;
+    case 18:  // of a clock that began later than 1970; .NET counts 100 ns from the year 1
+      return digits.starts_with("63") || digits.starts_with("64") ? std::nullopt : number;
     case 16:
       return *number * 1000;
     case 13:
@@ -294,6 +310,7 @@ void set_images(Recording& recording, const std::vector<fs::path>& left,
       std::iota(left_numbers.begin(), left_numbers.end(), 0);
     }
     normalize(left_numbers, right_numbers);
+    shorten(recording, left_numbers, right_numbers, frame_rate);
     needs_times = !successive(left_numbers) || left_numbers.front() != 0 ||
                   (!right.empty() && left_numbers != right_numbers);
     left_source.times = times_of(left_numbers, frame_rate);

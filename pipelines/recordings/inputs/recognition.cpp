@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lib/files/file_names.hpp"
+#include "lib/files/unread_kinds.hpp"
 #include "lib/outputs/printable.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/completion.hpp"
@@ -41,10 +42,21 @@ std::string text_of(const Problem& problem, const std::string& between) {
   return problem.input + between + (named ? problem.reason.substr(name.size()) : problem.reason);
 }
 
+// A file that may be a view and is of a kind that is not read, in a folder or those in it.
+std::string unread_in(const fs::path& folder) {
+  std::string unread = files::first_unread(files::files_in(folder));
+  for (const fs::path& inner : files::folders_in(folder)) {
+    if (unread.empty()) unread = files::first_unread(files::files_in(inner));
+  }
+  return unread;
+}
+
 // What a folder has that is not the recording.
 Recording only_recording(const std::string& folder, FolderContents contents) {
   if (contents.recordings.empty()) {
     if (contents.problems.empty()) {
+      const std::string unread = unread_in(folder);
+      if (!unread.empty()) throw UserError(unread);
       throw UserError(folder +
                       ": no recording is in this folder: give the left and the right view, as two "
                       "videos, images, folders or patterns");

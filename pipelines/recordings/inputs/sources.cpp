@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lib/files/file_names.hpp"
+#include "lib/files/unread_kinds.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/calibration_choice.hpp"
 #include "recordings/inputs/image_lists.hpp"
@@ -51,7 +52,9 @@ bool are_same(const Source& left, const Source& right) {
 }
 
 [[noreturn]] void fail_without_views(const fs::path& folder) {
-  std::string what = folder.string() + ": the folder has neither images nor one video";
+  std::string what = files::first_unread(files::files_in(folder));
+  if (!what.empty()) throw UserError(what);
+  what = folder.string() + ": the folder has neither images nor one video";
   if (!files::folders_in(folder).empty()) {
     const fs::path whole = folder.has_filename() ? folder : folder.parent_path();
     what += "; if the folders in it have them, give the folder that has both views, " +
@@ -104,19 +107,24 @@ Source source_of(const std::string& input) {
   if (files::is_pattern(input)) {
     source.images = files::files_of_pattern(input);
     if (source.images.empty()) throw UserError(input + ": no file has such a name");
+    files::refuse_unread(source.images.front());
   } else if (fs::is_directory(input, error)) {
     source.images = images_of_folder(input);
     const std::vector<fs::path> videos = videos_in(input);
     if (source.images.empty() && videos.size() == 1) source.video = videos.front();
     if (source.empty()) fail_without_views(input);
+  } else if (input.find("://") != std::string::npos) {
+    throw UserError(
+        input +
+        ": is a stream, which may never end: record it into a file (ffmpeg -i URL -c copy "
+        "view.mkv), or match it live (from-network.sh)");
   } else if (!fs::exists(input, error)) {
     throw UserError(input + ": no such file or folder");
   } else if (!fs::is_regular_file(input, error)) {
     throw UserError(input + ": is a pipe or a device, which may never end: record it into a file");
-  } else if (files::is_image(input)) {
-    source.images = {input};
   } else {
-    source.video = input;
+    files::refuse_unread(input);
+    (files::is_image(input) ? source.images.emplace_back() : source.video) = input;
   }
   return source;
 }

@@ -6,10 +6,9 @@
 
 #include <atomic>
 #include <cstring>
-#include <fstream>
-#include <string_view>
 #include <utility>
 
+#include "lib/files/unread_kinds.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/decoder_kind.hpp"
@@ -44,15 +43,6 @@ GstElement* element(const char* factory) {
 bool is_video(const GstCaps* caps) {
   const std::string name = gst_structure_get_name(gst_caps_get_structure(caps, 0));
   return name.starts_with("video/") || name.starts_with("image/");
-}
-
-// Animations that repeat have no end.
-void refuse_endless(const std::filesystem::path& file) {
-  char head[4] = {};
-  std::ifstream(file, std::ios::binary).read(head, sizeof head);
-  if (std::string_view(head, sizeof head) != "GIF8") return;
-  throw UserError(file.string() + ": is a GIF, which repeats without an end: convert it to a " +
-                  "video or to PNG images (ffmpeg -i GIF view.mkv)");
 }
 
 std::vector<std::uint8_t> gray_pixels(GstBuffer* buffer, const GstVideoInfo& info) {
@@ -350,7 +340,7 @@ std::optional<VideoFrame> VideoScan::State::frame_of(GstSample* next) {
 
 VideoScan::VideoScan(std::filesystem::path file, Reading reading)
     : state_(std::make_unique<State>(std::move(file), reading)) {
-  refuse_endless(state_->file);
+  files::refuse_unread(state_->file);
   state_->build();
 }
 

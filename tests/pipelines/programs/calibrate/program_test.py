@@ -216,13 +216,15 @@ class Refusal(Program):
         after = {file: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
         self.assertEqual(after, before)
 
-    def test_missing_files_are_named_and_leave_no_folder(self):
+    def test_files_that_cannot_be_read_are_named_and_leave_no_folder(self):
         images = FOLDER / "one-less"
         shutil.copytree(FOLDER / "stills/right", images)
         (images / "003.png").unlink()
+        (FOLDER / "a.gif").write_bytes(b"GIF89a")
         for right, text in ((images, "stills/left/003.png has no partner"),
                             ("stills/none", "stills/none: no such file or folder"),
-                            ("none.png", "none.png: no such file or folder")):
+                            ("none.png", "none.png: no such file or folder"),
+                            ("a.gif", "a.gif: is a GIF, which repeats without an end")):
             done = self.run_program("--left", "stills/left", "--right", right, "--out", "new/out")
             self.assertEqual(done.returncode, 1)
             self.assertIn(text, done.stderr)

@@ -126,6 +126,18 @@ TEST_F(Recordings, RefusesAnimationsWithoutEnd) {
   }
 }
 
+TEST_F(Recordings, KindsThatAreNotReadHaveARemedy) {
+  for (const char* name : {"day/left.svo", "shots/left/0.heic", "shots/right/0.heic"}) {
+    write_text(folder_ / name, "x");
+  }
+  EXPECT_THAT(error_of({"day/left.svo"}),
+              HasSubstr(path("day/left.svo") + ": is a recording of a"));
+  EXPECT_THAT(error_of({"day"}), HasSubstr(path("day/left.svo") + ": is a recording of a ZED"));
+  for (const char* name : {"shots", "shots/left", "shots/left/*.heic"}) {
+    EXPECT_THAT(error_of({name}), HasSubstr(path("shots/left/0.heic") + ": is a kind of image"));
+  }
+}
+
 TEST_F(Recordings, FolderWithTwoVideos) {
   write_video(folder_ / "day/left.ts", std::string(kBFrames) + " ! mpegtsmux", constant_times(5));
   write_video(folder_ / "day/right.ts", std::string(kBFrames) + " ! mpegtsmux", constant_times(5));
@@ -157,6 +169,8 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   EXPECT_THAT(error_of({"empty"}), HasSubstr(path("empty") + ": no recording"));
   EXPECT_THAT(error_of({"left/%03d.png", "left"}), HasSubstr("no file has such a name"));
   EXPECT_THAT(error_of({"left", "broken.mp4"}), HasSubstr("one is a video"));
+  EXPECT_THAT([] { recognize({"http://host/a.mjpg"}, {}); },
+              ::testing::ThrowsMessage<UserError>(HasSubstr("http://host/a.mjpg: is a stream")));
   EXPECT_THROW(recognize({}, {}), UserError);
   EXPECT_THROW(recognize({"a", "b", "c"}, {}), UserError);
 }
@@ -224,6 +238,19 @@ TEST_F(Recordings, NamesThatAreSeconds) {
   for (const char* name : {"v2.001.png", "12345678901.123456.png", "9999999999.5.png", "a.5.png"}) {
     EXPECT_FALSE(time_in_name(name)) << name;
   }
+}
+
+TEST_F(Recordings, NamesWithNumbersThatAreNoFrames) {
+  EXPECT_EQ(time_in_name("left_315978406032859416.jpg"), 315'978'406'032'859'416);
+  EXPECT_FALSE(time_in_name("638400000000000000.jpg"));
+  const std::initializer_list<const char*> names{"20231231235959998.png", "20231231235959999.png",
+                                                 "638400000000000000.png"};
+  write_images("left", names);
+  write_images("right", names, true);
+  const Recording recording = recognized({"left", "right"});
+  EXPECT_THAT(recording.left.times, IsEmpty());
+  EXPECT_THAT(recording.left.images, SizeIs(3));
+  EXPECT_THAT(recording.remarks, ElementsAre(HasSubstr("too far apart for frames")));
 }
 
 // The last digits of such names are no numbers of frames.

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "lib/files/unread_kinds.hpp"
+
+#include <array>
+#include <fstream>
+#include <string_view>
+
+#include "lib/files/file_names.hpp"
+#include "lib/outputs/user_error.hpp"
+
+namespace mtstereo::files {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Extensions with blanks around them, and what is wrong with their files.
+struct Kind {
+  std::string_view extensions;
+  const char* what;
+};
+
+constexpr std::array<Kind, 11> kKinds{
+    {{" .heic .heif .avif ", "is a kind of image that is not read: convert it to PNG"},
+     {" .tga .pam .pcx .sgi ",
+      "is a kind of image that is not read: convert it to PNG (ffmpeg -i FILE view.png)"},
+     {" .cr2 .cr3 .nef .arw .raf .rw2 .orf .dng ",
+      "is raw data of a camera: develop both views with the same settings to 16-bit PNG or TIFF"},
+     {" .bag .db3 .mcap ",
+      "is a recording of ROS: write the images of both cameras to two folders, with their times "
+      "[ns] as names, and give the folders"},
+     {" .svo .svo2 ",
+      "is a recording of a ZED camera: export both views side by side as a video (ZED_SVO_Export)"},
+     {" .oni .klg ", "is a recording of a depth camera, which has no two views"},
+     {" .npy .npz .h5 .hdf5 .mat .pkl .tfrecord .feather ",
+      "is a file of arrays: write its views as PNG images, or as two videos"},
+     {" .raw .yuv .nv12 .bayer ",
+      "has frames without their size and format: convert it (ffmpeg -f rawvideo -pixel_format "
+      "yuv420p -video_size 1280x720 -framerate 30 -i FILE -c:v ffv1 view.mkv)"},
+     {" .zip .tar .gz .tgz .bz2 .xz .zst .7z .rar ", "is an archive: unpack it"},
+     {" .pfm .flo ", "has values instead of an image, such as disparities: give the views"},
+     {" .ply .pcd .las ", "has points instead of an image: give the views"}}};
+
+// Animations that repeat have no end.
+bool is_gif(const fs::path& file) {
+  std::array<char, 4> head{};
+  std::ifstream(file, std::ios::binary).read(head.data(), head.size());
+  return std::string_view(head.data(), head.size()) == "GIF8";
+}
+
+}  // namespace
+
+std::string unread_kind(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return {};
+  if (is_gif(file)) {
+    return "is a GIF, which repeats without an end: convert it to a video or to PNG images (ffmpeg "
+           "-i FILE view.mkv)";
+  }
+  const std::string extension = " " + extension_of(file) + " ";
+  for (const Kind& kind : kKinds) {
+    if (kind.extensions.find(extension) != std::string_view::npos) return kind.what;
+  }
+  return {};
+}
+
+std::string first_unread(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    const std::string kind = unread_kind(file);
+    if (!kind.empty()) return file.string() + ": " + kind;
+  }
+  return {};
+}
+
+void refuse_unread(const fs::path& file) {
+  const std::string problem = first_unread({file});
+  if (!problem.empty()) throw UserError(problem);
+}
+
+}  // namespace mtstereo::files

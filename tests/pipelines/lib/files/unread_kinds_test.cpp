@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "lib/files/unread_kinds.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "lib/outputs/user_error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mtstereo::files {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class UnreadKinds : public testing::Test {
+ protected:
+  fs::path write(const char* name, const char* text = "x") const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(UnreadKinds, AreNamedWithTheRemedy) {
+  EXPECT_THAT(unread_kind(write("a.HEIC")), HasSubstr("convert it to PNG"));
+  EXPECT_THAT(unread_kind(write("a.dng")), HasSubstr("develop both views"));
+  EXPECT_THAT(unread_kind(write("a.mcap")), HasSubstr("recording of ROS"));
+  EXPECT_THAT(unread_kind(write("a.svo2")), HasSubstr("ZED_SVO_Export"));
+  EXPECT_THAT(unread_kind(write("a.tar.gz")), HasSubstr("unpack"));
+  EXPECT_THAT(unread_kind(write("a.mp4", "GIF89a")), HasSubstr("is a GIF"));
+  EXPECT_THROW(refuse_unread(write("a.npz")), UserError);
+}
+
+TEST_F(UnreadKinds, AreNoOthers) {
+  for (const char* name : {"a.png", "a.mkv", "a.jp2", "a", ".a", "a.ba", "a.", "a. .heic .x"}) {
+    EXPECT_THAT(unread_kind(write(name)), IsEmpty()) << name;
+    EXPECT_NO_THROW(refuse_unread(folder_ / name)) << name;
+  }
+  EXPECT_THAT(unread_kind(write("empty.png", "")), IsEmpty());
+  EXPECT_THAT(unread_kind(folder_ / "none.bag"), IsEmpty());
+  fs::create_directory(folder_ / "folder.bag");
+  EXPECT_THAT(unread_kind(folder_ / "folder.bag"), IsEmpty());
+  // Reading a pipe would wait.
+  ASSERT_EQ(mkfifo((folder_ / "pipe.bag").c_str(), 0600), 0);
+  EXPECT_THAT(unread_kind(folder_ / "pipe.bag"), IsEmpty());
+}
+
+TEST_F(UnreadKinds, OfSeveralFilesTheFirstIsNamed) {
+  const fs::path image = write("a.png"), bag = write("b.bag"), svo = write("c.svo");
+  EXPECT_THAT(first_unread({image, bag, svo}), HasSubstr(bag.string() + ": is a recording of ROS"));
+  EXPECT_THAT(first_unread({image}), IsEmpty());
+  EXPECT_THAT(first_unread({}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace mtstereo::files
