@@ -130,6 +130,8 @@ TEST_F(Layout, CamerasThatAreCalibratedAloneNeedAThirdFile) {
               HasSubstr("none.yml: cannot be read"));
   EXPECT_THAT(read_refused(left + "," + stored("camchain.yaml") + "," + pose),
               HasSubstr("is a Kalibr camchain; only OpenCV files are read by three"));
+  // A number with such a name is none.
+  EXPECT_THAT(refused(lines({{"k", "0.04"}, {"R", kR}, {"T", kT}})), HasSubstr("no entry M1"));
   const std::string other = camera("other.yml", kRightK, "[ 1, 2, 3 ]");
   EXPECT_THAT(read_refused(left + "," + other + "," + pose), HasSubstr("D1"));
 }

@@ -101,7 +101,7 @@ int OpenCvEntries::single_cameras() const {
   return static_cast<int>(std::count_if(files_.begin(), files_.end(), [](const Entry& file) {
     const OpenCvEntries own({file});
     return !own.find(kLeftMatrix) && !own.find(kRightMatrix) &&
-           (own.find(kOneCamera) || count_camera_matrices(own.entries_) == 1);
+           (own.find_matrix(kOneCamera) || count_camera_matrices(own.entries_) == 1);
   }));
 }
 
