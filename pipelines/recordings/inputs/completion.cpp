@@ -11,6 +11,7 @@
 #include "recordings/inputs/calibration_choice.hpp"
 #include "recordings/inputs/halves.hpp"
 #include "recordings/inputs/sources.hpp"
+#include "recordings/inputs/unused_bits.hpp"
 #include "recordings/media/sample_frames.hpp"
 #include "recordings/media/video_scan.hpp"
 
@@ -124,6 +125,7 @@ void complete_one(FoundRecording& found, const InputOptions& options) {
 Recording completed(FoundRecording found, const InputOptions& options) {
   Recording& recording = found.recording;
   recording.name = outputs::printable(recording.name);  // it becomes that of a folder
+  find_unused_bits(recording);
   if (recording.right.empty()) {
     complete_one(found, options);
     return std::move(recording);

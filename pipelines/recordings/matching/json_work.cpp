@@ -59,7 +59,8 @@ Json source_json(const Source& source) {
   for (const auto& image : source.images) images.push_back(outputs::escaped(image.string()));
   return {{"video", outputs::escaped(source.video.string())},
           {"pictures", std::move(images)},
-          {"times", differences(source.times)}};
+          {"times", differences(source.times)},
+          {"unused_bits", source.unused_bits}};
 }
 
 Source read_source(const Json& json) {
@@ -69,6 +70,7 @@ Source read_source(const Json& json) {
     source.images.emplace_back(outputs::unescaped(image.get<std::string>()));
   }
   source.times = sums(json.at("times"));
+  source.unused_bits = json.value("unused_bits", 0);
   return source;
 }
 

@@ -48,7 +48,8 @@ std::unique_ptr<FrameReader> open_reader(const Source& source, const FrameIndex&
 
 /// The reader of a video file.
 std::unique_ptr<FrameReader> open_video(const std::filesystem::path& file, const FrameIndex& index);
-/// The reader of images.
-std::unique_ptr<FrameReader> open_images(const std::vector<std::filesystem::path>& files);
+/// The reader of images; `unused_bits`: of their source.
+std::unique_ptr<FrameReader> open_images(const std::vector<std::filesystem::path>& files,
+                                         int unused_bits = 0);
 
 }  // namespace mtstereo::run

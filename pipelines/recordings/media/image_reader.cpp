@@ -15,6 +15,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/frame_reader.hpp"
 #include "recordings/media/jpeg_check.hpp"
+#include "recordings/media/sample_frames.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -99,8 +100,8 @@ cv::Mat with_alpha(const cv::Mat& image) {
   return result;
 }
 
-DecodedFrame frame_of(const cv::Mat& decoded) {
-  const cv::Mat image = with_alpha(decoded);
+DecodedFrame frame_of(const cv::Mat& decoded, int unused_bits) {
+  const cv::Mat image = with_alpha(without_unused_bits(decoded, unused_bits));
   const GstVideoFormat format = format_of(image);
   if (image.empty() || format == GST_VIDEO_FORMAT_UNKNOWN) return missing();
   GstVideoInfo info;
@@ -119,7 +120,8 @@ DecodedFrame frame_of(const cv::Mat& decoded) {
 
 class ImageReader : public FrameReader {
  public:
-  explicit ImageReader(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
+  ImageReader(std::vector<std::filesystem::path> files, int unused_bits)
+      : files_(std::move(files)), unused_bits_(unused_bits) {}
 
   DecodedFrame read(std::int64_t number) override {
     const std::filesystem::path& file = files_[static_cast<std::size_t>(number)];
@@ -153,15 +155,16 @@ class ImageReader : public FrameReader {
     return frame;
   }
 
-  static DecodedFrame read_other(const std::filesystem::path& file) {
+  DecodedFrame read_other(const std::filesystem::path& file) const {
     try {
-      return frame_of(cv::imread(file.string(), cv::IMREAD_UNCHANGED));
+      return frame_of(cv::imread(file.string(), cv::IMREAD_UNCHANGED), unused_bits_);
     } catch (const cv::Exception&) {
       return missing();
     }
   }
 
   std::vector<std::filesystem::path> files_;
+  int unused_bits_;
   std::unique_ptr<JpegDecoder> jpeg_;
   std::string problem_;
   std::vector<DamagedFrame> damaged_;
@@ -169,8 +172,16 @@ class ImageReader : public FrameReader {
 
 }  // namespace
 
-std::unique_ptr<FrameReader> open_images(const std::vector<std::filesystem::path>& files) {
-  return std::make_unique<ImageReader>(files);
+cv::Mat without_unused_bits(const cv::Mat& image, int unused_bits) {
+  if (unused_bits == 0 || image.depth() != CV_16U) return image;
+  cv::Mat result;
+  image.convertTo(result, CV_16U, 1 << unused_bits);
+  return result;
+}
+
+std::unique_ptr<FrameReader> open_images(const std::vector<std::filesystem::path>& files,
+                                         int unused_bits) {
+  return std::make_unique<ImageReader>(files, unused_bits);
 }
 
 }  // namespace mtstereo::run

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/media/sample_frames.hpp"
 
+#include <gst/gst.h>
+
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "lib/outputs/user_error.hpp"
@@ -23,6 +26,15 @@ cv::Mat next_frame(VideoScan& scan) {
   return cv::Mat(format.height, format.width, CV_8UC1, frame->pixels.data()).clone();
 }
 
+// The matcher refuses such video, too; files have another remedy than streams.
+void refuse_interlaced(const fs::path& file, const GstCaps* caps) {
+  const gchar* mode = gst_structure_get_string(gst_caps_get_structure(caps, 0), "interlace-mode");
+  if (mode == nullptr || std::string_view(mode) == "progressive") return;
+  throw UserError(file.string() +
+                  ": the video is interlaced, and its two fields are from different times: "
+                  "deinterlace it (ffmpeg -i FILE -vf bwdif=0 -c:v ffv1 view.mkv)");
+}
+
 std::vector<cv::Mat> frames_of_video(const fs::path& file, int count) {
   VideoScan scan(file, Reading::kGray);
   std::vector<cv::Mat> frames{next_frame(scan)};
@@ -32,6 +44,7 @@ std::vector<cv::Mat> frames_of_video(const fs::path& file, int count) {
     if (!missing.empty()) reason += " (" + missing + ")";
     throw UserError(file.string() + ": the video cannot be read: " + reason);
   }
+  refuse_interlaced(file, gst_sample_get_caps(scan.sample()));
   const std::optional<Nanoseconds> duration = count > 1 ? scan.duration() : std::nullopt;
   for (int i = 1; i < count && duration; ++i) {
     if (!scan.seek(*duration * i / count)) break;
@@ -42,12 +55,22 @@ std::vector<cv::Mat> frames_of_video(const fs::path& file, int count) {
   return frames;
 }
 
-std::vector<cv::Mat> frames_of_images(const std::vector<fs::path>& images, int count) {
+cv::Mat gray_image(const fs::path& image, int unused_bits) {
+  if (unused_bits == 0) return cv::imread(image.string(), cv::IMREAD_GRAYSCALE);
+  const cv::Mat read = cv::imread(image.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  cv::Mat frame;
+  constexpr double kTo8Bits = 1.0 / 256;
+  without_unused_bits(read, unused_bits).convertTo(frame, CV_8U, kTo8Bits);
+  return frame;
+}
+
+std::vector<cv::Mat> frames_of_images(const Source& source, int count) {
+  const std::vector<fs::path>& images = source.images;
   std::vector<cv::Mat> frames;
   const auto wanted = std::min(static_cast<std::size_t>(count), images.size());
   for (std::size_t i = 0; i < wanted; ++i) {
     const fs::path& image = images[i * images.size() / wanted];
-    cv::Mat frame = cv::imread(image.string(), cv::IMREAD_GRAYSCALE);
+    cv::Mat frame = gray_image(image, source.unused_bits);
     if (frame.empty()) throw UserError(image.string() + ": the image cannot be read");
     frames.push_back(std::move(frame));
   }
@@ -60,7 +83,7 @@ cv::Mat first_frame(const Source& source) { return sample_frames(source, 1).fron
 
 std::vector<cv::Mat> sample_frames(const Source& source, int count) {
   if (source.empty()) throw UserError("there is no source");
-  return source.video.empty() ? frames_of_images(source.images, count)
+  return source.video.empty() ? frames_of_images(source, count)
                               : frames_of_video(source.video, count);
 }
 

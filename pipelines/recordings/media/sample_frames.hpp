@@ -15,4 +15,7 @@ cv::Mat first_frame(const Source& source);
 /// sought only the first one. Throws UserError if there is none.
 std::vector<cv::Mat> sample_frames(const Source& source, int count);
 
+/// An image of 16 bits whose values use all of them; any other image as it is.
+cv::Mat without_unused_bits(const cv::Mat& image, int unused_bits);
+
 }  // namespace mtstereo::run

@@ -19,6 +19,7 @@ struct Source {
   std::vector<Nanoseconds> times;
   /// Images that were found but are left out; empty if there are none. FrameIndex::damage has it.
   std::string damage{};
+  int unused_bits = 0;  ///< high bits of images with 16 bits that are always 0
 
   /// No source.
   bool empty() const { return video.empty() && images.empty(); }

@@ -162,7 +162,8 @@ std::unique_ptr<FrameReader> open_video(const std::filesystem::path& file,
 }
 
 std::unique_ptr<FrameReader> open_reader(const Source& source, const FrameIndex& index) {
-  return source.video.empty() ? open_images(source.images) : open_video(source.video, index);
+  return source.video.empty() ? open_images(source.images, source.unused_bits)
+                              : open_video(source.video, index);
 }
 
 }  // namespace mtstereo::run

@@ -274,6 +274,30 @@ TEST_F(Recordings, NamesWithAndWithoutNumbers) {
   EXPECT_THAT(recording.left.damage, IsEmpty());
 }
 
+// Cameras of 12 bits store their values in 16 bits.
+TEST_F(Recordings, ImagesWithUnusedBits) {
+  const auto write = [this](int left, int right, int depth) {
+    for (const auto& [name, largest] :
+         {std::pair("left/0.png", left), std::pair("right/0.png", right)}) {
+      cv::Mat image;
+      view(false).convertTo(image, depth, largest / 255.0);
+      cv::imwrite((folder_ / name).string(), image);
+    }
+    return recognized({"left", "right"});
+  };
+  const Recording recording = write(700, 4095, CV_16U);
+  EXPECT_EQ(recording.left.unused_bits, 4);
+  EXPECT_EQ(recording.right.unused_bits, 4);
+  EXPECT_THAT(recording.remarks,
+              ElementsAre(HasSubstr("12 of 16 bits: their values are multiplied by 16")));
+  EXPECT_EQ(write(700, 700, CV_16U).left.unused_bits, 6);
+  for (const Recording& full :
+       {write(700, 65535, CV_16U), write(0, 0, CV_16U), write(90, 90, CV_8U)}) {
+    EXPECT_EQ(full.left.unused_bits, 0);
+    EXPECT_THAT(full.remarks, IsEmpty());
+  }
+}
+
 TEST_F(Recordings, NamesOfImagesThatMayBeNoViews) {
   write_images("left", {"1.png", "1_mask.png", "2.png", "2_mask.png"});
   write_images("right", {"1.png", "2.png"}, true);
@@ -383,6 +407,17 @@ TEST_F(Recordings, NamesTheStreamsOfAFileWithTwo) {
               path("two.mkv") + "'");
   EXPECT_THAT(error_of({"one.mkv"}), HasSubstr("one view: give the other view too"));
   EXPECT_THAT(error_of({"two.mkv"}), HasSubstr("one view: it has 2 video streams"));
+}
+
+TEST_F(Recordings, RefusesInterlacedVideo) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  run_command(
+      "ffmpeg -v error -f lavfi -i testsrc=size=64x48:duration=0.2 -flags +ildct+ilme "
+      "-c:v mpeg2video '" +
+      path("left.mpg") + "'");
+  fs::copy(path("left.mpg"), path("right.mpg"));
+  EXPECT_THAT(error_of({"left.mpg", "right.mpg"}),
+              AllOf(HasSubstr(path("left.mpg") + ": the video is interlaced"), HasSubstr("bwdif")));
 }
 
 TEST_F(Recordings, DoesNotGuessWhatDoesNotMatch) {

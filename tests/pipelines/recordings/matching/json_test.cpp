@@ -24,6 +24,7 @@ Work example() {
   work.recording.kind = "two video files";
   work.recording.left.video = "/a/left.mp4";
   work.recording.right.images = {"/b/0.png", "/b/1.png", "/b/2.png", "/b/3.png", "/b/4.png"};
+  work.recording.right.unused_bits = 4;
   work.recording.right.times = {5, 1000, 2000, 3001, 4000};
   work.recording.calibration = "/a/calibration.yml";
   work.recording.rectified = false;

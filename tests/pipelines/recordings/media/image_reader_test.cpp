@@ -92,6 +92,24 @@ TEST(Images16Bit, KeepTheirColors) {
   }
 }
 
+TEST(Images16Bit, WithUnusedBitsUseAllOfThem) {
+  const TemporaryFolder folder;
+  const cv::Mat image = (cv::Mat_<std::uint16_t>(1, 4) << 0, 1, 4095, 5000);
+  ASSERT_TRUE(cv::imwrite((folder / "a.png").string(), image));
+  const DecodedFrame frame = open_images({folder / "a.png"}, 4)->read(0);
+  ASSERT_EQ(frame.state, FrameState::kDecoded);
+  std::array<std::uint16_t, 4> pixels{};
+  std::memcpy(pixels.data(), rows_of(frame.buffer.get(), frame.caps.get()).data(), 8);
+  EXPECT_EQ(pixels, (std::array<std::uint16_t, 4>{0, 16, 65520, 65535}));
+  // Those of 8 bits have none.
+  ASSERT_TRUE(cv::imwrite((folder / "b.png").string(), gray()));
+  const auto rows = [&](int unused) {
+    const DecodedFrame read = open_images({folder / "b.png"}, unused)->read(0);
+    return rows_of(read.buffer.get(), read.caps.get());
+  };
+  EXPECT_EQ(rows(4), rows(0));
+}
+
 TEST(BrokenImage, IsNamedAndTheNextOneIsRead) {
   const TemporaryFolder folder;
   const fs::path good = folder / "good.jpg", good_png = folder / "good.png";

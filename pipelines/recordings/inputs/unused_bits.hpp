@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "recordings/inputs/recording.hpp"
+
+namespace mtstereo::run {
+
+/// Finds Source::unused_bits of images by some of both views, the same for both, and adds a remark
+/// if there are any. Cameras of 10 or 12 bits store such images; as 16 bits they are nearly black.
+void find_unused_bits(Recording& recording);
+
+}  // namespace mtstereo::run
