@@ -35,7 +35,13 @@ std::vector<fs::path> list_images(const std::string& source) {
 cv::Mat read(const fs::path& file) {
   cv::Mat image;
   try {
-    image = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+    image = cv::imread(file.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+    if (image.depth() == CV_16U) {
+      // Cameras of 10 or 12 bits use a part of them.
+      double largest = 0;
+      cv::minMaxLoc(image, nullptr, &largest);
+      image.convertTo(image, CV_8U, 255 / std::max(largest, 1.0));
+    }
   } catch (const cv::Exception&) {
     image.release();
   }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "lib/outputs/user_error.hpp"
+#include "programs/calibrate/source.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace mtstereo::calibrate {
+namespace {
+
+// A pair of such images as the program reads them.
+ImagePair read_pair(const cv::Mat& left, const cv::Mat& right) {
+  const test::TemporaryFolder folder;
+  SourceOptions options;
+  options.left = folder / "left.png";
+  options.right = folder / "right.png";
+  cv::imwrite(options.left, left);
+  cv::imwrite(options.right, right);
+  ImagePair pair;
+  EXPECT_EQ(open_source(options)->next(pair), SourceState::kPair);
+  return pair;
+}
+
+TEST(ImageSource, UsesAllBitsOfCamerasWith12) {
+  const cv::Mat left = (cv::Mat_<std::uint16_t>(1, 3) << 0, 2048, 4095);
+  const cv::Mat right = (cv::Mat_<std::uint16_t>(1, 3) << 0, 32768, 65535);
+  const ImagePair pair = read_pair(left, right);
+  const cv::Mat expected = (cv::Mat_<std::uint8_t>(1, 3) << 0, 128, 255);
+  EXPECT_EQ(cv::norm(pair.left, expected, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(pair.right, expected, cv::NORM_INF), 0);
+}
+
+TEST(ImageSource, KeepsImagesOf8BitsAndBlackOnes) {
+  const cv::Mat gray = (cv::Mat_<std::uint8_t>(1, 3) << 0, 20, 90);
+  const ImagePair pair = read_pair(gray, cv::Mat(1, 3, CV_16UC1, cv::Scalar(0)));
+  EXPECT_EQ(cv::norm(pair.left, gray, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::countNonZero(pair.right), 0);
+}
+
+TEST(ImageSource, NamesTheRemedyForAGif) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "a.gif") << "GIF89a";
+  SourceOptions options;
+  options.left = options.right = folder / "a.gif";
+  EXPECT_THAT([&options] { input_files(options); },
+              ::testing::ThrowsMessage<UserError>(::testing::HasSubstr("a.gif: is a GIF")));
+}
+
+}  // namespace
+}  // namespace mtstereo::calibrate
