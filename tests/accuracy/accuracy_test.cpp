@@ -15,7 +15,7 @@
 #include "tools/eval/metrics.hpp"
 #include "tools/render/scene.hpp"
 
-namespace mtstereo::tests {
+namespace mtstereo::tests::accuracy_test {
 namespace {
 
 /// Means over pairs, or limits for them.
@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, Road,
                          gate_name);
 
 }  // namespace
-}  // namespace mtstereo::tests
+}  // namespace mtstereo::tests::accuracy_test
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

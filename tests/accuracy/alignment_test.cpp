@@ -17,7 +17,7 @@
 #include "tools/render/render.hpp"
 #include "tools/render/scene.hpp"
 
-namespace mtstereo::tests {
+namespace mtstereo::tests::alignment_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -251,4 +251,4 @@ TEST_F(Sequence, OutOfStepIsRecognizedAndNotCorrected) {
 }
 
 }  // namespace
-}  // namespace mtstereo::tests
+}  // namespace mtstereo::tests::alignment_test

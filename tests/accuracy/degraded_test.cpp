@@ -23,7 +23,7 @@
 #include "tools/eval/runner.hpp"
 #include "tools/render/scene.hpp"
 
-namespace mtstereo::tests {
+namespace mtstereo::tests::degraded_test {
 namespace {
 
 /// How far the figures may be from those in the table.
@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(RealPairs, EqualError, testing::Values(Pairs::kTen, Pai
 INSTANTIATE_TEST_SUITE_P(Images, Degraded, testing::ValuesIn(kDegradedFigures), name_of);
 
 }  // namespace
-}  // namespace mtstereo::tests
+}  // namespace mtstereo::tests::degraded_test
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

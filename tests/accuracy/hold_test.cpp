@@ -15,7 +15,7 @@
 #include "pairs.hpp"
 #include "tools/eval/flicker.hpp"
 
-namespace mtstereo::tests {
+namespace mtstereo::tests::hold_test {
 namespace {
 
 GrayView view_of(const cv::Mat& image) {
@@ -160,4 +160,4 @@ TEST(FilterOnRealPairs, ReducesTheFlickerAndTheErrors) {
 }
 
 }  // namespace
-}  // namespace mtstereo::tests
+}  // namespace mtstereo::tests::hold_test

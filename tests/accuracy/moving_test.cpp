@@ -16,7 +16,7 @@
 #include "tools/render/rig.hpp"
 #include "tools/render/scene.hpp"
 
-namespace mtstereo::tests {
+namespace mtstereo::tests::moving_test {
 namespace {
 
 constexpr double kInterval = 1.0 / 15;  ///< between two frames [s]
@@ -138,4 +138,4 @@ TEST(MovingCamera, HoldAndFilterReduceTheFlickerAndTheErrors) {
 }
 
 }  // namespace
-}  // namespace mtstereo::tests
+}  // namespace mtstereo::tests::moving_test

@@ -18,7 +18,7 @@
 #include "tools/render/render.hpp"
 #include "tools/render/scene.hpp"
 
-namespace mtstereo::tests {
+namespace mtstereo::tests::thin_test {
 namespace {
 
 using eval::ThinCounts;
@@ -149,13 +149,13 @@ void print_table() {
 }
 
 }  // namespace
-}  // namespace mtstereo::tests
+}  // namespace mtstereo::tests::thin_test
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   gst_init(&argc, &argv);
   if (argc == 2 && std::string(argv[1]) == "--table") {
-    mtstereo::tests::print_table();
+    mtstereo::tests::thin_test::print_table();
     return 0;
   }
   return RUN_ALL_TESTS();

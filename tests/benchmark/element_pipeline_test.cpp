@@ -8,7 +8,7 @@
 
 #include "outcome.hpp"
 
-namespace mtstereo::bench {
+namespace mtstereo::bench::element_pipeline_test {
 namespace {
 
 constexpr int kWidth = 130;  // rows are padded
@@ -116,7 +116,7 @@ TEST(ElementPipeline, InvalidPropertiesAreErrorsThatNameThem) {
 }
 
 }  // namespace
-}  // namespace mtstereo::bench
+}  // namespace mtstereo::bench::element_pipeline_test
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

@@ -7,7 +7,7 @@
 
 #include "lib/outputs/user_error.hpp"
 
-namespace mtstereo::bench {
+namespace mtstereo::bench::frames_test {
 namespace {
 
 TEST(Frames, QuickRunHasOneSize) {
@@ -50,4 +50,4 @@ TEST(Frames, RenderedPairHasItsSizeAndTwoDifferentViews) {
 }
 
 }  // namespace
-}  // namespace mtstereo::bench
+}  // namespace mtstereo::bench::frames_test

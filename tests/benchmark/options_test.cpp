@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mtstereo::bench {
+namespace mtstereo::bench::options_test {
 namespace {
 
 TEST(ProcessorName, IsTheModelNameOfTheFirstProcessor) {
@@ -26,4 +26,4 @@ TEST(ProcessorName, IsUnknownWithoutAnyEntry) {
 }
 
 }  // namespace
-}  // namespace mtstereo::bench
+}  // namespace mtstereo::bench::options_test

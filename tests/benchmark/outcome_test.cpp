@@ -9,7 +9,7 @@
 
 #include "guarded.hpp"
 
-namespace mtstereo::bench {
+namespace mtstereo::bench::outcome_test {
 namespace {
 
 Outcome outcome(int disparity, int confidence) {
@@ -97,4 +97,4 @@ TEST(OpenCvThreads, AreRestored) {
 }
 
 }  // namespace
-}  // namespace mtstereo::bench
+}  // namespace mtstereo::bench::outcome_test

@@ -6,7 +6,7 @@
 
 #include <set>
 
-namespace mtstereo::bench {
+namespace mtstereo::bench::simd_targets_test {
 namespace {
 
 using Run = benchmark::BenchmarkReporter::Run;
@@ -81,4 +81,4 @@ TEST(TargetTable, HasNoRatioToATargetThatWasNotTimed) {
 }
 
 }  // namespace
-}  // namespace mtstereo::bench
+}  // namespace mtstereo::bench::simd_targets_test

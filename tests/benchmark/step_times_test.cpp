@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace mtstereo::bench {
+namespace mtstereo::bench::step_times_test {
 namespace {
 
 constexpr std::pair<const char*, const char*> kVariants[] = {
@@ -48,4 +48,4 @@ TEST(StepTimes, FrameThatTheMatcherRefusesIsAnError) {
 }
 
 }  // namespace
-}  // namespace mtstereo::bench
+}  // namespace mtstereo::bench::step_times_test

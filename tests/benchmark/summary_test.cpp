@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace mtstereo::bench {
+namespace mtstereo::bench::summary_test {
 namespace {
 
 using Run = benchmark::BenchmarkReporter::Run;
@@ -141,4 +141,4 @@ TEST(Summary, HasTimesOfBenchmarksThatWereNotAnnounced) {
 }
 
 }  // namespace
-}  // namespace mtstereo::bench
+}  // namespace mtstereo::bench::summary_test

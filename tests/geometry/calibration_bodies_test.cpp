@@ -3,7 +3,7 @@
 // stella_vslam.
 #include "calibration_support.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_bodies_test {
 namespace {
 
 using ::testing::AllOf;
@@ -141,4 +141,4 @@ TEST_F(BodyFile, OfStellaThatIsNoPairIsRefused) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_bodies_test

@@ -3,7 +3,7 @@
 // positions of both cameras to the IMU.
 #include "calibration_support.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_chain_test {
 namespace {
 
 using ::testing::AllOf;
@@ -110,4 +110,4 @@ TEST_F(Chain, WithOnePositionOnlyNamesWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_chain_test

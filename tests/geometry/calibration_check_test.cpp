@@ -6,7 +6,7 @@
 #include "calibration_support.hpp"
 #include "mtstereo/parameters.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_check_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -153,4 +153,4 @@ TEST(ScaleCalibration, AcceptsRoundedSizesAndRefusesOtherAspectRatios) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_check_test

@@ -5,7 +5,7 @@
 #include "calibration_support.hpp"
 #include "mtstereo/geometry/rectification.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_data_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -162,4 +162,4 @@ TEST_F(CalibrationsOfPrograms, ThatAreNoPairAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_data_test

@@ -9,7 +9,7 @@
 #include "calibration_support.hpp"
 #include "geometry/formats/document.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_errors_test {
 namespace {
 
 using ::testing::AllOf;
@@ -340,4 +340,4 @@ TEST(CalibrationPath, NamesOfFilesMayHaveCommasAndNumberSigns) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_errors_test

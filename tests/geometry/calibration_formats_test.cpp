@@ -4,7 +4,7 @@
 
 #include "calibration_support.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_formats_test {
 namespace {
 
 using ::testing::AllOf;
@@ -441,4 +441,4 @@ TEST(Zed, SectionsForTheDistortionAreThoseOfTheCalibrationProgramForMonoCameras)
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_formats_test

@@ -5,7 +5,7 @@
 
 #include "calibration_support.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_layouts_test {
 namespace {
 
 using ::testing::AllOf;
@@ -278,4 +278,4 @@ TEST_F(Layout, WithRectifiedProjectionsNeedsNoRAndT) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_layouts_test

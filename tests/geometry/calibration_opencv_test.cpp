@@ -6,7 +6,7 @@
 
 #include "calibration_support.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_opencv_test {
 namespace {
 
 using ::testing::AllOf;
@@ -274,4 +274,4 @@ TEST(SameCameras, GiveTheSameCalibrationInEveryFormat) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_opencv_test

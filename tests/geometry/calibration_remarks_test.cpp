@@ -5,7 +5,7 @@
 #include "calibration_support.hpp"
 #include "mtstereo/geometry/rectification.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_remarks_test {
 namespace {
 
 using testing::AllOf;
@@ -204,4 +204,4 @@ TEST_F(Remarks, PrincipalPointsOfAnotherSize) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_remarks_test

@@ -2,7 +2,7 @@
 // The sizes in which cameras give video, and what of the image they show.
 #include "calibration_support.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_size_test {
 namespace {
 
 using ::testing::AllOf;
@@ -139,4 +139,4 @@ TEST_F(CameraInfoSize, ThatContradictsIsRefused) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_size_test

@@ -3,7 +3,7 @@
 // ROS's INI. The right camera is always 0.12 m beside the left one and 0.01 m in front of it.
 #include "calibration_support.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_slam_test {
 namespace {
 
 using ::testing::AllOf;
@@ -363,4 +363,4 @@ TEST_F(SlamFile, WithImpossibleNumbersIsRefused) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_slam_test

@@ -10,7 +10,7 @@
 #include "mtstereo/geometry/point_cloud.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace mtstereo {
+namespace mtstereo::cloud_file_test {
 namespace {
 
 using test::read_text;
@@ -161,4 +161,4 @@ TEST(CloudFile, KeepsTheOlderFileIfThereIsNoSpace) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::cloud_file_test

@@ -10,7 +10,7 @@
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::depth_test {
 namespace {
 
 using test::PaddedImage;
@@ -276,4 +276,4 @@ TEST(DepthConverter, RefusesUnitsAndRangesThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::depth_test

@@ -9,7 +9,7 @@
 #include "calibration_support.hpp"
 #include "mtstereo/geometry/rectification.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::format_rectification_test {
 namespace {
 
 /// One camera in the words of OpenCV.
@@ -270,4 +270,4 @@ TEST(FormatRectification, OfZed) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::format_rectification_test

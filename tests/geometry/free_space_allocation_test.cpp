@@ -5,7 +5,7 @@
 #include "support/counting_allocator.hpp"
 #include "support/plane.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::free_space_allocation_test {
 namespace {
 
 Status bound(FreeSpace& space, Plane<std::uint16_t>& map, int width, int height) {
@@ -46,4 +46,4 @@ TEST(FreeSpaceAllocation, MissingMemoryIsAnError) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::free_space_allocation_test

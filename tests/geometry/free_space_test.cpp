@@ -10,7 +10,7 @@
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::free_space_test {
 namespace {
 
 using test::PaddedImage;
@@ -183,4 +183,4 @@ TEST(FreeSpace, RefusesImagesThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::free_space_test

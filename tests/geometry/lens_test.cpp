@@ -6,7 +6,7 @@
 #include "opencv_camera.hpp"
 #include "rigs.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::lens_test {
 namespace {
 
 TEST(Lens, ProjectsLikeOpenCv) {
@@ -138,4 +138,4 @@ TEST(Lens, DirectionsWhereThePolynomialTurnsBackHaveNoPosition) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::lens_test

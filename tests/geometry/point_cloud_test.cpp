@@ -8,7 +8,7 @@
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::point_cloud_test {
 namespace {
 
 using test::GrayPlane;
@@ -236,4 +236,4 @@ TEST(Cloud, RefusesGeometriesAndOptionsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::point_cloud_test

@@ -9,7 +9,7 @@
 #include "seen_border.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::rectification_test {
 namespace {
 
 Rectification rectified(const StereoCalibration& rig, const RectificationOptions& options = {}) {
@@ -228,4 +228,4 @@ TEST(Rectify, RefusesWrongValues) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::rectification_test

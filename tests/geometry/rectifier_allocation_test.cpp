@@ -6,7 +6,7 @@
 #include "support/counting_allocator.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::rectifier_allocation_test {
 namespace {
 
 TEST(RectifierAllocation, FramesAllocateNothing) {
@@ -50,4 +50,4 @@ TEST(RectifierAllocation, MissingMemoryIsAnError) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::rectifier_allocation_test

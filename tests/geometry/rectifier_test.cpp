@@ -11,7 +11,7 @@
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::rectifier_test {
 namespace {
 
 using Side = Rectifier::Side;
@@ -299,4 +299,4 @@ TEST(Rectifier, RefusesWrongRectifications) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::rectifier_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mtstereo::test {
+namespace mtstereo::test::rig_test {
 namespace {
 
 Rectification rectification(double focal_length, double baseline) {
@@ -56,4 +56,4 @@ TEST(Rig, ARangeThatEndsBeyondInfinityHasNoNearestDepth) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::rig_test

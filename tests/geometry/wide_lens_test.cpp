@@ -14,7 +14,7 @@
 #include "rigs.hpp"
 #include "seen_border.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::wide_lens_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -158,4 +158,4 @@ TEST(WideLenses, PositionsWithoutADirectionAreNotANumber) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::wide_lens_test

@@ -11,7 +11,7 @@
 #include "support/field_pair.hpp"
 #include "support/matching.hpp"
 
-namespace mtstereo {
+namespace mtstereo::alignment_tracker_test {
 namespace {
 
 using test::fails_with;
@@ -190,4 +190,4 @@ TEST(AlignmentTracker, EveryStatusAndProblemHasItsText) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::alignment_tracker_test

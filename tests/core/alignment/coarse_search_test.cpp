@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::coarse_search_test {
 namespace {
 
 using test::GrayPlane;
@@ -135,4 +135,4 @@ TEST(CoarseSearch, EqualsASearchThroughAllPlaces) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::coarse_search_test

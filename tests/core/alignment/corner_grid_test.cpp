@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::corner_grid_test {
 namespace {
 
 using test::GrayPlane;
@@ -105,4 +105,4 @@ TEST(CornerGrid, KeepsAMarginAndItsLargestNumber) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::corner_grid_test

@@ -6,7 +6,7 @@
 #include "alignment/row_field.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::correction_policy_test {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 400;
@@ -244,4 +244,4 @@ TEST_F(CorrectionPolicyTest, StartsAgainAfterResetAndAfterAChangeOfTheSize) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::correction_policy_test

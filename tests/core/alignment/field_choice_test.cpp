@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mtstereo {
+namespace mtstereo::field_choice_test {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 400;
@@ -78,4 +78,4 @@ TEST(FieldChoice, NamesTheReasonWithoutTrust) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::field_choice_test

@@ -7,7 +7,7 @@
 
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::field_fit_test {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 400;
@@ -119,4 +119,4 @@ TEST(FieldFit, GivesTheSameResultAgain) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::field_fit_test

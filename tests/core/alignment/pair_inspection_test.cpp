@@ -9,7 +9,7 @@
 #include "support/padded_image.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::pair_inspection_test {
 namespace {
 
 using test::FieldPair;
@@ -231,4 +231,4 @@ TEST(PairInspection, IsTheSameForAnyStrideInstructionSetAndHistory) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::pair_inspection_test

@@ -6,7 +6,7 @@
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::pair_watch_test {
 namespace {
 
 using test::GrayPlane;
@@ -80,4 +80,4 @@ TEST(PairWatch, AcceptsAnySizeAndStride) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::pair_watch_test

@@ -8,7 +8,7 @@
 #include "support/field_pair.hpp"
 #include "support/padded_image.hpp"
 
-namespace mtstereo {
+namespace mtstereo::patch_tracking_test {
 namespace {
 
 using test::GrayPlane;
@@ -91,4 +91,4 @@ TEST(PatchTracking, StaysInsideTheViews) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::patch_tracking_test

@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::reduced_view_test {
 namespace {
 
 using test::GrayPlane;
@@ -79,4 +79,4 @@ TEST(ReducedView, DoesNotDependOnBrightness) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::reduced_view_test

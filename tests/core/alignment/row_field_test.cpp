@@ -9,7 +9,7 @@
 #include "support/matching.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::row_field_test {
 namespace {
 
 using test::fails_with;
@@ -72,4 +72,4 @@ TEST(RowField, ChecksTheRangeOfItsTerms) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::row_field_test

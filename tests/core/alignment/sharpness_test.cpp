@@ -7,7 +7,7 @@
 
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::sharpness_test {
 namespace {
 
 using test::GrayPlane;
@@ -125,4 +125,4 @@ TEST(Sharpness, SpreadsPatchesOverTheImage) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::sharpness_test

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace mtstereo {
+namespace mtstereo::bands_test {
 namespace {
 
 /// Counts how often each item of a loop is visited.
@@ -136,4 +136,4 @@ TEST(Bands, CoverEachItemOnceInBlocksOfAnySize) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::bands_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <new>
 
-namespace mtstereo {
+namespace mtstereo::buffer_test {
 namespace {
 
 TEST(Buffer, IsAlignedForTheWidestVector) {
@@ -102,4 +102,4 @@ TEST(Image, ViewHasItsSizeAndPixels) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::buffer_test

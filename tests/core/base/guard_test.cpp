@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace mtstereo {
+namespace mtstereo::guard_test {
 namespace {
 
 TEST(Guard, ReturnsTheResultOfTheBody) {
@@ -40,4 +40,4 @@ TEST(Guard, TurnsEveryOtherExceptionIntoASystemError) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::guard_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-namespace mtstereo {
+namespace mtstereo::thread_pool_test {
 namespace {
 
 constexpr int kThreadCounts[] = {1, 2, 3, 4, 7};
@@ -156,4 +156,4 @@ TEST(ThreadPool, RunsAConstBody) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::thread_pool_test

@@ -15,7 +15,7 @@
 #include "support/sanitizers.hpp"
 #include "support/soft_pair.hpp"
 
-namespace mtstereo {
+namespace mtstereo::allocation_test {
 namespace {
 
 using test::same_image;
@@ -374,4 +374,4 @@ TEST_F(Allocation, FailingInAnErrorMessageIsAnErrorWithoutMessage) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::allocation_test

@@ -10,7 +10,7 @@
 #include "support/matching.hpp"
 #include "support/soft_pair.hpp"
 
-namespace mtstereo {
+namespace mtstereo::auto_resolution_test {
 namespace {
 
 using test::DisparityPlane;
@@ -173,4 +173,4 @@ TEST(AutoResolution, RefusesNodesThatFitAtNeitherResolution) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::auto_resolution_test

@@ -14,7 +14,7 @@
 #include "support/random.hpp"
 #include "support/watching.hpp"
 
-namespace mtstereo {
+namespace mtstereo::correction_test {
 namespace {
 
 using test::GrayPlane;
@@ -126,4 +126,4 @@ TEST(Correction, OutOfRangeIsAnErrorAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::correction_test

@@ -8,7 +8,7 @@
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::disparity16_test {
 namespace {
 
 using test::DisparityPlane;
@@ -133,4 +133,4 @@ TEST(WriteDisparity16, RejectsScalesOutsideTheRange) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::disparity16_test

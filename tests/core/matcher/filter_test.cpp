@@ -12,7 +12,7 @@
 #include "support/matching.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::filter_test {
 namespace {
 
 using test::Matched;
@@ -179,4 +179,4 @@ TEST(Filter, IsTheSameForAnyNumberOfThreadsAndBesideAnotherMatcher) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::filter_test

@@ -10,7 +10,7 @@
 #include "support/plane.hpp"
 #include "support/soft_pair.hpp"
 
-namespace mtstereo {
+namespace mtstereo::fine_detail_test {
 namespace {
 
 using test::DisparityPlane;
@@ -152,4 +152,4 @@ TEST(FineDetail, ReadsTheRightViewBeyondNegativeDisparities) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::fine_detail_test

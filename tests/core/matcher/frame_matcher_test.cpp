@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 #include "support/watching.hpp"
 
-namespace mtstereo {
+namespace mtstereo::frame_matcher_test {
 namespace {
 
 using test::DisparityPlane;
@@ -80,4 +80,4 @@ TEST(FrameMatcher, DensityIsTheFractionOfPixelsWithADisparity) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::frame_matcher_test

@@ -5,7 +5,7 @@
 
 #include "support/matching.hpp"
 
-namespace mtstereo {
+namespace mtstereo::frame_memory_test {
 namespace {
 
 Settings settings_of(std::initializer_list<std::pair<const char*, std::string>> values) {
@@ -102,4 +102,4 @@ TEST(FrameMemory, PlacesBuffersOfSuccessiveStepsInTheMemoryOfTheCensus) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::frame_memory_test

@@ -7,7 +7,7 @@
 #include "support/matching.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::full_map_test {
 namespace {
 
 using test::DisparityPlane;
@@ -98,4 +98,4 @@ TEST(FullMap, FillsWhatTheConfidenceRemoves) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::full_map_test

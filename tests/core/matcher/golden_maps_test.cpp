@@ -11,7 +11,7 @@
 #include "support/matching.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::golden_maps_test {
 namespace {
 
 /// FNV-1a over the pixels of an image, in 64 bits.
@@ -75,4 +75,4 @@ TEST(GoldenMaps, AreEqualBitForBit) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::golden_maps_test

@@ -10,7 +10,7 @@
 #include "support/matching.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::hold_test {
 namespace {
 
 using test::DisparityPlane;
@@ -210,4 +210,4 @@ TEST(Hold, IsNoDefault) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::hold_test

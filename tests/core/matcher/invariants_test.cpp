@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 #include "support/watching.hpp"
 
-namespace mtstereo {
+namespace mtstereo::invariants_test {
 namespace {
 
 using test::copy_of;
@@ -330,4 +330,4 @@ TEST(Invariants, NoDisparityHasLessThanTheMinimumConfidence) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::invariants_test

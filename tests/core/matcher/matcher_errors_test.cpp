@@ -6,7 +6,7 @@
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::matcher_errors_test {
 namespace {
 
 using test::fails_with;
@@ -151,4 +151,4 @@ TEST(MatcherInput, MustNotHaveANegativeStride) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::matcher_errors_test

@@ -15,7 +15,7 @@
 #include "support/parameter_samples.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::matcher_test {
 namespace {
 
 using test::copy_of;
@@ -171,4 +171,4 @@ TEST(Version, IsThreeNumbers) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::matcher_test

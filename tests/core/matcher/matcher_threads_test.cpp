@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 #include "support/watching.hpp"
 
-namespace mtstereo {
+namespace mtstereo::matcher_threads_test {
 namespace {
 
 using test::copy_of;
@@ -140,4 +140,4 @@ TEST(MatcherThreads, AMatcherCanBeUsedFromDifferentThreads) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::matcher_threads_test

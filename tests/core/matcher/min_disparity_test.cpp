@@ -7,7 +7,7 @@
 #include "support/matching.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::min_disparity_test {
 namespace {
 
 using test::DisparityPlane;
@@ -194,4 +194,4 @@ TEST(MinDisparity, CountsForSixteenBitsIfItIsNegative) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::min_disparity_test

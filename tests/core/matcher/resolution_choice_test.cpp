@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace mtstereo {
+namespace mtstereo::resolution_choice_test {
 namespace {
 
 constexpr double kSoftShare = ResolutionChoice::kSoft;
@@ -95,4 +95,4 @@ TEST(ResolutionChoice, BeginsAnew) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::resolution_choice_test

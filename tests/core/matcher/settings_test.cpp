@@ -10,7 +10,7 @@
 #include "support/matching.hpp"
 #include "support/parameter_samples.hpp"
 
-namespace mtstereo {
+namespace mtstereo::settings_test {
 namespace {
 
 /// The expected value of what is derived from a parameter.
@@ -177,4 +177,4 @@ TEST(Choices, EnumValuesAreTheIndicesOfTheWordsInTheTable) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::settings_test

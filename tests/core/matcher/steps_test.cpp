@@ -8,7 +8,7 @@
 
 #include "support/watching.hpp"
 
-namespace mtstereo {
+namespace mtstereo::steps_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -156,4 +156,4 @@ TEST(Steps, CorrectTheViewsFirstButForTheirNoise) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::steps_test

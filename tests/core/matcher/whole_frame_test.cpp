@@ -11,7 +11,7 @@
 #include "support/simd_targets.hpp"
 #include "support/watching.hpp"
 
-namespace mtstereo {
+namespace mtstereo::whole_frame_test {
 namespace {
 
 using test::GrayPlane;
@@ -304,4 +304,4 @@ TEST(WholeFrame, HasTheSameResultOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::whole_frame_test

@@ -10,7 +10,7 @@
 
 #include "support/matching.hpp"
 
-namespace mtstereo {
+namespace mtstereo::parameter_errors_test {
 namespace {
 
 using test::fails_with;
@@ -263,4 +263,4 @@ TEST(ParameterErrors, RejectIdsThatAreNotInTheTable) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::parameter_errors_test

@@ -7,7 +7,7 @@
 
 #include "support/matching.hpp"
 
-namespace mtstereo {
+namespace mtstereo::parameters_test {
 namespace {
 
 /// The words of a choice; none for parameters of other types.
@@ -248,4 +248,4 @@ TEST(Parameters, FitSixteenBitsUpToTheLimit) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::parameters_test

@@ -6,7 +6,7 @@
 #include "geometry/rigs.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::camera_field_test {
 namespace {
 
 constexpr int kWidth = 128;
@@ -97,4 +97,4 @@ TEST_F(RectifiedCameras, AreNotStatedByTheMap) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::camera_field_test

@@ -10,7 +10,7 @@
 #include "shared/valid_columns_meta.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::geometry_fields_test {
 namespace {
 
 constexpr int kWidth = 128;
@@ -237,4 +237,4 @@ TEST_F(ValidColumnsMeta, OthersReplaceIt) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::geometry_fields_test

@@ -13,7 +13,7 @@
 #include "shared/valid_columns_meta.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::mtrectify_test {
 namespace {
 
 constexpr int kWidth = 160;
@@ -339,4 +339,4 @@ TEST_F(MtRectify, PlaysAgainAfterAStop) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::mtrectify_test

@@ -9,7 +9,7 @@
 #include "cameras/camera_harness.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::mtsplit_test {
 namespace {
 
 /// An mtsplit with a harness at each source pad; the left one also pushes.
@@ -396,4 +396,4 @@ TEST(MtSplit, LatencyIsThatOfUpstream) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::mtsplit_test

@@ -5,7 +5,7 @@
 #include "geometry/rigs.hpp"
 #include "support/counting_allocator.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::rectify_allocation_test {
 namespace {
 
 /// Allocations for `frames` frames that are passed one after the other.
@@ -33,4 +33,4 @@ TEST(RectifyAllocation, FramesAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::rectify_allocation_test

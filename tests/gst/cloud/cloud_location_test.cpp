@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mtstereo::plugin {
+namespace mtstereo::plugin::cloud_location_test {
 namespace {
 
 CloudLocation parsed(const std::string& pattern) {
@@ -52,4 +52,4 @@ TEST(CloudLocation, IsAlwaysUtf8InMessages) {
 }
 
 }  // namespace
-}  // namespace mtstereo::plugin
+}  // namespace mtstereo::plugin::cloud_location_test

@@ -4,7 +4,7 @@
 #include "cloud/cloud_harness.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::mtcloud_errors_test {
 namespace {
 
 /// The error of an mtcloud that does not start.
@@ -124,4 +124,4 @@ TEST(CloudErrors, NameAStreamOfDepths) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::mtcloud_errors_test

@@ -7,7 +7,7 @@
 #include "cloud/cloud_harness.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::mtcloud_pipeline_test {
 namespace {
 
 /// A launch line with a tee for both branches of the left view. The mtcloud is named c.
@@ -136,4 +136,4 @@ TEST(CloudPipeline, ALeftViewWithoutQueueFailsByTimeoutsOnly) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::mtcloud_pipeline_test

@@ -7,7 +7,7 @@
 #include "cloud/cloud_harness.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::mtcloud_test {
 namespace {
 
 constexpr std::size_t kPoints = std::size_t{kCloudWidth} * kCloudHeight - 1;
@@ -329,4 +329,4 @@ TEST(Cloud, ReadsMapsAtOddAddresses) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::mtcloud_test

@@ -5,7 +5,7 @@
 
 #include <tuple>
 
-namespace mtstereo::plugin {
+namespace mtstereo::plugin::color_table_test {
 namespace {
 
 std::tuple<int, int, int> parts(const Rgb& color) { return {color.red, color.green, color.blue}; }
@@ -57,4 +57,4 @@ TEST(ColorTable, SupportsTheSmallestAndTheLargestRange) {
 }
 
 }  // namespace
-}  // namespace mtstereo::plugin
+}  // namespace mtstereo::plugin::color_table_test

@@ -7,7 +7,7 @@
 #include "support/map_harness.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::free_space_test {
 namespace {
 
 constexpr double kConstant = 700 * 0.5;  // focal length x baseline [px m]
@@ -140,4 +140,4 @@ TEST(FreeSpaceProperty, CanBeChangedWhilePlaying) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::free_space_test

@@ -7,7 +7,7 @@
 #include "support/map_harness.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::mtcolor_depth_test {
 namespace {
 
 using Color = std::array<int, 3>;
@@ -120,4 +120,4 @@ TEST(DepthColor, AcceptsTheOutputOfMtdepth) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::mtcolor_depth_test

@@ -6,7 +6,7 @@
 #include "support/pipeline.hpp"
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::mtcolor_test {
 namespace {
 
 using Color = std::array<int, 3>;
@@ -218,4 +218,4 @@ TEST(Color, AcceptsTheOutputOfMtstereo) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::mtcolor_test

@@ -3,7 +3,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::mtconfidence_test {
 namespace {
 
 constexpr const char* kMeta = "MtStereoConfidenceMeta";
@@ -304,4 +304,4 @@ TEST(MtConfidence, OffersNoOtherFormats) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::mtconfidence_test

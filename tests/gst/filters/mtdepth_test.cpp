@@ -10,7 +10,7 @@
 #include "support/map_harness.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::mtdepth_test {
 namespace {
 
 constexpr const char* kRig = ",focal-length=(double)700,baseline=(double)0.5";
@@ -388,4 +388,4 @@ TEST(Depth, CanBeFilteredByConfidence) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::mtdepth_test

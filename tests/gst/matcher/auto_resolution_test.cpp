@@ -8,7 +8,7 @@
 #include "support/debug_log.hpp"
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::auto_resolution_test {
 namespace {
 
 /// The element is tested as it is documented.
@@ -133,4 +133,4 @@ TEST_F(AutoResolutionElement, CanBeSetWhilePlaying) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::auto_resolution_test

@@ -4,7 +4,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::caps_test {
 namespace {
 
 CapsPointer template_of(const char* factory, const char* pad) {
@@ -98,4 +98,4 @@ TEST(Features, OfOtherMemoryAreRefusedAlsoWithAMeta) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::caps_test

@@ -7,7 +7,7 @@
 #include "support/map_harness.hpp"
 #include "support/numbered_views.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::debug_log_test {
 namespace {
 
 void play(int frames, const FeedOptions& options = {}) {
@@ -73,4 +73,4 @@ TEST(DebugLog, StatesWhatTheCamerasOfDepthsMeasure) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::debug_log_test

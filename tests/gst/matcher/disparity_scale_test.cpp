@@ -4,7 +4,7 @@
 
 #include "support/fixtures.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::disparity_scale_test {
 namespace {
 
 class DisparityScale : public StreamsTest {
@@ -86,4 +86,4 @@ TEST_F(DisparityScale, ReturnsWithARangeThatIsRefused) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::disparity_scale_test

@@ -4,7 +4,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::error_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) {
@@ -266,4 +266,4 @@ TEST_F(StartFails, ButNotAfterTheValueWasCorrected) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::error_test

@@ -6,7 +6,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::format_test {
 namespace {
 
 Parameters small_range() {
@@ -258,4 +258,4 @@ TEST(Input, CapsRestrictTheSizeToThatOfDownstream) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::format_test

@@ -11,7 +11,7 @@
 #include "support/pipeline.hpp"
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::gap_test {
 namespace {
 
 constexpr int kBefore = 10;  // pairs before a gap
@@ -213,4 +213,4 @@ TEST(EndOfStream, OfOneSideWhileTheOtherOneIsSilentEndsTheOutput) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::gap_test

@@ -7,7 +7,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::hold_test {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 96;
@@ -157,4 +157,4 @@ TEST_F(HoldElement, CanBeSwitchedOffAndOn) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::hold_test

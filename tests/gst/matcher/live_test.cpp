@@ -4,7 +4,7 @@
 
 #include "support/fixtures.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::live_test {
 namespace {
 
 class Live : public StreamsTest {
@@ -304,4 +304,4 @@ TEST_F(Live, ForwardsQosEventsToBothSources) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::live_test

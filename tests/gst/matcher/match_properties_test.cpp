@@ -4,7 +4,7 @@
 
 #include "support/fixtures.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::match_properties_test {
 namespace {
 
 class AlignmentProperties : public ElementTest {};
@@ -109,4 +109,4 @@ TEST(AcceptedField, ReplacesARejectedOne) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::match_properties_test

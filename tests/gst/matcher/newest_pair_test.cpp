@@ -10,7 +10,7 @@
 #include "support/defective_streams.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::newest_pair_test {
 namespace {
 
 /// Time from the time stamp of a map to its arrival at the output [ms].
@@ -169,4 +169,4 @@ TEST(NewestPairOfCameras, BoundsTheAgeWhileMatchingItselfIsSlow) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::newest_pair_test

@@ -7,7 +7,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::pair_order_test {
 namespace {
 
 constexpr int kWidth = 64;
@@ -273,4 +273,4 @@ TEST_F(PairOrder, DoesNotDependOnTheOrderOfArrival) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::pair_order_test

@@ -7,7 +7,7 @@
 
 #include "support/fixtures.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::properties_test {
 namespace {
 
 class Properties : public ElementTest {};
@@ -217,4 +217,4 @@ TEST(WhilePlaying, StatisticsHavePairsTimeAndDensity) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::properties_test

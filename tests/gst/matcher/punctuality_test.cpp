@@ -12,7 +12,7 @@
 #include "support/sanitizers.hpp"
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::punctuality_test {
 namespace {
 
 constexpr const char* kSink = "fakesink name=out sync=true qos=true max-lateness=5000000";
@@ -135,4 +135,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& row) { return "row" + std::to_string(row.index); });
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::punctuality_test

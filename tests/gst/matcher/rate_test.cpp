@@ -9,7 +9,7 @@
 
 #include "support/file_player.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::rate_test {
 namespace {
 
 constexpr int kFrames = NumberedFiles::kRightFrames;
@@ -124,4 +124,4 @@ TEST(AppliedRate, PairsTheSameFrames) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::rate_test

@@ -7,7 +7,7 @@
 
 #include "support/fixtures.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::refused_settings_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) {
@@ -336,4 +336,4 @@ INSTANTIATE_TEST_SUITE_P(All, ExtremeWait,
                                          Wait{"min-upstream-latency", "18446744073709551614"}));
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::refused_settings_test

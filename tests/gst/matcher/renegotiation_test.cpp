@@ -4,7 +4,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::renegotiation_test {
 namespace {
 
 void expect_library_map(StereoHarness& harness, const Pair& pair) {
@@ -119,4 +119,4 @@ TEST(Renegotiation, OutputCapsFollowTheScale) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::renegotiation_test

@@ -6,7 +6,7 @@
 
 #include "support/file_player.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::seek_test {
 namespace {
 
 constexpr int kLeftFrames = NumberedFiles::kLeftFrames;
@@ -117,4 +117,4 @@ INSTANTIATE_TEST_SUITE_P(Files, Seeks, testing::Values(kMatroska, kMp4),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::seek_test

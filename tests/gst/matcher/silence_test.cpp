@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mtstereo::plugin {
+namespace mtstereo::plugin::silence_test {
 namespace {
 
 constexpr Nanoseconds kTimeout = 100;
@@ -90,4 +90,4 @@ TEST(Silence, IsNotCountedWhileTheElementIsBusy) {
 }
 
 }  // namespace
-}  // namespace mtstereo::plugin
+}  // namespace mtstereo::plugin::silence_test

@@ -4,7 +4,7 @@
 
 #include "support/fixtures.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::stream_test {
 namespace {
 
 constexpr int kWidth = 64;
@@ -271,4 +271,4 @@ TEST_F(Stream, ReleasesInputFrames) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::stream_test

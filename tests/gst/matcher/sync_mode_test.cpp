@@ -4,7 +4,7 @@
 
 #include "support/defective_streams.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::sync_mode_test {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -151,4 +151,4 @@ TEST(SyncMode, ReferenceTimestampNamesTheLivePadWithoutOneForTenSeconds) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::sync_mode_test

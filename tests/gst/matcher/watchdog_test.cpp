@@ -10,7 +10,7 @@
 #include "support/fixtures.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::watchdog_test {
 namespace {
 
 constexpr int kWidth = 64;
@@ -205,4 +205,4 @@ TEST(Watchdog, IsSafeAgainstStateChangesAndTheEndOfTheElement) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::watchdog_test

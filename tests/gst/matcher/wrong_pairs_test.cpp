@@ -7,7 +7,7 @@
 
 #include "support/defective_streams.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::wrong_pairs_test {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -236,4 +236,4 @@ TEST(DifferenceStatistics, StateADrift) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::wrong_pairs_test

@@ -7,7 +7,7 @@
 
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::mtwhole_test {
 namespace {
 
 constexpr GstClockTime kPeriod = 40 * GST_MSECOND;
@@ -89,4 +89,4 @@ TEST_F(MtWhole, DropsTheLastPictureOfTheStream) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::mtwhole_test

@@ -25,7 +25,7 @@
 #include "tools/render/raw.hpp"
 #include "tools/render/scene.hpp"
 
-namespace mtstereo {
+namespace mtstereo::chain_test {
 namespace {
 
 using render::RawRig;
@@ -333,4 +333,4 @@ INSTANTIATE_TEST_SUITE_P(Lenses, Chain, testing::ValuesIn(render::rig_names()),
                          [](const auto& info) { return info.param; });
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::chain_test

@@ -4,7 +4,7 @@
 
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::confidence_pipeline_test {
 namespace {
 
 /// noise_launch() with these properties of mtstereo, and these elements upstream of the sink.
@@ -116,4 +116,4 @@ TEST(MtConfidence, DoesNotAffectOtherBranchesOfATee) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::confidence_pipeline_test

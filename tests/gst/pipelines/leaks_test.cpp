@@ -15,7 +15,7 @@
 #include "support/stereo_harness.hpp"
 #include "support/test_environment.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::leaks_test {
 namespace {
 
 constexpr const char* kScenarioVariable = "MTSTEREO_LEAKS_SCENARIO";
@@ -214,11 +214,11 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, NoLeaks,
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::leaks_test
 
 int main(int argc, char** argv) {
-  if (const char* scenario = std::getenv(mtstereo::test::kScenarioVariable)) {
-    return mtstereo::test::run_scenario(scenario);
+  if (const char* scenario = std::getenv(mtstereo::test::leaks_test::kScenarioVariable)) {
+    return mtstereo::test::leaks_test::run_scenario(scenario);
   }
   return mtstereo::test::run_tests(argc, argv);
 }

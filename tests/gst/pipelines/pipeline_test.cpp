@@ -8,7 +8,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::pipeline_test {
 namespace {
 
 std::vector<Sample> play(const std::string& launch) {
@@ -257,4 +257,4 @@ TEST(Pipelines, StopBeforeTheEnd) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::pipeline_test

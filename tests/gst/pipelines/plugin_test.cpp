@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace mtstereo::test {
+namespace mtstereo::test::plugin_test {
 namespace {
 
 /// The class of an element. It holds a reference.
@@ -140,4 +140,4 @@ TEST_F(Plugin, DescribesItselfInSentenceCaseAndWithoutAMadeUpAddress) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::plugin_test

@@ -11,7 +11,7 @@
 #include "support/map_harness.hpp"
 #include "support/pipeline.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::caps_check_test {
 namespace {
 
 constexpr const char* kGray = "video/x-raw,format=GRAY8,width=64,height=48";
@@ -139,4 +139,4 @@ INSTANTIATE_TEST_SUITE_P(Of, RefusedCaps, testing::ValuesIn(kTargets),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::caps_check_test

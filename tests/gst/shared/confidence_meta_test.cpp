@@ -11,7 +11,7 @@
 #include "shared/confidence_pool.hpp"
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::confidence_meta_test {
 namespace {
 
 constexpr gsize kBytes = 8 * 6 * 2;
@@ -170,4 +170,4 @@ TEST_F(ConfidenceMemory, IsKeptWhileTheStreamIsUnchanged) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::confidence_meta_test

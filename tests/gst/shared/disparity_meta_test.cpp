@@ -10,7 +10,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::disparity_meta_test {
 namespace {
 
 using plugin::disparity_unit_of;
@@ -245,4 +245,4 @@ TEST(DisparityUnits, AreKeptByMtconfidenceOnMapsOnly) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::disparity_meta_test

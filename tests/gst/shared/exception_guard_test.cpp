@@ -9,7 +9,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::exception_guard_test {
 namespace {
 
 using plugin::guarded;
@@ -100,4 +100,4 @@ TEST_F(ExceptionGuard, RunsTheActionAfterAnExceptionOnly) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::exception_guard_test

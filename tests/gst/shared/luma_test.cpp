@@ -9,7 +9,7 @@
 #include "support/pipeline.hpp"
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::luma_test {
 namespace {
 
 using plugin::has_luma_plane;
@@ -342,4 +342,4 @@ TEST(Link, OfACameraWithYuy2NeedsNoConversion) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::luma_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mtstereo::plugin {
+namespace mtstereo::plugin::properties_test {
 namespace {
 
 enum class Color { kRed, kBlue };
@@ -117,4 +117,4 @@ TEST(PropertyTable, KnowsItsNumbers) {
 }
 
 }  // namespace
-}  // namespace mtstereo::plugin
+}  // namespace mtstereo::plugin::properties_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mtstereo::test {
+namespace mtstereo::test::numbered_views_test {
 namespace {
 
 class NumberedViews : public testing::TestWithParam<const char*> {
@@ -118,4 +118,4 @@ TEST(Feed, ReportsErrorsAndWarnings) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::numbered_views_test

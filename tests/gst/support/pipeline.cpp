@@ -9,7 +9,7 @@
 namespace mtstereo::test {
 namespace {
 
-std::string text_of(GstMessage* message) {
+std::string full_text_of(GstMessage* message) {
   GError* error = nullptr;
   gchar* details = nullptr;
   gst_message_parse_error(message, &error, &details);
@@ -82,7 +82,7 @@ std::string Pipeline::wait_for_end(double seconds) {
         message != nullptr ? GST_MESSAGE_TYPE(message) : GST_MESSAGE_UNKNOWN;
     if (type == GST_MESSAGE_LATENCY) gst_bin_recalculate_latency(GST_BIN(pipeline_));
     if (type == GST_MESSAGE_EOS) text.clear();
-    if (type == GST_MESSAGE_ERROR) text = text_of(message);
+    if (type == GST_MESSAGE_ERROR) text = full_text_of(message);
     gst_clear_message(&message);
     if (type == GST_MESSAGE_EOS || type == GST_MESSAGE_ERROR) break;
   }

@@ -7,7 +7,7 @@
 #include "support/compare.hpp"
 #include "support/stages.hpp"
 
-namespace mtstereo {
+namespace mtstereo::disparity_drawing_test {
 namespace {
 
 using test::DisparityPlane;
@@ -93,4 +93,4 @@ TEST(DrawMatches, EqualsReferenceAtEveryWidth) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::disparity_drawing_test

@@ -5,7 +5,7 @@
 
 #include "support/stages.hpp"
 
-namespace mtstereo {
+namespace mtstereo::neighbors_test {
 namespace {
 
 using test::Random;
@@ -91,4 +91,4 @@ TEST(MediansOverNeighbors, IncludesTheLongestChains) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::neighbors_test

@@ -8,7 +8,7 @@
 #include "support/compare.hpp"
 #include "support/stages.hpp"
 
-namespace mtstereo {
+namespace mtstereo::node_extrapolation_test {
 namespace {
 
 using test::copy_of;
@@ -160,4 +160,4 @@ TEST(NodeExtrapolation, NeedsBothEnds) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::node_extrapolation_test

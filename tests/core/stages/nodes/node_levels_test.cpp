@@ -6,7 +6,7 @@
 #include "reference/nodes/node_levels.hpp"
 #include "support/stages.hpp"
 
-namespace mtstereo {
+namespace mtstereo::node_levels_test {
 namespace {
 
 using test::GrayPlane;
@@ -160,4 +160,4 @@ TEST(NodeLevels, AreEmptyWithoutAncestors) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::node_levels_test

@@ -8,7 +8,7 @@
 #include "reference/nodes/node_matching.hpp"
 #include "support/stages.hpp"
 
-namespace mtstereo {
+namespace mtstereo::node_matching_test {
 namespace {
 
 using test::GrayPlane;
@@ -213,4 +213,4 @@ TEST(NodeMatching, RejectsAmbiguousMatches) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::node_matching_test

@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::outlier_removal_test {
 namespace {
 
 using test::copy_of;
@@ -131,4 +131,4 @@ TEST(OutlierRemoval, WithRadiusZeroRemovesNothing) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::outlier_removal_test

@@ -6,7 +6,7 @@
 #include "reference/nodes/pair_cost.hpp"
 #include "support/stages.hpp"
 
-namespace mtstereo {
+namespace mtstereo::pair_cost_test {
 namespace {
 
 using test::Random;
@@ -216,4 +216,4 @@ TEST(PairCosts, EqualReferenceForTheDensestRows) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::pair_cost_test

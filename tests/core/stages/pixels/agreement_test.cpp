@@ -7,7 +7,7 @@
 #include "support/compare.hpp"
 #include "support/half_maps.hpp"
 
-namespace mtstereo {
+namespace mtstereo::agreement_test {
 namespace {
 
 using test::DisparityPlane;
@@ -77,4 +77,4 @@ TEST(Agreement, KnowsTheSideOnWhichTheCostsDiffer) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::agreement_test

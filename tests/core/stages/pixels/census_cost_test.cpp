@@ -9,7 +9,7 @@
 #include "support/simd_targets.hpp"
 #include "support/windows.hpp"
 
-namespace mtstereo {
+namespace mtstereo::census_cost_test {
 namespace {
 
 using test::CensusPair;
@@ -210,4 +210,4 @@ TEST(CensusCost, CountsAllBitsOfAllRowsForInvertedViews) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::census_cost_test

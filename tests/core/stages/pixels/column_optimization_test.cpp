@@ -10,7 +10,7 @@
 #include "support/simd_targets.hpp"
 #include "support/windows.hpp"
 
-namespace mtstereo {
+namespace mtstereo::column_optimization_test {
 namespace {
 
 using reference::RowCosts;
@@ -157,4 +157,4 @@ TEST(ColumnOptimization, TreatsColumnsApart) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::column_optimization_test

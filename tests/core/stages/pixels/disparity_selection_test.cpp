@@ -11,7 +11,7 @@
 #include "support/simd_targets.hpp"
 #include "support/windows.hpp"
 
-namespace mtstereo {
+namespace mtstereo::disparity_selection_test {
 namespace {
 
 using reference::RowCosts;
@@ -295,4 +295,4 @@ TEST(DisparitySelection, SelectsOnlyPossibleDisparitiesAtTheBorder) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::disparity_selection_test

@@ -10,7 +10,7 @@
 #include "support/simd_targets.hpp"
 #include "support/windows.hpp"
 
-namespace mtstereo {
+namespace mtstereo::path_matching_test {
 namespace {
 
 using reference::RatedMap;
@@ -154,4 +154,4 @@ TEST(PathMatching, PrefersWhatTheHalfMapExpects) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::path_matching_test

@@ -7,7 +7,7 @@
 #include "support/compare.hpp"
 #include "support/stages.hpp"
 
-namespace mtstereo {
+namespace mtstereo::pixel_matching_test {
 namespace {
 
 using test::copy_of;
@@ -246,4 +246,4 @@ TEST(PixelMatching, StaysInTheRangeAtItsEnds) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::pixel_matching_test

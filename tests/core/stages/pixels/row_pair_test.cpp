@@ -11,7 +11,7 @@
 #include "support/simd_targets.hpp"
 #include "support/windows.hpp"
 
-namespace mtstereo {
+namespace mtstereo::row_pair_test {
 namespace {
 
 using reference::RowCosts;
@@ -268,4 +268,4 @@ TEST(RowPair, LargeStepDecreasesWithTheGrayChangeDownToTheSmallStep) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::row_pair_test

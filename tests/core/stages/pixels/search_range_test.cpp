@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::search_range_test {
 namespace {
 
 using test::Random;
@@ -131,4 +131,4 @@ TEST(SearchRange, IsEmptyWithoutNodes) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::search_range_test

@@ -6,7 +6,7 @@
 #include "support/half_maps.hpp"
 #include "support/windows.hpp"
 
-namespace mtstereo {
+namespace mtstereo::search_windows_test {
 namespace {
 
 using test::DisparityPlane;
@@ -115,4 +115,4 @@ TEST(SearchWindows, ContainAThinObjectThatOnlyTheCostsSee) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::search_windows_test

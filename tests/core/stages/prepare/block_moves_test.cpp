@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::block_moves_test {
 namespace {
 
 using test::copy_of;
@@ -159,4 +159,4 @@ TEST(BlockMoves, PointsAreThoseOfTheLargerView) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::block_moves_test

@@ -9,7 +9,7 @@
 #include "support/plane.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::camera_motion_test {
 namespace {
 
 using test::DisparityPlane;
@@ -201,4 +201,4 @@ TEST(CameraMotion, AcceptsSmallViews) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::camera_motion_test

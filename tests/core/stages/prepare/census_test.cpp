@@ -14,7 +14,7 @@
 #include "support/padded_image.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::census_test {
 namespace {
 
 using test::census_of;
@@ -201,4 +201,4 @@ TEST(SplitCensusRow, SplitsAtEveryWidthOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::census_test

@@ -14,7 +14,7 @@
 #include <opencv2/imgproc.hpp>
 #endif
 
-namespace mtstereo {
+namespace mtstereo::cost_volume_test {
 namespace {
 
 using test::copy_of;
@@ -226,4 +226,4 @@ TEST(SmoothingKernel, SumsToOneAndDecreasesFromTheCenter) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::cost_volume_test

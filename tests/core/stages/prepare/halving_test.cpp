@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::halving_test {
 namespace {
 
 using test::copy_of;
@@ -86,4 +86,4 @@ TEST(Halving, RepeatsTheLastRowAndColumnOfOddSizes) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::halving_test

@@ -10,7 +10,7 @@
 #include "support/simd_targets.hpp"
 #include "support/stages.hpp"
 
-namespace mtstereo {
+namespace mtstereo::max_tree_test {
 namespace {
 
 using test::GrayPlane;
@@ -209,4 +209,4 @@ TEST(MaxTree, WritesOnlyTheGivenRows) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::max_tree_test

@@ -17,7 +17,7 @@
 #include <opencv2/imgproc.hpp>
 #endif
 
-namespace mtstereo {
+namespace mtstereo::median_filter_test {
 namespace {
 
 using test::GrayPlane;
@@ -136,4 +136,4 @@ TEST(MedianFilter, ReadsOnlyThePixelsOfAPaddedImage) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::median_filter_test

@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::noise_filter_test {
 namespace {
 
 using test::GrayPlane;
@@ -104,4 +104,4 @@ TEST(NoiseThreshold, GrowsWithTheNoiseAndForCompressedViews) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::noise_filter_test

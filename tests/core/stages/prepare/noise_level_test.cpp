@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::noise_level_test {
 namespace {
 
 using test::GrayPlane;
@@ -90,4 +90,4 @@ TEST(NoiseLevel, IsZeroWithoutABlock) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::noise_level_test

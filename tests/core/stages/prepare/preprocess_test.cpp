@@ -16,7 +16,7 @@
 #include <opencv2/imgproc.hpp>
 #endif
 
-namespace mtstereo {
+namespace mtstereo::preprocess_test {
 namespace {
 
 using test::copy_of;
@@ -195,4 +195,4 @@ TEST(CostWeights, SumToOne) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::preprocess_test

@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::row_alignment_test {
 namespace {
 
 using test::GrayPlane;
@@ -136,4 +136,4 @@ TEST(RowAlignment, UndoesARotation) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::row_alignment_test

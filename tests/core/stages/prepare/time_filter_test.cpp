@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::time_filter_test {
 namespace {
 
 using test::copy_of;
@@ -157,4 +157,4 @@ TEST(TimeFilter, NothingIsAveragedWhenTheLightChanges) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::time_filter_test

@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::view_blur_test {
 namespace {
 
 using test::GrayPlane;
@@ -99,4 +99,4 @@ TEST(ViewBlur, KeepsConstantViewsAndTheWholeRangeOfValues) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::view_blur_test

@@ -8,7 +8,7 @@
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::view_shift_test {
 namespace {
 
 using test::GrayPlane;
@@ -50,4 +50,4 @@ TEST(ViewShift, ExtendsRowsByTheirFirstAndLastPixels) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::view_shift_test

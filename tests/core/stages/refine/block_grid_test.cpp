@@ -7,7 +7,7 @@
 #include "support/plane.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::block_grid_test {
 namespace {
 
 using test::DisparityPlane;
@@ -149,4 +149,4 @@ TEST(BlockGrid, HasABinForEachLevelAndDistance) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::block_grid_test

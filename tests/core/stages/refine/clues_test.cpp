@@ -8,7 +8,7 @@
 #include "support/random_ratings.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::clues_test {
 namespace {
 
 using test::RandomRating;
@@ -54,4 +54,4 @@ TEST(Clues, EqualReferenceAtEveryWidthOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::clues_test

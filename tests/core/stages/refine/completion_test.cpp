@@ -7,7 +7,7 @@
 #include "support/compare.hpp"
 #include "support/random_maps.hpp"
 
-namespace mtstereo {
+namespace mtstereo::completion_test {
 namespace {
 
 using reference::ConfidentMap;
@@ -92,4 +92,4 @@ TEST(Completion, SeparatesInferredFromMatchedByConfidence) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::completion_test

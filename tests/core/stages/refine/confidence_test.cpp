@@ -11,7 +11,7 @@
 #include "support/simd_targets.hpp"
 #include "support/stages.hpp"
 
-namespace mtstereo {
+namespace mtstereo::confidence_test {
 namespace {
 
 using test::copy_of;
@@ -271,4 +271,4 @@ TEST(Confidence, ChangesOnlyTheGivenRows) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::confidence_test

@@ -9,7 +9,7 @@
 #include "support/random_maps.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::disparity_refinement_test {
 namespace {
 
 using test::copy_of;
@@ -194,4 +194,4 @@ TEST(DisparityRefinement, DoesNotChangeWithTheBrightness) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::disparity_refinement_test

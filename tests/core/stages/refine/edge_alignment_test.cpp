@@ -9,7 +9,7 @@
 #include "support/simd_targets.hpp"
 #include "support/stages.hpp"
 
-namespace mtstereo {
+namespace mtstereo::edge_alignment_test {
 namespace {
 
 using reference::ConfidentMap;
@@ -112,4 +112,4 @@ TEST(EdgeAlignment, MovesAJumpToTheEdgeOfTheImage) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::edge_alignment_test

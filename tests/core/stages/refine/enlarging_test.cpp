@@ -13,7 +13,7 @@
 #include "support/random_maps.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::enlarging_test {
 namespace {
 
 using test::copy_of;
@@ -201,4 +201,4 @@ TEST(Enlarging, HandlesTheLargestWidthAndHeight) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::enlarging_test

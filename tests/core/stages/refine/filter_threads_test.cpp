@@ -11,7 +11,7 @@
 #include "support/compare.hpp"
 #include "support/random_maps.hpp"
 
-namespace mtstereo {
+namespace mtstereo::filter_threads_test {
 namespace {
 
 using test::copy_of;
@@ -81,4 +81,4 @@ TEST(FilterThreads, FillTheSameGapsForAnyNumber) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::filter_threads_test

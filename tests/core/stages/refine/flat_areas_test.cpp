@@ -7,7 +7,7 @@
 #include "support/compare.hpp"
 #include "support/flat_views.hpp"
 
-namespace mtstereo {
+namespace mtstereo::flat_areas_test {
 namespace {
 
 using reference::Pixels;
@@ -107,4 +107,4 @@ TEST(FlatAreas, ConnectByContrastAndNoise) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::flat_areas_test

@@ -7,7 +7,7 @@
 #include "support/compare.hpp"
 #include "support/flat_views.hpp"
 
-namespace mtstereo {
+namespace mtstereo::flat_planes_test {
 namespace {
 
 using reference::ConfidentMap;
@@ -146,4 +146,4 @@ TEST(FlatPlanes, StayNearTheRangeOfTheirVotes) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::flat_planes_test

@@ -9,7 +9,7 @@
 #include "support/compare.hpp"
 #include "support/random_maps.hpp"
 
-namespace mtstereo {
+namespace mtstereo::gap_filling_test {
 namespace {
 
 using reference::ConfidentMap;
@@ -267,4 +267,4 @@ TEST(GapFilling, DoesNotDependOnTheDirection) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::gap_filling_test

@@ -12,7 +12,7 @@
 #include "support/random.hpp"
 #include "support/random_ratings.hpp"
 
-namespace mtstereo {
+namespace mtstereo::gray_mapping_test {
 namespace {
 
 using test::DisparityPlane;
@@ -103,4 +103,4 @@ TEST(GrayMapping, IsNoneWithoutMatchedPixels) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::gray_mapping_test

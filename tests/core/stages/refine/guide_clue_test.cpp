@@ -11,7 +11,7 @@
 
 // The reference of all clues, with guides of every size, is in reliability_test.cpp.
 
-namespace mtstereo {
+namespace mtstereo::guide_clue_test {
 namespace {
 
 using test::DisparityPlane;
@@ -68,4 +68,4 @@ TEST(GuideClue, SaysTheSameAboutTwoPixels) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::guide_clue_test

@@ -10,7 +10,7 @@
 #include "support/compare.hpp"
 #include "support/random.hpp"
 
-namespace mtstereo {
+namespace mtstereo::holding_test {
 namespace {
 
 using test::copy_of;
@@ -127,4 +127,4 @@ TEST(Holding, RemovesWhatHasLessConfidenceThanItNeeds) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::holding_test

@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 #include "support/random_maps.hpp"
 
-namespace mtstereo {
+namespace mtstereo::left_strip_test {
 namespace {
 
 using reference::ConfidentMap;
@@ -87,4 +87,4 @@ TEST(LeftStrip, KeepsARowWithoutABelievedSurface) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::left_strip_test

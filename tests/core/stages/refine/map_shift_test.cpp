@@ -5,7 +5,7 @@
 
 #include "support/plane.hpp"
 
-namespace mtstereo {
+namespace mtstereo::map_shift_test {
 namespace {
 
 using Disparities = std::vector<std::int32_t>;
@@ -57,4 +57,4 @@ TEST(MapShift, RemovesPartnersOutsideOfTheRightView) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::map_shift_test

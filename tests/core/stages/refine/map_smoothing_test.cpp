@@ -8,7 +8,7 @@
 #include "support/random_maps.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::map_smoothing_test {
 namespace {
 
 using test::copy_of;
@@ -135,4 +135,4 @@ TEST(MapSmoothing, KeepsTheSetOfKnownPixelsAndPossibleDisparities) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::map_smoothing_test

@@ -7,7 +7,7 @@
 #include "support/random_ratings.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::reliability_test {
 namespace {
 
 using test::copy_of;
@@ -146,4 +146,4 @@ TEST(Reliability, GrowsWithTheSupport) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::reliability_test

@@ -11,7 +11,7 @@
 #include "support/random_maps.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::speckle_removal_test {
 namespace {
 
 using test::copy_of;
@@ -286,4 +286,4 @@ TEST(SpeckleRemoval, WeighsAreasByTheirShareOfTheMap) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::speckle_removal_test

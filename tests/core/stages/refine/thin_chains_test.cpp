@@ -8,7 +8,7 @@
 #include "support/random_maps.hpp"
 #include "support/simd_targets.hpp"
 
-namespace mtstereo {
+namespace mtstereo::thin_chains_test {
 namespace {
 
 using test::copy_of;
@@ -203,4 +203,4 @@ TEST(ThinChains, TransposeAnyColumnsOnEveryInstructionSet) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::thin_chains_test

@@ -7,7 +7,7 @@
 #include "support/compare.hpp"
 #include "support/random_maps.hpp"
 
-namespace mtstereo {
+namespace mtstereo::thin_structures_test {
 namespace {
 
 using test::DisparityPlane;
@@ -57,4 +57,4 @@ TEST(ThinStructures, DrawsTheFewThinObjectsOfAWideMap) {
 }
 
 }  // namespace
-}  // namespace mtstereo
+}  // namespace mtstereo::thin_structures_test

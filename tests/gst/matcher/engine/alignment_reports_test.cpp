@@ -10,7 +10,7 @@
 #include "support/sanitizers.hpp"
 #include "tools/eval/datasets.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::alignment_reports_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -261,4 +261,4 @@ TEST_F(RealStreams, CauseAWarningIfOneViewIsBlackOrFrozen) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::alignment_reports_test

@@ -8,7 +8,7 @@
 
 #include "support/rendered.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::alignment_test {
 namespace {
 
 using Maps = std::vector<std::vector<std::uint16_t>>;
@@ -385,4 +385,4 @@ TEST(Sharpness, IsKeptWithoutCorrection) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::alignment_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace mtstereo::test {
+namespace mtstereo::test::border_test {
 namespace {
 
 using plugin::DisparityUnit;
@@ -94,4 +94,4 @@ TEST(Border, TheEdgeOfTheImageHasNoMargin) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::border_test

@@ -6,7 +6,7 @@
 
 #include "support/stereo_harness.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::confidence_test {
 namespace {
 
 constexpr const char* kMeta = "MtStereoConfidenceMeta";
@@ -179,4 +179,4 @@ TEST(Confidence, OfALeftFrameIsNotCopiedToTheMap) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::confidence_test

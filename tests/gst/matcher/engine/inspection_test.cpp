@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace mtstereo::plugin {
+namespace mtstereo::plugin::inspection_test {
 namespace {
 
 /// The numbers of the pairs that are inspected; `trusted` states the result of each inspection, the
@@ -80,4 +80,4 @@ TEST(ProblemWarnings, AreDueAgainAfterTheProblemDisappeared) {
 }
 
 }  // namespace
-}  // namespace mtstereo::plugin
+}  // namespace mtstereo::plugin::inspection_test

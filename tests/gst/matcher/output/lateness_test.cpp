@@ -6,7 +6,7 @@
 
 #include "matcher/output/latency.hpp"
 
-namespace mtstereo::plugin {
+namespace mtstereo::plugin::lateness_test {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -166,4 +166,4 @@ TEST(ProcessingLatency, FollowsALastingChange) {
 }
 
 }  // namespace
-}  // namespace mtstereo::plugin
+}  // namespace mtstereo::plugin::lateness_test

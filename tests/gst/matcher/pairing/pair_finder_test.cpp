@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace mtstereo::plugin {
+namespace mtstereo::plugin::pair_finder_test {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -384,4 +384,4 @@ TEST(PairFinder, PairsNoNeighborsOfKeyFramesWithALargeTolerance) {
 }
 
 }  // namespace
-}  // namespace mtstereo::plugin
+}  // namespace mtstereo::plugin::pair_finder_test

@@ -7,7 +7,7 @@
 
 #include "matcher/pairing/unpaired.hpp"
 
-namespace mtstereo::plugin {
+namespace mtstereo::plugin::tolerance_test {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -84,4 +84,4 @@ TEST(UnpairedWarning, IsDueAgainOnlyAfterTheInterval) {
 }
 
 }  // namespace
-}  // namespace mtstereo::plugin
+}  // namespace mtstereo::plugin::tolerance_test

@@ -9,13 +9,13 @@
 #include "lib/outputs/user_error.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace mtstereo::files {
+namespace mtstereo::files::file_names_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
-class FileNames : public testing::Test {
+class FileNames : public ::testing::Test {
  protected:
   void create(std::initializer_list<const char*> names) const {
     for (const char* name : names) std::ofstream(folder_ / name).put('x');
@@ -84,4 +84,4 @@ TEST_F(FileNames, FolderThatDoesNotExistIsEmpty) {
 }
 
 }  // namespace
-}  // namespace mtstereo::files
+}  // namespace mtstereo::files::file_names_test

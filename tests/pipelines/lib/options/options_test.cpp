@@ -5,7 +5,7 @@
 #include "lib/options/failure_message.hpp"
 #include "lib/options/nearest_name.hpp"
 
-namespace mtstereo::options {
+namespace mtstereo::options::options_test {
 namespace {
 
 const std::vector<std::string> kNames{"max-disparity", "min-disparity", "mode", "out", "what"};
@@ -89,4 +89,4 @@ TEST(FailureMessage, DoesNotGuess) {
 }
 
 }  // namespace
-}  // namespace mtstereo::options
+}  // namespace mtstereo::options::options_test

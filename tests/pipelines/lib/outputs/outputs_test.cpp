@@ -23,7 +23,7 @@
 #include "lib/outputs/written_files.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace mtstereo::outputs {
+namespace mtstereo::outputs::outputs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -345,4 +345,4 @@ TEST(FiniteRange, AcceptsNumbersOnly) {
 }
 
 }  // namespace
-}  // namespace mtstereo::outputs
+}  // namespace mtstereo::outputs::outputs_test

@@ -17,7 +17,7 @@
 #include "programs/calibrate/page.hpp"
 #include "programs/calibrate/start_values.hpp"
 
-namespace mtstereo::calibrate {
+namespace mtstereo::calibrate::board_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -189,4 +189,4 @@ TEST(Page, ABoardThatDoesNotFitIsRefused) {
 }
 
 }  // namespace
-}  // namespace mtstereo::calibrate
+}  // namespace mtstereo::calibrate::board_test

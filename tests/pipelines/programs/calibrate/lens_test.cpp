@@ -10,7 +10,7 @@
 
 #include "support.hpp"
 
-namespace mtstereo::calibrate {
+namespace mtstereo::calibrate::lens_test {
 namespace {
 
 using testing::fisheye_rig;
@@ -100,4 +100,4 @@ TEST(Lens, CalibrationHasTheParameters) {
 }
 
 }  // namespace
-}  // namespace mtstereo::calibrate
+}  // namespace mtstereo::calibrate::lens_test

@@ -13,7 +13,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "support.hpp"
 
-namespace mtstereo::calibrate {
+namespace mtstereo::calibrate::quality_test {
 namespace {
 
 using testing::board_poses;
@@ -213,4 +213,4 @@ TEST(Quality, CamerasOutOfStepAreNamed) {
 }
 
 }  // namespace
-}  // namespace mtstereo::calibrate
+}  // namespace mtstereo::calibrate::quality_test

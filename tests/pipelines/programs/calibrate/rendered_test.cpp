@@ -13,7 +13,7 @@
 #include "tools/render/board.hpp"
 #include "tools/render/raw.hpp"
 
-namespace mtstereo::calibrate {
+namespace mtstereo::calibrate::rendered_test {
 namespace {
 
 constexpr int kScale = 64;  // pixels of the board's image per square
@@ -114,4 +114,4 @@ TEST(Rendered, FisheyesOf120DegreesAreRecognized) {
 }
 
 }  // namespace
-}  // namespace mtstereo::calibrate
+}  // namespace mtstereo::calibrate::rendered_test

@@ -12,7 +12,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "support.hpp"
 
-namespace mtstereo::calibrate {
+namespace mtstereo::calibrate::solving_test {
 namespace {
 
 using testing::board_poses;
@@ -154,4 +154,4 @@ TEST(Solving, ViewsThatDoNotFitAreRefused) {
 }
 
 }  // namespace
-}  // namespace mtstereo::calibrate
+}  // namespace mtstereo::calibrate::solving_test

@@ -10,7 +10,7 @@
 
 #include "support.hpp"
 
-namespace mtstereo::calibrate {
+namespace mtstereo::calibrate::synchronization_test {
 namespace {
 
 using testing::fisheye_rig;
@@ -89,4 +89,4 @@ TEST(Synchronization, SwappedViewsAreExchanged) {
 }
 
 }  // namespace
-}  // namespace mtstereo::calibrate
+}  // namespace mtstereo::calibrate::synchronization_test

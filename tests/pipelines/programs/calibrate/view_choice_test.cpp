@@ -9,7 +9,7 @@
 
 #include "support.hpp"
 
-namespace mtstereo::calibrate {
+namespace mtstereo::calibrate::view_choice_test {
 namespace {
 
 using testing::board_poses;
@@ -110,4 +110,4 @@ TEST(Movement, WithoutSharedCornersIsUnknown) {
 }
 
 }  // namespace
-}  // namespace mtstereo::calibrate
+}  // namespace mtstereo::calibrate::view_choice_test

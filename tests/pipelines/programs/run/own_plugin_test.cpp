@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-namespace mtstereo::run {
+namespace mtstereo::run::own_plugin_test {
 namespace {
 
 TEST(OwnPlugin, FollowsThePathOfTheUser) {
@@ -26,4 +26,4 @@ TEST(OwnPlugin, IsThatOfAnInstallationOnly) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::own_plugin_test

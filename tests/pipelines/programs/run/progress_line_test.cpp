@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mtstereo::run {
+namespace mtstereo::run::progress_line_test {
 namespace {
 
 TEST(ProgressText, HasSpeedAndTimeLeft) {
@@ -24,4 +24,4 @@ TEST(ProgressText, LeavesOutWhatIsNotKnown) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::progress_line_test

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace mtstereo::run {
+namespace mtstereo::run::findings_test {
 namespace {
 
 // A good pair of cameras: 640x480 px, 30 pairs per second.
@@ -262,4 +262,4 @@ TEST_F(Findings, BeginWithThoseThatHarm) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::findings_test

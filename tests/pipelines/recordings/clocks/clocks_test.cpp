@@ -17,11 +17,11 @@
 #include "support/temporary_folder.hpp"
 #include "tools/render/scene.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::clocks_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kRate = 12;
 constexpr double kTenth = 0.1 / kRate;  // of a frame [s]
@@ -41,7 +41,7 @@ Shooting street(bool right, double start) {
   return shooting;
 }
 
-class Clocks : public testing::Test {
+class Clocks : public ::testing::Test {
  protected:
   // Views that several tests use are rendered once.
   static const Shot& left() {
@@ -239,4 +239,4 @@ TEST_F(Clocks, AreNoMatterOfUnrelatedRecordings) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::clocks_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace mtstereo::run {
+namespace mtstereo::run::frame_pairs_test {
 namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
@@ -93,4 +93,4 @@ TEST(AllFrames, PairsEveryFrameWithItself) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::frame_pairs_test

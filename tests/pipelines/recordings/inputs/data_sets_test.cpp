@@ -14,7 +14,7 @@
 #include "recordings/media/frame_index.hpp"
 #include "recordings/support/video_files.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::data_sets_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -317,4 +317,4 @@ TEST_F(DataSets, RealPairsInOneFrameAreRecognized) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::data_sets_test

@@ -6,7 +6,7 @@
 
 #include "recordings/support/rig_views.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::halves_test {
 namespace {
 
 using testing::random_rig;
@@ -46,4 +46,4 @@ TEST(Halves, OfDifferentScenesAreNotConfirmed) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::halves_test

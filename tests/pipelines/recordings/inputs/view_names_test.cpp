@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace mtstereo::run {
+namespace mtstereo::run::view_names_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ TEST(ViewNames, RecognizesNamesOfOneView) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::view_names_test

@@ -14,7 +14,7 @@
 #include "recordings/inputs/view_match.hpp"
 #include "recordings/matching/view_checks.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::diagnosis_data_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -186,4 +186,4 @@ TEST_F(RealViews, OutOfStepAreFoundByTheFramesAround) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::diagnosis_data_test

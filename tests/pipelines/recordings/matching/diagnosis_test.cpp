@@ -17,6 +17,9 @@ void PrintTo(const ViewDiagnosis& found, std::ostream* out) {
        << found.better << ")";
 }
 
+}  // namespace mtstereo::run
+
+namespace mtstereo::run::diagnosis_test {
 namespace {
 
 using testing::random_rig;
@@ -145,4 +148,4 @@ TEST(Steps, AreFound) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::diagnosis_test

@@ -10,7 +10,7 @@
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::foreign_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -288,4 +288,4 @@ INSTANTIATE_TEST_SUITE_P(Files, OfOpenCv,
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::foreign_files_test

@@ -10,7 +10,7 @@
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::inputs_test {
 namespace {
 
 using testing::frames_of;
@@ -251,4 +251,4 @@ TEST_F(Inputs, PairFolders) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::inputs_test

@@ -13,7 +13,7 @@
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::prepare_test {
 namespace {
 
 using testing::constant_times;
@@ -322,4 +322,4 @@ TEST_F(Preparation, RefusesViewsOfDifferentSizes) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::prepare_test

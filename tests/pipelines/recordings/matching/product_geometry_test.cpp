@@ -9,7 +9,7 @@
 
 #include "products.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::product_geometry_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -193,4 +193,4 @@ TEST_F(Products, RectifiedViewsOfGrayRectifiedInputAreTheInput) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::product_geometry_test

@@ -10,7 +10,7 @@
 
 #include "recordings/matching/view_geometry.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::products_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -167,4 +167,4 @@ TEST_F(Products, SideBySideIsAsTwoVideos) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::products_test

@@ -11,7 +11,7 @@
 #include "recordings/media/frame_index.hpp"
 #include "recordings/support/video_files.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::container_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -173,4 +173,4 @@ TEST(TransportStream, MissingPacketsOfTheVideoAreNoticed) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::container_test

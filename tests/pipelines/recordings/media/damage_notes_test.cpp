@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace mtstereo::run {
+namespace mtstereo::run::damage_notes_test {
 namespace {
 
 using ::testing::EndsWith;
@@ -77,4 +77,4 @@ TEST(DamageNotes, AreNoOtherLines) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::damage_notes_test

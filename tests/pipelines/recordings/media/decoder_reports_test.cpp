@@ -13,7 +13,7 @@
 #include "recordings/media/jpeg_check.hpp"
 #include "recordings/support/video_files.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::decoder_reports_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -271,4 +271,4 @@ TEST_F(JpegCheck, ReportsWhatIsNoImage) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::decoder_reports_test

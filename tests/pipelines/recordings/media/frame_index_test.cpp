@@ -13,7 +13,7 @@
 #include "recordings/media/video_times.hpp"
 #include "recordings/support/video_files.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::frame_index_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -330,4 +330,4 @@ TEST_F(FrameIndexTest, ImagesHaveTheirTimes) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::frame_index_test

@@ -10,7 +10,7 @@
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::image_reader_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ TEST(BrokenImage, IsNamedAndTheNextOneIsRead) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::image_reader_test

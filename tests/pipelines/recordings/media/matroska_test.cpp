@@ -10,7 +10,7 @@
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::matroska_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -171,4 +171,4 @@ TEST(Matroska, IsIndexedForSeeks) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::matroska_test

@@ -12,13 +12,13 @@
 #include "recordings/plan/plan_contents.hpp"
 #include "recordings/plan/task.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::discard_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class Discard : public testing::Test {
+class Discard : public ::testing::Test {
  protected:
   Discard() : files_(folder_.path()) { write_fake_plan(folder_.path()); }
 
@@ -124,4 +124,4 @@ TEST_F(Discard, IsCompletedByAMergeIfItWasKilled) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::discard_test

@@ -12,16 +12,16 @@
 #include "recordings/plan/archive.hpp"
 #include "recordings/plan/task.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::merge_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
-class Merge : public testing::Test {
+class Merge : public ::testing::Test {
  protected:
   Merge() : files_(folder_.path()) {
     write_fake_plan(folder_.path());
@@ -227,4 +227,4 @@ TEST_F(Merge, WithoutAPlanIsAnError) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::merge_test

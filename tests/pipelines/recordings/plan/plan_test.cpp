@@ -15,17 +15,17 @@
 #include "recordings/plan/plan_contents.hpp"
 #include "recordings/plan/plan_folder.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::plan_test {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::SizeIs;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
 
 // The message of the UserError that `function` throws.
 template <typename Function>
@@ -169,7 +169,7 @@ TEST(PlanFile, InAFolderThatCannotBeWrittenIsReported) {
   EXPECT_THROW(write_fake_plan("/proc/no/such/folder"), UserError);
 }
 
-class Archive : public testing::Test {
+class Archive : public ::testing::Test {
  protected:
   Archive() {
     options_.folder = folder_.path();
@@ -356,4 +356,4 @@ TEST_F(Archive, HasAbsolutePaths) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::plan_test

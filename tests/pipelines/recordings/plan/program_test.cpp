@@ -5,7 +5,7 @@
 
 #include "lib/outputs/user_error.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::program_test {
 namespace {
 
 TEST(RunProgram, ReturnsStatusAndOutput) {
@@ -27,4 +27,4 @@ TEST(RunProgram, NamesAProgramThatIsMissing) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::program_test

@@ -13,15 +13,15 @@
 #include "fake_pieces.hpp"
 #include "lib/outputs/user_error.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::task_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
-class Tasks : public testing::Test {
+class Tasks : public ::testing::Test {
  protected:
   Tasks() : files_(folder_.path()) {
     write_fake_plan(folder_.path());
@@ -297,4 +297,4 @@ TEST_F(Tasks, AreDoneIfAnotherProcessMergedInTheMeantime) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::task_test

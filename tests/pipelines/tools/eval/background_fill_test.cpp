@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::background_fill_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -63,4 +63,4 @@ TEST(BackgroundFill, ReadsMapsWithAStride) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::background_fill_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::curve_means_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -79,4 +79,4 @@ TEST(CurveCollector, HasNoCurvesWithoutPairs) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::curve_means_test

@@ -10,7 +10,7 @@
 
 #include "support.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::curve_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ TEST_F(CurveProgram, HasNoCurveByDefault) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::curve_program_test

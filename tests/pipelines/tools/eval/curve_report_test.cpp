@@ -9,7 +9,7 @@
 
 #include "tools/eval/opencv_sweep.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::curve_report_test {
 namespace {
 
 using nlohmann::json;
@@ -181,4 +181,4 @@ TEST(CurvesJson, SamplesAnEnvelopeAtIntegerDensities) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::curve_report_test

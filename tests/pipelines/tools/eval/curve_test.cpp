@@ -8,7 +8,7 @@
 
 #include "expect_error.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::curve_test {
 namespace {
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
@@ -234,4 +234,4 @@ TEST(DensityRange, IgnoresPointsWithoutErrors) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::curve_test

@@ -14,7 +14,7 @@
 #include "tools/eval/flicker.hpp"
 #include "tools/eval/pfm.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::degrade_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -224,4 +224,4 @@ TEST_F(DegradeProgram, EvaluatesSeveralFoldersTogether) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::degrade_program_test

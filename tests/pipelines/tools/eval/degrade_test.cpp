@@ -11,7 +11,7 @@
 
 #include "lib/outputs/user_error.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::degrade_test {
 namespace {
 
 /// A smooth image that has no two equal rows or columns.
@@ -114,7 +114,7 @@ TEST(Degradation, JpegChangesBothViewsMoreAtLowerQuality) {
 }
 
 /// Needs GStreamer's elements.
-class H264 : public testing::Test {
+class H264 : public ::testing::Test {
  protected:
   void SetUp() override {
     if (const auto obstacle = degradation_obstacle(parse_degradation("h264=20"))) {
@@ -238,7 +238,7 @@ TEST(Degradation, LeavesTheTruthAloneUnlessItEnlarges) {
   }
 }
 
-class Enlarged : public testing::Test {
+class Enlarged : public ::testing::Test {
  protected:
   void SetUp() override {
     pair_ = original();
@@ -321,4 +321,4 @@ TEST_F(Enlarged, CameraChangesTheEnlargedViews) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::degrade_test

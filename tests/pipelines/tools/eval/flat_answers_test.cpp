@@ -8,7 +8,7 @@
 #include "expect_error.hpp"
 #include "tools/eval/metrics.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::flat_answers_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -70,4 +70,4 @@ TEST(FlatAnswers, ArePartOfTheEvaluationOfAPairAndSummedInTheMean) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::flat_answers_test

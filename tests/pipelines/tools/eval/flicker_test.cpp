@@ -8,7 +8,7 @@
 
 #include "expect_error.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::flicker_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -107,4 +107,4 @@ TEST(Flicker, NoiseIsFreshInEachFrameAndView) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::flicker_test

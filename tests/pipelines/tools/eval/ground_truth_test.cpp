@@ -9,7 +9,7 @@
 #include "support.hpp"
 #include "tools/eval/images.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::ground_truth_test {
 namespace {
 
 using testing::float_bytes;
@@ -185,4 +185,4 @@ TEST_F(GroundTruthFiles, MaskHasOnlyPixelsVisibleInBothViews) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::ground_truth_test

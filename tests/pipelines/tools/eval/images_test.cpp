@@ -10,7 +10,7 @@
 #include "support.hpp"
 #include "tools/eval/pfm.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::images_test {
 namespace {
 
 using testing::TemporaryFolder;
@@ -95,4 +95,4 @@ TEST(DisparityFiles, KittiRejectsDisparitiesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::images_test

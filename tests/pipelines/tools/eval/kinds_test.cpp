@@ -10,7 +10,7 @@
 
 #include "support.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::kinds_test {
 namespace {
 
 using nlohmann::json;
@@ -104,4 +104,4 @@ TEST_F(Kinds, NamesFilesThatAreNoReports) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::kinds_test

@@ -10,7 +10,7 @@
 #include "support.hpp"
 #include "tools/eval/datasets.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::layouts_test {
 namespace {
 
 using testing::make_pair;
@@ -282,4 +282,4 @@ TEST_F(Layouts, NameTheFileOfAnotherSize) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::layouts_test

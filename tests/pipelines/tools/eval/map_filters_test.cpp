@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::map_filters_test {
 namespace {
 
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
@@ -209,4 +209,4 @@ TEST(FilterSettings, AreReportedCompletely) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::map_filters_test

@@ -7,7 +7,7 @@
 
 #include "expect_error.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::metrics_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -173,7 +173,7 @@ TEST(Mean, IgnoresPairsWithoutComparedPixelsInTheError) {
 }
 
 TEST(Mean, OfNothingIsNan) {
-  const Evaluation m = mean({});
+  const Evaluation m = mean(std::vector<WeightedEvaluation>());
   EXPECT_TRUE(std::isnan(m.all.avgerr));
   EXPECT_TRUE(std::isnan(m.density));
   EXPECT_FALSE(m.noc.has_value());
@@ -190,4 +190,4 @@ TEST(Mean, HasNonOccludedFiguresOfThePairsThatHaveThem) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::metrics_test

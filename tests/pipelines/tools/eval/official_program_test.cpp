@@ -10,7 +10,7 @@
 
 #include "support.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::official_program_test {
 namespace {
 
 using nlohmann::json;
@@ -162,4 +162,4 @@ TEST_F(OfficialProgram, HasNothingOfThemWithoutTheOption) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::official_program_test

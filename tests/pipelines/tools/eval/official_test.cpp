@@ -7,7 +7,7 @@
 
 #include "expect_error.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::official_test {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -213,4 +213,4 @@ TEST(OfficialMean, OfNothingIsNan) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::official_test

@@ -10,7 +10,7 @@
 #include "support.hpp"
 #include "tools/eval/runner.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::opencv_sweep_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -135,4 +135,4 @@ TEST_F(RunningWithACurve, IsNotRunByDefault) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::opencv_sweep_test

@@ -9,7 +9,7 @@
 #include "expect_error.hpp"
 #include "support.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::pfm_test {
 namespace {
 
 using testing::float_bytes;
@@ -132,4 +132,4 @@ TEST_F(Pfm, RejectsInvalidScale) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::pfm_test

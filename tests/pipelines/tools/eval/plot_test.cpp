@@ -12,7 +12,7 @@
 
 #include "support.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::plot_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -250,4 +250,4 @@ TEST_F(Plot, NamesThePackageIfMatplotlibIsMissing) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::plot_test

@@ -12,7 +12,7 @@
 #include "support.hpp"
 #include "tools/eval/pfm.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::program_test {
 namespace {
 
 using nlohmann::json;
@@ -220,4 +220,4 @@ TEST_F(Program, KeepsTheMeanIfOneMapHasNoEstimate) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::program_test

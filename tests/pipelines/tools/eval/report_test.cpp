@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::report_test {
 namespace {
 
 using nlohmann::json;
@@ -201,4 +201,4 @@ TEST(Table, ReportsThatNothingCouldBeEvaluated) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::report_test

@@ -12,7 +12,7 @@
 #include "support.hpp"
 #include "tools/eval/pfm.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::runner_test {
 namespace {
 
 using testing::make_pair;
@@ -205,4 +205,4 @@ TEST(OpenCvMatchers, AreFoundByTheirNames) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::runner_test

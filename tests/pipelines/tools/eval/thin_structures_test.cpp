@@ -8,7 +8,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/metrics.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::thin_structures_test {
 namespace {
 
 /// A background at 5 px with a bar at 15 px in the columns x0 .. x1 - 1.
@@ -74,4 +74,4 @@ TEST(ThinStructures, RefuseAnotherSize) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::thin_structures_test

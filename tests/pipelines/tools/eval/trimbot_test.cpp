@@ -5,7 +5,7 @@
 #include "support.hpp"
 #include "tools/eval/datasets.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::eval::trimbot_test {
 namespace {
 
 using testing::float_bytes;
@@ -163,4 +163,4 @@ TEST_F(TrimBot, DmapOfAnotherSizeIsNamed) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::eval::trimbot_test

@@ -9,7 +9,7 @@
 
 #include "tools/eval/degradation.hpp"
 
-namespace mtstereo::fit {
+namespace mtstereo::fit::fitting_test {
 namespace {
 
 /// Samples whose odds depend on two clues, by the sum of known entries.
@@ -115,4 +115,4 @@ TEST(Samples, OfEnlargedViewsAreWrongByPixelsOfTheOriginal) {
 }
 
 }  // namespace
-}  // namespace mtstereo::fit
+}  // namespace mtstereo::fit::fitting_test

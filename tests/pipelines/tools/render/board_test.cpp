@@ -17,7 +17,7 @@
 #include "tools/render/clip_writer.hpp"
 #include "tools/render/lens.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::board_test {
 namespace {
 
 using test::read_text;
@@ -81,7 +81,7 @@ void add_errors(const cv::Mat& image, const Camera& camera, const Eigen::Isometr
   }
 }
 
-class Corners : public testing::TestWithParam<std::string> {};
+class Corners : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Corners, AreAtTheirProjectedPlaces) {
   Settings s = camera();
@@ -112,7 +112,7 @@ TEST_P(Corners, AreAtTheirProjectedPlaces) {
   EXPECT_LT(largest, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rigs, Corners, testing::ValuesIn(rig_names()),
+INSTANTIATE_TEST_SUITE_P(Rigs, Corners, ::testing::ValuesIn(rig_names()),
                          [](const auto& info) { return info.param; });
 
 TEST(Board, PosesAreVisibleTiltedAndCoverTheImage) {
@@ -221,4 +221,4 @@ TEST(Board, PosesAreWrittenForEachFrame) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::board_test

@@ -12,7 +12,7 @@
 #include "support/temporary_folder.hpp"
 #include "tools/render/render.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::clip_writer_test {
 namespace {
 
 using test::read_text;
@@ -171,4 +171,4 @@ TEST(ClipWriter, DetectsAFullDisk) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::clip_writer_test

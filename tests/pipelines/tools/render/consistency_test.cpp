@@ -8,7 +8,7 @@
 
 #include "tools/render/render.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::consistency_test {
 namespace {
 
 Settings clean(int width = 240, int height = 136) {
@@ -56,7 +56,7 @@ WarpError warp_error(const StereoFrame& f, float error_in_truth) {
   return e;
 }
 
-class BuiltInScene : public testing::TestWithParam<const char*> {};
+class BuiltInScene : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(BuiltInScene, RightImageWarpedByTheTruthMatchesTheLeftOne) {
   const Scene scene = make_scene(GetParam(), 1);
@@ -110,7 +110,7 @@ TEST_P(BuiltInScene, MovesOverTime) {
   EXPECT_GT(cv::norm(a.left, b.left, cv::NORM_L1) / static_cast<double>(a.left.total()), 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BuiltInScene, testing::Values("street", "garden", "room"),
+INSTANTIATE_TEST_SUITE_P(All, BuiltInScene, ::testing::Values("street", "garden", "room"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(Scenes, EveryNameIsAScene) {
@@ -134,4 +134,4 @@ TEST(Scenes, SeedChangesTheTextures) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::consistency_test

@@ -6,7 +6,7 @@
 
 #include "tools/render/render.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::geometry_test {
 namespace {
 
 Settings camera(int width, int height) {
@@ -126,4 +126,4 @@ TEST(Geometry, DefaultsComeFromTheScene) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::geometry_test

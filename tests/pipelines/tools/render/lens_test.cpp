@@ -14,7 +14,7 @@
 
 #include "tools/render/raw.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::lens_test {
 namespace {
 
 CameraCalibration camera(LensModel lens, std::vector<double> coefficients) {
@@ -64,7 +64,7 @@ cv::Point2d project_by_opencv(const CameraCalibration& c, const Eigen::Vector3d&
   return pixels[0];
 }
 
-class Lenses : public testing::TestWithParam<CameraCalibration> {};
+class Lenses : public ::testing::TestWithParam<CameraCalibration> {};
 
 TEST_P(Lenses, RayOfAPixelIsSeenByOpenCvAtThatPixel) {
   const Lens lens(GetParam(), "the camera");
@@ -106,7 +106,7 @@ TEST_P(Lenses, MagnificationIsTheAreaOfPixels) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Lenses, testing::ValuesIn(cameras()),
+INSTANTIATE_TEST_SUITE_P(All, Lenses, ::testing::ValuesIn(cameras()),
                          [](const auto& info) { return "Camera" + std::to_string(info.index); });
 
 TEST(Lens, DoesNotSeePointsOutsideOfItsField) {
@@ -189,4 +189,4 @@ TEST(Lens, RefusesInvalidCamerasByName) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::lens_test

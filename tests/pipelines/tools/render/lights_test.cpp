@@ -8,7 +8,7 @@
 
 #include "tools/render/render.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::lights_test {
 namespace {
 
 Settings camera(int width = 101, int height = 101) {
@@ -84,7 +84,7 @@ TEST(Lamp, IsReflectedByWetGroundOnly) {
   EXPECT_NEAR(wet.truth.at<float>(87, 50), 10 / (100.0 / 37), 1e-3);
 }
 
-class LitScene : public testing::TestWithParam<const char*> {};
+class LitScene : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(LitScene, HasSaturatedAreas) {
   Settings s = camera(160, 90);
@@ -104,8 +104,8 @@ TEST_P(LitScene, LightsMoveNothingElse) {
   EXPECT_LT(changed, plain.truth.rows * plain.truth.cols / 30);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LitScene, testing::Values("street", "garden", "room"),
+INSTANTIATE_TEST_SUITE_P(All, LitScene, ::testing::Values("street", "garden", "room"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::lights_test

@@ -8,7 +8,7 @@
 #include "tools/render/processing.hpp"
 #include "tools/render/render.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::mosaic_test {
 namespace {
 
 const cv::Scalar kColor(40, 120, 200);  // blue, green, red
@@ -175,4 +175,4 @@ TEST(Mosaic, KeepsTheTruthAndIsTheSameInEveryRun) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::mosaic_test

@@ -8,7 +8,7 @@
 
 #include "tools/render/render.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::optics_test {
 namespace {
 
 // Noise has the same energy everywhere and at all frequencies.
@@ -110,4 +110,4 @@ TEST(Optics, RimBlurKeepsTheTruthAndSoftensTheCorners) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::optics_test

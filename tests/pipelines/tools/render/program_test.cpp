@@ -10,7 +10,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::program_test {
 namespace {
 
 using test::read_text;
@@ -24,7 +24,7 @@ struct Outcome {
   std::string output, errors;
 };
 
-class Program : public testing::Test {
+class Program : public ::testing::Test {
  protected:
   void SetUp() override {
     program_ = std::getenv("MTSTEREO_RENDER");
@@ -303,4 +303,4 @@ TEST_F(Program, HelpSucceeds) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::program_test

@@ -16,7 +16,7 @@
 #include "tools/render/lens.hpp"
 #include "tools/render/render.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::raw_test {
 namespace {
 
 using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -74,7 +74,7 @@ double difference(const cv::Mat& corrected, const cv::Mat& ideal) {
   return cv::mean(error, seen)[0];
 }
 
-class BuiltIn : public testing::TestWithParam<std::string> {};
+class BuiltIn : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(BuiltIn, CorrectedViewsAreThoseOfIdealCameras) {
   const Scene scene = make_wall({{2.0}, 25}, 1);
@@ -124,7 +124,7 @@ TEST_P(BuiltIn, TruthLeadsFromOneRawViewToTheOther) {
   EXPECT_GT(checked, 40);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rigs, BuiltIn, testing::ValuesIn(rig_names()),
+INSTANTIATE_TEST_SUITE_P(Rigs, BuiltIn, ::testing::ValuesIn(rig_names()),
                          [](const auto& info) { return info.param; });
 
 TEST(Raw, RectifiedPairOfTheSettingsIsThatOfRender) {
@@ -214,4 +214,4 @@ TEST(Raw, RefusesWhatIsNoRig) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::raw_test

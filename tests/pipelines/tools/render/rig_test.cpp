@@ -11,7 +11,7 @@
 
 #include "tools/render/render.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::rig_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -158,4 +158,4 @@ TEST(Rig, FieldLeadsFromTheTruthToTheRightImage) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::rig_test

@@ -12,7 +12,7 @@
 
 #include "tools/render/render.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::sensor_test {
 namespace {
 
 Settings small() {
@@ -207,7 +207,7 @@ struct Wrong {
   void (*spoil)(Settings&);
 };
 
-class InvalidSettings : public testing::TestWithParam<Wrong> {};
+class InvalidSettings : public ::testing::TestWithParam<Wrong> {};
 
 TEST_P(InvalidSettings, AreRejectedByName) {
   Settings s = small();
@@ -220,37 +220,37 @@ constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 INSTANTIATE_TEST_SUITE_P(
     All, InvalidSettings,
-    testing::Values(Wrong{"width", [](Settings& s) { s.width = 0; }},
-                    Wrong{"width", [](Settings& s) { s.width = 16385; }},
-                    Wrong{"height", [](Settings& s) { s.height = -3; }},
-                    Wrong{"focal", [](Settings& s) { s.focal = -1; }},
-                    Wrong{"focal", [](Settings& s) { s.focal = kNotANumber; }},
-                    Wrong{"baseline", [](Settings& s) { s.baseline = -0.1; }},
-                    Wrong{"baseline", [](Settings& s) { s.baseline = kNotANumber; }},
-                    Wrong{"noise", [](Settings& s) { s.noise = 1000; }},
-                    Wrong{"noise", [](Settings& s) { s.noise = kNotANumber; }},
-                    Wrong{"exposure", [](Settings& s) { s.exposure = 0; }},
-                    Wrong{"shot-noise", [](Settings& s) { s.shot_noise = -1; }},
-                    Wrong{"shot-noise", [](Settings& s) { s.shot_noise = kNotANumber; }},
-                    Wrong{"light", [](Settings& s) { s.light = 0; }},
-                    Wrong{"gain", [](Settings& s) { s.gain = 1000; }},
-                    Wrong{"sky", [](Settings& s) { s.sky = -0.1; }},
-                    Wrong{"sky", [](Settings& s) { s.sky = kNotANumber; }},
-                    Wrong{"sky-gradient", [](Settings& s) { s.sky_gradient = 1.5; }},
-                    Wrong{"vignette", [](Settings& s) { s.vignette = 1.1; }},
-                    Wrong{"blur", [](Settings& s) { s.blur = 11; }},
-                    Wrong{"rim-blur", [](Settings& s) { s.rim_blur = -0.1; }},
-                    Wrong{"rim-blur", [](Settings& s) { s.rim_blur = 11; }},
-                    Wrong{"rim-blur", [](Settings& s) { s.rim_blur = kNotANumber; }},
-                    Wrong{"jpeg", [](Settings& s) { s.jpeg = 101; }},
-                    Wrong{"jpeg", [](Settings& s) { s.jpeg = -1; }},
-                    Wrong{"roll", [](Settings& s) { s.rig.roll = 11; }},
-                    Wrong{"pitch", [](Settings& s) { s.rig.pitch = -11; }},
-                    Wrong{"yaw", [](Settings& s) { s.rig.yaw = kNotANumber; }},
-                    Wrong{"focal-ratio", [](Settings& s) { s.rig.focal_ratio = 0; }},
-                    Wrong{"row-offset", [](Settings& s) { s.rig.row_offset = 101; }},
-                    Wrong{"samples", [](Settings& s) { s.samples = 0; }},
-                    Wrong{"threads", [](Settings& s) { s.threads = -1; }}),
+    ::testing::Values(Wrong{"width", [](Settings& s) { s.width = 0; }},
+                      Wrong{"width", [](Settings& s) { s.width = 16385; }},
+                      Wrong{"height", [](Settings& s) { s.height = -3; }},
+                      Wrong{"focal", [](Settings& s) { s.focal = -1; }},
+                      Wrong{"focal", [](Settings& s) { s.focal = kNotANumber; }},
+                      Wrong{"baseline", [](Settings& s) { s.baseline = -0.1; }},
+                      Wrong{"baseline", [](Settings& s) { s.baseline = kNotANumber; }},
+                      Wrong{"noise", [](Settings& s) { s.noise = 1000; }},
+                      Wrong{"noise", [](Settings& s) { s.noise = kNotANumber; }},
+                      Wrong{"exposure", [](Settings& s) { s.exposure = 0; }},
+                      Wrong{"shot-noise", [](Settings& s) { s.shot_noise = -1; }},
+                      Wrong{"shot-noise", [](Settings& s) { s.shot_noise = kNotANumber; }},
+                      Wrong{"light", [](Settings& s) { s.light = 0; }},
+                      Wrong{"gain", [](Settings& s) { s.gain = 1000; }},
+                      Wrong{"sky", [](Settings& s) { s.sky = -0.1; }},
+                      Wrong{"sky", [](Settings& s) { s.sky = kNotANumber; }},
+                      Wrong{"sky-gradient", [](Settings& s) { s.sky_gradient = 1.5; }},
+                      Wrong{"vignette", [](Settings& s) { s.vignette = 1.1; }},
+                      Wrong{"blur", [](Settings& s) { s.blur = 11; }},
+                      Wrong{"rim-blur", [](Settings& s) { s.rim_blur = -0.1; }},
+                      Wrong{"rim-blur", [](Settings& s) { s.rim_blur = 11; }},
+                      Wrong{"rim-blur", [](Settings& s) { s.rim_blur = kNotANumber; }},
+                      Wrong{"jpeg", [](Settings& s) { s.jpeg = 101; }},
+                      Wrong{"jpeg", [](Settings& s) { s.jpeg = -1; }},
+                      Wrong{"roll", [](Settings& s) { s.rig.roll = 11; }},
+                      Wrong{"pitch", [](Settings& s) { s.rig.pitch = -11; }},
+                      Wrong{"yaw", [](Settings& s) { s.rig.yaw = kNotANumber; }},
+                      Wrong{"focal-ratio", [](Settings& s) { s.rig.focal_ratio = 0; }},
+                      Wrong{"row-offset", [](Settings& s) { s.rig.row_offset = 101; }},
+                      Wrong{"samples", [](Settings& s) { s.samples = 0; }},
+                      Wrong{"threads", [](Settings& s) { s.threads = -1; }}),
     [](const auto& info) {
       std::string name = info.param.name;
       std::replace(name.begin(), name.end(), '-', '_');
@@ -266,4 +266,4 @@ TEST(Settings, MessageStatesTheValueAndTheRange) {
 TEST(Settings, DefaultsAreValid) { EXPECT_EQ(check(Settings()), ""); }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::sensor_test

@@ -11,7 +11,7 @@
 #include "tools/render/render.hpp"
 #include "tools/render/scene.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::thin_test {
 namespace {
 
 constexpr ThinKind kKinds[] = {ThinKind::kPosts, ThinKind::kLeaning, ThinKind::kRails,
@@ -101,4 +101,4 @@ TEST(Thin, RefusesInvalidWidths) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::thin_test

@@ -12,7 +12,7 @@
 #include "tools/render/render.hpp"
 #include "tools/render/scene.hpp"
 
-namespace mtstereo::render {
+namespace mtstereo::render::wall_test {
 namespace {
 
 Settings camera() {
@@ -73,4 +73,4 @@ TEST(Wall, RefusesInvalidSettings) {
 }
 
 }  // namespace
-}  // namespace mtstereo::render
+}  // namespace mtstereo::render::wall_test
