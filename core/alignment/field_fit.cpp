@@ -11,15 +11,15 @@
 namespace mtstereo {
 namespace {
 
-using Terms = Eigen::Matrix<double, kFieldTerms, 1>;
-using Normal = Eigen::Matrix<double, kFieldTerms, kFieldTerms>;
+using FieldTerms = Eigen::Matrix<double, kFieldTerms, 1>;
+using FieldNormal = Eigen::Matrix<double, kFieldTerms, kFieldTerms>;
 
 constexpr int kFewestMatches = 6;
 constexpr int kSamples = 150;
 /// Residuals that have a quarter of the weight in the first rounds of the fit [px]. The affine
 /// field of the start may be wrong by this much where the other terms are large.
 constexpr std::array<double, 5> kFirstScales = {3, 2.5, 2, 1.5, 1};
-constexpr int kRounds = 14;
+constexpr int kFitRounds = 14;
 /// Expected sizes of the terms [px]: they keep a term near zero about which the matches say
 /// nothing.
 constexpr std::array<double, kFieldTerms> kPriorSigmas = {10, 10, 10, 2, 2};
@@ -58,10 +58,11 @@ bool through_three(std::span<const Match> matches, const std::vector<FieldFactor
 }
 
 /// The affine field with which most matches agree (RANSAC).
-Terms sample_consensus(std::span<const Match> matches, const std::vector<FieldFactors>& factors) {
+FieldTerms sample_consensus(std::span<const Match> matches,
+                            const std::vector<FieldFactors>& factors) {
   const int count = static_cast<int>(matches.size());
   Sampler sampler;
-  Terms best = Terms::Zero();
+  FieldTerms best = FieldTerms::Zero();
   int most = -1;
   for (int sample = 0; sample < kSamples; ++sample) {
     const std::array<int, 3> chosen = {sampler.below(count), sampler.below(count),
@@ -80,7 +81,7 @@ Terms sample_consensus(std::span<const Match> matches, const std::vector<FieldFa
   return best;
 }
 
-void find_residuals(std::span<const Match> matches, const Terms& terms, FitScratch& scratch) {
+void find_residuals(std::span<const Match> matches, const FieldTerms& terms, FitScratch& scratch) {
   for (std::size_t i = 0; i < matches.size(); ++i) {
     double field = 0;
     for (int k = 0; k < kFieldTerms; ++k) field += terms[k] * scratch.factors[i][k];
@@ -120,8 +121,8 @@ void find_variances(std::span<const Match> matches, double deviation, FitScratch
 
 /// The normal equations of the first `terms` terms, with the prior.
 struct Equations {
-  Normal matrix = Normal::Identity();
-  Terms right = Terms::Zero();
+  FieldNormal matrix = FieldNormal::Identity();
+  FieldTerms right = FieldTerms::Zero();
 
   Equations(std::span<const Match> matches, const FitScratch& scratch, int terms) {
     for (int k = 0; k < terms; ++k) matrix(k, k) = 1 / (kPriorSigmas[k] * kPriorSigmas[k]);
@@ -133,7 +134,7 @@ struct Equations {
         right[k] += weight * f[k] * matches[i].rows;
       }
     }
-    matrix = Normal(matrix.selfadjointView<Eigen::Lower>());
+    matrix = FieldNormal(matrix.selfadjointView<Eigen::Lower>());
   }
 };
 
@@ -147,10 +148,10 @@ void weigh(double scale, FitScratch& scratch) {
 }
 
 /// Fits all terms again and again, with weights that become more selective.
-double refine(std::span<const Match> matches, Terms& terms, FitScratch& scratch) {
+double refine(std::span<const Match> matches, FieldTerms& terms, FitScratch& scratch) {
   find_residuals(matches, terms, scratch);
   double deviation = robust_deviation(scratch);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     find_variances(matches, deviation, scratch);
     constexpr double kNarrowest = 0.15;  // [px]
     const bool first = round < static_cast<int>(kFirstScales.size());
@@ -164,7 +165,7 @@ double refine(std::span<const Match> matches, Terms& terms, FitScratch& scratch)
   return deviation;
 }
 
-double largest_deviation(const Normal& covariance, int terms, int width, int height) {
+double largest_deviation(const FieldNormal& covariance, int terms, int width, int height) {
   double largest = 0;
   for_extreme_points(width, height, [&](double x, double y) {
     const FieldFactors factors = field_factors(x, y, width, height);
@@ -181,14 +182,14 @@ double largest_deviation(const Normal& covariance, int terms, int width, int hei
 FieldModel fit_model(std::span<const Match> matches, int terms, int width, int height,
                      FitScratch& scratch) {
   const Equations equations(matches, scratch, terms);
-  const Eigen::LDLT<Normal> solver(equations.matrix);
-  const Terms solution = solver.solve(equations.right);
+  const Eigen::LDLT<FieldNormal> solver(equations.matrix);
+  const FieldTerms solution = solver.solve(equations.right);
   std::array<double, kFieldTerms> values{};
   for (int k = 0; k < terms; ++k) values[k] = solution[k];
   FieldModel model;
   model.terms = terms;
   model.field = field_of(values);
-  model.deviation = largest_deviation(solver.solve(Normal::Identity()), terms, width, height);
+  model.deviation = largest_deviation(solver.solve(FieldNormal::Identity()), terms, width, height);
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (scratch.residuals[i] >= kInlierLimit || scratch.residuals[i] <= -kInlierLimit) continue;
     double residual = matches[i].rows;
@@ -237,7 +238,7 @@ FieldFit fit_field(std::span<const Match> matches, int width, int height, FitScr
   for (std::size_t i = 0; i < count; ++i) {
     scratch.factors[i] = field_factors(matches[i].x_right, matches[i].y_left, width, height);
   }
-  Terms terms = sample_consensus(matches, scratch.factors);
+  FieldTerms terms = sample_consensus(matches, scratch.factors);
   fit.residual = refine(matches, terms, scratch);
   count_inliers(matches, width, height, scratch, fit);
   for (std::size_t i = 0; i < fit.models.size(); ++i) {

@@ -8,15 +8,15 @@ namespace mtstereo {
 namespace {
 
 /// Figures of some pixels of a view: every n-th one in a few rows.
-struct Sample {
+struct RowSample {
   std::uint64_t checksum = 0;
   double deviation = 0;  ///< standard deviation of the gray values
 };
 
-Sample sample_of(GrayView view) {
+RowSample sample_of(GrayView view) {
   constexpr int kRows = 64, kColumns = 256;
   const int rows = std::min(view.height, kRows), columns = std::min(view.width, kColumns);
-  Sample sample;
+  RowSample sample;
   std::int64_t sum = 0, squares = 0;
   for (int j = 0; j < rows; ++j) {
     const std::uint8_t* row = view.row(view.height * j / rows);
@@ -36,9 +36,9 @@ Sample sample_of(GrayView view) {
 }  // namespace
 
 void PairWatch::watch(GrayView left, GrayView right) {
-  const std::array<Sample, 2> now = {sample_of(left), sample_of(right)};
+  const std::array<RowSample, 2> now = {sample_of(left), sample_of(right)};
   for (int side = 0; side < 2; ++side) {
-    const Sample& other = now[1 - side];
+    const RowSample& other = now[1 - side];
     blank_[side] = now[side].deviation <= kBlankDeviation && other.deviation >= kContentDeviation;
     const bool repeated = has_last_ && now[side].checksum == last_[side];
     const bool other_changed = other.checksum != last_[1 - side];

@@ -11,18 +11,18 @@
 namespace mtstereo {
 namespace {
 
-constexpr int kBlock = 8;       // side of the blocks in which noise is measured [px]
-constexpr int kBlockStep = 16;  // from block to block [px]
+constexpr int kResponseBlock = 8;  // side of the blocks in which noise is measured [px]
+constexpr int kBlockStep = 16;     // from block to block [px]
 
 /// Mean absolute response of the difference of two Laplacians in a block, or -1 if the block says
 /// nothing about noise: it is constant, or clipped.
 float block_response(GrayView view, int x0, int y0) {
   int sum = 0, least = 255, most = 0;
-  for (int y = y0; y < y0 + kBlock; ++y) {
+  for (int y = y0; y < y0 + kResponseBlock; ++y) {
     const std::uint8_t* above = view.row(y - 1);
     const std::uint8_t* here = view.row(y);
     const std::uint8_t* below = view.row(y + 1);
-    for (int x = x0; x < x0 + kBlock; ++x) {
+    for (int x = x0; x < x0 + kResponseBlock; ++x) {
       sum += std::abs(above[x - 1] - 2 * above[x] + above[x + 1] - 2 * here[x - 1] + 4 * here[x] -
                       2 * here[x + 1] + below[x - 1] - 2 * below[x] + below[x + 1]);
       least = std::min<int>(least, here[x]);
@@ -30,7 +30,7 @@ float block_response(GrayView view, int x0, int y0) {
     }
   }
   if (least == most || least == 0 || most == 255) return -1;
-  return static_cast<float>(sum) / (kBlock * kBlock);
+  return static_cast<float>(sum) / (kResponseBlock * kResponseBlock);
 }
 
 /// Sums over the patches: squared differences of adjacent pixels, and squared differences from the
@@ -117,9 +117,9 @@ float blur_to(GrayView view, bool is_left, double sharpness, std::span<const Mat
 }  // namespace
 
 double noise_of(GrayView view, SharpnessScratch& scratch) {
-  const int columns = (view.width - 2 - kBlock) / kBlockStep + 1;
-  const int rows = (view.height - 2 - kBlock) / kBlockStep + 1;
-  if (view.width < kBlock + 2 || view.height < kBlock + 2) return 0;
+  const int columns = (view.width - 2 - kResponseBlock) / kBlockStep + 1;
+  const int rows = (view.height - 2 - kResponseBlock) / kBlockStep + 1;
+  if (view.width < kResponseBlock + 2 || view.height < kResponseBlock + 2) return 0;
   scratch.noise.resize(static_cast<std::size_t>(columns) * rows);
   int count = 0;
   for (int j = 0; j < rows; ++j) {

@@ -2,13 +2,10 @@
 #include "geometry/check_image.hpp"
 
 namespace mtstereo {
-namespace {
 
 std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height) + " px";
 }
-
-}  // namespace
 
 Status check_image(const char* name, const void* data, int width, int height, std::ptrdiff_t stride,
                    std::ptrdiff_t row_bytes) {

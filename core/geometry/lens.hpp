@@ -2,10 +2,14 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 
 #include "mtstereo/geometry/calibration.hpp"
 
 namespace mtstereo {
+
+/// A degree [rad].
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// The lens model of one camera, in both directions, in double precision.
 ///

@@ -29,8 +29,6 @@ namespace {
 using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Vector = Eigen::Vector3d;
 
-Matrix to_eigen(const Matrix3& m) { return Eigen::Map<const Matrix>(m.data()); }
-
 Matrix3 from_eigen(const Matrix& m) {
   Matrix3 result{};
   Eigen::Map<Matrix>(result.data()) = m;
@@ -49,7 +47,7 @@ Error unusable(const std::string& text) { return {ErrorCode::kInvalidCalibration
 /// Each view is turned by half of the rotation between the cameras, and then both so that the
 /// baseline is the x axis.
 Result<Rotations> rotations_of(const StereoCalibration& calibration) {
-  const Eigen::AngleAxisd whole(to_eigen(calibration.rotation));
+  const Eigen::AngleAxisd whole(Eigen::Map<const Matrix>(calibration.rotation.data()));
   const Matrix half = Eigen::AngleAxisd(-whole.angle() / 2, whole.axis()).toRotationMatrix();
   const Vector translation(calibration.translation.data());
   const Vector baseline = half * translation;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +13,6 @@
 namespace mtstereo {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 /// A smaller part of an image is not worth a word.
 constexpr double kFewPixels = 1e-3;
 /// A view that the camera fills less gives next to no matches.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numbers>
 
 #include "geometry/lens.hpp"
 #include "geometry/rotate.hpp"
@@ -13,7 +12,6 @@ namespace mtstereo {
 namespace {
 
 constexpr int kSamples = 64;  // per side of an image
-constexpr double kDegree = std::numbers::pi / 180;
 /// No direction that is farther from the rectified axis is shown: the tangent of 90 degrees is
 /// infinite.
 constexpr double kWidestAngle = 85 * kDegree;  // [rad]

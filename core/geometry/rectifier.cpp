@@ -6,6 +6,7 @@
 
 #include "base/guard.hpp"
 #include "geometry/calibration_problem.hpp"
+#include "geometry/check_image.hpp"
 #include "geometry/lens.hpp"
 #include "geometry/remapping.hpp"
 #include "geometry/rotate.hpp"
@@ -14,7 +15,6 @@
 #include "mtstereo/parameters.hpp"
 
 namespace mtstereo {
-namespace {
 
 /// How one rectified view is projected.
 struct RectifiedView {
@@ -27,6 +27,8 @@ struct RectifiedView {
     return rotate_back(rotation, {(x - center_x) / focal_length, (y - center_y) / focal_length, 1});
   }
 };
+
+namespace {
 
 RectifiedView view_of(const Rectification& rectification, bool left) {
   return {
@@ -48,10 +50,6 @@ std::string rectification_problem(const Rectification& rectification, const Rect
   if (finite && view.focal_length > 0) return {};
   return "The rectification states a focal length that is not positive, or a value that is not "
          "finite.";
-}
-
-std::string size_text(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height) + " px";
 }
 
 template <typename T>

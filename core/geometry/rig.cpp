@@ -18,7 +18,7 @@ double field_of(double focal_length, double center, int side) {
 }
 
 /// A number with three digits that count, without an exponent.
-std::string digits(double number) {
+std::string three_digits(double number) {
   char text[64];
   const int places =
       number > 0 && number < 100 ? 2 - static_cast<int>(std::floor(std::log10(number))) : 0;
@@ -56,7 +56,7 @@ RigFigures rig_figures(const Rectification& rectification, const DisparityRange&
 std::string rig_text(const RigFigures& figures) {
   char text[160];
   std::snprintf(text, sizeof text, "focal length %.1f px, baseline %s m", figures.focal_length,
-                digits(figures.baseline).c_str());
+                three_digits(figures.baseline).c_str());
   std::string result = text;
   if (figures.horizontal_field > 0 && figures.vertical_field > 0) {
     std::snprintf(text, sizeof text, ", field of view %.0f x %.0f degrees",
@@ -65,8 +65,8 @@ std::string rig_text(const RigFigures& figures) {
   }
   const DisparityRange& range = figures.range;
   if (figures.nearest > 0 && figures.farthest > 0) {
-    result += ", measures from " + digits(figures.nearest) + " m (" + plain(range.largest) +
-              " px) to " + digits(figures.farthest) + " m (" +
+    result += ", measures from " + three_digits(figures.nearest) + " m (" + plain(range.largest) +
+              " px) to " + three_digits(figures.farthest) + " m (" +
               plain(std::max(range.smallest, range.step)) + " px)";
   }
   return result;

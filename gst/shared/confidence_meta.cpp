@@ -13,8 +13,8 @@ GstSample* sample_in(GstCustomMeta& meta) {
 }
 
 /// GStreamer calls it; it calls C functions only, so that it throws nothing.
-gboolean transform_meta(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark type, gpointer data,
-                        gpointer) noexcept {
+gboolean transform_confidence(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark type,
+                              gpointer data, gpointer) noexcept {
   GstSample* confidence = sample_in(*meta);
   if (confidence == nullptr || !keeps_pixels(type, data)) return FALSE;
   set_confidence(to, confidence);  // shared, not copied
@@ -25,7 +25,7 @@ gboolean transform_meta(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark t
 
 bool register_confidence_meta() {
   // Once per process, by the first caller.
-  static const bool registered = register_pixel_meta(kConfidenceMeta, transform_meta);
+  static const bool registered = register_pixel_meta(kConfidenceMeta, transform_confidence);
   return registered;
 }
 

@@ -7,8 +7,8 @@ namespace mtstereo::plugin {
 namespace {
 
 /// GStreamer calls it; it calls C functions only, so that it throws nothing.
-gboolean transform_meta(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark type, gpointer data,
-                        gpointer) noexcept {
+gboolean transform_disparity(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark type,
+                             gpointer data, gpointer) noexcept {
   if (!keeps_pixels(type, data)) return FALSE;
   GstCustomMeta* copy = gst_buffer_get_custom_meta(to, kDisparityMeta);
   if (copy == nullptr) copy = gst_buffer_add_custom_meta(to, kDisparityMeta);
@@ -27,7 +27,7 @@ gboolean transform_meta(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark t
 
 bool register_disparity_meta() {
   // Once per process, by the first caller.
-  static const bool registered = register_pixel_meta(kDisparityMeta, transform_meta);
+  static const bool registered = register_pixel_meta(kDisparityMeta, transform_disparity);
   return registered;
 }
 

@@ -24,8 +24,8 @@ GBytes* columns_in(GstCustomMeta& meta) {
 }
 
 /// GStreamer calls it; it calls C functions only, so that it throws nothing.
-gboolean transform_meta(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark type, gpointer data,
-                        gpointer) noexcept {
+gboolean transform_columns(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark type,
+                           gpointer data, gpointer) noexcept {
   GBytes* columns = columns_in(*meta);
   if (columns == nullptr || !keeps_pixels(type, data)) return FALSE;
   set_valid_columns(to, columns);  // shared, not copied
@@ -36,7 +36,7 @@ gboolean transform_meta(GstBuffer* to, GstCustomMeta* meta, GstBuffer*, GQuark t
 
 bool register_valid_columns_meta() {
   // Once per process, by the first caller.
-  static const bool registered = register_pixel_meta(kValidColumnsMeta, transform_meta);
+  static const bool registered = register_pixel_meta(kValidColumnsMeta, transform_columns);
   return registered;
 }
 

@@ -87,7 +87,7 @@ LensModel stated_lens(const Entry& file, const Entry& coefficients) {
 }
 
 /// One camera of the pair.
-struct Camera {
+struct RosCamera {
   CameraCalibration calibration;  ///< of the region
   Eigen::Matrix3d rotation;
   std::vector<double> projection;  ///< of the whole image
@@ -95,13 +95,14 @@ struct Camera {
   Region region;
 };
 
-Camera read_camera(const Entry& file) {
+RosCamera read_ros_camera(const Entry& file) {
   if (!file.find_any({"projection_matrix", "p", "P"})) {
     file.fail("there is no entry projection_matrix, which states the position of the cameras; " +
               std::string(kAsPair));
   }
   const Entry projection = any_of(file, "projection_matrix", "p", "P");
-  Camera camera{{}, {}, projection.numbers(12, "a 3x4 projection"), projection, read_region(file)};
+  RosCamera camera{
+      {}, {}, projection.numbers(12, "a 3x4 projection"), projection, read_region(file)};
   set_size(camera.calibration, any_of(file, "image_width", "width", "width"),
            any_of(file, "image_height", "height", "height"));
   set_camera_matrix(camera.calibration, any_of(file, "camera_matrix", "k", "K"));
@@ -125,8 +126,8 @@ bool is_camera_info(const Entry& file) {
 StereoCalibration read_camera_info(const Entry& left_file, const Entry& right_file,
                                    const Request& request) {
   no_selection(left_file, request.selection);
-  const Camera left = read_camera(left_file);
-  const Camera right = read_camera(right_file);
+  const RosCamera left = read_ros_camera(left_file);
+  const RosCamera right = read_ros_camera(right_file);
   const RectifiedViews views = {left.rotation, right.rotation, left.projection, right.projection};
   const Entry& p1 = left.projection_entry;
   const Entry& p2 = right.projection_entry;

@@ -33,7 +33,7 @@ CameraCalibration read_okvis(const Entry& entry) {
   return camera;
 }
 
-CameraCalibration read_camera(const Entry& entry) {
+CameraCalibration read_listed_camera(const Entry& entry) {
   if (entry.find("T_SC")) return read_okvis(entry);
   CameraCalibration camera;
   const Entry inner = entry.at("camera");
@@ -65,8 +65,8 @@ StereoCalibration read_camera_list(const Entry& file, const Request& request) {
   const CameraPair pair = selected_cameras(file, request.selection, cameras.size());
   StereoCalibration calibration;
   calibration.format = "camera list";
-  calibration.left = read_camera(cameras[pair.left]);
-  calibration.right = read_camera(cameras[pair.right]);
+  calibration.left = read_listed_camera(cameras[pair.left]);
+  calibration.right = read_listed_camera(cameras[pair.right]);
   set_motion_on_body(calibration, pose_of(cameras[pair.left]), pose_of(cameras[pair.right]));
   return calibration;
 }

@@ -65,7 +65,7 @@ int socket_number(const Entry& file, const std::string& text) {
   file.fail("'" + printable(text) + "' is no socket; a number is needed");
 }
 
-CameraCalibration read_camera(const Entry& entry) {
+CameraCalibration read_depthai_camera(const Entry& entry) {
   CameraCalibration camera;
   set_size(camera, entry.at("width"), entry.at("height"));
   set_camera_matrix(camera, entry.at("intrinsicMatrix"));
@@ -154,9 +154,9 @@ StereoCalibration read_depthai(const Entry& file, const Request& request) {
   if (left == right) file.fail("the left and the right camera are both socket " + pair.left);
   StereoCalibration calibration;
   calibration.format = "DepthAI";
-  calibration.left = read_camera(camera_of(file, sockets, left, "left"));
+  calibration.left = read_depthai_camera(camera_of(file, sockets, left, "left"));
   const Entry& right_camera = camera_of(file, sockets, right, "right");
-  calibration.right = read_camera(right_camera);
+  calibration.right = read_depthai_camera(right_camera);
   for (CameraCalibration* camera : {&calibration.left, &calibration.right}) {
     if (request.width > 0) crop_to_video(*camera, request);
   }

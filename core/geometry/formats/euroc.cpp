@@ -9,7 +9,7 @@
 namespace mtstereo::formats {
 namespace {
 
-CameraCalibration read_camera(const Entry& file) {
+CameraCalibration read_euroc_camera(const Entry& file) {
   CameraCalibration camera;
   const std::optional<Entry> model = file.find("camera_model");
   if (model && model->text() != "pinhole") {
@@ -31,8 +31,8 @@ StereoCalibration read_euroc(const Entry& left, const Entry& right, const Reques
   no_selection(left, request.selection);
   StereoCalibration calibration;
   calibration.format = "EuRoC sensor.yaml";
-  calibration.left = read_camera(left);
-  calibration.right = read_camera(right);
+  calibration.left = read_euroc_camera(left);
+  calibration.right = read_euroc_camera(right);
   set_motion_on_body(calibration, left.at("T_BS", "the position on the body"),
                      right.at("T_BS", "the position on the body"));
   return calibration;

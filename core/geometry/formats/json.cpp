@@ -9,9 +9,9 @@ namespace mtstereo::formats {
 namespace {
 
 /// Builds the tree. Numbers stay the text of the file, so that nothing is rounded twice.
-class Handler : public nlohmann::json_sax<nlohmann::json> {
+class JsonHandler : public nlohmann::json_sax<nlohmann::json> {
  public:
-  Handler(std::string_view text, const std::string& file)
+  JsonHandler(std::string_view text, const std::string& file)
       : builder_(file), text_(text), file_(file) {}
 
   Value take() { return builder_.take(); }
@@ -61,7 +61,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
 }  // namespace
 
 Value parse_json(const std::string& text, const std::string& file) {
-  Handler handler(text, file);
+  JsonHandler handler(text, file);
   nlohmann::json::sax_parse(text, &handler);
   return handler.take();
 }

@@ -35,7 +35,7 @@ CameraCalibration read_omni(const Entry& entry, CameraCalibration camera) {
   return camera;
 }
 
-CameraCalibration read_camera(const Entry& entry) {
+CameraCalibration read_kalibr_camera(const Entry& entry) {
   CameraCalibration camera;
   const Entry model = entry.at("camera_model");
   set_size(camera, entry.at("resolution"));
@@ -132,9 +132,9 @@ StereoCalibration read_kalibr(const Entry& file, const Request& request) {
   if (left == right) file.fail("the left and the right camera are both " + pair.left);
   StereoCalibration calibration;
   calibration.format = "Kalibr camchain";
-  calibration.left = read_camera(file.at(pair.left, "the left camera"));
+  calibration.left = read_kalibr_camera(file.at(pair.left, "the left camera"));
   const Entry right_camera = file.at(pair.right, "the right camera");
-  calibration.right = read_camera(right_camera);
+  calibration.right = read_kalibr_camera(right_camera);
   const Motion motion = motion_between(file, left, right);
   check_translation(motion.translation, right_camera.find("T_cn_cnm1").value_or(right_camera),
                     ": the size of the target must be in meters");

@@ -7,13 +7,7 @@
 namespace mtstereo::formats {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\f\v";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
+constexpr std::string_view kLineBlanks = " \t\r\f\v";
 
 /// Adds the entry that a line states to a map.
 void add_entry(Value& map, std::string_view line, char separator, int number,
@@ -26,9 +20,9 @@ void add_entry(Value& map, std::string_view line, char separator, int number,
   if (map.items.size() >= kMostValues) {
     throw FileError(file + ": there are too many lines for a calibration");
   }
-  map.names.emplace_back(trimmed(line.substr(0, at)));
+  map.names.emplace_back(trimmed(line.substr(0, at), kLineBlanks));
   map.items.emplace_back();
-  map.items.back().text = trimmed(line.substr(at + 1));
+  map.items.back().text = trimmed(line.substr(at + 1), kLineBlanks);
 }
 
 bool is_comment(std::string_view line) {
@@ -39,7 +33,7 @@ bool is_comment(std::string_view line) {
 
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
-  const std::string_view line = trimmed(text.substr(0, end));
+  const std::string_view line = trimmed(text.substr(0, end), kLineBlanks);
   text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   return line;
 }

@@ -12,7 +12,7 @@ namespace mtstereo::formats {
 namespace {
 
 /// One camera of the pair.
-struct Camera {
+struct MrcalCamera {
   CameraCalibration calibration;
   Motion from_reference;
 };
@@ -29,8 +29,8 @@ std::size_t coefficient_count(const Entry& model) {
              "LENSMODEL_OPENCV8");
 }
 
-Camera read_camera(const Entry& file) {
-  Camera camera;
+MrcalCamera read_mrcal_camera(const Entry& file) {
+  MrcalCamera camera;
   const std::size_t count = coefficient_count(file.at("lensmodel"));
   set_size(camera.calibration, file.at("imagersize", "width and height"));
   const Entry entry = file.at("intrinsics");
@@ -67,8 +67,8 @@ Value parse_mrcal(std::string text, const std::string& file) {
 StereoCalibration read_mrcal(const Entry& left_file, const Entry& right_file,
                              const Request& request) {
   no_selection(left_file, request.selection);
-  const Camera left = read_camera(left_file);
-  const Camera right = read_camera(right_file);
+  const MrcalCamera left = read_mrcal_camera(left_file);
+  const MrcalCamera right = read_mrcal_camera(right_file);
   StereoCalibration calibration;
   calibration.format = "mrcal";
   calibration.left = left.calibration;

@@ -13,7 +13,7 @@
 namespace mtstereo::formats {
 namespace {
 
-Entry at(const Entry& file, const std::string& camera, const char* name) {
+Entry camera_entry(const Entry& file, const std::string& camera, const char* name) {
   return file.at(camera + "." + name);
 }
 
@@ -30,12 +30,13 @@ std::vector<double> coefficients(const Entry& file, const std::string& camera,
 
 CameraCalibration read_camera(const Entry& file, const std::string& name, bool fisheye) {
   CameraCalibration camera;
-  const Entry focal = at(file, name, "fx");
-  set_camera_matrix(camera, focal,
-                    {focal.number(), 0, at(file, name, "cx").number(), 0,
-                     at(file, name, "fy").number(), at(file, name, "cy").number(), 0, 0, 1});
+  const Entry focal = camera_entry(file, name, "fx");
+  set_camera_matrix(
+      camera, focal,
+      {focal.number(), 0, camera_entry(file, name, "cx").number(), 0,
+       camera_entry(file, name, "fy").number(), camera_entry(file, name, "cy").number(), 0, 0, 1});
   if (fisheye) {
-    (void)at(file, name, "k1").number();
+    (void)camera_entry(file, name, "k1").number();
     camera.lens = LensModel::kFisheye;
     camera.coefficients = coefficients(file, name, {"k1", "k2", "k3", "k4"});
     return camera;

@@ -11,7 +11,6 @@
 namespace mtstereo::formats {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
 /// What may be between numbers of a text: also the brackets of Middlebury's matrices.
 constexpr std::string_view kSeparators = " \t\r\n,;[]";
 
@@ -26,13 +25,13 @@ bool equal_any_case(std::string_view a, std::string_view b) {
                     [](char x, char y) { return lower(x) == lower(y); });
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
 }  // namespace
+
+std::string_view trimmed(std::string_view text, std::string_view blanks) {
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
 
 std::string printable(std::string_view text) {
   constexpr std::size_t kLongest = 40;

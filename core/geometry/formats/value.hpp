@@ -36,6 +36,11 @@ struct Value {
 /// Text of a file as it can be printed: without control characters, and shortened.
 std::string printable(std::string_view text);
 
+/// What is between the values of a file.
+inline constexpr std::string_view kBlanks = " \t\r\n";
+/// The text without these characters at its start and end.
+std::string_view trimmed(std::string_view text, std::string_view blanks = kBlanks);
+
 /// The shortest text that parses to the same number.
 std::string number_text(double value);
 

@@ -21,7 +21,7 @@ std::vector<double> numbers_of(const Entry& map, std::initializer_list<const cha
   return values;
 }
 
-CameraCalibration read_camera(const Entry& file) {
+CameraCalibration read_vins_camera(const Entry& file) {
   CameraCalibration camera;
   set_size(camera, file.at("image_width"), file.at("image_height"));
   const Entry type = file.at("model_type", "the lens model");
@@ -66,7 +66,7 @@ CameraCalibration read_named(const Entry& name) {
     name.fail("names " + document.file + ", which is " + name_of(document.format) +
               "; the file of a camera with model_type is needed");
   }
-  return read_camera(document.entry());
+  return read_vins_camera(document.entry());
 }
 
 }  // namespace

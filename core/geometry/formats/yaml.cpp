@@ -15,16 +15,15 @@
 namespace mtstereo::formats {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
 /// What the names of OpenCV's entries consist of.
 constexpr std::string_view kNameLetters =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.";
 
 /// Builds the tree of one document. An alias becomes a copy of what it refers to; copies count
 /// like any value, so that aliases of aliases end in an error.
-class Handler : public YAML::EventHandler {
+class YamlHandler : public YAML::EventHandler {
  public:
-  explicit Handler(const std::string& file) : builder_(file), file_(file) {}
+  explicit YamlHandler(const std::string& file) : builder_(file), file_(file) {}
 
   Value take() { return builder_.take(); }
 
@@ -107,7 +106,7 @@ Value parse_yaml(const std::string& text, const std::string& file) {
   const bool opencv = text.compare(0, 5, "%YAML") == 0;
   std::string yaml = opencv ? with_separated_values(text) : text;
   if (text.compare(0, 6, "%YAML:") == 0) yaml[0] = '#';
-  Handler handler(file);
+  YamlHandler handler(file);
   try {
     std::istringstream stream(yaml);
     YAML::Parser parser(stream);
