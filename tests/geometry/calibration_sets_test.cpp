@@ -2,7 +2,7 @@
 // The calibrations of data sets: Cityscapes, DSEC, Argoverse; and what is refused by name.
 #include "calibration_support.hpp"
 
-namespace mtstereo::test {
+namespace mtstereo::test::calibration_sets_test {
 namespace {
 
 using ::testing::AllOf;
@@ -169,4 +169,4 @@ TEST_F(SetFile, OfColmapIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace mtstereo::test
+}  // namespace mtstereo::test::calibration_sets_test

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Checks which files of the source tree include each other. It fails if units include each other in a
-cycle, or if a room includes a private header of another room.
+cycle, or if a room includes a private header of another room. It also fails if a test file has no namespace
+of its own: several are compiled as one file.
 
 A unit is a header with its source: what one of them includes, the unit includes.
 
@@ -96,6 +97,12 @@ def private_includes(pairs):
     return [pair for pair in pairs if not allowed(*pair)]
 
 
+def unnamed_tests(repository):
+    """The test files whose names are not in a namespace that is called like the file."""
+    return [str(path.relative_to(repository)) for path in sorted((repository / 'tests').rglob('*_test.cpp'))
+            if not re.search(rf'^namespace [\w:]+::{path.stem} {{$', path.read_text(encoding='utf-8'), re.MULTILINE)]
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -105,6 +112,8 @@ def main():
     problems = [f'These units include each other: {", ".join(group)}' for group in cycles(pairs)]
     problems += [f'{path} includes {included}, a private header of another room'
                  for path, included in private_includes(pairs)]
+    problems += [f'{path} has no namespace {Path(path).stem}: open it as namespace mtstereo::{Path(path).stem}'
+                 for path in unnamed_tests(Path(sys.argv[1]))]
     print('\n'.join(problems))
     sys.exit(1 if problems else 0)
 

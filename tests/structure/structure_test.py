@@ -49,6 +49,15 @@ class Structure(unittest.TestCase):
                          (1, 'gst/e.cpp includes core/b.hpp, a private header of another room\n'
                              'pipelines/run/f.cpp includes core/b.hpp, a private header of another room\n'))
 
+    def test_test_files_without_a_namespace_of_their_own_are_named(self):
+        status, output = self.check_tree({
+            'core/a.hpp': '', 'core/a.cpp': '#include "a.hpp"\n',
+            'tests/core/a_test.cpp': 'namespace mtstereo::a_test {\n', 'tests/core/support/c.cpp': '',
+            'tests/core/b_test.cpp': '// a_test {\nnamespace mtstereo {\nnamespace {\n'})
+        self.assertEqual((status, output),
+                         (1, 'tests/core/b_test.cpp has no namespace b_test: '
+                             'open it as namespace mtstereo::b_test\n'))
+
     def test_layers_pass(self):
         self.assertEqual(self.check_tree({
             'core/a.hpp': '', 'core/a.cpp': '#include "a.hpp"\n#include "b.hpp"\n#include <vector>\n',

@@ -10,7 +10,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace mtstereo::files {
+namespace mtstereo::files::unread_kinds_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ TEST_F(UnreadKinds, OfSeveralFilesTheFirstIsNamed) {
 }
 
 }  // namespace
-}  // namespace mtstereo::files
+}  // namespace mtstereo::files::unread_kinds_test

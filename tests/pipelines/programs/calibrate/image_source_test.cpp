@@ -8,7 +8,7 @@
 #include "programs/calibrate/source.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace mtstereo::calibrate {
+namespace mtstereo::calibrate::image_source_test {
 namespace {
 
 // A pair of such images as the program reads them.
@@ -50,4 +50,4 @@ TEST(ImageSource, NamesTheRemedyForAGif) {
 }
 
 }  // namespace
-}  // namespace mtstereo::calibrate
+}  // namespace mtstereo::calibrate::image_source_test

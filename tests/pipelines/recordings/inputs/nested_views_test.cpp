@@ -11,7 +11,7 @@
 #include "recordings/inputs/recognition.hpp"
 #include "recordings/support/video_files.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::nested_views_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -158,4 +158,4 @@ TEST_F(NestedFolders, GivenAsTwoInputsAreRefusedWithTheRemedy) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::nested_views_test
