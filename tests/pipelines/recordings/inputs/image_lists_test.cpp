@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Which images are frames, and which frames are pairs.
+#include "recordings/inputs/image_lists.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "recordings/support/recordings_folder.hpp"
+
+namespace mtstereo::run {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::names_of;
+using testing::Recordings;
+using ::testing::SizeIs;
+using testing::view;
+using testing::write_beginning;
+using testing::write_text;
+
+// Images are pairs by their numbers, also where some are missing or broken.
+TEST_F(Recordings, ImagesWithTheSameNumberHaveTheSameTime) {
+  write_images("left", {"a_0010.png", "a_0011.png", "a_0012.png", "a_0014.png"});
+  write_images("right", {"b_10.png", "b_12.png", "b_13.png", "b_14.png"}, true);
+  write_beginning(path("right/b_14.png"), path("right/b_15.png"), 0.5);
+  write_text(folder_ / "left/a_0015.png", "");
+  InputOptions options;
+  options.frame_rate = 10;
+  const Recording recording = recognized({"left", "right"}, options);
+  const Nanoseconds step = 100'000'000;
+  EXPECT_THAT(recording.left.times, ElementsAre(0, step, 2 * step, 4 * step));
+  EXPECT_THAT(recording.right.times, ElementsAre(0, 2 * step, 3 * step, 4 * step));
+  EXPECT_THAT(recording.left.images, SizeIs(4));
+  EXPECT_THAT(recording.remarks,
+              Contains(path("right/b_15.png") + " is left out: it is truncated."));
+  EXPECT_THAT(recording.remarks, Contains(HasSubstr(path("left/a_0015.png"))));
+  EXPECT_EQ(recording.left.damage, "1 of 5 images is left out");
+  EXPECT_EQ(recording.right.damage, "1 of 5 images is left out");
+}
+
+TEST_F(Recordings, EachTenthImageIsAFrame) {
+  write_images("left", {"000.png", "010.png", "020.png"});
+  write_images("right", {"000.png", "010.png", "020.png"}, true);
+  const Recording recording = recognized({"left", "right"});
+  EXPECT_THAT(recording.left.times, IsEmpty());
+  EXPECT_EQ(recording.frame_rate, 30);
+}
+
+TEST_F(Recordings, NamesThatAreTimes) {
+  write_images("cam0", {"1403636579763555584.png", "1403636579813555456.png"});
+  write_images("cam1", {"1403636579763555999.png", "1403636579813555456.png"}, true);
+  const Recording recording = recognized({"cam0", "cam1"});
+  EXPECT_THAT(recording.left.times, ElementsAre(0, 49'999'872));
+  EXPECT_THAT(recording.right.times, ElementsAre(415, 49'999'872));
+}
+
+TEST_F(Recordings, NamesThatAreSeconds) {
+  write_images("cam0", {"1403636579.90.png", "1403636580.10.png", "1403636580.30.png"});
+  write_images("cam1", {"1403636579.9004.png", "1403636580.3.png"}, true);
+  const Recording recording = recognized({"cam0", "cam1"});
+  EXPECT_THAT(recording.left.times, ElementsAre(0, 200'000'000, 400'000'000));
+  EXPECT_THAT(recording.right.times, ElementsAre(400'000, 400'000'000));
+  EXPECT_THAT(recording.remarks, IsEmpty());
+  EXPECT_EQ(time_in_name("left_1625.123456.png"), 1'625'123'456'000);
+  // Versions and dates are no times, and neither is what 64 bits cannot count.
+  for (const char* name : {"v2.001.png", "12345678901.123456.png", "9999999999.5.png", "a.5.png"}) {
+    EXPECT_FALSE(time_in_name(name)) << name;
+  }
+}
+
+TEST_F(Recordings, NamesWithNumbersThatAreNoFrames) {
+  EXPECT_EQ(time_in_name("left_315978406032859416.jpg"), 315'978'406'032'859'416);
+  EXPECT_FALSE(time_in_name("638400000000000000.jpg"));
+  const std::initializer_list<const char*> names{"20231231235959998.png", "20231231235959999.png",
+                                                 "638400000000000000.png"};
+  write_images("left", names);
+  write_images("right", names, true);
+  const Recording recording = recognized({"left", "right"});
+  EXPECT_THAT(recording.left.times, IsEmpty());
+  EXPECT_THAT(recording.left.images, SizeIs(3));
+  EXPECT_THAT(recording.remarks, ElementsAre(HasSubstr("too far apart for frames")));
+}
+
+// The last digits of such names are no numbers of frames.
+TEST_F(Recordings, NamesThatDifferInTheirView) {
+  write_images("left", {"2_leftImg8bit.png", "9_leftImg8bit.png", "10_leftImg8bit.png"});
+  write_images("right", {"2_rightImg8bit.png", "10_rightImg8bit.png"}, true);
+  const Recording recording = recognized({"left", "right"});
+  const Nanoseconds period = 33'333'333;
+  EXPECT_THAT(recording.left.times, ElementsAre(0, period, 2 * period + 1));
+  EXPECT_THAT(recording.right.times, ElementsAre(0, 2 * period + 1));
+  EXPECT_THAT(recording.remarks, IsEmpty());
+}
+
+// In the order of the names, "a2_l" is before "a_l", but "a" is before "a2".
+TEST_F(Recordings, NamesWithAndWithoutNumbers) {
+  write_images("all", {"a_l.png", "a2_l.png"});
+  write_images("all", {"a_r.png", "a2_r.png"}, true);
+  const Recording recording = recognized({"all"});
+  EXPECT_THAT(names_of(recording.left.images), ElementsAre("a2_l.png", "a_l.png"));
+  EXPECT_THAT(names_of(recording.right.images), ElementsAre("a2_r.png", "a_r.png"));
+  EXPECT_THAT(recording.left.damage, IsEmpty());
+}
+
+// Cameras of 12 bits store their values in 16 bits.
+TEST_F(Recordings, ImagesWithUnusedBits) {
+  const auto write = [this](int left, int right, int depth) {
+    for (const auto& [name, largest] :
+         {std::pair("left/0.png", left), std::pair("right/0.png", right)}) {
+      cv::Mat image;
+      view(false).convertTo(image, depth, largest / 255.0);
+      cv::imwrite((folder_ / name).string(), image);
+    }
+    return recognized({"left", "right"});
+  };
+  const Recording recording = write(700, 4095, CV_16U);
+  EXPECT_EQ(recording.left.unused_bits, 4);
+  EXPECT_EQ(recording.right.unused_bits, 4);
+  EXPECT_THAT(recording.remarks,
+              ElementsAre(HasSubstr("12 of 16 bits: their values are multiplied by 16")));
+  EXPECT_EQ(write(700, 700, CV_16U).left.unused_bits, 6);
+  for (const Recording& full :
+       {write(700, 65535, CV_16U), write(0, 0, CV_16U), write(90, 90, CV_8U)}) {
+    EXPECT_EQ(full.left.unused_bits, 0);
+    EXPECT_THAT(full.remarks, IsEmpty());
+  }
+}
+
+TEST_F(Recordings, NamesOfImagesThatMayBeNoViews) {
+  write_images("left", {"1.png", "1_mask.png", "2.png", "2_mask.png"});
+  write_images("right", {"1.png", "2.png"}, true);
+  EXPECT_THAT(recognized({"left", "right"}).remarks,
+              Contains(AllOf(HasSubstr("1.png"), HasSubstr("_mask.png are both taken as views"))));
+}
+
+TEST_F(Recordings, ImagesWithoutCommonNumbersArePairsByTheirOrder) {
+  write_images("left", {"1.png", "2.png"});
+  write_images("right", {"101.png", "102.png"}, true);
+  const Recording recording = recognized({"left", "right"});
+  EXPECT_THAT(recording.left.times, IsEmpty());
+  EXPECT_THAT(recording.remarks, ElementsAre(HasSubstr("no numbers in common")));
+}
+
+}  // namespace
+}  // namespace mtstereo::run
