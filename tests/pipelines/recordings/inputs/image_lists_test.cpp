@@ -9,7 +9,7 @@
 
 #include "recordings/support/recordings_folder.hpp"
 
-namespace mtstereo::run {
+namespace mtstereo::run::image_lists_test {
 namespace {
 
 using ::testing::AllOf;
@@ -148,4 +148,4 @@ TEST_F(Recordings, ImagesWithoutCommonNumbersArePairsByTheirOrder) {
 }
 
 }  // namespace
-}  // namespace mtstereo::run
+}  // namespace mtstereo::run::image_lists_test
