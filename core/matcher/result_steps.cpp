@@ -33,7 +33,7 @@ void ResultBuffers::resize(const Settings& settings, const FrameSize& size, Reus
     worker.edges.resize(aligned.width);
     worker.columns.resize(Bands::kColumns);
   }
-  if (settings.mode != Mode::kFull) return;
+  if (!settings.infers()) return;
   areas.resize(width, height);
   planes.resize(areas.first.size());
   for (Scratch& worker : scratch) worker.votes.resize();
@@ -121,9 +121,10 @@ void correct_strip(const StepContext& step, ResultMaps& result) {
   });
 }
 
-void complete_flat_areas(const StepContext& step, const Views& views, ResultMaps& result,
-                         ResultBuffers& buffers) {
+void fit_flat_areas(const StepContext& step, const Views& views, const ResultMaps& result,
+                    ResultBuffers& buffers) {
   FlatAreas& areas = buffers.areas;
+  areas.count = 0;
   if (areas.gray.width() == 0 || areas.gray.height() == 0) return;
   const Bands bands = step.bands.of_height(areas.gray.height());
   for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grays = {};
@@ -140,8 +141,18 @@ void complete_flat_areas(const StepContext& step, const Views& views, ResultMaps
     fit_planes(areas, first, last, *result.disparity, *result.confidence,
                buffers.scratch[worker].votes, buffers.planes);
   });
+}
+
+void complete_flat_areas(const StepContext& step, ResultMaps& result,
+                         const ResultBuffers& buffers) {
   step.bands.rows([&](int y0, int y1, int) {
-    complete_planes(areas, buffers.planes, y0, y1, *result.confidence, *result.disparity);
+    complete_planes(buffers.areas, buffers.planes, y0, y1, *result.confidence, *result.disparity);
+  });
+}
+
+void doubt_flat_areas(const StepContext& step, ResultMaps& result, const ResultBuffers& buffers) {
+  step.bands.rows([&](int y0, int y1, int) {
+    doubt_off_planes(buffers.areas, buffers.planes, y0, y1, *result.disparity, *result.confidence);
   });
 }
 

@@ -84,9 +84,15 @@ void calibrate_confidence(const StepContext& step, const Views& views, const Pyr
 /// Corrects what the right camera may not see at the left of the complete, rated map.
 void correct_strip(const StepContext& step, ResultMaps& result);
 
-/// Gives the doubted pixels of flat areas of the left view the planes of the believed ones.
-void complete_flat_areas(const StepContext& step, const Views& views, ResultMaps& result,
-                         ResultBuffers& buffers);
+/// Finds the planes of the flat areas of the left view.
+void fit_flat_areas(const StepContext& step, const Views& views, const ResultMaps& result,
+                    ResultBuffers& buffers);
+
+/// Gives the doubted pixels of flat areas their planes.
+void complete_flat_areas(const StepContext& step, ResultMaps& result, const ResultBuffers& buffers);
+
+/// Lowers the confidence of what contradicts the planes of flat areas.
+void doubt_flat_areas(const StepContext& step, ResultMaps& result, const ResultBuffers& buffers);
 
 /// Finds how the camera moved since the last pair.
 void find_camera_motion(const StepContext& step, const Views& views, const ResultMaps& result,

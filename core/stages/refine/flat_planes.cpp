@@ -165,6 +165,26 @@ void judge(const PlaneVotes& votes, FlatPlane& plane) {
   plane.accepted = 2 * agreeing >= all;
 }
 
+/// Calls body(x, disparity) for the pixels of row y in areas with an accepted plane, with what the
+/// plane has there [px].
+template <typename Body>
+void for_each_plane(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int y, int width,
+                    Body&& body) {
+  if (areas.count == 0) return;
+  const SpeckleRuns& runs = areas.runs;
+  const int half_y = std::min(y / 2, runs.height - 1);
+  for (std::uint32_t run = runs.first[half_y]; run < runs.last[half_y]; ++run) {
+    const std::uint32_t number = areas.area[run];
+    if (number == 0 || !planes[number - 1].accepted) continue;
+    const FlatPlane& plane = planes[number - 1];
+    const int end = runs.end[run] == runs.width ? width : 2 * runs.end[run];
+    for (int x = 2 * runs.begin[run]; x < end; ++x) {
+      const float disparity = plane.at(static_cast<float>(x), static_cast<float>(y));
+      body(x, std::clamp(disparity, plane.least, plane.most));
+    }
+  }
+}
+
 }  // namespace
 
 void PlaneVotes::resize() {
@@ -189,21 +209,24 @@ void fit_planes(const FlatAreas& areas, int first, int last, const Image<std::in
 
 void complete_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int y0, int y1,
                      const Image<std::uint8_t>& confidence, Image<std::int32_t>& map) {
-  const SpeckleRuns& runs = areas.runs;
   for (int y = y0; y < y1; ++y) {
-    const int half_y = std::min(y / 2, runs.height - 1);
-    for (std::uint32_t run = runs.first[half_y]; run < runs.last[half_y]; ++run) {
-      const std::uint32_t number = areas.area[run];
-      if (number == 0 || !planes[number - 1].accepted) continue;
-      const FlatPlane& plane = planes[number - 1];
-      const int end = runs.end[run] == runs.width ? map.width() : 2 * runs.end[run];
-      for (int x = 2 * runs.begin[run]; x < end; ++x) {
-        if (confidence.row(y)[x] >= kDoubted) continue;
-        const float disparity = plane.at(static_cast<float>(x), static_cast<float>(y));
-        const float limited = std::clamp(disparity, plane.least, plane.most);
-        map.row(y)[x] = std::max(1, static_cast<int>(std::lround(limited * kOne)));
-      }
-    }
+    for_each_plane(areas, planes, y, map.width(), [&](int x, float disparity) {
+      if (confidence.row(y)[x] >= kDoubted) return;
+      map.row(y)[x] = std::max(1, static_cast<int>(std::lround(disparity * kOne)));
+    });
+  }
+}
+
+void doubt_off_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int y0, int y1,
+                      const Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+  for (int y = y0; y < y1; ++y) {
+    for_each_plane(areas, planes, y, map.width(), [&](int x, float disparity) {
+      const float found = static_cast<float>(map.row(y)[x]) / kOne;
+      const float tolerance = std::max(kPlaneDistance, kPlaneDistanceShare * found);
+      if (std::abs(disparity - found) <= tolerance) return;
+      confidence.row(y)[x] =
+          static_cast<std::uint8_t>(std::max(confidence.row(y)[x] - kContradicted, 1));
+    });
   }
 }
 

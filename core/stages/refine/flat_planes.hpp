@@ -9,16 +9,23 @@
 
 namespace mtstereo {
 
-/// Gives the doubted pixels of a flat area the plane that its believed pixels agree on: there is
+/// Compares the pixels of a flat area with the plane that its believed pixels agree on: there is
 /// nothing in the area that the matching could have seen.
 ///
-/// Call fit_planes() for all areas, then complete_planes() for all bands of rows.
+/// Call fit_planes() for all areas, then complete_planes() or doubt_off_planes() for all bands of
+/// rows.
 
 /// A pixel votes if its confidence is above kLeastVoter; its weight is what it has above.
 inline constexpr int kLeastVoter = 60;
 
 /// A pixel is doubted, and may be replaced, below this confidence.
 inline constexpr int kDoubted = 100;
+
+/// A disparity contradicts a plane that is further away: 3 px, or this share of the disparity. It
+/// loses kContradicted of its confidence.
+inline constexpr float kPlaneDistance = 3;
+inline constexpr float kPlaneDistanceShare = 0.06F;
+inline constexpr int kContradicted = 60;
 
 /// Votes of an area: fewer than kFewestVotes decide nothing; of more than kMostVotes as many are
 /// taken, evenly spread over the area.
@@ -73,5 +80,10 @@ void fit_planes(const FlatAreas& areas, int first, int last, const Image<std::in
 /// Replaces the doubted disparities in the rows y0 .. y1 - 1 of the areas whose plane is accepted.
 void complete_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int y0, int y1,
                      const Image<std::uint8_t>& confidence, Image<std::int32_t>& map);
+
+/// Lowers the confidence of the disparities in the rows y0 .. y1 - 1 that contradict the accepted
+/// plane of their area, to 1 at least.
+void doubt_off_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int y0, int y1,
+                      const Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
 
 }  // namespace mtstereo

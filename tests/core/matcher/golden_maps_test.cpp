@@ -46,7 +46,7 @@ struct Golden {
 constexpr Golden kGolden[] = {
     {"default", "sparse", 0x59306d365bd4dd7f},
     {"default", "semi-dense", 0x790b6f9d2a6a9133},
-    {"default", "dense", 0x4856355add80bfc5},
+    {"default", "dense", 0x3524365be52279bb},
     {"default", "full", 0x5de1ed8019ea212e},
     {"fast", "sparse", 0x8f422fc2be600698},
     {"fast", "semi-dense", 0xd27be5deaa7a6308},

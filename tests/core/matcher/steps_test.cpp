@@ -62,10 +62,11 @@ TEST(Steps, CloseGapsOfTheCompleteMapAfterTheRejection) {
 
 TEST(Steps, RejectUnlikelyDisparitiesOfTheCompleteMapInModeDense) {
   const Parameters dense = test::parameters({{"mode", "dense"}});
-  expect_order(dense,
-               {"path-matching", "guide-support", "guide-rating", "thin-search", "speckle-removal",
-                "completion", "edge-alignment", "reliability", "rejection", "thin-drawing"});
-  expect_none_of(dense, {"fine-detail", "left-strip", "node-matching", "gap-closing"});
+  expect_order(dense, {"path-matching", "guide-support", "guide-rating", "thin-search",
+                       "speckle-removal", "completion", "edge-alignment", "reliability",
+                       "flat-planes", "plane-check", "rejection", "thin-drawing"});
+  expect_none_of(dense,
+                 {"fine-detail", "left-strip", "plane-completion", "node-matching", "gap-closing"});
   expect_none_of(test::parameters({{"mode", "dense"}, {"min-confidence", "0"}}), {"rejection"});
 }
 
@@ -83,9 +84,9 @@ TEST(Steps, EnlargeTheCompleteMapOfHalvedViews) {
   const Parameters fast =
       test::parameters({{"mode", "full"}, {"preset", "fast"}, {"min-disparity", "3"}});
   expect_order(fast, {"halving", "path-matching", "guide-rating", "completion", "edge-alignment",
-                      "reliability", "flat-planes", "enlarging", "input-census", "refinement",
-                      "enlarged-edges", "map-shift"});
-  expect_none_of(fast, {"plane-edges"});
+                      "reliability", "flat-planes", "plane-completion", "enlarging", "input-census",
+                      "refinement", "enlarged-edges", "map-shift"});
+  expect_none_of(fast, {"plane-check", "plane-edges"});
   expect_none_of(test::parameters({{"mode", "full"}}), {"enlarged-edges"});
 }
 

@@ -328,6 +328,10 @@ inline void complete_flat_areas(Frame& f) {
   take(f, complete_flat_areas(f.plain[0], f.rated_noise, ConfidentMap{f.map, f.confidence}));
 }
 
+inline void doubt_flat_areas(Frame& f) {
+  take(f, doubt_flat_areas(f.plain[0], f.rated_noise, ConfidentMap{f.map, f.confidence}));
+}
+
 inline void draw_thin_structures(Frame& f) {
   draw_thin_structures(f.found, std::max(f.settings.min_confidence, 16),
                        f.settings.keeps_likely_only(), f.map, f.confidence);
@@ -378,7 +382,7 @@ inline void refine(Frame& f) {
                  f.settings.view_disparities);
 }
 
-inline void nothing(Frame&) {}  // other steps call reference::census() themselves
+inline void nothing(Frame&) {}  // the scalar versions of later steps include it
 
 /// The scalar version of each step of the matcher, by the name of the step.
 inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = {
@@ -416,7 +420,9 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"edge-alignment", align_edges},
     {"reliability", calibrate_confidence},
     {"left-strip", correct_strip},
-    {"flat-planes", complete_flat_areas},
+    {"flat-planes", nothing},
+    {"plane-check", doubt_flat_areas},
+    {"plane-completion", complete_flat_areas},
     {"plane-edges", align_edges},
     {"holding", hold_known},
     {"rejection", reject_unlikely},

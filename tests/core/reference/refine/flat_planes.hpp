@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -158,32 +159,50 @@ inline VotedPlane least_squares(const std::vector<PlaneVote>& votes, const Voted
           static_cast<float>((d - a * x - b * y) / w)};
 }
 
-/// Gives the doubted pixels of one area the plane on which half of the votes agree.
-inline void complete_area(const Pixels& area, const ConfidentMap& in, ConfidentMap& out) {
+/// The disparities of a plane, limited.
+struct AcceptedPlane {
+  VotedPlane plane;
+  float least = 1e9F;
+  float most = -1e9F;
+
+  float at(int x, int y) const {
+    const float disparity = plane.at(static_cast<float>(x), static_cast<float>(y));
+    return std::min(std::max(disparity, least), most);
+  }
+};
+
+/// The plane on which half of the votes of an area agree, if there is one.
+inline std::optional<AcceptedPlane> accepted_plane(const Pixels& area, const ConfidentMap& in) {
   const std::vector<PlaneVote> votes = plane_votes(area, in);
-  if (votes.empty()) return;
-  VotedPlane plane = voted_plane(votes);
-  for (int i = 0; i < 2; ++i) plane = least_squares(votes, plane);
-  float least = 1e9F, most = -1e9F;
+  if (votes.empty()) return {};
+  AcceptedPlane accepted = {voted_plane(votes)};
+  for (int i = 0; i < 2; ++i) accepted.plane = least_squares(votes, accepted.plane);
   long all = 0;
   for (const PlaneVote& vote : votes) {
     all += vote.weight;
-    if (!plane.fits(vote)) continue;
-    least = std::min(least, vote.disparity - 4);
-    most = std::max(most, vote.disparity + 4);
+    if (!accepted.plane.fits(vote)) continue;
+    accepted.least = std::min(accepted.least, vote.disparity - 4);
+    accepted.most = std::max(accepted.most, vote.disparity + 4);
   }
-  if (2L * agreeing(votes, plane) < all) return;
+  if (2L * agreeing(votes, accepted.plane) < all) return {};
+  return accepted;
+}
+
+/// Calls body(x, y, disparity) for the pixels of all flat areas that have a plane.
+template <typename Body>
+void for_each_flat_pixel(const GrayPlane& left, float noise, const ConfidentMap& in, Body&& body) {
+  const DisparityPlane half = halved_sums(left);
+  if (half.pixels.empty()) return;
   const int width = in.map.width, height = in.map.height;
-  for (const auto& [half_x, half_y] : area) {
-    // The last pixel of a halved row or column stands for three of an odd size.
-    const int end_x = half_x == width / 2 - 1 ? width : 2 * half_x + 2;
-    const int end_y = half_y == height / 2 - 1 ? height : 2 * half_y + 2;
-    for (int y = 2 * half_y; y < end_y; ++y) {
-      for (int x = 2 * half_x; x < end_x; ++x) {
-        if (in.confidence(x, y) >= 100) continue;
-        const float disparity = plane.at(static_cast<float>(x), static_cast<float>(y));
-        const float limited = std::min(std::max(disparity, least), most);
-        out.map(x, y) = std::max(1, static_cast<int>(std::lround(limited * 256)));
+  for (const Pixels& area : flat_areas(half, flat_step(half, noise))) {
+    const std::optional<AcceptedPlane> plane = accepted_plane(area, in);
+    if (!plane) continue;
+    for (const auto& [half_x, half_y] : area) {
+      // The last pixel of a halved row or column stands for three of an odd size.
+      const int end_x = half_x == width / 2 - 1 ? width : 2 * half_x + 2;
+      const int end_y = half_y == height / 2 - 1 ? height : 2 * half_y + 2;
+      for (int y = 2 * half_y; y < end_y; ++y) {
+        for (int x = 2 * half_x; x < end_x; ++x) body(x, y, plane->at(x, y));
       }
     }
   }
@@ -193,9 +212,22 @@ inline void complete_area(const Pixels& area, const ConfidentMap& in, ConfidentM
 inline ConfidentMap complete_flat_areas(const GrayPlane& left, float noise,
                                         const ConfidentMap& in) {
   ConfidentMap out = in;
-  const DisparityPlane half = halved_sums(left);
-  if (half.pixels.empty()) return out;
-  for (const Pixels& area : flat_areas(half, flat_step(half, noise))) complete_area(area, in, out);
+  for_each_flat_pixel(left, noise, in, [&](int x, int y, float disparity) {
+    if (in.confidence(x, y) >= 100) return;
+    out.map(x, y) = std::max(1, static_cast<int>(std::lround(disparity * 256)));
+  });
+  return out;
+}
+
+/// Lowers the confidence of the disparities in flat areas that contradict the areas' planes.
+inline ConfidentMap doubt_flat_areas(const GrayPlane& left, float noise, const ConfidentMap& in) {
+  ConfidentMap out = in;
+  for_each_flat_pixel(left, noise, in, [&](int x, int y, float disparity) {
+    const float found = static_cast<float>(in.map(x, y)) / 256;
+    if (std::abs(found - disparity) <= std::max(3.0F, 0.06F * found)) return;
+    const int lower = std::max(in.confidence(x, y) - 60, 1);
+    out.confidence(x, y) = static_cast<std::uint8_t>(lower);
+  });
   return out;
 }
 

@@ -17,9 +17,10 @@ using test::GrayPlane;
 
 constexpr int kWhole = 1 << 20;
 
-/// The completed map, computed `at_once` areas and `band` rows at a time.
-DisparityPlane completed(const GrayPlane& view, const ConfidentMap& in, int at_once = kWhole,
-                         int band = kWhole) {
+/// The map and its confidence, completed or doubted, computed `at_once` areas and `band` rows at a
+/// time.
+ConfidentMap result_of(const GrayPlane& view, const ConfidentMap& in, bool completes,
+                       int at_once = kWhole, int band = kWhole) {
   FlatAreas areas;
   areas.resize(view.width, view.height);
   const int height = areas.gray.height();
@@ -27,7 +28,7 @@ DisparityPlane completed(const GrayPlane& view, const ConfidentMap& in, int at_o
   find_runs(areas.gray, step, 0, height, areas.runs);
   number_areas(areas);
   Image<std::int32_t> map = image_of(in.map);
-  const Image<std::uint8_t> confidence = image_of(in.confidence);
+  Image<std::uint8_t> confidence = image_of(in.confidence);
   PlaneVotes votes;
   votes.resize();
   Buffer<FlatPlane> planes;
@@ -38,9 +39,17 @@ DisparityPlane completed(const GrayPlane& view, const ConfidentMap& in, int at_o
   }
   for (int y = 0; y < view.height; y += std::min(band, view.height)) {
     const int end = band < view.height - y ? y + band : view.height;
-    complete_planes(areas, planes, y, end, confidence, map);
+    if (completes) {
+      complete_planes(areas, planes, y, end, confidence, map);
+    } else {
+      doubt_off_planes(areas, planes, y, end, map, confidence);
+    }
   }
-  return copy_of(map);
+  return {copy_of(map), copy_of(confidence)};
+}
+
+DisparityPlane completed(const GrayPlane& view, const ConfidentMap& in) {
+  return result_of(view, in, true).map;
 }
 
 /// The disparity of a slanted plane [1/256 px].
@@ -72,9 +81,13 @@ TEST(FlatPlanes, EqualReferenceAtEveryWidth) {
         in.confidence(x, y) = static_cast<std::uint8_t>(random.between(1, 180));
       }
     }
-    const ConfidentMap expected = reference::complete_flat_areas(view, 0, in);
+    const ConfidentMap complete = reference::complete_flat_areas(view, 0, in);
+    const ConfidentMap doubted = reference::doubt_flat_areas(view, 0, in);
     for (const int at_once : {1, 3, kWhole}) {
-      EXPECT_TRUE(same_image(expected.map, completed(view, in, at_once, 3 * at_once))) << width;
+      const ConfidentMap made = result_of(view, in, true, at_once, 3 * at_once);
+      EXPECT_TRUE(same_image(complete.map, made.map)) << width;
+      const ConfidentMap checked = result_of(view, in, false, at_once, 3 * at_once);
+      EXPECT_TRUE(same_image(doubted.confidence, checked.confidence)) << width;
     }
   }
 }
@@ -120,6 +133,18 @@ TEST(FlatPlanes, ChangeNothingByFewVotes) {
     const DisparityPlane out = completed(GrayPlane(80, 60, 100), in);
     EXPECT_EQ(votes < kFewestVotes, same_image(in.map, out)) << votes;
   }
+}
+
+TEST(FlatPlanes, LowerTheConfidenceOfWhatContradictsThem) {
+  ConfidentMap in = plane_map(80, 60, [](int x, int) { return x < 10; });
+  in.map(40, 20) += 256 * 2;  // within 3 px
+  in.map(41, 20) += 256 * 4;
+  const ConfidentMap out = result_of(GrayPlane(80, 60, 100), in, false);
+  EXPECT_TRUE(same_image(in.map, out.map));
+  EXPECT_EQ(200, out.confidence(40, 20));
+  EXPECT_EQ(200 - kContradicted, out.confidence(41, 20));
+  EXPECT_EQ(1, out.confidence(5, 20));  // doubted, and at least 1
+  EXPECT_EQ(200, out.confidence(70, 50));
 }
 
 TEST(FlatPlanes, LeaveTextureAlone) {
