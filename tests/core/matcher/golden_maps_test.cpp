@@ -50,7 +50,7 @@ constexpr Golden kGolden[] = {
     {"default", "full", 0x5de1ed8019ea212e},
     {"fast", "sparse", 0x8f422fc2be600698},
     {"fast", "semi-dense", 0xd27be5deaa7a6308},
-    {"fast", "dense", 0x90ade61428bfdda1},
+    {"fast", "dense", 0xdd7a3cdda9773692},
     {"fast", "full", 0xd818a21aba707475},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
