@@ -9,6 +9,7 @@
 #include "base/guard.hpp"
 #include "geometry/calibration_checks.hpp"
 #include "geometry/calibration_remarks.hpp"
+#include "geometry/check_image.hpp"
 #include "geometry/formats/value.hpp"
 #include "mtstereo/parameters.hpp"
 
@@ -31,10 +32,6 @@ bool all_finite(const auto& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-std::string sides_text(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
 Eigen::Matrix3d to_eigen(const Matrix3& matrix) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(matrix.data());
 }
@@ -45,8 +42,8 @@ std::string size_problem(int width, int height) {
   if (width >= 1 && height >= 1 && width <= kLargestImageSide && height <= kLargestImageSide) {
     return {};
   }
-  return "has the size " + sides_text(width, height) + ", 1x1 to " +
-         sides_text(kLargestImageSide, kLargestImageSide) + " is needed";
+  return "has the size " + size_text(width, height) + ", 1x1 to " +
+         size_text(kLargestImageSide, kLargestImageSide) + " is needed";
 }
 
 /// A center outside of the image belongs to another size. Rectified views, which have no
@@ -56,7 +53,7 @@ bool is_center_plausible(double center, int side, LensModel lens) {
   return side == 0 || (center > -outside && center < side + outside);
 }
 
-std::string figures_problem(const CameraCalibration& camera) {
+std::string stated_camera_problem(const CameraCalibration& camera) {
   std::string problem = size_problem(camera.width, camera.height);
   if (!problem.empty()) return problem;
   if (!std::isfinite(camera.focal_x) || !std::isfinite(camera.focal_y) || camera.focal_x <= 0 ||
@@ -71,7 +68,7 @@ std::string figures_problem(const CameraCalibration& camera) {
       !is_center_plausible(camera.center_y, camera.height, camera.lens)) {
     return "has the principal point (" + number_text(camera.center_x) + ", " +
            number_text(camera.center_y) + ") outside of its image of " +
-           sides_text(camera.width, camera.height) +
+           size_text(camera.width, camera.height) +
            "; K belongs to another image size. State that size in the file (image_size: [ WIDTH, "
            "HEIGHT ]), and the calibration is scaled";
   }
@@ -114,9 +111,9 @@ std::string rectification_problem(const Rectification& rectification,
 
 /// Why a calibration cannot be used, or an empty text.
 std::string calibration_problem(const StereoCalibration& calibration) {
-  std::string problem = figures_problem(calibration.left);
+  std::string problem = stated_camera_problem(calibration.left);
   if (!problem.empty()) return "the left camera " + problem;
-  problem = figures_problem(calibration.right);
+  problem = stated_camera_problem(calibration.right);
   if (!problem.empty()) return "the right camera " + problem;
   if ((calibration.left.width == 0) != (calibration.right.width == 0)) {
     return "only one of the cameras has a size";
@@ -149,8 +146,8 @@ void scale_camera(CameraCalibration& camera, double x, double y) {
 
 Error aspect_error(const CameraCalibration& camera, int width, int height) {
   return {ErrorCode::kInvalidCalibration,
-          "the calibration is for images of " + sides_text(camera.width, camera.height) +
-              ", the video has " + sides_text(width, height) +
+          "the calibration is for images of " + size_text(camera.width, camera.height) +
+              ", the video has " + size_text(width, height) +
               ": the aspect ratios differ, so the camera crops; calibrate with this size"};
 }
 
@@ -180,7 +177,7 @@ Result<StereoCalibration> scaled(StereoCalibration calibration, int width, int h
   if (const Status status = check_calibration(calibration); !status) return status.error();
   if (width < 1 || height < 1 || width > kLargestImageSide || height > kLargestImageSide) {
     return Error{ErrorCode::kInvalidCalibration,
-                 "a calibration cannot be scaled to " + sides_text(width, height)};
+                 "a calibration cannot be scaled to " + size_text(width, height)};
   }
   CameraCalibration& left = calibration.left;
   CameraCalibration& right = calibration.right;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Calls the reader of their format.
+// Reads the files that a path names, by the readers of their formats.
 
 #include <string>
 #include <vector>

@@ -142,8 +142,9 @@ TEST(ScaleCalibration, AcceptsRoundedSizesAndRefusesOtherAspectRatios) {
   const Result<StereoCalibration> wide = scale_calibration(pair, 640, 360);
   ASSERT_FALSE(wide.ok());
   EXPECT_EQ(wide.error().code, ErrorCode::kInvalidCalibration);
-  EXPECT_THAT(wide.error().message,
-              HasSubstr("for images of 640x480, the video has 640x360: the aspect ratios differ"));
+  EXPECT_THAT(
+      wide.error().message,
+      HasSubstr("for images of 640x480 px, the video has 640x360 px: the aspect ratios differ"));
   EXPECT_FALSE(scale_calibration(pair, 640, 482).ok());
   EXPECT_FALSE(scale_calibration(pair, 0, 0).ok());
   EXPECT_FALSE(scale_calibration(pair, -640, -480).ok());
