@@ -54,7 +54,6 @@ void LastPair::resize(const Settings& settings, const FrameSize& size) {
   for (ViewPyramid* pyramid : {&view, &present}) pyramid->resize(width, height);
   points.resize(width, height);
   disparity.resize(width, height);
-  least.resize(width, height);
 }
 
 void measure_block_grid(const StepContext& step, const Views& views, ResultMaps& result,
@@ -170,24 +169,22 @@ void find_camera_motion(const StepContext& step, const Views& views, const Resul
                             result.disparity->height());
 }
 
-void hold_known(const StepContext& step, const ResultMaps& result, LastPair& last) {
+void hold_known(const StepContext& step, const LastPair& last, ResultMaps& result) {
   if (!last.motion) return;
   const LeastConfidence least = step.settings.least_confidence();
   const float offset = step.settings.matched_offset();
   step.bands.rows([&](int y0, int y1, int) {
-    choose_least(least, *last.motion, offset, last.disparity, *result.disparity, y0, y1,
-                 last.least);
+    threshold_by_last(least, *last.motion, offset, last.disparity, y0, y1, *result.disparity,
+                      *result.confidence);
   });
 }
 
 void reject_unlikely(const StepContext& step, const LastPair& last, Maps& maps,
                      ResultMaps& result) {
   const Settings& settings = step.settings;
-  const bool each = settings.holds() && last.motion.has_value();
+  const bool held = settings.holds() && last.motion.has_value();
   step.bands.rows([&](int y0, int y1, int) {
-    if (each) {
-      threshold_each(last.least, y0, y1, *result.disparity, *result.confidence);
-    } else {
+    if (!held) {
       threshold_confidence(settings.least_reliability(), y0, y1, *result.disparity,
                            *result.confidence);
     }

@@ -52,7 +52,6 @@ struct LastPair {
   ViewPyramid present;                 ///< the left view
   MotionPoints points;                 ///< of the left view and the map; kept for the next pair
   std::optional<CameraMotion> motion;  ///< if the last pair shows the same scene
-  Image<std::uint8_t> least;           ///< confidence that each pixel needs, if there is a motion
 
   /// Begins anew, as for another stream.
   void restart() { valid = false; }
@@ -98,10 +97,12 @@ void doubt_flat_areas(const StepContext& step, ResultMaps& result, const ResultB
 void find_camera_motion(const StepContext& step, const Views& views, const ResultMaps& result,
                         LastPair& last);
 
-/// Decides by the last pair what confidence each pixel of the complete map needs.
-void hold_known(const StepContext& step, const ResultMaps& result, LastPair& last);
+/// Removes what is less reliable than asked for of what the last pair knows, if the motion since is
+/// known.
+void hold_known(const StepContext& step, const LastPair& last, ResultMaps& result);
 
-/// Removes what is less reliable than asked for, and small islands that are left.
+/// Removes what is less reliable than asked for, unless the last pair decided that, and small islands
+/// that are left.
 void reject_unlikely(const StepContext& step, const LastPair& last, Maps& maps, ResultMaps& result);
 
 /// Fills small gaps that the rejection has left in a surface. What it fills is inferred, not

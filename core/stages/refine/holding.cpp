@@ -100,36 +100,26 @@ int in_steps(std::int32_t disparity) {
 
 }  // namespace
 
-void choose_least(const LeastConfidence& least, const CameraMotion& motion, float offset,
-                  const Image<std::uint16_t>& last, const Image<std::int32_t>& map, int y0, int y1,
-                  Image<std::uint8_t>& chosen) {
+void threshold_by_last(const LeastConfidence& least, const CameraMotion& motion, float offset,
+                       const Image<std::uint16_t>& last, int y0, int y1, Image<std::int32_t>& map,
+                       Image<std::uint8_t>& confidence) {
   HeldPlaces places;
   const std::uint16_t* known = last.row(0);
   for (int y = y0; y < y1; ++y) {
     for (int x = 0; x < map.width(); x += HeldPlaces::kMost) {
-      const int count = std::min(map.width() - x, HeldPlaces::kMost);
       HWY_DYNAMIC_DISPATCH(find_places)(motion, offset, map, x, y, last.stride(), places);
-      std::uint8_t* out = chosen.row(y) + x;
+      const int count = std::min(map.width() - x, HeldPlaces::kMost);
+      std::int32_t* __restrict__ disparity = map.row(y) + x;
+      std::uint8_t* __restrict__ rating = confidence.row(y) + x;
       for (int i = 0; i < count; ++i) {
         const bool outside = places.index[i] == HeldPlaces::kOutside;
         const int before = outside ? kDecidesNothing : known[places.index[i]];
         const bool same = std::abs(before - places.disparity[i]) <= kHeldTolerance;
-        out[i] = before == 0 ? least.fresh : same ? least.known : least.usual;
+        const int needed = before == 0 ? least.fresh : same ? least.known : least.usual;
+        const bool kept = rating[i] >= needed;
+        disparity[i] = kept ? disparity[i] : kNoDisparity;
+        rating[i] = kept ? rating[i] : std::uint8_t{0};
       }
-    }
-  }
-}
-
-void threshold_each(const Image<std::uint8_t>& least, int y0, int y1, Image<std::int32_t>& map,
-                    Image<std::uint8_t>& confidence) {
-  for (int y = y0; y < y1; ++y) {
-    const std::uint8_t* __restrict__ needed = least.row(y);
-    std::int32_t* __restrict__ disparity = map.row(y);
-    std::uint8_t* __restrict__ rating = confidence.row(y);
-    for (int x = 0; x < map.width(); ++x) {
-      const bool kept = rating[x] >= needed[x];
-      disparity[x] = kept ? disparity[x] : kNoDisparity;
-      rating[x] = kept ? rating[x] : std::uint8_t{0};
     }
   }
 }

@@ -33,16 +33,11 @@ struct HeldPlaces {
   alignas(kAlignment) std::array<std::int32_t, kMost> disparity;  ///< [1 / kHeldOne px]
 };
 
-/// The least confidence of each pixel of the rows y0 .. y1 - 1. `offset` is what a
-/// disparity of 0 px of the maps stands for [px].
-void choose_least(const LeastConfidence& least, const CameraMotion& motion, float offset,
-                  const Image<std::uint16_t>& last, const Image<std::int32_t>& map, int y0, int y1,
-                  Image<std::uint8_t>& chosen);
-
 /// Removes the disparities of the rows y0 .. y1 - 1 whose confidence is below the least of the
-/// pixel.
-void threshold_each(const Image<std::uint8_t>& least, int y0, int y1, Image<std::int32_t>& map,
-                    Image<std::uint8_t>& confidence);
+/// pixel. `offset` is what a disparity of 0 px of the maps stands for [px].
+void threshold_by_last(const LeastConfidence& least, const CameraMotion& motion, float offset,
+                       const Image<std::uint16_t>& last, int y0, int y1, Image<std::int32_t>& map,
+                       Image<std::uint8_t>& confidence);
 
 /// Copies the rows y0 .. y1 - 1 of a map, to be the last one of the next pair.
 void copy_last(const Image<std::int32_t>& map, int y0, int y1, Image<std::uint16_t>& last);

@@ -79,10 +79,6 @@ void expect_step(const reference::Frame& expected, const Step& step, const Frame
       EXPECT_TRUE(same_image(expected.input[side], memory.views.input[side]));
     }
   }
-  if (step.name == "holding") {
-    const bool decides = expected.least.width > 0;
-    EXPECT_TRUE(!decides || same_image(expected.least, memory.last.least.view()));
-  }
   if (step.name == "node-matching") expect_ends(expected, memory.nodes);
   const DisparityView map = test::map_after(step, memory);
   if (map.width > 0) {

@@ -76,7 +76,6 @@ struct Frame {
   DisparityPlane kept;                   ///< this map, to be the last one of the next pair
   std::optional<CameraMotion> motion;    ///< to the last pair; the caller finds it
   std::optional<CameraMotion> followed;  ///< from the last pair, by the views; likewise
-  GrayPlane least;                       ///< confidence that each pixel needs; empty: all the same
 };
 
 /// Left pixels before the first column, and right ones after the last one, repeat these.
@@ -337,18 +336,25 @@ inline void draw_thin_structures(Frame& f) {
                        f.settings.keeps_likely_only(), f.map, f.confidence);
 }
 
+/// Removes the disparities whose confidence is below least(i).
+template <typename Least>
+void threshold(Frame& f, Least least) {
+  for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
+    if (f.confidence.pixels[i] < least(i)) f.map.pixels[i] = f.confidence.pixels[i] = 0;
+  }
+}
+
 inline void hold_known(Frame& f) {
   if (!f.motion) return;
   const auto [usual, known, fresh] = f.settings.least_confidence();
   const float offset = f.settings.min_disparity / (f.settings.half() ? 2.0F : 1.0F);
-  f.least = least_confidence(f.map, f.last, *f.motion, offset, {usual, known, fresh});
+  const GrayPlane least = least_confidence(f.map, f.last, *f.motion, offset, {usual, known, fresh});
+  threshold(f, [&](std::size_t i) { return least.pixels[i]; });
 }
 
 inline void reject_unlikely(Frame& f) {
-  for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
-    const int least = f.least.width > 0 ? f.least.pixels[i] : f.settings.least_reliability();
-    if (f.confidence.pixels[i] >= least) continue;
-    f.map.pixels[i] = f.confidence.pixels[i] = 0;
+  if (!f.settings.holds() || !f.motion) {
+    threshold(f, [&](std::size_t) { return f.settings.least_reliability(); });
   }
   f.map = remove_speckles(f.map, 256, f.settings.speckle_size).map;
   for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {

@@ -27,17 +27,29 @@ void in_bands(int rows, int height, Body body) {
   for (int y = 0; y < height; y += rows) body(y, std::min(y + rows, height));
 }
 
+/// The least confidence with which each disparity is kept; 0 if it is kept with none that is tried.
 GrayPlane chosen(const DisparityPlane& map, const DisparityPlane& last, const CameraMotion& motion,
                  float offset = 0, int rows = 1 << 20) {
   Image<std::uint16_t> before;
   before.resize(map.width, map.height);
-  Image<std::uint8_t> least;
-  least.resize(map.width, map.height);
   in_bands(rows, map.height, [&](int y0, int y1) { copy_last(image_of(last), y0, y1, before); });
-  in_bands(rows, map.height, [&](int y0, int y1) {
-    choose_least(kLeast, motion, offset, before, image_of(map), y0, y1, least);
-  });
-  return copy_of(least);
+  GrayPlane least(map.width, map.height);
+  for (const int tried : {150, 149, 140, 139, 110, 109}) {
+    Image<std::int32_t> kept = image_of(map);
+    Image<std::uint8_t> rating = image_of(GrayPlane(map.width, map.height, tried));
+    in_bands(rows, map.height, [&](int y0, int y1) {
+      threshold_by_last(kLeast, motion, offset, before, y0, y1, kept, rating);
+    });
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) {
+        const bool keeps = rating.row(y)[x] != 0;
+        if (keeps) least(x, y) = static_cast<std::uint8_t>(tried);
+        EXPECT_EQ(keeps ? tried : 0, rating.row(y)[x]);
+        EXPECT_EQ(keeps ? map(x, y) : 0, kept.row(y)[x]);
+      }
+    }
+  }
+  return least;
 }
 
 /// The least confidence of one pixel of a still view, with these disparities [1/256 px].
@@ -114,15 +126,20 @@ TEST(Holding, WithstandsMotionsWithoutSense) {
 
 TEST(Holding, RemovesWhatHasLessConfidenceThanItNeeds) {
   for (const int rows : {1, 1 << 20}) {
+    DisparityPlane last(3, 2, 2560);
+    last.pixels[4] = last.pixels[5] = 0;
+    Image<std::uint16_t> before;
+    before.resize(3, 2);
+    copy_last(image_of(last), 0, 2, before);
     Image<std::int32_t> map = image_of(DisparityPlane(3, 2, 2560));
-    GrayPlane rating(3, 2), needed(3, 2);
-    rating.pixels = {59, 60, 255, 1, 0, 150};
-    needed.pixels = {60, 60, 60, 1, 1, 151};
+    GrayPlane rating(3, 2);
+    rating.pixels = {109, 110, 255, 0, 149, 150};
     Image<std::uint8_t> confidence = image_of(rating);
-    in_bands(rows, 2,
-             [&](int y0, int y1) { threshold_each(image_of(needed), y0, y1, map, confidence); });
-    EXPECT_EQ((std::vector<std::int32_t>{0, 2560, 2560, 2560, 0, 0}), copy_of(map).pixels);
-    EXPECT_EQ((std::vector<std::uint8_t>{0, 60, 255, 1, 0, 0}), copy_of(confidence).pixels);
+    in_bands(rows, 2, [&](int y0, int y1) {
+      threshold_by_last(kLeast, {}, 0, before, y0, y1, map, confidence);
+    });
+    EXPECT_EQ((std::vector<std::int32_t>{0, 2560, 2560, 0, 0, 2560}), copy_of(map).pixels);
+    EXPECT_EQ((std::vector<std::uint8_t>{0, 110, 255, 0, 0, 150}), copy_of(confidence).pixels);
   }
 }
 
