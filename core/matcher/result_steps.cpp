@@ -2,7 +2,6 @@
 #include "matcher/result_steps.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "matcher/fine_detail.hpp"
 #include "stages/refine/completion.hpp"
@@ -46,12 +45,14 @@ void measure_fine_detail(const StepContext& step, const Views& views, ResultMaps
   if (share) result.fine_detail = static_cast<float>(*share);
 }
 
-void LastPair::resize(const Settings& settings, const FrameSize& size) {
+void LastPair::resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused) {
   const auto [width, height] = size.matched;
-  if (!settings.follows()) restart();
-  if (!settings.follows() || (disparity.width() == width && disparity.height() == height)) return;
-  restart();
-  for (ViewPyramid* pyramid : {&view, &present}) pyramid->resize(width, height);
+  const bool begins = disparity.width() != width || disparity.height() != height;
+  if (begins || !settings.follows()) restart();
+  if (!settings.follows()) return;
+  reused.start_group();  // find_camera_motion() only
+  present.resize(width, height, &reused);
+  view.resize(width, height);
   points.resize(width, height);
   disparity.resize(width, height);
 }
@@ -164,9 +165,11 @@ void find_camera_motion(const StepContext& step, const Views& views, const Resul
     choose_points(last.present.levels[0], *result.disparity, *result.confidence,
                   step.settings.matched_offset(), row0, row1, last.points);
   });
-  if (!last.valid || !step.settings.holds()) return;
-  last.motion = find_motion(last.points, last.present, last.view, result.disparity->width(),
-                            result.disparity->height());
+  if (last.valid && step.settings.holds()) {
+    last.motion = find_motion(last.points, last.present, last.view, result.disparity->width(),
+                              result.disparity->height());
+  }
+  last.view.take(last.present);
 }
 
 void hold_known(const StepContext& step, const LastPair& last, ResultMaps& result) {
@@ -221,7 +224,6 @@ void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps&
 void keep_pair(const StepContext& step, const ResultMaps& result, LastPair& last) {
   step.bands.rows(
       [&](int y0, int y1, int) { copy_last(*result.disparity, y0, y1, last.disparity); });
-  std::swap(last.view, last.present);
   last.valid = true;
 }
 

@@ -49,13 +49,13 @@ struct LastPair {
   bool valid = false;              ///< there was one
 
   // of the present pair
-  ViewPyramid present;                 ///< the left view
+  ViewPyramid present;                 ///< the left view, in find_camera_motion() only
   MotionPoints points;                 ///< of the left view and the map; kept for the next pair
   std::optional<CameraMotion> motion;  ///< if the last pair shows the same scene
 
   /// Begins anew, as for another stream.
   void restart() { valid = false; }
-  void resize(const Settings& settings, const FrameSize& size);
+  void resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused);
 };
 
 /// Finds whether the map matches the blocks of the views' compression.
@@ -93,7 +93,7 @@ void complete_flat_areas(const StepContext& step, ResultMaps& result, const Resu
 /// Lowers the confidence of what contradicts the planes of flat areas.
 void doubt_flat_areas(const StepContext& step, ResultMaps& result, const ResultBuffers& buffers);
 
-/// Finds how the camera moved since the last pair.
+/// Finds how the camera moved since the last pair, and keeps the left view for the next one.
 void find_camera_motion(const StepContext& step, const Views& views, const ResultMaps& result,
                         LastPair& last);
 
@@ -101,8 +101,8 @@ void find_camera_motion(const StepContext& step, const Views& views, const Resul
 /// known.
 void hold_known(const StepContext& step, const LastPair& last, ResultMaps& result);
 
-/// Removes what is less reliable than asked for, unless the last pair decided that, and small islands
-/// that are left.
+/// Removes what is less reliable than asked for, unless the last pair decided that, and small
+/// islands that are left.
 void reject_unlikely(const StepContext& step, const LastPair& last, Maps& maps, ResultMaps& result);
 
 /// Fills small gaps that the rejection has left in a surface. What it fills is inferred, not
@@ -112,7 +112,7 @@ void close_gaps(const StepContext& step, ResultMaps& result, ResultBuffers& buff
 /// Draws the thin structures into the map.
 void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps& result);
 
-/// Keeps the map and the left view for the next pair.
+/// Keeps the map for the next pair.
 void keep_pair(const StepContext& step, const ResultMaps& result, LastPair& last);
 
 }  // namespace mtstereo

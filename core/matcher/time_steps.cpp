@@ -2,7 +2,6 @@
 #include "matcher/time_steps.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "stages/prepare/halving.hpp"
 
@@ -25,12 +24,14 @@ static_assert(Bands::kRows % kTimeBlock == 0);
 /// Compares the views with their means. Returns the least share of blocks that are still.
 double compare(const StepContext& step, const Views& views, PastViews& past) {
   step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int) {
-    PastViews::View& view = past.views[side];
-    measure_changes(views.input[side], view.filtered, y0, y1, view.blocks);
+    measure_changes(views.input[side], past.last_means(side).filtered, y0, y1,
+                    past.views[side].blocks);
   });
   double still = 1;
-  for (PastViews::View& view : past.views) {
-    still = std::min(still, rate_changes(noise_level(view.noise), view.blocks));
+  for (int side = 0; side < 2; ++side) {
+    PastViews::View& view = past.views[side];
+    const Image<std::uint8_t>& frames = past.last_means(side).frames;
+    still = std::min(still, rate_changes(noise_level(view.noise), frames, view.blocks));
   }
   return still;
 }
@@ -51,11 +52,8 @@ bool follow_camera(const StepContext& step, const LastPair& last, const Views& v
     PastViews::View& view = past.views[side];
     find_moves(*past.motion, past.disparities, side, width, height, view.moves);
     step.input_bands.rows([&](int y0, int y1, int) {
-      move_means(views.input[side], view.moves, view.mean, view.blocks.frames, y0, y1, past.moved,
-                 view.filtered);
+      move_means(views.input[side], view.moves, past.means[side], y0, y1, view.moved);
     });
-    std::swap(view.mean, past.moved.mean);
-    std::swap(view.blocks.frames, past.moved.frames);
   }
   return true;
 }
@@ -76,45 +74,50 @@ bool may_average(const StepContext& step, const LastPair& last, const Views& vie
 
 }  // namespace
 
-void PastViews::resize(const Settings& settings, const FrameSize& size) {
+void PastViews::resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused) {
   const auto [width, height] = size.input;
-  const Image<std::uint8_t>& left = views[0].filtered;
-  if (settings.filters() && left.width() == width && left.height() == height) return;
-  restart();
+  const Image<std::uint8_t>& left = means[0].filtered;
+  const bool begins = left.width() != width || left.height() != height;
+  if (begins || !settings.filters()) restart();
   if (!settings.filters()) return;
-  for (View& view : views) {
-    view.mean.resize(width, height);
-    for (int y = 0; y < height; ++y) std::fill_n(view.mean.row(y), width, std::uint16_t{0});
-    view.filtered.resize(width, height);
-    view.blocks.resize(width, height);
+  reused.start_group();  // filter_in_time() only
+  for (int side = 0; side < 2; ++side) {
+    View& view = views[side];
+    view.blocks.resize(width, height, &reused);
     view.noise.resize(width, height);
-    view.moves.resize(width, height);
+    view.moves.resize(width, height, &reused);
+    view.moved.resize(width, height, &reused);
+    means[side].resize(width, height);
+    if (begins) means[side].clear();
   }
-  moved.resize(width, height);
-  for (ViewPyramid* pyramid : {&last, &present}) pyramid->resize(width, height);
+  last.resize(width, height);
+  present.resize(width, height, &reused);
   // For maps of both resolutions.
   points.resize(half_of(size.frame.width), half_of(size.frame.height));
   points.resize(size.frame.width, size.frame.height);
-  disparities.resize(time_blocks(width), time_blocks(height));
+  disparities.resize(time_blocks(width), time_blocks(height), &reused);
 }
 
 void filter_in_time(const StepContext& step, const LastPair& last, Views& views, PastViews& past) {
+  const bool follows = step.settings.follows();
   past.motion.reset();
-  if (step.settings.follows()) build_pyramid(step.input_bands, views.input[0], past.present);
+  if (follows) build_pyramid(step.input_bands, views.input[0], past.present);
   past.averaged = may_average(step, last, views, past);
-  for (PastViews::View& view : past.views) {
-    count_frames(!past.averaged, view.blocks);
+  for (int side = 0; side < 2; ++side) {
+    PastViews::View& view = past.views[side];
+    count_frames(!past.averaged, past.last_means(side).frames, view.blocks,
+                 past.means[side].frames);
     // Halved views have half of their noise.
     const float noise = past.averaged ? noise_level(view.noise) : 0;
     views.input_noise = std::max(views.input_noise, step.settings.half() ? noise / 2 : noise);
   }
   step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int) {
-    PastViews::View& view = past.views[side];
-    average_rows(views.input[side], y0, y1, view.blocks, view.mean, view.filtered);
+    average_rows(views.input[side], y0, y1, past.views[side].blocks, past.last_means(side),
+                 past.means[side]);
   });
-  for (int side = 0; side < 2; ++side) views.replace_input(side, past.views[side].filtered.view());
+  for (int side = 0; side < 2; ++side) views.replace_input(side, past.means[side].filtered.view());
   views.left = views.input[0];
-  std::swap(past.last, past.present);
+  if (follows) past.last.take(past.present);
   past.valid = true;
 }
 

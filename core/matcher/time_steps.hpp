@@ -19,27 +19,31 @@ namespace mtstereo {
 
 /// What the steps of a pair know of the views before: their means.
 struct PastViews {
+  std::array<Means, 2> means;  ///< by Side; their filtered views are those of this frame
+  ViewPyramid last;            ///< the left view, as the caller passes it
+  bool valid = false;          ///< there was a pair
+
+  // of the present pair, in filter_in_time() only
   struct View {
-    Image<std::uint16_t> mean;     ///< [1 / kMeanOne gray values]
-    Image<std::uint8_t> filtered;  ///< the same in gray values: the view of this frame
     TimeBlocks blocks;
     NoiseBlocks noise;
     BlockMoves moves;
+    Means moved;  ///< the means along the motion of the camera
   };
   std::array<View, 2> views;  ///< by Side
-  Means moved;                ///< the means of a view along the motion of the camera
-  ViewPyramid last, present;  ///< the left views, as the caller passes them
-  bool valid = false;         ///< there was a pair
+  ViewPyramid present;        ///< the left view, as the caller passes it
+  MotionPoints points;        ///< of the last map in the input views
+  Image<float> disparities;   ///< of the blocks of the last left view
 
   // of the present pair
   bool averaged = false;               ///< the views are averages over time
   std::optional<CameraMotion> motion;  ///< from the last pair, if the means were moved
-  MotionPoints points;                 ///< of the last map in the input views
-  Image<float> disparities;            ///< of the blocks of the last left view
 
+  /// The means to which a view is added.
+  const Means& last_means(int side) const { return motion ? views[side].moved : means[side]; }
   /// Begins anew, as for another stream.
   void restart() { valid = averaged = false; }
-  void resize(const Settings& settings, const FrameSize& size);
+  void resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused);
 };
 
 /// Averages the views over time where they are still, or where they follow the camera.

@@ -13,31 +13,41 @@ namespace mtstereo::HWY_NAMESPACE {
 
 /// The rows y0 .. y1 - 1 of a block whose first column is x from means that are moved by (move_x,
 /// move_y). Also the last block of a row is a whole one: its end belongs to the padding.
-void move_block(const Image<std::uint16_t>& last, int move_x, int move_y, int x, int y0, int y1,
-                Image<std::uint16_t>& moved) {
-  const hn::CappedTag<std::uint32_t, kTimeBlock> d32;
-  const hn::Rebind<std::uint16_t, decltype(d32)> d16;
-  constexpr int kShift = 6;
-  static_assert(kMoveOne * kMoveOne == 1 << kShift);
+///
+/// Gray values and fractions are interpolated apart, as 16 bits are enough for each: those of gray
+/// values are whole steps of a mean, so only those of fractions are rounded.
+void move_block(const Means& last, int move_x, int move_y, int x, int y0, int y1, Means& moved) {
+  static_assert(kMeanOne == 2 * kMoveOne * kMoveOne);
+  const hn::CappedTag<std::int16_t, kTimeBlock> d16;
+  const hn::Rebind<std::uint8_t, decltype(d16)> d8;
+  const hn::Rebind<std::int8_t, decltype(d16)> di8;
   const int from_x = kMoveOne * x + move_x, from_y = kMoveOne * y0 + move_y;
-  const int right = from_x % kMoveOne, down = from_y % kMoveOne;
-  const auto weight = [&](int value) { return hn::Set(d32, static_cast<std::uint32_t>(value)); };
-  const auto upper_left = weight((kMoveOne - down) * (kMoveOne - right));
-  const auto upper_right = weight((kMoveOne - down) * right);
-  const auto lower_left = weight(down * (kMoveOne - right)), lower_right = weight(down * right);
-  const auto load = [&](const std::uint16_t* means) {
-    return hn::PromoteTo(d32, hn::LoadU(d16, means));
+  const int column = from_x / kMoveOne, row = from_y / kMoveOne - y0;
+  const auto right = hn::Set(d16, static_cast<std::int16_t>(from_x % kMoveOne));
+  const auto down = hn::Set(d16, static_cast<std::int16_t>(from_y % kMoveOne));
+  const auto between = [&](auto first, auto second, auto weight) {
+    return hn::Add(hn::ShiftLeft<kMoveShift>(first), hn::Mul(hn::Sub(second, first), weight));
   };
-  for (int y = y0; y < y1; ++y) {
-    const std::uint16_t* above = last.row(from_y / kMoveOne + y - y0) + from_x / kMoveOne;
-    const std::uint16_t* below = above + last.stride();
-    for (int i = 0; i < kTimeBlock; i += static_cast<int>(hn::Lanes(d32))) {
-      const auto upper =
-          hn::Add(hn::Mul(load(above + i), upper_left), hn::Mul(load(above + i + 1), upper_right));
-      const auto lower =
-          hn::Add(hn::Mul(load(below + i), lower_left), hn::Mul(load(below + i + 1), lower_right));
-      const auto sum = hn::Add(hn::Add(upper, lower), weight(1 << (kShift - 1)));
-      hn::StoreU(hn::TruncateTo(d16, hn::ShiftRight<kShift>(sum)), d16, moved.row(y) + x + i);
+  const auto across = [&](auto d, const auto* values) {
+    return between(hn::PromoteTo(d16, hn::LoadU(d, values)),
+                   hn::PromoteTo(d16, hn::LoadU(d, values + 1)), right);
+  };
+  for (int i = 0; i < kTimeBlock; i += static_cast<int>(hn::Lanes(d16))) {
+    auto gray = across(d8, last.filtered.row(row + y0) + column + i);
+    auto rest = across(di8, last.fraction.row(row + y0) + column + i);
+    for (int y = y0; y < y1; ++y) {
+      const auto gray_below = across(d8, last.filtered.row(row + y + 1) + column + i);
+      const auto rest_below = across(di8, last.fraction.row(row + y + 1) + column + i);
+      const auto half = hn::Set(d16, 1 << (2 * kMoveShift - 1));
+      const auto steps =
+          hn::ShiftRight<2 * kMoveShift>(hn::Add(between(rest, rest_below, down), half));
+      const auto mean = hn::Add(hn::ShiftLeft<1>(between(gray, gray_below, down)), steps);
+      const auto rounded = hn::ShiftRight<kMeanShift>(hn::Add(mean, hn::Set(d16, kMeanOne / 2)));
+      hn::StoreU(hn::DemoteTo(d8, rounded), d8, moved.filtered.row(y) + x + i);
+      hn::StoreU(hn::DemoteTo(di8, hn::Sub(mean, hn::ShiftLeft<kMeanShift>(rounded))), di8,
+                 moved.fraction.row(y) + x + i);
+      gray = gray_below;
+      rest = rest_below;
     }
   }
 }
@@ -136,27 +146,21 @@ std::uint8_t frames_there(const Image<std::uint8_t>& frames, int x0, int y0, int
 }
 
 /// Begins the means of a block anew.
-void take_view(GrayView view, int x0, int y0, int y1, Image<std::uint16_t>& mean) {
-  const int right = std::min(x0 + kTimeBlock, view.width);
+void take_view(GrayView view, int x0, int y0, int y1, Means& means) {
+  const int count = std::min(kTimeBlock, view.width - x0);
   for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < right; ++x) {
-      mean.row(y)[x] = static_cast<std::uint16_t>(view.row(y)[x] * kMeanOne);
-    }
+    std::copy_n(view.row(y) + x0, count, means.filtered.row(y) + x0);
+    std::fill_n(means.fraction.row(y) + x0, count, std::int8_t{0});
   }
 }
 
 }  // namespace
 
-void BlockMoves::resize(int width, int height) {
+void BlockMoves::resize(int width, int height, ReusedMemory* reused) {
   const int columns = time_blocks(width), rows = time_blocks(height);
-  x.resize(columns, rows);
-  y.resize(columns, rows);
-  disparity.resize(columns, rows);
-}
-
-void Means::resize(int width, int height) {
-  mean.resize(width, height);
-  frames.resize(time_blocks(width), time_blocks(height));
+  x.resize(columns, rows, reused);
+  y.resize(columns, rows, reused);
+  disparity.resize(columns, rows, reused);
 }
 
 void find_block_disparities(const Image<std::uint16_t>& map, const MapPlace& place, int row0,
@@ -203,27 +207,20 @@ void place_points(const MotionPoints& points, const MapPlace& place, MotionPoint
   }
 }
 
-void move_means(GrayView view, const BlockMoves& moves, const Image<std::uint16_t>& last,
-                const Image<std::uint8_t>& frames, int y0, int y1, Means& moved,
-                Image<std::uint8_t>& filtered) {
+void move_means(GrayView view, const BlockMoves& moves, const Means& last, int y0, int y1,
+                Means& moved) {
+  const auto move = HWY_DYNAMIC_DISPATCH(move_block);
   for (int top = y0; top < y1; top += kTimeBlock) {
     const int row = top / kTimeBlock, bottom = std::min(top + kTimeBlock, y1);
-    for (int column = 0; column < frames.width(); ++column) {
+    for (int column = 0; column < moves.x.width(); ++column) {
       const int x0 = column * kTimeBlock;
       const int x = moves.x.row(row)[column], y = moves.y.row(row)[column];
       const bool inside = is_inside(x0, top, x, y, view.width, view.height);
-      moved.frames.row(row)[column] = inside ? frames_there(frames, x0, top, x, y) : 0;
+      moved.frames.row(row)[column] = inside ? frames_there(last.frames, x0, top, x, y) : 0;
       if (inside) {
-        HWY_DYNAMIC_DISPATCH(move_block)(last, x, y, x0, top, bottom, moved.mean);
+        move(last, x, y, x0, top, bottom, moved);
       } else {
-        take_view(view, x0, top, bottom, moved.mean);
-      }
-    }
-    for (int y = top; y < bottom; ++y) {
-      const std::uint16_t* __restrict__ means = moved.mean.row(y);
-      std::uint8_t* __restrict__ out = filtered.row(y);
-      for (int x = 0; x < view.width; ++x) {
-        out[x] = static_cast<std::uint8_t>((means[x] + kMeanOne / 2) / kMeanOne);
+        take_view(view, x0, top, bottom, moved);
       }
     }
   }

@@ -25,7 +25,8 @@ struct MapPlace {
 };
 
 /// Steps of an offset per px.
-inline constexpr int kMoveOne = 8;
+inline constexpr int kMoveShift = 3;
+inline constexpr int kMoveOne = 1 << kMoveShift;
 
 /// The disparity of a block about which the map knows nothing [px].
 inline constexpr float kNoBlock = -1e9F;
@@ -40,7 +41,7 @@ struct BlockMoves {
   Image<float> disparity;  ///< of the nearest block of the last map that moved here, or kNoBlock
 
   /// For a view of this size.
-  void resize(int width, int height);
+  void resize(int width, int height, ReusedMemory* reused = nullptr);
 };
 
 /// Finds the disparities of the rows of blocks row0 .. row1 - 1 of the left view: medians of the
@@ -57,18 +58,9 @@ void find_moves(const CameraMotion& motion, const Image<float>& disparities, int
 /// The points of the last map in the input views.
 void place_points(const MotionPoints& points, const MapPlace& place, MotionPoints& placed);
 
-/// The means of a view and the numbers of frames in them, per block.
-struct Means {
-  Image<std::uint16_t> mean;   ///< [1 / kMeanOne gray values]
-  Image<std::uint8_t> frames;  ///< [1 / kFramesOne]; 0: the mean is the view
-
-  void resize(int width, int height);
-};
-
-/// Moves the means of the rows y0 .. y1 - 1, and writes them as a view; `frames` are those of
-/// `last`. A block without a place takes the view, and has no frames.
-void move_means(GrayView view, const BlockMoves& moves, const Image<std::uint16_t>& last,
-                const Image<std::uint8_t>& frames, int y0, int y1, Means& moved,
-                Image<std::uint8_t>& filtered);
+/// Moves the means `last` to the rows y0 .. y1 - 1. A block without a place takes the view, and has
+/// no frames.
+void move_means(GrayView view, const BlockMoves& moves, const Means& last, int y0, int y1,
+                Means& moved);
 
 }  // namespace mtstereo

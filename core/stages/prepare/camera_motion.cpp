@@ -200,12 +200,20 @@ ScenePoint best_point(const Image<std::uint8_t>& halved, const Image<std::int32_
 
 }  // namespace
 
-void ViewPyramid::resize(int width, int height) {
+void ViewPyramid::resize(int width, int height, ReusedMemory* reused) {
   for (count = 0; count < kMostLevels; ++count) {
     width = half_of(width);
     height = half_of(height);
     if (std::min(width, height) < kSmallestSide) break;
-    levels[count].resize(width, height);
+    levels[count].resize(width, height, reused);
+  }
+}
+
+void ViewPyramid::take(const ViewPyramid& other) {
+  for (int i = 0; i < count; ++i) {
+    for (int y = 0; y < levels[i].height(); ++y) {
+      std::copy_n(other.levels[i].row(y), levels[i].width(), levels[i].row(y));
+    }
   }
 }
 

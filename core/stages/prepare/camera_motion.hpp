@@ -64,7 +64,9 @@ struct ViewPyramid {
   int count = 0;
 
   /// For a view of this size.
-  void resize(int width, int height);
+  void resize(int width, int height, ReusedMemory* reused = nullptr);
+  /// Takes the contents of a pyramid of the same size.
+  void take(const ViewPyramid& other);
 };
 
 /// The points that are compared: one in each block of a grid, or none.

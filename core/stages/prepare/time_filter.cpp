@@ -2,6 +2,7 @@
 #include "stages/prepare/time_filter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -42,6 +43,37 @@ int sum_differences(GrayView view, const Image<std::uint8_t>& filtered, int y0, 
   return x;
 }
 
+/// Adds the row y of a frame to the means.
+void average_row(GrayView view, int y, const std::int16_t* weights, const Means& last,
+                 Means& means) {
+  const hn::CappedTag<std::int16_t, 32> d16;
+  const hn::Rebind<std::uint8_t, decltype(d16)> d8;
+  const hn::Rebind<std::int8_t, decltype(d16)> di8;
+  const int width = view.width, lanes = static_cast<int>(hn::Lanes(d16));
+  const std::uint8_t* now = view.row(y);
+  const auto add = [&](const std::uint8_t* grays, int x) {
+    const auto filtered = hn::PromoteTo(d16, hn::LoadU(d8, last.filtered.row(y) + x));
+    const auto fraction = hn::PromoteTo(d16, hn::LoadU(di8, last.fraction.row(y) + x));
+    const auto mean = hn::Add(hn::ShiftLeft<kMeanShift>(filtered), fraction);
+    const auto gray = hn::ShiftLeft<kMeanShift>(hn::PromoteTo(d16, hn::LoadU(d8, grays)));
+    // The product is divided by 2^15, and neither -2 nor the order of the operands changes which
+    // way halves are rounded.
+    const auto step = hn::MulFixedPoint15(hn::Sub(mean, gray), hn::LoadU(d16, weights + x));
+    const auto next = hn::Add(mean, step);
+    const auto rounded = hn::ShiftRight<kMeanShift>(hn::Add(next, hn::Set(d16, kMeanOne / 2)));
+    hn::StoreU(hn::DemoteTo(d8, rounded), d8, means.filtered.row(y) + x);
+    const auto rest = hn::Sub(next, hn::ShiftLeft<kMeanShift>(rounded));
+    hn::StoreU(hn::DemoteTo(di8, rest), di8, means.fraction.row(y) + x);
+  };
+  int x = 0;
+  for (; x + lanes <= width; x += lanes) add(now + x, x);
+  if (x == width) return;
+  // Nothing after the end of the view may be read.
+  std::array<std::uint8_t, hn::MaxLanes(d16)> end = {};
+  std::copy(now + x, now + width, end.begin());
+  add(end.data(), x);
+}
+
 }  // namespace mtstereo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -49,11 +81,11 @@ HWY_AFTER_NAMESPACE();
 namespace mtstereo {
 
 HWY_EXPORT(sum_differences);
+HWY_EXPORT(average_row);
 
 namespace {
 
-constexpr int kWeightShift = 14;
-static_assert(kWeightOne == 1 << kWeightShift);
+static_assert(kWeightOne == 1 << 14, "average_row() divides by twice as much");
 
 /// The trust of a block with this sum of differences, 0 from the limit on.
 int trust_of(int change, int limit) {
@@ -95,14 +127,26 @@ float deviation_of(float noise, TimeBlocks& blocks) {
 
 }  // namespace
 
-void TimeBlocks::resize(int width, int height) {
+void Means::resize(int width, int height, ReusedMemory* reused) {
+  filtered.resize(width, height, reused);
+  fraction.resize(width, height, reused);
+  frames.resize(time_blocks(width), time_blocks(height), reused);
+}
+
+void Means::clear() {
+  for (int y = 0; y < filtered.height(); ++y) {
+    std::fill_n(filtered.row(y), filtered.width(), std::uint8_t{0});
+    std::fill_n(fraction.row(y), fraction.width(), std::int8_t{0});
+  }
+}
+
+void TimeBlocks::resize(int width, int height, ReusedMemory* reused) {
   const int columns = time_blocks(width), rows = time_blocks(height);
-  change.resize(columns, rows);
-  difference.resize(columns, rows);
-  trust.resize(columns, rows);
-  frames.resize(columns, rows);
-  weights.resize(width, rows);
-  sorted.resize(static_cast<std::size_t>(columns) * rows);
+  change.resize(columns, rows, reused);
+  difference.resize(columns, rows, reused);
+  trust.resize(columns, rows, reused);
+  weights.resize(width, rows, reused);
+  sorted.resize(static_cast<std::size_t>(columns) * rows, reused);
 }
 
 void measure_changes(GrayView view, const Image<std::uint8_t>& filtered, int y0, int y1,
@@ -132,15 +176,15 @@ void measure_changes(GrayView view, const Image<std::uint8_t>& filtered, int y0,
   }
 }
 
-double rate_changes(float noise, TimeBlocks& blocks) {
+double rate_changes(float noise, const Image<std::uint8_t>& frames, TimeBlocks& blocks) {
   const int limit = static_cast<int>(kMostDeviations * deviation_of(noise, blocks));
   const int columns = blocks.trust.width(), rows = blocks.trust.height();
   int count = 0;
   for (int row = 0; row < rows; ++row) {
     for (int i = 0; i < columns; ++i) {
       // The noise of the frame and that of its mean.
-      const float frames = static_cast<float>(blocks.frames.row(row)[i]) / kFramesOne;
-      const float deviation = noise * std::sqrt(1 + 1 / frames);
+      const float count_before = static_cast<float>(frames.row(row)[i]) / kFramesOne;
+      const float deviation = noise * std::sqrt(1 + 1 / count_before);
       const float most = kTimeBlockPixels * (kStillDeviation * deviation + kStillRest);
       const bool still = static_cast<float>(blocks.difference.row(row)[i]) <= most;
       blocks.trust.row(row)[i] =
@@ -151,35 +195,28 @@ double rate_changes(float noise, TimeBlocks& blocks) {
   return static_cast<double>(count) / (static_cast<double>(columns) * rows);
 }
 
-void count_frames(bool anew, TimeBlocks& blocks) {
+void count_frames(bool anew, const Image<std::uint8_t>& last, TimeBlocks& blocks,
+                  Image<std::uint8_t>& frames) {
   const int width = blocks.weights.width();
-  for (int row = 0; row < blocks.frames.height(); ++row) {
-    std::uint8_t* frames = blocks.frames.row(row);
+  for (int row = 0; row < frames.height(); ++row) {
+    std::uint8_t* counted = frames.row(row);
     std::int16_t* weights = blocks.weights.row(row);
-    for (int i = 0; i < blocks.frames.width(); ++i) {
-      const int kept = anew ? 0 : std::min<int>(frames[i], (kMostFrames - 1) * kFramesOne);
+    for (int i = 0; i < frames.width(); ++i) {
+      const int kept = anew ? 0 : std::min<int>(last.row(row)[i], (kMostFrames - 1) * kFramesOne);
       const int trust = anew ? 0 : least_trust(blocks.trust, i, row);
-      frames[i] = static_cast<std::uint8_t>(kFramesOne + kept * trust / kTrustOne);
+      counted[i] = static_cast<std::uint8_t>(kFramesOne + kept * trust / kTrustOne);
       const int x = i * kTimeBlock;
       std::fill(weights + x, weights + std::min(x + kTimeBlock, width),
-                static_cast<std::int16_t>(kWeightOne * kFramesOne / frames[i]));
+                static_cast<std::int16_t>(-2 * (kWeightOne * kFramesOne / counted[i])));
     }
   }
 }
 
-void average_rows(GrayView view, int y0, int y1, TimeBlocks& blocks, Image<std::uint16_t>& mean,
-                  Image<std::uint8_t>& filtered) {
+void average_rows(GrayView view, int y0, int y1, const TimeBlocks& blocks, const Means& last,
+                  Means& means) {
+  const auto average = HWY_DYNAMIC_DISPATCH(average_row);
   for (int y = y0; y < y1; ++y) {
-    const std::uint8_t* __restrict__ now = view.row(y);
-    const std::int16_t* __restrict__ weights = blocks.weights.row(y / kTimeBlock);
-    std::uint16_t* __restrict__ means = mean.row(y);
-    std::uint8_t* __restrict__ out = filtered.row(y);
-    for (int x = 0; x < view.width; ++x) {
-      const auto apart = static_cast<std::int16_t>(now[x] * kMeanOne - means[x]);
-      const int step = (apart * weights[x] + kWeightOne / 2) >> kWeightShift;
-      means[x] = static_cast<std::uint16_t>(means[x] + step);
-      out[x] = static_cast<std::uint8_t>((means[x] + kMeanOne / 2) / kMeanOne);
-    }
+    average(view, y, blocks.weights.row(y / kTimeBlock), last, means);
   }
 }
 

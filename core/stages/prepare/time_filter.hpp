@@ -39,21 +39,34 @@ inline constexpr float kMostDeviations = 6;
 inline constexpr float kLeastDeviation = 4;
 
 /// Steps of a mean per gray value, of a number of frames, of a trust and of a weight.
-inline constexpr int kMeanOne = 128;
+inline constexpr int kMeanShift = 7;
+inline constexpr int kMeanOne = 1 << kMeanShift;
 inline constexpr int kFramesOne = 16;
 inline constexpr int kTrustOne = 128;
 inline constexpr int kWeightOne = 16384;
 
-/// The blocks of a view. All images have one pixel per block but `weights`.
+/// The means of a view: per pixel kMeanOne * filtered + fraction [1 / kMeanOne gray values], at
+/// least 0.
+struct Means {
+  Image<std::uint8_t> filtered;  ///< rounded to gray values: the filtered view
+  Image<std::int8_t> fraction;   ///< -kMeanOne / 2 .. kMeanOne / 2 - 1
+  Image<std::uint8_t> frames;    ///< in the means of each block [1 / kFramesOne]; 0: just the view
+
+  void resize(int width, int height, ReusedMemory* reused = nullptr);
+  /// Makes the means 0, as means that begin anew must be defined, too.
+  void clear();
+};
+
+/// What is known of the blocks of a view in one frame. All images have one pixel per block but
+/// `weights`.
 struct TimeBlocks {
   Image<std::int32_t> change;      ///< sum of the differences from the means, of 64 pixels
   Image<std::int32_t> difference;  ///< sum of their magnitudes, of 64 pixels
   Image<std::uint8_t> trust;       ///< [1 / kTrustOne]
-  Image<std::uint8_t> frames;      ///< in the means of the block [1 / kFramesOne]
-  Image<std::int16_t> weights;     ///< of this frame, a row of pixels per row of blocks
+  Image<std::int16_t> weights;     ///< of the frame, a row of pixels per row of blocks, times -2
   Buffer<std::int32_t> sorted;     ///< scratch memory of rate_changes()
 
-  void resize(int width, int height);
+  void resize(int width, int height, ReusedMemory* reused = nullptr);
 };
 
 /// Compares the rows y0 .. y1 - 1 with the filtered view of the last frame.
@@ -61,15 +74,17 @@ void measure_changes(GrayView view, const Image<std::uint8_t>& filtered, int y0,
                      TimeBlocks& blocks);
 
 /// Decides which blocks are still, with this standard deviation of the noise of the view, and
-/// returns their share.
-double rate_changes(float noise, TimeBlocks& blocks);
+/// returns their share. `frames` are those in the means.
+double rate_changes(float noise, const Image<std::uint8_t>& frames, TimeBlocks& blocks);
 
 /// Counts the frames in the means with this frame; 1 everywhere if they begin anew. A block is
-/// trusted as little as the eight around it: what moves also changes the map beside it.
-void count_frames(bool anew, TimeBlocks& blocks);
+/// trusted as little as the eight around it: what moves also changes the map beside it. `last` may
+/// be `frames`.
+void count_frames(bool anew, const Image<std::uint8_t>& last, TimeBlocks& blocks,
+                  Image<std::uint8_t>& frames);
 
-/// Adds the rows y0 .. y1 - 1 of a frame to the means and writes the filtered view.
-void average_rows(GrayView view, int y0, int y1, TimeBlocks& blocks, Image<std::uint16_t>& mean,
-                  Image<std::uint8_t>& filtered);
+/// Adds the rows y0 .. y1 - 1 of a frame to the means `last`, which may be `means`.
+void average_rows(GrayView view, int y0, int y1, const TimeBlocks& blocks, const Means& last,
+                  Means& means);
 
 }  // namespace mtstereo

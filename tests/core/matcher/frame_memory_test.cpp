@@ -101,5 +101,16 @@ TEST(FrameMemory, PlacesBuffersOfSuccessiveStepsInTheMemoryOfTheCensus) {
   EXPECT_EQ(census, memory.buffers.rating.clues.disparity.row(0));
 }
 
+TEST(FrameMemory, PlacesWhatNoLaterPairNeedsInTheMemoryOfTheCensus) {
+  FrameMemory memory;
+  memory.resize(settings_of({{"temporal", "filter"}}), kFull);
+  const void* const census = memory.views.census[0].bits.row(0);
+  EXPECT_EQ(census, memory.past.views[0].blocks.change.row(0));
+  EXPECT_EQ(census, memory.last.present.levels[0].row(0));
+  const std::uint8_t* const end =
+      reinterpret_cast<const std::uint8_t*>(memory.views.census[1].bits.row(50));
+  EXPECT_LT(memory.past.views[1].moved.filtered.row(50), end) << "of the same size";
+}
+
 }  // namespace
 }  // namespace mtstereo::frame_memory_test

@@ -5,6 +5,7 @@
 
 #include "reference/prepare/time_filter.hpp"
 #include "support/compare.hpp"
+#include "support/means.hpp"
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
@@ -22,22 +23,20 @@ class Stream {
  public:
   Stream(int width, int height, int band) : band_(band) {
     blocks.resize(width, height);
-    mean_.resize(width, height);
-    filtered.resize(width, height);
+    means.resize(width, height);
+    means.clear();
   }
 
   /// Adds a frame with this noise, and returns the share of still blocks.
   double add(GrayView view, float noise, bool anew) {
     double share = 0;
     if (!first_) {
-      bands(view, [&](int y0, int y1) { measure_changes(view, filtered, y0, y1, blocks); });
-      share = rate_changes(noise, blocks);
-    } else {
-      for (int y = 0; y < view.height; ++y) std::fill_n(mean_.row(y), view.width, 0);
+      bands(view, [&](int y0, int y1) { measure_changes(view, means.filtered, y0, y1, blocks); });
+      share = rate_changes(noise, means.frames, blocks);
     }
-    count_frames(anew || first_, blocks);
+    count_frames(anew || first_, means.frames, blocks, means.frames);
     first_ = false;
-    bands(view, [&](int y0, int y1) { average_rows(view, y0, y1, blocks, mean_, filtered); });
+    bands(view, [&](int y0, int y1) { average_rows(view, y0, y1, blocks, means, means); });
     return share;
   }
   double add(const GrayPlane& view, float noise, bool anew = false) {
@@ -45,7 +44,7 @@ class Stream {
   }
 
   TimeBlocks blocks;
-  Image<std::uint8_t> filtered;
+  Means means;
 
  private:
   template <typename Body>
@@ -57,7 +56,6 @@ class Stream {
 
   int band_;
   bool first_ = true;
-  Image<std::uint16_t> mean_;
 };
 
 /// The next frame of a view, with other noise.
@@ -85,8 +83,9 @@ TEST(TimeFilter, EqualsReferenceAtEverySizeOnEveryInstructionSet) {
         if (frame > 0) share = reference::rate_changes(view, 1.7F, expected);
         reference::average(view, anew, expected);
         EXPECT_EQ(share, stream.add(padded.view(), 1.7F, anew)) << width << ", frame " << frame;
-        EXPECT_TRUE(same_image(expected.frames, copy_of(stream.blocks.frames))) << width;
-        EXPECT_TRUE(same_image(expected.filtered, copy_of(stream.filtered))) << width;
+        EXPECT_TRUE(same_image(expected.frames, copy_of(stream.means.frames))) << width;
+        EXPECT_TRUE(same_image(expected.filtered, copy_of(stream.means.filtered))) << width;
+        EXPECT_TRUE(same_image(expected.mean, test::copy_of_means(stream.means))) << width;
       }
     }
   });
@@ -104,7 +103,7 @@ TEST(TimeFilter, AveragesFramesThatDifferByNoise) {
     double sum = 0;
     for (int y = 0; y < 96; ++y) {
       for (int x = 0; x < 160; ++x) {
-        const double error = stream.filtered.row(y)[x] - scene(x, y);
+        const double error = stream.means.filtered.row(y)[x] - scene(x, y);
         sum += error * error;
       }
     }
@@ -120,7 +119,7 @@ TEST(TimeFilter, AFrameThatBeginsAnewIsTheView) {
     const GrayPlane view = test::noise(50, 30, frame / 4);
     stream.add(view, 2, frame == 6);
     if (frame == 0 || frame == 6) {
-      EXPECT_TRUE(same_image(view, copy_of(stream.filtered)));
+      EXPECT_TRUE(same_image(view, copy_of(stream.means.filtered)));
     }
   }
 }
@@ -137,10 +136,10 @@ TEST(TimeFilter, NothingIsAveragedInAndBesideABlockThatChanges) {
     }
     stream.add(view, 1.4F);
     for (int y = 32; y < 56; ++y) {
-      for (int x = 48; x < 72; ++x) ASSERT_EQ(view(x, y), stream.filtered.row(y)[x]);
+      for (int x = 48; x < 72; ++x) ASSERT_EQ(view(x, y), stream.means.filtered.row(y)[x]);
     }
   }
-  EXPECT_GT(stream.blocks.frames.row(1)[1], 4 * kFramesOne) << "far from it";
+  EXPECT_GT(stream.means.frames.row(1)[1], 4 * kFramesOne) << "far from it";
 }
 
 TEST(TimeFilter, NothingIsAveragedWhenTheLightChanges) {
@@ -153,7 +152,7 @@ TEST(TimeFilter, NothingIsAveragedWhenTheLightChanges) {
       EXPECT_LT(share, 0.1);
     }
   }
-  EXPECT_EQ(kFramesOne, stream.blocks.frames.row(0)[0]);
+  EXPECT_EQ(kFramesOne, stream.means.frames.row(0)[0]);
 }
 
 }  // namespace
