@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #define HWY_TARGET_INCLUDE "stages/prepare/time_filter.cpp"
 #include "base/simd.hpp"
@@ -95,17 +96,12 @@ int trust_of(int change, int limit) {
   return rest * rest / kTrustOne;
 }
 
-/// The least trust of a block and those around it.
-int least_trust(const Image<std::uint8_t>& trust, int column, int row) {
-  int least = kTrustOne;
-  const int right = std::min(column + 1, trust.width() - 1);
-  const int bottom = std::min(row + 1, trust.height() - 1);
-  for (int y = std::max(row - 1, 0); y <= bottom; ++y) {
-    for (int x = std::max(column - 1, 0); x <= right; ++x) {
-      least = std::min<int>(least, trust.row(y)[x]);
-    }
-  }
-  return least;
+/// The least trust of a block and those above and below it; the full one outside of the view.
+int least_of_column(const Image<std::uint8_t>& trust, int column, int row) {
+  if (column == trust.width()) return kTrustOne;
+  const int above = trust.row(std::max(row - 1, 0))[column];
+  const int below = trust.row(std::min(row + 1, trust.height() - 1))[column];
+  return std::min({above, int{trust.row(row)[column]}, below});
 }
 
 /// The standard deviation of the sums of the blocks' differences, if most blocks are still.
@@ -179,14 +175,17 @@ void measure_changes(GrayView view, const Image<std::uint8_t>& filtered, int y0,
 double rate_changes(float noise, const Image<std::uint8_t>& frames, TimeBlocks& blocks) {
   const int limit = static_cast<int>(kMostDeviations * deviation_of(noise, blocks));
   const int columns = blocks.trust.width(), rows = blocks.trust.height();
+  std::array<float, kMostFrames * kFramesOne + 1> most;  // by the number of frames
+  for (std::size_t i = 0; i < most.size(); ++i) {
+    // The noise of the frame and that of its mean.
+    const float deviation = noise * std::sqrt(1 + 1 / (static_cast<float>(i) / kFramesOne));
+    most[i] = kTimeBlockPixels * (kStillDeviation * deviation + kStillRest);
+  }
   int count = 0;
   for (int row = 0; row < rows; ++row) {
     for (int i = 0; i < columns; ++i) {
-      // The noise of the frame and that of its mean.
-      const float count_before = static_cast<float>(frames.row(row)[i]) / kFramesOne;
-      const float deviation = noise * std::sqrt(1 + 1 / count_before);
-      const float most = kTimeBlockPixels * (kStillDeviation * deviation + kStillRest);
-      const bool still = static_cast<float>(blocks.difference.row(row)[i]) <= most;
+      const bool still =
+          static_cast<float>(blocks.difference.row(row)[i]) <= most[frames.row(row)[i]];
       blocks.trust.row(row)[i] =
           static_cast<std::uint8_t>(still ? trust_of(blocks.change.row(row)[i], limit) : 0);
       count += still;
@@ -197,17 +196,22 @@ double rate_changes(float noise, const Image<std::uint8_t>& frames, TimeBlocks& 
 
 void count_frames(bool anew, const Image<std::uint8_t>& last, TimeBlocks& blocks,
                   Image<std::uint8_t>& frames) {
-  const int width = blocks.weights.width();
+  const auto least = [&](int column, int row) {
+    return anew ? 0 : least_of_column(blocks.trust, column, row);
+  };
   for (int row = 0; row < frames.height(); ++row) {
     std::uint8_t* counted = frames.row(row);
     std::int16_t* weights = blocks.weights.row(row);
+    int before = kTrustOne, here = least(0, row);
     for (int i = 0; i < frames.width(); ++i) {
+      const int next = least(i + 1, row);
       const int kept = anew ? 0 : std::min<int>(last.row(row)[i], (kMostFrames - 1) * kFramesOne);
-      const int trust = anew ? 0 : least_trust(blocks.trust, i, row);
+      const int trust = std::min({before, here, next});
+      before = std::exchange(here, next);
       counted[i] = static_cast<std::uint8_t>(kFramesOne + kept * trust / kTrustOne);
-      const int x = i * kTimeBlock;
-      std::fill(weights + x, weights + std::min(x + kTimeBlock, width),
-                static_cast<std::int16_t>(-2 * (kWeightOne * kFramesOne / counted[i])));
+      // Of whole blocks: the end of the last one belongs to the padding.
+      std::fill_n(weights + i * kTimeBlock, kTimeBlock,
+                  static_cast<std::int16_t>(-2 * (kWeightOne * kFramesOne / counted[i])));
     }
   }
 }

@@ -2,9 +2,12 @@
 #include "stages/refine/holding.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
+#include <cstring>
 
 #include "mtstereo/parameters.hpp"
+#include "stages/refine/confidence.hpp"
 
 #define HWY_TARGET_INCLUDE "stages/refine/holding.cpp"
 #include "base/simd.hpp"
@@ -12,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
-using Floats = hn::CappedTag<float, HeldPlaces::kMost>;
+using Floats = hn::CappedTag<float, 64>;
 using Vec = hn::Vec<Floats>;
 using Ints = hn::RebindToSigned<Floats>;
 
@@ -50,32 +53,74 @@ HWY_INLINE Points last_places(const CameraMotion& motion, const Points& now) {
   return {hn::Mul(x, growth), hn::Mul(y, growth), hn::Mul(now.disparity, growth)};
 }
 
-/// Finds the places of the disparities of a row from the column x on.
-void find_places(const CameraMotion& motion, float offset, const Image<std::int32_t>& map, int x,
-                 int y, std::ptrdiff_t stride, HeldPlaces& places) {
+/// A bit for each of `columns` columns, at most 64, whose confidence is from `least` to `most`.
+HWY_INLINE std::uint64_t find_bits(const std::uint8_t* confidence, int columns, int least,
+                                   int most) {
+  const hn::CappedTag<std::uint8_t, 64> d8;
+  const auto lowest = hn::Set(d8, static_cast<std::uint8_t>(least));
+  const auto highest = hn::Set(d8, static_cast<std::uint8_t>(most));
+  std::uint8_t bytes[8];
+  for (int i = 0; i < 64; i += static_cast<int>(hn::Lanes(d8))) {
+    const auto values = hn::LoadU(d8, confidence + i);
+    hn::StoreMaskBits(d8, hn::Eq(values, hn::Clamp(values, lowest, highest)), bytes + i / 8);
+  }
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof(bits));
+  return bits & ~std::uint64_t{0} >> (64 - columns);
+}
+
+/// Chooses those of the columns first .. end - 1 of a row whose confidence is from `least` to
+/// `most`.
+void choose_columns(const std::int32_t* map, const std::uint8_t* confidence, int first, int end,
+                    int least, int most, HeldPlaces& places) {
+  int count = 0;
+  for (int x = first; x < end; x += 64) {
+    std::uint64_t left = find_bits(confidence + x, std::min(64, end - x), least, most);
+    for (; left != 0; left &= left - 1) {
+      const int column = x + std::countr_zero(left);
+      places.column[count] = column;
+      places.disparity[count++] = map[column];
+    }
+  }
+  places.count = count;
+}
+
+/// Finds the places of the columns of the row y.
+void find_places(const CameraMotion& motion, float offset, const Image<std::uint16_t>& last, int y,
+                 HeldPlaces& places) {
   constexpr float kOne = 1.0F / kDisparityOne;
   constexpr int kNone = -2 * kHeldTolerance;  // equals no disparity
   const Floats d;
   const Ints di;
-  const int width = map.width(), height = map.height();
-  const Vec center_x = hn::Set(d, static_cast<float>(width) / 2);
-  const Vec center_y = hn::Set(d, static_cast<float>(height) / 2);
+  const Vec center_x = hn::Set(d, static_cast<float>(last.width()) / 2);
+  const Vec center_y = hn::Set(d, static_cast<float>(last.height()) / 2);
   const Vec zero = hn::Set(d, offset);
   const Vec row = hn::Sub(hn::Set(d, static_cast<float>(y)), center_y);
-  const int count = std::min(width - x, HeldPlaces::kMost);
-  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
-    const Vec column = hn::ConvertTo(d, hn::Iota(di, x + i));
-    const Vec disparity = hn::ConvertTo(d, hn::LoadU(di, map.row(y) + x + i));
-    const Points last = last_places(motion, {hn::Sub(column, center_x), row,
-                                             hn::Add(hn::Mul(disparity, hn::Set(d, kOne)), zero)});
-    const auto last_x = nearest(hn::Add(last.x, center_x), -1, width);
-    const auto last_y = nearest(hn::Add(last.y, center_y), -1, height);
-    const auto inside = hn::And(is_below(last_x, width), is_below(last_y, height));
-    const auto line = hn::Mul(last_y, hn::Set(di, static_cast<std::int32_t>(stride)));
+  for (int i = 0; i < places.count; i += static_cast<int>(hn::Lanes(d))) {
+    const Vec column = hn::ConvertTo(d, hn::Load(di, &places.column[i]));
+    const Vec disparity = hn::ConvertTo(d, hn::Load(di, &places.disparity[i]));
+    const Points there = last_places(motion, {hn::Sub(column, center_x), row,
+                                              hn::Add(hn::Mul(disparity, hn::Set(d, kOne)), zero)});
+    const auto last_x = nearest(hn::Add(there.x, center_x), -1, last.width());
+    const auto last_y = nearest(hn::Add(there.y, center_y), -1, last.height());
+    const auto inside = hn::And(is_below(last_x, last.width()), is_below(last_y, last.height()));
+    const auto line = hn::Mul(last_y, hn::Set(di, static_cast<std::int32_t>(last.stride())));
     hn::Store(hn::IfThenElse(inside, hn::Add(line, last_x), hn::Set(di, HeldPlaces::kOutside)), di,
               &places.index[i]);
-    const Vec steps = hn::Mul(hn::Sub(last.disparity, zero), hn::Set(d, kHeldOne));
-    hn::Store(nearest(steps, kNone, 65535), di, &places.disparity[i]);
+    const Vec steps = hn::Mul(hn::Sub(there.disparity, zero), hn::Set(d, kHeldOne));
+    hn::Store(nearest(steps, kNone, 65535), di, &places.expected[i]);
+  }
+}
+
+/// In 1 / kHeldOne px. Unknown stays 0, and no known disparity becomes it. Compilers vectorize this
+/// plain loop.
+void copy_last_row(const std::int32_t* __restrict__ map, int width,
+                   std::uint16_t* __restrict__ last) {
+  constexpr int kSteps = kDisparityOne / kHeldOne;
+  static_assert(kLargestMaxDisparity * kHeldOne <= 65535);
+  for (int x = 0; x < width; ++x) {
+    const int rounded = (map[x] + kSteps / 2) / kSteps;
+    last[x] = static_cast<std::uint16_t>(std::max(rounded, std::min(map[x], 1)));
   }
 }
 
@@ -84,52 +129,49 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace mtstereo {
+HWY_EXPORT(choose_columns);
+HWY_EXPORT(copy_last_row);
 HWY_EXPORT(find_places);
 namespace {
 
 /// Stands for a disparity that no pixel has.
 constexpr int kDecidesNothing = 1 << 20;
 
-constexpr int kSteps = kDisparityOne / kHeldOne;
-static_assert(kLargestMaxDisparity * kHeldOne <= 65535);
-
-/// In 1 / kHeldOne px. Unknown stays 0, and no known disparity becomes it.
-int in_steps(std::int32_t disparity) {
-  return std::max((disparity + kSteps / 2) / kSteps, std::min(disparity, 1));
-}
-
 }  // namespace
 
 void threshold_by_last(const LeastConfidence& least, const CameraMotion& motion, float offset,
                        const Image<std::uint16_t>& last, int y0, int y1, Image<std::int32_t>& map,
                        Image<std::uint8_t>& confidence) {
-  HeldPlaces places;
+  const auto [lowest, highest] = std::minmax({least.usual, least.known, least.fresh});
+  threshold_confidence(lowest, y0, y1, map, confidence);
+  HeldPlaces places = {};
   const std::uint16_t* known = last.row(0);
   for (int y = y0; y < y1; ++y) {
+    std::int32_t* disparity = map.row(y);
+    std::uint8_t* rating = confidence.row(y);
     for (int x = 0; x < map.width(); x += HeldPlaces::kMost) {
-      HWY_DYNAMIC_DISPATCH(find_places)(motion, offset, map, x, y, last.stride(), places);
-      const int count = std::min(map.width() - x, HeldPlaces::kMost);
-      std::int32_t* __restrict__ disparity = map.row(y) + x;
-      std::uint8_t* __restrict__ rating = confidence.row(y) + x;
-      for (int i = 0; i < count; ++i) {
+      // Only these depend on the last map.
+      HWY_DYNAMIC_DISPATCH(choose_columns)
+      (disparity, rating, x, std::min(x + HeldPlaces::kMost, map.width()), lowest, highest - 1,
+       places);
+      HWY_DYNAMIC_DISPATCH(find_places)(motion, offset, last, y, places);
+      for (int i = 0; i < places.count; ++i) {
         const bool outside = places.index[i] == HeldPlaces::kOutside;
         const int before = outside ? kDecidesNothing : known[places.index[i]];
-        const bool same = std::abs(before - places.disparity[i]) <= kHeldTolerance;
+        const bool same = std::abs(before - places.expected[i]) <= kHeldTolerance;
         const int needed = before == 0 ? least.fresh : same ? least.known : least.usual;
-        const bool kept = rating[i] >= needed;
-        disparity[i] = kept ? disparity[i] : kNoDisparity;
-        rating[i] = kept ? rating[i] : std::uint8_t{0};
+        const int column = places.column[i];
+        const bool kept = rating[column] >= needed;
+        disparity[column] = kept ? places.disparity[i] : kNoDisparity;
+        rating[column] = kept ? rating[column] : std::uint8_t{0};
       }
     }
   }
 }
 
 void copy_last(const Image<std::int32_t>& map, int y0, int y1, Image<std::uint16_t>& last) {
-  for (int y = y0; y < y1; ++y) {
-    const std::int32_t* __restrict__ from = map.row(y);
-    std::uint16_t* __restrict__ to = last.row(y);
-    for (int x = 0; x < map.width(); ++x) to[x] = static_cast<std::uint16_t>(in_steps(from[x]));
-  }
+  for (int y = y0; y < y1; ++y)
+    HWY_DYNAMIC_DISPATCH(copy_last_row)(map.row(y), map.width(), last.row(y));
 }
 
 }  // namespace mtstereo

@@ -27,10 +27,13 @@ struct LeastConfidence {
 
 /// Where some pixels of a row were in the last map.
 struct HeldPlaces {
-  static constexpr int kMost = 64;
+  static constexpr int kMost = 256;
   static constexpr std::int32_t kOutside = -1;
+  int count = 0;
+  alignas(kAlignment) std::array<std::int32_t, kMost> column;     ///< in the row
+  alignas(kAlignment) std::array<std::int32_t, kMost> disparity;  ///< there [1 / kDisparityOne px]
   alignas(kAlignment) std::array<std::int32_t, kMost> index;  ///< from its first pixel, or kOutside
-  alignas(kAlignment) std::array<std::int32_t, kMost> disparity;  ///< [1 / kHeldOne px]
+  alignas(kAlignment) std::array<std::int32_t, kMost> expected;  ///< there [1 / kHeldOne px]
 };
 
 /// Removes the disparities of the rows y0 .. y1 - 1 whose confidence is below the least of the

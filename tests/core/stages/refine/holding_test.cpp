@@ -9,6 +9,7 @@
 #include "reference/refine/holding.hpp"
 #include "support/compare.hpp"
 #include "support/random.hpp"
+#include "support/simd_targets.hpp"
 
 namespace mtstereo::holding_test {
 namespace {
@@ -57,26 +58,50 @@ int least_of(int now, int last) {
   return chosen(DisparityPlane(1, 1, now), DisparityPlane(1, 1, last), {})(0, 0);
 }
 
-TEST(Holding, ChoosesTheLeastConfidenceOfTheReferenceAtEveryWidth) {
-  Random random(2);
-  for (int width = 1; width <= 140; ++width) {
-    const int height = random.between(1, 19);
-    DisparityPlane map(width, height), last(width, height);
-    for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-      map.pixels[i] = random.below(random.below(3) == 0 ? 12 : 60 * kDisparityOne);
-      if (random.below(4) == 0) continue;
-      last.pixels[i] = std::max(map.pixels[i] + random.between(-290, 290), 1);
-    }
-    const auto term = [&](float most) { return most * random.between(-100, 100) / 100.0F; };
-    const CameraMotion motion = {term(3),    term(3),     term(0.05F), term(0.1F),
-                                 term(0.1F), term(0.01F), term(0.01F), term(0.01F)};
-    const float offset = random.below(2) == 0 ? 0 : -7.5F;
-    const GrayPlane expected = reference::least_confidence(
-        map, last, motion, offset, {kLeast.usual, kLeast.known, kLeast.fresh});
-    for (const int rows : {1, 8, 1 << 20}) {
-      EXPECT_TRUE(same_image(expected, chosen(map, last, motion, offset, rows))) << width;
-    }
+/// Thresholds a map with these confidences, and compares it with the least ones.
+void expect_thresholded(const GrayPlane& least, const DisparityPlane& map, const GrayPlane& rating,
+                        const DisparityPlane& last, const CameraMotion& motion, float offset) {
+  DisparityPlane expected = map;
+  GrayPlane expected_rating = rating;
+  for (std::size_t i = 0; i < map.pixels.size(); ++i) {
+    if (rating.pixels[i] >= least.pixels[i]) continue;
+    expected.pixels[i] = expected_rating.pixels[i] = 0;
   }
+  Image<std::uint16_t> before;
+  before.resize(map.width, map.height);
+  copy_last(image_of(last), 0, map.height, before);
+  Image<std::int32_t> kept = image_of(map);
+  Image<std::uint8_t> confidence = image_of(rating);
+  threshold_by_last(kLeast, motion, offset, before, 0, map.height, kept, confidence);
+  EXPECT_TRUE(same_image(expected, copy_of(kept))) << map.width;
+  EXPECT_TRUE(same_image(expected_rating, copy_of(confidence))) << map.width;
+}
+
+TEST(Holding, ChoosesTheLeastConfidenceOfTheReferenceAtEveryWidthOnEveryInstructionSet) {
+  test::for_each_simd_target([] {
+    Random random(2);
+    for (int width = 1; width <= 600; width += random.between(1, width < 140 ? 3 : 60)) {
+      const int height = random.between(1, 19);
+      DisparityPlane map(width, height), last(width, height);
+      GrayPlane rating(width, height);
+      for (std::size_t i = 0; i < map.pixels.size(); ++i) {
+        map.pixels[i] = random.below(random.below(3) == 0 ? 12 : 60 * kDisparityOne);
+        rating.pixels[i] = static_cast<std::uint8_t>(random.between(100, 160));
+        if (random.below(4) == 0) continue;
+        last.pixels[i] = std::max(map.pixels[i] + random.between(-290, 290), 1);
+      }
+      const auto term = [&](float most) { return most * random.between(-100, 100) / 100.0F; };
+      const CameraMotion motion = {term(3),    term(3),     term(0.05F), term(0.1F),
+                                   term(0.1F), term(0.01F), term(0.01F), term(0.01F)};
+      const float offset = random.below(2) == 0 ? 0 : -7.5F;
+      const GrayPlane expected = reference::least_confidence(
+          map, last, motion, offset, {kLeast.usual, kLeast.known, kLeast.fresh});
+      for (const int rows : {1, 8, 1 << 20}) {
+        EXPECT_TRUE(same_image(expected, chosen(map, last, motion, offset, rows))) << width;
+      }
+      expect_thresholded(expected, map, rating, last, motion, offset);
+    }
+  });
 }
 
 TEST(Holding, AKnownPointNeedsLess) {
