@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "support/matching.hpp"
 
 namespace mtstereo::frame_memory_test {
@@ -101,15 +103,29 @@ TEST(FrameMemory, PlacesBuffersOfSuccessiveStepsInTheMemoryOfTheCensus) {
   EXPECT_EQ(census, memory.buffers.rating.clues.disparity.row(0));
 }
 
-TEST(FrameMemory, PlacesWhatNoLaterPairNeedsInTheMemoryOfTheCensus) {
+TEST(FrameMemory, PlacesOnlyWhatNoLaterPairNeedsInTheMemoryOfTheCensus) {
   FrameMemory memory;
-  memory.resize(settings_of({{"temporal", "filter"}}), kFull);
-  const void* const census = memory.views.census[0].bits.row(0);
-  EXPECT_EQ(census, memory.past.views[0].blocks.change.row(0));
-  EXPECT_EQ(census, memory.last.present.levels[0].row(0));
-  const std::uint8_t* const end =
-      reinterpret_cast<const std::uint8_t*>(memory.views.census[1].bits.row(50));
-  EXPECT_LT(memory.past.views[1].moved.filtered.row(50), end) << "of the same size";
+  memory.resize(settings_of({{"temporal", "filter"}}), {{640, 200}, {640, 200}, {640, 200}, 1});
+  const auto is_reused = [&](const void* buffer) {
+    const std::less_equal<> up_to;
+    return up_to(memory.views.census[0].bits.row(0), buffer) &&
+           up_to(buffer, memory.views.census[1].bits.row(199));
+  };
+  for (int side = 0; side < 2; ++side) {
+    const PastViews::View& view = memory.past.views[side];
+    EXPECT_TRUE(is_reused(view.moved.filtered.row(199)) && is_reused(view.moved.fraction.row(199)));
+    EXPECT_TRUE(is_reused(view.blocks.change.row(0)) && is_reused(view.moves.x.row(0)));
+    EXPECT_FALSE(is_reused(memory.past.means[side].filtered.row(0)));
+    EXPECT_FALSE(is_reused(memory.past.means[side].fraction.row(0)));
+    EXPECT_FALSE(is_reused(memory.past.means[side].frames.row(0)));
+  }
+  for (const ViewPyramid* present : {&memory.past.present, &memory.last.present}) {
+    EXPECT_TRUE(is_reused(present->levels[0].row(0)));
+  }
+  for (const ViewPyramid* last : {&memory.past.last, &memory.last.view}) {
+    EXPECT_FALSE(is_reused(last->levels[0].row(0)));
+  }
+  EXPECT_FALSE(is_reused(memory.last.disparity.row(0)));
 }
 
 }  // namespace
