@@ -138,7 +138,7 @@ py::array member_of(const py::object& owner, T CloudPoint::*member, int count) {
   return py::array(py::dtype::of<T>(), shape, strides, first, owner);
 }
 
-void write(const Cloud& cloud, const std::filesystem::path& path) {
+void write_points(const Cloud& cloud, const std::filesystem::path& path) {
   const std::string suffix = path.extension().string();
   if (suffix != ".ply" && suffix != ".pcd") {
     throw py::value_error("path ends with '" + suffix + "': the formats are .ply and .pcd");
@@ -182,7 +182,7 @@ principal_offset) of the Rectification. TypeError: no array of floats. ValueErro
           "confidence",
           [](const py::object& cloud) { return member_of(cloud, &CloudPoint::confidence, 1); },
           "uint8, (n,): 255 without a confidence map.")
-      .def("write", &write, py::arg("path"),
+      .def("write", &write_points, py::arg("path"),
            "Writes a .ply or .pcd file. ValueError: another suffix. OSError: the file cannot be "
            "written.");
   module.def("cloud", &cloud, py::arg("disparity"), py::arg("rectification"),

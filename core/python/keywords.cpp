@@ -115,7 +115,7 @@ Status set_one(Parameters& parameters, const ParameterInfo& info, py::handle val
   refuse_type(info, value);
 }
 
-py::object value_of(const Parameters& parameters, const ParameterInfo& info) {
+py::object keyword_value(const Parameters& parameters, const ParameterInfo& info) {
   switch (info.type) {
     case T::kBoolean:
       return py::bool_(parameters.integer(info.id) != 0);
@@ -161,7 +161,7 @@ void set_parameters(Parameters& parameters, const py::kwargs& keywords) {
 py::dict parameter_values(const Parameters& parameters) {
   py::dict values;
   for (const ParameterInfo& info : parameter_table()) {
-    values[py::str(keyword_of(info))] = value_of(parameters, info);
+    values[py::str(keyword_of(info))] = keyword_value(parameters, info);
   }
   return values;
 }

@@ -85,7 +85,7 @@ std::vector<std::string> remarks(const StereoCalibration& calibration,
   return texts;
 }
 
-void bind_result(py::module_& module) {
+void bind_rectified(py::module_& module) {
   using R = Rectification;
   py::class_<R>(
       module, "Rectification",
@@ -119,7 +119,7 @@ gives its figures in words.)")
 }  // namespace
 
 void bind_rectification(py::module_& module) {
-  bind_result(module);
+  bind_rectified(module);
   module.def("rectify", &rectified, py::arg("calibration"), py::kw_only(), py::arg("alpha") = 0,
              py::arg("width") = 0, py::arg("height") = 0, py::arg("zero_disparity") = true,
              py::arg("from_file") = true,

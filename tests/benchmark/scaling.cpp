@@ -13,11 +13,8 @@
 namespace mtstereo::bench {
 namespace {
 
-struct Size {
-  int width, height;
-};
-constexpr Size kSize = {640, 480};  // size for growing numbers of disparities
-constexpr int kDisparities = 64;    // disparities for growing sizes
+const cv::Size kSize(640, 480);   // size for growing numbers of disparities
+constexpr int kDisparities = 64;  // disparities for growing sizes
 
 void add(const std::string& name, const FramePointer& frame) {
   benchmark::RegisterBenchmark(
@@ -36,13 +33,13 @@ void add(const std::string& name, const FramePointer& frame) {
 }  // namespace
 
 void register_scaling(bool quick) {
-  std::vector<Size> sizes = {{320, 240}, kSize, {960, 720}, {1280, 960}, {1920, 1440}};
+  std::vector<cv::Size> sizes = {{320, 240}, kSize, {960, 720}, {1280, 960}, {1920, 1440}};
   std::vector<int> disparities = {32, kDisparities, 96, 128, 192, 256};
   if (quick) {
     sizes.resize(2);
     disparities.resize(2);
   }
-  for (const Size size : sizes) {
+  for (const cv::Size size : sizes) {
     add("pixels/" + std::to_string(size.width) + "x" + std::to_string(size.height),
         std::make_shared<Frame>(size.width, size.height, kDisparities));
   }

@@ -20,7 +20,7 @@ struct FrameVariant {
   Variant of;
   bool on_all_frames;
 };
-constexpr FrameVariant kVariants[] = {
+constexpr FrameVariant kFrameVariants[] = {
     {kDefaultVariant, true},
     {{"fast", "fast", "semi-dense"}, true},
     {{"sparse", "default", "sparse"}, false},
@@ -69,7 +69,7 @@ void add_library(const FramePointer& frame, const Variant& variant, int threads,
 void register_whole_frames(const std::vector<FramePointer>& all, Summary& summary) {
   for (const FramePointer& frame : all) {
     for (const int threads : kThreadNumbers) {
-      for (const FrameVariant& variant : kVariants) {
+      for (const FrameVariant& variant : kFrameVariants) {
         if (!variant.on_all_frames && frame != main_frame(all)) continue;
         if (has_preset(variant.of.preset)) add_library(frame, variant.of, threads, summary);
       }

@@ -57,11 +57,6 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-bool is_folder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
-
 // The name of a pattern: what is before and after its number, and the width of the number.
 struct Pattern {
   std::string before, after;
@@ -150,6 +145,11 @@ bool is_video(const fs::path& file) {
                                                     ".ts",   ".mts", ".m2ts", ".avi", ".mpg",
                                                     ".mpeg", ".flv", ".ogv",  ".3gp"};
   return has_extension(file, kKnown);
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) { return entries_of(folder, is_file); }

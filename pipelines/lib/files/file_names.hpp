@@ -18,6 +18,8 @@ bool is_image(const std::filesystem::path& file);
 /// By its extension: a container with video.
 bool is_video(const std::filesystem::path& file);
 
+/// Whether a folder is there.
+bool is_folder(const std::filesystem::path& path);
 /// The files or the folders in a folder in the order of numbered files, without hidden ones; none
 /// if it cannot be read.
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);

@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLooseScale = 1;  // of the pose of a view [px]
-
 void add_rows(const Rig& rig, const Rectification& rectification, const BoardView& view,
               std::vector<double>& rows) {
   std::map<int, Vector2d> rights;
@@ -31,6 +29,7 @@ void add_rows(const Rig& rig, const Rectification& rectification, const BoardVie
 }
 
 void add_distances(const Rig& rig, BoardView view, std::vector<double>& distances) {
+  constexpr double kPoseScale = 1;  // [px]
   const auto pose = board_pose(rig.left, view.left);
   if (!pose) return;
   view.pose = *pose;
@@ -39,7 +38,7 @@ void add_distances(const Rig& rig, BoardView view, std::vector<double>& distance
   BundleOptions options;
   options.free = no_parameters();
   options.free_rig = false;
-  options.robust_scale = kLooseScale;
+  options.robust_scale = kPoseScale;
   adjust(fixed, views, options);
   const Pose& fitted = views.front().pose;
   for (const Vector2d& rest : residuals(rig.left, fitted, view.left)) {

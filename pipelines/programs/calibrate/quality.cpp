@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/outputs/percent.hpp"
 #include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
@@ -22,8 +23,6 @@ constexpr double kGoodTail = 1.0;    // [px], 95 %
 // Of the reprojection, for images of 640 px; larger images have larger errors in pixels.
 constexpr double kHighReprojection = 0.5;  // [px]
 constexpr double kWidthOfLimits = 640;     // [px]
-
-std::string percent(double part, int decimals = 1) { return decimal(100 * part, decimals) + " %"; }
 
 double limit_scale(const Calibrated& calibrated) {
   return std::max(1.0, calibrated.left_size.width / kWidthOfLimits);
@@ -48,8 +47,8 @@ void warn_about_views(const Calibrated& calibrated, const Coverage& coverage,
   }
   if (progress.cells < kLittleCoverage) {
     warnings.push_back(
-        {"uncovered-image", "corners cover " + percent(coverage.left().covered(), 0) +
-                                " of the left and " + percent(coverage.right().covered(), 0) +
+        {"uncovered-image", "corners cover " + outputs::percent(coverage.left().covered()) +
+                                " of the left and " + outputs::percent(coverage.right().covered()) +
                                 " of the right image, but one part of them not enough: the "
                                 "distortion there is a guess" +
                                 next});
@@ -93,7 +92,7 @@ void warn_about_fit(const Calibrated& calibrated, std::vector<Warning>& warnings
       std::max(calibrated.held_out->focal_length_change, calibrated.held_out->baseline_change);
   if (change > kUnstable) {
     warnings.push_back(
-        {"unstable", "focal length or baseline change by " + percent(change) +
+        {"unstable", "focal length or baseline change by " + outputs::percent(change, 1) +
                          " if a fifth of the views is left out: take more, different views"});
   }
 }
@@ -111,12 +110,13 @@ void warn_about_uncertainty(const Calibrated& calibrated, const Quality& quality
                                 quality.uncertainty->right_focal / rig.right.focal());
   const double baseline = quality.uncertainty->baseline / rig.baseline();
   if (focal > kUncertain) {
-    warnings.push_back({"uncertain-focal-length", "the focal length is known to " + percent(focal) +
+    warnings.push_back({"uncertain-focal-length", "the focal length is known to " +
+                                                      outputs::percent(focal, 1) +
                                                       " only: take views with more tilt"});
   }
   if (baseline > kUncertain) {
     warnings.push_back({"uncertain-baseline",
-                        "the baseline is known to " + percent(baseline) +
+                        "the baseline is known to " + outputs::percent(baseline, 1) +
                             " only: take more views, with the board close to the cameras too"});
   }
 }

@@ -2,10 +2,10 @@
 #include "programs/calibrate/session.hpp"
 
 #include <array>
-#include <cmath>
 #include <csignal>
 #include <ctime>
 
+#include "lib/outputs/percent.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/drawings.hpp"
 
@@ -23,8 +23,6 @@ std::string today() {
   std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text.data();
 }
-
-std::string percent(double part) { return std::to_string(std::lround(100 * part)) + " %"; }
 
 std::string size_text(cv::Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
@@ -134,9 +132,10 @@ void Session::take(const ImagePair& images, bool video) {
 void Session::show_status(Verdict verdict) const {
   if (status_ == nullptr) return;
   const Coverage::Progress now = choice_->coverage().progress();
-  *status_ << "\r\033[K" << views_.size() << " views | x " << percent(now.x) << ", y "
-           << percent(now.y) << ", size " << percent(now.size) << ", tilt " << percent(now.skew)
-           << ", image " << percent(now.cells) << " | " << verdict_text(verdict) << std::flush;
+  *status_ << "\r\033[K" << views_.size() << " views | x " << outputs::percent(now.x) << ", y "
+           << outputs::percent(now.y) << ", size " << outputs::percent(now.size) << ", tilt "
+           << outputs::percent(now.skew) << ", image " << outputs::percent(now.cells) << " | "
+           << verdict_text(verdict) << std::flush;
 }
 
 // Live video in which nothing happens.

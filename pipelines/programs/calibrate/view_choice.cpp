@@ -13,7 +13,6 @@ constexpr double kRepetition = 0.02;        // of placements, in images
 constexpr double kStillSpeed = 0.04;        // of the diagonal of the image, per second
 constexpr double kStillDistance = 0.01;     // of the diagonal, between two images
 constexpr double kShortestStep = 1.0 / 60;  // [s]; corners jitter even if nothing moves
-constexpr double kLongestStep = 1;          // [s]; earlier movement does not count
 
 double diagonal(cv::Size size) { return std::hypot(size.width, size.height); }
 
@@ -39,9 +38,10 @@ ViewChoice::ViewChoice(const BoardOptions& board, cv::Size left, cv::Size right,
     : board_(board), left_(left), right_(right), choice_(choice), coverage_(board, left, right) {}
 
 bool ViewChoice::still(const CornerPair& pair, double time) const {
+  constexpr double kLongestGap = 1;  // [s]; earlier movement does not count
   if (!last_) return false;
   const double step = time - last_->time;
-  if (step < 0 || step > kLongestStep) return false;
+  if (step < 0 || step > kLongestGap) return false;
   const auto slow = [&](const Corners& before, const Corners& after, cv::Size size) {
     const auto distance = movement(before, after);
     return distance && *distance <= kStillDistance * diagonal(size) &&

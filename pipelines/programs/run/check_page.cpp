@@ -28,9 +28,9 @@ std::string indented(const std::string& first, const std::string& text) {
   return lines + "\n";
 }
 
-class Figures {
+class FigureLines {
  public:
-  explicit Figures(const CheckFigures& figures) : figures_(figures) {
+  explicit FigureLines(const CheckFigures& figures) : figures_(figures) {
     out_ << std::fixed << std::setprecision(0);
   }
 
@@ -163,7 +163,7 @@ std::string check_page(const CheckFigures& figures, const std::vector<Finding>& 
     if (!finding.advice.remedy.empty()) page += indented("      > ", finding.advice.remedy);
   }
   if (!findings.empty()) page += "\n";
-  page += "Measured\n" + Figures(figures).text() + "\n";
+  page += "Measured\n" + FigureLines(figures).text() + "\n";
   if (!figures.modes.empty()) page += expectation(figures.modes) + "\n";
   return page + verdict(findings);
 }

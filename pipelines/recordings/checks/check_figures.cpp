@@ -11,12 +11,13 @@
 #include "recordings/matching/prepare_pairs.hpp"
 #include "recordings/matching/recorded_views.hpp"
 #include "recordings/matching/view_correction.hpp"
+#include "recordings/media/sample_frames.hpp"
 
 namespace mtstereo::run {
 namespace {
 
 constexpr std::size_t kModePairs = 4;  // that are matched in each mode
-constexpr int kSaturated = 250;        // [gray values]
+constexpr int kSaturatedGray = 250;    // [gray values]
 constexpr double kBrightShare = 0.95;  // of the pixels
 constexpr double kHalfIfBelow = 0.5;   // density: half the resolution may find more
 
@@ -28,8 +29,7 @@ class GrayValues {
       const auto* row = view.ptr<std::uint8_t>(y);
       for (int x = 0; x < view.cols; ++x) ++counts_[row[x]];
     }
-    const GrayView gray{view.data, view.cols, view.rows, static_cast<std::ptrdiff_t>(view.step)};
-    noises_.push_back(noise_of(gray, scratch_));
+    noises_.push_back(noise_of(view_of(view), scratch_));
   }
 
   ViewFigures figures() const {
@@ -39,7 +39,7 @@ class GrayValues {
       const auto count = static_cast<double>(counts_[value]);
       pixels += count;
       sum += count * static_cast<double>(value);
-      if (value >= kSaturated) saturated += count;
+      if (value >= kSaturatedGray) saturated += count;
     }
     if (pixels == 0) return figures;
     figures.mean = sum / pixels;

@@ -8,11 +8,8 @@
 namespace mtstereo::run {
 namespace {
 
-constexpr Nanoseconds kCompared = 20'000'000'000;  // from the start of each source [ns]
-constexpr Nanoseconds kShort = 5'000'000'000;      // motion rarely decides in less [ns]
-constexpr double kNanoseconds = 1e-9;
-
-double seconds(Nanoseconds time) { return kNanoseconds * static_cast<double>(time); }
+constexpr Nanoseconds kCompared = 20 * kSecond;  // from the start of each source
+constexpr Nanoseconds kShort = 5 * kSecond;      // motion rarely decides in less
 
 FrameIndex beginning_of(const FrameIndex& index) {
   FrameIndex beginning = index;

@@ -9,6 +9,7 @@
 #include "recordings/inputs/view_rectifier.hpp"
 #include "recordings/matching/recorded_views.hpp"
 #include "recordings/matching/work_options.hpp"
+#include "recordings/media/sample_frames.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -18,10 +19,6 @@ constexpr int kGap = 8;       // between the views [px]
 constexpr int kLines = 40;    // points that are connected, at most
 constexpr double kLevel = 1;  // rows that differ by less agree [px]
 const cv::Scalar kGreen(80, 200, 80), kRed(60, 60, 220), kWhite(255, 255, 255);
-
-GrayView view_of(const cv::Mat& image) {
-  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
-}
 
 cv::Mat side_by_side(const cv::Mat& left, const cv::Mat& right) {
   cv::Mat image(left.rows, left.cols + kGap + right.cols, CV_8UC3, kWhite);

@@ -24,11 +24,10 @@
 namespace mtstereo::run {
 namespace {
 
-constexpr double kNanoseconds = 1e-9;
 constexpr int kSignatureWidth = 160;        // of the images [px]
 constexpr int kMatchingWidth = 480;         // of the images [px]
 constexpr double kSearched[] = {120, 900};  // from the start, the second if the first fails [s]
-constexpr double kLargestDrift = 3e-4;      // that the search for the lag allows for
+constexpr double kSearchedDrift = 3e-4;     // that the search for the lag allows for
 constexpr int kCandidates = 5;
 constexpr double kLeastScore = 0.2;    // of a lag
 constexpr double kCandidate = 0.6;     // of the best score: a lag that is tried as well
@@ -53,8 +52,6 @@ struct Views {
   const FrameIndex& right;
   double period;  // of the slower source [s]
 };
-
-double seconds(Nanoseconds time) { return kNanoseconds * static_cast<double>(time); }
 
 [[noreturn]] void refuse(const Views& views, const std::string& reason) {
   throw UndecidedClocks(views.recording.name +
@@ -144,7 +141,7 @@ std::optional<Candidate> find_lag(const Views& views, RowMatcher& matcher, doubl
     return std::nullopt;
   }
   std::vector<Candidate> candidates;
-  for (const Lag& lag : search_lags(left, right, views.period, kLargestDrift, kCandidates)) {
+  for (const Lag& lag : search_lags(left, right, views.period, kSearchedDrift, kCandidates)) {
     if (lag.score < kLeastScore) break;
     if (!candidates.empty() && lag.score < kCandidate * candidates.front().lag.score) break;
     candidates.push_back({lag});

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLeastOverlap = 2;    // [s]
 constexpr double kFullOverlap = 10;    // of which on the score is the correlation [s]
-constexpr double kOutlier = 4;         // larger values count as so many standard deviations
+constexpr double kClip = 4;            // larger values count as so many standard deviations
 constexpr double kNeighborhood = 0.2;  // of a peak [s]
 
 // A signature at equal steps of time: one row per feature.
@@ -62,8 +62,8 @@ double condition(cv::Mat row) {
     cv::meanStdDev(row, mean, spread);
     row -= mean;
     deviation = spread[0];
-    row = cv::min(row, kOutlier * deviation);
-    row = cv::max(row, -kOutlier * deviation);
+    row = cv::min(row, kClip * deviation);
+    row = cv::max(row, -kClip * deviation);
   }
   return deviation * deviation;
 }

@@ -13,18 +13,18 @@ namespace {
 constexpr double kLongTime = 0.5;     // of a slow change [s]
 constexpr double kLeastRatio = 1.25;  // slow to fast changes of a scene that moves
 constexpr double kLeastChange = 0.5;  // of a scene that moves [gray values]
-constexpr double kDark = 8;           // added to the brightness before its logarithm [gray values]
 const cv::Size kBlocks(16, 9);
 
 // The logarithms of the mean brightness of bands of rows, without their mean.
 std::vector<double> band_brightness(const cv::Mat& frame) {
+  constexpr double kAdded = 8;  // to the brightness, before its logarithm [gray values]
   cv::Mat rows, bands;
   cv::reduce(frame, rows, 1, cv::REDUCE_AVG, CV_32F);
   cv::resize(rows, bands, cv::Size(1, MotionSignature::kBands), 0, 0, cv::INTER_AREA);
   std::vector<double> result;
   double sum = 0;
   for (int i = 0; i < bands.rows; ++i) {
-    result.push_back(std::log(bands.at<float>(i) + kDark));
+    result.push_back(std::log(bands.at<float>(i) + kAdded));
     sum += result.back();
   }
   for (double& each : result) each -= sum / bands.rows;

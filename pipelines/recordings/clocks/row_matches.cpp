@@ -10,20 +10,16 @@
 #include "alignment/patch_tracking.hpp"
 #include "alignment/sharpness.hpp"
 #include "recordings/clocks/gray_frames.hpp"
+#include "recordings/media/sample_frames.hpp"
 
 namespace mtstereo::run {
 namespace {
 
-constexpr double kNanoseconds = 1e-9;
 constexpr int kDisparityShare = 3;  // the range of disparities is the width divided by it
 constexpr float kReach = 8;         // of the motion from frame to frame [px]
 
-GrayView view_of(const cv::Mat& image) {
-  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
-}
-
-double seconds(const FrameIndex& index, std::int64_t number) {
-  return kNanoseconds * static_cast<double>(index.times[static_cast<std::size_t>(number)]);
+double time_of(const FrameIndex& index, std::int64_t number) {
+  return seconds(index.times[static_cast<std::size_t>(number)]);
 }
 
 // Three successive frames and the times between them.
@@ -56,7 +52,7 @@ Motion motion_at(GrayFrames& frames, std::int64_t number) {
   motion.before = without_noise(frames.at(number - 1), scratch);
   motion.now = without_noise(frames.at(number), scratch);
   motion.after = without_noise(frames.at(number + 1), scratch);
-  motion.duration = seconds(frames.index(), number + 1) - seconds(frames.index(), number - 1);
+  motion.duration = time_of(frames.index(), number + 1) - time_of(frames.index(), number - 1);
   return motion;
 }
 
@@ -77,7 +73,7 @@ std::optional<double> speed_of(const Motion& motion, float at_x, float at_y) {
 }  // namespace
 
 std::int64_t nearest_frame(const FrameIndex& index, double time) {
-  const auto wanted = static_cast<Nanoseconds>(std::llround(time / kNanoseconds));
+  const auto wanted = static_cast<Nanoseconds>(std::llround(time * kSecond));
   const auto next = std::lower_bound(index.times.begin(), index.times.end(), wanted);
   if (next == index.times.begin()) return 0;
   const auto last = std::prev(next);
@@ -93,14 +89,14 @@ RowMatcher::~RowMatcher() = default;
 MatchedPair RowMatcher::match(std::int64_t number, const ClockRelation& relation, Partner partner) {
   MatchedPair pair;
   if (number < 0 || number >= static_cast<std::int64_t>(left_.index().times.size())) return pair;
-  pair.time = seconds(left_.index(), number);
+  pair.time = time_of(left_.index(), number);
   const double expected = pair.time * (1 + relation.drift) + relation.offset;
   std::int64_t other = nearest_frame(right_.index(), expected);
   if (partner == Partner::kOnOtherSide) {
-    other += seconds(right_.index(), other) < expected ? 1 : -1;
+    other += time_of(right_.index(), other) < expected ? 1 : -1;
     if (other < 0 || other >= static_cast<std::int64_t>(right_.index().times.size())) return pair;
   }
-  pair.lateness = seconds(right_.index(), other) - expected;
+  pair.lateness = time_of(right_.index(), other) - expected;
   const Motion left = motion_at(left_, number), right = motion_at(right_, other);
   if (!left.complete() || !right.complete() || right.now.size() != left.now.size()) return pair;
   const int width = right.now.cols, height = right.now.rows;

@@ -2,9 +2,9 @@
 #include "recordings/inputs/completion.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "lib/outputs/percent.hpp"
 #include "lib/outputs/printable.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/calibration.hpp"
@@ -24,8 +24,6 @@ namespace {
 std::string size_text(cv::Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height) + " px";
 }
-
-std::string percent(double fraction) { return std::to_string(std::lround(fraction * 100)) + " %"; }
 
 const char* name_of(Arrangement arrangement) {
   return arrangement == Arrangement::kSideBySide ? "side by side" : "one above the other";
@@ -74,7 +72,7 @@ void confirm_arrangement(Recording& recording, cv::Size size, cv::Size half, boo
     match.swapped = false;
   }
   const std::string text = size_text(size) + ", " + name_of(recording.arrangement) + ": " +
-                           percent(std::max(match.forward, match.backward)) +
+                           outputs::percent(std::max(match.forward, match.backward)) +
                            " of the points of one half are in the other one";
   if (!match.confirmed) {
     throw UserError(file_of(recording.left).string() +
@@ -85,8 +83,9 @@ void confirm_arrangement(Recording& recording, cv::Size size, cv::Size half, boo
   if (swap || !match.swapped) return;
   recording.swapped = true;
   recording.remarks.push_back("The first half is the right view: in the other order " +
-                              percent(match.backward) + " of the points match instead of " +
-                              percent(match.forward) + ". --layout keeps the order.");
+                              outputs::percent(match.backward) +
+                              " of the points match instead of " + outputs::percent(match.forward) +
+                              ". --layout keeps the order.");
 }
 
 cv::Size half_size(cv::Size size, Arrangement arrangement, const fs::path& file) {

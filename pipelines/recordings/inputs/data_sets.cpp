@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kSecond = 1e9;    // [ns]
 constexpr double kKittiRate = 10;  // of all sequences [1/s]
 constexpr int kEth3dRange = 64;    // the largest disparity of the data set [px]
 
@@ -49,7 +48,7 @@ std::optional<Nanoseconds> parse_time(const std::string& line) {
     date.tm_year -= 1900;
     date.tm_mon -= 1;
     const std::time_t minutes = timegm(&date);
-    return static_cast<Nanoseconds>(minutes) * 1'000'000'000 + std::llround(seconds * kSecond);
+    return minutes * kSecond + std::llround(seconds * kSecond);
   }
   const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), seconds);
   if (error != std::errc() || !std::isfinite(seconds)) return std::nullopt;

@@ -44,7 +44,7 @@ HalvesMatch match_halves(const std::vector<cv::Mat>& frames, Arrangement arrange
   for (const cv::Mat& frame : frames) {
     const cv::Mat first = half_of(frame, arrangement, 0, kMatchedWidth);
     const cv::Mat second = half_of(frame, arrangement, 1, kMatchedWidth);
-    const DisparityRange range{0, static_cast<int>(kRangeShare * first.cols)};
+    const SearchRange range{0, static_cast<int>(kRangeShare * first.cols)};
     const auto add = [&](const cv::Mat& a, const cv::Mat& b, ViewMatch& match) {
       matcher.add(left ? left->apply(a) : a, right ? right->apply(b) : b, range, match);
     };

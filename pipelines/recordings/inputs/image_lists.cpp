@@ -23,8 +23,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kSecond = 1e9;  // [ns]
-
 // The last digits of a name.
 std::string digits_of(const fs::path& image) {
   const std::string stem = image.stem().string();

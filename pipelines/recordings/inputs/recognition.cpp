@@ -22,11 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_folder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
-
 // Folders such as /proc never end.
 bool is_of_kernel(const fs::path& folder) {
   struct statfs found = {};
@@ -157,7 +152,7 @@ Recording recognize(const std::vector<std::string>& inputs, const InputOptions& 
     const Source first = source_of(left);
     return completed(recording_of(first, source_of(inputs[1]), options), options);
   }
-  if (is_folder(left)) return only_recording(left, search_folder(left, options, true));
+  if (files::is_folder(left)) return only_recording(left, search_folder(left, options, true));
   return completed(recording_of(source_of(left), {}, options), options);
 }
 

@@ -6,6 +6,7 @@
 
 #include "alignment/field_fit.hpp"
 #include "alignment/pair_inspection.hpp"
+#include "recordings/media/sample_frames.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -13,11 +14,6 @@ namespace {
 constexpr double kLeastShare = 0.12;
 constexpr int kLeastAgreeing = 25;
 constexpr double kAlignedRows = 2;  // [px]
-constexpr double kOutliers = 0.05;  // of the rows, at each end
-
-GrayView view_of(const cv::Mat& image) {
-  return {image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step)};
-}
 
 double value_at(std::vector<float> values, double fraction) {
   if (values.empty()) return 0;
@@ -35,7 +31,7 @@ double ViewMatch::share() const {
 bool ViewMatch::confirmed() const { return share() >= kLeastShare && agreeing >= kLeastAgreeing; }
 
 bool ViewMatch::aligned() const {
-  return confirmed() && row_at(1 - kOutliers) - row_at(kOutliers) <= kAlignedRows;
+  return confirmed() && row_at(1 - kRowOutliers) - row_at(kRowOutliers) <= kAlignedRows;
 }
 
 double ViewMatch::row_at(double fraction) const { return value_at(rows, fraction); }
@@ -57,7 +53,7 @@ ViewMatcher::ViewMatcher() : state_(std::make_unique<State>()) {}
 
 ViewMatcher::~ViewMatcher() = default;
 
-void ViewMatcher::add(const cv::Mat& left, const cv::Mat& right, DisparityRange range,
+void ViewMatcher::add(const cv::Mat& left, const cv::Mat& right, SearchRange range,
                       ViewMatch& match) {
   if (left.empty() || left.size() != right.size()) return;
   const int least = std::min(range.least, 0);

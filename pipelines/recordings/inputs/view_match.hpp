@@ -11,8 +11,11 @@ namespace mtstereo::run {
 /// 20 px of the frames.
 inline constexpr int kMatchedWidth = 480;
 
+/// The rows of matches that may be wrong: a fraction at each end.
+inline constexpr double kRowOutliers = 0.05;
+
 /// The disparities that are searched [px]. Those below `least` count as none.
-struct DisparityRange {
+struct SearchRange {
   int least = 0, most = 0;
 };
 
@@ -48,7 +51,7 @@ class ViewMatcher {
 
   /// Matches a pair, and adds what is found. Images that are empty or of different sizes
   /// add nothing.
-  void add(const cv::Mat& left, const cv::Mat& right, DisparityRange range, ViewMatch& match);
+  void add(const cv::Mat& left, const cv::Mat& right, SearchRange range, ViewMatch& match);
 
  private:
   struct State;

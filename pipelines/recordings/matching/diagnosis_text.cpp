@@ -6,16 +6,16 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "lib/outputs/percent.hpp"
 #include "recordings/matching/view_checks.hpp"
 
 namespace mtstereo::run {
 namespace {
 
-std::string percent(double fraction) { return std::to_string(std::lround(100 * fraction)) + " %"; }
-
 // "72 % of the points match instead of 3 %"
 std::string comparison(const ViewDiagnosis& found) {
-  return percent(found.better) + " of the points match instead of " + percent(found.matched);
+  return outputs::percent(found.better) + " of the points match instead of " +
+         outputs::percent(found.matched);
 }
 
 std::string rows(const ViewDiagnosis& found) {
@@ -62,7 +62,8 @@ Advice range(const ViewDiagnosis& found) {
 }
 
 Advice unknown(const ViewDiagnosis& found, bool two) {
-  return {"Few points of the left view are found in the right one (" + percent(found.matched) +
+  return {"Few points of the left view are found in the right one (" +
+              outputs::percent(found.matched) +
               "). Neither the other order, nor turned views, a larger range, or frames close in "
               "time match better.",
           std::string("Check that both views show the same scene") +

@@ -9,17 +9,6 @@
 #include "recordings/matching/matching_line.hpp"
 
 namespace mtstereo::run {
-namespace {
-
-constexpr double kSeconds = 1e-9;
-
-std::string seconds_text(Nanoseconds time) {
-  char text[32];
-  g_snprintf(text, sizeof text, "%.3f s", kSeconds * static_cast<double>(time));
-  return text;
-}
-
-}  // namespace
 
 FrameFeeder::FrameFeeder(const Work& work, std::vector<std::int64_t> pairs,
                          const Pipeline& pipeline, int lanes)

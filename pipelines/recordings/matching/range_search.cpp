@@ -16,7 +16,7 @@
 namespace mtstereo::run {
 namespace {
 
-constexpr const char* kName = "max-disparity";
+constexpr const char* kRangeProperty = "max-disparity";
 constexpr int kStep = 16;              // ranges are multiples of it [px]
 constexpr double kShare = 0.998;       // of the disparities of a pair: the others may be wrong
 constexpr double kMargin = 1.1;        // nearer things between the pairs that are matched
@@ -33,7 +33,7 @@ Work inspected(const Work& work, int range) {
   Work copy = work;
   copy.options.products.clear();
   copy.options.parameters = {
-      {kName, std::to_string(range)}, {"resolution", "half"}, {"disparity-scale", "16"}};
+      {kRangeProperty, std::to_string(range)}, {"resolution", "half"}, {"disparity-scale", "16"}};
   const std::string smallest = property_of(work.options, "min-disparity");
   if (!smallest.empty()) copy.options.parameters.emplace_back("min-disparity", smallest);
   const bool off = property_of(work.options, "alignment") == "off";
@@ -45,7 +45,7 @@ Work inspected(const Work& work, int range) {
 }  // namespace
 
 bool finds_range(const WorkOptions& options) {
-  return is_range_to_find(property_of(options, kName));
+  return is_range_to_find(property_of(options, kRangeProperty));
 }
 
 std::optional<FoundRange> search_range(const Work& work) {
@@ -75,14 +75,15 @@ std::optional<FoundRange> search_range(const Work& work) {
 
 void set_range(Work& work, int max_disparity) {
   auto& parameters = work.options.parameters;
-  std::erase_if(parameters, [](const auto& each) { return each.first == kName; });
-  parameters.emplace_back(kName, std::to_string(max_disparity));
+  std::erase_if(parameters, [](const auto& each) { return each.first == kRangeProperty; });
+  parameters.emplace_back(kRangeProperty, std::to_string(max_disparity));
 }
 
 void find_range(Work& work) {
   const std::optional<FoundRange> found = search_range(work);
   if (!found) {
-    std::erase_if(work.options.parameters, [](const auto& each) { return each.first == kName; });
+    std::erase_if(work.options.parameters,
+                  [](const auto& each) { return each.first == kRangeProperty; });
     work.remarks.emplace_back(
         "The range of disparities cannot be found: the views do not match. The default range is "
         "used; --max-disparity sets another one.");

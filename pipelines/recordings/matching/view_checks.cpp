@@ -19,7 +19,6 @@ constexpr double kStepFactor = 1.3, kStepGain = 0.1;  // the same, for views of 
 constexpr double kRowsGain = 0.03;                    // the same, if only those match along rows
 constexpr double kRangeFactor = 1.08;                 // the same, for a larger range
 constexpr double kBeyond = 0.05;                      // of the points: disparities beyond the range
-constexpr double kOutliers = 0.05;                    // of the rows, at each end
 constexpr double kWideShare = 0.4;  // of the width, for the test of a larger range
 constexpr double kReserve = 1.1;    // of the range that suffices
 constexpr int kRangeStep = 16;      // the range that suffices is a multiple of it [px]
@@ -41,7 +40,7 @@ bool clearly_better(const ViewMatch& match, const ViewMatch& than) {
   return match.confirmed() && match.share() >= kFactor * than.share();
 }
 
-struct Views {
+struct ViewPair {
   cv::Mat left, right;
 };
 
@@ -74,18 +73,18 @@ class Checks {
   }
 
  private:
-  ViewMatch match(DisparityRange range, const std::function<Views(const ViewSample&)>& views) {
+  ViewMatch match(SearchRange range, const std::function<ViewPair(const ViewSample&)>& views) {
     ViewMatch found;
     for (const ViewSample& sample : input_.samples) {
-      const Views pair = views(sample);
+      const ViewPair pair = views(sample);
       matcher_.add(pair.left, pair.right, range, found);
     }
     return found;
   }
-  Views rectified(const cv::Mat& left, const cv::Mat& right) {
+  ViewPair rectified(const cv::Mat& left, const cv::Mat& right) {
     return {left_ ? left_->apply(left) : left, right_ ? right_->apply(right) : right};
   }
-  ViewMatch rectified(DisparityRange range) {
+  ViewMatch rectified(SearchRange range) {
     return match(range, [&](const ViewSample& s) { return rectified(s.left, s.right); });
   }
 
@@ -99,8 +98,8 @@ class Checks {
     return true;
   }
   void set_rows(const ViewMatch& match, double scale) {
-    result_.least_rows = scale * match.row_at(kOutliers);
-    result_.most_rows = scale * match.row_at(1 - kOutliers);
+    result_.least_rows = scale * match.row_at(kRowOutliers);
+    result_.most_rows = scale * match.row_at(1 - kRowOutliers);
   }
 
   // All rows differ alike, by more than is searched.
@@ -142,7 +141,7 @@ class Checks {
     ViewMatch best;
     for (std::size_t i = 0; i < input_.samples.front().shifted.size(); ++i) {
       const ViewMatch shifted = match(range_, [&](const ViewSample& s) {
-        return i < s.shifted.size() ? rectified(s.left, s.shifted[i].view) : Views{};
+        return i < s.shifted.size() ? rectified(s.left, s.shifted[i].view) : ViewPair{};
       });
       if (shifted.share() <= best.share()) continue;
       best = shifted;
@@ -184,7 +183,7 @@ class Checks {
     // than the search in the images reaches.
     for (const int factor : {1, 2}) {
       const ViewMatch raw = match({-wide_.most / factor, wide_.most / factor}, [&](const auto& s) {
-        return factor == 1 ? Views{s.left, s.right} : Views{halved(s.left), halved(s.right)};
+        return factor == 1 ? ViewPair{s.left, s.right} : ViewPair{halved(s.left), halved(s.right)};
       });
       if (!clearly_better(raw, wider_)) continue;
       set_rows(raw, input_.scale * factor);
@@ -197,7 +196,7 @@ class Checks {
   const ViewSamples& input_;
   std::optional<ViewRectifier> left_, right_;
   ViewMatcher matcher_;
-  DisparityRange range_, wide_;
+  SearchRange range_, wide_;
   ViewMatch now_, wider_;
   ViewDiagnosis result_;
 };

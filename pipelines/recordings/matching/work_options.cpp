@@ -12,7 +12,7 @@
 namespace mtstereo::run {
 namespace {
 
-constexpr const char* kScale = "disparity-scale";
+constexpr const char* kScaleProperty = "disparity-scale";
 // From the finest to the coarsest, as mtstereo chooses it; docs/elements/mtstereo.md.
 constexpr std::array kScales{256, 128, 64, 32, 16, 8, 4, 2, 1};
 
@@ -28,7 +28,7 @@ void check_property(const std::string& name, const std::string& value) {
   };
   if (name == "alignment") return one_of({"off", "correct"});
   if (name == "sharpness") return one_of({"keep", "match"});
-  if (name != kScale) throw UserError("there is no parameter " + name);
+  if (name != kScaleProperty) throw UserError("there is no parameter " + name);
   int scale = 0;
   const char* const end = value.data() + value.size();
   const auto [stop, error] = std::from_chars(value.data(), end, scale);
@@ -107,7 +107,7 @@ void complete_options(Work& work) {
     options.parameters.emplace_back(parameter_info(Parameter::kMaxDisparity).name,
                                     std::to_string(*range));
   }
-  const std::string scale = property_of(options, kScale);
+  const std::string scale = property_of(options, kScaleProperty);
   if (!scale.empty()) {
     check(parameters.check_scale16(std::stoi(scale)));
   } else if (!parameters.check_scale16(kScales.front())) {
@@ -115,7 +115,7 @@ void complete_options(Work& work) {
       return parameters.check_scale16(each).ok();
     });
     if (fitting == kScales.end()) check(parameters.check_scale16(kScales.back()));
-    options.parameters.emplace_back(kScale, std::to_string(*fitting));
+    options.parameters.emplace_back(kScaleProperty, std::to_string(*fitting));
     work.remarks.push_back("The values of the maps count 1/" + std::to_string(*fitting) +
                            " px, so that the search range fits into 16 bits.");
   }

@@ -15,20 +15,11 @@ extern "C" {
 namespace mtstereo::run {
 namespace {
 
-using ebml::kCluster, ebml::kSegment, ebml::kUnknown;
+using ebml::Element, ebml::kCluster, ebml::kSegment, ebml::kUnknown;
 constexpr std::uint32_t kChecksum = 0xBF;
 // A cluster has a time, blocks, groups of blocks, and few others (RFC 9559, section 5.1.3).
 constexpr std::array<std::uint32_t, 9> kInClusters{0xE7, 0xA3, 0xA0,   0xAB,     0xA7,
                                                    0xAF, 0xEC, 0x5854, kChecksum};
-
-// Elements have a name, a length and data.
-struct Element {
-  std::uint32_t name = 0;
-  std::uint64_t data = 0;    // where it begins
-  std::uint64_t length = 0;  // kUnknown: up to the next element of the same level
-
-  std::uint64_t end() const { return length == kUnknown ? kUnknown : data + length; }
-};
 
 std::optional<Element> element_at(Bytes& bytes, std::uint64_t position) {
   const auto start = ebml::start_of(bytes.up_to(position, 12));
@@ -49,16 +40,16 @@ std::uint32_t checksum_of(Bytes& bytes, std::uint64_t from, std::uint64_t to) {
 
 // Up to the first damage in the cluster.
 void check_cluster(Bytes& bytes, const Element& cluster, DamagedParts& damage) {
-  const std::optional<Element> first = element_at(bytes, cluster.data);
-  if (first && first->name == kChecksum && first->length == 4 && first->end() <= cluster.end()) {
-    const std::uint64_t stated = little_endian(bytes.at(first->data, 4));
+  const std::optional<Element> first = element_at(bytes, cluster.content);
+  if (first && first->id == kChecksum && first->length == 4 && first->end() <= cluster.end()) {
+    const std::uint64_t stated = little_endian(bytes.at(first->content, 4));
     if (stated == checksum_of(bytes, first->end(), cluster.end())) return;
-    return damage.add(cluster.data, "a cluster does not have the checksum that it states");
+    return damage.add(cluster.content, "a cluster does not have the checksum that it states");
   }
-  for (std::uint64_t at = cluster.data; at < cluster.end();) {
+  for (std::uint64_t at = cluster.content; at < cluster.end();) {
     const std::optional<Element> part = element_at(bytes, at);
     const bool known =
-        part && std::find(kInClusters.begin(), kInClusters.end(), part->name) != kInClusters.end();
+        part && std::find(kInClusters.begin(), kInClusters.end(), part->id) != kInClusters.end();
     if (!known || part->end() > cluster.end()) {
       return damage.add(at, "a cluster has something else than blocks");
     }
@@ -80,11 +71,11 @@ std::string missing_of_matroska(Bytes& bytes) {
     const std::optional<Element> element = element_at(bytes, start);
     if (!element) return "it ends within the header of an element";
     const bool known = element->length != kUnknown;
-    if (known && exceeds(element->data, element->length, bytes.size())) {
-      return lacks(element->length - (bytes.size() - std::min(element->data, bytes.size())),
-                   element->name == kSegment ? "its segment" : "an element");
+    if (known && exceeds(element->content, element->length, bytes.size())) {
+      return lacks(element->length - (bytes.size() - std::min(element->content, bytes.size())),
+                   element->id == kSegment ? "its segment" : "an element");
     }
-    start = element->name == kSegment || !known ? element->data : element->end();
+    start = element->id == kSegment || !known ? element->content : element->end();
   }
   return "";
 }
@@ -99,15 +90,15 @@ DamagedParts damage_of_matroska(Bytes& bytes) {
       break;
     }
     const bool known = element->length != kUnknown;
-    if (known && exceeds(element->data, element->length, bytes.size())) {
-      if (element->name != kSegment) break;  // missing_of_matroska() states it
-    } else if (known && element->name == kCluster) {
+    if (known && exceeds(element->content, element->length, bytes.size())) {
+      if (element->id != kSegment) break;  // missing_of_matroska() states it
+    } else if (known && element->id == kCluster) {
       check_cluster(bytes, *element, damage);
-    } else if (was_cluster(element->name)) {
+    } else if (was_cluster(element->id)) {
       damage.add(start, "the name of a cluster is wrong");
     }
-    if (element->name == kSegment && known) segment_end = element->end();
-    start = element->name == kSegment || !known ? element->data : element->end();
+    if (element->id == kSegment && known) segment_end = element->end();
+    start = element->id == kSegment || !known ? element->content : element->end();
   }
   return damage;
 }

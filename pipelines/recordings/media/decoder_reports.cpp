@@ -55,12 +55,6 @@ void listen_to_base_class() {
   gst_debug_category_set_threshold(category, GST_LEVEL_WARNING);
 }
 
-std::string seconds(Nanoseconds time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f s", 1e-9 * static_cast<double>(time));
-  return text;
-}
-
 Nanoseconds order_of(const DamagedFrame& frame) {
   return frame.time.value_or(std::numeric_limits<Nanoseconds>::min());
 }
@@ -143,12 +137,18 @@ std::vector<DamagedFrame> DecoderReports::take_until(Nanoseconds time) {
   return found;
 }
 
+std::string seconds_text(Nanoseconds time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f s", seconds(time));
+  return text;
+}
+
 std::string damage_text(const std::vector<DamagedFrame>& frames, const std::string& title) {
   if (frames.empty()) return "";
   const DamagedFrame& first = frames.front();
   std::string text = std::to_string(frames.size()) + (frames.size() == 1 ? " frame" : " frames") +
                      " of the " + title + " cannot be decoded without errors";
-  if (first.time) text += ", the first one at " + seconds(*first.time);
+  if (first.time) text += ", the first one at " + seconds_text(*first.time);
   return text + " (" + first.reason + ")";
 }
 

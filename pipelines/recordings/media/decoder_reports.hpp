@@ -72,6 +72,9 @@ class DecoderReports : public LibavErrors, public std::enable_shared_from_this<D
   bool started_ = false;                            // at a keyframe
 };
 
+/// A time in such a clause: "12.345 s".
+std::string seconds_text(Nanoseconds time);
+
 /// A clause about damaged frames of a source; empty without one.
 std::string damage_text(const std::vector<DamagedFrame>& frames, const std::string& title);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
@@ -21,8 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kSecond = 1e9;  // [ns]
-
 Nanoseconds median_period(const std::vector<Nanoseconds>& times) {
   std::vector<Nanoseconds> steps;
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
@@ -32,17 +29,11 @@ Nanoseconds median_period(const std::vector<Nanoseconds>& times) {
   return *middle;
 }
 
-std::string seconds(Nanoseconds time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", static_cast<double>(time) / kSecond);
-  return text;
-}
-
 // What is missing, by the container, by the demultiplexer, and by the decoder.
 std::string missing_of(const fs::path& file, const VideoTimes& coded, const VideoTimes& shown,
                        bool by_order) {
   const Nanoseconds end = shown.times.back() + median_period(shown.times);
-  const std::string where = " after " + seconds(end) + " s";
+  const std::string where = " after " + seconds_text(end);
   if (const std::string reason = missing_end(file); !reason.empty()) {
     return "the file is truncated" + where + ": " + reason;
   }
@@ -66,7 +57,7 @@ std::string missing_of(const fs::path& file, const VideoTimes& coded, const Vide
   std::erase_if(lost, [&](Nanoseconds time) { return time < shown.times.front(); });
   if (lost.empty()) return "";
   return std::to_string(lost.size()) + " of " + std::to_string(coded.times.size()) +
-         " frames cannot be decoded, the first of them at " + seconds(lost.front()) + " s";
+         " frames cannot be decoded, the first of them at " + seconds_text(lost.front());
 }
 
 // All that is known before the frames of the pairs are decoded.

@@ -14,7 +14,7 @@ namespace mtstereo::run {
 namespace {
 
 // The library leaves a function at an error by its handler, and does not return.
-struct Check {
+struct JpegCheck {
   jpeg_error_mgr errors{};
   jpeg_decompress_struct decoder{};
   std::jmp_buf at_error{};
@@ -22,13 +22,13 @@ struct Check {
 };
 
 void take_text(j_common_ptr decoder) {
-  auto* const check = static_cast<Check*>(decoder->client_data);
+  auto* const check = static_cast<JpegCheck*>(decoder->client_data);
   if (check->text[0] == '\0') decoder->err->format_message(decoder, check->text);
 }
 
 void on_error(j_common_ptr decoder) {
   take_text(decoder);
-  std::longjmp(static_cast<Check*>(decoder->client_data)->at_error, 1);
+  std::longjmp(static_cast<JpegCheck*>(decoder->client_data)->at_error, 1);
 }
 
 // Whether a warning is about the kind of the file, or about bytes that fill the end of the data, as
@@ -53,7 +53,7 @@ void on_message(j_common_ptr decoder, int level) {
 }
 
 // Has no objects with destructors: on_error() leaves it.
-void read_coefficients(Check& check, const unsigned char* bytes, unsigned long size) {
+void read_coefficients(JpegCheck& check, const unsigned char* bytes, unsigned long size) {
   if (setjmp(check.at_error) != 0) return;
   jpeg_create_decompress(&check.decoder);
   check.decoder.client_data = &check;
@@ -65,7 +65,7 @@ void read_coefficients(Check& check, const unsigned char* bytes, unsigned long s
 }  // namespace
 
 std::string damage_of_jpeg(std::string_view bytes) {
-  Check check;
+  JpegCheck check;
   check.decoder.err = jpeg_std_error(&check.errors);
   check.errors.error_exit = on_error;
   check.errors.emit_message = on_message;

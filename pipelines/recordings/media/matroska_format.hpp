@@ -57,6 +57,15 @@ inline constexpr std::uint64_t kUnknown = (std::uint64_t{1} << 56) - 1;
 /// The element at the beginning of these bytes; std::nullopt if its start is not there.
 std::optional<Start> start_of(std::string_view bytes);
 
+/// An element at a place.
+struct Element {
+  std::uint32_t id = 0;
+  std::uint64_t content = 0;  ///< where it begins
+  std::uint64_t length = 0;   ///< as Start::length
+
+  std::uint64_t end() const { return length == kUnknown ? kUnknown : content + length; }
+};
+
 /// The first bytes of a cluster, and those of its frame before the coded data.
 std::string cluster_head(std::uint64_t time, std::size_t frame);
 /// The length of cluster_head().

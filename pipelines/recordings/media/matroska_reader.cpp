@@ -9,13 +9,9 @@
 namespace mtstereo::run {
 namespace {
 
-constexpr std::size_t kLongestHead = 1 << 20;
+using ebml::Element;
 
-struct Element {
-  std::uint32_t id = 0;
-  std::size_t content = 0;   // where it begins
-  std::uint64_t length = 0;  // of the content
-};
+constexpr std::size_t kLongestHead = 1 << 20;
 
 // The element at a place; std::nullopt if its start is not there.
 std::optional<Element> element_at(std::string_view bytes, std::size_t at) {

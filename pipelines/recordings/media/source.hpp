@@ -11,6 +11,12 @@ namespace mtstereo::run {
 /// A time or a difference of two [ns].
 using Nanoseconds = std::int64_t;
 
+/// One second [ns].
+inline constexpr Nanoseconds kSecond = 1'000'000'000;
+
+/// A time [s].
+inline double seconds(Nanoseconds time) { return 1e-9 * static_cast<double>(time); }
+
 /// Where the frames of one source are: a video file, or images.
 struct Source {
   std::filesystem::path video;                ///< empty for images

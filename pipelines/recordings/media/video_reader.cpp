@@ -14,7 +14,6 @@ namespace mtstereo::run {
 namespace {
 
 constexpr std::int64_t kFar = 64;  // a seek takes less time than decoding so many frames
-constexpr Nanoseconds kSecond = 1'000'000'000;
 
 // How far before a frame a seek aims: the one after a seek that found no key frame before it.
 constexpr std::array<Nanoseconds, 3> kLead{0, 5 * kSecond, 30 * kSecond};

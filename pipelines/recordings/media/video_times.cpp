@@ -13,12 +13,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kSecond = 1e9;  // [ns]
 constexpr double kUsualRate = 30;
 // A video with fewer frames is decoded as a whole: the start and the end of a longer one are.
-constexpr std::size_t kShort = 300;             // frames
-constexpr std::size_t kStart = 60;              // frames, at least
-constexpr Nanoseconds kBefore = 1'000'000'000;  // that a seek to the end begins earlier
+constexpr std::size_t kShortVideo = 300;  // frames
+constexpr std::size_t kStart = 60;        // frames, at least
+constexpr Nanoseconds kBefore = kSecond;  // that a seek to the end begins earlier
 
 // Of these, each frame of the file is one frame that is shown.
 constexpr std::array<std::string_view, 8> kPlainCodecs{
@@ -111,7 +110,7 @@ bool has_intra_codec(const VideoTimes& coded) { return has_codec_of(kIntraCodecs
 
 bool parser_suffices(const fs::path& file, const VideoTimes& coded) {
   if (!coded.complete || !coded.error.empty() || !has_plain_codec(coded)) return false;
-  if (coded.times.size() < kShort || coded.keyframes.empty()) return false;
+  if (coded.times.size() < kShortVideo || coded.keyframes.empty()) return false;
   return start_is_shown(file, coded) && end_is_shown(file, coded);
 }
 

@@ -31,14 +31,14 @@ std::int64_t pairs_per_task(std::int64_t pairs, const ArchiveOptions& options) {
   return std::clamp((pairs + tasks - 1) / tasks, kShortTask, kPairsPerTask);
 }
 
-std::string source_of(const Source& source) {
+std::string input_of(const Source& source) {
   if (!source.video.empty()) return source.video.string();
   if (!source.images.empty()) return source.images.front().parent_path().string();
   return {};
 }
 
-std::string source_of(const Recording& recording) {
-  const std::string source = source_of(recording.left);
+std::string input_of(const Recording& recording) {
+  const std::string source = input_of(recording.left);
   return source.empty() ? recording.name : source;
 }
 
@@ -114,7 +114,7 @@ Prepared prepare_recording(const Recording& found, const ArchiveOptions& options
   planned.tasks = result.tasks.size();
   for (const auto& [source, index] :
        {std::pair(&recording.left, &work->left), std::pair(&recording.right, &work->right)}) {
-    if (!index->damage.empty()) result.damaged.push_back({source_of(*source), index->damage});
+    if (!index->damage.empty()) result.damaged.push_back({input_of(*source), index->damage});
   }
   return result;
 }
@@ -186,7 +186,7 @@ Plan plan_archive(const std::vector<Recording>& recordings, std::vector<Problem>
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     Prepared& each = prepared[i];
     if (!each.recording.problem.empty()) {
-      plan.problems.push_back(problem_of(source_of(recordings[i]), each.recording.problem));
+      plan.problems.push_back(problem_of(input_of(recordings[i]), each.recording.problem));
       continue;
     }
     plan.recordings.push_back(recordings[i].name);

@@ -23,12 +23,10 @@ int threads_per_job(int jobs) {
   return std::max(1, processors / std::max(jobs, 1));
 }
 
-// Before the messages of this program.
-constexpr std::string_view kName = "mtstereo-run: ";
-
 // The message of the process, or how it ended if it has none.
 std::string failure_of(std::size_t task, const ProgramResult& result) {
   constexpr int kSignals = 128;
+  constexpr std::string_view kOwn = "mtstereo-run: ";  // before messages of this program
   if (result.status > kSignals) {
     return "task " + std::to_string(task) + " was ended by signal " +
            std::to_string(result.status - kSignals);
@@ -36,7 +34,7 @@ std::string failure_of(std::size_t task, const ProgramResult& result) {
   std::istringstream lines(result.errors);
   std::string message;
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(kName)) message = line.substr(kName.size());
+    if (line.starts_with(kOwn)) message = line.substr(kOwn.size());
   }
   if (!message.empty()) return message;
   return "task " + std::to_string(task) + " ended with status " + std::to_string(result.status) +

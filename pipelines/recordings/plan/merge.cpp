@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kVersion = 1;
+constexpr int kSummaryVersion = 1;
 
 // The outcome for a recording.
 struct Joined {
@@ -149,7 +149,7 @@ void write_summary(const PlanFolder& files, const Plan& plan, const std::vector<
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     list.push_back(to_json(plan.recordings[i], recordings[i]));
   }
-  const json summary{{"version", kVersion},
+  const json summary{{"version", kSummaryVersion},
                      {"recordings", std::move(list)},
                      {"pairs", result.sum.pairs},
                      {"density", result.sum.density},

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kVersion = 1;
+constexpr int kPlanVersion = 1;
 constexpr const char* kPlanAgain = "; plan again by 'mtstereo-run plan' with --resume";
 
 // A name becomes that of a folder and of a file: it must stay within the plan.
@@ -56,7 +56,7 @@ json to_json(const Plan& plan) {
     tasks.push_back(
         {{"recording", task.recording}, {"first", task.range.first}, {"count", task.range.count}});
   }
-  return {{"version", kVersion},
+  return {{"version", kPlanVersion},
           {"program", MTSTEREO_VERSION},
           {"recordings", plan.recordings},
           {"tasks", std::move(tasks)},
@@ -151,7 +151,7 @@ Plan read_plan(const fs::path& folder) {
   }
   try {
     const json text = json::parse(in);
-    if (text.at("version") != kVersion) {
+    if (text.at("version") != kPlanVersion) {
       throw UserError(file.string() + ": is of another version of mtstereo-run" + kPlanAgain);
     }
     const std::string program = text.at("program");

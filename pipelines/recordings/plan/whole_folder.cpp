@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kContents = "whole.json";
-constexpr int kVersion = 1;
+constexpr int kContentsVersion = 1;
 // Above this number of files, one call that stores the whole file system is faster.
 constexpr std::size_t kMostSynchronizedFiles = 64;
 
@@ -100,7 +100,7 @@ std::string file_defect(const fs::path& folder, const json& file, Check check) {
 
 std::string contents_defect(const fs::path& folder, const Origin& origin, Check check) {
   const json contents = read_contents(folder);
-  if (contents.at("version") != kVersion) return "it is of another version of mtstereo-run";
+  if (contents.at("version") != kContentsVersion) return "it is of another version of mtstereo-run";
   if (contents.at("work") != origin.work || contents.at("first") != origin.range.first ||
       contents.at("count") != origin.range.count) {
     return "it belongs to another plan";
@@ -171,7 +171,7 @@ bool NewFolder::publish(const fs::path& target, const Origin& origin, const Figu
       files.push_back({{"name", name.string()}, {"bytes", fs::file_size(path_ / name)}});
       if (checksums == Checksums::kWith) files.back()["sha256"] = sha256_of(path_ / name);
     }
-    const json contents{{"version", kVersion},
+    const json contents{{"version", kContentsVersion},
                         {"work", origin.work},
                         {"first", origin.range.first},
                         {"count", origin.range.count},

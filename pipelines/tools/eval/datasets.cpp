@@ -14,9 +14,9 @@ namespace mtstereo::eval {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<std::string_view, 8> kNames{"middlebury",   "kitti2015", "trimbot-synthetic",
-                                                 "trimbot-real", "driving",   "monkaa",
-                                                 "flyingthings", "eth3d"};
+constexpr std::array<std::string_view, 8> kLayoutNames{
+    "middlebury", "kitti2015", "trimbot-synthetic", "trimbot-real",
+    "driving",    "monkaa",    "flyingthings",      "eth3d"};
 
 // How to continue with a file of the wrong size that an evaluation does not need.
 constexpr const char* kAdvice =
@@ -52,15 +52,17 @@ cv::Mat read_truth(const StereoPair& pair, cv::Size size, DmapMeaning meaning) {
 
 }  // namespace
 
-std::string_view layout_name(Layout layout) { return kNames[static_cast<std::size_t>(layout)]; }
-
-std::optional<Layout> find_layout(std::string_view name) {
-  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<Layout>(found - kNames.begin());
+std::string_view layout_name(Layout layout) {
+  return kLayoutNames[static_cast<std::size_t>(layout)];
 }
 
-std::vector<std::string> layout_names() { return {kNames.begin(), kNames.end()}; }
+std::optional<Layout> find_layout(std::string_view name) {
+  const auto* const found = std::find(kLayoutNames.begin(), kLayoutNames.end(), name);
+  if (found == kLayoutNames.end()) return std::nullopt;
+  return static_cast<Layout>(found - kLayoutNames.begin());
+}
+
+std::vector<std::string> layout_names() { return {kLayoutNames.begin(), kLayoutNames.end()}; }
 
 std::string name_below(const fs::path& root, const fs::path& file) {
   return fs::path(file).replace_extension().lexically_relative(root).generic_string();

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <string>
-#include <system_error>
 
 #include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
@@ -16,11 +15,6 @@ namespace mtstereo::eval {
 namespace fs = std::filesystem;
 namespace {
 
-bool is_folder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
-
 struct Folders {
   fs::path left, right;
   fs::path occ, noc;  // empty if the folder does not exist
@@ -29,7 +23,7 @@ struct Folders {
 
 fs::path first_folder(const fs::path& base, std::initializer_list<const char*> names) {
   for (const char* name : names) {
-    if (is_folder(base / name)) return base / name;
+    if (files::is_folder(base / name)) return base / name;
   }
   return {};
 }
@@ -39,7 +33,7 @@ std::optional<Folders> folders_of(const fs::path& base) {
       {{"image_2", "image_3"}, {"image_0", "image_1"}}};
   Folders folders;
   for (const auto& [left, right] : kCameras) {
-    if (!is_folder(base / left)) continue;
+    if (!files::is_folder(base / left)) continue;
     folders.left = base / left;
     folders.right = base / right;
     break;

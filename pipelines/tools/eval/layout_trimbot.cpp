@@ -8,7 +8,6 @@
 #include <cctype>
 #include <map>
 #include <string>
-#include <system_error>
 
 #include "lib/files/file_names.hpp"
 #include "tools/eval/files.hpp"
@@ -22,11 +21,6 @@ namespace {
 struct Rig {
   fs::path left, right;
 };
-
-bool is_folder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
 
 // The folder of the right camera, if this is the folder of a left one. In rigs with several pairs,
 // left cameras have even numbers: vcam_0 with vcam_1, vcam_2 with vcam_3.
@@ -44,7 +38,7 @@ std::optional<Rig> rig_of(const fs::path& left) {
     }
     right = left.parent_path() / (name.substr(0, at + 4) + static_cast<char>(digit + 1));
   }
-  if (!is_folder(right)) return std::nullopt;
+  if (!files::is_folder(right)) return std::nullopt;
   return Rig{left, right};
 }
 

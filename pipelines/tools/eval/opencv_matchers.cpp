@@ -12,7 +12,7 @@
 namespace mtstereo::eval {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames{"sgbm", "sgbm-3way", "sgbm-hh", "bm"};
+constexpr std::array<std::string_view, 4> kMethodNames{"sgbm", "sgbm-3way", "sgbm-hh", "bm"};
 
 // The settings of OpenCV's own samples and of most users.
 constexpr int kSgbmBlock = 5;
@@ -54,16 +54,16 @@ struct OpenCvMatcher::State {
 };
 
 std::string_view opencv_name(OpenCvMethod method) {
-  return kNames[static_cast<std::size_t>(method)];
+  return kMethodNames[static_cast<std::size_t>(method)];
 }
 
 std::optional<OpenCvMethod> find_opencv(std::string_view name) {
-  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<OpenCvMethod>(found - kNames.begin());
+  const auto* const found = std::find(kMethodNames.begin(), kMethodNames.end(), name);
+  if (found == kMethodNames.end()) return std::nullopt;
+  return static_cast<OpenCvMethod>(found - kMethodNames.begin());
 }
 
-std::vector<std::string> opencv_names() { return {kNames.begin(), kNames.end()}; }
+std::vector<std::string> opencv_names() { return {kMethodNames.begin(), kMethodNames.end()}; }
 
 int opencv_disparities(int max_disparity) { return (max_disparity + 15) / 16 * 16; }
 

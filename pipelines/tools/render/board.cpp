@@ -17,12 +17,10 @@ using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kMargin = 3;  // of a board that is inside of a view [px]
-
 bool sees(const Camera& camera, const Vector3d& in_left) {
+  constexpr double kInside = 3;  // from the border of the view [px]
   const Vector3d point = camera.pose.linear().transpose() * (in_left - camera.pose.translation());
-  return camera.lens->sees(point, kMargin);
+  return camera.lens->sees(point, kInside);
 }
 
 // The part of a grid of points of the board that both cameras see.

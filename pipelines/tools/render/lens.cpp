@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -20,8 +19,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kLargestAngle = 85 * std::numbers::pi / 180;  // from the optical axis [rad]
-constexpr int kGrid = 33;   // starting points of the inversion: kGrid x kGrid
+constexpr double kLargestAngle = 85 * kDegree;  // from the optical axis [rad]
+constexpr int kGrid = 33;                       // starting points of the inversion: kGrid x kGrid
 constexpr double kRim = 2;  // the inversion is valid up to here outside of the image [px]
 constexpr int kMostSteps = 30;
 

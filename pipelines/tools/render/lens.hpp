@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "mtstereo/geometry/calibration.hpp"
 
 namespace mtstereo::render {
+
+/// One degree [rad].
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// The exact mapping between the pixels of a raw camera and the rays in its axes, in both
 /// directions. The models and their coefficients are those of OpenCV.

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 
 #include "tools/render/lens.hpp"
@@ -17,8 +16,6 @@ using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 Camera left_of(const StereoCalibration& c) {
   Camera camera;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tools/render/rig.hpp"
 
-#include <numbers>
-
 #include "tools/render/lens.hpp"
 
 namespace mtstereo::render {
@@ -40,7 +38,6 @@ Camera ideal_right_camera(const Settings& settings) {
 }
 
 Camera right_camera(const Settings& settings) {
-  constexpr double kDegree = std::numbers::pi / 180;
   const Rig& rig = settings.rig;
   Camera camera = ideal_right_camera(settings);
   if (rig.aligned()) return camera;

@@ -96,8 +96,7 @@ Object& SceneBuilder::pole(const Vector3d& foot, double height, double radius,
 
 Object& SceneBuilder::ground(double y, double half_width, double from, double to,
                              const Texture& texture) {
-  return rectangle({0, y, (from + to) / 2}, half_width, (to - from) / 2, texture, 0,
-                   std::numbers::pi / 2);
+  return rectangle({0, y, (from + to) / 2}, half_width, (to - from) / 2, texture, 0, kQuarterTurn);
 }
 
 void SceneBuilder::foliage(const Vector3d& center, double radius, int leaves, double leaf_size,

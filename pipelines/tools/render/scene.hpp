@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "tools/render/shapes.hpp"
 
 namespace mtstereo::render {
+
+/// [rad]
+inline constexpr double kQuarterTurn = std::numbers::pi / 2;
 
 /// The motion of the left camera. World and camera axes: x right, y down, z forward.
 struct CameraPath {

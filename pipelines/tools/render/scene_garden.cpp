@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "tools/render/scene.hpp"
@@ -10,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kGround = 0.4;  // the camera's height above the lawn [m]
+constexpr double kLawn = 0.4;  // the camera's height above the lawn [m]
 
 Texture lawn() {
   Texture t;
@@ -101,31 +100,30 @@ Scene make_garden(std::uint32_t seed, bool lights) {
   scene.camera.yaw_swing = 0.015;
   scene.camera.pitch = 0.06;
 
-  b.ground(kGround, 12, -1, 16, lawn());
-  Object& path =
-      b.rectangle({-0.7, kGround - 0.004, 4}, 0.35, 5, gravel(), 0, std::numbers::pi / 2);
+  b.ground(kLawn, 12, -1, 16, lawn());
+  Object& path = b.rectangle({-0.7, kLawn - 0.004, 4}, 0.35, 5, gravel(), 0, kQuarterTurn);
   path.pose.rotate(Eigen::AngleAxisd(-0.12, Vector3d::UnitZ()));
   path.wet = lights ? 0.6 : 0;
-  b.box({-2.6, kGround - 0.4, 4.5}, {0.35, 0.4, 3}, hedge(), 0.15);
-  b.box({0, kGround - 0.9, 9.5}, {9, 0.9, 0.2}, stone(), -0.1);
-  b.box({2.6, kGround - 0.6, 6.0}, {0.9, 0.6, 0.5}, wood(0.5), 0.5);
+  b.box({-2.6, kLawn - 0.4, 4.5}, {0.35, 0.4, 3}, hedge(), 0.15);
+  b.box({0, kLawn - 0.9, 9.5}, {9, 0.9, 0.2}, stone(), -0.1);
+  b.box({2.6, kLawn - 0.6, 6.0}, {0.9, 0.6, 0.5}, wood(0.5), 0.5);
 
-  bush(b, {-1.15, kGround - 0.34, 2.5}, 0.34);
-  bush(b, {0.35, kGround - 0.26, 3.4}, 0.27);
-  bush(b, {1.5, kGround - 0.4, 4.4}, 0.42);
-  bush(b, {-0.6, kGround - 0.45, 5.8}, 0.45);
-  pot(b, {0.85, kGround, 1.75}, 0.2);
-  flowers(b, {-0.45, kGround, 1.35}, 6, {0.5f, 0.5f, 1.0f});
-  flowers(b, {0.5, kGround, 2.3}, 7, {0.5f, 0.95f, 1.0f});
+  bush(b, {-1.15, kLawn - 0.34, 2.5}, 0.34);
+  bush(b, {0.35, kLawn - 0.26, 3.4}, 0.27);
+  bush(b, {1.5, kLawn - 0.4, 4.4}, 0.42);
+  bush(b, {-0.6, kLawn - 0.45, 5.8}, 0.45);
+  pot(b, {0.85, kLawn, 1.75}, 0.2);
+  flowers(b, {-0.45, kLawn, 1.35}, 6, {0.5f, 0.5f, 1.0f});
+  flowers(b, {0.5, kLawn, 2.3}, 7, {0.5f, 0.95f, 1.0f});
 
-  Object& fence = b.rectangle({1.45, kGround - 0.35, 2.6}, 0.9, 0.35, wood(0.7), -0.55);
+  Object& fence = b.rectangle({1.45, kLawn - 0.35, 2.6}, 0.9, 0.35, wood(0.7), -0.55);
   fence.cutout = Cutout::kBars;
   fence.cutout_period = 0.12, fence.cutout_solid = 0.45;
   for (int i = 0; i < 26; ++i) {
     const double radius = b.random(0.012, 0.04);
-    b.sphere({b.random(-1.6, 1.4), kGround - 0.5 * radius, b.random(1.1, 3.5)}, radius, gravel());
+    b.sphere({b.random(-1.6, 1.4), kLawn - 0.5 * radius, b.random(1.1, 3.5)}, radius, gravel());
   }
-  Object& ball = b.sphere({-0.1, kGround - 0.11, 2.0}, 0.11, flower({0.4f, 0.4f, 1.0f}));
+  Object& ball = b.sphere({-0.1, kLawn - 0.11, 2.0}, 0.11, flower({0.4f, 0.4f, 1.0f}));
   ball.motion.velocity = {0.12, 0, 0.1};
   ball.motion.spin = 1;
   if (lights) {

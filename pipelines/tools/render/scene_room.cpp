@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <numbers>
 #include <utility>
 
 #include "tools/render/scene.hpp"
@@ -10,7 +9,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFloor = 1.1;  // the camera's height above the floor [m]
-constexpr double kQuarter = std::numbers::pi / 2;
 
 // Painted plaster: almost no texture, like real walls.
 Texture plaster(double mean) {
@@ -84,10 +82,10 @@ void walls(SceneBuilder& b) {
   b.ground(kFloor, 4, -1, 5, parquet());
   b.ground(kFloor - 2.6, 4, -1, 5, plaster(0.85));
   b.rectangle({0, kFloor - 1.3, 4.6}, 3.2, 1.3, plaster(0.7));
-  b.rectangle({-2.3, kFloor - 1.3, 2}, 3, 1.3, plaster(0.62), kQuarter);
-  b.rectangle({2.5, kFloor - 1.3, 2}, 3, 1.3, plaster(0.66), kQuarter);
+  b.rectangle({-2.3, kFloor - 1.3, 2}, 3, 1.3, plaster(0.62), kQuarterTurn);
+  b.rectangle({2.5, kFloor - 1.3, 2}, 3, 1.3, plaster(0.66), kQuarterTurn);
   b.rectangle({0.95, kFloor - 1.6, 4.57}, 0.55, 0.4, painting());
-  b.rectangle({-2.27, kFloor - 1.5, 2.9}, 0.5, 0.4, painting(), kQuarter);
+  b.rectangle({-2.27, kFloor - 1.5, 2.9}, 0.5, 0.4, painting(), kQuarterTurn);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -11,7 +10,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kGround = 1.4;  // the camera's height above the road [m]
-constexpr double kQuarter = std::numbers::pi / 2;
 
 Texture asphalt() {
   Texture t;
@@ -65,7 +63,7 @@ void houses(SceneBuilder& b, double side) {
     for (double floor = 1.6; floor < height - 1; floor += 2.6) {
       for (double along = 1.5; along < depth - 1; along += 2.4) {
         b.rectangle({side * (front - 0.04), kGround - floor - 0.3, z + along}, 0.5, 0.7, glass,
-                    side * kQuarter);
+                    side * kQuarterTurn);
       }
     }
     z += depth + (b.random(0, 1) < 0.3 ? 1.5 : 0);

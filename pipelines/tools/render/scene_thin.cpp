@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -76,7 +75,7 @@ void add_bar(SceneBuilder& b, ThinKind kind, double width, int i) {
   double slope = 0;
   if (kind == ThinKind::kLeaning) slope = either(b) * b.random(0.2, 0.6);
   if (kind == ThinKind::kWires) slope = either(b) * b.random(0.06, 0.2);
-  const double lean = (upright ? 0 : std::numbers::pi / 2) - std::atan(slope);
+  const double lean = (upright ? 0 : kQuarterTurn) - std::atan(slope);
   // The width along a row, or along a column, is the given one.
   bar(b, place, width * std::cos(std::atan(slope)), length, lean, paint(b, place));
 }
@@ -105,7 +104,7 @@ void add_stem(SceneBuilder& b, double width, int i) {
     Object& leaf = bar(b, place, 10, 30, b.random(0.6, 1.2) * either(b), texture);
     leaf.cutout = Cutout::kLeaf;
     std::swap(leaf.size.x(), leaf.size.y());
-    leaf.pose.rotate(AngleAxisd(std::numbers::pi / 2, Vector3d::UnitZ()));
+    leaf.pose.rotate(AngleAxisd(kQuarterTurn, Vector3d::UnitZ()));
   }
 }
 

@@ -127,12 +127,12 @@ std::optional<Hit> hit_cylinder(const Object& o, const Eigen::Vector3d& origin,
 namespace {
 
 // A time on a path: the index of a pose, and the way to the next one, 0 .. 1.
-struct Place {
+struct PathPlace {
   std::size_t index;
   double along;
 };
 
-Place place_at(const Path& path, double time) {
+PathPlace place_at(const Path& path, double time) {
   constexpr double kRounding = 1e-9;  // [s]
   const double period = path.rest + path.move;
   const double passed = std::max(0.0, std::floor((time + kRounding) / period));
