@@ -15,8 +15,8 @@
 #
 # Builds into build/, build-clang-asan/ and build-clang-tsan/. With CI=true warnings are errors, and the tests
 # of the core also run on 64-bit ARM, emulated by QEMU, in build-aarch64/. Compilers run through ccache if it
-# is installed. The tests of CI, and the library for sanitizers and ARM, are compiled as few large files, which
-# takes a quarter of the time; the release build compiles what users build file by file.
+# is installed. In CI all but library and elements is compiled as few large files, which takes a quarter of the
+# time, for sanitizers and ARM also the library. Without CI the release build compiles file by file, as users do.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 repository=$PWD
@@ -87,7 +87,7 @@ build() {
   local ci=false
   [ "${CI:-}" != true ] || ci=true
   if meson setup "${again[@]}" "$folder" "$repository" -Dwerror="$ci" \
-    -Dunity_tests="$ci" -Dunity_size=40 "$@" >"$log" 2>&1 &&
+    -Dunity_programs="$ci" -Dunity_size=40 "$@" >"$log" 2>&1 &&
     { [ "$target" = later ] || ninja -C "$folder" "$target" >"$log" 2>&1; }; then
     return 0
   fi
@@ -156,11 +156,12 @@ if [ "$quick" = no ]; then
   asan_library=$(clang++ -print-file-name=libclang_rt.asan-x86_64.so)
   shared_asan="-shared-libasan -Wl,-rpath,${asan_library%/*}"
   # clang-tidy reads how each file is compiled.
-  target=later tools=disabled unity=on suites=(--suite core --suite geometry --suite gst --suite fuzz)
-  [ "$thorough" = no ] || target=all tools=enabled unity=off suites=(--no-suite pipelines)
+  target=later tools=disabled large=(-Dunity=on) suites=(--suite core --suite geometry --suite gst --suite fuzz)
+  [ "$thorough" = no ] ||
+    target=all tools=enabled large=(-Dunity=off -Dunity_programs=false) suites=(--no-suite pipelines)
   if CC=$clang CXX=$clang++ build build-clang-asan "$target" -Dbuildtype=debugoptimized \
     -Db_sanitize=address,undefined -Db_lundef=false -Dtools=$tools -Dprograms=$tools \
-    -Dunity=$unity \
+    "${large[@]}" \
     -Dc_link_args="$shared_asan" -Dcpp_link_args="$shared_asan"; then
     run_tests build-clang-asan "${suites[@]}" -t 5
     if [ "$thorough" = yes ]; then
