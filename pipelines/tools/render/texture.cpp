@@ -7,6 +7,18 @@
 #include "tools/render/image_texture.hpp"
 
 namespace mtstereo::render {
+
+std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  std::uint32_t h =
+      a * 0x85ebca6bu ^ (b + 0x9e3779b9u) * 0xc2b2ae35u ^ (c + 0x7f4a7c15u) * 0x27d4eb2fu;
+  h ^= h >> 15;
+  h *= 0x2c1b3c6du;
+  h ^= h >> 12;
+  h *= 0x297a2d39u;
+  h ^= h >> 15;
+  return h;
+}
+
 namespace {
 
 double smooth(double low, double high, double x) {
@@ -16,24 +28,10 @@ double smooth(double low, double high, double x) {
 
 // The gradient of a lattice point: the dot product of one of eight directions and the offset.
 double gradient(std::uint32_t h, double x, double y) {
-  switch (h & 7) {
-    case 0:
-      return x + y;
-    case 1:
-      return x - y;
-    case 2:
-      return -x + y;
-    case 3:
-      return -x - y;
-    case 4:
-      return 1.41 * x;
-    case 5:
-      return -1.41 * x;
-    case 6:
-      return 1.41 * y;
-    default:
-      return -1.41 * y;
-  }
+  static constexpr double kDirections[8][2] = {{1, 1},    {1, -1},    {-1, 1},   {-1, -1},
+                                               {1.41, 0}, {-1.41, 0}, {0, 1.41}, {0, -1.41}};
+  const auto& [along_x, along_y] = kDirections[h & 7];
+  return along_x * x + along_y * y;
 }
 
 double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
@@ -120,17 +118,6 @@ double pattern_value(const Texture& t, double u, double v, double footprint) {
 }
 
 }  // namespace
-
-std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  std::uint32_t h =
-      a * 0x85ebca6bu ^ (b + 0x9e3779b9u) * 0xc2b2ae35u ^ (c + 0x7f4a7c15u) * 0x27d4eb2fu;
-  h ^= h >> 15;
-  h *= 0x2c1b3c6du;
-  h ^= h >> 12;
-  h *= 0x297a2d39u;
-  h ^= h >> 15;
-  return h;
-}
 
 double hash_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return hash(a, b, c) * (1.0 / 4294967296.0);
