@@ -60,7 +60,7 @@ def exchange(receiver, sender, port, receiver_waits, folder):
     """Runs a receiver, and a sender until the receiver ends: clips are short, and are sent again.
     Returns whether a map was received, and the outputs."""
     (folder / "received.raw").unlink(missing_ok=True)
-    deadline = time.monotonic() + 60 * SLOW
+    deadline = time.monotonic() + 120 * SLOW
     sent = None if receiver_waits else start(sender, folder)
     if sent:
         wait_for_port(port, sent)
