@@ -15,8 +15,9 @@
 #
 # Builds into build/, build-clang-asan/ and build-clang-tsan/. With CI=true warnings are errors, and the tests
 # of the core also run on 64-bit ARM, emulated by QEMU, in build-aarch64/. Compilers run through ccache if it
-# is installed. In CI all but library and elements is compiled as few large files, which takes a quarter of the
-# time, for sanitizers and ARM also the library. Without CI the release build compiles file by file, as users do.
+# is installed. A new build folder compiles all but the library and the elements as few large files, which takes
+# a quarter of the time for tests and half of it for programs; those for sanitizers and ARM also the library.
+# Whoever edits a program may prefer -Dunity_programs=false, which stays as it is in a build folder.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 repository=$PWD
@@ -80,14 +81,13 @@ trap 'rm -f "$log"' EXIT
 # build FOLDER TARGET OPTION...: configures and builds. A build that fails counts as a failed test. With the
 # target 'later' the tests build what they need.
 build() {
-  local folder=$1 target=$2 again=()
+  local folder=$1 target=$2 how=(-Dunity_programs=true -Dunity_size=40)
   shift 2
   echo "== Building $folder"
-  [ ! -e "$folder/build.ninja" ] || again=(--reconfigure)
+  [ ! -e "$folder/build.ninja" ] || how=(--reconfigure)
   local ci=false
   [ "${CI:-}" != true ] || ci=true
-  if meson setup "${again[@]}" "$folder" "$repository" -Dwerror="$ci" \
-    -Dunity_programs="$ci" -Dunity_size=40 "$@" >"$log" 2>&1 &&
+  if meson setup "${how[@]}" "$folder" "$repository" -Dwerror="$ci" "$@" >"$log" 2>&1 &&
     { [ "$target" = later ] || ninja -C "$folder" "$target" >"$log" 2>&1; }; then
     return 0
   fi
