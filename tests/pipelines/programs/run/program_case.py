@@ -11,7 +11,7 @@ import time
 import unittest
 
 PROGRAM = None  # set by main()
-FRAMES = 240
+FRAMES = 120
 SKIPPED = 77
 
 

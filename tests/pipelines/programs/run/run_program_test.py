@@ -14,8 +14,8 @@ from program_case import FRAMES, ProgramCase, run
 class Program(ProgramCase):
     def test_writes_results_and_report(self):
         self.assertEqual(self.first.returncode, 0, self.first.stderr)
-        self.assertIn("240 pairs", self.first.stdout)
-        self.assertIn("240 of 240 pairs (100 %)", self.first.stderr)
+        self.assertIn(f"{FRAMES} pairs", self.first.stdout)
+        self.assertIn(f"{FRAMES} of {FRAMES} pairs (100 %)", self.first.stderr)
         report = json.loads((self.whole / "run.json").read_text())
         self.assertEqual(report["processed_pairs"], FRAMES)
         self.assertEqual(len(report["frames"]), FRAMES)
@@ -171,7 +171,7 @@ class Program(ProgramCase):
             self.assertLessEqual(max(map(len, help_text.splitlines())), 110)
 
     def test_states_what_was_recognized(self):
-        self.assertIn("Input: two video files, 320x192 px, 240 pairs, 30 per second.", self.first.stderr)
+        self.assertIn(f"Input: two video files, 320x192 px, {FRAMES} pairs, 30 per second.", self.first.stderr)
         self.assertIn("Matching: mode semi-dense, disparities 0 to 31 px.", self.first.stderr)
         self.assertIn("Results: disparity (mkv).", self.first.stderr)
         quiet = run(*self.command("--max-disparity", 16, "--what", "stats", "--quiet"))
