@@ -15,7 +15,6 @@
 #include "mtstereo/parameters.hpp"
 
 namespace mtstereo {
-namespace {
 
 /// How one rectified view is projected.
 struct RectifiedView {
@@ -28,6 +27,8 @@ struct RectifiedView {
     return rotate_back(rotation, {(x - center_x) / focal_length, (y - center_y) / focal_length, 1});
   }
 };
+
+namespace {
 
 RectifiedView view_of(const Rectification& rectification, bool left) {
   return {

@@ -39,7 +39,7 @@ CameraCalibration read_raw(const Entry& entry, const Request& request) {
   return camera;
 }
 
-Motion read_pose(const Entry& entry) {
+Motion read_vehicle_pose(const Entry& entry) {
   const Entry pose = entry.at("vehicle_SE3_camera_");
   const Entry turn = pose.at("rotation").at("coefficients");
   const std::vector<double> q = turn.numbers(4, "a quaternion");
@@ -51,7 +51,7 @@ StereoCalibration read_raw_pair(const Entry& left, const Entry& right, const Req
   StereoCalibration calibration;
   calibration.left = read_raw(left, request);
   calibration.right = read_raw(right, request);
-  const Motion motion = read_pose(right).inverse().after(read_pose(left));
+  const Motion motion = read_vehicle_pose(right).inverse().after(read_vehicle_pose(left));
   check_translation(motion.translation, right, "; it must be in meters");
   set_motion(calibration, motion);
   return calibration;

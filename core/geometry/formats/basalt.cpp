@@ -35,7 +35,7 @@ CameraCalibration read_camera(const Entry& entry, const Entry& resolution) {
   return camera;
 }
 
-Motion read_pose(const Entry& entry) {
+Motion read_sensor_pose(const Entry& entry) {
   const auto number = [&](const char* name) { return entry.at(name).number(); };
   Motion motion;
   motion.rotation =
@@ -62,7 +62,8 @@ StereoCalibration read_basalt(const Entry& file, const Request& request) {
   calibration.format = "Basalt";
   calibration.left = read_camera(cameras[left], sizes[left]);
   calibration.right = read_camera(cameras[right], sizes[right]);
-  const Motion motion = read_pose(poses[right]).inverse().after(read_pose(poses[left]));
+  const Motion motion =
+      read_sensor_pose(poses[right]).inverse().after(read_sensor_pose(poses[left]));
   check_translation(motion.translation, poses[right], "; it must be in meters");
   set_motion(calibration, motion);
   return calibration;
