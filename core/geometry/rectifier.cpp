@@ -15,6 +15,7 @@
 #include "mtstereo/parameters.hpp"
 
 namespace mtstereo {
+namespace {
 
 /// How one rectified view is projected.
 struct RectifiedView {
@@ -27,8 +28,6 @@ struct RectifiedView {
     return rotate_back(rotation, {(x - center_x) / focal_length, (y - center_y) / focal_length, 1});
   }
 };
-
-namespace {
 
 RectifiedView view_of(const Rectification& rectification, bool left) {
   return {
