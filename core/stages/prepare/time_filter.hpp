@@ -53,7 +53,7 @@ struct Means {
   Image<std::uint8_t> frames;    ///< in the means of each block [1 / kFramesOne]; 0: just the view
 
   void resize(int width, int height, ReusedMemory* reused = nullptr);
-  /// Makes the means 0, as means that begin anew must be defined, too.
+  /// Sets all means to 0: the first frame is added to them with its full weight.
   void clear();
 };
 
