@@ -97,8 +97,8 @@ void doubt_flat_areas(const StepContext& step, ResultMaps& result, const ResultB
 void find_camera_motion(const StepContext& step, const Views& views, const ResultMaps& result,
                         LastPair& last);
 
-/// Removes the disparities whose confidence is below what the last map asks for at their place. Does
-/// nothing if the motion of the camera is unknown.
+/// Removes the disparities whose confidence is below what the last map asks for at their place.
+/// Does nothing if the motion of the camera is unknown.
 void hold_known(const StepContext& step, const LastPair& last, ResultMaps& result);
 
 /// Removes what is less reliable than asked for, unless hold_known() has done so, and the small
