@@ -80,6 +80,21 @@ class Installed(Installation):
         loaded = set(re.findall(r'plugin "([^"]*libgstmtstereo.so)"', done.errors))
         self.assertEqual(loaded, {str(PLUGINS / "libgstmtstereo.so")}, str(done))
 
+    def test_images_are_read_and_written_by_the_module_of_the_installation(self):
+        words = ["mtstereo-run", "gray/left", "gray/right", "--format", "png", "--quiet", "--out"]
+        done = self.use(*words, "images", LD_DEBUG="files", LD_DEBUG_OUTPUT="loaded")
+        self.assert_succeeds(done)
+        self.assertEqual(len(list((FOLDER / "images").glob("**/*.png"))), 1)
+        module = LIBRARIES / "mtstereo/libmtstereo-images.so"
+        loaded = re.findall(r"file=(\S*/libmtstereo-images.so)", next(FOLDER.glob("loaded.*")).read_text())
+        self.assertTrue(os.path.samefile(module, loaded[0]), loaded)
+        module.rename(FOLDER / "away.so")
+        self.addCleanup(lambda: (FOLDER / "away.so").rename(module))
+        done = self.use(*words, "none")
+        self.assertEqual(done.status, 1, str(done))
+        self.assertRegex(done.errors, r"^mtstereo-run: images cannot be read or written: libmtstereo-images.so: .*: "
+                                      r"install mtstereo again, .*\n$")
+
     def test_a_plugin_path_of_the_user_comes_first(self):
         folder = os.environ["MTSTEREO_BUILD"] + "/gst"
         for command, out in (("mtstereo-run", "other"), ("mtstereo-from-files", "other.mkv")):

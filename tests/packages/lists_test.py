@@ -62,7 +62,9 @@ def patterns(package):
 
 
 def takes(pattern, path):
-    return any(fnmatch.fnmatchcase(part, pattern) for part in [path, *map(str, pathlib.PurePath(path).parents)])
+    """A file, or what is in a folder; as with dh_install, * stands for a part of one name."""
+    words, names = pattern.split("/"), path.split("/")
+    return len(words) <= len(names) and all(map(fnmatch.fnmatchcase, names, words))
 
 
 class Lists(unittest.TestCase):

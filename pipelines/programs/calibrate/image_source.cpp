@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "lib/files/file_names.hpp"
 #include "lib/files/unread_kinds.hpp"
+#include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
 #include "programs/calibrate/texts.hpp"
@@ -35,7 +35,7 @@ std::vector<fs::path> list_images(const std::string& source) {
 cv::Mat read(const fs::path& file) {
   cv::Mat image;
   try {
-    image = cv::imread(file.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+    image = images::read(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
     if (image.depth() == CV_16U) {
       // Cameras of 10 or 12 bits use a part of them.
       double largest = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "programs/calibrate/output_folder.hpp"
 
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
+#include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/drawings.hpp"
 
@@ -25,11 +25,9 @@ std::string numbered(const std::string& folder, std::size_t index, const char* e
 }
 
 std::string encoded(const std::string& name, const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(fs::path(name).extension().string(), image, bytes)) {
-    throw UserError(name + ": cannot be encoded");
-  }
-  return {bytes.begin(), bytes.end()};
+  std::string bytes = images::encode(fs::path(name).extension().string(), image);
+  if (bytes.empty()) throw UserError(name + ": cannot be encoded");
+  return bytes;
 }
 
 }  // namespace
@@ -61,7 +59,7 @@ void OutputFolder::write_view(std::size_t index, const ImagePair& images,
 
 cv::Mat OutputFolder::view(std::size_t index, bool left) const {
   const fs::path file = folder_ / numbered(left ? kLeft : kRight, index, ".png");
-  return cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  return images::read(file, cv::IMREAD_GRAYSCALE);
 }
 
 void OutputFolder::swap_sides() {

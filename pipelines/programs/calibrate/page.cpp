@@ -6,9 +6,9 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
 #include "programs/calibrate/texts.hpp"
@@ -187,13 +187,9 @@ std::string png_of(const Page& page, double pixels_per_mm) {
     cv::putText(image, each.text, {pixel(each.x), pixel(each.y)}, cv::FONT_HERSHEY_SIMPLEX,
                 each.size * scale / 36, cv::Scalar(0), std::max(1, pixel(0.15)), cv::LINE_AA);
   }
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", image, bytes);
+  const std::string bytes = images::encode(".png", image);
   constexpr std::size_t kAfterHeader = 8 + 25;  // signature, IHDR
-  const auto begin = bytes.begin();
-  const auto middle = begin + static_cast<std::ptrdiff_t>(kAfterHeader);
-  return std::string(begin, middle) + resolution_chunk(per_meter) +
-         std::string(middle, bytes.end());
+  return bytes.substr(0, kAfterHeader) + resolution_chunk(per_meter) + bytes.substr(kAfterHeader);
 }
 
 namespace {

@@ -5,10 +5,10 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
 
+#include "lib/images/images.hpp"
 #include "lib/outputs/listed_folder.hpp"
 #include "lib/outputs/printable.hpp"
 #include "lib/outputs/user_error.hpp"
@@ -27,11 +27,9 @@ constexpr const char* kImage = "rows.png";
 void write_image(const Work& work, outputs::ListedFolder& files) {
   const cv::Mat image = draw_rows(work);
   if (image.empty()) return;
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) {
-    throw UserError(std::string(kImage) + ": cannot be encoded");
-  }
-  files.write(kImage, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const std::string bytes = images::encode(".png", image);
+  if (bytes.empty()) throw UserError(std::string(kImage) + ": cannot be encoded");
+  files.write(kImage, bytes);
 }
 
 int check(const Recording& recording, const Options& options, const fs::path& folder) {

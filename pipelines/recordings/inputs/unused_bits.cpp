@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 
 #include "lib/files/file_names.hpp"
+#include "lib/images/images.hpp"
 
 namespace mtstereo::run {
 
@@ -26,15 +26,15 @@ bool may_have_16_bits(const fs::path& image) {
 }
 
 // The largest value of some images; all of 16 bits if one has other values.
-double largest_value(const std::vector<fs::path>& images) {
+double largest_value(const std::vector<fs::path>& paths) {
   constexpr std::size_t kSamples = 4;
   constexpr double kAll = 65535;
   double largest = 0;
-  const std::size_t count = std::min(kSamples, images.size());
+  const std::size_t count = std::min(kSamples, paths.size());
   for (std::size_t i = 0; i < count; ++i) {
     cv::Mat image;
     try {
-      image = cv::imread(images[i * images.size() / count].string(), cv::IMREAD_UNCHANGED);
+      image = images::read(paths[i * paths.size() / count], cv::IMREAD_UNCHANGED);
     } catch (const cv::Exception&) {
       return kAll;
     }

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "lib/images/images.hpp"
 #include "lib/outputs/pfm_bytes.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
@@ -161,9 +161,9 @@ void write_png(GstSample* sample, const std::filesystem::path& file) {
   const cv::Mat image(view.height, view.width, type, const_cast<std::uint8_t*>(view.data),
                       static_cast<std::size_t>(view.stride));
   // Encoded in memory: OpenCV does not state why a file cannot be written.
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", image, bytes)) throw UserError(file.string() + ": cannot be encoded");
-  outputs::write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const std::string bytes = images::encode(".png", image);
+  if (bytes.empty()) throw UserError(file.string() + ": cannot be encoded");
+  outputs::write_file(file, bytes);
 }
 
 void write_disparity_pfm(GstSample* map, const std::filesystem::path& file) {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
 
 #include "lib/files/file_names.hpp"
+#include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/damage_notes.hpp"
@@ -146,7 +146,7 @@ std::string name_of_format(const fs::path& image) {
 
 FrameIndex index_of_images(const Source& source, double frame_rate) {
   FrameIndex index;
-  const cv::Mat first = cv::imread(source.images.front().string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat first = images::read(source.images.front(), cv::IMREAD_UNCHANGED);
   if (first.empty()) {
     throw UserError(source.images.front().string() + ": the image cannot be read");
   }

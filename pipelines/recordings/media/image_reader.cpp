@@ -8,10 +8,10 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "lib/files/file_names.hpp"
+#include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/frame_reader.hpp"
 #include "recordings/media/jpeg_check.hpp"
@@ -157,7 +157,7 @@ class ImageReader : public FrameReader {
 
   DecodedFrame read_other(const std::filesystem::path& file) const {
     try {
-      return frame_of(cv::imread(file.string(), cv::IMREAD_UNCHANGED), unused_bits_);
+      return frame_of(images::read(file, cv::IMREAD_UNCHANGED), unused_bits_);
     } catch (const cv::Exception&) {
       return missing();
     }

@@ -4,11 +4,11 @@
 #include <gst/gst.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/video_scan.hpp"
@@ -56,8 +56,8 @@ std::vector<cv::Mat> frames_of_video(const fs::path& file, int count) {
 }
 
 cv::Mat gray_image(const fs::path& image, int unused_bits) {
-  if (unused_bits == 0) return cv::imread(image.string(), cv::IMREAD_GRAYSCALE);
-  const cv::Mat read = cv::imread(image.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  if (unused_bits == 0) return images::read(image, cv::IMREAD_GRAYSCALE);
+  const cv::Mat read = images::read(image, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
   cv::Mat frame;
   constexpr double kTo8Bits = 1.0 / 256;
   without_unused_bits(read, unused_bits).convertTo(frame, CV_8U, kTo8Bits);

@@ -9,12 +9,12 @@
 #include <iostream>
 #include <iterator>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "lib/images/images.hpp"
 #include "lib/options/failure_message.hpp"
 #include "tools/compare/compare_depth.hpp"
 #include "tools/compare/frame_files.hpp"
@@ -126,7 +126,7 @@ void write_montage(const Options& o) {
   if (!o.left.empty()) {
     const fs::path file =
         fs::is_directory(o.left) ? nth(by_name(o.left, ".png"), o.left, o.frame) : o.left;
-    const cv::Mat left = cv::imread(file.string(), cv::IMREAD_COLOR);
+    const cv::Mat left = mtstereo::images::read(file, cv::IMREAD_COLOR);
     if (left.empty()) throw std::runtime_error(file.string() + ": cannot be read as an image");
     require_size(file, left, disparity.size());
     row.push_back(labeled(left, "left"));

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "lib/images/images.hpp"
 #include "tools/compare/frame_files.hpp"
 #include "tools/eval/pfm.hpp"
 
@@ -27,7 +27,7 @@ struct Range {
 };
 
 cv::Mat read_depth(const fs::path& file) {
-  const cv::Mat depth = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat depth = images::read(file, cv::IMREAD_UNCHANGED);
   if (depth.type() != CV_16UC1) {
     throw std::runtime_error(file.string() + ": is not a gray PNG image with 16 bits");
   }

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/h264.hpp"
 
@@ -19,9 +19,9 @@ constexpr double kCameraBlur = 1.2;    // sigma [px]
 constexpr double kCameraQuality = 70;  // of JPEG
 
 void compress(double quality, cv::Mat& image) {
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, static_cast<int>(quality)});
-  image = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  const std::string bytes =
+      images::encode(".jpg", image, {cv::IMWRITE_JPEG_QUALITY, static_cast<int>(quality)});
+  image = images::decode(bytes, cv::IMREAD_GRAYSCALE);
 }
 
 void multiply(double factor, cv::Mat& image) {

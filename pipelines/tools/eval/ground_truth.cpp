@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <string>
 
+#include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/bytes.hpp"
 #include "tools/eval/files.hpp"
@@ -32,9 +32,7 @@ cv::Mat read_stored(const fs::path& file) {
   if (bytes.empty()) throw UserError(file, "is empty");
   cv::Mat image;
   try {
-    const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8UC1,
-                       const_cast<char*>(bytes.data()));  // only read
-    image = cv::imdecode(view, cv::IMREAD_UNCHANGED);
+    image = images::decode(bytes, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& error) {
     throw UserError(file, "cannot be decoded: " + error.err);
   }

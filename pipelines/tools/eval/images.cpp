@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
+#include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
 #include "tools/eval/pfm.hpp"
@@ -117,15 +117,14 @@ cv::Mat overview(const LoadedPair& images, const cv::Mat& disparity, int max_dis
 }
 
 void write_image(const fs::path& file, const cv::Mat& image) {
-  std::vector<std::uint8_t> bytes;
-  bool encoded = false;
+  std::string bytes;
   try {
-    encoded = cv::imencode(".png", image, bytes);
+    bytes = images::encode(".png", image);
   } catch (const cv::Exception& error) {
     throw UserError(file, "cannot be encoded: " + error.err);
   }
-  if (!encoded) throw UserError(file, "cannot be encoded");
-  write_bytes(file, std::string(bytes.begin(), bytes.end()));
+  if (bytes.empty()) throw UserError(file, "cannot be encoded");
+  write_bytes(file, bytes);
 }
 
 }  // namespace mtstereo::eval

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
 
+#include "lib/images/images.hpp"
 #include "lib/outputs/pfm_bytes.hpp"
 #include "lib/outputs/write_file.hpp"
 
@@ -131,11 +131,9 @@ ClipWriter::ClipWriter(fs::path folder, Layout layout, bool overwrite, bool with
 
 void ClipWriter::write_png(const std::string& name, const cv::Mat& image) {
   // Encoded in memory, so that a full disk is detected: OpenCV's own writer does not report it.
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-    cannot("encode", name, "OpenCV's PNG encoder failed");
-  }
-  files_.write(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const std::string bytes = images::encode(".png", image, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  if (bytes.empty()) cannot("encode", name, "OpenCV's PNG encoder failed");
+  files_.write(name, bytes);
 }
 
 void ClipWriter::write(int number, const StereoFrame& frame, const Rectification& rectification) {

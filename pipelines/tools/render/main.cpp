@@ -9,13 +9,13 @@
 #include <iostream>
 #include <memory>
 #include <new>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lib/images/images.hpp"
 #include "lib/options/failure_message.hpp"
 #include "lib/outputs/parse_error.hpp"
 #include "lib/outputs/printable.hpp"
@@ -63,7 +63,7 @@ std::shared_ptr<const ImageTexture> image_of(const BoardOptions& board) {
     const auto [columns, rows] = parse_pair("--squares", board.squares, "10x7");
     return std::make_shared<const ImageTexture>(checkerboard(columns, rows, board.square));
   }
-  const cv::Mat image = cv::imread(board.image, cv::IMREAD_GRAYSCALE);
+  const cv::Mat image = images::read(board.image, cv::IMREAD_GRAYSCALE);
   if (image.empty()) throw std::runtime_error("cannot read the image " + board.image);
   std::vector<std::uint8_t> pixels(image.begin<std::uint8_t>(), image.end<std::uint8_t>());
   return std::make_shared<const ImageTexture>(image.cols, image.rows, pixels,

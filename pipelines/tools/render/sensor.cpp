@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <vector>
 
+#include "lib/images/images.hpp"
 #include "tools/render/optics.hpp"
 #include "tools/render/texture.hpp"
 
@@ -59,11 +59,9 @@ float Sensor::noise(float signal, int x, int y, int channel) const {
 }
 
 cv::Mat after_jpeg(const cv::Mat& image, int quality) {
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) {
-    throw std::runtime_error("OpenCV's JPEG encoder failed");
-  }
-  return cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+  const std::string bytes = images::encode(".jpg", image, {cv::IMWRITE_JPEG_QUALITY, quality});
+  if (bytes.empty()) throw std::runtime_error("OpenCV's JPEG encoder failed");
+  return images::decode(bytes, cv::IMREAD_UNCHANGED);
 }
 
 }  // namespace mtstereo::render

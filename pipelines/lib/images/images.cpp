@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "lib/images/images.hpp"
+
+#include "lib/images/open_module.hpp"
+
+namespace mtstereo::images {
+namespace {
+
+const Codecs& codecs() {
+  static const Codecs& opened = open_module("libmtstereo-images.so");
+  return opened;
+}
+
+}  // namespace
+
+cv::Mat read(const std::filesystem::path& file, int flags) {
+  return codecs().read(file.string(), flags);
+}
+
+cv::Mat decode(std::string_view bytes, int flags) {
+  // The bytes are not written to.
+  const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+  return codecs().decode(view, flags);
+}
+
+std::string encode(const std::string& suffix, const cv::Mat& image,
+                   const std::vector<int>& options) {
+  std::vector<unsigned char> bytes;
+  if (!codecs().encode(suffix, image, bytes, options)) return {};
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace mtstereo::images
