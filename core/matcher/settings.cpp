@@ -25,9 +25,9 @@ constexpr SmoothnessOptions kHalvedSmoothness = {12, 51};
 /// What a pixel that the last map knows too needs less than the usual confidence, and what pixels
 /// need more that it does not know. With both, a stream has the errors of single frames, and half
 /// of their flicker; a lower threshold alone has those of a lower min-confidence.
-constexpr int kHeldLess = 20;
-constexpr int kHeldMore = 20;
-constexpr int kHeldMoreOfDense = 10;
+constexpr int kHeldLess = 24;
+constexpr int kHeldMore = 24;
+constexpr int kHeldMoreOfDense = 12;
 
 /// Converts a percentage to a fraction.
 double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }

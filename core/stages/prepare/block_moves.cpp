@@ -12,42 +12,46 @@ HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
 /// The rows y0 .. y1 - 1 of a block whose first column is x from means that are moved by (move_x,
-/// move_y). Also the last block of a row is a whole one: its end belongs to the padding.
-///
-/// Gray values and fractions are interpolated apart, as 16 bits are enough for each: those of gray
-/// values are whole steps of a mean, so only those of fractions are rounded.
+/// move_y). Also the last block of a row is a whole one: its end belongs to the padding. Halves are
+/// rounded up, first between two rows and then to whole steps of a mean.
 void move_block(const Means& last, int move_x, int move_y, int x, int y0, int y1, Means& moved) {
-  static_assert(kMeanOne == 2 * kMoveOne * kMoveOne);
+  static_assert(256 * kMeanOne * kMoveOne <= 32768, "16 bits are enough");
   const hn::CappedTag<std::int16_t, kTimeBlock> d16;
   const hn::Rebind<std::uint8_t, decltype(d16)> d8;
-  const hn::Rebind<std::int8_t, decltype(d16)> di8;
   const int from_x = kMoveOne * x + move_x, from_y = kMoveOne * y0 + move_y;
   const int column = from_x / kMoveOne, row = from_y / kMoveOne - y0;
   const auto right = hn::Set(d16, static_cast<std::int16_t>(from_x % kMoveOne));
-  const auto down = hn::Set(d16, static_cast<std::int16_t>(from_y % kMoveOne));
-  const auto between = [&](auto first, auto second, auto weight) {
-    return hn::Add(hn::ShiftLeft<kMoveShift>(first), hn::Mul(hn::Sub(second, first), weight));
-  };
-  const auto across = [&](auto d, const auto* values) {
-    return between(hn::PromoteTo(d16, hn::LoadU(d, values)),
-                   hn::PromoteTo(d16, hn::LoadU(d, values + 1)), right);
+  const auto down = hn::Set(d16, static_cast<std::int16_t>(from_y % kMoveOne << (15 - kMoveShift)));
+  const auto last_bits = hn::Set(d16, kMeanOne - 1);
+  const std::uint8_t *const grays = last.filtered.row(0), *const rests = last.rests.row(0);
+  const std::ptrdiff_t gray_stride = last.filtered.stride(), rest_stride = last.rests.stride();
+  // Means between two columns [1 / kMoveOne steps].
+  const auto across = [&](int y, int from) {
+    const std::uint8_t* gray_row = grays + y * gray_stride + from;
+    const std::uint8_t* rest_row = rests + y / 2 * rest_stride + from;
+    const auto at = [&](int i) {
+      const auto both = hn::PromoteTo(d16, hn::LoadU(d8, rest_row + i));
+      const auto rest = y % 2 == 0 ? hn::And(both, last_bits) : hn::ShiftRight<kMeanShift>(both);
+      const auto gray = hn::PromoteTo(d16, hn::LoadU(d8, gray_row + i));
+      return hn::Or(hn::ShiftLeft<kMeanShift>(gray), rest);
+    };
+    const auto first = at(0);
+    return hn::Add(hn::ShiftLeft<kMoveShift>(first), hn::Mul(hn::Sub(at(1), first), right));
   };
   for (int i = 0; i < kTimeBlock; i += static_cast<int>(hn::Lanes(d16))) {
-    auto gray = across(d8, last.filtered.row(row + y0) + column + i);
-    auto rest = across(di8, last.fraction.row(row + y0) + column + i);
+    auto above = across(row + y0, column + i);
+    auto upper_rest = hn::Zero(d16);
     for (int y = y0; y < y1; ++y) {
-      const auto gray_below = across(d8, last.filtered.row(row + y + 1) + column + i);
-      const auto rest_below = across(di8, last.fraction.row(row + y + 1) + column + i);
-      const auto half = hn::Set(d16, 1 << (2 * kMoveShift - 1));
-      const auto steps =
-          hn::ShiftRight<2 * kMoveShift>(hn::Add(between(rest, rest_below, down), half));
-      const auto mean = hn::Add(hn::ShiftLeft<1>(between(gray, gray_below, down)), steps);
-      const auto rounded = hn::ShiftRight<kMeanShift>(hn::Add(mean, hn::Set(d16, kMeanOne / 2)));
-      hn::StoreU(hn::DemoteTo(d8, rounded), d8, moved.filtered.row(y) + x + i);
-      hn::StoreU(hn::DemoteTo(di8, hn::Sub(mean, hn::ShiftLeft<kMeanShift>(rounded))), di8,
-                 moved.fraction.row(y) + x + i);
-      gray = gray_below;
-      rest = rest_below;
+      const auto below = across(row + y + 1, column + i);
+      const auto between = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), down));
+      const auto mean = hn::ShiftRight<kMoveShift>(hn::Add(between, hn::Set(d16, kMoveOne / 2)));
+      hn::StoreU(hn::DemoteTo(d8, hn::ShiftRight<kMeanShift>(mean)), d8,
+                 moved.filtered.row(y) + x + i);
+      auto rest = hn::And(mean, last_bits);
+      if (y % 2 != 0) rest = hn::Or(upper_rest, hn::ShiftLeft<kMeanShift>(rest));
+      hn::StoreU(hn::DemoteTo(d8, rest), d8, moved.rests.row(y / 2) + x + i);
+      upper_rest = rest;
+      above = below;
     }
   }
 }
@@ -150,7 +154,7 @@ void take_view(GrayView view, int x0, int y0, int y1, Means& means) {
   const int count = std::min(kTimeBlock, view.width - x0);
   for (int y = y0; y < y1; ++y) {
     std::copy_n(view.row(y) + x0, count, means.filtered.row(y) + x0);
-    std::fill_n(means.fraction.row(y) + x0, count, std::int8_t{0});
+    std::fill_n(means.rests.row(y / 2) + x0, count, Means::kNoRests);
   }
 }
 

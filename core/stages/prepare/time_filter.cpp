@@ -44,35 +44,58 @@ int sum_differences(GrayView view, const Image<std::uint8_t>& filtered, int y0, 
   return x;
 }
 
-/// Adds the row y of a frame to the means.
-void average_row(GrayView view, int y, const std::int16_t* weights, const Means& last,
-                 Means& means) {
-  const hn::CappedTag<std::int16_t, 32> d16;
-  const hn::Rebind<std::uint8_t, decltype(d16)> d8;
-  const hn::Rebind<std::int8_t, decltype(d16)> di8;
-  const int width = view.width, lanes = static_cast<int>(hn::Lanes(d16));
-  const std::uint8_t* now = view.row(y);
-  const auto add = [&](const std::uint8_t* grays, int x) {
-    const auto filtered = hn::PromoteTo(d16, hn::LoadU(d8, last.filtered.row(y) + x));
-    const auto fraction = hn::PromoteTo(d16, hn::LoadU(di8, last.fraction.row(y) + x));
-    const auto mean = hn::Add(hn::ShiftLeft<kMeanShift>(filtered), fraction);
-    const auto gray = hn::ShiftLeft<kMeanShift>(hn::PromoteTo(d16, hn::LoadU(d8, grays)));
-    // The product is divided by 2^15, and neither -2 nor the order of the operands changes which
-    // way halves are rounded.
-    const auto step = hn::MulFixedPoint15(hn::Sub(mean, gray), hn::LoadU(d16, weights + x));
-    const auto next = hn::Add(mean, step);
-    const auto rounded = hn::ShiftRight<kMeanShift>(hn::Add(next, hn::Set(d16, kMeanOne / 2)));
-    hn::StoreU(hn::DemoteTo(d8, rounded), d8, means.filtered.row(y) + x);
-    const auto rest = hn::Sub(next, hn::ShiftLeft<kMeanShift>(rounded));
-    hn::StoreU(hn::DemoteTo(di8, rest), di8, means.fraction.row(y) + x);
+using Steps = hn::CappedTag<std::int16_t, 32>;
+
+/// Adds a vector of a view with these weights to the means `last`, of which `rests` are known, from
+/// here on. Returns their rests.
+HWY_INLINE hn::Vec<Steps> add_to_means(const std::uint8_t* grays, hn::Vec<Steps> weights,
+                                       const std::uint8_t* last, hn::Vec<Steps> rests,
+                                       std::uint8_t* filtered) {
+  const Steps d16;
+  const hn::Rebind<std::uint8_t, Steps> d8;
+  const auto rounding = hn::Set(d16, kMeanOne / 2);
+  const auto steps = [&](const std::uint8_t* values) {
+    return hn::ShiftLeft<kMeanShift>(hn::PromoteTo(d16, hn::LoadU(d8, values)));
   };
+  const auto mean = hn::Add(steps(last), rests);  // plus rounding
+  const auto difference = hn::Sub(mean, hn::Add(steps(grays), rounding));
+  // The product is divided by 2^15, and neither -2 nor the order of the operands changes which way
+  // halves are rounded.
+  const auto next = hn::Add(mean, hn::MulFixedPoint15(difference, weights));
+  hn::StoreU(hn::DemoteTo(d8, hn::ShiftRight<kMeanShift>(next)), d8, filtered);
+  return hn::And(next, hn::Set(d16, kMeanOne - 1));
+}
+
+/// Adds the rows y, which is even, and y + 1, if there is one, of a frame to the means.
+void average_two_rows(GrayView view, int y, const std::int16_t* weights, const Means& last,
+                      Means& means) {
+  const Steps d16;
+  const hn::Rebind<std::uint8_t, Steps> d8;
+  const int width = view.width, lanes = static_cast<int>(hn::Lanes(d16));
+  const bool both = y + 1 < view.height;
+  const auto add = [&](const std::uint8_t* upper, const std::uint8_t* lower, int x) {
+    const auto weight = hn::LoadU(d16, weights + x);
+    const auto before = hn::PromoteTo(d16, hn::LoadU(d8, last.rests.row(y / 2) + x));
+    auto rests =
+        add_to_means(upper, weight, last.filtered.row(y) + x,
+                     hn::And(before, hn::Set(d16, kMeanOne - 1)), means.filtered.row(y) + x);
+    if (both) {
+      const auto below =
+          add_to_means(lower, weight, last.filtered.row(y + 1) + x,
+                       hn::ShiftRight<kMeanShift>(before), means.filtered.row(y + 1) + x);
+      rests = hn::Or(rests, hn::ShiftLeft<kMeanShift>(below));
+    }
+    hn::StoreU(hn::DemoteTo(d8, rests), d8, means.rests.row(y / 2) + x);
+  };
+  const std::uint8_t *upper = view.row(y), *lower = both ? view.row(y + 1) : upper;
   int x = 0;
-  for (; x + lanes <= width; x += lanes) add(now + x, x);
+  for (; x + lanes <= width; x += lanes) add(upper + x, lower + x, x);
   if (x == width) return;
   // Nothing after the end of the view may be read.
-  std::array<std::uint8_t, hn::MaxLanes(d16)> end = {};
-  std::copy(now + x, now + width, end.begin());
-  add(end.data(), x);
+  std::array<std::uint8_t, hn::MaxLanes(d16)> upper_end = {}, lower_end = {};
+  std::copy(upper + x, upper + width, upper_end.begin());
+  std::copy(lower + x, lower + width, lower_end.begin());
+  add(upper_end.data(), lower_end.data(), x);
 }
 
 }  // namespace mtstereo::HWY_NAMESPACE
@@ -82,11 +105,11 @@ HWY_AFTER_NAMESPACE();
 namespace mtstereo {
 
 HWY_EXPORT(sum_differences);
-HWY_EXPORT(average_row);
+HWY_EXPORT(average_two_rows);
 
 namespace {
 
-static_assert(kWeightOne == 1 << 14, "average_row() divides by twice as much");
+static_assert(kWeightOne == 1 << 14, "add_to_means() divides by twice as much");
 
 /// The trust of a block with this sum of differences, 0 from the limit on.
 int trust_of(int change, int limit) {
@@ -125,14 +148,14 @@ float deviation_of(float noise, TimeBlocks& blocks) {
 
 void Means::resize(int width, int height, ReusedMemory* reused) {
   filtered.resize(width, height, reused);
-  fraction.resize(width, height, reused);
+  rests.resize(width, (height + 1) / 2, reused);
   frames.resize(time_blocks(width), time_blocks(height), reused);
 }
 
 void Means::clear() {
   for (int y = 0; y < filtered.height(); ++y) {
     std::fill_n(filtered.row(y), filtered.width(), std::uint8_t{0});
-    std::fill_n(fraction.row(y), fraction.width(), std::int8_t{0});
+    std::fill_n(rests.row(y / 2), rests.width(), kNoRests);
   }
 }
 
@@ -218,8 +241,8 @@ void count_frames(bool anew, const Image<std::uint8_t>& last, TimeBlocks& blocks
 
 void average_rows(GrayView view, int y0, int y1, const TimeBlocks& blocks, const Means& last,
                   Means& means) {
-  const auto average = HWY_DYNAMIC_DISPATCH(average_row);
-  for (int y = y0; y < y1; ++y) {
+  const auto average = HWY_DYNAMIC_DISPATCH(average_two_rows);
+  for (int y = y0; y < y1; y += 2) {
     average(view, y, blocks.weights.row(y / kTimeBlock), last, means);
   }
 }

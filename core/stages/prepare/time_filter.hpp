@@ -18,6 +18,7 @@ namespace mtstereo {
 
 /// Side of a block [px].
 inline constexpr int kTimeBlock = 8;
+static_assert(kTimeBlock % 2 == 0, "two rows of Means share their rests");
 inline constexpr int kTimeBlockPixels = kTimeBlock * kTimeBlock;
 
 /// Number of blocks for this many pixels.
@@ -39,18 +40,21 @@ inline constexpr float kMostDeviations = 6;
 inline constexpr float kLeastDeviation = 4;
 
 /// Steps of a mean per gray value, of a number of frames, of a trust and of a weight.
-inline constexpr int kMeanShift = 7;
+inline constexpr int kMeanShift = 4;
 inline constexpr int kMeanOne = 1 << kMeanShift;
 inline constexpr int kFramesOne = 16;
 inline constexpr int kTrustOne = 128;
 inline constexpr int kWeightOne = 16384;
 
-/// The means of a view: per pixel kMeanOne * filtered + fraction [1 / kMeanOne gray values], at
-/// least 0.
+/// The means of a view: per pixel kMeanOne * filtered + rest - kMeanOne / 2 [1 / kMeanOne gray
+/// values], at least 0. Finer steps change no map by more than chance, and these take half a byte.
 struct Means {
   Image<std::uint8_t> filtered;  ///< rounded to gray values: the filtered view
-  Image<std::int8_t> fraction;   ///< -kMeanOne / 2 .. kMeanOne / 2 - 1
+  Image<std::uint8_t> rests;     ///< of two rows in one: the upper one in the lower four bits
   Image<std::uint8_t> frames;    ///< in the means of each block [1 / kFramesOne]; 0: just the view
+
+  /// The rest of a mean that is the filtered view, of both rows.
+  static constexpr std::uint8_t kNoRests = 0x88;
 
   void resize(int width, int height, ReusedMemory* reused = nullptr);
   /// Sets all means to 0: the first frame is added to them with its full weight.

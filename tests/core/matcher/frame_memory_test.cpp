@@ -113,10 +113,10 @@ TEST(FrameMemory, PlacesOnlyWhatNoLaterPairNeedsInTheMemoryOfTheCensus) {
   };
   for (int side = 0; side < 2; ++side) {
     const PastViews::View& view = memory.past.views[side];
-    EXPECT_TRUE(is_reused(view.moved.filtered.row(199)) && is_reused(view.moved.fraction.row(199)));
+    EXPECT_TRUE(is_reused(view.moved.filtered.row(199)) && is_reused(view.moved.rests.row(99)));
     EXPECT_TRUE(is_reused(view.blocks.change.row(0)) && is_reused(view.moves.x.row(0)));
     EXPECT_FALSE(is_reused(memory.past.means[side].filtered.row(0)));
-    EXPECT_FALSE(is_reused(memory.past.means[side].fraction.row(0)));
+    EXPECT_FALSE(is_reused(memory.past.means[side].rests.row(0)));
     EXPECT_FALSE(is_reused(memory.past.means[side].frames.row(0)));
   }
   for (const ViewPyramid* present : {&memory.past.present, &memory.last.present}) {

@@ -11,7 +11,9 @@ inline Plane<int> copy_of_means(const Means& means) {
   Plane<int> copy(means.filtered.width(), means.filtered.height());
   for (int y = 0; y < copy.height; ++y) {
     for (int x = 0; x < copy.width; ++x) {
-      copy(x, y) = kMeanOne * means.filtered.row(y)[x] + means.fraction.row(y)[x];
+      const int both = means.rests.row(y / 2)[x];
+      const int rest = y % 2 == 0 ? both % kMeanOne : both / kMeanOne;
+      copy(x, y) = kMeanOne * means.filtered.row(y)[x] + rest - kMeanOne / 2;
     }
   }
   return copy;

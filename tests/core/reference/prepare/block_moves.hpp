@@ -98,7 +98,7 @@ inline void move(const GrayPlane& view, const Offsets& offsets, PastView& past) 
       past.frames(u, v) = inside ? last.frames((left / 8 + 4) / 8, (top / 8 + 4) / 8) : 0;
       for (int j = 8 * v; j < std::min(8 * v + 8, view.height); ++j) {
         for (int i = 8 * u; i < std::min(8 * u + 8, view.width); ++i) {
-          int mean = 128 * view(i, j);
+          int mean = 16 * view(i, j);
           if (inside) {
             const double from_x = i + x / 8.0, from_y = j + y / 8.0;
             const int column = static_cast<int>(from_x), row = static_cast<int>(from_y);
@@ -107,10 +107,12 @@ inline void move(const GrayPlane& view, const Offsets& offsets, PastView& past) 
                 (1 - right) * last.mean(column, row) + right * last.mean(column + 1, row);
             const double below_row =
                 (1 - right) * last.mean(column, row + 1) + right * last.mean(column + 1, row + 1);
-            mean = static_cast<int>((1 - below) * above_row + below * below_row + 0.5);
+            const double steps =
+                8 * above_row + std::floor(8 * (below_row - above_row) * below + 0.5);
+            mean = static_cast<int>(std::floor((steps + 4) / 8));
           }
           past.mean(i, j) = mean;
-          past.filtered(i, j) = static_cast<std::uint8_t>((mean + 64) / 128);
+          past.filtered(i, j) = static_cast<std::uint8_t>((mean + 8) / 16);
         }
       }
     }

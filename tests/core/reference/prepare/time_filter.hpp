@@ -15,7 +15,7 @@ using test::GrayPlane;
 
 /// The means of a view over time. Blocks are 8x8 pixels.
 struct PastView {
-  test::Plane<int> mean;  ///< [1/128 gray values]
+  test::Plane<int> mean;  ///< [1/16 gray values]
   GrayPlane filtered;     ///< the same in gray values
   GrayPlane trust;        ///< per block: that it has not, 0 .. 128
   GrayPlane frames;       ///< per block: in its means [1/16]
@@ -100,8 +100,8 @@ inline void average(const GrayPlane& view, bool anew, PastView& past) {
     for (int x = 0; x < view.width; ++x) {
       const int weight = 16384 * 16 / past.frames(x / 8, y / 8);
       int& mean = past.mean(x, y);
-      mean += static_cast<int>(std::floor((128 * view(x, y) - mean) * weight / 16384.0 + 0.5));
-      past.filtered(x, y) = static_cast<std::uint8_t>((mean + 64) / 128);
+      mean += static_cast<int>(std::floor((16 * view(x, y) - mean) * weight / 16384.0 + 0.5));
+      past.filtered(x, y) = static_cast<std::uint8_t>((mean + 8) / 16);
     }
   }
 }

@@ -71,9 +71,10 @@ Means means_of(const reference::PastView& past) {
   means.resize(past.mean.width, past.mean.height);
   for (int y = 0; y < past.mean.height; ++y) {
     for (int x = 0; x < past.mean.width; ++x) {
-      const int filtered = (past.mean(x, y) + kMeanOne / 2) / kMeanOne;
-      means.filtered.row(y)[x] = static_cast<std::uint8_t>(filtered);
-      means.fraction.row(y)[x] = static_cast<std::int8_t>(past.mean(x, y) - kMeanOne * filtered);
+      const int steps = past.mean(x, y) + kMeanOne / 2, rest = steps % kMeanOne;
+      means.filtered.row(y)[x] = static_cast<std::uint8_t>(steps / kMeanOne);
+      std::uint8_t& both = means.rests.row(y / 2)[x];
+      both = static_cast<std::uint8_t>(y % 2 == 0 ? rest : both + kMeanOne * rest);
     }
   }
   means.frames = image_of(past.frames);
