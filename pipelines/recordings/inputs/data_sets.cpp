@@ -177,6 +177,26 @@ std::optional<int> entry_of(const fs::path& file, const std::string& key) {
   return std::nullopt;
 }
 
+struct PairNames {
+  const char *left, *right;
+};
+
+// The names of the two views of a folder of Middlebury: since 2014, of 2005 and 2006, and of 2001
+// and 2003, where more views are beside them.
+std::optional<PairNames> pair_names_in(const fs::path& folder, bool calibrated) {
+  constexpr PairNames kNewest = {"im0.png", "im1.png"};
+  constexpr std::array<PairNames, 3> kOlder{
+      {{"view1.png", "view5.png"}, {"im2.png", "im6.png"}, {"im2.ppm", "im6.ppm"}}};
+  for (const PairNames& names : kOlder) {
+    if (is_there(folder / names.left) && is_there(folder / names.right)) return names;
+  }
+  const bool left = is_there(folder / kNewest.left), right = is_there(folder / kNewest.right);
+  // Without the calibration, they may be two of many images.
+  const bool many = is_there(folder / "im2.png");
+  return (calibrated ? left || right : left && right && !many) ? std::optional(kNewest)
+                                                               : std::nullopt;
+}
+
 }  // namespace
 
 std::string folder_name(const fs::path& folder) {
@@ -252,11 +272,10 @@ std::optional<FoundRecording> find_euroc(const fs::path& folder) {
 }
 
 std::optional<FoundRecording> find_pair_folder(const fs::path& folder) {
-  const fs::path left = folder / "im0.png", right = folder / "im1.png";
   const fs::path calibration = folder / "calib.txt";
-  // Without the calibration, one of them may be one of many images.
-  const bool both = is_there(left) && is_there(right);
-  if (!both && !((is_there(left) || is_there(right)) && is_there(calibration))) return std::nullopt;
+  const std::optional<PairNames> names = pair_names_in(folder, is_there(calibration));
+  if (!names) return std::nullopt;
+  const fs::path left = folder / names->left, right = folder / names->right;
   FoundRecording found;
   Recording& recording = found.recording;
   recording.name = folder_name(folder);

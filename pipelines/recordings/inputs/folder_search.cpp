@@ -2,6 +2,7 @@
 #include "recordings/inputs/folder_search.hpp"
 
 #include <algorithm>
+#include <regex>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -30,6 +31,26 @@ std::string name_of_images(const ViewImages& views, const fs::path& folder) {
   std::string name = name_without_extension(views.left.size() == 1 ? only : views.common, folder);
   while (name.size() > 1 && (name.back() == '_' || name.back() == '-')) name.pop_back();
   return name == "_" || name == "-" ? folder_name(folder) : name;
+}
+
+// Whether a name states what belongs to a view, such as its depths.
+bool is_other_data(const std::string& name) {
+  static const std::regex words(
+      "(^|[^a-z])(depth|disp|disparity|flow|mask|normals?|seg)([^a-z]|$)");
+  return std::regex_search(name, words);
+}
+
+// Beside views, leaves what belongs to them to the rest of the images.
+void leave_other_data(std::vector<ViewImages>& all_views, std::vector<fs::path>& rest) {
+  const auto others =
+      std::stable_partition(all_views.begin(), all_views.end(),
+                            [](const ViewImages& views) { return !is_other_data(views.common); });
+  if (others == all_views.begin()) return;
+  for (auto views = others; views != all_views.end(); ++views) {
+    rest.insert(rest.end(), views->left.begin(), views->left.end());
+    rest.insert(rest.end(), views->right.begin(), views->right.end());
+  }
+  all_views.erase(others, all_views.end());
 }
 
 class FolderSearch {
@@ -139,7 +160,8 @@ class FolderSearch {
   // Images of both views in one folder, or images with both views.
   void add_images() {
     std::vector<fs::path> rest = files::images_in(folder_);
-    const std::vector<ViewImages> all_views = take_views(rest);
+    std::vector<ViewImages> all_views = take_views(rest);
+    leave_other_data(all_views, rest);
     const std::size_t before = contents_.recordings.size();
     for (const ViewImages& views : all_views) {
       const bool only = all_views.size() == 1;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -25,7 +26,7 @@ struct Words {
   Place place;
 };
 
-constexpr std::array<Words, 15> kWords{{{"left", "right", Place::kAny},
+constexpr std::array<Words, 23> kWords{{{"left", "right", Place::kAny},
                                         {"Left", "Right", Place::kAny},
                                         {"LEFT", "RIGHT", Place::kAny},
                                         {"l", "r", Place::kWhole},
@@ -34,12 +35,32 @@ constexpr std::array<Words, 15> kWords{{{"left", "right", Place::kAny},
                                         {"cam0", "cam1", Place::kWhole},
                                         {"cam_0", "cam_1", Place::kWhole},
                                         {"camera0", "camera1", Place::kWhole},
+                                        {"camera_0", "camera_1", Place::kWhole},
+                                        {"Camera0", "Camera1", Place::kWhole},
+                                        {"Camera_0", "Camera_1", Place::kWhole},
+                                        {"camera_00", "camera_01", Place::kWhole},
+                                        {"lcam", "rcam", Place::kWhole},
                                         {"infra1", "infra2", Place::kWhole},
+                                        {"infrared_1", "infrared_2", Place::kWhole},
+                                        {"Infrared_1", "Infrared_2", Place::kWhole},
+                                        {"Infrared 1", "Infrared 2", Place::kWhole},
                                         {"colored_0", "colored_1", Place::kWhole},
                                         {"image_00", "image_01", Place::kWhole},
                                         {"image_02", "image_03", Place::kWhole},
                                         {"image_0", "image_1", Place::kWhole},
                                         {"image_2", "image_3", Place::kWhole}}};
+
+// Two of many cameras: they are the left and the right view if the third one is missing.
+struct CountedWords {
+  std::string_view left, right, third;
+};
+
+constexpr std::array<CountedWords, 6> kCountedWords{{{"cam1", "cam2", "cam3"},
+                                                     {"cam_1", "cam_2", "cam_3"},
+                                                     {"camera1", "camera2", "camera3"},
+                                                     {"camera_1", "camera_2", "camera_3"},
+                                                     {"Camera1", "Camera2", "Camera3"},
+                                                     {"camera_00", "camera_02", "camera_01"}}};
 
 bool is_digit(char each) { return std::isdigit(static_cast<unsigned char>(each)) != 0; }
 
@@ -99,6 +120,21 @@ std::map<std::string, ViewImages> take_unpaired_views(std::vector<fs::path>& pat
   return found;
 }
 
+// The partner of a name by the words of counted cameras.
+std::optional<Partner> counted_partner(const std::string& left,
+                                       const std::set<std::string>& names) {
+  for (const CountedWords& words : kCountedWords) {
+    const std::size_t at = left.find(words.left), length = words.left.size();
+    if (at == std::string::npos || !is_whole(left, at, length)) continue;
+    const auto with = [&](std::string_view word) {
+      return std::string(left).replace(at, length, word);
+    };
+    if (names.contains(with(words.third))) continue;
+    return Partner{with(words.right), without(left, at, length)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<Partner> partners_of(const std::string& left) {
@@ -130,11 +166,14 @@ bool is_view_name(const std::string& name) {
 std::vector<PathPair> take_pairs(std::vector<fs::path>& paths) {
   std::set<std::string> names;
   for (const fs::path& path : paths) names.insert(path.filename().string());
+  const std::set<std::string> all = names;
   std::vector<PathPair> pairs;
   for (const fs::path& left : paths) {
     const std::string name = left.filename().string();
     if (!names.contains(name)) continue;
-    for (const Partner& partner : partners_of(name)) {
+    std::vector<Partner> partners = partners_of(name);
+    if (auto partner = counted_partner(name, all)) partners.push_back(*std::move(partner));
+    for (const Partner& partner : partners) {
       if (!names.contains(partner.right)) continue;
       pairs.push_back({left, left.parent_path() / partner.right, partner.common});
       names.erase(name);

@@ -28,7 +28,8 @@ struct PathPair {
   std::string common;  ///< what both names share
 };
 
-/// Finds the pairs among paths of one folder and removes them from the list.
+/// Finds the pairs among paths of one folder and removes them from the list: those of
+/// partners_of(), and cam1 with cam2 if there is no cam3.
 std::vector<PathPair> take_pairs(std::vector<std::filesystem::path>& paths);
 
 /// What is left of a name without the word that states the left or the right view; the name itself

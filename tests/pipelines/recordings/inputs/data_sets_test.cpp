@@ -153,6 +153,40 @@ TEST_F(DataSets, Euroc) {
   EXPECT_THROW(recognized("MH_01"), UserError);
 }
 
+TEST_F(DataSets, OlderMiddleburyPairs) {
+  write_images("Aloe", {"view0.png", "view1.png", "view5.png", "disp1.png"}, {427, 370});
+  write_images("Teddy", {"im2.png", "im6.png", "disp2.png"}, {450, 375});
+  fs::create_directory(folder_ / "venus");
+  for (const char* name : {"im0.ppm", "im1.ppm", "im2.ppm", "im6.ppm"}) {
+    ASSERT_TRUE(cv::imwrite(path("venus/") + name, cv::Mat(383, 434, CV_8UC3, cv::Scalar(80))));
+  }
+  EXPECT_EQ(recognized("Aloe").left.images.front(), path("Aloe/view1.png"));
+  EXPECT_EQ(recognized("Aloe").right.images.front(), path("Aloe/view5.png"));
+  EXPECT_EQ(recognized("Teddy").right.images.front(), path("Teddy/im6.png"));
+  EXPECT_EQ(recognized("venus").left.images.front(), path("venus/im2.ppm"));
+}
+
+TEST_F(DataSets, ImagesOfACameraAreNoPair) {
+  for (const char* camera : {"Bathroom/camera_00", "Bathroom/camera_02"}) {
+    write_images(camera, {"im0.png", "im1.png"}, {200, 150});
+  }
+  const Recording recording = recognized("Bathroom");
+  EXPECT_THAT(recording.left.images,
+              ElementsAre(path("Bathroom/camera_00/im0.png"), path("Bathroom/camera_00/im1.png")));
+  EXPECT_EQ(recording.right.images.front(), path("Bathroom/camera_02/im0.png"));
+}
+
+TEST_F(DataSets, DepthsBesideViewsAreNoRecording) {
+  write_images("kitchen", {"0.left.jpg", "0.right.jpg", "0.left.depth.png", "0.right.depth.png"},
+               {200, 150});
+  std::vector<Problem> problems;
+  const std::vector<Recording> found = find_recordings(path("kitchen"), {}, problems);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found.front().left.images.front(), path("kitchen/0.left.jpg"));
+  EXPECT_THAT(found.front().remarks, Contains(HasSubstr("not used: 2")));
+  EXPECT_THAT(problems, IsEmpty());
+}
+
 TEST_F(DataSets, MiddleburyPair) {
   write_images("Piano", {"im0.png", "im1.png"}, {2964, 1988});
   copy_calibration("middlebury_calib.txt", "Piano/calib.txt");

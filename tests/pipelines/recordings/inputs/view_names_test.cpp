@@ -23,6 +23,12 @@ TEST(ViewNames, FindsPairs) {
       {"cam0", {"cam1", ""}},
       {"image_02", {"image_03", ""}},
       {"infra1", {"infra2", ""}},
+      {"Infrared_1", {"Infrared_2", ""}},
+      {"Camera_0", {"Camera_1", ""}},
+      {"camera_00", {"camera_02", ""}},
+      {"image_lcam_front", {"image_rcam_front", "image_front"}},
+      {"cam1", {"cam2", ""}},
+      {"a_Camera1_3.png", {"a_Camera2_3.png", "a_3.png"}},
       {"colored_0", {"colored_1", ""}},
   };
   for (const auto& [left, expected] : known) {
@@ -35,6 +41,14 @@ TEST(ViewNames, FindsPairs) {
     EXPECT_EQ(pairs.front().common, expected.second);
     EXPECT_EQ(paths, std::vector<fs::path>{"x/other.mp4"});
   }
+}
+
+TEST(ViewNames, LeavesMoreThanTwoCamerasCountedFromOne) {
+  std::vector<fs::path> three{"cam1", "cam2", "cam3"}, from_zero{"cam0", "cam1", "cam2"};
+  EXPECT_TRUE(take_pairs(three).empty());
+  EXPECT_EQ(take_pairs(from_zero).front().right, "cam1");
+  EXPECT_EQ(from_zero, std::vector<fs::path>{"cam2"});
+  EXPECT_FALSE(is_view_name("cam2"));
 }
 
 TEST(ViewNames, LeavesOtherNames) {
