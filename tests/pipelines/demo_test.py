@@ -53,8 +53,8 @@ class Demo(ClipTest):
 
     @unittest.skipIf(SLOW > 1, "40 views of a board take minutes in a sanitized build")
     def test_raw_cameras_are_calibrated_and_measure_meters(self):
-        done = self.demo("--raw", "--out", "raw", "--frames", "2", "--alpha", "0.1",
-                         "--rectified-size", "601x341")
+        done = self.demo("--raw", "--out", "raw", "--frames", "2", "--size", "480x270",
+                         "--alpha", "0.1", "--rectified-size", "451x255")
         self.assert_succeeds(done)
         out = self.folder / "raw"
         for name in ("demo.png", "color.mp4", "cameras/calibration.yml", "depth/000001.png"):

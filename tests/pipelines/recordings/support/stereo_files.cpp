@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <fstream>
-#include <iterator>
+#include <map>
+#include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 #include "recordings/media/gst_objects.hpp"
 #include "video_files.hpp"
@@ -70,9 +72,12 @@ std::string rows_of(GstBuffer* buffer, const GstCaps* caps) {
   return rows;
 }
 
-std::vector<std::uint8_t> stereo_frame(int number, View view, int row_offset) {
+// Many tests have the same frames, and tests are compiled without optimization: each is drawn once.
+const std::vector<std::uint8_t>& stereo_frame(int number, View view, int row_offset) {
+  static std::map<std::tuple<int, View, int>, std::vector<std::uint8_t>> drawn;
+  std::vector<std::uint8_t>& pixels = drawn[{number, view, row_offset}];
+  if (!pixels.empty()) return pixels;
   const int width = view == View::kBoth ? 2 * kStereoWidth : kStereoWidth;
-  std::vector<std::uint8_t> pixels;
   for (int y = 0; y < kStereoHeight; ++y) {
     for (int x = 0; x < width; ++x) {
       const bool right = view == View::kRight || x >= kStereoWidth;
@@ -94,7 +99,7 @@ void write_view(const fs::path& file, View view, const std::string& coding,
   const ElementPointer in = element_of(pipeline, "in");
   gst_element_set_state(pipeline.get(), GST_STATE_PLAYING);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const std::vector<std::uint8_t> pixels = stereo_frame(static_cast<int>(i), view, row_offset);
+    const std::vector<std::uint8_t>& pixels = stereo_frame(static_cast<int>(i), view, row_offset);
     GstBuffer* const buffer = gst_buffer_new_memdup(pixels.data(), pixels.size());
     const Nanoseconds next = i + 1 < times.size() ? times[i + 1] : times[i] + 33'333'333;
     GST_BUFFER_PTS(buffer) = static_cast<GstClockTime>(times[i]);
@@ -167,8 +172,9 @@ std::map<std::string, std::string> contents_of(const fs::path& folder) {
 }
 
 std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::ostringstream bytes;
+  bytes << std::ifstream(file, std::ios::binary).rdbuf();
+  return bytes.str();
 }
 
 }  // namespace mtstereo::run::testing

@@ -20,7 +20,7 @@ enum class View { kLeft, kRight, kBoth };
 
 /// A frame of a textured scene that moves: no two frames are equal. `row_offset`: the right view is
 /// so much lower. A frame with both views has the right one at the right side.
-std::vector<std::uint8_t> stereo_frame(int number, View view, int row_offset = 0);
+const std::vector<std::uint8_t>& stereo_frame(int number, View view, int row_offset = 0);
 
 /// Encodes such frames by GStreamer. `coding`: what follows the source.
 void write_view(const std::filesystem::path& file, View view, const std::string& coding,

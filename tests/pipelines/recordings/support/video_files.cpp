@@ -103,7 +103,9 @@ void write_beginning(const fs::path& from, const fs::path& to, double fraction) 
 }
 
 bool have_ffmpeg() {
-  return std::system("ffmpeg -version > /dev/null 2>&1 && ffprobe -version > /dev/null 2>&1") == 0;
+  static const bool found =
+      std::system("ffmpeg -version > /dev/null 2>&1 && ffprobe -version > /dev/null 2>&1") == 0;
+  return found;
 }
 
 void run_pipeline(const std::string& line) {
