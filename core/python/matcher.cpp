@@ -29,25 +29,42 @@ struct MatchResult {
   FrameStatistics statistics;
 };
 
-/// Copies a map as floating point; exact, since a value has less than 24 bits. Written without a
-/// choice between floating-point values, so that the compiler makes vectors of it.
-void write_pixels(DisparityView map, int offset, ImageView<float> out) {
+constexpr int kCacheLine = 64;                                             // [bytes]
+constexpr int kLineValues = kCacheLine / static_cast<int>(sizeof(float));  // of the disparity
+constexpr int kFetchedAhead = 16 * kLineValues;
+
+/// Copies disparities as floating point; exact, since a value has less than 24 bits. Written
+/// without a choice between floating-point values, so that the compiler makes vectors of it.
+inline void write_values(const std::int32_t* values, float added, int count, float* pixels) {
   constexpr auto kUnknown = std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN());
-  const auto added = static_cast<float>(offset);
-  for (int y = 0; y < map.height; ++y) {
-    const std::int32_t* values = map.row(y);
-    float* pixels = out.row(y);
-    for (int x = 0; x < map.width; ++x) {
-      const float disparity = static_cast<float>(values[x]) * (1.0F / kDisparityOne) + added;
-      const std::uint32_t unknown = values[x] == kNoDisparity ? ~std::uint32_t{0} : 0;
-      pixels[x] = std::bit_cast<float>((std::bit_cast<std::uint32_t>(disparity) & ~unknown) |
-                                       (kUnknown & unknown));
-    }
+  for (int x = 0; x < count; ++x) {
+    const float disparity = static_cast<float>(values[x]) * (1.0F / kDisparityOne) + added;
+    const std::uint32_t unknown = values[x] == kNoDisparity ? ~std::uint32_t{0} : 0;
+    pixels[x] = std::bit_cast<float>((std::bit_cast<std::uint32_t>(disparity) & ~unknown) |
+                                     (kUnknown & unknown));
   }
 }
 
-void copy_pixels(GrayView in, ImageView<std::uint8_t> out) {
-  for (int y = 0; y < in.height; ++y) std::copy_n(in.row(y), in.width, out.row(y));
+/// Copies both maps. Most of its time it waits for memory, so it asks for cache lines ahead of
+/// their use, at best 1 KB.
+void write_maps(const FrameResult& maps, int offset, ImageView<float> disparity,
+                ImageView<std::uint8_t> confidence) {
+  const int width = maps.disparity.width;
+  const auto added = static_cast<float>(offset);
+  for (int y = 0; y < maps.disparity.height; ++y) {
+    std::uint8_t* rates = confidence.row(y);
+    for (int x = 0; x < width; x += kCacheLine) __builtin_prefetch(rates + x, 1);
+    const std::int32_t* values = maps.disparity.row(y);
+    float* pixels = disparity.row(y);
+    int x = 0;
+    for (; x + kLineValues <= width; x += kLineValues) {
+      __builtin_prefetch(values + x + kFetchedAhead);
+      __builtin_prefetch(pixels + x + kFetchedAhead, 1);
+      write_values(values + x, added, kLineValues, pixels + x);
+    }
+    write_values(values + x, added, width - x, pixels + x);
+    std::copy_n(maps.confidence.row(y), width, rates);
+  }
 }
 
 class PythonMatcher {
@@ -74,8 +91,7 @@ class PythonMatcher {
     require(own().with([&](Matcher& matcher) -> Status {
       const auto computed = matcher.compute(left_view.view, right_view.view);
       if (!computed) return computed.error();
-      write_pixels(computed->disparity, matcher.parameters().disparity_offset(), disparity);
-      copy_pixels(computed->confidence, confidence);
+      write_maps(*computed, matcher.parameters().disparity_offset(), disparity, confidence);
       result.statistics = computed->statistics;
       return {};
     }));
