@@ -33,7 +33,7 @@ PACKAGES = [fields["Package"] for fields in CONTROL if "Package" in fields]
 
 def names_in(field):
     """The packages that a field names, without their versions and without ${variables}."""
-    words = (re.split(r"[\s(<|]", part.strip())[0] for part in field.split(","))
+    words = (re.split(r"[\s(<|:]", part.strip())[0] for part in field.split(","))
     return {word for word in words if word and not word.startswith("$")}
 
 
@@ -43,8 +43,7 @@ def version():
 
 def installed_files():
     """What the build of the packages installs, relative to /."""
-    words = re.search(r"dh_auto_configure -- (.*)", (DEBIAN / "rules").read_text()).group(1).split()
-    options = [word for word in words if not word.startswith("$")]
+    options = re.search(r"dh_auto_configure -- (.*)", (DEBIAN / "rules").read_text()).group(1).split()
     with tempfile.TemporaryDirectory(prefix="mtstereo-") as folder:
         setup = [*MESON, "setup", folder, SOURCE, "--prefix", "/usr", "--libexecdir", "libexec", *options]
         done = subprocess.run(setup, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)

@@ -38,11 +38,29 @@ make_room() {
   in_room "$name" apt-get update -q >"$work/$name.log" 2>&1
 }
 
-# in_room NAME COMMAND...: a service that a package would start is not started.
+# Makes the prefix `emulated`: programs of 64-bit ARM that a command with it starts run in the qemu-aarch64 of their
+# room. The rule for them is one of a namespace of users, so nobody else is affected. The process `keeper` keeps it.
+emulated=() keeper=
+start_emulation() {
+  local header='\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00'
+  local mask='\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff'
+  mkdir "$work/rules"
+  unshare --user --mount sleep infinity &
+  keeper=$!
+  while [ "$(readlink "/proc/$keeper/ns/user")" = "$(readlink /proc/self/ns/user)" ]; do sleep 0.1; done
+  emulated=(nsenter --user --target "$keeper")
+  # shellcheck disable=SC2016 # the variables are those of the inner shell
+  echo "0 0 65536" | tee "/proc/$keeper/gid_map" >"/proc/$keeper/uid_map" &&
+    "${emulated[@]}" --mount sh -c 'mount -t binfmt_misc none "$1" && printf %s "$2" >"$1/register"' sh \
+      "$work/rules" ":arm64:M::$header:$mask:/usr/bin/qemu-aarch64:"
+}
+
+# in_room NAME COMMAND...: with the prefix `enter`. A service that a package would start is not started.
+enter=()
 in_room() {
   local name=$1
   shift
-  chroot "$work/$name" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
+  "${enter[@]}" chroot "$work/$name" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
     DEBIAN_FRONTEND=noninteractive ${http_proxy:+"http_proxy=$http_proxy"} "$@"
 }
 
@@ -61,6 +79,7 @@ step() {
 leave_rooms() {
   local folder
   [ -z "$running" ] || echo "FAILED: $running"
+  [ -z "$keeper" ] || kill "$keeper"
   # Ours, and those of an mmdebstrap that was interrupted.
   while read -r folder; do
     umount --lazy "$folder"
