@@ -45,12 +45,12 @@ start_emulation() {
   local header='\x7fELF\x02\x01\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x02\x00\xb7\x00'
   local mask='\xff\xff\xff\xff\xff\xff\xff\x00\xff\xff\xff\xff\xff\xff\xff\xff\xfe\xff\xff\xff'
   mkdir "$work/rules"
-  unshare --user --mount sleep infinity &
+  unshare --user --mount sleep infinity 2>/dev/null &
   keeper=$!
   while [ "$(readlink "/proc/$keeper/ns/user")" = "$(readlink /proc/self/ns/user)" ]; do sleep 0.1; done
   emulated=(nsenter --user --target "$keeper")
   # shellcheck disable=SC2016 # the variables are those of the inner shell
-  echo "0 0 65536" | tee "/proc/$keeper/gid_map" >"/proc/$keeper/uid_map" &&
+  { echo "0 0 65536" | tee "/proc/$keeper/gid_map" >"/proc/$keeper/uid_map"; } 2>/dev/null &&
     "${emulated[@]}" --mount sh -c 'mount -t binfmt_misc none "$1" && printf %s "$2" >"$1/register"' sh \
       "$work/rules" ":arm64:M::$header:$mask:/usr/bin/qemu-aarch64:"
 }
@@ -79,7 +79,7 @@ step() {
 leave_rooms() {
   local folder
   [ -z "$running" ] || echo "FAILED: $running"
-  [ -z "$keeper" ] || kill "$keeper"
+  [ -z "$keeper" ] || kill "$keeper" 2>/dev/null || true
   # Ours, and those of an mmdebstrap that was interrupted.
   while read -r folder; do
     umount --lazy "$folder"
