@@ -135,15 +135,21 @@ std::string extension_of(const fs::path& file) {
 }
 
 bool is_image(const fs::path& file) {
-  constexpr std::array<std::string_view, 10> kKnown{".png", ".jpg", ".jpeg", ".tif", ".tiff",
-                                                    ".bmp", ".pgm", ".ppm",  ".pnm", ".webp"};
+  constexpr std::array<std::string_view, 8> kKnown{".png", ".tif", ".tiff", ".bmp",
+                                                   ".pgm", ".ppm", ".pnm",  ".webp"};
+  return has_extension(file, kKnown) || is_jpeg(file);
+}
+
+bool is_jpeg(const fs::path& file) {
+  constexpr std::array<std::string_view, 5> kKnown{".jpg", ".jpeg", ".jpe", ".jfif", ".jps"};
   return has_extension(file, kKnown);
 }
 
 bool is_video(const fs::path& file) {
-  constexpr std::array<std::string_view, 14> kKnown{".mp4",  ".m4v", ".mov",  ".mkv", ".webm",
-                                                    ".ts",   ".mts", ".m2ts", ".avi", ".mpg",
-                                                    ".mpeg", ".flv", ".ogv",  ".3gp"};
+  constexpr std::array<std::string_view, 29> kKnown{
+      ".mp4", ".m4v", ".mov",  ".mkv", ".webm", ".ts",   ".mts", ".m2ts",  ".avi", ".mpg",
+      ".flv", ".ogv", ".mpeg", ".3gp", ".wmv",  ".asf",  ".mxf", ".vob",   ".ivf", ".y4m",
+      ".dv",  ".m2v", ".h264", ".264", ".h265", ".hevc", ".265", ".mjpeg", ".mjpg"};
   return has_extension(file, kKnown);
 }
 

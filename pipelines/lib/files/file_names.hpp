@@ -15,7 +15,9 @@ bool numbered_less(std::string_view a, std::string_view b);
 std::string extension_of(const std::filesystem::path& file);
 /// By its extension: an image that OpenCV reads.
 bool is_image(const std::filesystem::path& file);
-/// By its extension: a container with video.
+/// The same: a JPEG image, also one with both views (.jps).
+bool is_jpeg(const std::filesystem::path& file);
+/// By its extension: a container with video, or a stream of it.
 bool is_video(const std::filesystem::path& file);
 
 /// Whether a folder is there.

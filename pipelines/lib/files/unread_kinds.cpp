@@ -20,12 +20,15 @@ struct Kind {
   const char* what;
 };
 
-constexpr std::array<Kind, 11> kKinds{
+constexpr std::array<Kind, 12> kKinds{
     {{" .heic .heif .avif ", "is a kind of image that is not read: convert it to PNG"},
      {" .tga .pam .pcx .sgi ",
       "is a kind of image that is not read: convert it to PNG (ffmpeg -i FILE view.png)"},
      {" .cr2 .cr3 .nef .arw .raf .rw2 .orf .dng ",
       "is raw data of a camera: develop both views with the same settings to 16-bit PNG or TIFF"},
+     {" .mpo ",
+      "has one image after the other: the left view is the first one (cp FILE left.jpg), the right "
+      "one the second (exiftool -b -mpimage2 FILE > right.jpg)"},
      {" .bag .db3 .mcap ",
       "is a recording of ROS: write the images of both cameras to two folders, with their times "
       "[ns] as names, and give the folders"},
@@ -41,11 +44,12 @@ constexpr std::array<Kind, 11> kKinds{
      {" .pfm .flo ", "has values instead of an image, such as disparities: give the views"},
      {" .ply .pcd .las ", "has points instead of an image: give the views"}}};
 
-// Animations that repeat have no end.
-bool is_gif(const fs::path& file) {
-  std::array<char, 4> head{};
-  std::ifstream(file, std::ios::binary).read(head.data(), head.size());
-  return std::string_view(head.data(), head.size()) == "GIF8";
+// Whether a file begins with these bytes.
+bool begins_with(const fs::path& file, std::string_view bytes) {
+  std::string head(bytes.size(), '\0');
+  std::ifstream(file, std::ios::binary)
+      .read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head == bytes;
 }
 
 }  // namespace
@@ -53,13 +57,18 @@ bool is_gif(const fs::path& file) {
 std::string unread_kind(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return {};
-  if (is_gif(file)) {
+  // Animations that repeat have no end.
+  if (begins_with(file, "GIF8")) {
     return "is a GIF, which repeats without an end: convert it to a video or to PNG images (ffmpeg "
            "-i FILE view.mkv)";
   }
   const std::string extension = " " + extension_of(file) + " ";
   for (const Kind& kind : kKinds) {
     if (kind.extensions.find(extension) != std::string_view::npos) return kind.what;
+  }
+  if (!is_image(file) && begins_with(file, "\xff\xd8\xff")) {
+    return "has JPEG images without times: state their rate (ffmpeg -framerate 30 -f mjpeg -i FILE "
+           "-c copy view.mkv), or name it FILE.jpg if it is one image";
   }
   return {};
 }

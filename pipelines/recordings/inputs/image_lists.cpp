@@ -286,7 +286,7 @@ std::string image_problem(const fs::path& image) {
     if (!head.starts_with("\x89PNG")) return "is no PNG file";
     if (bytes_of(image, 64, 64).find("IEND") == std::string::npos) return "is truncated";
   }
-  if (extension == ".jpg" || extension == ".jpeg") {
+  if (files::is_jpeg(image)) {
     if (!head.starts_with("\xff\xd8")) return "is no JPEG file";
     constexpr std::size_t kEnd = 4096;  // some cameras write more after the end of the image
     if (bytes_of(image, kEnd, kEnd).find("\xff\xd9") == std::string::npos) return "is truncated";

@@ -126,9 +126,7 @@ class ImageReader : public FrameReader {
   DecodedFrame read(std::int64_t number) override {
     const std::filesystem::path& file = files_[static_cast<std::size_t>(number)];
     problem_ = "it cannot be read";
-    const std::string extension = files::extension_of(file);
-    DecodedFrame frame =
-        extension == ".jpg" || extension == ".jpeg" ? read_jpeg(file) : read_other(file);
+    DecodedFrame frame = files::is_jpeg(file) ? read_jpeg(file) : read_other(file);
     if (frame.state == FrameState::kMissing) problem_ = file.string() + ": " + problem_;
     return frame;
   }

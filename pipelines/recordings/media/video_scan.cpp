@@ -45,6 +45,13 @@ bool is_video(const GstCaps* caps) {
   return name.starts_with("video/") || name.starts_with("image/");
 }
 
+// What to do without a plugin, such as "H.264 decoder".
+std::string without_plugin(const std::string& missing) {
+  return "GStreamer has no " + missing +
+         ": install its plugin (pipelines/install-packages.sh has those of common formats), or "
+         "convert the video (ffmpeg -i FILE -c:v ffv1 view.mkv)";
+}
+
 std::vector<std::uint8_t> gray_pixels(GstBuffer* buffer, const GstVideoInfo& info) {
   GstVideoFrame frame;
   if (gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ) == FALSE) return {};
@@ -234,8 +241,7 @@ void VideoScan::State::take_message(GstMessage* message) {
   } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR && error.empty()) {
     g_autoptr(GError) reason = nullptr;
     gst_message_parse_error(message, &reason, nullptr);
-    error = reason->message;
-    if (!missing.empty()) error += " (" + missing + ")";
+    error = missing.empty() ? reason->message : without_plugin(missing);
   }
 }
 
@@ -252,7 +258,7 @@ void VideoScan::State::read_messages() {
 std::string VideoScan::State::reason_of_silence(GstClockTime waited) const {
   const bool all_known = complete || (others && waited >= kForVideo);
   if (all_known || (waited >= kForTasks && !is_running(pipeline))) {
-    return missing.empty() ? "no video was found in it" : "a plugin is missing: " + missing;
+    return missing.empty() ? "no video was found in it" : without_plugin(missing);
   }
   return "";
 }

@@ -78,6 +78,17 @@ TEST_F(FileNames, RefusesPatternWithoutOneNumber) {
   EXPECT_THROW(match("%"), UserError);
 }
 
+TEST_F(FileNames, TellImagesAndVideos) {
+  for (const char* name : {"a.PNG", "a.jpg", "b.jfif", "both.JPS", "a.webp"}) {
+    EXPECT_TRUE(is_image(name) && !is_video(name)) << name;
+  }
+  for (const char* name : {"a.mov", "a.MP4", "pi.h264", "a.wmv"})
+    EXPECT_TRUE(is_video(name) && !is_image(name));
+  for (const char* name : {"jps", "a.txt", ".jpg", "a.mpo"}) EXPECT_FALSE(is_image(name)) << name;
+  EXPECT_TRUE(is_jpeg("a.jpe"));
+  EXPECT_FALSE(is_jpeg("a.png"));
+}
+
 TEST_F(FileNames, FolderThatDoesNotExistIsEmpty) {
   EXPECT_TRUE(files_in(folder_ / "none").empty());
   EXPECT_TRUE(match("none/%d.png").empty());

@@ -30,10 +30,17 @@ class UnreadKinds : public testing::Test {
 TEST_F(UnreadKinds, AreNamedWithTheRemedy) {
   EXPECT_THAT(unread_kind(write("a.HEIC")), HasSubstr("convert it to PNG"));
   EXPECT_THAT(unread_kind(write("a.dng")), HasSubstr("develop both views"));
+  EXPECT_THAT(unread_kind(write("a.MPO")), HasSubstr("-mpimage2"));
   EXPECT_THAT(unread_kind(write("a.mcap")), HasSubstr("recording of ROS"));
   EXPECT_THAT(unread_kind(write("a.svo2")), HasSubstr("ZED_SVO_Export"));
   EXPECT_THAT(unread_kind(write("a.tar.gz")), HasSubstr("unpack"));
   EXPECT_THAT(unread_kind(write("a.mp4", "GIF89a")), HasSubstr("is a GIF"));
+  for (const char* name : {"a.mjpeg", "frames", "b.avi"}) {
+    EXPECT_THAT(unread_kind(write(name, "\xff\xd8\xff\xe0")), HasSubstr("state their rate"))
+        << name;
+  }
+  EXPECT_THAT(unread_kind(write("b.MPO", "\xff\xd8\xff\xe1")), HasSubstr("-mpimage2"));
+  EXPECT_THAT(unread_kind(write("b.jfif", "\xff\xd8\xff\xe0")), IsEmpty());
   EXPECT_THROW(refuse_unread(write("a.npz")), UserError);
 }
 
