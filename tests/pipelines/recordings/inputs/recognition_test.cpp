@@ -176,13 +176,13 @@ TEST_F(Recordings, EarlierResultsBesideTheViewsAreNotViews) {
 }
 
 TEST_F(Recordings, ImagesOfOtherKindsAreOtherRecordings) {
-  write_images("all", {"left.png", "disp_left.png", "imgL.jpg"});
-  write_images("all", {"right.png", "disp_right.png", "imgR.jpg"}, true);
-  EXPECT_THAT(error_of({"all"}), HasSubstr("3 recordings, such as all and disp"));
+  write_images("all", {"left.png", "flash_left.png", "imgL.jpg"});
+  write_images("all", {"right.png", "flash_right.png", "imgR.jpg"}, true);
+  EXPECT_THAT(error_of({"all"}), HasSubstr("3 recordings, such as all and flash"));
   std::vector<Problem> problems;
   std::vector<std::string> names;
   for (const Recording& recording : found(problems)) names.push_back(recording.name);
-  EXPECT_THAT(names, ElementsAre("all", "all-disp", "all-img"));
+  EXPECT_THAT(names, ElementsAre("all", "all-flash", "all-img"));
   EXPECT_THAT(problems, IsEmpty());
 }
 
