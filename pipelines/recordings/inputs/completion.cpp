@@ -77,7 +77,7 @@ void confirm_arrangement(Recording& recording, cv::Size size, cv::Size half, boo
   if (!match.confirmed) {
     throw UserError(file_of(recording.left).string() +
                     ": by its shape it may have both views, but its halves do not match (" + text +
-                    "): give the other view too, or state the arrangement (--layout)");
+                    "): " + advice_for(recording.left) + ", or state the arrangement (--layout)");
   }
   recording.remarks.push_back("Both views are in one frame (" + text + ").");
   if (swap || !match.swapped) return;
