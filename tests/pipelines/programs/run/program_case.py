@@ -24,8 +24,8 @@ def run(*arguments):
 def make_video(file, column, frames=FRAMES):
     """A part of a moving test image by ffmpeg: views whose columns differ are a stereo pair."""
     subprocess.run(
-        ["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", "testsrc2=size=336x192:rate=30"]
-        + ["-frames:v", str(frames), "-vf", f"crop=320:192:{column}:0"]
+        ["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", "testsrc2=size=168x96:rate=30"]
+        + ["-frames:v", str(frames), "-vf", f"crop=160:96:{column}:0"]
         + ["-c:v", "libx264", "-preset", "veryfast", "-bf", "2", "-g", "30", str(file)],
         check=True,
         stdin=subprocess.DEVNULL,

@@ -171,7 +171,7 @@ class Program(ProgramCase):
             self.assertLessEqual(max(map(len, help_text.splitlines())), 110)
 
     def test_states_what_was_recognized(self):
-        self.assertIn(f"Input: two video files, 320x192 px, {FRAMES} pairs, 30 per second.", self.first.stderr)
+        self.assertIn(f"Input: two video files, 160x96 px, {FRAMES} pairs, 30 per second.", self.first.stderr)
         self.assertIn("Matching: mode semi-dense, disparities 0 to 31 px.", self.first.stderr)
         self.assertIn("Results: disparity (mkv).", self.first.stderr)
         quiet = run(*self.command("--max-disparity", 16, "--what", "stats", "--quiet"))
