@@ -185,10 +185,18 @@ struct PairNames {
 // and 2003, where more views are beside them.
 std::optional<PairNames> pair_names_in(const fs::path& folder, bool calibrated) {
   constexpr PairNames kNewest = {"im0.png", "im1.png"};
-  constexpr std::array<PairNames, 3> kOlder{
-      {{"view1.png", "view5.png"}, {"im2.png", "im6.png"}, {"im2.ppm", "im6.ppm"}}};
-  for (const PairNames& names : kOlder) {
-    if (is_there(folder / names.left) && is_there(folder / names.right)) return names;
+  struct OlderNames {
+    PairNames views;
+    const char *between, *truth;
+  };
+  constexpr std::array<OlderNames, 3> kOlder{
+      {{{"view1.png", "view5.png"}, "view2.png", "disp1.png"},
+       {{"im2.png", "im6.png"}, "im3.png", "disp2.png"},
+       {{"im2.ppm", "im6.ppm"}, "im3.ppm", "disp2.pgm"}}};
+  for (const auto& [views, between, truth] : kOlder) {
+    // A sequence has such names, too, but no ground truth.
+    const bool sequence = is_there(folder / between) && !is_there(folder / truth);
+    if (!sequence && is_there(folder / views.left) && is_there(folder / views.right)) return views;
   }
   const bool left = is_there(folder / kNewest.left), right = is_there(folder / kNewest.right);
   // Without the calibration, they may be two of many images.

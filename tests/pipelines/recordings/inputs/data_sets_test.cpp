@@ -166,6 +166,14 @@ TEST_F(DataSets, OlderMiddleburyPairs) {
   EXPECT_EQ(recognized("venus").left.images.front(), path("venus/im2.ppm"));
 }
 
+TEST_F(DataSets, ImagesOfASequenceAreNoOlderPair) {
+  write_images("one", {"im1.png", "im2.png", "im3.png", "im4.png", "im5.png", "im6.png"},
+               {450, 375});
+  EXPECT_THROW(recognized("one"), UserError);
+  write_images("one", {"disp2.png"}, {450, 375});
+  EXPECT_EQ(recognized("one").right.images.front(), path("one/im6.png"));
+}
+
 TEST_F(DataSets, ImagesOfACameraAreNoPair) {
   for (const char* camera : {"Bathroom/camera_00", "Bathroom/camera_02"}) {
     write_images(camera, {"im0.png", "im1.png"}, {200, 150});
