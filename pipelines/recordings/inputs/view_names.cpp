@@ -166,13 +166,12 @@ bool is_view_name(const std::string& name) {
 std::vector<PathPair> take_pairs(std::vector<fs::path>& paths) {
   std::set<std::string> names;
   for (const fs::path& path : paths) names.insert(path.filename().string());
-  const std::set<std::string> all = names;
   std::vector<PathPair> pairs;
   for (const fs::path& left : paths) {
     const std::string name = left.filename().string();
     if (!names.contains(name)) continue;
     std::vector<Partner> partners = partners_of(name);
-    if (auto partner = counted_partner(name, all)) partners.push_back(*std::move(partner));
+    if (auto partner = counted_partner(name, names)) partners.push_back(*std::move(partner));
     for (const Partner& partner : partners) {
       if (!names.contains(partner.right)) continue;
       pairs.push_back({left, left.parent_path() / partner.right, partner.common});
