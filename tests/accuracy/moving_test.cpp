@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // temporal=hold and filter before a moving camera: how much less their maps flicker along the
 // motion than with off, at what density and errors. On rendered scenes, whose motion is known
-// exactly, and on a real road if MTSTEREO_TEST_DATA names a folder with one: there the flow of the
-// left views tells the motion.
+// exactly, and on a real road if MTSTEREO_TEST_DATA names a folder with one: there the optical
+// flow of the left views is the motion.
 #include <gtest/gtest.h>
 
 #include <cmath>

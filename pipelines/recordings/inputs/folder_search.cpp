@@ -33,14 +33,14 @@ std::string name_of_images(const ViewImages& views, const fs::path& folder) {
   return name == "_" || name == "-" ? folder_name(folder) : name;
 }
 
-// Whether a name states what belongs to a view, such as its depths.
+// Whether a name is that of other data than a view, such as its depths.
 bool is_other_data(const std::string& name) {
   static const std::regex words(
       "(^|[^a-z])(depth|disp|disparity|flow|mask|normals?|seg)([^a-z]|$)");
   return std::regex_search(name, words);
 }
 
-// Beside views, leaves what belongs to them to the rest of the images.
+// Moves what belongs to the views, such as their depths, to the rest of the images.
 void leave_other_data(std::vector<ViewImages>& all_views, std::vector<fs::path>& rest) {
   const auto others =
       std::stable_partition(all_views.begin(), all_views.end(),
