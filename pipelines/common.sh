@@ -246,6 +246,10 @@ launch() {
   use_plugin
   local file status=0
   for file in "$out" "$cloud"; do refuse_existing "$file"; done
+  # Without a display, autovideosink may choose a sink that crashes.
+  if [[ " ${line[*]} " == *" autovideosink "* && -z ${DISPLAY:-}${WAYLAND_DISPLAY:-} && ! -e /dev/dri && ! -e /dev/fb0 ]]; then
+    fail "there is no display: record with --out, or choose a sink with --sink"
+  fi
   if [ -z "$seconds" ]; then
     "${line[@]}" || status=$?
   else

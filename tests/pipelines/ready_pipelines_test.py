@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The pipeline scripts with files, and with invalid input."""
+import os
 import re
 import signal
 import time
@@ -29,6 +30,13 @@ class ReadyPipelines(ClipTest):
 
     def test_files_are_shown(self):
         self.assert_succeeds(self.run_script("from-files.sh", "left.mkv", "right.mp4", *HEADLESS))
+
+    @unittest.skipIf(os.path.exists("/dev/dri") or os.path.exists("/dev/fb0"), "has a display")
+    def test_without_a_display_the_remedy_is_named(self):
+        windows = [word for name in ("DISPLAY", "WAYLAND_DISPLAY") for word in ("-u", name)]
+        done = run(["env", *windows, PIPELINES / "from-files.sh", "left.mp4", "right.mp4"],
+                   self.folder)
+        self.assert_rejects(done, "there is no display: record with --out", 1)
 
     def test_side_by_side_gives_the_result_of_two_files(self):
         done = self.run_script("from-side-by-side.sh", "side-by-side.mp4", "--out", "sbs.mkv")
