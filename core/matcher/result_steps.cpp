@@ -177,8 +177,8 @@ void hold_known(const StepContext& step, const LastPair& last, ResultMaps& resul
   const LeastConfidence least = step.settings.least_confidence();
   const float offset = step.settings.matched_offset();
   step.bands.rows([&](int y0, int y1, int) {
-    threshold_by_last(least, *last.motion, offset, last.disparity, y0, y1, *result.disparity,
-                      *result.confidence);
+    doubt_by_last(least, *last.motion, offset, last.disparity, *result.disparity, y0, y1,
+                  *result.confidence);
   });
 }
 
@@ -186,11 +186,9 @@ void reject_unlikely(const StepContext& step, const LastPair& last, Maps& maps,
                      ResultMaps& result) {
   const Settings& settings = step.settings;
   const bool held = settings.holds() && last.motion.has_value();
+  const int least = held ? settings.least_confidence().known : settings.least_reliability();
   step.bands.rows([&](int y0, int y1, int) {
-    if (!held) {
-      threshold_confidence(settings.least_reliability(), y0, y1, *result.disparity,
-                           *result.confidence);
-    }
+    threshold_confidence(least, y0, y1, *result.disparity, *result.confidence);
     find_runs(*result.disparity, kDisparityOne, y0, y1, maps.speckles);
   });
   join_bands(*result.disparity, kDisparityOne, Bands::kRows, maps.speckles);

@@ -23,11 +23,11 @@ constexpr int kHalvedRangePenalty = 2;  // [bits]
 constexpr SmoothnessOptions kHalvedSmoothness = {12, 51};
 
 /// What a pixel that the last map knows too needs less than the usual confidence, and what pixels
-/// need more that it does not know. With both, a stream has the errors of single frames, and half
-/// of their flicker; a lower threshold alone has those of a lower min-confidence.
-constexpr int kHeldLess = 24;
-constexpr int kHeldMore = 24;
-constexpr int kHeldMoreOfDense = 12;
+/// need more that it does not know. With both, a stream has the errors and the density of single
+/// frames, and half of their flicker; a lower threshold alone has those of a lower min-confidence.
+constexpr int kHeldLess = 20;
+constexpr int kHeldMore = 34;          // semi-dense
+constexpr int kHeldMoreOfOthers = 20;  // sparse and dense
 
 /// Converts a percentage to a fraction.
 double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
@@ -79,7 +79,7 @@ void Settings::match_at(Resolution chosen) {
 LeastConfidence Settings::least_confidence() const {
   const int usual = least_reliability();
   const int lowest = keeps_inferred() ? 1 : kMostInferred + 1;
-  const int more = keeps_inferred() ? kHeldMoreOfDense : kHeldMore;
+  const int more = mode == Mode::kSemiDense ? kHeldMore : kHeldMoreOfOthers;
   return {static_cast<std::uint8_t>(usual),
           static_cast<std::uint8_t>(std::max(usual - kHeldLess, lowest)),
           static_cast<std::uint8_t>(std::min(usual + more, 255))};

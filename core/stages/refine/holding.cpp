@@ -6,9 +6,6 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "mtstereo/parameters.hpp"
-#include "stages/refine/confidence.hpp"
-
 #define HWY_TARGET_INCLUDE "stages/refine/holding.cpp"
 #include "base/simd.hpp"
 
@@ -137,33 +134,44 @@ namespace {
 /// Stands for a disparity that no pixel has.
 constexpr int kDecidesNothing = 1 << 20;
 
+bool beside_jump(const Image<std::int32_t>& map, int x, int y) {
+  const std::int32_t* row = map.row(y);
+  const auto jumps = [here = row[x]](std::int32_t there) {
+    return std::abs(there - here) > kHeldJump;
+  };
+  return jumps(row[std::max(x - kHeldJumpReach, 0)]) ||
+         jumps(row[std::min(x + kHeldJumpReach, map.width() - 1)]) ||
+         jumps(map.row(std::max(y - kHeldJumpReach, 0))[x]) ||
+         jumps(map.row(std::min(y + kHeldJumpReach, map.height() - 1))[x]);
+}
+
 }  // namespace
 
-void threshold_by_last(const LeastConfidence& least, const CameraMotion& motion, float offset,
-                       const Image<std::uint16_t>& last, int y0, int y1, Image<std::int32_t>& map,
-                       Image<std::uint8_t>& confidence) {
+void doubt_by_last(const LeastConfidence& least, const CameraMotion& motion, float offset,
+                   const Image<std::uint16_t>& last, const Image<std::int32_t>& map, int y0, int y1,
+                   Image<std::uint8_t>& confidence) {
   const auto [lowest, highest] = std::minmax({least.usual, least.known, least.fresh});
-  threshold_confidence(lowest, y0, y1, map, confidence);
   HeldPlaces places = {};
   const std::uint16_t* known = last.row(0);
   for (int y = y0; y < y1; ++y) {
-    std::int32_t* disparity = map.row(y);
     std::uint8_t* rating = confidence.row(y);
     for (int x = 0; x < map.width(); x += HeldPlaces::kMost) {
       // Only these depend on the last map.
       HWY_DYNAMIC_DISPATCH(choose_columns)
-      (disparity, rating, x, std::min(x + HeldPlaces::kMost, map.width()), lowest, highest - 1,
+      (map.row(y), rating, x, std::min(x + HeldPlaces::kMost, map.width()), lowest, highest - 1,
        places);
       HWY_DYNAMIC_DISPATCH(find_places)(motion, offset, last, y, places);
       for (int i = 0; i < places.count; ++i) {
+        const int column = places.column[i];
         const bool outside = places.index[i] == HeldPlaces::kOutside;
         const int before = outside ? kDecidesNothing : known[places.index[i]];
-        const bool same = std::abs(before - places.expected[i]) <= kHeldTolerance;
-        const int needed = before == 0 ? least.fresh : same ? least.known : least.usual;
-        const int column = places.column[i];
-        const bool kept = rating[column] >= needed;
-        disparity[column] = kept ? places.disparity[i] : kNoDisparity;
-        rating[column] = kept ? rating[column] : std::uint8_t{0};
+        int needed = least.usual;
+        if (before == 0) {
+          if (!beside_jump(map, column, y)) needed = least.fresh;
+        } else if (std::abs(before - places.expected[i]) <= kHeldTolerance) {
+          needed = least.known;
+        }
+        if (rating[column] < needed) rating[column] = 0;
       }
     }
   }

@@ -6,23 +6,30 @@
 
 #include "base/buffer.hpp"
 #include "mtstereo/image.hpp"
+#include "mtstereo/parameters.hpp"
 #include "stages/prepare/camera_motion.hpp"
 
 namespace mtstereo {
 
 /// What the last pair of a stream decides about the map of the present one, where the motion of the
 /// camera is known: a pixel needs less confidence if the last map has the same point of the scene,
-/// and more if the last map knows nothing there. No disparity of the last map gets into the present
-/// one.
+/// and more if the last map knows nothing there. Beside a jump of the disparity it needs no more:
+/// there the camera uncovers what the last map cannot know. No disparity of the last map gets into
+/// the present one.
 
 /// Disparities are the same if they differ by at most this [1 / kHeldOne px].
 inline constexpr int kHeldTolerance = kHeldOne;
+
+/// A pixel is beside a jump if the disparity at this distance, to the left, to the right, above or
+/// below, differs by more than kHeldJump [1 / kDisparityOne px].
+inline constexpr int kHeldJumpReach = 3;  // [px]
+inline constexpr int kHeldJump = 2 * kDisparityOne;
 
 /// The least confidence of a pixel.
 struct LeastConfidence {
   std::uint8_t usual = 0;  ///< where the last map has another point of the scene, or ends
   std::uint8_t known = 0;  ///< of a point that the last map has too
-  std::uint8_t fresh = 0;  ///< where the last map knows nothing
+  std::uint8_t fresh = 0;  ///< where the last map knows nothing, but not beside a jump
 };
 
 /// Where some pixels of a row were in the last map.
@@ -36,11 +43,12 @@ struct HeldPlaces {
   alignas(kAlignment) std::array<std::int32_t, kMost> expected;  ///< there [1 / kHeldOne px]
 };
 
-/// Removes the disparities of the rows y0 .. y1 - 1 whose confidence is below the least of the
-/// pixel. `offset` is what a disparity of 0 px of the maps stands for [px].
-void threshold_by_last(const LeastConfidence& least, const CameraMotion& motion, float offset,
-                       const Image<std::uint16_t>& last, int y0, int y1, Image<std::int32_t>& map,
-                       Image<std::uint8_t>& confidence);
+/// Sets the confidences of the rows y0 .. y1 - 1 that are below the least of their pixel to 0,
+/// except those below the lowest one in `least`, which stay. `map` is complete; `offset` is what a
+/// disparity of 0 px of the maps stands for [px].
+void doubt_by_last(const LeastConfidence& least, const CameraMotion& motion, float offset,
+                   const Image<std::uint16_t>& last, const Image<std::int32_t>& map, int y0, int y1,
+                   Image<std::uint8_t>& confidence);
 
 /// Copies the rows y0 .. y1 - 1 of a map, to be the last one of the next pair.
 void copy_last(const Image<std::int32_t>& map, int y0, int y1, Image<std::uint16_t>& last);

@@ -336,25 +336,22 @@ inline void draw_thin_structures(Frame& f) {
                        f.settings.keeps_likely_only(), f.map, f.confidence);
 }
 
-/// Removes the disparities whose confidence is below least(i).
-template <typename Least>
-void threshold(Frame& f, Least least) {
-  for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
-    if (f.confidence.pixels[i] < least(i)) f.map.pixels[i] = f.confidence.pixels[i] = 0;
-  }
-}
-
 inline void hold_known(Frame& f) {
   if (!f.motion) return;
   const auto [usual, known, fresh] = f.settings.least_confidence();
   const float offset = f.settings.min_disparity / (f.settings.half() ? 2.0F : 1.0F);
   const GrayPlane least = least_confidence(f.map, f.last, *f.motion, offset, {usual, known, fresh});
-  threshold(f, [&](std::size_t i) { return least.pixels[i]; });
+  for (std::size_t i = 0; i < least.pixels.size(); ++i) {
+    std::uint8_t& confidence = f.confidence.pixels[i];
+    if (confidence >= known && confidence < least.pixels[i]) confidence = 0;
+  }
 }
 
 inline void reject_unlikely(Frame& f) {
-  if (!f.settings.holds() || !f.motion) {
-    threshold(f, [&](std::size_t) { return f.settings.least_reliability(); });
+  const bool held = f.settings.holds() && f.motion;
+  const int least = held ? f.settings.least_confidence().known : f.settings.least_reliability();
+  for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
+    if (f.confidence.pixels[i] < least) f.map.pixels[i] = f.confidence.pixels[i] = 0;
   }
   f.map = remove_speckles(f.map, 256, f.settings.speckle_size).map;
   for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {

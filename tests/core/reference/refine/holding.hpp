@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "stages/prepare/camera_motion.hpp"
 #include "support/plane.hpp"
@@ -20,8 +21,20 @@ inline int in_thirty_seconds(int disparity) {
   return std::max(static_cast<int>(std::floor(disparity / 8.0 + 0.5)), 1);
 }
 
+/// Whether one of the disparities 3 px to the left, to the right, above and below (or at the border
+/// of the map, where that is outside) differs by more than 2 px.
+inline bool beside_jump(const DisparityPlane& map, int x, int y) {
+  bool jumps = false;
+  for (const auto& [dx, dy] : {std::pair{-3, 0}, {3, 0}, {0, -3}, {0, 3}}) {
+    const int column = std::clamp(x + dx, 0, map.width - 1);
+    const int row = std::clamp(y + dy, 0, map.height - 1);
+    jumps |= std::abs(map(column, row) - map(x, y)) / 256.0 > 2;
+  }
+  return jumps;
+}
+
 /// The least confidence of each pixel: the second one where the last map has the same disparity up
-/// to 1 px, the third one where it knows nothing, the first one elsewhere.
+/// to 1 px, the third one where it knows nothing and there is no jump, the first one elsewhere.
 inline GrayPlane least_confidence(const DisparityPlane& map, const DisparityPlane& last,
                                   const CameraMotion& motion, float offset,
                                   const std::array<std::uint8_t, 3>& least) {
@@ -37,7 +50,7 @@ inline GrayPlane least_confidence(const DisparityPlane& map, const DisparityPlan
       const int before = last(static_cast<int>(last_x), static_cast<int>(last_y));
       const float expected = std::floor((was.disparity - offset) * 32 + 64 + 0.5F) - 64;
       if (before == 0) {
-        out(x, y) = least[2];
+        if (!beside_jump(map, x, y)) out(x, y) = least[2];
       } else if (std::abs(in_thirty_seconds(before) - expected) <= 32) {
         out(x, y) = least[1];
       }

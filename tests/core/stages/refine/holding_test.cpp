@@ -28,25 +28,23 @@ void in_bands(int rows, int height, Body body) {
   for (int y = 0; y < height; y += rows) body(y, std::min(y + rows, height));
 }
 
-/// The least confidence with which each disparity is kept; 0 if it is kept with none that is tried.
+/// The least confidence that each pixel keeps; 0 if it keeps none that is tried.
 GrayPlane chosen(const DisparityPlane& map, const DisparityPlane& last, const CameraMotion& motion,
                  float offset = 0, int rows = 1 << 20) {
   Image<std::uint16_t> before;
   before.resize(map.width, map.height);
   in_bands(rows, map.height, [&](int y0, int y1) { copy_last(image_of(last), y0, y1, before); });
   GrayPlane least(map.width, map.height);
-  for (const int tried : {150, 149, 140, 139, 110, 109}) {
-    Image<std::int32_t> kept = image_of(map);
+  for (const int tried : {150, 149, 140, 139, 110}) {
     Image<std::uint8_t> rating = image_of(GrayPlane(map.width, map.height, tried));
     in_bands(rows, map.height, [&](int y0, int y1) {
-      threshold_by_last(kLeast, motion, offset, before, y0, y1, kept, rating);
+      doubt_by_last(kLeast, motion, offset, before, image_of(map), y0, y1, rating);
     });
     for (int y = 0; y < map.height; ++y) {
       for (int x = 0; x < map.width; ++x) {
         const bool keeps = rating.row(y)[x] != 0;
         if (keeps) least(x, y) = static_cast<std::uint8_t>(tried);
         EXPECT_EQ(keeps ? tried : 0, rating.row(y)[x]);
-        EXPECT_EQ(keeps ? map(x, y) : 0, kept.row(y)[x]);
       }
     }
   }
@@ -58,23 +56,20 @@ int least_of(int now, int last) {
   return chosen(DisparityPlane(1, 1, now), DisparityPlane(1, 1, last), {})(0, 0);
 }
 
-/// Thresholds a map with these confidences, and compares it with the least ones.
-void expect_thresholded(const GrayPlane& least, const DisparityPlane& map, const GrayPlane& rating,
-                        const DisparityPlane& last, const CameraMotion& motion, float offset) {
-  DisparityPlane expected = map;
-  GrayPlane expected_rating = rating;
+/// Compares what is left of these confidences with the least ones.
+void expect_doubted(const GrayPlane& least, const DisparityPlane& map, const GrayPlane& rating,
+                    const DisparityPlane& last, const CameraMotion& motion, float offset) {
+  GrayPlane expected = rating;
   for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-    if (rating.pixels[i] >= least.pixels[i]) continue;
-    expected.pixels[i] = expected_rating.pixels[i] = 0;
+    const int had = rating.pixels[i];
+    if (had >= kLeast.known && had < least.pixels[i]) expected.pixels[i] = 0;
   }
   Image<std::uint16_t> before;
   before.resize(map.width, map.height);
   copy_last(image_of(last), 0, map.height, before);
-  Image<std::int32_t> kept = image_of(map);
   Image<std::uint8_t> confidence = image_of(rating);
-  threshold_by_last(kLeast, motion, offset, before, 0, map.height, kept, confidence);
-  EXPECT_TRUE(same_image(expected, copy_of(kept))) << map.width;
-  EXPECT_TRUE(same_image(expected_rating, copy_of(confidence))) << map.width;
+  doubt_by_last(kLeast, motion, offset, before, image_of(map), 0, map.height, confidence);
+  EXPECT_TRUE(same_image(expected, copy_of(confidence))) << map.width;
 }
 
 TEST(Holding, ChoosesTheLeastConfidenceOfTheReferenceAtEveryWidthOnEveryInstructionSet) {
@@ -85,7 +80,8 @@ TEST(Holding, ChoosesTheLeastConfidenceOfTheReferenceAtEveryWidthOnEveryInstruct
       DisparityPlane map(width, height), last(width, height);
       GrayPlane rating(width, height);
       for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-        map.pixels[i] = random.below(random.below(3) == 0 ? 12 : 60 * kDisparityOne);
+        const int any = random.below(random.below(3) == 0 ? 12 : 60 * kDisparityOne);
+        map.pixels[i] = random.below(6) == 0 ? any : 30 * kDisparityOne + random.below(600);
         rating.pixels[i] = static_cast<std::uint8_t>(random.between(100, 160));
         if (random.below(4) == 0) continue;
         last.pixels[i] = std::max(map.pixels[i] + random.between(-290, 290), 1);
@@ -99,7 +95,7 @@ TEST(Holding, ChoosesTheLeastConfidenceOfTheReferenceAtEveryWidthOnEveryInstruct
       for (const int rows : {1, 8, 1 << 20}) {
         EXPECT_TRUE(same_image(expected, chosen(map, last, motion, offset, rows))) << width;
       }
-      expect_thresholded(expected, map, rating, last, motion, offset);
+      expect_doubted(expected, map, rating, last, motion, offset);
     }
   });
 }
@@ -149,22 +145,36 @@ TEST(Holding, WithstandsMotionsWithoutSense) {
   }
 }
 
-TEST(Holding, RemovesWhatHasLessConfidenceThanItNeeds) {
+TEST(Holding, APointBesideAJumpNeedsNoMore) {
+  for (const int jump : {2 * kDisparityOne, 2 * kDisparityOne + 1, -2 * kDisparityOne - 1}) {
+    const int expected = std::abs(jump) > kHeldJump ? kLeast.usual : kLeast.fresh;
+    for (const auto& [x, y] : {std::pair{1, 4}, {7, 4}, {4, 1}, {4, 7}}) {
+      DisparityPlane map(9, 9, 2560);
+      map(x, y) += jump;
+      EXPECT_EQ(expected, chosen(map, DisparityPlane(9, 9), {}, 0, 2)(4, 4)) << jump;
+      EXPECT_EQ(kLeast.known, chosen(map, map, {})(4, 4)) << "a known point needs less";
+    }
+  }
+  DisparityPlane map(9, 9, 2560);
+  for (const int i : {0, 8}) map(i, 4) = map(4, i) = 0;
+  EXPECT_EQ(kLeast.fresh, chosen(map, DisparityPlane(9, 9), {})(4, 4)) << "4 px away";
+}
+
+TEST(Holding, DoubtsWhatHasLessConfidenceThanItNeeds) {
   for (const int rows : {1, 1 << 20}) {
     DisparityPlane last(3, 2, 2560);
     last.pixels[4] = last.pixels[5] = 0;
     Image<std::uint16_t> before;
     before.resize(3, 2);
     copy_last(image_of(last), 0, 2, before);
-    Image<std::int32_t> map = image_of(DisparityPlane(3, 2, 2560));
+    const Image<std::int32_t> map = image_of(DisparityPlane(3, 2, 2560));
     GrayPlane rating(3, 2);
     rating.pixels = {109, 110, 255, 0, 149, 150};
     Image<std::uint8_t> confidence = image_of(rating);
     in_bands(rows, 2, [&](int y0, int y1) {
-      threshold_by_last(kLeast, {}, 0, before, y0, y1, map, confidence);
+      doubt_by_last(kLeast, {}, 0, before, map, y0, y1, confidence);
     });
-    EXPECT_EQ((std::vector<std::int32_t>{0, 2560, 2560, 0, 0, 2560}), copy_of(map).pixels);
-    EXPECT_EQ((std::vector<std::uint8_t>{0, 110, 255, 0, 0, 150}), copy_of(confidence).pixels);
+    EXPECT_EQ((std::vector<std::uint8_t>{109, 110, 255, 0, 0, 150}), copy_of(confidence).pixels);
   }
 }
 
