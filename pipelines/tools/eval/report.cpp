@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tools/eval/exponential_filter.hpp"
 #include "tools/eval/json_number.hpp"
 #include "tools/eval/official_report.hpp"
 
@@ -155,7 +156,7 @@ std::vector<Summary> summarize(const Report& report, const std::string& kind) {
 
 std::vector<MethodFlicker> summarize_flicker(const Report& report) {
   std::vector<MethodFlicker> result;
-  for (const std::string& method : report.methods) {
+  const auto add_mean = [&](const std::string& method) {
     std::vector<Flicker> list;
     for (const PairReport& pair : report.pairs) {
       for (const MethodFlicker& entry : pair.flicker) {
@@ -163,6 +164,10 @@ std::vector<MethodFlicker> summarize_flicker(const Report& report) {
       }
     }
     if (!list.empty()) result.push_back({method, mean(list)});
+  };
+  for (const std::string& method : report.methods) {
+    add_mean(method);
+    add_mean(filtered_name(method));
   }
   return result;
 }

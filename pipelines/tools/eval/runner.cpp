@@ -101,6 +101,18 @@ bool aligns(const RunSettings& settings) {
   return settings.align.value_or(settings.parameters.preset() != Preset::kPaper);
 }
 
+void MethodStream::add(const cv::Mat& map, const GroundTruth& truth) {
+  maps_.add(map, truth);
+  if (is_filtered_) filtered_maps_.add(filter_.filtered(map), truth);
+}
+
+void MethodStream::append_to(std::vector<MethodFlicker>& list) const {
+  if (const auto flicker = maps_.measure()) list.push_back({method_, *flicker});
+  if (const auto flicker = filtered_maps_.measure()) {
+    list.push_back({filtered_name(method_), *flicker});
+  }
+}
+
 Runner::Runner(RunSettings settings) : settings_(std::move(settings)) {
   for (const auto& folder : {settings_.disparity_folder, settings_.image_folder}) {
     if (folder) listed(*folder);
@@ -252,9 +264,9 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
   result.evaluation = evaluate(disparity, images);
   if (settings_.official) result.official = count_official(disparity, report.pair, images.truth);
   if (settings_.stream) {
-    stream_[method].add(disparity, images.truth);
-    if (const auto flicker = stream_[method].measure())
-      report.flicker.push_back({method, *flicker});
+    MethodStream& stream = streams_.try_emplace(method, method, method != kOwnMethod).first->second;
+    stream.add(disparity, images.truth);
+    stream.append_to(report.flicker);
   }
   result.seconds = seconds;
   result.seconds_per_megapixel = seconds * 1e6 / static_cast<double>(images.left.total());
@@ -288,17 +300,21 @@ LoadedPair Runner::noisy(const LoadedPair& images, int frame) const {
   return result;
 }
 
+// The frames of a still scene, in order: those before the ones that are measured come first.
+template <typename Body>
+void Runner::each_noisy(const LoadedPair& images, bool leads, Body body) const {
+  for (int i = leads ? -kFlickerLead : 0; i < kFlickerFrames; ++i) {
+    body(noisy(images, i < 0 ? kFlickerFrames + kFlickerLead + i : i));
+  }
+}
+
 void Runner::run_own_flicker(const LoadedPair& images, PairReport& report) {
   prepare_matcher(noisy(images, 0), report.max_disparity);
-  if (settings_.parameters.text(Parameter::kTemporal) != "off") {
-    for (int i = 0; i < kFlickerLead; ++i) own_map(noisy(images, kFlickerFrames + i));
-  }
-  FlickerWindow window;
-  for (int i = 0; i < kFlickerFrames; ++i) {
-    const cv::Mat map = own_map(noisy(images, i));
-    window.add(map, images.truth);
-  }
-  report.flicker.push_back({kOwnMethod, *window.measure()});
+  const bool leads = settings_.parameters.text(Parameter::kTemporal) != "off";
+  MethodStream stream(kOwnMethod, false);
+  each_noisy(images, leads,
+             [&](const LoadedPair& frame) { stream.add(own_map(frame), images.truth); });
+  stream.append_to(report.flicker);
 }
 
 void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
@@ -307,13 +323,12 @@ void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
     const std::string name(opencv_name(method));
     attempt(report, "flicker: " + name, [&] {
       OpenCvMatcher matcher(method, report.max_disparity);
-      FlickerWindow window;
-      for (int i = 0; i < kFlickerFrames; ++i) {
-        const LoadedPair frame = noisy(images, i);
+      MethodStream stream(name, true);
+      each_noisy(images, true, [&](const LoadedPair& frame) {
         matcher.compute(frame.left, frame.right);
-        window.add(matcher.disparity(), images.truth);
-      }
-      report.flicker.push_back({name, *window.measure()});
+        stream.add(matcher.disparity(), images.truth);
+      });
+      stream.append_to(report.flicker);
     });
   }
 }
