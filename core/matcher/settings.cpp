@@ -26,8 +26,16 @@ constexpr SmoothnessOptions kHalvedSmoothness = {12, 51};
 /// need more that it does not know. With both, a stream has the errors and the density of single
 /// frames, and half of their flicker; a lower threshold alone has those of a lower min-confidence.
 constexpr int kHeldLess = 20;
-constexpr int kHeldMore = 34;          // semi-dense
-constexpr int kHeldMoreOfOthers = 20;  // sparse and dense
+int held_more(Mode mode) {
+  switch (mode) {
+    case Mode::kSemiDense:
+      return 38;
+    case Mode::kDense:
+      return 24;
+    default:
+      return 20;
+  }
+}
 
 /// Converts a percentage to a fraction.
 double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
@@ -79,10 +87,9 @@ void Settings::match_at(Resolution chosen) {
 LeastConfidence Settings::least_confidence() const {
   const int usual = least_reliability();
   const int lowest = keeps_inferred() ? 1 : kMostInferred + 1;
-  const int more = mode == Mode::kSemiDense ? kHeldMore : kHeldMoreOfOthers;
   return {static_cast<std::uint8_t>(usual),
           static_cast<std::uint8_t>(std::max(usual - kHeldLess, lowest)),
-          static_cast<std::uint8_t>(std::min(usual + more, 255))};
+          static_cast<std::uint8_t>(std::min(usual + held_more(mode), 255))};
 }
 
 PathMatchingOptions Settings::path_matching(int level) const {

@@ -22,7 +22,7 @@ inline constexpr int kHeldTolerance = kHeldOne;
 
 /// A pixel is beside a jump if the disparity at this distance, to the left, to the right, above or
 /// below, differs by more than kHeldJump [1 / kDisparityOne px].
-inline constexpr int kHeldJumpReach = 3;  // [px]
+inline constexpr int kHeldJumpReach = 4;  // [px]
 inline constexpr int kHeldJump = 2 * kDisparityOne;
 
 /// The least confidence of a pixel.

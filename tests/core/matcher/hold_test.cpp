@@ -119,7 +119,7 @@ TEST(Hold, KeepsOnlyWhatThePresentPairChose) {
                             {"max-gap", "0"},
                             {"thin-objects", "false"}});
     };
-    Matcher hold = with("hold", 140), lower = with("off", 120), higher = with("off", 174);
+    Matcher hold = with("hold", 140), lower = with("off", 120), higher = with("off", 178);
     for (int i = 0; i < 4; ++i) {
       const Matched held = match(hold, frame(i));
       const Matched most = match(lower, frame(i)), least = match(higher, frame(i));

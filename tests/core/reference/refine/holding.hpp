@@ -21,11 +21,11 @@ inline int in_thirty_seconds(int disparity) {
   return std::max(static_cast<int>(std::floor(disparity / 8.0 + 0.5)), 1);
 }
 
-/// Whether one of the disparities 3 px to the left, to the right, above and below (or at the border
+/// Whether one of the disparities 4 px to the left, to the right, above and below (or at the border
 /// of the map, where that is outside) differs by more than 2 px.
 inline bool beside_jump(const DisparityPlane& map, int x, int y) {
   bool jumps = false;
-  for (const auto& [dx, dy] : {std::pair{-3, 0}, {3, 0}, {0, -3}, {0, 3}}) {
+  for (const auto& [dx, dy] : {std::pair{-4, 0}, {4, 0}, {0, -4}, {0, 4}}) {
     const int column = std::clamp(x + dx, 0, map.width - 1);
     const int row = std::clamp(y + dy, 0, map.height - 1);
     jumps |= std::abs(map(column, row) - map(x, y)) / 256.0 > 2;

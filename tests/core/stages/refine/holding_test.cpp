@@ -148,16 +148,16 @@ TEST(Holding, WithstandsMotionsWithoutSense) {
 TEST(Holding, APointBesideAJumpNeedsNoMore) {
   for (const int jump : {2 * kDisparityOne, 2 * kDisparityOne + 1, -2 * kDisparityOne - 1}) {
     const int expected = std::abs(jump) > kHeldJump ? kLeast.usual : kLeast.fresh;
-    for (const auto& [x, y] : {std::pair{1, 4}, {7, 4}, {4, 1}, {4, 7}}) {
-      DisparityPlane map(9, 9, 2560);
+    for (const auto& [x, y] : {std::pair{1, 5}, {9, 5}, {5, 1}, {5, 9}}) {
+      DisparityPlane map(11, 11, 2560);
       map(x, y) += jump;
-      EXPECT_EQ(expected, chosen(map, DisparityPlane(9, 9), {}, 0, 2)(4, 4)) << jump;
-      EXPECT_EQ(kLeast.known, chosen(map, map, {})(4, 4)) << "a known point needs less";
+      EXPECT_EQ(expected, chosen(map, DisparityPlane(11, 11), {}, 0, 2)(5, 5)) << jump;
+      EXPECT_EQ(kLeast.known, chosen(map, map, {})(5, 5)) << "a known point needs less";
     }
   }
-  DisparityPlane map(9, 9, 2560);
-  for (const int i : {0, 8}) map(i, 4) = map(4, i) = 0;
-  EXPECT_EQ(kLeast.fresh, chosen(map, DisparityPlane(9, 9), {})(4, 4)) << "4 px away";
+  DisparityPlane map(11, 11, 2560);
+  for (const int i : {0, 10}) map(i, 5) = map(5, i) = 0;
+  EXPECT_EQ(kLeast.fresh, chosen(map, DisparityPlane(11, 11), {})(5, 5)) << "5 px away";
 }
 
 TEST(Holding, DoubtsWhatHasLessConfidenceThanItNeeds) {
