@@ -114,6 +114,10 @@ class Judge {
     if (found.problem == ViewProblem::kTooLittleTexture) {
       advice.remedy = "Check a recording of a scene with texture, in good light.";
     }
+    if (found.problem == ViewProblem::kUnknown && (is_dark() || exposures_differ())) {
+      advice.remedy =
+          "The light of the views (below) may be the reason: correct it, and check again.";
+    }
     if (found.problem == ViewProblem::kRangeTooSmall && figures_.range) {
       advice.remedy = range_remedy();
     }
@@ -230,19 +234,24 @@ class Judge {
     return std::max(figures_.views[0].*value, figures_.views[1].*value);
   }
 
+  double brightness_of_darker() const {
+    return std::min(figures_.views[0].bright, figures_.views[1].bright);
+  }
+
+  bool is_dark() const { return brightness_of_darker() < kDarkNote; }
+
   void judge_light() {
     if (blank()) return;
     const auto& [left, right] = figures_.views;
     const double saturated = worse(&ViewFigures::saturated), noise = worse(&ViewFigures::noise);
-    const double bright = std::min(left.bright, right.bright);
     if (saturated >= kSaturatedNote) {
       add(saturated >= kSaturated,
           format("White, without texture: %.0f %% of the left and %.0f %% of the right view.",
                  100 * left.saturated, 100 * right.saturated),
           "Expose less: prefer a dark image to white areas (docs/cameras.md).");
     }
-    if (bright < kDarkNote) {
-      add(bright < kDark,
+    if (is_dark()) {
+      add(brightness_of_darker() < kDark,
           format("Dark: 95 %% of the pixels are below %.0f (left) and %.0f (right) of 255.",
                  left.bright, right.bright),
           "More light, a longer exposure or a lens that lets more light in; gain adds noise.");
@@ -254,13 +263,17 @@ class Judge {
     }
   }
 
+  bool exposures_differ() const {
+    const auto [least, most] =
+        std::minmax({std::max(figures_.views[0].mean, 1.0), std::max(figures_.views[1].mean, 1.0)});
+    return most >= kExposureNote * least;
+  }
+
   void judge_exposure() {
-    const double left = std::max(figures_.views[0].mean, 1.0);
-    const double right = std::max(figures_.views[1].mean, 1.0);
-    if (blank() || std::max(left, right) < kExposureNote * std::min(left, right)) return;
+    if (blank() || !exposures_differ()) return;
     add(false,
-        format("The exposure differs: the mean gray values are %.0f (left) and %.0f (right).", left,
-               right),
+        format("The exposure differs: the mean gray values are %.0f (left) and %.0f (right).",
+               figures_.views[0].mean, figures_.views[1].mean),
         "Set the same fixed exposure and gain on both cameras (docs/cameras.md).");
   }
 

@@ -2,12 +2,15 @@
 // What the figures of a check mean. check_program_test.py has whole recordings.
 #include "recordings/checks/findings.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 namespace mtstereo::run::findings_test {
 namespace {
+
+using ::testing::HasSubstr;
 
 // A good pair of cameras: 640x480 px, 30 pairs per second.
 CheckFigures good_figures() {
@@ -83,6 +86,19 @@ TEST_F(Findings, HarmOfUnrelatedViewsNeedsASparseMap) {
   expect(false, "Few points of the left view", "same scene");
   figures_.modes = {{kSemiDense, 0.2, 0.004, 20, 0.2}};
   expect(true, "Few points of the left view", "same scene");
+}
+
+TEST_F(Findings, BlameTheLightForFewPointsFirst) {
+  figures_.diagnosis = {ViewProblem::kUnknown, 0.05};
+  for (const bool dark : {false, true}) {
+    figures_.views[1].mean = dark ? figures_.views[0].mean : figures_.views[0].mean / 3;
+    figures_.views[1].bright = dark ? 40 : figures_.views[0].bright;
+    const std::vector<Finding> found = find_problems(figures_);
+    ASSERT_EQ(found.size(), 2u) << texts(found);
+    EXPECT_THAT(found[0].advice.problem, HasSubstr("Few points of the left view"));
+    EXPECT_THAT(found[0].advice.remedy, HasSubstr("The light of the views (below)"));
+    EXPECT_THAT(found[1].advice.problem, HasSubstr(dark ? "Dark" : "exposure differs"));
+  }
 }
 
 TEST_F(Findings, NameTheTimeBetweenTheViews) {
