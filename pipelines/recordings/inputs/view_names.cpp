@@ -26,7 +26,7 @@ struct Words {
   Place place;
 };
 
-constexpr std::array<Words, 23> kWords{{{"left", "right", Place::kAny},
+constexpr std::array<Words, 29> kWords{{{"left", "right", Place::kAny},
                                         {"Left", "Right", Place::kAny},
                                         {"LEFT", "RIGHT", Place::kAny},
                                         {"l", "r", Place::kWhole},
@@ -40,6 +40,12 @@ constexpr std::array<Words, 23> kWords{{{"left", "right", Place::kAny},
                                         {"Camera_0", "Camera_1", Place::kWhole},
                                         {"camera_00", "camera_01", Place::kWhole},
                                         {"lcam", "rcam", Place::kWhole},
+                                        {"camA", "camB", Place::kWhole},
+                                        {"cam_a", "cam_b", Place::kWhole},
+                                        {"camera_a", "camera_b", Place::kWhole},
+                                        {"master", "slave", Place::kWhole},
+                                        {"links", "rechts", Place::kWhole},
+                                        {"gauche", "droite", Place::kWhole},
                                         {"infra1", "infra2", Place::kWhole},
                                         {"infrared_1", "infrared_2", Place::kWhole},
                                         {"Infrared_1", "Infrared_2", Place::kWhole},
