@@ -8,7 +8,7 @@
 namespace mtstereo::eval {
 
 /// The filter over time that programs of depth cameras apply to the maps of any matcher, with their
-/// usual settings: a mean that begins anew where a disparity changes by more than kFilterDelta,
+/// usual settings: a mean that begins anew where a disparity changes by more than kDelta,
 /// and keeps a disparity that is unknown now if it was known in two of the last four maps.
 class ExponentialFilter {
  public:
