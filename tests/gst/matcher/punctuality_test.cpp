@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 
 #include "support/pipeline.hpp"
 #include "support/sanitizers.hpp"
@@ -40,11 +41,16 @@ std::string launch(const Video& video, bool live, int frames, double rate) {
          "t. ! queue ! videobox left=4 right=-4 ! m.sink_right";
 }
 
-/// Time from one map to the next if there is no clock [s].
+/// Time from one map to the next if there is no clock [s]. The least of some runs, since other
+/// programs may delay one of them.
 double matching_time(const char* size) {
-  Pipeline pipeline(launch({size, "fakesink sync=false"}, false, 12, 1));
-  EXPECT_EQ(pipeline.run(), "");
-  return stats_of(pipeline.named("m")).mean_ms / 1000;
+  double least = std::numeric_limits<double>::infinity();
+  for (int run = 0; run < 3; ++run) {
+    Pipeline pipeline(launch({size, "fakesink sync=false"}, false, 12, 1));
+    EXPECT_EQ(pipeline.run(), "");
+    least = std::min(least, stats_of(pipeline.named("m")).mean_ms / 1000);
+  }
+  return least;
 }
 
 /// The counts of one run.
