@@ -172,9 +172,10 @@ void find_camera_motion(const StepContext& step, const Views& views, const Resul
   last.view.take(last.present);
 }
 
-void hold_known(const StepContext& step, const LastPair& last, ResultMaps& result) {
+void hold_known(const StepContext& step, const Views& views, const LastPair& last,
+                ResultMaps& result) {
   if (!last.motion) return;
-  const LeastConfidence least = step.settings.least_confidence();
+  const LeastConfidence least = step.settings.least_confidence(views.noise_level);
   const float offset = step.settings.matched_offset();
   step.bands.rows([&](int y0, int y1, int) {
     doubt_by_last(least, *last.motion, offset, last.disparity, *result.disparity, y0, y1,
@@ -182,11 +183,12 @@ void hold_known(const StepContext& step, const LastPair& last, ResultMaps& resul
   });
 }
 
-void reject_unlikely(const StepContext& step, const LastPair& last, Maps& maps,
+void reject_unlikely(const StepContext& step, const Views& views, const LastPair& last, Maps& maps,
                      ResultMaps& result) {
   const Settings& settings = step.settings;
   const bool held = settings.holds() && last.motion.has_value();
-  const int least = held ? settings.least_confidence().known : settings.least_reliability();
+  const int least =
+      held ? settings.least_confidence(views.noise_level).known : settings.least_reliability();
   step.bands.rows([&](int y0, int y1, int) {
     threshold_confidence(least, y0, y1, *result.disparity, *result.confidence);
     find_runs(*result.disparity, kDisparityOne, y0, y1, maps.speckles);

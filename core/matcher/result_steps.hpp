@@ -99,11 +99,13 @@ void find_camera_motion(const StepContext& step, const Views& views, const Resul
 
 /// Removes the disparities whose confidence is below what the last map asks for at their place.
 /// Does nothing if the motion of the camera is unknown.
-void hold_known(const StepContext& step, const LastPair& last, ResultMaps& result);
+void hold_known(const StepContext& step, const Views& views, const LastPair& last,
+                ResultMaps& result);
 
 /// Removes what is less reliable than asked for, unless hold_known() has done so, and the small
 /// islands that are left.
-void reject_unlikely(const StepContext& step, const LastPair& last, Maps& maps, ResultMaps& result);
+void reject_unlikely(const StepContext& step, const Views& views, const LastPair& last, Maps& maps,
+                     ResultMaps& result);
 
 /// Fills small gaps that the rejection has left in a surface. What it fills is inferred, not
 /// matched.

@@ -37,6 +37,17 @@ int held_more(Mode mode) {
   }
 }
 
+/// In semi-dense, two maps of very noisy views have too many errors in common. From the first noise
+/// on the last map counts less, from the second on its points need what they usually do [gray
+/// values].
+constexpr float kDoubtedNoise = 6.5F;
+constexpr float kDistrustedNoise = 9;
+int held_less(Mode mode, float noise) {
+  if (mode != Mode::kSemiDense) return kHeldLess;
+  const float trust = (kDistrustedNoise - noise) / (kDistrustedNoise - kDoubtedNoise);
+  return static_cast<int>(static_cast<float>(kHeldLess) * std::clamp(trust, 0.0F, 1.0F));
+}
+
 /// Converts a percentage to a fraction.
 double share(const Parameters& p, Parameter id) { return p.get(id) / 100; }
 
@@ -84,11 +95,11 @@ void Settings::match_at(Resolution chosen) {
   selection.disparities = disparities;
 }
 
-LeastConfidence Settings::least_confidence() const {
+LeastConfidence Settings::least_confidence(float noise) const {
   const int usual = least_reliability();
   const int lowest = keeps_inferred() ? 1 : kMostInferred + 1;
   return {static_cast<std::uint8_t>(usual),
-          static_cast<std::uint8_t>(std::max(usual - kHeldLess, lowest)),
+          static_cast<std::uint8_t>(std::max(usual - held_less(mode, noise), lowest)),
           static_cast<std::uint8_t>(std::min(usual + held_more(mode), 255))};
 }
 

@@ -108,8 +108,9 @@ struct Settings {
   bool holds() const { return temporal != Temporal::kOff && rejects_unlikely(); }
   /// Whether the motion of the camera is found.
   bool follows() const { return by_paths() && (filters() || holds()); }
-  /// The least confidence of pixels, by what the last map knows of them.
-  LeastConfidence least_confidence() const;
+  /// The least confidence of pixels, by what the last map knows of them. `noise` is that of the
+  /// noisier view [gray values].
+  LeastConfidence least_confidence(float noise) const;
   /// The kind of the complete map, for its reliability.
   RatedMap rated_map() const {
     if (half()) return infers() ? RatedMap::kHalfComplete : RatedMap::kHalfMatched;

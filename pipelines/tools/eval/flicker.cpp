@@ -2,6 +2,7 @@
 #include "tools/eval/flicker.hpp"
 
 #include <cmath>
+#include <functional>
 
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/degrade.hpp"
@@ -35,8 +36,9 @@ template <typename List, typename Figure>
 double mean_of(const List& list, Figure figure) {
   double sum = 0, count = 0;
   for (const auto& each : list) {
-    if (std::isnan(each.*figure)) continue;
-    sum += each.*figure;
+    const double value = std::invoke(figure, each);
+    if (std::isnan(value)) continue;
+    sum += value;
     ++count;
   }
   return ratio(sum, count);
@@ -89,10 +91,13 @@ void FlickerWindow::add(const cv::Mat& map, const GroundTruth& truth) {
   maps_.push_back(map);
   metrics_.push_back(evaluate(map, truth).all);
   errors_.push_back((map - truth.disparity) / truth.scale);
+  truths_.push_back(truth.disparity);
+  scale_ = truth.scale;
   if (maps_.size() <= kFlickerFrames) return;
   maps_.pop_front();
   metrics_.pop_front();
   errors_.pop_front();
+  truths_.pop_front();
 }
 
 std::optional<Flicker> FlickerWindow::measure() const {
@@ -101,6 +106,7 @@ std::optional<Flicker> FlickerWindow::measure() const {
   flicker.d_all = mean_of(metrics_, &Metrics::d_all);
   flicker.avgerr = mean_of(metrics_, &Metrics::avgerr);
   measure_tepe({errors_.begin(), errors_.end()}, flicker);
+  flicker.edges = measure_edges(maps_.back(), {truths_.begin(), truths_.end()}, scale_);
   return flicker;
 }
 
@@ -110,6 +116,10 @@ Flicker mean(const std::vector<Flicker>& list) {
        {&Flicker::density, &Flicker::come_and_go, &Flicker::spread, &Flicker::d_all,
         &Flicker::avgerr, &Flicker::tepe, &Flicker::tepe1, &Flicker::tepe3}) {
     result.*figure = mean_of(list, figure);
+  }
+  for (double EdgeErrors::*figure : {&EdgeErrors::wrong, &EdgeErrors::stale, &EdgeErrors::age}) {
+    result.edges.*figure =
+        mean_of(list, [figure](const Flicker& each) { return each.edges.*figure; });
   }
   return result;
 }

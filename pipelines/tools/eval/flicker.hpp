@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/eval/metrics.hpp"
+#include "tools/eval/moving_edges.hpp"
 
 namespace mtstereo::eval {
 
@@ -30,6 +31,7 @@ struct Flicker {
   double tepe = kNone;
   double tepe1 = kNone;
   double tepe3 = kNone;
+  EdgeErrors edges = {};  ///< of the last map
 };
 
 /// Compares disparity maps of the same size (CV_32FC1 [px], NaN = none). Throws UserError if the
@@ -53,6 +55,8 @@ class FlickerWindow {
   std::deque<cv::Mat> maps_;
   std::deque<Metrics> metrics_;
   std::deque<cv::Mat> errors_;
+  std::deque<cv::Mat> truths_;
+  double scale_ = 1;  ///< of the last one
 };
 
 /// The mean over pairs; a figure that is NaN is left out.

@@ -51,7 +51,10 @@ json flicker_json(const std::vector<MethodFlicker>& list) {
                       {"avgerr", json_number(flicker.avgerr)},
                       {"tepe", json_number(flicker.tepe)},
                       {"tepe1", json_number(flicker.tepe1)},
-                      {"tepe3", json_number(flicker.tepe3)}};
+                      {"tepe3", json_number(flicker.tepe3)},
+                      {"edges", json_number(flicker.edges.wrong)},
+                      {"stale", json_number(flicker.edges.stale)},
+                      {"age", json_number(flicker.edges.age)}};
   }
   return result;
 }

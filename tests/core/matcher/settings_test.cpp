@@ -153,6 +153,19 @@ TEST(Settings, DrawOnlyTheEndsOfNodesInModeSparse) {
   EXPECT_EQ(0, width("semi-dense"));
 }
 
+TEST(Settings, TrustTheLastMapLessAsTheNoiseGrowsInModeSemiDense) {
+  const Settings settings((Parameters()));
+  const int usual = settings.least_reliability();
+  EXPECT_EQ(usual - 20, settings.least_confidence(0).known);
+  EXPECT_EQ(usual - 20, settings.least_confidence(6.5F).known);
+  EXPECT_EQ(usual - 10, settings.least_confidence(7.75F).known);
+  EXPECT_EQ(usual, settings.least_confidence(9).known);
+  EXPECT_EQ(usual, settings.least_confidence(100).known);
+  EXPECT_EQ(settings.least_confidence(0).fresh, settings.least_confidence(100).fresh);
+  const Settings dense(test::parameters({{"mode", "dense"}}));
+  EXPECT_EQ(dense.least_reliability() - 20, dense.least_confidence(100).known);
+}
+
 /// Sets each word of a choice and compares the enum value with the index of the word.
 template <typename Enum>
 void expect_choice() {

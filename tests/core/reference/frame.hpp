@@ -338,7 +338,7 @@ inline void draw_thin_structures(Frame& f) {
 
 inline void hold_known(Frame& f) {
   if (!f.motion) return;
-  const auto [usual, known, fresh] = f.settings.least_confidence();
+  const auto [usual, known, fresh] = f.settings.least_confidence(f.noise);
   const float offset = f.settings.min_disparity / (f.settings.half() ? 2.0F : 1.0F);
   const GrayPlane least = least_confidence(f.map, f.last, *f.motion, offset, {usual, known, fresh});
   for (std::size_t i = 0; i < least.pixels.size(); ++i) {
@@ -349,7 +349,8 @@ inline void hold_known(Frame& f) {
 
 inline void reject_unlikely(Frame& f) {
   const bool held = f.settings.holds() && f.motion;
-  const int least = held ? f.settings.least_confidence().known : f.settings.least_reliability();
+  const int least =
+      held ? f.settings.least_confidence(f.noise).known : f.settings.least_reliability();
   for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {
     if (f.confidence.pixels[i] < least) f.map.pixels[i] = f.confidence.pixels[i] = 0;
   }

@@ -18,7 +18,7 @@ Pair frame(unsigned number, unsigned scene = 1) {
   std::mt19937 random(number);
   for (GrayImage* view : {&pair.left, &pair.right}) {
     for (std::uint8_t& pixel : view->pixels) {
-      const int noise = static_cast<int>(random() % 31 + random() % 31) - 30;
+      const int noise = static_cast<int>(random() % 15 + random() % 15) - 14;
       pixel = static_cast<std::uint8_t>(std::clamp(pixel + noise, 0, 255));
     }
   }
