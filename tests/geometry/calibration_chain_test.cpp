@@ -57,6 +57,25 @@ TEST_F(Chain, SelectsByPositionsOnTheImuToo) {
   expect_position(read_valid(swapped + "#cam1-cam0"));
 }
 
+TEST_F(Chain, MayBeInMapsOfOneEntryAsInRigsAndParametersOfRos) {
+  std::string lines = chain("", pose("T_cn_cnm1", kLeftToRight));
+  lines.erase(0, lines.find("cam0:"));
+  std::string inner;
+  for (std::size_t begin = 0, end = 0; begin < lines.size(); begin = end + 1) {
+    end = lines.find('\n', begin);
+    inner += "    " + lines.substr(begin, end - begin) + "\n";
+  }
+  const std::string node = "rectify:\n  ros__parameters:\n";
+  expect_position(read_valid(folder_.write("node.yaml", node + inner)));
+  expect_position(read_valid(folder_.write("rig.yaml", "%YAML:1.0\nstereo0:\n" + inner)));
+  std::string wrong = inner;
+  wrong.replace(wrong.find("310.5"), 5, "-3.10");
+  EXPECT_THAT(read_refused(folder_.write("wrong.yaml", node + wrong)),
+              HasSubstr("rectify.ros__parameters.cam0.intrinsics"));
+  EXPECT_THAT(read_refused(folder_.write("other.yaml", "rectify:\n  size: [3, 4]\n")),
+              HasSubstr("other.yaml: is not a calibration of a known format"));
+}
+
 TEST_F(Chain, UsesItsOwnPositionWhereBothAgree) {
   expect_position(
       read_valid(write(pose("T_cam_imu", kImuToLeft),

@@ -194,7 +194,7 @@ bool parse_as_lines(std::string_view text, Document& document) {
   return false;
 }
 
-Format format_of(const Entry& root) {
+std::optional<Format> known_format(const Entry& root) {
   const std::optional<Entry> camera = root.find("cam0");
   const bool chain = camera && camera->find_any({"intrinsics", "camera_model"});
   if (root.find("cameraData")) return Format::kDepthAi;
@@ -212,7 +212,26 @@ Format format_of(const Entry& root) {
   if (is_camera_info(root)) return Format::kCameraInfo;
   if (is_orbslam(root)) return Format::kOrbSlam;
   if (is_opencv(root)) return Format::kOpenCv;
-  root.fail(
+  return std::nullopt;
+}
+
+/// Recognises the format of a parsed file. Rigs and parameters of ROS nodes have the calibration in
+/// maps of one entry.
+void find_format(Document& document) {
+  Value inner = document.root;
+  std::string name;
+  while (inner.kind == Value::Kind::kMap) {
+    if (const std::optional<Format> format = known_format(Entry(inner, document.file, name))) {
+      document.format = *format;
+      document.root = std::move(inner);
+      document.name = name;
+      return;
+    }
+    if (inner.items.size() != 1) break;
+    name += (name.empty() ? "" : ".") + printable(inner.names[0]);
+    inner = Value(inner.items[0]);
+  }
+  document.entry().fail(
       "is not a calibration of a known format: none of M1 (OpenCV), projection_matrix "
       "(ROS), cam0 (Kalibr, Middlebury), T_BS (EuRoC), P0 or K_00 (KITTI), cameraData "
       "(DepthAI), [LEFT_CAM_...] (ZED), Camera1.fx (ORB-SLAM), cam0_calib (VINS-Fusion), "
@@ -274,7 +293,7 @@ Document parse_document(const std::string& file) {
   } else {
     document.root = parse_yaml(text, file);
   }
-  document.format = format_of(document.entry());
+  find_format(document);
   return document;
 }
 

@@ -43,10 +43,11 @@ const char* name_of(Format format);
 /// A file after parsing.
 struct Document {
   std::string file;
+  std::string name;  ///< of the entry with the calibration; empty if that is the whole file
   Value root;
   Format format = Format::kOpenCv;
 
-  Entry entry() const { return {root, file, {}}; }
+  Entry entry() const { return {root, file, name}; }
 };
 
 /// Reads a file and recognises the syntax, and then the format, from its content.
