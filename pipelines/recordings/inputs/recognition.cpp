@@ -46,15 +46,29 @@ std::string unread_in(const fs::path& folder) {
   return unread;
 }
 
+// What to give instead of a folder in which no name tells the views apart.
+std::string views_to_give(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::path& inner : files::folders_in(folder)) {
+    if (!files::images_in(inner).empty())
+      names.push_back(outputs::printable(inner.filename().string()));
+  }
+  if (names.size() < 2) {
+    return "give the left and the right view, as two videos, images, folders or patterns";
+  }
+  const std::string more =
+      names.size() == 2 ? "" : " (of " + std::to_string(names.size()) + " folders with images)";
+  return "its folders, such as " + names[0] + " and " + names[1] + more +
+         ", do not say by their names which view is left: give two of them, the left one first";
+}
+
 // What a folder has that is not the recording.
 Recording only_recording(const std::string& folder, FolderContents contents) {
   if (contents.recordings.empty()) {
     if (contents.problems.empty()) {
       const std::string unread = unread_in(folder);
       if (!unread.empty()) throw UserError(unread);
-      throw UserError(folder +
-                      ": no recording is in this folder: give the left and the right view, as two "
-                      "videos, images, folders or patterns");
+      throw UserError(folder + ": no recording is in this folder: " + views_to_give(folder));
     }
     throw UserError(text_of(contents.problems.front(), ": "));
   }

@@ -111,6 +111,11 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   EXPECT_THAT(error_of({"broken.mp4", "broken.mp4"}), HasSubstr("are the same file"));
   EXPECT_THAT(error_of({"empty", "left"}), HasSubstr(path("empty") + ": "));
   EXPECT_THAT(error_of({"empty"}), HasSubstr(path("empty") + ": no recording"));
+  write_images("rig/primary", {"0.png"});
+  write_images("rig/secondary", {"0.png"});
+  EXPECT_THAT(error_of({"rig"}), HasSubstr("such as primary and secondary, do not say"));
+  write_images("rig/third", {"0.png"});
+  EXPECT_THAT(error_of({"rig"}), HasSubstr("primary and secondary (of 3 folders with images)"));
   EXPECT_THAT(error_of({"left/%03d.png", "left"}), HasSubstr("no file has such a name"));
   EXPECT_THAT(error_of({"left", "broken.mp4"}), HasSubstr("one is a video"));
   EXPECT_THAT([] { recognize({"http://host/a.mjpg"}, {}); },
