@@ -16,11 +16,16 @@ namespace mtstereo::HWY_NAMESPACE {
 using Finished = hn::CappedTag<std::int32_t, kFinishedTogether>;
 using FinishedVec = hn::Vec<Finished>;
 
-/// Values of 16 bits as 32 bits.
+/// Smaller values as 32 bits.
 template <typename T>
 HWY_INLINE FinishedVec widened(const T* values) {
-  const hn::Rebind<T, Finished> d16;
-  return hn::PromoteTo(Finished(), hn::LoadU(d16, values));
+  const hn::Rebind<T, Finished> narrow;
+  return hn::PromoteTo(Finished(), hn::LoadU(narrow, values));
+}
+
+/// Twice the sums, which have half the range of the costs.
+HWY_INLINE FinishedVec costs_of(const Candidates& candidates, Candidates::Sum sum, int x) {
+  return hn::ShiftLeft<1>(widened(candidates.sums.data() + sum * candidates.sums_stride + x));
 }
 
 /// The quotients of numbers from 0 up to 2^20 and numbers from 1 up to 2^10, rounded down. Their
@@ -36,7 +41,7 @@ HWY_INLINE FinishedVec quotients(FinishedVec numbers, FinishedVec divisors) {
   return hn::Sub(raised, hn::IfThenElseZero(hn::Lt(rest, hn::Zero(d32)), one));
 }
 
-/// symmetric_v_offset() of costs between `before` and `after`; 0 where `before` is kNoCost.
+/// symmetric_v_offset() of costs between `before` and `after`; 0 where neither exceeds the least.
 HWY_INLINE FinishedVec v_offsets(FinishedVec before, FinishedVec least, FinishedVec after) {
   const Finished d32;
   const auto zero = hn::Zero(d32);
@@ -44,8 +49,7 @@ HWY_INLINE FinishedVec v_offsets(FinishedVec before, FinishedVec least, Finished
   const auto change = hn::Sub(before, after);
   const auto steps = hn::Mul(hn::Abs(change), hn::Set(d32, kDisparityOne / 2));
   const auto offset = quotients(steps, hn::Max(slope, hn::Set(d32, 1)));
-  const auto none = hn::Or(hn::Eq(before, hn::Set(d32, kNoCost)), hn::Lt(slope, hn::Set(d32, 1)));
-  return hn::IfThenZeroElse(none, hn::IfThenElse(hn::Lt(change, zero), hn::Neg(offset), offset));
+  return hn::IfThenElse(hn::Lt(change, zero), hn::Neg(offset), offset);
 }
 
 /// Whether disparities are far enough inside of their expected ranges, see
@@ -67,9 +71,9 @@ HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uin
                           std::int32_t* disparity, std::uint8_t* ratio) {
   const Finished d32;
   const auto best = widened(candidates.best.data() + x);
-  const auto least = widened(candidates.least.data() + x);
-  const auto second = widened(candidates.second.data() + x);
-  const auto none = hn::Set(d32, kNoCost);
+  const auto least = costs_of(candidates, Candidates::kLeast, x);
+  const auto second = costs_of(candidates, Candidates::kSecond, x);
+  const auto none = hn::Set(d32, 2 * kNoSum);
   auto lost = hn::Or(hn::Gt(widened(low + x), widened(high + x)), hn::Eq(second, none));
   if (options.left_right_tolerance >= 0) {
     const auto distance = hn::Abs(hn::Sub(widened(candidates.other.data() + x), best));
@@ -82,8 +86,8 @@ HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uin
   }
   auto refined = hn::Mul(best, hn::Set(d32, kDisparityOne));
   if (options.subpixel) {
-    refined = hn::Add(refined, v_offsets(widened(candidates.before.data() + x), least,
-                                         widened(candidates.after.data() + x)));
+    refined = hn::Add(refined, v_offsets(costs_of(candidates, Candidates::kBefore, x), least,
+                                         costs_of(candidates, Candidates::kAfter, x)));
   }
   const auto zero = hn::Zero(d32), one = hn::Set(d32, 1);
   hn::StoreU(hn::IfThenZeroElse(lost, hn::Max(refined, one)), d32, disparity + x);
@@ -119,8 +123,9 @@ HWY_EXPORT(finish);
 
 RunnerUpTable runner_up_table(double confidence) {
   RunnerUpTable table{};
-  for (int cost = 0; cost < kCostLimit; ++cost) {
-    table[cost] = static_cast<std::uint16_t>(std::floor(cost * (1 + confidence)) + 1);
+  for (int sum = 0; sum <= kNoSum; ++sum) {
+    const double least = std::floor(2 * sum * (1 + confidence)) + 1;
+    table[sum] = static_cast<std::uint8_t>(std::min(std::ceil(least / 2), 1.0 * kNoSum));
   }
   return table;
 }
@@ -132,11 +137,14 @@ void Candidates::resize(int width, int disparities) {
   // Disparities up to 255 leave the upper byte as it is.
   std::fill_n(decided(kHigh), kTurns * right_stride, std::uint8_t{0});
   const int padded = std::max(width, kFinishedTogether);
-  for (Buffer<std::int16_t>* row : {&best, &least, &second, &before, &after, &other}) {
+  // The pixels after the end are finished as well.
+  for (Buffer<std::int16_t>* row : {&best, &other}) {
     row->resize(padded);
-    // The pixels after the end are finished as well.
     std::fill_n(row->data() + width, padded - width, std::int16_t{0});
   }
+  sums_stride = padded;
+  sums.resize(kSums * padded);
+  std::fill_n(sums.data(), width < padded ? kSums * padded : 0, std::uint8_t{0});
 }
 
 void finish_selection(int width, const SelectionOptions& options, const std::uint16_t* low,

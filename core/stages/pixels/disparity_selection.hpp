@@ -28,25 +28,26 @@ struct SelectionOptions {
 /// The offset of the peak ratio for one path [bits of one pixel].
 inline constexpr int kRatioOffset = 10;
 
-/// All valid costs are below this.
-inline constexpr int kCostLimit = 511;
-
-/// In place of a cost.
-inline constexpr std::int16_t kNoCost = 0x7FFF;
+/// In place of a sum of paths. A sum has half the range of the costs.
+inline constexpr int kNoSum = 255;
 
 /// Pixels that are finished together, at most.
 inline constexpr int kFinishedTogether = 8;
 
-/// Maps the best cost to the least cost that is sufficient for its runner-up.
-using RunnerUpTable = std::array<std::uint16_t, kCostLimit>;
+/// Maps the best sum to the least sum that is sufficient for its runner-up.
+using RunnerUpTable = std::array<std::uint8_t, kNoSum + 1>;
 RunnerUpTable runner_up_table(double confidence);
 
 /// What is known of each pixel of a row before it is decided. Memory of one thread.
 struct Candidates {
-  /// The disparity of least cost, that cost, the runner-up's if it is sufficient, and those of the
-  /// disparities before and after the best one; kNoCost where there is none.
-  Buffer<std::int16_t> best, least, second, before, after;
+  Buffer<std::int16_t> best;   ///< the disparity of least sum
   Buffer<std::int16_t> other;  ///< the best disparity of the pixel's right pixel
+
+  /// The sums of each pixel: the least one, the runner-up's if it is sufficient, else kNoSum, and
+  /// those of the disparities before and after the best one, the least one if it has not both.
+  enum Sum { kLeast, kSecond, kBefore, kAfter, kSums };
+  Buffer<std::uint8_t> sums;       ///< [sum][column]
+  std::ptrdiff_t sums_stride = 0;  ///< from sum to sum
 
   /// The right pixels' least costs so far and their disparities, mirrored: the right pixel of
   /// column x at disparity d is at width - 1 - x + d. Successive pixels use copies in turn: with

@@ -2,7 +2,6 @@
 #include "stages/pixels/row_pair.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <type_traits>
 
@@ -28,7 +27,7 @@ HWY_INLINE ByteVector advance(const std::uint8_t* costs, const StepCosts& steps,
     const auto next = path_costs(d8, hn::LoadU(d8, costs + i * kByteLanes), previous, same, after,
                                  steps.small_step, steps.any, steps.least);
     path.set(i, next);
-    least = hn::Min(least, next);
+    least = i == 0 ? next : hn::Min(least, next);
     previous = same;
     same = after;
   }
@@ -44,7 +43,8 @@ class PairWalk {
         rows_{rows[0], rows[1]},
         lanes_(rows[0].lanes),
         paths_(const_cast<std::uint8_t*>(scratch.paths.data())),
-        steps_(scratch.steps.data()),
+        large_step_(pair.large_step->data()),
+        changes_(scratch.changes.data()),
         ends_(const_cast<std::uint8_t*>(scratch.ends.data())),
         small_step_(hn::Set(Bytes(), static_cast<std::uint8_t>(std::min(pair.small_step, 255)))) {}
 
@@ -65,40 +65,48 @@ class PairWalk {
 
  private:
   template <int kVectors>
-  HWY_INLINE void walk_tile(int x0, CostWindow window, ByteVector (&least)[2]) {
+  HWY_INLINE void walk_tile(int x0, CostWindow window, ByteVector (&last_least)[2]) {
     using Lanes = PixelLanes<kVectors>;
     std::uint8_t* ends[2] = {ends_ + window.begin, ends_ + lanes_ + window.begin};
     Lanes paths[2] = {Lanes(ends[0], window), Lanes(ends[1], window)};
     const int pixels = std::min(kWindowTile, pair_.width - x0);
-    for (int r = 0; r < 2; ++r) load(ends[r], paths[r]);
+    // In registers.
+    ByteVector least[2] = {last_least[0], last_least[1]};
+    const int end = std::min<int>(rows_[0].disparities, window.end);
     for (int i = 0; i < pixels; ++i) {
       const int x = kSelect ? x0 + i : x0 + pixels - 1 - i;
       for (int r = 0; r < 2; ++r) {
         const std::ptrdiff_t cell = std::ptrdiff_t{x} * lanes_ + window.begin;
-        const std::uint8_t large_step = steps_[r * (pair_.width + 1) + x + !kSelect];
+        const std::uint8_t change = changes_[r * (pair_.width + 1) + x + !kSelect];
         const StepCosts steps = {small_step_, least[r],
-                                 hn::SaturatedAdd(least[r], hn::Set(Bytes(), large_step))};
+                                 hn::SaturatedAdd(least[r], hn::Set(Bytes(), large_step_[change]))};
         least[r] = advance(pair_.rows[r].costs + cell, steps, paths[r]);
         std::uint8_t* from_right = paths_ + r * pair_.width * std::ptrdiff_t{lanes_} + cell;
         if constexpr (kSelect) {
-          select_sums(r, x, window, cell, paths[r], from_right);
+          add_up(r, x, window, cell, paths[r], from_right);
         } else {
           store(paths[r], from_right);
         }
       }
+      if constexpr (!kSelect) continue;
+      const std::ptrdiff_t place = right_place(rows_[0], x);
+      for (int r = 0; r < 2; ++r) select<kVectors>(rows_[r], x, place, window, end, sums_of(r));
     }
-    for (int r = 0; r < 2; ++r) store(paths[r], ends[r]);
+    for (int r = 0; r < 2; ++r) {
+      store(paths[r], ends[r]);
+      last_least[r] = least[r];
+    }
   }
 
+  /// The sums of a row's last pixel.
+  HWY_INLINE std::uint8_t* sums_of(int r) const { return ends_ + (2 + r) * lanes_; }
+
   template <int kVectors>
-  HWY_INLINE void select_sums(int r, int x, CostWindow window, std::ptrdiff_t cell,
-                              const PixelLanes<kVectors>& path, const std::uint8_t* from_right) {
+  HWY_INLINE void add_up(int r, int x, CostWindow window, std::ptrdiff_t cell,
+                         const PixelLanes<kVectors>& path, const std::uint8_t* from_right) {
     const Bytes d8;
-    const RowSelection& row = rows_[r];
-    std::uint8_t* memory = ends_ + 2 * lanes_;
-    PixelLanes<kVectors> sums(memory, window);
     const bool at_border = x + 1 < window.end;
-    for (int i = 0; i < sums.count(); ++i) {
+    for (int i = 0; i < path.count(); ++i) {
       const int d = i * kByteLanes;
       const auto other = hn::LoadU(d8, from_right + d);
       auto sum = hn::AverageRound(path.get(i), other);
@@ -107,17 +115,8 @@ class PairWalk {
         const auto below = hn::LoadU(d8, pair_.rows[r].from_below + cell + d);
         sum = hn::AverageRound(sum, hn::AverageRound(above, below));
       }
-      if (at_border) sum = with_border(row, x, window.begin + d, sum);
-      sums.set(i, sum);
-    }
-    store(sums, memory);
-    select(row, x, window, sums, memory);
-  }
-
-  template <int kVectors>
-  HWY_INLINE static void load(const std::uint8_t* from, PixelLanes<kVectors>& lanes) {
-    for (int i = 0; i < lanes.count(); ++i) {
-      lanes.set(i, hn::LoadU(Bytes(), from + i * kByteLanes));
+      if (at_border) sum = with_border(rows_[r], x, window.begin + d, sum);
+      hn::StoreU(sum, d8, sums_of(r) + d);
     }
   }
 
@@ -133,7 +132,8 @@ class PairWalk {
   const RowSelection rows_[2];
   const int lanes_;
   std::uint8_t* const paths_;
-  const std::uint8_t* const steps_;
+  const std::uint8_t* const large_step_;
+  const std::uint8_t* const changes_;
   std::uint8_t* const ends_;
   const ByteVector small_step_;
 };
@@ -163,19 +163,19 @@ void walk_pair(const RowPair& pair, const RowSelection (&rows)[2], const RowPair
 void select_by_cost(const RowPair& pair, const RowSelection& of_row, std::uint8_t* memory) {
   const RowSelection row = of_row;
   const Bytes d8;
-  for (int x = 0; x < row.width; ++x) {
-    const CostWindow window = window_at(pair.windows, row.lanes, x);
-    const std::uint8_t* costs = pair.rows[0].costs + std::ptrdiff_t{x} * row.lanes + window.begin;
+  for (int x0 = 0; x0 < row.width; x0 += kWindowTile) {
+    const CostWindow window = window_at(pair.windows, row.lanes, x0);
+    const int end = std::min<int>(row.disparities, window.end);
     with_vectors<Bytes>(window, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-      PixelLanes<kVectors> sums(memory, window);
-      for (int i = 0; i < sums.count(); ++i) {
-        const int d = i * kByteLanes;
-        auto cost = hn::LoadU(d8, costs + d);
-        if (x + 1 < window.end) cost = with_border(row, x, window.begin + d, cost);
-        sums.set(i, cost);
-        hn::StoreU(cost, d8, memory + d);
+      for (int x = x0; x < std::min(x0 + kWindowTile, row.width); ++x) {
+        const std::uint8_t* costs = pair.rows[0].costs + std::ptrdiff_t{x} * row.lanes;
+        for (int d = window.begin; d < window.end; d += kByteLanes) {
+          auto cost = hn::LoadU(d8, costs + d);
+          if (x + 1 < window.end) cost = with_border(row, x, d, cost);
+          hn::StoreU(cost, d8, memory + d - window.begin);
+        }
+        select<kVectors>(row, x, right_place(row, x), window, end, memory);
       }
-      select(row, x, window, sums, memory);
     });
   }
   if (row.right != nullptr) decide_right(row);
@@ -192,12 +192,13 @@ HWY_EXPORT(select_by_cost);
 
 namespace {
 
-/// P2 between the columns of a row, and at both ends.
-void find_steps(const RowPair& pair, int r, std::uint8_t* steps) {
-  const std::uint8_t* table = pair.large_step->data();
-  const std::uint8_t* gray = pair.rows[r].gray;
-  steps[0] = steps[pair.width] = table[0];
-  for (int x = 1; x < pair.width; ++x) steps[x] = table[std::abs(gray[x] - gray[x - 1])];
+/// The changes of the gray value between the columns of a row, and 0 at both ends.
+void find_changes(const std::uint8_t* __restrict__ gray, int width,
+                  std::uint8_t* __restrict__ changes) {
+  changes[0] = changes[width] = 0;
+  for (int x = 1; x < width; ++x) {
+    changes[x] = std::max(gray[x], gray[x - 1]) - std::min(gray[x], gray[x - 1]);
+  }
 }
 
 /// Starts the selection of a row.
@@ -216,10 +217,8 @@ RowSelection selection_of(const RowPair& pair, const PathRow& row, const Selecti
           scratch.limits.data(),
           scratch.beside.data() + lanes + 1,
           to.best.data(),
-          to.least.data(),
-          to.second.data(),
-          to.before.data(),
-          to.after.data(),
+          to.sums.data(),
+          to.sums_stride,
           checks ? to.right.data() : nullptr,
           to.right_stride,
           lanes > 256};
@@ -228,11 +227,14 @@ RowSelection selection_of(const RowPair& pair, const PathRow& row, const Selecti
 /// The disparities of the right pixels of the best ones.
 void find_other(int width, const SelectionOptions& options, Candidates& candidates) {
   if (options.left_right_tolerance < 0) return;
-  const std::uint8_t* low = candidates.decided(Candidates::kLow);
-  const std::uint8_t* high = candidates.decided(Candidates::kHigh);
+  const std::int16_t* __restrict__ best = candidates.best.data();
+  std::int16_t* __restrict__ other = candidates.other.data();
+  const std::uint8_t* low = candidates.decided(Candidates::kLow) + width - 1;
+  for (int x = 0; x < width; ++x) other[x] = low[best[x] - x];
+  if (cost_lanes(options.disparities) <= 256) return;
+  const std::uint8_t* high = candidates.decided(Candidates::kHigh) + width - 1;
   for (int x = 0; x < width; ++x) {
-    const int right = width - 1 - x + candidates.best[x];
-    candidates.other[x] = static_cast<std::int16_t>(low[right] + 256 * high[right]);
+    other[x] = static_cast<std::int16_t>(other[x] + 256 * high[best[x] - x]);
   }
 }
 
@@ -241,8 +243,8 @@ void find_other(int width, const SelectionOptions& options, Candidates& candidat
 void RowPairScratch::resize(int width, int disparities) {
   const std::size_t lanes = cost_lanes(disparities);
   paths.resize(2 * width * lanes);
-  steps.resize(2 * (width + 1));
-  ends.resize(3 * lanes);
+  changes.resize(2 * (width + 1));
+  ends.resize(4 * lanes);
   limits.resize(3 * lanes);
   std::memset(limits.data(), 0, 3 * lanes);
   std::memset(limits.data() + lanes, 255, lanes);
@@ -255,7 +257,7 @@ void match_row_pair(const RowPair& pair, const SelectionOptions& options,
                     const RunnerUpTable& runner_up, RowPairScratch& scratch) {
   RowSelection rows[2];
   for (int r = 0; r < 2; ++r) {
-    find_steps(pair, r, scratch.steps.data() + r * (pair.width + 1));
+    find_changes(pair.rows[r].gray, pair.width, scratch.changes.data() + r * (pair.width + 1));
     rows[r] = selection_of(pair, pair.rows[r], options, runner_up, scratch);
   }
   HWY_DYNAMIC_DISPATCH(walk_pair)(pair, rows, scratch);

@@ -48,11 +48,11 @@ struct RowPair {
 
 /// Scratch memory of one thread.
 struct RowPairScratch {
-  Buffer<std::uint8_t> paths;   ///< the path costs from the right of both rows
-  Buffer<std::uint8_t> steps;   ///< per row and column: P2 of the step from the column before
-  Buffer<std::uint8_t> ends;    ///< the path costs of the last pixel of both rows, and its sums
-  Buffer<std::uint8_t> limits;  ///< a third 0, then 255, then 0
-  Buffer<std::uint8_t> beside;  ///< 255 at the best disparity and those next to it, 0 elsewhere
+  Buffer<std::uint8_t> paths;    ///< the path costs from the right of both rows
+  Buffer<std::uint8_t> changes;  ///< per row and column: of the gray value from the column before
+  Buffer<std::uint8_t> ends;     ///< the path costs of the last pixel of both rows, and its sums
+  Buffer<std::uint8_t> limits;   ///< a third 0, then 255, then 0
+  Buffer<std::uint8_t> beside;   ///< 255 at the best disparity and those next to it, 0 elsewhere
 
   void resize(int width, int disparities);
 };

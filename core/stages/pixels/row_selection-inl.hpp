@@ -24,11 +24,13 @@ namespace mtstereo::HWY_NAMESPACE {
 using ByteVector = hn::Vec<Bytes>;
 constexpr int kByteLanes = static_cast<int>(hn::MaxLanes(Bytes()));
 
-/// The vectors of a pixel: in registers, or in memory if their number is not known (0).
+/// The vectors of a pixel: loaded from memory, or in it if their number is not known (0).
 template <int kVectors>
 class PixelLanes {
  public:
-  PixelLanes(std::uint8_t*, CostWindow) {}
+  HWY_INLINE PixelLanes(const std::uint8_t* memory, CostWindow) {
+    for (int i = 0; i < kVectors; ++i) set(i, hn::LoadU(Bytes(), memory + i * kByteLanes));
+  }
   HWY_INLINE static constexpr int count() { return kVectors; }
   HWY_INLINE ByteVector get(int i) const { return vectors_[i]; }
   HWY_INLINE void set(int i, ByteVector v) { vectors_[i] = v; }
@@ -75,18 +77,23 @@ HWY_INLINE int first_equal(const PixelLanes<kVectors>& lanes, ByteVector least) 
       std::memcpy(&mask, bytes, sizeof(mask));
       bits |= std::uint64_t{mask} << (k * kByteLanes);
     }
-    if (bits != 0) return i * kByteLanes + std::countr_zero(bits);
+    const bool last = i + kTogether >= lanes.count();
+    if (last || bits != 0) return i * kByteLanes + std::countr_zero(bits);
   }
 #endif
   return 0;
 }
 
-/// Each sum of column x from disparity d on replaces that of its right pixel if it is less.
-HWY_INLINE void compete(const RowSelection& row, int x, int d, ByteVector sums) {
+/// Where Candidates::right has the right pixel of column x at disparity 0.
+HWY_INLINE std::ptrdiff_t right_place(const RowSelection& row, int x) {
+  return x % Candidates::kTurns * row.right_stride + row.width - 1 - x;
+}
+
+/// Each sum of a pixel from disparity d on replaces that of its right pixel if it is less.
+HWY_INLINE void compete(const RowSelection& row, std::ptrdiff_t place, int d, ByteVector sums) {
   const Bytes d8;
   const std::ptrdiff_t plane = Candidates::kTurns * row.right_stride;
-  std::uint8_t* costs =
-      row.right + x % Candidates::kTurns * row.right_stride + row.width - 1 - x + d;
+  std::uint8_t* costs = row.right + place + d;
   const auto before = hn::LoadU(d8, costs);
   const auto least = hn::Min(before, sums);
   const auto stays = hn::Eq(least, before);
@@ -116,35 +123,38 @@ HWY_INLINE ByteVector without(const RowSelection& row, int x, int begin, int bes
 /// The candidates of a column, relative to the window.
 struct Found {
   int best;
-  int least, second;  // sums; 255 = none
+  int least, second;  // sums
 };
 
-/// Writes the candidates of column x; `memory` as in select().
-HWY_INLINE void write(const RowSelection& row, int x, CostWindow window, const Found& found,
-                      const std::uint8_t* memory) {
-  const auto cost = [](int sum) { return static_cast<std::int16_t>(2 * sum); };
-  const int last = std::min<int>(std::min(row.disparities, x + 1), window.end) - window.begin - 1;
-  const bool inside = found.best > 0 && found.best < last;
-  const std::int16_t least = cost(found.least);
-  const std::int16_t second = cost(found.second);
-  const bool sure = found.second < 255 && second >= row.runner_up[least];
+/// Writes the candidates of column x, whose disparities with right pixels are below `end`; `memory`
+/// as in select().
+HWY_INLINE void write(const RowSelection& row, int x, CostWindow window, int end,
+                      const Found& found, const std::uint8_t* memory) {
+  const int last = std::min(end, x + 1) - window.begin - 1;
+  const int beside = found.best > 0 && found.best < last;
+  const bool sure = found.second >= row.runner_up[found.least];
   row.best[x] = static_cast<std::int16_t>(window.begin + found.best);
-  row.least[x] = least;
-  row.second[x] = sure ? second : kNoCost;
-  row.before[x] = inside ? cost(memory[found.best - 1]) : kNoCost;
-  row.after[x] = inside ? cost(memory[found.best + 1]) : kNoCost;
+  const auto set = [&](Candidates::Sum sum, int value) {
+    row.sums[sum * row.sums_stride + x] = static_cast<std::uint8_t>(value);
+  };
+  set(Candidates::kLeast, found.least);
+  set(Candidates::kSecond, sure ? found.second : kNoSum);
+  set(Candidates::kBefore, memory[found.best - beside]);
+  set(Candidates::kAfter, memory[found.best + beside]);
 }
 
-/// Finds the candidates of column x. `memory` has the same sums as `sums`.
+/// Finds the candidates of column x from its sums in `memory`; `place` is its right_place(), `end`
+/// as in write().
 template <int kVectors>
-HWY_INLINE void select(const RowSelection& row, int x, CostWindow window,
-                       const PixelLanes<kVectors>& sums, const std::uint8_t* memory) {
+HWY_INLINE void select(const RowSelection& row, int x, std::ptrdiff_t place, CostWindow window,
+                       int end, std::uint8_t* memory) {
   const Bytes d8;
-  auto least = hn::Set(d8, 255), second = least;
+  const PixelLanes<kVectors> sums(memory, window);
+  auto least = sums.get(0), second = hn::Set(d8, kNoSum);
   for (int i = 0; i < sums.count(); ++i) {
-    least = hn::Min(least, sums.get(i));
+    if (i > 0) least = hn::Min(least, sums.get(i));
     if (row.right == nullptr) continue;
-    compete(row, x, window.begin + i * kByteLanes, sums.get(i));
+    compete(row, place, window.begin + i * kByteLanes, sums.get(i));
   }
   least = least_of_lanes(d8, least);
   Found found = {};
@@ -156,7 +166,7 @@ HWY_INLINE void select(const RowSelection& row, int x, CostWindow window,
   }
   second = least_of_lanes(d8, second);
   found.second = hn::GetLane(second);
-  write(row, x, window, found, memory);
+  write(row, x, window, end, found, memory);
 }
 
 /// Lets disparities without a right pixel cost 255.
