@@ -154,9 +154,7 @@ void walk_pair(const RowPair& pair, const RowSelection (&rows)[2], const RowPair
       walk_both_ways<PathSums::kFour>(pair, rows, scratch);
       break;
   }
-  for (const RowSelection& row : rows) {
-    if (row.right != nullptr) decide_right(row);
-  }
+  for (const RowSelection& row : rows) decide_right(row);
 }
 
 /// Selects by the costs of the first row.
@@ -178,7 +176,7 @@ void select_by_cost(const RowPair& pair, const RowSelection& of_row, std::uint8_
       }
     });
   }
-  if (row.right != nullptr) decide_right(row);
+  decide_right(row);
 }
 
 }  // namespace mtstereo::HWY_NAMESPACE
@@ -205,8 +203,7 @@ void find_changes(const std::uint8_t* __restrict__ gray, int width,
 RowSelection selection_of(const RowPair& pair, const PathRow& row, const SelectionOptions& options,
                           const RunnerUpTable& runner_up, RowPairScratch& scratch) {
   Candidates& to = *row.candidates;
-  const bool checks = options.left_right_tolerance >= 0;
-  if (checks) std::memset(to.right.data(), 255, Candidates::kTurns * to.right_stride);
+  std::memset(to.right.data(), 255, Candidates::kTurns * to.right_stride);
   const int lanes = cost_lanes(options.disparities);
   return {pair.width,
           lanes,
@@ -219,21 +216,20 @@ RowSelection selection_of(const RowPair& pair, const PathRow& row, const Selecti
           to.best.data(),
           to.sums.data(),
           to.sums_stride,
-          checks ? to.right.data() : nullptr,
+          to.right.data(),
           to.right_stride,
           lanes > 256};
 }
 
 /// The disparities of the right pixels of the best ones.
 void find_other(int width, const SelectionOptions& options, Candidates& candidates) {
-  if (options.left_right_tolerance < 0) return;
   const std::int16_t* __restrict__ best = candidates.best.data();
   std::int16_t* __restrict__ other = candidates.other.data();
   const std::uint8_t* low = candidates.decided(Candidates::kLow) + width - 1;
-  for (int x = 0; x < width; ++x) other[x] = low[best[x] - x];
+  for (std::ptrdiff_t x = 0; x < width; ++x) other[x] = low[best[x] - x];
   if (cost_lanes(options.disparities) <= 256) return;
   const std::uint8_t* high = candidates.decided(Candidates::kHigh) + width - 1;
-  for (int x = 0; x < width; ++x) {
+  for (std::ptrdiff_t x = 0; x < width; ++x) {
     other[x] = static_cast<std::int16_t>(other[x] + 256 * high[best[x] - x]);
   }
 }

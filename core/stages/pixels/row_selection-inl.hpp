@@ -153,7 +153,6 @@ HWY_INLINE void select(const RowSelection& row, int x, std::ptrdiff_t place, Cos
   auto least = sums.get(0), second = hn::Set(d8, kNoSum);
   for (int i = 0; i < sums.count(); ++i) {
     if (i > 0) least = hn::Min(least, sums.get(i));
-    if (row.right == nullptr) continue;
     compete(row, place, window.begin + i * kByteLanes, sums.get(i));
   }
   least = least_of_lanes(d8, least);

@@ -24,7 +24,7 @@ struct RowSelection {
   std::int16_t* best;          ///< Candidates
   std::uint8_t* sums;
   std::ptrdiff_t sums_stride;
-  std::uint8_t* right;  ///< Candidates::right, or nullptr
+  std::uint8_t* right;
   std::ptrdiff_t right_stride;
   bool high_planes;  ///< whether disparities exceed a byte
 };
