@@ -93,27 +93,6 @@ void filter_row(const NoiseFilterScratch& scratch, float noise, int width, std::
   }
 }
 
-}  // namespace mtstereo::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace mtstereo {
-
-HWY_EXPORT(move_sums);
-HWY_EXPORT(filter_columns);
-HWY_EXPORT(filter_row);
-
-namespace {
-
-constexpr int kReach = kNoiseWindow / 2;
-constexpr int kPixels = kNoiseWindow * kNoiseWindow;
-
-void pad_row(const std::uint8_t* row, int width, std::uint8_t* padded) {
-  std::memcpy(padded + kReach, row, width);
-  std::memset(padded, row[0], kReach);
-  std::memset(padded + kReach + width, row[width - 1], kReach);
-}
-
 /// The columns of three rows with weights 1 6 1, with a border of one column that repeats the
 /// outermost ones. Compilers vectorize both loops.
 void smooth_columns(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* below,
@@ -125,12 +104,36 @@ void smooth_columns(const std::uint8_t* above, const std::uint8_t* row, const st
   columns[width + 1] = columns[width];
 }
 
-void smooth_row(const std::uint16_t* columns, int width, std::uint8_t* __restrict__ filtered) {
+void smooth_three_columns(const std::uint16_t* columns, int width,
+                          std::uint8_t* __restrict__ filtered) {
   for (int x = 0; x < width; ++x) {
     const auto sum =
         static_cast<std::uint16_t>(columns[x] + 6 * columns[x + 1] + columns[x + 2] + 32);
     filtered[x] = static_cast<std::uint8_t>(sum >> 6);
   }
+}
+
+}  // namespace mtstereo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(move_sums);
+HWY_EXPORT(filter_columns);
+HWY_EXPORT(filter_row);
+HWY_EXPORT(smooth_columns);
+HWY_EXPORT(smooth_three_columns);
+
+namespace {
+
+constexpr int kReach = kNoiseWindow / 2;
+constexpr int kPixels = kNoiseWindow * kNoiseWindow;
+
+void pad_row(const std::uint8_t* row, int width, std::uint8_t* padded) {
+  std::memcpy(padded + kReach, row, width);
+  std::memset(padded, row[0], kReach);
+  std::memset(padded + kReach + width, row[width - 1], kReach);
 }
 
 }  // namespace
@@ -184,9 +187,10 @@ void smooth_lightly(GrayView view, int y0, int y1, NoiseFilterScratch& scratch,
   const std::size_t columns = static_cast<std::size_t>(view.width) + 2;
   if (scratch.columns.size() < columns) scratch.columns.resize(columns);
   for (int y = y0; y < y1; ++y) {
-    smooth_columns(view.row(std::max(y - 1, 0)), view.row(y),
-                   view.row(std::min(y + 1, view.height - 1)), view.width, scratch.columns.data());
-    smooth_row(scratch.columns.data(), view.width, filtered.row(y));
+    HWY_DYNAMIC_DISPATCH(smooth_columns)
+    (view.row(std::max(y - 1, 0)), view.row(y), view.row(std::min(y + 1, view.height - 1)),
+     view.width, scratch.columns.data());
+    HWY_DYNAMIC_DISPATCH(smooth_three_columns)(scratch.columns.data(), view.width, filtered.row(y));
   }
 }
 

@@ -23,8 +23,30 @@ void add_columns(const std::uint8_t* row, int count, int width, std::uint8_t* su
   }
 }
 
-/// In loops that compilers vectorize for the target: the place of the pixel left of each pixel's
-/// partner, in a row whose border is 2 pixels wide.
+// The loops from here on are vectorized by compilers, for the target.
+
+void copy_row(const std::int32_t* __restrict__ map, int width, std::int16_t* __restrict__ out) {
+  for (int x = 0; x < width; ++x) {
+    out[x] = static_cast<std::int16_t>(map[x] / (kDisparityOne / kClueOne));
+  }
+}
+
+/// Marks the matched pixels.
+void mark_matched(const std::uint8_t* __restrict__ confidence, int width,
+                  std::uint8_t* __restrict__ marks) {
+  for (int x = 0; x < width; ++x) marks[x] = confidence[x] > kMostInferred;
+}
+
+/// The changes from pixel to pixel, except for the first one.
+void find_row_changes(const std::uint8_t* __restrict__ row, int width,
+                      std::uint8_t* __restrict__ changes) {
+  for (int x = 1; x < width; ++x) {
+    const int change = std::max(row[x], row[x - 1]) - std::min(row[x], row[x - 1]);
+    changes[x] = std::min<std::uint8_t>(static_cast<std::uint8_t>(change), kMostChange);
+  }
+}
+
+/// The place of the pixel left of each pixel's partner, in a row whose border is 2 pixels wide.
 void find_partners(const std::int32_t* __restrict__ map, int width, int right_width,
                    std::uint32_t* __restrict__ places) {
   for (int x = 0; x < width; ++x) {
@@ -56,6 +78,9 @@ HWY_AFTER_NAMESPACE();
 namespace mtstereo {
 
 HWY_EXPORT(add_columns);
+HWY_EXPORT(copy_row);
+HWY_EXPORT(mark_matched);
+HWY_EXPORT(find_row_changes);
 HWY_EXPORT(find_partners);
 HWY_EXPORT(find_least);
 
@@ -65,9 +90,7 @@ constexpr int kShareSide = 2 * kShareReach + 1;
 constexpr int kVector = static_cast<int>(kAlignment);
 
 void copy_disparities(const std::int32_t* map, int width, std::int16_t* out) {
-  for (int x = 0; x < width; ++x) {
-    out[kClueBorder + x] = static_cast<std::int16_t>(map[x] / (kDisparityOne / kClueOne));
-  }
+  HWY_DYNAMIC_DISPATCH(copy_row)(map, width, out + kClueBorder);
   std::fill_n(out, kClueBorder, out[kClueBorder]);
   std::fill_n(out + kClueBorder + width, kClueBorder, out[kClueBorder + width - 1]);
 }
@@ -94,21 +117,11 @@ void find_mismatch(const RatedViews& views, const GrayMapping& grays, const std:
 }
 
 /// The changes from pixel to pixel; those outside of the row are 0.
-void find_changes(const std::uint8_t* __restrict__ row, int width,
-                  std::uint8_t* __restrict__ changes) {
+void find_changes(const std::uint8_t* row, int width, std::uint8_t* changes) {
   constexpr int kBorder = kTextureSide / 2;
   std::memset(changes, 0, kBorder + 1);
-  for (int x = 1; x < width; ++x) {
-    const int change = std::max(row[x], row[x - 1]) - std::min(row[x], row[x - 1]);
-    changes[kBorder + x] = std::min<std::uint8_t>(static_cast<std::uint8_t>(change), kMostChange);
-  }
+  HWY_DYNAMIC_DISPATCH(find_row_changes)(row, width, changes + kBorder);
   std::memset(changes + kBorder + width, 0, kTextureSide - kBorder);
-}
-
-/// Marks the matched pixels.
-void mark_matched(const std::uint8_t* __restrict__ confidence, int width,
-                  std::uint8_t* __restrict__ marks) {
-  for (int x = 0; x < width; ++x) marks[x] = confidence[x] > kMostInferred;
 }
 
 }  // namespace
@@ -135,7 +148,7 @@ void gather_clues(const RatedViews& views, const GrayMapping& grays, const Image
   std::memset(marks, 0, width + 2 * kShareReach);
   for (int y = y0; y < y1; ++y) {
     copy_disparities(map.row(y), width, clues.disparity.row(y));
-    mark_matched(confidence.row(y), width, marks + kShareReach);
+    HWY_DYNAMIC_DISPATCH(mark_matched)(confidence.row(y), width, marks + kShareReach);
     HWY_DYNAMIC_DISPATCH(add_columns)(marks, kShareSide, width, clues.matched.row(y));
     find_mismatch(views, grays, map.row(y), y, width, scratch);
     HWY_DYNAMIC_DISPATCH(add_columns)(scratch.values.data(), 3, width, clues.mismatch.row(y));

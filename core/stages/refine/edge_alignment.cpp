@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "mtstereo/image.hpp"
+#include "mtstereo/parameters.hpp"
 
 #define HWY_TARGET_INCLUDE "stages/refine/edge_alignment.cpp"
 #include "base/simd.hpp"
@@ -17,21 +18,24 @@ using Words = hn::CappedTag<std::int16_t, kAlignment / sizeof(std::int16_t)>;
 using Vec = hn::Vec<Words>;
 
 constexpr int kSide = kEdgeSide;
+constexpr std::int16_t kMostWeight = kEdgeContrast + 1;
+constexpr std::int16_t kMostDisparity = 0x7FFE;
+static_assert(kLargestMaxDisparity * kEdgeOne < kMostDisparity);
 
 /// The weights of a window's pixels, for a vector of windows.
 struct Weights {
   std::int16_t of[kSide][kSide][hn::MaxLanes(Words())];
 };
 
-/// The sum of the weights of the disparities up to `most`.
-HWY_INLINE Vec weight_up_to(const EdgeWindow& rows, int x, const Weights& weights, Vec most) {
+/// The sum of the weights of the disparities below `end`.
+HWY_INLINE Vec weight_below(const EdgeWindow& rows, int x, const Weights& weights, Vec end) {
   const Words d16;
   auto sum = hn::Zero(d16);
   for (int row = 0; row < kSide; ++row) {
     const std::int16_t* disparities = rows.disparity[row] + x;
     for (int i = 0; i < kSide; ++i) {
-      const auto above = hn::Gt(hn::LoadU(d16, disparities + 2 * i), most);
-      sum = hn::Add(sum, hn::IfThenZeroElse(above, hn::Load(d16, weights.of[row][i])));
+      const auto below = hn::Gt(end, hn::LoadU(d16, disparities + 2 * i));
+      sum = hn::Add(sum, hn::IfThenElseZero(below, hn::Load(d16, weights.of[row][i])));
     }
   }
   return sum;
@@ -53,7 +57,7 @@ HWY_INLINE Weighed weigh(const EdgeWindow& rows, int x, Weights& weights) {
   const Words d16;
   const hn::Rebind<std::uint8_t, Words> d8;
   const auto gray = hn::PromoteTo(d16, hn::LoadU(d8, rows.middle + kEdgeRadius + x));
-  const auto zero = hn::Zero(d16), one = hn::Set(d16, 1);
+  const auto zero = hn::Zero(d16), one = hn::Set(d16, 1), alike = hn::Set(d16, kMostWeight);
   const auto own = hn::LoadU(d16, rows.disparity[kSide / 2] + kEdgeRadius + x);
   const auto below = hn::Sub(own, hn::Set(d16, kEdgeKept));
   const auto above = hn::Add(own, hn::Set(d16, kEdgeKept));
@@ -63,8 +67,7 @@ HWY_INLINE Weighed weigh(const EdgeWindow& rows, int x, Weights& weights) {
     const std::uint8_t* grays = rows.gray[row] + x;
     for (int i = 0; i < kSide; ++i) {
       const auto other = hn::PromoteTo(d16, hn::LoadU(d8, grays + 2 * i));
-      const auto likeness = hn::Sub(hn::Set(d16, kEdgeContrast), hn::Abs(hn::Sub(gray, other)));
-      const auto weight = hn::Add(hn::Max(likeness, zero), one);
+      const auto weight = hn::Max(hn::Sub(alike, hn::Abs(hn::Sub(gray, other))), one);
       hn::Store(weight, d16, weights.of[row][i]);
       total = hn::Add(total, weight);
       const auto disparity = hn::LoadU(d16, disparities + 2 * i);
@@ -96,14 +99,16 @@ Vec medians_at(const EdgeWindow& rows, const std::uint8_t* near, int x) {
   if (hn::AllTrue(d16, kept)) return own;
   auto low = hn::IfThenElse(kept, own, hn::IfThenElse(w.rises, w.above, w.least));
   auto high = hn::IfThenElse(kept, own, hn::IfThenElse(w.rises, w.most, w.below));
-  // Lanes after the end of the row hold any values; so the difference of the bounds cannot
-  // overflow.
-  low = hn::Max(low, zero);
-  high = hn::Max(high, low);
+  // Lanes after the end of the row hold any values; so neither the difference of the bounds nor
+  // the next value can overflow.
+  const auto most = hn::Set(d16, kMostDisparity);
+  low = hn::Min(hn::Max(low, zero), most);
+  high = hn::Min(hn::Max(high, low), most);
   while (!hn::AllFalse(d16, hn::Lt(low, high))) {
     const auto middle = hn::Add(low, hn::ShiftRight<1>(hn::Sub(high, low)));
-    const auto less = hn::Lt(weight_up_to(rows, x, weights, middle), w.half);
-    low = hn::IfThenElse(less, hn::Min(hn::Add(middle, one), high), low);
+    const auto next = hn::Add(middle, one);
+    const auto less = hn::Lt(weight_below(rows, x, weights, next), w.half);
+    low = hn::IfThenElse(less, hn::Min(next, high), low);
     high = hn::IfThenElse(less, high, middle);
   }
   return low;

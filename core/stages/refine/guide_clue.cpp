@@ -7,7 +7,32 @@
 
 #include "stages/refine/reliability_table.hpp"
 
+#define HWY_TARGET_INCLUDE "stages/refine/guide_clue.cpp"
+#include "base/simd.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo::HWY_NAMESPACE {
+
+/// Adds the number of ends up to the distance; a loop that compilers vectorize.
+void add_distances(const std::int32_t* __restrict__ map, const std::int32_t* __restrict__ expected,
+                   int width, std::uint8_t* __restrict__ bins) {
+  for (int x = 0; x < width; ++x) {
+    const std::int32_t distance =
+        map[x] > expected[x] ? map[x] - expected[x] : expected[x] - map[x];
+    int ends = 0;
+    for (const int end : kGuideDistanceEnds) ends += distance >= end;
+    bins[x] = static_cast<std::uint8_t>(bins[x] + ends);
+  }
+}
+
+}  // namespace mtstereo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace mtstereo {
+
+HWY_EXPORT(add_distances);
+
 namespace {
 
 static_assert(kGuideLevels * kGuideDistances == kClueBins);
@@ -29,25 +54,12 @@ void spread(const RatedGuide& guide, int y, int width, std::int32_t* __restrict_
   const int line = std::min(y / 2, guide.disparity->height() - 1);
   const std::int32_t* __restrict__ disparity = guide.disparity->row(line);
   const std::uint8_t* __restrict__ confidence = guide.confidence->row(line);
-  for (int i = 0; i < width / 2; ++i) {
-    expected[2 * i] = expected[2 * i + 1] = 2 * disparity[i];
-    bins[2 * i] = bins[2 * i + 1] = kLevelBins[confidence[i]];
-  }
+  // Compilers vectorize the first loop.
+  for (int i = 0; i < width / 2; ++i) expected[2 * i] = expected[2 * i + 1] = 2 * disparity[i];
+  for (int i = 0; i < width / 2; ++i) bins[2 * i] = bins[2 * i + 1] = kLevelBins[confidence[i]];
   if (width % 2 == 0) return;
   expected[width - 1] = 2 * disparity[width / 2];
   bins[width - 1] = kLevelBins[confidence[width / 2]];
-}
-
-/// Adds the number of ends up to the distance; a loop that compilers vectorize.
-void add_distances(const std::int32_t* __restrict__ map, const std::int32_t* __restrict__ expected,
-                   int width, std::uint8_t* __restrict__ bins) {
-  for (int x = 0; x < width; ++x) {
-    const std::int32_t distance =
-        map[x] > expected[x] ? map[x] - expected[x] : expected[x] - map[x];
-    int ends = 0;
-    for (const int end : kGuideDistanceEnds) ends += distance >= end;
-    bins[x] = static_cast<std::uint8_t>(bins[x] + ends);
-  }
 }
 
 }  // namespace
@@ -60,7 +72,8 @@ void find_guide_bins(const RatedGuide& guide, const Image<std::int32_t>& map, in
     return;
   }
   spread(guide, y, width, expected, bins);
-  add_distances(map.row(y), expected, width, bins);
+  HWY_DYNAMIC_DISPATCH(add_distances)(map.row(y), expected, width, bins);
 }
 
 }  // namespace mtstereo
+#endif  // HWY_ONCE

@@ -2,6 +2,7 @@
 #include "stages/refine/reliability.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <cstring>
 
@@ -23,6 +24,9 @@ void find_surfaces(const SurfaceRows& rows, int width, std::uint8_t* nearer,
                    std::uint8_t* farther) {
   const Words d16;
   const Bytes d8;
+  // Copies, so that compilers know the values.
+  constexpr auto kNearer = kNearerDistances;
+  constexpr auto kFarther = kFartherDistances;
   const auto step = hn::Set(d16, kOtherSurface);
   const auto none = hn::Set(d16, kNoSurface);
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
@@ -30,15 +34,15 @@ void find_surfaces(const SurfaceRows& rows, int width, std::uint8_t* nearer,
     const auto own = hn::LoadU(d16, at);
     const auto near = hn::Add(own, step), far = hn::Sub(own, step);
     auto distance = none;
-    for (std::size_t i = kNearerDistances.size(); i-- > 0;) {
-      const int k = kNearerDistances[i];
+    for (std::size_t i = kNearer.size(); i-- > 0;) {
+      const int k = kNearer[i];
       const auto is_nearer = hn::Gt(hn::LoadU(d16, at - k), near);
       distance = hn::IfThenElse(is_nearer, hn::Set(d16, static_cast<std::int16_t>(k)), distance);
     }
     hn::StoreU(hn::DemoteTo(d8, distance), d8, nearer + x);
     distance = none;
-    for (std::size_t i = kFartherDistances.size(); i-- > 0;) {
-      const int k = kFartherDistances[i];
+    for (std::size_t i = kFarther.size(); i-- > 0;) {
+      const int k = kFarther[i];
       const auto row = hn::Min(hn::LoadU(d16, at - k), hn::LoadU(d16, at + k));
       const auto column =
           hn::Min(hn::LoadU(d16, rows.above[i] + x), hn::LoadU(d16, rows.below[i] + x));
@@ -49,17 +53,57 @@ void find_surfaces(const SurfaceRows& rows, int width, std::uint8_t* nearer,
   }
 }
 
-/// Adds up `count` rows.
+/// Adds up `count` rows of ClueMaps::matched.
 void add_rows(const std::uint8_t* const* rows, int count, int width, std::uint16_t* sum) {
-  const hn::RebindToUnsigned<Words> du16;
-  const Bytes d8;
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(du16))) {
-    auto total = hn::Zero(du16);
-    for (int i = 0; i < count; ++i) {
-      total = hn::Add(total, hn::PromoteTo(du16, hn::LoadU(d8, rows[i] + x)));
+  constexpr int kTogether = 255 / (2 * kShareReach + 1);  // their sums fit into bytes
+  const hn::CappedTag<std::uint8_t, kAlignment> d8;
+  const hn::Half<decltype(d8)> half;
+  const hn::Rebind<std::uint16_t, decltype(half)> d16;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d8))) {
+    auto lower = hn::Zero(d16), upper = lower;
+    for (int i = 0; i < count; i += kTogether) {
+      auto bytes = hn::LoadU(d8, rows[i] + x);
+      for (int k = i + 1; k < std::min(i + kTogether, count); ++k) {
+        bytes = hn::Add(bytes, hn::LoadU(d8, rows[k] + x));
+      }
+      lower = hn::Add(lower, hn::PromoteTo(d16, hn::LowerHalf(half, bytes)));
+      upper = hn::Add(upper, hn::PromoteTo(d16, hn::UpperHalf(half, bytes)));
     }
-    hn::StoreU(total, du16, sum + x);
+    hn::StoreU(lower, d16, sum + x);
+    hn::StoreU(upper, d16, sum + x + hn::Lanes(d16));
   }
+}
+
+/// The bins of the sums of three rows: the number of ends up to the sum.
+template <std::size_t kEnds>
+HWY_INLINE void find_sum_bins(const SummedRows& rows, const std::int16_t (&ends)[kEnds], int width,
+                              std::uint8_t* bins) {
+  const Words d16;
+  const Bytes d8;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
+    auto sum = hn::PromoteTo(d16, hn::LoadU(d8, rows[0] + x));
+    for (int i = 1; i < 3; ++i) sum = hn::Add(sum, hn::PromoteTo(d16, hn::LoadU(d8, rows[i] + x)));
+    auto bin = hn::Zero(d16);
+    for (const std::int16_t end : ends) {
+      const auto reached = hn::Gt(sum, hn::Set(d16, static_cast<std::int16_t>(end - 1)));
+      bin = hn::Sub(bin, hn::VecFromMask(d16, reached));
+    }
+    hn::StoreU(hn::DemoteTo(d8, bin), d8, bins + x);
+  }
+}
+
+void find_mismatch_bins(const SummedRows& rows, int width, std::uint8_t* bins) {
+  find_sum_bins(rows, kMismatchEnds, width, bins);
+}
+
+void find_texture_bins(const SummedRows& rows, int width, std::uint8_t* bins) {
+  find_sum_bins(rows, kTextureEnds, width, bins);
+}
+
+/// The products with the fraction `share` of 2^16.
+void share_out(const std::uint16_t* __restrict__ sum, std::uint32_t share, int count,
+               std::uint8_t* __restrict__ bins) {
+  for (int i = 0; i < count; ++i) bins[i] = static_cast<std::uint8_t>(sum[i] * share >> 16);
 }
 
 /// The bins of the clue about the columns that show the pixels.
@@ -80,21 +124,22 @@ void find_partner_bins(const std::int32_t* __restrict__ map, int width,
   }
 }
 
-using Sixteen = hn::FixedTag<std::uint8_t, 16>;
-using Eight = hn::FixedTag<std::int16_t, 8>;
+using Rated = hn::CappedTag<std::uint8_t, 32>;
+using RatedWords = hn::Repartition<std::int16_t, Rated>;
 
 /// One of 32 bytes for each of the bins.
-HWY_INLINE hn::Vec<Sixteen> look_up(const std::uint8_t* bytes, hn::Vec<Sixteen> bins) {
-  const Sixteen d8;
+HWY_INLINE hn::Vec<Rated> look_up(const std::uint8_t* bytes, hn::Vec<Rated> bins) {
+  const Rated d8;
   const auto most = hn::Set(d8, 15);
   const auto place = hn::And(bins, most);
-  return hn::IfThenElse(hn::Gt(bins, most), hn::TableLookupBytes(hn::Load(d8, bytes + 16), place),
-                        hn::TableLookupBytes(hn::Load(d8, bytes), place));
+  return hn::IfThenElse(hn::Gt(bins, most),
+                        hn::TableLookupBytes(hn::LoadDup128(d8, bytes + 16), place),
+                        hn::TableLookupBytes(hn::LoadDup128(d8, bytes), place));
 }
 
-/// The confidence by the sum of the entries.
-HWY_INLINE hn::Vec<Eight> rated(hn::Vec<Eight> sum, hn::Vec<Eight> before, bool apart) {
-  const Eight d16;
+/// The confidence by the sum of the entries. `matched` is 0 or all bits.
+HWY_INLINE hn::Vec<RatedWords> rated(hn::Vec<RatedWords> sum, hn::Vec<Rated> matched, bool apart) {
+  const RatedWords d16;
   static_assert(kReliabilityOne == 1 << 4);
   const auto one = hn::Set(d16, 1), most = hn::Set(d16, kMostInferred);
   const auto rating = hn::Min(hn::Max(hn::ShiftRight<4>(sum), one), hn::Set(d16, 255));
@@ -102,16 +147,28 @@ HWY_INLINE hn::Vec<Eight> rated(hn::Vec<Eight> sum, hn::Vec<Eight> before, bool 
   // A division by 254, exact for these values.
   const auto product = hn::Mul(hn::Sub(rating, one), hn::Set(d16, kMostInferred - 1));
   const auto low = hn::ShiftRight<4>(hn::MulHigh(product, hn::Set(d16, 4129)));
-  return hn::IfThenElse(hn::Gt(before, most), hn::Max(rating, hn::Add(most, one)),
-                        hn::Add(low, one));
+  return hn::IfThenElse(hn::MaskFromVec(hn::BitCast(d16, matched)),
+                        hn::Max(rating, hn::Add(most, one)), hn::Add(low, one));
 }
+
+/// The places of the lower bytes of eight words, then of the upper ones.
+constexpr auto kBytesInOrder = [] {
+  struct {
+    alignas(16) std::uint8_t of[16];
+  } places{};
+  constexpr int kFirst = std::endian::native == std::endian::big ? 1 : 0;
+  for (int i = 0; i < 16; ++i) {
+    places.of[i] = static_cast<std::uint8_t>((2 * (i % 8) + i / 8) ^ kFirst);
+  }
+  return places;
+}();
 
 /// Replaces the confidence of a row.
 void rate_row(const RatedBins& row, int width, std::uint8_t* confidence) {
-  const Sixteen d8;
-  const hn::Half<Sixteen> half;
-  const Eight d16;
-  for (int x = 0; x < width; x += 16) {
+  const Rated d8;
+  const RatedWords d16;
+  const auto in_order = hn::LoadDup128(d8, kBytesInOrder.of);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d8))) {
     auto lower = hn::Set(d16, static_cast<std::int16_t>(row.same)), upper = lower;
     for (int clue = 0; clue < kPixelClues; ++clue) {
       const auto bins = hn::LoadU(d8, row.bins[clue] + x);
@@ -120,11 +177,12 @@ void rate_row(const RatedBins& row, int width, std::uint8_t* confidence) {
       lower = hn::Add(lower, hn::BitCast(d16, hn::InterleaveLower(d8, first, second)));
       upper = hn::Add(upper, hn::BitCast(d16, hn::InterleaveUpper(d8, first, second)));
     }
-    std::uint8_t* out = confidence + x;
-    const auto before = hn::PromoteTo(d16, hn::LoadU(half, out));
-    hn::StoreU(hn::DemoteTo(half, rated(lower, before, row.apart)), half, out);
-    const auto next = hn::PromoteTo(d16, hn::LoadU(half, out + 8));
-    hn::StoreU(hn::DemoteTo(half, rated(upper, next, row.apart)), half, out + 8);
+    const auto before = hn::LoadU(d8, confidence + x);
+    const auto matched = hn::VecFromMask(d8, hn::Gt(before, hn::Set(d8, kMostInferred)));
+    lower = rated(lower, hn::InterleaveLower(d8, matched, matched), row.apart);
+    upper = rated(upper, hn::InterleaveUpper(d8, matched, matched), row.apart);
+    const auto both = hn::BitCast(d8, hn::Or(lower, hn::ShiftLeft<8>(upper)));
+    hn::StoreU(hn::TableLookupBytes(both, in_order), d8, confidence + x);
   }
 }
 
@@ -136,6 +194,9 @@ namespace mtstereo {
 
 HWY_EXPORT(find_surfaces);
 HWY_EXPORT(add_rows);
+HWY_EXPORT(find_mismatch_bins);
+HWY_EXPORT(find_texture_bins);
+HWY_EXPORT(share_out);
 HWY_EXPORT(find_partner_bins);
 HWY_EXPORT(rate_row);
 
@@ -146,8 +207,6 @@ constexpr int kVector = static_cast<int>(kAlignment);
 
 /// The ends of the bins of clues whose values are not bins themselves: the bin of a value is the
 /// number of ends up to it.
-constexpr int kMismatchEnds[] = {3, 5, 7, 9, 14, 18, 23, 27, 36, 45, 54, 72, 90, 126, 180, 270};
-constexpr int kTextureEnds[] = {1, 3, 8, 14, 20, 27, 40, 54, 75, 100, 135, 175, 230, 300, 400, 500};
 constexpr float kNoiseEnds[] = {.1F, .3F, .6F, 1, 1.5F, 2, 2.5F, 3, 4, 5, 7, 10};
 constexpr float kDetailEnds[] = {.024F, .03F, .037F, .045F, .06F, .1F, .2F};
 
@@ -158,26 +217,9 @@ constexpr std::uint8_t bin_of(Value value, const Value (&ends)[kEnds]) {
   return bin;
 }
 
-/// The bins of the values first, first + 1 ... first + kCount - 1.
-template <std::size_t kCount, std::size_t kEnds>
-constexpr std::array<std::uint8_t, kCount> bins_from(int first, const int (&ends)[kEnds]) {
-  std::array<std::uint8_t, kCount> bins{};
-  for (std::size_t i = 0; i < kCount; ++i) bins[i] = bin_of(first + static_cast<int>(i), ends);
-  return bins;
-}
-
-constexpr auto kMismatchBins = bins_from<9 * kMostMismatch + 1>(0, kMismatchEnds);
-constexpr auto kTextureBins = bins_from<3 * kTextureSide * kMostChange + 1>(0, kTextureEnds);
-
 /// The number of the rows or columns of a window of kShareSide that are inside of the image.
 int inside(int middle, int size) {
   return std::min(middle + kShareReach, size - 1) - std::max(middle - kShareReach, 0) + 1;
-}
-
-/// The products with the fraction `share` of 2^16.
-void share_out(const std::uint16_t* __restrict__ sum, std::uint32_t share, int count,
-               std::uint8_t* __restrict__ bins) {
-  for (int i = 0; i < count; ++i) bins[i] = static_cast<std::uint8_t>(sum[i] * share >> 16);
 }
 
 /// The share of matched pixels in 16ths.
@@ -195,7 +237,7 @@ void find_share_bins(const ClueMaps& clues, int y, int width, ReliabilityScratch
     // 16 / pixels as a fraction of 2^16, rounded up.
     const std::uint32_t pixels = static_cast<std::uint32_t>(rows * inside(begin, width));
     const std::uint32_t share = ((16U << 16) + pixels - 1) / pixels;
-    share_out(sum + begin, share, end - begin, bins + begin);
+    HWY_DYNAMIC_DISPATCH(share_out)(sum + begin, share, end - begin, bins + begin);
   };
   const int left = std::min(kShareReach, width);
   const int right = std::max(left, width - kShareReach);
@@ -204,20 +246,10 @@ void find_share_bins(const ClueMaps& clues, int y, int width, ReliabilityScratch
   for (int x = right; x < width; ++x) divide(x, x + 1);
 }
 
-/// The bins of the sums of three rows, `step` rows apart.
-template <std::size_t kCount>
-void find_sum_bins(const Image<std::uint8_t>& rows, int step, int y,
-                   const std::array<std::uint8_t, kCount>& bin_of_sum, int width,
-                   std::uint16_t* __restrict__ sum, std::uint8_t* __restrict__ bins) {
-  const std::uint8_t* lines[] = {rows.row(std::max(y - step, 0)), rows.row(y),
-                                 rows.row(std::min(y + step, rows.height() - 1))};
-  HWY_DYNAMIC_DISPATCH(add_rows)(lines, 3, width, sum);
-  int x = 0;
-  // Eight at once, because the speed of a loop that short depends on its place in memory.
-  for (; x + 8 <= width; x += 8) {
-    for (int i = x; i < x + 8; ++i) bins[i] = bin_of_sum[sum[i]];
-  }
-  for (; x < width; ++x) bins[x] = bin_of_sum[sum[x]];
+/// Row y and those `step` rows above and below.
+SummedRows rows_around(const Image<std::uint8_t>& rows, int step, int y) {
+  return {rows.row(std::max(y - step, 0)), rows.row(y),
+          rows.row(std::min(y + step, rows.height() - 1))};
 }
 
 void find_surface_bins(const ClueMaps& clues, int y, int width, ReliabilityScratch& scratch) {
@@ -273,10 +305,10 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
                     ReliabilityScratch& scratch) {
   const int width = map.width();
   find_share_bins(clues, y, width, scratch);
-  find_sum_bins(clues.mismatch, 1, y, kMismatchBins, width, scratch.sum.data(),
-                scratch.bins[kMismatchClue].data());
-  find_sum_bins(clues.texture, kTextureStep, y, kTextureBins, width, scratch.sum.data(),
-                scratch.bins[kTextureClue].data());
+  HWY_DYNAMIC_DISPATCH(find_mismatch_bins)
+  (rows_around(clues.mismatch, 1, y), width, scratch.bins[kMismatchClue].data());
+  HWY_DYNAMIC_DISPATCH(find_texture_bins)
+  (rows_around(clues.texture, kTextureStep, y), width, scratch.bins[kTextureClue].data());
   find_surface_bins(clues, y, width, scratch);
   const std::uint8_t* row_confidence = confidence.row(y);
   std::uint8_t* support = scratch.bins[kSupportClue].data();

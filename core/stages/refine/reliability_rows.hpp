@@ -17,6 +17,14 @@ inline constexpr std::int16_t kNoSurface = 16;
 /// number of ends up to it.
 inline constexpr int kPartnerEnds[] = {-40, -20, -10, -5, 0, 3, 6, 10, 16, 24};
 
+/// The bin of a sum of three rows of the clues about mismatch and texture is the number of ends up
+/// to it.
+using SummedRows = std::array<const std::uint8_t*, 3>;
+inline constexpr std::int16_t kMismatchEnds[] = {3,  5,  7,  9,  14, 18,  23,  27,
+                                                 36, 45, 54, 72, 90, 126, 180, 270};
+inline constexpr std::int16_t kTextureEnds[] = {1,  3,   8,   14,  20,  27,  40,  54,
+                                                75, 100, 135, 175, 230, 300, 400, 500};
+
 /// A column of the table: the first bytes of the entries in memory, then the second ones.
 struct EntryBytes {
   alignas(16) std::uint8_t of[2][kClueBins];
