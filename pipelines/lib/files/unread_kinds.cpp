@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "lib/files/unread_kinds.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string_view>
@@ -18,6 +19,7 @@ namespace {
 struct Kind {
   std::string_view extensions;
   const char* what;
+  bool recording = false;  // of both views
 };
 
 constexpr std::array<Kind, 12> kKinds{
@@ -31,9 +33,11 @@ constexpr std::array<Kind, 12> kKinds{
       "one the second (exiftool -b -mpimage2 FILE > right.jpg)"},
      {" .bag .db3 .mcap ",
       "is a recording of ROS: write the images of both cameras to two folders, with their times "
-      "[ns] as names, and give the folders"},
+      "[ns] as names, and give the folders",
+      true},
      {" .svo .svo2 ",
-      "is a recording of a ZED camera: export both views side by side as a video (ZED_SVO_Export)"},
+      "is a recording of a ZED camera: export both views side by side as a video (ZED_SVO_Export)",
+      true},
      {" .oni .klg ", "is a recording of a depth camera, which has no two views"},
      {" .npy .npz .h5 .hdf5 .mat .pkl .tfrecord .feather ",
       "is a file of arrays: write its views as PNG images, or as two videos"},
@@ -43,6 +47,14 @@ constexpr std::array<Kind, 12> kKinds{
      {" .zip .tar .gz .tgz .bz2 .xz .zst .7z .rar ", "is an archive: unpack it"},
      {" .pfm .flo ", "has values instead of an image, such as disparities: give the views"},
      {" .ply .pcd .las ", "has points instead of an image: give the views"}}};
+
+const Kind* kind_of(const fs::path& file) {
+  const std::string extension = " " + extension_of(file) + " ";
+  const auto kind = std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& each) {
+    return each.extensions.find(extension) != std::string_view::npos;
+  });
+  return kind == kKinds.end() ? nullptr : &*kind;
+}
 
 // Whether a file begins with these bytes.
 bool begins_with(const fs::path& file, std::string_view bytes) {
@@ -62,10 +74,7 @@ std::string unread_kind(const fs::path& file) {
     return "is a GIF, which repeats without an end: convert it to a video or to PNG images (ffmpeg "
            "-i FILE view.mkv)";
   }
-  const std::string extension = " " + extension_of(file) + " ";
-  for (const Kind& kind : kKinds) {
-    if (kind.extensions.find(extension) != std::string_view::npos) return kind.what;
-  }
+  if (const Kind* const kind = kind_of(file)) return kind->what;
   if (!is_image(file) && begins_with(file, "\xff\xd8\xff")) {
     return "has JPEG images without times: state their rate (ffmpeg -framerate 30 -f mjpeg -i FILE "
            "-c copy view.mkv), or name it FILE.jpg if it is one image";
@@ -79,6 +88,14 @@ std::string first_unread(const std::vector<fs::path>& files) {
     if (!kind.empty()) return file.string() + ": " + kind;
   }
   return {};
+}
+
+std::vector<fs::path> unread_recordings(std::vector<fs::path> files) {
+  std::erase_if(files, [](const fs::path& file) {
+    const Kind* const kind = kind_of(file);
+    return kind == nullptr || !kind->recording;
+  });
+  return files;
 }
 
 void refuse_unread(const fs::path& file) {

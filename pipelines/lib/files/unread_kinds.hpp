@@ -15,6 +15,9 @@ std::string unread_kind(const std::filesystem::path& file);
 /// "" if there is none.
 std::string first_unread(const std::vector<std::filesystem::path>& files);
 
+/// Those of some files that are recordings of both views in such a kind, by their extensions only.
+std::vector<std::filesystem::path> unread_recordings(std::vector<std::filesystem::path> files);
+
 /// Throws UserError for a file of such a kind.
 void refuse_unread(const std::filesystem::path& file);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lib/files/file_names.hpp"
+#include "lib/files/unread_kinds.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/calibration_choice.hpp"
 #include "recordings/inputs/completion.hpp"
@@ -59,17 +60,24 @@ class FolderSearch {
       : folder_(std::move(folder)), options_(options), asked_(asked) {}
 
   FolderContents run() {
-    for (auto* find : {find_pair_folder, find_euroc, find_kitti_odometry, find_kitti_raw}) {
-      if (add_data_set(find)) return std::move(contents_);
+    if (!add_data_sets()) {
+      add_videos();
+      add_folders();
+      add_images();
     }
-    add_videos();
-    add_folders();
-    add_images();
+    note_unread_recordings();
     return std::move(contents_);
   }
 
  private:
   using Find = std::optional<FoundRecording> (*)(const fs::path&);
+
+  bool add_data_sets() {
+    for (auto* find : {find_pair_folder, find_euroc, find_kitti_odometry, find_kitti_raw}) {
+      if (add_data_set(find)) return true;
+    }
+    return false;
+  }
 
   bool add_data_set(Find find) {
     try {
@@ -174,6 +182,22 @@ class FolderSearch {
           ", such as " + rest.front().string() + ".");
     } else if (!rest.empty() && contents_.recordings.empty() && contents_.problems.empty()) {
       add({{}, rest, {}}, {}, folder_name(folder_), asked_ ? folder_.string() : "");
+    }
+  }
+
+  // Recordings of ROS and the like. Beside a recording they may be what it was made of.
+  void note_unread_recordings() {
+    const std::vector<fs::path> files = files::unread_recordings(files::files_in(folder_));
+    if (files.empty()) return;
+    std::string reason = files::unread_kind(files.front());
+    if (files.size() > 1) {
+      reason += " (" + std::to_string(files.size()) + " such files are in this folder)";
+    }
+    if (contents_.recordings.empty()) {
+      contents_.problems.push_back({files.front().string(), reason});
+    } else {
+      contents_.recordings.front().remarks.push_back(files.front().string() + " is not used: it " +
+                                                     reason + ".");
     }
   }
 

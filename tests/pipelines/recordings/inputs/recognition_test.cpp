@@ -26,6 +26,7 @@ using testing::kBFrames;
 using testing::kHeight;
 using testing::kWidth;
 using testing::names_of;
+using ::testing::Not;
 using testing::Recordings;
 using testing::run_command;
 using testing::view;
@@ -80,6 +81,27 @@ TEST_F(Recordings, KindsThatAreNotReadHaveARemedy) {
   for (const char* name : {"shots", "shots/left", "shots/left/*.heic"}) {
     EXPECT_THAT(error_of({name}), HasSubstr(path("shots/left/0.heic") + ": is a kind of image"));
   }
+}
+
+TEST_F(Recordings, OfRosOrAZedAmongOthersAreNamedOncePerFolder) {
+  write_images("one/left", {"1.png"});
+  write_images("one/right", {"1.png"}, true);
+  for (const char* name : {"one/raw.bag", "two/a.db3", "two/b.db3", "zed/a.svo", "zed/b.npy"}) {
+    write_text(folder_ / name, "x");
+  }
+  std::vector<Problem> problems;
+  const std::vector<Recording> recordings = found(problems);
+  ASSERT_EQ(recordings.size(), 1U);
+  // Its views may be those of the recording beside it.
+  EXPECT_THAT(recordings[0].remarks,
+              ElementsAre(AllOf(HasSubstr(path("one/raw.bag") + " is not used: it is a recording"),
+                                HasSubstr("of both cameras to two folders"))));
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_EQ(problems[0].input, path("two/a.db3"));
+  EXPECT_THAT(problems[0].reason, AllOf(HasSubstr("is a recording of ROS: write"),
+                                        HasSubstr("(2 such files are in this folder)")));
+  EXPECT_EQ(problems[1].input, path("zed/a.svo"));
+  EXPECT_THAT(problems[1].reason, Not(HasSubstr("such files")));
 }
 
 TEST_F(Recordings, FolderWithTwoVideos) {
