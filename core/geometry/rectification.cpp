@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "mtstereo/geometry/rectification.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,6 +28,15 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Vector = Eigen::Vector3d;
+
+/// The smallest rotation from one direction to another one that is not opposite. The one of Eigen,
+/// for any two vectors, has a singular value decomposition, which takes longer to compile than this
+/// file.
+Eigen::Quaterniond turn(const Vector& from, const Vector& to) {
+  const double length = std::sqrt((1 + to.dot(from)) * 2);
+  const Vector axis = from.cross(to) * (1 / length);
+  return {length * 0.5, axis.x(), axis.y(), axis.z()};
+}
 
 Matrix3 from_eigen(const Matrix& m) {
   Matrix3 result{};
@@ -69,8 +78,7 @@ Result<Rotations> rotations_of(const StereoCalibration& calibration) {
         "left of the left one. Exchange the two cameras.");
   }
   // The smallest rotation that does it, as OpenCV does.
-  const Matrix axes =
-      Eigen::Quaterniond::FromTwoVectors(baseline, -Vector::UnitX()).toRotationMatrix();
+  const Matrix axes = turn(baseline.normalized(), -Vector::UnitX()).toRotationMatrix();
   return Rotations{axes * half.transpose(), axes * half, translation.norm()};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "programs/calibrate/synchronization.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,7 +16,6 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 constexpr double kLongestStep = 0.2;  // [s] between pairs of one motion
 constexpr double kSlowest = 0.03;     // of the image's width per second
@@ -85,7 +84,7 @@ std::optional<Estimate> estimate(const Rig& rig, const MovingView& moving) {
   if (!start) return std::nullopt;
   Pose pose = *start;
   double offset = 0;
-  Eigen::Matrix<double, 7, 7> information;
+  Eigen::LDLT<Eigen::MatrixXd> information;
   VectorXd rest;
   for (int i = 0; i < kSteps; ++i) {
     rest = residuals_at(rig, moving, pose, offset);
@@ -98,14 +97,15 @@ std::optional<Estimate> estimate(const Rig& rig, const MovingView& moving) {
                      (2 * kStep);
     }
     slope.col(6) = rest - residuals_at(rig, moving, pose, offset + 1);
-    information = slope.transpose() * slope;
-    const Vector7 step = information.ldlt().solve(slope.transpose() * rest);
+    information.compute(slope.transpose() * slope);
+    const VectorXd step = information.solve(slope.transpose() * rest);
     if (!step.allFinite()) return std::nullopt;
     pose = pose.moved(step.head<6>());
     offset += step(6);
   }
   const double misfit = std::sqrt(2 * rest.squaredNorm() / static_cast<double>(rest.size()));
-  const double variance = information.inverse()(6, 6);
+  const VectorXd last = information.solve(VectorXd::Unit(7, 6));
+  const double variance = last(6);
   if (!(misfit < kLargestMisfit) || !(variance > 0)) return std::nullopt;
   return Estimate{offset, 1 / variance};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "programs/calibrate/uncertainty.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <functional>
 
@@ -37,7 +37,9 @@ double triangulate(const Rig& rig, const Vector2d& left, const Vector2d& right) 
   Eigen::Matrix<double, 3, 2> rays;
   rays.col(0) = *a;
   rays.col(1) = -(back.rotation * *b);
-  const Vector2d along = rays.colPivHouseholderQr().solve(back.translation);
+  // Its normal equations: Eigen's decompositions would take longer to compile than all else here.
+  const Eigen::Matrix2d normal = rays.transpose() * rays;
+  const Vector2d along = normal.inverse() * (rays.transpose() * back.translation);
   return along.x() * a->z();
 }
 
