@@ -70,6 +70,8 @@ StereoCalibration read_one(const Document& document, const formats::Request& req
       return formats::read_middlebury(entry, request);
     case Format::kCityscapes:
       return formats::read_cityscapes(entry, request);
+    case Format::kRectifiedView:
+      return formats::read_rectified_view(entry, request);
     case Format::kDsec:
       return formats::read_dsec(entry, request);
     case Format::kArgoverse:

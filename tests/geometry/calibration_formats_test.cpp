@@ -329,6 +329,30 @@ TEST(FoundationStereo, StatesKAndTheBaselineInTwoLines) {
               HasSubstr("line 1 is not a camera matrix"));
 }
 
+TEST(RectifiedView, StatesTheIntrinsicsAndTheBaseline) {
+  const CalibrationFolder folder;
+  const auto write = [&](const std::string& text) { return folder.write("camera.yaml", text); };
+  const std::string k = "fx: 500.5\nfy: 500.5\ncx: 321.25\ncy: 240.75\n";
+  const std::string inner = "camera:\n  fx: 500.5\n  cx: 321.25\n  cy: 240.75\n";
+  const std::string matrix = "K: [500.5, 0, 321.25, 0, 500.5, 240.75, 0, 0, 1]\n";
+  for (const std::string& text :
+       {k + "baseline: 0.063\n", k + "baseline_mm: 63\nd: [0, 0, 0, 0, 0]\n",
+        inner + "baseline: 0.063\n", matrix + "image: left.png\nBaseline: 0.063\n",
+        std::string(R"({"fx": 500.5, "cx": 321.25, "cy": 240.75, "baseline_m": 0.063})")}) {
+    const StereoCalibration calibration = read_valid(write(text), 640, 480);
+    EXPECT_EQ(calibration.format, "rectified view");
+    EXPECT_DOUBLE_EQ(calibration.right.focal_x, 500.5) << text;
+    EXPECT_DOUBLE_EQ(calibration.left.center_y, 240.75) << text;
+    EXPECT_DOUBLE_EQ(calibration.baseline(), 0.063) << text;
+    EXPECT_EQ(calibration.rectification->width, 640);
+  }
+  EXPECT_THAT(read_refused(write(k + "baseline: 63\n")), HasSubstr("baseline of 63 m"));
+  EXPECT_THAT(read_refused(write(k + "baseline: 0.06\nD: [-0.1, 0, 0, 0]\n")),
+              HasSubstr("D is not 0, so the views are not rectified"));
+  EXPECT_THAT(read_refused(write(k)), HasSubstr("fx, fy, cx, cy and baseline (in meters)"));
+  EXPECT_THAT(read_refused(write("fx: 0\ncx: 1\ncy: 2\nbaseline: 1\n")), HasSubstr("fx = 0"));
+}
+
 TEST(DepthAi, StereoSocketsAndCentimetersAreUnderstood) {
   const StereoCalibration calibration = read_valid(stored("depthai.json"));
   EXPECT_EQ(calibration.format, "DepthAI");

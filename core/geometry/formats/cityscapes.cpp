@@ -19,6 +19,8 @@ StereoCalibration read_cityscapes(const Entry& file, const Request& request) {
   const Entry length = file.at("extrinsic").at("baseline");
   const double baseline = length.number(), fy = k.at("fy").number();
   CameraCalibration camera;
+  camera.width = request.width;
+  camera.height = request.height;
   camera.focal_x = k.at("fx").number();
   camera.center_x = k.at("u0").number();
   camera.center_y = k.at("v0").number();
@@ -29,12 +31,7 @@ StereoCalibration read_cityscapes(const Entry& file, const Request& request) {
            "; they must be equal in a rectified view");
   }
   camera.focal_y = camera.focal_x;
-  Rectification rectification =
-      rectification_from(views_of(camera, camera.focal_x * baseline), k, length);
-  check_translation({-baseline, 0, 0}, length, "; it must be in meters");
-  rectification.width = request.width;
-  rectification.height = request.height;
-  StereoCalibration calibration = rectified_cameras(rectification);
+  StereoCalibration calibration = rectified_pair(camera, baseline, k, length);
   calibration.format = "Cityscapes";
   return calibration;
 }

@@ -211,6 +211,7 @@ std::optional<Format> known_format(const Entry& root) {
   if (root.find("T_BS")) return Format::kEuroc;
   if (is_camera_info(root)) return Format::kCameraInfo;
   if (is_orbslam(root)) return Format::kOrbSlam;
+  if (is_rectified_view(root)) return Format::kRectifiedView;
   if (is_opencv(root)) return Format::kOpenCv;
   return std::nullopt;
 }
@@ -236,7 +237,8 @@ void find_format(Document& document) {
       "(ROS), cam0 (Kalibr, Middlebury), T_BS (EuRoC), P0 or K_00 (KITTI), cameraData "
       "(DepthAI), [LEFT_CAM_...] (ZED), Camera1.fx (ORB-SLAM), cam0_calib (VINS-Fusion), "
       "value0 (Basalt), lensmodel (mrcal), cameras (OKVIS, SVO, maplab), intrinsic.u0 "
-      "(Cityscapes), camRect0 (DSEC), camera_data_ (Argoverse) is in it");
+      "(Cityscapes), camRect0 (DSEC), camera_data_ (Argoverse) is in it; of rectified views, fx, "
+      "fy, cx, cy and baseline (in meters) are enough");
 }
 
 /// Whether a text is a Python literal of mrcal; it may begin with comments.
@@ -253,7 +255,7 @@ bool is_mrcal(std::string_view text) {
 }  // namespace
 
 const char* name_of(Format format) {
-  constexpr std::array<const char*, 20> kNames = {"an OpenCV file",
+  constexpr std::array<const char*, 21> kNames = {"an OpenCV file",
                                                   "a ROS camera_info",
                                                   "a Kalibr camchain",
                                                   "a EuRoC sensor.yaml",
@@ -272,7 +274,8 @@ const char* name_of(Format format) {
                                                   "a K.txt of FoundationStereo",
                                                   "a camera of Cityscapes",
                                                   "a cam_to_cam.yaml of DSEC",
-                                                  "a calibration of Argoverse"};
+                                                  "a calibration of Argoverse",
+                                                  "a rectified view with a baseline"};
   return kNames[static_cast<std::size_t>(format)];
 }
 

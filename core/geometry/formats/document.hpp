@@ -35,6 +35,7 @@ enum class Format {
   kCityscapes,
   kDsec,
   kArgoverse,
+  kRectifiedView,
 };
 
 /// The name of a format in messages, with its article.

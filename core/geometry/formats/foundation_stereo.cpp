@@ -20,15 +20,11 @@ StereoCalibration read_foundation_stereo(const Entry& file, const Request& reque
   const Entry k(lines[0].value(), file.file(), "line 1");
   const Entry length(lines[1].value(), file.file(), "line 2");
   CameraCalibration camera;
+  camera.width = request.width;
+  camera.height = request.height;
   set_camera_matrix(camera, k);
   const double baseline = length.numbers(1, "the baseline in meters")[0];
-  Rectification rectification =
-      rectification_from(views_of(camera, camera.focal_x * baseline), k, length);
-  check_translation({-baseline, 0, 0}, length, "; it must be in meters");
-  rectification.baseline = baseline;
-  rectification.width = request.width;
-  rectification.height = request.height;
-  StereoCalibration calibration = rectified_cameras(rectification);
+  StereoCalibration calibration = rectified_pair(camera, baseline, k, length);
   calibration.format = "FoundationStereo";
   return calibration;
 }

@@ -290,6 +290,17 @@ StereoCalibration rectified_cameras(const Rectification& rectification) {
   return calibration;
 }
 
+StereoCalibration rectified_pair(const CameraCalibration& camera, double baseline, const Entry& k,
+                                 const Entry& length) {
+  Rectification rectification =
+      rectification_from(views_of(camera, camera.focal_x * baseline), k, length);
+  check_translation({-baseline, 0, 0}, length, "; it must be in meters");
+  rectification.baseline = baseline;
+  rectification.width = camera.width;
+  rectification.height = camera.height;
+  return rectified_cameras(rectification);
+}
+
 Selection selected_pair(const Entry& file, const std::string& selection, std::string_view example) {
   const std::size_t at = selection.find('-');
   if (at == std::string::npos || at == 0 || at + 1 == selection.size()) {

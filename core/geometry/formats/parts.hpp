@@ -94,6 +94,10 @@ void set_motion_on_body(StereoCalibration& calibration, const Entry& left, const
 
 /// A calibration of cameras whose views are rectified already.
 StereoCalibration rectified_cameras(const Rectification& rectification);
+/// The same for two equal cameras at this distance [m]. `k` and `length` are the entries of the
+/// intrinsics and the baseline.
+StereoCalibration rectified_pair(const CameraCalibration& camera, double baseline, const Entry& k,
+                                 const Entry& length);
 
 /// The two names of a selection such as "cam1-cam0". An error if it has another form.
 struct Selection {

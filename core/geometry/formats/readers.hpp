@@ -51,6 +51,8 @@ StereoCalibration read_camera_list(const Entry& file, const Request& request);
 StereoCalibration read_foundation_stereo(const Entry& file, const Request& request);
 /// A configuration of stella_vslam or OpenVSLAM.
 StereoCalibration read_stella(const Entry& file, const Request& request);
+/// The intrinsics of a rectified camera, and the baseline.
+StereoCalibration read_rectified_view(const Entry& file, const Request& request);
 /// The camera of an image of Cityscapes.
 StereoCalibration read_cityscapes(const Entry& file, const Request& request);
 /// The cam_to_cam.yaml of DSEC.
@@ -69,6 +71,8 @@ bool is_camera_list(const Entry& file);
 bool is_stella(const Entry& file);
 /// Whether a file is the camera of an image of Cityscapes.
 bool is_cityscapes(const Entry& file);
+/// Whether a file has the intrinsics of one camera and the baseline, but no R and T.
+bool is_rectified_view(const Entry& file);
 /// Whether a file is the cam_to_cam.yaml of DSEC.
 bool is_dsec(const Entry& file);
 /// Whether a file is one of Basalt.
