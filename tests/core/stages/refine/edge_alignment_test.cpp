@@ -26,7 +26,10 @@ ConfidentMap aligned(const GrayPlane& gray, const ConfidentMap& in, int band = 1
   EdgeScratch scratch;
   edges.resize(width, height);
   scratch.resize(width);
-  test::poison(edges.disparity);
+  // The largest value in the padding: no value is larger.
+  for (int y = 0; y < height; ++y) {
+    std::fill_n(edges.disparity.row(y), edges.disparity.stride(), std::int16_t{0x7FFF});
+  }
   test::poison(edges.gray);
   test::poison(edges.near);
   for (int y = 0; y < height; y += band) {
