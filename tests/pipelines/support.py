@@ -42,10 +42,10 @@ class Outcome:
         return f"{words}\nstatus {self.status}\n{self.output}\n{self.errors}"
 
 
-def environment(folder):
+def environment():
     env = dict(os.environ)
     env["GST_PLUGIN_PATH"] = str(BUILD / "gst")
-    env["GST_REGISTRY"] = str(pathlib.Path(folder) / "registry.bin")
+    env["GST_REGISTRY"] = str(BUILD / "tests/pipelines/registry.bin")
     env["GST_DEBUG_NO_COLOR"] = "1"
     env["BUILD"] = str(BUILD)
     env["LC_ALL"] = "C.UTF-8"
@@ -59,7 +59,7 @@ def environment(folder):
 
 def start(command, folder):
     """Starts a command in its own session, so that all its processes can be stopped."""
-    return subprocess.Popen([str(word) for word in command], cwd=folder, env=environment(folder),
+    return subprocess.Popen([str(word) for word in command], cwd=folder, env=environment(),
                             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, text=True, start_new_session=True)
 
