@@ -26,7 +26,7 @@ struct Words {
   Place place;
 };
 
-constexpr std::array<Words, 29> kWords{{{"left", "right", Place::kAny},
+constexpr std::array<Words, 33> kWords{{{"left", "right", Place::kAny},
                                         {"Left", "Right", Place::kAny},
                                         {"LEFT", "RIGHT", Place::kAny},
                                         {"l", "r", Place::kWhole},
@@ -46,6 +46,10 @@ constexpr std::array<Words, 29> kWords{{{"left", "right", Place::kAny},
                                         {"master", "slave", Place::kWhole},
                                         {"links", "rechts", Place::kWhole},
                                         {"gauche", "droite", Place::kWhole},
+                                        {"izquierda", "derecha", Place::kWhole},
+                                        {"sinistra", "destra", Place::kWhole},
+                                        {"esquerda", "direita", Place::kWhole},
+                                        {"CAM_B", "CAM_C", Place::kWhole},
                                         {"infra1", "infra2", Place::kWhole},
                                         {"infrared_1", "infrared_2", Place::kWhole},
                                         {"Infrared_1", "Infrared_2", Place::kWhole},
