@@ -179,7 +179,7 @@ TEST_F(Layout, NamesOfPythonProgramsStateTheUnitAndTheSize) {
   const StereoCalibration calibration = read_valid(write(plain(json("translation_mm"))));
   expect_near(calibration.translation, Vector3{-0.12, 0.001, 0.002}, 1e-12);
   EXPECT_EQ(calibration.left.width, 640);
-  EXPECT_THAT(refused(plain(json("translation"))), HasSubstr("add the line 'length_unit: mm'"));
+  EXPECT_THAT(refused(plain(json("translation"))), HasSubstr("add the entry 'length_unit: mm'"));
 }
 
 TEST_F(Layout, ABaselineWithAUnitStatesThatOfT) {
@@ -274,7 +274,7 @@ TEST_F(Layout, WithRectifiedProjectionsNeedsNoRAndT) {
   expect_near(calibration.rotation, Matrix3{0.8, 0, 0.6, 0, 1, 0, -0.6, 0, 0.8}, 1e-12);
   expect_near(calibration.translation, Vector3{-0.12, 0, 0}, 1e-12);
   EXPECT_THAT(refused(with_projections("0")), HasSubstr("RIGHT.P states a baseline of 0 m"));
-  EXPECT_THAT(refused(with_projections("-52800")), HasSubstr("add the line 'length_unit: mm'"));
+  EXPECT_THAT(refused(with_projections("-52800")), HasSubstr("add the entry 'length_unit: mm'"));
 }
 
 }  // namespace

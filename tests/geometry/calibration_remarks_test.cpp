@@ -112,9 +112,9 @@ TEST_F(Remarks, ABaselineWithoutAUnit) {
     return read_refused(kIntrinsics + "," + folder_.write("extrinsics.yml", text), 640, 480);
   };
   EXPECT_THAT(refused("-14.3"),
-              AllOf(HasSubstr("millimeters or squares of the board: add the line"),
+              AllOf(HasSubstr("millimeters or squares of the board: add the entry"),
                     HasSubstr("'length_unit: 0.025'")));
-  EXPECT_THAT(refused("-60.1"), HasSubstr("most likely in millimeters: add the line"));
+  EXPECT_THAT(refused("-60.1"), HasSubstr("most likely in millimeters: add the entry"));
   EXPECT_THAT(with_extrinsics(kT, "-1.2").remarks, ElementsAre(HasSubstr("unusually long")));
   EXPECT_THAT(with_extrinsics(kT, "-0.0041").remarks,
               ElementsAre(AllOf(HasSubstr("m, which is unusually short"))));

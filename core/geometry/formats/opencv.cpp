@@ -23,7 +23,7 @@ constexpr Names kWidth = "imagewidth width leftwidth leftimagewidth imagesizewid
 constexpr Names kHeight =
     "imageheight height leftheight leftimageheight imagesizeheight resolutionheight";
 constexpr const char* kUnitRemedy =
-    "add the line 'length_unit: mm' (or cm, in, or the meters that the length 1 has, such as the "
+    "add the entry 'length_unit: mm' (or cm, in, or the meters that the length 1 has, such as the "
     "side of a square of the board: 'length_unit: 0.025')";
 constexpr Names kRightProjection = "p2 pr pright rightp";
 
