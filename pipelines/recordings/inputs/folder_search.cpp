@@ -185,7 +185,6 @@ class FolderSearch {
     }
   }
 
-  // Recordings of ROS and the like. Beside a recording they may be what it was made of.
   void note_unread_recordings() {
     const std::vector<fs::path> files = files::unread_recordings(files::files_in(folder_));
     if (files.empty()) return;
@@ -193,12 +192,7 @@ class FolderSearch {
     if (files.size() > 1) {
       reason += " (" + std::to_string(files.size()) + " such files are in this folder)";
     }
-    if (contents_.recordings.empty()) {
-      contents_.problems.push_back({files.front().string(), reason});
-    } else {
-      contents_.recordings.front().remarks.push_back(files.front().string() + " is not used: it " +
-                                                     reason + ".");
-    }
+    contents_.unread = {files.front().string(), reason};
   }
 
   fs::path folder_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "recordings/inputs/recording.hpp"
@@ -12,6 +13,8 @@ namespace mtstereo::run {
 struct FolderContents {
   std::vector<Recording> recordings;
   std::vector<Problem> problems;
+  /// The first recording of ROS and the like. It may be what a recording in the folder was made of.
+  std::optional<Problem> unread;
   std::vector<std::filesystem::path> used_folders;  ///< in which nothing else is searched
 };
 

@@ -37,6 +37,10 @@ std::string text_of(const Problem& problem, const std::string& between) {
   return problem.input + between + (named ? problem.reason.substr(name.size()) : problem.reason);
 }
 
+std::string remark_on(const Problem& unread) {
+  return unread.input + " is not used: it " + unread.reason + ".";
+}
+
 // A file that may be a view and is of a kind that is not read, in a folder or those in it.
 std::string unread_in(const fs::path& folder) {
   std::string unread = files::first_unread(files::files_in(folder));
@@ -81,6 +85,7 @@ Recording only_recording(const std::string& folder, FolderContents contents) {
   for (const Problem& problem : contents.problems) {
     recording.remarks.push_back(text_of(problem, " is not used: "));
   }
+  if (contents.unread) recording.remarks.push_back(remark_on(*contents.unread));
   return recording;
 }
 
@@ -112,6 +117,7 @@ class ArchiveSearch {
     if (error || !is_new || is_result(folder)) return;
     entered_.push_back(real);
     FolderContents contents = search_folder(folder, options_, false);
+    const std::size_t first = recordings_.size();
     for (Recording& recording : contents.recordings) {
       recording.name = name_in(archive_, folder, recording.name);
       recordings_.push_back(std::move(recording));
@@ -120,6 +126,12 @@ class ArchiveSearch {
     for (const fs::path& inner : files::folders_in(folder)) {
       const auto& used = contents.used_folders;
       if (std::find(used.begin(), used.end(), inner) == used.end()) enter(inner);
+    }
+    if (!contents.unread) return;
+    if (first < recordings_.size()) {
+      recordings_[first].remarks.push_back(remark_on(*contents.unread));
+    } else {
+      problems_.push_back(*contents.unread);
     }
   }
 

@@ -86,16 +86,18 @@ TEST_F(Recordings, KindsThatAreNotReadHaveARemedy) {
 TEST_F(Recordings, OfRosOrAZedAmongOthersAreNamedOncePerFolder) {
   write_images("one/left", {"1.png"});
   write_images("one/right", {"1.png"}, true);
-  for (const char* name : {"one/raw.bag", "two/a.db3", "two/b.db3", "zed/a.svo", "zed/b.npy"}) {
+  for (const char* name :
+       {"all.mcap", "one/raw.bag", "two/a.db3", "two/b.db3", "zed/a.svo", "zed/b.npy"}) {
     write_text(folder_ / name, "x");
   }
   std::vector<Problem> problems;
   const std::vector<Recording> recordings = found(problems);
   ASSERT_EQ(recordings.size(), 1U);
-  // Its views may be those of the recording beside it.
+  // The views may be those of the recording beside or below it.
   EXPECT_THAT(recordings[0].remarks,
               ElementsAre(AllOf(HasSubstr(path("one/raw.bag") + " is not used: it is a recording"),
-                                HasSubstr("of both cameras to two folders"))));
+                                HasSubstr("of both cameras to two folders")),
+                          HasSubstr(path("all.mcap") + " is not used: it is a recording")));
   ASSERT_EQ(problems.size(), 2U);
   EXPECT_EQ(problems[0].input, path("two/a.db3"));
   EXPECT_THAT(problems[0].reason, AllOf(HasSubstr("is a recording of ROS: write"),
