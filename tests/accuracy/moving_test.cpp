@@ -135,9 +135,13 @@ std::vector<eval::Flicker> all_figures(const std::vector<Clip>& clips, const cha
   return all;
 }
 
-/// `steady` and `off` are figures as all_figures() returns them.
+/// `steady` and `off` are figures as all_figures() returns them. Single scenes may have a few more
+/// errors, their mean may not.
 void expect_no_more_errors(const std::vector<eval::Flicker>& steady,
                            const std::vector<eval::Flicker>& off) {
+  EXPECT_LE(steady.back().d_all, off.back().d_all);
+  EXPECT_LE(steady.back().avgerr, off.back().avgerr);
+  EXPECT_LE(steady.back().edges.wrong, off.back().edges.wrong);
   for (std::size_t i = 0; i < off.size(); ++i) {
     EXPECT_LE(steady[i].d_all, off[i].d_all + 0.03) << "scene " << i;
     EXPECT_LE(steady[i].avgerr, off[i].avgerr + 0.005) << "scene " << i;
@@ -153,8 +157,7 @@ TEST(MovingCamera, HoldAndFilterReduceTheFlickerAndTheErrors) {
     const std::vector<eval::Flicker> hold = all_figures(clips, "hold", noise);
     expect_no_more_errors(hold, off);
     EXPECT_LE(hold.back().come_and_go, 0.65 * off.back().come_and_go);
-    EXPECT_GE(hold.back().density, off.back().density - noise);
-    EXPECT_LE(hold.back().d_all, off.back().d_all);
+    EXPECT_GE(hold.back().density, off.back().density - (noise < 10 ? 0.6 : 1) * noise);
     if (noise < 2) continue;  // the views are taken as they are
     const std::vector<eval::Flicker> filter = all_figures(clips, "filter", noise);
     expect_no_more_errors(filter, off);

@@ -349,6 +349,10 @@ TEST(RectifiedView, StatesTheIntrinsicsAndTheBaseline) {
   EXPECT_THAT(read_refused(write(k + "baseline: 63\n")), HasSubstr("baseline of 63 m"));
   EXPECT_THAT(read_refused(write(k + "baseline: 0.06\nD: [-0.1, 0, 0, 0]\n")),
               HasSubstr("D is not 0, so the views are not rectified"));
+  EXPECT_THAT(read_refused(write(k + "baseline: 0.06\nk1: -0.1\nk2: 0\n")),
+              HasSubstr("k1 is not 0"));
+  EXPECT_THAT(read_refused(write(inner + "baseline: 0.06\ndistortion:\n  k1: -0.1\n")),
+              HasSubstr("distortion is not 0"));
   EXPECT_THAT(read_refused(write(k)), HasSubstr("fx, fy, cx, cy and baseline (in meters)"));
   EXPECT_THAT(read_refused(write("fx: 0\ncx: 1\ncy: 2\nbaseline: 1\n")), HasSubstr("fx = 0"));
 }

@@ -219,18 +219,19 @@ std::optional<Format> known_format(const Entry& root) {
 /// Recognises the format of a parsed file. Rigs and parameters of ROS nodes have the calibration in
 /// maps of one entry.
 void find_format(Document& document) {
-  Value inner = document.root;
+  const Value* inner = &document.root;
   std::string name;
-  while (inner.kind == Value::Kind::kMap) {
-    if (const std::optional<Format> format = known_format(Entry(inner, document.file, name))) {
+  while (inner->kind == Value::Kind::kMap) {
+    if (const std::optional<Format> format = known_format(Entry(*inner, document.file, name))) {
       document.format = *format;
-      document.root = std::move(inner);
+      if (name.empty()) return;
+      document.root = Value(*inner);  // a copy, since it is a part of what it replaces
       document.name = name;
       return;
     }
-    if (inner.items.size() != 1) break;
-    name += (name.empty() ? "" : ".") + printable(inner.names[0]);
-    inner = Value(inner.items[0]);
+    if (inner->items.size() != 1) break;
+    name += (name.empty() ? "" : ".") + printable(inner->names[0]);
+    inner = &inner->items[0];
   }
   document.entry().fail(
       "is not a calibration of a known format: none of M1 (OpenCV), projection_matrix "

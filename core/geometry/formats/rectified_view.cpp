@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"
@@ -34,16 +33,22 @@ std::optional<Entry> find_camera(const Entry& file) {
   return inner && inner->is_map() && has_intrinsics(*inner) ? inner : std::nullopt;
 }
 
+/// Whether no number in a value differs from 0.
+bool is_zero(const Value& value) {
+  if (value.kind == Value::Kind::kScalar) return parse_number(value.text).value_or(0) == 0;
+  return std::all_of(value.items.begin(), value.items.end(), is_zero);
+}
+
 /// A rectified view has no distortion.
-void refuse_distortion(const Entry& camera) {
-  const std::optional<Entry> distortion = camera.find_any(
-      {"D", "d", "distortion", "dist_coeffs", "distortion_coeffs", "distortion_coefficients"});
-  if (!distortion) return;
-  const std::vector<double> values = distortion->numbers();
-  if (std::all_of(values.begin(), values.end(), [](double value) { return value == 0; })) return;
-  distortion->fail(
-      "is not 0, so the views are not rectified, and the file has one camera; both cameras, R and "
-      "T are needed (mtcalibrate writes them)");
+void refuse_distortion(const Entry& entry) {
+  for (const char* name : {"D", "d", "distortion", "dist_coeffs", "distortion_coeffs",
+                           "distortion_coefficients", "k1", "k2", "k3", "p1", "p2"}) {
+    const std::optional<Entry> distortion = entry.find(name);
+    if (!distortion || is_zero(distortion->value())) continue;
+    distortion->fail(
+        "is not 0, so the views are not rectified, and the file has one camera; both cameras, R "
+        "and T are needed (mtcalibrate writes them)");
+  }
 }
 
 CameraCalibration read_camera(const Entry& entry, const Request& request) {
@@ -74,7 +79,7 @@ StereoCalibration read_rectified_view(const Entry& file, const Request& request)
   no_selection(file, request.selection);
   const Entry entry = find_camera(file).value_or(file);
   const auto [length, unit] = find_baseline(file).value_or(std::pair{file, 1.0});
-  refuse_distortion(entry);
+  for (const Entry& place : {entry, file}) refuse_distortion(place);
   StereoCalibration calibration =
       rectified_pair(read_camera(entry, request), length.number() * unit, entry, length);
   calibration.format = "rectified view";

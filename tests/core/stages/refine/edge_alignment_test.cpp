@@ -26,7 +26,7 @@ ConfidentMap aligned(const GrayPlane& gray, const ConfidentMap& in, int band = 1
   EdgeScratch scratch;
   edges.resize(width, height);
   scratch.resize(width);
-  // The largest value in the padding: no value is larger.
+  // No search for a value may depend on one above those of the padding.
   for (int y = 0; y < height; ++y) {
     std::fill_n(edges.disparity.row(y), edges.disparity.stride(), std::int16_t{0x7FFF});
   }
