@@ -9,6 +9,7 @@
 
 #define HWY_TARGET_INCLUDE "stages/pixels/disparity_selection.cpp"
 #include "base/simd.hpp"
+#include "base/simd_gather-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -65,6 +66,18 @@ HWY_INLINE hn::Mask<Finished> agrees_with_guide(FinishedVec low, FinishedVec hig
   return hn::AndNot(hn::And(from_first, to_last), hn::And(above, below));
 }
 
+/// The best disparities of the right pixels of the best ones of the columns from x on.
+HWY_INLINE FinishedVec others_of(const Candidates& candidates, int x, FinishedVec best,
+                                 int disparities) {
+  const Finished d32;
+  const auto first = hn::Set(d32, candidates.width - 1 - x);
+  const auto places = hn::Add(best, hn::Sub(first, hn::Iota(d32, 0)));
+  const auto low = bytes_at(d32, candidates.decided(Candidates::kLow), places);
+  if (cost_lanes(disparities) <= 256) return low;
+  const auto high = bytes_at(d32, candidates.decided(Candidates::kHigh), places);
+  return hn::Add(low, hn::ShiftLeft<8>(high));
+}
+
 /// Decides the pixels from x on, as finish_selection() describes it.
 HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uint16_t* low,
                           const std::uint16_t* high, const Candidates& candidates,
@@ -76,7 +89,8 @@ HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uin
   const auto none = hn::Set(d32, 2 * kNoSum);
   auto lost = hn::Or(hn::Gt(widened(low + x), widened(high + x)), hn::Eq(second, none));
   if (options.left_right_tolerance >= 0) {
-    const auto distance = hn::Abs(hn::Sub(widened(candidates.other.data() + x), best));
+    const auto other = others_of(candidates, x, best, options.disparities);
+    const auto distance = hn::Abs(hn::Sub(other, best));
     auto unequal = hn::Gt(distance, hn::Set(d32, options.left_right_tolerance));
     if (options.guided_margin >= 0) {
       unequal = hn::AndNot(agrees_with_guide(widened(low + x), widened(high + x), best, options),
@@ -130,18 +144,17 @@ RunnerUpTable runner_up_table(double confidence) {
   return table;
 }
 
-void Candidates::resize(int width, int disparities) {
+void Candidates::resize(int columns, int disparities) {
+  width = columns;
   // Pixels offer all their lanes, including those past the end of the row.
   right_stride = width + cost_lanes(disparities) + kCostStep;
   right.resize(kPlanes * kTurns * right_stride);
   // Disparities up to 255 leave the upper byte as it is.
-  std::fill_n(decided(kHigh), kTurns * right_stride, std::uint8_t{0});
+  std::fill_n(right.data() + kHigh * kTurns * right_stride, kTurns * right_stride, std::uint8_t{0});
   const int padded = std::max(width, kFinishedTogether);
   // The pixels after the end are finished as well.
-  for (Buffer<std::int16_t>* row : {&best, &other}) {
-    row->resize(padded);
-    std::fill_n(row->data() + width, padded - width, std::int16_t{0});
-  }
+  best.resize(padded);
+  std::fill_n(best.data() + width, padded - width, std::int16_t{0});
   sums_stride = padded;
   sums.resize(kSums * padded);
   std::fill_n(sums.data(), width < padded ? kSums * padded : 0, std::uint8_t{0});

@@ -40,8 +40,8 @@ RunnerUpTable runner_up_table(double confidence);
 
 /// What is known of each pixel of a row before it is decided. Memory of one thread.
 struct Candidates {
-  Buffer<std::int16_t> best;   ///< the disparity of least sum
-  Buffer<std::int16_t> other;  ///< the best disparity of the pixel's right pixel
+  int width = 0;              ///< of the row
+  Buffer<std::int16_t> best;  ///< the disparity of least sum
 
   /// The sums of each pixel: the least one, the runner-up's if it is sufficient, else kNoSum, and
   /// those of the disparities before and after the best one, the least one if it has not both.
@@ -57,9 +57,11 @@ struct Candidates {
   Buffer<std::uint8_t> right;       ///< [plane][turn]: PathSums, disparities / 256 and % 256
   std::ptrdiff_t right_stride = 0;  ///< from turn to turn
 
-  std::uint8_t* decided(Plane plane) { return right.data() + plane * kTurns * right_stride; }
+  const std::uint8_t* decided(Plane plane) const {
+    return right.data() + plane * kTurns * right_stride;
+  }
 
-  void resize(int width, int disparities);
+  void resize(int columns, int disparities);
 };
 
 /// Writes the row of the disparity map [1 / kDisparityOne px] and of the peak ratios (0 for pixels

@@ -221,19 +221,6 @@ RowSelection selection_of(const RowPair& pair, const PathRow& row, const Selecti
           lanes > 256};
 }
 
-/// The disparities of the right pixels of the best ones.
-void find_other(int width, const SelectionOptions& options, Candidates& candidates) {
-  const std::int16_t* __restrict__ best = candidates.best.data();
-  std::int16_t* __restrict__ other = candidates.other.data();
-  const std::uint8_t* low = candidates.decided(Candidates::kLow) + width - 1;
-  for (std::ptrdiff_t x = 0; x < width; ++x) other[x] = low[best[x] - x];
-  if (cost_lanes(options.disparities) <= 256) return;
-  const std::uint8_t* high = candidates.decided(Candidates::kHigh) + width - 1;
-  for (std::ptrdiff_t x = 0; x < width; ++x) {
-    other[x] = static_cast<std::int16_t>(other[x] + 256 * high[best[x] - x]);
-  }
-}
-
 }  // namespace
 
 void RowPairScratch::resize(int width, int disparities) {
@@ -257,14 +244,12 @@ void match_row_pair(const RowPair& pair, const SelectionOptions& options,
     rows[r] = selection_of(pair, pair.rows[r], options, runner_up, scratch);
   }
   HWY_DYNAMIC_DISPATCH(walk_pair)(pair, rows, scratch);
-  for (const PathRow& row : pair.rows) find_other(pair.width, options, *row.candidates);
 }
 
 void match_row_by_cost(const RowPair& pair, const SelectionOptions& options,
                        const RunnerUpTable& runner_up, RowPairScratch& scratch) {
   const RowSelection row = selection_of(pair, pair.rows[0], options, runner_up, scratch);
   HWY_DYNAMIC_DISPATCH(select_by_cost)(pair, row, scratch.ends.data());
-  find_other(pair.width, options, *pair.rows[0].candidates);
 }
 
 }  // namespace mtstereo

@@ -20,16 +20,29 @@ using BinVotes = std::array<int, kMostBins>;
 
 /// Votes for all bins within kVoteReach of twice each known disparity. Returns how many are known.
 int vote(const std::int32_t* disparities, int count, int bins, std::uint8_t* votes) {
+  static_assert(2 * kVoteReach < kWindowStep);  // so it is one bin, or two
+  static_assert(kWindowStep == 1 << 4 && kDisparityOne == 1 << 8);
+  std::int32_t padded[kVotingRows] = {};
+  std::int16_t first[kVotingRows], last[kVotingRows];
+  if (count < kVotingRows) {
+    std::copy_n(disparities, count, padded);
+    disparities = padded;
+  }
+  // Compilers vectorize the loop. Words, since all processors have their minimum and maximum.
+  for (int i = 0; i < kVotingRows; ++i) {
+    const auto full = static_cast<std::int16_t>((2 * disparities[i] + kDisparityOne / 2) >> 8);
+    const auto low = static_cast<std::int16_t>(full - kVoteReach);
+    const auto high = static_cast<std::int16_t>(full + kVoteReach);
+    first[i] = static_cast<std::int16_t>(std::max<std::int16_t>(low, 0) >> 4);
+    last[i] = std::min<std::int16_t>(static_cast<std::int16_t>(high >> 4),
+                                     static_cast<std::int16_t>(bins - 1));
+  }
   int known = 0;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < kVotingRows; ++i) {
     if (disparities[i] == kNoDisparity) continue;
     ++known;
-    const int full = (2 * disparities[i] + kDisparityOne / 2) / kDisparityOne;
-    const int first = std::max(full - kVoteReach, 0) / kWindowStep;
-    const int last = std::min((full + kVoteReach) / kWindowStep, bins - 1);
-    static_assert(2 * kVoteReach < kWindowStep);  // so it is one bin, or two
-    if (first <= last) ++votes[first];
-    if (first < last) ++votes[last];
+    if (first[i] <= last[i]) ++votes[first[i]];
+    if (first[i] < last[i]) ++votes[last[i]];
   }
   return known;
 }

@@ -5,7 +5,44 @@
 
 #include "mtstereo/image.hpp"
 
+#define HWY_TARGET_INCLUDE "stages/refine/completion.cpp"
+#include "base/simd.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace mtstereo::HWY_NAMESPACE {
+
+// Compilers vectorize the loops, for the target.
+
+/// Raises the confidence of known disparities.
+void raise_known(const std::int32_t* __restrict__ disparity, int width,
+                 std::uint8_t* __restrict__ confidence) {
+  for (int x = 0; x < width; ++x) {
+    const std::uint8_t least = disparity[x] == kNoDisparity ? 0 : kMostInferred + 1;
+    confidence[x] = std::max(confidence[x], least);
+  }
+}
+
+/// The end of the blocks of 32 known disparities from `begin` on.
+std::int32_t* known_blocks(std::int32_t* begin, std::int32_t* end) {
+  constexpr int kBlock = 32;
+  const auto whole = [](const std::int32_t* block) HWY_ATTR {
+    int unknown = 0;
+    for (int i = 0; i < kBlock; ++i) unknown |= block[i] == kNoDisparity;
+    return unknown == 0;
+  };
+  while (end - begin >= kBlock && whole(begin)) begin += kBlock;
+  return begin;
+}
+
+}  // namespace mtstereo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace mtstereo {
+
+HWY_EXPORT(raise_known);
+HWY_EXPORT(known_blocks);
+
 namespace {
 
 /// A row's disparities and their confidence.
@@ -31,32 +68,16 @@ void fill(const Row& row, int begin, int end) {
   }
 }
 
-/// Raises the confidence of known disparities; without branches, so that compilers vectorize it.
-void raise_known(const std::int32_t* __restrict__ disparity, int width,
-                 std::uint8_t* __restrict__ confidence) {
-  for (int x = 0; x < width; ++x) {
-    const std::uint8_t least = disparity[x] == kNoDisparity ? 0 : kMostInferred + 1;
-    confidence[x] = std::max(confidence[x], least);
-  }
-}
-
 /// The first unknown disparity, or `end`.
 std::int32_t* find_gap(std::int32_t* begin, std::int32_t* end) {
-  constexpr int kBlock = 32;  // compilers vectorize the loop over it
-  const auto whole = [](const std::int32_t* block) {
-    int unknown = 0;
-    for (int i = 0; i < kBlock; ++i) unknown |= block[i] == kNoDisparity;
-    return unknown == 0;
-  };
-  while (end - begin >= kBlock && whole(begin)) begin += kBlock;
-  return std::find(begin, end, kNoDisparity);
+  return std::find(HWY_DYNAMIC_DISPATCH(known_blocks)(begin, end), end, kNoDisparity);
 }
 
 /// Completes the row, unless it is empty.
 void complete(const Row& row) {
   std::int32_t* const begin = row.disparity;
   std::int32_t* const end = begin + row.width;
-  raise_known(begin, row.width, row.confidence);
+  HWY_DYNAMIC_DISPATCH(raise_known)(begin, row.width, row.confidence);
   std::int32_t* gap = find_gap(begin, end);
   while (gap != end) {
     std::int32_t* const after = std::find_if(gap, end, [](auto d) { return d != kNoDisparity; });
@@ -99,3 +120,4 @@ void complete_empty_rows(Image<std::int32_t>& map, Image<std::uint8_t>& confiden
 }
 
 }  // namespace mtstereo
+#endif  // HWY_ONCE

@@ -9,6 +9,7 @@
 
 #define HWY_TARGET_INCLUDE "stages/refine/confidence.cpp"
 #include "base/simd.hpp"
+#include "base/simd_gather-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -129,6 +130,20 @@ void find_steps(int pixels, int width, SupportScratch& scratch) {
   }
 }
 
+/// Writes the roots of the steps. Accesses the padding of the rows.
+void look_up_row(const std::uint8_t* roots, const std::uint16_t* steps, int width,
+                 std::uint8_t* confidence) {
+  const hn::CappedTag<std::int32_t, kAlignment / 4> d32;
+  const hn::Rebind<std::uint16_t, decltype(d32)> d16;
+  const hn::Rebind<std::uint8_t, decltype(d32)> d8;
+  // Those after the end of the row may be any.
+  const auto most = hn::Set(d32, kSupportSteps + 1);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
+    const auto places = hn::Min(hn::PromoteTo(d32, hn::LoadU(d16, steps + x)), most);
+    hn::StoreU(hn::DemoteTo(d8, bytes_at(d32, roots, places)), d8, confidence + x);
+  }
+}
+
 using Map = hn::CappedTag<std::int32_t, kAlignment / 4>;
 using MapConfidence = hn::Rebind<std::uint8_t, Map>;
 
@@ -180,6 +195,7 @@ namespace mtstereo {
 HWY_EXPORT(copy_row);
 HWY_EXPORT(sum_row);
 HWY_EXPORT(find_steps);
+HWY_EXPORT(look_up_row);
 HWY_EXPORT(remove_below);
 HWY_EXPORT(weigh_row);
 HWY_EXPORT(clear_row);
@@ -188,9 +204,9 @@ namespace {
 
 /// Entry i + 1: 255 times the cube root of i / kSupportSteps, rounded half up, at least 1. Entry 0:
 /// 0. Computed in whole numbers, since 255 times the cube root of 1/8 is halfway between two whole
-/// numbers, and the result of std::cbrt() differs between libraries.
-constexpr std::array<std::uint8_t, kSupportSteps + 2> kCubeRoots = [] {
-  std::array<std::uint8_t, kSupportSteps + 2> roots{};
+/// numbers, and the result of std::cbrt() differs between libraries. bytes_at() reads three more.
+constexpr std::array<std::uint8_t, kSupportSteps + 2 + 3> kCubeRoots = [] {
+  std::array<std::uint8_t, kSupportSteps + 2 + 3> roots{};
   std::int64_t root = 0;
   for (std::int64_t i = 0; i <= kSupportSteps; ++i) {
     // Rounds up if root + 1/2 is not above the exact root.
@@ -263,9 +279,8 @@ void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, i
     HWY_DYNAMIC_DISPATCH(sum_row)(support, asked.row(y), y, scratch);
     find_support_steps(rows * kSupportSide, width, scratch);
     find_border_steps(rows, width, scratch);
-    std::uint8_t* out = confidence.row(y);
-    const std::uint16_t* steps = scratch.steps.data();
-    for (int x = 0; x < width; ++x) out[x] = kCubeRoots[steps[x]];
+    HWY_DYNAMIC_DISPATCH(look_up_row)
+    (kCubeRoots.data(), scratch.steps.data(), width, confidence.row(y));
   }
 }
 

@@ -2,7 +2,6 @@
 #include "stages/refine/guide_clue.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "stages/refine/reliability_table.hpp"
@@ -12,6 +11,30 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
+
+/// Writes what `width` pixels of the guide say; each is two of the row.
+void spread(const std::int32_t* disparity, const std::uint8_t* confidence, int width,
+            std::int32_t* expected, std::uint8_t* bins) {
+  const hn::CappedTag<std::int32_t, kAlignment / 4> d32;
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
+    const auto twice = hn::ShiftLeft<1>(hn::LoadU(d32, disparity + x));
+    hn::StoreInterleaved2(twice, twice, d32, expected + std::ptrdiff_t{2} * x);
+  }
+  const hn::CappedTag<std::uint8_t, kAlignment> d8;
+  const auto first = hn::Set(d8, kLeastGuideConfidence - 1);
+  const auto level = hn::Set(d8, kGuideLevel), one = hn::Set(d8, 1);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d8))) {
+    auto rest = hn::SaturatedSub(hn::LoadU(d8, confidence + x), first);
+    auto levels = hn::Zero(d8);
+    for (int i = 1; i < kGuideLevels; ++i) {
+      rest = hn::SaturatedSub(rest, level);
+      levels = hn::Add(levels, hn::Min(rest, one));
+    }
+    static_assert(kGuideDistances == 1 << 2);
+    const auto bin = hn::Add(hn::Add(levels, levels), hn::Add(levels, levels));
+    hn::StoreInterleaved2(bin, bin, d8, bins + std::ptrdiff_t{2} * x);
+  }
+}
 
 /// Adds the number of ends up to the distance; a loop that compilers vectorize.
 void add_distances(const std::int32_t* __restrict__ map, const std::int32_t* __restrict__ expected,
@@ -31,38 +54,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mtstereo {
 
+HWY_EXPORT(spread);
 HWY_EXPORT(add_distances);
 
-namespace {
-
 static_assert(kGuideLevels * kGuideDistances == kClueBins);
-
-/// The first bin of the level of each confidence.
-constexpr std::array<std::uint8_t, 256> kLevelBins = [] {
-  std::array<std::uint8_t, 256> bins{};
-  for (int confidence = 0; confidence < 256; ++confidence) {
-    const int level = (confidence - kLeastGuideConfidence) / kGuideLevel;
-    const int limited = std::clamp(level, 0, kGuideLevels - 1);
-    bins[confidence] = static_cast<std::uint8_t>(kGuideDistances * limited);
-  }
-  return bins;
-}();
-
-/// Writes what the guide says to the pixels of row y: its pixel is two of the row.
-void spread(const RatedGuide& guide, int y, int width, std::int32_t* __restrict__ expected,
-            std::uint8_t* __restrict__ bins) {
-  const int line = std::min(y / 2, guide.disparity->height() - 1);
-  const std::int32_t* __restrict__ disparity = guide.disparity->row(line);
-  const std::uint8_t* __restrict__ confidence = guide.confidence->row(line);
-  // Compilers vectorize the first loop.
-  for (int i = 0; i < width / 2; ++i) expected[2 * i] = expected[2 * i + 1] = 2 * disparity[i];
-  for (int i = 0; i < width / 2; ++i) bins[2 * i] = bins[2 * i + 1] = kLevelBins[confidence[i]];
-  if (width % 2 == 0) return;
-  expected[width - 1] = 2 * disparity[width / 2];
-  bins[width - 1] = kLevelBins[confidence[width / 2]];
-}
-
-}  // namespace
 
 void find_guide_bins(const RatedGuide& guide, const Image<std::int32_t>& map, int y,
                      std::int32_t* expected, std::uint8_t* bins) {
@@ -71,7 +66,9 @@ void find_guide_bins(const RatedGuide& guide, const Image<std::int32_t>& map, in
     std::memset(bins, 0, width);
     return;
   }
-  spread(guide, y, width, expected, bins);
+  const int line = std::min(y / 2, guide.disparity->height() - 1);
+  HWY_DYNAMIC_DISPATCH(spread)
+  (guide.disparity->row(line), guide.confidence->row(line), (width + 1) / 2, expected, bins);
   HWY_DYNAMIC_DISPATCH(add_distances)(map.row(y), expected, width, bins);
 }
 

@@ -24,6 +24,9 @@ inline constexpr int kGuideLevels = 8;
 inline constexpr int kGuideLevel = 24;
 inline constexpr int kLeastGuideConfidence = 28;
 
+/// Elements after a row of `expected` and `bins` that find_guide_bins() may write.
+inline constexpr int kGuidePadding = 2 * static_cast<int>(kAlignment);
+
 /// Finds the bins of row y of the map; all are 0 without a guide. `expected` is scratch memory for
 /// a row.
 void find_guide_bins(const RatedGuide& guide, const Image<std::int32_t>& map, int y,

@@ -279,6 +279,34 @@ void find_agreement_bins(const RatedViews& views, int y, int width, std::uint8_t
   }
 }
 
+/// The bins that row y has in common with the other rows of its tiles.
+void find_shared_bins(const RatedViews& views, int y, int width, ReliabilityScratch& scratch) {
+  find_agreement_bins(views, y, width, scratch.bins[kAgreementClue].data());
+  std::memset(scratch.bins[kNoiseClue].data(), bin_of(views.noise_level, kNoiseEnds), width);
+  std::memset(scratch.bins[kDetailClue].data(), bin_of(views.fine_detail, kDetailEnds), width);
+}
+
+/// All other bins of row y.
+void find_row_bins(const RatedViews& views, const Image<std::int32_t>& map,
+                   const Image<std::uint8_t>& confidence, const ClueMaps& clues, int y,
+                   ReliabilityScratch& scratch) {
+  const int width = map.width();
+  find_share_bins(clues, y, width, scratch);
+  HWY_DYNAMIC_DISPATCH(find_mismatch_bins)
+  (rows_around(clues.mismatch, 1, y), width, scratch.bins[kMismatchClue].data());
+  HWY_DYNAMIC_DISPATCH(find_texture_bins)
+  (rows_around(clues.texture, kTextureStep, y), width, scratch.bins[kTextureClue].data());
+  find_surface_bins(clues, y, width, scratch);
+  const std::uint8_t* row_confidence = confidence.row(y);
+  std::uint8_t* support = scratch.bins[kSupportClue].data();
+  for (int x = 0; x < width; ++x) support[x] = row_confidence[x] / 8;
+  HWY_DYNAMIC_DISPATCH(find_partner_bins)
+  (map.row(y), width, scratch.bins[kPartnerClue].data());
+  find_guide_bins(views.guide, map, y, scratch.expected.data(), scratch.bins[kGuideClue].data());
+  find_grid_bins(views.grid_level, views.block_side, map.row(y), width,
+                 scratch.bins[kGridClue].data());
+}
+
 /// The columns of the table for rate_row().
 std::array<EntryBytes, kPixelClues> entry_bytes(const ReliabilityTable& table) {
   std::array<EntryBytes, kPixelClues> columns;
@@ -296,31 +324,15 @@ std::array<EntryBytes, kPixelClues> entry_bytes(const ReliabilityTable& table) {
 
 void ReliabilityScratch::resize(int width) {
   sum.resize(width + kVector);
-  expected.resize(width);
-  for (Buffer<std::uint8_t>& row : bins) row.resize(width + kVector);
+  expected.resize(width + kGuidePadding);
+  for (Buffer<std::uint8_t>& row : bins) row.resize(width + kGuidePadding);
 }
 
 void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
                     const Image<std::uint8_t>& confidence, const ClueMaps& clues, int y,
                     ReliabilityScratch& scratch) {
-  const int width = map.width();
-  find_share_bins(clues, y, width, scratch);
-  HWY_DYNAMIC_DISPATCH(find_mismatch_bins)
-  (rows_around(clues.mismatch, 1, y), width, scratch.bins[kMismatchClue].data());
-  HWY_DYNAMIC_DISPATCH(find_texture_bins)
-  (rows_around(clues.texture, kTextureStep, y), width, scratch.bins[kTextureClue].data());
-  find_surface_bins(clues, y, width, scratch);
-  const std::uint8_t* row_confidence = confidence.row(y);
-  std::uint8_t* support = scratch.bins[kSupportClue].data();
-  for (int x = 0; x < width; ++x) support[x] = row_confidence[x] / 8;
-  HWY_DYNAMIC_DISPATCH(find_partner_bins)
-  (map.row(y), width, scratch.bins[kPartnerClue].data());
-  find_agreement_bins(views, y, width, scratch.bins[kAgreementClue].data());
-  find_guide_bins(views.guide, map, y, scratch.expected.data(), scratch.bins[kGuideClue].data());
-  find_grid_bins(views.grid_level, views.block_side, map.row(y), width,
-                 scratch.bins[kGridClue].data());
-  std::memset(scratch.bins[kNoiseClue].data(), bin_of(views.noise_level, kNoiseEnds), width);
-  std::memset(scratch.bins[kDetailClue].data(), bin_of(views.fine_detail, kDetailEnds), width);
+  find_shared_bins(views, y, map.width(), scratch);
+  find_row_bins(views, map, confidence, clues, y, scratch);
 }
 
 void rate_reliability(const RatedViews& views, const Image<std::int32_t>& map,
@@ -336,7 +348,10 @@ void rate_reliability(const RatedViews& views, const Image<std::int32_t>& map,
              table[kDetailClue][bin_of(views.fine_detail, kDetailEnds)];
   row.apart = inferred == Inferred::kApart;
   for (int y = y0; y < y1; ++y) {
-    find_clue_bins(views, map, confidence, clues, y, scratch);
+    if (y == y0 || y % views.agreement_tile == 0) {
+      find_shared_bins(views, y, map.width(), scratch);
+    }
+    find_row_bins(views, map, confidence, clues, y, scratch);
     HWY_DYNAMIC_DISPATCH(rate_row)(row, map.width(), confidence.row(y));
   }
 }

@@ -21,10 +21,10 @@ using test::GrayPlane;
 std::vector<int> bins_of(const std::vector<int>& row, const RatedGuide& guide) {
   DisparityPlane plane(static_cast<int>(row.size()), 1);
   std::copy(row.begin(), row.end(), plane.pixels.begin());
-  std::vector<std::uint8_t> bins(row.size(), 0xA5);
-  std::vector<std::int32_t> expected(row.size());
+  std::vector<std::uint8_t> bins(row.size() + kGuidePadding, 0xA5);
+  std::vector<std::int32_t> expected(row.size() + kGuidePadding);
   find_guide_bins(guide, image_of(plane), 0, expected.data(), bins.data());
-  return {bins.begin(), bins.end()};
+  return {bins.begin(), bins.end() - kGuidePadding};
 }
 
 /// A guide of one row in which all pixels are equal.
