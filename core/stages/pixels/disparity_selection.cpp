@@ -24,9 +24,13 @@ HWY_INLINE FinishedVec widened(const T* values) {
   return hn::PromoteTo(Finished(), hn::LoadU(narrow, values));
 }
 
+HWY_INLINE FinishedVec sums_of(const Candidates& candidates, Candidates::Sum sum, int x) {
+  return widened(candidates.sums.data() + sum * candidates.sums_stride + x);
+}
+
 /// Twice the sums, which have half the range of the costs.
 HWY_INLINE FinishedVec costs_of(const Candidates& candidates, Candidates::Sum sum, int x) {
-  return hn::ShiftLeft<1>(widened(candidates.sums.data() + sum * candidates.sums_stride + x));
+  return hn::ShiftLeft<1>(sums_of(candidates, sum, x));
 }
 
 /// The quotients of numbers from 0 up to 2^20 and numbers from 1 up to 2^10, rounded down. Their
@@ -79,15 +83,19 @@ HWY_INLINE FinishedVec others_of(const Candidates& candidates, int x, FinishedVe
 }
 
 /// Decides the pixels from x on, as finish_selection() describes it.
-HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uint16_t* low,
-                          const std::uint16_t* high, const Candidates& candidates,
-                          std::int32_t* disparity, std::uint8_t* ratio) {
+HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uint8_t* runner_up,
+                          const std::uint16_t* low, const std::uint16_t* high,
+                          const Candidates& candidates, std::int32_t* disparity,
+                          std::uint8_t* ratio) {
   const Finished d32;
   const auto best = widened(candidates.best.data() + x);
-  const auto least = costs_of(candidates, Candidates::kLeast, x);
-  const auto second = costs_of(candidates, Candidates::kSecond, x);
-  const auto none = hn::Set(d32, 2 * kNoSum);
-  auto lost = hn::Or(hn::Gt(widened(low + x), widened(high + x)), hn::Eq(second, none));
+  const auto least_sum = sums_of(candidates, Candidates::kLeast, x);
+  const auto second_sum = sums_of(candidates, Candidates::kSecond, x);
+  const auto least = hn::ShiftLeft<1>(least_sum), second = hn::ShiftLeft<1>(second_sum);
+  const auto sufficient = bytes_at(d32, runner_up, least_sum);
+  const auto doubtful =
+      hn::Or(hn::Lt(second_sum, sufficient), hn::Eq(second_sum, hn::Set(d32, kNoSum)));
+  auto lost = hn::Or(hn::Gt(widened(low + x), widened(high + x)), doubtful);
   if (options.left_right_tolerance >= 0) {
     const auto other = others_of(candidates, x, best, options.disparities);
     const auto distance = hn::Abs(hn::Sub(other, best));
@@ -114,16 +122,16 @@ HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uin
   hn::StoreU(hn::DemoteTo(d8, hn::IfThenZeroElse(lost, hn::Max(share, one))), d8, ratio + x);
 }
 
-void finish(int width, const SelectionOptions& options, const std::uint16_t* low,
-            const std::uint16_t* high, const Candidates& candidates, std::int32_t* disparity,
-            std::uint8_t* ratio) {
+void finish(int width, const SelectionOptions& options, const std::uint8_t* runner_up,
+            const std::uint16_t* low, const std::uint16_t* high, const Candidates& candidates,
+            std::int32_t* disparity, std::uint8_t* ratio) {
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Finished()));
   for (int x = 0; x + kLanes <= width; x += kLanes) {
-    finish_at(x, options, low, high, candidates, disparity, ratio);
+    finish_at(x, options, runner_up, low, high, candidates, disparity, ratio);
   }
   // The last vector ends with the row. It may repeat some pixels.
   if (width % kLanes != 0) {
-    finish_at(width - kLanes, options, low, high, candidates, disparity, ratio);
+    finish_at(width - kLanes, options, runner_up, low, high, candidates, disparity, ratio);
   }
 }
 
@@ -160,11 +168,12 @@ void Candidates::resize(int columns, int disparities) {
   std::fill_n(sums.data(), width < padded ? kSums * padded : 0, std::uint8_t{0});
 }
 
-void finish_selection(int width, const SelectionOptions& options, const std::uint16_t* low,
-                      const std::uint16_t* high, const Candidates& candidates,
-                      std::int32_t* disparity, std::uint8_t* ratio) {
+void finish_selection(int width, const SelectionOptions& options, const RunnerUpTable& runner_up,
+                      const std::uint16_t* low, const std::uint16_t* high,
+                      const Candidates& candidates, std::int32_t* disparity, std::uint8_t* ratio) {
   if (width >= kFinishedTogether) {
-    HWY_DYNAMIC_DISPATCH(finish)(width, options, low, high, candidates, disparity, ratio);
+    HWY_DYNAMIC_DISPATCH(finish)
+    (width, options, runner_up.data(), low, high, candidates, disparity, ratio);
     return;
   }
   // Too few pixels for a vector.
@@ -174,7 +183,8 @@ void finish_selection(int width, const SelectionOptions& options, const std::uin
   std::copy_n(low, width, padded_low);
   std::copy_n(high, width, padded_high);
   HWY_DYNAMIC_DISPATCH(finish)
-  (kFinishedTogether, options, padded_low, padded_high, candidates, disparities, ratios);
+  (kFinishedTogether, options, runner_up.data(), padded_low, padded_high, candidates, disparities,
+   ratios);
   std::copy_n(disparities, width, disparity);
   std::copy_n(ratios, width, ratio);
 }

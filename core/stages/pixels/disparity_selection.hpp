@@ -34,8 +34,9 @@ inline constexpr int kNoSum = 255;
 /// Pixels that are finished together, at most.
 inline constexpr int kFinishedTogether = 8;
 
-/// Maps the best sum to the least sum that is sufficient for its runner-up.
-using RunnerUpTable = std::array<std::uint8_t, kNoSum + 1>;
+/// Maps the best sum to the least sum that is sufficient for its runner-up. Has three bytes more,
+/// so that vectors can be looked up.
+using RunnerUpTable = std::array<std::uint8_t, kNoSum + 1 + 3>;
 RunnerUpTable runner_up_table(double confidence);
 
 /// What is known of each pixel of a row before it is decided. Memory of one thread.
@@ -43,8 +44,8 @@ struct Candidates {
   int width = 0;              ///< of the row
   Buffer<std::int16_t> best;  ///< the disparity of least sum
 
-  /// The sums of each pixel: the least one, the runner-up's if it is sufficient, else kNoSum, and
-  /// those of the disparities before and after the best one, the least one if it has not both.
+  /// The sums of each pixel: the least one, the runner-up's or kNoSum without one, and those of the
+  /// disparities before and after the best one, the least one if it has not both.
   enum Sum { kLeast, kSecond, kBefore, kAfter, kSums };
   Buffer<std::uint8_t> sums;       ///< [sum][column]
   std::ptrdiff_t sums_stride = 0;  ///< from sum to sum
@@ -65,9 +66,10 @@ struct Candidates {
 };
 
 /// Writes the row of the disparity map [1 / kDisparityOne px] and of the peak ratios (0 for pixels
-/// without a disparity). A pixel without a runner-up or with low > high gets no disparity.
-void finish_selection(int width, const SelectionOptions& options, const std::uint16_t* low,
-                      const std::uint16_t* high, const Candidates& candidates,
-                      std::int32_t* disparity, std::uint8_t* ratio);
+/// without a disparity). A pixel without a sufficient runner-up or with low > high gets no
+/// disparity.
+void finish_selection(int width, const SelectionOptions& options, const RunnerUpTable& runner_up,
+                      const std::uint16_t* low, const std::uint16_t* high,
+                      const Candidates& candidates, std::int32_t* disparity, std::uint8_t* ratio);
 
 }  // namespace mtstereo

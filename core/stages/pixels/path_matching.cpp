@@ -131,10 +131,11 @@ class ChunkMatching {
         &large_step_,
         input_.windows.row(y),
         from_above() ? PathSums::kFour : PathSums::kTwo};
-    match_row_pair(pair, options_.selection, runner_up_, scratch_.pair);
+    match_row_pair(pair, options_.selection, scratch_.pair);
     for (int row = y; row <= last; ++row) {
-      finish_selection(width_, options_.selection, scratch_.low.data(), scratch_.high.data(),
-                       scratch_.candidates[row - y], map.row(row), ratio.row(row));
+      finish_selection(width_, options_.selection, runner_up_, scratch_.low.data(),
+                       scratch_.high.data(), scratch_.candidates[row - y], map.row(row),
+                       ratio.row(row));
     }
     if (votes == nullptr) return;
     static_assert(kCostVotingRows == 2);
@@ -147,8 +148,8 @@ class ChunkMatching {
   void select_by_cost(const RowPair& pair) {
     const SelectionOptions options = {
         options_.cost.disparities, 0, false, kCostTolerance, false, 0};
-    match_row_by_cost(pair, options, any_runner_up_, scratch_.pair);
-    finish_selection(width_, options, scratch_.low.data(), scratch_.high.data(),
+    match_row_by_cost(pair, options, scratch_.pair);
+    finish_selection(width_, options, any_runner_up_, scratch_.low.data(), scratch_.high.data(),
                      scratch_.candidates[0], scratch_.by_cost.data(),
                      scratch_.by_cost_ratio.data());
   }

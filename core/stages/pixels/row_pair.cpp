@@ -201,14 +201,13 @@ void find_changes(const std::uint8_t* __restrict__ gray, int width,
 
 /// Starts the selection of a row.
 RowSelection selection_of(const RowPair& pair, const PathRow& row, const SelectionOptions& options,
-                          const RunnerUpTable& runner_up, RowPairScratch& scratch) {
+                          RowPairScratch& scratch) {
   Candidates& to = *row.candidates;
   std::memset(to.right.data(), 255, Candidates::kTurns * to.right_stride);
   const int lanes = cost_lanes(options.disparities);
   return {pair.width,
           lanes,
           options.disparities,
-          runner_up.data(),
           options.runner_up_in_range ? row.low : nullptr,
           options.runner_up_in_range ? row.high : nullptr,
           scratch.limits.data(),
@@ -236,19 +235,18 @@ void RowPairScratch::resize(int width, int disparities) {
   std::memset(beside.data() + lanes, 255, 3);
 }
 
-void match_row_pair(const RowPair& pair, const SelectionOptions& options,
-                    const RunnerUpTable& runner_up, RowPairScratch& scratch) {
+void match_row_pair(const RowPair& pair, const SelectionOptions& options, RowPairScratch& scratch) {
   RowSelection rows[2];
   for (int r = 0; r < 2; ++r) {
     find_changes(pair.rows[r].gray, pair.width, scratch.changes.data() + r * (pair.width + 1));
-    rows[r] = selection_of(pair, pair.rows[r], options, runner_up, scratch);
+    rows[r] = selection_of(pair, pair.rows[r], options, scratch);
   }
   HWY_DYNAMIC_DISPATCH(walk_pair)(pair, rows, scratch);
 }
 
 void match_row_by_cost(const RowPair& pair, const SelectionOptions& options,
-                       const RunnerUpTable& runner_up, RowPairScratch& scratch) {
-  const RowSelection row = selection_of(pair, pair.rows[0], options, runner_up, scratch);
+                       RowPairScratch& scratch) {
+  const RowSelection row = selection_of(pair, pair.rows[0], options, scratch);
   HWY_DYNAMIC_DISPATCH(select_by_cost)(pair, row, scratch.ends.data());
 }
 

@@ -63,11 +63,10 @@ struct RowPairScratch {
 /// The path costs of a pixel are its costs plus those of the cheapest step from the path's previous
 /// pixel, minus the least path cost there; they saturate at 255. Steps come from the disparities in
 /// the windows of both pixels, larger ones from the least of all.
-void match_row_pair(const RowPair& pair, const SelectionOptions& options,
-                    const RunnerUpTable& runner_up, RowPairScratch& scratch);
+void match_row_pair(const RowPair& pair, const SelectionOptions& options, RowPairScratch& scratch);
 
 /// The same for the first row alone by its costs, twice of which have the range of two paths.
 void match_row_by_cost(const RowPair& pair, const SelectionOptions& options,
-                       const RunnerUpTable& runner_up, RowPairScratch& scratch);
+                       RowPairScratch& scratch);
 
 }  // namespace mtstereo

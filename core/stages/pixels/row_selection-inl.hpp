@@ -123,7 +123,7 @@ HWY_INLINE ByteVector without(const RowSelection& row, int x, int begin, int bes
 /// The candidates of a column, relative to the window.
 struct Found {
   int best;
-  int least, second;  // sums
+  std::uint8_t least, second;  // sums
 };
 
 /// Writes the candidates of column x, whose disparities with right pixels are below `end`; `memory`
@@ -132,13 +132,12 @@ HWY_INLINE void write(const RowSelection& row, int x, CostWindow window, int end
                       const Found& found, const std::uint8_t* memory) {
   const int last = std::min(end, x + 1) - window.begin - 1;
   const int beside = found.best > 0 && found.best < last;
-  const bool sure = found.second >= row.runner_up[found.least];
   row.best[x] = static_cast<std::int16_t>(window.begin + found.best);
-  const auto set = [&](Candidates::Sum sum, int value) {
-    row.sums[sum * row.sums_stride + x] = static_cast<std::uint8_t>(value);
+  const auto set = [&](Candidates::Sum sum, std::uint8_t value) {
+    row.sums[sum * row.sums_stride + x] = value;
   };
   set(Candidates::kLeast, found.least);
-  set(Candidates::kSecond, sure ? found.second : kNoSum);
+  set(Candidates::kSecond, found.second);
   set(Candidates::kBefore, memory[found.best - beside]);
   set(Candidates::kAfter, memory[found.best + beside]);
 }

@@ -16,7 +16,6 @@ struct RowSelection {
   int width;
   int lanes;
   int disparities;
-  const std::uint8_t* runner_up;
   const std::uint16_t* low;  ///< of the disparities that can be runner-up; nullptr = all
   const std::uint16_t* high;
   const std::uint8_t* limits;  ///< RowPairScratch::limits

@@ -85,9 +85,9 @@ std::vector<Selected> selected(const RowCosts& costs, const SelectionOptions& op
       cells.data(),       nullptr, nullptr, nullptr, ranges.low.data(), ranges.high.data(),
       &scratch.candidates};
   match_row_by_cost({{row, row}, width, 0, nullptr, windows, PathSums::kTwo}, options,
-                    runner_up_table(options.confidence), scratch.pair);
-  finish_selection(width, options, ranges.low.data(), ranges.high.data(), scratch.candidates,
-                   disparity.data(), ratio.data());
+                    scratch.pair);
+  finish_selection(width, options, runner_up_table(options.confidence), ranges.low.data(),
+                   ranges.high.data(), scratch.candidates, disparity.data(), ratio.data());
   std::vector<Selected> out;
   for (int x = 0; x < width; ++x) out.push_back({disparity[x], ratio[x]});
   return out;

@@ -116,14 +116,14 @@ std::vector<Selected> matched(const Rows& rows, const Setting& setting, bool bot
                     high.data(),
                     &scratch.candidates[from]};
   }
-  match_row_pair(pair, setting.selection, runner_up_table(setting.selection.confidence),
-                 scratch.pair);
+  match_row_pair(pair, setting.selection, scratch.pair);
   std::vector<Selected> out;
   for (int r = 0; r < 1 + both; ++r) {
     std::vector<std::int32_t> disparity(width);
     std::vector<std::uint8_t> ratio(width);
-    finish_selection(width, setting.selection, low.data(), high.data(), scratch.candidates[r],
-                     disparity.data(), ratio.data());
+    finish_selection(width, setting.selection, runner_up_table(setting.selection.confidence),
+                     low.data(), high.data(), scratch.candidates[r], disparity.data(),
+                     ratio.data());
     for (int x = 0; x < width; ++x) out.push_back({disparity[x], ratio[x]});
   }
   return out;
