@@ -2,6 +2,7 @@
 #include "stages/pixels/disparity_selection.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "mtstereo/image.hpp"
@@ -24,15 +25,6 @@ HWY_INLINE FinishedVec widened(const T* values) {
   return hn::PromoteTo(Finished(), hn::LoadU(narrow, values));
 }
 
-HWY_INLINE FinishedVec sums_of(const Candidates& candidates, Candidates::Sum sum, int x) {
-  return widened(candidates.sums.data() + sum * candidates.sums_stride + x);
-}
-
-/// Twice the sums, which have half the range of the costs.
-HWY_INLINE FinishedVec costs_of(const Candidates& candidates, Candidates::Sum sum, int x) {
-  return hn::ShiftLeft<1>(sums_of(candidates, sum, x));
-}
-
 /// The quotients of numbers from 0 up to 2^20 and numbers from 1 up to 2^10, rounded down. Their
 /// quotient as floats is at most 1 off on every processor.
 HWY_INLINE FinishedVec quotients(FinishedVec numbers, FinishedVec divisors) {
@@ -46,7 +38,8 @@ HWY_INLINE FinishedVec quotients(FinishedVec numbers, FinishedVec divisors) {
   return hn::Sub(raised, hn::IfThenElseZero(hn::Lt(rest, hn::Zero(d32)), one));
 }
 
-/// symmetric_v_offset() of costs between `before` and `after`; 0 where neither exceeds the least.
+/// The offsets of the V of equal slopes through costs between `before` and `after`
+/// [1 / kDisparityOne px]; 0 where neither exceeds the least.
 HWY_INLINE FinishedVec v_offsets(FinishedVec before, FinishedVec least, FinishedVec after) {
   const Finished d32;
   const auto zero = hn::Zero(d32);
@@ -82,6 +75,30 @@ HWY_INLINE FinishedVec others_of(const Candidates& candidates, int x, FinishedVe
   return hn::Add(low, hn::ShiftLeft<8>(high));
 }
 
+/// The sums of the columns from x on.
+struct FinishedSums {
+  FinishedSums(const Candidates& candidates, int x)
+      : words(hn::LoadU(Finished(), reinterpret_cast<const std::int32_t*>(
+                                        candidates.sums.data() + Candidates::kSums * x))) {}
+
+  template <Candidates::Sum kSum>
+  HWY_INLINE FinishedVec get() const {
+    constexpr int kPlace = std::endian::native == std::endian::big ? 3 - kSum : kSum;
+    return hn::And(hn::ShiftRight<8 * kPlace>(words), hn::Set(Finished(), 255));
+  }
+
+  FinishedVec words;
+};
+
+/// The offsets of refined disparities, from the sums, which have half the range of the costs.
+HWY_INLINE FinishedVec offsets_of(const FinishedSums& sums) {
+  const Finished d32;
+  const auto none = hn::Set(d32, kNoSum);
+  const auto before = sums.get<Candidates::kBefore>(), after = sums.get<Candidates::kAfter>();
+  const auto alone = hn::Or(hn::Eq(before, none), hn::Eq(after, none));
+  return hn::IfThenZeroElse(alone, v_offsets(before, sums.get<Candidates::kLeast>(), after));
+}
+
 /// Decides the pixels from x on, as finish_selection() describes it.
 HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uint8_t* runner_up,
                           const std::uint16_t* low, const std::uint16_t* high,
@@ -89,12 +106,12 @@ HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uin
                           std::uint8_t* ratio) {
   const Finished d32;
   const auto best = widened(candidates.best.data() + x);
-  const auto least_sum = sums_of(candidates, Candidates::kLeast, x);
-  const auto second_sum = sums_of(candidates, Candidates::kSecond, x);
+  const FinishedSums sums(candidates, x);
+  const auto least_sum = sums.get<Candidates::kLeast>();
+  const auto second_sum = sums.get<Candidates::kSecond>();
   const auto least = hn::ShiftLeft<1>(least_sum), second = hn::ShiftLeft<1>(second_sum);
-  const auto sufficient = bytes_at(d32, runner_up, least_sum);
-  const auto doubtful =
-      hn::Or(hn::Lt(second_sum, sufficient), hn::Eq(second_sum, hn::Set(d32, kNoSum)));
+  const auto doubtful = hn::Or(hn::Lt(second_sum, bytes_at(d32, runner_up, least_sum)),
+                               hn::Eq(second_sum, hn::Set(d32, kNoSum)));
   auto lost = hn::Or(hn::Gt(widened(low + x), widened(high + x)), doubtful);
   if (options.left_right_tolerance >= 0) {
     const auto other = others_of(candidates, x, best, options.disparities);
@@ -107,10 +124,7 @@ HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uin
     lost = hn::Or(lost, unequal);
   }
   auto refined = hn::Mul(best, hn::Set(d32, kDisparityOne));
-  if (options.subpixel) {
-    refined = hn::Add(refined, v_offsets(costs_of(candidates, Candidates::kBefore, x), least,
-                                         costs_of(candidates, Candidates::kAfter, x)));
-  }
+  if (options.subpixel) refined = hn::Add(refined, offsets_of(sums));
   const auto zero = hn::Zero(d32), one = hn::Set(d32, 1);
   hn::StoreU(hn::IfThenZeroElse(lost, hn::Max(refined, one)), d32, disparity + x);
   // The ratio of a lost pixel does not matter, so that its costs may be any.
@@ -163,7 +177,6 @@ void Candidates::resize(int columns, int disparities) {
   // The pixels after the end are finished as well.
   best.resize(padded);
   std::fill_n(best.data() + width, padded - width, std::int16_t{0});
-  sums_stride = padded;
   sums.resize(kSums * padded);
   std::fill_n(sums.data(), width < padded ? kSums * padded : 0, std::uint8_t{0});
 }

@@ -28,7 +28,8 @@ struct SelectionOptions {
 /// The offset of the peak ratio for one path [bits of one pixel].
 inline constexpr int kRatioOffset = 10;
 
-/// In place of a sum of paths. A sum has half the range of the costs.
+/// In place of a sum of paths, and a sum that counts as none. A sum has half the range of the
+/// costs.
 inline constexpr int kNoSum = 255;
 
 /// Pixels that are finished together, at most.
@@ -44,11 +45,10 @@ struct Candidates {
   int width = 0;              ///< of the row
   Buffer<std::int16_t> best;  ///< the disparity of least sum
 
-  /// The sums of each pixel: the least one, the runner-up's or kNoSum without one, and those of the
-  /// disparities before and after the best one, the least one if it has not both.
-  enum Sum { kLeast, kSecond, kBefore, kAfter, kSums };
-  Buffer<std::uint8_t> sums;       ///< [sum][column]
-  std::ptrdiff_t sums_stride = 0;  ///< from sum to sum
+  /// The sums of each pixel: those of the disparity before the best one, of the best one and of
+  /// the one after it, and that of the runner-up; kNoSum for those that it has not.
+  enum Sum { kBefore, kLeast, kAfter, kSecond, kSums };
+  Buffer<std::uint8_t> sums;  ///< [column][sum]
 
   /// The right pixels' least costs so far and their disparities, mirrored: the right pixel of
   /// column x at disparity d is at width - 1 - x + d. Successive pixels use copies in turn: with

@@ -46,6 +46,7 @@ class PairWalk {
         large_step_(pair.large_step->data()),
         changes_(scratch.changes.data()),
         ends_(const_cast<std::uint8_t*>(scratch.ends.data())),
+        scratch_(scratch),
         small_step_(hn::Set(Bytes(), static_cast<std::uint8_t>(std::min(pair.small_step, 255)))) {}
 
   HWY_INLINE void run() {
@@ -72,7 +73,8 @@ class PairWalk {
     const int pixels = std::min(kWindowTile, pair_.width - x0);
     // In registers.
     ByteVector least[2] = {last_least[0], last_least[1]};
-    const int end = std::min<int>(rows_[0].disparities, window.end);
+    std::uint8_t* const sums[2] = {scratch_.sums_of(0, window.end - window.begin),
+                                   scratch_.sums_of(1, window.end - window.begin)};
     for (int i = 0; i < pixels; ++i) {
       const int x = kSelect ? x0 + i : x0 + pixels - 1 - i;
       for (int r = 0; r < 2; ++r) {
@@ -83,14 +85,14 @@ class PairWalk {
         least[r] = advance(pair_.rows[r].costs + cell, steps, paths[r]);
         std::uint8_t* from_right = paths_ + r * pair_.width * std::ptrdiff_t{lanes_} + cell;
         if constexpr (kSelect) {
-          add_up(r, x, window, cell, paths[r], from_right);
+          add_up(r, x, window, cell, paths[r], from_right, sums[r]);
         } else {
           store(paths[r], from_right);
         }
       }
       if constexpr (!kSelect) continue;
       const std::ptrdiff_t place = right_place(rows_[0], x);
-      for (int r = 0; r < 2; ++r) select<kVectors>(rows_[r], x, place, window, end, sums_of(r));
+      for (int r = 0; r < 2; ++r) select<kVectors>(rows_[r], x, place, window, sums[r]);
     }
     for (int r = 0; r < 2; ++r) {
       store(paths[r], ends[r]);
@@ -98,12 +100,10 @@ class PairWalk {
     }
   }
 
-  /// The sums of a row's last pixel.
-  HWY_INLINE std::uint8_t* sums_of(int r) const { return ends_ + (2 + r) * lanes_; }
-
   template <int kVectors>
   HWY_INLINE void add_up(int r, int x, CostWindow window, std::ptrdiff_t cell,
-                         const PixelLanes<kVectors>& path, const std::uint8_t* from_right) {
+                         const PixelLanes<kVectors>& path, const std::uint8_t* from_right,
+                         std::uint8_t* sums) {
     const Bytes d8;
     const bool at_border = x + 1 < window.end;
     for (int i = 0; i < path.count(); ++i) {
@@ -116,7 +116,7 @@ class PairWalk {
         sum = hn::AverageRound(sum, hn::AverageRound(above, below));
       }
       if (at_border) sum = with_border(rows_[r], x, window.begin + d, sum);
-      hn::StoreU(sum, d8, sums_of(r) + d);
+      hn::StoreU(sum, d8, sums + d);
     }
   }
 
@@ -135,6 +135,7 @@ class PairWalk {
   const std::uint8_t* const large_step_;
   const std::uint8_t* const changes_;
   std::uint8_t* const ends_;
+  const RowPairScratch& scratch_;
   const ByteVector small_step_;
 };
 
@@ -158,12 +159,13 @@ void walk_pair(const RowPair& pair, const RowSelection (&rows)[2], const RowPair
 }
 
 /// Selects by the costs of the first row.
-void select_by_cost(const RowPair& pair, const RowSelection& of_row, std::uint8_t* memory) {
+void select_by_cost(const RowPair& pair, const RowSelection& of_row,
+                    const RowPairScratch& scratch) {
   const RowSelection row = of_row;
   const Bytes d8;
   for (int x0 = 0; x0 < row.width; x0 += kWindowTile) {
     const CostWindow window = window_at(pair.windows, row.lanes, x0);
-    const int end = std::min<int>(row.disparities, window.end);
+    std::uint8_t* const memory = scratch.sums_of(0, window.end - window.begin);
     with_vectors<Bytes>(window, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
       for (int x = x0; x < std::min(x0 + kWindowTile, row.width); ++x) {
         const std::uint8_t* costs = pair.rows[0].costs + std::ptrdiff_t{x} * row.lanes;
@@ -172,7 +174,7 @@ void select_by_cost(const RowPair& pair, const RowSelection& of_row, std::uint8_
           if (x + 1 < window.end) cost = with_border(row, x, d, cost);
           hn::StoreU(cost, d8, memory + d - window.begin);
         }
-        select<kVectors>(row, x, right_place(row, x), window, end, memory);
+        select<kVectors>(row, x, right_place(row, x), window, memory);
       }
     });
   }
@@ -189,6 +191,9 @@ HWY_EXPORT(walk_pair);
 HWY_EXPORT(select_by_cost);
 
 namespace {
+
+/// Bytes before and after the sums of a pixel, so that its candidates are copied as one word.
+constexpr int kAround = Candidates::kSums;
 
 /// The changes of the gray value between the columns of a row, and 0 at both ends.
 void find_changes(const std::uint8_t* __restrict__ gray, int width,
@@ -207,14 +212,12 @@ RowSelection selection_of(const RowPair& pair, const PathRow& row, const Selecti
   const int lanes = cost_lanes(options.disparities);
   return {pair.width,
           lanes,
-          options.disparities,
           options.runner_up_in_range ? row.low : nullptr,
           options.runner_up_in_range ? row.high : nullptr,
           scratch.limits.data(),
           scratch.beside.data() + lanes + 1,
           to.best.data(),
           to.sums.data(),
-          to.sums_stride,
           to.right.data(),
           to.right_stride,
           lanes > 256};
@@ -226,13 +229,20 @@ void RowPairScratch::resize(int width, int disparities) {
   const std::size_t lanes = cost_lanes(disparities);
   paths.resize(2 * width * lanes);
   changes.resize(2 * (width + 1));
-  ends.resize(4 * lanes);
+  ends.resize(2 * lanes);
+  sums.resize(2 * (lanes + 2 * kAround));
   limits.resize(3 * lanes);
   std::memset(limits.data(), 0, 3 * lanes);
   std::memset(limits.data() + lanes, 255, lanes);
   beside.resize(2 * lanes + 2);
   std::memset(beside.data(), 0, beside.size());
   std::memset(beside.data() + lanes, 255, 3);
+}
+
+std::uint8_t* RowPairScratch::sums_of(int row, int size) const {
+  std::uint8_t* first = const_cast<std::uint8_t*>(sums.data()) + kAround + row * (sums.size() / 2);
+  first[-1] = first[size] = kNoSum;
+  return first;
 }
 
 void match_row_pair(const RowPair& pair, const SelectionOptions& options, RowPairScratch& scratch) {
@@ -247,7 +257,7 @@ void match_row_pair(const RowPair& pair, const SelectionOptions& options, RowPai
 void match_row_by_cost(const RowPair& pair, const SelectionOptions& options,
                        RowPairScratch& scratch) {
   const RowSelection row = selection_of(pair, pair.rows[0], options, scratch);
-  HWY_DYNAMIC_DISPATCH(select_by_cost)(pair, row, scratch.ends.data());
+  HWY_DYNAMIC_DISPATCH(select_by_cost)(pair, row, scratch);
 }
 
 }  // namespace mtstereo

@@ -120,33 +120,11 @@ HWY_INLINE ByteVector without(const RowSelection& row, int x, int begin, int bes
   return hn::Or(others, hn::Or(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d)));
 }
 
-/// The candidates of a column, relative to the window.
-struct Found {
-  int best;
-  std::uint8_t least, second;  // sums
-};
-
-/// Writes the candidates of column x, whose disparities with right pixels are below `end`; `memory`
-/// as in select().
-HWY_INLINE void write(const RowSelection& row, int x, CostWindow window, int end,
-                      const Found& found, const std::uint8_t* memory) {
-  const int last = std::min(end, x + 1) - window.begin - 1;
-  const int beside = found.best > 0 && found.best < last;
-  row.best[x] = static_cast<std::int16_t>(window.begin + found.best);
-  const auto set = [&](Candidates::Sum sum, std::uint8_t value) {
-    row.sums[sum * row.sums_stride + x] = value;
-  };
-  set(Candidates::kLeast, found.least);
-  set(Candidates::kSecond, found.second);
-  set(Candidates::kBefore, memory[found.best - beside]);
-  set(Candidates::kAfter, memory[found.best + beside]);
-}
-
-/// Finds the candidates of column x from its sums in `memory`; `place` is its right_place(), `end`
-/// as in write().
+/// Finds the candidates of column x from its sums in `memory`, between two values of kNoSum;
+/// `place` is its right_place().
 template <int kVectors>
 HWY_INLINE void select(const RowSelection& row, int x, std::ptrdiff_t place, CostWindow window,
-                       int end, std::uint8_t* memory) {
+                       std::uint8_t* memory) {
   const Bytes d8;
   const PixelLanes<kVectors> sums(memory, window);
   auto least = sums.get(0), second = hn::Set(d8, kNoSum);
@@ -154,17 +132,14 @@ HWY_INLINE void select(const RowSelection& row, int x, std::ptrdiff_t place, Cos
     if (i > 0) least = hn::Min(least, sums.get(i));
     compete(row, place, window.begin + i * kByteLanes, sums.get(i));
   }
-  least = least_of_lanes(d8, least);
-  Found found = {};
-  found.least = hn::GetLane(least);
-  found.best = first_equal(sums, least);
+  const int best = first_equal(sums, least_of_lanes(d8, least));
   for (int i = 0; i < sums.count(); ++i) {
-    second =
-        hn::Min(second, without(row, x, window.begin, found.best, i * kByteLanes, sums.get(i)));
+    second = hn::Min(second, without(row, x, window.begin, best, i * kByteLanes, sums.get(i)));
   }
-  second = least_of_lanes(d8, second);
-  found.second = hn::GetLane(second);
-  write(row, x, window, end, found, memory);
+  row.best[x] = static_cast<std::int16_t>(window.begin + best);
+  std::uint8_t* found = row.sums + std::ptrdiff_t{Candidates::kSums} * x;
+  std::memcpy(found, memory + best - 1, Candidates::kSums);
+  found[Candidates::kSecond] = hn::GetLane(least_of_lanes(d8, second));
 }
 
 /// Lets disparities without a right pixel cost 255.

@@ -15,14 +15,12 @@ namespace mtstereo {
 struct RowSelection {
   int width;
   int lanes;
-  int disparities;
   const std::uint16_t* low;  ///< of the disparities that can be runner-up; nullptr = all
   const std::uint16_t* high;
   const std::uint8_t* limits;  ///< RowPairScratch::limits
   const std::uint8_t* beside;  ///< the middle of RowPairScratch::beside
   std::int16_t* best;          ///< Candidates
   std::uint8_t* sums;
-  std::ptrdiff_t sums_stride;
   std::uint8_t* right;
   std::ptrdiff_t right_stride;
   bool high_planes;  ///< whether disparities exceed a byte

@@ -13,14 +13,6 @@ inline int parabola_offset(int before, int best, int after) {
   return (before - after) * (kDisparityOne / 2) / curvature;
 }
 
-/// The same for the V of equal slopes through three costs. It suits costs that rise linearly on
-/// both sides of their minimum, as counts of differing bits do.
-inline int symmetric_v_offset(int before, int best, int after) {
-  const int slope = (before > after ? before : after) - best;
-  if (slope <= 0) return 0;
-  return (before - after) * (kDisparityOne / 2) / slope;
-}
-
 /// The excess of the runner-up's cost over the best cost, as a share of the runner-up's: 0 .. 255
 /// for 0 .. 1. `offset` is added to the runner-up's cost: where all costs are near 0, as in flat,
 /// saturated or compressed areas, a small excess would be a large share.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdlib>
+#include <limits>
 
 #include "reference/prepare/census.hpp"
 #include "stages/pixels/disparity_selection.hpp"
@@ -55,7 +56,10 @@ inline Selected judge(const std::vector<int>& costs, int best, int low, int high
   if (curve == Refinement::kSymmetricV && other >= kNoSum) return {};
   if (!(other > cost * (1 + options.confidence))) return {};
   int disparity = 256 * best;
-  const auto inside = [&](int d) { return d >= 0 && d <= last && costs[d] != kOutside; };
+  const int none = curve == Refinement::kSymmetricV ? kNoSum : std::numeric_limits<int>::max();
+  const auto inside = [&](int d) {
+    return d >= 0 && d <= last && costs[d] != kOutside && costs[d] < none;
+  };
   if (options.subpixel && inside(best - 1) && inside(best + 1)) {
     const int before = costs[best - 1] - cost;
     const int after = costs[best + 1] - cost;
