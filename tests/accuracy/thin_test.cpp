@@ -4,9 +4,7 @@
 #include <gst/gst.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
-#include <limits>
 #include <map>
 #include <opencv2/core.hpp>
 #include <string>
@@ -14,14 +12,13 @@
 #include <vector>
 
 #include "element_matcher.hpp"
-#include "tools/eval/thin_structures.hpp"
+#include "thin_structures.hpp"
 #include "tools/render/render.hpp"
 #include "tools/render/scene.hpp"
 
 namespace mtstereo::tests::thin_test {
 namespace {
 
-using eval::ThinCounts;
 using render::ThinKind;
 
 /// The things of a scene.
@@ -48,7 +45,7 @@ ThinCounts measure(const Pair& pair, const std::string& properties) {
   const cv::Mat map =
       match_with_element(pair.left, pair.right, properties + " max-disparity=64 alignment=off");
   EXPECT_FALSE(map.empty()) << "the element gave no result";
-  return map.empty() ? ThinCounts() : eval::measure_thin(map, pair.truth);
+  return map.empty() ? ThinCounts() : measure_thin(map, pair.truth);
 }
 
 /// The scenes of the gates, rendered once: posts that are upright and posts that lean.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-namespace mtstereo::eval {
+namespace mtstereo::tests {
 
 /// Thin structures: posts, wires, bars. A pixel belongs to one if its true disparity is more than
 /// kThinStep above the background on both sides, and the structure is at most kMostThin wide there,
@@ -42,4 +42,4 @@ cv::Mat background_of(const cv::Mat& truth);
 /// sizes differ.
 ThinCounts measure_thin(const cv::Mat& estimate, const cv::Mat& truth);
 
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::tests

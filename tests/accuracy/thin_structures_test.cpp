@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/eval/thin_structures.hpp"
+#include "thin_structures.hpp"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/metrics.hpp"
 
-namespace mtstereo::eval::thin_structures_test {
+namespace mtstereo::tests::thin_structures_test {
 namespace {
+
+using eval::kNone;
 
 /// A background at 5 px with a bar at 15 px in the columns x0 .. x1 - 1.
 cv::Mat with_bar(int x0, int x1) {
@@ -74,4 +74,4 @@ TEST(ThinStructures, RefuseAnotherSize) {
 }
 
 }  // namespace
-}  // namespace mtstereo::eval::thin_structures_test
+}  // namespace mtstereo::tests::thin_structures_test

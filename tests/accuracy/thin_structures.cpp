@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "tools/eval/thin_structures.hpp"
+#include "thin_structures.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include "lib/outputs/user_error.hpp"
 
-namespace mtstereo::eval {
+namespace mtstereo::tests {
 namespace {
 
 double share(std::int64_t part, std::int64_t all) {
@@ -94,4 +94,4 @@ ThinCounts measure_thin(const cv::Mat& estimate, const cv::Mat& truth) {
   return counts;
 }
 
-}  // namespace mtstereo::eval
+}  // namespace mtstereo::tests
