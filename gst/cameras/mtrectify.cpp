@@ -16,6 +16,7 @@
 #include "shared/authors.hpp"
 #include "shared/caps.hpp"
 #include "shared/caps_check.hpp"
+#include "shared/element_object.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/frame_metas.hpp"
 #include "shared/frame_views.hpp"
@@ -49,14 +50,8 @@ struct RectifyState {
   LumaReader luma;
 };
 
-struct GstMtRectify {
-  GstVideoFilter parent;
-  RectifyState* state;
-};
-
-struct GstMtRectifyClass {
-  GstVideoFilterClass parent_class;
-};
+using GstMtRectify = Instance<GstVideoFilter, RectifyState>;
+using GstMtRectifyClass = GstVideoFilterClass;
 
 }  // namespace
 
@@ -73,21 +68,8 @@ RectifySettings settings_of(gpointer element) {
   return state_of(element).settings;
 }
 
-// --- properties ---
-
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
-  {
-    const ObjectLock lock(object);
-    rectify_properties().set(state_of(object).settings, id, *value);
-  }
-  // All of them change the frames, and most the caps: negotiated before the next frame.
-  gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
-}
-
-void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
-  const ObjectLock lock(object);
-  rectify_properties().get(state_of(object).settings, id, *value);
-}
+/// All of them change the frames, and most the caps: negotiated before the next frame.
+bool changes_caps(const RectifySettings&, const RectifySettings&) { return true; }
 
 // --- caps ---
 
@@ -264,11 +246,6 @@ gboolean stop(GstBaseTransform* transform) {
   return TRUE;
 }
 
-void finalize(GObject* object) noexcept {
-  delete &state_of(object);
-  G_OBJECT_CLASS(gst_mtstereo_rectify_parent_class)->finalize(object);
-}
-
 void add_pads(GstElementClass* element_class) noexcept {
   const std::string common = ", " MTSTEREO_SIZE_CAPS ", interlace-mode = (string) progressive";
   const std::string sink = "video/x-raw, format = (string) " + luma_formats() + common;
@@ -282,11 +259,8 @@ void add_pads(GstElementClass* element_class) noexcept {
 
 static void gst_mtstereo_rectify_class_init(GstMtRectifyClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtrectify_debug, "mtrectify", 0, "rectification of a camera");
-  auto* object_class = G_OBJECT_CLASS(klass);
-  object_class->set_property = guarded<set_property>;
-  object_class->get_property = guarded<get_property>;
-  object_class->finalize = finalize;
-  rectify_properties().install(object_class);
+  ElementObject<GstMtRectify, rectify_properties, &RectifyState::settings, changes_caps>::install(
+      G_OBJECT_CLASS(klass));
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pads(element_class);

@@ -8,6 +8,7 @@
 #include "shared/authors.hpp"
 #include "shared/caps.hpp"
 #include "shared/caps_check.hpp"
+#include "shared/element_object.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/ownership.hpp"
 #include "shared/properties.hpp"
@@ -19,14 +20,8 @@ GST_DEBUG_CATEGORY_STATIC(mtsplit_debug);
 
 namespace {
 
-struct GstMtSplit {
-  GstElement parent;
-  SplitState* state;
-};
-
-struct GstMtSplitClass {
-  GstElementClass parent_class;
-};
+using GstMtSplit = Instance<GstElement, SplitState>;
+using GstMtSplitClass = GstElementClass;
 
 constexpr const char* kNames[] = {"left", "right"};
 
@@ -60,18 +55,6 @@ Result at_pad(GstObject* element, Result failure, Body&& body) noexcept {
     post_exception(element);
   }
   return failure;
-}
-
-// --- properties ---
-
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
-  const ObjectLock lock(object);
-  properties().set(state_of(object).settings, id, *value);
-}
-
-void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
-  const ObjectLock lock(object);
-  properties().get(state_of(object).settings, id, *value);
 }
 
 // --- caps ---
@@ -229,11 +212,6 @@ GstStateChangeReturn change_state(GstElement* element, GstStateChange transition
   return result;
 }
 
-void finalize(GObject* object) noexcept {
-  delete &state_of(object);
-  G_OBJECT_CLASS(gst_mtstereo_split_parent_class)->finalize(object);
-}
-
 void add_pad_templates(GstElementClass* element_class) noexcept {
   const std::string formats = "video/x-raw, format = (string) " + split_formats();
   const std::string whole = formats +
@@ -259,11 +237,7 @@ GstPad* add_pad(GstElement* element, const char* name) {
 
 static void gst_mtstereo_split_class_init(GstMtSplitClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtsplit_debug, "mtsplit", 0, "splitting of stereo frames");
-  auto* object_class = G_OBJECT_CLASS(klass);
-  object_class->set_property = guarded<set_property>;
-  object_class->get_property = guarded<get_property>;
-  object_class->finalize = finalize;
-  properties().install(object_class);
+  ElementObject<GstMtSplit, properties, &SplitState::settings>::install(G_OBJECT_CLASS(klass));
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   element_class->change_state = guarded<change_state, GST_STATE_CHANGE_FAILURE>;

@@ -17,6 +17,7 @@
 #include "filters/disparity_filter.hpp"
 #include "shared/authors.hpp"
 #include "shared/caps_check.hpp"
+#include "shared/element_object.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/running_time.hpp"
 
@@ -56,14 +57,8 @@ struct CloudState {
   CloudWriter writer;
 };
 
-struct GstMtCloud {
-  GstBaseSink parent;
-  CloudState* state;
-};
-
-struct GstMtCloudClass {
-  GstBaseSinkClass parent_class;
-};
+using GstMtCloud = Instance<GstBaseSink, CloudState>;
+using GstMtCloudClass = GstBaseSinkClass;
 
 }  // namespace
 
@@ -72,16 +67,6 @@ G_DEFINE_TYPE(GstMtCloud, gst_mtstereo_cloud, GST_TYPE_BASE_SINK)
 namespace {
 
 CloudState& state_of(gpointer element) { return *reinterpret_cast<GstMtCloud*>(element)->state; }
-
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
-  const ObjectLock lock(object);
-  cloud_properties().set(state_of(object).properties, id, *value);
-}
-
-void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
-  const ObjectLock lock(object);
-  cloud_properties().get(state_of(object).properties, id, *value);
-}
 
 CloudProperties properties_of(gpointer element) {
   const ObjectLock lock(element);
@@ -301,20 +286,12 @@ GstStateChangeReturn change_state(GstElement* element, GstStateChange change) {
   return result;
 }
 
-void finalize(GObject* object) noexcept {
-  delete &state_of(object);
-  G_OBJECT_CLASS(gst_mtstereo_cloud_parent_class)->finalize(object);
-}
-
 }  // namespace
 
 static void gst_mtstereo_cloud_class_init(GstMtCloudClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtcloud_debug, "mtcloud", 0, "point clouds of disparity maps");
-  auto* object_class = G_OBJECT_CLASS(klass);
-  object_class->set_property = guarded<set_property>;
-  object_class->get_property = guarded<get_property>;
-  object_class->finalize = finalize;
-  cloud_properties().install(object_class);
+  ElementObject<GstMtCloud, cloud_properties, &CloudState::properties>::install(
+      G_OBJECT_CLASS(klass));
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   element_class->change_state = guarded<change_state, GST_STATE_CHANGE_FAILURE>;

@@ -15,6 +15,7 @@
 #include "shared/caps_check.hpp"
 #include "shared/depth_range.hpp"
 #include "shared/disparity_meta.hpp"
+#include "shared/element_object.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/frame_views.hpp"
 #include "shared/geometry_properties.hpp"
@@ -63,14 +64,8 @@ struct ColorState {
   std::vector<Rgb> table;
 };
 
-struct GstMtColor {
-  GstVideoFilter parent;
-  ColorState* state;
-};
-
-struct GstMtColorClass {
-  GstVideoFilterClass parent_class;
-};
+using GstMtColor = Instance<GstVideoFilter, ColorState>;
+using GstMtColorClass = GstVideoFilterClass;
 
 const PropertyTable<ColorSettings>& properties() {
   using Values = ColorSettings;
@@ -105,16 +100,6 @@ G_DEFINE_TYPE(GstMtColor, gst_mtstereo_color, GST_TYPE_VIDEO_FILTER)
 namespace {
 
 ColorState& state_of(gpointer element) { return *reinterpret_cast<GstMtColor*>(element)->state; }
-
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
-  const ObjectLock lock(object);
-  properties().set(state_of(object).settings, id, *value);
-}
-
-void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
-  const ObjectLock lock(object);
-  properties().get(state_of(object).settings, id, *value);
-}
 
 GstCaps* transform_caps(GstBaseTransform*, GstPadDirection direction, GstCaps* caps,
                         GstCaps* filter) {
@@ -257,20 +242,11 @@ gboolean start(GstBaseTransform* transform) {
   return TRUE;
 }
 
-void finalize(GObject* object) noexcept {
-  delete &state_of(object);
-  G_OBJECT_CLASS(gst_mtstereo_color_parent_class)->finalize(object);
-}
-
 }  // namespace
 
 static void gst_mtstereo_color_class_init(GstMtColorClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtcolor_debug, "mtcolor", 0, "color images of disparity and depth maps");
-  auto* object_class = G_OBJECT_CLASS(klass);
-  object_class->set_property = guarded<set_property>;
-  object_class->get_property = guarded<get_property>;
-  object_class->finalize = finalize;
-  properties().install(object_class);
+  ElementObject<GstMtColor, properties, &ColorState::settings>::install(G_OBJECT_CLASS(klass));
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);

@@ -10,6 +10,7 @@
 #include "shared/confidence_meta.hpp"
 #include "shared/confidence_pool.hpp"
 #include "shared/disparity_meta.hpp"
+#include "shared/element_object.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/frame_metas.hpp"
 #include "shared/frame_views.hpp"
@@ -38,14 +39,8 @@ struct ConfidenceState {
   ConfidencePool pool;
 };
 
-struct GstMtConfidence {
-  GstVideoFilter parent;
-  ConfidenceState* state;
-};
-
-struct GstMtConfidenceClass {
-  GstVideoFilterClass parent_class;
-};
+using GstMtConfidence = Instance<GstVideoFilter, ConfidenceState>;
+using GstMtConfidenceClass = GstVideoFilterClass;
 
 constexpr const char* kImages = MTSTEREO_IMAGE_CAPS("GRAY8");
 constexpr const char* kOutputs = MTSTEREO_IMAGE_CAPS("{ GRAY16_LE, GRAY8 }");
@@ -79,20 +74,9 @@ ConfidenceSettings settings_of(gpointer element) {
   return state_of(element).settings;
 }
 
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
-  const Content before = settings_of(object).output;
-  {
-    const ObjectLock lock(object);
-    properties().set(state_of(object).settings, id, *value);
-  }
-  // The caps of the two outputs differ.
-  if (settings_of(object).output != before) {
-    gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
-  }
-}
-
-void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
-  properties().get(settings_of(object), id, *value);
+/// The caps of the two outputs differ.
+bool changes_caps(const ConfidenceSettings& before, const ConfidenceSettings& now) {
+  return before.output != now.output;
 }
 
 GstCaps* transform_caps(GstBaseTransform* transform, GstPadDirection direction, GstCaps* caps,
@@ -224,20 +208,12 @@ gboolean stop(GstBaseTransform* transform) {
   return TRUE;
 }
 
-void finalize(GObject* object) noexcept {
-  delete &state_of(object);
-  G_OBJECT_CLASS(gst_mtstereo_confidence_parent_class)->finalize(object);
-}
-
 }  // namespace
 
 static void gst_mtstereo_confidence_class_init(GstMtConfidenceClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtconfidence_debug, "mtconfidence", 0, "confidence of disparity maps");
-  auto* object_class = G_OBJECT_CLASS(klass);
-  object_class->set_property = guarded<set_property>;
-  object_class->get_property = guarded<get_property>;
-  object_class->finalize = finalize;
-  properties().install(object_class);
+  ElementObject<GstMtConfidence, properties, &ConfidenceState::settings, changes_caps>::install(
+      G_OBJECT_CLASS(klass));
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);

@@ -15,6 +15,7 @@
 #include "shared/caps_check.hpp"
 #include "shared/depth_range.hpp"
 #include "shared/disparity_meta.hpp"
+#include "shared/element_object.hpp"
 #include "shared/exception_guard.hpp"
 #include "shared/frame_views.hpp"
 #include "shared/geometry_properties.hpp"
@@ -43,14 +44,8 @@ struct DepthState {
   bool refused = false;  ///< an error about the stream was posted
 };
 
-struct GstMtDepth {
-  GstVideoFilter parent;
-  DepthState* state;
-};
-
-struct GstMtDepthClass {
-  GstVideoFilterClass parent_class;
-};
+using GstMtDepth = Instance<GstVideoFilter, DepthState>;
+using GstMtDepthClass = GstVideoFilterClass;
 
 }  // namespace
 
@@ -60,22 +55,9 @@ namespace {
 
 DepthState& state_of(gpointer element) { return *reinterpret_cast<GstMtDepth*>(element)->state; }
 
-void set_property(GObject* object, guint id, const GValue* value, GParamSpec*) {
-  bool in_caps = false;
-  {
-    const ObjectLock lock(object);
-    DepthProperties& values = state_of(object).properties;
-    const DepthProperties before = values;
-    depth_properties().set(values, id, *value);
-    in_caps = values.unit != before.unit || values.geometry != before.geometry;
-  }
-  // The caps of the output state the unit and the geometry.
-  if (in_caps) gst_base_transform_reconfigure_src(reinterpret_cast<GstBaseTransform*>(object));
-}
-
-void get_property(GObject* object, guint id, GValue* value, GParamSpec*) {
-  const ObjectLock lock(object);
-  depth_properties().get(state_of(object).properties, id, *value);
+/// The caps of the output state the unit and the geometry.
+bool changes_caps(const DepthProperties& before, const DepthProperties& now) {
+  return before.unit != now.unit || before.geometry != now.geometry;
 }
 
 DepthProperties properties_of(gpointer element) {
@@ -279,20 +261,12 @@ gboolean start(GstBaseTransform* transform) {
   return check_range_at_start(transform, range);
 }
 
-void finalize(GObject* object) noexcept {
-  delete &state_of(object);
-  G_OBJECT_CLASS(gst_mtstereo_depth_parent_class)->finalize(object);
-}
-
 }  // namespace
 
 static void gst_mtstereo_depth_class_init(GstMtDepthClass* klass) {
   GST_DEBUG_CATEGORY_INIT(mtdepth_debug, "mtdepth", 0, "depth maps of disparity maps");
-  auto* object_class = G_OBJECT_CLASS(klass);
-  object_class->set_property = guarded<set_property>;
-  object_class->get_property = guarded<get_property>;
-  object_class->finalize = finalize;
-  depth_properties().install(object_class);
+  ElementObject<GstMtDepth, depth_properties, &DepthState::properties, changes_caps>::install(
+      G_OBJECT_CLASS(klass));
 
   auto* element_class = GST_ELEMENT_CLASS(klass);
   add_pad_template(element_class, "sink", GST_PAD_SINK, kDisparityCaps);
