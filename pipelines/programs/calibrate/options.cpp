@@ -5,9 +5,8 @@
 #include <map>
 #include <regex>
 
-#include "lib/options/failure_message.hpp"
+#include "lib/options/parse.hpp"
 #include "lib/outputs/finite_range.hpp"
-#include "lib/outputs/parse_error.hpp"
 #include "programs/calibrate/charuco.hpp"
 #include "programs/calibrate/page.hpp"
 
@@ -189,20 +188,13 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       "Exit status: 0 = the calibration was written, 1 = it was not (the reason is printed), 2 = "
       "invalid command, 3 = written with warnings (only with --strict).");
   app.get_formatter()->column_width(36);
-  app.failure_message(options::failure_message);
   Texts texts;
   Options options;
   add_sources(app, texts, options);
   add_board(app, texts, options);
   add_rest(app, texts, options);
-  try {
-    app.parse(argc, argv);
-    apply(texts, options);
-  } catch (const CLI::ParseError& error) {
-    const bool asked_for = error.get_exit_code() == 0;  // --help, --version
-    outputs::print_parse_error(app, error);
-    return {std::nullopt, asked_for ? kWritten : kWrongUsage};
-  }
+  const auto ended = options::parse(app, argc, argv, [&] { apply(texts, options); });
+  if (ended) return {std::nullopt, *ended};
   return {std::move(options), kWritten};
 }
 

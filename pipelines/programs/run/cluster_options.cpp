@@ -6,8 +6,7 @@
 #include <iterator>
 #include <memory>
 
-#include "lib/options/failure_message.hpp"
-#include "lib/outputs/parse_error.hpp"
+#include "lib/options/parse.hpp"
 #include "programs/run/help_format.hpp"
 #include "recordings/plan/archive.hpp"
 
@@ -35,21 +34,6 @@ void add_folder(CLI::App& app, std::filesystem::path& folder) {
   app.add_option("--plan", folder, "folder that 'mtstereo-run plan' wrote; . = the current one")
       ->type_name("DIR")
       ->capture_default_str();
-}
-
-// Parses, then calls `check`. Prints help and errors. The exit status, if the program ends here.
-template <typename Check>
-std::optional<int> parse(CLI::App& app, int argc, const char* const* argv, const Check& check) {
-  app.failure_message(options::failure_message);
-  try {
-    app.parse(argc, argv);
-    check();
-  } catch (const CLI::ParseError& error) {
-    const bool asked_for = error.get_exit_code() == 0;  // --help
-    outputs::print_parse_error(app, error);
-    return asked_for ? kDone : kWrongUsage;
-  }
-  return std::nullopt;
 }
 
 std::size_t parse_number(const std::string& name, const std::string& text) {
@@ -108,7 +92,7 @@ std::optional<int> parse_task(int argc, const char* const* argv, TaskCommand& co
       ->check(in_range(0, kMostJobs))
       ->capture_default_str();
   app.add_flag("--quiet", command.quiet, "print no progress");
-  return parse(app, argc, argv, [&] {
+  return options::parse(app, argc, argv, [&] {
     command.number = task_number(number, first);
     if (command.threads == 0) command.threads = allocated_threads();
   });
@@ -130,7 +114,7 @@ std::optional<int> parse_merge(int argc, const char* const* argv, MergeCommand& 
       ->capture_default_str();
   app.add_flag("--remove-pieces", command.remove_pieces,
                "remove the pieces of a recording after they are joined: half of the disk space");
-  return parse(app, argc, argv, [] {});
+  return options::parse(app, argc, argv, [] {});
 }
 
 }  // namespace

@@ -7,9 +7,8 @@
 #include <map>
 #include <memory>
 
-#include "lib/options/failure_message.hpp"
+#include "lib/options/parse.hpp"
 #include "lib/outputs/finite_range.hpp"
-#include "lib/outputs/parse_error.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/rectification.hpp"
 #include "mtstereo/parameters.hpp"
@@ -308,7 +307,6 @@ std::string examples(bool plan) {
 
 void describe(CLI::App& app, bool plan) {
   app.set_version_flag("--version", MTSTEREO_VERSION);
-  app.failure_message(options::failure_message);
   app.formatter(
       std::make_shared<HelpFormatter>(plan ? "mtstereo-run plan INPUT [INPUT] --out DIR [OPTIONS]"
                                            : "mtstereo-run INPUT [INPUT] --out DIR [OPTIONS]\n"
@@ -352,17 +350,14 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_flag("--list", options.list, "print the recordings that are found, and exit");
   options.plan ? add_plan_options(app, options.plan_options) : add_check(app, options);
   add_parameters(app, texts);
-  try {
-    // The parser sees the arguments after the name of the program.
-    app.parse(options.plan ? argc - 1 : argc, options.plan ? std::next(argv) : argv);
+  // The parser sees the arguments after the name of the program.
+  const int skipped = options.plan ? 1 : 0;
+  const auto ended = options::parse(app, argc - skipped, argv + skipped, [&] {
     apply(texts, options);
     if (options.folder.empty() && !options.list && !options.check)
       throw CLI::RequiredError("--out");
-  } catch (const CLI::ParseError& error) {
-    const bool asked_for = error.get_exit_code() == 0;  // --help, --version
-    outputs::print_parse_error(app, error);
-    return {std::nullopt, asked_for ? kDone : kWrongUsage};
-  }
+  });
+  if (ended) return {std::nullopt, *ended};
   options.plan_options.folder = options.folder;
   options.plan_options.jobs = options.jobs;
   return {std::move(options), kDone};

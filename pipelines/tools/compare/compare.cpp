@@ -15,10 +15,9 @@
 #include <vector>
 
 #include "lib/images/images.hpp"
-#include "lib/options/failure_message.hpp"
+#include "lib/options/parse.hpp"
 #include "tools/compare/compare_depth.hpp"
 #include "tools/compare/frame_files.hpp"
-#include "tools/eval/files.hpp"
 #include "tools/eval/ground_truth.hpp"
 #include "tools/eval/images.hpp"
 #include "tools/eval/metrics.hpp"
@@ -174,13 +173,8 @@ int main(int argc, char** argv) {
         "then, with --mask, avgerr and D-all over the pixels that are visible in both views.");
     Options options;
     define(app, options);
-    app.failure_message(mtstereo::options::failure_message);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-      return app.exit(error) == 0 ? 0 : 2;
-    }
-    return run(options);
+    const auto ended = mtstereo::options::parse(app, argc, argv, [] {});
+    return ended ? *ended : run(options);
   } catch (const std::exception& error) {
     std::cerr << "mtstereo-compare: " << error.what() << '\n';
   } catch (...) {

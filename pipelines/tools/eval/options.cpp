@@ -3,15 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iostream>
 #include <map>
 #include <set>
 
-#include "lib/options/failure_message.hpp"
+#include "lib/options/parse.hpp"
 #include "lib/outputs/finite_range.hpp"
-#include "lib/outputs/parse_error.hpp"
 #include "lib/outputs/user_error.hpp"
-#include "tools/eval/files.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -223,21 +220,14 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
       "not be written (each is named), 2 = the command is invalid or there is nothing to "
       "evaluate.");
   app.get_formatter()->column_width(36);
-  app.failure_message(options::failure_message);
   Texts texts;
   Options options;
   add_options(app, texts, options);
   add_methods(app, texts, options);
   add_outputs(app, texts, options);
   add_parameters(app, texts);
-  try {
-    app.parse(argc, argv);
-    apply(texts, options);
-  } catch (const CLI::ParseError& error) {
-    const bool asked_for = error.get_exit_code() == 0;  // --help, --version
-    outputs::print_parse_error(app, error);
-    return {std::nullopt, asked_for ? kAllFine : kWrongUsage};
-  }
+  const auto ended = options::parse(app, argc, argv, [&] { apply(texts, options); });
+  if (ended) return {std::nullopt, *ended};
   return {std::move(options), kAllFine};
 }
 

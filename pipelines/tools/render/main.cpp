@@ -5,19 +5,16 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <new>
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "lib/images/images.hpp"
-#include "lib/options/failure_message.hpp"
-#include "lib/outputs/parse_error.hpp"
+#include "lib/options/parse.hpp"
 #include "lib/outputs/printable.hpp"
 #include "mtstereo/geometry/calibration.hpp"
 #include "mtstereo/geometry/rectification.hpp"
@@ -187,13 +184,7 @@ int main(int argc, char** argv) {
     CLI::App app("Renders a stereo clip with exact ground truth.", "mtstereo-render");
     Options options;
     define_options(app, options);
-    app.failure_message(options::failure_message);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-      outputs::print_parse_error(app, error);
-      return error.get_exit_code() == 0 ? 0 : 2;
-    }
+    if (const auto ended = options::parse(app, argc, argv, [] {})) return *ended;
     complete_options(app, options);
     Clip(options).write();
     return 0;
