@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gst/check/gstharness.h>
-#include <gst/gst.h>
-
-#include <memory>
 #include <string>
+
+#include "support/harness.hpp"
 
 namespace mtstereo::fuzz {
 
-/// The deleter of the owning pointers below.
-struct Unref {
-  void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
-  void operator()(GstEvent* event) const { gst_event_unref(event); }
-  void operator()(GstMessage* message) const { gst_message_unref(message); }
-  void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
-};
-using CapsPointer = std::unique_ptr<GstCaps, Unref>;
-using EventPointer = std::unique_ptr<GstEvent, Unref>;
-using MessagePointer = std::unique_ptr<GstMessage, Unref>;
-using BufferPointer = std::unique_ptr<GstBuffer, Unref>;
+using test::BufferPointer;
+using test::CapsPointer;
+using test::EventPointer;
+using test::MessagePointer;
 
 /// An element with a bus. Errors that it posts must state a cause.
 class TestedElement {

@@ -6,7 +6,6 @@
 
 #include <optional>
 #include <set>
-#include <vector>
 
 #include "fuzz_gst.hpp"
 #include "fuzz_input.hpp"
@@ -108,12 +107,9 @@ class Session {
   explicit Session(FuzzInput& input) : input_(input), element_("mtstereo") {
     g_object_set(element_.get(), "max-disparity", 8, "threads", 1, nullptr);
     const bool live = input.flag();
-    harness_[0] = gst_harness_new_with_element(element_.get(), "sink_left", "src");
-    harness_[1] = gst_harness_new_with_element(element_.get(), "sink_right", nullptr);
-    for (std::size_t side = 0; side < 2; ++side) {
-      gst_harness_set_live(harness_[side], live);
-      worker_[side].emplace();
-    }
+    harness_[0] = test::new_harness(element_.get(), "sink_left", "src", live);
+    harness_[1] = test::new_harness(element_.get(), "sink_right", nullptr, live);
+    for (auto& worker : worker_) worker.emplace();
     if (input.flag()) start_both();
   }
 

@@ -19,19 +19,6 @@ bool wait_until(double seconds, const std::function<bool()>& done) {
   return true;
 }
 
-/// As gst_harness_new_with_element(), but of a stream that is live, or not, from the start: the
-/// element asks for it in its own thread as soon as it plays, and remembers the answer.
-GstHarness* new_harness(GstElement* element, const char* sink, const char* source, bool live) {
-  static GstStaticPadTemplate frames =
-      GST_STATIC_PAD_TEMPLATE("src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS_ANY);
-  static GstStaticPadTemplate maps =
-      GST_STATIC_PAD_TEMPLATE("sink", GST_PAD_SINK, GST_PAD_ALWAYS, GST_STATIC_CAPS_ANY);
-  GstHarness* harness = gst_harness_new_empty();
-  gst_harness_set_live(harness, live);
-  gst_harness_add_element_full(harness, element, &frames, sink, &maps, source);
-  return harness;
-}
-
 }  // namespace
 
 Report report_of(GstMessage* message) {

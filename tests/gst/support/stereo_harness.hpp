@@ -1,33 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gst/check/gstharness.h>
-#include <gst/gst.h>
-
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "mtstereo/matcher.hpp"
+#include "support/harness.hpp"
 #include "support/images.hpp"
 
 namespace mtstereo::test {
-
-/// The deleter of the owning pointers below.
-struct Unref {
-  void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
-  void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
-  void operator()(GstEvent* event) const { gst_event_unref(event); }
-  void operator()(GstStructure* structure) const { gst_structure_free(structure); }
-  void operator()(GstMessage* message) const { gst_message_unref(message); }
-};
-using BufferPointer = std::unique_ptr<GstBuffer, Unref>;
-using CapsPointer = std::unique_ptr<GstCaps, Unref>;
-using EventPointer = std::unique_ptr<GstEvent, Unref>;
-using StructurePointer = std::unique_ptr<GstStructure, Unref>;
-using MessagePointer = std::unique_ptr<GstMessage, Unref>;
 
 /// The content of an error or warning message.
 struct Report {
