@@ -1,19 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The programs of docs/application.md are built, run, and give what the page states."""
-import pathlib
 import re
 import shutil
 import subprocess
-import tempfile
 import unittest
 
-from support import BUILD, CALIBRATION, SOURCE, make_clip, make_videos, require, run
+from support import BUILD, CALIBRATION, FRAMES, SOURCE, ClipTest, require, run
 
 PAGE = SOURCE / "docs/application.md"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PYTHON = "/usr/bin/python3"
-FRAMES = 8
 FOCAL_TIMES_BASELINE = 13.6  # of the rendered room at 160 px [px m]
 
 # Appended to the program that reads results: every format gives the same.
@@ -35,15 +32,7 @@ def programs(language):
     return [text for name, text in BLOCK.findall(PAGE.read_text()) if name == language]
 
 
-class Application(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory(prefix="mtstereo-")
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = pathlib.Path(temporary.name)
-        make_clip(cls.folder, FRAMES)
-        make_videos(cls.folder)
-
+class Application(ClipTest):
     def need_numpy(self):
         if run([PYTHON, "-c", "import numpy"], self.folder).status != 0:
             self.skipTest("NumPy is missing (python3-numpy)")

@@ -2,18 +2,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The programs of docs/python.md run, and give what the page states."""
 import os
-import pathlib
 import re
 import shutil
 import sys
-import tempfile
 import unittest
 
-from support import CALIBRATION, SOURCE, make_clip, make_videos, require, run
+from support import CALIBRATION, FRAMES, SOURCE, ClipTest, require, run
 
 PAGE = SOURCE / "docs/python.md"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-FRAMES = 8
 
 if "MODULE_FOLDER" not in os.environ:
     print("skipped: the Python module is not built (option python), or NumPy is missing")
@@ -33,14 +30,10 @@ def programs():
     return [text for name, text in BLOCK.findall(PAGE.read_text()) if name == "python"]
 
 
-class PythonPage(unittest.TestCase):
+class PythonPage(ClipTest):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory(prefix="mtstereo-")
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = pathlib.Path(temporary.name)
-        make_clip(cls.folder, FRAMES)
-        make_videos(cls.folder)
+        super().setUpClass()
         for side in ("left", "right"):
             shutil.copy(cls.folder / side / "000000.png", cls.folder / f"{side}.png")
         (cls.folder / "stereo.yaml").write_text(CALIBRATION)

@@ -123,10 +123,11 @@ def require(outcome):
     return outcome
 
 
+FRAMES = 8  # of a clip
 H264 = "video/x-raw,format=I420 ! x264enc pass=quant quantizer=10 ! h264parse"
 
 
-def make_clip(folder, frames=8, size="160x120", scene="room"):
+def make_clip(folder, frames=FRAMES, size="160x120", scene="room"):
     """Renders clip/ into the folder, and links left/ and right/ to its images."""
     require(run([RENDER, "clip", "--frames", str(frames), "--size", size, "--scene", scene], folder))
     for side in ("left", "right"):
@@ -158,14 +159,11 @@ class ClipTest(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory(prefix="mtstereo-")
-        cls.folder = pathlib.Path(cls.temporary.name)
+        temporary = tempfile.TemporaryDirectory(prefix="mtstereo-")
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = pathlib.Path(temporary.name)
         make_clip(cls.folder)
         make_videos(cls.folder)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
     def run_script(self, name, *words, seconds=60):
         return run([PIPELINES / name, *words], self.folder, seconds)

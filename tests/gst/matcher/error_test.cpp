@@ -168,27 +168,26 @@ TEST_F(Refusal, ReportsABufferThatIsTooSmall) {
   expect_one_error({"sink_right", "1280 bytes", "3072 bytes"}, {"64x48"});
 }
 
-TEST_F(Refusal, ReportsAMetaThatExceedsTheBuffer) {
+/// Pushes a pair of 64x48 px whose left frame has a meta with these numbers.
+void push_with_meta(StereoHarness& harness, guint width, guint height, gint row) {
   harness.caps(raw_caps("GRAY8", 64, 48));
-  GstBuffer* left = frame_buffer(noise_pair(64, 48, 4, 1).left, 0, kFrame);
+  const Pair pair = noise_pair(64, 48, 4, 1);
+  GstBuffer* left = frame_buffer(pair.left, 0, kFrame);
   gsize offset[GST_VIDEO_MAX_PLANES] = {0};
-  gint stride[GST_VIDEO_MAX_PLANES] = {1000};
-  gst_buffer_add_video_meta_full(left, GST_VIDEO_FRAME_FLAG_NONE, GST_VIDEO_FORMAT_GRAY8, 64, 48, 1,
-                                 offset, stride);
+  gint stride[GST_VIDEO_MAX_PLANES] = {row};
+  gst_buffer_add_video_meta_full(left, GST_VIDEO_FRAME_FLAG_NONE, GST_VIDEO_FORMAT_GRAY8, width,
+                                 height, 1, offset, stride);
   harness.push(Side::kLeft, left);
-  harness.push(Side::kRight, frame_buffer(noise_pair(64, 48, 4, 1).right, 0, kFrame));
+  harness.push(Side::kRight, frame_buffer(pair.right, 0, kFrame));
+}
+
+TEST_F(Refusal, ReportsAMetaThatExceedsTheBuffer) {
+  push_with_meta(harness, 64, 48, 1000);
   expect_one_error({"sink_left", "3072 bytes"}, {"64x48"});
 }
 
 TEST_F(Refusal, ReportsAMetaOfAnotherSize) {
-  harness.caps(raw_caps("GRAY8", 64, 48));
-  GstBuffer* left = frame_buffer(noise_pair(64, 48, 4, 1).left, 0, kFrame);
-  gsize offset[GST_VIDEO_MAX_PLANES] = {0};
-  gint stride[GST_VIDEO_MAX_PLANES] = {48};
-  gst_buffer_add_video_meta_full(left, GST_VIDEO_FRAME_FLAG_NONE, GST_VIDEO_FORMAT_GRAY8, 48, 64, 1,
-                                 offset, stride);
-  harness.push(Side::kLeft, left);
-  harness.push(Side::kRight, frame_buffer(noise_pair(64, 48, 4, 1).right, 0, kFrame));
+  push_with_meta(harness, 48, 64, 48);
   expect_one_error({"sink_left", "48x64", "64x48"}, {});
 }
 

@@ -12,13 +12,9 @@ class Live : public StreamsTest {
   void start(bool live, const std::string& properties = "max-disparity=16") {
     StreamsTest::start(properties, live);
   }
-  void match_first_pair() {
-    harness->push_pair(pair, 0);
-    ASSERT_TRUE(harness->pull());
-  }
   /// Matches the first pair. Then it is the time of the fourth.
   void fall_behind() {
-    match_first_pair();
+    ASSERT_TRUE(next());
     gst_harness_set_time(harness->output(), 3 * kFrame);
   }
   /// The sink reports the lateness of the first map.
@@ -32,16 +28,12 @@ class Live : public StreamsTest {
 
 TEST_F(Live, PairsFramesThatArriveInTime) {
   start(true);
-  for (GstClockTime i = 0; i < 3; ++i) {
-    harness->push_pair(pair, i * kFrame);
-    ASSERT_TRUE(harness->pull()) << i;
-  }
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(next()) << i;
 }
 
 TEST_F(Live, DropsAnUnpairedLeftFrameAtTheDeadlineAndSendsAGap) {
   start(true);
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   left(kFrame);
   EXPECT_TRUE(harness->silent()) << "before the deadline";
   ASSERT_TRUE(pass_deadline());
@@ -55,8 +47,7 @@ TEST_F(Live, DropsAnUnpairedLeftFrameAtTheDeadlineAndSendsAGap) {
 
 TEST_F(Live, DropsAnUnpairedRightFrameAtTheDeadlineAndSendsAGap) {
   start(true);
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   right(kFrame);
   ASSERT_TRUE(pass_deadline());
   EXPECT_TRUE(harness->wait_for_stats(1, 0, 1));
@@ -65,23 +56,19 @@ TEST_F(Live, DropsAnUnpairedRightFrameAtTheDeadlineAndSendsAGap) {
 
 TEST_F(Live, ContinuesAfterTheOutageOfACamera) {
   start(true);
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   for (GstClockTime i = 1; i <= 5; ++i) {
     left(i * kFrame);
     ASSERT_TRUE(pass_deadline()) << i;
     ASSERT_TRUE(harness->wait_for_stats(1, i, 0)) << i;
   }
   harness->push_pair(pair, 6 * kFrame);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 6 * kFrame);
+  expect_map_at(6 * kFrame);
 }
 
 TEST_F(Live, WarnsIfACameraStopsSending) {
   start(true);
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   for (GstClockTime i = 1; i <= 30; ++i) {
     left(i * kFrame);
     ASSERT_TRUE(pass_deadline()) << i;
@@ -114,24 +101,19 @@ TEST_F(Live, LatencyIncludesTheWaitForAPartner) {
   start(true);
   gst_harness_set_upstream_latency(harness->side(Side::kLeft), 10 * GST_MSECOND);
   gst_harness_set_upstream_latency(harness->side(Side::kRight), 10 * GST_MSECOND);
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   EXPECT_NEAR(static_cast<double>(latency()), static_cast<double>(10 * GST_MSECOND + kFrame), 10.0);
 }
 
 TEST_F(Live, LatencyIncludesALargeTolerance) {
   start(true, "max-disparity=16 sync-tolerance=100000000");
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   EXPECT_EQ(latency(), 100 * GST_MSECOND);
 }
 
 TEST_F(Live, LatencyIncludesTheMatchingTime) {
   start(true);
-  for (GstClockTime i = 0; i < 4; ++i) {
-    harness->push_pair(pair, i * kFrame);
-    ASSERT_TRUE(harness->pull());
-  }
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(next());
   EXPECT_GT(latency(), kFrame + 1000) << "the matching time is missing";
   EXPECT_LT(latency(), kFrame + 10 * GST_SECOND);
   EXPECT_GT(harness->stats().mean_ms, 0.0);
@@ -143,9 +125,7 @@ TEST_F(Live, SkipsPairsThatWouldBeLateAtASinkThatSynchronizes) {
   report_from_sink(1);
   harness->push_pair(pair, kFrame);
   harness->push_pair(pair, 4 * kFrame);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 4 * kFrame);
+  expect_map_at(4 * kFrame);
   EXPECT_EQ(harness->stats().skipped, 1u);
   EXPECT_EQ(harness->stats().pairs, 2u);
   const MessagePointer message(
@@ -167,9 +147,7 @@ TEST_F(Live, SkipsLatePairsOfStreamsThatAreNotLiveToo) {
   report_from_sink(1);
   harness->push_pair(pair, kFrame);
   harness->push_pair(pair, 4 * kFrame);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 4 * kFrame);
+  expect_map_at(4 * kFrame);
 }
 
 TEST_F(Live, MatchesLatePairsIfTheSinkDoesNotSynchronize) {
@@ -209,16 +187,14 @@ TEST_F(Live, MatchesLatePairsInPaused) {
 
 TEST_F(Live, ALatePairIsMatchedAfterAPauseOfOneSecond) {
   start(true);
-  match_first_pair();
+  ASSERT_TRUE(next());
   gst_harness_set_time(harness->output(), 100 * GST_SECOND);
   report_from_sink(1);
   for (GstClockTime time = kFrame; time <= GST_SECOND; time += kFrame) {
     harness->push_pair(pair, time);
   }
   harness->push_pair(pair, 2 * GST_SECOND);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 2 * GST_SECOND);
+  expect_map_at(2 * GST_SECOND);
   EXPECT_EQ(harness->stats().skipped, 30u);
 }
 
@@ -234,7 +210,7 @@ TEST_F(Live, AFlushForgetsThatTheSinkSynchronizes) {
 
 TEST_F(Live, TheLatencyOfThePipelineIsNotLateness) {
   start(true);
-  match_first_pair();
+  ASSERT_TRUE(next());
   gst_harness_push_upstream_event(harness->output(), gst_event_new_latency(5 * GST_SECOND));
   gst_harness_set_time(harness->output(), 3 * kFrame);
   report_from_sink(1);
@@ -245,25 +221,19 @@ TEST_F(Live, TheLatencyOfThePipelineIsNotLateness) {
 
 TEST_F(Live, AddsTheMatchingTimeToTheLateness) {
   start(true);
-  for (GstClockTime i = 0; i < 3; ++i) {
-    harness->push_pair(pair, i * kFrame);
-    ASSERT_TRUE(harness->pull());
-  }
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(next());
   // A map of 3 frames would be in time now, but not after the time to match it.
   gst_harness_set_time(harness->output(), 3 * kFrame - 1000);
   report_from_sink(1);
   harness->push_pair(pair, 3 * kFrame);
   harness->push_pair(pair, 20 * kFrame);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 20 * kFrame);
+  expect_map_at(20 * kFrame);
   EXPECT_EQ(harness->stats().skipped, 1u);
 }
 
 TEST_F(Live, ALateFrameHasAGracePeriod) {
   start(true);
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   gst_harness_set_time(harness->output(), 10 * GST_SECOND);
   left(kFrame);  // late by seconds, as after a long matching time
   EXPECT_TRUE(harness->silent());
@@ -277,8 +247,7 @@ TEST_F(Live, ALateFrameHasAGracePeriod) {
 
 TEST_F(Live, DoesNotForwardQosEventsIfQosIsDisabled) {
   start(true, "max-disparity=16 qos=false");
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   gst_harness_push_upstream_event(harness->output(),
                                   gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 2.0, 0, kFrame));
   for (const Side side : {Side::kLeft, Side::kRight}) {
@@ -290,8 +259,7 @@ TEST_F(Live, DoesNotForwardQosEventsIfQosIsDisabled) {
 
 TEST_F(Live, ForwardsQosEventsToBothSources) {
   start(true);
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   gst_harness_push_upstream_event(harness->output(),
                                   gst_event_new_qos(GST_QOS_TYPE_UNDERFLOW, 2.0, 0, kFrame));
   for (const Side side : {Side::kLeft, Side::kRight}) {

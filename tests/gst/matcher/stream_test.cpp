@@ -57,16 +57,14 @@ TEST_F(Stream, MatchesTheWaitingPairBeforeItEnds) {
 }
 
 TEST_F(Stream, EndsImmediatelyIfTheOtherStreamIsSilent) {
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   harness->end(Side::kLeft);
   EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS));
   EXPECT_EQ(harness->further_errors(), 0);
 }
 
 TEST_F(Stream, SendsEndOfStreamOnce) {
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   harness->end(Side::kLeft);
   harness->end(Side::kRight);
   ASSERT_TRUE(harness->pull_event(GST_EVENT_EOS));
@@ -81,8 +79,7 @@ TEST_F(Stream, EndsWithoutFrames) {
 }
 
 TEST_F(Stream, SendsStreamStartCapsAndSegmentBeforeTheFirstMap) {
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   for (const GstEventType type : {GST_EVENT_STREAM_START, GST_EVENT_CAPS, GST_EVENT_SEGMENT}) {
     const EventPointer event(gst_harness_pull_event(harness->output()));
     ASSERT_TRUE(event);
@@ -168,8 +165,7 @@ TEST_F(Stream, CopiesTheMetasOfTheLeftFrameExceptItsLayout) {
 }
 
 TEST_F(Stream, ForwardsAGapOfTheLeftStream) {
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   harness->event(Side::kLeft, gst_event_new_gap(kFrame, 2 * kFrame));
   right(kFrame);
   const EventPointer gap = harness->pull_event(GST_EVENT_GAP);
@@ -181,9 +177,7 @@ TEST_F(Stream, ForwardsAGapOfTheLeftStream) {
   EXPECT_EQ(duration, 2 * kFrame);
   left(3 * kFrame);
   right(3 * kFrame);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 3 * kFrame);
+  expect_map_at(3 * kFrame);
   EXPECT_TRUE(harness->wait_for_stats(2, 0, 1));
 }
 
@@ -195,8 +189,7 @@ TEST_F(Stream, SendsTheSegmentBeforeAFirstGap) {
 }
 
 TEST_F(Stream, SendsTheSegmentBeforeAGapAfterAFlush) {
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 7);
   for (const Side side : {Side::kLeft, Side::kRight}) end_flush(side, 7);
   ASSERT_TRUE(harness->pull_event(GST_EVENT_FLUSH_STOP));
@@ -218,29 +211,23 @@ TEST(StreamStart, IgnoresAGapBeforeTheSegment) {
 }
 
 TEST_F(Stream, DropsLeftFramesInAGapOfTheRightStream) {
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   harness->event(Side::kRight, gst_event_new_gap(kFrame, kFrame));
   left(kFrame);
   right(2 * kFrame);
   left(2 * kFrame);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 2 * kFrame);
+  expect_map_at(2 * kFrame);
   EXPECT_TRUE(harness->wait_for_stats(2, 1, 0));
 }
 
 TEST_F(Stream, AFlushDiscardsWaitingFrames) {
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   left(kFrame);
   for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 7);
   for (const Side side : {Side::kLeft, Side::kRight}) end_flush(side, 7);
   EXPECT_TRUE(harness->pull_event(GST_EVENT_FLUSH_STOP));
   harness->push_pair(pair, 0);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), 0u);
+  expect_map_at(0u);
   EXPECT_TRUE(harness->wait_for_stats(2, 0, 0));
 }
 

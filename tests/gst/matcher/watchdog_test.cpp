@@ -68,8 +68,7 @@ TEST_F(SilentPad, IsReportedAfterAFlush) {
 TEST_F(SilentPad, IsNotReportedWhileNoFrameWaits) {
   start();
   EXPECT_TRUE(harness->warnings(0.3).empty());
-  harness->push_pair(pair, 0);
-  ASSERT_TRUE(harness->pull());
+  ASSERT_TRUE(next());
   EXPECT_TRUE(harness->warnings(0.3).empty());
 }
 

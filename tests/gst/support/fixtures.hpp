@@ -50,6 +50,12 @@ class StreamsTest : public testing::Test {
     harness->push_pair(pair, count++ * kFrame);
     return harness->pull();
   }
+  /// The next map has this time.
+  void expect_map_at(GstClockTime time) {
+    const BufferPointer map = harness->pull();
+    ASSERT_TRUE(map);
+    EXPECT_EQ(GST_BUFFER_PTS(map.get()), time);
+  }
   /// Matches another pair, and compares the map with that of the library.
   void expect_next(const Parameters& parameters, int scale);
   void set(const char* name, const char* value) {

@@ -21,10 +21,7 @@ using testing::Outcome;
 using testing::read_file;
 using testing::run_eval;
 
-class CurveProgram : public testing::TwoPairs {
- protected:
-  json report() const { return json::parse(read_file(folder_ / "r.json")); }
-};
+class CurveProgram : public testing::TwoPairs {};
 
 TEST_F(CurveProgram, PrintsAndReportsTheCurveOfTheLibrary) {
   const Outcome run = run_eval({set(), "--curve", "--json", folder_ / "r.json"});

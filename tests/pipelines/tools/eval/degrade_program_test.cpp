@@ -5,10 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
 
 #include "support.hpp"
 #include "tools/eval/flicker.hpp"
@@ -25,10 +23,7 @@ using testing::Outcome;
 using testing::read_file;
 using testing::run_eval;
 
-class DegradeProgram : public testing::TwoPairs {
- protected:
-  json report() const { return json::parse(read_file(folder_ / "r.json")); }
-};
+class DegradeProgram : public testing::TwoPairs {};
 
 TEST_F(DegradeProgram, EvaluatesEachKindWithEachMethod) {
   const Outcome run = run_eval({set(), "--degrade", "noise=20,lower-right=3", "--compare", "bm",

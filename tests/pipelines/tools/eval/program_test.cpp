@@ -53,7 +53,7 @@ TEST_F(Program, NamesCorruptFilesRunsOtherPairsAndExitsWith1) {
   EXPECT_THAT(run.err, HasSubstr("A/disp0GT.pfm: ends too early"));
   EXPECT_THAT(run.err, HasSubstr("C/im1.png: no such file"));
   EXPECT_THAT(run.out, HasSubstr("mean of 1"));
-  const json report = json::parse(read_file(folder_ / "r.json"));
+  const json report = this->report();
   EXPECT_EQ(report["pairs"].size(), 1U);
   EXPECT_EQ(report["failures"].size(), 2U);
 }
@@ -108,7 +108,7 @@ TEST_F(Program, HasAnOptionForEveryParameter) {
                                   folder_ / "r.json", std::string("--") + info.name, value});
     if (info.id == Parameter::kMode) continue;  // given twice
     ASSERT_EQ(run.status, 0) << info.name << ": " << run.err;
-    EXPECT_EQ(json::parse(read_file(folder_ / "r.json"))["parameters"][info.name], value);
+    EXPECT_EQ(report()["parameters"][info.name], value);
   }
 }
 
@@ -128,7 +128,7 @@ TEST_F(Program, RunsTheRivalsOnTheSamePairs) {
   const Outcome run = run_eval(
       {set(), "--compare", "sgbm,sgbm-3way,bm", "--threads", "1", "--json", folder_ / "r.json"});
   ASSERT_EQ(run.status, 0) << run.err;
-  const json report = json::parse(read_file(folder_ / "r.json"));
+  const json report = this->report();
   for (const char* method : {"mtstereo", "sgbm", "sgbm-3way", "bm"}) {
     EXPECT_EQ(report["mean"][method]["pairs"], 2) << method;
     EXPECT_GT(report["mean"][method]["time_ratio"], 0.0) << method;
@@ -213,7 +213,7 @@ TEST_F(Program, KeepsTheMeanIfOneMapHasNoEstimate) {
   write_pair_folder(folder_ / "set/F", flat, 32);
   const Outcome run = run_eval({set(), "--json", folder_ / "r.json"});
   EXPECT_EQ(run.status, 0) << run.err;
-  const json report = json::parse(read_file(folder_ / "r.json"));
+  const json report = this->report();
   EXPECT_EQ(report["pairs"][2]["results"]["mtstereo"]["density"], 0.0);
   EXPECT_TRUE(report["pairs"][2]["results"]["mtstereo"]["all"]["avgerr"].is_null());
   EXPECT_LT(report["mean"]["mtstereo"]["all"]["avgerr"], 1.0);

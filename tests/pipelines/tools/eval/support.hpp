@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ class TwoPairs : public ::testing::Test {
     write_pair_folder(folder_ / "set/B", make_pair(200, 100, 5), 16);
   }
   std::string set() const { return folder_ / "set"; }
+  nlohmann::json report() const { return nlohmann::json::parse(read_file(folder_ / "r.json")); }
   TemporaryFolder folder_;
 };
 
