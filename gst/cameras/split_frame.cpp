@@ -2,7 +2,6 @@
 #include "cameras/split_frame.hpp"
 
 #include <algorithm>
-#include <new>
 
 namespace mtstereo::plugin {
 namespace {

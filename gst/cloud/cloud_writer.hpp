@@ -3,7 +3,6 @@
 
 #include <gst/video/video.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 

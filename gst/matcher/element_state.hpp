@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <optional>
-#include <utility>
 
 #include "matcher/base/clock.hpp"
 #include "matcher/base/messages.hpp"

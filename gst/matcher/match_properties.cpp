@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/match_properties.hpp"
 
-#include <utility>
-
 #include "matcher/parameter_properties.hpp"
 
 namespace mtstereo::plugin {

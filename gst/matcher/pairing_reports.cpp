@@ -2,7 +2,6 @@
 #include "matcher/pairing_reports.hpp"
 
 #include <cstdio>
-#include <cstdlib>
 
 #define GST_CAT_DEFAULT mtstereo_debug
 

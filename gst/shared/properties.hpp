@@ -3,7 +3,6 @@
 
 #include <gst/gst.h>
 
-#include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <iterator>

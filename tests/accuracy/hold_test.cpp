@@ -4,7 +4,6 @@
 // MTSTEREO_TEST_DATA names a folder with them.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <string>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "outcome.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 

@@ -3,7 +3,6 @@
 // for equal sequences.
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "fuzz_image.hpp"
 #include "mtstereo/mtstereo.hpp"

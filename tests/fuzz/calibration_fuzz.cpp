@@ -3,8 +3,6 @@
 // follows '#' in the path, the rest is the file; a byte of 1 separates two files. What is accepted
 // must be equal after it was written and read again.
 #include <array>
-#include <cmath>
-#include <cstdlib>
 #include <string>
 
 #include "fuzz_folder.hpp"

@@ -2,6 +2,7 @@
 #include "fuzz_gst.hpp"
 
 #include <cstdlib>
+#include <cstring>
 
 #include "fuzz_input.hpp"
 

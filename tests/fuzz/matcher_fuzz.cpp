@@ -2,7 +2,6 @@
 // The matcher with any parameters, sizes, strides and images. The library must reject what it
 // cannot match, and keep what its headers promise about every map.
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "fuzz_image.hpp"

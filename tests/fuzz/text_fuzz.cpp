@@ -2,7 +2,6 @@
 // The parsers of text: values of parameters, row fields, and degradations of mtstereo-eval. The
 // first byte selects the parser, the rest is the text.
 #include <string>
-#include <vector>
 
 #include "fuzz_image.hpp"
 #include "lib/outputs/user_error.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Seeks and state changes in files, whose key frames and lengths differ.
 #include <array>
-#include <filesystem>
 
 #include "soak.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 
 #include "matcher/pairing/frame_queue.hpp"
 #include "mtstereo/matcher.hpp"

@@ -2,7 +2,6 @@
 #include "programs/calibrate/drawings.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "mtstereo/geometry/rectification.hpp"

@@ -3,14 +3,12 @@
 
 #include <glib.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <optional>
 #include <sstream>
-#include <string_view>
 
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/printable.hpp"

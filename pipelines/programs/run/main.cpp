@@ -12,7 +12,6 @@
 
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/printable.hpp"
-#include "lib/outputs/user_error.hpp"
 #include "programs/run/check_command.hpp"
 #include "programs/run/cluster_commands.hpp"
 #include "programs/run/interruption.hpp"

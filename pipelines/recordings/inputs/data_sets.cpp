@@ -8,8 +8,6 @@
 #include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <map>
-#include <utility>
 
 #include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"

@@ -2,7 +2,6 @@
 #include "recordings/inputs/image_lists.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <system_error>
-#include <utility>
 
 #include "lib/files/file_names.hpp"
 #include "lib/files/unread_kinds.hpp"

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "lib/images/images.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/matching/product_files.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <utility>

@@ -9,7 +9,6 @@
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/map_files.hpp"
 #include "recordings/matching/matching_run.hpp"
-#include "recordings/matching/view_geometry.hpp"
 #include "recordings/matching/view_inspection.hpp"
 #include "recordings/matching/work_options.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/rig.hpp"
-#include "recordings/matching/matching_line.hpp"
 #include "recordings/matching/products.hpp"
 #include "recordings/matching/work_facts.hpp"
 #include "recordings/matching/work_options.hpp"

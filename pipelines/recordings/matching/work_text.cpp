@@ -4,9 +4,7 @@
 #include <cstdio>
 
 #include "recordings/matching/json_files.hpp"
-#include "recordings/matching/matching_line.hpp"
 #include "recordings/matching/products.hpp"
-#include "recordings/matching/view_geometry.hpp"
 #include "recordings/matching/work_facts.hpp"
 #include "recordings/matching/work_options.hpp"
 

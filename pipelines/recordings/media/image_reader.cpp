@@ -5,14 +5,12 @@
 #include <gst/app/gstappsrc.h>
 #include <gst/video/video.h>
 
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <utility>
 
 #include "lib/files/file_names.hpp"
 #include "lib/images/images.hpp"
-#include "lib/outputs/user_error.hpp"
 #include "recordings/media/frame_reader.hpp"
 #include "recordings/media/jpeg_check.hpp"
 #include "recordings/media/sample_frames.hpp"

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <thread>
 
-#include "lib/outputs/user_error.hpp"
 #include "recordings/plan/in_parallel.hpp"
 #include "recordings/plan/program.hpp"
 

@@ -12,7 +12,6 @@
 
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
-#include "recordings/matching/results.hpp"
 #include "recordings/plan/plan_folder.hpp"
 
 namespace mtstereo::run {

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "lib/images/images.hpp"

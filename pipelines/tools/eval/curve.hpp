@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <opencv2/core.hpp>
-#include <string>
 #include <vector>
 
 #include "tools/eval/metrics.hpp"

@@ -5,10 +5,8 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
 #include "lib/images/images.hpp"
-#include "lib/outputs/user_error.hpp"
 #include "tools/eval/h264.hpp"
 
 namespace mtstereo::eval {

@@ -2,7 +2,6 @@
 #include "tools/eval/files.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <set>
 #include <system_error>

@@ -9,9 +9,7 @@
 #include <gst/gst.h>
 #include <gst/video/video.h>
 
-#include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "lib/outputs/user_error.hpp"
 

@@ -7,7 +7,6 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <string>
-#include <vector>
 
 #include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"

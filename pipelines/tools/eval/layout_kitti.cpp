@@ -4,10 +4,8 @@
 // same name.
 
 #include <array>
-#include <string>
 
 #include "lib/files/file_names.hpp"
-#include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
 #include "tools/eval/layouts.hpp"
 

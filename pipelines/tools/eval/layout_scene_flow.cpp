@@ -7,7 +7,6 @@
 #include <set>
 #include <sstream>
 #include <string>
-#include <system_error>
 
 #include "lib/files/file_names.hpp"
 #include "tools/eval/files.hpp"

@@ -3,9 +3,7 @@
 
 #include <iosfwd>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tools/eval/results.hpp"

@@ -2,13 +2,9 @@
 // mtstereo-fit-confidence: fits the table of core/stages/refine/reliability_table.cpp to pairs with
 // ground truth and to rendered scenes, and reports what carries over to data sets left out.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <fstream>
 #include <map>
-#include <set>
-#include <thread>
 
 #include "lib/options/failure_message.hpp"
 #include "lib/outputs/user_error.hpp"

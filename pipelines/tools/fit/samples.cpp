@@ -7,7 +7,6 @@
 
 #include "matcher/frame_matcher.hpp"
 #include "matcher/settings.hpp"
-#include "matcher/steps.hpp"
 #include "mtstereo/parameters.hpp"
 #include "stages/refine/gray_mapping.hpp"
 #include "stages/refine/reliability.hpp"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <vector>
 
 #include "lib/images/images.hpp"
 #include "tools/render/optics.hpp"

@@ -4,7 +4,6 @@
 #include <gst/check/gstharness.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 
 #include "mtstereo/geometry/calibration.hpp"

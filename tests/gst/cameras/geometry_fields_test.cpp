@@ -2,8 +2,6 @@
 // What mtrectify states of the frames arrives downstream of mtstereo.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "cameras/camera_harness.hpp"
 #include "geometry/rigs.hpp"
 #include "shared/stereo_geometry.hpp"

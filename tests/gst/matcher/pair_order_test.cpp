@@ -2,7 +2,6 @@
 // The frames that the element pairs and drops, and its statistics.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 
 #include "support/stereo_harness.hpp"

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "support/rendered.hpp"
 
 namespace mtstereo::test::alignment_test {

@@ -15,7 +15,6 @@
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/detection.hpp"
 #include "programs/calibrate/page.hpp"
-#include "programs/calibrate/start_values.hpp"
 
 namespace mtstereo::calibrate::board_test {
 namespace {

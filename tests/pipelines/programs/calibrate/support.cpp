@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "support.hpp"
 
-#include <cmath>
-
 namespace mtstereo::calibrate::testing {
 namespace {
 

@@ -6,9 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <string>
-#include <vector>
 
 #include "lib/outputs/user_error.hpp"
 #include "moving_views.hpp"

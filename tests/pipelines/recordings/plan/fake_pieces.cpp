@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <sstream>
 #include <thread>
 
 #include "lib/outputs/user_error.hpp"

@@ -2,7 +2,6 @@
 #include "rig_views.hpp"
 
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "tools/render/raw.hpp"
 

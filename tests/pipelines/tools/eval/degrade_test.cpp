@@ -9,8 +9,6 @@
 #include <tuple>
 #include <utility>
 
-#include "lib/outputs/user_error.hpp"
-
 namespace mtstereo::eval::degrade_test {
 namespace {
 

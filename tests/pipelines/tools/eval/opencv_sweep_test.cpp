@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "expect_error.hpp"
 #include "support.hpp"
 #include "tools/eval/runner.hpp"

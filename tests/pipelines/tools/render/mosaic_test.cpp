@@ -2,7 +2,6 @@
 // Bayer mosaic, demosaicing, noise reduction and sharpening.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "tools/render/processing.hpp"
