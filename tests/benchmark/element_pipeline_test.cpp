@@ -7,9 +7,12 @@
 #include <stdexcept>
 
 #include "outcome.hpp"
+#include "support/error_of.hpp"
 
 namespace mtstereo::bench::element_pipeline_test {
 namespace {
+
+using test::error_of;
 
 constexpr int kWidth = 130;  // rows are padded
 constexpr int kHeight = 60;
@@ -32,17 +35,6 @@ cv::Mat expected_map(Matcher& matcher, const PairBuffers& pair) {
                                           {map.ptr<std::uint16_t>(), kWidth, kHeight, kWidth * 2});
   if (!status) throw std::runtime_error(status.error().message);
   return map;
-}
-
-/// The message of the exception that a call throws, "" if it throws none.
-template <typename Body>
-std::string problem_of(Body&& body) {
-  try {
-    body();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(GrayBuffer, HasTheImageInPaddedRows) {
@@ -91,7 +83,7 @@ TEST(ElementPipeline, ReturnsTheTimesOfAllMapsRepeatedly) {
 
 TEST(ElementPipeline, FrameThatTheElementRejectsIsAnErrorAndDoesNotHang) {
   const PairList pairs = moments(1);
-  const std::string problem = problem_of([&] {
+  const std::string problem = error_of([&] {
     ElementPipeline pipeline("max-disparity=500", kWidth, kHeight);
     pipeline.match(pairs, 3);
   });
@@ -100,7 +92,7 @@ TEST(ElementPipeline, FrameThatTheElementRejectsIsAnErrorAndDoesNotHang) {
 
 TEST(ElementPipeline, FrameOfAnotherSizeIsAnError) {
   const PairList pairs = moments(1);
-  EXPECT_NE("", problem_of([&] {
+  EXPECT_NE("", error_of([&] {
               ElementPipeline pipeline(kProperties, 2 * kWidth, kHeight);
               pipeline.match(pairs, 1);
             }));
@@ -109,7 +101,7 @@ TEST(ElementPipeline, FrameOfAnotherSizeIsAnError) {
 TEST(ElementPipeline, InvalidPropertiesAreErrorsThatNameThem) {
   for (const std::string property : {"speed=1", "mode=fair", "max-disparity=much"}) {
     const std::string name = property.substr(0, property.find('='));
-    const std::string problem = problem_of([&] { ElementPipeline(property, kWidth, kHeight); });
+    const std::string problem = error_of([&] { ElementPipeline(property, kWidth, kHeight); });
     EXPECT_NE(std::string::npos, problem.find(name)) << problem;
     EXPECT_EQ(std::string::npos, problem.find("GST_PLUGIN_PATH")) << problem;
   }

@@ -8,24 +8,16 @@
 #include <string>
 
 #include "guarded.hpp"
+#include "support/error_of.hpp"
 
 namespace mtstereo::bench::outcome_test {
 namespace {
 
+using test::error_of;
+
 Outcome outcome(int disparity, int confidence) {
   return {cv::Mat(4, 6, CV_32SC1, cv::Scalar(disparity)),
           cv::Mat(4, 6, CV_8UC1, cv::Scalar(confidence))};
-}
-
-/// The message of the exception that a call throws, "" if it throws none.
-template <typename Call>
-std::string error_of(Call&& call) {
-  try {
-    call();
-    return "";
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
 }
 
 TEST(Density, CountsDisparitiesOfTheLibrary) {

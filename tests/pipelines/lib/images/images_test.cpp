@@ -11,6 +11,7 @@
 
 #include "lib/images/open_module.hpp"
 #include "lib/outputs/user_error.hpp"
+#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mtstereo::images::images_test {
@@ -74,12 +75,7 @@ TEST(Images, ReportWhatOpenCvRefuses) {
 }
 
 std::string error_of(const std::string& module) {
-  try {
-    open_module(module);
-    return "";
-  } catch (const UserError& error) {
-    return error.what();
-  }
+  return test::error_of<UserError>([&] { open_module(module); });
 }
 
 TEST(ImageModule, IsNamedWithTheRemedyIfItIsMissing) {

@@ -21,12 +21,14 @@
 #include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
 #include "lib/outputs/written_files.hpp"
+#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace mtstereo::outputs::outputs_test {
 namespace {
 
 namespace fs = std::filesystem;
+using test::error_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using namespace std::string_literals;
@@ -44,15 +46,6 @@ class Folder : public ::testing::Test {
   const test::TemporaryFolder temporary_;
   const fs::path folder_ = temporary_.path();
 };
-
-std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 using Obstacle = Folder;
 
@@ -189,7 +182,7 @@ TEST_F(Lock, IsSharedByThoseThatShareIt) {
     const FolderLock first(folder_, Sharing::kShared), second(folder_, Sharing::kShared);
     EXPECT_THAT(error_of([&] { FolderLock{folder_}; }), HasSubstr("writes into this folder"));
   }
-  EXPECT_EQ(error_of([&] { FolderLock{folder_}; }), "no error");
+  EXPECT_EQ(error_of([&] { FolderLock{folder_}; }), "");
 }
 
 TEST_F(Lock, RemovesOnlyEmptyFoldersThatItCreated) {
@@ -214,7 +207,7 @@ TEST_F(Lock, IsReleasedWhenTheProcessIsKilled) {
   int status = 0;
   waitpid(child, &status, 0);
   ASSERT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(error_of([&] { FolderLock{folder_}; }), "no error");
+  EXPECT_EQ(error_of([&] { FolderLock{folder_}; }), "");
 }
 
 TEST_F(Lock, OfAFileIsRefused) {
@@ -233,7 +226,7 @@ TEST_F(WriteFile, NeverMovesOntoAnother) {
   write("folder/new", "new");
   write("full/mine", "mine");
   fs::create_directory(folder_ / "empty");
-  EXPECT_NE(error_of([&] { move_file(folder_ / "folder", folder_ / "full"); }), "no error");
+  EXPECT_NE(error_of([&] { move_file(folder_ / "folder", folder_ / "full"); }), "");
   EXPECT_EQ(read("full/mine"), "mine");
   move_file(folder_ / "folder", folder_ / "empty");
   EXPECT_EQ(read("empty/new"), "new");

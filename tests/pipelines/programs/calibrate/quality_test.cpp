@@ -25,6 +25,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using testing::observe;
 using testing::plumb_bob_rig;
+using ::testing::ThrowsMessage;
 
 const cv::Size kSize(640, 480);
 const BoardOptions kBoard;
@@ -176,12 +177,8 @@ TEST(Quality, CamerasOneAboveTheOtherAreRefused) {
   Rig truth = plumb_bob_rig();
   truth.right_from_left.translation = {0.003, -0.1, 0};
   const auto views = observe(truth, board_poses(truth, kBoard, 20), kBoard, 0.1);
-  try {
-    judge_views(views);
-    FAIL() << "no error";
-  } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("one is above the other"));
-  }
+  EXPECT_THAT([&] { judge_views(views); },
+              ThrowsMessage<UserError>(HasSubstr("one is above the other")));
 }
 
 TEST(Quality, ABoardInMetersInsteadOfMillimetersIsRefused) {
@@ -191,12 +188,8 @@ TEST(Quality, ABoardInMetersInsteadOfMillimetersIsRefused) {
     for (Observation& each : view.left) each.point *= 1000;
     for (Observation& each : view.right) each.point *= 1000;
   }
-  try {
-    judge_views(views);
-    FAIL() << "no error";
-  } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("is the square size, in mm, right?"));
-  }
+  EXPECT_THAT([&] { judge_views(views); },
+              ThrowsMessage<UserError>(HasSubstr("is the square size, in mm, right?")));
 }
 
 TEST(Quality, CamerasOutOfStepAreNamed) {

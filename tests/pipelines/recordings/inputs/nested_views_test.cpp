@@ -148,13 +148,12 @@ TEST_F(NestedFolders, TakeTheCalibrationBesideTheViews) {
 
 TEST_F(NestedFolders, GivenAsTwoInputsAreRefusedWithTheRemedy) {
   write_images({"left/a/1.png", "right/a/1.png"});
-  try {
-    recognize({path("left"), path("right")}, {});
-    ADD_FAILURE() << "two folders without images were taken";
-  } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("give the folder that has both views, " +
-                                        path("").substr(0, path("").size() - 1)));
-  }
+  EXPECT_THAT(
+      [&] {
+        recognize({path("left"), path("right")}, {});
+      },
+      ::testing::ThrowsMessage<UserError>(HasSubstr("give the folder that has both views, " +
+                                                    path("").substr(0, path("").size() - 1))));
 }
 
 }  // namespace

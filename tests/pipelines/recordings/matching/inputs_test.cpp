@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Every kind of input, from its recognition to its maps: they are what the elements give for the
 // same frames in a usual pipeline.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
@@ -14,10 +15,12 @@ namespace mtstereo::run::inputs_test {
 namespace {
 
 using testing::frames_of;
+using ::testing::HasSubstr;
 using testing::have_ffmpeg;
 using testing::kStereoHeight;
 using testing::kStereoWidth;
 using testing::run_command;
+using ::testing::ThrowsMessage;
 using testing::View;
 using testing::write_text;
 
@@ -120,15 +123,12 @@ TEST_F(Inputs, NamesImagesOfAnotherSize) {
   write_images("left/%d.png", View::kLeft);
   write_images("right/%d.png", View::kRight);
   ASSERT_TRUE(cv::imwrite(path("left/1.png"), cv::Mat(40, 60, CV_8UC1, cv::Scalar(9))));
-  try {
-    process_input({path("left"), path("right")}, false);
-    FAIL();
-  } catch (const UserError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find("(" + path("left/0.png") + ") to 60x40 px (" + path("left/1.png") + ")"),
-              std::string::npos)
-        << text;
-  }
+  EXPECT_THAT(
+      [&] {
+        process_input({path("left"), path("right")}, false);
+      },
+      ThrowsMessage<UserError>(
+          HasSubstr("(" + path("left/0.png") + ") to 60x40 px (" + path("left/1.png") + ")")));
 }
 
 TEST_F(Inputs, VideosWithBothViews) {

@@ -7,6 +7,7 @@
 #include "recordings/media/frame_reader.hpp"
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
+#include "support/error_of.hpp"
 
 namespace mtstereo::run::pieces_test {
 namespace {
@@ -153,12 +154,7 @@ class Joining : public ::testing::Test {
     process(work_, {6, 6}, folder_ / "b", kNoProgress);
   }
   std::string refusal(const std::vector<Range>& ranges, const std::vector<fs::path>& pieces) {
-    try {
-      join(work_, ranges, pieces, folder_ / "joined");
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    return "";
+    return test::error_of<UserError>([&] { join(work_, ranges, pieces, folder_ / "joined"); });
   }
   TemporaryFolder folder_;
   Work work_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What is decided once for a recording.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,12 +13,16 @@
 #include "recordings/matching/work_text.hpp"
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
+#include "support/error_of.hpp"
 
 namespace mtstereo::run::prepare_test {
 namespace {
 
+using ::testing::AllOf;
 using testing::constant_times;
+using ::testing::HasSubstr;
 using testing::TemporaryFolder;
+using ::testing::ThrowsMessage;
 using testing::View;
 using testing::write_view;
 
@@ -44,12 +49,7 @@ class Preparation : public ::testing::Test {
   }
   Work prepared() const { return prepare(recording_, options_, std::nullopt, false); }
   std::string refusal() const {
-    try {
-      prepared();
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    return "";
+    return test::error_of<UserError>([&] { prepared(); });
   }
 
   TemporaryFolder folder_;
@@ -192,13 +192,8 @@ TEST(WorkOptions, ScaleFitsTheSearchRange) {
 TEST(WorkOptions, RefuseAResolutionThatDependsOnTheFramesBefore) {
   WorkOptions options;
   options.parameters = {{"resolution", "auto"}};
-  try {
-    matcher_parameters(options);
-    FAIL() << "it was not refused";
-  } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("set full, or half-refined"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_THAT([&] { matcher_parameters(options); },
+              ThrowsMessage<UserError>(HasSubstr("set full, or half-refined")));
   options.parameters = {{"resolution", "half-refined"}};
   EXPECT_NO_THROW(matcher_parameters(options));
 }
@@ -207,14 +202,9 @@ TEST(WorkOptions, RefuseMapsThatDependOnThePairBefore) {
   WorkOptions options;
   for (const std::string temporal : {"hold", "filter"}) {
     options.parameters = {{"temporal", temporal}};
-    try {
-      matcher_parameters(options);
-      FAIL() << "it was not refused";
-    } catch (const UserError& error) {
-      const std::string text = error.what();
-      EXPECT_NE(text.find("temporal = " + temporal), std::string::npos) << text;
-      EXPECT_NE(text.find("use mtstereo in a pipeline"), std::string::npos) << text;
-    }
+    EXPECT_THAT([&] { matcher_parameters(options); },
+                ThrowsMessage<UserError>(AllOf(HasSubstr("temporal = " + temporal),
+                                               HasSubstr("use mtstereo in a pipeline"))));
   }
   options.parameters = {{"temporal", "off"}};
   EXPECT_NO_THROW(matcher_parameters(options));

@@ -11,6 +11,7 @@
 #include "recordings/media/frame_reader.hpp"
 #include "recordings/support/stereo_files.hpp"
 #include "recordings/support/video_files.hpp"
+#include "support/error_of.hpp"
 
 namespace mtstereo::run::unfinished_test {
 namespace {
@@ -65,12 +66,8 @@ class Interrupted : public ::testing::TestWithParam<MapFormat> {
 
   // Why nothing is processed into the folder "piece".
   std::string refusal(Existing existing) {
-    try {
-      process(work_, whole(work_), folder_ / "piece", kNoProgress, existing);
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    return "no error";
+    return test::error_of<UserError>(
+        [&] { process(work_, whole(work_), folder_ / "piece", kNoProgress, existing); });
   }
 
   // Only the folder of unfinished files is in the folder.

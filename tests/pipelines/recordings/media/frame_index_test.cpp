@@ -12,6 +12,7 @@
 #include "recordings/media/container.hpp"
 #include "recordings/media/video_times.hpp"
 #include "recordings/support/video_files.hpp"
+#include "support/error_of.hpp"
 
 namespace mtstereo::run::frame_index_test {
 namespace {
@@ -40,12 +41,7 @@ constexpr int kLong = 330;  // frames; so many are not decoded as a whole
 FrameIndex index_of(const fs::path& video) { return index_frames({video, {}, {}}, 0); }
 
 std::string error_of(const fs::path& video) {
-  try {
-    index_of(video);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
+  return test::error_of<UserError>([&] { index_of(video); });
 }
 
 // Each listed time is one of a frame that was encoded; `unit`: that of the time stamps of the

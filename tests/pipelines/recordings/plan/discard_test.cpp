@@ -101,12 +101,8 @@ TEST_F(Discard, LeavesFilesThatAppearMeanwhile) {
   do_all();
   EXPECT_EQ(merge(folder_.path(), {fake_functions(), 1, false}).joined, 2U);
   EXPECT_EQ(read_text(set_aside / "notes.txt"), "mine");
-  try {
-    check_plan_folder(folder_.path(), {});
-    FAIL() << "the file is in the way";
-  } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("notes.txt is in the way"));
-  }
+  EXPECT_THAT([&] { check_plan_folder(folder_.path(), {}); },
+              ::testing::ThrowsMessage<UserError>(HasSubstr("notes.txt is in the way")));
   fs::remove(set_aside / "notes.txt");
   merge(folder_.path(), {fake_functions(), 1, false});
   EXPECT_FALSE(fs::exists(files_.unfinished()));

@@ -6,7 +6,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <numeric>
 
 #include "fake_pieces.hpp"
 #include "lib/outputs/user_error.hpp"
@@ -14,29 +13,20 @@
 #include "recordings/plan/archive.hpp"
 #include "recordings/plan/plan_contents.hpp"
 #include "recordings/plan/plan_folder.hpp"
+#include "support/error_of.hpp"
 
 namespace mtstereo::run::plan_test {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
+using test::error_of;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
-
-// The message of the UserError that `function` throws.
-template <typename Function>
-std::string error_of(const Function& function) {
-  try {
-    function();
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 std::vector<std::int64_t> counts(const std::vector<Task>& tasks) {
   std::vector<std::int64_t> result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/plan/program.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "lib/outputs/user_error.hpp"
@@ -17,13 +18,9 @@ TEST(RunProgram, ReturnsStatusAndOutput) {
 }
 
 TEST(RunProgram, NamesAProgramThatIsMissing) {
-  try {
-    run_program({"mtstereo-there-is-no-such-program"});
-    FAIL();
-  } catch (const UserError& error) {
-    EXPECT_STREQ(error.what(),
-                 "mtstereo-there-is-no-such-program: is not installed, or not in PATH");
-  }
+  EXPECT_THAT([] { run_program({"mtstereo-there-is-no-such-program"}); },
+              ::testing::ThrowsMessage<UserError>(
+                  "mtstereo-there-is-no-such-program: is not installed, or not in PATH"));
 }
 
 }  // namespace

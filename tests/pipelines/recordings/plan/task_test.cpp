@@ -12,6 +12,7 @@
 
 #include "fake_pieces.hpp"
 #include "lib/outputs/user_error.hpp"
+#include "support/error_of.hpp"
 
 namespace mtstereo::run::task_test {
 namespace {
@@ -43,12 +44,7 @@ class Tasks : public ::testing::Test {
     return missing_tasks(folder_.path(), read_plan(folder_.path()));
   }
   std::string error_of(std::size_t number) {
-    try {
-      do_one(number);
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    return "no error";
+    return test::error_of<UserError>([&] { do_one(number); });
   }
   fs::path fake_file(std::size_t number) const { return files_.piece(number) / kFakeFile; }
   bool nothing_is_unfinished() const {

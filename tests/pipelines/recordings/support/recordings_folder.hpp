@@ -13,6 +13,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/recognition.hpp"
 #include "recordings/support/video_files.hpp"
+#include "support/error_of.hpp"
 
 // For the tests of what is recognized in a folder.
 
@@ -50,12 +51,7 @@ class Recordings : public ::testing::Test {
 
   std::string error_of(std::initializer_list<const char*> inputs,
                        const InputOptions& options = {}) const {
-    try {
-      recognized(inputs, options);
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    return "";
+    return test::error_of<UserError>([&] { recognized(inputs, options); });
   }
 
   std::vector<Recording> found(std::vector<Problem>& problems) const {

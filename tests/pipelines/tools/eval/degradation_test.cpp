@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lib/outputs/user_error.hpp"
+#include "support/error_of.hpp"
 
 namespace mtstereo::eval::degradation_test {
 namespace {
@@ -21,13 +22,8 @@ TEST(DegradationText, IsReadBack) {
 }
 
 TEST(DegradationText, IsRefusedByNameIfItIsWrong) {
-  const auto message_of = [](const char* text) -> std::string {
-    try {
-      parse_degradation(text);
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    return "no error";
+  const auto message_of = [](const char* text) {
+    return test::error_of<UserError>([&] { parse_degradation(text); });
   };
   EXPECT_THAT(message_of("fog=1"), ::testing::HasSubstr("the kinds are noise, jpeg"));
   EXPECT_THAT(message_of(""), ::testing::HasSubstr("the kinds are"));

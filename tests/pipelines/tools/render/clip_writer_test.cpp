@@ -9,12 +9,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "tools/render/render.hpp"
 
 namespace mtstereo::render::clip_writer_test {
 namespace {
 
+using test::error_of;
 using test::read_text;
 using test::TemporaryFolder;
 using test::write_text;
@@ -39,16 +41,6 @@ float pfm_value(const std::string& bytes, int width, int height, int x, int y) {
   const auto at = header + static_cast<std::size_t>((height - 1 - y) * width + x) * 4;
   std::memcpy(&value, bytes.data() + at, 4);
   return value;
-}
-
-template <typename Call>
-std::string error_of(Call call) {
-  try {
-    call();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(ClipWriter, WritesTheRenderedFrames) {
