@@ -28,7 +28,7 @@ void begin_columns(const ColumnStep& row, std::uint8_t* paths, std::uint8_t* lea
       hn::StoreU(cost, d8, paths + d);
       lowest = hn::Min(lowest, cost);
     }
-    least[x] = hn::GetLane(least_of_lanes(d8, lowest));
+    least[x] = least_lane(d8, lowest);
   }
 }
 

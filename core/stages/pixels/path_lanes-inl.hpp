@@ -23,9 +23,18 @@ namespace mtstereo::HWY_NAMESPACE {
 using Bytes = hn::CappedTag<std::uint8_t, 32>;
 
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_SSE4
-/// The least of 16 bytes, in the first one.
-HWY_INLINE __m128i least_of_words(__m128i v) {
-  return _mm_minpos_epu16(_mm_min_epu8(v, _mm_srli_epi16(v, 8)));
+/// The least of all lanes, in the first one. Highway has no minimum of unsigned bytes. The
+/// processors have one of eight unsigned words.
+template <class V>
+HWY_INLINE __m128i first_is_least(Bytes d8, V v) {
+  __m128i least;
+  if constexpr (hn::MaxLanes(d8) == 32) {
+    const hn::Half<Bytes> half;
+    least = hn::Min(hn::LowerHalf(half, v), hn::UpperHalf(half, v)).raw;
+  } else {
+    least = v.raw;
+  }
+  return _mm_minpos_epu16(_mm_min_epu8(least, _mm_srli_epi16(least, 8)));
 }
 #endif
 
@@ -33,13 +42,11 @@ HWY_INLINE __m128i least_of_words(__m128i v) {
 template <class V>
 HWY_INLINE V least_of_lanes(Bytes d8, V v) {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_SSE4
-  // Highway has no minimum of unsigned bytes. The processors have one of eight unsigned words.
+  const auto least = first_is_least(d8, v);
   if constexpr (hn::MaxLanes(d8) == 32) {
-    const hn::Half<Bytes> half;
-    const auto least = least_of_words(hn::Min(hn::LowerHalf(half, v), hn::UpperHalf(half, v)).raw);
     return V{_mm256_broadcastb_epi8(least)};
   } else {
-    return hn::TableLookupBytes(V{least_of_words(v.raw)}, hn::Zero(d8));
+    return hn::TableLookupBytes(V{least}, hn::Zero(d8));
   }
 #elif HWY_ARCH_ARM_A64
   return hn::Set(d8, vminvq_u8(v.raw));
@@ -49,6 +56,16 @@ HWY_INLINE V least_of_lanes(Bytes d8, V v) {
   v = hn::Min(v, hn::ShiftRightBytes<2>(d8, v));
   v = hn::Min(v, hn::ShiftRightBytes<1>(d8, v));
   return hn::TableLookupBytes(v, hn::Zero(d8));
+#endif
+}
+
+/// The least of all lanes.
+template <class V>
+HWY_INLINE std::uint8_t least_lane(Bytes d8, V v) {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_SSE4
+  return static_cast<std::uint8_t>(_mm_cvtsi128_si32(first_is_least(d8, v)));
+#else
+  return hn::GetLane(least_of_lanes(d8, v));
 #endif
 }
 

@@ -127,19 +127,20 @@ HWY_INLINE void select(const RowSelection& row, int x, std::ptrdiff_t place, Cos
                        std::uint8_t* memory) {
   const Bytes d8;
   const PixelLanes<kVectors> sums(memory, window);
-  auto least = sums.get(0), second = hn::Set(d8, kNoSum);
+  auto least = sums.get(0);
   for (int i = 0; i < sums.count(); ++i) {
     if (i > 0) least = hn::Min(least, sums.get(i));
     compete(row, place, window.begin + i * kByteLanes, sums.get(i));
   }
   const int best = first_equal(sums, least_of_lanes(d8, least));
-  for (int i = 0; i < sums.count(); ++i) {
+  auto second = without(row, x, window.begin, best, 0, sums.get(0));
+  for (int i = 1; i < sums.count(); ++i) {
     second = hn::Min(second, without(row, x, window.begin, best, i * kByteLanes, sums.get(i)));
   }
   row.best[x] = static_cast<std::int16_t>(window.begin + best);
   std::uint8_t* found = row.sums + std::ptrdiff_t{Candidates::kSums} * x;
   std::memcpy(found, memory + best - 1, Candidates::kSums);
-  found[Candidates::kSecond] = hn::GetLane(least_of_lanes(d8, second));
+  found[Candidates::kSecond] = least_lane(d8, second);
 }
 
 /// Lets disparities without a right pixel cost 255.
