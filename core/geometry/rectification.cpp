@@ -3,18 +3,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <optional>
 #include <string>
 
 #include "base/guard.hpp"
-#include "base/limits.hpp"
 #include "geometry/calibration_problem.hpp"
 #include "geometry/lens.hpp"
 #include "geometry/rectified_frame.hpp"
 #include "geometry/view_coverage.hpp"
+#include "mtstereo/parameters.hpp"
 
 // If both lenses are polynomials that OpenCV inverts correctly, the result is that of
 // cv::stereoRectify(), so that other programs get the same pair from the same calibration. For all

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/map_steps.hpp"
 
-#include <algorithm>
-
 #include "stages/refine/completion.hpp"
 #include "stages/refine/enlarging.hpp"
 #include "stages/refine/map_shift.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "matcher/fine_detail.hpp"
-#include "stages/refine/completion.hpp"
 #include "stages/refine/confidence.hpp"
 #include "stages/refine/gap_filling.hpp"
 #include "stages/refine/holding.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "python/alignment.hpp"
 
-#include <string>
 #include <string_view>
 
 #include "mtstereo/alignment.hpp"

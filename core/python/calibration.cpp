@@ -5,7 +5,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
-#include <string>
 
 #include "mtstereo/geometry/calibration.hpp"
 #include "python/arrays.hpp"

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "mtstereo/geometry/depth.hpp"

@@ -4,7 +4,6 @@
 #include <pybind11/pybind11.h>
 
 #include <new>
-#include <string>
 
 #include "python/names.hpp"
 

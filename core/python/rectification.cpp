@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "mtstereo/geometry/rectification.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // check_calibration() and scale_calibration().
-#include <cmath>
 #include <limits>
 
 #include "calibration_support.hpp"

@@ -2,7 +2,6 @@
 // Lists of cameras on a body: OKVIS (T_SC), and SVO, maplab and Kalibr's exporter (T_B_C). Both
 // poses move points from a camera to the body.
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "geometry/formats/parts.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // EuRoC (ASL): one sensor.yaml per camera; T_BS moves points from the camera to the body.
 #include <optional>
-#include <string>
 
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"

@@ -2,10 +2,8 @@
 // KITTI: calib_cam_to_cam.txt of the raw data, with the cameras as they were calibrated (to camera
 // 00) and as rectified, and calib.txt of the odometry and object data, with projections only.
 #include <array>
-#include <cstdlib>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"

@@ -2,7 +2,6 @@
 // The calib.txt of Middlebury and ETH3D: rectified cameras, the baseline in millimeters.
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include "geometry/calibration_remarks.hpp"
 #include "geometry/formats/parts.hpp"

@@ -2,7 +2,6 @@
 #include "geometry/formats/opencv_entries.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "geometry/formats/opencv_structure.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "geometry/calibration_checks.hpp"
 #include "mtstereo/parameters.hpp"

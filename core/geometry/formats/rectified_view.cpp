@@ -2,7 +2,6 @@
 // What programs write for rectified views: the intrinsics of one camera and the baseline.
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "geometry/formats/parts.hpp"

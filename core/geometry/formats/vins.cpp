@@ -2,7 +2,6 @@
 // VINS-Fusion: a file that names the files of its cameras, in the same folder. body_T_cam0 moves
 // points from the camera to the body.
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 

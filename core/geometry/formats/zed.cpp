@@ -5,7 +5,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "support/compare.hpp"
 #include "support/matching.hpp"
 #include "support/random.hpp"
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
-
 namespace mtstereo::resolution_choice_test {
 namespace {
 

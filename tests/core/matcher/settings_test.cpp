@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "parameters/choices.hpp"
-#include "parameters/parameter_text.hpp"
 #include "support/matching.hpp"
 #include "support/parameter_samples.hpp"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <utility>
-
 #include "reference/prepare/max_tree.hpp"
 
 namespace mtstereo::reference {

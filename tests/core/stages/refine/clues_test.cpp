@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "reference/refine/reliability.hpp"
-#include "support/compare.hpp"
 #include "support/random_ratings.hpp"
 #include "support/simd_targets.hpp"
 
