@@ -11,7 +11,6 @@
 namespace mtstereo::point_cloud_test {
 namespace {
 
-using test::GrayPlane;
 using test::PaddedImage;
 using Map = test::Plane<std::uint16_t>;
 using Points = std::vector<CloudPoint>;

@@ -5,9 +5,7 @@
 #include <set>
 #include <string>
 
-#include "alignment/row_field.hpp"
 #include "mtstereo/mtstereo.hpp"
-#include "support/compare.hpp"
 #include "support/field_pair.hpp"
 #include "support/matching.hpp"
 
@@ -16,7 +14,6 @@ namespace {
 
 using test::fails_with;
 using test::FieldPair;
-using test::GrayPlane;
 using test::Pair;
 
 AlignmentTracker tracker() { return std::move(AlignmentTracker::create().value()); }

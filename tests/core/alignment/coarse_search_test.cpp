@@ -13,7 +13,6 @@
 namespace mtstereo::coarse_search_test {
 namespace {
 
-using test::GrayPlane;
 using Outcome = Place::Outcome;
 
 constexpr SearchWindow kWindow = {-6, 40, 5};

@@ -12,8 +12,6 @@
 namespace mtstereo::corner_grid_test {
 namespace {
 
-using test::GrayPlane;
-
 std::vector<Corner> corners_of(const GrayPlane& view, float noise = 0) {
   CornerScratch scratch;
   std::vector<Corner> corners;

@@ -13,7 +13,6 @@ namespace mtstereo::pair_inspection_test {
 namespace {
 
 using test::FieldPair;
-using test::GrayPlane;
 using test::Pair;
 
 PairFindings inspect(const GrayPlane& left, const GrayPlane& right, int max_disparity = 64) {

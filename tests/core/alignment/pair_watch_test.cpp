@@ -9,8 +9,6 @@
 namespace mtstereo::pair_watch_test {
 namespace {
 
-using test::GrayPlane;
-
 GrayPlane scene(int number) { return test::texture(120, 80, number); }
 
 /// A view that shows nothing, with a little noise.

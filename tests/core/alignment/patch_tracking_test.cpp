@@ -3,15 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "support/field_pair.hpp"
 #include "support/padded_image.hpp"
 
 namespace mtstereo::patch_tracking_test {
 namespace {
-
-using test::GrayPlane;
 
 test::FieldPair still(double disparity, double rows) {
   test::FieldPair options;

@@ -11,9 +11,6 @@
 namespace mtstereo::reduced_view_test {
 namespace {
 
-using test::GrayPlane;
-using test::same_image;
-
 /// The same, pixel by pixel.
 GrayPlane reduced(const GrayPlane& view) {
   const int factor = reduction_factor(view.width);

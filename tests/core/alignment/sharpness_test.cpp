@@ -10,8 +10,6 @@
 namespace mtstereo::sharpness_test {
 namespace {
 
-using test::GrayPlane;
-
 constexpr int kWidth = 400, kHeight = 260, kDisparity = 10;
 
 GrayPlane blurred(const GrayPlane& view, float sigma) {

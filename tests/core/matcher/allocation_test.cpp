@@ -18,8 +18,6 @@
 namespace mtstereo::allocation_test {
 namespace {
 
-using test::same_image;
-
 class Allocation : public testing::Test {
  protected:
   void SetUp() override {

@@ -13,9 +13,7 @@
 namespace mtstereo::auto_resolution_test {
 namespace {
 
-using test::DisparityPlane;
 using test::Pair;
-using test::same_image;
 
 constexpr int kFrames = ResolutionChoice::kFrames;
 

@@ -17,9 +17,6 @@
 namespace mtstereo::correction_test {
 namespace {
 
-using test::GrayPlane;
-using test::same_image;
-
 constexpr const char* kPresetNames[] = {"default", "fast", "paper"};
 
 const test::Pair& pair() {

@@ -11,7 +11,6 @@
 namespace mtstereo::disparity16_test {
 namespace {
 
-using test::DisparityPlane;
 using test::fails_with;
 using test::PaddedImage;
 using test::Plane;

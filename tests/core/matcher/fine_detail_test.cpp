@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "matcher/resolution_choice.hpp"
 #include "reference/fine_detail.hpp"
 #include "support/plane.hpp"
@@ -12,9 +10,6 @@
 
 namespace mtstereo::fine_detail_test {
 namespace {
-
-using test::DisparityPlane;
-using test::GrayPlane;
 
 /// Views and their map.
 struct Matched {

@@ -12,9 +12,6 @@
 namespace mtstereo::frame_matcher_test {
 namespace {
 
-using test::DisparityPlane;
-using test::same_image;
-
 const test::Pair& pair() {
   static const test::Pair pair = test::slanted_pair(150, 70, 30, 1);
   return pair;

@@ -10,8 +10,6 @@
 namespace mtstereo::full_map_test {
 namespace {
 
-using test::DisparityPlane;
-using test::GrayPlane;
 using test::Pair;
 
 constexpr const char* kPresetNames[] = {"default", "fast"};

@@ -13,10 +13,8 @@
 namespace mtstereo::hold_test {
 namespace {
 
-using test::DisparityPlane;
 using test::Matched;
 using test::Pair;
-using test::same_image;
 
 constexpr const char* kModes[] = {"sparse", "semi-dense", "dense"};
 

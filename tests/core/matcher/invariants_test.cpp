@@ -13,9 +13,6 @@
 namespace mtstereo::invariants_test {
 namespace {
 
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
 using test::Pair;
 
 constexpr const char* kPresetNames[] = {"default", "fast", "paper"};

@@ -10,7 +10,6 @@ namespace mtstereo::matcher_errors_test {
 namespace {
 
 using test::fails_with;
-using test::same_image;
 
 /// A matcher that has matched one frame, and the two views of the next frame, which tests make
 /// invalid.

@@ -3,11 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "mtstereo/mtstereo.hpp"
 #include "support/compare.hpp"
@@ -18,10 +16,7 @@
 namespace mtstereo::matcher_test {
 namespace {
 
-using test::copy_of;
-using test::DisparityPlane;
 using test::Pair;
-using test::same_image;
 
 /// The result of a new matcher for a pair.
 DisparityPlane matched_once(const Parameters& parameters, const Pair& pair) {

@@ -11,10 +11,7 @@
 namespace mtstereo::matcher_threads_test {
 namespace {
 
-using test::copy_of;
-using test::DisparityPlane;
 using test::Pair;
-using test::same_image;
 
 /// Matches with this many threads and with one; the results of every step must be equal.
 void expect_same_as_one_thread(const Pair& pair, Parameters parameters, int threads) {

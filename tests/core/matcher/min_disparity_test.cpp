@@ -10,9 +10,7 @@
 namespace mtstereo::min_disparity_test {
 namespace {
 
-using test::DisparityPlane;
 using test::fails_with;
-using test::GrayPlane;
 using test::Pair;
 
 constexpr const char* kPresetNames[] = {"default", "fast", "paper"};

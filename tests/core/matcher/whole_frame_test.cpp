@@ -14,10 +14,6 @@
 namespace mtstereo::whole_frame_test {
 namespace {
 
-using test::GrayPlane;
-using test::Random;
-using test::same_image;
-
 /// Random values of all parameters, chosen to fit images of this width.
 Parameters random_parameters(int width, Random& random) {
   Parameters parameters;

@@ -54,3 +54,9 @@ template <typename T, typename U>
 }
 
 }  // namespace mtstereo::test
+
+namespace mtstereo {
+
+using test::same_image;
+
+}  // namespace mtstereo

@@ -68,3 +68,12 @@ Image<T> image_of(const Plane<T>& plane) {
 }
 
 }  // namespace mtstereo::test
+
+namespace mtstereo {
+
+// All tests use them.
+using test::copy_of;
+using test::DisparityPlane;
+using test::GrayPlane;
+
+}  // namespace mtstereo

@@ -62,6 +62,19 @@ inline GrayPlane runs(int width, int height, std::uint64_t seed, int largest, in
   return image;
 }
 
+/// Every row of this width with values 0 .. levels - 1.
+inline GrayPlane all_rows(int width, int levels) {
+  int rows = 1;
+  for (int x = 0; x < width; ++x) rows *= levels;
+  GrayPlane image(width, rows);
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0, rest = y; x < width; ++x, rest /= levels) {
+      image(x, y) = static_cast<std::uint8_t>(rest % levels);
+    }
+  }
+  return image;
+}
+
 /// Overlapping rectangles with a little noise: edges and flat areas, and no two similar places.
 inline GrayPlane texture(int width, int height, std::uint64_t seed) {
   Random random(seed);
@@ -154,3 +167,9 @@ inline std::vector<Pair> moving_frames(int count, int width, int height) {
 }
 
 }  // namespace mtstereo::test
+
+namespace mtstereo {
+
+using test::Random;
+
+}  // namespace mtstereo

@@ -5,8 +5,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
-
 /// Draws linearly from (begin, at_begin) to (end, at_end), in 1/256 px, rounded towards at_begin. A
 /// disparity is at least 1/256 px. A pixel whose column is smaller than its disparity is left out.
 inline void draw_node(int begin, int end, int at_begin, int at_end, int y, DisparityPlane& map) {

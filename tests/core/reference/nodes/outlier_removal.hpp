@@ -7,8 +7,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
-
 /// Removes each disparity that more pixels of the window contradict than support: a pixel dx
 /// columns away supports it if the two differ by at most |dx| px. The window has 2 radius columns
 /// and rows; its pixel number `radius` is the one that is tested. Disparities are compared in 1/32

@@ -9,8 +9,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
-
 /// A disparity map and its peak ratios.
 struct RatedMap {
   RatedMap(int width, int height) : map(width, height), ratio(width, height) {}

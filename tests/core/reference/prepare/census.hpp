@@ -9,7 +9,6 @@
 
 namespace mtstereo::reference {
 
-using test::GrayPlane;
 using test::Plane;
 
 /// The gray value of the view smoothed by weights 1 4 6 4 1 in both directions, rounded. The pixels

@@ -5,8 +5,6 @@
 
 namespace mtstereo::reference {
 
-using test::GrayPlane;
-
 /// The rounded mean of 2x2 pixels; a last odd row or column is repeated.
 inline GrayPlane halve(const GrayPlane& view) {
   GrayPlane half((view.width + 1) / 2, (view.height + 1) / 2);

@@ -10,8 +10,6 @@
 
 namespace mtstereo::reference {
 
-using test::GrayPlane;
-
 /// The operator 1 -2 1 in both directions.
 inline int detail(const GrayPlane& view, int x, int y) {
   constexpr int kWeights[] = {1, -2, 1};

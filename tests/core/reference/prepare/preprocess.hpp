@@ -9,7 +9,6 @@
 
 namespace mtstereo::reference {
 
-using test::GrayPlane;
 using test::Plane;
 
 /// The median of the 5x5 pixels around each pixel; the pixels of the border are repeated.

@@ -9,8 +9,6 @@
 
 namespace mtstereo::reference {
 
-using test::GrayPlane;
-
 /// The Catmull-Rom interpolation of four values at t between the second and the third.
 inline double cubic(double t, double a, double b, double c, double d) {
   return b + t / 2 * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));

@@ -11,8 +11,6 @@
 
 namespace mtstereo::reference {
 
-using test::GrayPlane;
-
 /// The means of a view over time. Blocks are 8x8 pixels.
 struct PastView {
   test::Plane<int> mean;  ///< [1/16 gray values]

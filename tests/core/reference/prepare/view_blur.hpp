@@ -6,7 +6,6 @@
 
 namespace mtstereo::reference {
 
-using test::GrayPlane;
 using test::Plane;
 
 /// The stage view_blur, pixel by pixel.

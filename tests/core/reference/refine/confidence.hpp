@@ -8,9 +8,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
-using test::GrayPlane;
-
 /// The support of a disparity by the pixels within 4 px of it.
 struct Support {
   long pixels = 0;  ///< pixels of the window inside the image

@@ -10,7 +10,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
 using test::Plane;
 
 /// The refined disparity of a known pixel, from the 7x7 window around it.

@@ -7,9 +7,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
-using test::GrayPlane;
-
 /// Bilinear interpolation between the centers of half-resolution pixels, which leaves out pixels of
 /// another surface than the nearest one.
 inline DisparityPlane enlarge(const DisparityPlane& half, int width, int height,

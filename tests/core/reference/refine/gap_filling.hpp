@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cstdlib>
-
 #include "support/plane.hpp"
 
 namespace mtstereo::reference {
-
-using test::DisparityPlane;
-using test::GrayPlane;
 
 /// A disparity map and the confidence of its pixels.
 struct ConfidentMap {

@@ -12,9 +12,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
-using test::GrayPlane;
-
 /// A disparity in 1/32 px; a known one is at least 1.
 inline int in_thirty_seconds(int disparity) {
   if (disparity == 0) return 0;

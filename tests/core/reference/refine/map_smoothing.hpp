@@ -7,8 +7,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
-
 /// The mean of each pixel and of the pairs of pixels at equal distance on both sides along (dx,
 /// dy), if both belong to the same surface.
 inline DisparityPlane smooth_along(const DisparityPlane& map, int radius, int dx, int dy) {

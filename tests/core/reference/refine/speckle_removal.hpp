@@ -10,9 +10,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
-using test::GrayPlane;
-
 /// Finds the connected component of a known pixel by flood fill over neighbors whose disparities
 /// differ by at most `tolerance`, and marks it as seen.
 inline std::vector<std::pair<int, int>> flood(const DisparityPlane& map, int tolerance,

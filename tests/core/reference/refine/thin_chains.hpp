@@ -9,9 +9,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
-using test::GrayPlane;
-
 /// A pixel of a thin run: its evidence, its difference from the right view, its gray value.
 struct ThinSample {
   int gain = 0, misfit = 0, gray = 0;

@@ -7,9 +7,6 @@
 
 namespace mtstereo::reference {
 
-using test::DisparityPlane;
-using test::GrayPlane;
-
 /// Draws thin structures into a complete map, and with `guard` empties what is more than 2 px
 /// farther than something else that was found there.
 inline void draw_thin_structures(const DisparityPlane& found, int least, bool guard,

@@ -10,9 +10,6 @@
 namespace mtstereo::disparity_drawing_test {
 namespace {
 
-using test::DisparityPlane;
-using test::Random;
-
 TEST(DrawNode, IsLinearFromEndToEnd) {
   Random random(1);
   for (int n = 0; n < 2000; ++n) {

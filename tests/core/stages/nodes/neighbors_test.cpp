@@ -8,8 +8,6 @@
 namespace mtstereo::neighbors_test {
 namespace {
 
-using test::Random;
-
 constexpr int kNone = -7;
 
 /// Random values for the nodes of a level, with some nodes without a value.

@@ -11,11 +11,6 @@
 namespace mtstereo::node_extrapolation_test {
 namespace {
 
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
-using test::Random;
-
 constexpr int kWhole = 0;  // width of the ends: the whole leaf
 constexpr int kOnePixel = 1;
 

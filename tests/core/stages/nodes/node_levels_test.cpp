@@ -9,7 +9,6 @@
 namespace mtstereo::node_levels_test {
 namespace {
 
-using test::GrayPlane;
 using Columns = std::vector<std::pair<int, int>>;
 
 Columns columns(const NodeLevel& level, int y) {
@@ -79,16 +78,8 @@ void expect_reference(const GrayPlane& levels, int ancestor, WidthRange widths,
 }
 
 TEST(NodeLevels, EqualReferenceForEveryShortRow) {
-  constexpr int kLevels = 3;
   for (int width = 1; width <= 7; ++width) {
-    int rows = 1;
-    for (int x = 0; x < width; ++x) rows *= kLevels;
-    GrayPlane levels(width, rows);
-    for (int y = 0; y < rows; ++y) {
-      for (int x = 0, rest = y; x < width; ++x, rest /= kLevels) {
-        levels(x, y) = static_cast<std::uint8_t>(rest % kLevels);
-      }
-    }
+    const GrayPlane levels = test::all_rows(width, 3);
     for (int ancestor = 0; ancestor <= 3; ++ancestor) expect_reference(levels, ancestor, {0, 1e9});
   }
 }

@@ -3,16 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "reference/nodes/node_matching.hpp"
 #include "support/stages.hpp"
 
 namespace mtstereo::node_matching_test {
 namespace {
 
-using test::GrayPlane;
-using test::Random;
 using test::RandomLevels;
 using test::RandomVolume;
 

@@ -11,10 +11,6 @@
 namespace mtstereo::outlier_removal_test {
 namespace {
 
-using test::copy_of;
-using test::DisparityPlane;
-using test::Random;
-
 /// Removes the outliers of a whole map in bands of `band` rows.
 DisparityPlane filtered(const DisparityPlane& map, int radius, int band = 1 << 20) {
   Image<std::int32_t> image = image_of(map);

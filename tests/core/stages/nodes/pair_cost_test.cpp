@@ -9,7 +9,6 @@
 namespace mtstereo::pair_cost_test {
 namespace {
 
-using test::Random;
 using test::RandomLevels;
 using test::RandomVolume;
 

@@ -10,10 +10,6 @@
 namespace mtstereo::agreement_test {
 namespace {
 
-using test::DisparityPlane;
-using test::GrayPlane;
-using test::Random;
-
 /// The shares by both maps, counted in bands; odd rows have no result by the costs alone.
 GrayPlane shared(const DisparityPlane& by_path, const DisparityPlane& by_cost, int width,
                  int height) {

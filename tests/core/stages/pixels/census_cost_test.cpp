@@ -13,9 +13,7 @@ namespace mtstereo::census_cost_test {
 namespace {
 
 using test::CensusPair;
-using test::GrayPlane;
 using test::Pair;
-using test::Random;
 
 /// The expected disparities of each pixel of a row.
 struct Ranges {

@@ -5,7 +5,6 @@
 
 #include "reference/pixels/disparity_selection.hpp"
 #include "reference/pixels/path_matching.hpp"
-#include "support/compare.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 #include "support/windows.hpp"
@@ -14,7 +13,6 @@ namespace mtstereo::column_optimization_test {
 namespace {
 
 using reference::RowCosts;
-using test::Random;
 
 /// Rows of random costs and gray values.
 struct Rows {

@@ -16,7 +16,6 @@ namespace {
 
 using reference::RowCosts;
 using reference::Selected;
-using test::Random;
 
 /// The expected disparities of each pixel of a row; none if low > high.
 struct Ranges {

@@ -14,10 +14,7 @@ namespace mtstereo::path_matching_test {
 namespace {
 
 using reference::RatedMap;
-using test::copy_of;
-using test::DisparityPlane;
 using test::Pair;
-using test::Random;
 
 /// Matches a pair, from the last chunk to the first.
 RatedMap matched(const Pair& pair, const DisparityPlane* half_map,

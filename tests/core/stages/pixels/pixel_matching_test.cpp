@@ -10,9 +10,6 @@
 namespace mtstereo::pixel_matching_test {
 namespace {
 
-using test::copy_of;
-using test::DisparityPlane;
-using test::Random;
 using test::RandomVolume;
 
 /// The options of the paper's method; range and confidence are fractions.

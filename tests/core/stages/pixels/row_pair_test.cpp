@@ -16,7 +16,6 @@ namespace {
 
 using reference::RowCosts;
 using reference::Selected;
-using test::Random;
 
 /// A row of random costs in which 0 and `largest` occur often; 255 is the end of the scale.
 RowCosts random_costs(int width, int disparities, int largest, Random& random) {

@@ -13,7 +13,6 @@
 namespace mtstereo::search_range_test {
 namespace {
 
-using test::Random;
 using Row = std::vector<std::int32_t>;
 
 struct Range {

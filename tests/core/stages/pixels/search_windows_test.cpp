@@ -9,9 +9,6 @@
 namespace mtstereo::search_windows_test {
 namespace {
 
-using test::DisparityPlane;
-using test::Random;
-
 /// The windows by the votes of both maps, counted in bands.
 SearchWindows chosen(const DisparityPlane& by_path, const DisparityPlane& by_cost, int width,
                      int height, int lanes) {

@@ -15,12 +15,6 @@
 namespace mtstereo::block_moves_test {
 namespace {
 
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
-using test::Random;
-using test::same_image;
-
 Image<float> disparities_of(const DisparityPlane& map, const MapPlace& place, int width,
                             int height) {
   Image<std::uint16_t> kept;

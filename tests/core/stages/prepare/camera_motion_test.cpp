@@ -4,17 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "support/plane.hpp"
 #include "support/random.hpp"
 
 namespace mtstereo::camera_motion_test {
 namespace {
-
-using test::DisparityPlane;
-using test::GrayPlane;
-using test::Random;
 
 /// An image that is defined between its pixels too: waves of 15 to 500 px, as coarse and fine
 /// parts of a scene.

@@ -18,8 +18,6 @@ namespace mtstereo::census_test {
 namespace {
 
 using test::census_of;
-using test::GrayPlane;
-using test::Random;
 
 test::Plane<std::uint32_t> bits_of(const GrayPlane& image) {
   return test::copy_of(census_of(image.view()).bits);

@@ -17,9 +17,6 @@
 namespace mtstereo::cost_volume_test {
 namespace {
 
-using test::copy_of;
-using test::GrayPlane;
-
 /// The options of a volume.
 struct Options {
   int disparities;

@@ -14,10 +14,6 @@
 namespace mtstereo::halving_test {
 namespace {
 
-using test::copy_of;
-using test::GrayPlane;
-using test::same_image;
-
 constexpr int kWhole = 1 << 20;
 
 /// Calls body(y0, y1) for bands of rows from the last to the first.

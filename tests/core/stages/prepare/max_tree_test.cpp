@@ -6,14 +6,11 @@
 #include <tuple>
 
 #include "reference/nodes/node_levels.hpp"
-#include "support/compare.hpp"
 #include "support/simd_targets.hpp"
 #include "support/stages.hpp"
 
 namespace mtstereo::max_tree_test {
 namespace {
-
-using test::GrayPlane;
 
 /// A node by its columns and those of its parent; (-1, -1) for the parent of the root.
 using Outline = std::tuple<int, int, int, int>;
@@ -73,18 +70,7 @@ void expect_reference(const GrayPlane& levels, int band = 1 << 20) {
 }
 
 TEST(MaxTree, EqualsReferenceForEveryShortRow) {
-  constexpr int kLevels = 4;
-  for (int width = 1; width <= 6; ++width) {
-    int rows = 1;
-    for (int x = 0; x < width; ++x) rows *= kLevels;
-    GrayPlane levels(width, rows);
-    for (int y = 0; y < rows; ++y) {
-      for (int x = 0, rest = y; x < width; ++x, rest /= kLevels) {
-        levels(x, y) = static_cast<std::uint8_t>(rest % kLevels);
-      }
-    }
-    expect_reference(levels);
-  }
+  for (int width = 1; width <= 6; ++width) expect_reference(test::all_rows(width, 4));
 }
 
 TEST(MaxTree, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {

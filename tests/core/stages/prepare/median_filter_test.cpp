@@ -20,9 +20,6 @@
 namespace mtstereo::median_filter_test {
 namespace {
 
-using test::GrayPlane;
-using test::same_image;
-
 GrayPlane median_of(GrayView image, int band = 1 << 20) {
   Image<std::uint8_t> median;
   median.resize(image.width, image.height);

@@ -12,8 +12,6 @@
 namespace mtstereo::noise_filter_test {
 namespace {
 
-using test::GrayPlane;
-
 /// The filtered view, in bands of `band` rows from the last band to the first.
 GrayPlane filtered(GrayView view, float threshold, int band = 1 << 20) {
   Image<std::uint8_t> out = test::image_of(GrayPlane(view.width, view.height, 77));

@@ -14,8 +14,6 @@
 namespace mtstereo::noise_level_test {
 namespace {
 
-using test::GrayPlane;
-
 /// The level, measured in bands of `band` rows from the last band to the first.
 float level_of(GrayView view, int band = 1 << 20) {
   NoiseBlocks blocks;

@@ -19,10 +19,7 @@
 namespace mtstereo::preprocess_test {
 namespace {
 
-using test::copy_of;
-using test::GrayPlane;
 using test::Plane;
-using test::same_image;
 
 /// Compares all results of pre-processing an image with the references.
 void expect_reference(const GrayPlane& image, const PreprocessedView& view, int gray_levels) {

@@ -12,9 +12,6 @@
 namespace mtstereo::row_alignment_test {
 namespace {
 
-using test::GrayPlane;
-using test::same_image;
-
 GrayPlane aligned(GrayView view, const RowField& field, int band = 1 << 20) {
   Image<std::uint8_t> out = test::image_of(GrayPlane(view.width, view.height, 77));
   AlignmentScratch scratch;

@@ -13,11 +13,6 @@
 namespace mtstereo::time_filter_test {
 namespace {
 
-using test::copy_of;
-using test::GrayPlane;
-using test::Random;
-using test::same_image;
-
 /// A stream of one view.
 class Stream {
  public:

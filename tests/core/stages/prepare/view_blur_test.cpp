@@ -14,9 +14,6 @@
 namespace mtstereo::view_blur_test {
 namespace {
 
-using test::GrayPlane;
-using test::same_image;
-
 GrayPlane blurred(GrayView view, const BlurKernel& kernel, int band = 1 << 20) {
   Image<std::uint8_t> out = test::image_of(GrayPlane(view.width, view.height, 77));
   BlurScratch scratch;

@@ -4,14 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "support/compare.hpp"
-#include "support/matching.hpp"
 #include "support/padded_image.hpp"
 #include "support/random.hpp"
 
 namespace mtstereo::view_shift_test {
 namespace {
-
-using test::GrayPlane;
 
 TEST(ViewShift, CropsTheLeftViewAtItsStartAndTheRightViewAtItsEnd) {
   const GrayPlane plane = test::noise(23, 7, 1);

@@ -10,9 +10,6 @@
 namespace mtstereo::block_grid_test {
 namespace {
 
-using test::DisparityPlane;
-using test::GrayPlane;
-
 /// A view and its map.
 struct Matched {
   GrayPlane left;

@@ -11,9 +11,6 @@ namespace mtstereo::completion_test {
 namespace {
 
 using reference::ConfidentMap;
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
 
 /// A map with a random confidence at each of its known pixels.
 ConfidentMap confident(const DisparityPlane& map) {

@@ -14,12 +14,8 @@
 namespace mtstereo::confidence_test {
 namespace {
 
-using test::copy_of;
 using test::disparity_noise;
-using test::DisparityPlane;
-using test::GrayPlane;
 using test::patches;
-using test::Random;
 
 /// Random peak ratios of a map: 0 at unknown disparities.
 GrayPlane random_ratios(const DisparityPlane& map, Random& random) {

@@ -12,12 +12,7 @@
 namespace mtstereo::disparity_refinement_test {
 namespace {
 
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
 using test::Pair;
-using test::Random;
-using test::same_image;
 
 constexpr int kWhole = 1 << 20;
 constexpr int kFar = 1024;

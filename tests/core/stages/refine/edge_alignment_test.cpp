@@ -13,10 +13,6 @@ namespace mtstereo::edge_alignment_test {
 namespace {
 
 using reference::ConfidentMap;
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
-using test::Random;
 
 ConfidentMap aligned(const GrayPlane& gray, const ConfidentMap& in, int band = 1 << 20) {
   const int width = in.map.width, height = in.map.height;

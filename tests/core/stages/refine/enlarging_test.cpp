@@ -3,24 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "mtstereo/parameters.hpp"
 #include "reference/refine/enlarging.hpp"
 #include "stages/prepare/halving.hpp"
 #include "support/compare.hpp"
-#include "support/padded_image.hpp"
 #include "support/random_maps.hpp"
 #include "support/simd_targets.hpp"
 
 namespace mtstereo::enlarging_test {
 namespace {
-
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
-using test::Random;
-using test::same_image;
 
 constexpr int kWhole = 1 << 20;
 constexpr int kFar = 1024;

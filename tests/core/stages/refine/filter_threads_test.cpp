@@ -14,10 +14,6 @@
 namespace mtstereo::filter_threads_test {
 namespace {
 
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
-
 constexpr int kThreadCounts[] = {1, 2, 3, 5};
 constexpr int kBand = 32;
 

@@ -11,8 +11,6 @@ namespace mtstereo::flat_areas_test {
 namespace {
 
 using reference::Pixels;
-using test::copy_of;
-using test::GrayPlane;
 
 /// Finds the areas in bands of `band` rows of the halved view; returns the step.
 int find_areas(const GrayPlane& view, float noise, int band, FlatAreas& areas) {

@@ -11,9 +11,6 @@ namespace mtstereo::flat_planes_test {
 namespace {
 
 using reference::ConfidentMap;
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
 
 constexpr int kWhole = 1 << 20;
 

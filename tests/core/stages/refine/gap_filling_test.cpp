@@ -13,10 +13,7 @@ namespace mtstereo::gap_filling_test {
 namespace {
 
 using reference::ConfidentMap;
-using test::copy_of;
 using test::disparity_noise;
-using test::DisparityPlane;
-using test::GrayPlane;
 using test::patches;
 
 constexpr int kMost = std::numeric_limits<std::int32_t>::max();

@@ -7,16 +7,12 @@
 #include <functional>
 
 #include "reference/refine/gray_mapping.hpp"
-#include "support/compare.hpp"
 #include "support/plane.hpp"
 #include "support/random.hpp"
 #include "support/random_ratings.hpp"
 
 namespace mtstereo::gray_mapping_test {
 namespace {
-
-using test::DisparityPlane;
-using test::GrayPlane;
 
 constexpr int kShift = 7;
 

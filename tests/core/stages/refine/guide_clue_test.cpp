@@ -6,16 +6,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "support/compare.hpp"
 #include "support/plane.hpp"
 
 // The reference of all clues, with guides of every size, is in reliability_test.cpp.
 
 namespace mtstereo::guide_clue_test {
 namespace {
-
-using test::DisparityPlane;
-using test::GrayPlane;
 
 /// The bins of a map of one row.
 std::vector<int> bins_of(const std::vector<int>& row, const RatedGuide& guide) {

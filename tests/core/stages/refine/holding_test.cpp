@@ -14,12 +14,6 @@
 namespace mtstereo::holding_test {
 namespace {
 
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
-using test::Random;
-using test::same_image;
-
 constexpr LeastConfidence kLeast = {140, 110, 150};
 
 /// Calls body(y0, y1) for the bands of an image of this height.

@@ -6,15 +6,11 @@
 #include "reference/refine/left_strip.hpp"
 #include "support/compare.hpp"
 #include "support/random.hpp"
-#include "support/random_maps.hpp"
 
 namespace mtstereo::left_strip_test {
 namespace {
 
 using reference::ConfidentMap;
-using test::copy_of;
-using test::DisparityPlane;
-using test::GrayPlane;
 
 ConfidentMap corrected(const ConfidentMap& in, int strip, int band = 1 << 20) {
   Image<std::int32_t> map = image_of(in.map);

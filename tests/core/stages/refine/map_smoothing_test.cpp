@@ -11,11 +11,8 @@
 namespace mtstereo::map_smoothing_test {
 namespace {
 
-using test::copy_of;
 using test::disparity_noise;
-using test::DisparityPlane;
 using test::patches;
-using test::same_image;
 
 constexpr int kWhole = 1 << 20;
 

@@ -10,8 +10,6 @@
 namespace mtstereo::reliability_test {
 namespace {
 
-using test::copy_of;
-using test::GrayPlane;
 using Rated = test::RandomRating;
 
 GrayPlane rate(const Rated& rated, float noise, Inferred inferred, int band,

@@ -14,9 +14,7 @@
 namespace mtstereo::speckle_removal_test {
 namespace {
 
-using test::copy_of;
 using test::disparity_noise;
-using test::DisparityPlane;
 using test::patches;
 
 constexpr int kWhole = 1 << 20;

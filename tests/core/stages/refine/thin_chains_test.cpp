@@ -11,12 +11,7 @@
 namespace mtstereo::thin_chains_test {
 namespace {
 
-using test::copy_of;
 using test::disparity_noise;
-using test::DisparityPlane;
-using test::GrayPlane;
-using test::Random;
-using test::same_image;
 
 constexpr int kWhole = 1 << 20;
 

@@ -10,11 +10,6 @@
 namespace mtstereo::thin_structures_test {
 namespace {
 
-using test::DisparityPlane;
-using test::GrayPlane;
-using test::Random;
-using test::same_image;
-
 /// A map of the matching, in which one pixel of so many is marked.
 DisparityPlane found_in(int width, int height, int marked) {
   DisparityPlane found = test::patches(width, height, 1, width);
