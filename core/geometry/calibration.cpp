@@ -42,8 +42,8 @@ std::string size_problem(int width, int height) {
   if (width >= 1 && height >= 1 && width <= kLargestImageSide && height <= kLargestImageSide) {
     return {};
   }
-  return "has the size " + size_text(width, height) + ", 1x1 to " +
-         size_text(kLargestImageSide, kLargestImageSide) + " is needed";
+  return "has the size " + image_size_text(width, height) + ", 1x1 to " +
+         image_size_text(kLargestImageSide, kLargestImageSide) + " is needed";
 }
 
 /// A center outside of the image belongs to another size. Rectified views, which have no
@@ -68,7 +68,7 @@ std::string stated_camera_problem(const CameraCalibration& camera) {
       !is_center_plausible(camera.center_y, camera.height, camera.lens)) {
     return "has the principal point (" + number_text(camera.center_x) + ", " +
            number_text(camera.center_y) + ") outside of its image of " +
-           size_text(camera.width, camera.height) +
+           image_size_text(camera.width, camera.height) +
            "; K belongs to another image size. State that size in the file (image_size: [ WIDTH, "
            "HEIGHT ]), and the calibration is scaled";
   }
@@ -146,8 +146,8 @@ void scale_camera(CameraCalibration& camera, double x, double y) {
 
 Error aspect_error(const CameraCalibration& camera, int width, int height) {
   return {ErrorCode::kInvalidCalibration,
-          "the calibration is for images of " + size_text(camera.width, camera.height) +
-              ", the video has " + size_text(width, height) +
+          "the calibration is for images of " + image_size_text(camera.width, camera.height) +
+              ", the video has " + image_size_text(width, height) +
               ": the aspect ratios differ, so the camera crops; calibrate with this size"};
 }
 
@@ -177,7 +177,7 @@ Result<StereoCalibration> scaled(StereoCalibration calibration, int width, int h
   if (const Status status = check_calibration(calibration); !status) return status.error();
   if (width < 1 || height < 1 || width > kLargestImageSide || height > kLargestImageSide) {
     return Error{ErrorCode::kInvalidCalibration,
-                 "a calibration cannot be scaled to " + size_text(width, height)};
+                 "a calibration cannot be scaled to " + image_size_text(width, height)};
   }
   CameraCalibration& left = calibration.left;
   CameraCalibration& right = calibration.right;

@@ -3,7 +3,7 @@
 
 namespace mtstereo {
 
-std::string size_text(int width, int height) {
+std::string image_size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height) + " px";
 }
 
@@ -11,7 +11,7 @@ Status check_image(const char* name, const void* data, int width, int height, st
                    std::ptrdiff_t row_bytes) {
   if (data != nullptr && width > 0 && height > 0 && (stride >= row_bytes || height == 1)) return {};
   return Error{ErrorCode::kInvalidImage,
-               std::string("the ") + name + " is invalid: " + size_text(width, height) +
+               std::string("the ") + name + " is invalid: " + image_size_text(width, height) +
                    " with a stride of " + std::to_string(stride) + " bytes" +
                    (data == nullptr ? " and no data" : "") +
                    "; an image needs data, at least 1x1 px and a stride of at least one row"};
@@ -20,9 +20,10 @@ Status check_image(const char* name, const void* data, int width, int height, st
 Status check_sizes(const char* name, int width, int height, const char* other, int other_width,
                    int other_height) {
   if (width == other_width && height == other_height) return {};
-  return Error{ErrorCode::kSizeMismatch,
-               std::string("the ") + name + " is " + size_text(width, height) + ", the " + other +
-                   " " + size_text(other_width, other_height) + ": both must have the same size"};
+  return Error{ErrorCode::kSizeMismatch, std::string("the ") + name + " is " +
+                                             image_size_text(width, height) + ", the " + other +
+                                             " " + image_size_text(other_width, other_height) +
+                                             ": both must have the same size"};
 }
 
 Status check_range(double near, double far) {

@@ -12,7 +12,7 @@
 namespace mtstereo {
 
 /// A size as it can be printed: "640x480 px".
-std::string size_text(int width, int height);
+std::string image_size_text(int width, int height);
 
 /// The same for a row of `row_bytes`, whatever the type of the pixels.
 Status check_image(const char* name, const void* data, int width, int height, std::ptrdiff_t stride,

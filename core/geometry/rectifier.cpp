@@ -88,11 +88,11 @@ class Rectifier::State {
     if (in.width != map_.in_width() || in.height != map_.in_height() || out.width != map_.width() ||
         out.height != map_.height()) {
       return Error{ErrorCode::kSizeMismatch,
-                   "The image to rectify has " + size_text(in.width, in.height) +
-                       " and the rectified one " + size_text(out.width, out.height) +
+                   "The image to rectify has " + image_size_text(in.width, in.height) +
+                       " and the rectified one " + image_size_text(out.width, out.height) +
                        ", but the calibration is for " +
-                       size_text(map_.in_width(), map_.in_height()) + " and " +
-                       size_text(map_.width(), map_.height()) + "."};
+                       image_size_text(map_.in_width(), map_.in_height()) + " and " +
+                       image_size_text(map_.width(), map_.height()) + "."};
     }
     if (!has_rows(in, channels) || !has_rows(out, channels)) {
       return Error{ErrorCode::kInvalidImage,
