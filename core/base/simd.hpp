@@ -28,7 +28,11 @@
 // highway.h must come after it.
 // clang-format off
 #include <hwy/foreach_target.h>
+#ifdef MTSTEREO_PRECOMPILED_HIGHWAY  // the functions of all targets; see core/pch/highway.hpp
+#include <hwy/ops/set_macros-inl.h>
+#else
 #include <hwy/highway.h>
+#endif
 // clang-format on
 
 #if HWY_TARGET == HWY_SCALAR
