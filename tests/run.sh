@@ -16,7 +16,8 @@
 # Builds into build/, build-clang-asan/ and build-clang-tsan/. With CI=true warnings are errors, and the tests
 # of the core also run on 64-bit ARM, emulated by QEMU, in build-aarch64/. Compilers run through ccache if it
 # is installed. A new build folder compiles all but the library and the elements as few large files, which takes
-# a quarter of the time for tests and half of it for programs; those for sanitizers and ARM also the library.
+# a quarter of the time for tests and half of it for programs; those for sanitizers, for ARM and with CI=true also
+# the library, which --thorough compiles file by file.
 # Whoever edits a program may prefer -Dunity_programs=false, which stays as it is in a build folder.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
@@ -140,9 +141,10 @@ if [ "$quick" = no ]; then
   check python
 fi
 
-if build build all -Dbuildtype=release; then
-  suites=(--no-suite thorough)
-  [ "$thorough" = no ] || { suites=() && export MTSTEREO_PACKAGES=yes; }
+large=() suites=(--no-suite thorough)
+[ "${CI:-}" != true ] || large=(-Dunity=on)
+[ "$thorough" = no ] || { large=(-Dunity=off) suites=() && export MTSTEREO_PACKAGES=yes; }
+if build build all -Dbuildtype=release "${large[@]}"; then
   run_tests build --no-rebuild "${suites[@]}"
 fi
 
