@@ -92,19 +92,23 @@ std::vector<Selected> selected(const RowCosts& costs, const SelectionOptions& op
   return out;
 }
 
-/// Compares disparities and peak ratios; returns the number of disparities.
+/// Compares disparities and peak ratios on every instruction set; the reference, which takes
+/// longest, is computed once. Returns the number of disparities.
 long expect_reference(const RowCosts& costs, const SelectionOptions& options, const Ranges& ranges,
                       Scratch& scratch, const CostWindow* windows = nullptr) {
   const std::vector<Selected> expected =
       reference::select_disparities(reference::twice(costs), options, ranges.low, ranges.high);
-  const std::vector<Selected> actual = selected(costs, options, ranges, scratch, windows);
   const auto value = [](const std::vector<Selected>& row) {
     return [&row](int x, int y) { return y == 0 ? row[x].disparity : row[x].ratio; };
   };
-  EXPECT_TRUE(test::same_pixels(static_cast<int>(costs.size()), 2, value(expected), value(actual)))
-      << "disparities (row 0) and ratios (row 1), D " << options.disparities << ", confidence "
-      << options.confidence << ", runner-up in range " << options.runner_up_in_range
-      << ", tolerance " << options.left_right_tolerance << ", subpixel " << options.subpixel;
+  test::for_each_simd_target([&] {
+    const std::vector<Selected> actual = selected(costs, options, ranges, scratch, windows);
+    const int width = static_cast<int>(costs.size());
+    EXPECT_TRUE(test::same_pixels(width, 2, value(expected), value(actual)))
+        << "disparities (row 0) and ratios (row 1), D " << options.disparities << ", confidence "
+        << options.confidence << ", runner-up in range " << options.runner_up_in_range
+        << ", tolerance " << options.left_right_tolerance << ", subpixel " << options.subpixel;
+  });
   return std::count_if(expected.begin(), expected.end(),
                        [](const Selected& pixel) { return pixel.disparity != 0; });
 }
@@ -128,43 +132,38 @@ long expect_reference_with_all_options(int width, int disparities, Random& rando
 }
 
 TEST(DisparitySelection, EqualsReferenceInWindowsOnEveryInstructionSet) {
-  test::for_each_simd_target([] {
-    Scratch scratch;
-    Random random(1);
-    long known = 0;
-    for (int i = 0; i < 150; ++i) {
-      const int width = random.between(1, 300), disparities = random.between(1, 400);
-      const SearchWindows windows = test::random_windows(width, 1, cost_lanes(disparities), random);
-      RowCosts costs = random_costs(width, disparities, 255, random);
-      reference::leave_out(test::copy_of(windows, width, 1), 0, costs);
-      known += expect_reference(
-          costs,
-          {disparities, 0.06, i % 2 == 0, random.between(-1, 1), i % 3 > 0, random.below(50)},
-          random_ranges(width, disparities, random), scratch, windows.row(0));
-    }
-    EXPECT_GT(known, 500);
-  });
+  Scratch scratch;
+  Random random(1);
+  long known = 0;
+  for (int i = 0; i < 150; ++i) {
+    const int width = random.between(1, 300), disparities = random.between(1, 400);
+    const SearchWindows windows = test::random_windows(width, 1, cost_lanes(disparities), random);
+    RowCosts costs = random_costs(width, disparities, 255, random);
+    reference::leave_out(test::copy_of(windows, width, 1), 0, costs);
+    known += expect_reference(
+        costs, {disparities, 0.06, i % 2 == 0, random.between(-1, 1), i % 3 > 0, random.below(50)},
+        random_ranges(width, disparities, random), scratch, windows.row(0));
+  }
+  EXPECT_GT(known, 500);
 }
 
 TEST(DisparitySelection, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstructionSet) {
-  test::for_each_simd_target([] {
-    long known = 0;
-    Scratch scratch;
-    for (int disparities = 1; disparities <= 70; ++disparities) {
-      Random random(disparities);
-      known += expect_reference_with_all_options(disparities + random.below(60), disparities,
-                                                 random, scratch);
-    }
-    Random random(300);
-    known += expect_reference_with_all_options(305, 300, random, scratch);
-    // Two rows of the largest number; all options would take seconds.
-    for (const bool in_range : {false, true}) {
-      known += expect_reference(random_costs(1989, 1984, 255, random),
-                                {1984, 0.06, in_range, in_range ? 1 : -1, in_range, 30, 1},
-                                random_ranges(1989, 1984, random), scratch);
-    }
-    EXPECT_GT(known, 10000) << "too few results to compare";
-  });
+  long known = 0;
+  Scratch scratch;
+  for (int disparities = 1; disparities <= 70; ++disparities) {
+    Random random(disparities);
+    known += expect_reference_with_all_options(disparities + random.below(60), disparities, random,
+                                               scratch);
+  }
+  Random random(300);
+  known += expect_reference_with_all_options(305, 300, random, scratch);
+  // Two rows of the largest number; all options would take seconds.
+  for (const bool in_range : {false, true}) {
+    known += expect_reference(random_costs(1989, 1984, 255, random),
+                              {1984, 0.06, in_range, in_range ? 1 : -1, in_range, 30, 1},
+                              random_ranges(1989, 1984, random), scratch);
+  }
+  EXPECT_GT(known, 10000) << "too few results to compare";
 }
 
 TEST(DisparitySelection, EqualsReferenceAtEveryWidth) {

@@ -149,15 +149,18 @@ testing::AssertionResult same_pixels(const std::vector<Selected>& expected,
   return test::same_pixels(static_cast<int>(actual.size()), 2, value(expected), value(actual));
 }
 
-/// Returns the number of disparities.
+/// On every instruction set; the reference, which takes longest, once. Returns the number of
+/// disparities.
 long expect_reference(const Rows& rows, const Setting& setting, Scratch& scratch) {
   const std::vector<Selected> expected = reference_of(rows, setting);
-  for (const bool both : {true, false}) {
-    EXPECT_TRUE(same_pixels(expected, matched(rows, setting, both, scratch)))
-        << "disparities (row 0) and ratios (row 1), D " << setting.selection.disparities << ", P1 "
-        << setting.steps.small_step << ", P2 " << setting.steps.large_step << ", sums "
-        << static_cast<int>(setting.sums) << (both ? ", two rows" : ", one row");
-  }
+  test::for_each_simd_target([&] {
+    for (const bool both : {true, false}) {
+      EXPECT_TRUE(same_pixels(expected, matched(rows, setting, both, scratch)))
+          << "disparities (row 0) and ratios (row 1), D " << setting.selection.disparities
+          << ", P1 " << setting.steps.small_step << ", P2 " << setting.steps.large_step << ", sums "
+          << static_cast<int>(setting.sums) << (both ? ", two rows" : ", one row");
+    }
+  });
   return std::count_if(expected.begin(), expected.end(),
                        [](const Selected& pixel) { return pixel.disparity != 0; });
 }
@@ -180,25 +183,21 @@ long expect_reference_of_random(int width, int disparities, int largest,
 }
 
 TEST(RowPair, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstructionSet) {
-  test::for_each_simd_target([] {
-    Scratch scratch;
-    long known = 0;
-    for (int disparities = 1; disparities <= 70; ++disparities) {
-      Random random(disparities);
-      for (const SmoothnessOptions& steps : kSteps) {
-        known +=
-            expect_reference_of_random(random.between(1, 2 * disparities), disparities,
-                                       disparities % 2 == 0 ? 255 : 60, steps, random, scratch);
-      }
+  Scratch scratch;
+  long known = 0;
+  for (int disparities = 1; disparities <= 70; ++disparities) {
+    Random random(disparities);
+    for (const SmoothnessOptions& steps : kSteps) {
+      known += expect_reference_of_random(random.between(1, 2 * disparities), disparities,
+                                          disparities % 2 == 0 ? 255 : 60, steps, random, scratch);
     }
-    for (const int disparities : {96, 128, 200, 224, 1023, 1984}) {
-      Random random(disparities);
-      known +=
-          expect_reference_of_random(disparities + 5, disparities, 60, {4, 30}, random, scratch);
-      known += expect_reference_of_random(30, disparities, 100, {20, 150}, random, scratch);
-    }
-    EXPECT_GT(known, 1000) << "too few results to compare";
-  });
+  }
+  for (const int disparities : {96, 128, 200, 224, 1023, 1984}) {
+    Random random(disparities);
+    known += expect_reference_of_random(disparities + 5, disparities, 60, {4, 30}, random, scratch);
+    known += expect_reference_of_random(30, disparities, 100, {20, 150}, random, scratch);
+  }
+  EXPECT_GT(known, 1000) << "too few results to compare";
 }
 
 TEST(RowPair, EqualsReferenceAtEveryWidth) {
@@ -211,23 +210,21 @@ TEST(RowPair, EqualsReferenceAtEveryWidth) {
 }
 
 TEST(RowPair, EqualsReferenceInWindowsOnEveryInstructionSet) {
-  test::for_each_simd_target([] {
-    Scratch scratch;
-    Random random(1);
-    long known = 0;
-    for (int i = 0; i < 100; ++i) {
-      const int width = random.between(1, 200), disparities = 32 * random.between(1, 8);
-      const SearchWindows windows = test::random_windows(width, 1, disparities, random);
-      Rows rows = random_rows(width, disparities, 60, random);
-      for (RowCosts& costs : rows.costs) {
-        reference::leave_out(test::copy_of(windows, width, 1), 0, costs);
-      }
-      Setting setting = random_setting(disparities, kSteps[i % std::size(kSteps)], random);
-      setting.windows = windows.row(0);
-      known += expect_reference(rows, setting, scratch);
+  Scratch scratch;
+  Random random(1);
+  long known = 0;
+  for (int i = 0; i < 100; ++i) {
+    const int width = random.between(1, 200), disparities = 32 * random.between(1, 8);
+    const SearchWindows windows = test::random_windows(width, 1, disparities, random);
+    Rows rows = random_rows(width, disparities, 60, random);
+    for (RowCosts& costs : rows.costs) {
+      reference::leave_out(test::copy_of(windows, width, 1), 0, costs);
     }
-    EXPECT_GT(known, 500) << "too few results to compare";
-  });
+    Setting setting = random_setting(disparities, kSteps[i % std::size(kSteps)], random);
+    setting.windows = windows.row(0);
+    known += expect_reference(rows, setting, scratch);
+  }
+  EXPECT_GT(known, 500) << "too few results to compare";
 }
 
 TEST(RowPair, PrefersTheDisparityOfTheNeighbors) {
