@@ -178,10 +178,10 @@ if [ "$quick" = no ]; then
     run_tests build-clang-tsan --no-rebuild --suite threads -t 5
   fi
 
-  if [ "${CI:-}" = true ] && build build-aarch64 all --cross-file tests/cross/aarch64.txt \
+  if [ "${CI:-}" = true ] && build build-aarch64 later --cross-file tests/cross/aarch64.txt \
     -Dbuildtype=release -Dunity=on -Dgst=disabled -Dtools=disabled; then
     # What depends on the processor: kernels, types and results. Allocations and pages do not.
-    run_tests build-aarch64 --no-rebuild -t 10 core core-second core-threads
+    run_tests build-aarch64 -t 10 core core-second core-threads
   fi
 fi
 
