@@ -110,8 +110,11 @@ HWY_INLINE void finish_at(int x, const SelectionOptions& options, const std::uin
   const auto least_sum = sums.get<Candidates::kLeast>();
   const auto second_sum = sums.get<Candidates::kSecond>();
   const auto least = hn::ShiftLeft<1>(least_sum), second = hn::ShiftLeft<1>(second_sum);
-  const auto doubtful = hn::Or(hn::Lt(second_sum, bytes_at(d32, runner_up, least_sum)),
-                               hn::Eq(second_sum, hn::Set(d32, kNoSum)));
+  // Without a share, any sum above the least one is sufficient.
+  const auto sufficient = options.confidence > 0 ? bytes_at(d32, runner_up, least_sum)
+                                                 : hn::Add(least_sum, hn::Set(d32, 1));
+  const auto doubtful =
+      hn::Or(hn::Lt(second_sum, sufficient), hn::Eq(second_sum, hn::Set(d32, kNoSum)));
   auto lost = hn::Or(hn::Gt(widened(low + x), widened(high + x)), doubtful);
   if (options.left_right_tolerance >= 0) {
     const auto other = others_of(candidates, x, best, options.disparities);

@@ -9,7 +9,6 @@
 
 #define HWY_TARGET_INCLUDE "stages/refine/clues.cpp"
 #include "base/simd.hpp"
-#include "base/simd_gather-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -47,41 +46,28 @@ void find_row_changes(const std::uint8_t* __restrict__ row, int width,
   }
 }
 
-/// Replaces the bytes by those of the table, which has three bytes more than it needs.
-void replace_row(const std::uint8_t* table, int width, std::uint8_t* row) {
-  const hn::CappedTag<std::int32_t, kAlignment / 4> d32;
-  const hn::Rebind<std::uint8_t, decltype(d32)> d8;
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
-    const auto values = bytes_at(d32, table, hn::PromoteTo(d32, hn::LoadU(d8, row + x)));
-    hn::StoreU(hn::DemoteTo(d8, values), d8, row + x);
+/// The place of the pixel left of each pixel's partner, in a row whose border is 2 pixels wide.
+void find_partners(const std::int32_t* __restrict__ map, int width, int right_width,
+                   std::uint32_t* __restrict__ places) {
+  for (int x = 0; x < width; ++x) {
+    const int partner = (x * kDisparityOne - map[x] + kDisparityOne / 2) >> 8;
+    const int least = partner < -1 ? -1 : partner;
+    places[x] = static_cast<std::uint32_t>((least > right_width ? right_width : least) + 1);
   }
 }
 
-/// The least difference between each gray value and those of its partner and the pixels beside
-/// it. `right` begins two pixels before the row, and has three after it.
-void find_mismatches(const std::uint8_t* left, const std::uint8_t* right, int right_width,
-                     const std::int32_t* map, int width, std::uint8_t* mismatch) {
+/// The least difference from the first three of the four gray values in each of `partners`.
+void find_least(const std::uint8_t* __restrict__ left, const std::uint32_t* __restrict__ partners,
+                int width, std::uint8_t* __restrict__ mismatch) {
   constexpr int kFirst = std::endian::native == std::endian::big ? 8 : 0;
-  const hn::CappedTag<std::int32_t, kAlignment / 4> d32;
-  const hn::Rebind<std::uint8_t, decltype(d32)> d8;
-  const auto first = hn::Set(d32, -1), last = hn::Set(d32, right_width), one = hn::Set(d32, 1);
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
-    const auto columns = hn::Mul(hn::Iota(d32, x), hn::Set(d32, kDisparityOne));
-    const auto middle =
-        hn::Add(hn::Sub(columns, hn::LoadU(d32, map + x)), hn::Set(d32, kDisparityOne / 2));
-    const auto partner = hn::Min(hn::Max(hn::ShiftRight<8>(middle), first), last);
-    // The pixel before the partner is one place after its column.
-    const auto words = words_at(d32, right, hn::Add(partner, one));
-    const auto gray = hn::PromoteTo(d32, hn::LoadU(d8, left + x));
-    auto least = hn::Set(d32, kMostMismatch);
-    const auto compare = [&](auto shifted) {
-      const auto other = hn::And(shifted, hn::Set(d32, 255));
-      least = hn::Min(least, hn::Abs(hn::Sub(gray, other)));
-    };
-    compare(hn::ShiftRight<kFirst>(words));
-    compare(hn::ShiftRight<kFirst + 8>(words));
-    compare(hn::ShiftRight<kFirst + 16>(words));
-    hn::StoreU(hn::DemoteTo(d8, least), d8, mismatch + x);
+  for (int x = 0; x < width; ++x) {
+    int least = kMostMismatch;
+    for (int i = 0; i < 3; ++i) {
+      const int other = static_cast<int>(partners[x] >> (kFirst + 8 * i) & 255);
+      const int difference = left[x] > other ? left[x] - other : other - left[x];
+      least = difference < least ? difference : least;
+    }
+    mismatch[x] = static_cast<std::uint8_t>(least);
   }
 }
 
@@ -95,8 +81,8 @@ HWY_EXPORT(add_columns);
 HWY_EXPORT(copy_row);
 HWY_EXPORT(mark_matched);
 HWY_EXPORT(find_row_changes);
-HWY_EXPORT(replace_row);
-HWY_EXPORT(find_mismatches);
+HWY_EXPORT(find_partners);
+HWY_EXPORT(find_least);
 
 namespace {
 
@@ -117,14 +103,15 @@ void find_mismatch(const RatedViews& views, const GrayMapping& grays, const std:
   std::uint8_t* right = scratch.right.data();
   std::memcpy(right + 2, views.right.row(y), right_width);
   if (!grays.is_identity) {
-    HWY_DYNAMIC_DISPATCH(replace_row)(scratch.grays.data(), right_width, right + 2);
+    for (int x = 0; x < right_width; ++x) right[2 + x] = grays.left_of_right[right[2 + x]];
   }
   std::memset(right, right[2], 2);
   std::memset(right + 2 + right_width, right[1 + right_width], 3);
-  std::memcpy(scratch.left.data(), views.left.row(y), width);
+  std::uint32_t* partner = scratch.partner.data();
+  HWY_DYNAMIC_DISPATCH(find_partners)(map, width, right_width, partner);
+  for (int x = 0; x < width; ++x) std::memcpy(partner + x, right + partner[x], sizeof *partner);
   std::uint8_t* mismatch = scratch.values.data();
-  HWY_DYNAMIC_DISPATCH(find_mismatches)
-  (scratch.left.data(), right, right_width, map, width, mismatch + 1);
+  HWY_DYNAMIC_DISPATCH(find_least)(views.left.row(y), partner, width, mismatch + 1);
   mismatch[0] = mismatch[1];
   mismatch[width + 1] = mismatch[width];
 }
@@ -149,8 +136,8 @@ void ClueMaps::resize(int width, int height, ReusedMemory* reused) {
 void ClueScratch::resize(int width) {
   marks.resize(width + 2 * kShareReach + kVector);
   values.resize(width + kTextureSide + kVector);
-  right.resize(width + 5 + kVector);  // two pixels before, three after
-  left.resize(width + kVector);
+  right.resize(width + 5);  // two pixels before, three after
+  partner.resize(width);
 }
 
 void gather_clues(const RatedViews& views, const GrayMapping& grays, const Image<std::int32_t>& map,
@@ -159,7 +146,6 @@ void gather_clues(const RatedViews& views, const GrayMapping& grays, const Image
   const int width = map.width();
   std::uint8_t* marks = scratch.marks.data();
   std::memset(marks, 0, width + 2 * kShareReach);
-  std::copy_n(grays.left_of_right.data(), grays.left_of_right.size(), scratch.grays.data());
   for (int y = y0; y < y1; ++y) {
     copy_disparities(map.row(y), width, clues.disparity.row(y));
     HWY_DYNAMIC_DISPATCH(mark_matched)(confidence.row(y), width, marks + kShareReach);

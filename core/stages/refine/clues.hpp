@@ -52,11 +52,10 @@ struct ClueMaps {
 
 /// Scratch memory of one thread.
 struct ClueScratch {
-  Buffer<std::uint8_t> marks;                 ///< of a row, with borders of kShareReach
-  Buffer<std::uint8_t> values;                ///< of a row, with the borders of its sums
-  Buffer<std::uint8_t> right;                 ///< a row of the right view with borders
-  Buffer<std::uint8_t> left;                  ///< a row of the left view
-  std::array<std::uint8_t, 256 + 3> grays{};  ///< GrayMapping::left_of_right
+  Buffer<std::uint8_t> marks;     ///< of a row, with borders of kShareReach
+  Buffer<std::uint8_t> values;    ///< of a row, with the borders of its sums
+  Buffer<std::uint8_t> right;     ///< a row of the right view with borders
+  Buffer<std::uint32_t> partner;  ///< of a row's pixels: its place in `right`, then the gray values
 
   /// For maps and right views of at most this width.
   void resize(int width);
