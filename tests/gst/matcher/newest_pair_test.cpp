@@ -72,7 +72,7 @@ TEST_P(NewestPair, BoundsTheAgeOfTheMaps) {
   const FeedResult result = play_live(speed, {}, {}, frames, 1);
   EXPECT_EQ(result.error, "");
   EXPECT_EQ(result.count.wrong + result.count.unknown, 0) << summary(result);
-  ASSERT_GE(result.count.maps, 6);
+  ASSERT_GE(result.count.maps, 6) << summary(result);
   EXPECT_GT(result.stats.skipped, 0u) << summary(result);
   const std::vector<double> ages = ages_of(result);
   // 1.5 matching times and a frame, and a margin for a busy computer.
@@ -89,7 +89,7 @@ TEST_P(NewestPair, KeepsPairsRightDespiteLossAndSkew) {
   const FeedResult result =
       play_live(speed, {.loss = 0.1}, {.skew = skew, .loss = 0.1}, speed.framerate, 7);
   EXPECT_EQ(result.error, "");
-  EXPECT_GE(result.count.maps, 3);
+  ASSERT_GE(result.count.maps, 3) << summary(result);
   EXPECT_EQ(result.count.wrong + result.count.unknown, 0) << summary(result);
   EXPECT_LE(median(ages_of(result)), 2.5 * matching_ms(result, speed) + 3 * speed.frame_ms())
       << summary(result);
