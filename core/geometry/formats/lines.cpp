@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-
 #include "geometry/formats/syntax.hpp"
 
 namespace mtstereo::formats {

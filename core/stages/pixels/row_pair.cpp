@@ -38,14 +38,14 @@ HWY_INLINE ByteVector advance(const std::uint8_t* costs, const StepCosts& steps,
 template <PathSums kSums, bool kSelect>
 class PairWalk {
  public:
-  PairWalk(const RowPair& pair, const RowSelection (&rows)[2], const RowPairScratch& scratch)
+  PairWalk(const RowPair& pair, const RowSelection (&rows)[2], RowPairScratch& scratch)
       : pair_(pair),
         rows_{rows[0], rows[1]},
         lanes_(rows[0].lanes),
-        paths_(const_cast<std::uint8_t*>(scratch.paths.data())),
+        paths_(scratch.paths.data()),
         large_step_(pair.large_step->data()),
         changes_(scratch.changes.data()),
-        ends_(const_cast<std::uint8_t*>(scratch.ends.data())),
+        ends_(scratch.ends.data()),
         scratch_(scratch),
         small_step_(hn::Set(Bytes(), static_cast<std::uint8_t>(std::min(pair.small_step, 255)))) {}
 
@@ -135,18 +135,17 @@ class PairWalk {
   const std::uint8_t* const large_step_;
   const std::uint8_t* const changes_;
   std::uint8_t* const ends_;
-  const RowPairScratch& scratch_;
+  RowPairScratch& scratch_;
   const ByteVector small_step_;
 };
 
 template <PathSums kSums>
-void walk_both_ways(const RowPair& pair, const RowSelection (&rows)[2],
-                    const RowPairScratch& scratch) {
+void walk_both_ways(const RowPair& pair, const RowSelection (&rows)[2], RowPairScratch& scratch) {
   PairWalk<kSums, false>(pair, rows, scratch).run();
   PairWalk<kSums, true>(pair, rows, scratch).run();
 }
 
-void walk_pair(const RowPair& pair, const RowSelection (&rows)[2], const RowPairScratch& scratch) {
+void walk_pair(const RowPair& pair, const RowSelection (&rows)[2], RowPairScratch& scratch) {
   switch (pair.sums) {
     case PathSums::kTwo:
       walk_both_ways<PathSums::kTwo>(pair, rows, scratch);
@@ -159,8 +158,7 @@ void walk_pair(const RowPair& pair, const RowSelection (&rows)[2], const RowPair
 }
 
 /// Selects by the costs of the first row.
-void select_by_cost(const RowPair& pair, const RowSelection& of_row,
-                    const RowPairScratch& scratch) {
+void select_by_cost(const RowPair& pair, const RowSelection& of_row, RowPairScratch& scratch) {
   const RowSelection row = of_row;
   const Bytes d8;
   for (int x0 = 0; x0 < row.width; x0 += kWindowTile) {
@@ -239,8 +237,8 @@ void RowPairScratch::resize(int width, int disparities) {
   std::memset(beside.data() + lanes, 255, 3);
 }
 
-std::uint8_t* RowPairScratch::sums_of(int row, int size) const {
-  std::uint8_t* first = const_cast<std::uint8_t*>(sums.data()) + kAround + row * (sums.size() / 2);
+std::uint8_t* RowPairScratch::sums_of(int row, int size) {
+  std::uint8_t* first = sums.data() + kAround + row * (sums.size() / 2);
   first[-1] = first[size] = kNoSum;
   return first;
 }

@@ -51,14 +51,15 @@ struct RowPairScratch {
   Buffer<std::uint8_t> paths;    ///< the path costs from the right of both rows
   Buffer<std::uint8_t> changes;  ///< per row and column: of the gray value from the column before
   Buffer<std::uint8_t> ends;     ///< the path costs of the last pixel of both rows
-  Buffer<std::uint8_t> sums;     ///< its sums, see sums_of()
+  Buffer<std::uint8_t> sums;     ///< its sums, for sums_of()
   Buffer<std::uint8_t> limits;   ///< a third 0, then 255, then 0
   Buffer<std::uint8_t> beside;   ///< 255 at the best disparity and those next to it, 0 elsewhere
 
   void resize(int width, int disparities);
 
-  /// The sums of row 0 or 1 in a window of this size, between two values of kNoSum.
-  std::uint8_t* sums_of(int row, int size) const;
+  /// The memory for the sums of a pixel of row 0 or 1, in a window of this size. Sets the value
+  /// before and after them to kNoSum.
+  std::uint8_t* sums_of(int row, int size);
 };
 
 /// Finds the candidates of both rows: of equal costs the smallest disparity is the best. The
