@@ -66,16 +66,17 @@ HWY_INLINE void for_each_vector(CostWindow window, const Vector& vector) {
 }
 
 /// Counts the differing bits of the columns x0 .. x1 - 1 of the entering rows.
-void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1,
-                   std::uint8_t* const (&rows)[kPairedRows]) {
+void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
   const Narrow d8;
-  for (int row = 0; row < kPairedRows; ++row) {
-    for (int x = x0; x < x1; ++x) {
-      std::uint8_t* counts = rows[row] + static_cast<std::ptrdiff_t>(x) * window.lanes;
-      const Difference<Narrow> in(window.in[row], window.width, x);
-      for_each_vector<0, Narrow>(lanes,
-                                 [&](int d) HWY_ATTR { hn::StoreU(in.count(d), d8, counts + d); });
-    }
+  for (int x = x0; x < x1; ++x) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
+    const Difference<Narrow> upper(window.in[0], window.width, x);
+    const Difference<Narrow> lower(window.in[1], window.width, x);
+    for_each_vector<0, Narrow>(lanes, [&](int d) HWY_ATTR {
+      const auto count = lower.count(d);
+      hn::StoreU(hn::Add(upper.count(d), count), d8, window.first.both + first + d);
+      hn::StoreU(count, d8, window.first.lower + first + d);
+    });
   }
 }
 
@@ -86,26 +87,30 @@ void sum_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
     for (int x = x0; x < x1; ++x) {
       const D8 d8;
       const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
+      std::uint8_t* both_of_pair = window.first.both + first;
+      std::uint8_t* lower_of_pair = window.first.lower + first;
       std::uint8_t* sums = window.sums_of(x);
       const Difference<D8> upper(window.in[0], window.width, x);
       const Difference<D8> lower(window.in[1], window.width, x);
       for_each_vector<kVectors, D8>(lanes, [&](int d) HWY_ATTR {
-        const auto upper_count = upper.count(d);
-        const auto lower_count = lower.count(d);
-        if constexpr (kSize == 1) {
-          hn::StoreU(upper_count, d8, sums + d);
-          hn::StoreU(lower_count, d8, sums + window.lanes + d);
-        } else {
-          auto shared = upper_count;
-          for (int i = 1; i < kSize - 1; ++i) {
-            shared = hn::Add(shared, hn::LoadU(d8, window.rows[i] + first + d));
+        auto upper_sum = upper.count(d);
+        auto lower_sum = lower.count(d);
+        if constexpr (kSize > 1) {
+          const auto entering = hn::Add(upper_sum, lower_sum);
+          const auto leaving_both = hn::LoadU(d8, both_of_pair + d);
+          const auto leaving = hn::LoadU(d8, lower_of_pair + d);
+          hn::StoreU(entering, d8, both_of_pair + d);
+          hn::StoreU(lower_sum, d8, lower_of_pair + d);
+          upper_sum = hn::Add(leaving_both, upper_sum);
+          lower_sum = hn::Add(leaving, entering);
+          if constexpr (kSize == 5) {
+            const auto middle = hn::LoadU(d8, window.middle + first + d);
+            upper_sum = hn::Add(upper_sum, middle);
+            lower_sum = hn::Add(lower_sum, middle);
           }
-          const auto leaving = hn::LoadU(d8, window.rows[0] + first + d);
-          hn::StoreU(hn::Add(shared, leaving), d8, sums + d);
-          hn::StoreU(hn::Add(shared, lower_count), d8, sums + window.lanes + d);
-          hn::StoreU(upper_count, d8, window.rows[kSize - 1] + first + d);
-          hn::StoreU(lower_count, d8, window.rows[kSize] + first + d);
         }
+        hn::StoreU(upper_sum, d8, sums + d);
+        hn::StoreU(lower_sum, d8, sums + window.lanes + d);
       });
     }
   });
@@ -131,12 +136,11 @@ HWY_INLINE void for_counted_lanes(const CensusWindow& window, int reach, int x0,
   }
 }
 
-/// Counts two of the window's first rows.
+/// Counts the first rows of the windows.
 void add_rows(const CensusWindow& of_window, int reach) {
   const CensusWindow window = of_window;
-  std::uint8_t* const rows[] = {window.rows[2 * reach], window.rows[2 * reach + 1]};
   for_counted_lanes(window, reach, 0, window.width, [&](CostWindow lanes, int x0, int x1) {
-    count_columns(window, lanes, x0, x1, rows);
+    count_columns(window, lanes, x0, x1);
   });
 }
 
@@ -187,13 +191,15 @@ HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int 
 /// adjacent columns are in the cache.
 template <int kSize, class D8>
 void write_rows_of(const CensusWindow& of_window, int disparities, const std::uint16_t* low,
-                   const std::uint16_t* high, const CensusTables& of_tables, std::uint8_t* costs) {
+                   const std::uint16_t* high, const CensusTables& of_tables,
+                   std::uint8_t* (&costs)[kPairedRows]) {
   // Copies: the compiler knows that no store of bytes changes them.
   const CensusWindow window = of_window;
   const CensusTables tables = of_tables;
   constexpr int kReach = kSize / 2;
   const int last = window.width - 1;
-  const std::ptrdiff_t lanes = window.lanes;
+  std::uint8_t* upper = costs[0];
+  std::uint8_t* lower = costs[1];
   const auto sums_at = [&](int x) { return window.sums_of(std::clamp(x, 0, last)); };
   int summed = 0;
   for (int x0 = 0; x0 < window.width; x0 += kWindowTile) {
@@ -205,13 +211,11 @@ void write_rows_of(const CensusWindow& of_window, int disparities, const std::ui
     summed = needed;
     const CostWindow matched = window_at(window.matched, window.lanes, x0);
     with_vectors<D8>(matched, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-      std::uint8_t* upper = costs + x0 * lanes;
-      std::uint8_t* lower = upper + window.width * lanes;
       ColumnSums sums = {{sums_at(x0 - 2), sums_at(x0 - 1), sums_at(x0), sums_at(x0 + 1), nullptr}};
-      for (int x = x0; x < x1; ++x, upper += lanes, lower += lanes) {
+      for (int x = x0; x < x1; ++x, upper += matched.size(), lower += matched.size()) {
         sums.of[4] = sums_at(x + 2);
         write_costs<kSize, kVectors, D8>(window, matched, disparities, sums, low[x], high[x],
-                                         tables, upper, lower);
+                                         tables, upper - matched.begin, lower - matched.begin);
         for (int i = 0; i < 4; ++i) sums.of[i] = sums.of[i + 1];
       }
     });
@@ -220,7 +224,7 @@ void write_rows_of(const CensusWindow& of_window, int disparities, const std::ui
 
 void write_rows(const CensusWindow& window, const CensusCostOptions& options,
                 const std::uint16_t* low, const std::uint16_t* high, const CensusTables& tables,
-                std::uint8_t* costs) {
+                std::uint8_t* (&costs)[kPairedRows]) {
   const auto by_size = [&]<class D8>(D8) {
     return options.kernel_size == 5   ? write_rows_of<5, D8>
            : options.kernel_size == 3 ? write_rows_of<3, D8>
@@ -243,9 +247,6 @@ namespace {
 
 int wrapped(int i, int count) { return (i % count + count) % count; }
 
-/// Rows of which two successive windows consist.
-int window_rows(const CensusCostOptions& options) { return options.kernel_size + 1; }
-
 /// Bytes of the planes of a row of both views.
 std::size_t plane_bytes(int width, int lanes) {
   return kCensusBytes * (2 * static_cast<std::size_t>(width) + lanes);
@@ -264,26 +265,32 @@ CensusRow split_row(const CensusImage& left, const CensusImage& right, int y, in
   return row;
 }
 
-/// Prepares the windows of the rows y and y + 1, which the last two of their rows enter.
+/// Prepares the windows of the rows y and y + 1, which the last two of their rows enter. Before
+/// them the windows have as many pairs of rows as they reach.
 CensusWindow windows_of(const CensusImage& left, const CensusImage& right,
                         const SearchWindows& windows, const CensusCostOptions& options, int y,
                         CensusCostScratch& scratch) {
   const int width = left.bits.width();
   const int lanes = cost_lanes(options.disparities);
-  const int reach = options.kernel_size / 2, rows = window_rows(options);
-  const int entering = y + reach;
+  const int reach = options.kernel_size / 2;
+  const bool up = scratch.direction == RowDirection::kUp;
   CensusWindow window = {};
   window.width = width;
   window.lanes = lanes;
   for (int i = 0; i < kPairedRows; ++i) {
     std::uint8_t* planes = scratch.planes.data() + i * plane_bytes(width, lanes);
-    window.in[i] = split_row(left, right, entering + i, lanes, planes);
+    const int entering = up ? y + 1 - reach - i : y + reach + i;
+    window.in[i] = split_row(left, right, entering, lanes, planes);
   }
-  for (int i = 0; i < rows; ++i) {
-    const std::ptrdiff_t slot = wrapped(y - reach + i, rows);
-    window.rows[i] = scratch.counts.data() + slot * width * lanes;
+  if (reach > 0) {
+    const std::size_t cells = static_cast<std::size_t>(width) * lanes;
+    const auto counts_of = [&](int pair) {
+      return scratch.counts.data() + 2 * cells * wrapped(pair, reach);
+    };
+    window.first = {counts_of(y / 2), counts_of(y / 2) + cells};
+    window.middle = counts_of(y / 2 + 1);
   }
-  window.counted = windows.covering(entering - reach, entering + 1 + reach);
+  window.counted = windows.covering(up ? y - 2 * reach : y, up ? y + 1 : y + 1 + 2 * reach);
   window.sums = scratch.sums.data();
   return window;
 }
@@ -293,7 +300,8 @@ CensusWindow windows_of(const CensusImage& left, const CensusImage& right,
 void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
   const int lanes = cost_lanes(options.disparities);
   planes.resize(kPairedRows * plane_bytes(width, lanes));
-  counts.resize(static_cast<std::size_t>(width) * lanes * window_rows(options));
+  const int reach = options.kernel_size / 2;
+  counts.resize(static_cast<std::size_t>(width) * lanes * kPairedRows * reach);
   sums.resize(static_cast<std::size_t>(kSummedColumns) * kPairedRows * lanes);
   tables.resize(5 * static_cast<std::size_t>(lanes));
   const int penalty = std::min(options.range_penalty * cost_scale(options), 255);
@@ -310,24 +318,29 @@ void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
 
 void start_census_costs(const CensusImage& left, const CensusImage& right,
                         const SearchWindows& windows, const CensusCostOptions& options, int y,
-                        CensusCostScratch& scratch) {
+                        RowDirection direction, CensusCostScratch& scratch) {
+  scratch.direction = direction;
   const int reach = options.kernel_size / 2;
   for (int before = reach; before > 0; --before) {
+    const int rows = kPairedRows * before;
+    const int pair = direction == RowDirection::kUp ? y + rows : y - rows;
     HWY_DYNAMIC_DISPATCH(add_rows)
-    (windows_of(left, right, windows, options, y - kPairedRows * before, scratch), reach);
+    (windows_of(left, right, windows, options, pair, scratch), reach);
   }
 }
 
 void census_cost_rows(const CensusImage& left, const CensusImage& right,
                       const SearchWindows& windows, const CensusCostOptions& options, int y,
                       const std::uint16_t* low, const std::uint16_t* high,
-                      CensusCostScratch& scratch, std::uint8_t* costs) {
+                      CensusCostScratch& scratch, std::uint8_t* upper, std::uint8_t* lower) {
   const std::size_t lanes = cost_lanes(options.disparities);
   const std::uint8_t* tables = scratch.tables.data();
   CensusWindow window = windows_of(left, right, windows, options, y, scratch);
   window.matched = windows.row(y);
+  if (scratch.direction == RowDirection::kUp) std::swap(upper, lower);
+  std::uint8_t* rows[kPairedRows] = {upper, lower};
   HWY_DYNAMIC_DISPATCH(write_rows)
-  (window, options, low, high, {tables, tables + 2 * lanes, tables + 4 * lanes}, costs);
+  (window, options, low, high, {tables, tables + 2 * lanes, tables + 4 * lanes}, rows);
 }
 
 }  // namespace mtstereo

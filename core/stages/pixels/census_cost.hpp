@@ -12,9 +12,8 @@ namespace mtstereo {
 
 /// The costs of guided pixel matching, two rows at a time: differing bits of the census transforms,
 /// summed over a small window, plus a penalty for disparities that the guide does not expect. The
-/// costs of a row are stored pixel by pixel: cell [x][d] at x * lanes + d. Cells without a right
-/// pixel (d > x) use the first pixel of the right row, so that they cost nothing where the image is
-/// flat.
+/// costs of a row are stored pixel by pixel, those in its window. Disparities without a right pixel
+/// (d > x) use the first pixel of the right row, so that they cost nothing where the image is flat.
 
 struct CensusCostOptions {
   int disparities;    ///< D
@@ -29,30 +28,35 @@ inline constexpr int kCensusNever = 255;
 /// row costs are averaged, so that one step is one bit of one row.
 inline int cost_scale(const CensusCostOptions& options) { return options.kernel_size; }
 
+/// The order of the rows.
+enum class RowDirection { kDown, kUp };
+
 /// Scratch memory of one thread, and its state between rows.
 struct CensusCostScratch {
   Buffer<std::uint8_t> planes;  ///< two rows of both views, split into byte planes
-  Buffer<std::uint8_t> counts;  ///< differing bits of each row of two successive windows
+  Buffer<std::uint8_t> counts;  ///< differing bits of the pairs of rows before the entering one
   Buffer<std::uint8_t> sums;    ///< over the rows of each window, of the last columns
   Buffer<std::uint8_t> tables;  ///< penalties below and above a range, and from D on
+
+  RowDirection direction;  ///< of start_census_costs()
 
   void resize(int width, const CensusCostOptions& options);
 };
 
 /// Begins with row y, an even one. The calls of census_cost_rows() that follow have to pass the
-/// rows y, y + 2 ... in this order, and the same windows.
+/// rows y, y + 2 ... or, upwards, y, y - 2 ... in this order, and the same windows.
 void start_census_costs(const CensusImage& left, const CensusImage& right,
                         const SearchWindows& windows, const CensusCostOptions& options, int y,
-                        CensusCostScratch& scratch);
+                        RowDirection direction, CensusCostScratch& scratch);
 
-/// Writes the costs of the rows y and y + 1, 2 * width * lanes cells; those outside of the pixels'
-/// windows stay as they are. y is the row passed to start_census_costs() or two more than that of
-/// the previous call; if y + 1 is not in the image, its costs have no meaning. Disparities outside
-/// low[x] .. high[x] cost the penalty more, in both rows; low > high means that the pixels have no
-/// expected range, and then there is no penalty. Sums saturate at 255.
+/// Writes the costs of the rows y (`upper`) and y + 1 (`lower`), row_cells() each. y is the row
+/// passed to start_census_costs() or the one after that of the previous call; if y + 1 is not in
+/// the image, its costs have no meaning. Disparities outside low[x] .. high[x] cost the penalty
+/// more, in both rows; low > high means that the pixels have no expected range, and then there is
+/// no penalty. Sums saturate at 255.
 void census_cost_rows(const CensusImage& left, const CensusImage& right,
                       const SearchWindows& windows, const CensusCostOptions& options, int y,
                       const std::uint16_t* low, const std::uint16_t* high,
-                      CensusCostScratch& scratch, std::uint8_t* costs);
+                      CensusCostScratch& scratch, std::uint8_t* upper, std::uint8_t* lower);
 
 }  // namespace mtstereo

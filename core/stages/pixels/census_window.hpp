@@ -24,19 +24,24 @@ inline constexpr int kSummedColumns = 2 * kWindowTile;
 /// Rows whose costs are written at once, and which enter the window.
 inline constexpr int kPairedRows = 2;
 
-/// Largest window_rows().
-inline constexpr int kMostWindowRows = 5 + 1;
+/// The names are those of rows that follow each other downwards; upwards they are reversed.
+
+/// The differing bits of two rows that entered together, cell [x][d] at x * lanes + d.
+struct PairCounts {
+  std::uint8_t* both;   ///< of both rows
+  std::uint8_t* lower;  ///< of the second row
+};
 
 /// The windows of two successive rows.
 struct CensusWindow {
   int width;
-  int lanes;                            ///< cost_lanes()
-  CensusRow in[kPairedRows];            ///< the rows that enter the window
-  std::uint8_t* rows[kMostWindowRows];  ///< differing bits of all rows from the first on; the last
-                                        ///< two entered last
-  const CostWindow* matched;            ///< the windows of the rows whose costs are written
-  const CostWindow* counted;  ///< windows that cover all rows that the entering ones concern
-  std::uint8_t* sums;         ///< [column][row of the pair][disparity]
+  int lanes;                   ///< cost_lanes()
+  CensusRow in[kPairedRows];   ///< the rows that enter the windows
+  PairCounts first;            ///< the first pair of rows, which the entering one replaces
+  const std::uint8_t* middle;  ///< of both rows of the second pair, in windows of 5 rows
+  const CostWindow* matched;   ///< the windows of the rows whose costs are written
+  const CostWindow* counted;   ///< windows that cover all rows that the entering ones concern
+  std::uint8_t* sums;          ///< [column][row of the pair][disparity]
 
   /// The sums of column x, those of the pair's first row before those of the second.
   std::uint8_t* sums_of(int x) const {

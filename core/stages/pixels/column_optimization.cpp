@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <type_traits>
 
 #include "stages/pixels/census_cost.hpp"
@@ -18,57 +19,54 @@ namespace mtstereo::HWY_NAMESPACE {
 /// Copies the costs of the paths' first row, which has no predecessor.
 void begin_columns(const ColumnStep& row, std::uint8_t* paths, std::uint8_t* least) {
   const Bytes d8;
-  const int lanes = cost_lanes(row.disparities);
   const std::uint8_t* costs = row.costs;
-  for (int x = 0; x < row.width; ++x, costs += lanes, paths += lanes) {
-    const CostWindow window = window_at(row.windows, lanes, x);
+  for (int x = 0; x < row.width; ++x) {
     auto lowest = hn::Set(d8, 255);
-    for (int d = window.begin; d < window.end; d += static_cast<int>(hn::Lanes(d8))) {
-      const auto cost = hn::LoadU(d8, costs + d);
-      hn::StoreU(cost, d8, paths + d);
+    const int size = window_at(row.windows, cost_lanes(row.disparities), x).size();
+    for (int i = 0; i < size; i += static_cast<int>(hn::Lanes(d8))) {
+      const auto cost = hn::LoadU(d8, costs + i);
+      hn::StoreU(cost, d8, paths + i);
       lowest = hn::Min(lowest, cost);
     }
     least[x] = least_lane(d8, lowest);
+    costs += size;
+    paths += size;
   }
 }
 
-/// Advances the paths of the columns x0 .. x1 - 1, which have the same window.
+/// Advances the paths of the columns x0 .. x1 - 1, whose cells begin at `cell`.
 template <int kVectors>
-HWY_INLINE void continue_tile(const ColumnStep& row, CostWindow window, int x0, int x1,
+HWY_INLINE void continue_tile(const ColumnStep& row, int size, int x0, int x1, std::ptrdiff_t cell,
                               const std::uint8_t* before, std::uint8_t* paths,
                               std::uint8_t* least) {
   const Bytes d8;
-  const std::ptrdiff_t lanes = cost_lanes(row.disparities);
   const auto small_step = hn::Set(d8, static_cast<std::uint8_t>(std::min(row.small_step, 255)));
   const std::uint8_t* large_step = row.large_step->data();
   const std::uint8_t* gray = row.gray;
   const std::uint8_t* gray_before = row.gray_before;
   const std::uint8_t* costs = row.costs;
-  for (std::ptrdiff_t x = x0; x < x1; ++x) {
+  for (int x = x0; x < x1; ++x, cell += size) {
     const auto lowest = hn::Set(d8, least[x]);
     const int change = std::abs(gray[x] - gray_before[x]);
     const StepCosts steps = {small_step, lowest,
                              hn::SaturatedAdd(lowest, hn::Set(d8, large_step[change]))};
-    least[x] = hn::GetLane(step_vectors<kVectors>(window, costs + x * lanes, before + x * lanes,
-                                                  steps, paths + x * lanes));
+    least[x] =
+        hn::GetLane(step_vectors<kVectors>(size, costs + cell, before + cell, steps, paths + cell));
   }
 }
 
-void continue_columns(const ColumnStep& of_row, std::uint8_t* before, std::uint8_t* paths,
+void continue_columns(const ColumnStep& of_row, const std::uint8_t* before, std::uint8_t* paths,
                       std::uint8_t* least) {
   // A copy: the compiler knows that no store of bytes changes it.
   const ColumnStep row = of_row;
-  const std::ptrdiff_t lanes = cost_lanes(row.disparities);
+  std::ptrdiff_t cell = 0;
   for (int x0 = 0; x0 < row.width; x0 += kWindowTile) {
     const int x1 = std::min(x0 + kWindowTile, row.width);
-    const CostWindow window = window_at(row.windows, static_cast<int>(lanes), x0);
-    const CostWindow last = window_at(row.windows_before, static_cast<int>(lanes), x0);
-    for (int x = x0; x < x1 && last != window; ++x) {
-      extend_lanes(last, window, before + x * lanes);
-    }
+    const CostWindow window = window_at(row.windows, cost_lanes(row.disparities), x0);
     with_vectors<Bytes>(window, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-      continue_tile<kVectors>(row, window, x0, x1, before, paths, least);
+      continue_tile<kVectors>(row, window.size(), x0, x1, cell, before, paths, least);
     });
+    cell += std::ptrdiff_t{x1 - x0} * window.size();
   }
 }
 
@@ -81,7 +79,22 @@ namespace mtstereo {
 HWY_EXPORT(begin_columns);
 HWY_EXPORT(continue_columns);
 
-void step_columns(const ColumnStep& row, std::uint8_t* before, std::uint8_t* paths,
+void move_columns(const CostWindow* from, const CostWindow* to, int lanes, int width,
+                  const std::uint8_t* paths, std::uint8_t* moved) {
+  for (int x = 0; x < width; ++x) {
+    const CostWindow before = window_at(from, lanes, x), next = window_at(to, lanes, x);
+    for (int d = next.begin; d < next.end; d += kWindowStep, moved += kWindowStep) {
+      if (before.begin <= d && d < before.end) {
+        std::memcpy(moved, paths + (d - before.begin), kWindowStep);
+      } else {
+        std::memset(moved, 255, kWindowStep);
+      }
+    }
+    paths += before.size();
+  }
+}
+
+void step_columns(const ColumnStep& row, const std::uint8_t* before, std::uint8_t* paths,
                   std::uint8_t* least) {
   if (before == nullptr) {
     HWY_DYNAMIC_DISPATCH(begin_columns)(row, paths, least);

@@ -14,22 +14,26 @@ namespace mtstereo {
 
 /// The input of one row.
 struct ColumnStep {
-  const std::uint8_t* costs;        ///< cell [x][d] at x * cost_lanes(disparities) + d
+  const std::uint8_t* costs;        ///< of each pixel in its window
   const std::uint8_t* gray;         ///< of the left view
   const std::uint8_t* gray_before;  ///< of the paths' previous row
   int width;
   int disparities;
   int small_step;
   const LargeStepTable* large_step;
-  const CostWindow* windows = nullptr;         ///< of the row's tiles; nullptr = all lanes
-  const CostWindow* windows_before = nullptr;  ///< of the paths' previous row
+  const CostWindow* windows = nullptr;  ///< of the row's tiles; nullptr = all lanes
 };
 
 /// Advances the paths by one row: writes the path costs of its cells, as defined at
-/// match_row_pair(), from the costs of the previous row. `before` may be `paths`; it is nullptr in
-/// the paths' first row. Overwrites cells of `before` outside of the windows. `least` holds the
-/// least path cost of each column, first of the previous row, then of this one.
-void step_columns(const ColumnStep& row, std::uint8_t* before, std::uint8_t* paths,
+/// match_row_pair(), from the costs of the previous row in the same windows. `before` may be
+/// `paths`; it is nullptr in the paths' first row. `least` holds the least path cost of each
+/// column, first of the previous row, then of this one.
+void step_columns(const ColumnStep& row, const std::uint8_t* before, std::uint8_t* paths,
                   std::uint8_t* least);
+
+/// Copies the path costs of a row in the windows `from` to other windows. Those of disparities in
+/// `to` alone become 255, so that they are never the least.
+void move_columns(const CostWindow* from, const CostWindow* to, int lanes, int width,
+                  const std::uint8_t* paths, std::uint8_t* moved);
 
 }  // namespace mtstereo

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 namespace mtstereo {
@@ -18,12 +19,12 @@ inline int cost_lanes(int disparities) {
 }
 
 /// The disparities at which a pixel is matched: begin .. end - 1. Both are multiples of
-/// kWindowStep, and their difference is one of kCostStep. All other cells of the pixel are
-/// undefined.
+/// kWindowStep, and their difference is one of kCostStep.
 struct CostWindow {
   std::uint16_t begin;
   std::uint16_t end;
 
+  int size() const { return end - begin; }
   bool operator==(const CostWindow&) const = default;
 };
 
@@ -38,10 +39,20 @@ inline CostWindow window_at(const CostWindow* windows, int lanes, int x) {
   return windows[x / kWindowTile];
 }
 
+/// A row stores the costs of its pixels one after the other, each pixel's in its window only.
+/// Returns how many there are.
+inline std::ptrdiff_t row_cells(const CostWindow* windows, int lanes, int width) {
+  std::ptrdiff_t cells = 0;
+  for (int x = 0; x < width; x += kWindowTile) {
+    cells += std::ptrdiff_t{std::min(kWindowTile, width - x)} * window_at(windows, lanes, x).size();
+  }
+  return cells;
+}
+
 /// The smallest window that contains both.
 inline CostWindow joined(CostWindow a, CostWindow b) {
   CostWindow both = {std::min(a.begin, b.begin), std::max(a.end, b.end)};
-  if ((both.end - both.begin) % kCostStep == 0) return both;
+  if (both.size() % kCostStep == 0) return both;
   // All lanes are a multiple of kCostStep, so that there is room on one side.
   if (both.begin > 0) {
     both.begin -= kWindowStep;

@@ -110,23 +110,22 @@ struct StepCosts {
 /// come from the previous pixel's costs in the same window. May overwrite them. kVectors: the
 /// number of the window's vectors, or 0 if it is not known.
 template <int kVectors>
-HWY_INLINE hn::Vec<Bytes> step_vectors(CostWindow window, const std::uint8_t* costs,
+HWY_INLINE hn::Vec<Bytes> step_vectors(int size, const std::uint8_t* costs,
                                        const std::uint8_t* before, const StepCosts& steps,
                                        std::uint8_t* paths) {
   const Bytes d8;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
-  const int vectors = kVectors > 0 ? kVectors : vectors_of(d8, window);
+  const int vectors = kVectors > 0 ? kVectors : size / kLanes;
   const auto never = hn::Set(d8, 255);
   auto least = never;
   auto previous = never;
-  auto same = hn::LoadU(d8, before + window.begin);
+  auto same = hn::LoadU(d8, before);
   for (int i = 0; i < vectors; ++i) {
-    const int d = window.begin + i * kLanes;
     // Loads whole vectors only: a load that spans two recent stores would wait for both.
-    const auto after = i + 1 < vectors ? hn::LoadU(d8, before + d + kLanes) : never;
-    const auto path = path_costs(d8, hn::LoadU(d8, costs + d), previous, same, after,
+    const auto after = i + 1 < vectors ? hn::LoadU(d8, before + (i + 1) * kLanes) : never;
+    const auto path = path_costs(d8, hn::LoadU(d8, costs + i * kLanes), previous, same, after,
                                  steps.small_step, steps.any, steps.least);
-    hn::StoreU(path, d8, paths + d);
+    hn::StoreU(path, d8, paths + i * kLanes);
     least = hn::Min(least, path);
     previous = same;
     same = after;

@@ -34,7 +34,8 @@ class ChunkMatching {
         chunk_(chunk),
         scratch_(scratch),
         width_(input.image.width),
-        cells_(static_cast<std::ptrdiff_t>(width_) * cost_lanes(options.cost.disparities)),
+        lanes_(cost_lanes(options.cost.disparities)),
+        cells_(largest_row()),
         small_step_(options.smoothness.small_step * cost_scale(options.cost)),
         large_step_(large_step_table(
             {small_step_, options.smoothness.large_step * cost_scale(options.cost)})),
@@ -43,14 +44,13 @@ class ChunkMatching {
 
   /// Writes the results. Paths from below walk through the whole chunk first.
   void run(Image<std::int32_t>& map, Image<std::uint8_t>& ratio, WindowVotes* votes) {
-    start_census_costs(input_.left, input_.right, input_.windows, options_.cost, chunk_.first,
-                       scratch_.cost);
     if (from_below()) {
-      for (int y = chunk_.first; y < chunk_.last; y += 2) find_costs(y);
       walk_up();
+    } else {
+      start_costs(chunk_.first, RowDirection::kDown);
     }
     if (votes != nullptr) clear_votes(chunk_.y0, chunk_.y1, *votes);
-    std::uint8_t* before = nullptr;
+    const std::uint8_t* before = nullptr;
     // Chunks and their margins begin at even rows, so that a pair has one row of windows.
     for (int y = chunk_.first; y < chunk_.y1; y += 2) {
       if (!from_below()) find_costs(y);
@@ -65,6 +65,17 @@ class ChunkMatching {
  private:
   bool from_above() const { return options_.column_paths != ColumnPaths::kNone; }
   bool from_below() const { return options_.column_paths == ColumnPaths::kBoth; }
+
+  /// The cells of the largest row of the chunk and its margins.
+  std::ptrdiff_t largest_row() const {
+    std::ptrdiff_t largest = 0;
+    for (int y = chunk_.first; y < chunk_.last; y += kWindowTile) {
+      largest = std::max(largest, row_cells(windows(y), lanes_, width_));
+    }
+    return std::max(largest, row_cells(windows(chunk_.last - 1), lanes_, width_));
+  }
+
+  const CostWindow* windows(int y) const { return input_.windows.row(y); }
 
   /// Without paths from below, each pair replaces the one before it.
   std::uint8_t* costs(int y) const {
@@ -87,13 +98,24 @@ class ChunkMatching {
   void find_costs(int y) {
     expect(y);
     census_cost_rows(input_.left, input_.right, input_.windows, options_.cost, y,
-                     scratch_.low.data(), scratch_.high.data(), scratch_.cost, costs(y));
+                     scratch_.low.data(), scratch_.high.data(), scratch_.cost, costs(y),
+                     costs(y + 1));
   }
 
-  /// Outside of the chunk only the state is kept.
+  void start_costs(int y, RowDirection direction) {
+    start_census_costs(input_.left, input_.right, input_.windows, options_.cost, y, direction,
+                       scratch_.cost);
+  }
+
+  /// Finds the costs of all rows, and advances the paths while they are in the cache. Outside of
+  /// the chunk only the state is kept.
   void walk_up() {
-    std::uint8_t* before = nullptr;
-    for (int y = chunk_.last - 1; y >= chunk_.y0; --y) {
+    const int last = chunk_.last - 1;
+    start_costs(last / 2 * 2, RowDirection::kUp);
+    const std::uint8_t* before = nullptr;
+    for (int y = last; y >= chunk_.first; --y) {
+      if (y == last || y % 2 != 0) find_costs(y / 2 * 2);
+      if (y < chunk_.y0) continue;
       std::uint8_t* paths = below(std::min(y, chunk_.y1));
       step(y, y + 1, before, paths);
       before = paths;
@@ -101,11 +123,20 @@ class ChunkMatching {
   }
 
   /// Advances paths along the columns from the row `from` to row y.
-  void step(int y, int from, std::uint8_t* before, std::uint8_t* paths) const {
+  void step(int y, int from, const std::uint8_t* before, std::uint8_t* paths) const {
     const int last = before == nullptr ? y : from;
-    const ColumnStep row = {costs(y),     input_.image.row(y),       input_.image.row(last),
-                            width_,       options_.cost.disparities, small_step_,
-                            &large_step_, input_.windows.row(y),     input_.windows.row(last)};
+    if (windows(y) != windows(last)) {
+      move_columns(windows(last), windows(y), lanes_, width_, before, scratch_.moved.data());
+      before = scratch_.moved.data();
+    }
+    const ColumnStep row = {costs(y),
+                            input_.image.row(y),
+                            input_.image.row(last),
+                            width_,
+                            options_.cost.disparities,
+                            small_step_,
+                            &large_step_,
+                            windows(y)};
     step_columns(row, before, paths, scratch_.least.data());
   }
 
@@ -129,7 +160,7 @@ class ChunkMatching {
         width_,
         small_step_,
         &large_step_,
-        input_.windows.row(y),
+        windows(y),
         from_above() ? PathSums::kFour : PathSums::kTwo};
     match_row_pair(pair, options_.selection, scratch_.pair);
     for (int row = y; row <= last; ++row) {
@@ -159,7 +190,8 @@ class ChunkMatching {
   Chunk chunk_;
   PathMatchingScratch& scratch_;
   int width_;
-  std::ptrdiff_t cells_;  // of a row
+  int lanes_;
+  std::ptrdiff_t cells_;  // from one row of costs to the next
   int small_step_;
   LargeStepTable large_step_;
   RunnerUpTable runner_up_;
@@ -182,6 +214,7 @@ void PathMatchingScratch::resize(int width, int height, const PathMatchingOption
   costs.resize(cells * (from_below ? rows : 2));
   below.resize(from_below ? cells * (std::min(height, kPathRows) + 1) : 0);
   above.resize(options.column_paths == ColumnPaths::kNone ? 0 : 2 * cells);
+  moved.resize(options.column_paths == ColumnPaths::kNone ? 0 : cells);
   least.resize(width);
   by_cost.resize(width);
   by_cost_ratio.resize(width);

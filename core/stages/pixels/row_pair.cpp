@@ -54,31 +54,34 @@ class PairWalk {
     std::memset(ends_, 0, 2 * lanes_);
     ByteVector least[2] = {hn::Zero(Bytes()), hn::Zero(Bytes())};
     CostWindow before = {0, static_cast<std::uint16_t>(lanes_)};
+    // The cell after those of the last tile.
+    std::ptrdiff_t cell = kSelect ? 0 : row_cells(pair_.windows, lanes_, pair_.width);
     for (int i = 0; i < tiles; ++i) {
       const int x0 = (kSelect ? i : tiles - 1 - i) * kWindowTile;
       const CostWindow window = window_at(pair_.windows, lanes_, x0);
       for (int r = 0; r < 2 && i > 0; ++r) extend_lanes(before, window, ends_ + r * lanes_);
       before = window;
       with_vectors<Bytes>(window, [&]<int kVectors>(std::integral_constant<int, kVectors>)
-                                      HWY_ATTR { walk_tile<kVectors>(x0, window, least); });
+                                      HWY_ATTR { walk_tile<kVectors>(x0, window, cell, least); });
     }
   }
 
  private:
   template <int kVectors>
-  HWY_INLINE void walk_tile(int x0, CostWindow window, ByteVector (&last_least)[2]) {
+  HWY_INLINE void walk_tile(int x0, CostWindow window, std::ptrdiff_t& cell,
+                            ByteVector (&last_least)[2]) {
     using Lanes = PixelLanes<kVectors>;
     std::uint8_t* ends[2] = {ends_ + window.begin, ends_ + lanes_ + window.begin};
     Lanes paths[2] = {Lanes(ends[0], window), Lanes(ends[1], window)};
     const int pixels = std::min(kWindowTile, pair_.width - x0);
     // In registers.
     ByteVector least[2] = {last_least[0], last_least[1]};
-    std::uint8_t* const sums[2] = {scratch_.sums_of(0, window.end - window.begin),
-                                   scratch_.sums_of(1, window.end - window.begin)};
+    std::uint8_t* const sums[2] = {scratch_.sums_of(0, window.size()),
+                                   scratch_.sums_of(1, window.size())};
     for (int i = 0; i < pixels; ++i) {
       const int x = kSelect ? x0 + i : x0 + pixels - 1 - i;
+      if constexpr (!kSelect) cell -= window.size();
       for (int r = 0; r < 2; ++r) {
-        const std::ptrdiff_t cell = std::ptrdiff_t{x} * lanes_ + window.begin;
         const std::uint8_t change = changes_[r * (pair_.width + 1) + x + !kSelect];
         const StepCosts steps = {small_step_, least[r],
                                  hn::SaturatedAdd(least[r], hn::Set(Bytes(), large_step_[change]))};
@@ -91,6 +94,7 @@ class PairWalk {
         }
       }
       if constexpr (!kSelect) continue;
+      cell += window.size();
       const std::ptrdiff_t place = right_place(rows_[0], x);
       for (int r = 0; r < 2; ++r) select<kVectors>(rows_[r], x, place, window, sums[r]);
     }
@@ -161,17 +165,18 @@ void walk_pair(const RowPair& pair, const RowSelection (&rows)[2], RowPairScratc
 void select_by_cost(const RowPair& pair, const RowSelection& of_row, RowPairScratch& scratch) {
   const RowSelection row = of_row;
   const Bytes d8;
+  const std::uint8_t* costs = pair.rows[0].costs;
   for (int x0 = 0; x0 < row.width; x0 += kWindowTile) {
     const CostWindow window = window_at(pair.windows, row.lanes, x0);
-    std::uint8_t* const memory = scratch.sums_of(0, window.end - window.begin);
+    std::uint8_t* const memory = scratch.sums_of(0, window.size());
     with_vectors<Bytes>(window, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
       for (int x = x0; x < std::min(x0 + kWindowTile, row.width); ++x) {
-        const std::uint8_t* costs = pair.rows[0].costs + std::ptrdiff_t{x} * row.lanes;
-        for (int d = window.begin; d < window.end; d += kByteLanes) {
-          auto cost = hn::LoadU(d8, costs + d);
-          if (x + 1 < window.end) cost = with_border(row, x, d, cost);
-          hn::StoreU(cost, d8, memory + d - window.begin);
+        for (int i = 0; i < window.size(); i += kByteLanes) {
+          auto cost = hn::LoadU(d8, costs + i);
+          if (x + 1 < window.end) cost = with_border(row, x, window.begin + i, cost);
+          hn::StoreU(cost, d8, memory + i);
         }
+        costs += window.size();
         select<kVectors>(row, x, right_place(row, x), window, memory);
       }
     });

@@ -25,8 +25,8 @@ enum class PathSums {
   kFour,  ///< with those along the column: mean(mean(left, right), mean(above, below))
 };
 
-/// One row of a pair. Cells of costs are at [x][d], x * cost_lanes(disparities) + d; those of
-/// disparities that do not exist have 255. Pixels with low > high have no expected range.
+/// One row of a pair. Costs are those of each pixel in its window; those of disparities that do not
+/// exist are 255. Pixels with low > high have no expected range.
 struct PathRow {
   const std::uint8_t* costs;
   const std::uint8_t* gray;        ///< of the left view

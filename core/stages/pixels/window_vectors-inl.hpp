@@ -19,7 +19,7 @@ namespace mtstereo::HWY_NAMESPACE {
 /// The number of a window's vectors.
 template <class D8>
 HWY_INLINE int vectors_of(D8, CostWindow window) {
-  return (window.end - window.begin) / static_cast<int>(hn::MaxLanes(D8()));
+  return window.size() / static_cast<int>(hn::MaxLanes(D8()));
 }
 
 /// The vectors of so many kCostStep lanes; 0 if they do not fill whole ones.
@@ -33,7 +33,7 @@ constexpr int vectors_of_steps(int steps) {
 /// kCostStep lanes, else with 0.
 template <class D8, class Work>
 HWY_INLINE auto with_vectors(CostWindow window, const Work& work) {
-  switch ((window.end - window.begin) / kCostStep) {
+  switch (window.size() / kCostStep) {
     case 1:
       return work(std::integral_constant<int, vectors_of_steps<D8>(1)>());
     case 2:

@@ -44,54 +44,62 @@ void poison(CensusCostScratch& scratch) {
   }
 }
 
-/// The costs of the rows y0 .. y1 - 1, one row of cells after another; y0 is even.
-std::vector<std::uint8_t> costs_of(const CensusPair& pair, const CensusCostOptions& options, int y0,
-                                   int y1, const Ranges& ranges, CensusCostScratch& scratch,
-                                   const SearchWindows& windows = {}) {
+/// The costs of the rows y0 .. y1 - 1; y0 is even. What follows the cells of a row must stay as it
+/// was.
+std::vector<reference::RowCosts> costs_of(const CensusPair& pair, const CensusCostOptions& options,
+                                          int y0, int y1, RowDirection direction,
+                                          const Ranges& ranges, CensusCostScratch& scratch,
+                                          const SearchWindows& windows = {}) {
   const int width = pair.left.bits.width();
-  const std::size_t cells = static_cast<std::size_t>(width) * cost_lanes(options.disparities);
+  const int lanes = cost_lanes(options.disparities);
+  const bool up = direction == RowDirection::kUp;
+  const int pairs = (y1 - y0 + 1) / 2;
   scratch.resize(width, options);
   poison(scratch);
-  Buffer<std::uint8_t> rows;
-  rows.resize(2 * cells);
-  std::vector<std::uint8_t> costs;
-  start_census_costs(pair.left, pair.right, windows, options, y0, scratch);
-  for (int y = y0; y < y1; y += 2) {
-    std::fill_n(rows.data(), 2 * cells, std::uint8_t{0xA5});
+  std::vector<reference::RowCosts> costs(2 * pairs);
+  start_census_costs(pair.left, pair.right, windows, options, up ? y0 + 2 * pairs - 2 : y0,
+                     direction, scratch);
+  for (int i = 0; i < pairs; ++i) {
+    const int y = y0 + 2 * (up ? pairs - 1 - i : i);
+    const std::ptrdiff_t cells = row_cells(windows.row(y), lanes, width);
+    std::vector<std::uint8_t> rows[2];
+    for (std::vector<std::uint8_t>& row : rows) row.assign(cells + lanes, 0xA5);
     census_cost_rows(pair.left, pair.right, windows, options, y, ranges.low.data(),
-                     ranges.high.data(), scratch, rows.data());
-    costs.insert(costs.end(), rows.data(), rows.data() + std::min(2, y1 - y) * cells);
+                     ranges.high.data(), scratch, rows[0].data(), rows[1].data());
+    for (int r = 0; r < 2; ++r) {
+      costs[y - y0 + r] = test::costs_of(rows[r].data(), windows.row(y), width, lanes);
+      EXPECT_EQ(lanes, std::count(rows[r].end() - lanes, rows[r].end(), 0xA5));
+    }
   }
   return costs;
 }
 
-/// Compares every cell of the rows y0 .. y1 - 1; the padding cells after D must never be the least,
-/// and those outside of the windows must stay as they were.
+/// Compares every cell of the rows y0 .. y1 - 1 in both orders; disparities from D on must never be
+/// the least.
 void expect_reference(const Pair& views, const CensusCostOptions& options, int y0, int y1,
                       const Ranges& ranges, CensusCostScratch& scratch,
                       const SearchWindows& windows = {}) {
   const CensusPair pair(views.left.view(), views.right.view());
-  const std::vector<std::uint8_t> costs = costs_of(pair, options, y0, y1, ranges, scratch, windows);
+  const auto down = costs_of(pair, options, y0, y1, RowDirection::kDown, ranges, scratch, windows);
+  const auto up = costs_of(pair, options, y0, y1, RowDirection::kUp, ranges, scratch, windows);
   const reference::CensusCosts plain{reference::census(views.left), reference::census(views.right),
                                      options};
   const int lanes = cost_lanes(options.disparities);
   const int width = views.left.width;
   const reference::Windows matched = test::copy_of(windows, width, views.left.height);
   for (int y = y0; y < y1; ++y) {
-    EXPECT_TRUE(test::same_pixels(
-        lanes, width,
-        [&](int d, int x) {
-          if (!matched.contain(x, y, d)) return 0xA5;
-          return d < options.disparities ? plain.cost(x, y, d, ranges.low[x], ranges.high[x])
-                                         : kCensusNever;
-        },
-        [&](int d, int x) {
-          return static_cast<int>(
-              costs[(static_cast<std::size_t>(y - y0) * width + x) * lanes + d]);
-        }))
-        << "cells (disparity, column) of row " << y << " of " << views.left.height << ", D "
-        << options.disparities << ", window " << options.kernel_size << ", penalty "
-        << options.range_penalty;
+    const auto expected = [&](int d, int x) {
+      if (!matched.contain(x, y, d)) return reference::kOutside;
+      return d < options.disparities ? plain.cost(x, y, d, ranges.low[x], ranges.high[x])
+                                     : kCensusNever;
+    };
+    for (const auto* costs : {&down, &up}) {
+      EXPECT_TRUE(test::same_pixels(lanes, width, expected,
+                                    [&](int d, int x) { return (*costs)[y - y0][x][d]; }))
+          << "cells (disparity, column) of row " << y << " of " << views.left.height << ", D "
+          << options.disparities << ", window " << options.kernel_size << ", penalty "
+          << options.range_penalty << (costs == &up ? ", upwards" : ", downwards");
+    }
   }
 }
 
@@ -172,13 +180,16 @@ TEST(CensusCost, IsZeroAtDisparityZeroForAnIdenticalPair) {
   const GrayPlane image = test::noise(50, 5, 3);
   const CensusPair pair(image.view(), image.view());
   CensusCostScratch scratch;
-  const auto costs = costs_of(pair, {20, 5, 2}, 0, 5, nothing_known(50), scratch);
+  const auto costs =
+      costs_of(pair, {20, 5, 2}, 0, 4, RowDirection::kDown, nothing_known(50), scratch);
   long more = 0;
-  for (int pixel = 0; pixel < 5 * 50; ++pixel) {
-    EXPECT_EQ(0, costs[static_cast<std::size_t>(pixel) * 32]) << "pixel " << pixel;
-    more += costs[static_cast<std::size_t>(pixel) * 32 + 7] > 0;
+  for (const reference::RowCosts& row : costs) {
+    for (int x = 0; x < 50; ++x) {
+      EXPECT_EQ(0, row[x][0]) << "column " << x;
+      more += row[x][7] > 0;
+    }
   }
-  EXPECT_GT(more, 200) << "other disparities must have a cost";
+  EXPECT_GT(more, 160) << "other disparities must have a cost";
 }
 
 TEST(CensusCost, CountsAllBitsOfAllRowsForInvertedViews) {
@@ -196,13 +207,14 @@ TEST(CensusCost, CountsAllBitsOfAllRowsForInvertedViews) {
     const CensusCostOptions options = {20, size, 16};
     scratch.resize(20, options);
     std::vector<std::uint16_t> low(20, 5), high(20, 8);
-    Buffer<std::uint8_t> rows;
-    rows.resize(2 * 20 * 32);
-    start_census_costs(left, right, {}, options, 0, scratch);
-    census_cost_rows(left, right, {}, options, 0, low.data(), high.data(), scratch, rows.data());
+    std::vector<std::uint8_t> upper(20 * 32), lower(20 * 32);
+    start_census_costs(left, right, {}, options, 0, RowDirection::kDown, scratch);
+    census_cost_rows(left, right, {}, options, 0, low.data(), high.data(), scratch, upper.data(),
+                     lower.data());
     for (int d = 0; d < 20; ++d) {
       const int bits = d >= 5 && d <= 8 ? 24 : 40;
-      EXPECT_EQ(bits * cost_scale(options), rows[10 * 32 + d]) << "window " << size << ", d " << d;
+      EXPECT_EQ(bits * cost_scale(options), upper[10 * 32 + d]) << "window " << size << ", d " << d;
+      EXPECT_EQ(bits * cost_scale(options), lower[10 * 32 + d]) << "window " << size << ", d " << d;
     }
   }
 }

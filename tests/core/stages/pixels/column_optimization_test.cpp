@@ -41,40 +41,33 @@ std::vector<RowCosts> walked(const Rows& rows, const SmoothnessOptions& options,
   const int lanes = cost_lanes(disparities);
   const std::size_t cells = static_cast<std::size_t>(width) * lanes;
   const LargeStepTable large_step = large_step_table(options);
-  Buffer<std::uint8_t> costs, paths, least;
-  costs.resize(cells);
+  Buffer<std::uint8_t> paths, moved, least;
   paths.resize(2 * cells);
+  moved.resize(cells);
   least.resize(width);
   std::vector<RowCosts> out;
-  std::uint8_t* before = nullptr;
-  const auto row_before = [](std::size_t y) { return static_cast<int>(y == 0 ? 0 : y - 1); };
+  const std::uint8_t* before = nullptr;
   for (std::size_t y = 0; y < rows.costs.size(); ++y) {
-    std::fill_n(costs.data(), cells, std::uint8_t{kCensusNever});
-    for (int x = 0; x < width; ++x) {
-      for (int d = 0; d < disparities; ++d) {
-        // Outside of the window a cost that would be the least.
-        const int cost = rows.costs[y][x][d];
-        costs[x * lanes + d] = static_cast<std::uint8_t>(std::max(cost, 0));
-      }
+    const std::size_t last = y == 0 ? 0 : y - 1;
+    const CostWindow* own = windows.row(static_cast<int>(y));
+    const CostWindow* of_last = windows.row(static_cast<int>(last));
+    const Buffer<std::uint8_t> costs = test::cells_of(rows.costs[y], own);
+    if (own != of_last) {
+      move_columns(of_last, own, lanes, width, before, moved.data());
+      before = moved.data();
     }
     const ColumnStep step = {costs.data(),
                              rows.gray[y].data(),
-                             rows.gray[row_before(y)].data(),
+                             rows.gray[last].data(),
                              width,
                              disparities,
                              options.small_step,
                              &large_step,
-                             windows.row(static_cast<int>(y)),
-                             windows.row(row_before(y))};
+                             own};
     std::uint8_t* to = paths.data() + (in_place ? 0 : y % 2 * cells);
     step_columns(step, before, to, least.data());
     before = to;
-    out.emplace_back(width);
-    for (int x = 0; x < width; ++x) {
-      out[y][x].assign(to + x * lanes, to + x * lanes + disparities);
-    }
-    reference::leave_out(test::copy_of(windows, width, static_cast<int>(rows.costs.size())),
-                         static_cast<int>(y), out[y]);
+    out.push_back(test::costs_of(to, own, width, disparities));
     for (int x = 0; x < width; ++x) {
       const int best = reference::first_least(out[y][x]);
       if (best < 0) continue;

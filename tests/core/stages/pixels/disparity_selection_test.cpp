@@ -65,17 +65,7 @@ std::vector<Selected> selected(const RowCosts& costs, const SelectionOptions& op
                                const Ranges& ranges, Scratch& scratch,
                                const CostWindow* windows = nullptr) {
   const int width = static_cast<int>(costs.size());
-  const int lanes = cost_lanes(options.disparities);
-  Buffer<std::uint8_t> cells;
-  cells.resize(static_cast<std::size_t>(width) * lanes);
-  std::fill_n(cells.data(), cells.size(), std::uint8_t{kCensusNever});
-  for (int x = 0; x < width; ++x) {
-    for (int d = 0; d < options.disparities; ++d) {
-      // Outside of the window a cost that would be the least.
-      cells[static_cast<std::size_t>(x) * lanes + d] =
-          static_cast<std::uint8_t>(std::max(costs[x][d], 0));
-    }
-  }
+  const Buffer<std::uint8_t> cells = test::cells_of(costs, windows);
   std::vector<std::int32_t> disparity(width, -77);
   std::vector<std::uint8_t> ratio(width, 77);
   scratch.pair.resize(width, options.disparities);

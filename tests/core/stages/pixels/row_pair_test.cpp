@@ -74,22 +74,6 @@ struct Scratch {
   Candidates candidates[2];
 };
 
-/// The cells of a row; outside of its windows costs that would be the least.
-Buffer<std::uint8_t> cells_of(const RowCosts& costs) {
-  const int width = static_cast<int>(costs.size());
-  const int disparities = static_cast<int>(costs[0].size());
-  const std::ptrdiff_t lanes = cost_lanes(disparities);
-  Buffer<std::uint8_t> cells;
-  cells.resize(width * lanes);
-  std::fill_n(cells.data(), cells.size(), std::uint8_t{kCensusNever});
-  for (int x = 0; x < width; ++x) {
-    for (int d = 0; d < disparities; ++d) {
-      cells[x * lanes + d] = static_cast<std::uint8_t>(std::max(costs[x][d], 0));
-    }
-  }
-  return cells;
-}
-
 /// Matches both rows, or the first one twice.
 std::vector<Selected> matched(const Rows& rows, const Setting& setting, bool both,
                               Scratch& scratch) {
@@ -104,9 +88,9 @@ std::vector<Selected> matched(const Rows& rows, const Setting& setting, bool bot
   for (int r = 0; r < 2; ++r) {
     const int from = both ? r : 0;
     scratch.candidates[r].resize(width, disparities);
-    cells[r][0] = cells_of(rows.costs[from]);
-    cells[r][1] = cells_of(rows.above[from]);
-    cells[r][2] = cells_of(rows.below[from]);
+    cells[r][0] = test::cells_of(rows.costs[from], setting.windows);
+    cells[r][1] = test::cells_of(rows.above[from], setting.windows);
+    cells[r][2] = test::cells_of(rows.below[from], setting.windows);
     pair.rows[r] = {cells[r][0].data(),
                     rows.gray[from].data(),
                     cells[r][1].data(),
