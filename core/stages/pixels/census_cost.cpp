@@ -170,8 +170,8 @@ HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int 
   if (low > high || (low == 0 && high == disparities - 1)) {
     for_each_vector<kVectors, D8>(matched, [&](int d) HWY_ATTR {
       const auto never = hn::LoadU(d8, tables.never + d);
-      hn::StoreU(hn::Max(mean(d), never), d8, upper + d);
-      hn::StoreU(hn::Max(mean(lanes + d), never), d8, lower + d);
+      hn::StoreU(hn::Max(mean(d), never), d8, upper + (d - matched.begin));
+      hn::StoreU(hn::Max(mean(lanes + d), never), d8, lower + (d - matched.begin));
     });
     return;
   }
@@ -182,8 +182,10 @@ HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int 
   for_each_vector<kVectors, D8>(matched, [&](int d) HWY_ATTR {
     const auto penalty = hn::Max(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d));
     const auto never = hn::LoadU(d8, tables.never + d);
-    hn::StoreU(hn::Max(hn::SaturatedAdd(mean(d), penalty), never), d8, upper + d);
-    hn::StoreU(hn::Max(hn::SaturatedAdd(mean(lanes + d), penalty), never), d8, lower + d);
+    const auto upper_cost = hn::Max(hn::SaturatedAdd(mean(d), penalty), never);
+    const auto lower_cost = hn::Max(hn::SaturatedAdd(mean(lanes + d), penalty), never);
+    hn::StoreU(upper_cost, d8, upper + (d - matched.begin));
+    hn::StoreU(lower_cost, d8, lower + (d - matched.begin));
   });
 }
 
@@ -215,7 +217,7 @@ void write_rows_of(const CensusWindow& of_window, int disparities, const std::ui
       for (int x = x0; x < x1; ++x, upper += matched.size(), lower += matched.size()) {
         sums.of[4] = sums_at(x + 2);
         write_costs<kSize, kVectors, D8>(window, matched, disparities, sums, low[x], high[x],
-                                         tables, upper - matched.begin, lower - matched.begin);
+                                         tables, upper, lower);
         for (int i = 0; i < 4; ++i) sums.of[i] = sums.of[i + 1];
       }
     });
