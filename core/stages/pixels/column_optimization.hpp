@@ -9,7 +9,7 @@
 namespace mtstereo {
 
 /// Paths of semi-global matching along the columns, for path_matching: the counterpart of
-/// row_pair. A path goes from row to row, upwards or downwards, so that one call
+/// row_walk. A path goes from row to row, upwards or downwards, so that one call
 /// advances the paths of all columns by one row.
 
 /// The input of one row.
@@ -25,7 +25,7 @@ struct ColumnStep {
 };
 
 /// Advances the paths by one row: writes the path costs of its cells, as defined at
-/// match_row_pair(), from the costs of the previous row in the same windows. `before` may be
+/// match_walked_rows(), from the costs of the previous row in the same windows. `before` may be
 /// `paths`; it is nullptr in the paths' first row. `least` holds the least path cost of each
 /// column, first of the previous row, then of this one.
 void step_columns(const ColumnStep& row, const std::uint8_t* before, std::uint8_t* paths,

@@ -10,7 +10,7 @@
 namespace mtstereo {
 
 /// The last part of guided pixel matching: decides about each pixel's disparity of least cost,
-/// which row_pair found.
+/// which row_walk found.
 
 struct SelectionOptions {
   int disparities;           ///< D

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Internal to row_pair.cpp and column_optimization.cpp: the costs of a path's pixel in
+// Internal to row_walk.cpp and column_optimization.cpp: the costs of a path's pixel in
 // vectors of bytes. Every SIMD target includes this header again, after base/simd.hpp.
 #if defined(MTSTEREO_PATH_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef MTSTEREO_PATH_LANES_INL_HPP

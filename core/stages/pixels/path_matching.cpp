@@ -51,14 +51,16 @@ class ChunkMatching {
     }
     if (votes != nullptr) clear_votes(chunk_.y0, chunk_.y1, *votes);
     const std::uint8_t* before = nullptr;
-    // Chunks and their margins begin at even rows, so that a pair has one row of windows.
-    for (int y = chunk_.first; y < chunk_.y1; y += 2) {
-      if (!from_below()) find_costs(y);
-      for (int row = y; from_above() && row < std::min(y + 2, chunk_.y1); ++row) {
+    // Chunks and their margins begin at multiples of kWalkedRows, so that such rows have one row of
+    // windows.
+    for (int y = chunk_.first; y < chunk_.y1; y += kWalkedRows) {
+      const int end = std::min(y + kWalkedRows, chunk_.y1);
+      for (int row = y; !from_below() && row < end; row += 2) find_costs(row);
+      for (int row = y; from_above() && row < end; ++row) {
         step(row, row - 1, before, above(row));
         before = above(row);
       }
-      if (y >= chunk_.y0) match_pair(y, map, ratio, votes);
+      if (y >= chunk_.y0) match_rows(y, end, map, ratio, votes);
     }
   }
 
@@ -77,29 +79,31 @@ class ChunkMatching {
 
   const CostWindow* windows(int y) const { return input_.windows.row(y); }
 
-  /// Without paths from below, each pair replaces the one before it.
+  /// Without paths from below, the next rows replace these.
   std::uint8_t* costs(int y) const {
-    return scratch_.costs.data() + (from_below() ? y - chunk_.first : y % 2) * cells_;
+    return scratch_.costs.data() + (from_below() ? y - chunk_.first : y % kWalkedRows) * cells_;
   }
 
-  std::uint8_t* above(int y) const { return scratch_.above.data() + y % 2 * cells_; }
+  std::uint8_t* above(int y) const { return scratch_.above.data() + y % kWalkedRows * cells_; }
 
   std::uint8_t* below(int y) const { return scratch_.below.data() + (y - chunk_.y0) * cells_; }
 
-  /// Two rows have the same row of the half map.
-  void expect(int y) {
-    if (expected_ == y / 2) return;
-    expected_ = y / 2;
-    find_expected(input_.half_map, y, width_, options_.cost.disparities, scratch_.low.data(),
-                  scratch_.high.data());
+  /// The expected range of a row. Two rows have the same row of the half map.
+  const ExpectedRange& expected(int y) {
+    const int pair = y / 2, turn = pair % kWalkedPairs;
+    ExpectedRange& range = scratch_.expected[turn];
+    if (std::exchange(expected_[turn], pair) != pair) {
+      find_expected(input_.half_map, y, width_, options_.cost.disparities, range.low.data(),
+                    range.high.data());
+    }
+    return range;
   }
 
   /// The costs of the rows y and y + 1.
   void find_costs(int y) {
-    expect(y);
-    census_cost_rows(input_.left, input_.right, input_.windows, options_.cost, y,
-                     scratch_.low.data(), scratch_.high.data(), scratch_.cost, costs(y),
-                     costs(y + 1));
+    const ExpectedRange& range = expected(y);
+    census_cost_rows(input_.left, input_.right, input_.windows, options_.cost, y, range.low.data(),
+                     range.high.data(), scratch_.cost, costs(y), costs(y + 1));
   }
 
   void start_costs(int y, RowDirection direction) {
@@ -140,49 +144,44 @@ class ChunkMatching {
     step_columns(row, before, paths, scratch_.least.data());
   }
 
-  PathRow path_row(int y, Candidates& candidates) const {
+  PathRow path_row(int y, Candidates& candidates) {
     const std::uint8_t* upper = from_above() ? above(y) : nullptr;
-    return {costs(y),
-            input_.image.row(y),
-            upper,
-            from_below() ? below(y) : upper,
-            scratch_.low.data(),
-            scratch_.high.data(),
-            &candidates};
+    const ExpectedRange& range = expected(y);
+    return {costs(y),         input_.image.row(y), upper,      from_below() ? below(y) : upper,
+            range.low.data(), range.high.data(),   &candidates};
   }
 
-  /// Matches the rows y and y + 1, or the chunk's last row.
-  void match_pair(int y, Image<std::int32_t>& map, Image<std::uint8_t>& ratio, WindowVotes* votes) {
-    const int last = std::min(y + 1, chunk_.y1 - 1);
-    expect(y);
-    const RowPair pair = {
-        {path_row(y, scratch_.candidates[0]), path_row(last, scratch_.candidates[1])},
-        width_,
-        small_step_,
-        &large_step_,
-        windows(y),
-        from_above() ? PathSums::kFour : PathSums::kTwo};
-    match_row_pair(pair, options_.selection, scratch_.pair);
-    for (int row = y; row <= last; ++row) {
-      finish_selection(width_, options_.selection, runner_up_, scratch_.low.data(),
-                       scratch_.high.data(), scratch_.candidates[row - y], map.row(row),
-                       ratio.row(row));
+  /// Matches the rows y .. end - 1, at most kWalkedRows.
+  void match_rows(int y, int end, Image<std::int32_t>& map, Image<std::uint8_t>& ratio,
+                  WindowVotes* votes) {
+    WalkedRows rows = {{},           width_,     small_step_,
+                       &large_step_, windows(y), from_above() ? PathSums::kFour : PathSums::kTwo};
+    for (int i = 0; i < kWalkedRows; ++i) {
+      rows.of[i] =
+          path_row(std::min(y + i, end - 1), scratch_.candidates[std::min(i, end - 1 - y)]);
+    }
+    match_walked_rows(rows, options_.selection, scratch_.walk);
+    for (int row = y; row < end; ++row) {
+      const PathRow& matched = rows.of[row - y];
+      finish_selection(width_, options_.selection, runner_up_, matched.low, matched.high,
+                       *matched.candidates, map.row(row), ratio.row(row));
     }
     if (votes == nullptr) return;
-    static_assert(kCostVotingRows == 2);
-    select_by_cost(pair);
-    count_votes(map.row(y), scratch_.by_cost.data(), width_, y, *votes);
-    if (last > y) count_votes(map.row(last), nullptr, width_, last, *votes);
+    for (int row = y; row < end; ++row) {
+      const bool by_cost = row % kCostVotingRows == 0;
+      if (by_cost) select_by_cost(rows, row - y);
+      count_votes(map.row(row), by_cost ? scratch_.by_cost.data() : nullptr, width_, row, *votes);
+    }
   }
 
-  /// The disparities of the pair's first row by its costs alone.
-  void select_by_cost(const RowPair& pair) {
+  /// The disparities of row i by its costs alone.
+  void select_by_cost(const WalkedRows& rows, int i) {
     const SelectionOptions options = {
         options_.cost.disparities, 0, false, kCostTolerance, false, 0};
-    match_row_by_cost(pair, options, scratch_.pair);
-    finish_selection(width_, options, any_runner_up_, scratch_.low.data(), scratch_.high.data(),
-                     scratch_.candidates[0], scratch_.by_cost.data(),
-                     scratch_.by_cost_ratio.data());
+    match_row_by_cost(rows, i, options, scratch_.walk);
+    const PathRow& row = rows.of[i];
+    finish_selection(width_, options, any_runner_up_, row.low, row.high, *row.candidates,
+                     scratch_.by_cost.data(), scratch_.by_cost_ratio.data());
   }
 
   const PathMatchingInput& input_;
@@ -196,7 +195,7 @@ class ChunkMatching {
   LargeStepTable large_step_;
   RunnerUpTable runner_up_;
   RunnerUpTable any_runner_up_;
-  int expected_ = -1;  // the row of the half map that the expected range is of
+  int expected_[kWalkedPairs] = {-1, -1};  // the rows of the half map that the ranges are of
 };
 
 }  // namespace
@@ -204,16 +203,18 @@ class ChunkMatching {
 void PathMatchingScratch::resize(int width, int height, const PathMatchingOptions& options) {
   const int disparities = options.cost.disparities;
   const std::size_t cells = static_cast<std::size_t>(width) * cost_lanes(disparities);
-  low.resize(width);
-  high.resize(width);
+  for (ExpectedRange& range : expected) {
+    range.low.resize(width);
+    range.high.resize(width);
+  }
   cost.resize(width, options.cost);
-  pair.resize(width, disparities);
+  walk.resize(width, disparities);
   for (Candidates& row : candidates) row.resize(width, disparities);
   const bool from_below = options.column_paths == ColumnPaths::kBoth;
   const int rows = std::min(height + 1, kPathRows + 2 * kPathMargin);  // whole pairs
-  costs.resize(cells * (from_below ? rows : 2));
+  costs.resize(cells * (from_below ? rows : kWalkedRows));
   below.resize(from_below ? cells * (std::min(height, kPathRows) + 1) : 0);
-  above.resize(options.column_paths == ColumnPaths::kNone ? 0 : 2 * cells);
+  above.resize(options.column_paths == ColumnPaths::kNone ? 0 : kWalkedRows * cells);
   moved.resize(options.column_paths == ColumnPaths::kNone ? 0 : cells);
   least.resize(width);
   by_cost.resize(width);

@@ -8,14 +8,14 @@
 #include "mtstereo/image.hpp"
 #include "stages/pixels/census_cost.hpp"
 #include "stages/pixels/disparity_selection.hpp"
-#include "stages/pixels/row_pair.hpp"
+#include "stages/pixels/row_walk.hpp"
 #include "stages/pixels/search_windows.hpp"
 #include "stages/prepare/census.hpp"
 
 namespace mtstereo {
 
 /// Matching of all pixels by the census cost and paths, two along the row and up to two along the
-/// column: runs census_cost, column_optimization, row_pair and disparity_selection.
+/// column: runs census_cost, column_optimization, row_walk and disparity_selection.
 /// Instead of the nodes, the map of the views at half the resolution says which disparities are
 /// expected.
 
@@ -62,17 +62,25 @@ inline int path_rows(ColumnPaths paths) {
   return paths == ColumnPaths::kNone ? kPathRows / 2 : kPathRows;
 }
 
-/// Scratch memory of one thread. With paths from below, the costs of a chunk and its margins and
-/// the path costs from below of a chunk, otherwise the costs of two rows.
-struct PathMatchingScratch {
+/// Rows that are walked along together, in pairs, whose costs are found together.
+inline constexpr int kWalkedPairs = kWalkedRows / 2;
+
+/// The disparities that are expected in each column.
+struct ExpectedRange {
   Buffer<std::uint16_t> low;
   Buffer<std::uint16_t> high;
+};
+
+/// Scratch memory of one thread. With paths from below, the costs of a chunk and its margins and
+/// the path costs from below of a chunk, otherwise the costs of kWalkedRows rows.
+struct PathMatchingScratch {
+  std::array<ExpectedRange, kWalkedPairs> expected;  ///< of two rows each
   CensusCostScratch cost;
-  RowPairScratch pair;
-  std::array<Candidates, 2> candidates;
+  RowWalkScratch walk;
+  std::array<Candidates, kWalkedRows> candidates;
   Buffer<std::uint8_t> costs;
   Buffer<std::uint8_t> below;    ///< of the chunk's rows and the one after them
-  Buffer<std::uint8_t> above;    ///< of two rows
+  Buffer<std::uint8_t> above;    ///< of kWalkedRows rows
   Buffer<std::uint8_t> moved;    ///< of one row, in the windows of the next one
   Buffer<std::uint8_t> least;    ///< of a row's columns
   Buffer<std::int32_t> by_cost;  ///< the disparities of a row by its costs alone

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Internal to row_pair.cpp: the candidates of a pixel from its sums. Every SIMD target includes
+// Internal to row_walk.cpp: the candidates of a pixel from its sums. Every SIMD target includes
 // this header again, after base/simd.hpp.
 #if defined(MTSTEREO_ROW_SELECTION_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef MTSTEREO_ROW_SELECTION_INL_HPP
@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "base/simd.hpp"
 #include "stages/pixels/path_lanes-inl.hpp"
@@ -28,6 +29,7 @@ constexpr int kByteLanes = static_cast<int>(hn::MaxLanes(Bytes()));
 template <int kVectors>
 class PixelLanes {
  public:
+  PixelLanes() = default;
   HWY_INLINE PixelLanes(const std::uint8_t* memory, CostWindow) {
     for (int i = 0; i < kVectors; ++i) set(i, hn::LoadU(Bytes(), memory + i * kByteLanes));
   }
@@ -42,6 +44,7 @@ class PixelLanes {
 template <>
 class PixelLanes<0> {
  public:
+  PixelLanes() = default;
   PixelLanes(std::uint8_t* memory, CostWindow window)
       : memory_(memory), count_(vectors_of(Bytes(), window)) {}
   HWY_INLINE int count() const { return count_; }
@@ -49,8 +52,8 @@ class PixelLanes<0> {
   HWY_INLINE void set(int i, ByteVector v) { hn::StoreU(v, Bytes(), memory_ + i * kByteLanes); }
 
  private:
-  std::uint8_t* memory_;
-  int count_;
+  std::uint8_t* memory_ = nullptr;
+  int count_ = 0;
 };
 
 /// The first lane that is equal to `least`, which is one of them.
@@ -84,16 +87,15 @@ HWY_INLINE int first_equal(const PixelLanes<kVectors>& lanes, ByteVector least) 
   return 0;
 }
 
-/// Where Candidates::right has the right pixel of column x at disparity 0.
-HWY_INLINE std::ptrdiff_t right_place(const RowSelection& row, int x) {
-  return x % Candidates::kTurns * row.right_stride + row.width - 1 - x;
-}
+/// What the selection of a row needs beside the sums.
+enum class Selection { kPlain, kLimitedOrWide };
 
-/// Each sum of a pixel from disparity d on replaces that of its right pixel if it is less.
-HWY_INLINE void compete(const RowSelection& row, std::ptrdiff_t place, int d, ByteVector sums) {
+/// Each sum of a pixel from disparity d on replaces that of its right pixel, whose costs are at
+/// `costs`, if it is less.
+template <Selection kSelection>
+HWY_INLINE void compete(const RowSelection& row, std::uint8_t* costs, int d, ByteVector sums) {
   const Bytes d8;
   const std::ptrdiff_t plane = Candidates::kTurns * row.right_stride;
-  std::uint8_t* costs = row.right + place + d;
   const auto before = hn::LoadU(d8, costs);
   const auto least = hn::Min(before, sums);
   const auto stays = hn::Eq(least, before);
@@ -102,50 +104,84 @@ HWY_INLINE void compete(const RowSelection& row, std::ptrdiff_t place, int d, By
   const auto low = hn::Add(lanes, hn::Set(d8, static_cast<std::uint8_t>(d)));
   std::uint8_t* lows = costs + Candidates::kLow * plane;
   hn::StoreU(hn::IfThenElse(stays, hn::LoadU(d8, lows), low), d8, lows);
-  if (!row.high_planes) return;
+  if (kSelection == Selection::kPlain || !row.high_planes) return;
   std::uint8_t* highs = costs + Candidates::kHigh * plane;
   const auto carry = hn::IfThenElseZero(hn::Lt(low, lanes), hn::Set(d8, 1));
   const auto high = hn::Add(hn::Set(d8, static_cast<std::uint8_t>(d >> 8)), carry);
   hn::StoreU(hn::IfThenElse(stays, hn::LoadU(d8, highs), high), d8, highs);
 }
 
-/// Sets those of the sums that cannot be runner-up to 255.
+/// Sets those of the sums that cannot be runner-up to 255. `best` and d count from the window's
+/// first disparity, `begin`.
+template <Selection kSelection>
 HWY_INLINE ByteVector without(const RowSelection& row, int x, int begin, int best, int d,
                               ByteVector sums) {
   const Bytes d8;
   const auto others = hn::Or(sums, hn::LoadU(d8, row.beside - best + d));
-  if (row.low == nullptr) return others;
+  if (kSelection == Selection::kPlain || row.low == nullptr) return others;
   const std::uint8_t* below = row.limits + 2 * row.lanes - row.low[x] + begin;
   const std::uint8_t* above = row.limits + row.lanes - 1 - row.high[x] + begin;
   return hn::Or(others, hn::Or(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d)));
 }
 
-/// Finds the candidates of column x from its sums in `memory`, between two values of kNoSum;
-/// `place` is its right_place().
-template <int kVectors>
-HWY_INLINE void select(const RowSelection& row, int x, std::ptrdiff_t place, CostWindow window,
-                       std::uint8_t* memory) {
+/// Lets disparities without a right pixel cost 255: those above x.
+HWY_INLINE void hide_border(const RowSelection& row, int x0, int x1, CostWindow window,
+                            std::uint8_t* sums) {
   const Bytes d8;
-  const PixelLanes<kVectors> sums(memory, window);
-  auto least = sums.get(0);
-  for (int i = 0; i < sums.count(); ++i) {
-    if (i > 0) least = hn::Min(least, sums.get(i));
-    compete(row, place, window.begin + i * kByteLanes, sums.get(i));
+  for (int x = x0; x < std::min<int>(x1, window.end - 1); ++x, sums += kByteLanes) {
+    const std::uint8_t* hidden = row.limits + row.lanes - 1 - x + window.begin;
+    for (int i = 0; i < window.size(); i += kByteLanes, sums += kByteLanes) {
+      hn::StoreU(hn::Max(hn::LoadU(d8, sums), hn::LoadU(d8, hidden + i)), d8, sums);
+    }
   }
-  const int best = first_equal(sums, least_of_lanes(d8, least));
-  auto second = without(row, x, window.begin, best, 0, sums.get(0));
-  for (int i = 1; i < sums.count(); ++i) {
-    second = hn::Min(second, without(row, x, window.begin, best, i * kByteLanes, sums.get(i)));
-  }
-  row.best[x] = static_cast<std::int16_t>(window.begin + best);
-  std::uint8_t* found = row.sums + std::ptrdiff_t{Candidates::kSums} * x;
-  std::memcpy(found, memory + best - 1, Candidates::kSums);
-  found[Candidates::kSecond] = least_lane(d8, second);
 }
 
-/// Lets disparities without a right pixel cost 255.
-HWY_INLINE ByteVector with_border(const RowSelection& row, int x, int d, ByteVector sums) {
-  return hn::Max(sums, hn::LoadU(Bytes(), row.limits + row.lanes - 1 - x + d));
+/// Finds the candidates of the columns x0 .. x1 - 1 of a tile from their sums, as
+/// RowWalkScratch::sums_of() has them.
+template <Selection kSelection, int kVectors>
+HWY_NOINLINE void select_tile(const RowSelection& of_row, int x0, int x1, CostWindow window,
+                              std::uint8_t* memory) {
+  static_assert(Candidates::kTurns == 2);
+  const Bytes d8;
+  // A copy: the compiler knows that no store of bytes changes it.
+  const RowSelection row = of_row;
+  // The places of this column's first right pixel and of the next one's.
+  const std::ptrdiff_t turn = x0 % Candidates::kTurns * row.right_stride;
+  std::ptrdiff_t place = turn + (row.width - 1 - x0) + window.begin;
+  std::ptrdiff_t next = place - 1 + row.right_stride - 2 * turn;
+  for (int x = x0; x < x1; ++x) {
+    const PixelLanes<kVectors> sums(memory, window);
+    auto least = sums.get(0);
+    for (int i = 0; i < sums.count(); ++i) {
+      if (i > 0) least = hn::Min(least, sums.get(i));
+      const int d = i * kByteLanes;
+      compete<kSelection>(row, row.right + place + d, window.begin + d, sums.get(i));
+    }
+    const int best = first_equal(sums, least_of_lanes(d8, least));
+    const auto other = [&](int i) HWY_ATTR {
+      return without<kSelection>(row, x, window.begin, best, i * kByteLanes, sums.get(i));
+    };
+    auto second = other(0);
+    for (int i = 1; i < sums.count(); ++i) second = hn::Min(second, other(i));
+    row.best[x] = static_cast<std::int16_t>(window.begin + best);
+    std::uint8_t* found = row.sums + std::ptrdiff_t{Candidates::kSums} * x;
+    std::memcpy(found, memory + best - 1, Candidates::kSums);
+    found[Candidates::kSecond] = least_lane(d8, second);
+    memory += (sums.count() + 1) * kByteLanes;
+    place = std::exchange(next, place - Candidates::kTurns);
+  }
+}
+
+/// The same, after sums of disparities without a right pixel are hidden.
+template <int kVectors>
+HWY_INLINE void select_tile(const RowSelection& row, int x0, int x1, CostWindow window,
+                            std::uint8_t* memory) {
+  hide_border(row, x0, x1, window, memory);
+  if (row.low == nullptr && !row.high_planes) {
+    select_tile<Selection::kPlain, kVectors>(row, x0, x1, window, memory);
+  } else {
+    select_tile<Selection::kLimitedOrWide, kVectors>(row, x0, x1, window, memory);
+  }
 }
 
 /// Decides between the turns: writes the disparities of all right pixels to those of the first.

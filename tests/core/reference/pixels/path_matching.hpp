@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reference/pixels/pixel_matching.hpp"
-#include "reference/pixels/row_pair.hpp"
+#include "reference/pixels/row_walk.hpp"
 #include "reference/pixels/search_windows.hpp"
 #include "stages/pixels/path_matching.hpp"
 

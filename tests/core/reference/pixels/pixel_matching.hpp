@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reference/pixels/disparity_selection.hpp"
-#include "reference/pixels/row_pair.hpp"
+#include "reference/pixels/row_walk.hpp"
 #include "reference/pixels/search_range.hpp"
 #include "reference/prepare/cost_volume.hpp"
 #include "stages/pixels/pixel_matching.hpp"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "reference/pixels/disparity_selection.hpp"
-#include "reference/pixels/row_pair.hpp"
-#include "stages/pixels/row_pair.hpp"
+#include "reference/pixels/row_walk.hpp"
+#include "stages/pixels/row_walk.hpp"
 #include "support/compare.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
@@ -56,7 +56,7 @@ RowCosts random_costs(int width, int disparities, int largest, Random& random) {
 
 /// Memory of earlier rows.
 struct Scratch {
-  RowPairScratch pair;
+  RowWalkScratch walk;
   Candidates candidates;
 };
 
@@ -68,13 +68,12 @@ std::vector<Selected> selected(const RowCosts& costs, const SelectionOptions& op
   const Buffer<std::uint8_t> cells = test::cells_of(costs, windows);
   std::vector<std::int32_t> disparity(width, -77);
   std::vector<std::uint8_t> ratio(width, 77);
-  scratch.pair.resize(width, options.disparities);
+  scratch.walk.resize(width, options.disparities);
   scratch.candidates.resize(width, options.disparities);
   const PathRow row = {
       cells.data(),       nullptr, nullptr, nullptr, ranges.low.data(), ranges.high.data(),
       &scratch.candidates};
-  match_row_by_cost({{row, row}, width, 0, nullptr, windows, PathSums::kTwo}, options,
-                    scratch.pair);
+  match_row_by_cost({{row}, width, 0, nullptr, windows, PathSums::kTwo}, 0, options, scratch.walk);
   finish_selection(width, options, runner_up_table(options.confidence), ranges.low.data(),
                    ranges.high.data(), scratch.candidates, disparity.data(), ratio.data());
   std::vector<Selected> out;

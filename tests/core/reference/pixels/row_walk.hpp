@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "reference/prepare/census.hpp"
-#include "stages/pixels/row_pair.hpp"
+#include "stages/pixels/row_walk.hpp"
 
 namespace mtstereo::reference {
 

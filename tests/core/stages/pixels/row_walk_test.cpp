@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "stages/pixels/row_pair.hpp"
+#include "stages/pixels/row_walk.hpp"
 
 #include <gtest/gtest.h>
 
 #include "reference/pixels/disparity_selection.hpp"
-#include "reference/pixels/row_pair.hpp"
+#include "reference/pixels/row_walk.hpp"
 #include "stages/pixels/census_cost.hpp"
 #include "support/compare.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 #include "support/windows.hpp"
 
-namespace mtstereo::row_pair_test {
+namespace mtstereo::row_walk_test {
 namespace {
 
 using reference::RowCosts;
@@ -43,15 +43,15 @@ std::vector<std::uint8_t> random_gray(int width, Random& random) {
   return gray;
 }
 
-/// Two rows and the costs of the paths along their columns.
+/// Rows and the costs of the paths along their columns.
 struct Rows {
-  RowCosts costs[2], above[2], below[2];
-  std::vector<std::uint8_t> gray[2];
+  RowCosts costs[kWalkedRows], above[kWalkedRows], below[kWalkedRows];
+  std::vector<std::uint8_t> gray[kWalkedRows];
 };
 
 Rows random_rows(int width, int disparities, int largest, Random& random) {
   Rows rows;
-  for (int r = 0; r < 2; ++r) {
+  for (int r = 0; r < kWalkedRows; ++r) {
     rows.costs[r] = random_costs(width, disparities, largest, random);
     rows.above[r] = random_costs(width, disparities, 255, random);
     rows.below[r] = random_costs(width, disparities, 255, random);
@@ -68,30 +68,31 @@ struct Setting {
   const CostWindow* windows = nullptr;
 };
 
-/// Memory of earlier pairs.
+/// Memory of earlier rows.
 struct Scratch {
-  RowPairScratch pair;
-  Candidates candidates[2];
+  RowWalkScratch walk;
+  Candidates candidates[kWalkedRows];
 };
 
-/// Matches both rows, or the first one twice.
-std::vector<Selected> matched(const Rows& rows, const Setting& setting, bool both,
+/// Matches the first rows. The last of them stands for those that are missing.
+std::vector<Selected> matched(const Rows& rows, const Setting& setting, int count,
                               Scratch& scratch) {
   const int width = static_cast<int>(rows.costs[0].size());
   const int disparities = setting.selection.disparities;
   const LargeStepTable large_step = large_step_table(setting.steps);
   const std::vector<std::uint16_t> low(width, 0);
   const std::vector<std::uint16_t> high(width, static_cast<std::uint16_t>(disparities - 1));
-  RowPair pair = {{}, width, setting.steps.small_step, &large_step, setting.windows, setting.sums};
-  Buffer<std::uint8_t> cells[2][3];
-  scratch.pair.resize(width, disparities);
-  for (int r = 0; r < 2; ++r) {
-    const int from = both ? r : 0;
+  WalkedRows walked = {{},          width,           setting.steps.small_step,
+                       &large_step, setting.windows, setting.sums};
+  Buffer<std::uint8_t> cells[kWalkedRows][3];
+  scratch.walk.resize(width, disparities);
+  for (int r = 0; r < kWalkedRows; ++r) {
+    const int from = std::min(r, count - 1);
     scratch.candidates[r].resize(width, disparities);
     cells[r][0] = test::cells_of(rows.costs[from], setting.windows);
     cells[r][1] = test::cells_of(rows.above[from], setting.windows);
     cells[r][2] = test::cells_of(rows.below[from], setting.windows);
-    pair.rows[r] = {cells[r][0].data(),
+    walked.of[r] = {cells[r][0].data(),
                     rows.gray[from].data(),
                     cells[r][1].data(),
                     cells[r][2].data(),
@@ -99,9 +100,9 @@ std::vector<Selected> matched(const Rows& rows, const Setting& setting, bool bot
                     high.data(),
                     &scratch.candidates[from]};
   }
-  match_row_pair(pair, setting.selection, scratch.pair);
+  match_walked_rows(walked, setting.selection, scratch.walk);
   std::vector<Selected> out;
-  for (int r = 0; r < 1 + both; ++r) {
+  for (int r = 0; r < count; ++r) {
     std::vector<std::int32_t> disparity(width);
     std::vector<std::uint8_t> ratio(width);
     finish_selection(width, setting.selection, runner_up_table(setting.selection.confidence),
@@ -114,7 +115,7 @@ std::vector<Selected> matched(const Rows& rows, const Setting& setting, bool bot
 
 std::vector<Selected> reference_of(const Rows& rows, const Setting& setting) {
   std::vector<Selected> out;
-  for (int r = 0; r < 2; ++r) {
+  for (int r = 0; r < kWalkedRows; ++r) {
     const RowCosts sums = reference::path_sums(rows.costs[r], rows.gray[r].data(), setting.steps,
                                                setting.sums, rows.above[r], rows.below[r]);
     const std::vector<int> low(sums.size(), 0);
@@ -138,11 +139,11 @@ testing::AssertionResult same_pixels(const std::vector<Selected>& expected,
 long expect_reference(const Rows& rows, const Setting& setting, Scratch& scratch) {
   const std::vector<Selected> expected = reference_of(rows, setting);
   test::for_each_simd_target([&] {
-    for (const bool both : {true, false}) {
-      EXPECT_TRUE(same_pixels(expected, matched(rows, setting, both, scratch)))
+    for (const int count : {kWalkedRows, 3, 1}) {
+      EXPECT_TRUE(same_pixels(expected, matched(rows, setting, count, scratch)))
           << "disparities (row 0) and ratios (row 1), D " << setting.selection.disparities
           << ", P1 " << setting.steps.small_step << ", P2 " << setting.steps.large_step << ", sums "
-          << static_cast<int>(setting.sums) << (both ? ", two rows" : ", one row");
+          << static_cast<int>(setting.sums) << ", rows " << count;
     }
   });
   return std::count_if(expected.begin(), expected.end(),
@@ -166,7 +167,7 @@ long expect_reference_of_random(int width, int disparities, int largest,
   return expect_reference(rows, random_setting(disparities, steps, random), scratch);
 }
 
-TEST(RowPair, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstructionSet) {
+TEST(RowWalk, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstructionSet) {
   Scratch scratch;
   long known = 0;
   for (int disparities = 1; disparities <= 70; ++disparities) {
@@ -184,7 +185,7 @@ TEST(RowPair, EqualsReferenceForEveryNumberOfDisparitiesOnEveryInstructionSet) {
   EXPECT_GT(known, 1000) << "too few results to compare";
 }
 
-TEST(RowPair, EqualsReferenceAtEveryWidth) {
+TEST(RowWalk, EqualsReferenceAtEveryWidth) {
   Scratch scratch;
   for (int width = 1; width <= 70; ++width) {
     Random random(width);
@@ -193,7 +194,7 @@ TEST(RowPair, EqualsReferenceAtEveryWidth) {
   }
 }
 
-TEST(RowPair, EqualsReferenceInWindowsOnEveryInstructionSet) {
+TEST(RowWalk, EqualsReferenceInWindowsOnEveryInstructionSet) {
   Scratch scratch;
   Random random(1);
   long known = 0;
@@ -211,10 +212,10 @@ TEST(RowPair, EqualsReferenceInWindowsOnEveryInstructionSet) {
   EXPECT_GT(known, 500) << "too few results to compare";
 }
 
-TEST(RowPair, PrefersTheDisparityOfTheNeighbors) {
+TEST(RowWalk, PrefersTheDisparityOfTheNeighbors) {
   // All pixels have disparity 10; one pixel costs slightly less at another one.
   Rows rows = {};
-  for (int r = 0; r < 2; ++r) {
+  for (int r = 0; r < kWalkedRows; ++r) {
     rows.costs[r] = RowCosts(61, std::vector<int>(30, 50));
     for (std::vector<int>& pixel : rows.costs[r]) pixel[10] = 0;
     rows.costs[r][40][10] = 20;
@@ -225,7 +226,7 @@ TEST(RowPair, PrefersTheDisparityOfTheNeighbors) {
   Scratch scratch;
   const auto best = [&](int large) {
     const Setting setting = {{4, large}, PathSums::kTwo, {30, 0, false, -1, false, 0}};
-    return matched(rows, setting, true, scratch)[40].disparity / 256;
+    return matched(rows, setting, kWalkedRows, scratch)[40].disparity / 256;
   };
   EXPECT_EQ(10, best(30));
   EXPECT_EQ(25, best(0)) << "the optimization is disabled";
@@ -233,7 +234,7 @@ TEST(RowPair, PrefersTheDisparityOfTheNeighbors) {
   EXPECT_EQ(25, best(30)) << "the large penalty must decrease with the change of the gray value";
 }
 
-TEST(RowPair, LargeStepDecreasesWithTheGrayChangeDownToTheSmallStep) {
+TEST(RowWalk, LargeStepDecreasesWithTheGrayChangeDownToTheSmallStep) {
   for (const SmoothnessOptions& steps : kSteps) {
     const LargeStepTable table = large_step_table(steps);
     for (int change = 0; change < 256; ++change) {
@@ -248,4 +249,4 @@ TEST(RowPair, LargeStepDecreasesWithTheGrayChangeDownToTheSmallStep) {
 }
 
 }  // namespace
-}  // namespace mtstereo::row_pair_test
+}  // namespace mtstereo::row_walk_test
