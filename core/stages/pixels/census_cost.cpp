@@ -30,28 +30,27 @@ template <class D8>
 class Difference {
  public:
   /// In the mirrored row, the right pixel of column x at disparity d is width - 1 - x + d.
-  Difference(const CensusRow& row, int width, int x)
-      : bits0_(hn::Set(D8(), row.left[0][x])),
-        bits1_(hn::Set(D8(), row.left[1][x])),
-        bits2_(hn::Set(D8(), row.left[2][x])),
-        right0_(row.right[0] + (width - 1 - x)),
-        right1_(row.right[1] + (width - 1 - x)),
-        right2_(row.right[2] + (width - 1 - x)) {}
+  HWY_INLINE Difference(const CensusRow& row, int width, int x) {
+    const std::uint8_t* bits = row.left + std::ptrdiff_t{4} * x;
+    for (int i = 0; i < kCensusBytes; ++i) {
+      bits_[i] = hn::Set(D8(), bits[i]);
+      right_[i] = row.right[i] + (width - 1 - x);
+    }
+  }
 
   HWY_INLINE hn::Vec<D8> count(int d) const {
-    const D8 d8;
-    const auto count0 = hn::PopulationCount(hn::Xor(bits0_, hn::LoadU(d8, right0_ + d)));
-    const auto count1 = hn::PopulationCount(hn::Xor(bits1_, hn::LoadU(d8, right1_ + d)));
-    const auto count2 = hn::PopulationCount(hn::Xor(bits2_, hn::LoadU(d8, right2_ + d)));
-    return hn::Add(hn::Add(count0, count1), count2);
+    return hn::Add(hn::Add(count(0, d), count(1, d)), count(2, d));
   }
 
  private:
   static_assert(kCensusBytes == 3);
-  hn::Vec<D8> bits0_, bits1_, bits2_;
-  const std::uint8_t* right0_;
-  const std::uint8_t* right1_;
-  const std::uint8_t* right2_;
+
+  HWY_INLINE hn::Vec<D8> count(int i, int d) const {
+    return hn::PopulationCount(hn::Xor(bits_[i], hn::LoadU(D8(), right_[i] + d)));
+  }
+
+  hn::Vec<D8> bits_[kCensusBytes];
+  const std::uint8_t* right_[kCensusBytes];
 };
 
 /// Calls `vector(d)` for each vector of a window; kVectors: their number, or 0 if it is not known.
@@ -82,14 +81,15 @@ void count_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1)
 
 /// Counts the bits of the entering rows, and sums the counts of the rows of both windows.
 template <int kSize, class D8>
-void sum_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1) {
+void sum_columns(const CensusWindow& window, CostWindow lanes, int x0, int x1,
+                 std::uint8_t* first_sums) {
   with_vectors<D8>(lanes, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-    for (int x = x0; x < x1; ++x) {
+    std::uint8_t* sums = first_sums;
+    for (int x = x0; x < x1; ++x, sums += kPairedRows * window.lanes) {
       const D8 d8;
       const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(x) * window.lanes;
       std::uint8_t* both_of_pair = window.first.both + first;
       std::uint8_t* lower_of_pair = window.first.lower + first;
-      std::uint8_t* sums = window.sums_of(x);
       const Difference<D8> upper(window.in[0], window.width, x);
       const Difference<D8> lower(window.in[1], window.width, x);
       for_each_vector<kVectors, D8>(lanes, [&](int d) HWY_ATTR {
@@ -144,96 +144,110 @@ void add_rows(const CensusWindow& of_window, int reach) {
   });
 }
 
-/// The binomially weighted mean of 1, 3 or 5 columns' sums from `at` on.
+/// The binomially weighted mean of the sums of 1, 3 or 5 columns, `stride` apart.
 template <int kSize, class D8>
-HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const ColumnSums& sums, int at) {
-  const auto middle = hn::LoadU(d8, sums.of[2] + at);
-  if (kSize == 1) return middle;
-  const auto near =
-      hn::AverageRound(hn::LoadU(d8, sums.of[1] + at), hn::LoadU(d8, sums.of[3] + at));
-  if (kSize == 3) return hn::AverageRound(near, middle);
+HWY_INLINE hn::Vec<D8> mean_along_row(D8 d8, const std::uint8_t* sums, std::ptrdiff_t stride) {
+  const auto column = [&](int i) HWY_ATTR { return hn::LoadU(d8, sums + i * stride); };
+  const auto middle = column(kSize / 2);
+  if constexpr (kSize == 1) return middle;
+  const auto near = hn::AverageRound(column(kSize / 2 - 1), column(kSize / 2 + 1));
+  if constexpr (kSize == 3) return hn::AverageRound(near, middle);
   // Weights 1 4 6 4 1, in sixteenths.
-  const auto far = hn::AverageRound(hn::LoadU(d8, sums.of[0] + at), hn::LoadU(d8, sums.of[4] + at));
+  const auto far = hn::AverageRound(column(0), column(kSize - 1));
   const auto rest = hn::AverageRound(middle, hn::AverageRound(far, middle));
   return hn::AverageRound(near, rest);
 }
 
-/// Writes the costs of both rows' pixels in one column, where the disparities low .. high are
-/// expected.
+/// Writes the costs of both rows in the columns x0 .. x1 - 1 of a tile. `sums` are those of the
+/// columns x0 - kSize / 2 ..
 template <int kSize, int kVectors, class D8>
-HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int disparities,
-                            const ColumnSums& sums, int low, int high, const CensusTables& tables,
+HWY_INLINE void write_costs(const CensusWindow& window, CostWindow matched, int x0, int x1,
+                            const std::uint8_t* sums, const ExpectedCosts& expected,
                             std::uint8_t* upper, std::uint8_t* lower) {
   const D8 d8;
-  const int lanes = window.lanes;
-  const auto mean = [&](int at) HWY_ATTR { return mean_along_row<kSize>(d8, sums, at); };
-  if (low > high || (low == 0 && high == disparities - 1)) {
+  const std::ptrdiff_t lanes = window.lanes, stride = kPairedRows * lanes;
+  for (int x = x0; x < x1; ++x, sums += stride, upper += matched.size(), lower += matched.size()) {
+    // Views into tables of two halves, shifted such that disparities below `low` and above `high`
+    // get the penalty.
+    const std::uint8_t* below = expected.below + lanes - expected.low[x];
+    const std::uint8_t* above = expected.above + lanes - 1 - expected.high[x];
     for_each_vector<kVectors, D8>(matched, [&](int d) HWY_ATTR {
-      const auto never = hn::LoadU(d8, tables.never + d);
-      hn::StoreU(hn::Max(mean(d), never), d8, upper + (d - matched.begin));
-      hn::StoreU(hn::Max(mean(lanes + d), never), d8, lower + (d - matched.begin));
+      const auto penalty = hn::Max(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d));
+      const auto cost = [&](const std::uint8_t* of_row) HWY_ATTR {
+        return hn::SaturatedAdd(mean_along_row<kSize>(d8, of_row + d, stride), penalty);
+      };
+      hn::StoreU(cost(sums), d8, upper + (d - matched.begin));
+      hn::StoreU(cost(sums + lanes), d8, lower + (d - matched.begin));
     });
-    return;
   }
-  // Views into tables of two halves, shifted such that disparities below `low` and above `high` get
-  // the penalty.
-  const std::uint8_t* below = tables.below + lanes - low;
-  const std::uint8_t* above = tables.above + lanes - 1 - high;
-  for_each_vector<kVectors, D8>(matched, [&](int d) HWY_ATTR {
-    const auto penalty = hn::Max(hn::LoadU(d8, below + d), hn::LoadU(d8, above + d));
-    const auto never = hn::LoadU(d8, tables.never + d);
-    const auto upper_cost = hn::Max(hn::SaturatedAdd(mean(d), penalty), never);
-    const auto lower_cost = hn::Max(hn::SaturatedAdd(mean(lanes + d), penalty), never);
-    hn::StoreU(upper_cost, d8, upper + (d - matched.begin));
-    hn::StoreU(lower_cost, d8, lower + (d - matched.begin));
-  });
+}
+
+/// Replaces the costs of disparities that do not exist, in a tile of so many pixels.
+void hide_nonexistent(CostWindow matched, int disparities, int pixels, std::uint8_t* costs) {
+  const Narrow d8;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(d8));
+  const auto never = hn::Set(d8, kCensusNever);
+  for (int d = matched.begin; d < matched.end; d += kLanes) {
+    const int exist = disparities - d;
+    if (exist >= kLanes) continue;
+    const auto hidden = hn::IfThenZeroElse(hn::FirstN(d8, std::max(exist, 0)), never);
+    for (int i = 0; i < pixels; ++i) {
+      std::uint8_t* to = costs + i * matched.size() + (d - matched.begin);
+      hn::StoreU(hn::Max(hn::LoadU(d8, to), hidden), d8, to);
+    }
+  }
 }
 
 /// Counts the rows that enter the windows and writes the costs, tile by tile, while the sums of the
 /// adjacent columns are in the cache.
 template <int kSize, class D8>
-void write_rows_of(const CensusWindow& of_window, int disparities, const std::uint16_t* low,
-                   const std::uint16_t* high, const CensusTables& of_tables,
+void write_rows_of(const CensusWindow& of_window, int disparities, const ExpectedCosts& of_expected,
                    std::uint8_t* (&costs)[kPairedRows]) {
   // Copies: the compiler knows that no store of bytes changes them.
   const CensusWindow window = of_window;
-  const CensusTables tables = of_tables;
+  const ExpectedCosts expected = of_expected;
   constexpr int kReach = kSize / 2;
-  const int last = window.width - 1;
+  const std::ptrdiff_t stride = kPairedRows * std::ptrdiff_t{window.lanes};
   std::uint8_t* upper = costs[0];
   std::uint8_t* lower = costs[1];
-  const auto sums_at = [&](int x) { return window.sums_of(std::clamp(x, 0, last)); };
+  const int last = window.width - 1;
   int summed = 0;
   for (int x0 = 0; x0 < window.width; x0 += kWindowTile) {
     const int x1 = std::min(x0 + kWindowTile, window.width);
     const int needed = std::min(x1 + kReach, window.width);
+    const auto sums_of = [&](int x) { return window.sums + (x - x0 + kReach) * stride; };
+    // The last columns of the tile before.
+    if (x0 > 0) std::memmove(window.sums, sums_of(x0 + kWindowTile - kReach), 2 * kReach * stride);
     for_counted_lanes(window, kReach, summed, needed, [&](CostWindow counted, int begin, int end) {
-      sum_columns<kSize, D8>(window, counted, begin, end);
+      sum_columns<kSize, D8>(window, counted, begin, end, sums_of(begin));
     });
     summed = needed;
+    // Outside of the image the columns at the border repeat.
+    for (int i = 1; i <= kReach; ++i) {
+      if (x0 == 0) std::memcpy(sums_of(-i), sums_of(0), stride);
+      if (x1 + i > window.width) std::memcpy(sums_of(x1 - 1 + i), sums_of(last), stride);
+    }
     const CostWindow matched = window_at(window.matched, window.lanes, x0);
     with_vectors<D8>(matched, [&]<int kVectors>(std::integral_constant<int, kVectors>) HWY_ATTR {
-      ColumnSums sums = {{sums_at(x0 - 2), sums_at(x0 - 1), sums_at(x0), sums_at(x0 + 1), nullptr}};
-      for (int x = x0; x < x1; ++x, upper += matched.size(), lower += matched.size()) {
-        sums.of[4] = sums_at(x + 2);
-        write_costs<kSize, kVectors, D8>(window, matched, disparities, sums, low[x], high[x],
-                                         tables, upper, lower);
-        for (int i = 0; i < 4; ++i) sums.of[i] = sums.of[i + 1];
-      }
+      write_costs<kSize, kVectors, D8>(window, matched, x0, x1, window.sums, expected, upper,
+                                       lower);
     });
+    for (std::uint8_t** row : {&upper, &lower}) {
+      hide_nonexistent(matched, disparities, x1 - x0, *row);
+      *row += (x1 - x0) * matched.size();
+    }
   }
 }
 
 void write_rows(const CensusWindow& window, const CensusCostOptions& options,
-                const std::uint16_t* low, const std::uint16_t* high, const CensusTables& tables,
-                std::uint8_t* (&costs)[kPairedRows]) {
+                const ExpectedCosts& expected, std::uint8_t* (&costs)[kPairedRows]) {
   const auto by_size = [&]<class D8>(D8) {
     return options.kernel_size == 5   ? write_rows_of<5, D8>
            : options.kernel_size == 3 ? write_rows_of<3, D8>
                                       : write_rows_of<1, D8>;
   };
   const auto write = is_wide(window) ? by_size(Wide()) : by_size(Narrow());
-  write(window, options.disparities, low, high, tables, costs);
+  write(window, options.disparities, expected, costs);
 }
 
 }  // namespace mtstereo::HWY_NAMESPACE
@@ -249,21 +263,19 @@ namespace {
 
 int wrapped(int i, int count) { return (i % count + count) % count; }
 
-/// Bytes of the planes of a row of both views.
+/// Bytes of the planes of a row.
 std::size_t plane_bytes(int width, int lanes) {
-  return kCensusBytes * (2 * static_cast<std::size_t>(width) + lanes);
+  return kCensusBytes * (static_cast<std::size_t>(width) + lanes);
 }
 
-/// Splits row y of both views into planes. Rows outside of the image repeat the border's row.
-CensusRow split_row(const CensusImage& left, const CensusImage& right, int y, int lanes,
-                    std::uint8_t* planes) {
+/// Row y of both views. Rows outside of the image repeat the border's row.
+CensusRow row_of(const CensusImage& left, const CensusImage& right, int y, int lanes,
+                 std::uint8_t* planes) {
   const int width = left.bits.width();
   const int inside = std::clamp(y, 0, left.bits.height() - 1);
-  CensusRow row{};
-  for (std::uint8_t*& plane : row.left) plane = std::exchange(planes, planes + width);
+  CensusRow row{reinterpret_cast<const std::uint8_t*>(left.bits.row(inside)), {}};
   for (std::uint8_t*& plane : row.right) plane = std::exchange(planes, planes + width + lanes);
-  split_census_row(left.bits.row(inside), width, RowOrder::kForward, 0, row.left);
-  split_census_row(right.bits.row(inside), width, RowOrder::kMirrored, lanes, row.right);
+  mirror_census_row(right.bits.row(inside), width, lanes, row.right);
   return row;
 }
 
@@ -282,7 +294,7 @@ CensusWindow windows_of(const CensusImage& left, const CensusImage& right,
   for (int i = 0; i < kPairedRows; ++i) {
     std::uint8_t* planes = scratch.planes.data() + i * plane_bytes(width, lanes);
     const int entering = up ? y + 1 - reach - i : y + reach + i;
-    window.in[i] = split_row(left, right, entering, lanes, planes);
+    window.in[i] = row_of(left, right, entering, lanes, planes);
   }
   if (reach > 0) {
     const std::size_t cells = static_cast<std::size_t>(width) * lanes;
@@ -304,18 +316,15 @@ void CensusCostScratch::resize(int width, const CensusCostOptions& options) {
   planes.resize(kPairedRows * plane_bytes(width, lanes));
   const int reach = options.kernel_size / 2;
   counts.resize(static_cast<std::size_t>(width) * lanes * kPairedRows * reach);
-  sums.resize(static_cast<std::size_t>(kSummedColumns) * kPairedRows * lanes);
-  tables.resize(5 * static_cast<std::size_t>(lanes));
+  sums.resize(static_cast<std::size_t>(kWindowTile + 2 * reach) * kPairedRows * lanes);
+  tables.resize(4 * static_cast<std::size_t>(lanes));
   const int penalty = std::min(options.range_penalty * cost_scale(options), 255);
   std::uint8_t* below = tables.data();
   std::uint8_t* above = below + 2 * lanes;
-  std::uint8_t* never = above + 2 * lanes;
   std::memset(below, penalty, lanes);
   std::memset(below + lanes, 0, lanes);
   std::memset(above, 0, lanes);
   std::memset(above + lanes, penalty, lanes);
-  std::memset(never, 0, options.disparities);
-  std::memset(never + options.disparities, kCensusNever, lanes - options.disparities);
 }
 
 void start_census_costs(const CensusImage& left, const CensusImage& right,
@@ -342,7 +351,7 @@ void census_cost_rows(const CensusImage& left, const CensusImage& right,
   if (scratch.direction == RowDirection::kUp) std::swap(upper, lower);
   std::uint8_t* rows[kPairedRows] = {upper, lower};
   HWY_DYNAMIC_DISPATCH(write_rows)
-  (window, options, low, high, {tables, tables + 2 * lanes, tables + 4 * lanes}, rows);
+  (window, options, {low, high, tables, tables + 2 * lanes}, rows);
 }
 
 }  // namespace mtstereo

@@ -33,10 +33,10 @@ enum class RowDirection { kDown, kUp };
 
 /// Scratch memory of one thread, and its state between rows.
 struct CensusCostScratch {
-  Buffer<std::uint8_t> planes;  ///< two rows of both views, split into byte planes
+  Buffer<std::uint8_t> planes;  ///< two rows of the right view, split into byte planes
   Buffer<std::uint8_t> counts;  ///< differing bits of the pairs of rows before the entering one
-  Buffer<std::uint8_t> sums;    ///< over the rows of each window, of the last columns
-  Buffer<std::uint8_t> tables;  ///< penalties below and above a range, and from D on
+  Buffer<std::uint8_t> sums;    ///< over the rows of each window, of a tile's columns
+  Buffer<std::uint8_t> tables;  ///< penalties below and above a range
 
   RowDirection direction;  ///< of start_census_costs()
 
@@ -52,8 +52,7 @@ void start_census_costs(const CensusImage& left, const CensusImage& right,
 /// Writes the costs of the rows y (`upper`) and y + 1 (`lower`), row_cells() each. y is the row
 /// passed to start_census_costs() or the one after that of the previous call; if y + 1 is not in
 /// the image, its costs have no meaning. Disparities outside low[x] .. high[x] cost the penalty
-/// more, in both rows; low > high means that the pixels have no expected range, and then there is
-/// no penalty. Sums saturate at 255.
+/// more, in both rows. Sums saturate at 255.
 void census_cost_rows(const CensusImage& left, const CensusImage& right,
                       const SearchWindows& windows, const CensusCostOptions& options, int y,
                       const std::uint16_t* low, const std::uint16_t* high,

@@ -11,15 +11,13 @@
 
 namespace mtstereo {
 
-/// One row of both views, one plane per byte of the census transform. The right row is mirrored,
-/// and its last value repeats for cost_lanes() further columns.
+/// One row of both views.
 struct CensusRow {
-  std::uint8_t* left[kCensusBytes];
+  const std::uint8_t* left;  ///< the bytes of CensusImage
+  /// One plane per byte of the census transform, mirrored. The last value repeats for cost_lanes()
+  /// further columns.
   std::uint8_t* right[kCensusBytes];
 };
-
-/// Columns whose sums are stored: a tile and its surroundings, a power of 2.
-inline constexpr int kSummedColumns = 2 * kWindowTile;
 
 /// Rows whose costs are written at once, and which enter the window.
 inline constexpr int kPairedRows = 2;
@@ -41,24 +39,15 @@ struct CensusWindow {
   const std::uint8_t* middle;  ///< of both rows of the second pair, in windows of 5 rows
   const CostWindow* matched;   ///< the windows of the rows whose costs are written
   const CostWindow* counted;   ///< windows that cover all rows that the entering ones concern
-  std::uint8_t* sums;          ///< [column][row of the pair][disparity]
-
-  /// The sums of column x, those of the pair's first row before those of the second.
-  std::uint8_t* sums_of(int x) const {
-    return sums + static_cast<std::ptrdiff_t>(x & (kSummedColumns - 1)) * kPairedRows * lanes;
-  }
+  std::uint8_t* sums;  ///< of a tile's columns and those that its costs need: [column][row][d]
 };
 
-/// The sums of the columns x - 2 .. x + 2.
-struct ColumnSums {
-  const std::uint8_t* of[5];
-};
-
-/// See CensusCostScratch::tables.
-struct CensusTables {
-  const std::uint8_t* below;
+/// What disparities cost beside the differing bits.
+struct ExpectedCosts {
+  const std::uint16_t* low;  ///< of the expected disparities, per column
+  const std::uint16_t* high;
+  const std::uint8_t* below;  ///< see CensusCostScratch::tables
   const std::uint8_t* above;
-  const std::uint8_t* never;
 };
 
 }  // namespace mtstereo

@@ -90,23 +90,22 @@ hn::Vec<Bytes> reverse(hn::Vec<Bytes> bytes) {
   return hn::BitCast(Bytes(), hn::Or(hn::ShiftLeft<8>(pairs), hn::ShiftRight<8>(pairs)));
 }
 
-void split_row(const std::uint32_t* words, int width, RowOrder order, std::uint8_t* const* planes) {
+void mirror_row(const std::uint32_t* words, int width, std::uint8_t* const* planes) {
   const Bytes d8;
   const int step = static_cast<int>(hn::Lanes(d8));
-  const bool mirrored = order == RowOrder::kMirrored;
   int x = 0;
   for (; x + step <= width; x += step) {
     hn::Vec<Bytes> byte0, byte1, byte2, unused;
     hn::LoadInterleaved4(d8, reinterpret_cast<const std::uint8_t*>(words + x), byte0, byte1, byte2,
                          unused);
-    const int to = mirrored ? width - step - x : x;
-    hn::StoreU(mirrored ? reverse(byte0) : byte0, d8, planes[0] + to);
-    hn::StoreU(mirrored ? reverse(byte1) : byte1, d8, planes[1] + to);
-    hn::StoreU(mirrored ? reverse(byte2) : byte2, d8, planes[2] + to);
+    const int to = width - step - x;
+    hn::StoreU(reverse(byte0), d8, planes[0] + to);
+    hn::StoreU(reverse(byte1), d8, planes[1] + to);
+    hn::StoreU(reverse(byte2), d8, planes[2] + to);
   }
   for (; x < width; ++x) {
     for (int i = 0; i < kCensusBytes; ++i) {
-      planes[i][mirrored ? width - 1 - x : x] = static_cast<std::uint8_t>(words[x] >> 8 * i);
+      planes[i][width - 1 - x] = static_cast<std::uint8_t>(words[x] >> 8 * i);
     }
   }
 }
@@ -119,7 +118,7 @@ namespace mtstereo {
 
 HWY_EXPORT(smooth_row);
 HWY_EXPORT(transform_row);
-HWY_EXPORT(split_row);
+HWY_EXPORT(mirror_row);
 
 namespace {
 
@@ -175,9 +174,9 @@ void census_rows(GrayView image, int scales, int y0, int y1, CensusScratch& scra
   }
 }
 
-void split_census_row(const std::uint32_t* bits, int width, RowOrder order, int beyond,
-                      std::uint8_t* const (&planes)[kCensusBytes]) {
-  HWY_DYNAMIC_DISPATCH(split_row)(bits, width, order, planes);
+void mirror_census_row(const std::uint32_t* bits, int width, int beyond,
+                       std::uint8_t* const (&planes)[kCensusBytes]) {
+  HWY_DYNAMIC_DISPATCH(mirror_row)(bits, width, planes);
   for (std::uint8_t* plane : planes) std::memset(plane + width, plane[width - 1], beyond);
 }
 

@@ -53,14 +53,10 @@ struct CensusScratch {
 void census_rows(GrayView image, int scales, int y0, int y1, CensusScratch& scratch,
                  CensusImage& census);
 
-/// Whether element x of a row is column x of the view, or the x-th column from the right end. In a
-/// mirrored right view a larger disparity is further to the right.
-enum class RowOrder { kForward, kMirrored };
-
-/// Splits a row of `width` census words into byte planes: bits 0 .. 7 into the first plane and so
-/// on. Appends `beyond` elements to each plane that repeat the last one; in a mirrored right view
-/// they are the columns left of the image.
-void split_census_row(const std::uint32_t* bits, int width, RowOrder order, int beyond,
-                      std::uint8_t* const (&planes)[kCensusBytes]);
+/// Splits a row of `width` census words into byte planes, bits 0 .. 7 into the first one and so on,
+/// and mirrors it: in a mirrored right view a larger disparity is further to the right. Appends
+/// `beyond` elements to each plane that repeat the last one, as columns left of the image.
+void mirror_census_row(const std::uint32_t* bits, int width, int beyond,
+                       std::uint8_t* const (&planes)[kCensusBytes]);
 
 }  // namespace mtstereo

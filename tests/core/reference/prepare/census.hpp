@@ -105,9 +105,9 @@ struct CensusCosts {
     const int far = mean(column(x - 2, y, d), column(x + 2, y, d));
     return mean(near, mean(middle, mean(far, middle)));
   }
-  /// The disparities low .. high are expected; all are if low > high.
+  /// The disparities low .. high are expected.
   int cost(int x, int y, int d, int low, int high) const {
-    const bool expected = low > high || (low <= d && d <= high);
+    const bool expected = low <= d && d <= high;
     const int penalty = expected ? 0 : options.range_penalty * options.kernel_size;
     return std::min(window(x, y, d) + penalty, 255);
   }

@@ -20,21 +20,22 @@ struct Ranges {
   std::vector<std::uint16_t> low, high;
 };
 
-/// Ranges of every kind: narrow, wide, all, and none (low > high).
+/// Ranges of every kind: narrow, wide and all.
 Ranges random_ranges(int width, int disparities, Random& random) {
   Ranges ranges;
   for (int x = 0; x < width; ++x) {
     const int low = random.below(disparities);
-    const bool none = random.below(4) == 0;
-    ranges.low.push_back(static_cast<std::uint16_t>(none ? 1 : low));
+    const bool all = random.below(4) == 0;
+    ranges.low.push_back(static_cast<std::uint16_t>(all ? 0 : low));
     ranges.high.push_back(
-        static_cast<std::uint16_t>(none ? 0 : random.between(low, disparities - 1)));
+        static_cast<std::uint16_t>(all ? disparities - 1 : random.between(low, disparities - 1)));
   }
   return ranges;
 }
 
-Ranges nothing_known(int width) {
-  return {std::vector<std::uint16_t>(width, 1), std::vector<std::uint16_t>(width, 0)};
+Ranges all_expected(int width, int disparities) {
+  return {std::vector<std::uint16_t>(width, 0),
+          std::vector<std::uint16_t>(width, static_cast<std::uint16_t>(disparities - 1))};
 }
 
 /// What earlier rows leave must not matter.
@@ -181,7 +182,7 @@ TEST(CensusCost, IsZeroAtDisparityZeroForAnIdenticalPair) {
   const CensusPair pair(image.view(), image.view());
   CensusCostScratch scratch;
   const auto costs =
-      costs_of(pair, {20, 5, 2}, 0, 4, RowDirection::kDown, nothing_known(50), scratch);
+      costs_of(pair, {20, 5, 2}, 0, 4, RowDirection::kDown, all_expected(50, 20), scratch);
   long more = 0;
   for (const reference::RowCosts& row : costs) {
     for (int x = 0; x < 50; ++x) {
