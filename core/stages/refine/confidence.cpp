@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "mtstereo/image.hpp"
 #include "stages/nodes/outlier_removal.hpp"
@@ -44,49 +45,75 @@ void copy_row(const std::int32_t* map, const std::uint8_t* map_ratio, int width,
   }
 }
 
-/// Adds the support of a vector of disparities from one row of their windows, kAway rows away.
-/// `middle` holds the disparities minus 2^15, so that signed comparisons order unsigned numbers.
-template <int kAway, class V>
-HWY_INLINE void add_line(const SupportMap& support, int y, int x, hn::Vec<Signed> middle, V& count,
-                         V& ratio) {
+/// Rows of the map and of its ratios, a window's from top to bottom. Pointers: the compiler knows
+/// that no store changes them.
+struct SupportRows {
+  SupportRows(const SupportMap& support, int y) {
+    for (int i = 0; i < kSupportSide; ++i) {
+      const int row = y - kSupportRadius + i;
+      inside[i] = row >= 0 && row < support.disparity.height();
+      disparities[i] = inside[i] ? support.disparity.row(row) : nullptr;
+      ratios[i] = inside[i] ? support.ratio.row(row) : nullptr;
+    }
+  }
+
+  bool inside[kSupportSide];
+  const std::uint16_t* disparities[kSupportSide];
+  const std::uint16_t* ratios[kSupportSide];
+};
+
+/// The largest disparities that pixels at each distance can support.
+struct Largest {
+  /// `middle` holds the disparities minus 2^15, so that signed comparisons order unsigned numbers.
+  HWY_INLINE explicit Largest(hn::Vec<Signed> middle) {
+    for (int away = 0; away <= kSupportRadius; ++away) {
+      const int tolerance = kSupportTolerance + away * kSupportSlope;
+      of[away] = hn::Add(middle, hn::Set(Signed(), static_cast<std::int16_t>(tolerance)));
+    }
+  }
+
+  hn::Vec<Signed> of[kSupportRadius + 1];
+};
+
+/// Adds the support of a vector of disparities from one row of their windows, if it is in the
+/// image.
+template <int kLine, class V>
+HWY_INLINE void add_line(const SupportRows& rows, int x, const Largest& largest,
+                         const std::int16_t* widest, V& count, V& ratio) {
+  if (!rows.inside[kLine]) return;
   const Words d16;
   const Signed di16;
-  const std::uint16_t* disparities = support.disparity.row(y) + x;
-  const std::uint16_t* ratios = support.ratio.row(y) + x;
+  const std::uint16_t* disparities = rows.disparities[kLine] + x;
+  const std::uint16_t* ratios = rows.ratios[kLine] + x;
+  const auto distance_of = [](int i) {
+    return i < kSupportRadius ? kSupportRadius - i : i - kSupportRadius;
+  };
   V sum = hn::Zero(d16);
   for (int i = 0; i < kSupportSide; ++i) {
-    const int columns = i < kSupportRadius ? kSupportRadius - i : i - kSupportRadius;
-    const int away = columns > kAway ? columns : kAway;
-    const int tolerance = kSupportTolerance + away * kSupportSlope;
+    const int away = std::max(distance_of(i), distance_of(kLine));
     // A pixel supports the middle if middle + tolerance - disparity is 0 .. 2 * tolerance.
-    const auto largest = hn::Add(middle, hn::Set(di16, static_cast<std::int16_t>(tolerance)));
-    const auto distance = hn::Sub(largest, hn::BitCast(di16, hn::LoadU(d16, disparities + i)));
-    const auto end = hn::Set(di16, static_cast<std::int16_t>(2 * tolerance + 1 - (1 << 15)));
-    const auto supports = hn::RebindMask(d16, hn::Lt(distance, end));
-    sum = hn::Add(sum, hn::IfThenElseZero(supports, hn::LoadU(d16, ratios + i)));
+    const auto distance =
+        hn::Sub(largest.of[away], hn::BitCast(di16, hn::LoadU(d16, disparities + i)));
+    const auto most = hn::Load(di16, widest + away * kSupportLanes);
+    const auto exceeds = hn::RebindMask(d16, hn::Gt(distance, most));
+    sum = hn::Add(sum, hn::IfThenZeroElse(exceeds, hn::LoadU(d16, ratios + i)));
   }
   count = hn::Add(count, hn::ShiftRight<12>(sum));
   ratio = hn::Add(ratio, hn::And(sum, hn::Set(d16, kSupportOne - 1)));
 }
 
-/// Adds the two rows of the windows kAway rows above and below row y, if they are in the image.
-template <int kAway, class V>
-HWY_INLINE void add_lines(const SupportMap& support, int y, int x, hn::Vec<Signed> middle, V& count,
-                          V& ratio) {
-  const int last = support.disparity.height() - 1;
-  if (y >= kAway) add_line<kAway>(support, y - kAway, x, middle, count, ratio);
-  if (y + kAway <= last) add_line<kAway>(support, y + kAway, x, middle, count, ratio);
-}
-
 /// Sums up the support of each pixel of a row. The count is 0 for pixels without a disparity and
 /// where `asked` is 0.
 void sum_row(const SupportMap& support, const std::uint8_t* asked, int y, SupportScratch& scratch) {
-  static_assert(kSupportRadius == 4);
   const Words d16;
   const hn::Rebind<std::uint8_t, Words> d8;
   const Signed di16;
   const int width = support.disparity.width() - 2 * kSupportRadius;
-  const std::uint16_t* row = support.disparity.row(y) + kSupportRadius;
+  const SupportRows rows(support, y);
+  const std::uint16_t* row = rows.disparities[kSupportRadius] + kSupportRadius;
+  const std::int16_t* widest = scratch.widest.data();
+  std::uint16_t* const counts = scratch.count.data();
+  std::uint16_t* const ratios = scratch.ratio.data();
   const auto none = hn::Set(d16, kSupportNone);
   const auto lowest = hn::Set(d16, std::uint16_t{1} << 15);
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
@@ -96,15 +123,14 @@ void sum_row(const SupportMap& support, const std::uint8_t* asked, int y, Suppor
     const auto unasked = hn::Eq(hn::PromoteTo(d16, hn::LoadU(d8, asked + x)), hn::Zero(d16));
     const auto missing = hn::Or(unasked, hn::Eq(disparity, none));
     if (!hn::AllTrue(d16, missing)) {
-      const auto middle = hn::BitCast(di16, hn::Sub(disparity, lowest));
-      add_line<0>(support, y, x, middle, count, ratio);
-      add_lines<1>(support, y, x, middle, count, ratio);
-      add_lines<2>(support, y, x, middle, count, ratio);
-      add_lines<3>(support, y, x, middle, count, ratio);
-      add_lines<4>(support, y, x, middle, count, ratio);
+      const Largest largest(hn::BitCast(di16, hn::Sub(disparity, lowest)));
+      [&]<int... kLines>(std::integer_sequence<int, kLines...>) HWY_ATTR {
+        (add_line<kLines>(rows, x, largest, widest, count, ratio), ...);
+      }
+      (std::make_integer_sequence<int, kSupportSide>());
     }
-    hn::StoreU(hn::IfThenZeroElse(missing, count), d16, scratch.count.data() + x);
-    hn::StoreU(ratio, d16, scratch.ratio.data() + x);
+    hn::StoreU(hn::IfThenZeroElse(missing, count), d16, counts + x);
+    hn::StoreU(ratio, d16, ratios + x);
   }
 }
 
@@ -249,6 +275,12 @@ void SupportScratch::resize(int width) {
   count.resize(width + kVector);
   ratio.resize(width + kVector);
   steps.resize(width + kVector);
+  widest.resize((kSupportRadius + 1) * kSupportLanes);
+  for (int away = 0; away <= kSupportRadius; ++away) {
+    const int tolerance = kSupportTolerance + away * kSupportSlope;
+    std::fill_n(widest.data() + away * kSupportLanes, kSupportLanes,
+                static_cast<std::int16_t>(2 * tolerance - (1 << 15)));
+  }
 }
 
 void copy_support(const Image<std::int32_t>& map, const Image<std::uint8_t>& ratio, int y0, int y1,

@@ -45,11 +45,17 @@ struct SupportMap {
 void copy_support(const Image<std::int32_t>& map, const Image<std::uint8_t>& ratio, int y0, int y1,
                   SupportMap& support);
 
+/// Words of the widest vectors.
+inline constexpr int kSupportLanes = kAlignment / 2;
+
 /// Scratch memory of one thread.
 struct SupportScratch {
   Buffer<std::uint16_t> count;  ///< number of supporting pixels
   Buffer<std::uint16_t> ratio;  ///< sum of their peak ratios
   Buffer<std::uint16_t> steps;  ///< the product in 1 / kSupportSteps, plus 1; 0 without support
+  /// Twice the tolerance at each distance, minus 2^15: a vector each, since these constants need
+  /// more registers than processors have.
+  Buffer<std::int16_t> widest;
 
   void resize(int width);
 };
