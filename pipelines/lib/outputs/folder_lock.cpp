@@ -97,15 +97,17 @@ FolderLock::~FolderLock() {
 void FolderLock::create(const fs::path& folder) {
   std::list<fs::path> missing;
   std::error_code error;
-  for (fs::path part = fs::absolute(folder).lexically_normal(); !fs::exists(part, error);
-       part = part.parent_path()) {
+  fs::path part = fs::absolute(folder).lexically_normal();
+  for (; !fs::exists(part, error) && part != part.parent_path(); part = part.parent_path()) {
     if (part.has_filename()) missing.push_back(part);
-    if (part == part.parent_path()) break;
+  }
+  if (fs::exists(part, error) && !fs::is_directory(part, error)) {
+    throw UserError(part.string() +
+                    ": is a file: give the name of a folder, which may not exist yet");
   }
   fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder, error)) {
-    throw UserError(folder.string() + ": the folder cannot be created: " +
-                    (error ? error.message() : "it is not a folder"));
+  if (error) {
+    throw UserError(folder.string() + ": the folder cannot be created: " + error.message());
   }
   for (const fs::path& each : missing) note(each.c_str());
   created_.splice(created_.end(), missing);

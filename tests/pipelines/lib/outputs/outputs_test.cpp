@@ -212,9 +212,11 @@ TEST_F(Lock, IsReleasedWhenTheProcessIsKilled) {
 
 TEST_F(Lock, OfAFileIsRefused) {
   write("file", "");
-  EXPECT_THAT(error_of([&] { FolderLock(folder_ / "file"); }), HasSubstr("cannot be created"));
-  EXPECT_THAT(error_of([&] { FolderLock(folder_ / "file/below"); }),
-              HasSubstr("cannot be created"));
+  for (const char* given : {"file", "file/", "file/below", "file/below/that"}) {
+    EXPECT_THAT(error_of([&] { FolderLock(folder_ / given); }),
+                HasSubstr("file: is a file: give the name of a folder"))
+        << given;
+  }
 }
 
 using WriteFile = Folder;
