@@ -154,11 +154,15 @@ class ChunkMatching {
   /// Matches the rows y .. end - 1, at most kWalkedRows.
   void match_rows(int y, int end, Image<std::int32_t>& map, Image<std::uint8_t>& ratio,
                   WindowVotes* votes) {
-    WalkedRows rows = {{},           width_,     small_step_,
-                       &large_step_, windows(y), from_above() ? PathSums::kFour : PathSums::kTwo};
+    WalkedRows rows = {};
+    rows.width = width_;
+    rows.small_step = small_step_;
+    rows.large_step = &large_step_;
+    rows.windows = windows(y);
+    rows.sums = from_above() ? PathSums::kFour : PathSums::kTwo;
     for (int i = 0; i < kWalkedRows; ++i) {
-      rows.of[i] =
-          path_row(std::min(y + i, end - 1), scratch_.candidates[std::min(i, end - 1 - y)]);
+      const int row = std::min(y + i, end - 1);
+      rows.of[i] = path_row(row, scratch_.candidates[row - y]);
     }
     match_walked_rows(rows, options_.selection, scratch_.walk);
     for (int row = y; row < end; ++row) {

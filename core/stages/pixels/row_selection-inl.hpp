@@ -139,8 +139,8 @@ HWY_INLINE void hide_border(const RowSelection& row, int x0, int x1, CostWindow 
 /// Finds the candidates of the columns x0 .. x1 - 1 of a tile from their sums, as
 /// RowWalkScratch::sums_of() has them.
 template <Selection kSelection, int kVectors>
-HWY_NOINLINE void select_tile(const RowSelection& of_row, int x0, int x1, CostWindow window,
-                              std::uint8_t* memory) {
+HWY_NOINLINE void select_pixels(const RowSelection& of_row, int x0, int x1, CostWindow window,
+                                std::uint8_t* memory) {
   static_assert(Candidates::kTurns == 2);
   const Bytes d8;
   // A copy: the compiler knows that no store of bytes changes it.
@@ -178,9 +178,9 @@ HWY_INLINE void select_tile(const RowSelection& row, int x0, int x1, CostWindow 
                             std::uint8_t* memory) {
   hide_border(row, x0, x1, window, memory);
   if (row.low == nullptr && !row.high_planes) {
-    select_tile<Selection::kPlain, kVectors>(row, x0, x1, window, memory);
+    select_pixels<Selection::kPlain, kVectors>(row, x0, x1, window, memory);
   } else {
-    select_tile<Selection::kLimitedOrWide, kVectors>(row, x0, x1, window, memory);
+    select_pixels<Selection::kLimitedOrWide, kVectors>(row, x0, x1, window, memory);
   }
 }
 

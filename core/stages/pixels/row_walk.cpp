@@ -2,6 +2,7 @@
 #include "stages/pixels/row_walk.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <type_traits>
 
@@ -38,10 +39,9 @@ HWY_INLINE ByteVector advance(const std::uint8_t* costs, const StepCosts& steps,
 template <PathSums kSums, bool kSelect>
 class RowWalk {
  public:
-  RowWalk(const WalkedRows& walked, const RowSelection (&rows)[kWalkedRows],
-          RowWalkScratch& scratch)
+  RowWalk(const WalkedRows& walked, const RowSelections& rows, RowWalkScratch& scratch)
       : walked_(walked),
-        rows_{rows[0], rows[1], rows[2], rows[3]},
+        rows_(rows),
         lanes_(rows[0].lanes),
         paths_(scratch.paths.data()),
         large_step_(walked.large_step->data()),
@@ -130,7 +130,7 @@ class RowWalk {
     }
   }
 
-  /// Adds up the costs of a pixel's paths. No sum follows.
+  /// Writes the sums of a pixel's path costs, and the vector of kNoSum after them.
   template <int kVectors>
   HWY_INLINE void add_up(int r, std::ptrdiff_t cell, const PixelLanes<kVectors>& path,
                          const std::uint8_t* from_right, std::uint8_t* sums) {
@@ -157,7 +157,7 @@ class RowWalk {
 
   // Copies: the compiler knows that no store of bytes changes them.
   const WalkedRows walked_;
-  const RowSelection rows_[kWalkedRows];
+  const RowSelections rows_;
   const int lanes_;
   std::uint8_t* const paths_;
   const std::uint8_t* const large_step_;
@@ -169,14 +169,12 @@ class RowWalk {
 };
 
 template <PathSums kSums>
-void walk_both_ways(const WalkedRows& walked, const RowSelection (&rows)[kWalkedRows],
-                    RowWalkScratch& scratch) {
+void walk_both_ways(const WalkedRows& walked, const RowSelections& rows, RowWalkScratch& scratch) {
   RowWalk<kSums, false>(walked, rows, scratch).run();
   RowWalk<kSums, true>(walked, rows, scratch).run();
 }
 
-void walk_rows(const WalkedRows& walked, const RowSelection (&rows)[kWalkedRows],
-               RowWalkScratch& scratch) {
+void walk_rows(const WalkedRows& walked, const RowSelections& rows, RowWalkScratch& scratch) {
   switch (walked.sums) {
     case PathSums::kTwo:
       walk_both_ways<PathSums::kTwo>(walked, rows, scratch);
@@ -271,7 +269,7 @@ void RowWalkScratch::resize(int width, int disparities) {
 
 void match_walked_rows(const WalkedRows& walked, const SelectionOptions& options,
                        RowWalkScratch& scratch) {
-  RowSelection rows[kWalkedRows];
+  RowSelections rows;
   for (int r = 0; r < kWalkedRows; ++r) {
     find_changes(walked.of[r].gray, walked.width, scratch.changes.data() + r * (walked.width + 1));
     rows[r] = selection_of(walked, walked.of[r], options, scratch);

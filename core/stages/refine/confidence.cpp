@@ -18,10 +18,9 @@ namespace mtstereo::HWY_NAMESPACE {
 using Words = hn::CappedTag<std::uint16_t, kAlignment / 2>;
 using Signed = hn::RebindToSigned<Words>;
 
-static_assert(kLargestMaxDisparity * kVoteOne +
-                  2 * (kSupportTolerance + kSupportRadius * kSupportSlope) <
+static_assert(kLargestMaxDisparity * kVoteOne + 2 * support_tolerance(kSupportRadius) <
               kSupportNone);
-static_assert(kSupportNone + 2 * (kSupportTolerance + kSupportRadius * kSupportSlope) < 1 << 16);
+static_assert(kSupportNone + 2 * support_tolerance(kSupportRadius) < 1 << 16);
 
 void copy_row(const std::int32_t* map, const std::uint8_t* map_ratio, int width,
               std::uint16_t* disparity, std::uint16_t* ratio) {
@@ -67,8 +66,8 @@ struct Largest {
   /// `middle` holds the disparities minus 2^15, so that signed comparisons order unsigned numbers.
   HWY_INLINE explicit Largest(hn::Vec<Signed> middle) {
     for (int away = 0; away <= kSupportRadius; ++away) {
-      const int tolerance = kSupportTolerance + away * kSupportSlope;
-      of[away] = hn::Add(middle, hn::Set(Signed(), static_cast<std::int16_t>(tolerance)));
+      const auto tolerance = static_cast<std::int16_t>(support_tolerance(away));
+      of[away] = hn::Add(middle, hn::Set(Signed(), tolerance));
     }
   }
 
@@ -271,15 +270,13 @@ void SupportMap::resize(int width, int height, ReusedMemory* reused) {
 }
 
 void SupportScratch::resize(int width) {
-  constexpr int kVector = kAlignment / 2;
-  count.resize(width + kVector);
-  ratio.resize(width + kVector);
-  steps.resize(width + kVector);
+  count.resize(width + kSupportLanes);
+  ratio.resize(width + kSupportLanes);
+  steps.resize(width + kSupportLanes);
   widest.resize((kSupportRadius + 1) * kSupportLanes);
   for (int away = 0; away <= kSupportRadius; ++away) {
-    const int tolerance = kSupportTolerance + away * kSupportSlope;
     std::fill_n(widest.data() + away * kSupportLanes, kSupportLanes,
-                static_cast<std::int16_t>(2 * tolerance - (1 << 15)));
+                static_cast<std::int16_t>(2 * support_tolerance(away) - (1 << 15)));
   }
 }
 

@@ -22,6 +22,9 @@ inline constexpr int kSupportSide = 2 * kSupportRadius + 1;
 inline constexpr int kSupportTolerance = 32;  ///< [1 / kVoteOne px]
 inline constexpr int kSupportSlope = 13;      ///< [1 / kVoteOne px per px]
 
+/// The tolerance at a distance [1 / kVoteOne px].
+constexpr int support_tolerance(int away) { return kSupportTolerance + away * kSupportSlope; }
+
 /// No disparity. Its distance from every disparity, modulo 2^16, is larger than any tolerance.
 inline constexpr std::uint16_t kSupportNone = 0xFC00;
 

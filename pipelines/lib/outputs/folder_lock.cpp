@@ -101,7 +101,7 @@ void FolderLock::create(const fs::path& folder) {
   for (; !fs::exists(part, error) && part != part.parent_path(); part = part.parent_path()) {
     if (part.has_filename()) missing.push_back(part);
   }
-  if (fs::exists(part, error) && !fs::is_directory(part, error)) {
+  if (!fs::is_directory(part, error)) {
     throw UserError(part.string() +
                     ": is a file: give the name of a folder, which may not exist yet");
   }
