@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "stages/pixels/cost_lanes.hpp"
 #include "stages/pixels/disparity_selection.hpp"
-#include "stages/pixels/row_walk.hpp"
 
 /// Internal to row_walk.cpp: what the kernels of all SIMD targets read and write of a row. Pointers
 /// instead of buffers: the compiler knows that no store of bytes changes them.
@@ -27,8 +25,5 @@ struct RowSelection {
   std::ptrdiff_t right_stride;
   bool high_planes;  ///< whether disparities exceed a byte
 };
-
-/// Those of rows that are walked along together.
-using RowSelections = std::array<RowSelection, kWalkedRows>;
 
 }  // namespace mtstereo

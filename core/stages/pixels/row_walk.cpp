@@ -8,6 +8,13 @@
 
 #include "stages/pixels/row_selection.hpp"
 
+namespace mtstereo {
+
+/// Those of rows that are walked along together.
+using RowSelections = std::array<RowSelection, kWalkedRows>;
+
+}  // namespace mtstereo
+
 #define HWY_TARGET_INCLUDE "stages/pixels/row_walk.cpp"
 #include "base/simd.hpp"
 #include "stages/pixels/path_lanes-inl.hpp"

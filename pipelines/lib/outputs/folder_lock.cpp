@@ -102,8 +102,8 @@ void FolderLock::create(const fs::path& folder) {
     if (part.has_filename()) missing.push_back(part);
   }
   if (!fs::is_directory(part, error)) {
-    throw UserError(part.string() +
-                    ": is a file: give the name of a folder, which may not exist yet");
+    throw UserError(folder.string() + ": the folder cannot be created, because " + part.string() +
+                    " is a file: give the name of a folder, which may not exist yet");
   }
   fs::create_directories(folder, error);
   if (error) {
