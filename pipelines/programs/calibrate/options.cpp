@@ -5,8 +5,8 @@
 #include <map>
 #include <regex>
 
+#include "lib/options/finite_range.hpp"
 #include "lib/options/parse.hpp"
-#include "lib/outputs/finite_range.hpp"
 #include "programs/calibrate/charuco.hpp"
 #include "programs/calibrate/page.hpp"
 
@@ -53,11 +53,11 @@ void add_sources(CLI::App& app, Texts& texts, Options& options) {
   app.add_option("--size", texts.size, "size requested from devices, such as 1280x720")
       ->group(group);
   app.add_option("--rate", options.source.rate, "frame rate requested from devices")
-      ->check(outputs::finite_range(0.1, 1000))
+      ->check(options::finite_range(0.1, 1000))
       ->group(group);
   app.add_option("--timeout", options.source.timeout,
                  "stop with an error if a source delivers no frame for this time [s]")
-      ->check(outputs::finite_range(0.1, 3600))
+      ->check(options::finite_range(0.1, 3600))
       ->capture_default_str()
       ->group(group);
 }
@@ -87,11 +87,11 @@ void add_board(CLI::App& app, Texts& texts, Options& options) {
       ->capture_default_str()
       ->group(group);
   app.add_option("--square", texts.square, "side of a square, as measured on the board [mm]")
-      ->check(outputs::finite())
+      ->check(options::finite())
       ->capture_default_str()
       ->group(group);
   app.add_option("--marker", texts.marker, "side of a marker [mm]; 0 = 3/4 of a square")
-      ->check(outputs::finite())
+      ->check(options::finite())
       ->capture_default_str()
       ->group(group);
   app.add_option("--dictionary", options.board.dictionary, "dictionary of the markers")
@@ -121,7 +121,7 @@ void add_rest(CLI::App& app, Texts& texts, Options& options) {
   app.add_option("--give-up", options.give_up,
                  "stop live video without a new view for this time [s], and use the views so far; "
                  "0 = never")
-      ->check(outputs::finite_range(0, 86400))
+      ->check(options::finite_range(0, 86400))
       ->capture_default_str();
   app.add_flag("--strict", options.strict, "exit status 3 if there are warnings");
 }

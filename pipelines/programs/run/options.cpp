@@ -7,8 +7,8 @@
 #include <map>
 #include <memory>
 
+#include "lib/options/finite_range.hpp"
 #include "lib/options/parse.hpp"
-#include "lib/outputs/finite_range.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/rectification.hpp"
 #include "mtstereo/parameters.hpp"
@@ -115,7 +115,7 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
   add_shape(app, texts, options.input.shape);
   app.add_option("--rate", options.input.frame_rate, "frames per second of images without times")
       ->type_name("N")
-      ->check(outputs::finite_range(0.001, 100000))
+      ->check(options::finite_range(0.001, 100000))
       ->capture_default_str()
       ->group(group);
   app.add_option(
@@ -128,7 +128,7 @@ void add_inputs(CLI::App& app, Texts& texts, Options& options) {
   app.add_option("--drift", texts.drift,
                  "with --sync SECONDS: how much faster the clock of the right recorder is")
       ->type_name("PPM")
-      ->check(outputs::finite_range(-1e5, 1e5))
+      ->check(options::finite_range(-1e5, 1e5))
       ->group(group);
 }
 
@@ -136,14 +136,14 @@ void add_limits(CLI::App& app, WorkOptions& work, const std::string& group) {
   constexpr double kFarthest = 1e6;  // of mtdepth [m]
   app.add_option("--near", work.near, "omit nearer depths and points")
       ->type_name("METERS")
-      ->check(outputs::finite_range(0, kFarthest))
+      ->check(options::finite_range(0, kFarthest))
       ->capture_default_str()
       ->group(group);
   app.add_option("--far", work.far,
                  "omit farther depths and points, 0 = no limit [default: clouds end where "
                  "the disparity is 4 px, depth maps have no limit]")
       ->type_name("METERS")
-      ->check(outputs::finite_range(0, kFarthest))
+      ->check(options::finite_range(0, kFarthest))
       ->group(group);
 }
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
+#include "lib/options/finite_range.hpp"
 #include "lib/options/parse.hpp"
-#include "lib/outputs/finite_range.hpp"
 #include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::eval {
@@ -122,7 +122,7 @@ void add_methods(CLI::App& app, Texts& texts, Options& options) {
                  "also measure how the disparities of " + std::to_string(kFlickerFrames) +
                      " frames differ that have fresh noise of this standard deviation")
       ->type_name("SIGMA")
-      ->check(outputs::finite_range(0.1, 100));
+      ->check(options::finite_range(0.1, 100));
   app.add_flag("--stream", options.run.stream,
                "the pairs, in the order of their names, are frames of one stream; also measure how "
                "the disparities of each " +

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/outputs/finite_range.hpp"
+#include "lib/options/finite_range.hpp"
 
 namespace mtstereo::render {
 namespace {
@@ -23,20 +23,20 @@ void define_clip(CLI::App& app, Options& o) {
   app.add_option("--frames", o.frames, "number of frames; board: that of all poses, others: 48")
       ->check(CLI::Range(1, 999999));
   app.add_option("--rate", o.rate, "frames per second of scene time")
-      ->check(outputs::finite_range(0.1, 1000))
+      ->check(options::finite_range(0.1, 1000))
       ->capture_default_str();
   app.add_option("--start", o.start, "scene time of the first frame [s]")
-      ->check(outputs::finite_range(0, 3600))
+      ->check(options::finite_range(0, 3600))
       ->capture_default_str();
   app.add_option("--seed", o.settings.seed,
                  "seed of the noise, the textures and the positions of small objects")
       ->capture_default_str();
   app.add_option("--baseline", o.settings.baseline,
                  "distance between the cameras [m]; 0 = the scene's default")
-      ->check(outputs::finite())
+      ->check(options::finite())
       ->capture_default_str();
   app.add_option("--focal", o.settings.focal, "focal length [px]; 0 = 0.85 times the width")
-      ->check(outputs::finite())
+      ->check(options::finite())
       ->capture_default_str();
   app.add_option("--samples", o.settings.samples, "samples x samples rays per pixel")
       ->capture_default_str();
@@ -56,7 +56,7 @@ void define_clip(CLI::App& app, Options& o) {
 
 void define_sensor(CLI::App& app, Settings& s) {
   const auto number = [&app](const char* name, auto& value, const char* help) {
-    app.add_option(name, value, help)->check(outputs::finite())->capture_default_str();
+    app.add_option(name, value, help)->check(options::finite())->capture_default_str();
   };
   number("--noise", s.noise, "standard deviation of the constant sensor noise [gray values]");
   number("--shot-noise", s.shot_noise, "variance of the shot noise per gray value of the signal");
@@ -76,7 +76,7 @@ void define_sensor(CLI::App& app, Settings& s) {
 
 void define_rig(CLI::App& app, Options& o) {
   const auto number = [&app](const char* name, double& value, const char* help) {
-    app.add_option(name, value, help)->check(outputs::finite())->capture_default_str();
+    app.add_option(name, value, help)->check(options::finite())->capture_default_str();
   };
   Rig& rig = o.settings.rig;
   number("--roll", rig.roll, "error of the right camera: roll, clockwise [degrees]");
@@ -98,12 +98,12 @@ void define_rig(CLI::App& app, Options& o) {
 
 void define_scenes(CLI::App& app, Options& o) {
   const auto number = [&app](const char* name, auto& value, const char* help) {
-    app.add_option(name, value, help)->check(outputs::finite())->capture_default_str();
+    app.add_option(name, value, help)->check(options::finite())->capture_default_str();
   };
   app.add_option("--distance", o.wall.distances,
                  "wall: its distance, or those of several walls, separated by commas [m]")
       ->delimiter(',')
-      ->check(outputs::finite())
+      ->check(options::finite())
       ->capture_default_str();
   number("--slant", o.wall.slant, "wall: its right side is farther [degrees]");
   const std::map<std::string, ThinKind> kinds = {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What the programs say about a mistyped option.
+// What the programs say about a mistyped option, and which numbers they accept.
 #include <gtest/gtest.h>
 
 #include "lib/options/failure_message.hpp"
+#include "lib/options/finite_range.hpp"
 #include "lib/options/nearest_name.hpp"
 
 namespace mtstereo::options::options_test {
@@ -86,6 +87,26 @@ TEST(FailureMessage, DoesNotGuess) {
     EXPECT_EQ(message_of(arguments).find("Did you mean"), std::string::npos) << arguments[0];
   }
   EXPECT_EQ(message_of({"--max-disparity", "64"}), "");
+}
+
+TEST(FiniteRange, AcceptsNumbersOnly) {
+  for (const char* text : {"nan", "-nan", "inf", "-inf", "NaN", "1e400", "", "1x", "0.5", "11"}) {
+    CLI::App app;
+    double value = 0;
+    app.add_option("--value", value)->check(finite_range(1, 10));
+    EXPECT_THROW(app.parse(std::string("--value=") + text), CLI::ParseError) << text;
+  }
+  for (const char* text : {"nan", "inf", "-inf"}) {
+    CLI::App app;
+    double value = 0;
+    app.add_option("--value", value)->check(finite());
+    EXPECT_THROW(app.parse(std::string("--value=") + text), CLI::ParseError) << text;
+  }
+  CLI::App app;
+  double value = 0;
+  app.add_option("--value", value)->check(finite_range(1, 10))->check(finite());
+  app.parse("--value 10");
+  EXPECT_EQ(value, 10);
 }
 
 }  // namespace

@@ -6,14 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "lib/outputs/finite_range.hpp"
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/json_text.hpp"
 #include "lib/outputs/listed_folder.hpp"
@@ -318,26 +316,6 @@ TEST(Printable, NamesAreRestored) {
 
 TEST(Printable, MakesEveryTextInJsonValid) {
   EXPECT_EQ(text_of(nlohmann::json{{"a", {"bad\xff", 1}}}), R"({"a":["bad\\xff",1]})");
-}
-
-TEST(FiniteRange, AcceptsNumbersOnly) {
-  for (const char* text : {"nan", "-nan", "inf", "-inf", "NaN", "1e400", "", "1x", "0.5", "11"}) {
-    CLI::App app;
-    double value = 0;
-    app.add_option("--value", value)->check(finite_range(1, 10));
-    EXPECT_THROW(app.parse(std::string("--value=") + text), CLI::ParseError) << text;
-  }
-  for (const char* text : {"nan", "inf", "-inf"}) {
-    CLI::App app;
-    double value = 0;
-    app.add_option("--value", value)->check(finite());
-    EXPECT_THROW(app.parse(std::string("--value=") + text), CLI::ParseError) << text;
-  }
-  CLI::App app;
-  double value = 0;
-  app.add_option("--value", value)->check(finite_range(1, 10))->check(finite());
-  app.parse("--value 10");
-  EXPECT_EQ(value, 10);
 }
 
 }  // namespace

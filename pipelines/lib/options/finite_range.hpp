@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-namespace mtstereo::outputs {
+namespace mtstereo::options {
 
 /// For options with a number: from `least` to `most`. NaN and infinities are rejected;
 /// CLI::Range() lets NaN pass. The range is not repeated in the help.
@@ -33,4 +33,4 @@ inline CLI::Validator finite() {
       "");
 }
 
-}  // namespace mtstereo::outputs
+}  // namespace mtstereo::options
