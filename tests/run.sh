@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# run.sh: installs what is missing, checks the style, builds, and runs all tests: the release build by
-# gcc, then those of the library and the elements, built by clang with AddressSanitizer and
-# UndefinedBehaviorSanitizer, then the tests with threads under ThreadSanitizer. The last line reports
-# how many tests and checks passed, failed and were skipped in all runs.
+# run.sh: installs what is missing, checks the style, builds by gcc, and runs all tests. The last line
+# reports how many tests and checks passed, failed and were skipped in all runs.
 #
 # Options:
-#   --quick             only the release build
+#   --sanitizers        then runs the tests of the library and the elements again, built by clang with
+#                       AddressSanitizer and UndefinedBehaviorSanitizer, and those with threads under
+#                       ThreadSanitizer; CI=true means this option
 #   --thorough          the release build also runs the suite thorough, the sanitizers run all tests, the
 #                       programs and scripts too (those that measure accuracy or time with fewer cases),
 #                       clang-tidy checks the sources, and the Debian packages are built and used in minimal
@@ -45,10 +45,11 @@ summary() {
   [ "$failed" -eq 0 ]
 }
 
-quick=no thorough=no
+sanitizers=no thorough=no
+[ "${CI:-}" != true ] || sanitizers=yes
 case ${1:-} in
-  --quick) quick=yes ;;
-  --thorough) thorough=yes ;;
+  --sanitizers) sanitizers=yes ;;
+  --thorough) sanitizers=yes thorough=yes ;;
   --summarize)
     shift
     [ $# -gt 0 ] || { echo "run.sh: --summarize needs a file" >&2 && exit 2; }
@@ -129,17 +130,15 @@ test_scripts_with_asan() {
     run_tests build-clang-asan --no-rebuild --suite pipelines -t 5
 }
 
-marks=()
-[ "$quick" = yes ] || marks+=(checks)
+marks=(checks)
+[ "$sanitizers" = no ] || marks+=(sanitizers)
 [ "$thorough" = no ] || marks+=(debian)
-[ "$quick" = yes ] || [ "${CI:-}" != true ] || marks+=(arm)
+[ "${CI:-}" != true ] || marks+=(arm)
 ./pipelines/install-packages.sh "${marks[@]}" || { echo "packages are missing" >&2 && exit 1; }
 
-if [ "$quick" = no ]; then
-  check format
-  check shell
-  check python
-fi
+check format
+check shell
+check python
 
 large=() suites=(--no-suite thorough)
 [ "${CI:-}" != true ] || large=(-Dunity=on)
@@ -148,7 +147,7 @@ if build build all -Dbuildtype=release "${large[@]}"; then
   run_tests build --no-rebuild "${suites[@]}"
 fi
 
-if [ "$quick" = no ]; then
+if [ "$sanitizers" = yes ]; then
   export LSAN_OPTIONS=suppressions=$repository/tests/lsan.supp:print_suppressions=0
   export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
   # GStreamer's helper that reads plugins is built without a sanitizer and would reject them.
@@ -177,12 +176,12 @@ if [ "$quick" = no ]; then
     -Dgst=disabled -Dtools=disabled; then
     run_tests build-clang-tsan --no-rebuild --suite threads -t 5
   fi
+fi
 
-  if [ "${CI:-}" = true ] && build build-aarch64 later --cross-file tests/cross/aarch64.txt \
-    -Dbuildtype=release -Dunity=on -Dgst=disabled -Dtools=disabled; then
-    # What depends on the processor: kernels, types and results. Allocations and pages do not.
-    run_tests build-aarch64 -t 10 core core-second core-threads
-  fi
+if [ "${CI:-}" = true ] && build build-aarch64 later --cross-file tests/cross/aarch64.txt \
+  -Dbuildtype=release -Dunity=on -Dgst=disabled -Dtools=disabled; then
+  # What depends on the processor: kernels, types and results. Allocations and pages do not.
+  run_tests build-aarch64 -t 10 core core-second core-threads
 fi
 
 summary
