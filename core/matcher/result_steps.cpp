@@ -87,6 +87,16 @@ void align_edges_of(const Bands& bands, GrayView left_view, ResultMaps& result,
 
 }  // namespace
 
+void doubt_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
+                     ResultBuffers& buffers) {
+  step.bands.rows([&](int y0, int y1, int) {
+    find_jumps(views.plain[0], *result.disparity, y0, y1, buffers.edges);
+  });
+  step.bands.rows([&](int y0, int y1, int worker) {
+    doubt_edges(buffers.edges, y0, y1, buffers.scratch[worker].edges, *result.confidence);
+  });
+}
+
 void align_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
                      ResultBuffers& buffers) {
   align_edges_of(step.bands, views.plain[0], result, buffers);

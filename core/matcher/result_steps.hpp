@@ -65,6 +65,10 @@ void measure_block_grid(const StepContext& step, const Views& views, ResultMaps&
 /// Gives the remaining pixels a disparity.
 void complete_map(const StepContext& step, ResultMaps& result);
 
+/// Doubts the pixels that align_map_edges() would change.
+void doubt_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
+                     ResultBuffers& buffers);
+
 /// Moves jumps of the complete map to the edges of the left view.
 void align_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
                      ResultBuffers& buffers);

@@ -26,16 +26,7 @@ constexpr SmoothnessOptions kHalvedSmoothness = {12, 51};
 /// need more that it does not know. With both, a stream has the errors and the density of single
 /// frames, and half of their flicker; a lower threshold alone has those of a lower min-confidence.
 constexpr int kHeldLess = 20;
-int held_more(Mode mode) {
-  switch (mode) {
-    case Mode::kSemiDense:
-      return 38;
-    case Mode::kDense:
-      return 24;
-    default:
-      return 20;
-  }
-}
+int held_more(Mode mode) { return mode == Mode::kSemiDense ? 34 : 19; }
 
 /// In semi-dense, two maps of very noisy views have too many errors in common. From the first noise
 /// on the last map counts less, from the second on its points need what they usually do [gray

@@ -114,26 +114,51 @@ Vec medians_at(const EdgeWindow& rows, const std::uint8_t* near, int x) {
   return low;
 }
 
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(Words()));
+
+/// Runs body(x0, count) for vectors of columns that have all marked pixels of a row. Each begins at
+/// a marked pixel.
+template <typename Body>
+HWY_INLINE void for_each_marked(const std::uint8_t* marks, int width, Body&& body) {
+  const auto next = [&](int x) {
+    return static_cast<int>(std::find(marks + std::min(x, width), marks + width, 1) - marks);
+  };
+  for (int x0 = next(0); x0 < width; x0 = next(x0 + kLanes)) {
+    body(x0, std::min(kLanes, width - x0));
+  }
+}
+
 /// Aligns a row; `near` marks its pixels near a jump.
 void align_row(const EdgeWindow& rows, const std::uint8_t* near, int width, std::int32_t* map,
                std::uint8_t* confidence) {
-  const Words d16;
-  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Words()));
   HWY_ALIGN std::int16_t medians[kLanes];
-  // Each vector begins at a pixel near a jump.
-  const auto next_near = [&](int x) {
-    return static_cast<int>(std::find(near + std::min(x, width), near + width, 1) - near);
-  };
-  for (int x0 = next_near(0); x0 < width; x0 = next_near(x0 + kLanes)) {
-    const int count = std::min(kLanes, width - x0);
+  for_each_marked(near, width, [&](int x0, int count) {
     const std::int16_t* own = rows.disparity[kSide / 2] + kEdgeRadius + x0;
-    hn::Store(medians_at(rows, near, x0), d16, medians);
+    hn::Store(medians_at(rows, near, x0), Words(), medians);
     for (int i = 0; i < count; ++i) {
       if (near[x0 + i] == 0 || std::abs(medians[i] - own[i]) < kEdgeKept) continue;
       map[x0 + i] = std::max(medians[i] * (kDisparityOne / kEdgeOne), 1);
       confidence[x0 + i] = std::min<std::uint8_t>(confidence[x0 + i], kMostInferred);
     }
+  });
+}
+
+/// Doubts the matched pixels of a row that align_row() would change; `near` marks those near a
+/// jump, then the matched ones of them.
+void doubt_row(const EdgeWindow& rows, int width, std::uint8_t* near, std::uint8_t* confidence) {
+  for (int x = 0; x < width; ++x) {
+    near[x] &= static_cast<std::uint8_t>(confidence[x] > kMostInferred);
   }
+  HWY_ALIGN Weights weights;
+  HWY_ALIGN std::uint16_t kept[kLanes];
+  for_each_marked(near, width, [&](int x0, int count) {
+    const Weighed w = weigh(rows, x0, weights);
+    const hn::RebindToUnsigned<Words> d16;
+    hn::Store(hn::VecFromMask(d16, hn::RebindMask(d16, hn::AndNot(w.rises, w.stays))), d16, kept);
+    for (int i = 0; i < count; ++i) {
+      if (near[x0 + i] != 0 && kept[i] == 0) confidence[x0 + i] = kMostInferred;
+    }
+  });
 }
 
 /// Marks the columns within kEdgeReach of a jump. `next` is the next row, or the row itself.
@@ -166,6 +191,7 @@ HWY_AFTER_NAMESPACE();
 namespace mtstereo {
 
 HWY_EXPORT(align_row);
+HWY_EXPORT(doubt_row);
 HWY_EXPORT(mark_row);
 
 namespace {
@@ -180,6 +206,27 @@ void repeat_ends(T* row, int width) {
 /// Adds the marks of another row; compilers vectorize the loop.
 void add_marks(const std::uint8_t* __restrict__ row, int width, std::uint8_t* __restrict__ near) {
   for (int x = 0; x < width; ++x) near[x] |= row[x];
+}
+
+/// Adds the marks of the rows within kEdgeReach. EdgeMap may be larger than the map.
+void mark_near(const EdgeMap& edges, int y, int width, int height, std::uint8_t* near) {
+  std::memcpy(near, edges.near.row(y), width);
+  const int last = std::min(y + kEdgeReach, height - 1);
+  for (int other = std::max(y - kEdgeReach, 0); other <= last; ++other) {
+    add_marks(edges.near.row(other), width, near);
+  }
+}
+
+/// The windows of the pixels of row y.
+EdgeWindow window_rows(const EdgeMap& edges, int y, int height) {
+  EdgeWindow rows{};
+  rows.middle = edges.gray.row(y);
+  for (int i = 0; i <= kEdgeRadius; ++i) {
+    const int other = std::clamp(y + 2 * i - kEdgeRadius, 0, height - 1);
+    rows.disparity[i] = edges.disparity.row(other);
+    rows.gray[i] = edges.gray.row(other);
+  }
+  return rows;
 }
 
 }  // namespace
@@ -213,20 +260,19 @@ void align_edges(const EdgeMap& edges, int y0, int y1, EdgeScratch& scratch,
                  Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
   const int width = map.width(), height = map.height();
   for (int y = y0; y < y1; ++y) {
-    std::memcpy(scratch.near.data(), edges.near.row(y), width);
-    for (int other = std::max(y - kEdgeReach, 0); other <= std::min(y + kEdgeReach, height - 1);
-         ++other) {
-      add_marks(edges.near.row(other), width, scratch.near.data());
-    }
-    EdgeWindow rows{};
-    rows.middle = edges.gray.row(y);
-    for (int i = 0; i <= kEdgeRadius; ++i) {
-      const int other = std::clamp(y + 2 * i - kEdgeRadius, 0, height - 1);
-      rows.disparity[i] = edges.disparity.row(other);
-      rows.gray[i] = edges.gray.row(other);
-    }
+    mark_near(edges, y, width, height, scratch.near.data());
     HWY_DYNAMIC_DISPATCH(align_row)
-    (rows, scratch.near.data(), width, map.row(y), confidence.row(y));
+    (window_rows(edges, y, height), scratch.near.data(), width, map.row(y), confidence.row(y));
+  }
+}
+
+void doubt_edges(const EdgeMap& edges, int y0, int y1, EdgeScratch& scratch,
+                 Image<std::uint8_t>& confidence) {
+  const int width = confidence.width(), height = confidence.height();
+  for (int y = y0; y < y1; ++y) {
+    mark_near(edges, y, width, height, scratch.near.data());
+    HWY_DYNAMIC_DISPATCH(doubt_row)
+    (window_rows(edges, y, height), width, scratch.near.data(), confidence.row(y));
   }
 }
 

@@ -14,7 +14,7 @@ namespace mtstereo {
 /// weighted median of the disparities around it. Pixels of nearly its gray value have the most
 /// weight.
 ///
-/// Call find_jumps() for all bands of rows, then align_edges() for all bands.
+/// Call find_jumps() for all bands of rows, then align_edges() or doubt_edges() for all bands.
 
 /// Neighbors that differ by more are a jump [1 / kDisparityOne px].
 inline constexpr std::int32_t kJump = 2 * kDisparityOne;
@@ -55,5 +55,10 @@ struct EdgeScratch {
 /// becomes kMostInferred at most.
 void align_edges(const EdgeMap& edges, int y0, int y1, EdgeScratch& scratch,
                  Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
+
+/// Only lowers the confidence of the pixels that align_edges() would change: where inferred
+/// disparities are rejected, the medians are not needed, nor are the windows of inferred pixels.
+void doubt_edges(const EdgeMap& edges, int y0, int y1, EdgeScratch& scratch,
+                 Image<std::uint8_t>& confidence);
 
 }  // namespace mtstereo

@@ -134,15 +134,13 @@ namespace {
 /// Stands for a disparity that no pixel has.
 constexpr int kDecidesNothing = 1 << 20;
 
-bool beside_jump(const Image<std::int32_t>& map, int x, int y) {
+bool beside_nearer(const Image<std::int32_t>& map, int x, int y) {
   const std::int32_t* row = map.row(y);
-  const auto jumps = [here = row[x]](std::int32_t there) {
-    return std::abs(there - here) > kHeldJump;
-  };
-  return jumps(row[std::max(x - kHeldJumpReach, 0)]) ||
-         jumps(row[std::min(x + kHeldJumpReach, map.width() - 1)]) ||
-         jumps(map.row(std::max(y - kHeldJumpReach, 0))[x]) ||
-         jumps(map.row(std::min(y + kHeldJumpReach, map.height() - 1))[x]);
+  const std::int32_t nearer = row[x] + kHeldJump;
+  return row[std::max(x - kHeldJumpReach, 0)] > nearer ||
+         row[std::min(x + kHeldJumpReach, map.width() - 1)] > nearer ||
+         map.row(std::max(y - kHeldJumpReach, 0))[x] > nearer ||
+         map.row(std::min(y + kHeldJumpReach, map.height() - 1))[x] > nearer;
 }
 
 }  // namespace
@@ -167,7 +165,7 @@ void doubt_by_last(const LeastConfidence& least, const CameraMotion& motion, flo
         const int before = outside ? kDecidesNothing : known[places.index[i]];
         int needed = least.usual;
         if (before == 0) {
-          if (!beside_jump(map, column, y)) needed = least.fresh;
+          if (!beside_nearer(map, column, y)) needed = least.fresh;
         } else if (std::abs(before - places.expected[i]) <= kHeldTolerance) {
           needed = least.known;
         }

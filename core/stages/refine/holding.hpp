@@ -13,15 +13,15 @@ namespace mtstereo {
 
 /// What the last pair of a stream decides about the map of the present one, where the motion of the
 /// camera is known: a pixel needs less confidence if the last map has the same point of the scene,
-/// and more if the last map knows nothing there. Beside a jump of the disparity it needs no more:
-/// there the camera uncovers what the last map cannot know. No disparity of the last map gets into
-/// the present one.
+/// and more if the last map knows nothing there. Beside a nearer surface it needs no more: there
+/// the camera uncovers what the last map cannot know. No disparity of the last map gets into the
+/// present one.
 
 /// Disparities are the same if they differ by at most this [1 / kHeldOne px].
 inline constexpr int kHeldTolerance = kHeldOne;
 
-/// A pixel is beside a jump if the disparity at this distance, to the left, to the right, above or
-/// below, differs by more than kHeldJump [1 / kDisparityOne px].
+/// A pixel is beside a nearer surface if the disparity at this distance, to the left, to the right,
+/// above or below, is larger by more than kHeldJump [1 / kDisparityOne px].
 inline constexpr int kHeldJumpReach = 4;  // [px]
 inline constexpr int kHeldJump = 2 * kDisparityOne;
 
@@ -29,7 +29,7 @@ inline constexpr int kHeldJump = 2 * kDisparityOne;
 struct LeastConfidence {
   std::uint8_t usual = 0;  ///< where the last map has another point of the scene, or ends
   std::uint8_t known = 0;  ///< of a point that the last map has too
-  std::uint8_t fresh = 0;  ///< where the last map knows nothing, but not beside a jump
+  std::uint8_t fresh = 0;  ///< where the last map knows nothing, but not beside a nearer surface
 };
 
 /// Where some pixels of a row were in the last map.

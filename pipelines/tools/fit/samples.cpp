@@ -186,7 +186,7 @@ PairSamples take_samples(const TrainingPair& pair, const std::string& kind, Rate
       sample(bins, 2);
     } else if (step.name == "guide-support") {
       guide_confidence = rated_guide(memory, guide);
-    } else if (step.name == "edge-alignment" && !is_guide) {
+    } else if (step.name == (settings.infers() ? "edge-alignment" : "edge-check") && !is_guide) {
       RatedViews views = rated_views(memory.views, pyramid, memory.result);
       views.guide.confidence = &guide_confidence;
       Bins bins(views, *memory.result.disparity, *memory.result.confidence);

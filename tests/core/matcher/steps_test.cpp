@@ -45,10 +45,10 @@ void expect_none_of(const Parameters& parameters, const Names& absent) {
 TEST(Steps, RunInOrderWithTheDefaults) {
   expect_order({}, {"noise-filter", "reduced-matching", "search-windows", "census", "path-matching",
                     "guide-support", "guide-rating", "thin-search", "speckle-removal", "confidence",
-                    "smoothing", "fine-detail", "completion", "edge-alignment", "reliability",
+                    "smoothing", "fine-detail", "completion", "edge-check", "reliability",
                     "rejection", "gap-closing", "thin-drawing"});
-  expect_none_of({}, {"halving", "preprocessing", "max-trees", "node-matching", "enlarging",
-                      "input-census", "refinement"});
+  expect_none_of({}, {"edge-alignment", "halving", "preprocessing", "max-trees", "node-matching",
+                      "enlarging", "input-census", "refinement"});
 }
 
 TEST(Steps, CloseGapsOfTheCompleteMapAfterTheRejection) {
@@ -76,8 +76,8 @@ TEST(Steps, MatchAlongPathsInsteadOfNodesInModeFull) {
                {"noise-filter", "reduced-matching", "search-windows", "census", "path-matching",
                 "guide-support", "guide-rating", "speckle-removal", "confidence", "smoothing",
                 "completion", "edge-alignment", "reliability", "left-strip"});
-  expect_none_of(full, {"fine-detail", "rejection", "thin-drawing", "preprocessing", "max-trees",
-                        "node-matching", "node-extrapolation"});
+  expect_none_of(full, {"fine-detail", "edge-check", "rejection", "thin-drawing", "preprocessing",
+                        "max-trees", "node-matching", "node-extrapolation"});
 }
 
 TEST(Steps, EnlargeTheCompleteMapOfHalvedViews) {

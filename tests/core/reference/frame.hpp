@@ -309,6 +309,10 @@ inline void align_edges(Frame& f) {
   take(f, align_edges(f.plain[0], ConfidentMap{f.map, f.confidence}));
 }
 
+inline void doubt_edges(Frame& f) {
+  f.confidence = align_edges(f.plain[0], ConfidentMap{f.map, f.confidence}).confidence;
+}
+
 inline void calibrate_confidence(Frame& f) {
   const ConfidentMap complete = {f.map, f.confidence};
   const Grays grays = map_grays(f.plain[0], f.plain[1], complete);
@@ -421,6 +425,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"fine-detail", measure_fine_detail},
     {"block-grid", measure_block_grid},
     {"completion", complete},
+    {"edge-check", doubt_edges},
     {"edge-alignment", align_edges},
     {"reliability", calibrate_confidence},
     {"left-strip", correct_strip},

@@ -19,19 +19,20 @@ inline int in_thirty_seconds(int disparity) {
 }
 
 /// Whether one of the disparities 4 px to the left, to the right, above and below (or at the border
-/// of the map, where that is outside) differs by more than 2 px.
-inline bool beside_jump(const DisparityPlane& map, int x, int y) {
-  bool jumps = false;
+/// of the map, where that is outside) is larger by more than 2 px.
+inline bool beside_nearer(const DisparityPlane& map, int x, int y) {
+  bool nearer = false;
   for (const auto& [dx, dy] : {std::pair{-4, 0}, {4, 0}, {0, -4}, {0, 4}}) {
     const int column = std::clamp(x + dx, 0, map.width - 1);
     const int row = std::clamp(y + dy, 0, map.height - 1);
-    jumps |= std::abs(map(column, row) - map(x, y)) / 256.0 > 2;
+    nearer |= (map(column, row) - map(x, y)) / 256.0 > 2;
   }
-  return jumps;
+  return nearer;
 }
 
 /// The least confidence of each pixel: the second one where the last map has the same disparity up
-/// to 1 px, the third one where it knows nothing and there is no jump, the first one elsewhere.
+/// to 1 px, the third one where it knows nothing and nothing near is nearer, the first one
+/// elsewhere.
 inline GrayPlane least_confidence(const DisparityPlane& map, const DisparityPlane& last,
                                   const CameraMotion& motion, float offset,
                                   const std::array<std::uint8_t, 3>& least) {
@@ -47,7 +48,7 @@ inline GrayPlane least_confidence(const DisparityPlane& map, const DisparityPlan
       const int before = last(static_cast<int>(last_x), static_cast<int>(last_y));
       const float expected = std::floor((was.disparity - offset) * 32 + 64 + 0.5F) - 64;
       if (before == 0) {
-        if (!beside_jump(map, x, y)) out(x, y) = least[2];
+        if (!beside_nearer(map, x, y)) out(x, y) = least[2];
       } else if (std::abs(in_thirty_seconds(before) - expected) <= 32) {
         out(x, y) = least[1];
       }

@@ -14,14 +14,12 @@ namespace {
 
 using reference::ConfidentMap;
 
-ConfidentMap aligned(const GrayPlane& gray, const ConfidentMap& in, int band = 1 << 20) {
-  const int width = in.map.width, height = in.map.height;
-  Image<std::int32_t> map = image_of(in.map);
-  Image<std::uint8_t> confidence = image_of(in.confidence);
+constexpr int kAllRows = 1 << 20;
+
+EdgeMap jumps_of(const GrayPlane& gray, const Image<std::int32_t>& map, int band) {
+  const int width = map.width(), height = map.height();
   EdgeMap edges;
-  EdgeScratch scratch;
   edges.resize(width, height);
-  scratch.resize(width);
   // No search for a value may depend on one above those of the padding.
   for (int y = 0; y < height; ++y) {
     std::fill_n(edges.disparity.row(y), edges.disparity.stride(), std::int16_t{0x7FFF});
@@ -31,10 +29,30 @@ ConfidentMap aligned(const GrayPlane& gray, const ConfidentMap& in, int band = 1
   for (int y = 0; y < height; y += band) {
     find_jumps(gray.view(), map, y, std::min(y + band, height), edges);
   }
-  for (int y = 0; y < height; y += band) {
-    align_edges(edges, y, std::min(y + band, height), scratch, map, confidence);
+  return edges;
+}
+
+ConfidentMap aligned(const GrayPlane& gray, const ConfidentMap& in, int band = kAllRows) {
+  Image<std::int32_t> map = image_of(in.map);
+  Image<std::uint8_t> confidence = image_of(in.confidence);
+  const EdgeMap edges = jumps_of(gray, map, band);
+  EdgeScratch scratch;
+  scratch.resize(map.width());
+  for (int y = 0; y < map.height(); y += band) {
+    align_edges(edges, y, std::min(y + band, map.height()), scratch, map, confidence);
   }
   return {copy_of(map), copy_of(confidence)};
+}
+
+GrayPlane doubted(const GrayPlane& gray, const ConfidentMap& in, int band = kAllRows) {
+  Image<std::uint8_t> confidence = image_of(in.confidence);
+  const EdgeMap edges = jumps_of(gray, image_of(in.map), band);
+  EdgeScratch scratch;
+  scratch.resize(confidence.width());
+  for (int y = 0; y < confidence.height(); y += band) {
+    doubt_edges(edges, y, std::min(y + band, confidence.height()), scratch, confidence);
+  }
+  return copy_of(confidence);
 }
 
 GrayPlane random_gray(int width, int height, Random& random) {
@@ -60,10 +78,11 @@ void expect_reference(int width, int height, const DisparityPlane& map) {
   for (std::uint8_t& c : in.confidence.pixels)
     c = static_cast<std::uint8_t>(random.between(1, 255));
   const ConfidentMap expected = reference::align_edges(gray, in);
-  for (const int band : {1, 5, 1 << 20}) {
+  for (const int band : {1, 5, kAllRows}) {
     const ConfidentMap actual = aligned(gray, in, band);
     EXPECT_TRUE(same_image(expected.map, actual.map)) << "bands of " << band << " rows";
     EXPECT_TRUE(same_image(expected.confidence, actual.confidence)) << band;
+    EXPECT_TRUE(same_image(expected.confidence, doubted(gray, in, band))) << band;
   }
 }
 
@@ -92,6 +111,7 @@ TEST(EdgeAlignment, LeavesSlantedSurfacesAlone) {
   const GrayPlane gray = random_gray(60, 30, random);
   const ConfidentMap in = {map, GrayPlane(60, 30, 200)};
   EXPECT_EQ(aligned(gray, in), in);
+  EXPECT_EQ(doubted(gray, in), in.confidence);
 }
 
 TEST(EdgeAlignment, MovesAJumpToTheEdgeOfTheImage) {

@@ -139,9 +139,9 @@ TEST(Holding, WithstandsMotionsWithoutSense) {
   }
 }
 
-TEST(Holding, APointBesideAJumpNeedsNoMore) {
+TEST(Holding, APointBesideANearerSurfaceNeedsNoMore) {
   for (const int jump : {2 * kDisparityOne, 2 * kDisparityOne + 1, -2 * kDisparityOne - 1}) {
-    const int expected = std::abs(jump) > kHeldJump ? kLeast.usual : kLeast.fresh;
+    const int expected = jump > kHeldJump ? kLeast.usual : kLeast.fresh;
     for (const auto& [x, y] : {std::pair{1, 5}, {9, 5}, {5, 1}, {5, 9}}) {
       DisparityPlane map(11, 11, 2560);
       map(x, y) += jump;
