@@ -52,6 +52,15 @@ std::string without_plugin(const std::string& missing) {
          "convert the video (ffmpeg -i FILE -c:v ffv1 view.mkv)";
 }
 
+constexpr const char* kUnknownFormat =
+    "GStreamer recognizes no video in it: give a video, an image or a folder of images, or "
+    "convert it (ffmpeg -i FILE -c:v ffv1 view.mkv)";
+
+bool is_unknown_format(const GError& error) {
+  return error.domain == GST_STREAM_ERROR && (error.code == GST_STREAM_ERROR_TYPE_NOT_FOUND ||
+                                              error.code == GST_STREAM_ERROR_WRONG_TYPE);
+}
+
 std::vector<std::uint8_t> gray_pixels(GstBuffer* buffer, const GstVideoInfo& info) {
   GstVideoFrame frame;
   if (gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ) == FALSE) return {};
@@ -241,7 +250,9 @@ void VideoScan::State::take_message(GstMessage* message) {
   } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR && error.empty()) {
     g_autoptr(GError) reason = nullptr;
     gst_message_parse_error(message, &reason, nullptr);
-    error = missing.empty() ? reason->message : without_plugin(missing);
+    error = !missing.empty()             ? without_plugin(missing)
+            : is_unknown_format(*reason) ? kUnknownFormat
+                                         : reason->message;
   }
 }
 

@@ -287,7 +287,9 @@ TEST_F(FrameIndexTest, NamesFilesThatAreNoVideos) {
   write_text(folder_ / "noise.ts", std::string(100'000, 'x'));
   for (const char* name : {"empty.mp4", "text.mkv", "noise.ts"}) {
     const fs::path file = folder_ / name;
-    EXPECT_THAT(error_of(file), HasSubstr(file.string() + ": ")) << name;
+    EXPECT_THAT(error_of(file), AllOf(HasSubstr(file.string() + ": "),
+                                      HasSubstr("give a video, an image or a folder of images")))
+        << name;
   }
 }
 
