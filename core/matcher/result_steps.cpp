@@ -74,11 +74,16 @@ void complete_map(const StepContext& step, ResultMaps& result) { complete_all(st
 
 namespace {
 
-void align_edges_of(const Bands& bands, GrayView left_view, ResultMaps& result,
-                    ResultBuffers& buffers) {
+void find_edges(const Bands& bands, GrayView left_view, const ResultMaps& result,
+                ResultBuffers& buffers) {
   bands.rows([&](int y0, int y1, int) {
     find_jumps(left_view, *result.disparity, y0, y1, buffers.edges);
   });
+}
+
+void align_edges_of(const Bands& bands, GrayView left_view, ResultMaps& result,
+                    ResultBuffers& buffers) {
+  find_edges(bands, left_view, result, buffers);
   bands.rows([&](int y0, int y1, int worker) {
     align_edges(buffers.edges, y0, y1, buffers.scratch[worker].edges, *result.disparity,
                 *result.confidence);
@@ -89,9 +94,7 @@ void align_edges_of(const Bands& bands, GrayView left_view, ResultMaps& result,
 
 void doubt_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
                      ResultBuffers& buffers) {
-  step.bands.rows([&](int y0, int y1, int) {
-    find_jumps(views.plain[0], *result.disparity, y0, y1, buffers.edges);
-  });
+  find_edges(step.bands, views.plain[0], result, buffers);
   step.bands.rows([&](int y0, int y1, int worker) {
     doubt_edges(buffers.edges, y0, y1, buffers.scratch[worker].edges, *result.confidence);
   });
