@@ -50,6 +50,21 @@ bool are_same(const Source& left, const Source& right) {
   return a.empty() || fs::equivalent(a.back(), b.back(), error);
 }
 
+// Fails for an input that is not there.
+[[noreturn]] void fail_as_missing(const std::string& input, const std::string& what) {
+  const auto is_input = [](const std::string& text) {
+    std::error_code error;
+    return files::is_pattern(text) || fs::exists(text, error);
+  };
+  for (std::size_t at = input.find(','); at != std::string::npos; at = input.find(',', at + 1)) {
+    const std::string left = input.substr(0, at), right = input.substr(at + 1);
+    if (!is_input(left) || !is_input(right)) continue;
+    throw UserError(input + ": " + what +
+                    "; give the two views with a blank between them: " + left + " " + right);
+  }
+  throw UserError(input + ": " + what);
+}
+
 [[noreturn]] void fail_without_views(const fs::path& folder) {
   std::string what = files::first_unread(files::files_in(folder));
   if (!what.empty()) throw UserError(what);
@@ -105,7 +120,7 @@ Source source_of(const std::string& input) {
   Source source;
   if (files::is_pattern(input)) {
     source.images = files::files_of_pattern(input);
-    if (source.images.empty()) throw UserError(input + ": no file has such a name");
+    if (source.images.empty()) fail_as_missing(input, "no file has such a name");
     files::refuse_unread(source.images.front());
   } else if (fs::is_directory(input, error)) {
     source.images = images_of_folder(input);
@@ -118,7 +133,7 @@ Source source_of(const std::string& input) {
         ": is a stream, which may never end: record it into a file (ffmpeg -i URL -c copy "
         "view.mkv), or match it live (from-network.sh)");
   } else if (!fs::exists(input, error)) {
-    throw UserError(input + ": no such file or folder");
+    fail_as_missing(input, "no such file or folder");
   } else if (!fs::is_regular_file(input, error)) {
     throw UserError(input + ": is a pipe or a device, which may never end: record it into a file");
   } else {

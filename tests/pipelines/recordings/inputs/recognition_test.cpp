@@ -130,6 +130,13 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   write_text(folder_ / "broken.mp4", "no video");
   fs::create_directory(path("empty"));
   EXPECT_THAT(error_of({"none.mp4", "left"}), HasSubstr(path("none.mp4") + ": no such file"));
+  const std::string folders = "left," + path("left"),
+                    patterns = "left/%d.jpg," + path("left/*.jpg");
+  EXPECT_THAT(error_of({folders.c_str()}),
+              HasSubstr("no such file or folder; give the two views with a blank between them: " +
+                        path("left") + " " + path("left")));
+  EXPECT_THAT(error_of({patterns.c_str()}), HasSubstr("no file has such a name; give the two"));
+  EXPECT_THAT(error_of({"broken.mp4,none.mp4"}), Not(HasSubstr("give the two views")));
   write_text(folder_ / "other.mp4", "no video");
   EXPECT_THAT(error_of({"broken.mp4", "other.mp4"}), HasSubstr(path("broken.mp4") + ": "));
   EXPECT_THAT(error_of({"broken.mp4", "broken.mp4"}), HasSubstr("are the same file"));
