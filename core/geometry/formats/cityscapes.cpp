@@ -31,7 +31,7 @@ StereoCalibration read_cityscapes(const Entry& file, const Request& request) {
            "; they must be equal in a rectified view");
   }
   camera.focal_y = camera.focal_x;
-  StereoCalibration calibration = rectified_pair(camera, baseline, k, length);
+  StereoCalibration calibration = rectified_pair({camera, k}, {camera, k}, baseline, length);
   calibration.format = "Cityscapes";
   return calibration;
 }

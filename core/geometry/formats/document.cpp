@@ -213,6 +213,7 @@ std::optional<Format> known_format(const Entry& root) {
   if (is_orbslam(root)) return Format::kOrbSlam;
   if (is_rectified_view(root)) return Format::kRectifiedView;
   if (is_opencv(root)) return Format::kOpenCv;
+  if (is_rectified_pair(root)) return Format::kRectifiedView;
   return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/calibration_remarks.hpp"
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"
 
@@ -24,8 +25,9 @@ StereoCalibration read_foundation_stereo(const Entry& file, const Request& reque
   camera.height = request.height;
   set_camera_matrix(camera, k);
   const double baseline = length.numbers(1, "the baseline in meters")[0];
-  StereoCalibration calibration = rectified_pair(camera, baseline, k, length);
+  StereoCalibration calibration = rectified_pair({camera, k}, {camera, k}, baseline, length);
   calibration.format = "FoundationStereo";
+  note_length(calibration, "write it in meters");
   return calibration;
 }
 

@@ -18,14 +18,9 @@ StereoCalibration read_middlebury(const Entry& file, const Request& request) {
   set_camera_matrix(calibration.left, left);
   set_camera_matrix(calibration.right, right);
 
-  RectifiedViews views;
-  const CameraCalibration& k1 = calibration.left;
-  const CameraCalibration& k2 = calibration.right;
   const double length = baseline.number() / 1000;
-  views.left_projection = {k1.focal_x,  0, k1.center_x, 0, 0, k1.focal_y,
-                           k1.center_y, 0, 0,           0, 1, 0};
-  views.right_projection = {
-      k2.focal_x, 0, k2.center_x, -k1.focal_x * length, 0, k2.focal_y, k2.center_y, 0, 0, 0, 1, 0};
+  RectifiedViews views = views_of(calibration.right, calibration.left.focal_x * length);
+  views.left_projection = views_of(calibration.left, 0).left_projection;
   Rectification rectification = rectification_from(views, left, right);
   rectification.baseline = length;
   check_translation({-length, 0, 0}, baseline, "; it is in millimeters");

@@ -2,7 +2,6 @@
 // The files of OpenCV's FileStorage, with the names of its sample stereo_calib and those that
 // other programs give to the same matrices, and the file of write_calibration().
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -97,27 +96,9 @@ std::optional<double> unit_by_baseline(const OpenCvEntries& files,
 /// The unit of T and of the fourth columns of P1 and P2 [m], if it is stated.
 std::optional<double> unit_of(const OpenCvEntries& files, const std::optional<Entry>& translation) {
   const std::optional<Entry> entry = files.find("lengthunit units unit");
-  if (!entry) {
-    const std::optional<double> named = unit_in_name(translation);
-    return named ? named : unit_by_baseline(files, translation);
-  }
-  const std::string word = entry->text();
-  constexpr std::array<std::pair<std::string_view, double>, 9> kUnits = {{{"m", 1},
-                                                                          {"meter", 1},
-                                                                          {"meters", 1},
-                                                                          {"cm", 0.01},
-                                                                          {"centimeters", 0.01},
-                                                                          {"mm", 0.001},
-                                                                          {"millimeter", 0.001},
-                                                                          {"millimeters", 0.001},
-                                                                          {"in", 0.0254}}};
-  for (const auto& [name, unit] : kUnits) {
-    if (word == name) return unit;
-  }
-  const std::optional<double> meters = parse_number(word);
-  if (meters && *meters > 0 && std::isfinite(*meters)) return *meters;
-  entry->fail("is '" + printable(word) +
-              "'; m, cm, mm, in or the positive number of meters of the length 1 is needed");
+  if (entry) return length_unit(*entry);
+  const std::optional<double> named = unit_in_name(translation);
+  return named ? named : unit_by_baseline(files, translation);
 }
 
 /// Whether no view can have this projection. stereoRectify() writes such ones for lens polynomials

@@ -272,6 +272,26 @@ void set_motion_on_body(StereoCalibration& calibration, const Entry& left, const
   set_motion(calibration, motion);
 }
 
+double length_unit(const Entry& entry) {
+  const std::string word = entry.text();
+  constexpr std::array<std::pair<std::string_view, double>, 9> kUnits = {{{"m", 1},
+                                                                          {"meter", 1},
+                                                                          {"meters", 1},
+                                                                          {"cm", 0.01},
+                                                                          {"centimeters", 0.01},
+                                                                          {"mm", 0.001},
+                                                                          {"millimeter", 0.001},
+                                                                          {"millimeters", 0.001},
+                                                                          {"in", 0.0254}}};
+  for (const auto& [name, unit] : kUnits) {
+    if (word == name) return unit;
+  }
+  const std::optional<double> meters = parse_number(word);
+  if (meters && *meters > 0 && std::isfinite(*meters)) return *meters;
+  entry.fail("is '" + printable(word) +
+             "'; m, cm, mm, in or the positive number of meters of the length 1 is needed");
+}
+
 StereoCalibration rectified_cameras(const Rectification& rectification) {
   StereoCalibration calibration;
   for (CameraCalibration* camera : {&calibration.left, &calibration.right}) {
@@ -289,14 +309,15 @@ StereoCalibration rectified_cameras(const Rectification& rectification) {
   return calibration;
 }
 
-StereoCalibration rectified_pair(const CameraCalibration& camera, double baseline, const Entry& k,
-                                 const Entry& length) {
-  Rectification rectification =
-      rectification_from(views_of(camera, camera.focal_x * baseline), k, length);
+StereoCalibration rectified_pair(const RectifiedCamera& left, const RectifiedCamera& right,
+                                 double baseline, const Entry& length) {
+  RectifiedViews views = views_of(right.camera, left.camera.focal_x * baseline);
+  views.left_projection = views_of(left.camera, 0).left_projection;
+  Rectification rectification = rectification_from(views, left.k, right.k);
   check_translation({-baseline, 0, 0}, length, "; it must be in meters");
   rectification.baseline = baseline;
-  rectification.width = camera.width;
-  rectification.height = camera.height;
+  rectification.width = left.camera.width;
+  rectification.height = left.camera.height;
   return rectified_cameras(rectification);
 }
 

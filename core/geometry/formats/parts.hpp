@@ -82,6 +82,9 @@ Rectification rectification_from(const RectifiedViews& views, const Entry& left,
 /// same axes, and the right one is at the baseline.
 Motion motion_of(const Rectification& rectification);
 
+/// The meters that a length of 1 has, by a unit such as "mm" or a number.
+double length_unit(const Entry& entry);
+
 /// Checks T as read_calibration() documents it. `hint` is what to do about a length that is in
 /// another unit.
 void check_translation(const Eigen::Vector3d& translation, const Entry& entry,
@@ -93,10 +96,14 @@ void set_motion_on_body(StereoCalibration& calibration, const Entry& left, const
 
 /// A calibration of cameras whose views are rectified already.
 StereoCalibration rectified_cameras(const Rectification& rectification);
-/// The same for two equal cameras at this distance [m]. `k` and `length` are the entries of the
-/// intrinsics and the baseline.
-StereoCalibration rectified_pair(const CameraCalibration& camera, double baseline, const Entry& k,
-                                 const Entry& length);
+/// A camera without distortion, and the entry of its intrinsics.
+struct RectifiedCamera {
+  CameraCalibration camera;
+  Entry k;
+};
+/// The same for two cameras at this distance [m]. `length` is the entry of the baseline.
+StereoCalibration rectified_pair(const RectifiedCamera& left, const RectifiedCamera& right,
+                                 double baseline, const Entry& length);
 
 /// The two names of a selection such as "cam1-cam0". An error if it has another form.
 struct Selection {

@@ -72,6 +72,9 @@ bool is_stella(const Entry& file);
 bool is_cityscapes(const Entry& file);
 /// Whether a file has the intrinsics of one camera and the baseline, but no R and T.
 bool is_rectified_view(const Entry& file);
+/// Whether a file states both cameras of a rectified pair and the baseline. No other format may
+/// fit.
+bool is_rectified_pair(const Entry& file);
 /// Whether a file is the cam_to_cam.yaml of DSEC.
 bool is_dsec(const Entry& file);
 /// Whether a file is one of Basalt.
