@@ -2,6 +2,7 @@
 #include "recordings/inputs/folder_search.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <regex>
 #include <string>
 #include <system_error>
@@ -129,7 +130,7 @@ class FolderSearch {
     });
     add_nested({rest, folders.end()});
     folders.erase(rest, folders.end());
-    const std::vector<PathPair> pairs = take_pairs(folders);
+    const std::vector<PathPair> pairs = take_views_of_folders(folders);
     for (const PathPair& pair : pairs) {
       contents_.used_folders.insert(contents_.used_folders.end(), {pair.left, pair.right});
       const bool only = pairs.size() == 1 || pair.common.empty();
@@ -143,9 +144,25 @@ class FolderSearch {
     }
   }
 
+  // The pairs of folders, without those of what belongs to views beside them, such as their depths.
+  std::vector<PathPair> take_views_of_folders(std::vector<fs::path>& folders) {
+    const auto is_other = [](const fs::path& folder) {
+      return is_other_data(folder.filename().string());
+    };
+    const std::vector<fs::path> all = folders;
+    std::vector<PathPair> pairs = take_pairs(folders);
+    const auto others = std::stable_partition(
+        pairs.begin(), pairs.end(), [&](const PathPair& pair) { return !is_other(pair.left); });
+    if (others == pairs.begin()) return pairs;
+    pairs.erase(others, pairs.end());
+    std::erase_if(folders, is_other);
+    std::copy_if(all.begin(), all.end(), std::back_inserter(contents_.used_folders), is_other);
+    return pairs;
+  }
+
   // Folders of views that have a folder for each scene, such as left/alley and right/alley.
   void add_nested(std::vector<fs::path> folders) {
-    const std::vector<PathPair> views = take_pairs(folders);
+    const std::vector<PathPair> views = take_views_of_folders(folders);
     for (const PathPair& view : views) {
       const NestedViews scenes = nested_views(view.left, view.right);
       if (scenes.pairs.empty()) continue;

@@ -106,6 +106,20 @@ std::string without(const std::string& name, std::size_t at, std::size_t length)
   return before + after;
 }
 
+// Whether the numbers in the names count images instead of cameras, as image_0 to image_4 do.
+bool count_images(const ViewImages& views, const std::vector<fs::path>& rest) {
+  constexpr std::size_t kMostPairs = 2;  // 0 and 1, 2 and 3
+  if (views.left.size() > kMostPairs) return false;
+  std::string name = views.left.front().filename().string();
+  const std::string right = views.right.front().filename().string();
+  const auto at = std::mismatch(name.begin(), name.end(), right.begin(), right.end());
+  if (at.first == name.end() || at.second == right.end() || !is_digit(*at.first)) return false;
+  if (*at.second != *at.first + 1) return false;
+  *at.first = '4';
+  return std::any_of(rest.begin(), rest.end(),
+                     [&name](const fs::path& path) { return path.filename() == name; });
+}
+
 // The images of each view by what their names share, if no name has a partner.
 std::map<std::string, ViewImages> take_unpaired_views(std::vector<fs::path>& paths) {
   std::map<std::string, ViewImages> found;
@@ -212,11 +226,17 @@ std::string name_without_numbers(const std::string& name) {
 }
 
 std::vector<ViewImages> take_views(std::vector<fs::path>& paths) {
+  const std::vector<fs::path> all = paths;
   std::map<std::string, ViewImages> found;
   for (const PathPair& pair : take_pairs(paths)) {
     ViewImages& views = found[name_without_numbers(pair.common)];
     views.left.push_back(pair.left);
     views.right.push_back(pair.right);
+  }
+  for (const auto& each : found) {
+    if (!count_images(each.second, paths)) continue;
+    paths = all;
+    return {};
   }
   if (found.empty()) found = take_unpaired_views(paths);
   std::vector<ViewImages> result;

@@ -125,6 +125,17 @@ TEST_F(NestedFolders, WithBothViewsAreNoViews) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
+TEST_F(NestedFolders, WithTheDepthsOfViewsAreNoViews) {
+  write_images({"image_left/1.png", "image_right/1.png", "depth_left/1.png", "depth_right/1.png",
+                "seg_left/1.png"});
+  EXPECT_THAT(found(), ElementsAre(HasSubstr(": image_left/1.png image_right/1.png")));
+  EXPECT_THAT(problems_, IsEmpty());
+  write_images({"all/rgb_left/a/1.png", "all/rgb_right/a/1.png", "all/depth_left/a/1.png",
+                "all/depth_right/a/1.png"});
+  EXPECT_THAT(found(), ElementsAre(HasSubstr(": all/rgb_left/a/1.png"), HasSubstr(": image_left")));
+  EXPECT_THAT(problems_, IsEmpty());
+}
+
 TEST_F(NestedFolders, WithNothingInCommonAreNoViews) {
   write_images({"left/a/1.png", "right/b/1.png"});
   EXPECT_TRUE(nested_views(path("left"), path("right")).pairs.empty());

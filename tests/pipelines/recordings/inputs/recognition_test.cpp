@@ -228,6 +228,13 @@ TEST_F(Recordings, TheFirstImagesOfASequenceAreNoPair) {
             0U)
       << error_of({"one"});
   EXPECT_THAT(error_of({"one"}), HasSubstr("patterns"));
+  write_images("kitti", {"image_0.png", "image_1.png", "image_2.png", "image_3.png"});
+  EXPECT_EQ(recognized({"kitti"}).left.images.size(), 2U);
+  write_images("kitti", {"image_4.png"});
+  EXPECT_THAT(error_of({"kitti"}), HasSubstr("image_0.png: 200x120 px is the shape of one"));
+  write_images("rig", {"1_cam0.png", "1_cam1.png", "1_cam4.png", "2_cam0.png", "2_cam1.png",
+                       "3_cam0.png", "3_cam1.png"});
+  EXPECT_EQ(recognized({"rig"}).left.images.size(), 3U);
 }
 
 TEST_F(Recordings, GuessesTheArrangement) {
