@@ -53,11 +53,12 @@ inline std::vector<RowCosts> path_matching_costs(const PathInput& input,
                                  census(input.right, input.census_scales), options.cost};
   std::vector<RowCosts> costs(height, RowCosts(width));
   for (int y = 0; y < height; ++y) {
+    const RowCosts columns = census_costs.columns(y);
     for (int x = 0; x < width; ++x) {
       const auto [low, high] = expected_at(input.half_map, x, y, options.cost.disparities);
       for (int d = 0; d < options.cost.disparities; ++d) {
         const bool inside = input.windows.contain(x, y, d);
-        costs[y][x].push_back(inside ? census_costs.cost(x, y, d, low, high) : kOutside);
+        costs[y][x].push_back(inside ? census_costs.cost(columns, x, d, low, high) : kOutside);
       }
     }
   }

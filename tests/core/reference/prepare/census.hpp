@@ -86,30 +86,34 @@ struct CensusCosts {
   int bits(int x, int y, int d) const {
     return std::popcount(left.clamped(x, y) ^ right.clamped(std::max(x - d, 0), y));
   }
-  /// The sum over the rows of the window. The pixels of the border are repeated.
-  int column(int x, int y, int d) const {
+  /// The sums over the rows of the window, for row y. The pixels of the border are repeated.
+  RowCosts columns(int y) const {
     const int reach = options.kernel_size / 2;
-    const int inside = std::clamp(x, 0, left.width - 1);
-    int sum = 0;
-    for (int k = -reach; k <= reach; ++k) sum += bits(inside, y + k, d);
-    return sum;
+    RowCosts sums(left.width, std::vector<int>(options.disparities));
+    for (int x = 0; x < left.width; ++x) {
+      for (int d = 0; d < options.disparities; ++d) {
+        for (int k = -reach; k <= reach; ++k) sums[x][d] += bits(x, y + k, d);
+      }
+    }
+    return sums;
   }
   /// The average over the columns of the window with binomial weights, computed by means of two
   /// values that round half up.
-  int window(int x, int y, int d) const {
+  int window(const RowCosts& columns, int x, int d) const {
+    const auto column = [&](int at) { return columns[std::clamp(at, 0, left.width - 1)][d]; };
     const auto mean = [](int a, int b) { return (a + b + 1) / 2; };
-    const int middle = column(x, y, d);
+    const int middle = column(x);
     if (options.kernel_size == 1) return middle;
-    const int near = mean(column(x - 1, y, d), column(x + 1, y, d));
+    const int near = mean(column(x - 1), column(x + 1));
     if (options.kernel_size == 3) return mean(near, middle);
-    const int far = mean(column(x - 2, y, d), column(x + 2, y, d));
+    const int far = mean(column(x - 2), column(x + 2));
     return mean(near, mean(middle, mean(far, middle)));
   }
-  /// The disparities low .. high are expected.
-  int cost(int x, int y, int d, int low, int high) const {
+  /// The cost of pixel x in the row of these columns. The disparities low .. high are expected.
+  int cost(const RowCosts& columns, int x, int d, int low, int high) const {
     const bool expected = low <= d && d <= high;
     const int penalty = expected ? 0 : options.range_penalty * options.kernel_size;
-    return std::min(window(x, y, d) + penalty, 255);
+    return std::min(window(columns, x, d) + penalty, 255);
   }
 };
 

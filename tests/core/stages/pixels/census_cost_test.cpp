@@ -89,9 +89,10 @@ void expect_reference(const Pair& views, const CensusCostOptions& options, int y
   const int width = views.left.width;
   const reference::Windows matched = test::copy_of(windows, width, views.left.height);
   for (int y = y0; y < y1; ++y) {
+    const reference::RowCosts columns = plain.columns(y);
     const auto expected = [&](int d, int x) {
       if (!matched.contain(x, y, d)) return reference::kOutside;
-      return d < options.disparities ? plain.cost(x, y, d, ranges.low[x], ranges.high[x])
+      return d < options.disparities ? plain.cost(columns, x, d, ranges.low[x], ranges.high[x])
                                      : kCensusNever;
     };
     for (const auto* costs : {&down, &up}) {

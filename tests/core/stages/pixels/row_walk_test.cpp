@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "reference/pixels/disparity_selection.hpp"
 #include "reference/pixels/row_walk.hpp"
 #include "stages/pixels/census_cost.hpp"
@@ -74,9 +76,21 @@ struct Scratch {
   Candidates candidates[kWalkedRows];
 };
 
+/// The cells of each row: its costs, and those of the paths from above and below.
+using RowCells = std::array<std::array<Buffer<std::uint8_t>, 3>, kWalkedRows>;
+
+RowCells cells_of(const Rows& rows, const CostWindow* windows) {
+  RowCells cells;
+  for (std::size_t r = 0; r < kWalkedRows; ++r) {
+    cells[r] = {test::cells_of(rows.costs[r], windows), test::cells_of(rows.above[r], windows),
+                test::cells_of(rows.below[r], windows)};
+  }
+  return cells;
+}
+
 /// Matches the first rows. The last of them stands for those that are missing.
-std::vector<Selected> matched(const Rows& rows, const Setting& setting, int count,
-                              Scratch& scratch) {
+std::vector<Selected> matched(const Rows& rows, const RowCells& cells, const Setting& setting,
+                              int count, Scratch& scratch) {
   const int width = static_cast<int>(rows.costs[0].size());
   const int disparities = setting.selection.disparities;
   const LargeStepTable large_step = large_step_table(setting.steps);
@@ -84,18 +98,14 @@ std::vector<Selected> matched(const Rows& rows, const Setting& setting, int coun
   const std::vector<std::uint16_t> high(width, static_cast<std::uint16_t>(disparities - 1));
   WalkedRows walked = {{},          width,           setting.steps.small_step,
                        &large_step, setting.windows, setting.sums};
-  Buffer<std::uint8_t> cells[kWalkedRows][3];
   scratch.walk.resize(width, disparities);
   for (int r = 0; r < kWalkedRows; ++r) {
     const int from = std::min(r, count - 1);
     scratch.candidates[r].resize(width, disparities);
-    cells[r][0] = test::cells_of(rows.costs[from], setting.windows);
-    cells[r][1] = test::cells_of(rows.above[from], setting.windows);
-    cells[r][2] = test::cells_of(rows.below[from], setting.windows);
-    walked.of[r] = {cells[r][0].data(),
+    walked.of[r] = {cells[from][0].data(),
                     rows.gray[from].data(),
-                    cells[r][1].data(),
-                    cells[r][2].data(),
+                    cells[from][1].data(),
+                    cells[from][2].data(),
                     low.data(),
                     high.data(),
                     &scratch.candidates[from]};
@@ -138,9 +148,10 @@ testing::AssertionResult same_pixels(const std::vector<Selected>& expected,
 /// disparities.
 long expect_reference(const Rows& rows, const Setting& setting, Scratch& scratch) {
   const std::vector<Selected> expected = reference_of(rows, setting);
+  const RowCells cells = cells_of(rows, setting.windows);
   test::for_each_simd_target([&] {
     for (const int count : {kWalkedRows, 3, 1}) {
-      EXPECT_TRUE(same_pixels(expected, matched(rows, setting, count, scratch)))
+      EXPECT_TRUE(same_pixels(expected, matched(rows, cells, setting, count, scratch)))
           << "disparities (row 0) and ratios (row 1), D " << setting.selection.disparities
           << ", P1 " << setting.steps.small_step << ", P2 " << setting.steps.large_step << ", sums "
           << static_cast<int>(setting.sums) << ", rows " << count;
@@ -226,7 +237,8 @@ TEST(RowWalk, PrefersTheDisparityOfTheNeighbors) {
   Scratch scratch;
   const auto best = [&](int large) {
     const Setting setting = {{4, large}, PathSums::kTwo, {30, 0, false, -1, false, 0}};
-    return matched(rows, setting, kWalkedRows, scratch)[40].disparity / 256;
+    return matched(rows, cells_of(rows, nullptr), setting, kWalkedRows, scratch)[40].disparity /
+           256;
   };
   EXPECT_EQ(10, best(30));
   EXPECT_EQ(25, best(0)) << "the optimization is disabled";
