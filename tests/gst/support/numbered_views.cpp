@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -188,10 +189,15 @@ void collect_messages(GstElement* pipeline, double seconds, FeedResult& result) 
 
 }  // namespace
 
-GrayImage numbered_image(Side side, std::int64_t number) {
+const GrayImage& numbered_image(Side side, std::int64_t number) {
+  static std::mutex mutex;
+  static std::map<std::int64_t, GrayImage> drawn;
   // x in the left view is x - disparity in the right one.
   const std::int64_t shift = number * kNumberedStep + (side == Side::kRight ? kNumberedBase : 0);
-  GrayImage image{kNumberedWidth, kNumberedHeight, {}};
+  const std::lock_guard<std::mutex> lock(mutex);
+  GrayImage& image = drawn[shift];
+  if (!image.pixels.empty()) return image;
+  image = {kNumberedWidth, kNumberedHeight, {}};
   image.pixels.reserve(static_cast<std::size_t>(kNumberedWidth) * kNumberedHeight);
   for (int y = 0; y < kNumberedHeight; ++y) {
     for (int x = 0; x < kNumberedWidth; ++x) image.pixels.push_back(texture(x + shift, y));

@@ -31,8 +31,8 @@ inline constexpr int kMaxDifference = 6;
 /// Properties of mtstereo for tests of many pairs: the fastest matching that states the difference.
 inline constexpr const char* kNumberedMatching = "preset=fast max-disparity=64 threads=1";
 
-/// The image of a frame.
-GrayImage numbered_image(Side side, std::int64_t number);
+/// The image of a frame. Tests have the same frames many times: each is drawn once.
+const GrayImage& numbered_image(Side side, std::int64_t number);
 
 /// A GRAY8 frame with this image.
 GstBuffer* numbered_frame(Side side, std::int64_t number, GstClockTime pts,

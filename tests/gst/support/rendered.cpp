@@ -32,8 +32,10 @@ std::vector<Pair> rendered_pairs(const std::string& scene, int count, double ste
   const render::Scene made = render::make_scene(scene, 1);
   std::vector<Pair> pairs;
   for (int i = 0; i < count; ++i) {
-    const render::StereoFrame frame = render::render(made, i * step, settings);
-    pairs.push_back(pair_of(frame.left, frame.right));
+    const auto view = [&](bool right) {
+      return render::render_view(made, i * step, settings, right);
+    };
+    pairs.push_back(pair_of(view(false), view(true)));
   }
   return pairs;
 }
