@@ -14,6 +14,7 @@ PROGRAM, RENDER = sys.argv[1:3]
 SKIPPED = 77
 GOOD, BAD = 0, 4
 FRAMES = 9  # a frozen stream repeats eight
+FEW = 3  # show all that does not take time to show
 SIZE = "256x192"
 
 # Two cameras of which the right one is turned by three degrees, for views of this size.
@@ -42,12 +43,13 @@ class Checks(unittest.TestCase):
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = pathlib.Path(cls.temporary.name)
         cls.left, cls.right = cls.render("garden")
-        cls.other_left, cls.other_right = cls.render("room")
+        cls.long_left, cls.long_right = cls.render("garden", frames=FRAMES)
+        cls.other_left, cls.other_right = cls.render("room", frames=FRAMES)
 
     @classmethod
-    def render(cls, scene, *options):
-        clip = cls.folder / (scene + "".join(options))
-        subprocess.run([RENDER, clip, "--scene", scene, "--size", SIZE, "--frames", str(FRAMES)]
+    def render(cls, scene, *options, frames=FEW):
+        clip = cls.folder / (scene + str(frames) + "".join(options))
+        subprocess.run([RENDER, clip, "--scene", scene, "--size", SIZE, "--frames", str(frames)]
                        + ["--samples", "1", *options], check=True, capture_output=True)
         (clip / "calib.txt").unlink()  # the views are taken as they are
         return clip / "left", clip / "right"
@@ -76,7 +78,7 @@ class Checks(unittest.TestCase):
         return result.stdout
 
     def test_good_views_are_good(self):
-        page = self.check(GOOD, r"Result: good\.$", self.left, self.right)
+        page = self.check(GOOD, r"Result: good\.$", self.long_left, self.long_right)
         self.assertNotRegex(page, "HARM|note")
         for line in ("views", "rows", "time", "light", "sharpness", "disparities", "sparse", "semi-dense", "dense"):
             self.assertRegex(page, rf"(?m)^  {line} ")
@@ -99,8 +101,8 @@ class Checks(unittest.TestCase):
         self.check(GOOD, "Result: good", self.right, self.left, "--swap")
 
     def test_views_of_different_times(self):
-        left = self.chosen(self.left, range(0, FRAMES - 2))
-        right = self.chosen(self.right, range(2, FRAMES))
+        left = self.chosen(self.long_left, range(0, FRAMES - 2))
+        right = self.chosen(self.long_right, range(2, FRAMES))
         self.check(BAD, r"HARM The two views were not taken at the same time: with the right view 2 frames "
                    r"earlier.*That is about 67 ms\. > --sync auto", left, right)
 
@@ -173,8 +175,8 @@ class Checks(unittest.TestCase):
     def test_a_covered_lens_and_a_frozen_stream(self):
         black = self.altered(self.right, "lutyuv=y=16:u=128:v=128")
         self.check(BAD, r"HARM The right view shows nothing\. > Check whether its lens", self.left, black)
-        frozen = self.chosen(self.right, [0] * FRAMES)
-        page = self.check(BAD, "HARM The right view repeats itself", self.left, frozen)
+        frozen = self.chosen(self.long_right, [0] * FRAMES)
+        page = self.check(BAD, "HARM The right view repeats itself", self.long_left, frozen)
         self.assertIn("1 harmful finding.", page)
 
     def test_one_pair_and_two_pairs(self):
