@@ -103,8 +103,8 @@ TEST_F(Clocks, FindsFourTenthsOfASecondInCompressedVideos) {
 
 TEST_F(Clocks, FindsSevenSecondsAndADrift) {
   // A slower camera, so that the street is long enough: the clocks drift by a seventh of a frame.
-  constexpr double kStart = 7.0123, kSlowRate = 10, kDrift = 300e-6;
-  constexpr int kMany = 520;
+  constexpr double kStart = 7.0123, kSlowRate = 10, kDrift = 540e-6;
+  constexpr int kMany = 320;
   Shooting slow = street(false, 0);
   slow.scene.camera.velocity = {0, 0, 0.7};
   slow.rate = kSlowRate;
@@ -116,10 +116,10 @@ TEST_F(Clocks, FindsSevenSecondsAndADrift) {
   slow.rate = kSlowRate * (1 + kDrift);
   const ClockEstimate found = estimate(left, shoot(slow));
   // What the left one shows at the time t is at (t - kStart) * (1 + kDrift) in the right one.
-  EXPECT_LT(worst_error(found, -kStart * (1 + kDrift), kDrift, 7, 52), 0.1 / kSlowRate)
+  EXPECT_LT(worst_error(found, -kStart * (1 + kDrift), kDrift, 7, 32), 0.1 / kSlowRate)
       << found.explanation;
-  EXPECT_NEAR(found.relation.drift, kDrift, 100e-6) << found.explanation;
-  EXPECT_LT(found.drift_uncertainty.value_or(1), 100e-6) << found.explanation;
+  EXPECT_NEAR(found.relation.drift, kDrift, 180e-6) << found.explanation;
+  EXPECT_LT(found.drift_uncertainty.value_or(1), 180e-6) << found.explanation;
   EXPECT_TRUE(found.confirmed) << found.explanation;
 }
 
