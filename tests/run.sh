@@ -15,10 +15,9 @@
 #
 # Builds into build/, build-clang-asan/ and build-clang-tsan/. With CI=true warnings are errors, and the tests
 # of the core also run on 64-bit ARM, emulated by QEMU, in build-aarch64/. Compilers run through ccache if it
-# is installed. A new build folder compiles all but the library and the elements as few large files, which takes
-# a quarter of the time for tests and half of it for programs; those for sanitizers, for ARM and with CI=true also
-# the library, which --thorough compiles file by file.
-# Whoever edits a program may prefer -Dunity_programs=false, which stays as it is in a build folder.
+# is installed. A new build folder compiles few large files, which takes a quarter of the time for tests and half of
+# it for programs; --thorough compiles the library and the elements file by file.
+# Whoever edits may prefer -Dunity=off and -Dunity_programs=false, which stay as they are in a build folder.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 repository=$PWD
@@ -83,7 +82,7 @@ trap 'rm -f "$log"' EXIT
 # build FOLDER TARGET OPTION...: configures and builds. A build that fails counts as a failed test. With the
 # target 'later' the tests build what they need.
 build() {
-  local folder=$1 target=$2 how=(-Dunity_programs=true -Dunity_size=40)
+  local folder=$1 target=$2 how=(-Dunity=on -Dunity_programs=true -Dunity_size=40)
   shift 2
   echo "== Building $folder"
   [ ! -e "$folder/build.ninja" ] || how=(--reconfigure)
@@ -141,7 +140,6 @@ check shell
 check python
 
 large=() suites=(--no-suite thorough)
-[ "${CI:-}" != true ] || large=(-Dunity=on)
 [ "$thorough" = no ] || { large=(-Dunity=off) suites=() && export MTSTEREO_PACKAGES=yes; }
 if build build all -Dbuildtype=release "${large[@]}"; then
   run_tests build --no-rebuild "${suites[@]}"
@@ -157,7 +155,7 @@ if [ "$sanitizers" = yes ]; then
   asan_library=$(clang++ -print-file-name=libclang_rt.asan-x86_64.so)
   shared_asan="-shared-libasan -Wl,-rpath,${asan_library%/*}"
   # clang-tidy reads how each file is compiled.
-  target=later tools=disabled large=(-Dunity=on) suites=(--suite core --suite geometry --suite gst --suite fuzz)
+  target=later tools=disabled large=() suites=(--suite core --suite geometry --suite gst --suite fuzz)
   [ "$thorough" = no ] ||
     target=all tools=enabled large=(-Dunity=off -Dunity_programs=false) suites=(--no-suite pipelines)
   if CC=$clang CXX=$clang++ build build-clang-asan "$target" -Dbuildtype=debugoptimized \
@@ -172,14 +170,13 @@ if [ "$sanitizers" = yes ]; then
   fi
 
   if CC=$clang CXX=$clang++ build build-clang-tsan threads-tests -Dbuildtype=debugoptimized \
-    -Doptimization=1 -Db_sanitize=thread -Db_lundef=false -Dunity=on \
-    -Dgst=disabled -Dtools=disabled; then
+    -Doptimization=1 -Db_sanitize=thread -Db_lundef=false -Dgst=disabled -Dtools=disabled; then
     run_tests build-clang-tsan --no-rebuild --suite threads -t 5
   fi
 fi
 
 if [ "${CI:-}" = true ] && build build-aarch64 later --cross-file tests/cross/aarch64.txt \
-  -Dbuildtype=release -Dunity=on -Dgst=disabled -Dtools=disabled; then
+  -Dbuildtype=release -Dgst=disabled -Dtools=disabled; then
   # What depends on the processor: kernels, types and results. Allocations and pages do not.
   run_tests build-aarch64 -t 10 core core-second core-threads
 fi
