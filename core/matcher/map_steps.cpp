@@ -52,9 +52,9 @@ void ResultMaps::resize(const Settings& settings, const FrameSize& size) {
     enlarged_confidence.resize(width, height);
   }
   if (!settings.refined()) return;
-  refined.resize(width, height);
+  refined.resize(size.matched.width, size.matched.height);
   scratch.resize(size.threads);
-  for (RefinementScratch& worker : scratch) worker.resize(width);
+  for (RefinementScratch& worker : scratch) worker.resize(size.matched.width);
 }
 
 namespace {
@@ -141,6 +141,15 @@ void complete_all(const Bands& bands, ResultMaps& result) {
   complete_empty_rows(*result.disparity, *result.confidence);
 }
 
+void refine(const StepContext& step, const Views& views, ResultMaps& result) {
+  step.bands.rows_per_thread([&](int y0, int y1, int worker) {
+    refine_disparities(views.input_census[0], views.input_census[1], *result.disparity,
+                       step.settings.view_disparities, y0, y1, result.scratch[worker],
+                       result.refined);
+  });
+  result.disparity = &result.refined;
+}
+
 void enlarge(const StepContext& step, ResultMaps& result) {
   step.input_bands.rows([&](int y0, int y1, int) {
     enlarge_rows(*result.disparity, step.settings.view_disparities, y0, y1, result.enlarged);
@@ -148,15 +157,6 @@ void enlarge(const StepContext& step, ResultMaps& result) {
   });
   result.disparity = &result.enlarged;
   result.confidence = &result.enlarged_confidence;
-}
-
-void refine(const StepContext& step, const Views& views, ResultMaps& result) {
-  step.input_bands.rows_per_thread([&](int y0, int y1, int worker) {
-    refine_disparities(views.input_census[0], views.input_census[1], result.enlarged,
-                       step.settings.view_disparities, y0, y1, result.scratch[worker],
-                       result.refined);
-  });
-  result.disparity = &result.refined;
 }
 
 void shift_result(const StepContext& step, ResultMaps& result) {

@@ -53,9 +53,9 @@ struct ResultMaps {
   int grid_level = 0;                  ///< of the left view and the map, BlockGrid::level()
   int block_side = kBlockSide;         ///< of the blocks of that level
 
+  Image<std::int32_t> refined;
   Image<std::int32_t> enlarged;
   Image<std::uint8_t> enlarged_confidence;
-  Image<std::int32_t> refined;
   Image<std::int32_t> shifted;
   Image<std::uint8_t> shifted_confidence;
   std::vector<RefinementScratch> scratch;  ///< one for each thread
@@ -85,11 +85,11 @@ void threshold_support(const StepContext& step, Maps& maps);
 /// Smooths the map along each surface.
 void smooth(const StepContext& step, Maps& maps);
 
+/// Refines the map of halved views by the input views.
+void refine(const StepContext& step, const Views& views, ResultMaps& result);
+
 /// Enlarges the result of halved views to the size of the input views.
 void enlarge(const StepContext& step, ResultMaps& result);
-
-/// Refines the enlarged map by the input views.
-void refine(const StepContext& step, const Views& views, ResultMaps& result);
 
 /// Gives all pixels without a disparity one.
 void complete_all(const Bands& bands, ResultMaps& result);

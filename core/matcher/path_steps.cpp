@@ -16,7 +16,7 @@ void reduce(const StepContext& step, const std::array<GrayView, 2>& views,
   bands.rows_of_both_views(
       [&](int side, int y0, int y1, int) { halve_rows(views[side], y0, y1, level.views[side]); });
   bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
-    census_rows(level.views[side].view(), 1, y0, y1, scratch[worker].census, level.census[side]);
+    census_rows(level.views[side].view(), 1, 1, y0, y1, scratch[worker].census, level.census[side]);
   });
 }
 

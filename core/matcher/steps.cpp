@@ -91,9 +91,9 @@ constexpr Step kResultList[] = {
 
 /// Gives the map the size of the caller's views.
 constexpr Step kSizeList[] = {
-    {"enlarging",          [](S s) { return s.half(); },             on<enlarge>},
     {"input-census",       [](S s) { return s.refined(); },          on<transform_input>},
     {"refinement",         [](S s) { return s.refined(); },          on<refine>},
+    {"enlarging",          [](S s) { return s.half(); },             on<enlarge>},
     {"enlarged-edges",     [](S s) { return s.keeps_all() && s.half(); }, on<align_enlarged_edges>},
     {"map-shift",          [](S s) { return s.shifted(); },          on<shift_result>},
 };

@@ -45,7 +45,7 @@ void Views::resize(const Settings& settings, const FrameSize& size, ReusedMemory
   }
   reused.start_group();  // refine() only
   for (CensusImage& view : input_census) {
-    if (settings.refined()) view.resize(size.frame.width, size.frame.height, &reused);
+    if (settings.refined()) view.resize(size.frame.width, height, &reused);
   }
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) {
@@ -133,14 +133,14 @@ void filter_views(const StepContext& step, Views& views) {
 
 void transform(const StepContext& step, Views& views) {
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
-    census_rows(views.matched[side], step.settings.census_scales, y0, y1,
+    census_rows(views.matched[side], step.settings.census_scales, 1, y0, y1,
                 views.scratch[worker].census, views.census[side]);
   });
 }
 
 void transform_input(const StepContext& step, Views& views) {
   step.input_bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
-    census_rows(views.input[side], step.settings.census_scales, y0, y1,
+    census_rows(views.input[side], step.settings.census_scales, 2, half_of(y0), half_of(y1),
                 views.scratch[worker].census, views.input_census[side]);
   });
 }

@@ -36,7 +36,7 @@ struct Views {
   float rated_noise = 0;  ///< the same for the confidence: before the views were averaged
   std::array<Image<std::uint8_t>, 2> filtered;  ///< without noise
   std::array<CensusImage, 2> census;            ///< of the matched views
-  std::array<CensusImage, 2> input_census;      ///< of the input views, for the refinement
+  std::array<CensusImage, 2> input_census;      ///< of the input views' rows for the refinement
 
   struct Scratch {
     AlignmentScratch alignment;
@@ -70,7 +70,7 @@ void halve(const StepContext& step, Views& views);
 void filter_views(const StepContext& step, Views& views);
 /// Computes the census transform of the matched views.
 void transform(const StepContext& step, Views& views);
-/// The same of the input views, for the refinement.
+/// The same of every other row of the input views, for the refinement.
 void transform_input(const StepContext& step, Views& views);
 
 }  // namespace mtstereo

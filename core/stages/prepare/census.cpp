@@ -144,30 +144,32 @@ void CensusScratch::resize(int width, int rows) {
   sums.resize(width + 2 * kViewReach);
 }
 
-void census_rows(GrayView image, int scales, int y0, int y1, CensusScratch& scratch,
+void census_rows(GrayView image, int scales, int row_step, int y0, int y1, CensusScratch& scratch,
                  CensusImage& census) {
+  static_assert(kCensusReach % 4 == 0, "smoothed rows are as far apart as those transformed");
   const int width = image.width;
-  const int rows = y1 - y0;
+  const int rows = (y1 - y0 - 1) * row_step + 1;
   if (scratch.smoothed.width() < width + 2 * kCensusReach ||
       scratch.smoothed.height() < rows + 2 * kCensusReach) {
     scratch.resize(width, rows);
   }
   for (int i = 0; i < rows + 2 * kViewReach; ++i) {
-    const int y = std::clamp(y0 - kViewReach + i, 0, image.height - 1);
+    const int y = std::clamp(y0 * row_step - kViewReach + i, 0, image.height - 1);
     pad_row(image.row(y), width, scratch.view.row(i));
   }
-  for (int i = 0; i < rows + 2 * kCensusReach && scales > 1; ++i) {
+  for (int i = 0; i < rows + 2 * kCensusReach && scales > 1; i += row_step) {
     const std::int8_t* lines[kCensusSmoothing];
     for (int k = 0; k < kCensusSmoothing; ++k) lines[k] = scratch.view.row(i + k);
     HWY_DYNAMIC_DISPATCH(smooth_row)
     (lines, width + 2 * kCensusReach, scratch.sums.data(), scratch.smoothed.row(i));
   }
   for (int y = y0; y < y1; ++y) {
+    const int first = (y - y0) * row_step;
     const std::int8_t* view[kLines];
     const std::int8_t* smoothed[kLines];
     for (int i = 0; i < kLines; ++i) {
-      view[i] = scratch.view.row(y - y0 + kSmoothingReach + i) + kSmoothingReach;
-      smoothed[i] = scratch.smoothed.row(y - y0 + i);
+      view[i] = scratch.view.row(first + kSmoothingReach + i) + kSmoothingReach;
+      smoothed[i] = scratch.smoothed.row(first + i);
     }
     const CensusLines lines = {view, scales > 1 ? smoothed : nullptr};
     HWY_DYNAMIC_DISPATCH(transform_row)(lines, width, census.bits.row(y));

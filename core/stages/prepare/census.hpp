@@ -44,13 +44,15 @@ struct CensusScratch {
   Image<std::int8_t> smoothed;  ///< for two scales
   Buffer<std::int16_t> sums;    ///< of the columns of a row's filter
 
-  /// For bands of up to `rows` rows of views of up to this width.
+  /// For bands of up to `rows` rows of views of up to this width, between the first and the last
+  /// that is transformed.
   void resize(int width, int rows);
 };
 
-/// Writes the rows y0 .. y1 - 1 in 1 or 2 scales. The border's pixels are repeated outside of the
-/// image. `scratch` is resized if it is too small for the band.
-void census_rows(GrayView image, int scales, int y0, int y1, CensusScratch& scratch,
+/// Writes the rows y0 .. y1 - 1 in 1 or 2 scales: the transforms of every `row_step`-th row of the
+/// image, 1, 2 or 4. The border's pixels are repeated outside of the image. `scratch` is resized if
+/// it is too small for the band.
+void census_rows(GrayView image, int scales, int row_step, int y0, int y1, CensusScratch& scratch,
                  CensusImage& census);
 
 /// Splits a row of `width` census words into byte planes, bits 0 .. 7 into the first one and so on,

@@ -18,7 +18,7 @@ using Ints = hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)>;
 constexpr int kRadius = kRefinementRadius;
 constexpr int kSide = 2 * kRadius + 1;
 constexpr int kReach = Scratch::kShifts / 2;  // the largest shift [px]
-static_assert(kSide * kCensusBits < 256, "a column's costs are summed in bytes");
+static_assert(2 * kSide * kCensusBits < 256, "a column's costs are summed in bytes");
 
 /// The ring buffers' rows of one image row.
 struct RingRow {
@@ -39,72 +39,49 @@ RingRow ring_row(int y, Scratch& scratch) {
   return ring;
 }
 
-/// Splits the disparities of a row into whole pixels and rounding errors.
+/// Units of the map in a pixel of the full views.
+constexpr int kPixel = kDisparityOne / 2;
+
+/// Splits the disparities of a row into whole pixels of the full views and rounding errors.
 void round_row(const std::int32_t* __restrict__ disparity, int width,
                std::int32_t* __restrict__ places, std::int8_t* __restrict__ rounded,
                std::uint8_t* __restrict__ known) {
   for (int x = 0; x < width; ++x) {
-    const std::int32_t whole = (disparity[x] + kDisparityOne / 2) / kDisparityOne;
-    const bool inside = whole <= x;
-    places[x] = inside ? x - whole : 0;
-    rounded[x] = static_cast<std::int8_t>(inside ? disparity[x] - whole * kDisparityOne : 0);
+    const std::int32_t whole = (disparity[x] + kPixel / 2) / kPixel;
+    const bool inside = whole <= 2 * x;
+    places[x] = inside ? 2 * x - whole : 0;
+    rounded[x] = static_cast<std::int8_t>(inside ? disparity[x] - whole * kPixel : 0);
     known[x] = (disparity[x] != kNoDisparity) & inside;
   }
 }
 
 using Vec = hn::Vec<Ints>;
-using Bits = hn::Vec<hn::RebindToUnsigned<Ints>>;
 
-/// The costs of the pixels from column x on at all shifts; partner(i) returns the right view's
-/// bits.
-template <typename Partner>
-HWY_INLINE void store_costs(Bits bits, Bits known, int x, const RingRow& ring, Partner&& partner) {
-  const Ints di32;
-  const hn::Rebind<std::uint8_t, Ints> d8;
-  for (int i = 0; i < Scratch::kShifts; ++i) {
-    const auto cost = hn::Mul(hn::PopulationCount(hn::Xor(bits, partner(i))), known);
-    hn::StoreU(hn::DemoteTo(d8, hn::BitCast(di32, cost)), d8, ring.costs[i] + x);
-  }
-}
-
-/// The costs of a row at all shifts; 0 for pixels without a disparity. `right` begins kReach before
-/// the row's first pixel, and one vector before that can be read.
+/// The costs of a row at all shifts, of two pixels of the full views each; 0 for pixels without a
+/// disparity. `right` begins kReach before the row's first pixel.
 void cost_row(const std::uint32_t* left, const std::uint32_t* right, const std::int32_t* places,
               int width, const RingRow& ring) {
   const Ints di32;
   const hn::RebindToUnsigned<Ints> du32;
   const hn::Rebind<std::uint8_t, Ints> d8;
-  constexpr std::int32_t kNever = 1 << 30;
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(di32))) {
     const auto known = hn::PromoteTo(du32, hn::LoadU(d8, ring.known + x));
-    const auto unknown = hn::Eq(hn::BitCast(di32, known), hn::Zero(di32));
-    if (hn::AllTrue(di32, unknown)) {
+    if (hn::AllTrue(du32, hn::Eq(known, hn::Zero(du32)))) {
       for (std::uint8_t* costs : ring.costs) hn::StoreU(hn::Zero(d8), d8, costs + x);
       continue;
     }
-    const auto bits = hn::LoadU(du32, left + x);
+    hn::Vec<hn::RebindToUnsigned<Ints>> even, odd;
+    hn::LoadInterleaved2(du32, left + 2 * x, even, odd);
     const auto place = hn::LoadU(di32, places + x);
-    // The column of the first pixel's partner if all pixels had the disparity of this one.
-    const auto first = hn::Sub(place, hn::Iota(di32, 0));
-    const auto nearest = hn::IfThenElse(unknown, hn::Set(di32, kNever), first);
-    const auto farthest = hn::IfThenElse(unknown, hn::Set(di32, -kNever), first);
-    const std::int32_t least = hn::GetLane(hn::MinOfLanes(di32, nearest));
-    const std::int32_t most = hn::GetLane(hn::MaxOfLanes(di32, farthest));
-    if (most - least > 1) {
-      store_costs(bits, known, x, ring,
-                  [&](int i) { return hn::GatherIndex(du32, right + 2 * kReach - i, place); });
-      continue;
+    for (int i = 0; i < Scratch::kShifts; ++i) {
+      const std::uint32_t* partners = right + 2 * kReach - i;
+      const auto even_cost =
+          hn::PopulationCount(hn::Xor(even, hn::GatherIndex(du32, partners, place)));
+      const auto odd_cost =
+          hn::PopulationCount(hn::Xor(odd, hn::GatherIndex(du32, partners + 1, place)));
+      const auto cost = hn::Mul(hn::Add(even_cost, odd_cost), known);
+      hn::StoreU(hn::DemoteTo(d8, hn::BitCast(di32, cost)), d8, ring.costs[i] + x);
     }
-    // On most surfaces the partners are neighbors too, and two loads replace a gather.
-    const std::uint32_t* partners = right + 2 * kReach + least;
-    const auto is_least = hn::RebindMask(du32, hn::Eq(first, hn::Set(di32, least)));
-    auto next = hn::LoadU(du32, partners + 1);
-    store_costs(bits, known, x, ring, [&](int i) {
-      const auto same = hn::LoadU(du32, partners - i);
-      const auto partner = hn::IfThenElse(is_least, same, next);
-      next = same;
-      return partner;
-    });
   }
 }
 
@@ -118,12 +95,15 @@ void fill_ring_row(const CensusImage& left, const CensusImage& right,
     std::memset(ring.known, 0, width);
     return;
   }
-  std::uint32_t* line = scratch.right.data() + Scratch::kBefore;
-  std::copy_n(right.bits.row(y), width, line + kReach);
+  const int columns = right.bits.width();
+  std::copy_n(left.bits.row(y), columns, scratch.left.data());
+  scratch.left[columns] = scratch.left[columns - 1];
+  std::uint32_t* line = scratch.right.data();
+  std::copy_n(right.bits.row(y), columns, line + kReach);
   std::fill_n(line, kReach, line[kReach]);
-  std::fill_n(line + kReach + width, kReach, line[kReach + width - 1]);
+  std::fill_n(line + kReach + columns, kReach + 1, line[kReach + columns - 1]);
   round_row(map.row(y), width, scratch.places.data(), ring.rounded, ring.known);
-  cost_row(left.bits.row(y), line, scratch.places.data(), width, ring);
+  cost_row(scratch.left.data(), line, scratch.places.data(), width, ring);
 }
 
 /// Advances the sums of columns by one row.
@@ -148,11 +128,10 @@ void move_columns(int y, int width, Scratch& scratch) {
 /// first column.
 template <typename Sum>
 void sum_window(const Sum* __restrict__ columns, int width, std::int16_t* __restrict__ sums) {
-  static_assert(kSide == 7);
+  static_assert(kSide == 5);
   for (int x = 0; x < width; ++x) {
-    sums[x] =
-        static_cast<std::int16_t>(columns[x] + columns[x + 1] + columns[x + 2] + columns[x + 3] +
-                                  columns[x + 4] + columns[x + 5] + columns[x + 6]);
+    sums[x] = static_cast<std::int16_t>(columns[x] + columns[x + 1] + columns[x + 2] +
+                                        columns[x + 3] + columns[x + 4]);
   }
 }
 
@@ -175,17 +154,17 @@ struct Minimum {
   Vec before, best, after, shift;
 };
 
-/// Costs are in 1/128 bits. A shift by 1 px away from the given disparities costs 2 bits for each
-/// pixel of the window.
+/// Costs are in 1/32 bits. A shift by 1 px away from the given disparities costs 2 bits for each
+/// pixel of the full views.
 HWY_INLINE Minimum find_minimum(const std::int16_t* sums, std::ptrdiff_t stride, Vec rounded,
                                 Vec known) {
   const Ints di32;
   const hn::Rebind<std::int16_t, Ints> d16;
   const auto cost = [&](int i, Vec away) {
     const auto sum = hn::PromoteTo(di32, hn::LoadU(d16, sums + i * stride));
-    return hn::Add(hn::ShiftLeft<7>(sum), hn::Abs(away));
+    return hn::Add(hn::ShiftLeft<5>(sum), hn::Abs(away));
   };
-  const auto one = hn::ShiftLeft<8>(known), two = hn::ShiftLeft<9>(known);
+  const auto one = hn::ShiftLeft<7>(known), two = hn::ShiftLeft<8>(known);
   const auto two_less = cost(0, hn::Add(two, rounded));
   const auto one_less = cost(1, hn::Add(one, rounded));
   const auto same = cost(2, rounded);
@@ -198,7 +177,7 @@ HWY_INLINE Minimum find_minimum(const std::int16_t* sums, std::ptrdiff_t stride,
     return hn::IfThenElse(less, if_less, hn::IfThenElse(more, if_more, if_same));
   };
   return {select(two_less, one_less, same), best, select(same, one_more, two_more),
-          select(hn::Set(di32, -kDisparityOne), hn::Zero(di32), hn::Set(di32, kDisparityOne))};
+          select(hn::Set(di32, -kPixel), hn::Zero(di32), hn::Set(di32, kPixel))};
 }
 
 /// Refines one row by the sums over its windows.
@@ -222,7 +201,7 @@ void refine_row(const std::int32_t* map, int width, int limit, const Scratch& sc
     const auto known = hn::PromoteTo(di32, hn::LoadU(d16, sums + kKnown * scratch.stride));
     const Minimum at = find_minimum(sums, scratch.stride, rounded, known);
     const auto slope = hn::Sub(hn::Max(at.before, at.after), at.best);
-    const auto between = ratio(hn::ShiftLeft<7>(hn::Sub(at.before, at.after)), slope);
+    const auto between = ratio(hn::ShiftLeft<6>(hn::Sub(at.before, at.after)), slope);
     const auto change = hn::ConvertTo(di32, hn::Sub(between, ratio(rounded, known)));
     const auto refined = hn::Add(given, hn::Add(at.shift, change));
     const auto column = hn::ShiftLeft<8>(hn::Iota(di32, x));
@@ -240,7 +219,7 @@ void refine_band(const CensusImage& left, const CensusImage& right, const Image<
                  int max_disparity, int y0, int y1, Scratch& scratch,
                  Image<std::int32_t>& refined) {
   const int width = map.width();
-  const int limit = max_disparity * kDisparityOne - 1;
+  const int limit = max_disparity * kPixel - 1;
   for (int y = y0 - 2 * kRadius; y < y1; ++y) {
     fill_ring_row(left, right, map, y + kRadius, scratch);
     move_columns(y, width, scratch);
@@ -262,8 +241,9 @@ void RefinementScratch::resize(int width) {
   // A whole vector after the last pixel of a row is read and written.
   constexpr int kVector = static_cast<int>(kAlignment);
   stride = (width + 2 * kRefinementRadius + kVector) / kVector * kVector;
-  right.resize(kBefore + stride);
-  std::memset(right.data(), 0, right.size() * sizeof(right[0]));
+  left.resize(2 * stride);
+  std::memset(left.data(), 0, left.size() * sizeof(left[0]));
+  right.resize(2 * width + kShifts + 1);
   places.resize(stride);
   costs.resize(kRows * kShifts * stride);
   rounded.resize(kRows * stride);

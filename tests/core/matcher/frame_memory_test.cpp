@@ -59,8 +59,9 @@ TEST(FrameMemory, HasMapsOfBothSizesAtHalfResolution) {
   EXPECT_EQ(51, memory.views.halves[1].width());
   EXPECT_EQ(51, memory.maps.disparity.width());
   EXPECT_EQ(101, memory.result.enlarged.width());
-  EXPECT_EQ(101, memory.result.refined.width());
+  EXPECT_EQ(51, memory.result.refined.width());
   EXPECT_EQ(101, memory.views.input_census[0].bits.width());
+  EXPECT_EQ(memory.maps.disparity.height(), memory.views.input_census[0].bits.height());
   EXPECT_EQ(3u, memory.result.scratch.size());
 }
 

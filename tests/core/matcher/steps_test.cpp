@@ -84,8 +84,8 @@ TEST(Steps, EnlargeTheCompleteMapOfHalvedViews) {
   const Parameters fast =
       test::parameters({{"mode", "full"}, {"preset", "fast"}, {"min-disparity", "3"}});
   expect_order(fast, {"halving", "path-matching", "guide-rating", "completion", "edge-alignment",
-                      "reliability", "flat-planes", "plane-completion", "enlarging", "input-census",
-                      "refinement", "enlarged-edges", "map-shift"});
+                      "reliability", "flat-planes", "plane-completion", "input-census",
+                      "refinement", "enlarging", "enlarged-edges", "map-shift"});
   expect_none_of(fast, {"plane-check", "plane-edges"});
   expect_none_of(test::parameters({{"mode", "full"}}), {"enlarged-edges"});
 }
@@ -99,7 +99,7 @@ TEST(Steps, MatchHalvedViewsInPresetFast) {
   const Parameters fast = test::parameters({{"preset", "fast"}});
   expect_order(fast, {"halving", "reduced-matching", "census", "path-matching", "confidence",
                       "smoothing", "fine-detail", "reliability", "rejection", "thin-drawing",
-                      "enlarging", "input-census", "refinement"});
+                      "input-census", "refinement", "enlarging"});
   expect_none_of(fast, {"max-trees", "noise-filter", "enlarged-edges"});
 }
 

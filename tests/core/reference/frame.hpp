@@ -374,6 +374,12 @@ inline void close_gaps(Frame& f) {
 
 inline void smooth(Frame& f) { f.map = smooth(f.map, f.settings.smoothing_radius); }
 
+inline void refine(Frame& f) {
+  const int scales = f.settings.census_scales;
+  f.map = refine(census(f.input[0], scales), census(f.input[1], scales), f.map,
+                 f.settings.view_disparities);
+}
+
 inline void enlarge(Frame& f) {
   const int width = f.input[0].width, height = f.input[0].height;
   f.map = enlarge(f.map, width, height, f.settings.view_disparities);
@@ -382,12 +388,6 @@ inline void enlarge(Frame& f) {
 
 inline void align_enlarged(Frame& f) {
   take(f, align_edges(f.input[0], ConfidentMap{f.map, f.confidence}));
-}
-
-inline void refine(Frame& f) {
-  const int scales = f.settings.census_scales;
-  f.map = refine(census(f.input[0], scales), census(f.input[1], scales), f.map,
-                 f.settings.view_disparities);
 }
 
 inline void nothing(Frame&) {}  // the scalar versions of later steps include it
@@ -417,9 +417,9 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"speckle-removal", remove_speckles},
     {"confidence", rate_confidence},
     {"smoothing", smooth},
-    {"enlarging", enlarge},
     {"input-census", nothing},
     {"refinement", refine},
+    {"enlarging", enlarge},
     {"enlarged-edges", align_enlarged},
     {"map-shift", shift_map},
     {"fine-detail", measure_fine_detail},

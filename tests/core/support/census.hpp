@@ -9,27 +9,29 @@
 
 namespace mtstereo::test {
 
-/// The census transform of a whole view, computed in bands of `band` rows from the last band to the
-/// first, in poisoned memory.
-inline CensusImage census_of(GrayView image, int band = 1 << 20, int scales = 2) {
+/// The census transform of every `row_step`-th row of a view, computed in bands of `band` rows from
+/// the last band to the first, in poisoned memory.
+inline CensusImage census_of(GrayView image, int band = 1 << 20, int scales = 2, int row_step = 1) {
+  const int height = (image.height + row_step - 1) / row_step;
   CensusImage census;
-  census.resize(image.width, image.height);
+  census.resize(image.width, height);
   poison(census.bits);
   CensusScratch scratch;
-  scratch.resize(image.width, std::min(band, image.height));
+  scratch.resize(image.width, std::min(band, height) * row_step);
   poison(scratch.view);
   poison(scratch.smoothed);
-  for (int i = (image.height + band - 1) / band - 1; i >= 0; --i) {
-    census_rows(image, scales, i * band, std::min((i + 1) * band, image.height), scratch, census);
+  for (int i = (height + band - 1) / band - 1; i >= 0; --i) {
+    census_rows(image, scales, row_step, i * band, std::min((i + 1) * band, height), scratch,
+                census);
   }
   return census;
 }
 
 /// The census transforms of both views, the input of guided pixel matching.
 struct CensusPair {
-  CensusPair(GrayView left_view, GrayView right_view, int scales = 2)
-      : left(census_of(left_view, 1 << 20, scales)),
-        right(census_of(right_view, 1 << 20, scales)) {}
+  CensusPair(GrayView left_view, GrayView right_view, int scales = 2, int row_step = 1)
+      : left(census_of(left_view, 1 << 20, scales, row_step)),
+        right(census_of(right_view, 1 << 20, scales, row_step)) {}
   CensusImage left, right;
 };
 

@@ -52,6 +52,22 @@ TEST(Census, EqualsReferenceOverAllGrayValues) {
   });
 }
 
+TEST(Census, TransformsEveryNthRow) {
+  const GrayPlane image = test::texture(45, 39, 1);
+  for (const int scales : {1, 2}) {
+    const test::Plane<std::uint32_t> all = reference::census(image, scales);
+    for (const int step : {2, 4}) {
+      for (const int band : {1, 3, 64}) {
+        const CensusImage some = census_of(image.view(), band, scales, step);
+        EXPECT_TRUE(test::same_pixels(
+            45, (39 + step - 1) / step, [&](int x, int y) { return all(x, y * step); },
+            [&](int x, int y) { return some.bits.row(y)[x]; }))
+            << scales << " scales, step " << step << ", bands of " << band;
+      }
+    }
+  }
+}
+
 TEST(Census, EqualsReferenceInEveryBand) {
   const GrayPlane image = test::texture(45, 40, 1);
   for (int band = 1; band <= 41; ++band) expect_reference(image, image.view(), band);

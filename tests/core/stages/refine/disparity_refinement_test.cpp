@@ -17,11 +17,14 @@ using test::Pair;
 constexpr int kWhole = 1 << 20;
 constexpr int kFar = 1024;
 
-/// The refined map, computed in bands of `band` rows from the last band to the first, in poisoned
-/// memory.
+/// Units of the map in a pixel of the full views.
+constexpr int kPixel = 128;
+
+/// The refined map of the halved views of a pair, computed in bands of `band` rows from the last
+/// band to the first, in poisoned memory.
 DisparityPlane refined(const Pair& pair, const DisparityPlane& map, int max_disparity = kFar,
                        int band = kWhole) {
-  const test::CensusPair census(pair.left.view(), pair.right.view());
+  const test::CensusPair census(pair.left.view(), pair.right.view(), 2, 2);
   const Image<std::int32_t> from = image_of(map);
   Image<std::int32_t> out = image_of(DisparityPlane(map.width, map.height, 1 << 30));
   RefinementScratch scratch;
@@ -51,16 +54,17 @@ void expect_reference(const Pair& pair, const DisparityPlane& map, int max_dispa
 }
 
 TEST(DisparityRefinement, EqualsReferenceAtEveryWidth) {
-  for (int width = 1; width <= 80; ++width) {
-    const int height = 1 + width * 7 % 23;
+  for (int width = 1; width <= 160; ++width) {
+    const int height = 1 + width * 7 % 46;
     const Pair pair = test::slanted_pair(width, height, std::max(width / 3, 1), width);
-    expect_reference(pair, possible(test::patches(width, height, width % 4, width)));
+    const auto half = [](int size) { return (size + 1) / 2; };
+    expect_reference(pair, possible(test::patches(half(width), half(height), width % 4, width)));
   }
 }
 
 TEST(DisparityRefinement, EqualsReferenceOnNoiseOfEveryDensity) {
   for (int of_ten = 0; of_ten <= 10; ++of_ten) {
-    const Pair pair = {test::noise(90, 30, of_ten), test::noise(90, 30, 50 + of_ten)};
+    const Pair pair = {test::noise(180, 60, of_ten), test::noise(180, 60, 50 + of_ten)};
     for (const int largest : {300, 2000, test::kLargestDisparity}) {
       expect_reference(pair,
                        possible(test::disparity_noise(90, 30, of_ten, largest, of_ten + largest)),
@@ -70,7 +74,7 @@ TEST(DisparityRefinement, EqualsReferenceOnNoiseOfEveryDensity) {
 }
 
 TEST(DisparityRefinement, EqualsReferenceOnEveryInstructionSet) {
-  const Pair pair = test::slanted_pair(123, 31, 30, 5);
+  const Pair pair = test::slanted_pair(245, 62, 30, 5);
   const DisparityPlane map = possible(test::patches(123, 31, 1, 6));
   test::for_each_simd_target([&] { expect_reference(pair, map); });
 }
@@ -90,13 +94,13 @@ DisparityPlane surface(int width, int height, int disparity, int slant, Random& 
 }
 
 TEST(DisparityRefinement, EqualsReferenceForEverySlantOnEveryInstructionSet) {
-  const Pair pair = test::slanted_pair(131, 23, 30, 7);
+  const Pair pair = test::slanted_pair(262, 45, 30, 7);
   test::for_each_simd_target([&] {
     Random random(8);
-    // Up to 256, where all points of a row correspond to one right pixel.
+    // Up to 256, where all points of a row correspond to one right pixel. At infinity, near, and so
+    // near that all points correspond to the first right column.
     for (const int slant : {-200, -40, -7, 0, 7, 16, 40, 120, 256}) {
       SCOPED_TRACE("slant " + std::to_string(slant));
-      // At infinity, near, and so near that all points correspond to the first right column.
       for (const int disparity : {0, 5000, test::kLargestDisparity}) {
         expect_reference(pair, surface(131, 23, disparity, slant, random));
       }
@@ -104,14 +108,15 @@ TEST(DisparityRefinement, EqualsReferenceForEverySlantOnEveryInstructionSet) {
   });
 }
 
-/// Fraction of the known pixels from column `first` on that are within `most` px of a disparity.
+/// Fraction of the known pixels from column `first` on that are within `most` px of a disparity, of
+/// the full views.
 double share_within(const DisparityPlane& map, int first, double disparity, double most) {
   long near = 0, known = 0;
   for (int y = 0; y < map.height; ++y) {
     for (int x = first; x < map.width; ++x) {
       if (map(x, y) == 0) continue;
       ++known;
-      near += std::abs(map(x, y) / 256.0 - disparity) <= most;
+      near += std::abs(map(x, y) / double{kPixel} - disparity) <= most;
     }
   }
   return static_cast<double>(near) / static_cast<double>(std::max(known, 1L));
@@ -119,38 +124,38 @@ double share_within(const DisparityPlane& map, int first, double disparity, doub
 
 TEST(DisparityRefinement, CorrectsErrorsOfUpToOnePixel) {
   constexpr int kShift = 12;
-  const Pair pair = test::shifted_pair(160, 60, kShift, 1);
-  for (const int off : {-256, -180, -90, 0, 70, 190, 256}) {
+  const Pair pair = test::shifted_pair(320, 120, kShift, 1);
+  for (const int off : {-128, -90, -45, 0, 35, 95, 128}) {
     DisparityPlane map(160, 60);
     for (int y = 0; y < 60; ++y) {
-      for (int x = 20; x < 160; ++x) map(x, y) = 256 * kShift + off;
+      for (int x = 20; x < 160; ++x) map(x, y) = kPixel * kShift + off;
     }
     // The penalty keeps at most a quarter of the error.
-    const double most = 0.05 + std::abs(off) / 1024.0;
+    const double most = 0.08 + std::abs(off) / (4.0 * kPixel);
     EXPECT_GT(share_within(refined(pair, map), 24, kShift, most), 0.95) << "off by " << off;
   }
 }
 
 TEST(DisparityRefinement, ChangesLargeErrorsByAtMostTwoPixels) {
-  const Pair pair = test::shifted_pair(160, 60, 12, 2);
+  const Pair pair = test::shifted_pair(320, 120, 12, 2);
   DisparityPlane map(160, 60);
   for (int y = 0; y < 60; ++y) {
-    for (int x = 40; x < 160; ++x) map(x, y) = 256 * 30;
+    for (int x = 40; x < 160; ++x) map(x, y) = kPixel * 30;
   }
   EXPECT_EQ(1, share_within(refined(pair, map), 0, 30, 2));
 }
 
 TEST(DisparityRefinement, KeepsTheDisparitiesOfFlatViews) {
-  const GrayPlane flat(60, 30, 90);
+  const GrayPlane flat(120, 60, 90);
   const DisparityPlane map = possible(test::disparity_noise(60, 30, 3, 5000, 3));
   DisparityPlane whole = map;
-  for (std::int32_t& d : whole.pixels) d = d / 256 * 256;
+  for (std::int32_t& d : whole.pixels) d = d / kPixel * kPixel;
   // Without texture only the penalty is left, which keeps the given disparity.
   EXPECT_TRUE(same_image(whole, refined({flat, flat}, whole)));
 }
 
 TEST(DisparityRefinement, KeepsTheSetOfKnownPixels) {
-  const Pair pair = test::slanted_pair(100, 40, 20, 4);
+  const Pair pair = test::slanted_pair(200, 80, 20, 4);
   const DisparityPlane map = possible(test::disparity_noise(100, 40, 6, 5000, 4));
   const DisparityPlane out = refined(pair, map);
   EXPECT_TRUE(test::same_pixels(
@@ -160,18 +165,19 @@ TEST(DisparityRefinement, KeepsTheSetOfKnownPixels) {
 
 TEST(DisparityRefinement, NeverExceedsTheColumnOrTheLargestDisparity) {
   for (int seed = 0; seed < 10; ++seed) {
-    const Pair pair = {test::noise(70, 20, seed), test::noise(70, 20, 30 + seed)};
+    const Pair pair = {test::noise(140, 40, seed), test::noise(140, 40, 30 + seed)};
     DisparityPlane map(70, 20);
     Random random(seed);
     for (int y = 0; y < 20; ++y) {
-      for (int x = 1; x < 70; ++x) map(x, y) = std::min(256 * x, 256 * 33 - 1) - random.below(200);
+      for (int x = 1; x < 70; ++x)
+        map(x, y) = std::min(256 * x, kPixel * 33 - 1) - random.below(100);
     }
     const DisparityPlane out = refined(pair, map, 33);
     for (int y = 0; y < 20; ++y) {
       for (int x = 1; x < 70; ++x) {
         ASSERT_GE(out(x, y), 1);
         ASSERT_LE(out(x, y), 256 * x);
-        ASSERT_LT(out(x, y), 256 * 33);
+        ASSERT_LT(out(x, y), kPixel * 33);
       }
     }
   }
@@ -179,7 +185,7 @@ TEST(DisparityRefinement, NeverExceedsTheColumnOrTheLargestDisparity) {
 
 TEST(DisparityRefinement, DoesNotChangeWithTheBrightness) {
   Random random(7);
-  Pair pair = test::slanted_pair(120, 40, 20, 7);
+  Pair pair = test::slanted_pair(240, 80, 20, 7);
   for (GrayPlane* view : {&pair.left, &pair.right}) {
     for (std::uint8_t& gray : view->pixels) gray = static_cast<std::uint8_t>(gray * 100 / 255);
   }
