@@ -8,8 +8,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-
 class SetFile : public ::testing::Test {
  protected:
   std::string write(const std::string& text) { return folder_.write("file", text); }

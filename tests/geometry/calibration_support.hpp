@@ -14,6 +14,8 @@
 
 namespace mtstereo::test {
 
+inline constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
 /// The path of a file of tests/geometry/files/.
 std::string stored(const std::string& name);
 /// Its text.

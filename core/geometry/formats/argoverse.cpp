@@ -62,10 +62,8 @@ StereoCalibration read_rectified_pair(const Entry& left, const Entry& right,
   const CameraCalibration first = read_pinhole(left);
   const CameraCalibration second = read_pinhole(right);
   const Entry product = right.at("Txf_", "the focal length times the position of the camera");
-  RectifiedViews views;
-  views.left_projection = views_of(first, 0).left_projection;
-  views.right_projection = views_of(second, -product.number()).right_projection;
-  Rectification rectification = rectification_from(views, left, right);
+  Rectification rectification =
+      rectification_from(views_of(first, second, -product.number()), left, right);
   check_translation({-rectification.baseline, 0, 0}, product, "; it must be in px m");
   rectification.width = request.width;
   rectification.height = request.height;

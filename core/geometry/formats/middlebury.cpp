@@ -19,8 +19,8 @@ StereoCalibration read_middlebury(const Entry& file, const Request& request) {
   set_camera_matrix(calibration.right, right);
 
   const double length = baseline.number() / 1000;
-  RectifiedViews views = views_of(calibration.right, calibration.left.focal_x * length);
-  views.left_projection = views_of(calibration.left, 0).left_projection;
+  const RectifiedViews views =
+      views_of(calibration.left, calibration.right, calibration.left.focal_x * length);
   Rectification rectification = rectification_from(views, left, right);
   rectification.baseline = length;
   check_translation({-length, 0, 0}, baseline, "; it is in millimeters");

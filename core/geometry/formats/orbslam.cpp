@@ -74,7 +74,7 @@ StereoCalibration read_rectified(const Entry& file, const CameraCalibration& cam
   }
   const double baseline = length ? length->number() : product->number() / camera.focal_x;
   Rectification rectification =
-      rectification_from(views_of(camera, camera.focal_x * baseline), file, file);
+      rectification_from(views_of(camera, camera, camera.focal_x * baseline), file, file);
   rectification.baseline = baseline;
   rectification.width = camera.width;
   rectification.height = camera.height;

@@ -211,12 +211,14 @@ void set_size(CameraCalibration& camera, const Entry& both) {
   camera.height = static_cast<int>(size[1]);
 }
 
-RectifiedViews views_of(const CameraCalibration& camera, double product) {
+RectifiedViews views_of(const CameraCalibration& left, const CameraCalibration& right,
+                        double product) {
+  const auto projection = [](const CameraCalibration& k, double offset) -> std::vector<double> {
+    return {k.focal_x, 0, k.center_x, offset, 0, k.focal_y, k.center_y, 0, 0, 0, 1, 0};
+  };
   RectifiedViews views;
-  views.left_projection = {
-      camera.focal_x, 0, camera.center_x, 0, 0, camera.focal_y, camera.center_y, 0, 0, 0, 1, 0};
-  views.right_projection = views.left_projection;
-  views.right_projection[3] = -product;
+  views.left_projection = projection(left, 0);
+  views.right_projection = projection(right, -product);
   return views;
 }
 
@@ -311,8 +313,7 @@ StereoCalibration rectified_cameras(const Rectification& rectification) {
 
 StereoCalibration rectified_pair(const RectifiedCamera& left, const RectifiedCamera& right,
                                  double baseline, const Entry& length) {
-  RectifiedViews views = views_of(right.camera, left.camera.focal_x * baseline);
-  views.left_projection = views_of(left.camera, 0).left_projection;
+  const RectifiedViews views = views_of(left.camera, right.camera, left.camera.focal_x * baseline);
   Rectification rectification = rectification_from(views, left.k, right.k);
   check_translation({-baseline, 0, 0}, length, "; it must be in meters");
   rectification.baseline = baseline;

@@ -69,9 +69,10 @@ struct RectifiedViews {
   std::vector<double> right_projection;  ///< 3x4, P of the right camera
 };
 
-/// Those of two equal cameras without distortion. `product` is the focal length times the baseline
-/// [px m].
-RectifiedViews views_of(const CameraCalibration& camera, double product);
+/// Those of two cameras without distortion. `product` is the focal length times the baseline [px
+/// m].
+RectifiedViews views_of(const CameraCalibration& left, const CameraCalibration& right,
+                        double product);
 
 /// The rectification with these projections. Their fourth columns are in units of `unit` [m].
 /// Size: 0. `left` and `right` are the entries of the projections.

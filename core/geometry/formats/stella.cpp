@@ -34,7 +34,7 @@ RectifiedViews read_views(const Entry& file) {
   camera.focal_y = of_camera(file, "fy").number();
   camera.center_x = of_camera(file, "cx").number();
   camera.center_y = of_camera(file, "cy").number();
-  return views_of(camera, of_camera(file, "focal_x_baseline").number());
+  return views_of(camera, camera, of_camera(file, "focal_x_baseline").number());
 }
 
 }  // namespace

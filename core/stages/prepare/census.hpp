@@ -44,8 +44,7 @@ struct CensusScratch {
   Image<std::int8_t> smoothed;  ///< for two scales
   Buffer<std::int16_t> sums;    ///< of the columns of a row's filter
 
-  /// For bands of up to `rows` rows of views of up to this width, between the first and the last
-  /// that is transformed.
+  /// For bands that span up to `rows` rows of views of up to this width.
   void resize(int width, int rows);
 };
 

@@ -59,8 +59,8 @@ bool are_same(const Source& left, const Source& right) {
   for (std::size_t at = input.find(','); at != std::string::npos; at = input.find(',', at + 1)) {
     const std::string left = input.substr(0, at), right = input.substr(at + 1);
     if (!is_input(left) || !is_input(right)) continue;
-    throw UserError(input + ": " + what +
-                    "; give the two views with a blank between them: " + left + " " + right);
+    throw UserError(input + ": " + what + "; separate the two views by a space: " + left + " " +
+                    right);
   }
   throw UserError(input + ": " + what);
 }

@@ -97,10 +97,10 @@ TEST(DisparityRefinement, EqualsReferenceForEverySlantOnEveryInstructionSet) {
   const Pair pair = test::slanted_pair(262, 45, 30, 7);
   test::for_each_simd_target([&] {
     Random random(8);
-    // Up to 256, where all points of a row correspond to one right pixel. At infinity, near, and so
-    // near that all points correspond to the first right column.
+    // Up to 256, where all points of a row correspond to one right pixel.
     for (const int slant : {-200, -40, -7, 0, 7, 16, 40, 120, 256}) {
       SCOPED_TRACE("slant " + std::to_string(slant));
+      // At infinity, near, and so near that all points correspond to the first right column.
       for (const int disparity : {0, 5000, test::kLargestDisparity}) {
         expect_reference(pair, surface(131, 23, disparity, slant, random));
       }

@@ -133,10 +133,11 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   const std::string folders = "left," + path("left"),
                     patterns = "left/%d.jpg," + path("left/*.jpg");
   EXPECT_THAT(error_of({folders.c_str()}),
-              HasSubstr("no such file or folder; give the two views with a blank between them: " +
+              HasSubstr("no such file or folder; separate the two views by a space: " +
                         path("left") + " " + path("left")));
-  EXPECT_THAT(error_of({patterns.c_str()}), HasSubstr("no file has such a name; give the two"));
-  EXPECT_THAT(error_of({"broken.mp4,none.mp4"}), Not(HasSubstr("give the two views")));
+  EXPECT_THAT(error_of({patterns.c_str()}),
+              HasSubstr("no file has such a name; separate the two views"));
+  EXPECT_THAT(error_of({"broken.mp4,none.mp4"}), Not(HasSubstr("separate the two views")));
   write_text(folder_ / "other.mp4", "no video");
   EXPECT_THAT(error_of({"broken.mp4", "other.mp4"}), HasSubstr(path("broken.mp4") + ": "));
   EXPECT_THAT(error_of({"broken.mp4", "broken.mp4"}), HasSubstr("are the same file"));

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Files of rectified cameras: the intrinsics and the baseline.
+#include "calibration_support.hpp"
+
+namespace mtstereo::test::calibration_rectified_test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(Middlebury, BaselineIsInMillimetersAndTheOffsetIsKept) {
+  const StereoCalibration calibration = read_valid(stored("middlebury_calib.txt"));
+  EXPECT_EQ(calibration.format, "Middlebury");
+  const CameraCalibration left = {2964, 1988, 3979.911, 3979.911, 1244.772, 1019.507, {}, {}};
+  const CameraCalibration right = {2964, 1988, 3979.911, 3979.911, 1369.115, 1019.507, {}, {}};
+  expect_near(calibration.left, left, 0);
+  expect_near(calibration.right, right, 0);
+  expect_near(calibration.translation, Vector3{-0.193001, 0, 0}, 1e-12);
+  EXPECT_EQ(calibration.rotation, kIdentity);
+  ASSERT_TRUE(calibration.rectification.has_value());
+  EXPECT_NEAR(calibration.rectification->principal_offset(), 124.343, 1e-9);
+  EXPECT_NEAR(calibration.rectification->baseline, 0.193001, 1e-12);
+  EXPECT_EQ(calibration.rectification->height, 1988);
+}
+
+TEST(FoundationStereo, StatesKAndTheBaselineInTwoLines) {
+  const CalibrationFolder folder;
+  const auto write = [&](const std::string& text) { return folder.write("K.txt", text); };
+  const std::string k = "500.5 0.0 321.25 0.0 500.5 240.75 0.0 0.0 1.0\n";
+  const StereoCalibration calibration = read_valid(write(k + "0.063\n"), 640, 480);
+  EXPECT_EQ(calibration.format, "FoundationStereo");
+  EXPECT_DOUBLE_EQ(calibration.right.focal_x, 500.5);
+  EXPECT_DOUBLE_EQ(calibration.left.center_y, 240.75);
+  EXPECT_DOUBLE_EQ(calibration.baseline(), 0.063);
+  EXPECT_EQ(calibration.rectification->width, 640);
+  EXPECT_THAT(read_refused(write(k)),
+              HasSubstr("baseline in the second are needed; lines of numbers: 1"));
+  EXPECT_THAT(read_refused(write(k + "0.063 1\n")), HasSubstr("line 2 has 2 values, 1 are needed"));
+  EXPECT_THAT(read_refused(write(k + "63\n")), HasSubstr("line 2 states a baseline of 63 m"));
+  EXPECT_THAT(read_valid(write(k + "6.3\n")).remarks,
+              ElementsAre(HasSubstr("Otherwise write it in meters")));
+  EXPECT_THAT(read_refused(write("0" + k + k)), HasSubstr("line 2 has 9 values"));
+  EXPECT_THAT(read_refused(write(replaced(k, "240.75 0.0", "240.75 0.5") + "0.063\n")),
+              HasSubstr("line 1 is not a camera matrix"));
+}
+
+TEST(RectifiedView, StatesTheIntrinsicsAndTheBaseline) {
+  const CalibrationFolder folder;
+  const auto write = [&](const std::string& text) { return folder.write("camera.yaml", text); };
+  const std::string k = "fx: 500.5\nfy: 500.5\ncx: 321.25\ncy: 240.75\n";
+  const std::string inner = "camera:\n  fx: 500.5\n  cx: 321.25\n  cy: 240.75\n";
+  const std::string matrix = "K: [500.5, 0, 321.25, 0, 500.5, 240.75, 0, 0, 1]\n";
+  for (const std::string& text :
+       {k + "baseline: 0.063\n", k + "baseline_mm: 63\nd: [0, 0, 0, 0, 0]\n",
+        inner + "baseline: 0.063\n", matrix + "image: left.png\nBaseline: 0.063\n",
+        k + "baseline: 6.3\nunit: cm\n", k + "baseline: 63\nbaseline_unit: mm\n",
+        std::string("fx: 500.5\nppx: 321.25\nppy: 240.75\nbaseline_meters: 0.063\n"),
+        std::string("left: {fx: 500.5, cx: 321.25, cy: 240.75}\nright: {fx: 500.5, cx: 321.25, cy: "
+                    "240.75}\n"
+                    "baseline: 0.063\n"),
+        std::string(R"({"fx": 500.5, "cx": 321.25, "cy": 240.75, "baseline_m": 0.063})")}) {
+    const StereoCalibration calibration = read_valid(write(text), 640, 480);
+    EXPECT_EQ(calibration.format, "rectified view");
+    EXPECT_DOUBLE_EQ(calibration.right.focal_x, 500.5) << text;
+    EXPECT_DOUBLE_EQ(calibration.left.center_y, 240.75) << text;
+    EXPECT_DOUBLE_EQ(calibration.baseline(), 0.063) << text;
+    EXPECT_EQ(calibration.rectification->width, 640);
+  }
+  EXPECT_THAT(read_refused(write(k + "baseline: 63\n")), HasSubstr("baseline of 63 m"));
+  EXPECT_THAT(read_refused(write(k + "baseline: 0.06\nD: [-0.1, 0, 0, 0]\n")),
+              HasSubstr("D is not 0, so the views are not rectified"));
+  EXPECT_THAT(read_refused(write(k + "baseline: 0.06\nk1: -0.1\nk2: 0\n")),
+              HasSubstr("k1 is not 0"));
+  EXPECT_THAT(read_refused(write(inner + "baseline: 0.06\ndistortion:\n  k1: -0.1\n")),
+              HasSubstr("distortion is not 0"));
+  EXPECT_THAT(read_refused(write(k)), HasSubstr("fx, fy, cx, cy and baseline (in meters)"));
+  EXPECT_THAT(read_refused(write("fx: 0\ncx: 1\ncy: 2\nbaseline: 1\n")), HasSubstr("fx = 0"));
+}
+
+TEST(RectifiedView, MayHaveAnotherCenterOnTheRight) {
+  const CalibrationFolder folder;
+  const auto write = [&](const std::string& text) { return folder.write("camera.yaml", text); };
+  const std::string k = "fx: 500\ncx: 320\ncy: 240\nbaseline: 0.06\n";
+  const std::string pair = "left_camera: {fx: 500, cx: 320, cy: 240}\nbaseline: 0.06\n";
+  for (const std::string& text :
+       {k + "doffs: 10\n", k + "cx_right: 330\n", replaced(k, "cx:", "cx0:") + "cx1: 330\n",
+        pair + "right_camera: {fx: 500, cx: 330, cy: 240}\n",
+        std::string(
+            "camera: {K: [500, 0, 320, 0, 500, 240, 0, 0, 1], doffs: 10}\nbaseline: 0.06\n")}) {
+    const StereoCalibration calibration = read_valid(write(text));
+    EXPECT_EQ(calibration.left.center_x, 320) << text;
+    EXPECT_EQ(calibration.right.center_x, 330) << text;
+    EXPECT_EQ(calibration.rectification->principal_offset(), 10) << text;
+  }
+  EXPECT_THAT(read_refused(write(pair + "right_camera: {fx: 510, cx: 330, cy: 240}\n")),
+              HasSubstr("right_camera has the focal length 510, the left view has 500"));
+  EXPECT_THAT(read_refused(write(pair + "right_camera: {fx: 500, cx: 330, cy: 240, k1: 0.1}\n")),
+              HasSubstr("right_camera.k1 is not 0"));
+  // A pair with a pose is not rectified.
+  EXPECT_THAT(
+      read_refused(write(pair + "right_camera: {fx: 500, cx: 330, cy: 240}\npose: [1, 2, 3]\n")),
+      HasSubstr("not a calibration of a known format"));
+}
+
+TEST(RectifiedView, NotesAnUnusualBaselineWithoutAUnit) {
+  const CalibrationFolder folder;
+  const auto write = [&](const std::string& text) { return folder.write("camera.yaml", text); };
+  const std::string k = "fx: 500\ncx: 320\ncy: 240\n";
+  EXPECT_THAT(read_valid(write(k + "baseline: 6.3\n")).remarks,
+              ElementsAre(HasSubstr("Otherwise add the entry 'unit: mm' (or cm)")));
+  EXPECT_TRUE(read_valid(write(k + "baseline: 6.3\nunit: m\n")).remarks.empty());
+  EXPECT_THAT(read_refused(write(k + "baseline: 6.3\nunit: feet\n")), HasSubstr("unit is 'feet'"));
+}
+
+}  // namespace
+}  // namespace mtstereo::test::calibration_rectified_test
