@@ -27,10 +27,7 @@ void ResultBuffers::resize(const Settings& settings, const FrameSize& size, Reus
   edges.resize(aligned.width, aligned.height, &reused);
   rating.resize(width, height, size.threads, reused);
   scratch.resize(size.threads);
-  for (Scratch& worker : scratch) {
-    worker.edges.resize(aligned.width);
-    worker.columns.resize(Bands::kColumns);
-  }
+  for (Scratch& worker : scratch) worker.edges.resize(aligned.width);
   if (!settings.infers()) return;
   areas.resize(width, height);
   planes.resize(areas.first.size());
@@ -212,14 +209,13 @@ void reject_unlikely(const StepContext& step, const Views& views, const LastPair
   });
 }
 
-void close_gaps(const StepContext& step, ResultMaps& result, ResultBuffers& buffers) {
+void close_gaps(const StepContext& step, ResultMaps& result) {
   const GapFilling gaps = {step.settings.max_gap, kDisparityOne, kMostInferred};
   step.bands.rows([&](int y0, int y1, int) {
     fill_gaps_along_rows(gaps, y0, y1, *result.disparity, *result.confidence);
   });
-  step.bands.columns(result.disparity->width(), [&](int x0, int x1, int worker) {
-    fill_gaps_along_columns(gaps, x0, x1, buffers.scratch[worker].columns, *result.disparity,
-                            *result.confidence);
+  step.bands.columns(result.disparity->width(), [&](int x0, int x1, int) {
+    fill_gaps_along_columns(gaps, x0, x1, *result.disparity, *result.confidence);
   });
 }
 

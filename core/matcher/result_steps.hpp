@@ -32,7 +32,6 @@ struct ResultBuffers {
     EdgeScratch edges;
     GrayTotals grays;  ///< of the thread's rows
     PlaneVotes votes;
-    Buffer<std::int32_t> columns;  ///< a block of columns
   };
   std::vector<Scratch> scratch;  ///< one for each thread
 
@@ -113,7 +112,7 @@ void reject_unlikely(const StepContext& step, const Views& views, const LastPair
 
 /// Fills small gaps that the rejection has left in a surface. What it fills is inferred, not
 /// matched.
-void close_gaps(const StepContext& step, ResultMaps& result, ResultBuffers& buffers);
+void close_gaps(const StepContext& step, ResultMaps& result);
 
 /// Draws the thin structures into the map.
 void draw_thin_structures(const StepContext& step, const Maps& maps, ResultMaps& result);

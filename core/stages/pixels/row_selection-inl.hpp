@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "base/simd.hpp"
+#include "base/simd_bits-inl.hpp"
 #include "stages/pixels/path_lanes-inl.hpp"
 #include "stages/pixels/row_selection.hpp"
 
@@ -73,12 +74,7 @@ HWY_INLINE int first_equal(const PixelLanes<kVectors>& lanes, ByteVector least) 
   for (int i = 0; i < lanes.count(); i += kTogether) {
     std::uint64_t bits = 0;
     for (int k = 0; k < kTogether && i + k < lanes.count(); ++k) {
-      // As many bits as the mask has, so that the compiler needs no memory for them.
-      std::conditional_t<kByteLanes == 32, std::uint32_t, std::uint16_t> mask;
-      std::uint8_t bytes[sizeof(mask)];
-      hn::StoreMaskBits(d8, hn::Eq(lanes.get(i + k), least), bytes);
-      std::memcpy(&mask, bytes, sizeof(mask));
-      bits |= std::uint64_t{mask} << (k * kByteLanes);
+      bits |= bits_of(d8, hn::Eq(lanes.get(i + k), least)) << (k * kByteLanes);
     }
     const bool last = i + kTogether >= lanes.count();
     if (last || bits != 0) return i * kByteLanes + std::countr_zero(bits);

@@ -24,10 +24,12 @@ struct GapFilling {
 void fill_gaps_along_rows(const GapFilling& gaps, int y0, int y1, Image<std::int32_t>& map,
                           Image<std::uint8_t>& confidence);
 
-/// The same along the columns x0 .. x1 - 1, in all rows. Blocks of columns may be processed
-/// concurrently; they share no cache line if x0 is a multiple of 64. `scratch` is resized to
-/// x1 - x0.
-void fill_gaps_along_columns(const GapFilling& gaps, int x0, int x1, Buffer<std::int32_t>& scratch,
-                             Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
+/// Pixels of a row whose gaps are found together.
+inline constexpr int kGapColumns = 64;
+
+/// The same along the columns x0 .. x1 - 1, in all rows. Blocks that begin at multiples of
+/// kGapColumns may be processed concurrently: they share no vector and no cache line.
+void fill_gaps_along_columns(const GapFilling& gaps, int x0, int x1, Image<std::int32_t>& map,
+                             Image<std::uint8_t>& confidence);
 
 }  // namespace mtstereo

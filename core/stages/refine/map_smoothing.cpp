@@ -19,9 +19,8 @@ Vec means_at(const std::int32_t* const* lines, int radius, int x, Vec middle) {
   const Ints di32;
   const hn::Rebind<float, Ints> df32;
   const auto zero = hn::Zero(di32), near = hn::Set(di32, kDisparityOne);
-  const auto two = hn::Set(di32, 2);
-  auto rises = zero;              // sum of the pairs' differences from the pixel
-  auto count = hn::Set(di32, 1);  // number of averaged pixels, including itself
+  auto rises = zero;  // sum of the pairs' differences from the pixel
+  auto pairs = zero;  // minus their number
   for (int distance = 1; distance <= radius; ++distance) {
     const auto one = hn::LoadU(di32, lines[radius - distance] + x);
     const auto other = hn::LoadU(di32, lines[radius + distance] + x);
@@ -29,8 +28,10 @@ Vec means_at(const std::int32_t* const* lines, int radius, int x, Vec middle) {
     const auto apart = hn::Gt(hn::Max(hn::Abs(rise), hn::Abs(fall)), near);
     const auto taken = hn::AndNot(apart, hn::Gt(hn::Min(one, other), zero));
     rises = hn::Add(rises, hn::IfThenElseZero(taken, hn::Add(rise, fall)));
-    count = hn::Add(count, hn::IfThenElseZero(taken, two));
+    pairs = hn::Add(pairs, hn::VecFromMask(di32, taken));
   }
+  // Of averaged pixels, including itself.
+  const auto count = hn::Sub(hn::Set(di32, 1), hn::Add(pairs, pairs));
   // Rounds towards zero, and so towards the pixel's own disparity.
   const auto mean = hn::Div(hn::ConvertTo(df32, rises), hn::ConvertTo(df32, count));
   const auto known = hn::Gt(middle, zero);

@@ -12,6 +12,7 @@
 
 #define HWY_TARGET_INCLUDE "stages/refine/speckle_removal.cpp"
 #include "base/simd.hpp"
+#include "base/simd_bits-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -27,13 +28,6 @@ struct ColumnBits {
   std::uint64_t joined = 0;  ///< is connected to the next column
 };
 
-std::uint64_t bits_of(hn::Mask<Disparities> mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(Disparities(), mask, bytes);
-  // Reads only the bytes just written: a longer load would wait for the store.
-  return hn::Lanes(Disparities()) > 8 ? bytes[0] | bytes[1] << 8 : bytes[0];
-}
-
 /// The bits of the first `columns` columns of a row, at most kWord. Reads one column more.
 ColumnBits column_bits(const std::int32_t* row, int columns, std::int32_t tolerance) {
   const Disparities d32;
@@ -44,8 +38,8 @@ ColumnBits column_bits(const std::int32_t* row, int columns, std::int32_t tolera
     const auto here = hn::LoadU(d32, row + i);
     const auto next = hn::LoadU(d32, row + i + 1);
     const auto apart = hn::Or(hn::Gt(hn::Abs(hn::Sub(next, here)), most), hn::Eq(next, none));
-    bits.known |= bits_of(hn::Not(hn::Eq(here, none))) << i;
-    bits.joined |= bits_of(hn::Not(apart)) << i;
+    bits.known |= bits_of(d32, hn::Not(hn::Eq(here, none))) << i;
+    bits.joined |= bits_of(d32, hn::Not(apart)) << i;
   }
   bits.known &= ~std::uint64_t{0} >> (kWord - columns);
   bits.joined &= bits.known;

