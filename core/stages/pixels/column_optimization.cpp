@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
 #include <type_traits>
 
@@ -41,15 +40,12 @@ HWY_INLINE void continue_tile(const ColumnStep& row, int size, int x0, int x1, s
                               std::uint8_t* least) {
   const Bytes d8;
   const auto small_step = hn::Set(d8, static_cast<std::uint8_t>(std::min(row.small_step, 255)));
-  const std::uint8_t* large_step = row.large_step->data();
-  const std::uint8_t* gray = row.gray;
-  const std::uint8_t* gray_before = row.gray_before;
+  const std::uint8_t* large_steps = row.large_steps;
   const std::uint8_t* costs = row.costs;
   for (int x = x0; x < x1; ++x, cell += size) {
     const auto lowest = hn::Set(d8, least[x]);
-    const int change = std::abs(gray[x] - gray_before[x]);
     const StepCosts steps = {small_step, lowest,
-                             hn::SaturatedAdd(lowest, hn::Set(d8, large_step[change]))};
+                             hn::SaturatedAdd(lowest, hn::Set(d8, large_steps[x]))};
     least[x] =
         hn::GetLane(step_vectors<kVectors>(size, costs + cell, before + cell, steps, paths + cell));
   }

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "stages/pixels/cost_lanes.hpp"
-#include "stages/pixels/smoothness.hpp"
 
 namespace mtstereo {
 
@@ -15,12 +14,10 @@ namespace mtstereo {
 /// The input of one row.
 struct ColumnStep {
   const std::uint8_t* costs;        ///< of each pixel in its window
-  const std::uint8_t* gray;         ///< of the left view
-  const std::uint8_t* gray_before;  ///< of the paths' previous row
+  const std::uint8_t* large_steps;  ///< from the paths' previous row, see find_large_steps()
   int width;
   int disparities;
-  int small_step;
-  const LargeStepTable* large_step;
+  int small_step;                       ///< SmoothnessOptions
   const CostWindow* windows = nullptr;  ///< of the row's tiles; nullptr = all lanes
 };
 

@@ -36,9 +36,8 @@ class ChunkMatching {
         width_(input.image.width),
         lanes_(cost_lanes(options.cost.disparities)),
         cells_(largest_row()),
-        small_step_(options.smoothness.small_step * cost_scale(options.cost)),
-        large_step_(large_step_table(
-            {small_step_, options.smoothness.large_step * cost_scale(options.cost)})),
+        smoothness_({options.smoothness.small_step * cost_scale(options.cost),
+                     options.smoothness.large_step * cost_scale(options.cost)}),
         runner_up_(runner_up_table(options.selection.confidence)),
         any_runner_up_(runner_up_table(0)) {}
 
@@ -133,14 +132,11 @@ class ChunkMatching {
       move_columns(windows(last), windows(y), lanes_, width_, before, scratch_.moved.data());
       before = scratch_.moved.data();
     }
-    const ColumnStep row = {costs(y),
-                            input_.image.row(y),
-                            input_.image.row(last),
-                            width_,
-                            options_.cost.disparities,
-                            small_step_,
-                            &large_step_,
-                            windows(y)};
+    std::uint8_t* large_steps = scratch_.large_steps.data();
+    find_large_steps(smoothness_, input_.image.row(y), input_.image.row(last), width_, large_steps);
+    const ColumnStep row = {
+        costs(y),  large_steps, width_, options_.cost.disparities, smoothness_.small_step,
+        windows(y)};
     step_columns(row, before, paths, scratch_.least.data());
   }
 
@@ -156,8 +152,7 @@ class ChunkMatching {
                   WindowVotes* votes) {
     WalkedRows rows = {};
     rows.width = width_;
-    rows.small_step = small_step_;
-    rows.large_step = &large_step_;
+    rows.smoothness = smoothness_;
     rows.windows = windows(y);
     rows.sums = from_above() ? PathSums::kFour : PathSums::kTwo;
     for (int i = 0; i < kWalkedRows; ++i) {
@@ -195,8 +190,7 @@ class ChunkMatching {
   int width_;
   int lanes_;
   std::ptrdiff_t cells_;  // from one row of costs to the next
-  int small_step_;
-  LargeStepTable large_step_;
+  SmoothnessOptions smoothness_;
   RunnerUpTable runner_up_;
   RunnerUpTable any_runner_up_;
   int expected_[kWalkedPairs] = {-1, -1};  // the rows of the half map that the ranges are of
@@ -221,6 +215,7 @@ void PathMatchingScratch::resize(int width, int height, const PathMatchingOption
   above.resize(options.column_paths == ColumnPaths::kNone ? 0 : kWalkedRows * cells);
   moved.resize(options.column_paths == ColumnPaths::kNone ? 0 : cells);
   least.resize(width);
+  large_steps.resize(width);
   by_cost.resize(width);
   by_cost_ratio.resize(width);
 }

@@ -79,11 +79,12 @@ struct PathMatchingScratch {
   RowWalkScratch walk;
   std::array<Candidates, kWalkedRows> candidates;
   Buffer<std::uint8_t> costs;
-  Buffer<std::uint8_t> below;    ///< of the chunk's rows and the one after them
-  Buffer<std::uint8_t> above;    ///< of kWalkedRows rows
-  Buffer<std::uint8_t> moved;    ///< of one row, in the windows of the next one
-  Buffer<std::uint8_t> least;    ///< of a row's columns
-  Buffer<std::int32_t> by_cost;  ///< the disparities of a row by its costs alone
+  Buffer<std::uint8_t> below;        ///< of the chunk's rows and the one after them
+  Buffer<std::uint8_t> above;        ///< of kWalkedRows rows
+  Buffer<std::uint8_t> moved;        ///< of one row, in the windows of the next one
+  Buffer<std::uint8_t> least;        ///< of a row's columns
+  Buffer<std::uint8_t> large_steps;  ///< between two rows
+  Buffer<std::int32_t> by_cost;      ///< the disparities of a row by its costs alone
   Buffer<std::uint8_t> by_cost_ratio;
 
   /// For views of this size. match_along_paths() calls it as well, since one thread matches views

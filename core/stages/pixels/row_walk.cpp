@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "stages/pixels/row_selection.hpp"
 
@@ -42,6 +43,16 @@ HWY_INLINE ByteVector advance(const std::uint8_t* costs, const StepCosts& steps,
   return least_of_lanes(d8, least);
 }
 
+/// Calls body(r) for the rows 0 .. kRows - 1. As r is a constant each time, compilers keep the
+/// elements of arrays in registers.
+template <int kRows, class Body>
+HWY_INLINE void for_rows(const Body& body) {
+  [&]<int... kRow>(std::integer_sequence<int, kRow...>) HWY_ATTR {
+    (body(std::integral_constant<int, kRow>()), ...);
+  }
+  (std::make_integer_sequence<int, kRows>());
+}
+
 /// One direction of the walk along the rows.
 template <PathSums kSums, bool kSelect>
 class RowWalk {
@@ -51,12 +62,11 @@ class RowWalk {
         rows_(rows),
         lanes_(rows[0].lanes),
         paths_(scratch.paths.data()),
-        large_step_(walked.large_step->data()),
-        changes_(scratch.changes.data()),
+        large_steps_(scratch.large_steps.data()),
         ends_(scratch.ends.data()),
         scratch_(scratch),
-        small_step_(hn::Set(Bytes(), static_cast<std::uint8_t>(std::min(walked.small_step, 255)))) {
-  }
+        small_step_(hn::Set(
+            Bytes(), static_cast<std::uint8_t>(std::min(walked.smoothness.small_step, 255)))) {}
 
   HWY_INLINE void run() {
     const int tiles = (walked_.width + kWindowTile - 1) / kWindowTile;
@@ -97,24 +107,25 @@ class RowWalk {
     std::uint8_t* const ends = ends_ + first * lanes_ + window.begin;
     const std::ptrdiff_t row_bytes = walked_.width * std::ptrdiff_t{lanes_};
     std::uint8_t* const from_right = paths_ + first * row_bytes;
-    const std::uint8_t* const changes = changes_ + first * (walked_.width + 1) + !kSelect;
+    const std::uint8_t* large_steps[kRows];
     Lanes paths[kRows];
-    for (int r = 0; r < kRows; ++r) paths[r] = Lanes(ends + r * lanes_, window);
+    ByteVector least[kRows];
+    for_rows<kRows>([&](auto r) HWY_ATTR {
+      large_steps[r] = large_steps_ + (first + r) * (walked_.width + 1) + !kSelect;
+      paths[r] = Lanes(ends + r * lanes_, window);
+      least[r] = least_[first + r];
+    });
     const int pixels = pixels_at(x0);
     const std::ptrdiff_t size = paths[0].count() * kByteLanes;
     std::uint8_t* sums = scratch_.sums_of(first);
     const std::ptrdiff_t sums_stride = scratch_.sums_stride;
-    // In registers.
-    ByteVector least[kRows];
-    for (int r = 0; r < kRows; ++r) least[r] = least_[first + r];
     if constexpr (!kSelect) cell += pixels * size;
     for (int i = 0; i < pixels; ++i) {
-      const int x = kSelect ? x0 + i : x0 + pixels - 1 - i;
+      const std::ptrdiff_t x = kSelect ? x0 + i : x0 + pixels - 1 - i;
       if constexpr (!kSelect) cell -= size;
-      for (int r = 0; r < kRows; ++r) {
-        const std::uint8_t change = changes[r * (walked_.width + 1) + x];
+      for_rows<kRows>([&](auto r) HWY_ATTR {
         const StepCosts steps = {small_step_, least[r],
-                                 hn::SaturatedAdd(least[r], hn::Set(Bytes(), large_step_[change]))};
+                                 hn::SaturatedAdd(least[r], hn::Set(Bytes(), large_steps[r][x]))};
         least[r] = advance(walked_.of[first + r].costs + cell, steps, paths[r]);
         if constexpr (kSelect) {
           add_up(first + r, cell, paths[r], from_right + r * row_bytes + cell,
@@ -122,19 +133,19 @@ class RowWalk {
         } else {
           store(paths[r], from_right + r * row_bytes + cell);
         }
-      }
+      });
       if constexpr (!kSelect) continue;
       cell += size;
       sums += size + kByteLanes;
     }
-    for (int r = 0; r < kRows; ++r) {
+    for_rows<kRows>([&](auto r) HWY_ATTR {
       if constexpr (kSelect) {
         select_tile<kVectors>(rows_[first + r], x0, x0 + pixels, window,
                               scratch_.sums_of(first + r));
       }
       store(paths[r], ends + r * lanes_);
       least_[first + r] = least[r];
-    }
+    });
   }
 
   /// Writes the sums of a pixel's path costs, and the vector of kNoSum after them.
@@ -167,8 +178,7 @@ class RowWalk {
   const RowSelections rows_;
   const int lanes_;
   std::uint8_t* const paths_;
-  const std::uint8_t* const large_step_;
-  const std::uint8_t* const changes_;
+  const std::uint8_t* const large_steps_;
   std::uint8_t* const ends_;
   RowWalkScratch& scratch_;
   const ByteVector small_step_;
@@ -228,13 +238,12 @@ HWY_EXPORT(select_by_cost);
 
 namespace {
 
-/// The changes of the gray value between the columns of a row, and 0 at both ends.
-void find_changes(const std::uint8_t* __restrict__ gray, int width,
-                  std::uint8_t* __restrict__ changes) {
-  changes[0] = changes[width] = 0;
-  for (int x = 1; x < width; ++x) {
-    changes[x] = std::max(gray[x], gray[x - 1]) - std::min(gray[x], gray[x - 1]);
-  }
+/// The large steps between the columns of a row. Those at its ends do not matter: there is no path
+/// before.
+void find_row_steps(const SmoothnessOptions& options, const std::uint8_t* gray, int width,
+                    std::uint8_t* large_steps) {
+  large_steps[0] = large_steps[width] = 0;
+  find_large_steps(options, gray + 1, gray, width - 1, large_steps + 1);
 }
 
 /// Starts the selection of a row.
@@ -261,7 +270,7 @@ RowSelection selection_of(const WalkedRows& walked, const PathRow& row,
 void RowWalkScratch::resize(int width, int disparities) {
   const std::size_t lanes = cost_lanes(disparities);
   paths.resize(kWalkedRows * width * lanes);
-  changes.resize(kWalkedRows * (width + 1));
+  large_steps.resize(kWalkedRows * (width + 1));
   ends.resize(kWalkedRows * lanes);
   sums_stride = kWindowTile * (lanes + kCostStep) + kCostStep;
   sums.resize(kWalkedRows * sums_stride);
@@ -278,7 +287,8 @@ void match_walked_rows(const WalkedRows& walked, const SelectionOptions& options
                        RowWalkScratch& scratch) {
   RowSelections rows;
   for (int r = 0; r < kWalkedRows; ++r) {
-    find_changes(walked.of[r].gray, walked.width, scratch.changes.data() + r * (walked.width + 1));
+    find_row_steps(walked.smoothness, walked.of[r].gray, walked.width,
+                   scratch.large_steps.data() + r * (walked.width + 1));
     rows[r] = selection_of(walked, walked.of[r], options, scratch);
   }
   HWY_DYNAMIC_DISPATCH(walk_rows)(walked, rows, scratch);

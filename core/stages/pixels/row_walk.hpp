@@ -44,21 +44,20 @@ static_assert(kWindowTile % kWalkedRows == 0);
 struct WalkedRows {
   PathRow of[kWalkedRows];  ///< a row may repeat the one before it
   int width;
-  int small_step;  ///< in units of the costs
-  const LargeStepTable* large_step;
+  SmoothnessOptions smoothness;
   const CostWindow* windows;  ///< of the rows' tiles; nullptr = all lanes
   PathSums sums;
 };
 
 /// Scratch memory of one thread.
 struct RowWalkScratch {
-  Buffer<std::uint8_t> paths;    ///< the path costs from the right of all rows
-  Buffer<std::uint8_t> changes;  ///< per row and column: of the gray value from the column before
-  Buffer<std::uint8_t> ends;     ///< the path costs of the last pixel of each row
-  Buffer<std::uint8_t> sums;     ///< of the rows' pixels in a tile, for sums_of()
-  std::ptrdiff_t sums_stride;    ///< from row to row
-  Buffer<std::uint8_t> limits;   ///< a third 0, then 255, then 0
-  Buffer<std::uint8_t> beside;   ///< 255 at the best disparity and those next to it, 0 elsewhere
+  Buffer<std::uint8_t> paths;        ///< the path costs from the right of all rows
+  Buffer<std::uint8_t> large_steps;  ///< per row and column: from the column before
+  Buffer<std::uint8_t> ends;         ///< the path costs of the last pixel of each row
+  Buffer<std::uint8_t> sums;         ///< of the rows' pixels in a tile, for sums_of()
+  std::ptrdiff_t sums_stride;        ///< from row to row
+  Buffer<std::uint8_t> limits;       ///< a third 0, then 255, then 0
+  Buffer<std::uint8_t> beside;  ///< 255 at the best disparity and those next to it, 0 elsewhere
 
   void resize(int width, int disparities);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 
 namespace mtstereo {
@@ -13,15 +11,9 @@ struct SmoothnessOptions {
   int large_step;  ///< P2: cost of a larger step between equal gray values; 0 = no optimization
 };
 
-/// P2 by the change of the gray value: large_step * 8 / (8 + change), at least small_step.
-using LargeStepTable = std::array<std::uint8_t, 256>;
-inline LargeStepTable large_step_table(const SmoothnessOptions& options) {
-  LargeStepTable table{};
-  for (int change = 0; change < 256; ++change) {
-    const int cost = std::max(options.large_step * 8 / (8 + change), options.small_step);
-    table[change] = static_cast<std::uint8_t>(std::min(options.large_step == 0 ? 0 : cost, 255));
-  }
-  return table;
-}
+/// Writes P2 for the steps between pixels of two rows, by the change of the gray value:
+/// large_step * 8 / (8 + change), at least small_step and at most 255.
+void find_large_steps(const SmoothnessOptions& options, const std::uint8_t* gray,
+                      const std::uint8_t* gray_before, int width, std::uint8_t* large_steps);
 
 }  // namespace mtstereo

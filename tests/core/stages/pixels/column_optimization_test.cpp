@@ -5,6 +5,7 @@
 
 #include "reference/pixels/disparity_selection.hpp"
 #include "reference/pixels/path_matching.hpp"
+#include "stages/pixels/smoothness.hpp"
 #include "support/random.hpp"
 #include "support/simd_targets.hpp"
 #include "support/windows.hpp"
@@ -40,11 +41,11 @@ std::vector<RowCosts> walked(const Rows& rows, const SmoothnessOptions& options,
   const int disparities = static_cast<int>(rows.costs[0][0].size());
   const int lanes = cost_lanes(disparities);
   const std::size_t cells = static_cast<std::size_t>(width) * lanes;
-  const LargeStepTable large_step = large_step_table(options);
-  Buffer<std::uint8_t> paths, moved, least;
+  Buffer<std::uint8_t> paths, moved, least, large_steps;
   paths.resize(2 * cells);
   moved.resize(cells);
   least.resize(width);
+  large_steps.resize(width);
   std::vector<RowCosts> out;
   const std::uint8_t* before = nullptr;
   for (std::size_t y = 0; y < rows.costs.size(); ++y) {
@@ -56,14 +57,10 @@ std::vector<RowCosts> walked(const Rows& rows, const SmoothnessOptions& options,
       move_columns(of_last, own, lanes, width, before, moved.data());
       before = moved.data();
     }
-    const ColumnStep step = {costs.data(),
-                             rows.gray[y].data(),
-                             rows.gray[last].data(),
-                             width,
-                             disparities,
-                             options.small_step,
-                             &large_step,
-                             own};
+    find_large_steps(options, rows.gray[y].data(), rows.gray[last].data(), width,
+                     large_steps.data());
+    const ColumnStep step = {costs.data(), large_steps.data(), width,
+                             disparities,  options.small_step, own};
     std::uint8_t* to = paths.data() + (in_place ? 0 : y % 2 * cells);
     step_columns(step, before, to, least.data());
     before = to;

@@ -73,7 +73,7 @@ std::vector<Selected> selected(const RowCosts& costs, const SelectionOptions& op
   const PathRow row = {
       cells.data(),       nullptr, nullptr, nullptr, ranges.low.data(), ranges.high.data(),
       &scratch.candidates};
-  match_row_by_cost({{row}, width, 0, nullptr, windows, PathSums::kTwo}, 0, options, scratch.walk);
+  match_row_by_cost({{row}, width, {}, windows, PathSums::kTwo}, 0, options, scratch.walk);
   finish_selection(width, options, runner_up_table(options.confidence), ranges.low.data(),
                    ranges.high.data(), scratch.candidates, disparity.data(), ratio.data());
   std::vector<Selected> out;

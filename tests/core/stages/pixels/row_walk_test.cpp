@@ -93,11 +93,9 @@ std::vector<Selected> matched(const Rows& rows, const RowCells& cells, const Set
                               int count, Scratch& scratch) {
   const int width = static_cast<int>(rows.costs[0].size());
   const int disparities = setting.selection.disparities;
-  const LargeStepTable large_step = large_step_table(setting.steps);
   const std::vector<std::uint16_t> low(width, 0);
   const std::vector<std::uint16_t> high(width, static_cast<std::uint16_t>(disparities - 1));
-  WalkedRows walked = {{},          width,           setting.steps.small_step,
-                       &large_step, setting.windows, setting.sums};
+  WalkedRows walked = {{}, width, setting.steps, setting.windows, setting.sums};
   scratch.walk.resize(width, disparities);
   for (int r = 0; r < kWalkedRows; ++r) {
     const int from = std::min(r, count - 1);
@@ -244,20 +242,6 @@ TEST(RowWalk, PrefersTheDisparityOfTheNeighbors) {
   EXPECT_EQ(25, best(0)) << "the optimization is disabled";
   rows.gray[0][40] = 250;
   EXPECT_EQ(25, best(30)) << "the large penalty must decrease with the change of the gray value";
-}
-
-TEST(RowWalk, LargeStepDecreasesWithTheGrayChangeDownToTheSmallStep) {
-  for (const SmoothnessOptions& steps : kSteps) {
-    const LargeStepTable table = large_step_table(steps);
-    for (int change = 0; change < 256; ++change) {
-      EXPECT_EQ(reference::large_step(steps, change), table[change])
-          << "P1 " << steps.small_step << ", P2 " << steps.large_step << ", change " << change;
-    }
-  }
-  const LargeStepTable table = large_step_table({4, 30});
-  EXPECT_EQ(30, table[0]);
-  EXPECT_EQ(15, table[8]);
-  EXPECT_EQ(4, table[255]);
 }
 
 }  // namespace
