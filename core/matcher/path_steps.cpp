@@ -9,6 +9,16 @@
 namespace mtstereo {
 namespace {
 
+/// Matches views in chunks of rows.
+void match(const Bands& bands, const PathMatchingInput& input, const PathMatchingOptions& options,
+           std::vector<Pyramid::Scratch>& scratch, Image<std::int32_t>& map,
+           Image<std::uint8_t>& ratio, WindowVotes* votes) {
+  const int rows = path_rows(options.column_paths, map.height(), bands.threads());
+  bands.blocks(map.height(), rows, [&](int y0, int y1, int worker) {
+    match_along_paths(input, options, y0, y1, scratch[worker].matching, map, ratio, votes);
+  });
+}
+
 /// Writes the views of a level and their census transforms.
 void reduce(const StepContext& step, const std::array<GrayView, 2>& views,
             std::vector<Pyramid::Scratch>& scratch, PyramidLevel& level) {
@@ -72,11 +82,7 @@ void match_reduced(const StepContext& step, const Views& views, Pyramid& pyramid
     const PathMatchingInput input = {level.views[0].view(), level.census[0], level.census[1],
                                      expected, all};
     WindowVotes* votes = i == 0 ? &pyramid.votes : nullptr;
-    step.bands.blocks(level.disparity.height(), path_rows(options.column_paths),
-                      [&](int y0, int y1, int worker) {
-                        match_along_paths(input, options, y0, y1, pyramid.scratch[worker].matching,
-                                          level.disparity, level.ratio, votes);
-                      });
+    match(step.bands, input, options, pyramid.scratch, level.disparity, level.ratio, votes);
     expected = &level.disparity;
   }
 }
@@ -91,11 +97,7 @@ void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyrami
   const PathMatchingOptions options = step.settings.path_matching(0);
   const PathMatchingInput input = {views.matched[0], views.census[0], views.census[1],
                                    &pyramid.levels[0].disparity, pyramid.windows};
-  step.bands.blocks(maps.disparity.height(), path_rows(options.column_paths),
-                    [&](int y0, int y1, int worker) {
-                      match_along_paths(input, options, y0, y1, pyramid.scratch[worker].matching,
-                                        maps.disparity, maps.ratio, nullptr);
-                    });
+  match(step.bands, input, options, pyramid.scratch, maps.disparity, maps.ratio, nullptr);
 }
 
 void support_guide(const StepContext& step, Pyramid& pyramid) {

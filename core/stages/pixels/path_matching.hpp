@@ -56,10 +56,11 @@ struct PathMatchingOptions {
   ColumnPaths column_paths;
 };
 
-/// Rows that are best matched at once: without paths along the columns, chunks of any rows give the
-/// same result.
-inline int path_rows(ColumnPaths paths) {
-  return paths == ColumnPaths::kNone ? kPathRows / 2 : kPathRows;
+/// Rows that are best matched at once. Without paths along the columns, chunks of any rows give the
+/// same result; the first rows of each take more time.
+inline int path_rows(ColumnPaths paths, int height, int threads) {
+  if (paths != ColumnPaths::kNone) return kPathRows;
+  return threads == 1 ? height : kPathRows / 2;
 }
 
 /// Rows that are walked along together, in pairs, whose costs are found together.

@@ -15,7 +15,7 @@ using Ints = hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)>;
 using Vec = hn::Vec<Ints>;
 
 /// The means of the pixels from column x on; at least one of them has a disparity.
-Vec means_at(const std::int32_t* const* lines, int radius, int x, Vec middle) {
+HWY_INLINE Vec means_at(const std::int32_t* const* lines, int radius, int x, Vec middle) {
   const Ints di32;
   const hn::Rebind<float, Ints> df32;
   const auto zero = hn::Zero(di32), near = hn::Set(di32, kDisparityOne);

@@ -32,7 +32,8 @@ RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
   scratch.resize(width, height, options);
   const PathMatchingInput input = {pair.left.view(), census.left, census.right,
                                    half_map == nullptr ? nullptr : &half, windows};
-  const int rows = path_rows(options.column_paths);
+  const int threads = height % 2 + 1;
+  const int rows = path_rows(options.column_paths, height, threads);
   for (int i = (height - 1) / rows; i >= 0; --i) {
     match_along_paths(input, options, i * rows, std::min((i + 1) * rows, height), scratch, map,
                       ratio, votes);
