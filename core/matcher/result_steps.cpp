@@ -159,9 +159,12 @@ void complete_flat_areas(const StepContext& step, ResultMaps& result,
   });
 }
 
-void doubt_flat_areas(const StepContext& step, ResultMaps& result, const ResultBuffers& buffers) {
+void check_flat_areas(const StepContext& step, const Views& views, ResultMaps& result,
+                      const ResultBuffers& buffers) {
+  const int bonus = plane_bonus(views.rated_noise, result.grid_level);
   step.bands.rows([&](int y0, int y1, int) {
-    doubt_off_planes(buffers.areas, buffers.planes, y0, y1, *result.disparity, *result.confidence);
+    check_planes(buffers.areas, buffers.planes, bonus, y0, y1, *result.disparity,
+                 *result.confidence);
   });
 }
 

@@ -93,8 +93,10 @@ void fit_flat_areas(const StepContext& step, const Views& views, const ResultMap
 /// Gives the doubted pixels of flat areas their planes.
 void complete_flat_areas(const StepContext& step, ResultMaps& result, const ResultBuffers& buffers);
 
-/// Lowers the confidence of what contradicts the planes of flat areas.
-void doubt_flat_areas(const StepContext& step, ResultMaps& result, const ResultBuffers& buffers);
+/// Raises the confidence of what agrees with the planes of flat areas, and lowers that of what
+/// contradicts them.
+void check_flat_areas(const StepContext& step, const Views& views, ResultMaps& result,
+                      const ResultBuffers& buffers);
 
 /// Finds how the camera moved since the last pair, and keeps the left view for the next one.
 void find_camera_motion(const StepContext& step, const Views& views, const ResultMaps& result,

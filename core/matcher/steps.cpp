@@ -78,7 +78,7 @@ constexpr Step kResultList[] = {
     {"reliability",        always,                                   on<calibrate_confidence>},
     {"left-strip",         [](S s) { return s.mode == Mode::kFull; }, on<correct_strip>},
     {"flat-planes",        [](S s) { return s.infers(); },           on<fit_flat_areas>},
-    {"plane-check",        [](S s) { return s.mode == Mode::kDense; }, on<doubt_flat_areas>},
+    {"plane-check",        [](S s) { return s.mode == Mode::kDense; }, on<check_flat_areas>},
     {"plane-completion",   [](S s) { return s.mode == Mode::kFull; }, on<complete_flat_areas>},
     {"plane-edges",        [](S s) { return s.mode == Mode::kFull && !s.half(); }, on<align_map_edges>},
     {"camera-motion",      [](S s) { return s.follows(); },          on<find_camera_motion>},

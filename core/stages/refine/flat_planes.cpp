@@ -217,15 +217,24 @@ void complete_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, in
   }
 }
 
-void doubt_off_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int y0, int y1,
-                      const Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+int plane_bonus(float noise, int grid_level) {
+  if (grid_level > kMostPlaneGrid) return 0;
+  const float share = (kNoPlaneNoise - noise) / (kNoPlaneNoise - kFullPlaneNoise);
+  return static_cast<int>(kConfirmed * std::clamp(share, 0.0F, 1.0F));
+}
+
+void check_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int bonus, int y0,
+                  int y1, const Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
   for (int y = y0; y < y1; ++y) {
     for_each_plane(areas, planes, y, map.width(), [&](int x, float disparity) {
       const float found = static_cast<float>(map.row(y)[x]) / kOne;
-      const float tolerance = std::max(kPlaneDistance, kPlaneDistanceShare * found);
-      if (std::abs(disparity - found) <= tolerance) return;
-      confidence.row(y)[x] =
-          static_cast<std::uint8_t>(std::max(confidence.row(y)[x] - kContradicted, 1));
+      const float distance = std::abs(disparity - found);
+      std::uint8_t& rated = confidence.row(y)[x];
+      if (distance <= std::max(kPlaneAgrees, kVoteTolerance * found)) {
+        rated = static_cast<std::uint8_t>(std::min(rated + bonus, 255));
+      } else if (distance > std::max(kPlaneDistance, kPlaneDistanceShare * found)) {
+        rated = static_cast<std::uint8_t>(std::max(rated - kContradicted, 1));
+      }
     });
   }
 }

@@ -12,8 +12,7 @@ namespace mtstereo {
 /// Compares the pixels of a flat area with the plane that its believed pixels agree on: there is
 /// nothing in the area that the matching could have seen.
 ///
-/// Call fit_planes() for all areas, then complete_planes() or doubt_off_planes() for all bands of
-/// rows.
+/// Call fit_planes() for all areas, then complete_planes() or check_planes() for all bands of rows.
 
 /// A pixel votes if its confidence is above kLeastVoter; its weight is what it has above.
 inline constexpr int kLeastVoter = 60;
@@ -26,6 +25,18 @@ inline constexpr int kDoubted = 100;
 inline constexpr float kPlaneDistance = 3;
 inline constexpr float kPlaneDistanceShare = 0.06F;
 inline constexpr int kContradicted = 60;
+
+/// A disparity agrees with a plane that is at most this far away, or kVoteTolerance of the
+/// disparity. It gains up to kConfirmed, see plane_bonus().
+inline constexpr float kPlaneAgrees = 1.5F;
+inline constexpr int kConfirmed = 20;
+
+/// Noise and compression hide the texture of areas that are not flat: the gain falls from
+/// kFullPlaneNoise on and ends at kNoPlaneNoise [gray values], and above this level of the block
+/// grid.
+inline constexpr float kFullPlaneNoise = 1;
+inline constexpr float kNoPlaneNoise = 3;
+inline constexpr int kMostPlaneGrid = 1;
 
 /// Votes of an area: fewer than kFewestVotes decide nothing; of more than kMostVotes as many are
 /// taken, evenly spread over the area.
@@ -81,9 +92,14 @@ void fit_planes(const FlatAreas& areas, int first, int last, const Image<std::in
 void complete_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int y0, int y1,
                      const Image<std::uint8_t>& confidence, Image<std::int32_t>& map);
 
-/// Lowers the confidence of the disparities in the rows y0 .. y1 - 1 that contradict the accepted
-/// plane of their area, to 1 at least.
-void doubt_off_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int y0, int y1,
-                      const Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
+/// What the confidence of a disparity gains by agreeing with the plane of its area, in views of
+/// this noise level and BlockGrid::level().
+int plane_bonus(float noise, int grid_level);
+
+/// Compares the disparities in the rows y0 .. y1 - 1 with the accepted plane of their area: raises
+/// the confidence of those that agree by `bonus`, to 255 at most, and lowers that of those that
+/// contradict it, to 1 at least.
+void check_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int bonus, int y0,
+                  int y1, const Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
 
 }  // namespace mtstereo

@@ -46,11 +46,11 @@ struct Golden {
 constexpr Golden kGolden[] = {
     {"default", "sparse", 0xd8154e78bcdc8653},
     {"default", "semi-dense", 0x73078056c073a553},
-    {"default", "dense", 0x3524365be52279bb},
+    {"default", "dense", 0x0d6dae4d8dbc49d0},
     {"default", "full", 0x5de1ed8019ea212e},
     {"fast", "sparse", 0x947f50992b317f82},
     {"fast", "semi-dense", 0x3228e1d797aec52e},
-    {"fast", "dense", 0xefb2101529cdaab0},
+    {"fast", "dense", 0x3d6f41577183b6bd},
     {"fast", "full", 0x6c4161ab38f6e0cf},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},

@@ -331,8 +331,8 @@ inline void complete_flat_areas(Frame& f) {
   take(f, complete_flat_areas(f.plain[0], f.rated_noise, ConfidentMap{f.map, f.confidence}));
 }
 
-inline void doubt_flat_areas(Frame& f) {
-  take(f, doubt_flat_areas(f.plain[0], f.rated_noise, ConfidentMap{f.map, f.confidence}));
+inline void check_flat_areas(Frame& f) {
+  take(f, check_flat_areas(f.plain[0], f.rated_noise, f.grid, ConfidentMap{f.map, f.confidence}));
 }
 
 inline void draw_thin_structures(Frame& f) {
@@ -430,7 +430,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"reliability", calibrate_confidence},
     {"left-strip", correct_strip},
     {"flat-planes", nothing},
-    {"plane-check", doubt_flat_areas},
+    {"plane-check", check_flat_areas},
     {"plane-completion", complete_flat_areas},
     {"plane-edges", align_edges},
     {"holding", hold_known},

@@ -219,14 +219,24 @@ inline ConfidentMap complete_flat_areas(const GrayPlane& left, float noise,
   return out;
 }
 
-/// Lowers the confidence of the disparities in flat areas that contradict the areas' planes.
-inline ConfidentMap doubt_flat_areas(const GrayPlane& left, float noise, const ConfidentMap& in) {
+/// What a disparity gains that agrees with the plane of its area.
+inline int plane_bonus(float noise, int grid_level) {
+  if (grid_level > 1 || noise >= 3) return 0;
+  return noise <= 1 ? 20 : static_cast<int>(10 * (3 - noise));
+}
+
+/// Raises the confidence of the disparities in flat areas that agree with the areas' planes, and
+/// lowers that of those that contradict them.
+inline ConfidentMap check_flat_areas(const GrayPlane& left, float noise, int grid_level,
+                                     const ConfidentMap& in) {
   ConfidentMap out = in;
   for_each_flat_pixel(left, noise, in, [&](int x, int y, float disparity) {
     const float found = static_cast<float>(in.map(x, y)) / 256;
-    if (std::abs(found - disparity) <= std::max(3.0F, 0.06F * found)) return;
-    const int lower = std::max(in.confidence(x, y) - 60, 1);
-    out.confidence(x, y) = static_cast<std::uint8_t>(lower);
+    const float distance = std::abs(found - disparity);
+    int rated = in.confidence(x, y);
+    if (distance <= std::max(1.5F, 0.02F * found)) rated += plane_bonus(noise, grid_level);
+    if (distance > std::max(3.0F, 0.06F * found)) rated -= 60;
+    out.confidence(x, y) = static_cast<std::uint8_t>(std::clamp(rated, 1, 255));
   });
   return out;
 }

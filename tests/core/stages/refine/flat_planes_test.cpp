@@ -14,7 +14,7 @@ using reference::ConfidentMap;
 
 constexpr int kWhole = 1 << 20;
 
-/// The map and its confidence, completed or doubted, computed `at_once` areas and `band` rows at a
+/// The map and its confidence, completed or checked, computed `at_once` areas and `band` rows at a
 /// time.
 ConfidentMap result_of(const GrayPlane& view, const ConfidentMap& in, bool completes,
                        int at_once = kWhole, int band = kWhole) {
@@ -39,7 +39,7 @@ ConfidentMap result_of(const GrayPlane& view, const ConfidentMap& in, bool compl
     if (completes) {
       complete_planes(areas, planes, y, end, confidence, map);
     } else {
-      doubt_off_planes(areas, planes, y, end, map, confidence);
+      check_planes(areas, planes, plane_bonus(0, 0), y, end, map, confidence);
     }
   }
   return {copy_of(map), copy_of(confidence)};
@@ -75,16 +75,16 @@ TEST(FlatPlanes, EqualReferenceAtEveryWidth) {
         const bool other = random.below(4) == 0;
         in.map(x, y) =
             std::max(1, other ? random.between(1, 60 * 256) : slanted(x, y) + random.below(200));
-        in.confidence(x, y) = static_cast<std::uint8_t>(random.between(1, 180));
+        in.confidence(x, y) = static_cast<std::uint8_t>(random.between(1, 255));
       }
     }
     const ConfidentMap complete = reference::complete_flat_areas(view, 0, in);
-    const ConfidentMap doubted = reference::doubt_flat_areas(view, 0, in);
+    const ConfidentMap expected = reference::check_flat_areas(view, 0, 0, in);
     for (const int at_once : {1, 3, kWhole}) {
       const ConfidentMap made = result_of(view, in, true, at_once, 3 * at_once);
       EXPECT_TRUE(same_image(complete.map, made.map)) << width;
       const ConfidentMap checked = result_of(view, in, false, at_once, 3 * at_once);
-      EXPECT_TRUE(same_image(doubted.confidence, checked.confidence)) << width;
+      EXPECT_TRUE(same_image(expected.confidence, checked.confidence)) << width;
     }
   }
 }
@@ -132,16 +132,32 @@ TEST(FlatPlanes, ChangeNothingByFewVotes) {
   }
 }
 
-TEST(FlatPlanes, LowerTheConfidenceOfWhatContradictsThem) {
+TEST(FlatPlanes, RateWhatAgreesWithThemAndWhatContradictsThem) {
   ConfidentMap in = plane_map(80, 60, [](int x, int) { return x < 10; });
+  in.map(39, 20) += 256;      // within 1.5 px
   in.map(40, 20) += 256 * 2;  // within 3 px
   in.map(41, 20) += 256 * 4;
+  in.confidence(69, 50) = 240;
   const ConfidentMap out = result_of(GrayPlane(80, 60, 100), in, false);
   EXPECT_TRUE(same_image(in.map, out.map));
+  EXPECT_EQ(200 + kConfirmed, out.confidence(39, 20));
   EXPECT_EQ(200, out.confidence(40, 20));
   EXPECT_EQ(200 - kContradicted, out.confidence(41, 20));
   EXPECT_EQ(1, out.confidence(5, 20));  // doubted, and at least 1
-  EXPECT_EQ(200, out.confidence(70, 50));
+  EXPECT_EQ(200 + kConfirmed, out.confidence(70, 50));
+  EXPECT_EQ(255, out.confidence(69, 50));
+}
+
+TEST(FlatPlanes, ConfirmLessInNoisyAndNothingInCompressedViews) {
+  EXPECT_EQ(kConfirmed, plane_bonus(0, 0));
+  EXPECT_EQ(kConfirmed, plane_bonus(kFullPlaneNoise, kMostPlaneGrid));
+  EXPECT_EQ(kConfirmed / 2, plane_bonus((kFullPlaneNoise + kNoPlaneNoise) / 2, 0));
+  EXPECT_EQ(0, plane_bonus(kNoPlaneNoise, 0));
+  EXPECT_EQ(0, plane_bonus(30, 0));
+  EXPECT_EQ(0, plane_bonus(0, kMostPlaneGrid + 1));
+  for (float noise = 0; noise < 5; noise += 0.125F) {
+    EXPECT_EQ(reference::plane_bonus(noise, 0), plane_bonus(noise, 0)) << noise;
+  }
 }
 
 TEST(FlatPlanes, LeaveTextureAlone) {
