@@ -46,8 +46,7 @@ HWY_INLINE void continue_tile(const ColumnStep& row, int size, int x0, int x1, s
     const auto lowest = hn::Set(d8, least[x]);
     const StepCosts steps = {small_step, lowest,
                              hn::SaturatedAdd(lowest, hn::Set(d8, large_steps[x]))};
-    least[x] =
-        hn::GetLane(step_vectors<kVectors>(size, costs + cell, before + cell, steps, paths + cell));
+    least[x] = step_vectors<kVectors>(size, costs + cell, before + cell, steps, paths + cell);
   }
 }
 

@@ -106,13 +106,13 @@ struct StepCosts {
   hn::Vec<Bytes> small_step, least, any;
 };
 
-/// Writes the path costs of a pixel in its window, and returns the least one, in every lane. Steps
-/// come from the previous pixel's costs in the same window. May overwrite them. kVectors: the
-/// number of the window's vectors, or 0 if it is not known.
+/// Writes the path costs of a pixel in its window, and returns the least one. Steps come from the
+/// previous pixel's costs in the same window. May overwrite them. kVectors: the number of the
+/// window's vectors, or 0 if it is not known.
 template <int kVectors>
-HWY_INLINE hn::Vec<Bytes> step_vectors(int size, const std::uint8_t* costs,
-                                       const std::uint8_t* before, const StepCosts& steps,
-                                       std::uint8_t* paths) {
+HWY_INLINE std::uint8_t step_vectors(int size, const std::uint8_t* costs,
+                                     const std::uint8_t* before, const StepCosts& steps,
+                                     std::uint8_t* paths) {
   const Bytes d8;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Bytes()));
   const int vectors = kVectors > 0 ? kVectors : size / kLanes;
@@ -126,11 +126,11 @@ HWY_INLINE hn::Vec<Bytes> step_vectors(int size, const std::uint8_t* costs,
     const auto path = path_costs(d8, hn::LoadU(d8, costs + i * kLanes), previous, same, after,
                                  steps.small_step, steps.any, steps.least);
     hn::StoreU(path, d8, paths + i * kLanes);
-    least = hn::Min(least, path);
+    least = i == 0 ? path : hn::Min(least, path);
     previous = same;
     same = after;
   }
-  return least_of_lanes(d8, least);
+  return least_lane(d8, least);
 }
 
 /// Between pixels of different windows: makes the costs of the pixel before never the least where
