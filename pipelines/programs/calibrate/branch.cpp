@@ -11,6 +11,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
 #include "programs/calibrate/texts.hpp"
+#include "shared/orientation.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -102,7 +103,15 @@ bool Branch::pull() {
   return true;
 }
 
+// Other programs, OpenCV among them, calibrate the turned frames.
+void Branch::refuse_turned() const {
+  g_autoptr(GstPad) pad = gst_element_get_static_pad(GST_ELEMENT(sink_), "sink");
+  const std::string turning = plugin::turning_on(pad);
+  if (!turning.empty()) throw UserError(title() + ": " + plugin::turning_problem(turning));
+}
+
 void Branch::take(GstSample* sample) {
+  refuse_turned();
   GstVideoInfo info;
   GstVideoFrame mapped;
   GstBuffer* buffer = gst_sample_get_buffer(sample);

@@ -56,6 +56,7 @@ class Branch {
   std::string title() const;
 
  private:
+  void refuse_turned() const;
   void take(GstSample* sample);
 
   std::string name_, source_;

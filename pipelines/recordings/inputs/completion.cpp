@@ -10,6 +10,7 @@
 #include "mtstereo/geometry/calibration.hpp"
 #include "recordings/inputs/calibration_choice.hpp"
 #include "recordings/inputs/halves.hpp"
+#include "recordings/inputs/mosaic.hpp"
 #include "recordings/inputs/sources.hpp"
 #include "recordings/inputs/unused_bits.hpp"
 #include "recordings/media/sample_frames.hpp"
@@ -97,9 +98,19 @@ cv::Size half_size(cv::Size size, Arrangement arrangement, const fs::path& file)
   return beside ? cv::Size(size.width / 2, size.height) : cv::Size(size.width, size.height / 2);
 }
 
+void note_mosaic(Recording& recording, const cv::Mat& frame) {
+  if (!is_mosaic(frame)) return;
+  recording.remarks.emplace_back(
+      "The views are the mosaic of a color camera (Bayer), which makes disparities less exact and "
+      "more of them wrong: convert them to gray or color first (cv2.cvtColor, "
+      "cv2.COLOR_BayerBG2GRAY or that of the camera).");
+}
+
 // The size of a view.
-cv::Size size_of_two(const Recording& recording) {
-  const cv::Size left = first_frame(recording.left).size();
+cv::Size size_of_two(Recording& recording) {
+  const cv::Mat first = first_frame(recording.left);
+  note_mosaic(recording, first);
+  const cv::Size left = first.size();
   const cv::Size right = first_frame(recording.right).size();
   if (left == right) return left;
   throw UserError("the views have different sizes: " + file_of(recording.left).string() + " has " +
@@ -110,7 +121,9 @@ cv::Size size_of_two(const Recording& recording) {
 // One source: the calibration is for a half, and decides how the halves match.
 void complete_one(FoundRecording& found, const InputOptions& options) {
   Recording& recording = found.recording;
-  const cv::Size size = first_frame(recording.left).size();
+  const cv::Mat first = first_frame(recording.left);
+  note_mosaic(recording, first);
+  const cv::Size size = first.size();
   recording.arrangement = options.arrangement.value_or(Arrangement::kTwoSources);
   if (!options.arrangement) recording.arrangement = guess_arrangement(recording, size);
   recording.swapped = options.swap;

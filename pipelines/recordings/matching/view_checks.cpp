@@ -23,6 +23,7 @@ constexpr double kWideShare = 0.4;  // of the width, for the test of a larger ra
 constexpr double kReserve = 1.1;    // of the range that suffices
 constexpr int kRangeStep = 16;      // the range that suffices is a multiple of it [px]
 constexpr double kSameGray = 0.75;  // mean difference of images that are the same [gray values]
+constexpr double kSameShare = 0.5;  // the same, of the difference from the image one pixel away
 
 cv::Mat flipped(const cv::Mat& view, int code) {
   cv::Mat result;
@@ -38,6 +39,17 @@ cv::Mat halved(const cv::Mat& view) {
 
 bool clearly_better(const ViewMatch& match, const ViewMatch& than) {
   return match.confirmed() && match.share() >= kFactor * than.share();
+}
+
+// Whether both views of a pair are one image, also if it was encoded twice.
+bool is_same(const ViewSample& pair) {
+  const cv::Mat &left = pair.left, &right = pair.right;
+  if (left.size() != right.size()) return false;
+  const int columns = left.cols;
+  const double shifted =
+      cv::norm(left.colRange(1, columns), left.colRange(0, columns - 1), cv::NORM_L1);
+  const double most = std::max(kSameGray * static_cast<double>(left.total()), kSameShare * shifted);
+  return cv::norm(left, right, cv::NORM_L1) <= most;
 }
 
 struct ViewPair {
@@ -109,11 +121,7 @@ class Checks {
   }
 
   bool same_view() const {
-    return std::all_of(input_.samples.begin(), input_.samples.end(), [](const ViewSample& s) {
-      const double pixels = static_cast<double>(s.left.total());
-      return s.left.size() == s.right.size() &&
-             cv::norm(s.left, s.right, cv::NORM_L1) <= kSameGray * pixels;
-    });
+    return std::all_of(input_.samples.begin(), input_.samples.end(), is_same);
   }
 
   // The other order must match along rows: views that are not rectified can have disparities of

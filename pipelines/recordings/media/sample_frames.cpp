@@ -12,12 +12,15 @@
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/video_scan.hpp"
+#include "shared/orientation.hpp"
 
 namespace mtstereo::run {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr int kStored = cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION;
 
 cv::Mat next_frame(VideoScan& scan) {
   std::optional<VideoFrame> frame = scan.next();
@@ -45,6 +48,9 @@ std::vector<cv::Mat> frames_of_video(const fs::path& file, int count) {
     throw UserError(file.string() + ": the video cannot be read: " + reason);
   }
   refuse_interlaced(file, gst_sample_get_caps(scan.sample()));
+  if (const std::string turning = scan.turning(); !turning.empty()) {
+    throw UserError(file.string() + ": " + plugin::turning_problem(turning));
+  }
   const std::optional<Nanoseconds> duration = count > 1 ? scan.duration() : std::nullopt;
   for (int i = 1; i < count && duration; ++i) {
     if (!scan.seek(*duration * i / count)) break;
@@ -55,9 +61,19 @@ std::vector<cv::Mat> frames_of_video(const fs::path& file, int count) {
   return frames;
 }
 
+// Whether programs that show an image turn it, as its EXIF data state: decoders of frames do not.
+void refuse_turned(const fs::path& image) {
+  const cv::Mat shown = images::read(image, cv::IMREAD_GRAYSCALE);
+  const cv::Mat stored = images::read(image, kStored);
+  if (shown.size() == stored.size() && cv::norm(shown, stored, cv::NORM_INF) == 0) return;
+  throw UserError(image.string() +
+                  ": programs that show this image turn it, as its EXIF data state: store the "
+                  "images of both views turned (mogrify -auto-orient FILES)");
+}
+
 cv::Mat gray_image(const fs::path& image, int unused_bits) {
-  if (unused_bits == 0) return images::read(image, cv::IMREAD_GRAYSCALE);
-  const cv::Mat read = images::read(image, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  if (unused_bits == 0) return images::read(image, kStored);
+  const cv::Mat read = images::read(image, kStored | cv::IMREAD_ANYDEPTH);
   cv::Mat frame;
   constexpr double kTo8Bits = 1.0 / 256;
   without_unused_bits(read, unused_bits).convertTo(frame, CV_8U, kTo8Bits);
@@ -72,6 +88,7 @@ std::vector<cv::Mat> frames_of_images(const Source& source, int count) {
     const fs::path& image = images[i * images.size() / wanted];
     cv::Mat frame = gray_image(image, source.unused_bits);
     if (frame.empty()) throw UserError(image.string() + ": the image cannot be read");
+    if (i == 0) refuse_turned(image);
     frames.push_back(std::move(frame));
   }
   return frames;

@@ -17,6 +17,7 @@
 #include "recordings/media/jpeg_check.hpp"
 #include "recordings/media/leading_frames.hpp"
 #include "recordings/media/segments.hpp"
+#include "shared/orientation.hpp"
 
 namespace mtstereo::run {
 
@@ -396,6 +397,11 @@ bool VideoScan::seek(Nanoseconds time, Nanoseconds wanted) {
 const VideoFormat& VideoScan::format() const { return state_->format; }
 
 bool VideoScan::starts_with_keyframe() const { return state_->keyframe_first; }
+
+std::string VideoScan::turning() const {
+  g_autoptr(GstPad) pad = gst_element_get_static_pad(GST_ELEMENT(state_->sink), "sink");
+  return plugin::turning_on(pad);
+}
 
 int VideoScan::video_streams() const { return state_->video_streams; }
 

@@ -70,6 +70,8 @@ class VideoScan {
   std::vector<DamagedFrame> take_damaged_until(Nanoseconds time);
   /// The format of the last frame.
   const VideoFormat& format() const;
+  /// How players turn the last frame, such as "rotate-180"; empty if they do not.
+  std::string turning() const;
   /// Whether the first frame of the file is a keyframe, also if it is not shown.
   bool starts_with_keyframe() const;
   /// Why there are no more frames: a sentence without the name of the file; empty at the regular

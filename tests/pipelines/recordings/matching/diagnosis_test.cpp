@@ -3,6 +3,7 @@
 // diagnosis_data_test.cpp.
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "recordings/inputs/view_rectifier.hpp"
@@ -70,6 +71,11 @@ TEST_P(WrongViews, OfDifferentScenes) {
 
 TEST_P(WrongViews, TheSameTwice) {
   sample().right = sample().left;
+  expect(ViewProblem::kSameView);
+  std::vector<unsigned char> coded;
+  cv::imencode(".jpg", sample().left, coded, {cv::IMWRITE_JPEG_QUALITY, 80});
+  sample().right = cv::imdecode(coded, cv::IMREAD_GRAYSCALE);
+  EXPECT_GT(cv::norm(sample().left, sample().right, cv::NORM_L1), sample().left.total());
   expect(ViewProblem::kSameView);
 }
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the frames of a recording show about it.
+#include "recordings/inputs/completion.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "recordings/support/recordings_folder.hpp"
+
+namespace mtstereo::run::completion_test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using testing::constant_times;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::have_ffmpeg;
+using ::testing::IsEmpty;
+using testing::kBFrames;
+using testing::Recordings;
+using testing::run_command;
+using testing::view;
+using testing::write_text;
+using testing::write_video;
+
+// Phones store how they were held.
+TEST_F(Recordings, RefusesVideoThatPlayersTurn) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  write_video(folder_ / "plain.mp4", std::string(kBFrames) + " ! mp4mux", constant_times(5));
+  for (const char* angle : {"90", "180"}) {
+    run_command("ffmpeg -v error -y -i '" + path("plain.mp4") +
+                "' -c copy -metadata:s:v rotate=" + angle + " '" + path("turned.mp4") + "'");
+    EXPECT_THAT(error_of({"plain.mp4", "turned.mp4"}),
+                AllOf(HasSubstr(path("turned.mp4") + ": players turn its frames (rotate-"),
+                      HasSubstr("ffmpeg -i FILE")));
+  }
+}
+
+// A JPEG image with an EXIF orientation.
+void write_turned(const fs::path& file, const cv::Mat& image, char orientation) {
+  std::vector<unsigned char> coded;
+  cv::imencode(".jpg", image, coded);
+  std::string exif(
+      "\xff\xe1\0\x22"
+      "Exif\0\0MM\0\x2a\0\0\0\x8\0\x1\x1\x12\0\x3\0\0\0\x1\0?\0\0\0\0\0\0",
+      36);
+  exif[exif.find('?')] = orientation;
+  std::string bytes(coded.begin(), coded.end());
+  write_text(file, bytes.insert(2, exif));
+}
+
+TEST_F(Recordings, RefusesImagesThatProgramsTurn) {
+  for (const char orientation : {'\1', '\3', '\6'}) {
+    write_turned(folder_ / "left.jpg", view(false), orientation);
+    write_turned(folder_ / "right.jpg", view(true), orientation);
+    const std::string error = error_of({"left.jpg", "right.jpg"});
+    if (orientation == '\1') {
+      EXPECT_THAT(error, IsEmpty());
+    } else {
+      EXPECT_THAT(error, AllOf(HasSubstr(path("left.jpg")), HasSubstr("mogrify -auto-orient")));
+    }
+  }
+}
+
+TEST_F(Recordings, NotesTheMosaicOfAColorCamera) {
+  const auto remarks_with = [this](double blue) {
+    for (const bool right : {false, true}) {
+      cv::Mat mosaic = view(right);
+      for (int y = 1; y < mosaic.rows; y += 2) {
+        for (int x = 1; x < mosaic.cols; x += 2) {
+          mosaic.at<unsigned char>(y, x) =
+              static_cast<unsigned char>(blue * mosaic.at<unsigned char>(y, x));
+        }
+      }
+      cv::imwrite(path(right ? "right.png" : "left.png"), mosaic);
+    }
+    return recognized({"left.png", "right.png"}).remarks;
+  };
+  EXPECT_THAT(remarks_with(0.95), ElementsAre(HasSubstr("COLOR_BayerBG2GRAY")));
+  EXPECT_THAT(remarks_with(1), IsEmpty());
+}
+
+}  // namespace
+}  // namespace mtstereo::run::completion_test
