@@ -20,6 +20,8 @@ using formats::number_text;
 
 /// Shortest baseline that is not zero [m].
 constexpr double kShortestBaseline = 1e-5;
+/// Shortest focal length of a pinhole camera, as a part of the width: 173 degrees.
+constexpr double kShortestFocal = 0.03;
 /// How far R may be from a rotation.
 constexpr double kRotationTolerance = 1e-3;
 /// How much the baseline of the rectification may differ from the length of T.
@@ -60,6 +62,13 @@ std::string stated_camera_problem(const CameraCalibration& camera) {
       camera.focal_y <= 0) {
     return "has the focal lengths " + number_text(camera.focal_x) + " and " +
            number_text(camera.focal_y) + "; they must be positive";
+  }
+  const bool pinhole = camera.lens == LensModel::kNone || camera.lens == LensModel::kPlumbBob;
+  if (pinhole && camera.focal_x < kShortestFocal * camera.width) {
+    return "has the focal length " + number_text(camera.focal_x) + " px for an image of " +
+           image_size_text(camera.width, camera.height) +
+           ", which no lens has; it must be in px, not in mm or parts of the width (px = mm / "
+           "size of a pixel in mm)";
   }
   if (!std::isfinite(camera.center_x) || !std::isfinite(camera.center_y)) {
     return "has a principal point that is not finite";

@@ -67,7 +67,8 @@ void put_in_order(StereoCalibration& calibration) {
   calibration.remarks.emplace_back(
       "By its translation, the first camera of the calibration is to the right of the second one: "
       "they are exchanged, and the left view must be from the second camera. If it is from the "
-      "first one, exchange the views.");
+      "first one, exchange the views; if R and T of the file are the pose of the right camera "
+      "(X_left = R X_right + T), write their inverse, R' and -R' T.");
 }
 
 void note_length(StereoCalibration& calibration, std::string_view remedy, std::string_view unit) {

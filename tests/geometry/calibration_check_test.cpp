@@ -44,6 +44,9 @@ TEST(CheckCalibration, RefusesCamerasThatCannotBe) {
   EXPECT_THAT(refused([](auto& c) { c.right.focal_x = 0; }),
               HasSubstr("the right camera has the focal lengths 0 and"));
   EXPECT_THAT(refused([](auto& c) { c.left.focal_y = kNan; }), HasSubstr("focal lengths"));
+  EXPECT_THAT(refused([](auto& c) { c.left.focal_x = c.left.focal_y = 4; }),
+              HasSubstr("the focal length 4 px for an image of 640x480 px, which no lens has"));
+  EXPECT_EQ(refused([](auto& c) { c.left.focal_x = c.left.focal_y = 30; }), "accepted");
   EXPECT_THAT(refused([](auto& c) { c.left.center_y = kNan; }), HasSubstr("not finite"));
   EXPECT_THAT(refused([](auto& c) { c.left.center_x = 1100; }),
               HasSubstr("K belongs to another image size"));

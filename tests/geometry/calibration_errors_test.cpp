@@ -99,6 +99,8 @@ TEST_F(BrokenFile, OfAnotherKindIsNamed) {
               HasSubstr("is a report of Kalibr; give its camchain"));
   EXPECT_THAT(refused("calib_time: 15-Mar-2012 11:37:16\nR: 1 0 0 0 1 0 0 0 1\nT: 0.1 0 0\n"),
               HasSubstr("states no cameras (S_02, K_02 and others): KITTI has them in"));
+  EXPECT_THAT(refused("S_101: 881 400\nK_101: 1000 0 440 0 1000 200 0 0 1\n"),
+              HasSubstr("write the projections P_rect to a file, left as P0: and right as P1:"));
 }
 
 TEST_F(BrokenFile, ThatIsHuge) {

@@ -69,6 +69,18 @@ TEST_F(Layout, UnknownNamesAreRecognizedByStructure) {
                      {"stereo", "{R: " + std::string(kR) + ", t: " + kT + "}"}}));
 }
 
+// Beside them, a calibration of both cameras must not be missed.
+TEST_F(Layout, PlacesOnABodyAreNotThoseOfTheCameras) {
+  const auto cameras = [](const std::string& r, const std::string& t) {
+    return lines(
+        {{"M1", kLeftK}, {"D1", kLeftD}, {"M2", kRightK}, {"D2", kRightD}, {r, kR}, {t, kT}});
+  };
+  EXPECT_THAT(refused(cameras("R_cam_imu", "T_cam_imu")), HasSubstr("there is no entry R"));
+  EXPECT_THAT(refused(cameras("R", "T_velo")), HasSubstr("there is no entry T"));
+  expect_pair(cameras("RotationOfRight", "PositionOfRight") + "R_imu: " + kR + "\nT_imu: " + kT +
+              "\n");
+}
+
 TEST_F(Layout, UnknownNamesMayEndInLAndR) {
   expect_pair(lines({{"RightOnes_R", kR},
                      {"cameraR", kRightK},

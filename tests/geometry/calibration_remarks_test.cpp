@@ -177,6 +177,38 @@ TEST_F(Remarks, ABaselineWithAUnitIsNotQuestioned) {
   EXPECT_NEAR(with_extrinsics(kT, "-3.34", "length_unit: 0.025").translation[0], -0.0835, 1e-12);
 }
 
+TEST_F(Remarks, SizesWithTheHeightFirst) {
+  const auto pair = [&](const std::string& size) {
+    return read_valid(
+        kIntrinsics + "," +
+        folder_.write("e.yml", stored_text("extrinsics.yml") + "image_size: " + size + "\n"));
+  };
+  const StereoCalibration exchanged = pair("[ 480, 640 ]");
+  EXPECT_EQ(exchanged.left.width, 640);
+  EXPECT_EQ(exchanged.right.height, 480);
+  EXPECT_THAT(exchanged.remarks, ElementsAre(HasSubstr("read as 640x480 px")));
+  // Nearly square images have no clear order.
+  EXPECT_EQ(pair("[ 620, 640 ]").left.width, 620);
+  EXPECT_THAT(pair("[ 640, 480 ]").remarks, ElementsAre());
+}
+
+TEST_F(Remarks, FourCoefficientsWithoutALensModel) {
+  const auto cameras = [&](const std::string& d, const std::string& line) {
+    const std::string k = "[ 300, 0, 320, 0, 300, 240, 0, 0, 1 ]\n";
+    return read_valid(folder_.write("c.yml", "M1: " + k + "M2: " + k + "D1: " + d + "\nD2: " + d +
+                                                 "\nR: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ]\n" +
+                                                 "T: [ -0.1, 0, 0 ]\n" + line));
+  };
+  const StereoCalibration open = cameras("[ -0.02, 0.01, -0.01, 0.002 ]", "");
+  EXPECT_EQ(open.left.lens, LensModel::kPlumbBob);
+  EXPECT_THAT(open.remarks, ElementsAre(HasSubstr("'lens_model: fisheye'")));
+  for (const char* line : {"lens_model: fisheye\n", "lens_model: plumb_bob\n"}) {
+    EXPECT_THAT(cameras("[ -0.02, 0.01, -0.01, 0.002 ]", line).remarks, ElementsAre());
+  }
+  EXPECT_THAT(cameras("[ 0, 0, 0, 0 ]", "").remarks, ElementsAre());
+  EXPECT_THAT(cameras("[ -0.3, 0.1, 0, 0, 0 ]", "").remarks, ElementsAre());
+}
+
 TEST_F(Remarks, UnitsThatAreNone) {
   for (const char* unit : {"0", "-1", "squares", "1e999", "nan"}) {
     std::string text = stored_text("extrinsics.yml");

@@ -57,7 +57,10 @@ Pair choose_pair(const Entry& file, const Request& request) {
   for (const Pair& pair : kPairs) {
     if (has(file, "K", pair.left) || has(file, "S", pair.left)) return pair;
   }
-  file.fail("states no cameras (S_02, K_02 and others): KITTI has them in calib_cam_to_cam.txt");
+  file.fail(
+      "states no cameras (S_02, K_02 and others): KITTI has them in calib_cam_to_cam.txt; of other "
+      "rectified views (DrivingStereo) write the projections P_rect to a file, left as P0: and "
+      "right as P1:");
 }
 
 CameraCalibration read_camera(const Entry& file, int camera) {

@@ -26,6 +26,26 @@ constexpr const char* kUnitRemedy =
     "side of a square of the board: 'length_unit: 0.025')";
 constexpr Names kRightProjection = "p2 pr pright rightp";
 
+/// How far the principal point is from the middle, as a part of the sides.
+double distance_from_middle(const CameraCalibration& camera, int width, int height) {
+  return std::abs(camera.center_x - (width - 1) / 2.0) / width +
+         std::abs(camera.center_y - (height - 1) / 2.0) / height;
+}
+
+/// Exchanges the sides of a camera that the file states as NumPy and MATLAB do: rows first.
+void put_width_first(CameraCalibration& camera, std::vector<std::string>& remarks) {
+  constexpr double kClearly = 0.15;
+  if (camera.width < 1 || camera.height < 1) return;
+  const double stated = distance_from_middle(camera, camera.width, camera.height);
+  if (stated - distance_from_middle(camera, camera.height, camera.width) < kClearly) return;
+  std::swap(camera.width, camera.height);
+  if (!remarks.empty()) return;
+  remarks.push_back(
+      "By the principal point, the file states the height of the image first: its "
+      "size is read as " +
+      std::to_string(camera.width) + "x" + std::to_string(camera.height) + " px.");
+}
+
 /// The size that the files state, else the caller's.
 void read_sizes(const OpenCvEntries& files, const Request& request,
                 StereoCalibration& calibration) {
@@ -35,7 +55,8 @@ void read_sizes(const OpenCvEntries& files, const Request& request,
   // Only without the others: of a video that is another size, or of the images.
   if (!width) width = files.find("framewidth");
   if (!height) height = files.find("frameheight");
-  if (const std::optional<Entry> both = files.find(kSize)) {
+  const std::optional<Entry> both = files.find(kSize);
+  if (both) {
     set_size(left, *both);
   } else if (width && height) {
     set_size(left, *width, *height);
@@ -49,10 +70,15 @@ void read_sizes(const OpenCvEntries& files, const Request& request,
           files.find("imagesize2 rightsize rightimagesize rightresolution")) {
     set_size(calibration.right, *other);
   }
+  if (!both) return;
+  for (CameraCalibration* camera : {&calibration.left, &calibration.right}) {
+    put_width_first(*camera, calibration.remarks);
+  }
 }
 
-/// The lens model that is stated, or plumb bob.
-LensModel stated_lens(const OpenCvEntries& files, Names names, const Entry& coefficients) {
+/// The lens model, if it is stated.
+std::optional<LensModel> stated_lens(const OpenCvEntries& files, Names names,
+                                     const Entry& coefficients) {
   if (const std::optional<Entry> model = files.find(names)) return lens_model(*model);
   const std::optional<Entry> model = files.find("lensmodel distortionmodel cameramodel model");
   if (model) return lens_model(*model);
@@ -63,7 +89,22 @@ LensModel stated_lens(const OpenCvEntries& files, Names names, const Entry& coef
   }
   const std::string name = plain_name(coefficients.name());
   const bool fisheye = name.size() > 2 && name.substr(name.size() - 2) == "fe";
-  return fisheye ? LensModel::kFisheye : LensModel::kPlumbBob;
+  return fisheye ? std::optional(LensModel::kFisheye) : std::nullopt;
+}
+
+/// Sets the lens of a camera; one that is not stated is a plumb bob.
+void read_lens(const OpenCvEntries& files, Names names, const Entry& coefficients,
+               CameraCalibration& camera, std::vector<std::string>& remarks) {
+  constexpr std::size_t kOfFisheye = 4;
+  const std::optional<LensModel> stated = stated_lens(files, names, coefficients);
+  set_lens(camera, stated.value_or(LensModel::kPlumbBob), coefficients);
+  const std::vector<double>& values = camera.coefficients;
+  const bool zero = std::all_of(values.begin(), values.end(), [](double v) { return v == 0; });
+  if (stated || zero || values.size() != kOfFisheye || !remarks.empty()) return;
+  remarks.push_back(coefficients.name() +
+                    " has 4 coefficients, and the file states no lens model: they are taken as k1, "
+                    "k2, p1, p2. If they are from cv2.fisheye, add the entry 'lens_model: "
+                    "fisheye'.");
 }
 
 /// The unit at the end of a name such as translation_mm [m].
@@ -172,10 +213,10 @@ void read_cameras(const OpenCvEntries& files, const PairEntries& pair,
   if (!pair.right_lens) files.fail_without("D2", "distortion of the right camera");
   set_camera_matrix(calibration.left, *pair.left_matrix);
   set_camera_matrix(calibration.right, *pair.right_matrix);
-  const Entry& d1 = *pair.left_lens;
-  const Entry& d2 = *pair.right_lens;
-  set_lens(calibration.left, stated_lens(files, "lensmodel1 leftdistortionmodel", d1), d1);
-  set_lens(calibration.right, stated_lens(files, "lensmodel2 rightdistortionmodel", d2), d2);
+  read_lens(files, "lensmodel1 leftdistortionmodel", *pair.left_lens, calibration.left,
+            calibration.remarks);
+  read_lens(files, "lensmodel2 rightdistortionmodel", *pair.right_lens, calibration.right,
+            calibration.remarks);
 }
 
 /// R and T, or what the rectification implies if the files state neither.

@@ -2,6 +2,7 @@
 #include "geometry/formats/opencv_structure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -129,6 +130,15 @@ std::vector<Entry> of_shape(const std::vector<Numbers>& numbers, Shape shape) {
   return entries;
 }
 
+/// Whether a name states the place of a camera on something else than the other camera.
+bool is_on_body(const std::string& name) {
+  const std::string plain = plain_name(name);
+  constexpr std::array<std::string_view, 8> kBodies = {"imu",      "body",  "lidar", "velo",
+                                                       "baselink", "world", "robot", "gravity"};
+  return std::any_of(kBodies.begin(), kBodies.end(),
+                     [&](std::string_view body) { return plain.find(body) != std::string::npos; });
+}
+
 /// Sets the entries of both cameras, if one is missing and there are two of the shape.
 void complete_both(std::vector<Entry> candidates, std::optional<Entry>& left,
                    std::optional<Entry>& right) {
@@ -139,6 +149,7 @@ void complete_both(std::vector<Entry> candidates, std::optional<Entry>& left,
 
 void complete_one(std::vector<Entry> candidates, Names names, std::optional<Entry>& entry) {
   if (entry) return;
+  std::erase_if(candidates, [](const Entry& candidate) { return is_on_body(candidate.name()); });
   keep_preferred(candidates, 1, [&](const Entry& candidate) {
     return contains(names, last_part(candidate.name()));
   });
