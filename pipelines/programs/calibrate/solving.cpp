@@ -38,7 +38,7 @@ bool fits(std::size_t good, std::size_t all) {
 
 constexpr const char* kWhatToCheck =
     ": are --squares, --pattern and --dictionary those of the board, is it flat, does --model fit "
-    "the lenses, do both images show the same moment?";
+    "the lenses, do both images show the same moment, is none of them upside down or mirrored?";
 
 void require_views(std::size_t count, std::size_t removed) {
   if (count >= kFewestViews && removed <= count) return;

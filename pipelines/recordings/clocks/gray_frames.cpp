@@ -33,10 +33,6 @@ void GrayFrames::prepare(GstCaps* caps) {
   gst_video_info_set_format(&out_, GST_VIDEO_FORMAT_GRAY8, static_cast<guint>(width),
                             static_cast<guint>(height));
   out_.fps_n = in_.fps_n, out_.fps_d = in_.fps_d;
-  // Decoders of lossless video often state none: the converter would take the luma for red.
-  if (in_.colorimetry.matrix == GST_VIDEO_COLOR_MATRIX_UNKNOWN) {
-    in_.colorimetry.matrix = out_.colorimetry.matrix;
-  }
   converter_.reset(gst_video_converter_new(&in_, &out_, nullptr));
   if (!converter_) throw UserError("frames of this format cannot be converted to gray");
   caps_.reset(gst_caps_ref(caps));

@@ -148,7 +148,8 @@ FrameIndex index_of_images(const Source& source, double frame_rate) {
   FrameIndex index;
   const cv::Mat first = images::read(source.images.front(), cv::IMREAD_UNCHANGED);
   if (first.empty()) {
-    throw UserError(source.images.front().string() + ": the image cannot be read");
+    throw UserError(source.images.front().string() +
+                    ": the image cannot be read: give PNG, JPEG or TIFF of 8 or 16 bits");
   }
   index.width = first.cols;
   index.height = first.rows;

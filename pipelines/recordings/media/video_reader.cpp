@@ -2,6 +2,8 @@
 
 // Frames of a video by their numbers: after a seek a frame is recognized by its time.
 
+#include <gst/video/video.h>
+
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -17,6 +19,18 @@ constexpr std::int64_t kFar = 64;  // a seek takes less time than decoding so ma
 
 // How far before a frame a seek aims: the one after a seek that found no key frame before it.
 constexpr std::array<Nanoseconds, 3> kLead{0, 5 * kSecond, 30 * kSecond};
+
+// Decoders of lossless gray video state no matrix of colors: converters would take gray for red.
+CapsPointer with_usual_matrix(GstCaps* caps) {
+  GstVideoInfo info;
+  if (gst_video_info_from_caps(&info, caps) == FALSE || !GST_VIDEO_INFO_IS_GRAY(&info) ||
+      info.colorimetry.matrix != GST_VIDEO_COLOR_MATRIX_UNKNOWN) {
+    return CapsPointer(gst_caps_ref(caps));
+  }
+  CapsPointer usual(gst_caps_copy(caps));
+  gst_structure_remove_field(gst_caps_get_structure(usual.get(), 0), "colorimetry");
+  return usual;
+}
 
 class VideoReader : public FrameReader {
  public:
@@ -81,7 +95,7 @@ class VideoReader : public FrameReader {
     if (!frame) return {};
     GstSample* const sample = scan_->sample();
     return {BufferPointer(gst_buffer_ref(gst_sample_get_buffer(sample))),
-            CapsPointer(gst_caps_ref(gst_sample_get_caps(sample))), frame->time};
+            with_usual_matrix(gst_sample_get_caps(sample)), frame->time};
   }
 
   // Decodes up to a frame.
