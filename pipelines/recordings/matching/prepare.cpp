@@ -104,6 +104,18 @@ ClockRelation find_relation(Work& work, const std::optional<ClockRelation>& rela
   return work.clocks->relation;
 }
 
+[[noreturn]] void refuse_times(const Work& work) {
+  const Nanoseconds left = work.left.times.front(), right = work.right.times.front();
+  char offset[32];
+  std::snprintf(offset, sizeof offset, "%.3f", seconds(right - left));
+  throw UserError(work.recording.name +
+                  ": no frames of the two views belong together by their times: the left view "
+                  "begins at " +
+                  seconds_text(left) + ", the right one at " + seconds_text(right) +
+                  ". If these are the same moment, give the difference (--sync " + offset +
+                  "); --sync auto finds it by the images of longer recordings");
+}
+
 void find_pairs(Work& work, const std::optional<ClockRelation>& relation, bool estimate) {
   const Recording& recording = work.recording;
   if (recording.arrangement != Arrangement::kTwoSources) {
@@ -123,9 +135,7 @@ void find_pairs(Work& work, const std::optional<ClockRelation>& relation, bool e
   }
   work.pairs =
       pair_frames(work.left, work.right, find_relation(work, relation, estimate), std::nullopt);
-  if (work.pairs.pairs.empty()) {
-    throw UserError(recording.name + ": no frames of the two views belong together by their times");
-  }
+  if (work.pairs.pairs.empty()) refuse_times(work);
   note_early_end(work);
 }
 

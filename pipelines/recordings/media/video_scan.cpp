@@ -57,7 +57,9 @@ constexpr const char* kUnknownFormat =
     "GStreamer recognizes no video in it: give a video, an image or a folder of images, or "
     "convert it (ffmpeg -i FILE -c:v ffv1 view.mkv)";
 
+// Also a file that has sound only: decodebin misses a plugin, without a name.
 bool is_unknown_format(const GError& error) {
+  if (error.domain == GST_CORE_ERROR) return error.code == GST_CORE_ERROR_MISSING_PLUGIN;
   return error.domain == GST_STREAM_ERROR && (error.code == GST_STREAM_ERROR_TYPE_NOT_FOUND ||
                                               error.code == GST_STREAM_ERROR_WRONG_TYPE);
 }

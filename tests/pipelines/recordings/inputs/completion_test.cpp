@@ -26,6 +26,14 @@ using testing::view;
 using testing::write_text;
 using testing::write_video;
 
+TEST_F(Recordings, NamesTheRemedyForAFileWithSoundOnly) {
+  testing::run_pipeline("audiotestsrc num-buffers=5 ! wavenc ! filesink location=" +
+                        path("left.wav"));
+  fs::copy(path("left.wav"), path("right.wav"));
+  EXPECT_THAT(error_of({"left.wav", "right.wav"}),
+              AllOf(HasSubstr(path("left.wav")), HasSubstr("give a video, an image")));
+}
+
 // Phones store how they were held.
 TEST_F(Recordings, RefusesVideoThatPlayersTurn) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";

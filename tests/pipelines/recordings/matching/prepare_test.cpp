@@ -305,6 +305,15 @@ TEST_F(Preparation, RefusesParametersThatAreNotValid) {
   }
 }
 
+TEST_F(Preparation, NamesTheOffsetOfTimesThatAreFarApart) {
+  write(3, 0);
+  std::vector<Nanoseconds> later = constant_times(3);
+  for (Nanoseconds& time : later) time += 5 * kSecond;
+  write_view(recording_.right.video, View::kRight, "avenc_ffv1 ! matroskamux", later);
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("the left view begins at 0.000 s, the right one at 5.000"),
+                               HasSubstr("(--sync 5.000)")));
+}
+
 TEST_F(Preparation, RefusesViewsOfDifferentSizes) {
   write(3, 0);
   write_view(recording_.right.video, View::kBoth, "avenc_ffv1 ! matroskamux", constant_times(3));
