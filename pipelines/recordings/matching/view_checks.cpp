@@ -41,15 +41,26 @@ bool clearly_better(const ViewMatch& match, const ViewMatch& than) {
   return match.confirmed() && match.share() >= kFactor * than.share();
 }
 
-// Whether both views of a pair are one image, also if it was encoded twice.
+// A view with the brightness and the contrast of another one.
+cv::Mat as_bright_as(const cv::Mat& other, const cv::Mat& view) {
+  cv::Scalar mean, deviation, wanted_mean, wanted_deviation;
+  cv::meanStdDev(view, mean, deviation);
+  cv::meanStdDev(other, wanted_mean, wanted_deviation);
+  const double gain = deviation[0] > 0 ? wanted_deviation[0] / deviation[0] : 1;
+  cv::Mat result;
+  view.convertTo(result, CV_8U, gain, wanted_mean[0] - gain * mean[0]);
+  return result;
+}
+
+// Whether both views of a pair are one image, also if it was encoded twice or with another range.
 bool is_same(const ViewSample& pair) {
-  const cv::Mat &left = pair.left, &right = pair.right;
-  if (left.size() != right.size()) return false;
+  const cv::Mat& left = pair.left;
+  if (left.size() != pair.right.size()) return false;
   const int columns = left.cols;
   const double shifted =
       cv::norm(left.colRange(1, columns), left.colRange(0, columns - 1), cv::NORM_L1);
   const double most = std::max(kSameGray * static_cast<double>(left.total()), kSameShare * shifted);
-  return cv::norm(left, right, cv::NORM_L1) <= most;
+  return cv::norm(left, as_bright_as(left, pair.right), cv::NORM_L1) <= most;
 }
 
 struct ViewPair {
