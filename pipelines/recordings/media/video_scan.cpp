@@ -13,6 +13,7 @@
 #include "recordings/media/container.hpp"
 #include "recordings/media/decoder_kind.hpp"
 #include "recordings/media/decoder_reports.hpp"
+#include "recordings/media/decoding_problem.hpp"
 #include "recordings/media/gst_objects.hpp"
 #include "recordings/media/jpeg_check.hpp"
 #include "recordings/media/leading_frames.hpp"
@@ -44,24 +45,6 @@ GstElement* element(const char* factory) {
 bool is_video(const GstCaps* caps) {
   const std::string name = gst_structure_get_name(gst_caps_get_structure(caps, 0));
   return name.starts_with("video/") || name.starts_with("image/");
-}
-
-// What to do without a plugin, such as "H.264 decoder".
-std::string without_plugin(const std::string& missing) {
-  return "GStreamer has no " + missing +
-         ": install its plugin (pipelines/install-packages.sh has those of common formats), or "
-         "convert the video (ffmpeg -i FILE -c:v ffv1 view.mkv)";
-}
-
-constexpr const char* kUnknownFormat =
-    "GStreamer recognizes no video in it: give a video, an image or a folder of images, or "
-    "convert it (ffmpeg -i FILE -c:v ffv1 view.mkv)";
-
-// Also a file that has sound only: decodebin misses a plugin, without a name.
-bool is_unknown_format(const GError& error) {
-  if (error.domain == GST_CORE_ERROR) return error.code == GST_CORE_ERROR_MISSING_PLUGIN;
-  return error.domain == GST_STREAM_ERROR && (error.code == GST_STREAM_ERROR_TYPE_NOT_FOUND ||
-                                              error.code == GST_STREAM_ERROR_WRONG_TYPE);
 }
 
 std::vector<std::uint8_t> gray_pixels(GstBuffer* buffer, const GstVideoInfo& info) {
@@ -209,6 +192,7 @@ GstPadProbeReturn VideoScan::State::before_decoder(GstPad* pad, GstPadProbeInfo*
 
 void VideoScan::State::on_element(GstBin*, GstBin*, GstElement* added, gpointer data) {
   if (!is_video_decoder(added)) return;
+  keep_from_crashing(added);
   static_cast<State*>(data)->reports->listen_to(added);
   GstPad* pad = gst_element_get_static_pad(added, "sink");
   if (pad == nullptr) return;
@@ -251,11 +235,7 @@ void VideoScan::State::take_message(GstMessage* message) {
     const TextPointer text(gst_missing_plugin_message_get_description(message));
     missing = text.get();
   } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR && error.empty()) {
-    g_autoptr(GError) reason = nullptr;
-    gst_message_parse_error(message, &reason, nullptr);
-    error = !missing.empty()             ? without_plugin(missing)
-            : is_unknown_format(*reason) ? kUnknownFormat
-                                         : reason->message;
+    error = missing.empty() ? decoding_problem(message) : without_plugin(missing);
   }
 }
 

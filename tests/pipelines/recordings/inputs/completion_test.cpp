@@ -34,6 +34,19 @@ TEST_F(Recordings, NamesTheRemedyForAFileWithSoundOnly) {
               AllOf(HasSubstr(path("left.wav")), HasSubstr("give a video, an image")));
 }
 
+// The decoder of GStreamer crashes with its usual properties.
+TEST_F(Recordings, NamesTheRemedyForPixelsThatAreNotDecoded) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  for (const char* format : {"gray10le", "gray12le"}) {
+    run_command(
+        "ffmpeg -v error -y -f lavfi -i testsrc=size=64x48:duration=0.2 -c:v ffv1 -pix_fmt " +
+        std::string(format) + " '" + path("left.mkv") + "'");
+    fs::copy(path("left.mkv"), path("right.mkv"), fs::copy_options::overwrite_existing);
+    EXPECT_THAT(error_of({"left.mkv", "right.mkv"}),
+                AllOf(HasSubstr(path("left.mkv")), HasSubstr("-pix_fmt gray16le")));
+  }
+}
+
 // Phones store how they were held.
 TEST_F(Recordings, RefusesVideoThatPlayersTurn) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";

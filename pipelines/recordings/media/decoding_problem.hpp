@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <gst/gst.h>
+
+#include <string>
+
+namespace mtstereo::run {
+
+/// What to do without a plugin, such as "H.264 decoder".
+std::string without_plugin(const std::string& missing);
+
+/// What an error message of a pipeline that decodes a file means, and what to do.
+std::string decoding_problem(GstMessage* message);
+
+}  // namespace mtstereo::run
