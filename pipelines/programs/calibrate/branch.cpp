@@ -11,6 +11,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
 #include "programs/calibrate/texts.hpp"
+#include "shared/decoder_crashes.hpp"
 #include "shared/orientation.hpp"
 
 namespace mtstereo::calibrate {
@@ -45,6 +46,10 @@ std::string device_line(const std::string& device, const SourceOptions& options)
   return "v4l2src device=" + quoted(device) + wanted + " ! decodebin";
 }
 
+void on_element(GstBin*, GstBin*, GstElement* added, gpointer) {
+  plugin::keep_from_crashing(added);
+}
+
 bool is_element(const std::string& text) {
   const std::string name = text.substr(0, text.find(' '));
   g_autoptr(GstElementFactory) factory = gst_element_factory_find(name.c_str());
@@ -76,6 +81,7 @@ Branch::Branch(GstPipeline* pipeline, std::string name, std::string source,
   bin_ = gst_parse_bin_from_description_full(line.c_str(), FALSE, nullptr,
                                              GST_PARSE_FLAG_FATAL_ERRORS, &error);
   if (bin_ == nullptr) throw UserError(title() + ": " + error->message);
+  g_signal_connect(bin_, "deep-element-added", G_CALLBACK(on_element), nullptr);
   gst_bin_add(GST_BIN(pipeline), bin_);
   g_autoptr(GstElement) sink = gst_bin_get_by_name(GST_BIN(bin_), "sink");
   sink_ = GST_APP_SINK(sink);

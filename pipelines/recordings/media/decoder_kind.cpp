@@ -24,12 +24,6 @@ bool is_video_decoder(GstElement* element) {
 
 bool is_libav_decoder(GstElement* element) { return name_of_kind(element).starts_with("avdec_"); }
 
-void keep_from_crashing(GstElement* decoder) {
-  if (name_of_kind(decoder) == "avdec_ffv1") {
-    g_object_set(decoder, "direct-rendering", FALSE, nullptr);
-  }
-}
-
 bool is_jpeg_decoder(GstElement* element) { return name_of_kind(element) == "jpegdec"; }
 
 }  // namespace mtstereo::run

@@ -6,6 +6,11 @@
 namespace mtstereo::run {
 namespace {
 
+constexpr const char* kUnknownPixels =
+    "its data is damaged, or GStreamer has no format for its pixels, such as gray of 10 or 12 "
+    "bits: "
+    "convert it (ffmpeg -i FILE -pix_fmt gray16le -c:v ffv1 view.mkv)";
+
 // Also a file that has sound only: decodebin misses a plugin, without a name.
 bool is_unknown_format(const GError& error) {
   if (error.domain == GST_CORE_ERROR) return error.code == GST_CORE_ERROR_MISSING_PLUGIN;
@@ -21,6 +26,10 @@ std::string without_plugin(const std::string& missing) {
          "convert the video (ffmpeg -i FILE -c:v ffv1 view.mkv)";
 }
 
+std::string without_frames(bool decodes) {
+  return decodes ? kUnknownPixels : "no video was found in it";
+}
+
 std::string decoding_problem(GstMessage* message) {
   g_autoptr(GError) error = nullptr;
   g_autofree gchar* details = nullptr;
@@ -30,8 +39,7 @@ std::string decoding_problem(GstMessage* message) {
            "convert it (ffmpeg -i FILE -c:v ffv1 view.mkv)";
   }
   if (details != nullptr && std::string_view(details).find("not-negotiated") != std::string::npos) {
-    return "GStreamer cannot decode its pixels, such as gray of 10 or 12 bits: convert it (ffmpeg "
-           "-i FILE -pix_fmt gray16le -c:v ffv1 view.mkv)";
+    return kUnknownPixels;
   }
   return error->message;
 }

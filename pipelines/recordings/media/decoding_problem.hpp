@@ -10,6 +10,9 @@ namespace mtstereo::run {
 /// What to do without a plugin, such as "H.264 decoder".
 std::string without_plugin(const std::string& missing);
 
+/// Why a pipeline ends without a frame and without an error; `decodes` if a decoder has got one.
+std::string without_frames(bool decodes);
+
 /// What an error message of a pipeline that decodes a file means, and what to do.
 std::string decoding_problem(GstMessage* message);
 

@@ -18,6 +18,7 @@
 #include "recordings/media/jpeg_check.hpp"
 #include "recordings/media/leading_frames.hpp"
 #include "recordings/media/segments.hpp"
+#include "shared/decoder_crashes.hpp"
 #include "shared/orientation.hpp"
 
 namespace mtstereo::run {
@@ -119,6 +120,7 @@ struct VideoScan::State {
   std::atomic<bool> linked{false}, others{false}, complete{false}, keyframe_first{false};
   std::atomic<int> video_streams{0};
   std::atomic<bool> waits_for_key{false};  // frames that refer to others are not decoded
+  std::atomic<bool> decodes{false};        // a decoder has got a frame
 };
 
 void VideoScan::State::build() {
@@ -182,6 +184,7 @@ GstPadProbeReturn VideoScan::State::before_decoder(GstPad* pad, GstPadProbeInfo*
   const bool keyframe = !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_DELTA_UNIT);
   if (keyframe) self->waits_for_key = false;
   if (self->waits_for_key || self->leading.has(pad, buffer)) return GST_PAD_PROBE_DROP;
+  self->decodes = true;
   self->reports->begin(self->time_on(pad, buffer), keyframe);
   if (is_jpeg_decoder(GST_PAD_PARENT(pad))) {
     const std::string damage = damage_of_jpeg(buffer);
@@ -192,7 +195,7 @@ GstPadProbeReturn VideoScan::State::before_decoder(GstPad* pad, GstPadProbeInfo*
 
 void VideoScan::State::on_element(GstBin*, GstBin*, GstElement* added, gpointer data) {
   if (!is_video_decoder(added)) return;
-  keep_from_crashing(added);
+  plugin::keep_from_crashing(added);
   static_cast<State*>(data)->reports->listen_to(added);
   GstPad* pad = gst_element_get_static_pad(added, "sink");
   if (pad == nullptr) return;
@@ -252,7 +255,7 @@ void VideoScan::State::read_messages() {
 std::string VideoScan::State::reason_of_silence(GstClockTime waited) const {
   const bool all_known = complete || (others && waited >= kForVideo);
   if (all_known || (waited >= kForTasks && !is_running(pipeline))) {
-    return missing.empty() ? "no video was found in it" : without_plugin(missing);
+    return missing.empty() ? without_frames(decodes) : without_plugin(missing);
   }
   return "";
 }
