@@ -57,8 +57,8 @@ cv::Mat read_pfm_disparity(const fs::path& file) {
   const float* begin = map.ptr<float>();
   const bool mirrored = std::none_of(begin, begin + map.total(), is_positive);
   for (float& value : cv::Mat_<float>(map)) {
-    if (mirrored && value != 0) value = -value;
-    if (!std::isfinite(value) || value < 0) value = kUnknown;
+    if (mirrored) value = -value;
+    if (!is_positive(value)) value = kUnknown;
   }
   return map;
 }

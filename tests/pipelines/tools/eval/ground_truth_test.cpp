@@ -39,16 +39,17 @@ class GroundTruthFiles : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(GroundTruthFiles, PfmHasNonFiniteAndNegativeValuesAsUnknown) {
+// Data sets without ground truth everywhere state 0 there, as in PNG files.
+TEST_F(GroundTruthFiles, PfmHasNonFiniteAndNegativeValuesAndZeroAsUnknown) {
   write_file(folder_ / "a.pfm",
              "Pf\n6 1\n-1\n" + float_bytes({1, 0, -3, kInf, -kInf, kNan}, false));
-  expect_row(read_pfm_disparity(folder_ / "a.pfm"), 0, {1, 0, kNan, kNan, kNan, kNan});
+  expect_row(read_pfm_disparity(folder_ / "a.pfm"), 0, {1, kNan, kNan, kNan, kNan, kNan});
 }
 
 TEST_F(GroundTruthFiles, PfmWithoutPositiveValuesIsNegated) {
   write_file(folder_ / "a.pfm", "Pf\n4 1\n-1\n" + float_bytes({-1, -2.5F, 0, kInf}, false));
   // +infinity is not finite, hence not a positive disparity.
-  expect_row(read_pfm_disparity(folder_ / "a.pfm"), 0, {1, 2.5F, 0, kNan});
+  expect_row(read_pfm_disparity(folder_ / "a.pfm"), 0, {1, 2.5F, kNan, kNan});
 }
 
 TEST_F(GroundTruthFiles, PngWith16BitsIsIn256thsAndZeroIsUnknown) {
