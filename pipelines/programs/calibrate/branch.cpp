@@ -73,7 +73,7 @@ std::string launch_line(const std::string& source, const SourceOptions& options)
 
 Branch::Branch(GstPipeline* pipeline, std::string name, std::string source,
                const SourceOptions& options)
-    : name_(std::move(name)), source_(std::move(source)) {
+    : name_(std::move(name)), source_(std::move(source)), is_file_(fs::is_regular_file(source_)) {
   const std::string line = launch_line(source_, options) +
                            " ! videoconvert ! video/x-raw,format=GRAY8 ! "
                            "appsink name=sink sync=false max-buffers=4 enable-last-sample=false";
@@ -109,8 +109,10 @@ bool Branch::pull() {
   return true;
 }
 
-// Other programs, OpenCV among them, calibrate the turned frames.
+// Other programs, OpenCV among them, calibrate the turned frames. A pipeline of the user may turn
+// them, which leaves the tag as it is.
 void Branch::refuse_turned() const {
+  if (!is_file_) return;
   g_autoptr(GstPad) pad = gst_element_get_static_pad(GST_ELEMENT(sink_), "sink");
   const std::string turning = plugin::turning_on(pad);
   if (!turning.empty()) throw UserError(title() + ": " + plugin::turning_problem(turning));

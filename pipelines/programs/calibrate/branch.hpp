@@ -60,6 +60,7 @@ class Branch {
   void take(GstSample* sample);
 
   std::string name_, source_;
+  bool is_file_;
   GstElement* bin_ = nullptr;  // the pipeline owns both
   GstAppSink* sink_ = nullptr;
   std::deque<Frame> frames_;

@@ -230,6 +230,17 @@ class Refusal(Program):
             self.assertIn(text, done.stderr)
             self.assertFalse((FOLDER / "new").exists())
 
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_videos_that_players_turn(self):
+        subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", "testsrc=size=64x48:duration=0.2",
+                        "-c:v", "mpeg4", FOLDER / "plain.mp4"], check=True)
+        subprocess.run(["ffmpeg", "-v", "error", "-i", FOLDER / "plain.mp4", "-c", "copy",
+                        "-metadata:s:v", "rotate=180", FOLDER / "turned.mp4"], check=True)
+        self.refuse("turned.mp4.*: players turn its frames",
+                    "--left", "turned.mp4", "--right", "plain.mp4", "--square", 28)
+        turned = "filesrc location=turned.mp4 ! decodebin ! videoflip video-direction=auto"
+        self.refuse("no board was found", "--left", turned, "--right", "plain.mp4", "--square", 28)
+
     def test_a_folder_that_cannot_be_written(self):
         done = self.run_program(*self.both, "--out", "/proc/nothing")
         self.assertEqual(done.returncode, 1)
