@@ -6,8 +6,8 @@
   results.py --check               reports whether page, README.md and docs/choosing.md state these figures
   results.py --measure EVAL DATA   measures first: EVAL is mtstereo-eval, DATA the folder of the pairs
 
-DATA has the pairs of docs/results.md in the folders of GROUPS. Times are not measured: they are those of
-docs/benchmark.md. The exit status is 1 if something differs or a program fails.
+DATA has the pairs of docs/results.md in the folders of GROUPS. Times are not measured. The exit status is 1 if
+something differs or a program fails.
 """
 import argparse
 import json
