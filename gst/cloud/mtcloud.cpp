@@ -228,9 +228,6 @@ gboolean event(GstBaseSink* sink, GstEvent* event) {
     case GST_EVENT_EOS:
       frames.finish(true);
       break;
-    case GST_EVENT_STREAM_START:
-      frames.finish(false);
-      break;
     case GST_EVENT_FLUSH_STOP:
       frames.hold(false);
       frames.finish(false);

@@ -55,7 +55,6 @@ static void gst_mtstereo_whole_class_init(GstMtWholeClass* element_class) {
   gst_element_class_add_static_pad_template(element, &src_template);
   auto* transform = reinterpret_cast<GstBaseTransformClass*>(element_class);
   transform->transform_ip = transform_ip;
-  transform->transform_ip_on_passthrough = TRUE;
 }
 
 }  // namespace mtstereo::plugin

@@ -22,6 +22,18 @@ GrayImage noise_image(int width = kWidth, int height = kHeight) {
   return noise_pair(width, height, 0, 7).left;
 }
 
+/// Stops an element and starts it with a new stream.
+void play_again(CameraHarness& harness) {
+  gst_element_set_state(harness.element(), GST_STATE_NULL);
+  gst_element_set_state(harness.element(), GST_STATE_PLAYING);
+  gst_harness_play(harness.harness());
+  gst_harness_push_event(harness.harness(), gst_event_new_stream_start("again"));
+  harness.caps(raw_caps("GRAY8", kWidth, kHeight));
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  gst_harness_push_event(harness.harness(), gst_event_new_segment(&segment));
+}
+
 class MtRectify : public testing::Test {
  protected:
   /// An mtrectify with the calibration of `rig`.
@@ -156,6 +168,9 @@ TEST_F(MtRectify, RemarksOnTheCalibrationAreWarningsOfTheLeftElement) {
     g_object_set(element.element(), "alpha", 0.5, nullptr);
     ASSERT_TRUE(element.pass(frame_buffer(noise_image(), kFrame, kFrame)));
     EXPECT_EQ(element.report(GST_MESSAGE_WARNING), "");
+    play_again(element);
+    ASSERT_TRUE(element.pass(frame_buffer(noise_image(), 0, kFrame)));
+    EXPECT_EQ(element.report(GST_MESSAGE_WARNING).empty(), !left) << "after a stop";
   }
 }
 
@@ -216,6 +231,16 @@ TEST_F(MtRectify, ChangedPropertiesApplyToTheNextFrame) {
   g_object_set(harness->element(), "width", 96, nullptr);
   EXPECT_EQ(output(frame_buffer(image, 4 * kFrame, kFrame)),
             expected(image, {.alpha = 1, .width = 96}, Rectifier::Side::kRight, 61));
+}
+
+TEST_F(MtRectify, TheOtherOfTwoEqualCamerasHasMapsOfItsOwn) {
+  const GrayImage image = noise_image();
+  StereoCalibration equal = plumb_bob_rig(kWidth, kHeight);
+  equal.right = equal.left;
+  make("", equal).caps(raw_caps("GRAY8", kWidth, kHeight));
+  EXPECT_EQ(output(frame_buffer(image, 0, kFrame)), expected(image, {}, Rectifier::Side::kLeft));
+  gst_util_set_object_arg(G_OBJECT(harness->element()), "camera", "right");
+  EXPECT_EQ(output(frame_buffer(image, 1, kFrame)), expected(image, {}, Rectifier::Side::kRight));
 }
 
 TEST_F(MtRectify, ChangedFileAppliesToTheNextFrame) {
@@ -326,14 +351,7 @@ TEST_F(MtRectify, PlaysAgainAfterAStop) {
   const GrayImage image = noise_image();
   make().caps(raw_caps("GRAY8", kWidth, kHeight));
   const auto before = output(frame_buffer(image, 0, kFrame));
-  gst_element_set_state(harness->element(), GST_STATE_NULL);
-  gst_element_set_state(harness->element(), GST_STATE_PLAYING);
-  gst_harness_play(harness->harness());
-  gst_harness_push_event(harness->harness(), gst_event_new_stream_start("again"));
-  harness->caps(raw_caps("GRAY8", kWidth, kHeight));
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  gst_harness_push_event(harness->harness(), gst_event_new_segment(&segment));
+  play_again(*harness);
   EXPECT_EQ(output(frame_buffer(image, 0, kFrame)), before);
 }
 

@@ -2,41 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 
-#include "cameras/camera_harness.hpp"
+#include "cameras/splitter.hpp"
 #include "support/pipeline.hpp"
 
 namespace mtstereo::test::mtsplit_test {
 namespace {
-
-/// An mtsplit with a harness at each source pad; the left one also pushes.
-class Splitter {
- public:
-  explicit Splitter(const std::string& properties = "", bool video_meta = true)
-      : left_("mtsplit", properties, "left") {
-    right_ = gst_harness_new_with_element(left_.element(), nullptr, "right");
-    for (GstHarness* harness : {left_.harness(), right_}) {
-      if (video_meta) {
-        gst_harness_add_propose_allocation_meta(harness, GST_VIDEO_META_API_TYPE, nullptr);
-      }
-    }
-  }
-  ~Splitter() { gst_harness_teardown(right_); }
-  Splitter(const Splitter&) = delete;
-  Splitter& operator=(const Splitter&) = delete;
-
-  CameraHarness& input() { return left_; }
-  GstHarness* side(Side side) { return side == Side::kLeft ? left_.harness() : right_; }
-  BufferPointer pull(Side which) { return BufferPointer(gst_harness_pull(side(which))); }
-  CapsPointer caps(Side which) const {
-    return left_.caps_of(which == Side::kLeft ? "left" : "right");
-  }
-
- private:
-  CameraHarness left_;
-  GstHarness* right_ = nullptr;
-};
 
 /// The bytes of all planes of a frame, without padding.
 std::vector<std::uint8_t> bytes_of(const GstVideoFrame& frame) {
@@ -188,6 +159,35 @@ TEST(MtSplit, CopiesForConsumersThatReadNoVideoMeta) {
   gst_buffer_unmap(right.get(), &map);
 }
 
+TEST(MtSplit, CopiesForAConsumerThatTakesThePlaceOfAnother) {
+  Splitter splitter;
+  splitter.input().caps(raw_caps("GRAY8", 64, 48));
+  const GrayImage image = noise_pair(64, 48, 0, 5).left;
+  ASSERT_EQ(splitter.input().push(frame_buffer(image, 0, kFrame)), GST_FLOW_OK);
+  EXPECT_NE(gst_buffer_get_video_meta(splitter.pull(Side::kRight).get()), nullptr);
+  GstHarness* right = splitter.side(Side::kRight);
+  gst_pad_set_query_function(
+      right->sinkpad, +[](GstPad*, GstObject*, GstQuery*) { return FALSE; });
+  gst_harness_push_upstream_event(right, gst_event_new_reconfigure());
+  ASSERT_EQ(splitter.input().push(frame_buffer(image, kFrame, kFrame)), GST_FLOW_OK);
+  EXPECT_EQ(gst_buffer_get_video_meta(splitter.pull(Side::kRight).get()), nullptr);
+}
+
+TEST(MtSplit, HalvesHaveTheTimesAndFlagsOfTheFrame) {
+  Splitter splitter;
+  splitter.input().caps(raw_caps("GRAY8", 64, 48));
+  GstBuffer* frame = frame_buffer(noise_pair(64, 48, 0, 5).left, 7 * kFrame, kFrame);
+  GST_BUFFER_FLAG_SET(frame, GST_BUFFER_FLAG_DISCONT | GST_BUFFER_FLAG_CORRUPTED);
+  ASSERT_EQ(splitter.input().push(frame), GST_FLOW_OK);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const BufferPointer half = splitter.pull(side);
+    EXPECT_EQ(GST_BUFFER_PTS(half.get()), 7 * kFrame);
+    EXPECT_EQ(GST_BUFFER_DURATION(half.get()), kFrame);
+    EXPECT_TRUE(GST_BUFFER_IS_DISCONT(half.get()));
+    EXPECT_TRUE(GST_BUFFER_FLAG_IS_SET(half.get(), GST_BUFFER_FLAG_CORRUPTED));
+  }
+}
+
 TEST(MtSplit, AWriterDoesNotChangeTheOtherHalf) {
   Splitter splitter;
   splitter.input().caps(raw_caps("GRAY8", 64, 48));
@@ -287,90 +287,6 @@ TEST(MtSplit, MatcherTakesBothViewsWithoutQueues) {
   }
 }
 
-TEST(MtSplit, EachViewIsAStreamOfItsOwn) {
-  Splitter splitter;
-  splitter.input().caps(raw_caps("GRAY8", 64, 48));
-  std::set<std::string> names;
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    GstPad* pad = splitter.side(side)->sinkpad;
-    const EventPointer start(gst_pad_get_sticky_event(pad, GST_EVENT_STREAM_START, 0));
-    ASSERT_TRUE(start);
-    const gchar* name = nullptr;
-    gst_event_parse_stream_start(start.get(), &name);
-    names.insert(name);
-    EXPECT_TRUE(EventPointer(gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0)));
-  }
-  EXPECT_EQ(names.size(), 2u);
-}
-
-int count_events(GstHarness* harness, GstEventType type) {
-  int count = 0;
-  while (EventPointer event{gst_harness_try_pull_event(harness)}) {
-    if (GST_EVENT_TYPE(event.get()) == type) ++count;
-  }
-  return count;
-}
-
-TEST(MtSplit, BothViewsEndAndFlush) {
-  Splitter splitter;
-  splitter.input().caps(raw_caps("GRAY8", 64, 48));
-  GstHarness* input = splitter.side(Side::kLeft);
-  EXPECT_TRUE(gst_harness_push_event(input, gst_event_new_eos()));
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    EXPECT_EQ(count_events(splitter.side(side), GST_EVENT_EOS), 1);
-  }
-  EXPECT_TRUE(gst_harness_push_event(input, gst_event_new_flush_start()));
-  EXPECT_TRUE(gst_harness_push_event(input, gst_event_new_flush_stop(TRUE)));
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    EXPECT_EQ(count_events(splitter.side(side), GST_EVENT_FLUSH_STOP), 1);
-  }
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  EXPECT_TRUE(gst_harness_push_event(input, gst_event_new_segment(&segment)));
-  const GrayImage image = noise_pair(64, 48, 0, 5).left;
-  EXPECT_EQ(splitter.input().push(frame_buffer(image, 0, kFrame)), GST_FLOW_OK);
-}
-
-TEST(MtSplit, SeekOfBothViewsArrivesOnce) {
-  Splitter splitter;
-  splitter.input().caps(raw_caps("GRAY8", 64, 48));
-  while (EventPointer event{gst_harness_try_pull_upstream_event(splitter.side(Side::kLeft))}) {
-  }
-  const EventPointer seek(gst_event_new_seek(1, GST_FORMAT_TIME, GST_SEEK_FLAG_FLUSH,
-                                             GST_SEEK_TYPE_SET, 0, GST_SEEK_TYPE_NONE, 0));
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    EXPECT_TRUE(gst_harness_push_upstream_event(splitter.side(side), gst_event_ref(seek.get())));
-  }
-  int seeks = 0;
-  while (EventPointer event{gst_harness_try_pull_upstream_event(splitter.side(Side::kLeft))}) {
-    if (GST_EVENT_TYPE(event.get()) == GST_EVENT_SEEK) ++seeks;
-  }
-  EXPECT_EQ(seeks, 1);
-}
-
-TEST(MtSplit, FlowsOfBothPadsAreCombined) {
-  const GrayImage image = noise_pair(64, 48, 0, 5).left;
-  // The right pad is not linked: the left view continues.
-  CameraHarness single("mtsplit", "", "left");
-  gst_harness_add_propose_allocation_meta(single.harness(), GST_VIDEO_META_API_TYPE, nullptr);
-  single.caps(raw_caps("GRAY8", 64, 48));
-  EXPECT_TRUE(single.pass(frame_buffer(image, 0, kFrame)));
-
-  Splitter splitter;
-  splitter.input().caps(raw_caps("GRAY8", 64, 48));
-  GstPad* left = splitter.side(Side::kLeft)->sinkpad;
-  GstPad* right = splitter.side(Side::kRight)->sinkpad;
-  const auto end = +[](GstPad*, GstObject*, GstBuffer* buffer) {
-    gst_buffer_unref(buffer);
-    return GST_FLOW_EOS;
-  };
-  gst_pad_set_chain_function(left, end);
-  EXPECT_EQ(splitter.input().push(frame_buffer(image, 0, kFrame)), GST_FLOW_OK);
-  EXPECT_TRUE(splitter.pull(Side::kRight));
-  gst_pad_set_chain_function(right, end);
-  EXPECT_EQ(splitter.input().push(frame_buffer(image, kFrame, kFrame)), GST_FLOW_EOS);
-}
-
 TEST(MtSplit, LayoutAndSwapChangeBetweenFrames) {
   Splitter splitter;
   splitter.input().caps(raw_caps("GRAY8", 64, 48));
@@ -384,13 +300,6 @@ TEST(MtSplit, LayoutAndSwapChangeBetweenFrames) {
   const MappedBytes left = read(splitter.pull(Side::kLeft).get(), splitter.caps(Side::kLeft).get());
   EXPECT_EQ(left.bytes,
             std::vector<std::uint8_t>(image.pixels.begin() + 64 * 24, image.pixels.end()));
-}
-
-TEST(MtSplit, LatencyIsThatOfUpstream) {
-  Splitter splitter;
-  splitter.input().caps(raw_caps("GRAY8", 64, 48));
-  gst_harness_set_upstream_latency(splitter.side(Side::kLeft), 40 * GST_MSECOND);
-  EXPECT_EQ(gst_harness_query_latency(splitter.side(Side::kLeft)), 40 * GST_MSECOND);
 }
 
 }  // namespace

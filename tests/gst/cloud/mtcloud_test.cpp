@@ -74,13 +74,18 @@ TEST(Cloud, AFrameThatBeginsBeforeItsSegmentIsPairedByItsTimeToo) {
   }
 }
 
+/// Pushes a left frame while its map waits.
+std::thread push_left_soon(CloudHarness& harness, GstClockTime pts, int red) {
+  return std::thread([&harness, pts, red] {
+    g_usleep(100'000);
+    harness.push_left(pts, red);
+  });
+}
+
 TEST(Cloud, WaitsForALeftFrameThatIsLate) {
   const CloudFolder folder;
   CloudHarness harness(location(folder));
-  std::thread later([&harness] {
-    g_usleep(100'000);
-    harness.push_left(0, 77);
-  });
+  std::thread later = push_left_soon(harness, 0, 77);
   EXPECT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
   later.join();
   EXPECT_EQ(first_red(folder / "cloud-00000.ply"), 77);
@@ -116,6 +121,10 @@ TEST(Cloud, ASilentLeftViewCostsOneTimeout) {
   harness.push_left(5 * kFrame, 9);
   EXPECT_EQ(harness.push_map(5 * kFrame), GST_FLOW_OK);
   EXPECT_EQ(first_red(folder / "cloud-00005.ply"), 9);
+  std::thread later = push_left_soon(harness, 6 * kFrame, 10);
+  EXPECT_EQ(harness.push_map(6 * kFrame), GST_FLOW_OK) << "it waits again";
+  later.join();
+  EXPECT_EQ(first_red(folder / "cloud-00006.ply"), 10);
 }
 
 TEST(Cloud, TheEndAndGapsOfTheLeftViewDoNotBlock) {
@@ -167,7 +176,7 @@ TEST(Cloud, TheLeftViewWaitsForTheMaps) {
 
 TEST(Cloud, TheLeftViewDoesNotWaitForEverWithoutMaps) {
   const CloudFolder folder;
-  CloudHarness harness(location(folder) + " timeout=100000000");
+  CloudHarness harness(location(folder) + " timeout=300000000");
   ASSERT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);  // prerolls without a left frame
   const Stopwatch time;
   for (int i = 1; i < 100; ++i) {
@@ -176,6 +185,14 @@ TEST(Cloud, TheLeftViewDoesNotWaitForEverWithoutMaps) {
   EXPECT_LT(time.seconds(), 2);
   EXPECT_EQ(harness.push_map(99 * kFrame), GST_FLOW_OK);
   EXPECT_EQ(first_red(folder / "cloud-00001.ply"), 99) << "the newest frames are kept";
+  std::vector<GstClockTime> times;
+  for (GstClockTime i = 100; i < 120; ++i) times.push_back(i * kFrame);
+  std::thread left = harness.push_left_later(times);
+  g_usleep(20'000);
+  EXPECT_EQ(harness.push_map(times[0]), GST_FLOW_OK);
+  EXPECT_EQ(first_red(folder / "cloud-00002.ply"), 0) << "it waits again";
+  gst_harness_push_event(harness.maps(), gst_event_new_eos());
+  left.join();
 }
 
 TEST(Cloud, TheEndOfTheMapsReleasesTheLeftView) {
@@ -188,6 +205,12 @@ TEST(Cloud, TheEndOfTheMapsReleasesTheLeftView) {
   EXPECT_TRUE(next_message(harness.bus(), GST_MESSAGE_EOS, 5));
 }
 
+void begin_segment(GstHarness* harness) {
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  gst_harness_push_event(harness, gst_event_new_segment(&segment));
+}
+
 TEST(Cloud, FlushesAndStopsReleaseTheLeftView) {
   const CloudFolder folder;
   CloudHarness harness(location(folder) + " timeout=60000000000");
@@ -196,13 +219,38 @@ TEST(Cloud, FlushesAndStopsReleaseTheLeftView) {
   gst_harness_push_event(harness.left(), gst_event_new_flush_start());
   left.join();
   gst_harness_push_event(harness.left(), gst_event_new_flush_stop(TRUE));
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  gst_harness_push_event(harness.left(), gst_event_new_segment(&segment));
+  begin_segment(harness.left());
   left = harness.push_left_later(std::vector<GstClockTime>(100, kFrame));
   g_usleep(50'000);
   gst_element_set_state(harness.element(), GST_STATE_READY);
   left.join();
+}
+
+TEST(Cloud, ASeekAfterTheEndBeginsAnew) {
+  const CloudFolder folder;
+  CloudHarness harness(location(folder));
+  for (const int last : {1, 2}) {
+    std::thread later = push_left_soon(harness, 0, last);
+    EXPECT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
+    later.join();
+    if (last == 1) {
+      gst_harness_push_event(harness.left(), gst_event_new_gap(kFrame, 9 * kFrame));
+    } else {
+      gst_harness_push_event(harness.left(), gst_event_new_eos());
+    }
+    gst_harness_push_event(harness.maps(), gst_event_new_eos());
+    for (GstHarness* each : {harness.left(), harness.maps()}) {
+      gst_harness_push_event(each, gst_event_new_flush_start());
+      gst_harness_push_event(each, gst_event_new_flush_stop(TRUE));
+      begin_segment(each);
+    }
+  }
+  std::thread later = push_left_soon(harness, 0, 3);
+  EXPECT_EQ(harness.push_map(GstClockTime{0}), GST_FLOW_OK);
+  later.join();
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(first_red(folder / ("cloud-0000" + std::to_string(i) + ".ply")), 1 + i);
+  }
 }
 
 TEST(Cloud, AFlushInterruptsTheWaitForALeftFrame) {

@@ -30,6 +30,7 @@ class ColorRow {
   ColorRow& operator=(const ColorRow&) = delete;
 
   GstElement* element() const { return element_; }
+  void set_more_caps(const std::string& caps) { more_caps_ = caps; }
 
   /// The colors of these 16-bit values. Also sets fourth().
   std::vector<Color> colors(const std::vector<std::uint16_t>& values, int padding = 0) {
@@ -126,6 +127,14 @@ TEST(Color, RangeComesFromTheCapsUnlessSet) {
   ColorRow unknown("", "");
   EXPECT_EQ(unknown.colors({64 * 256, 1})[0], kLast);
   EXPECT_NE(unknown.colors({50 * 256, 1})[0], kLast);
+}
+
+TEST(Color, RangeBeginsAtTheOffsetOfTheCaps) {
+  ColorRow row("max-disparity=32", ",disparity-scale=256,disparity-offset=-16");
+  EXPECT_EQ(row.colors({48 * 256, 1})[0], kLast);
+  EXPECT_NE(row.colors({40 * 256, 1})[0], kLast);
+  row.set_more_caps(",disparity-scale=256");
+  EXPECT_EQ(row.colors({32 * 256, 1})[0], kLast) << "the offset of the stream before";
 }
 
 TEST(Color, RangeDoesNotDependOnTheFrame) {

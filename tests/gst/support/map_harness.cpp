@@ -68,6 +68,17 @@ std::string text_of(const MessagePointer& message) {
   return text;
 }
 
+int errors_of(const char* name, Pipeline& pipeline) {
+  int errors = 0;
+  GstBus* bus = gst_element_get_bus(pipeline.element());
+  pipeline.set_state(GST_STATE_PLAYING);
+  while (const MessagePointer message = next_message(bus, GST_MESSAGE_ERROR, 0.3)) {
+    if (GST_MESSAGE_SRC(message.get()) == GST_OBJECT(pipeline.named(name))) ++errors;
+  }
+  gst_object_unref(bus);
+  return errors;
+}
+
 MapHarness::MapHarness(const char* factory, const std::string& properties) {
   element_ = make_element(properties, factory);
   bus_ = gst_bus_new();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "support/pipeline.hpp"
 #include "support/stereo_harness.hpp"
 
 namespace mtstereo::test {
@@ -29,6 +30,9 @@ MessagePointer next_message(GstBus* bus, GstMessageType type, double seconds = 0
 
 /// The text of an error, a warning or an information; "" without a message.
 std::string text_of(const MessagePointer& message);
+
+/// Starts a pipeline; how many errors the element of this name posts.
+int errors_of(const char* name, Pipeline& pipeline);
 
 /// An element that turns 16-bit maps into other frames, in a harness.
 class MapHarness {
