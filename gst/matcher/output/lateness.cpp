@@ -42,7 +42,6 @@ std::optional<Nanoseconds> Lateness::predict(Nanoseconds time, Nanoseconds now,
 
 void Lateness::restart() {
   synchronizes_ = false;
-  last_jitter_.reset();
   sent_ = 0;
 }
 

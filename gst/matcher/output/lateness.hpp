@@ -51,7 +51,7 @@ class Lateness {
   Nanoseconds latency_ = 0;
   Nanoseconds delay_ = 0;
   bool synchronizes_ = false;
-  std::optional<Nanoseconds> last_jitter_;  // other than 0
+  Nanoseconds last_jitter_ = 0;
   std::array<Sent, kHistory> history_{};
   std::size_t sent_ = 0;  // number of maps since the restart
 };

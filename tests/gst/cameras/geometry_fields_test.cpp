@@ -2,8 +2,11 @@
 // What mtrectify states of the frames arrives downstream of mtstereo.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cameras/camera_harness.hpp"
 #include "geometry/rigs.hpp"
+#include "matcher/engine/view_borders.hpp"
 #include "shared/stereo_geometry.hpp"
 #include "shared/valid_columns_meta.hpp"
 #include "support/pipeline.hpp"
@@ -132,6 +135,19 @@ TEST_F(Border, PixelsOfTheBorderHaveNoDisparity) {
 TEST_F(Border, FramesWithoutTheMetaAreNotChanged) {
   match(false);
   EXPECT_GT(estimates(0, 24 + kShift), 0);
+}
+
+TEST(Borders, OfTheSameColumnsFollowTheMargin) {
+  const BufferPointer frame(bordered(pair().left, {20, kWidth - 8}, true));
+  const int pixels = kWidth * kHeight;
+  std::vector<std::uint16_t> map(static_cast<std::size_t>(pixels));
+  plugin::Borders borders;
+  for (const int margin : {5, 8}) {
+    borders.take(frame.get(), frame.get(), {kWidth, kHeight, margin});
+    std::fill(map.begin(), map.end(), std::uint16_t{1});
+    borders.remove({map.data(), kWidth, kHeight, 2 * kWidth}, {1, 64, 0, 0});
+    EXPECT_EQ(std::find(map.begin(), map.end(), 1) - map.begin(), 20 + margin + 1);
+  }
 }
 
 TEST_F(Border, AppliesWithNegativeDisparitiesToo) {

@@ -214,6 +214,9 @@ TEST(WhilePlaying, StatisticsHavePairsTimeAndDensity) {
   EXPECT_GT(stats.mean_ms, 0.0);
   EXPECT_GT(stats.density, 0.0);
   EXPECT_LE(stats.density, 1.0);
+  gst_element_set_state(harness.element(), GST_STATE_READY);
+  gst_element_set_state(harness.element(), GST_STATE_PAUSED);
+  EXPECT_EQ(harness.stats().pairs, 0u) << "when it starts again";
 }
 
 }  // namespace

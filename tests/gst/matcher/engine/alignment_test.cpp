@@ -138,21 +138,6 @@ TEST(Alignment, InspectsSeldomByDefault) {
   EXPECT_EQ(number_of(stats_structure(harness.element()).get(), "inspections"), 2);
 }
 
-TEST(Alignment, IntervalGrowsAsMatchingTakesLessTime) {
-  const plugin::AlignmentSettings automatic;
-  const auto interval = [&](Preset preset, int width, int height, int range) {
-    return automatic.effective_interval(preset, width, height, range);
-  };
-  EXPECT_EQ(interval(Preset::kDefault, 1242, 375, 100), 30);
-  EXPECT_EQ(interval(Preset::kFast, 1242, 375, 100), 85);
-  EXPECT_EQ(interval(Preset::kFast, 1920, 1080, 128), 30);
-  EXPECT_EQ(interval(Preset::kFast, 16384, 16384, 1024), 30);
-  EXPECT_EQ(interval(Preset::kFast, 16, 16, 1), 600);
-  plugin::AlignmentSettings set;
-  set.interval = 7;
-  EXPECT_EQ(set.effective_interval(Preset::kFast, 1242, 375, 100), 7);
-}
-
 TEST(Alignment, IsTheSameInEveryRunAndForAnyNumberOfThreads) {
   const Maps once = maps_with("alignment-interval=2 threads=1", crooked_pairs());
   EXPECT_EQ(once, maps_with("alignment-interval=2 threads=1", crooked_pairs()));
@@ -179,6 +164,23 @@ TEST(Alignment, StartsOverAfterAFlush) {
 }
 
 TEST(Alignment, StartsOverWithANewSegment) { expect_start_over(new_segment); }
+
+/// A pair that gives no field.
+Pair flat_pair(int width, int height) {
+  const GrayImage gray = {width, height,
+                          std::vector<std::uint8_t>(static_cast<std::size_t>(width * height), 100)};
+  return {gray, gray};
+}
+
+TEST(Alignment, FieldOfAnotherFrameSizeIsNotReported) {
+  StereoHarness harness(kRange);
+  harness.caps(rendered_caps());
+  match_all(harness, first(crooked_pairs(), 1));
+  EXPECT_NE(field_text(harness.element()), "");
+  harness.caps(raw_caps("GRAY8", 320, 180));
+  match_all(harness, {flat_pair(320, 180)}, kFrame);
+  EXPECT_EQ(field_text(harness.element()), "");
+}
 
 TEST(Alignment, StartsOverWithAnotherFrameSize) {
   StereoHarness harness(kRange + "alignment-interval=1000");
@@ -221,10 +223,7 @@ TEST(AlignmentField, CanBeStoredAndRestored) {
   EXPECT_NEAR(field->offset, 1.5, 0.1);
 
   // A pair that gives no field of its own is corrected by the restored one.
-  Pair flat = crooked_pairs()[0];
-  for (GrayImage* image : {&flat.left, &flat.right}) {
-    for (std::uint8_t& pixel : image->pixels) pixel = 100;
-  }
+  const Pair flat = flat_pair(kRenderedWidth, kRenderedHeight);
   StereoHarness next(kRange + "alignment-field=" + field->to_text());
   next.caps(rendered_caps());
   match_all(next, {flat});
@@ -298,6 +297,9 @@ TEST(AlignmentHold, FieldOfAnotherFrameSizeIsNotUsed) {
   harness.caps(rendered_caps());
   match_all(harness, first(aligned_pairs(), 1), kFrame);
   EXPECT_FALSE(flag_of(stats_structure(harness.element()).get(), "applied"));
+  g_object_set(harness.element(), "alignment-field", "5,0,0,0,0", nullptr);
+  match_all(harness, first(aligned_pairs(), 1), 2 * kFrame);
+  EXPECT_TRUE(flag_of(stats_structure(harness.element()).get(), "applied")) << "one of this size";
 }
 
 TEST(AlignmentField, NotifiesWhenItChanges) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "matcher/engine/alignment.hpp"
+
 namespace mtstereo::plugin::inspection_test {
 namespace {
 
@@ -21,6 +23,21 @@ std::vector<int> inspected(int pairs, int interval, const std::vector<bool>& tru
     schedule.inspected(trusted[index]);
   }
   return numbers;
+}
+
+TEST(InspectionInterval, GrowsAsMatchingTakesLessTime) {
+  const AlignmentSettings automatic;
+  const auto interval = [&](Preset preset, int width, int height, int range) {
+    return automatic.effective_interval(preset, width, height, range);
+  };
+  EXPECT_EQ(interval(Preset::kDefault, 1242, 375, 100), 30);
+  EXPECT_EQ(interval(Preset::kFast, 1242, 375, 100), 85);
+  EXPECT_EQ(interval(Preset::kFast, 1920, 1080, 128), 30);
+  EXPECT_EQ(interval(Preset::kFast, 16384, 16384, 1024), 30);
+  EXPECT_EQ(interval(Preset::kFast, 16, 16, 1), 600);
+  AlignmentSettings set;
+  set.interval = 7;
+  EXPECT_EQ(set.effective_interval(Preset::kFast, 1242, 375, 100), 7);
 }
 
 TEST(InspectionSchedule, InspectsTheFirstPairAndThenOnePerInterval) {

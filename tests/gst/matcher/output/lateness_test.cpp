@@ -109,6 +109,14 @@ TEST(Lateness, IsUnknownAfterARestart) {
   EXPECT_FALSE(lateness.predict(40 * kMs, 1000 * kMs, 10 * kMs));
 }
 
+TEST(Lateness, AMapOfTheSameTimeBeforeARestartDoesNotCount) {
+  Lateness lateness = synchronizing();
+  lateness.restart();
+  lateness.sent(0, -3 * kMs);
+  lateness.sink_reported(0, 2 * kMs);
+  EXPECT_EQ(lateness.delay(), 5 * kMs);
+}
+
 TEST(ProcessingLatency, IgnoresTheFirstPair) {
   ProcessingLatency latency;
   EXPECT_FALSE(latency.measured(900));
