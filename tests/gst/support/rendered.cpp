@@ -24,6 +24,7 @@ render::Settings rendered_settings(const render::Rig& rig) {
   render::Settings settings;
   settings.width = kRenderedWidth, settings.height = kRenderedHeight;
   settings.rig = rig;
+  settings.samples = 1;  // textures are as soft as a pixel is wide, with one ray too
   return settings;
 }
 

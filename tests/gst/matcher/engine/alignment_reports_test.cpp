@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Every pair is inspected, so that short clips suffice.
-const std::string kProperties = "max-disparity=64 alignment-interval=1";
+/// Every pair is inspected, so that short clips suffice. The maps do not matter.
+const std::string kProperties = "preset=fast max-disparity=64 alignment-interval=1";
 
 /// The warnings about a clip, and the problems that `stats` names at its end.
 struct Reaction {
@@ -70,20 +70,8 @@ void blacken(GrayImage& image) {
 
 // --- rendered pairs ---
 
-/// With one ray per pixel: textures are as soft as a pixel is wide, with one ray, too.
-render::Settings quick_settings(const render::Rig& rig = {}) {
-  render::Settings settings = rendered_settings(rig);
-  settings.samples = 1;
-  return settings;
-}
-
-std::vector<Pair> quick_pairs(const std::string& scene, int count, double step = 0.1,
-                              const render::Settings& settings = quick_settings()) {
-  return rendered_pairs(scene, count, step, settings);
-}
-
 const std::vector<Pair>& street() {
-  static const std::vector<Pair> pairs = quick_pairs("street", 8, 0.2);
+  static const std::vector<Pair> pairs = rendered_pairs("street", 8, 0.2);
   return pairs;
 }
 
@@ -96,27 +84,27 @@ class GoodScene : public testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(GoodScene, CausesNoWarning) { expect_none(quick_pairs(GetParam(), 8), "good cameras"); }
+TEST_P(GoodScene, CausesNoWarning) { expect_none(rendered_pairs(GetParam(), 8), "good cameras"); }
 
 TEST_P(GoodScene, CausesNoWarningFromABadSensor) {
-  render::Settings settings = quick_settings();
+  render::Settings settings = rendered_settings();
   settings.noise = 3, settings.shot_noise = 0.05, settings.vignette = 0.3, settings.exposure = 0.8;
-  expect_none(quick_pairs(GetParam(), 6, 0.2, settings), "noise");
+  expect_none(rendered_pairs(GetParam(), 6, 0.2, settings), "noise");
   settings.jpeg = 40;
-  expect_none(quick_pairs(GetParam(), 6, 0.2, settings), "compression");
+  expect_none(rendered_pairs(GetParam(), 6, 0.2, settings), "compression");
 }
 
 TEST_P(GoodScene, CausesNoWarningIfItIsOutOfLine) {
   render::Rig rig;
   rig.row_offset = 2, rig.roll = 0.3;
-  expect_none(quick_pairs(GetParam(), 6, 0.2, quick_settings(rig)), "out of line");
+  expect_none(rendered_pairs(GetParam(), 6, 0.2, rendered_settings(rig)), "out of line");
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, GoodScene, testing::Values("street", "garden", "room"));
 
 TEST(Warning, NamesSwappedViews) {
   for (const std::string& scene : render::scene_names()) {
-    expect_only(PairProblem::kSwapped, changed(quick_pairs(scene, 4, 0.2), [](Pair& pair) {
+    expect_only(PairProblem::kSwapped, changed(rendered_pairs(scene, 4, 0.2), [](Pair& pair) {
                   std::swap(pair.left, pair.right);
                 }));
   }
@@ -124,14 +112,14 @@ TEST(Warning, NamesSwappedViews) {
 
 TEST(Warning, NamesViewsOfDifferentScenes) {
   std::vector<Pair> pairs = street();
-  const std::vector<Pair> room = quick_pairs("room", static_cast<int>(pairs.size()), 0.2);
+  const std::vector<Pair> room = rendered_pairs("room", static_cast<int>(pairs.size()), 0.2);
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].right = room[i].right;
   expect_only(PairProblem::kNotAPair, pairs);
 }
 
 TEST(Warning, NamesViewsOfDifferentTimes) {
   // A single pair of moving cameras that is out of step can look swapped at first.
-  const Reaction reaction = reaction_to(apart(quick_pairs("street", 10, 0.25), 2));
+  const Reaction reaction = reaction_to(apart(rendered_pairs("street", 10, 0.25), 2));
   ASSERT_FALSE(reaction.warnings.empty());
   EXPECT_EQ(reaction.warnings.back(), problem_text(PairProblem::kOutOfStep));
   EXPECT_EQ(reaction.problems, problem_name(PairProblem::kOutOfStep));
@@ -150,7 +138,7 @@ TEST(Warning, NamesABlackView) {
 }
 
 TEST(Warning, NamesAFrozenView) {
-  const std::vector<Pair> pairs = quick_pairs("street", 12, 0.02);
+  const std::vector<Pair> pairs = rendered_pairs("street", 12, 0.02);
   const Pair still = pairs[0];
   // With an inspection of every pair, they are found to be out of step first.
   expect_only(PairProblem::kLeftFrozen, changed(pairs, [&](Pair& pair) { pair.left = still.left; }),

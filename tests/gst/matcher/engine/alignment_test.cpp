@@ -72,7 +72,7 @@ TEST(Alignment, CorrectsEvenASinglePair) {
   const double crooked = density_of(maps_with("alignment=off", one)[0]);
   const double corrected = density_of(maps_with("", one)[0]);
   EXPECT_LT(crooked, 0.7 * aligned);
-  EXPECT_GT(corrected, 0.95 * aligned);
+  EXPECT_GT(corrected, 0.93 * aligned);
 }
 
 TEST(Alignment, CorrectsWithPresetFast) {
@@ -129,19 +129,20 @@ TEST(Alignment, InspectsOnePairPerInterval) {
 }
 
 TEST(Alignment, InspectsSeldomByDefault) {
-  StereoHarness harness(kRange);
+  StereoHarness harness("max-disparity=256");
   harness.caps(rendered_caps());
-  // 1.1e9 / (480 x 270 x 64) = 132 pairs.
-  match_all(harness, std::vector<Pair>(132, aligned_pairs()[0]));
+  // 1.1e9 / (480 x 270 x 256) = 33 pairs.
+  match_all(harness, std::vector<Pair>(33, aligned_pairs()[0]));
   EXPECT_EQ(number_of(stats_structure(harness.element()).get(), "inspections"), 1);
-  match_all(harness, {aligned_pairs()[1]}, 132 * kFrame);
+  match_all(harness, {aligned_pairs()[1]}, 33 * kFrame);
   EXPECT_EQ(number_of(stats_structure(harness.element()).get(), "inspections"), 2);
 }
 
 TEST(Alignment, IsTheSameInEveryRunAndForAnyNumberOfThreads) {
-  const Maps once = maps_with("alignment-interval=2 threads=1", crooked_pairs());
-  EXPECT_EQ(once, maps_with("alignment-interval=2 threads=1", crooked_pairs()));
-  EXPECT_EQ(once, maps_with("alignment-interval=2 threads=3", crooked_pairs()));
+  const std::vector<Pair> pairs = first(crooked_pairs(), 4);
+  const Maps once = maps_with("alignment-interval=2 threads=1", pairs);
+  EXPECT_EQ(once, maps_with("alignment-interval=2 threads=1", pairs));
+  EXPECT_EQ(once, maps_with("alignment-interval=2 threads=3", pairs));
 }
 
 /// The maps of three crooked pairs, the first of which a new element corrects, are the same after
@@ -270,7 +271,7 @@ TEST(AlignmentHold, AppliesTheFieldThatWasSetToEveryPair) {
   const std::string field = "alignment-field=1.5,-0.8,0,0,0 ";
   StereoHarness harness(kRange + "alignment=hold alignment-interval=1 " + field);
   harness.caps(rendered_caps());
-  const Maps whole = match_all(harness, crooked_pairs());
+  const Maps whole = match_all(harness, first(crooked_pairs(), 3));
   const StructurePointer stats = stats_structure(harness.element());
   EXPECT_TRUE(flag_of(stats.get(), "applied"));
   EXPECT_FALSE(flag_of(stats.get(), "trust"));
