@@ -200,7 +200,6 @@ MergeResult merge(const fs::path& folder, const MergeOptions& options) {
       result.damaged.push_back({plan.recordings[i], recording.figures->damage});
     }
   }
-  result.sum.damage.clear();  // that of one recording says nothing about the others
   std::sort(result.missing.begin(), result.missing.end());
   write_summary(files, plan, recordings, result);
   if (result.joined == recordings.size()) {

@@ -124,6 +124,7 @@ TEST_F(Findings, NameTheFramesBetweenTheViews) {
 TEST_F(Findings, NoteFramesWithoutAPartner) {
   figures_.work.pairs.pairs.resize(100);
   figures_.work.pairs.dropped_left = 5;
+  figures_.work.pairs.dropped_right = 11;  // of 111
   expect_none();
   figures_.work.pairs.dropped_right = 20;
   expect(false, "5 left and 20 right frames have no partner", "at the same rate");

@@ -12,6 +12,8 @@
 
 #include "fake_pieces.hpp"
 #include "lib/outputs/user_error.hpp"
+#include "recordings/matching/json.hpp"
+#include "recordings/plan/work_key.hpp"
 #include "support/error_of.hpp"
 
 namespace mtstereo::run::task_test {
@@ -172,6 +174,24 @@ TEST_F(Tasks, AreShortOnlyIfTheInputIsDamaged) {
   EXPECT_EQ(do_one(0), TaskResult::kDone);
   EXPECT_EQ(read_figures(files_.piece(0)).pairs, 3);
   EXPECT_EQ(read_figures(files_.piece(0)).damage, damage);
+}
+
+TEST_F(Tasks, WhoseInputIsLostMeanwhileAreNoDamagedOnes) {
+  Work work = read_work(files_.work("a"));
+  const fs::path video = folder_.path() / "a.mkv";
+  work.recording.left.video = video;
+  write_text(video, "frames");
+  write_work(work, files_.work("a"));
+  write_key(work_key(work.recording, ""), files_.key("a"));
+  options_.functions.process = [&](const Work& work, Range range, const fs::path& folder,
+                                   const Progress& progress) {
+    PieceReport report = fake_process(work, range, folder, progress);
+    report.damage = "no frame can be read after 12.3 s";
+    fs::remove(video);
+    return report;
+  };
+  EXPECT_THAT(error_of(0), HasSubstr("a.mkv: is missing"));
+  EXPECT_THAT(missing(), ElementsAre(0, 1, 2, 3, 4));
 }
 
 TEST_F(Tasks, WithPairsInAnotherOrderAreRefused) {
