@@ -114,12 +114,14 @@ TEST(CloudFile, NamesAFolderThatDoesNotExist) {
 TEST(CloudFile, ReplacesNeitherFoldersNorDevices) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "cloud.ply");
-  for (const std::string& path : {(folder / "cloud.ply").string(), std::string("/dev/null")}) {
+  test::make_pipe(folder / "pipe.ply");
+  for (const std::string& path :
+       {(folder / "cloud.ply").string(), (folder / "pipe.ply").string()}) {
     const std::string message = error_of(path);
     EXPECT_NE(message.find(path), std::string::npos) << message;
     EXPECT_NE(message.find("not a regular file"), std::string::npos) << message;
   }
-  EXPECT_FALSE(std::filesystem::is_regular_file("/dev/null"));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe.ply"));
 }
 
 /// Files of this process get no larger while this object lives; the next byte is an error.

@@ -3,10 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
-#include <regex>
 
 #include "lib/options/finite_range.hpp"
 #include "lib/options/parse.hpp"
+#include "lib/options/two_numbers.hpp"
 #include "programs/calibrate/charuco.hpp"
 #include "programs/calibrate/page.hpp"
 
@@ -128,11 +128,9 @@ void add_rest(CLI::App& app, Texts& texts, Options& options) {
 
 // "9x6"
 cv::Size parse_size(const std::string& option, const std::string& text) {
-  std::smatch match;
-  if (!std::regex_match(text, match, std::regex("([0-9]{1,5})x([0-9]{1,5})"))) {
-    throw CLI::ValidationError(option, "'" + text + "' is not of the form 9x6");
-  }
-  return {std::stoi(match[1]), std::stoi(match[2])};
+  const auto size = options::two_numbers(text);
+  if (!size) throw CLI::ValidationError(option, "'" + text + "' is not of the form 9x6");
+  return {size->first, size->second};
 }
 
 void apply_source(const Texts& texts, SourceOptions& source) {

@@ -2,13 +2,16 @@
 #include "programs/run/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
+#include <tuple>
 
 #include "lib/options/finite_range.hpp"
 #include "lib/options/parse.hpp"
+#include "lib/options/two_numbers.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/rectification.hpp"
 #include "mtstereo/parameters.hpp"
@@ -70,12 +73,9 @@ void add_shape(CLI::App& app, Texts& texts, RectifiedShape& shape) {
 
 void apply_size(const std::string& text, RectifiedShape& shape) {
   if (text.empty()) return;
-  const std::size_t mark = text.find('x');
-  const bool valid =
-      mark != std::string::npos && CLI::detail::lexical_cast(text.substr(0, mark), shape.width) &&
-      CLI::detail::lexical_cast(text.substr(mark + 1), shape.height) && shape.width >= 1 &&
-      shape.height >= 1 && shape.width <= kLargestImageSide && shape.height <= kLargestImageSide;
-  if (valid) return;
+  std::tie(shape.width, shape.height) = options::two_numbers(text).value_or(std::pair(0, 0));
+  const auto [least, most] = std::minmax(shape.width, shape.height);
+  if (least >= 1 && most <= kLargestImageSide) return;
   throw CLI::ValidationError("--rectified-size", "'" + text + "' is not a size such as 640x480");
 }
 

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <stdexcept>
 #include <tuple>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "lib/options/finite_range.hpp"
+#include "lib/options/two_numbers.hpp"
 
 namespace mtstereo::render {
 namespace {
@@ -191,13 +191,9 @@ void complete_options(const CLI::App& app, Options& o) {
 
 std::pair<int, int> parse_pair(const std::string& option, const std::string& text,
                                const char* example) {
-  int first = 0, second = 0, used = 0;
-  const int found = std::sscanf(text.c_str(), "%5dx%5d%n", &first, &second, &used);
-  if (found != 2 || used != static_cast<int>(text.size())) {
-    throw std::invalid_argument(option + " is '" + text + "'; expected two numbers, such as " +
-                                example);
-  }
-  return {first, second};
+  if (const auto pair = options::two_numbers(text)) return *pair;
+  throw std::invalid_argument(option + " is '" + text + "'; expected two numbers, such as " +
+                              example);
 }
 
 }  // namespace mtstereo::render

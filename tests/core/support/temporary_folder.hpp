@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -32,6 +33,12 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Makes a pipe, which stands for a device: a program that replaces one must not harm the machine
+/// of the test.
+inline void make_pipe(const std::filesystem::path& file) {
+  if (mkfifo(file.c_str(), 0600) != 0) throw std::runtime_error("cannot create " + file.string());
+}
 
 inline std::string read_text(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -5,6 +5,7 @@
 #include "lib/options/failure_message.hpp"
 #include "lib/options/finite_range.hpp"
 #include "lib/options/nearest_name.hpp"
+#include "lib/options/two_numbers.hpp"
 
 namespace mtstereo::options::options_test {
 namespace {
@@ -21,6 +22,16 @@ TEST(TypingErrors, AreCounted) {
   EXPECT_EQ(typing_errors("mods", "mode"), 1u);   // another one
   EXPECT_EQ(typing_errors("moed", "mode"), 1u);   // two exchanged
   EXPECT_EQ(typing_errors("what", "mode"), 4u);
+}
+
+TEST(TwoNumbers, AreReadFromATextOfDigitsOnly) {
+  EXPECT_EQ(two_numbers("640x480"), std::pair(640, 480));
+  EXPECT_EQ(two_numbers("00009x0"), std::pair(9, 0));
+  for (const char* const text :
+       {"", "x", "640", "640x", "x480", "640x480x3", "640x480 ", " 640x480", "+640x480", "640x-480",
+        "6.4x480", "640X480", "123456x1", "1x99999999999"}) {
+    EXPECT_FALSE(two_numbers(text)) << text;
+  }
 }
 
 TEST(NearestName, IsThatWithTheFewestErrors) {
