@@ -29,13 +29,36 @@ FieldPair misaligned() {
   return options;
 }
 
-TEST(AlignmentTracker, HasSeenNothingAtFirst) {
-  const AlignmentTracker fresh = tracker();
-  EXPECT_EQ(FieldStatus::kNotInspected, fresh.findings().status);
-  EXPECT_EQ(ViewCorrection(), fresh.correction());
-  EXPECT_FALSE(fresh.trusted());
-  EXPECT_EQ(0, fresh.views());
-  for (int i = 0; i < kPairProblems; ++i) EXPECT_FALSE(fresh.has(static_cast<PairProblem>(i)));
+void expect_fresh(const AlignmentTracker& tracker) {
+  EXPECT_EQ(FieldStatus::kNotInspected, tracker.findings().status);
+  EXPECT_EQ(ViewCorrection(), tracker.correction());
+  EXPECT_FALSE(tracker.trusted());
+  EXPECT_EQ(0, tracker.views());
+  for (int i = 0; i < kPairProblems; ++i) {
+    const auto problem = static_cast<PairProblem>(i);
+    EXPECT_FALSE(tracker.has(problem)) << problem_name(problem);
+  }
+}
+
+TEST(AlignmentTracker, HasSeenNothingAtFirst) { expect_fresh(tracker()); }
+
+TEST(AlignmentTracker, ForgetsAllProblemsOnReset) {
+  const Pair pair = test::taken_as(misaligned());
+  AlignmentTracker alignment = tracker();
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_TRUE(alignment.watch(test::noise(320, 200, i).view(), pair.right.view()).ok());
+  }
+  EXPECT_TRUE(alignment.has(PairProblem::kRightFrozen));
+  alignment.reset();
+  expect_fresh(alignment);
+  inspect(alignment, {pair.right, pair.left});
+  EXPECT_TRUE(alignment.has(PairProblem::kSwapped));
+  alignment.reset();
+  expect_fresh(alignment);
+  for (int i = 0; i < 3; ++i) inspect(alignment, {pair.left, test::texture(320, 200, i)});
+  EXPECT_TRUE(alignment.has(PairProblem::kNotAPair));
+  alignment.reset();
+  expect_fresh(alignment);
 }
 
 TEST(AlignmentTracker, CorrectionMakesASinglePairMatchAsIfItWereAligned) {

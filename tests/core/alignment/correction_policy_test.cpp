@@ -230,6 +230,9 @@ TEST_F(CorrectionPolicyTest, TakesTheMedianOfTheSharpness) {
   }
   EXPECT_FLOAT_EQ(0.8F, policy_.correction().right_blur);
   EXPECT_EQ(0, policy_.correction().left_blur);
+  policy_.reset();
+  see({}, 1);
+  EXPECT_EQ(0, policy_.correction().right_blur) << "after a reset";
 }
 
 TEST_F(CorrectionPolicyTest, StartsAgainAfterResetAndAfterAChangeOfTheSize) {
