@@ -102,7 +102,7 @@ def prepare(folder):
     make_data_sets(folder)
     # Views of a calibration board, in place of cameras.
     require(run([BUILD / "pipelines/tools/render/mtstereo-render", "camera-boards", "--scene", "board",
-                 "--size", "320x240", "--poses", "12", "--rest", "1", "--samples", "1"], folder))
+                 "--size", "320x240", "--poses", "8", "--rest", "1", "--samples", "1"], folder))
 
 
 def headless(text):
