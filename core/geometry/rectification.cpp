@@ -204,11 +204,6 @@ Result<Rectification> compute(const StereoCalibration& calibration,
   return result;
 }
 
-bool is_default(RectificationOptions options) {
-  options.from_file = true;
-  return options == RectificationOptions{};
-}
-
 }  // namespace
 
 Result<Rectification> rectify(const StereoCalibration& calibration,
@@ -225,7 +220,7 @@ Result<Rectification> rectify(const StereoCalibration& calibration,
     if (const std::string problem = pose_problem(calibration); !problem.empty()) {
       return unusable(problem);
     }
-    if (options.from_file && calibration.rectification && is_default(options)) {
+    if (calibration.rectification && options == RectificationOptions{}) {
       return *calibration.rectification;
     }
     try {

@@ -102,6 +102,19 @@ TEST(Sharpness, MeasuresNoise) {
   EXPECT_EQ(0, noise_of(GrayPlane(300, 200, 3).view(), scratch));
 }
 
+TEST(Sharpness, MeasuresNoiseWhereViewsAreNotClipped) {
+  constexpr int kLargest = 6;
+  const double deviation = std::sqrt(2.0 * kLargest * (kLargest + 1) / 3);
+  SharpnessScratch scratch;
+  for (const int clipped : {0, 255}) {
+    GrayPlane view(kWidth, kHeight, 120);
+    for (int y = kHeight / 2; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) view(x, y) = static_cast<std::uint8_t>(clipped);
+    }
+    EXPECT_NEAR(deviation, noise_of(noisy(view, kLargest, 5).view(), scratch), 0.25 * deviation);
+  }
+}
+
 TEST(Sharpness, NeedsPatchesWithContrast) {
   const test::Pair pair = pair_of(5);
   SharpnessScratch scratch;

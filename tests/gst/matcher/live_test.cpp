@@ -139,6 +139,9 @@ TEST_F(Live, SkipsPairsThatWouldBeLateAtASinkThatSynchronizes) {
   gint64 jitter = 0;
   gst_message_parse_qos_values(message.get(), &jitter, nullptr, nullptr);
   EXPECT_EQ(jitter, static_cast<gint64>(2 * kFrame + 1)) << "by the clock";
+  gst_element_set_state(harness->element(), GST_STATE_READY);
+  gst_element_set_state(harness->element(), GST_STATE_PAUSED);
+  EXPECT_EQ(harness->stats().skipped, 0u) << "when it starts again";
 }
 
 TEST_F(Live, SkipsLatePairsOfStreamsThatAreNotLiveToo) {
