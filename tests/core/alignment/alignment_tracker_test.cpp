@@ -118,6 +118,19 @@ TEST(AlignmentTracker, DoesNotTakeViewsThatAreNotRectifiedForSwappedOnes) {
   EXPECT_EQ(ViewCorrection(), alignment.correction());
 }
 
+TEST(AlignmentTracker, ReportsViewsOutOfStepAndNotThatTheyAreSwapped) {
+  FieldPair options;
+  options.field = {1, 3, 0, 1.5, 0};
+  const Pair scattered = test::taken_as(options), pair = test::taken_as(misaligned());
+  AlignmentTracker alignment = tracker();
+  for (int i = 0; i < 3; ++i) inspect(alignment, {scattered.right, scattered.left});
+  EXPECT_TRUE(alignment.has(PairProblem::kOutOfStep));
+  inspect(alignment, {pair.right, pair.left});
+  EXPECT_EQ(alignment.findings().status, FieldStatus::kSwapped);
+  EXPECT_TRUE(alignment.has(PairProblem::kOutOfStep));
+  EXPECT_FALSE(alignment.has(PairProblem::kSwapped));
+}
+
 TEST(AlignmentTracker, ReportsBlankAndFrozenViews) {
   const Pair pair = test::taken_as({});
   AlignmentTracker alignment = tracker();
