@@ -193,7 +193,7 @@ TEST_F(Program, RejectsInvalidOptionsByName) {
       {"--size 640x360x3", "--size"},
       {"--size axb", "--size"},
       {"--size 0x10", "width"},
-      {"--size 10x-4", "height"},
+      {"--size 10x-4", "two numbers"},
       {"--frames 0", "--frames"},
       {"--frames many", "--frames"},
       {"--scene moon", "street, garden, room, board, wall, thin"},
