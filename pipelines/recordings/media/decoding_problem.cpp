@@ -8,8 +8,7 @@ namespace {
 
 constexpr const char* kUnknownPixels =
     "its data is damaged, or GStreamer has no format for its pixels, such as gray of 10 or 12 "
-    "bits: "
-    "convert it (ffmpeg -i FILE -pix_fmt gray16le -c:v ffv1 view.mkv)";
+    "bits: convert it (ffmpeg -i FILE -pix_fmt gray16le -c:v ffv1 view.mkv)";
 
 // Also a file that has sound only: decodebin misses a plugin, without a name.
 bool is_unknown_format(const GError& error) {
@@ -28,6 +27,10 @@ std::string without_plugin(const std::string& missing) {
 
 std::string without_frames(bool decodes) {
   return decodes ? kUnknownPixels : "no video was found in it";
+}
+
+std::string unreadable_image(const std::filesystem::path& image) {
+  return image.string() + ": the image cannot be read: give PNG, JPEG or TIFF of 8 or 16 bits";
 }
 
 std::string decoding_problem(GstMessage* message) {

@@ -3,6 +3,7 @@
 
 #include <gst/gst.h>
 
+#include <filesystem>
 #include <string>
 
 namespace mtstereo::run {
@@ -12,6 +13,9 @@ std::string without_plugin(const std::string& missing);
 
 /// Why a pipeline ends without a frame and without an error; `decodes` if a decoder has got one.
 std::string without_frames(bool decodes);
+
+/// The message for an image that cannot be read.
+std::string unreadable_image(const std::filesystem::path& image);
 
 /// What an error message of a pipeline that decodes a file means, and what to do.
 std::string decoding_problem(GstMessage* message);

@@ -12,6 +12,7 @@
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/damage_notes.hpp"
+#include "recordings/media/decoding_problem.hpp"
 #include "recordings/media/video_times.hpp"
 
 namespace mtstereo::run {
@@ -147,10 +148,7 @@ std::string name_of_format(const fs::path& image) {
 FrameIndex index_of_images(const Source& source, double frame_rate) {
   FrameIndex index;
   const cv::Mat first = images::read(source.images.front(), cv::IMREAD_UNCHANGED);
-  if (first.empty()) {
-    throw UserError(source.images.front().string() +
-                    ": the image cannot be read: give PNG, JPEG or TIFF of 8 or 16 bits");
-  }
+  if (first.empty()) throw UserError(unreadable_image(source.images.front()));
   index.width = first.cols;
   index.height = first.rows;
   index.codec = name_of_format(source.images.front());
