@@ -95,7 +95,16 @@ class VideoReader : public FrameReader {
     if (!frame) return {};
     GstSample* const sample = scan_->sample();
     return {BufferPointer(gst_buffer_ref(gst_sample_get_buffer(sample))),
-            with_usual_matrix(gst_sample_get_caps(sample)), frame->time};
+            usual_caps(gst_sample_get_caps(sample)), frame->time};
+  }
+
+  // All frames between two changes of the caps have the same object.
+  CapsPointer usual_caps(GstCaps* caps) {
+    if (caps != decoded_caps_.get()) {
+      decoded_caps_.reset(gst_caps_ref(caps));
+      usual_caps_ = with_usual_matrix(caps);
+    }
+    return CapsPointer(gst_caps_ref(usual_caps_.get()));
   }
 
   // Decodes up to a frame.
@@ -160,9 +169,10 @@ class VideoReader : public FrameReader {
   const FrameIndex& index_;
   std::unique_ptr<VideoScan> scan_;
   Waiting waiting_;
-  std::int64_t next_ = 0;   // the frame after the last one that was decoded
-  bool from_start_ = true;  // since the start of the file no seek took place
-  Nanoseconds first_ = 0;   // the time of the frame for which it was started
+  CapsPointer decoded_caps_, usual_caps_;  // of the last frame, as decoded and as it is given
+  std::int64_t next_ = 0;                  // the frame after the last one that was decoded
+  bool from_start_ = true;                 // since the start of the file no seek took place
+  Nanoseconds first_ = 0;                  // the time of the frame for which it was started
   std::string problem_;
   std::vector<DamagedFrame> damaged_;  // before the last start
 };
