@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "lib/outputs/texts.hpp"
 #include "programs/calibrate/charuco.hpp"
-#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kLargestSquare = 1;       // [m]
 constexpr double kLargestMarker = 0.95;    // of a square
 
 std::string millimeters(double meters) {
-  std::string text = decimal(1000 * meters, 3);
+  std::string text = outputs::decimal(1000 * meters, 3);
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
   return text + " mm";

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
-#include "programs/calibrate/texts.hpp"
 #include "shared/decoder_crashes.hpp"
 #include "shared/orientation.hpp"
 
@@ -169,7 +169,7 @@ void Branch::drop_old_frames() { gst_app_sink_set_drop(sink_, TRUE); }
 
 void Branch::check_silence(double timeout) const {
   if (ended_ || waited_ <= timeout) return;
-  throw UserError(title() + ": no frame for " + decimal(timeout, 0) +
+  throw UserError(title() + ": no frame for " + outputs::decimal(timeout, 0) +
                   " s. Is it sending, and is it not in use elsewhere? (--timeout)");
 }
 

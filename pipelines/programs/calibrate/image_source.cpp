@@ -9,9 +9,9 @@
 #include "lib/files/file_names.hpp"
 #include "lib/files/unread_kinds.hpp"
 #include "lib/images/images.hpp"
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
-#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -77,7 +77,7 @@ fs::path without_partner(const std::vector<fs::path>& images, const std::vector<
                                 const std::vector<fs::path>& right) {
   fs::path alone = without_partner(left, right);
   if (alone.empty()) alone = without_partner(right, left);
-  throw UserError(options.left + " has " + counted(left.size(), "image") + ", but " +
+  throw UserError(options.left + " has " + outputs::counted(left.size(), "image") + ", but " +
                   options.right + " has " + std::to_string(right.size()) +
                   ": they are paired in order" +
                   (alone.empty() ? "" : "; " + alone.string() + " has no partner"));

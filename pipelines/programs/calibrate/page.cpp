@@ -9,12 +9,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "lib/images/images.hpp"
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
-#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
+
+using outputs::decimal;
 
 struct Paper {
   const char* name;

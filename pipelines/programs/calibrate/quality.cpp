@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/outputs/percent.hpp"
-#include "programs/calibrate/texts.hpp"
+#include "lib/outputs/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
+
+using outputs::decimal;
 
 constexpr std::size_t kFewViews = 15;
 constexpr double kLittleTilt = 0.7;      // of what Coverage wants

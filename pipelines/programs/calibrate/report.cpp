@@ -5,13 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/outputs/json_text.hpp"
+#include "lib/outputs/texts.hpp"
 #include "mtstereo/geometry/rig.hpp"
-#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
 
 using nlohmann::ordered_json;
+using outputs::decimal;
 
 constexpr double kDegrees = 180 / M_PI;
 
@@ -233,7 +234,7 @@ std::string too_few_views(const PairCounts& counts, std::size_t views, const Boa
                   "hold the board closer";
     return text;
   }
-  std::string text = "only " + counted(views, "different view") + " of the board in " +
+  std::string text = "only " + outputs::counted(views, "different view") + " of the board in " +
                      std::to_string(counts.pairs) + " pairs of images (" +
                      std::to_string(counts.without_board) + " without the board in both";
   if (video) text += ", " + std::to_string(counts.moving) + " with a board in motion";

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <ctime>
 
-#include "lib/outputs/percent.hpp"
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/drawings.hpp"
 

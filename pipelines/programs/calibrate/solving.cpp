@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/start_values.hpp"
-#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -42,8 +42,8 @@ constexpr const char* kWhatToCheck =
 
 void require_views(std::size_t count, std::size_t removed) {
   if (count >= kFewestViews && removed <= count) return;
-  std::string text = "only " + counted(count, "view") + " of the board can be used";
-  if (removed > 0) text += ", " + counted(removed, "other") + " do not fit" + kWhatToCheck;
+  std::string text = "only " + outputs::counted(count, "view") + " of the board can be used";
+  if (removed > 0) text += ", " + outputs::counted(removed, "other") + " do not fit" + kWhatToCheck;
   throw UserError(text + (removed > 0 ? " At" : "; at") + " least " + std::to_string(kFewestViews) +
                   " are needed, and 20 to 40 give a good calibration");
 }
@@ -53,7 +53,7 @@ void require_fit(const Solution& solution) {
       kLargestError * std::max(1.0, solution.rig.left.width / kWidthOfLargestError);
   if (solution.result.rms <= limit) return;
   throw UserError("the views of the board do not fit together, with an error of " +
-                  decimal(solution.result.rms, 1) + " px" + kWhatToCheck);
+                  outputs::decimal(solution.result.rms, 1) + " px" + kWhatToCheck);
 }
 
 // Removes the views with many corners that do not fit, and marks such corners of the others.

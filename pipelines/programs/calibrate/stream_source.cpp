@@ -7,14 +7,16 @@
 #include <memory>
 #include <utility>
 
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "matcher/pairing/tolerance.hpp"
 #include "programs/calibrate/branch.hpp"
 #include "programs/calibrate/source.hpp"
-#include "programs/calibrate/texts.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
+
+using outputs::decimal;
 
 constexpr plugin::Nanoseconds kHalfFrame = -1;  // the default tolerance of mtstereo
 constexpr std::size_t kMostWaiting = 32;        // frames of one side

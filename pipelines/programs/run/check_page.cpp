@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
+#include <utility>
 
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/texts.hpp"
 #include "programs/run/help_format.hpp"
 #include "recordings/matching/view_geometry.hpp"
 #include "recordings/matching/work_text.hpp"
 
 namespace mtstereo::run {
 namespace {
+
+using outputs::counted;
+using outputs::decimal;
 
 constexpr std::size_t kLine = 100;
 constexpr double kInStep = 0.02;  // of a frame
@@ -30,9 +33,7 @@ std::string indented(const std::string& first, const std::string& text) {
 
 class FigureLines {
  public:
-  explicit FigureLines(const CheckFigures& figures) : figures_(figures) {
-    out_ << std::fixed << std::setprecision(0);
-  }
+  explicit FigureLines(const CheckFigures& figures) : figures_(figures) {}
 
   std::string text() {
     line("views", views());
@@ -43,7 +44,7 @@ class FigureLines {
     if (figures_.range && !figures_.diagnosis.worthless()) line("disparities", disparities());
     const std::string cameras = measures_text(figures_.work);
     if (!cameras.empty()) line("cameras", cameras);
-    return out_.str();
+    return std::move(lines_);
   }
 
  private:
@@ -51,23 +52,17 @@ class FigureLines {
     constexpr std::size_t kName = 15;
     std::string first = "  " + name;
     first.resize(kName, ' ');
-    out_ << indented(first, text);
-  }
-
-  static std::string number(double value, int digits) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(digits) << value;
-    return text.str();
+    lines_ += indented(first, text);
   }
 
   // "112 and 110"
   std::string both(double ViewFigures::*value, int digits, double factor = 1) const {
-    return number(factor * (figures_.views[0].*value), digits) + " and " +
-           number(factor * (figures_.views[1].*value), digits);
+    return decimal(factor * (figures_.views[0].*value), digits) + " and " +
+           decimal(factor * (figures_.views[1].*value), digits);
   }
 
   std::string views() const {
-    return number(100 * figures_.diagnosis.matched, 0) +
+    return decimal(100 * figures_.diagnosis.matched, 0) +
            " % of the points of the left view are found in the right one";
   }
 
@@ -86,9 +81,9 @@ class FigureLines {
       return times.reason.empty() ? "not measured" : "not measured: " + times.reason;
     const double apart = std::abs(times.apart);
     const auto period = static_cast<double>(figures_.work.period) * 1e-9;
-    const std::string deviation = number(1e3 * times.deviation, 1) + " ms";
+    const std::string deviation = decimal(1e3 * times.deviation, 1) + " ms";
     if (apart < kInStep * period) return "in step, with a standard deviation of " + deviation;
-    return "the right view is " + number(1e3 * apart, 1) + " ms (" + number(apart / period, 2) +
+    return "the right view is " + decimal(1e3 * apart, 1) + " ms (" + decimal(apart / period, 2) +
            " frames) " + (times.apart < 0 ? "earlier" : "later") + ", standard deviation " +
            deviation;
   }
@@ -101,10 +96,10 @@ class FigureLines {
 
   std::string sharpness() const {
     const double ratio = figures_.inspection.sharpness;
-    std::string text = ratio > 0 ? "left / right " + number(ratio, 2) : "not compared";
+    std::string text = ratio > 0 ? "left / right " + decimal(ratio, 2) : "not compared";
     const ModeFigures* const usual = figures_.mode(kSemiDense);
     if (usual != nullptr && usual->fine_detail > 0) {
-      text += ", finest detail " + number(usual->fine_detail, 2);
+      text += ", finest detail " + decimal(usual->fine_detail, 2);
     }
     return text;
   }
@@ -112,40 +107,31 @@ class FigureLines {
   std::string disparities() const {
     const Parameters parameters = matcher_parameters(figures_.work.options);
     const int used = parameters.integer(Parameter::kMaxDisparity);
-    return "the reliable ones reach " + number(figures_.range->reliable, 0) +
+    return "the reliable ones reach " + decimal(figures_.range->reliable, 0) +
            " px; max-disparity=" + std::to_string(used) +
            (figures_.range_given ? " is given" : " suffices");
   }
 
   const CheckFigures& figures_;
-  std::ostringstream out_;
+  std::string lines_;
 };
 
 std::string expectation(const std::vector<ModeFigures>& modes) {
-  std::ostringstream out;
-  out << "Expected (estimated from four pairs at most; wrong: off by 3 px and 5 % or more)\n"
-      << "  mode                       known    wrong    time\n";
+  std::string text =
+      "Expected (estimated from four pairs at most; wrong: off by 3 px and 5 % or more)\n"
+      "  mode                       known    wrong    time\n";
   for (const ModeFigures& mode : modes) {
-    out << "  " << std::left << std::setw(26) << mode.name << std::right << std::fixed
-        << std::setprecision(0) << std::setw(4) << 100 * mode.density << " %" << std::setw(7);
-    if (mode.wrong) {
-      out << std::setprecision(1) << 100 * *mode.wrong << " %";
-    } else {
-      out << "-"
-          << "  ";
-    }
-    out << std::setprecision(0) << std::setw(6) << mode.milliseconds << " ms\n";
+    const std::string wrong = mode.wrong ? outputs::percent(*mode.wrong, 1) : "-  ";
+    text += outputs::format("  %-26s%4.0f %%%9s%6.0f ms\n", mode.name.c_str(), 100 * mode.density,
+                            wrong.c_str(), mode.milliseconds);
   }
-  return out.str();
+  return text;
 }
 
 std::string verdict(const std::vector<Finding>& findings) {
   const auto harmful = std::count_if(findings.begin(), findings.end(),
                                      [](const Finding& each) { return each.harms; });
   const auto notes = static_cast<std::ptrdiff_t>(findings.size()) - harmful;
-  const auto counted = [](std::ptrdiff_t count, const char* noun) {
-    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-  };
   const std::string more = notes > 0 ? ", " + counted(notes, "note") : "";
   return harmful == 0 ? "Result: good" + more + ".\n"
                       : "Result: bad, " + counted(harmful, "harmful finding") + more + ".\n";

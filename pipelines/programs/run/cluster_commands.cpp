@@ -5,13 +5,12 @@
 
 #include <chrono>
 #include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <optional>
-#include <sstream>
 
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/run/interruption.hpp"
 #include "recordings/inputs/recording_files.hpp"
@@ -27,6 +26,7 @@ namespace mtstereo::run {
 namespace {
 
 namespace fs = std::filesystem;
+using outputs::counted;
 using outputs::FolderLock;
 using outputs::Sharing;
 using Clock = std::chrono::steady_clock;
@@ -56,22 +56,14 @@ void end_at_signals() {
   run::end_at_signals("mtstereo-run: interrupted; --resume continues\n", kIncomplete);
 }
 
-// "1 task", "2 tasks"
-std::string counted(std::size_t number, const std::string& noun) {
-  return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
-}
-
 // "24.1 pairs/s, 3 min left"
 std::string speed(std::int64_t done, std::int64_t all, double seconds) {
-  std::ostringstream text;
   const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
-  text << std::fixed << std::setprecision(1) << rate << " pairs/s";
-  if (rate > 0 && done < all) {
-    const double left = static_cast<double>(all - done) / rate;
-    text << ", " << std::setprecision(0) << std::ceil(left < 120 ? left : left / 60)
-         << (left < 120 ? " s" : " min") << " left";
-  }
-  return text.str();
+  const std::string text = outputs::format("%.1f pairs/s", rate);
+  if (rate <= 0 || done >= all) return text;
+  const double left = static_cast<double>(all - done) / rate;
+  return text + outputs::format(", %.0f %s left", std::ceil(left < 120 ? left : left / 60),
+                                left < 120 ? "s" : "min");
 }
 
 // The task is done all the same: no other machine could read more.

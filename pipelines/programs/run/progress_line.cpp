@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <utility>
+
+#include "lib/outputs/texts.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -29,14 +30,11 @@ std::string time_left(double seconds) {
 
 std::string progress_text(std::int64_t done, std::int64_t total, double pairs_per_second,
                           double matching_share) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%lld of %lld pairs (%lld %%)", static_cast<long long>(done),
-                static_cast<long long>(total), static_cast<long long>(100 * done / total));
-  std::string line = text;
+  std::string line = std::to_string(done) + " of " + std::to_string(total) + " pairs (" +
+                     std::to_string(100 * done / total) + " %)";
   if (pairs_per_second <= 0) return line;
-  std::snprintf(text, sizeof text, ", %.1f pairs/s, the matcher works %.0f %% of the time",
-                pairs_per_second, 100 * matching_share);
-  line += text;
+  line += outputs::format(", %.1f pairs/s, the matcher works %.0f %% of the time", pairs_per_second,
+                          100 * matching_share);
   const double left = static_cast<double>(total - done) / pairs_per_second;
   return done < total ? line + ", " + time_left(left) + " left" : line;
 }

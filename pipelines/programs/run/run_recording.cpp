@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "programs/run/run_recording.hpp"
 
-#include <cstdio>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/json_text.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/run/interruption.hpp"
 #include "programs/run/progress_line.hpp"
@@ -48,11 +48,9 @@ void print_summary(const Work& work, const PieceReport& report, const fs::path& 
     median += frame.median_disparity;
   }
   const double pairs = report.frames.empty() ? 1 : static_cast<double>(report.frames.size());
-  char text[200];
-  std::snprintf(text, sizeof text, "%zu %s, disparities for %.1f %% of the pixels, median %.2f px",
-                report.frames.size(), report.frames.size() == 1 ? "pair" : "pairs",
-                100 * density / pairs, median / pairs);
-  std::cout << work.recording.name << ": " << text;
+  std::cout << work.recording.name << ": " << outputs::counted(report.frames.size(), "pair")
+            << outputs::format(", disparities for %.1f %% of the pixels, median %.2f px",
+                               100 * density / pairs, median / pairs);
   if (work.pairs.dropped_left > 0 || work.pairs.dropped_right > 0) {
     std::cout << ", " << work.pairs.dropped_left << " left and " << work.pairs.dropped_right
               << " right frames without a partner";

@@ -7,14 +7,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <string_view>
 
 #include "alignment/pair_inspection.hpp"
+#include "lib/outputs/texts.hpp"
 
 namespace mtstereo::run {
 namespace {
+
+using outputs::format;
 
 constexpr double kUselessDensity = 0.05;  // as mtstereo-run: less is of no use
 constexpr double kLowDensity = 0.3;
@@ -32,17 +33,6 @@ constexpr double kNoiseNote = 5;                          // [gray values]
 constexpr double kSoft = 0.08;                            // of the fine detail; choosing.md
 constexpr double kHalfFactor = 1.3;  // of the density: half the resolution is better
 constexpr double kRangeTwice = 2;    // how much larger than needed a range may be
-
-std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
-
-std::string format(const char* pattern, ...) {
-  char text[400];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return text;
-}
 
 const char* side_of(bool right) { return right ? "right" : "left"; }
 

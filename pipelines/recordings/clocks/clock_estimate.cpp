@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/calibration.hpp"
 #include "recordings/clocks/frame_pairs.hpp"
@@ -155,11 +155,9 @@ std::optional<Candidate> find_lag(const Views& views, RowMatcher& matcher, doubl
   }
   if (candidates.size() > 1 && candidates[1].support() > kAmbiguous * candidates[0].support()) {
     if (final) {
-      char text[160];
-      std::snprintf(text, sizeof text,
-                    "the motion is periodic: offsets of %.3f s and %.3f s explain it as well",
-                    candidates[0].lag.seconds, candidates[1].lag.seconds);
-      refuse(views, text);
+      refuse(views, outputs::format(
+                        "the motion is periodic: offsets of %.3f s and %.3f s explain it as well",
+                        candidates[0].lag.seconds, candidates[1].lag.seconds));
     }
     return std::nullopt;
   }
@@ -225,40 +223,32 @@ bool is_none(const Views& views, const ClockEstimate& estimate) {
 std::string describe_drift(const ClockEstimate& estimate) {
   constexpr double kParts = 1e6;
   if (!estimate.drift_uncertainty) return "a drift cannot be measured";
-  char text[120];
   const double drift = estimate.relation.drift, deviation = *estimate.drift_uncertainty;
   if (drift == 0) {
-    std::snprintf(text, sizeof text, "no drift is found (standard deviation %.0f ppm)",
-                  kParts * deviation);
-  } else {
-    std::snprintf(text, sizeof text,
-                  "the clock of the right one is %.0f ppm %s (standard deviation %.0f ppm)",
-                  kParts * std::abs(drift), drift < 0 ? "slower" : "faster", kParts * deviation);
+    return outputs::format("no drift is found (standard deviation %.0f ppm)", kParts * deviation);
   }
-  return text;
+  return outputs::format("the clock of the right one is %.0f ppm %s (standard deviation %.0f ppm)",
+                         kParts * std::abs(drift), drift < 0 ? "slower" : "faster",
+                         kParts * deviation);
 }
 
 std::string describe(const Views& views, const ClockEstimate& estimate) {
-  char text[400];
   const char* const sure =
       estimate.confirmed ? "matching confirms it" : "matching cannot confirm it";
   const ClockRelation& relation = estimate.relation;
   if (relation.offset == 0 && relation.drift == 0) {
-    std::snprintf(text, sizeof text,
-                  "The images of both recordings are in step (to %.1f ms): no offset is applied; "
-                  "%s.",
-                  1e3 * std::max(estimate.uncertainty, kNone * views.period), sure);
-    return text;
+    return outputs::format(
+        "The images of both recordings are in step (to %.1f ms): no offset is applied; %s.",
+        1e3 * std::max(estimate.uncertainty, kNone * views.period), sure);
   }
   const double offset = offset_at(relation, estimate.time);
-  std::snprintf(text, sizeof text,
-                "The recorders were started apart: what the left recording shows at %.3f s is at "
-                "%.4f s in the right one, %.4f s (%.2f frames, standard deviation %.2f) %s; %s; "
-                "%s.",
-                estimate.time, estimate.time + offset, std::abs(offset),
-                std::abs(offset) / views.period, estimate.uncertainty / views.period,
-                offset < 0 ? "earlier" : "later", describe_drift(estimate).c_str(), sure);
-  return text;
+  return outputs::format(
+      "The recorders were started apart: what the left recording shows at %.3f s is at "
+      "%.4f s in the right one, %.4f s (%.2f frames, standard deviation %.2f) %s; %s; "
+      "%s.",
+      estimate.time, estimate.time + offset, std::abs(offset), std::abs(offset) / views.period,
+      estimate.uncertainty / views.period, offset < 0 ? "earlier" : "later",
+      describe_drift(estimate).c_str(), sure);
 }
 
 void rectify_views(const Recording& recording, const FrameIndex& index, GrayFrames& left,

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "lib/outputs/percent.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/calibration.hpp"
 #include "recordings/inputs/calibration_choice.hpp"

@@ -3,10 +3,9 @@
 // The sentences about a diagnosis.
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
-#include "lib/outputs/percent.hpp"
+#include "lib/outputs/texts.hpp"
 #include "recordings/matching/view_checks.hpp"
 
 namespace mtstereo::run {
@@ -19,16 +18,13 @@ std::string comparison(const ViewDiagnosis& found) {
 }
 
 std::string rows(const ViewDiagnosis& found) {
-  char text[100];
-  std::snprintf(text, sizeof text, "the rows of the same points differ by %+.1f to %+.1f px",
-                found.least_rows, found.most_rows);
-  return text;
+  return outputs::format("the rows of the same points differ by %+.1f to %+.1f px",
+                         found.least_rows, found.most_rows);
 }
 
 std::string frames(int number) {
-  const int count = std::abs(number);
-  return std::to_string(count) + (count == 1 ? " frame " : " frames ") +
-         (number > 0 ? "later" : "earlier");
+  return outputs::counted(static_cast<std::size_t>(std::abs(number)), "frame") +
+         (number > 0 ? " later" : " earlier");
 }
 
 Advice turned(const ViewDiagnosis& found, const char* how) {

@@ -7,9 +7,9 @@
 #include <gst/gst.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/texts.hpp"
 #include "recordings/matching/json_files.hpp"
 #include "recordings/matching/matching_line.hpp"
 #include "recordings/matching/products.hpp"
@@ -190,14 +190,11 @@ std::string verdict(const Work& work, const PieceReport& report) {
   constexpr double kLeastDensity = 0.05;
   const double density = means_of(report.frames).density;
   if (!work.doubt.empty() || report.frames.empty() || density >= kLeastDensity) return work.doubt;
-  char text[240];
-  std::snprintf(
-      text, sizeof text,
+  return outputs::format(
       "Only %.1f %% of the pixels have a disparity. Check the order of the views (--swap), "
       "their times (--sync auto), the search range (--max-disparity N) and the "
       "rectification (--calibration FILE).",
       100 * density);
-  return text;
 }
 
 std::optional<outputs::WrittenFiles> files_listed_in(const std::filesystem::path& file) {

@@ -3,10 +3,11 @@
 // The JSON of a work.
 
 #include <array>
-#include <cstdio>
+#include <cinttypes>
 #include <string_view>
 
 #include "lib/outputs/json_text.hpp"
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/matching/json_files.hpp"
@@ -336,9 +337,7 @@ std::string fingerprint(const Work& work) {
   std::uint64_t sum = kStart;
   for (const char each : outputs::text_of(std::move(json)))
     sum = (sum ^ static_cast<unsigned char>(each)) * kFactor;
-  char text[24];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
-  return text;
+  return outputs::format("%016" PRIx64, sum);
 }
 
 }  // namespace mtstereo::run

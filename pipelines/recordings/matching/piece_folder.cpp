@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
 #include "recordings/matching/json.hpp"
@@ -19,11 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string line_of(const FrameFigures& figures) {
-  char text[160];
-  std::snprintf(text, sizeof text, "%" PRId64 " %" PRId64 " %" PRId64 " %.17g %.17g %.17g\n",
-                figures.pair, figures.frames.left, figures.frames.right, figures.density,
-                figures.median_disparity, figures.matching_ms);
-  return text;
+  return outputs::format("%" PRId64 " %" PRId64 " %" PRId64 " %.17g %.17g %.17g\n", figures.pair,
+                         figures.frames.left, figures.frames.right, figures.density,
+                         figures.median_disparity, figures.matching_ms);
 }
 
 bool parse_line(const std::string& line, FrameFigures& figures) {

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/piece.hpp"
 #include "recordings/matching/prepare_pairs.hpp"
@@ -39,11 +39,9 @@ void note_early_end(Work& work) {
   const Nanoseconds left = rest_of(work.left, last.left), right = rest_of(work.right, last.right);
   if (std::max(left, right) < kLeast) return;
   const FrameIndex& shorter = left < right ? work.left : work.right;
-  char text[120];
-  std::snprintf(text, sizeof text, "The %s view ends at %.3f s, %.3f s before the other one.",
-                left < right ? "left" : "right", 1e-9 * static_cast<double>(shorter.times.back()),
-                1e-9 * static_cast<double>(std::max(left, right) - std::min(left, right)));
-  work.remarks.emplace_back(text);
+  work.remarks.push_back(outputs::format(
+      "The %s view ends at %.3f s, %.3f s before the other one.", left < right ? "left" : "right",
+      seconds(shorter.times.back()), seconds(std::abs(left - right))));
 }
 
 // One of the usual frame rates, if it is near.
@@ -80,22 +78,16 @@ Nanoseconds period_of(const Work& work) {
       usual_period(std::abs(mean - median) <= kNearly * median ? mean : median), 1);
 }
 
-std::string relation_text(const ClockRelation& relation) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "An event is %.4f s later in the right recording, and its clock is %.1f ppm "
-                "faster: as given.",
-                relation.offset, 1e6 * relation.drift);
-  return text;
-}
-
 ClockRelation find_relation(Work& work, const std::optional<ClockRelation>& relation,
                             bool estimate) {
   if (relation) {
     work.clocks.emplace();
     work.clocks->relation = *relation;
     work.clocks->given = true;
-    work.clocks->explanation = relation_text(*relation);
+    work.clocks->explanation = outputs::format(
+        "An event is %.4f s later in the right recording, and its clock is %.1f ppm faster: as "
+        "given.",
+        relation->offset, 1e6 * relation->drift);
   } else if (estimate) {
     work.clocks = estimate_clocks(work.recording, work.left, work.right);
   }
@@ -106,13 +98,12 @@ ClockRelation find_relation(Work& work, const std::optional<ClockRelation>& rela
 
 [[noreturn]] void refuse_times(const Work& work) {
   const Nanoseconds left = work.left.times.front(), right = work.right.times.front();
-  char offset[32];
-  std::snprintf(offset, sizeof offset, "%.3f", seconds(right - left));
   throw UserError(work.recording.name +
                   ": no frames of the two views belong together by their times: the left view "
                   "begins at " +
                   seconds_text(left) + ", the right one at " + seconds_text(right) +
-                  ". If these are the same moment, give the difference (--sync " + offset +
+                  ". If these are the same moment, give the difference (--sync " +
+                  outputs::decimal(seconds(right - left), 3) +
                   "); --sync auto finds it by the images of longer recordings");
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/matching/product_files.hpp"
 
-#include <cstdio>
+#include <cinttypes>
 #include <limits>
 #include <utility>
 
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/products.hpp"
 #include "recordings/matching/view_geometry.hpp"
@@ -67,9 +68,7 @@ std::string pair_file(const WorkOptions& options, Product product, std::int64_t 
   const bool pfm = options.format == MapFormat::kPfm &&
                    (product == Product::kDisparity || product == Product::kDepth);
   const char* const extension = product == Product::kCloud ? ".ply" : pfm ? ".pfm" : ".png";
-  char number[32];
-  std::snprintf(number, sizeof number, "%06lld", static_cast<long long>(pair));
-  return number + std::string(extension);
+  return outputs::format("%06" PRId64 "%s", pair, extension);
 }
 
 ProductFiles::ProductFiles(const Work& work, std::filesystem::path folder, std::int64_t done)

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/map_files.hpp"
 #include "recordings/matching/matching_run.hpp"
@@ -89,11 +89,9 @@ void find_range(Work& work) {
     return;
   }
   set_range(work, found->max_disparity);
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "max-disparity is %d: 99.8 %% of the disparities in %d pairs are below %.1f px.",
-                found->max_disparity, found->pairs, found->largest);
-  work.remarks.emplace_back(text);
+  work.remarks.push_back(outputs::format(
+      "max-disparity is %d: 99.8 %% of the disparities in %d pairs are below %.1f px.",
+      found->max_disparity, found->pairs, found->largest));
 }
 
 }  // namespace mtstereo::run

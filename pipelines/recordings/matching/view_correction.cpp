@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "lib/outputs/texts.hpp"
 #include "recordings/matching/view_checks.hpp"
 #include "recordings/matching/view_inspection.hpp"
 #include "recordings/matching/work_options.hpp"
@@ -60,11 +60,9 @@ void note_correction(Work& work, const ViewInspection& findings) {
   if (!rows.empty()) work.remarks.push_back(rows);
   const double blur = std::max(findings.left_blur, findings.right_blur);
   if (blur == 0) return;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "The %s view is sharper: blurred like the other one (sigma %.2f px) in all pairs.",
-                findings.left_blur > 0 ? "left" : "right", blur);
-  work.remarks.emplace_back(text);
+  work.remarks.push_back(outputs::format(
+      "The %s view is sharper: blurred like the other one (sigma %.2f px) in all pairs.",
+      findings.left_blur > 0 ? "left" : "right", blur));
 }
 
 }  // namespace

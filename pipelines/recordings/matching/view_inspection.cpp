@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/clocks/frame_pairs.hpp"
 #include "recordings/matching/map_files.hpp"
@@ -54,12 +54,6 @@ bool may_be_farther_apart(const ViewDiagnosis& found) {
          (found.problem == ViewProblem::kOutOfStep && std::abs(found.frames) == kTried);
 }
 
-std::string text_of(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", number);
-  return text;
-}
-
 }  // namespace
 
 bool ViewInspection::has(PairProblem problem) const {
@@ -105,8 +99,8 @@ ViewInspection inspect_views(const Work& work) {
 std::vector<std::pair<std::string, std::string>> correction_of(const ViewInspection& inspection) {
   return {{"alignment", "hold"},
           {"alignment-field", inspection.field},
-          {"left-blur", text_of(inspection.left_blur)},
-          {"right-blur", text_of(inspection.right_blur)}};
+          {"left-blur", outputs::format("%.9g", inspection.left_blur)},
+          {"right-blur", outputs::format("%.9g", inspection.right_blur)}};
 }
 
 double RowExtremes::largest() const { return std::max(-least, most); }
@@ -133,17 +127,10 @@ std::string rows_text(const RowExtremes& rows) {
   const auto [least, most] = rows;
   const auto side = [](double value) { return value < 0 ? "higher" : "lower"; };
   constexpr double kEqual = 0.05;  // [px]
-  char text[100];
-  if (most - least < kEqual) {
-    std::snprintf(text, sizeof text, "%.1f px %s", std::abs(most), side(most));
-  } else if (least * most < 0) {
-    std::snprintf(text, sizeof text, "%.1f px higher to %.1f px lower", -least, most);
-  } else {
-    const double a = std::abs(least), b = std::abs(most);
-    std::snprintf(text, sizeof text, "%.1f to %.1f px %s", std::min(a, b), std::max(a, b),
-                  side(least + most));
-  }
-  return text;
+  if (most - least < kEqual) return outputs::format("%.1f px %s", std::abs(most), side(most));
+  if (least * most < 0) return outputs::format("%.1f px higher to %.1f px lower", -least, most);
+  const double a = std::abs(least), b = std::abs(most);
+  return outputs::format("%.1f to %.1f px %s", std::min(a, b), std::max(a, b), side(least + most));
 }
 
 bool suggests_sync(const Work& work) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/matching/work_text.hpp"
 
-#include <cstdio>
-
+#include "lib/outputs/texts.hpp"
 #include "recordings/matching/json_files.hpp"
 #include "recordings/matching/products.hpp"
 #include "recordings/matching/work_facts.hpp"
@@ -13,10 +12,9 @@ namespace {
 
 std::string input_text(const Work& work) {
   const ViewSize size = view_size(work);
-  const std::size_t pairs = work.pairs.pairs.size();
-  char text[160];
-  std::snprintf(text, sizeof text, "%dx%d px, %zu %s, %.4g per second", size.width, size.height,
-                pairs, pairs == 1 ? "pair" : "pairs", frame_rate(work));
+  const std::string text =
+      outputs::format("%dx%d px, %s, %.4g per second", size.width, size.height,
+                      outputs::counted(work.pairs.pairs.size(), "pair").c_str(), frame_rate(work));
   std::string arrangement;
   if (work.recording.arrangement != Arrangement::kTwoSources) {
     arrangement = std::string(" (") + arrangement_name(work.recording.arrangement) +

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "lib/outputs/texts.hpp"
+
 namespace mtstereo::run {
 
 Bytes::Bytes(const std::filesystem::path& file) : stream_(file, std::ios::binary) {
@@ -52,9 +54,8 @@ void DamagedParts::add(std::uint64_t position, const std::string& why) {
 
 std::string DamagedParts::text() const {
   if (count == 0) return "";
-  const std::string places = std::to_string(count) + (count == 1 ? " place" : " places");
-  return "the file is damaged in " + places + ", the first one at byte " + std::to_string(first) +
-         " (" + reason + ")";
+  return "the file is damaged in " + outputs::counted(static_cast<std::size_t>(count), "place") +
+         ", the first one at byte " + std::to_string(first) + " (" + reason + ")";
 }
 
 }  // namespace mtstereo::run

@@ -2,12 +2,12 @@
 #include "recordings/media/decoder_reports.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
 #include <string_view>
 
+#include "lib/outputs/texts.hpp"
 #include "recordings/media/decoder_kind.hpp"
 
 namespace mtstereo::run {
@@ -137,17 +137,13 @@ std::vector<DamagedFrame> DecoderReports::take_until(Nanoseconds time) {
   return found;
 }
 
-std::string seconds_text(Nanoseconds time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f s", seconds(time));
-  return text;
-}
+std::string seconds_text(Nanoseconds time) { return outputs::format("%.3f s", seconds(time)); }
 
 std::string damage_text(const std::vector<DamagedFrame>& frames, const std::string& title) {
   if (frames.empty()) return "";
   const DamagedFrame& first = frames.front();
-  std::string text = std::to_string(frames.size()) + (frames.size() == 1 ? " frame" : " frames") +
-                     " of the " + title + " cannot be decoded without errors";
+  std::string text = outputs::counted(frames.size(), "frame") + " of the " + title +
+                     " cannot be decoded without errors";
   if (first.time) text += ", the first one at " + seconds_text(*first.time);
   return text + " (" + first.reason + ")";
 }

@@ -3,17 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <ostream>
-#include <sstream>
+
+#include "lib/outputs/texts.hpp"
 
 namespace mtstereo::eval {
 
 std::string fixed(double value, int digits) {
-  if (!std::isfinite(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
+  return std::isfinite(value) ? outputs::decimal(value, digits) : "-";
 }
 
 void print_rows(std::ostream& out, const std::vector<TableRow>& rows) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
@@ -11,6 +10,7 @@
 
 #include "lib/images/images.hpp"
 #include "lib/outputs/pfm_bytes.hpp"
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/write_file.hpp"
 
 namespace mtstereo::render {
@@ -19,9 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string numbered(int number, const char* ending) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%06d%s", number, ending);
-  return name;
+  return outputs::format("%06d%s", number, ending);
 }
 
 [[noreturn]] void cannot(const char* what, const fs::path& path, const std::string& reason) {

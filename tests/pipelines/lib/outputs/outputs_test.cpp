@@ -16,6 +16,7 @@
 #include "lib/outputs/json_text.hpp"
 #include "lib/outputs/listed_folder.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "lib/outputs/write_file.hpp"
 #include "lib/outputs/written_files.hpp"
@@ -316,6 +317,15 @@ TEST(Printable, NamesAreRestored) {
 
 TEST(Printable, MakesEveryTextInJsonValid) {
   EXPECT_EQ(text_of(nlohmann::json{{"a", {"bad\xff", 1}}}), R"({"a":["bad\\xff",1]})");
+}
+
+TEST(Texts, HaveTheDecimalsAndPluralsAskedFor) {
+  const std::string name(1000, 'x');
+  EXPECT_EQ(format("%s: %.2f", name.c_str(), 1.005e3), name + ": 1005.00");
+  EXPECT_EQ(decimal(2.345, 1), "2.3");
+  EXPECT_EQ(percent(0.256), "26 %");
+  EXPECT_EQ(percent(0.256, 1), "25.6 %");
+  EXPECT_EQ(counted(1, "view") + ", " + counted(0, "view"), "1 view, 0 views");
 }
 
 }  // namespace
