@@ -11,7 +11,6 @@
 
 #include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
-#include "mtstereo/geometry/calibration.hpp"
 #include "recordings/clocks/frame_pairs.hpp"
 #include "recordings/clocks/gray_frames.hpp"
 #include "recordings/clocks/lag_search.hpp"
@@ -251,22 +250,17 @@ std::string describe(const Views& views, const ClockEstimate& estimate) {
       describe_drift(estimate).c_str(), sure);
 }
 
-void rectify_views(const Recording& recording, const FrameIndex& index, GrayFrames& left,
-                   GrayFrames& right) {
-  if (recording.rectified || recording.calibration.empty()) return;
-  const auto calibration = read_calibration(recording.calibration, index.width, index.height);
-  if (!calibration) throw UserError(recording.calibration + ": " + calibration.error().message);
-  left.rectify_as(*calibration, Rectifier::Side::kLeft);
-  right.rectify_as(*calibration, Rectifier::Side::kRight);
-}
-
 // Small images of both recordings, and their matcher.
 struct Matching {
   explicit Matching(const Views& views)
       : left(views.recording.left, views.left, kMatchingWidth),
         right(views.recording.right, views.right, kMatchingWidth),
         matcher(left, right) {
-    rectify_views(views.recording, views.left, left, right);
+    const auto calibration =
+        rectifying_calibration(views.recording, views.left.width, views.left.height);
+    if (!calibration) return;
+    left.rectify_as(*calibration, Rectifier::Side::kLeft);
+    right.rectify_as(*calibration, Rectifier::Side::kRight);
   }
 
   GrayFrames left, right;

@@ -7,12 +7,12 @@
 #include "lib/outputs/printable.hpp"
 #include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
-#include "mtstereo/geometry/calibration.hpp"
 #include "recordings/inputs/calibration_choice.hpp"
 #include "recordings/inputs/halves.hpp"
 #include "recordings/inputs/mosaic.hpp"
 #include "recordings/inputs/sources.hpp"
 #include "recordings/inputs/unused_bits.hpp"
+#include "recordings/inputs/view_rectifier.hpp"
 #include "recordings/media/sample_frames.hpp"
 #include "recordings/media/video_scan.hpp"
 
@@ -53,19 +53,11 @@ Arrangement guess_arrangement(const Recording& recording, cv::Size size) {
                   ", or state the arrangement (--layout)");
 }
 
-// The calibration that rectifies the halves, if one does.
-std::optional<StereoCalibration> rectifying_calibration(const Recording& recording, cv::Size half) {
-  if (recording.rectified || recording.calibration.empty()) return std::nullopt;
-  const auto read = read_calibration(recording.calibration, half.width, half.height);
-  if (!read) throw UserError(read.error().message);
-  return *read;
-}
-
 // Checks that the halves match, and finds which one is the left view unless the user states it.
 void confirm_arrangement(Recording& recording, cv::Size size, cv::Size half, bool swap) {
   constexpr int kSamples = 3;  // frames
   const std::vector<cv::Mat> frames = sample_frames(recording.left, kSamples);
-  const std::optional<StereoCalibration> calibration = rectifying_calibration(recording, half);
+  const auto calibration = rectifying_calibration(recording, half.width, half.height);
   HalvesMatch match = match_halves(frames, recording.arrangement, calibration);
   // Views that only match before they are rectified keep their order: the calibration is wrong.
   if (!match.confirmed && calibration) {

@@ -16,6 +16,14 @@ T value_of(Result<T> result) {
 
 }  // namespace
 
+std::optional<StereoCalibration> rectifying_calibration(const Recording& recording, int width,
+                                                        int height) {
+  if (recording.rectified || recording.calibration.empty()) return std::nullopt;
+  auto calibration = read_calibration(recording.calibration, width, height);
+  if (!calibration) throw UserError(calibration.error().message);
+  return std::move(*calibration);
+}
+
 ViewRectifier::ViewRectifier(StereoCalibration calibration, Rectifier::Side side)
     : calibration_(std::move(calibration)), side_(side) {}
 

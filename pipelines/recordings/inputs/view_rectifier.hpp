@@ -5,8 +5,14 @@
 #include <optional>
 
 #include "mtstereo/geometry/rectification.hpp"
+#include "recordings/inputs/recording.hpp"
 
 namespace mtstereo::run {
+
+/// The calibration that rectifies the views of a recording, for views of this size [px]; none: they
+/// are taken as they are. Throws UserError.
+std::optional<StereoCalibration> rectifying_calibration(const Recording& recording, int width,
+                                                        int height);
 
 /// Rectifies gray images of one camera. They may be smaller than the frames that the calibration
 /// is for.

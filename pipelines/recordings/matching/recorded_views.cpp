@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/matching/recorded_views.hpp"
 
-#include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/halves.hpp"
 #include "recordings/matching/work_options.hpp"
 
@@ -38,12 +37,8 @@ FramePair frames_of(const Work& work, std::int64_t pair) {
 }
 
 std::optional<StereoCalibration> rectifying_calibration(const Work& work) {
-  const Recording& recording = work.recording;
-  if (recording.rectified || recording.calibration.empty()) return std::nullopt;
   const ViewSize size = view_size(work);
-  const auto calibration = read_calibration(recording.calibration, size.width, size.height);
-  if (!calibration) throw UserError(calibration.error().message);
-  return *calibration;
+  return rectifying_calibration(work.recording, size.width, size.height);
 }
 
 }  // namespace mtstereo::run
