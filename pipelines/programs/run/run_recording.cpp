@@ -42,15 +42,10 @@ bool is_done(const Work& work, Existing existing, const fs::path& folder) {
 }
 
 void print_summary(const Work& work, const PieceReport& report, const fs::path& folder) {
-  double density = 0, median = 0;
-  for (const FrameFigures& frame : report.frames) {
-    density += frame.density;
-    median += frame.median_disparity;
-  }
-  const double pairs = report.frames.empty() ? 1 : static_cast<double>(report.frames.size());
+  const FrameFigures mean = mean_of(report.frames);
   std::cout << work.recording.name << ": " << outputs::counted(report.frames.size(), "pair")
             << outputs::format(", disparities for %.1f %% of the pixels, median %.2f px",
-                               100 * density / pairs, median / pairs);
+                               100 * mean.density, mean.median_disparity);
   if (work.pairs.dropped_left > 0 || work.pairs.dropped_right > 0) {
     std::cout << ", " << work.pairs.dropped_left << " left and " << work.pairs.dropped_right
               << " right frames without a partner";

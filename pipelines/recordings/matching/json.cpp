@@ -23,21 +23,6 @@ namespace {
 constexpr const char* kPieceKind = "piece of mtstereo-run";
 constexpr const char* kRunKind = "report of mtstereo-run";
 
-struct Means {
-  double density = 0, median_disparity = 0, matching_ms = 0;
-};
-
-Means means_of(const std::vector<FrameFigures>& frames) {
-  Means means;
-  for (const FrameFigures& frame : frames) {
-    means.density += frame.density;
-    means.median_disparity += frame.median_disparity;
-    means.matching_ms += frame.matching_ms;
-  }
-  const double count = std::max<double>(static_cast<double>(frames.size()), 1);
-  return {means.density / count, means.median_disparity / count, means.matching_ms / count};
-}
-
 Json source_summary(const Source& source, const FrameIndex& index) {
   const bool video = !source.video.empty();
   Json summary{{"file", video ? outputs::escaped(source.video.string()) : ""},
@@ -100,7 +85,7 @@ Json inputs_json(const Work& work) {
 }
 
 Json run_json(const Work& work, const PieceReport& report, double seconds) {
-  const Means means = means_of(report.frames);
+  const FrameFigures means = mean_of(report.frames);
   Json products = Json::array();
   for (const Product product : work.options.products) products.push_back(product_name(product));
   const auto pairs = static_cast<double>(report.frames.size());
@@ -186,9 +171,23 @@ void write_run_report(const Work& work, const PieceReport& report, double second
   write_whole(file, [&](std::ostream& out) { write_frames(out, head, report.frames); });
 }
 
+FrameFigures mean_of(const std::vector<FrameFigures>& frames) {
+  FrameFigures mean;
+  for (const FrameFigures& frame : frames) {
+    mean.density += frame.density;
+    mean.median_disparity += frame.median_disparity;
+    mean.matching_ms += frame.matching_ms;
+  }
+  const double count = std::max<double>(static_cast<double>(frames.size()), 1);
+  mean.density /= count;
+  mean.median_disparity /= count;
+  mean.matching_ms /= count;
+  return mean;
+}
+
 std::string verdict(const Work& work, const PieceReport& report) {
   constexpr double kLeastDensity = 0.05;
-  const double density = means_of(report.frames).density;
+  const double density = mean_of(report.frames).density;
   if (!work.doubt.empty() || report.frames.empty() || density >= kLeastDensity) return work.doubt;
   return outputs::format(
       "Only %.1f %% of the pixels have a disparity. Check the order of the views (--swap), "

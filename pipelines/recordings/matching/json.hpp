@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lib/outputs/written_files.hpp"
 #include "recordings/inputs/own_names.hpp"
@@ -31,6 +32,8 @@ std::string fingerprint(const Work& work);
 /// The reports in a folder of results: what they list, a run of this program wrote.
 inline constexpr std::array kReportFiles{kPieceFile, kRunFile};
 
+/// The means of the figures of frames; 0 without any.
+FrameFigures mean_of(const std::vector<FrameFigures>& frames);
 /// The report of a run: parameters, versions, inputs, figures per frame and their means, dropped
 /// frames, remarks.
 void write_run_report(const Work& work, const PieceReport& report, double seconds,

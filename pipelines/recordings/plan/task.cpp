@@ -33,19 +33,12 @@ void check_report(const PieceReport& report, Range range) {
 }
 
 Figures figures_of(const PieceReport& report, double seconds) {
-  Figures figures;
-  figures.seconds = seconds;
-  figures.damage = report.damage;
-  for (const FrameFigures& frame : report.frames) {
-    figures.density += frame.density;
-    figures.median_disparity += frame.median_disparity;
-  }
-  figures.pairs = static_cast<std::int64_t>(report.frames.size());
-  if (figures.pairs > 0) {
-    figures.density /= static_cast<double>(figures.pairs);
-    figures.median_disparity /= static_cast<double>(figures.pairs);
-  }
-  return figures;
+  const FrameFigures mean = mean_of(report.frames);
+  return {.pairs = static_cast<std::int64_t>(report.frames.size()),
+          .density = mean.density,
+          .median_disparity = mean.median_disparity,
+          .seconds = seconds,
+          .damage = report.damage};
 }
 
 Task task_of(const Plan& plan, std::size_t number) {
