@@ -199,7 +199,7 @@ Plan plan_archive(const std::vector<Recording>& recordings, std::vector<Problem>
                         : "no recording can be used: " + plan.problems.front().input + ": " +
                               plan.problems.front().reason);
   }
-  write_plan_file(plan, options.folder);
+  write_plan(plan, options.folder);
   return plan;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "lib/outputs/json_text.hpp"
 #include "lib/outputs/user_error.hpp"
@@ -11,6 +11,7 @@
 #include "recordings/plan/discard.hpp"
 #include "recordings/plan/in_parallel.hpp"
 #include "recordings/plan/plan_contents.hpp"
+#include "recordings/plan/problem_json.hpp"
 #include "recordings/plan/task.hpp"
 
 namespace mtstereo::run {
@@ -120,7 +121,7 @@ class Joiner {
   std::map<std::string, std::vector<std::size_t>> tasks_;
 };
 
-json to_json(const std::string& name, const Joined& joined) {
+json json_of(const std::string& name, const Joined& joined) {
   json recording{{"name", name}, {"whole", joined.figures.has_value()}};
   if (joined.figures) {
     recording["pairs"] = joined.figures->pairs;
@@ -133,21 +134,16 @@ json to_json(const std::string& name, const Joined& joined) {
   return recording;
 }
 
-json to_json(std::initializer_list<const std::vector<Problem>*> lists) {
-  json all = json::array();
-  for (const std::vector<Problem>* list : lists) {
-    for (const Problem& problem : *list) {
-      all.push_back({{"input", problem.input}, {"reason", problem.reason}});
-    }
-  }
-  return all;
+std::vector<Problem> joined(std::vector<Problem> problems, const std::vector<Problem>& more) {
+  problems.insert(problems.end(), more.begin(), more.end());
+  return problems;
 }
 
 void write_summary(const PlanFolder& files, const Plan& plan, const std::vector<Joined>& recordings,
                    const MergeResult& result) {
   json list = json::array();
   for (std::size_t i = 0; i < recordings.size(); ++i) {
-    list.push_back(to_json(plan.recordings[i], recordings[i]));
+    list.push_back(json_of(plan.recordings[i], recordings[i]));
   }
   const json summary{{"version", kSummaryVersion},
                      {"recordings", std::move(list)},
@@ -156,8 +152,8 @@ void write_summary(const PlanFolder& files, const Plan& plan, const std::vector<
                      {"median_disparity", result.sum.median_disparity},
                      {"seconds", result.sum.seconds},
                      {"missing_tasks", result.missing},
-                     {"problems", to_json({&plan.problems, &result.problems})},
-                     {"damaged", to_json({&plan.damaged, &result.damaged})}};
+                     {"problems", joined(plan.problems, result.problems)},
+                     {"damaged", joined(plan.damaged, result.damaged)}};
   check_plan_file(files.summary());
   write_aside(files.summary(), outputs::text_of(summary, 1) + "\n");
 }
@@ -190,8 +186,7 @@ MergeResult merge(const fs::path& folder, const MergeOptions& options) {
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const Joined& recording = recordings[i];
     result.missing.insert(result.missing.end(), recording.missing.begin(), recording.missing.end());
-    result.problems.insert(result.problems.end(), recording.problems.begin(),
-                           recording.problems.end());
+    result.problems = joined(std::move(result.problems), recording.problems);
     if (!recording.figures) continue;
     ++result.joined;
     add(*recording.figures, result.sum);

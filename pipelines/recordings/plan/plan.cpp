@@ -2,14 +2,13 @@
 #include "recordings/plan/plan.hpp"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "lib/outputs/json_text.hpp"
 #include "lib/outputs/user_error.hpp"
-#include "recordings/matching/json.hpp"
 #include "recordings/plan/plan_contents.hpp"
 #include "recordings/plan/plan_folder.hpp"
+#include "recordings/plan/problem_json.hpp"
 #include "recordings/plan/whole_folder.hpp"
 
 namespace mtstereo::run {
@@ -35,42 +34,25 @@ std::set<std::string> check_names(const std::vector<std::string>& recordings) {
   return names;
 }
 
-json to_json(const std::vector<Problem>& problems) {
-  json list = json::array();
-  for (const Problem& problem : problems) {
-    list.push_back({{"input", problem.input}, {"reason", problem.reason}});
-  }
-  return list;
-}
-
-std::vector<Problem> problems_of(const json& list) {
-  std::vector<Problem> problems;
-  for (const json& problem : list) problems.push_back({problem.at("input"), problem.at("reason")});
-  return problems;
-}
-
-json to_json(const Plan& plan) {
+json json_of(const Plan& plan) {
   json tasks = json::array();
   for (const Task& task : plan.tasks) {
     tasks.push_back(
         {{"recording", task.recording}, {"first", task.range.first}, {"count", task.range.count}});
   }
-  return {{"version", kPlanVersion},
-          {"program", MTSTEREO_VERSION},
-          {"recordings", plan.recordings},
-          {"tasks", std::move(tasks)},
-          {"problems", to_json(plan.problems)},
-          {"damaged", to_json(plan.damaged)}};
+  return {{"version", kPlanVersion},       {"program", MTSTEREO_VERSION},
+          {"recordings", plan.recordings}, {"tasks", std::move(tasks)},
+          {"problems", plan.problems},     {"damaged", plan.damaged}};
 }
 
-Plan from_json(const json& text) {
+Plan plan_of(const json& text) {
   Plan plan;
   plan.recordings = text.at("recordings").get<std::vector<std::string>>();
   for (const json& task : text.at("tasks")) {
     plan.tasks.push_back({task.at("recording"), {task.at("first"), task.at("count")}});
   }
-  plan.problems = problems_of(text.at("problems"));
-  plan.damaged = problems_of(text.at("damaged"));
+  plan.problems = text.at("problems").get<std::vector<Problem>>();
+  plan.damaged = text.at("damaged").get<std::vector<Problem>>();
   return plan;
 }
 
@@ -110,32 +92,12 @@ std::vector<Task> divide(const std::string& recording, std::int64_t pairs,
   return tasks;
 }
 
-void write_plan(const Plan& plan, const std::vector<Work>& works, const fs::path& folder) {
-  const PlanFolder files(folder);
-  check_plan(plan);
-  if (works.size() != plan.recordings.size()) {
-    throw UserError("a plan needs a work for each of its recordings");
-  }
-  try {
-    fs::create_directories(files.works());
-    for (std::size_t i = 0; i < works.size(); ++i) {
-      if (works[i].recording.name != plan.recordings[i]) {
-        throw UserError("the works of a plan are not in the order of its recordings");
-      }
-      write_work(works[i], files.work(plan.recordings[i]));
-    }
-  } catch (const fs::filesystem_error& error) {
-    throw UserError(error.path1().string() + ": " + error.code().message());
-  }
-  write_plan_file(plan, folder);
-}
-
 void check_recording_names(const std::vector<std::string>& recordings) { check_names(recordings); }
 
-void write_plan_file(const Plan& plan, const fs::path& folder) {
+void write_plan(const Plan& plan, const fs::path& folder) {
   check_plan(plan);
   check_plan_file(PlanFolder(folder).plan());
-  write_aside(PlanFolder(folder).plan(), outputs::text_of(to_json(plan), 1) + "\n");
+  write_aside(PlanFolder(folder).plan(), outputs::text_of(json_of(plan), 1) + "\n");
 }
 
 Plan read_plan(const fs::path& folder) {
@@ -160,7 +122,7 @@ Plan read_plan(const fs::path& folder) {
                       ": use one version on all machines, so that the results do not differ; or "
                       "plan again by 'mtstereo-run plan' with --overwrite");
     }
-    Plan plan = from_json(text);
+    Plan plan = plan_of(text);
     check_plan(plan);
     return plan;
   } catch (const json::exception&) {

@@ -31,14 +31,10 @@ struct Plan {
 std::vector<Task> divide(const std::string& recording, std::int64_t pairs,
                          std::int64_t pairs_per_task);
 
-/// Writes plan.json and the works. Throws UserError.
-void write_plan(const Plan& plan, const std::vector<Work>& works,
-                const std::filesystem::path& folder);
 /// Reads plan.json. Throws UserError.
 Plan read_plan(const std::filesystem::path& folder);
-
 /// Writes plan.json. Its works must be there. Throws UserError.
-void write_plan_file(const Plan& plan, const std::filesystem::path& folder);
+void write_plan(const Plan& plan, const std::filesystem::path& folder);
 /// Names become those of files and folders: throws UserError if they are not, or are not unique.
 void check_recording_names(const std::vector<std::string>& recordings);
 

@@ -7,7 +7,6 @@
 
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
-#include "recordings/plan/plan.hpp"
 #include "recordings/plan/plan_folder.hpp"
 
 namespace mtstereo::run {
@@ -97,6 +96,13 @@ PieceReport fake_join(const Work& work, const std::vector<Range>& ranges,
 
 PieceFunctions fake_functions() { return {fake_process, fake_join}; }
 
+void write_plan_of(const std::vector<Work>& works, const Plan& plan, const fs::path& folder) {
+  const PlanFolder files(folder);
+  fs::create_directories(files.works());
+  for (const Work& work : works) write_work(work, files.work(work.recording.name));
+  write_plan(plan, folder);
+}
+
 void write_fake_plan(const fs::path& folder) {
   Plan plan;
   std::vector<Work> works;
@@ -106,7 +112,7 @@ void write_fake_plan(const fs::path& folder) {
     const std::vector<Task> tasks = divide(name, pairs, 4);
     plan.tasks.insert(plan.tasks.end(), tasks.begin(), tasks.end());
   }
-  write_plan(plan, works, folder);
+  write_plan_of(works, plan, folder);
 }
 
 std::string uncut(const std::string& name, std::int64_t pairs) {

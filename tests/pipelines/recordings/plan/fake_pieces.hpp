@@ -5,6 +5,7 @@
 #include <string>
 
 #include "recordings/plan/piece_functions.hpp"
+#include "recordings/plan/plan.hpp"
 #include "support/temporary_folder.hpp"
 
 // What tests of plans use in place of recordings and of a matcher.
@@ -37,6 +38,10 @@ PieceReport fake_join(const Work& work, const std::vector<Range>& ranges,
 
 /// Both.
 PieceFunctions fake_functions();
+
+/// Writes a plan and its works.
+void write_plan_of(const std::vector<Work>& works, const Plan& plan,
+                   const std::filesystem::path& folder);
 
 /// A plan of recordings "a" (10 pairs) and "b" (7 pairs) in tasks of at most 4 pairs: 3 and 2
 /// tasks.

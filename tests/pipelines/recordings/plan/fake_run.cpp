@@ -44,8 +44,8 @@ int main(int argc, char** argv) {
     if (argc == 3 && std::string(argv[1]) == "replan") return plan(argv[2], Existing::kContinue);
     if (argc == 5 && std::string(argv[1]) == "plan") {
       const int pairs = std::stoi(argv[3]);
-      write_plan({{"a"}, divide("a", pairs, std::stoi(argv[4])), {}}, {fake_work("a", pairs)},
-                 argv[2]);
+      write_plan_of({fake_work("a", pairs)}, {{"a"}, divide("a", pairs, std::stoi(argv[4])), {}},
+                    argv[2]);
       return kDone;
     }
     if (argc == 4 && std::string(argv[1]) == "jobs") return run_jobs(argv[2], std::stoi(argv[3]));

@@ -66,7 +66,7 @@ TEST_F(Merge, LinksARecordingOfOneTask) {
   Plan plan;
   plan.recordings = {"b"};
   plan.tasks = divide("b", 7, 7);
-  write_plan(plan, {fake_work("b", 7)}, folder_.path());
+  write_plan_of({fake_work("b", 7)}, plan, folder_.path());
   do_tasks({0});
   EXPECT_EQ(merge_all().joined, 1U);
   EXPECT_EQ(joins_, 0);
@@ -128,7 +128,7 @@ TEST_F(Merge, NamesRecordingsOfWhichNotAllCouldBeRead) {
   };
   Plan plan = read_plan(folder_.path());
   plan.damaged = {{"/archive/b.mkv", "the file is truncated after 12.3 s"}};
-  write_plan_file(plan, folder_.path());
+  write_plan(plan, folder_.path());
   do_tasks({2, 3, 4});
   for (const std::size_t task : {0, 1}) {
     EXPECT_EQ(do_task(folder_.path(), task, damaged, nullptr), TaskResult::kDone);

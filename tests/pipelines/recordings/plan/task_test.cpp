@@ -126,7 +126,7 @@ TEST_F(Tasks, OfAnotherPlanDoNotCount) {
   plan.tasks = divide("a", 10, 4);
   Work work = fake_work("a", 10);
   work.pairs.pairs[5].right = 99;
-  write_plan(plan, {work}, folder_.path());
+  write_plan_of({work}, plan, folder_.path());
   EXPECT_THAT(missing(), ElementsAre(0, 1, 2));
   EXPECT_EQ(do_one(1), TaskResult::kDone);
   EXPECT_THAT(read_text(fake_file(1)), HasSubstr("a 5: 5 99"));
@@ -137,7 +137,7 @@ TEST_F(Tasks, OfAPlanWithOtherRangesDoNotCount) {
   Plan plan;
   plan.recordings = {"a"};
   plan.tasks = divide("a", 10, 5);
-  write_plan(plan, {fake_work("a", 10)}, folder_.path());
+  write_plan_of({fake_work("a", 10)}, plan, folder_.path());
   EXPECT_THAT(missing(), ElementsAre(0, 1));
 }
 
