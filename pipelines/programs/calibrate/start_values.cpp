@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/calib3d.hpp>
+#include <utility>
 
+#include "lib/median.hpp"
 #include "lib/outputs/user_error.hpp"
 
 namespace mtstereo::calibrate {
@@ -24,18 +26,16 @@ constexpr std::size_t kStarts = 4;  // focal lengths that an adjustment starts f
 constexpr double kSmallestCosine = 0.25;
 constexpr double kLooseScale = 3;  // of the first robust adjustments [px]
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+// The median; infinity without any value.
+double typical(std::vector<double> values) {
+  return values.empty() ? std::numeric_limits<double>::infinity() : median(std::move(values));
 }
 
 double median_distance(const Camera& camera, const Pose& pose,
                        const std::vector<Observation>& seen) {
   std::vector<double> distances;
   for (const Vector2d& rest : residuals(camera, pose, seen)) distances.push_back(rest.norm());
-  return median(distances);
+  return typical(std::move(distances));
 }
 
 Pose pose_of(const cv::Mat& turn, const cv::Mat& shift) {
@@ -99,7 +99,7 @@ double place_boards(const Camera& camera, std::vector<BoardView>& views) {
     if (pose) view.pose = *pose;
     distances.push_back(pose ? median_distance(camera, *pose, view.left) : camera.width);
   }
-  return median(distances);
+  return typical(std::move(distances));
 }
 
 // The adjustment of one camera: focal length and first coefficient, then all parameters.
@@ -128,7 +128,7 @@ double fit_of(const Camera& camera, const std::vector<BoardView>& views) {
   for (const BoardView& view : views) {
     distances.push_back(median_distance(camera, view.pose, view.left));
   }
-  return median(distances);
+  return typical(std::move(distances));
 }
 
 // The focal lengths whose poses fit best, without distortion.
@@ -164,7 +164,7 @@ Pose agreed_pose(const Rig& rig, const std::vector<BoardView>& left,
     for (std::size_t k = 0; k < left.size(); ++k) {
       distances.push_back(median_distance(rig.right, pose * left[k].pose, right[k].left));
     }
-    const double distance = median(distances);
+    const double distance = typical(std::move(distances));
     if (distance < smallest) {
       smallest = distance;
       best = pose;
@@ -236,7 +236,7 @@ double robust_scale(const Rig& rig, const std::vector<BoardView>& views, double 
     add(rig.left, view.pose, view.left);
     add(rig.right, rig.right_from_left * view.pose, view.right);
   }
-  return std::max(least, 1.4826 * median(sizes));
+  return std::max(least, 1.4826 * typical(std::move(sizes)));
 }
 
 Rig fit_start(Model model, cv::Size left, cv::Size right, std::vector<BoardView>& views) {

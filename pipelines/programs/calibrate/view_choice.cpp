@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
+
+#include "lib/median.hpp"
 
 namespace mtstereo::calibrate {
 namespace {
@@ -29,9 +32,7 @@ std::optional<double> movement(const Corners& before, const Corners& after) {
     if (found != old.end()) distances.push_back(cv::norm(after.pixels[i] - found->second));
   }
   if (distances.empty()) return std::nullopt;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return median(std::move(distances));
 }
 
 ViewChoice::ViewChoice(const BoardOptions& board, cv::Size left, cv::Size right, Choice choice)

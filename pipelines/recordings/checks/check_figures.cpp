@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "alignment/sharpness.hpp"
+#include "lib/median.hpp"
 #include "recordings/matching/map_files.hpp"
 #include "recordings/matching/matching_run.hpp"
-#include "recordings/matching/median.hpp"
 #include "recordings/matching/prepare_pairs.hpp"
 #include "recordings/matching/recorded_views.hpp"
 #include "recordings/matching/view_correction.hpp"

@@ -5,6 +5,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "lib/median.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -95,9 +98,7 @@ System system_of(const std::vector<std::vector<MatchedPair>>& groups) {
 double spread(const System& system, const Vector& terms) {
   std::vector<double> rests;
   for (const Equation& each : system.equations) rests.push_back(std::abs(each.rest(terms)));
-  const auto middle = rests.begin() + static_cast<std::ptrdiff_t>(rests.size() / 2);
-  std::nth_element(rests.begin(), middle, rests.end());
-  return 1.4826 * *middle;
+  return 1.4826 * median(std::move(rests));
 }
 
 // What a match with this residual counts: Tukey's biweight, and the derivative of its influence.

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "lib/median.hpp"
 #include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/piece.hpp"
@@ -16,6 +18,7 @@
 #include "recordings/matching/view_correction.hpp"
 #include "recordings/matching/view_geometry.hpp"
 #include "recordings/matching/work_options.hpp"
+#include "recordings/media/decoder_reports.hpp"
 
 namespace mtstereo::run {
 namespace {
@@ -69,13 +72,11 @@ Nanoseconds period_of(const Work& work) {
   std::vector<Nanoseconds> steps;
   for (std::size_t i = 1; i < pairs.size(); ++i)
     steps.push_back(time(pairs[i]) - time(pairs[i - 1]));
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  const auto median = static_cast<double>(*middle);
+  const auto usual = static_cast<double>(median(std::move(steps)));
   const double mean = static_cast<double>(time(pairs.back()) - time(pairs.front())) /
                       static_cast<double>(pairs.size() - 1);
   return std::max<Nanoseconds>(
-      usual_period(std::abs(mean - median) <= kNearly * median ? mean : median), 1);
+      usual_period(std::abs(mean - usual) <= kNearly * usual ? mean : usual), 1);
 }
 
 ClockRelation find_relation(Work& work, const std::optional<ClockRelation>& relation,

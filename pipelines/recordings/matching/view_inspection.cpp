@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "lib/median.hpp"
 #include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/clocks/frame_pairs.hpp"
 #include "recordings/matching/map_files.hpp"
 #include "recordings/matching/matching_run.hpp"
-#include "recordings/matching/median.hpp"
 #include "recordings/matching/view_samples.hpp"
 
 namespace mtstereo::run {

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <utility>
 
 #include "lib/files/file_names.hpp"
 #include "lib/images/images.hpp"
+#include "lib/median.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/damage_notes.hpp"
@@ -24,10 +26,7 @@ namespace {
 Nanoseconds median_period(const std::vector<Nanoseconds>& times) {
   std::vector<Nanoseconds> steps;
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
-  if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return median(std::move(steps));
 }
 
 // What is missing, by the container, by the demultiplexer, and by the decoder.

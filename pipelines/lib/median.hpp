@@ -5,14 +5,15 @@
 #include <cstddef>
 #include <vector>
 
-namespace mtstereo::run {
+namespace mtstereo {
 
 /// The median, of an even number of values the larger one in the middle; 0 without any.
-inline double median(std::vector<double> values) {
+template <typename Number>
+Number median(std::vector<Number> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-}  // namespace mtstereo::run
+}  // namespace mtstereo
