@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -124,6 +125,19 @@ bool numbered_less(std::string_view a, std::string_view b) {
   }
   if (a.empty() != b.empty()) return a.empty();
   return whole_a < whole_b;  // the same numbers with other leading zeros
+}
+
+std::string last_digits(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const auto end = std::find_if(stem.rbegin(), stem.rend(), is_digit).base();
+  const auto begin = std::find_if_not(std::reverse_iterator(end), stem.rend(), is_digit).base();
+  return {begin, end};
+}
+
+std::string last_number(const fs::path& file) {
+  const std::string digits = last_digits(file);
+  std::string_view rest = digits;
+  return std::string(take_number(rest));
 }
 
 std::string extension_of(const fs::path& file) {

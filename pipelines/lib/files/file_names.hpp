@@ -11,6 +11,12 @@ namespace mtstereo::files {
 /// The order of numbered files: digits are compared as numbers, so that 9.png is before 10.png.
 bool numbered_less(std::string_view a, std::string_view b);
 
+/// The last digits in a name without its extension, such as "0012" of left_0012.png; empty if there
+/// are none.
+std::string last_digits(const std::filesystem::path& file);
+/// The same without leading zeros.
+std::string last_number(const std::filesystem::path& file);
+
 /// The extension in lower case, with its dot.
 std::string extension_of(const std::filesystem::path& file);
 /// By its extension: an image that OpenCV reads.

@@ -49,24 +49,13 @@ cv::Mat read(const fs::path& file) {
   return image;
 }
 
-// The last number in a name, such as 12 of "left_0012.png"; empty if there is none.
-std::string number_of(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const std::size_t end = stem.find_last_of("0123456789");
-  if (end == std::string::npos) return {};
-  const std::size_t before = stem.find_last_not_of("0123456789", end);
-  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-  const std::size_t first = std::min(stem.find_first_not_of('0', begin), end);
-  return stem.substr(first, end - first + 1);
-}
-
 // The first image whose number the others do not have; empty if numbers do not tell.
 fs::path without_partner(const std::vector<fs::path>& images, const std::vector<fs::path>& others) {
   for (const fs::path& image : images) {
-    const std::string number = number_of(image);
+    const std::string number = files::last_number(image);
     if (number.empty()) return {};
     const bool found = std::any_of(others.begin(), others.end(), [&](const fs::path& other) {
-      return number_of(other) == number;
+      return files::last_number(other) == number;
     });
     if (!found) return image;
   }

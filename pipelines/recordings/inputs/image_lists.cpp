@@ -22,16 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The last digits of a name.
-std::string digits_of(const fs::path& image) {
-  const std::string stem = image.stem().string();
-  const std::size_t end = stem.find_last_of("0123456789");
-  if (end == std::string::npos) return {};
-  const std::size_t before = stem.find_last_not_of("0123456789", end);
-  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-  return stem.substr(begin, end - begin + 1);
-}
-
 std::string bytes_of(const fs::path& file, std::int64_t from_end, std::size_t count) {
   std::ifstream stream(file, std::ios::binary);
   if (from_end > 0) {
@@ -252,7 +242,7 @@ void remove_broken(Recording& recording, Source& source) {
 }  // namespace
 
 std::optional<std::int64_t> frame_number(const fs::path& image) {
-  const std::string digits = digits_of(image);
+  const std::string digits = files::last_digits(image);
   std::int64_t number = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   return error == std::errc() ? std::optional(number) : std::nullopt;
@@ -261,7 +251,7 @@ std::optional<std::int64_t> frame_number(const fs::path& image) {
 std::optional<Nanoseconds> time_in_name(const fs::path& image) {
   if (const std::optional<Nanoseconds> time = seconds_in(image.stem().string())) return time;
   const std::optional<std::int64_t> number = frame_number(image);
-  const std::string digits = digits_of(image);
+  const std::string digits = files::last_digits(image);
   if (!number || digits.starts_with('0')) return std::nullopt;
   switch (digits.size()) {
     case 19:

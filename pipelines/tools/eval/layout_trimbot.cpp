@@ -42,15 +42,10 @@ std::optional<Rig> rig_of(const fs::path& left) {
   return Rig{left, right};
 }
 
-// The last digits of a name without leading zeros, or the whole name if it has no digits.
+// The last number in a name, or the whole name if it has none.
 std::string frame_of(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const std::size_t end = stem.find_last_of("0123456789");
-  if (end == std::string::npos) return stem;
-  const std::size_t before = stem.find_last_not_of("0123456789", end);
-  std::string digits = stem.substr(before == std::string::npos ? 0 : before + 1, end - before);
-  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
-  return digits;
+  const std::string number = files::last_number(file);
+  return number.empty() ? file.stem().string() : number;
 }
 
 // Label images, overlays and depth images are stored beside the views.

@@ -46,6 +46,14 @@ TEST_F(FileNames, ComparesNumbersLongerThanAnInteger) {
   EXPECT_FALSE(numbered_less("a", "a"));
 }
 
+TEST_F(FileNames, EndInANumber) {
+  EXPECT_EQ(last_digits("2011/left_0012.png"), "0012");
+  EXPECT_EQ(last_number("2011/left_0012.png"), "12");
+  EXPECT_EQ(last_number("cam1_000.left.png"), "0");
+  EXPECT_EQ(last_digits("7a"), "7");
+  EXPECT_EQ(last_number("2011/left.png"), "");
+}
+
 TEST_F(FileNames, PatternMatchesItsWidth) {
   create({"left_0001.png", "left_0002.png", "left_10000.png", "left_3.png", "left_00004.png",
           "right_0001.png", "left_000x.png"});
