@@ -5,6 +5,26 @@
 #include <utility>
 
 namespace mtstereo::plugin {
+namespace {
+
+/// Whether views of one size are the same image, by some rows. Two cameras never see the same, but
+/// test images without content are equal.
+bool are_one_image(GrayView left, GrayView right) {
+  constexpr int kRows = 16;
+  constexpr int kContent = 32;  // [gray values]
+  std::uint8_t least = 255, most = 0;
+  for (int i = 0; i < kRows; ++i) {
+    const int y = left.height * i / kRows;
+    const std::uint8_t *begin = left.row(y), *end = begin + left.width;
+    if (!std::equal(begin, end, right.row(y))) return false;
+    const auto [low, high] = std::minmax_element(begin, end);
+    least = std::min(least, *low);
+    most = std::max(most, *high);
+  }
+  return most - least >= kContent;
+}
+
+}  // namespace
 
 Alignment AlignmentSettings::effective_alignment(Preset preset) const {
   return alignment.value_or(preset == Preset::kPaper ? Alignment::kOff : Alignment::kCorrect);
@@ -80,6 +100,7 @@ Status PairAlignment::inspect(const AlignmentSettings& settings, GrayView left, 
   const int min_disparity = parameters.integer(Parameter::kMinDisparity);
   Status status = fit(settings, {left.width, left.height});
   if (status) status = tracker_->watch(left, right);
+  one_image_ = status && are_one_image(left, right);
   interval_ = settings.effective_interval(parameters.preset(), left.width, left.height,
                                           max_disparity - min_disparity);
   // The inspection of views that differ in sharpness takes three times as long.
@@ -100,7 +121,7 @@ void PairAlignment::update_report(int width) {
     report_.roll_degrees = correction.rows.roll_degrees(width);
   }
   report_.findings = tracker_->findings();
-  report_.problems = 0;
+  report_.problems = std::uint32_t{one_image_} << kOneImage;
   for (int problem = 0; problem < kPairProblems; ++problem) {
     if (tracker_->has(static_cast<PairProblem>(problem))) {
       report_.problems |= std::uint32_t{1} << problem;

@@ -41,6 +41,10 @@ struct AlignmentSettings {
   int effective_interval(Preset preset, int width, int height, int disparities) const;
 };
 
+/// The number of a problem besides those of PairProblem: both views are one image with content, as
+/// with one stream on both pads.
+inline constexpr int kOneImage = kPairProblems;
+
 /// What is known about the alignment of the streams.
 struct AlignmentReport {
   /// The confirmed field; the one to store. std::nullopt: none yet.
@@ -50,7 +54,7 @@ struct AlignmentReport {
   double roll_degrees = 0;  ///< of the field
   PairFindings findings;    ///< of the last inspection
   std::uint64_t inspections = 0;
-  std::uint32_t problems = 0;        ///< mask: 1 << PairProblem
+  std::uint32_t problems = 0;        ///< mask: 1 << PairProblem or kOneImage
   std::uint64_t field_revision = 0;  ///< AlignmentSettings::field_revision of the last pair
 
   /// `field`, unless another one was set since the last pair.
@@ -93,8 +97,9 @@ class PairAlignment {
   InspectionSchedule schedule_;
   ProblemWarnings warnings_;
   AlignmentReport report_;
-  bool fresh_ = true;  // the next pair is the first one after a restart
-  int interval_ = 1;   // in effect
+  bool fresh_ = true;       // the next pair is the first one after a restart
+  bool one_image_ = false;  // the last pair is kOneImage
+  int interval_ = 1;        // in effect
   Size size_;
   Size field_size_;  // the frame size to which the stored field belongs
   std::uint64_t field_revision_ = 0;

@@ -9,12 +9,23 @@ namespace {
 /// Shortest time between two messages of an element [us], wall clock.
 constexpr gint64 kMessageInterval = G_USEC_PER_SEC;
 
+const char* name_of(int problem) {
+  return problem == kOneImage ? "one-image" : problem_name(static_cast<PairProblem>(problem));
+}
+
+const char* text_of(int problem) {
+  return problem == kOneImage
+             ? "Both views are the same image: link the left camera to sink_left and the right one "
+               "to sink_right."
+             : problem_text(static_cast<PairProblem>(problem));
+}
+
 std::string problem_names(std::uint32_t problems) {
   std::string names;
-  for (int i = 0; i < kPairProblems; ++i) {
+  for (int i = 0; i <= kOneImage; ++i) {
     if ((problems >> i & 1) == 0) continue;
     if (!names.empty()) names += ",";
-    names += problem_name(static_cast<PairProblem>(i));
+    names += name_of(i);
   }
   return names;
 }
@@ -45,9 +56,9 @@ void add_alignment_fields(GstStructure* structure, const AlignmentReport& report
 }
 
 void AlignmentReports::warn(std::uint32_t problems, const AlignmentReport& report) {
-  for (int i = 0; i < kPairProblems; ++i) {
+  for (int i = 0; i <= kOneImage; ++i) {
     if ((problems >> i & 1) == 0) continue;
-    messages_.warning(problem_text(static_cast<PairProblem>(i)), findings_text(report.findings));
+    messages_.warning(text_of(i), findings_text(report.findings));
   }
 }
 

@@ -147,8 +147,9 @@ class PausedPipeline : public testing::Test {
                   " format=time ! m.sink_left appsrc name=right caps=" +
                   raw_caps("GRAY8", kWidth, kHeight) + " format=time ! m.sink_right") {}
   void push(const char* source, GstClockTime time) {
+    const auto& image = source == std::string("left") ? pair_.left : pair_.right;
     gst_app_src_push_buffer(GST_APP_SRC(pipeline_.named(source)),
-                            frame_buffer(pair_.left, time, kFrame));
+                            frame_buffer(image, time, kFrame));
   }
   bool warned(double seconds) {
     GstBus* bus = gst_element_get_bus(pipeline_.element());

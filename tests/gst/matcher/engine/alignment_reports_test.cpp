@@ -137,6 +137,22 @@ TEST(Warning, NamesABlackView) {
   expect_only(PairProblem::kRightBlank, changed(street(), [](Pair& pair) { blacken(pair.right); }));
 }
 
+TEST(Warning, NamesOneStreamOnBothPads) {
+  const Reaction reaction =
+      reaction_to(changed(street(), [](Pair& pair) { pair.right = pair.left; }));
+  ASSERT_EQ(reaction.warnings.size(), 1u);
+  EXPECT_NE(reaction.warnings[0].find("the same image"), std::string::npos);
+  EXPECT_EQ(reaction.problems, "one-image");
+}
+
+TEST(Warning, IsNotPostedForEqualViewsWithoutContent) {
+  const auto black = [](Pair& pair) {
+    blacken(pair.left);
+    blacken(pair.right);
+  };
+  expect_none(changed(street(), black), "black");
+}
+
 TEST(Warning, NamesAFrozenView) {
   const std::vector<Pair> pairs = rendered_pairs("street", 12, 0.02);
   const Pair still = pairs[0];
