@@ -82,9 +82,11 @@ const char* problem_text(PairProblem problem) noexcept {
     case PairProblem::kSharpnessDiffers:
       return "One view is less sharp than the other: clean and focus its lens.";
     case PairProblem::kLeftBlank:
-      return "The left view shows nothing: check whether its lens is covered.";
+      return "The left view shows nothing: check whether its lens is covered, or its values use "
+             "few of 16 bits.";
     case PairProblem::kRightBlank:
-      return "The right view shows nothing: check whether its lens is covered.";
+      return "The right view shows nothing: check whether its lens is covered, or its values use "
+             "few of 16 bits.";
     case PairProblem::kLeftFrozen:
       return "The left view repeats itself while the right one changes: check its stream.";
     case PairProblem::kRightFrozen:

@@ -29,6 +29,7 @@ constexpr double kExposureNote = 1.4;                     // ratio of the mean g
 constexpr double kSharpnessHarm = 2;                      // ratio
 constexpr double kSaturatedNote = 0.2, kSaturated = 0.4;  // of the pixels
 constexpr double kDarkNote = 60, kDark = 30;              // of the bright pixels [gray values]
+constexpr double kUnscaled = 16;                          // as of 12 of 16 bits [gray values]
 constexpr double kNoiseNote = 5;                          // [gray values]
 constexpr double kSoft = 0.08;                            // of the fine detail; choosing.md
 constexpr double kHalfFactor = 1.3;  // of the density: half the resolution is better
@@ -244,7 +245,11 @@ class Judge {
       add(brightness_of_darker() < kDark,
           format("Dark: 95 %% of the pixels are below %.0f (left) and %.0f (right) of 255.",
                  left.bright, right.bright),
-          "More light, a longer exposure or a lens that lets more light in; gain adds noise.");
+          brightness_of_darker() < kUnscaled
+              ? "If the values have 10 or 12 of 16 bits, scale them (ffmpeg -i FILE -vf lut=val*64 "
+                "-c:v ffv1 view.mkv; 12 bits: 16). Otherwise, more light or a longer exposure."
+              : "More light, a longer exposure or a lens that lets more light in; gain adds "
+                "noise.");
     }
     if (noise >= kNoiseNote) {
       add(false,

@@ -208,7 +208,8 @@ TEST_F(Findings, OfABlankViewAreNoOthers) {
   figures_.diagnosis.problem = ViewProblem::kUnknown;
   figures_.modes = {{kSemiDense, 0, 0, 20, 0}};
   right() = {2, 3, 0, 0};
-  expect(true, "The right view shows nothing.", "Check whether its lens is covered.");
+  expect(true, "The right view shows nothing.",
+         "Check whether its lens is covered, or its values use few of 16 bits.");
 }
 
 TEST_F(Findings, NameWhiteAndDarkViews) {
@@ -223,6 +224,8 @@ TEST_F(Findings, NameWhiteAndDarkViews) {
   expect(false, "below 200 (left) and 45 (right) of 255", "More light");
   right().bright = 20;
   expect(true, "20 (right) of 255", "More light");
+  right().bright = 4;
+  expect(true, "4 (right) of 255", "If the values have 10 or 12 of 16 bits, scale them");
 }
 
 TEST_F(Findings, NoteNoiseAndDifferentExposure) {
