@@ -95,6 +95,8 @@ TEST_F(BrokenFile, OfAnotherKindIsNamed) {
   EXPECT_THAT(refused(std::string("\x80\x04\x95\0", 4)), HasSubstr("a Python pickle"));
   EXPECT_THAT(refused("% Stereo calibration parameters:\nom = [ 0.01 ; 0.02 ; 0.03 ];\n"),
               AllOf(HasSubstr("is a MATLAB script; "), HasSubstr(remedy)));
+  EXPECT_THAT(refused("[StereoLeft]\nfc_x=785.4\nfc_y=785.2\n"),
+              AllOf(HasSubstr("if it is no ZED file, "), HasSubstr(remedy)));
   EXPECT_THAT(refused("Calibration results\n====\nCamera-system parameters:\n\tcam0 (/left):\n"),
               HasSubstr("is a report of Kalibr; give its camchain"));
   EXPECT_THAT(refused("calib_time: 15-Mar-2012 11:37:16\nR: 1 0 0 0 1 0 0 0 1\nT: 0.1 0 0\n"),

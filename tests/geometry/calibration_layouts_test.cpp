@@ -194,6 +194,18 @@ TEST_F(Layout, NamesOfPythonProgramsStateTheUnitAndTheSize) {
   EXPECT_THAT(refused(plain(json("translation"))), HasSubstr("add the entry 'length_unit: mm'"));
 }
 
+TEST_F(Layout, OfFourIntrinsicsPerCamera) {
+  const std::string pair =
+      "Left: {Width: 640, Height: 480, K: [ 500, 501, 322, 241 ], D: [ 0.1, 0.2, 0, 0 ]}\n"
+      "Right: {Width: 640, Height: 480, K: [ 503, 502, 318, 239 ], D: [ 0, 0, 0, 0 ]}\n"
+      "Rotate: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ]\nTrans: [ -0.12, 0, 0 ]\n"
+      "R1: [ 1, 0, 0, 0, 1, 0, 0, 0, 1 ]\n";
+  const StereoCalibration calibration = read_valid(write(pair));
+  EXPECT_EQ(calibration.left.focal_y, 501);
+  EXPECT_EQ(calibration.right.center_x, 318);
+  EXPECT_EQ(calibration.translation, (Vector3{-0.12, 0, 0}));
+}
+
 TEST_F(Layout, ABaselineWithAUnitStatesThatOfT) {
   const auto pair = [](const std::string& t, const std::string& baseline) {
     return lines({{"K1", kLeftK},
@@ -216,6 +228,11 @@ TEST_F(Layout, ABaselineWithAUnitStatesThatOfT) {
   }
   // T is in meters already.
   EXPECT_NEAR(read_valid(write(pair(kT, "baseline_mm: 120.02"))).baseline(), 0.12, 1e-4);
+  // The baseline and T have different units.
+  for (const char* baseline : {"baseline_cm: 12.0", "baseline_m: 0.12"}) {
+    const StereoCalibration calibration = read_valid(write(pair("[ -120., 1., 2. ]", baseline)));
+    expect_near(calibration.translation, Vector3{-0.12, 0.001, 0.002}, 1e-12);
+  }
   // A wish, not what was calibrated.
   EXPECT_THAT(refused(pair("[ -120., 1., 2. ]", "baseline_mm: 60")), HasSubstr("length_unit: mm"));
   EXPECT_THAT(refused(pair("[ -120., 1., 2. ]", "baseline_mm: wide")), HasSubstr("length_unit"));

@@ -116,20 +116,23 @@ std::optional<double> unit_in_name(const std::optional<Entry>& entry) {
   return end == "_m" ? std::optional(1.0) : std::nullopt;
 }
 
-/// The unit that an entry such as baseline_mm implies, if T has that length, in it or in meters.
+/// The unit of T that an entry such as baseline_mm implies, if T has that length in any unit.
 std::optional<double> unit_by_baseline(const OpenCvEntries& files,
                                        const std::optional<Entry>& translation) {
   if (!translation) return std::nullopt;
   const std::vector<double> t = translation->numbers(3, "a vector");
   const double length = std::hypot(t[0], t[1], t[2]);
-  for (const Names names : {"baselinemm stereobaselinemm", "baselinecm stereobaselinecm"}) {
+  for (const Names names : {"baselinemm stereobaselinemm", "baselinecm stereobaselinecm",
+                            "baselinem stereobaselinem"}) {
     const std::optional<Entry> entry = files.find(names);
     const std::optional<double> unit = unit_in_name(entry);
     if (!unit || !entry->is_scalar()) continue;
-    const double stated = parse_number(entry->text()).value_or(0);
+    const double stated = parse_number(entry->text()).value_or(0) * *unit;
     constexpr double kTolerance = 0.01;
-    if (std::abs(stated - length) <= kTolerance * length) return unit;
-    if (std::abs(stated * *unit - length) <= kTolerance * length) return 1;
+    for (const double of_translation : {1.0, 0.01, 0.001}) {
+      const double meters = of_translation * length;
+      if (std::abs(stated - meters) <= kTolerance * meters) return of_translation;
+    }
   }
   return std::nullopt;
 }

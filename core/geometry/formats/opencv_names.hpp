@@ -15,7 +15,8 @@ namespace mtstereo::formats {
 using Names = std::string_view;
 
 /// Names of R and T; also the last part of a longer name.
-inline constexpr Names kRotationNames = "r rotation rotationmatrix stereor rstereo rlr rmat";
+inline constexpr Names kRotationNames =
+    "r rotation rotationmatrix stereor rstereo rlr rmat rot rotate";
 inline constexpr Names kTranslationNames =
     "t translation translationvector translationmatrix stereot tstereo tlr trans tvec";
 

@@ -110,6 +110,8 @@ Eigen::Matrix3d rotation_of_quaternion(const Entry& entry, double w, double x, d
 }
 
 void set_camera_matrix(CameraCalibration& camera, const Entry& entry) {
+  const std::vector<double> values = entry.numbers();
+  if (values.size() == 4) return set_intrinsics(camera, entry);
   set_camera_matrix(camera, entry, entry.numbers(9, "a 3x3 camera matrix"));
 }
 

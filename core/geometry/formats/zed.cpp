@@ -46,7 +46,11 @@ Resolution choose_resolution(const Entry& file, const Request& request) {
     known += (known.empty() ? "" : ", ") + std::string(resolution.name) + " (" +
              std::to_string(resolution.width) + "x" + std::to_string(resolution.height) + ")";
   }
-  if (known.empty()) file.fail("there is no section [LEFT_CAM_...] of a known resolution");
+  if (known.empty()) {
+    file.fail(
+        "there is no section [LEFT_CAM_...] of a known resolution; if it is no ZED file, write its "
+        "matrices to a YAML file with the names M1, D1, M2, D2, R, T");
+  }
   if (!request.selection.empty()) {
     file.fail("'#" + printable(request.selection) + "' selects no resolution; there are " + known);
   }
