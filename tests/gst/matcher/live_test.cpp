@@ -211,6 +211,21 @@ TEST_F(Live, AFlushForgetsThatTheSinkSynchronizes) {
   EXPECT_EQ(harness->stats().skipped, 0u);
 }
 
+TEST_F(Live, ANewSegmentForgetsThatTheSinkSynchronizes) {
+  start(true);
+  fall_behind();
+  report_from_sink(1);
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.start = kFrame;  // running times start over
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    harness->event(side, gst_event_new_segment(&segment));
+  }
+  harness->push_pair(pair, kFrame);
+  EXPECT_TRUE(harness->pull());
+  EXPECT_EQ(harness->stats().skipped, 0u);
+}
+
 TEST_F(Live, TheLatencyOfThePipelineIsNotLateness) {
   start(true);
   ASSERT_TRUE(next());
