@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "lib/media/decoding_problem.hpp"
 #include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
@@ -169,8 +170,9 @@ void Branch::drop_old_frames() { gst_app_sink_set_drop(sink_, TRUE); }
 
 void Branch::check_silence(double timeout) const {
   if (ended_ || waited_ <= timeout) return;
-  throw UserError(title() + ": no frame for " + outputs::decimal(timeout, 0) +
-                  " s. Is it sending, and is it not in use elsewhere? (--timeout)");
+  throw UserError(title() + ": no frame for " + outputs::decimal(timeout, 0) + " s" +
+                  (is_file_ ? ": " + media::without_frames(true)
+                            : ". Is it sending, and is it not in use elsewhere? (--timeout)"));
 }
 
 }  // namespace mtstereo::calibrate

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "lib/media/decoding_problem.hpp"
 #include "lib/outputs/texts.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "matcher/pairing/tolerance.hpp"
@@ -70,13 +71,11 @@ class Streams : public PairSource {
     g_autoptr(GstBus) bus = gst_element_get_bus(pipeline_.get());
     g_autoptr(GstMessage) message = gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR);
     if (message == nullptr) return;
-    g_autoptr(GError) error = nullptr;
-    gst_message_parse_error(message, &error, nullptr);
     std::string title = "the sources";
     for (const Branch* branch : {left_.get(), right_.get()}) {
       if (branch != nullptr && branch->owns(GST_MESSAGE_SRC(message))) title = branch->title();
     }
-    throw UserError(title + ": " + error->message);
+    throw UserError(title + ": " + media::decoding_problem(message));
   }
 
   // Live sources cannot wait for the search of the board.

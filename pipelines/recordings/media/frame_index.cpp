@@ -10,11 +10,11 @@
 
 #include "lib/files/file_names.hpp"
 #include "lib/images/images.hpp"
+#include "lib/media/decoding_problem.hpp"
 #include "lib/median.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/damage_notes.hpp"
-#include "recordings/media/decoding_problem.hpp"
 #include "recordings/media/video_times.hpp"
 
 namespace mtstereo::run {
@@ -147,7 +147,7 @@ std::string name_of_format(const fs::path& image) {
 FrameIndex index_of_images(const Source& source, double frame_rate) {
   FrameIndex index;
   const cv::Mat first = images::read(source.images.front(), cv::IMREAD_UNCHANGED);
-  if (first.empty()) throw UserError(unreadable_image(source.images.front()));
+  if (first.empty()) throw UserError(media::unreadable_image(source.images.front()));
   index.width = first.cols;
   index.height = first.rows;
   index.codec = name_of_format(source.images.front());

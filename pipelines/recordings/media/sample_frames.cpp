@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "lib/images/images.hpp"
+#include "lib/media/decoding_problem.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
-#include "recordings/media/decoding_problem.hpp"
 #include "recordings/media/video_scan.hpp"
 #include "shared/orientation.hpp"
 
@@ -88,7 +88,7 @@ std::vector<cv::Mat> frames_of_images(const Source& source, int count) {
   for (std::size_t i = 0; i < wanted; ++i) {
     const fs::path& image = images[i * images.size() / wanted];
     cv::Mat frame = gray_image(image, source.unused_bits);
-    if (frame.empty()) throw UserError(unreadable_image(image));
+    if (frame.empty()) throw UserError(media::unreadable_image(image));
     if (i == 0) refuse_turned(image);
     frames.push_back(std::move(frame));
   }

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "lib/files/unread_kinds.hpp"
+#include "lib/media/decoding_problem.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/media/container.hpp"
 #include "recordings/media/decoder_kind.hpp"
 #include "recordings/media/decoder_reports.hpp"
-#include "recordings/media/decoding_problem.hpp"
 #include "recordings/media/gst_objects.hpp"
 #include "recordings/media/jpeg_check.hpp"
 #include "recordings/media/leading_frames.hpp"
@@ -238,7 +238,7 @@ void VideoScan::State::take_message(GstMessage* message) {
     const TextPointer text(gst_missing_plugin_message_get_description(message));
     missing = text.get();
   } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR && error.empty()) {
-    error = missing.empty() ? decoding_problem(message) : without_plugin(missing);
+    error = missing.empty() ? media::decoding_problem(message) : media::without_plugin(missing);
   }
 }
 
@@ -255,7 +255,7 @@ void VideoScan::State::read_messages() {
 std::string VideoScan::State::reason_of_silence(GstClockTime waited) const {
   const bool all_known = complete || (others && waited >= kForVideo);
   if (all_known || (waited >= kForTasks && !is_running(pipeline))) {
-    return missing.empty() ? without_frames(decodes) : without_plugin(missing);
+    return missing.empty() ? media::without_frames(decodes) : media::without_plugin(missing);
   }
   return "";
 }

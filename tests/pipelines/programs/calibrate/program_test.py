@@ -236,6 +236,14 @@ class Refusal(Program):
             self.assertFalse((FOLDER / "new").exists())
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_videos_of_pixels_that_are_not_decoded(self):
+        for name in ("gray-left.mkv", "gray-right.mkv"):
+            subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", "testsrc=size=64x48:duration=0.2",
+                            "-c:v", "ffv1", "-pix_fmt", "gray10le", FOLDER / name], check=True)
+        self.refuse(r"source \(gray-.*\): .*-pix_fmt gray16le", "--left", "gray-left.mkv", "--right",
+                    "gray-right.mkv", "--timeout", "2")
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_videos_that_players_turn(self):
         subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", "testsrc=size=64x48:duration=0.2",
                         "-c:v", "mpeg4", FOLDER / "plain.mp4"], check=True)

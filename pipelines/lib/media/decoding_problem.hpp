@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace mtstereo::run {
+namespace mtstereo::media {
 
 /// What to do without a plugin, such as "H.264 decoder".
 std::string without_plugin(const std::string& missing);
@@ -20,4 +20,4 @@ std::string unreadable_image(const std::filesystem::path& image);
 /// What an error message of a pipeline that decodes a file means, and what to do.
 std::string decoding_problem(GstMessage* message);
 
-}  // namespace mtstereo::run
+}  // namespace mtstereo::media

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "recordings/media/decoding_problem.hpp"
+#include "lib/media/decoding_problem.hpp"
 
 #include <string_view>
 
-namespace mtstereo::run {
+namespace mtstereo::media {
 namespace {
 
 constexpr const char* kUnknownPixels =
@@ -47,4 +47,4 @@ std::string decoding_problem(GstMessage* message) {
   return error->message;
 }
 
-}  // namespace mtstereo::run
+}  // namespace mtstereo::media
