@@ -37,10 +37,11 @@ cv::Mat read(const fs::path& file) {
   try {
     image = images::read(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
     if (image.depth() == CV_16U) {
-      // Cameras of 10 or 12 bits use a part of them.
-      double largest = 0;
-      cv::minMaxLoc(image, nullptr, &largest);
-      image.convertTo(image, CV_8U, 255 / std::max(largest, 1.0));
+      // Cameras of 10 or 12 bits, and of heat, use a part of them.
+      double least = 0, most = 0;
+      cv::minMaxLoc(image, &least, &most);
+      const double scale = 255 / std::max(most - least, 1.0);
+      image.convertTo(image, CV_8U, scale, -scale * least);
     }
   } catch (const cv::Exception&) {
     image.release();

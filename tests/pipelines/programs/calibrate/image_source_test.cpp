@@ -33,6 +33,12 @@ TEST(ImageSource, UsesAllBitsOfCamerasWith12) {
   EXPECT_EQ(cv::norm(pair.right, expected, cv::NORM_INF), 0);
 }
 
+TEST(ImageSource, StretchesTheNarrowRangeOfCamerasOfHeat) {
+  const cv::Mat heat = (cv::Mat_<std::uint16_t>(1, 3) << 29000, 29400, 30000);
+  const cv::Mat expected = (cv::Mat_<std::uint8_t>(1, 3) << 0, 102, 255);
+  EXPECT_EQ(cv::norm(read_pair(heat, heat).left, expected, cv::NORM_INF), 0);
+}
+
 TEST(ImageSource, KeepsImagesOf8BitsAndBlackOnes) {
   const cv::Mat gray = (cv::Mat_<std::uint8_t>(1, 3) << 0, 20, 90);
   const ImagePair pair = read_pair(gray, cv::Mat(1, 3, CV_16UC1, cv::Scalar(0)));
