@@ -5,8 +5,9 @@
 
 namespace mtstereo::run {
 
-/// Finds Source::unused_bits of images by some of both views, the same for both, and adds a remark
-/// if there are any. Cameras of 10 or 12 bits store such images; as 16 bits they are nearly black.
+/// Finds Source::unused_bits of images by some of both views, the same for both unless one view has
+/// 8 bits, and adds a remark if there are any, or if the values have a narrow range. Cameras of 10
+/// or 12 bits store such images; as 16 bits they are nearly black.
 void find_unused_bits(Recording& recording);
 
 }  // namespace mtstereo::run

@@ -132,6 +132,29 @@ TEST_F(Recordings, ImagesWithUnusedBits) {
   }
 }
 
+TEST_F(Recordings, ImagesOfACameraWithUnusedBitsBesideOneOf8) {
+  write_images("left", {"0.png"});
+  cv::Mat image;
+  view(true).convertTo(image, CV_16U, 1023 / 255.0);
+  cv::imwrite((folder_ / "right/0.png").string(), image);
+  const Recording recording = recognized({"left", "right"});
+  EXPECT_EQ(recording.left.unused_bits, 0);
+  EXPECT_EQ(recording.right.unused_bits, 6);
+  EXPECT_THAT(recording.remarks, ElementsAre(HasSubstr("The right images have 10 of 16 bits")));
+}
+
+TEST_F(Recordings, ImagesOfHeatWithFewValues) {
+  for (const char* name : {"left/0.png", "right/0.png"}) {
+    cv::Mat image;
+    view(false).convertTo(image, CV_16U, 10, 29000);
+    cv::imwrite((folder_ / name).string(), image);
+  }
+  const Recording recording = recognized({"left", "right"});
+  EXPECT_EQ(recording.left.unused_bits, 0);
+  EXPECT_THAT(recording.remarks, ElementsAre(AllOf(HasSubstr("of 256 gray values. Stretch"),
+                                                   HasSubstr("mogrify -path"))));
+}
+
 TEST_F(Recordings, NamesOfImagesThatMayBeNoViews) {
   write_images("left", {"1.png", "1_mask.png", "2.png", "2_mask.png"});
   write_images("right", {"1.png", "2.png"}, true);
