@@ -12,7 +12,8 @@
 namespace mtstereo::run {
 namespace {
 
-constexpr unsigned kPatience = 2;  // [s]
+// A busy machine takes seconds to finish a pair and to remove files; schedulers kill after 30 s.
+constexpr unsigned kPatience = 20;  // [s]
 
 std::atomic<const char*> end_message{""};
 std::atomic<int> end_status{1};

@@ -2,7 +2,7 @@
 #pragma once
 
 // SIGINT and SIGTERM end the program in every phase. What is stored is whole or can be continued at
-// any time, so the program ends at once, unless it can stop in order within two seconds.
+// any time, so the program ends at once, unless it can stop in order within 20 seconds.
 
 namespace mtstereo::run {
 
@@ -11,7 +11,7 @@ namespace mtstereo::run {
 void end_at_signals(const char* message, int status);
 
 /// While it exists, the first signal only sets stop_requested(); the program ends if it is still
-/// running two seconds later, or at the second signal of the same number.
+/// running 20 seconds later, or at the second signal of the same number.
 class OrderlyStop {
  public:
   OrderlyStop() noexcept;

@@ -135,6 +135,10 @@ class Program(unittest.TestCase):
                               stderr=subprocess.PIPE, text=True) as task:
             self.wait_for_unfinished()
             task.send_signal(signal.SIGTERM)
+            time.sleep(0.03)  # until it is handled
+            task.send_signal(signal.SIGSTOP)  # as if the machine were busy
+            time.sleep(3)
+            task.send_signal(signal.SIGCONT)
             _, errors = task.communicate(timeout=30)
         self.assertEqual(task.returncode, 1, errors)
         self.assertIn("task 0 (a): stopped after", errors)
