@@ -38,7 +38,7 @@ std::string name_of_images(const ViewImages& views, const fs::path& folder) {
 // Whether a name is that of other data than a view, such as its depths.
 bool is_other_data(const std::string& name) {
   static const std::regex words(
-      "(^|[^a-z])(depth|disp|disparity|flow|mask|normals?|seg)([^a-z]|$)");
+      "(^|[^a-z])(depth|disp|disparity|flow|mask|normals?|seg)([^a-z]|$)|Flow$|Segmentation$");
   return std::regex_search(name, words);
 }
 
@@ -129,6 +129,7 @@ class FolderSearch {
       return !images_of_folder(folder).empty() || videos_in(folder).size() == 1;
     });
     add_nested({rest, folders.end()});
+    leave_other_folders({rest, folders.end()});
     folders.erase(rest, folders.end());
     const std::vector<PathPair> pairs = take_views_of_folders(folders);
     for (const PathPair& pair : pairs) {
@@ -158,6 +159,23 @@ class FolderSearch {
     std::erase_if(folders, is_other);
     std::copy_if(all.begin(), all.end(), std::back_inserter(contents_.used_folders), is_other);
     return pairs;
+  }
+
+  // Those of other data with the same folders as those of the views, such as depth/Camera_0 and
+  // rgb/Camera_0.
+  void leave_other_folders(const std::vector<fs::path>& folders) {
+    const auto is_other = [](const fs::path& folder) {
+      return is_other_data(folder.filename().string());
+    };
+    for (const fs::path& folder : folders) {
+      const std::vector<fs::path> inner = files::folders_in(folder);
+      const bool beside =
+          !inner.empty() && is_other(folder) &&
+          std::any_of(folders.begin(), folders.end(), [&](const fs::path& views) {
+            return !is_other(views) && files::is_folder(views / inner.front().filename());
+          });
+      if (beside) contents_.used_folders.push_back(folder);
+    }
   }
 
   // Folders of views that have a folder for each scene, such as left/alley and right/alley.

@@ -18,7 +18,7 @@ namespace {
 enum class Place {
   kAny,
   kWhole,  // not a part of a longer word or number
-  kEnd     // of a word in lower case, as in imgL or imgL1
+  kEnd     // of a word in lower case or a number, as in imgL, imgL1 or 1L
 };
 
 struct Words {
@@ -88,7 +88,8 @@ bool is_in_place(const std::string& name, std::size_t at, std::size_t length, Pl
   if (place == Place::kAny) return true;
   if (place == Place::kWhole) return is_whole(name, at, length);
   const std::size_t end = at + length;
-  return at > 0 && std::islower(static_cast<unsigned char>(name[at - 1])) != 0 &&
+  return at > 0 &&
+         (std::islower(static_cast<unsigned char>(name[at - 1])) != 0 || is_digit(name[at - 1])) &&
          (end >= name.size() || !is_letter(name[end]));
 }
 

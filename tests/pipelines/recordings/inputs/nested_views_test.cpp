@@ -136,6 +136,16 @@ TEST_F(NestedFolders, WithTheDepthsOfViewsAreNoViews) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
+TEST_F(NestedFolders, OfDepthsBesideThoseOfViewsAreNoViews) {
+  write_images({"frames/rgb/Camera_0/1.png", "frames/rgb/Camera_1/1.png",
+                "frames/depth/Camera_0/1.png", "frames/depth/Camera_1/1.png",
+                "frames/forwardFlow/Camera_0/1.png", "frames/forwardFlow/Camera_1/1.png"});
+  EXPECT_THAT(found(), ElementsAre(HasSubstr(": frames/rgb/Camera_0/1.png")));
+  EXPECT_THAT(problems_, IsEmpty());
+  write_images({"depth test/left/1.png", "depth test/right/1.png"});
+  EXPECT_THAT(found(), ElementsAre(HasSubstr(": depth test/left/1.png"), HasSubstr("frames/rgb")));
+}
+
 TEST_F(NestedFolders, WithNothingInCommonAreNoViews) {
   write_images({"left/a/1.png", "right/b/1.png"});
   EXPECT_TRUE(nested_views(path("left"), path("right")).pairs.empty());

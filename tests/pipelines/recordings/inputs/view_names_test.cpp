@@ -20,6 +20,7 @@ TEST(ViewNames, FindsPairs) {
       {"image_l", {"image_r", "image"}},
       {"imgL.png", {"imgR.png", "img.png"}},
       {"imageL10.png", {"imageR10.png", "image10.png"}},
+      {"10L.png", {"10R.png", "10.png"}},
       {"cam0", {"cam1", ""}},
       {"image_02", {"image_03", ""}},
       {"infra1", {"infra2", ""}},
