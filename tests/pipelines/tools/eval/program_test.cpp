@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -183,7 +184,8 @@ TEST_F(Program, ReplacesOnlyItsOwnFiles) {
       EXPECT_EQ(run_eval({set(), "--only", "A", option, folder_ / name}).status, 0) << option;
     }
   }
-  EXPECT_EQ(run_eval({set(), "--only", "A", "--json", "/dev/null"}).status, 2);
+  std::filesystem::create_directory(folder_ / "folder");
+  EXPECT_EQ(run_eval({set(), "--only", "A", "--json", folder_ / "folder"}).status, 2);
   write_file(folder_ / "maps/A.pfm", "mine");
   const Outcome maps = run_eval({set(), "--write-disparity", folder_ / "maps"});
   EXPECT_EQ(maps.status, 1);
