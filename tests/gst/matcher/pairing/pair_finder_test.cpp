@@ -278,6 +278,7 @@ TEST(PairFinder, ADuplicateCostsNothingElse) {
   const Outcome outcome = run(steady(100), right);
   EXPECT_EQ(outcome.pairs, 100);
   EXPECT_EQ(outcome.wrong, 0);
+  EXPECT_EQ(outcome.wrong_times, 1);
 }
 
 TEST(PairFinder, TimesThatBothStreamsRepeatCostNothing) {
