@@ -251,30 +251,5 @@ TEST_F(RealStreams, CauseAWarningIfTheViewsAreSwapped) {
   }
 }
 
-TEST_F(RealStreams, CauseAWarningIfTheViewsShowDifferentScenes) {
-  std::vector<Pair> pairs = sequence();
-  for (Pair& pair : pairs) {
-    std::reverse(pair.right.pixels.begin(), pair.right.pixels.end());  // upside down
-  }
-  expect_only(PairProblem::kNotAPair, pairs);
-}
-
-TEST_F(RealStreams, CauseAWarningIfTheViewsAreOutOfStep) {
-  expect_only(PairProblem::kOutOfStep, apart(sequence(), 2));
-}
-
-TEST_F(RealStreams, CauseAWarningIfOneViewIsBlurred) {
-  expect_only(PairProblem::kSharpnessDiffers,
-              changed(sequence(), [](Pair& pair) { pair.left = blurred(pair.left, 1.5); }));
-}
-
-TEST_F(RealStreams, CauseAWarningIfOneViewIsBlackOrFrozen) {
-  const std::vector<Pair> pairs = sequence();
-  expect_only(PairProblem::kRightBlank, changed(pairs, [](Pair& pair) { blacken(pair.right); }));
-  expect_only(PairProblem::kLeftFrozen,
-              changed(pairs, [&](Pair& pair) { pair.left = pairs[0].left; }),
-              "alignment-interval=30");
-}
-
 }  // namespace
 }  // namespace mtstereo::test::alignment_reports_test
