@@ -80,18 +80,6 @@ TEST(Pipelines, SupportRepeatedFlushingSeeks) {
   }
 }
 
-TEST(Pipelines, SupportSeeksWhilePlaying) {
-  Pipeline pipeline(noise_launch(300, "max-disparity=16"));
-  pipeline.set_state(GST_STATE_PLAYING);
-  ASSERT_TRUE(pipeline.wait_until_settled());
-  for (int i = 0; i < 10; ++i) {
-    ASSERT_TRUE(pipeline.seek(static_cast<GstClockTime>(i % 4) * GST_SECOND, GST_SEEK_FLAG_FLUSH))
-        << i;
-    ASSERT_TRUE(pipeline.wait_until_settled()) << i;
-  }
-  EXPECT_EQ(pipeline.wait_for_end(), "");
-}
-
 /// The duration of two streams with these numbers of frames, -1: without an end [frames of 1/30 s].
 /// -1: unknown.
 gint64 duration_of(int left, int right) {
@@ -145,18 +133,6 @@ TEST(Pipelines, PlayAgainByAFlushingSeekAfterAnError) {
   pipeline.set_state(GST_STATE_PLAYING);
   EXPECT_EQ(pipeline.wait_for_end(10), "");
   EXPECT_EQ(pipeline.samples().size(), 15u);
-}
-
-TEST(Pipelines, SupportReversePlayback) {
-  Pipeline pipeline(noise_launch(-1, "max-disparity=16"));
-  pipeline.set_state(GST_STATE_PAUSED);
-  ASSERT_TRUE(pipeline.wait_until_settled());
-  ASSERT_TRUE(pipeline.seek(GST_SECOND / 2, GST_SEEK_FLAG_FLUSH, -1.0));
-  ASSERT_EQ(pipeline.run(), "");
-  const auto samples = pipeline.samples();
-  ASSERT_GT(samples.size(), 10u);
-  for (std::size_t i = 1; i < samples.size(); ++i) EXPECT_LT(samples[i].pts, samples[i - 1].pts);
-  EXPECT_LT(samples.back().pts, kFrame);
 }
 
 TEST(Pipelines, AnswerSeekingDurationAndPositionQueries) {
