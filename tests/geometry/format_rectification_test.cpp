@@ -125,14 +125,6 @@ TEST(FormatRectification, OfOpenCvWithoutStatedRectification) {
   expect_same_positions(read_valid(path, 640, 480), left, right);
 }
 
-TEST(FormatRectification, OfOurOwnFile) {
-  const CalibrationFolder folder;
-  const std::string opencv = stored("intrinsics.yml") + "," + stored("extrinsics.yml");
-  const std::string path = folder.path("own.yml");
-  ASSERT_TRUE(write_calibration(read_valid(opencv, 640, 480), path).ok());
-  expect_same_positions(read_valid(path), left_of_pair(), right_of_pair());
-}
-
 TEST(FormatRectification, OfCameraInfo) {
   const std::string path = stored("camera_info_left.yaml") + "," + stored("camera_info_right.yaml");
   expect_same_positions(read_valid(path), left_of_pair(), right_of_pair());
@@ -161,68 +153,6 @@ TEST(FormatRectification, OfKalibrWithFisheyeLenses) {
   const cv::Vec3d baseline = right.r * t;
   EXPECT_NEAR(baseline[0], -cv::norm(t), 1e-9);
   EXPECT_NEAR(std::hypot(baseline[1], baseline[2]), 0, 1e-9);
-}
-
-TEST(FormatRectification, OfEuroc) {
-  OpenCvCamera left = {intrinsics(457.654, 456.297, 368.215, 247.375),
-                       {-0.28140811, 0.07195907, 0.00021359, 1.77187114e-05}};
-  OpenCvCamera right = {intrinsics(456.587, 455.134, 378.999, 254.238),
-                        {-0.28168365, 0.07251284, -0.00011473, -3.65590700e-05}};
-  const cv::Matx44d left_to_body = {0.010758403070584,
-                                    -0.999937420720015,
-                                    0.00306780168447955,
-                                    -0.0216,
-                                    0.999693547410242,
-                                    0.0106872733552337,
-                                    -0.0223292063127412,
-                                    -0.0647,
-                                    0.0222950225318859,
-                                    0.00330708815046718,
-                                    0.99974596530232,
-                                    0.0098,
-                                    0,
-                                    0,
-                                    0,
-                                    1};
-  const cv::Matx44d right_to_body = {0.0130566085750514,
-                                     -0.999853858140322,
-                                     -0.0110357299002457,
-                                     -0.0197732786559167,
-                                     0.999656980096996,
-                                     0.0133030395291356,
-                                     -0.0225599486400402,
-                                     0.0453116908782346,
-                                     0.0227034604382876,
-                                     -0.0107373880063794,
-                                     0.999684580946874,
-                                     0.0131560758696463,
-                                     0,
-                                     0,
-                                     0,
-                                     1};
-  const cv::Matx44d motion = right_to_body.inv() * left_to_body;
-  rectify_by_opencv(left, right, {752, 480}, motion.get_minor<3, 3>(0, 0),
-                    {motion(0, 3), motion(1, 3), motion(2, 3)});
-  expect_same_positions(read_valid(stored("euroc_cam0.yaml") + "," + stored("euroc_cam1.yaml")),
-                        left, right);
-}
-
-TEST(FormatRectification, OfKittiRaw) {
-  const OpenCvCamera left = {
-      intrinsics(958.7, 957.1, 696.2, 224.3),
-      {-0.3691, 0.1968, 0.0014, 0.0007, -0.0677},
-      {9.995208e-01, -6.792693e-03, -3.019930e-02, 6.611177e-03, 9.999595e-01, -6.106404e-03,
-       3.023956e-02, 5.903825e-03, 9.995252e-01},
-      projection(718.2, 607.19, 185.22, 44.8573)};
-  const OpenCvCamera right = {
-      intrinsics(902.6, 901.4, 695.9, 225.8),
-      {-0.3639, 0.1789, -0.0005, -0.0003, -0.0529},
-      {9.999533e-01, 3.941257e-03, -8.820910e-03, -3.888209e-03, 9.999743e-01, 6.023053e-03,
-       8.844421e-03, -5.988475e-03, 9.999430e-01},
-      projection(718.2, 607.19, 185.22, -337.8175)};
-  const StereoCalibration calibration = read_valid(stored("calib_cam_to_cam.txt"), 1392, 512);
-  EXPECT_EQ(calibration.rectification->width, 1242);
-  expect_same_positions(calibration, left, right);
 }
 
 TEST(FormatRectification, OfKittiOdometryLeavesThePixels) {
