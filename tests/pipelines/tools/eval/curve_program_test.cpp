@@ -16,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using testing::Outcome;
 using testing::read_file;
 using testing::run_eval;
@@ -99,13 +98,6 @@ TEST_F(CurveProgram, WritesAReportThatPlotPyDraws) {
   cv::Mat red;
   cv::inRange(drawn, cv::Scalar(38, 38, 208), cv::Scalar(42, 42, 212), red);
   EXPECT_GT(cv::countNonZero(red), 100) << "the line of the library";
-}
-
-TEST_F(CurveProgram, HasNoCurveByDefault) {
-  const Outcome run = run_eval({set(), "--only", "B", "--json", folder_ / "r.json"});
-  ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, Not(HasSubstr("equal density")));
-  EXPECT_FALSE(report().contains("curve"));
 }
 
 }  // namespace

@@ -171,14 +171,5 @@ TEST(CurvesJson, SamplesAnEnvelopeAtBothEndsAndAtEveryPercent) {
   EXPECT_EQ(points[51]["avgerr"], 4);
 }
 
-TEST(CurvesJson, SamplesAnEnvelopeAtIntegerDensities) {
-  const json points = curves_json(small_report())["curves"][2]["points"];
-  ASSERT_EQ(points.size(), 51U);
-  EXPECT_EQ(points[0]["density"], 30);
-  EXPECT_EQ(points[0]["avgerr"], 0.5);
-  EXPECT_EQ(points[50]["density"], 80);
-  EXPECT_EQ(points[50]["avgerr"], 4);
-}
-
 }  // namespace
 }  // namespace mtstereo::eval::curve_report_test

@@ -278,6 +278,11 @@ TEST_F(Layouts, NameTheFileOfAnotherSize) {
   write_image(folder_ / "A/im1.png", small_pair().right);
   write_file(folder_ / "A/disp0GT.pfm", "Pf\n1 1\n-1\n" + testing::float_bytes({1}, false));
   EXPECT_INPUT_ERROR(load_pair(pair), "disp0GT.pfm: is 1x1, the left image 48x24");
+  write_pair_folder(folder_ / "A", small_pair(), 30);
+  write_image(folder_ / "A/mask0nocc.png", cv::Mat(24, 24, CV_8UC1, cv::Scalar(255)));
+  EXPECT_INPUT_ERROR(load_pair(find_pairs(folder_.path(), Layout::kMiddlebury).pairs.at(0)),
+                     "mask0nocc.png: is 24x24, the left image 48x24; replace it with the one of "
+                     "this resolution, or remove it");
 }
 
 }  // namespace

@@ -125,17 +125,6 @@ TEST_F(OfficialProgram, PrintsBadOfMiddleburyAndNamesMissingMasks) {
   EXPECT_THAT(csv, HasSubstr("\nmean of middlebury,mtstereo,noc,"));
 }
 
-TEST_F(OfficialProgram, NamesABrokenMaskAndRunsOtherPairs) {
-  write_pair_folder(folder_ / "set/A", make_pair(kWidth, kHeight, 9), 32);
-  write_pair_folder(folder_ / "set/B", make_pair(kWidth, kHeight, 5), 32);
-  write_image(folder_ / "set/A/mask0nocc.png", mask_of(kWidth / 2, 255));
-  const Outcome run = this->run("set");
-  EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.err, HasSubstr("A/mask0nocc.png: is 100x100, the left image 200x100; replace "
-                                 "it with the one of this resolution, or remove it"));
-  EXPECT_THAT(run.out, HasSubstr("mean of 1"));
-}
-
 TEST_F(OfficialProgram, PrintsEachBenchmarkOfARunAndAllMethods) {
   write_kitti(true, true);
   write_pair_folder(folder_ / "eth/forest_2s", make_pair(kWidth, kHeight, 9), 0);
@@ -148,17 +137,6 @@ TEST_F(OfficialProgram, PrintsEachBenchmarkOfARunAndAllMethods) {
   for (const char* benchmark : {"kitti2015", "eth3d"}) {
     EXPECT_TRUE(report()["official"][benchmark]["mean"].contains("sgbm-3way")) << benchmark;
   }
-}
-
-TEST_F(OfficialProgram, HasNothingOfThemWithoutTheOption) {
-  write_pair_folder(folder_ / "set/A", make_pair(kWidth, kHeight, 9), 32);
-  const Outcome run =
-      run_eval({folder_ / "set", "--json", folder_ / "r.json", "--csv", folder_ / "r.csv"});
-  ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, Not(HasSubstr("official")));
-  EXPECT_FALSE(report().contains("official"));
-  EXPECT_FALSE(report()["pairs"][0]["results"]["mtstereo"].contains("official"));
-  EXPECT_THAT(read_file(folder_ / "r.csv"), HasSubstr("flat_answers,kind\n"));
 }
 
 }  // namespace

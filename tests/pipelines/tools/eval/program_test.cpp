@@ -42,6 +42,13 @@ TEST_F(Program, EvaluatesAllPairsAndExitsWith0) {
   EXPECT_GT(report["mean"]["mtstereo"]["density"], 5.0);
   EXPECT_TRUE(report["failures"].empty());
   EXPECT_THAT(read_file(folder_ / "r.csv"), HasSubstr("\nmean,mtstereo,all,"));
+  // Without their options:
+  EXPECT_THAT(run.out, Not(HasSubstr("equal density")));
+  EXPECT_THAT(run.out, Not(HasSubstr("official")));
+  EXPECT_FALSE(report.contains("curve"));
+  EXPECT_FALSE(report.contains("official"));
+  EXPECT_FALSE(report["pairs"][0]["results"]["mtstereo"].contains("official"));
+  EXPECT_THAT(read_file(folder_ / "r.csv"), HasSubstr("flat_answers,kind\n"));
 }
 
 TEST_F(Program, NamesCorruptFilesRunsOtherPairsAndExitsWith1) {
@@ -101,15 +108,22 @@ TEST_F(Program, NamesValueAndRangeOfAnInvalidParameter) {
 TEST_F(Program, HasAnOptionForEveryParameter) {
   const Outcome help = run_eval({"--help"});
   EXPECT_EQ(help.status, 0);
+  // Each is passed to the matcher: the defaults of another preset are accepted and reported.
+  std::vector<std::string> arguments{set(), "--only", "B", "--json", folder_ / "r.json"};
+  const auto value_of = [](Parameter id) -> std::string {
+    if (id == Parameter::kMode) return "sparse";
+    return parameter_default(id, Preset::kPaper, Mode::kSparse);
+  };
   for (const ParameterInfo& info : parameter_table()) {
     EXPECT_THAT(help.out, HasSubstr(std::string("--") + info.name + " "));
-    // Each is passed to the matcher: its default is accepted and is in the report.
-    const std::string value = parameter_default(info.id, Preset::kDefault, Mode::kSparse);
-    const Outcome run = run_eval({set(), "--only", "B", "--mode", "sparse", "--json",
-                                  folder_ / "r.json", std::string("--") + info.name, value});
-    if (info.id == Parameter::kMode) continue;  // given twice
-    ASSERT_EQ(run.status, 0) << info.name << ": " << run.err;
-    EXPECT_EQ(report()["parameters"][info.name], value);
+    if (info.id == Parameter::kPreset) continue;  // the default stays: all are set one by one
+    arguments.insert(arguments.end(), {std::string("--") + info.name, value_of(info.id)});
+  }
+  const Outcome run = run_eval(arguments);
+  ASSERT_EQ(run.status, 0) << run.err;
+  for (const ParameterInfo& info : parameter_table()) {
+    if (info.id == Parameter::kPreset) continue;
+    EXPECT_EQ(report()["parameters"][info.name], value_of(info.id)) << info.name;
   }
 }
 
@@ -200,11 +214,7 @@ TEST_F(Program, ListsWithoutRunning) {
   EXPECT_THAT(run.out, HasSubstr("2 pairs of middlebury"));
   EXPECT_THAT(run.out, HasSubstr("A/im0.png"));
   EXPECT_THAT(run.out, Not(HasSubstr("mean")));
-}
-
-TEST_F(Program, RunsAtMostTheLimitOfPairs) {
-  const Outcome run = run_eval({set(), "--limit", "1", "--list"});
-  EXPECT_THAT(run.out, HasSubstr("1 pairs of middlebury"));
+  EXPECT_THAT(run_eval({set(), "--limit", "1", "--list"}).out, HasSubstr("1 pairs of middlebury"));
 }
 
 TEST_F(Program, KeepsTheMeanIfOneMapHasNoEstimate) {
