@@ -38,6 +38,7 @@ std::vector<std::string> names_of(const Quality& quality) {
 
 struct Judged {
   Calibrated calibrated;
+  Coverage coverage;
   Quality quality;
 };
 
@@ -45,14 +46,20 @@ Judged judge_views(const std::vector<BoardView>& views,
                    std::optional<Model> model = Model::kPlumbBob) {
   Coverage coverage(kBoard, kSize, kSize);
   for (const BoardView& view : views) coverage.add(corners_of(view));
-  Judged result{calibrate(model, kSize, kSize, views), {}};
+  Judged result{calibrate(model, kSize, kSize, views), coverage, {}};
   result.quality = judge(result.calibrated, coverage, std::nullopt);
   return result;
 }
 
+/// Of many different views.
+const Judged& good() {
+  static const Judged found =
+      judge_views(observe(plumb_bob_rig(), board_poses(plumb_bob_rig(), kBoard, 45), kBoard, 0.1));
+  return found;
+}
+
 TEST(Quality, ManyDifferentViewsAreGoodWithoutAWarning) {
-  const Rig truth = plumb_bob_rig();
-  const Judged found = judge_views(observe(truth, board_poses(truth, kBoard, 45), kBoard, 0.1));
+  const Judged& found = good();
   EXPECT_THAT(names_of(found.quality), IsEmpty());
   EXPECT_EQ(found.quality.grade, Grade::kGood);
   ASSERT_TRUE(found.calibrated.held_out);
@@ -135,9 +142,7 @@ TEST(Quality, CamerasThatMovedAreNamed) {
 }
 
 TEST(Quality, ParametersThatTheViewsDoNotDetermineAreNamed) {
-  const Rig truth = plumb_bob_rig();
-  const auto views = observe(truth, board_poses(truth, kBoard, 20), kBoard, 0.1);
-  Calibrated calibrated = calibrate(Model::kPlumbBob, kSize, kSize, views);
+  Calibrated calibrated = good().calibrated;
   // What a solution has whose equations are singular.
   calibrated.solution.result.covariance.resize(0, 0);
   const Quality quality = judge(calibrated, Coverage(kBoard, kSize, kSize), std::nullopt);
@@ -193,15 +198,10 @@ TEST(Quality, ABoardInMetersInsteadOfMillimetersIsRefused) {
 }
 
 TEST(Quality, CamerasOutOfStepAreNamed) {
-  const Rig truth = plumb_bob_rig();
-  const auto views = observe(truth, board_poses(truth, kBoard, 20), kBoard, 0.1);
-  Coverage coverage(kBoard, kSize, kSize);
-  for (const BoardView& view : views) coverage.add(corners_of(view));
-  const Calibrated calibrated = calibrate(Model::kPlumbBob, kSize, kSize, views);
-  const Quality late = judge(calibrated, coverage, TimeOffset{0.0121, 0.0004, 60});
+  const Quality late = judge(good().calibrated, good().coverage, TimeOffset{0.0121, 0.0004, 60});
   EXPECT_THAT(names_of(late), Contains("not-synchronized"));
   EXPECT_THAT(late.warnings.back().text, HasSubstr("the right one exposes about 12 ms later"));
-  const Quality fine = judge(calibrated, coverage, TimeOffset{0.0004, 0.0004, 60});
+  const Quality fine = judge(good().calibrated, good().coverage, TimeOffset{0.0004, 0.0004, 60});
   EXPECT_THAT(names_of(fine), Not(Contains("not-synchronized")));
 }
 
