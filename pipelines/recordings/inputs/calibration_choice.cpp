@@ -43,6 +43,13 @@ bool is_calibration_name(const fs::path& file) {
   });
 }
 
+// Whether a file of one view has poses or times, as in TartanAir.
+bool has_poses_or_times(const fs::path& file) {
+  const std::string stem = lower_stem(file);
+  return files::extension_of(file) == ".txt" &&
+         (stem.find("pose") != std::string::npos || stem.find("time") != std::string::npos);
+}
+
 void add_pairs(std::vector<std::string>& found, std::vector<fs::path> files) {
   const std::vector<PathPair> pairs = take_pairs(files);
   const auto find = [&files](const char* word) {
@@ -138,6 +145,7 @@ std::vector<std::string> calibrations_in(const std::vector<fs::path>& folders) {
     for (const fs::path& file : files) {
       if (is_calibration_name(file)) found.push_back(file.string());
     }
+    std::erase_if(files, has_poses_or_times);
     add_pairs(found, files);
   }
   std::vector<std::string> unique;

@@ -155,6 +155,16 @@ TEST_F(Recordings, ImagesOfHeatWithFewValues) {
                                                    HasSubstr("mogrify -path"))));
 }
 
+TEST_F(Recordings, PosesAndTimesBesideTheViewsAreNoCalibrations) {
+  write_images("all/image_left", {"1.png"});
+  write_images("all/image_right", {"1.png"}, true);
+  for (const char* name :
+       {"pose_left.txt", "pose_right.txt", "left_times.txt", "right_times.txt"}) {
+    write_text(folder_ / "all" / name, "0 0 0 0 0 0 1\n");
+  }
+  EXPECT_THAT(recognized({"all"}).remarks, IsEmpty());
+}
+
 TEST_F(Recordings, NamesOfImagesThatMayBeNoViews) {
   write_images("left", {"1.png", "1_mask.png", "2.png", "2_mask.png"});
   write_images("right", {"1.png", "2.png"}, true);
