@@ -150,7 +150,8 @@ std::string split_problem(const GstVideoInfo& whole, SplitLayout layout) {
   return text + "cannot be split in the middle: in the format " + GST_VIDEO_INFO_NAME(&whole) +
          " " + std::to_string(shared) + (columns ? " columns" : " rows") +
          " share a color, and a half has " + std::to_string(length / 2) +
-         ". Put videoconvert and a capsfilter with format=GRAY8 upstream.";
+         ". Put videoconvert and a capsfilter with format=GRAY8 upstream, or convert the file "
+         "(ffmpeg -i FILE -pix_fmt gray -c:v ffv1 views.mkv).";
 }
 
 CapsPointer half_caps(const GstCaps* caps, SplitLayout layout) {

@@ -232,7 +232,7 @@ TEST(MtSplit, HalvesThatAreNotWholeAreErrors) {
   for (const auto& [properties, caps, word] :
        {std::tuple("", raw_caps("GRAY8", 641, 480), "width must be even"),
         std::tuple("layout=top-bottom", raw_caps("GRAY8", 640, 481), "height must be even"),
-        std::tuple("", raw_caps("I420", 642, 480), "format=GRAY8"),
+        std::tuple("", raw_caps("I420", 642, 480), "-pix_fmt gray"),
         std::tuple("layout=top-bottom", raw_caps("NV12", 640, 482), "format=GRAY8"),
         std::tuple("", raw_caps("YUY2", 642, 480), "format=GRAY8")}) {
     Splitter splitter(properties);
