@@ -139,7 +139,7 @@ void split(const cv::Mat& image, Arrangement arrangement, ImagePair& pair) {
   const int extent = across ? image.cols : image.rows;
   if (extent % 2 != 0) {
     throw UserError("images of " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
-                    " cannot be halved");
+                    " cannot be halved: write the views to two folders, or cut off a pixel");
   }
   const int half = extent / 2;
   pair.left = across ? image.colRange(0, half) : image.rowRange(0, half);

@@ -85,7 +85,8 @@ cv::Size half_size(cv::Size size, Arrangement arrangement, const fs::path& file)
   const bool beside = arrangement == Arrangement::kSideBySide;
   if ((beside ? size.width : size.height) % 2 != 0) {
     throw UserError(file.string() + ": " + size_text(size) + " cannot be halved: its " +
-                    (beside ? "width" : "height") + " is odd");
+                    (beside ? "width" : "height") +
+                    " is odd; write the views to two files, or cut off a pixel (ffmpeg -vf crop)");
   }
   return beside ? cv::Size(size.width / 2, size.height) : cv::Size(size.width, size.height / 2);
 }

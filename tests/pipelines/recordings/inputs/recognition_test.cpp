@@ -307,7 +307,8 @@ TEST_F(Recordings, RefusesOddHalves) {
   cv::imwrite((folder_ / "odd.png").string(), cv::Mat(100, 301, CV_8UC1, cv::Scalar(0)));
   InputOptions stated;
   stated.arrangement = Arrangement::kSideBySide;
-  EXPECT_THAT(error_of({"odd.png"}, stated), HasSubstr("its width is odd"));
+  EXPECT_THAT(error_of({"odd.png"}, stated),
+              HasSubstr("its width is odd; write the views to two files"));
   EXPECT_THAT(error_of({"odd.png"}), HasSubstr("is the shape of one view: give the other view"));
 }
 
