@@ -28,8 +28,9 @@ void ResultBuffers::resize(const Settings& settings, const FrameSize& size, Reus
   rating.resize(width, height, size.threads, reused);
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) worker.edges.resize(aligned.width);
-  if (!settings.infers()) return;
-  areas.resize(width, height);
+  if (!settings.infers() && !settings.checks_planes()) return;
+  areas.scale = settings.flat_scale();
+  areas.resize(width / areas.scale, height / areas.scale);
   planes.resize(areas.first.size());
   for (Scratch& worker : scratch) worker.votes.resize();
 }
@@ -130,19 +131,20 @@ void correct_strip(const StepContext& step, ResultMaps& result) {
   });
 }
 
-void fit_flat_areas(const StepContext& step, const Views& views, const ResultMaps& result,
-                    ResultBuffers& buffers) {
+void fit_flat_areas(const StepContext& step, const Views& views, const Pyramid& pyramid,
+                    const ResultMaps& result, ResultBuffers& buffers) {
   FlatAreas& areas = buffers.areas;
+  const GrayView view = areas.scale == 2 ? views.plain[0] : pyramid.levels[0].views[0].view();
   areas.count = 0;
   if (areas.gray.width() == 0 || areas.gray.height() == 0) return;
   const Bands bands = step.bands.of_height(areas.gray.height());
   for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grays = {};
   bands.rows([&](int y0, int y1, int worker) {
-    buffers.scratch[worker].grays.add(sum_grays(views.plain[0], y0, y1, areas));
+    buffers.scratch[worker].grays.add(sum_grays(view, y0, y1, areas));
   });
   GrayTotals grays;
   for (const ResultBuffers::Scratch& worker : buffers.scratch) grays.add(worker.grays);
-  const int connected = flat_step(grays, views.rated_noise);
+  const int connected = flat_step(grays, areas.scale, views.rated_noise);
   bands.rows([&](int y0, int y1, int) { find_runs(areas.gray, connected, y0, y1, areas.runs); });
   join_bands(areas.gray, connected, Bands::kRows, areas.runs);
   number_areas(areas);
@@ -161,9 +163,10 @@ void complete_flat_areas(const StepContext& step, ResultMaps& result,
 
 void check_flat_areas(const StepContext& step, const Views& views, ResultMaps& result,
                       const ResultBuffers& buffers) {
-  const int bonus = plane_bonus(views.rated_noise, result.grid_level);
+  const PlaneWeight weight = {plane_bonus(views.rated_noise, result.grid_level),
+                              step.settings.infers() ? 1 : kMostInferred + 1};
   step.bands.rows([&](int y0, int y1, int) {
-    check_planes(buffers.areas, buffers.planes, bonus, y0, y1, *result.disparity,
+    check_planes(buffers.areas, buffers.planes, weight, y0, y1, *result.disparity,
                  *result.confidence);
   });
 }

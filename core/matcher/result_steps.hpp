@@ -87,8 +87,8 @@ void calibrate_confidence(const StepContext& step, const Views& views, const Pyr
 void correct_strip(const StepContext& step, ResultMaps& result);
 
 /// Finds the planes of the flat areas of the left view.
-void fit_flat_areas(const StepContext& step, const Views& views, const ResultMaps& result,
-                    ResultBuffers& buffers);
+void fit_flat_areas(const StepContext& step, const Views& views, const Pyramid& pyramid,
+                    const ResultMaps& result, ResultBuffers& buffers);
 
 /// Gives the doubted pixels of flat areas their planes.
 void complete_flat_areas(const StepContext& step, ResultMaps& result, const ResultBuffers& buffers);

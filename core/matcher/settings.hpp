@@ -84,6 +84,13 @@ struct Settings {
   bool by_paths() const { return cost == Cost::kCensus; }
   /// Whether the map has inferred disparities other than filled gaps.
   bool infers() const { return mode == Mode::kDense || mode == Mode::kFull; }
+  /// Whether matched disparities are compared with the planes of flat areas. At half the resolution
+  /// the planes of mode semi-dense do not improve the confidence.
+  bool checks_planes() const {
+    return mode == Mode::kDense || (mode == Mode::kSemiDense && !half());
+  }
+  /// Pixels per pixel of the view in which flat areas are found.
+  int flat_scale() const { return infers() ? 2 : 4; }
   /// Whether every pixel gets a disparity.
   bool keeps_all() const { return by_paths() && mode == Mode::kFull; }
   /// Whether min_confidence applies to the complete map, and not to the matched one.

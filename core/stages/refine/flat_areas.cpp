@@ -25,11 +25,11 @@ void GrayTotals::add(const GrayTotals& other) {
 }
 
 void FlatAreas::resize(int width, int height) {
-  const std::size_t pixels = static_cast<std::size_t>(width / 2) * (height / 2);
-  gray.resize(width / 2, height / 2);
-  runs.resize(width / 2, height / 2);
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  gray.resize(width, height);
+  runs.resize(width, height);
   area.resize(pixels);
-  first.resize(pixels / kLeastFlatArea + 1);
+  first.resize(pixels * scale * scale / kLeastFlatArea + 1);
   spans.resize(pixels);
 }
 
@@ -53,12 +53,13 @@ GrayTotals sum_grays(GrayView view, int y0, int y1, FlatAreas& areas) {
   return totals;
 }
 
-int flat_step(const GrayTotals& totals, float noise) {
+int flat_step(const GrayTotals& totals, int scale, float noise) {
   const double count = static_cast<double>(totals.count);
   const double mean = static_cast<double>(totals.sum) / count;
   const double variance = static_cast<double>(totals.squares) / count - mean * mean;
   const double deviation = std::sqrt(std::max(variance, 0.0)) / 4;
-  const double step = std::round(kFlatStep * std::min(1.0, deviation / kFullContrast));
+  const int most = scale == 2 ? kHalvedFlatStep : kQuarteredFlatStep;
+  const double step = std::round(most * std::min(1.0, deviation / kFullContrast));
   return std::max(static_cast<int>(step), static_cast<int>(kFlatNoise * noise));
 }
 
@@ -68,7 +69,7 @@ void number_areas(FlatAreas& areas) {
   for_each_run(runs, [&](std::uint32_t run, int) { areas.area[run] = 0; });
   for_each_run(runs, [&](std::uint32_t run, int) {
     const std::uint32_t root = root_of(runs, run);
-    if (runs.link[root] - kRootRun < kLeastFlatArea) return;
+    if ((runs.link[root] - kRootRun) * areas.scale * areas.scale < kLeastFlatArea) return;
     if (areas.area[root] == 0) {
       areas.area[root] = ++count;
       areas.first[count] = 0;

@@ -9,14 +9,17 @@
 
 namespace mtstereo {
 
-/// Finds the flat areas of a view: pixels of the view at half its size that are connected by
-/// neighbors of nearly the same gray value. Such an area mostly belongs to one surface.
+/// Finds the flat areas of a view: pixels of the view at a half or a quarter of its size that are
+/// connected by neighbors of nearly the same gray value. Such an area mostly belongs to one
+/// surface.
 ///
-/// Call sum_grays() for all bands of rows of the halved view, find_runs() (speckle_removal.hpp)
+/// Call sum_grays() for all bands of rows of the reduced view, find_runs() (speckle_removal.hpp)
 /// with flat_step() for the same bands, join_bands() and then number_areas().
 
-/// Neighbors that differ by more are not connected [1 / 4 gray value].
-inline constexpr int kFlatStep = 8;
+/// Neighbors that differ by more are not connected, at half and at a quarter of the size
+/// [1 / 4 gray value].
+inline constexpr int kHalvedFlatStep = 8;
+inline constexpr int kQuarteredFlatStep = 12;
 
 /// In views whose gray values have a smaller standard deviation, the step is smaller as well.
 inline constexpr double kFullContrast = 40;
@@ -24,8 +27,8 @@ inline constexpr double kFullContrast = 40;
 /// The least step, by the noise of the view, which would break the areas into pieces.
 inline constexpr float kFlatNoise = 2;
 
-/// A smaller area is none [pixels of the halved view].
-inline constexpr int kLeastFlatArea = 75;
+/// A smaller area is none [px of the view].
+inline constexpr int kLeastFlatArea = 300;
 
 /// Sums over the pixels of rows.
 struct GrayTotals {
@@ -36,7 +39,7 @@ struct GrayTotals {
   void add(const GrayTotals& other);
 };
 
-/// A part of a row of the halved view.
+/// A part of a row of the reduced view.
 struct FlatSpan {
   std::uint16_t y = 0;
   std::uint16_t begin = 0;  ///< first column
@@ -45,24 +48,26 @@ struct FlatSpan {
 
 /// The areas of a view. Run indices are those of SpeckleRuns.
 struct FlatAreas {
-  Image<std::int32_t> gray;     ///< the halved view [1 / 4 gray value], plus 1
+  int scale = 2;                ///< pixels of the view per pixel of `gray`, 2 or 4, along rows
+  Image<std::int32_t> gray;     ///< the reduced view [1 / 4 gray value], plus 1
   SpeckleRuns runs;             ///< of `gray`
   Buffer<std::uint32_t> area;   ///< per run: 1 plus the number of its area, 0 if it has none
   Buffer<std::uint32_t> first;  ///< per area: its first entry of `spans`; after the last: the end
   Buffer<FlatSpan> spans;       ///< the areas' runs, area by area, from top to bottom
   int count = 0;                ///< of the areas, in the order of their first pixels
 
-  /// For a view of this size before the halving, at least 2 px wide and high.
+  /// For a reduced view of this size.
   void resize(int width, int height);
 };
 
-/// Writes the rows y0 .. y1 - 1 of areas.gray and returns their sums. The last column and the last
-/// row of a view of odd size are left out.
+/// Writes the rows y0 .. y1 - 1 of areas.gray, half of the size of `view`, and returns their sums.
+/// `view` is the view itself or already halved, by areas.scale. The last column and the last row of
+/// odd sizes are left out.
 GrayTotals sum_grays(GrayView view, int y0, int y1, FlatAreas& areas);
 
-/// The largest difference of neighbors that are connected [1 / 4 gray value]. `noise` is the noise
-/// level of the view.
-int flat_step(const GrayTotals& totals, float noise);
+/// The largest difference of neighbors that are connected [1 / 4 gray value], by FlatAreas::scale.
+/// `noise` is the noise level of the view.
+int flat_step(const GrayTotals& totals, int scale, float noise);
 
 /// Writes `area`, `first`, `spans` and `count`.
 void number_areas(FlatAreas& areas);

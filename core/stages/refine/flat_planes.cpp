@@ -34,7 +34,7 @@ template <typename Body>
 void for_each_pixel(const FlatAreas& areas, int area, Body&& body) {
   for (std::uint32_t i = areas.first[area]; i < areas.first[area + 1]; ++i) {
     const FlatSpan span = areas.spans[i];
-    for (int x = span.begin; x < span.end; ++x) body(2 * x, 2 * span.y);
+    for (int x = span.begin; x < span.end; ++x) body(areas.scale * x, areas.scale * span.y);
   }
 }
 
@@ -172,13 +172,13 @@ void for_each_plane(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int
                     Body&& body) {
   if (areas.count == 0) return;
   const SpeckleRuns& runs = areas.runs;
-  const int half_y = std::min(y / 2, runs.height - 1);
-  for (std::uint32_t run = runs.first[half_y]; run < runs.last[half_y]; ++run) {
+  const int row = std::min(y / areas.scale, runs.height - 1);
+  for (std::uint32_t run = runs.first[row]; run < runs.last[row]; ++run) {
     const std::uint32_t number = areas.area[run];
     if (number == 0 || !planes[number - 1].accepted) continue;
     const FlatPlane& plane = planes[number - 1];
-    const int end = runs.end[run] == runs.width ? width : 2 * runs.end[run];
-    for (int x = 2 * runs.begin[run]; x < end; ++x) {
+    const int end = runs.end[run] == runs.width ? width : areas.scale * runs.end[run];
+    for (int x = areas.scale * runs.begin[run]; x < end; ++x) {
       const float disparity = plane.at(static_cast<float>(x), static_cast<float>(y));
       body(x, std::clamp(disparity, plane.least, plane.most));
     }
@@ -223,17 +223,18 @@ int plane_bonus(float noise, int grid_level) {
   return static_cast<int>(kConfirmed * std::clamp(share, 0.0F, 1.0F));
 }
 
-void check_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int bonus, int y0,
-                  int y1, const Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
+void check_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, PlaneWeight weight,
+                  int y0, int y1, const Image<std::int32_t>& map, Image<std::uint8_t>& confidence) {
   for (int y = y0; y < y1; ++y) {
     for_each_plane(areas, planes, y, map.width(), [&](int x, float disparity) {
       const float found = static_cast<float>(map.row(y)[x]) / kOne;
       const float distance = std::abs(disparity - found);
       std::uint8_t& rated = confidence.row(y)[x];
+      if (rated < weight.least) return;
       if (distance <= std::max(kPlaneAgrees, kVoteTolerance * found)) {
-        rated = static_cast<std::uint8_t>(std::min(rated + bonus, 255));
+        rated = static_cast<std::uint8_t>(std::min(rated + weight.bonus, 255));
       } else if (distance > std::max(kPlaneDistance, kPlaneDistanceShare * found)) {
-        rated = static_cast<std::uint8_t>(std::max(rated - kContradicted, 1));
+        rated = static_cast<std::uint8_t>(std::max(rated - kContradicted, weight.least));
       }
     });
   }

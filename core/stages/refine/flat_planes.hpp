@@ -96,10 +96,15 @@ void complete_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, in
 /// this noise level and BlockGrid::level().
 int plane_bonus(float noise, int grid_level);
 
+/// What planes may do to the confidence of disparities.
+struct PlaneWeight {
+  int bonus = 0;  ///< see plane_bonus()
+  int least = 1;  ///< lower ones stay as they are, and none gets lower
+};
+
 /// Compares the disparities in the rows y0 .. y1 - 1 with the accepted plane of their area: raises
-/// the confidence of those that agree by `bonus`, to 255 at most, and lowers that of those that
-/// contradict it, to 1 at least.
-void check_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int bonus, int y0,
-                  int y1, const Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
+/// the confidence of those that agree, to 255 at most, and lowers that of those that contradict it.
+void check_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, PlaneWeight weight,
+                  int y0, int y1, const Image<std::int32_t>& map, Image<std::uint8_t>& confidence);
 
 }  // namespace mtstereo

@@ -332,7 +332,9 @@ inline void complete_flat_areas(Frame& f) {
 }
 
 inline void check_flat_areas(Frame& f) {
-  take(f, check_flat_areas(f.plain[0], f.rated_noise, f.grid, ConfidentMap{f.map, f.confidence}));
+  const bool infers = f.settings.infers();
+  take(f, check_flat_areas(infers ? f.plain[0] : f.views[0], infers ? 2 : 4, infers ? 1 : 16,
+                           f.rated_noise, f.grid, ConfidentMap{f.map, f.confidence}));
 }
 
 inline void draw_thin_structures(Frame& f) {

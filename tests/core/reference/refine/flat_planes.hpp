@@ -7,26 +7,28 @@
 #include <utility>
 #include <vector>
 
+#include "reference/prepare/halving.hpp"
 #include "reference/refine/gap_filling.hpp"
 #include "reference/refine/speckle_removal.hpp"
 
 namespace mtstereo::reference {
 
-/// Sums of squares of four pixels, plus 1.
-inline DisparityPlane halved_sums(const GrayPlane& view) {
-  DisparityPlane half(view.width / 2, view.height / 2);
-  for (int y = 0; y < half.height; ++y) {
-    for (int x = 0; x < half.width; ++x) {
-      half(x, y) = 1 + view(2 * x, 2 * y) + view(2 * x + 1, 2 * y) + view(2 * x, 2 * y + 1) +
+/// Sums of squares of four pixels, plus 1, of the view (scale 2) or of its half (scale 4).
+inline DisparityPlane reduced_sums(const GrayPlane& left, int scale) {
+  const GrayPlane view = scale == 2 ? left : halve(left);
+  DisparityPlane sums(left.width / scale, left.height / scale);
+  for (int y = 0; y < sums.height; ++y) {
+    for (int x = 0; x < sums.width; ++x) {
+      sums(x, y) = 1 + view(2 * x, 2 * y) + view(2 * x + 1, 2 * y) + view(2 * x, 2 * y + 1) +
                    view(2 * x + 1, 2 * y + 1);
     }
   }
-  return half;
+  return sums;
 }
 
-/// 8 quarters of a gray value, less if the standard deviation is below 40, at least twice the
-/// noise.
-inline int flat_step(const DisparityPlane& half, float noise) {
+/// 8 quarters of a gray value at half the size, 12 at a quarter of it; less if the standard
+/// deviation is below 40, at least twice the noise.
+inline int flat_step(const DisparityPlane& half, int scale, float noise) {
   double sum = 0, squares = 0;
   for (const int gray : half.pixels) {
     sum += gray - 1;
@@ -35,21 +37,22 @@ inline int flat_step(const DisparityPlane& half, float noise) {
   const double count = static_cast<double>(half.pixels.size());
   const double variance = squares / count - sum / count * (sum / count);
   const double deviation = std::sqrt(std::max(variance, 0.0)) / 4;
-  const int step = static_cast<int>(std::round(8 * std::min(1.0, deviation / 40)));
+  const int step =
+      static_cast<int>(std::round((scale == 2 ? 8 : 12) * std::min(1.0, deviation / 40)));
   return std::max(step, static_cast<int>(2 * noise));
 }
 
 using Pixels = std::vector<std::pair<int, int>>;  ///< columns and rows
 
-/// The areas of at least 75 pixels, each from top to bottom and from left to right.
-inline std::vector<Pixels> flat_areas(const DisparityPlane& half, int step) {
+/// The areas of at least 300 pixels of the view, each from top to bottom and from left to right.
+inline std::vector<Pixels> flat_areas(const DisparityPlane& half, int scale, int step) {
   std::vector<Pixels> areas;
   GrayPlane seen(half.width, half.height);
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < half.width; ++x) {
       if (seen(x, y) != 0) continue;
       Pixels area = flood(half, step, {x, y}, seen);
-      if (area.size() < 75) continue;
+      if (area.size() * scale * scale < 300) continue;
       std::sort(area.begin(), area.end(), [](auto a, auto b) {
         return std::pair{a.second, a.first} < std::pair{b.second, b.first};
       });
@@ -66,15 +69,16 @@ struct PlaneVote {
 
 /// At most 1500 of the pixels with a confidence above 60; none if no pixel has one below 100 or if
 /// fewer than 12 have one above 60.
-inline std::vector<PlaneVote> plane_votes(const Pixels& area, const ConfidentMap& in) {
+inline std::vector<PlaneVote> plane_votes(const Pixels& area, int scale, const ConfidentMap& in) {
   std::vector<PlaneVote> all;
   bool doubted = false;
-  for (const auto& [x, y] : area) {
-    const int confidence = in.confidence(2 * x, 2 * y);
+  for (const auto& pixel : area) {
+    const int x = scale * pixel.first, y = scale * pixel.second;
+    const int confidence = in.confidence(x, y);
     doubted = doubted || confidence < 100;
     if (confidence <= 60) continue;
-    all.push_back({2.0F * static_cast<float>(x), 2.0F * static_cast<float>(y),
-                   static_cast<float>(in.map(2 * x, 2 * y)) / 256, confidence - 60});
+    all.push_back({static_cast<float>(x), static_cast<float>(y),
+                   static_cast<float>(in.map(x, y)) / 256, confidence - 60});
   }
   if (!doubted || all.size() < 12) return {};
   const std::size_t taken = std::min<std::size_t>(all.size(), 1500);
@@ -172,8 +176,9 @@ struct AcceptedPlane {
 };
 
 /// The plane on which half of the votes of an area agree, if there is one.
-inline std::optional<AcceptedPlane> accepted_plane(const Pixels& area, const ConfidentMap& in) {
-  const std::vector<PlaneVote> votes = plane_votes(area, in);
+inline std::optional<AcceptedPlane> accepted_plane(const Pixels& area, int scale,
+                                                   const ConfidentMap& in) {
+  const std::vector<PlaneVote> votes = plane_votes(area, scale, in);
   if (votes.empty()) return {};
   AcceptedPlane accepted = {voted_plane(votes)};
   for (int i = 0; i < 2; ++i) accepted.plane = least_squares(votes, accepted.plane);
@@ -190,19 +195,21 @@ inline std::optional<AcceptedPlane> accepted_plane(const Pixels& area, const Con
 
 /// Calls body(x, y, disparity) for the pixels of all flat areas that have a plane.
 template <typename Body>
-void for_each_flat_pixel(const GrayPlane& left, float noise, const ConfidentMap& in, Body&& body) {
-  const DisparityPlane half = halved_sums(left);
-  if (half.pixels.empty()) return;
+void for_each_flat_pixel(const GrayPlane& left, int scale, float noise, const ConfidentMap& in,
+                         Body&& body) {
+  const DisparityPlane sums = reduced_sums(left, scale);
+  if (sums.pixels.empty()) return;
   const int width = in.map.width, height = in.map.height;
-  for (const Pixels& area : flat_areas(half, flat_step(half, noise))) {
-    const std::optional<AcceptedPlane> plane = accepted_plane(area, in);
+  for (const Pixels& area : flat_areas(sums, scale, flat_step(sums, scale, noise))) {
+    const std::optional<AcceptedPlane> plane = accepted_plane(area, scale, in);
     if (!plane) continue;
-    for (const auto& [half_x, half_y] : area) {
-      // The last pixel of a halved row or column stands for three of an odd size.
-      const int end_x = half_x == width / 2 - 1 ? width : 2 * half_x + 2;
-      const int end_y = half_y == height / 2 - 1 ? height : 2 * half_y + 2;
-      for (int y = 2 * half_y; y < end_y; ++y) {
-        for (int x = 2 * half_x; x < end_x; ++x) body(x, y, plane->at(x, y));
+    for (const auto& pixel : area) {
+      const int first_x = scale * pixel.first, first_y = scale * pixel.second;
+      // The last pixel of a reduced row or column stands for the rest of the row or column.
+      const int end_x = pixel.first == sums.width - 1 ? width : first_x + scale;
+      const int end_y = pixel.second == sums.height - 1 ? height : first_y + scale;
+      for (int y = first_y; y < end_y; ++y) {
+        for (int x = first_x; x < end_x; ++x) body(x, y, plane->at(x, y));
       }
     }
   }
@@ -212,7 +219,7 @@ void for_each_flat_pixel(const GrayPlane& left, float noise, const ConfidentMap&
 inline ConfidentMap complete_flat_areas(const GrayPlane& left, float noise,
                                         const ConfidentMap& in) {
   ConfidentMap out = in;
-  for_each_flat_pixel(left, noise, in, [&](int x, int y, float disparity) {
+  for_each_flat_pixel(left, 2, noise, in, [&](int x, int y, float disparity) {
     if (in.confidence(x, y) >= 100) return;
     out.map(x, y) = std::max(1, static_cast<int>(std::lround(disparity * 256)));
   });
@@ -226,17 +233,18 @@ inline int plane_bonus(float noise, int grid_level) {
 }
 
 /// Raises the confidence of the disparities in flat areas that agree with the areas' planes, and
-/// lowers that of those that contradict them.
-inline ConfidentMap check_flat_areas(const GrayPlane& left, float noise, int grid_level,
-                                     const ConfidentMap& in) {
+/// lowers that of those that contradict them, down to `least`; what has less is left alone.
+inline ConfidentMap check_flat_areas(const GrayPlane& left, int scale, int least, float noise,
+                                     int grid_level, const ConfidentMap& in) {
   ConfidentMap out = in;
-  for_each_flat_pixel(left, noise, in, [&](int x, int y, float disparity) {
+  for_each_flat_pixel(left, scale, noise, in, [&](int x, int y, float disparity) {
+    if (in.confidence(x, y) < least) return;
     const float found = static_cast<float>(in.map(x, y)) / 256;
     const float distance = std::abs(found - disparity);
     int rated = in.confidence(x, y);
     if (distance <= std::max(1.5F, 0.02F * found)) rated += plane_bonus(noise, grid_level);
     if (distance > std::max(3.0F, 0.06F * found)) rated -= 60;
-    out.confidence(x, y) = static_cast<std::uint8_t>(std::clamp(rated, 1, 255));
+    out.confidence(x, y) = static_cast<std::uint8_t>(std::clamp(rated, least, 255));
   });
   return out;
 }

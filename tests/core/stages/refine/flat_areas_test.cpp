@@ -12,15 +12,16 @@ namespace {
 
 using reference::Pixels;
 
-/// Finds the areas in bands of `band` rows of the halved view; returns the step.
+/// Finds the areas of a view, or of a view that is halved already, in bands of `band` rows; returns
+/// the step.
 int find_areas(const GrayPlane& view, float noise, int band, FlatAreas& areas) {
-  areas.resize(view.width, view.height);
+  areas.resize(view.width / 2, view.height / 2);
   const int height = areas.gray.height();
   GrayTotals totals;
   for (int y = 0; y < height; y += band) {
     totals.add(sum_grays(view.view(), y, std::min(y + band, height), areas));
   }
-  const int step = flat_step(totals, noise);
+  const int step = flat_step(totals, areas.scale, noise);
   for (int y = 0; y < height; y += band) {
     find_runs(areas.gray, step, y, std::min(y + band, height), areas.runs);
   }
@@ -44,10 +45,11 @@ TEST(FlatAreas, EqualReferenceAtEveryWidthAndInBands) {
   FlatAreas areas;
   for (int width = 2; width <= 90; ++width) {
     const GrayPlane view = test::flat_view(width, 2 + width * 7 % 83, width);
-    const auto half = reference::halved_sums(view);
+    const auto half = reference::reduced_sums(view, 2);
     const float noise = width % 3 == 0 ? 6.5F : 0.5F;
-    const int step = reference::flat_step(half, noise);
-    const std::vector<Pixels> expected = reference::flat_areas(half, step);
+    areas.scale = width % 2 == 0 ? 2 : 4;  // of a view that was halved before
+    const int step = reference::flat_step(half, areas.scale, noise);
+    const std::vector<Pixels> expected = reference::flat_areas(half, areas.scale, step);
     for (const int band : {1, 5, 32, 1 << 20}) {
       EXPECT_EQ(step, find_areas(view, noise, band, areas)) << width;
       EXPECT_TRUE(same_image(half, copy_of(areas.gray))) << width;
@@ -73,8 +75,8 @@ TEST(FlatAreas, KnowTheAreaOfEachRun) {
 }
 
 TEST(FlatAreas, CountFromTheLeastSizeOn) {
-  // Bars of 74 and of 75 pixels of the halved view.
-  for (const int pixels : {kLeastFlatArea - 1, kLeastFlatArea}) {
+  // Bars of 74 and of 75 pixels of the halved view, of 18 and of 19 of the quartered one.
+  for (const auto& [pixels, scale] : {std::pair{74, 2}, {75, 2}, {18, 4}, {19, 4}}) {
     GrayPlane view(200, 6, 30);
     for (int x = 0; x < 2 * pixels; ++x) view(x, 2) = view(x, 3) = 200;
     for (int x = 0; x < 200; ++x) {
@@ -83,8 +85,9 @@ TEST(FlatAreas, CountFromTheLeastSizeOn) {
       if (x >= 2 * pixels) view(x, 2) = view(x, 3) = x / 2 % 2 == 0 ? 0 : 100;
     }
     FlatAreas areas;
+    areas.scale = scale;
     find_areas(view, 0, 32, areas);
-    EXPECT_EQ(pixels == kLeastFlatArea ? 1 : 0, areas.count);
+    EXPECT_EQ(pixels * scale * scale >= kLeastFlatArea ? 1 : 0, areas.count) << pixels;
   }
 }
 
@@ -94,14 +97,16 @@ TEST(FlatAreas, ConnectByContrastAndNoise) {
     FlatAreas areas;
     GrayPlane view(8, 8, static_cast<std::uint8_t>(low));
     for (int i = 0; i < 32; ++i) view.pixels[i] = static_cast<std::uint8_t>(high);
-    areas.resize(8, 8);
+    areas.resize(4, 4);
     return sum_grays(view.view(), 0, 4, areas);
   };
-  EXPECT_EQ(kFlatStep / 2, flat_step(totals(100, 140), 0));
-  EXPECT_EQ(kFlatStep, flat_step(totals(20, 220), 0));
-  EXPECT_EQ(kFlatStep, flat_step(totals(20, 220), 3));
-  EXPECT_EQ(20, flat_step(totals(20, 220), 10));
-  EXPECT_EQ(0, flat_step(totals(77, 77), 0));
+  for (const auto& [scale, step] : {std::pair{2, kHalvedFlatStep}, {4, kQuarteredFlatStep}}) {
+    EXPECT_EQ(step / 2, flat_step(totals(100, 140), scale, 0));
+    EXPECT_EQ(step, flat_step(totals(20, 220), scale, 0));
+    EXPECT_EQ(step, flat_step(totals(20, 220), scale, 3));
+    EXPECT_EQ(20, flat_step(totals(20, 220), scale, 10));
+    EXPECT_EQ(0, flat_step(totals(77, 77), scale, 0));
+  }
 }
 
 }  // namespace

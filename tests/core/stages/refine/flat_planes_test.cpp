@@ -14,14 +14,23 @@ using reference::ConfidentMap;
 
 constexpr int kWhole = 1 << 20;
 
-/// The map and its confidence, completed or checked, computed `at_once` areas and `band` rows at a
-/// time.
-ConfidentMap result_of(const GrayPlane& view, const ConfidentMap& in, bool completes,
-                       int at_once = kWhole, int band = kWhole) {
+/// How a map is changed, and how it is computed.
+struct Run {
+  bool completes = false;
+  int scale = 2;
+  int least = 1;
+  int at_once = kWhole;  ///< areas
+  int band = kWhole;     ///< rows
+};
+
+/// The map and its confidence, completed or checked.
+ConfidentMap result_of(const GrayPlane& view, const ConfidentMap& in, const Run& run) {
   FlatAreas areas;
-  areas.resize(view.width, view.height);
+  areas.scale = run.scale;
+  areas.resize(view.width / run.scale, view.height / run.scale);
+  const GrayPlane reduced = run.scale == 2 ? view : reference::halve(view);
   const int height = areas.gray.height();
-  const int step = flat_step(sum_grays(view.view(), 0, height, areas), 0);
+  const int step = flat_step(sum_grays(reduced.view(), 0, height, areas), run.scale, 0);
   find_runs(areas.gray, step, 0, height, areas.runs);
   number_areas(areas);
   Image<std::int32_t> map = image_of(in.map);
@@ -30,23 +39,23 @@ ConfidentMap result_of(const GrayPlane& view, const ConfidentMap& in, bool compl
   votes.resize();
   Buffer<FlatPlane> planes;
   planes.resize(areas.count);
-  for (int first = 0; first < areas.count; first += std::min(at_once, areas.count)) {
-    const int last = at_once < areas.count - first ? first + at_once : areas.count;
+  for (int first = 0; first < areas.count; first += std::min(run.at_once, areas.count)) {
+    const int last = run.at_once < areas.count - first ? first + run.at_once : areas.count;
     fit_planes(areas, first, last, map, confidence, votes, planes);
   }
-  for (int y = 0; y < view.height; y += std::min(band, view.height)) {
-    const int end = band < view.height - y ? y + band : view.height;
-    if (completes) {
+  for (int y = 0; y < view.height; y += std::min(run.band, view.height)) {
+    const int end = run.band < view.height - y ? y + run.band : view.height;
+    if (run.completes) {
       complete_planes(areas, planes, y, end, confidence, map);
     } else {
-      check_planes(areas, planes, plane_bonus(0, 0), y, end, map, confidence);
+      check_planes(areas, planes, {plane_bonus(0, 0), run.least}, y, end, map, confidence);
     }
   }
   return {copy_of(map), copy_of(confidence)};
 }
 
 DisparityPlane completed(const GrayPlane& view, const ConfidentMap& in) {
-  return result_of(view, in, true).map;
+  return result_of(view, in, {true}).map;
 }
 
 /// The disparity of a slanted plane [1/256 px].
@@ -79,12 +88,15 @@ TEST(FlatPlanes, EqualReferenceAtEveryWidth) {
       }
     }
     const ConfidentMap complete = reference::complete_flat_areas(view, 0, in);
-    const ConfidentMap expected = reference::check_flat_areas(view, 0, 0, in);
+    const ConfidentMap expected = reference::check_flat_areas(view, 2, 1, 0, 0, in);
+    const ConfidentMap coarse = reference::check_flat_areas(view, 4, 16, 0, 0, in);
     for (const int at_once : {1, 3, kWhole}) {
-      const ConfidentMap made = result_of(view, in, true, at_once, 3 * at_once);
-      EXPECT_TRUE(same_image(complete.map, made.map)) << width;
-      const ConfidentMap checked = result_of(view, in, false, at_once, 3 * at_once);
-      EXPECT_TRUE(same_image(expected.confidence, checked.confidence)) << width;
+      const auto made = [&](bool completes, int scale, int least) {
+        return result_of(view, in, {completes, scale, least, at_once, 3 * at_once});
+      };
+      EXPECT_TRUE(same_image(complete.map, made(true, 2, 1).map)) << width;
+      EXPECT_TRUE(same_image(expected.confidence, made(false, 2, 1).confidence)) << width;
+      EXPECT_TRUE(same_image(coarse.confidence, made(false, 4, 16).confidence)) << width;
     }
   }
 }
@@ -138,7 +150,7 @@ TEST(FlatPlanes, RateWhatAgreesWithThemAndWhatContradictsThem) {
   in.map(40, 20) += 256 * 2;  // within 3 px
   in.map(41, 20) += 256 * 4;
   in.confidence(69, 50) = 240;
-  const ConfidentMap out = result_of(GrayPlane(80, 60, 100), in, false);
+  const ConfidentMap out = result_of(GrayPlane(80, 60, 100), in, {});
   EXPECT_TRUE(same_image(in.map, out.map));
   EXPECT_EQ(200 + kConfirmed, out.confidence(39, 20));
   EXPECT_EQ(200, out.confidence(40, 20));
@@ -146,6 +158,17 @@ TEST(FlatPlanes, RateWhatAgreesWithThemAndWhatContradictsThem) {
   EXPECT_EQ(1, out.confidence(5, 20));  // doubted, and at least 1
   EXPECT_EQ(200 + kConfirmed, out.confidence(70, 50));
   EXPECT_EQ(255, out.confidence(69, 50));
+}
+
+TEST(FlatPlanes, LeaveWhatIsBelowTheLeastConfidenceAlone) {
+  ConfidentMap in = plane_map(80, 60, [](int x, int) { return x < 10; });
+  in.map(39, 20) += 256 * 4;
+  in.confidence(39, 20) = 50;
+  in.confidence(40, 20) = 15;  // agrees
+  const ConfidentMap out = result_of(GrayPlane(80, 60, 100), in, {.scale = 4, .least = 16});
+  EXPECT_EQ(16, out.confidence(39, 20));
+  EXPECT_EQ(15, out.confidence(40, 20));
+  EXPECT_EQ(200 + kConfirmed, out.confidence(41, 20));
 }
 
 TEST(FlatPlanes, ConfirmLessInNoisyAndNothingInCompressedViews) {
