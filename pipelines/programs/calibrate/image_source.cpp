@@ -37,7 +37,7 @@ cv::Mat read(const fs::path& file) {
   try {
     image = images::read(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
     if (image.depth() == CV_16U) {
-      // Cameras of 10 or 12 bits, and of heat, use a part of them.
+      // Cameras of 10 or 12 bits and thermal cameras use a part of them.
       double least = 0, most = 0;
       cv::minMaxLoc(image, &least, &most);
       const double scale = 255 / std::max(most - least, 1.0);

@@ -65,7 +65,7 @@ int unused_bits(double largest) {
   return 0;
 }
 
-// Cameras of heat use a small part of the values, far above 0. Matching reads 256 gray values.
+// Thermal cameras use a small part of the values, far above 0. Matching reads 256 gray values.
 std::string narrow_range(const Values& left, const Values& right) {
   constexpr double kNarrow = 4, kSpread = 4;  // [gray values], [standard deviations]
   constexpr double kGray = 256;

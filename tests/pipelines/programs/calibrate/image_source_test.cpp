@@ -34,9 +34,9 @@ TEST(ImageSource, UsesAllBitsOfCamerasWith12) {
 }
 
 TEST(ImageSource, StretchesTheNarrowRangeOfCamerasOfHeat) {
-  const cv::Mat heat = (cv::Mat_<std::uint16_t>(1, 3) << 29000, 29400, 30000);
+  const cv::Mat thermal = (cv::Mat_<std::uint16_t>(1, 3) << 29000, 29400, 30000);
   const cv::Mat expected = (cv::Mat_<std::uint8_t>(1, 3) << 0, 102, 255);
-  EXPECT_EQ(cv::norm(read_pair(heat, heat).left, expected, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(read_pair(thermal, thermal).left, expected, cv::NORM_INF), 0);
 }
 
 TEST(ImageSource, KeepsImagesOf8BitsAndBlackOnes) {
