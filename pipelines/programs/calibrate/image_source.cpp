@@ -50,7 +50,7 @@ cv::Mat read(const fs::path& file) {
   return image;
 }
 
-// The first image whose number the others do not have; empty if numbers do not tell.
+// The first image whose number the others do not have; empty if an image has no number.
 fs::path without_partner(const std::vector<fs::path>& images, const std::vector<fs::path>& others) {
   for (const fs::path& image : images) {
     const std::string number = files::last_number(image);
