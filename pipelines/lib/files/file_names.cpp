@@ -149,7 +149,7 @@ std::string extension_of(const fs::path& file) {
 }
 
 bool is_image(const fs::path& file) {
-  constexpr std::array<std::string_view, 8> kKnown{".png", ".tif", ".tiff", ".bmp",
+  constexpr std::array<std::string_view, 9> kKnown{".png", ".tif", ".tiff", ".bmp", ".jp2",
                                                    ".pgm", ".ppm", ".pnm",  ".webp"};
   return has_extension(file, kKnown) || is_jpeg(file);
 }

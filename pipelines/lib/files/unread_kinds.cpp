@@ -22,10 +22,16 @@ struct Kind {
   bool recording = false;  // of both views
 };
 
-constexpr std::array<Kind, 12> kKinds{
+constexpr std::array<Kind, 14> kKinds{
     {{" .heic .heif .avif ", "is a kind of image that is not read: convert it to PNG"},
-     {" .tga .pam .pcx .sgi ",
+     {" .tga .pam .pcx .sgi .dpx .jxl ",
       "is a kind of image that is not read: convert it to PNG (ffmpeg -i FILE view.png)"},
+     {" .exr .hdr ",
+      "has light without an upper limit: apply the same curve to both views, and write 16-bit PNG "
+      "(of EXR: ffmpeg -apply_trc iec61966_2_1 -i FILE -pix_fmt rgb48be view.png)"},
+     {" .m3u8 .m3u .mpd ",
+      "is a list of the parts of a video: write its video to one file (ffmpeg -i FILE -c copy "
+      "view.mkv)"},
      {" .cr2 .cr3 .nef .arw .raf .rw2 .orf .dng ",
       "is raw data of a camera: develop both views with the same settings to 16-bit PNG or TIFF"},
      {" .mpo ",

@@ -87,7 +87,7 @@ TEST_F(FileNames, RefusesPatternWithoutOneNumber) {
 }
 
 TEST_F(FileNames, TellImagesAndVideos) {
-  for (const char* name : {"a.PNG", "a.jpg", "b.jfif", "both.JPS", "a.webp"}) {
+  for (const char* name : {"a.PNG", "a.jpg", "b.jfif", "both.JPS", "a.webp", "a.jp2"}) {
     EXPECT_TRUE(is_image(name) && !is_video(name)) << name;
   }
   for (const char* name : {"a.mov", "a.MP4", "pi.h264", "a.wmv"})

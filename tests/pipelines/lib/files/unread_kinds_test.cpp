@@ -29,6 +29,10 @@ class UnreadKinds : public testing::Test {
 
 TEST_F(UnreadKinds, AreNamedWithTheRemedy) {
   EXPECT_THAT(unread_kind(write("a.HEIC")), HasSubstr("convert it to PNG"));
+  EXPECT_THAT(unread_kind(write("a.exr")), HasSubstr("the same curve to both views"));
+  EXPECT_THAT(unread_kind(write("a.jxl")), HasSubstr("convert it to PNG"));
+  EXPECT_THAT(unread_kind(write("a.m3u8")), HasSubstr("write its video to one file"));
+  EXPECT_THAT(unread_kind(write("a.mpd")), HasSubstr("-c copy view.mkv"));
   EXPECT_THAT(unread_kind(write("a.dng")), HasSubstr("develop both views"));
   EXPECT_THAT(unread_kind(write("a.MPO")), HasSubstr("-mpimage2"));
   EXPECT_THAT(unread_kind(write("a.mcap")), HasSubstr("recording of ROS"));
