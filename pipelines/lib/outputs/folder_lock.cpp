@@ -94,12 +94,28 @@ FolderLock::~FolderLock() {
   close(file_);
 }
 
+namespace {
+
+// A link to nothing does not exist, and no folder can be created in its place.
+void refuse_dangling_link(const fs::path& folder, const fs::path& part) {
+  std::error_code error;
+  if (!fs::is_symlink(fs::symlink_status(part, error))) return;
+  const fs::path target = fs::read_symlink(part, error);
+  throw UserError(folder.string() + ": the folder cannot be created, because " + part.string() +
+                  " is a link to " + target.string() +
+                  ", which does not exist: create that folder, or give another one");
+}
+
+}  // namespace
+
 void FolderLock::create(const fs::path& folder) {
   std::list<fs::path> missing;
   std::error_code error;
   fs::path part = fs::absolute(folder).lexically_normal();
   for (; !fs::exists(part, error) && part != part.parent_path(); part = part.parent_path()) {
-    if (part.has_filename()) missing.push_back(part);
+    if (!part.has_filename()) continue;
+    refuse_dangling_link(folder, part);
+    missing.push_back(part);
   }
   if (!fs::is_directory(part, error)) {
     throw UserError(folder.string() + ": the folder cannot be created, because " + part.string() +

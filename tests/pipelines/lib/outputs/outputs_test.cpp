@@ -219,6 +219,17 @@ TEST_F(Lock, OfAFileIsRefused) {
   }
 }
 
+TEST_F(Lock, OfALinkToNothingIsRefused) {
+  fs::create_symlink("nowhere", folder_ / "link");
+  for (const char* given : {"link", "link/", "link/below"}) {
+    EXPECT_THAT(error_of([&] { FolderLock(folder_ / given); }),
+                HasSubstr("link is a link to nowhere, which does not exist: create that folder, or "
+                          "give another one"))
+        << given;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "nowhere"));
+}
+
 using WriteFile = Folder;
 
 TEST_F(WriteFile, NeverMovesOntoAnother) {
