@@ -22,6 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int kSamples = 3;  // frames in which halves are matched
+
 std::string size_text(cv::Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height) + " px";
 }
@@ -42,6 +44,19 @@ std::string advice_for(const Source& source) {
          "-map 0:v:0 -c copy left.mkv -map 0:v:1 -c copy right.mkv)";
 }
 
+// How the user gives the arrangement of a frame whose shape does not tell it.
+std::string advice_for_layout(const Recording& recording, const std::vector<cv::Mat>& frames) {
+  const cv::Size size = frames.front().size();
+  for (const Arrangement each : {Arrangement::kSideBySide, Arrangement::kTopBottom}) {
+    const bool beside = each == Arrangement::kSideBySide;
+    if ((beside ? size.width : size.height) % 2 != 0) continue;
+    if (!match_halves(frames, each, std::nullopt).confirmed) continue;
+    return std::string("its halves match ") + name_of(each) + ": state --layout " +
+           (beside ? "side-by-side" : "top-bottom");
+  }
+  return advice_for(recording.left) + ", or state the arrangement (--layout)";
+}
+
 // The arrangement that the shape of a frame suggests.
 Arrangement guess_arrangement(const Recording& recording, cv::Size size) {
   const std::optional<Arrangement> shape = arrangement_by_shape(size.width, size.height);
@@ -49,13 +64,12 @@ Arrangement guess_arrangement(const Recording& recording, cv::Size size) {
       shape && (*shape == Arrangement::kSideBySide ? size.width : size.height) % 2 != 0;
   if (shape && !odd) return *shape;
   throw UserError(file_of(recording.left).string() + ": " + size_text(size) +
-                  " is the shape of one view: " + advice_for(recording.left) +
-                  ", or state the arrangement (--layout)");
+                  " is the shape of one view: " +
+                  advice_for_layout(recording, sample_frames(recording.left, kSamples)));
 }
 
 // Checks that the halves match, and finds which one is the left view unless the user states it.
 void confirm_arrangement(Recording& recording, cv::Size size, cv::Size half, bool swap) {
-  constexpr int kSamples = 3;  // frames
   const std::vector<cv::Mat> frames = sample_frames(recording.left, kSamples);
   const auto calibration = rectifying_calibration(recording, half.width, half.height);
   HalvesMatch match = match_halves(frames, recording.arrangement, calibration);
@@ -70,7 +84,7 @@ void confirm_arrangement(Recording& recording, cv::Size size, cv::Size half, boo
   if (!match.confirmed) {
     throw UserError(file_of(recording.left).string() +
                     ": by its shape it may have both views, but its halves do not match (" + text +
-                    "): " + advice_for(recording.left) + ", or state the arrangement (--layout)");
+                    "): " + advice_for_layout(recording, frames));
   }
   recording.remarks.push_back("Both views are in one frame (" + text + ").");
   if (swap || !match.swapped) return;

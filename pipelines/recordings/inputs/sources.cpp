@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/inputs/sources.hpp"
 
+#include <glib.h>
+
 #include <algorithm>
 #include <system_error>
 
@@ -65,6 +67,17 @@ bool are_same(const Source& left, const Source& right) {
   throw UserError(input + ": " + what);
 }
 
+[[noreturn]] void fail_as_address(const std::string& input) {
+  g_autofree gchar* path = g_filename_from_uri(input.c_str(), nullptr, nullptr);
+  if (path != nullptr) {
+    throw UserError(input + ": is the address of a file: give its path, " + path);
+  }
+  throw UserError(
+      input +
+      ": is a stream, which may never end: record it into a file (ffmpeg -i URL -c copy "
+      "view.mkv), or match it live (from-network.sh)");
+}
+
 [[noreturn]] void fail_without_views(const fs::path& folder) {
   std::string what = files::first_unread(files::files_in(folder));
   if (!what.empty()) throw UserError(what);
@@ -118,6 +131,7 @@ std::string name_without_extension(const std::string& name, const fs::path& fold
 Source source_of(const std::string& input) {
   std::error_code error;
   Source source;
+  if (input.find("://") != std::string::npos && !fs::exists(input, error)) fail_as_address(input);
   if (files::is_pattern(input)) {
     source.images = files::files_of_pattern(input);
     if (source.images.empty()) fail_as_missing(input, "no file has such a name");
@@ -127,11 +141,6 @@ Source source_of(const std::string& input) {
     const std::vector<fs::path> videos = videos_in(input);
     if (source.images.empty() && videos.size() == 1) source.video = videos.front();
     if (source.empty()) fail_without_views(input);
-  } else if (input.find("://") != std::string::npos) {
-    throw UserError(
-        input +
-        ": is a stream, which may never end: record it into a file (ffmpeg -i URL -c copy "
-        "view.mkv), or match it live (from-network.sh)");
   } else if (!fs::exists(input, error)) {
     fail_as_missing(input, "no such file or folder");
   } else if (!fs::is_regular_file(input, error)) {

@@ -43,6 +43,8 @@ std::vector<cv::Mat> frames_of_video(const fs::path& file, int count) {
   VideoScan scan(file, Reading::kGray);
   std::vector<cv::Mat> frames{next_frame(scan)};
   if (frames.front().empty()) {
+    std::error_code error;
+    if (fs::file_size(file, error) == 0) throw UserError(file.string() + ": the file is empty");
     const std::string missing = missing_end(file);
     std::string reason = scan.error().empty() ? "it has no frame" : scan.error();
     if (!missing.empty()) reason += " (" + missing + ")";

@@ -138,6 +138,8 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   EXPECT_THAT(error_of({patterns.c_str()}),
               HasSubstr("no file has such a name; separate the two views"));
   EXPECT_THAT(error_of({"broken.mp4,none.mp4"}), Not(HasSubstr("separate the two views")));
+  write_text(folder_ / "no-bytes.mp4", "");
+  EXPECT_THAT(error_of({"no-bytes.mp4"}), HasSubstr(path("no-bytes.mp4") + ": the file is empty"));
   write_text(folder_ / "other.mp4", "no video");
   EXPECT_THAT(error_of({"broken.mp4", "other.mp4"}), HasSubstr(path("broken.mp4") + ": "));
   EXPECT_THAT(error_of({"broken.mp4", "broken.mp4"}), HasSubstr("are the same file"));
@@ -152,6 +154,9 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   EXPECT_THAT(error_of({"left", "broken.mp4"}), HasSubstr("one is a video"));
   EXPECT_THAT([] { recognize({"http://host/a.mjpg"}, {}); },
               ::testing::ThrowsMessage<UserError>(HasSubstr("http://host/a.mjpg: is a stream")));
+  EXPECT_THAT([] { recognize({"file:///videos/a%20b.mkv"}, {}); },
+              ::testing::ThrowsMessage<UserError>(
+                  HasSubstr("is the address of a file: give its path, /videos/a b.mkv")));
   EXPECT_THROW(recognize({}, {}), UserError);
   EXPECT_THROW(recognize({"a", "b", "c"}, {}), UserError);
 }
@@ -249,6 +254,18 @@ TEST_F(Recordings, GuessesTheArrangement) {
       EXPECT_TRUE(recording.right.empty());
       EXPECT_THAT(recording.remarks, Contains(HasSubstr("Both views are in one frame")));
     }
+  }
+}
+
+// Films and phones store views at half their width or height: the shape is that of one view.
+TEST_F(Recordings, NamesTheArrangementThatMatchesAgainstTheShape) {
+  for (const bool below : {false, true}) {
+    cv::Mat half;
+    cv::resize(both(below, false), half, {400, below ? 200 : 240}, 0, 0, cv::INTER_AREA);
+    cv::imwrite((folder_ / "half.png").string(), half);
+    EXPECT_THAT(error_of({"half.png"}),
+                HasSubstr(below ? "its halves match one above the other: state --layout top-bottom"
+                                : "its halves match side by side: state --layout side-by-side"));
   }
 }
 
