@@ -99,6 +99,16 @@ TEST_F(BrokenFile, OfAnotherKindIsNamed) {
               AllOf(HasSubstr("if it is no ZED file, "), HasSubstr(remedy)));
   EXPECT_THAT(refused("Calibration results\n====\nCamera-system parameters:\n\tcam0 (/left):\n"),
               HasSubstr("is a report of Kalibr; give its camchain"));
+  EXPECT_THAT(refused("version https://git-lfs.github.com/spec/v1\noid sha256:12\nsize 345\n"),
+              HasSubstr("is a pointer of Git LFS without the calibration; get it (git lfs pull)"));
+  EXPECT_THAT(refused("\n<!DOCTYPE html>\n<html><body>M1: 404</body></html>\n"),
+              HasSubstr("is a web page; download the file itself"));
+  EXPECT_THAT(
+      refused(" Intrinsic of \"Infrared 1\" / 848x480 / {Y8}\n  Width:      848\n  PPX: 424\n"),
+      HasSubstr("is a list of rs-enumerate-devices; "));
+  EXPECT_THAT(
+      refused("Device info: \n  Name : Intel RealSense D435\n Intrinsic of \"Infrared 1\"\n"),
+      HasSubstr("to a YAML file: fx, fy, cx (PPX), cy (PPY) of Infrared 1, and baseline"));
   EXPECT_THAT(refused("calib_time: 15-Mar-2012 11:37:16\nR: 1 0 0 0 1 0 0 0 1\nT: 0.1 0 0\n"),
               HasSubstr("states no cameras (S_02, K_02 and others): KITTI has them in"));
   EXPECT_THAT(refused("S_101: 881 400\nK_101: 1000 0 440 0 1000 200 0 0 1\n"),
@@ -117,7 +127,7 @@ TEST_F(BrokenFile, OfAnUnknownFormat) {
   EXPECT_THAT(refused("fx: 500\nfy: 500\n"), HasSubstr("is not a calibration of a known format"));
   EXPECT_THAT(refused("Dear reader,\nthis is a letter.\n"), HasSubstr("known format"));
   EXPECT_THAT(refused("{\"fx\": 500}"), HasSubstr("known format"));
-  EXPECT_THAT(refused("<html><body>404</body></html>"), HasSubstr("<html>, <opencv_storage>"));
+  EXPECT_THAT(refused("<page><body>404</body></page>"), HasSubstr("<page>, <opencv_storage>"));
   EXPECT_THAT(refused("<?xml version=\"1.0\"?>\n<opencv_storage></opencv_storage>"),
               HasSubstr("known format"));
 }

@@ -131,6 +131,19 @@ void refuse_other_files(std::string_view start, const std::string& file) {
   if (start.starts_with("Calibration results")) {
     throw FileError(file + ": is a report of Kalibr; give its camchain, a YAML file");
   }
+  if (start.starts_with("version https://git-lfs")) {
+    throw FileError(file +
+                    ": is a pointer of Git LFS without the calibration; get it (git lfs pull)");
+  }
+  if (start.starts_with("<!DOCTYPE html") || start.starts_with("<html")) {
+    throw FileError(file + ": is a web page; download the file itself");
+  }
+  if (start.find("Intrinsic of \"Infrared 1\"") != std::string_view::npos) {
+    throw FileError(file +
+                    ": is a list of rs-enumerate-devices; write what it states for the size of the "
+                    "video to a YAML file: fx, fy, cx (PPX), cy (PPY) of Infrared 1, and baseline, "
+                    "the first value of the translation between Infrared 1 and 2");
+  }
   if (is_colmap(start)) {
     throw FileError(
         file +
