@@ -22,13 +22,15 @@ struct Kind {
   bool recording = false;  // of both views
 };
 
-constexpr std::array<Kind, 14> kKinds{
+constexpr std::array<Kind, 15> kKinds{
     {{" .heic .heif .avif ", "is a kind of image that is not read: convert it to PNG"},
      {" .tga .pam .pcx .sgi .dpx .jxl ",
       "is a kind of image that is not read: convert it to PNG (ffmpeg -i FILE view.png)"},
      {" .exr .hdr ",
       "has light without an upper limit: apply the same curve to both views, and write 16-bit PNG "
       "(of EXR: ffmpeg -apply_trc iec61966_2_1 -i FILE -pix_fmt rgb48be view.png)"},
+     {" .nut ",
+      "is a kind of video that stops its reader: rewrite it (ffmpeg -i FILE -c copy view.mkv)"},
      {" .m3u8 .m3u .mpd ",
       "is a list of the parts of a video: write its video to one file (ffmpeg -i FILE -c copy "
       "view.mkv)"},
@@ -75,6 +77,9 @@ bool begins_with(const fs::path& file, std::string_view bytes) {
 std::string unread_kind(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return {};
+  if (begins_with(file, "version https://git-lfs")) {
+    return "is a pointer of Git LFS without the data: get it (git lfs pull)";
+  }
   // Animations that repeat have no end.
   if (begins_with(file, "GIF8")) {
     return "is a GIF, which repeats without an end: convert it to a video or to PNG images (ffmpeg "

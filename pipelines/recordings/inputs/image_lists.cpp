@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "lib/files/file_names.hpp"
+#include "lib/files/unread_kinds.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/view_names.hpp"
 
@@ -270,6 +271,7 @@ std::optional<Nanoseconds> time_in_name(const fs::path& image) {
 std::string image_problem(const fs::path& image) {
   const std::string head = bytes_of(image, 0, 8);
   if (head.empty()) return "is empty or cannot be read";
+  if (const std::string kind = files::unread_kind(image); !kind.empty()) return kind;
   const std::string extension = files::extension_of(image);
   if (extension == ".png") {
     if (!head.starts_with("\x89PNG")) return "is no PNG file";

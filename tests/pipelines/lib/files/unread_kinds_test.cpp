@@ -32,6 +32,7 @@ TEST_F(UnreadKinds, AreNamedWithTheRemedy) {
   EXPECT_THAT(unread_kind(write("a.exr")), HasSubstr("the same curve to both views"));
   EXPECT_THAT(unread_kind(write("a.jxl")), HasSubstr("convert it to PNG"));
   EXPECT_THAT(unread_kind(write("a.m3u8")), HasSubstr("write its video to one file"));
+  EXPECT_THAT(unread_kind(write("a.nut")), HasSubstr("rewrite it"));
   EXPECT_THAT(unread_kind(write("a.mpd")), HasSubstr("-c copy view.mkv"));
   EXPECT_THAT(unread_kind(write("a.dng")), HasSubstr("develop both views"));
   EXPECT_THAT(unread_kind(write("a.MPO")), HasSubstr("-mpimage2"));
@@ -39,6 +40,11 @@ TEST_F(UnreadKinds, AreNamedWithTheRemedy) {
   EXPECT_THAT(unread_kind(write("a.svo2")), HasSubstr("ZED_SVO_Export"));
   EXPECT_THAT(unread_kind(write("a.tar.gz")), HasSubstr("unpack"));
   EXPECT_THAT(unread_kind(write("a.mp4", "GIF89a")), HasSubstr("is a GIF"));
+  for (const char* name : {"a.png", "b.mkv"}) {
+    EXPECT_THAT(unread_kind(write(name, "version https://git-lfs.github.com/spec/v1\noid")),
+                HasSubstr("(git lfs pull)"))
+        << name;
+  }
   for (const char* name : {"a.mjpeg", "frames", "b.avi"}) {
     EXPECT_THAT(unread_kind(write(name, "\xff\xd8\xff\xe0")), HasSubstr("state their rate"))
         << name;

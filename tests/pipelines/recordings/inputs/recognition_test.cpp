@@ -140,6 +140,14 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   EXPECT_THAT(error_of({"broken.mp4,none.mp4"}), Not(HasSubstr("separate the two views")));
   write_text(folder_ / "no-bytes.mp4", "");
   EXPECT_THAT(error_of({"no-bytes.mp4"}), HasSubstr(path("no-bytes.mp4") + ": the file is empty"));
+  fs::create_directories(folder_ / "cloned/left");
+  fs::create_directories(folder_ / "cloned/right");
+  for (const char* name : {"left/0.png", "right/0.png"}) {
+    write_text(folder_ / "cloned" / name, "version https://git-lfs.github.com/spec/v1\n");
+  }
+  EXPECT_THAT(
+      error_of({"cloned"}),
+      HasSubstr("the first one is a pointer of Git LFS without the data: get it (git lfs pull)"));
   write_text(folder_ / "other.mp4", "no video");
   EXPECT_THAT(error_of({"broken.mp4", "other.mp4"}), HasSubstr(path("broken.mp4") + ": "));
   EXPECT_THAT(error_of({"broken.mp4", "broken.mp4"}), HasSubstr("are the same file"));
