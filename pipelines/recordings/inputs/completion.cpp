@@ -117,6 +117,7 @@ void note_mosaic(Recording& recording, const cv::Mat& frame) {
 cv::Size size_of_two(Recording& recording) {
   const cv::Mat first = first_frame(recording.left);
   note_mosaic(recording, first);
+  note_narrow_video(recording, first);
   const cv::Size left = first.size();
   const cv::Size right = first_frame(recording.right).size();
   if (left == right) return left;
@@ -130,6 +131,7 @@ void complete_one(FoundRecording& found, const InputOptions& options) {
   Recording& recording = found.recording;
   const cv::Mat first = first_frame(recording.left);
   note_mosaic(recording, first);
+  note_narrow_video(recording, first);
   const cv::Size size = first.size();
   recording.arrangement = options.arrangement.value_or(Arrangement::kTwoSources);
   if (!options.arrangement) recording.arrangement = guess_arrangement(recording, size);

@@ -86,6 +86,25 @@ TEST_F(Recordings, RefusesImagesThatProgramsTurn) {
   }
 }
 
+// Thermal cameras use a small part of the values.
+TEST_F(Recordings, NotesVideoThatUsesFewOf16Bits) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  for (const char* side : {"left", "right"}) {
+    cv::Mat few;
+    view(side[0] == 'r').convertTo(few, CV_16U, 1, 7500);
+    cv::imwrite(path("few.png"), few);
+    run_command("ffmpeg -v error -i '" + path("few.png") + "' -c:v ffv1 '" +
+                path(std::string(side) + ".mkv") + "'");
+    run_command("ffmpeg -v error -i '" + path("few.png") +
+                "' -vf 'lut=(val-7500)*250' -c:v ffv1 '" + path(std::string(side) + "-wide.mkv") +
+                "'");
+  }
+  EXPECT_THAT(recognized({"left.mkv", "right.mkv"}).remarks,
+              ElementsAre(AllOf(HasSubstr("few of the values of 16 bits: matching sees about "),
+                                HasSubstr("-vf 'lut=(val-7"))));
+  EXPECT_THAT(recognized({"left-wide.mkv", "right-wide.mkv"}).remarks, IsEmpty());
+}
+
 TEST_F(Recordings, NotesTheMosaicOfAColorCamera) {
   const auto remarks_with = [this](double blue) {
     for (const bool right : {false, true}) {
