@@ -67,6 +67,14 @@ bool are_same(const Source& left, const Source& right) {
   throw UserError(input + ": " + what);
 }
 
+// Why there is no file or folder with this name.
+std::string reason_of_absence(const std::string& input) {
+  std::error_code error;
+  if (!fs::exists(input, error) && error) return error.message();
+  if (!fs::is_symlink(fs::symlink_status(input, error))) return "no such file or folder";
+  return "is a link to " + fs::read_symlink(input, error).string() + ", which does not exist";
+}
+
 [[noreturn]] void fail_as_address(const std::string& input) {
   g_autofree gchar* path = g_filename_from_uri(input.c_str(), nullptr, nullptr);
   if (path != nullptr) {
@@ -142,7 +150,7 @@ Source source_of(const std::string& input) {
     if (source.images.empty() && videos.size() == 1) source.video = videos.front();
     if (source.empty()) fail_without_views(input);
   } else if (!fs::exists(input, error)) {
-    fail_as_missing(input, "no such file or folder");
+    fail_as_missing(input, reason_of_absence(input));
   } else if (!fs::is_regular_file(input, error)) {
     throw UserError(input + ": is a pipe or a device, which may never end: record it into a file");
   } else {

@@ -140,6 +140,11 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   EXPECT_THAT(error_of({"broken.mp4,none.mp4"}), Not(HasSubstr("separate the two views")));
   write_text(folder_ / "no-bytes.mp4", "");
   EXPECT_THAT(error_of({"no-bytes.mp4"}), HasSubstr(path("no-bytes.mp4") + ": the file is empty"));
+  fs::create_symlink("/none/a.mp4", folder_ / "lost.mp4");
+  EXPECT_THAT(error_of({"lost.mp4", "other.mp4"}),
+              HasSubstr("lost.mp4: is a link to /none/a.mp4, which does not exist"));
+  fs::create_symlink("loop.mp4", folder_ / "loop.mp4");
+  EXPECT_THAT(error_of({"loop.mp4", "other.mp4"}), HasSubstr("loop.mp4: Too many levels"));
   fs::create_directories(folder_ / "cloned/left");
   fs::create_directories(folder_ / "cloned/right");
   for (const char* name : {"left/0.png", "right/0.png"}) {
