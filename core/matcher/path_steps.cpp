@@ -122,8 +122,8 @@ RatedViews rated_guide_views(const Views& views, const Pyramid& pyramid) {
 
 void rate_guide(const StepContext& step, const Views& views, Pyramid& pyramid) {
   const Image<std::int32_t>& map = pyramid.levels[0].disparity;
-  const ReliabilityTable& table = kReliabilityTables[static_cast<int>(RatedMap::kGuide)];
-  rate(step.bands.of_height(map.height()), rated_guide_views(views, pyramid), map, table,
+  const TableParts& parts = kReliabilityTables[static_cast<int>(RatedMap::kGuide)];
+  rate(step.bands.of_height(map.height()), rated_guide_views(views, pyramid), map, parts,
        Inferred::kLikeMatched, pyramid.rating, pyramid.confidence);
 }
 

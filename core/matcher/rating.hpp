@@ -29,7 +29,7 @@ struct Rating {
 
 /// Replaces the confidence of a complete map by its reliability.
 void rate(const Bands& bands, const RatedViews& views, const Image<std::int32_t>& map,
-          const ReliabilityTable& table, Inferred inferred, Rating& rating,
+          const TableParts& parts, Inferred inferred, Rating& rating,
           Image<std::uint8_t>& confidence);
 
 }  // namespace mtstereo

@@ -118,9 +118,9 @@ RatedViews rated_views(const Views& views, const Pyramid& pyramid, const ResultM
 void calibrate_confidence(const StepContext& step, const Views& views, const Pyramid& pyramid,
                           ResultMaps& result, ResultBuffers& buffers) {
   const Settings& settings = step.settings;
-  const ReliabilityTable& table = kReliabilityTables[static_cast<int>(settings.rated_map())];
+  const TableParts& parts = kReliabilityTables[static_cast<int>(settings.rated_map())];
   const Inferred inferred = settings.keeps_inferred() ? Inferred::kLikeMatched : Inferred::kApart;
-  rate(step.bands, rated_views(views, pyramid, result), *result.disparity, table, inferred,
+  rate(step.bands, rated_views(views, pyramid, result), *result.disparity, parts, inferred,
        buffers.rating, *result.confidence);
 }
 

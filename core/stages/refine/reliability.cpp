@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 
@@ -210,6 +211,23 @@ constexpr int kVector = static_cast<int>(kAlignment);
 constexpr float kNoiseEnds[] = {.1F, .3F, .6F, 1, 1.5F, 2, 2.5F, 3, 4, 5, 7, 10};
 constexpr float kDetailEnds[] = {.024F, .03F, .037F, .045F, .06F, .1F, .2F};
 
+/// Views are sharp from the first share of fine detail on, and soft at the second one.
+constexpr float kSharpDetail = .12F;
+constexpr float kSoftDetail = .03F;
+
+/// Views have little noise up to the first level, and are noisy from the second one on [gray
+/// values].
+constexpr float kLittleNoise = 3;
+constexpr float kMuchNoise = 5;
+
+/// The BlockGrid::level() of views whose blocks count in full.
+constexpr float kBlockyLevel = 2;
+
+/// 0 at `none`, 1 at `all`, and linear between.
+float share_between(float none, float all, float value) {
+  return std::clamp((value - none) / (all - none), 0.0F, 1.0F);
+}
+
 template <typename Value, std::size_t kEnds>
 constexpr std::uint8_t bin_of(Value value, const Value (&ends)[kEnds]) {
   std::uint8_t bin = 0;
@@ -326,6 +344,26 @@ void ReliabilityScratch::resize(int width) {
   sum.resize(width + kVector);
   expected.resize(width + kGuidePadding);
   for (Buffer<std::uint8_t>& row : bins) row.resize(width + kGuidePadding);
+}
+
+PartShares part_shares(const RatedViews& views) {
+  return {1, share_between(kSharpDetail, kSoftDetail, views.fine_detail),
+          share_between(kLittleNoise, kMuchNoise, views.noise_level),
+          share_between(0, kBlockyLevel, static_cast<float>(views.grid_level))};
+}
+
+ReliabilityTable table_for(const TableParts& parts, const PartShares& shares) {
+  ReliabilityTable table{};
+  for (int clue = 0; clue < kClues; ++clue) {
+    for (int bin = 0; bin < kClueBins; ++bin) {
+      long sum = 0;
+      for (int part = 0; part < kTableParts; ++part) {
+        sum += std::lround(shares[part] * static_cast<float>(parts[part][clue][bin]));
+      }
+      table[clue][bin] = static_cast<std::int16_t>(sum);
+    }
+  }
+  return table;
 }
 
 void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,

@@ -33,6 +33,12 @@ void find_clue_bins(const RatedViews& views, const Image<std::int32_t>& map,
                     const Image<std::uint8_t>& confidence, const ClueMaps& clues, int y,
                     ReliabilityScratch& scratch);
 
+/// The shares of a table's parts in the views.
+PartShares part_shares(const RatedViews& views);
+
+/// The sum of the parts.
+ReliabilityTable table_for(const TableParts& parts, const PartShares& shares);
+
 /// Whether inferred disparities keep a confidence of at most kMostInferred, and matched ones a
 /// higher one.
 enum class Inferred { kApart, kLikeMatched };

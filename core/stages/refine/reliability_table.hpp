@@ -35,6 +35,19 @@ inline constexpr int kReliabilityOne = 16;
 
 using ReliabilityTable = std::array<std::array<std::int16_t, kClueBins>, kClues>;
 
+/// A clue says less, or more, in views of another quality. So a table is the sum of parts, each
+/// times its share in the pair's views.
+enum TablePart : int {
+  kAnyPart,     ///< of all views
+  kSoftPart,    ///< of soft views
+  kNoisyPart,   ///< of noisy views
+  kBlockyPart,  ///< of views with the blocks of a compression
+};
+inline constexpr int kTableParts = 4;
+
+using TableParts = std::array<ReliabilityTable, kTableParts>;
+using PartShares = std::array<float, kTableParts>;  ///< 0 .. 1
+
 /// The kinds of maps whose pixels are rated, each by a table of its own.
 enum class RatedMap {
   kComplete,      ///< any pixel may be kept
@@ -46,6 +59,6 @@ enum class RatedMap {
 inline constexpr int kRatedMaps = 5;
 
 /// The fitted tables, by RatedMap.
-extern const std::array<ReliabilityTable, kRatedMaps> kReliabilityTables;
+extern const std::array<TableParts, kRatedMaps> kReliabilityTables;
 
 }  // namespace mtstereo

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/refine/reliability.hpp"
 #include "tools/eval/degradation.hpp"
 
 namespace mtstereo::fit {
@@ -12,7 +13,7 @@ namespace {
 constexpr int kRounds = 15;
 constexpr double kRate = 0.6;        // share of a Newton step
 constexpr double kCleanWeight = 11;  // as much as all degraded kinds together
-constexpr double kLeastHess = 20;    // added to the second derivative, against bins of few samples
+constexpr double kLeastHess = 200;   // added to the second derivative, against bins of few samples
 
 /// Sums over the samples of each bin.
 struct BinSums {
@@ -22,6 +23,7 @@ struct BinSums {
 
 struct Fitting {
   std::vector<const Sample*> samples;
+  std::vector<PartShares> shares;
   std::vector<double> weight;
   std::vector<double> odds;  ///< the logarithm of each sample's odds
 };
@@ -33,22 +35,25 @@ bool is_constant(int clue, const Fitting& fitting) {
   });
 }
 
-/// One Newton step of the entries of a clue.
-void improve(int clue, Fitting& fitting, LogOdds& table) {
+/// One Newton step of the entries of a clue in one part.
+void improve(int part, int clue, Fitting& fitting, LogOdds& table) {
   BinSums sums;
   for (std::size_t i = 0; i < fitting.samples.size(); ++i) {
+    const double share = fitting.shares[i][part];
+    if (share == 0) continue;
     const double right = 1 / (1 + std::exp(-fitting.odds[i]));
     const int bin = fitting.samples[i]->bins[clue];
-    sums.gradient[bin] += fitting.weight[i] * ((fitting.samples[i]->wrong ? 0 : 1) - right);
-    sums.curvature[bin] += fitting.weight[i] * right * (1 - right);
+    const double weight = share * fitting.weight[i];
+    sums.gradient[bin] += weight * ((fitting.samples[i]->wrong ? 0 : 1) - right);
+    sums.curvature[bin] += weight * share * right * (1 - right);
   }
   std::array<double, kClueBins> step{};
   for (int bin = 0; bin < kClueBins; ++bin) {
     step[bin] = kRate * sums.gradient[bin] / (sums.curvature[bin] + kLeastHess);
-    table[clue][bin] += step[bin];
+    table[part][clue][bin] += step[bin];
   }
   for (std::size_t i = 0; i < fitting.samples.size(); ++i) {
-    fitting.odds[i] += step[fitting.samples[i]->bins[clue]];
+    fitting.odds[i] += fitting.shares[i][part] * step[fitting.samples[i]->bins[clue]];
   }
 }
 
@@ -60,6 +65,7 @@ LogOdds fit(const std::vector<const PairSamples*>& pairs) {
     for (const Sample& sample : pair->samples) {
       if (!sample.known) continue;
       fitting.samples.push_back(&sample);
+      fitting.shares.push_back(pair->shares);
       fitting.weight.push_back(pair->kind == eval::kCleanKind ? kCleanWeight : 1);
     }
   }
@@ -70,36 +76,48 @@ LogOdds fit(const std::vector<const PairSamples*>& pairs) {
     if (!is_constant(clue, fitting)) clues.push_back(clue);
   }
   for (int round = 0; round < kRounds; ++round) {
-    for (const int clue : clues) improve(clue, fitting, table);
+    for (int part = 0; part < kTableParts; ++part) {
+      for (const int clue : clues) {
+        if (part == kAnyPart || clue < kPixelClues) improve(part, clue, fitting, table);
+      }
+    }
   }
   return table;
 }
 
-double log_odds(const LogOdds& table, const Sample& sample) {
+double log_odds(const LogOdds& odds, const PartShares& shares, const Sample& sample) {
   double sum = 0;
-  for (int clue = 0; clue < kClues; ++clue) sum += table[clue][sample.bins[clue]];
+  for (int part = 0; part < kTableParts; ++part) {
+    for (int clue = 0; clue < kClues; ++clue) {
+      sum += shares[part] * odds[part][clue][sample.bins[clue]];
+    }
+  }
   return sum;
 }
 
-ReliabilityTable library_table(const LogOdds& table) {
-  ReliabilityTable entries{};
-  for (int clue = 0; clue < kClues; ++clue) {
-    for (int bin = 0; bin < kClueBins; ++bin) {
-      const double even = clue == kNoiseClue ? kEvenOdds : 0;  // each pixel has one noise level
-      const double value = (even + kPerLogOdds * table[clue][bin]) * kReliabilityOne;
-      entries[clue][bin] = static_cast<std::int16_t>(std::lround(value));
+TableParts library_table(const LogOdds& odds) {
+  TableParts parts{};
+  for (int part = 0; part < kTableParts; ++part) {
+    for (int clue = 0; clue < kClues; ++clue) {
+      // Each pixel has one noise level.
+      const double even = part == kAnyPart && clue == kNoiseClue ? kEvenOdds : 0;
+      for (int bin = 0; bin < kClueBins; ++bin) {
+        const double value = (even + kPerLogOdds * odds[part][clue][bin]) * kReliabilityOne;
+        parts[part][clue][bin] = static_cast<std::int16_t>(std::lround(value));
+      }
     }
   }
-  return entries;
+  return parts;
 }
 
 Outcome outcome(const std::vector<const PairSamples*>& pairs,
-                const std::vector<const ReliabilityTable*>& tables, int least) {
+                const std::vector<const TableParts*>& tables, int least) {
   Outcome mean;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const ReliabilityTable table = table_for(*tables[i], pairs[i]->shares);
     double kept = 0, known = 0, wrong = 0;
     for (const Sample& sample : pairs[i]->samples) {
-      if (confidence(*tables[i], sample) < least) continue;
+      if (confidence(table, sample) < least) continue;
       ++kept;
       known += sample.known;
       wrong += sample.wrong;

@@ -23,7 +23,7 @@ const std::vector<std::string> kKinds = {eval::kCleanKind, "noise=5", "noise=10"
 constexpr int kCleanShare = 3;
 
 std::vector<PairSamples> sample_all(const std::vector<TrainingPair>& pairs, RatedMap rated,
-                                    const ReliabilityTable& guide, int count) {
+                                    const TableParts& guide, int count) {
   std::vector<PairSamples> samples(pairs.size() * kKinds.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::string& kind = kKinds[i / pairs.size()];
@@ -43,8 +43,8 @@ std::vector<const PairSamples*> without(const std::vector<PairSamples>& samples,
 }
 
 /// The outcome for each kind of input, with tables that have not seen the pair's data sets.
-void report(const std::vector<PairSamples>& samples, const ReliabilityTable& own) {
-  std::map<std::string, ReliabilityTable> tables;
+void report(const std::vector<PairSamples>& samples, const TableParts& own) {
+  std::map<std::string, TableParts> tables;
   for (const PairSamples& pair : samples) {
     if (tables.count(pair.family) == 0) {
       tables[pair.family] = library_table(fit(without(samples, pair.family)));
@@ -55,7 +55,7 @@ void report(const std::vector<PairSamples>& samples, const ReliabilityTable& own
       "and by the table of all families\n");
   for (const std::string& kind : kKinds) {
     std::vector<const PairSamples*> pairs;
-    std::vector<const ReliabilityTable*> others;
+    std::vector<const TableParts*> others;
     for (const PairSamples& pair : samples) {
       if (pair.kind != kind || pair.family == "rendered") continue;
       pairs.push_back(&pair);
@@ -71,23 +71,32 @@ void report(const std::vector<PairSamples>& samples, const ReliabilityTable& own
   }
 }
 
-void write_tables(const std::array<ReliabilityTable, kRatedMaps>& tables, const std::string& path) {
+/// The entries of each clue up to the last one that is not 0.
+void write_part(const ReliabilityTable& part, std::ostream& file) {
+  file << "        {{\n";
+  for (const auto& clue : part) {
+    int end = kClueBins;
+    while (end > 1 && clue[end - 1] == 0) --end;
+    file << "            {{";
+    for (int bin = 0; bin < end; ++bin) {
+      if (bin > 0) file << (bin % 16 == 0 ? ",\n              " : ", ");
+      file << clue[bin];
+    }
+    file << "}},\n";
+  }
+  file << "        }},\n";
+}
+
+void write_tables(const std::array<TableParts, kRatedMaps>& tables, const std::string& path) {
   std::ofstream file(path);
   file << "// SPDX-License-Identifier: LGPL-2.1-or-later\n"
           "// Written by mtstereo-fit-confidence; do not change it by hand.\n"
           "#include \"stages/refine/reliability_table.hpp\"\n\nnamespace mtstereo {\n\n"
           "// clang-format off\n"
-          "const std::array<ReliabilityTable, kRatedMaps> kReliabilityTables = {{\n";
-  for (const ReliabilityTable& table : tables) {
+          "const std::array<TableParts, kRatedMaps> kReliabilityTables = {{\n";
+  for (const TableParts& parts : tables) {
     file << "    {{\n";
-    for (const auto& clue : table) {
-      file << "        {{";
-      for (int bin = 0; bin < kClueBins; ++bin) {
-        if (bin > 0) file << (bin % 16 == 0 ? ",\n          " : ", ");
-        file << clue[bin];
-      }
-      file << "}},\n";
-    }
+    for (const ReliabilityTable& part : parts) write_part(part, file);
     file << "    }},\n";
   }
   file << "}};\n// clang-format on\n\n}  // namespace mtstereo\n";
@@ -95,10 +104,10 @@ void write_tables(const std::array<ReliabilityTable, kRatedMaps>& tables, const 
 }
 
 /// Fits the table of these pixels.
-ReliabilityTable fitted(const std::vector<TrainingPair>& pairs, RatedMap rated,
-                        const ReliabilityTable& guide, int count) {
+TableParts fitted(const std::vector<TrainingPair>& pairs, RatedMap rated, const TableParts& guide,
+                  int count) {
   const std::vector<PairSamples> samples = sample_all(pairs, rated, guide, count);
-  const ReliabilityTable table = library_table(fit(without(samples, "")));
+  const TableParts table = library_table(fit(without(samples, "")));
   constexpr std::array kTitles = {"Mode full", "Mode full at half resolution",
                                   "Matched pixels of mode semi-dense",
                                   "The same at half resolution", "The map of half the resolution"};
@@ -122,7 +131,7 @@ int run(int argc, char** argv) {
   for (const std::string& folder : folders) {
     for (TrainingPair& pair : pairs_in(folder)) pairs.push_back(std::move(pair));
   }
-  std::array<ReliabilityTable, kRatedMaps> tables;
+  std::array<TableParts, kRatedMaps> tables;
   // The guide first, since its rating is a clue for the others.
   constexpr int kGuideTable = static_cast<int>(RatedMap::kGuide);
   for (int i = kRatedMaps - 1; i >= 0; --i) {

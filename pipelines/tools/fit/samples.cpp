@@ -64,6 +64,7 @@ class Bins {
   double disparity(cv::Point pixel) const {
     return disparity_.row(pixel.y)[pixel.x] / double{kDisparityOne};
   }
+  PartShares shares() const { return part_shares(views_); }
   bool is_matched(cv::Point pixel) const {
     return confidence_.row(pixel.y)[pixel.x] > kMostInferred;
   }
@@ -93,9 +94,10 @@ std::vector<cv::Point> random_pixels(const std::string& seed, cv::Size size, int
 
 /// The confidence of the map that has guided the matching, after the step guide-support, by a
 /// table.
-Image<std::uint8_t> rated_guide(const FrameMemory& memory, const ReliabilityTable& table) {
+Image<std::uint8_t> rated_guide(const FrameMemory& memory, const TableParts& parts) {
   const Image<std::int32_t>& map = memory.pyramid.levels[0].disparity;
   Bins bins(rated_guide_views(memory.views, memory.pyramid), map, memory.pyramid.confidence);
+  const ReliabilityTable table = table_for(parts, bins.shares());
   Image<std::uint8_t> rated;
   rated.resize(map.width(), map.height());
   for (int y = 0; y < map.height(); ++y) {
@@ -155,17 +157,18 @@ std::vector<TrainingPair> rendered_pairs() {
 }
 
 PairSamples take_samples(const TrainingPair& pair, const std::string& kind, RatedMap rated,
-                         const ReliabilityTable& guide, int count) {
+                         const TableParts& guide, int count) {
   eval::DegradedPair degraded{pair.views, pair.max_disparity};
   if (kind != eval::kCleanKind) {
     degraded = eval::degrade(eval::parse_degradation(kind), pair.views, pair.max_disparity);
   }
-  PairSamples taken{pair.family, kind, {}};
+  PairSamples taken{pair.family, kind, {}, {}};
   const cv::Mat& truth = degraded.images.truth.disparity;
   const double scale = degraded.images.truth.scale;
   const Settings settings = settings_for(degraded.max_disparity, rated);
   const bool is_guide = rated == RatedMap::kGuide;
   const auto sample = [&](Bins& bins, int shrinking) {
+    taken.shares = bins.shares();
     for (const cv::Point pixel : random_pixels(pair.name + kind, truth.size(), count)) {
       const cv::Point place = pixel / shrinking;
       if (!settings.infers() && !is_guide && !bins.is_matched(place)) continue;

@@ -22,6 +22,7 @@ struct Sample {
 struct PairSamples {
   std::string family;  ///< of data sets that are left out together
   std::string kind;    ///< the degradation
+  PartShares shares;   ///< of the parts of the tables
   std::vector<Sample> samples;
 };
 
@@ -41,7 +42,7 @@ std::vector<TrainingPair> rendered_pairs();
 /// random pixels. `guide` rates the map that is a clue for the others. The choice depends on the
 /// arguments only.
 PairSamples take_samples(const TrainingPair& pair, const std::string& kind, RatedMap rated,
-                         const ReliabilityTable& guide, int count);
+                         const TableParts& guide, int count);
 
 /// The confidence that the library gives a sample.
 int confidence(const ReliabilityTable& table, const Sample& sample);

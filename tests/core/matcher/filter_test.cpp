@@ -141,7 +141,7 @@ TEST(Filter, ForgetsAtEveryNewBeginning) {
        [](Matcher& matcher) { match(matcher, test::slanted_pair(200, 100, 20, 2)); }},
       {"another parameter",
        [](Matcher& matcher) {
-         for (const char* const least : {"100", "136"}) {
+         for (const char* const least : {"100", "134"}) {
            const Parameters next = test::parameters(
                {{"temporal", "filter"}, {"min-confidence", least}, {"threads", "2"}});
            ASSERT_TRUE(matcher.set_parameters(next).ok());

@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0xd8154e78bcdc8653},
-    {"default", "semi-dense", 0x73078056c073a553},
-    {"default", "dense", 0x0d6dae4d8dbc49d0},
-    {"default", "full", 0x5de1ed8019ea212e},
-    {"fast", "sparse", 0x947f50992b317f82},
-    {"fast", "semi-dense", 0x3228e1d797aec52e},
-    {"fast", "dense", 0x3d6f41577183b6bd},
-    {"fast", "full", 0x6c4161ab38f6e0cf},
+    {"default", "sparse", 0x96dd961a33043c7e},
+    {"default", "semi-dense", 0x7fd40ddc852e22ef},
+    {"default", "dense", 0x0429b55aafa52170},
+    {"default", "full", 0xb66268b4d4ac1e0a},
+    {"fast", "sparse", 0x6054fc0e5c185d3e},
+    {"fast", "semi-dense", 0xde3ba449360ebfe8},
+    {"fast", "dense", 0xbc988564b2f18da3},
+    {"fast", "full", 0x285d3d65f7309e2e},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

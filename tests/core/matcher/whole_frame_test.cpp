@@ -208,7 +208,7 @@ TEST(WholeFrame, EqualsReferenceWithThinObjects) {
     return std::count_if(map.pixels.begin(), map.pixels.end(), [](int d) { return d > 18 * 256; });
   };
   for (const char* const mode : {"semi-dense", "dense"}) {
-    EXPECT_GT(near(map_of(mode, "true")), near(map_of(mode, "false")) + 100) << mode;
+    EXPECT_GT(near(map_of(mode, "true")), near(map_of(mode, "false")) + 50) << mode;
   }
 }
 

@@ -263,7 +263,8 @@ inline void rate_guide(Frame& f) {
   const Grays grays = map_grays(halves[0], halves[1], f.guide);
   const RatedPair pair = {halves[0], halves[1], f.noise, f.agreement, 8, grays};
   const auto table = static_cast<int>(mtstereo::RatedMap::kGuide);
-  f.guide.confidence = rate_reliability(pair, f.guide, kReliabilityTables[table], false);
+  const auto entries = table_of(kReliabilityTables[table], f.noise, mtstereo::kUnknownDetail, 0);
+  f.guide.confidence = rate_reliability(pair, f.guide, entries, false);
 }
 
 inline void remove_pixel_outliers(Frame& f) {
@@ -320,7 +321,8 @@ inline void calibrate_confidence(Frame& f) {
                           grays,      &f.guide,   f.detail,      f.grid,      f.block};
   const bool apart = !f.settings.keeps_inferred();
   const auto table = static_cast<int>(f.settings.rated_map());
-  f.confidence = rate_reliability(pair, complete, kReliabilityTables[table], apart);
+  const auto entries = table_of(kReliabilityTables[table], f.rated_noise, f.detail, f.grid);
+  f.confidence = rate_reliability(pair, complete, entries, apart);
 }
 
 inline void correct_strip(Frame& f) {

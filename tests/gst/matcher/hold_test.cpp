@@ -130,7 +130,7 @@ TEST_F(HoldElement, BeginsAnewWithOtherCaps) {
 }
 
 TEST_F(HoldElement, BeginsAnewWithOtherParameters) {
-  for (const char* const least : {"100", "136"}) {
+  for (const char* const least : {"100", "134"}) {
     gst_util_set_object_arg(G_OBJECT(harness.element()), "min-confidence", least);
     if (least == std::string("100")) next(frame(8), 4 * kFrame);
   }

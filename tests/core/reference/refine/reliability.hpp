@@ -144,6 +144,22 @@ class PixelClues {
   int x_, y_;
 };
 
+/// The table of soft, noisy and compressed views.
+inline ReliabilityTable table_of(const TableParts& parts, double noise, double detail, int grid) {
+  const double soft = std::clamp((0.12 - detail) / 0.09, 0.0, 1.0);
+  const double noisy = std::clamp((noise - 3) / 2, 0.0, 1.0);
+  const double blocky = std::min(grid / 2.0, 1.0);
+  ReliabilityTable table = parts[0];
+  for (int clue = 0; clue < kClues; ++clue) {
+    for (int bin = 0; bin < kClueBins; ++bin) {
+      table[clue][bin] += static_cast<std::int16_t>(std::lround(soft * parts[1][clue][bin]) +
+                                                    std::lround(noisy * parts[2][clue][bin]) +
+                                                    std::lround(blocky * parts[3][clue][bin]));
+    }
+  }
+  return table;
+}
+
 /// The confidence of each pixel; `apart` keeps that of inferred ones at 1 .. 15.
 inline GrayPlane rate_reliability(const RatedPair& pair, const ConfidentMap& in,
                                   const ReliabilityTable& table, bool apart) {

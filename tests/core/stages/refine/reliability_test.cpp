@@ -13,7 +13,7 @@ namespace {
 using Rated = test::RandomRating;
 
 GrayPlane rate(const Rated& rated, float noise, Inferred inferred, int band,
-               const ReliabilityTable& table = kReliabilityTables[0]) {
+               const ReliabilityTable& table = kReliabilityTables[0][kAnyPart]) {
   const Image<std::int32_t> map = image_of(rated.in.map);
   Image<std::uint8_t> confidence = image_of(rated.in.confidence);
   const RatedViews views = rated.views(noise);
@@ -37,7 +37,7 @@ GrayPlane rate(const Rated& rated, float noise, Inferred inferred, int band,
 void expect_reference(const Rated& rated, float noise) {
   for (const Inferred inferred : {Inferred::kApart, Inferred::kLikeMatched}) {
     const bool apart = inferred == Inferred::kApart;
-    const ReliabilityTable& table = kReliabilityTables[apart ? 2 : 0];
+    const ReliabilityTable& table = kReliabilityTables[apart ? 2 : 0][kAnyPart];
     const GrayPlane expected =
         reference::rate_reliability(rated.pair(noise), rated.in, table, apart);
     for (const int band : {3, 1 << 20}) {
@@ -69,15 +69,42 @@ TEST(Reliability, EqualsReferenceWithPartnersOutsideOfTheRightView) {
 
 /// So the sums of entries fit into 16 bits.
 TEST(Reliability, HasSmallEntries) {
-  for (const ReliabilityTable& table : kReliabilityTables) {
-    int largest = 0;
-    for (const auto& column : table) {
-      int entry = 0;
-      for (const int value : column) entry = std::max(entry, std::abs(value));
-      largest += entry;
+  for (const TableParts& parts : kReliabilityTables) {
+    for (const PartShares& shares :
+         {PartShares{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 0, 1, 0}, {1, 0, 0, 1}, {1, 1, 1, 1}}) {
+      int largest = 0;
+      for (const auto& column : table_for(parts, shares)) {
+        int entry = 0;
+        for (const int value : column) entry = std::max(entry, std::abs(value));
+        largest += entry;
+      }
+      EXPECT_LT(largest, 1 << 15);
     }
-    EXPECT_LT(largest, 1 << 15);
   }
+}
+
+TEST(Reliability, AddsTheSharesOfTheParts) {
+  TableParts parts{};
+  parts[kAnyPart][kShareClue][3] = 100;
+  parts[kSoftPart][kShareClue][3] = -40;
+  parts[kNoisyPart][kShareClue][3] = 11;
+  parts[kBlockyPart][kShareClue][3] = 10;
+  const auto entry = [&](float noise, float detail, int grid_level = 0) {
+    RatedViews views = {{}, {}, noise, nullptr, 0};
+    views.fine_detail = detail;
+    views.grid_level = grid_level;
+    return table_for(parts, part_shares(views))[kShareClue][3];
+  };
+  EXPECT_EQ(entry(0, kUnknownDetail), 100);
+  EXPECT_EQ(entry(3, 0.12F), 100);
+  EXPECT_EQ(entry(0, 0.03F), 60);
+  EXPECT_EQ(entry(0, 0), 60);
+  EXPECT_EQ(entry(0, 0.075F), 80);
+  EXPECT_EQ(entry(4, 0.2F), 106);
+  EXPECT_EQ(entry(20, 0.2F), 111);
+  EXPECT_EQ(entry(5, 0.03F), 71);
+  EXPECT_EQ(entry(0, 0.2F, 1), 105);
+  EXPECT_EQ(entry(0, 0.2F, 4), 110);
 }
 
 TEST(Reliability, KeepsInferredDisparitiesApart) {
