@@ -17,8 +17,7 @@ namespace {
 
 void define_clip(CLI::App& app, Options& o) {
   app.add_option("folder", o.folder, "output folder; created if missing")->required();
-  app.add_option("--scene", o.scene, "street, garden, room, board, wall or thin")
-      ->capture_default_str();
+  app.add_option("--scene", o.scene, "street, garden, room, board or thin")->capture_default_str();
   app.add_option("--size", o.size, "width and height of a view [px]")->capture_default_str();
   app.add_option("--frames", o.frames, "number of frames; board: that of all poses, others: 48")
       ->check(CLI::Range(1, 999999));
@@ -50,7 +49,6 @@ void define_clip(CLI::App& app, Options& o) {
       ->default_str("clip");
   app.add_flag("--depth", o.depth, "also write the true depths to depth/ (PFM) [m]");
   app.add_flag("--overwrite", o.overwrite, "replace an existing clip in the folder");
-  app.add_flag("--lights", o.lights, "sun, lamps, and ground that reflects them");
   app.add_flag("--gray", o.gray, "gray images instead of color");
 }
 
@@ -63,9 +61,6 @@ void define_sensor(CLI::App& app, Settings& s) {
   number("--light", s.light, "light of both views; values above white are clipped");
   number("--gain", s.gain, "amplification of signal and noise in both views");
   number("--exposure", s.exposure, "brightness of the right view relative to the left");
-  number("--sky", s.sky, "brightness of the sky at the bottom of the image; 1 = white");
-  number("--sky-gradient", s.sky_gradient,
-         "loss of brightness up to the top of the image; 0 = a uniform sky");
   number("--vignette", s.vignette, "fraction of the light that is lost in the corners");
   number("--blur", s.blur, "standard deviation of the blur of the lenses in the center [px]");
   number("--rim-blur", s.rim_blur, "additional blur of the lenses in the corners [px]");
@@ -100,12 +95,6 @@ void define_scenes(CLI::App& app, Options& o) {
   const auto number = [&app](const char* name, auto& value, const char* help) {
     app.add_option(name, value, help)->check(options::finite())->capture_default_str();
   };
-  app.add_option("--distance", o.wall.distances,
-                 "wall: its distance, or those of several walls, separated by commas [m]")
-      ->delimiter(',')
-      ->check(options::finite())
-      ->capture_default_str();
-  number("--slant", o.wall.slant, "wall: its right side is farther [degrees]");
   const std::map<std::string, ThinKind> kinds = {
       {"posts", ThinKind::kPosts}, {"leaning", ThinKind::kLeaning}, {"rails", ThinKind::kRails},
       {"wires", ThinKind::kWires}, {"fence", ThinKind::kFence},     {"stems", ThinKind::kStems}};
@@ -131,7 +120,7 @@ void require(bool valid, const char* sentence) {
 
 void check_scene(const std::string& name) {
   std::vector<std::string> names = scene_names();
-  names.insert(names.end(), {"board", "wall", "thin"});
+  names.insert(names.end(), {"board", "thin"});
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   std::string known;
   for (const auto& n : names) known += (known.empty() ? "" : ", ") + n;

@@ -39,19 +39,17 @@ struct Options {
   bool overwrite = false;         ///< replace an existing clip
   bool depth = false;             ///< also write the true depths
   bool gray = false;              ///< gray images
-  bool lights = false;            ///< sun, lamps and ground that reflects them
   std::string raw;                ///< file of the calibration of raw cameras
   std::string lens;               ///< name of built-in raw cameras
   std::string rectification;      ///< file of the calibration whose rectified pair the truth shows
   double alpha = 0;               ///< of that rectification
   std::string rectified_size;     ///< of the views of that pair [px]; empty: that of the cameras
   BoardOptions board;             ///< of the scene `board`
-  Wall wall;                      ///< of the scene `wall`
   Thin thin;                      ///< of the scene `thin`
   Settings settings;              ///< of the cameras
 
   /// Whether make_scene() makes the scene.
-  bool is_built_in() const { return scene != "board" && scene != "wall" && scene != "thin"; }
+  bool is_built_in() const { return scene != "board" && scene != "thin"; }
   /// Whether the cameras are raw ones.
   bool has_raw_cameras() const { return !raw.empty() || !lens.empty(); }
 };

@@ -179,8 +179,6 @@ std::string check(const Settings& s) {
       {"light", s.light, 0.001, 1000, ""},
       {"gain", s.gain, 0.1, 100, ""},
       {"exposure", s.exposure, 0.1, 10, ""},
-      {"sky", s.sky, 0, 100, ""},
-      {"sky-gradient", s.sky_gradient, 0, 1, ""},
       {"vignette", s.vignette, 0, 1, ""},
       {"blur", s.blur, 0, 10, " px"},
       {"rim-blur", s.rim_blur, 0, 10, " px"},

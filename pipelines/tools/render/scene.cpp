@@ -26,18 +26,10 @@ const std::vector<std::string>& scene_names() {
   return names;
 }
 
-double Sun::glare(const Vector3d& towards) const {
-  if (brightness == 0) return 0;
-  const double angle = std::acos(std::clamp(direction.normalized().dot(towards), -1.0, 1.0));
-  if (angle < radius) return brightness;
-  constexpr double kHalo = 0.02;  // brightness of the halo at the disc / brightness of the disc
-  return kHalo * brightness * radius / angle;
-}
-
-Scene make_scene(std::string_view name, std::uint32_t seed, bool lights) {
-  if (name == "street") return make_street(seed, lights);
-  if (name == "garden") return make_garden(seed, lights);
-  if (name == "room") return make_room(seed, lights);
+Scene make_scene(std::string_view name, std::uint32_t seed) {
+  if (name == "street") return make_street(seed);
+  if (name == "garden") return make_garden(seed);
+  if (name == "room") return make_room(seed);
   std::string known;
   for (const auto& n : scene_names()) known += (known.empty() ? "" : ", ") + n;
   throw std::invalid_argument("there is no scene '" + std::string(name) + "'; the scenes are " +
@@ -80,12 +72,6 @@ Object& SceneBuilder::box(const Vector3d& center, const Vector3d& half_size, con
 
 Object& SceneBuilder::sphere(const Vector3d& center, double radius, const Texture& texture) {
   return add(Shape::kSphere, center, Vector3d::Constant(radius), texture);
-}
-
-Object& SceneBuilder::lamp(const Vector3d& center, double radius, double glow) {
-  Object& o = sphere(center, radius, Texture());
-  o.glow = glow;
-  return o;
 }
 
 Object& SceneBuilder::pole(const Vector3d& foot, double height, double radius,

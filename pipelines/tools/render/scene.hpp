@@ -29,52 +29,28 @@ struct CameraPath {
   Eigen::Isometry3d pose_at(double time) const;
 };
 
-/// The disc of the sun with its halo, in the sky and in wet surfaces.
-struct Sun {
-  Eigen::Vector3d direction = {0, -1, 0};  ///< from the cameras to the sun, any length
-  double radius = 0.01;                    ///< [rad]
-  double brightness = 0;                   ///< of the disc; 1 = white, 0 = there is no sun
-
-  /// The brightness that the sun adds to the sky in a direction of unit length.
-  double glare(const Eigen::Vector3d& towards) const;
-};
-
 /// A moving scene with its light and its stereo camera.
 struct Scene {
   std::string name;
   std::vector<Object> objects;
   CameraPath camera;
   Eigen::Vector3d to_light = {-0.4, -0.8, -0.45};  ///< direction towards the light, any length
-  Sun sun;
-  double ambient = 0.55;          ///< fraction of undirected light
-  double baseline = 0.1;          ///< default of the stereo camera [m]
-  double focal_per_width = 0.85;  ///< focal length [px] / image width [px]
+  double ambient = 0.55;                           ///< fraction of undirected light
+  double baseline = 0.1;                           ///< default of the stereo camera [m]
+  double focal_per_width = 0.85;                   ///< focal length [px] / image width [px]
 };
 
 /// The scene names for make_scene().
 const std::vector<std::string>& scene_names();
 
 /// One of the built-in scenes; the seed varies its textures and the positions of small objects.
-/// `lights` adds what saturates a sensor: the sun, lamps, and ground that reflects them. Throws
-/// std::invalid_argument, listing the scenes, for any other name.
-Scene make_scene(std::string_view name, std::uint32_t seed, bool lights = false);
+/// Throws std::invalid_argument, listing the scenes, for any other name.
+Scene make_scene(std::string_view name, std::uint32_t seed);
 
 // The built-in scenes, one source file each.
-Scene make_street(std::uint32_t seed, bool lights);
-Scene make_garden(std::uint32_t seed, bool lights);
-Scene make_room(std::uint32_t seed, bool lights);
-
-/// Walls at known distances.
-struct Wall {
-  /// Of the walls [m], which stand side by side from left to right across the left camera's axis.
-  std::vector<double> distances = {2};
-  /// The right side is farther [degrees]; for a single wall.
-  double slant = 0;
-};
-
-/// The scene with these walls, which fill every view. Throws std::invalid_argument, naming the
-/// setting.
-Scene make_wall(const Wall& wall, std::uint32_t seed);
+Scene make_street(std::uint32_t seed);
+Scene make_garden(std::uint32_t seed);
+Scene make_room(std::uint32_t seed);
 
 /// What the structures of the scene `thin` are.
 enum class ThinKind {
@@ -112,7 +88,6 @@ class SceneBuilder {
               const Texture& texture, double yaw = 0);
   Object& sphere(const Eigen::Vector3d& center, double radius, const Texture& texture);
   /// A lamp with the shape of a sphere.
-  Object& lamp(const Eigen::Vector3d& center, double radius, double glow);
   /// A vertical round pole; `foot` is its lower end.
   Object& pole(const Eigen::Vector3d& foot, double height, double radius, const Texture& texture);
   /// A wide horizontal ground plane at height y, from z = from to z = to.

@@ -89,7 +89,7 @@ void flowers(SceneBuilder& b, const Vector3d& foot, int count, const Eigen::Vect
 
 }  // namespace
 
-Scene make_garden(std::uint32_t seed, bool lights) {
+Scene make_garden(std::uint32_t seed) {
   SceneBuilder b("garden", seed);
   Scene& scene = b.scene();
   scene.baseline = 0.06;
@@ -102,7 +102,6 @@ Scene make_garden(std::uint32_t seed, bool lights) {
   b.ground(kLawn, 12, -1, 16, lawn());
   Object& path = b.rectangle({-0.7, kLawn - 0.004, 4}, 0.35, 5, gravel(), 0, kQuarterTurn);
   path.pose.rotate(Eigen::AngleAxisd(-0.12, Vector3d::UnitZ()));
-  path.wet = lights ? 0.6 : 0;
   b.box({-2.6, kLawn - 0.4, 4.5}, {0.35, 0.4, 3}, hedge(), 0.15);
   b.box({0, kLawn - 0.9, 9.5}, {9, 0.9, 0.2}, stone(), -0.1);
   b.box({2.6, kLawn - 0.6, 6.0}, {0.9, 0.6, 0.5}, wood(0.5), 0.5);
@@ -125,10 +124,6 @@ Scene make_garden(std::uint32_t seed, bool lights) {
   Object& ball = b.sphere({-0.1, kLawn - 0.11, 2.0}, 0.11, flower({0.4f, 0.4f, 1.0f}));
   ball.motion.velocity = {0.12, 0, 0.1};
   ball.motion.spin = 1;
-  if (lights) {
-    scene.sun = {{-0.1, -0.22, 1}, 0.012, 30};
-    scene.to_light = scene.sun.direction;
-  }
   return std::move(scene);
 }
 

@@ -90,7 +90,7 @@ void walls(SceneBuilder& b) {
 
 }  // namespace
 
-Scene make_room(std::uint32_t seed, bool lights) {
+Scene make_room(std::uint32_t seed) {
   SceneBuilder b("room", seed);
   Scene& scene = b.scene();
   scene.baseline = 0.1;
@@ -122,11 +122,6 @@ Scene make_room(std::uint32_t seed, bool lights) {
   ball.motion.swing_rate = 0.6;
   ball.motion.spin = 2;
   b.box({0.9, kFloor - 0.2, 1.9}, {0.16, 0.2, 0.16}, painting(), 0.7).motion.spin = 0.5;
-  if (lights) {
-    scene.objects.front().wet = 0.4;  // polished parquet
-    b.lamp({1.9, kFloor - 1.56, 3.6}, 0.09, 10);
-    b.rectangle({1.9, kFloor - 1.7, 4.57}, 0.22, 0.35, Texture()).glow = 2;  // a window
-  }
   return std::move(scene);
 }
 

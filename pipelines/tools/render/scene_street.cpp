@@ -102,22 +102,9 @@ void walker(SceneBuilder& b, const Vector3d& foot, const Vector3d& velocity,
   }
 }
 
-// A low sun, burning street lamps, the headlights of the car that comes, and a wet road. It comes
-// last and draws no random numbers: everything else stays as it is without lights.
-void add_lights(SceneBuilder& b, const std::vector<Vector3d>& posts, const Vector3d& oncoming,
-                const Vector3d& velocity) {
-  b.scene().objects.front().wet = 0.6;
-  b.scene().sun = {{0.12, -0.3, 1}, 0.012, 30};
-  b.scene().to_light = b.scene().sun.direction;
-  for (const Vector3d& foot : posts) b.lamp(foot - Vector3d(0, 4.6, 0), 0.16, 8);
-  for (const double x : {-0.6, 0.6}) {
-    b.lamp(oncoming + Vector3d(x, -0.65, -2.0), 0.1, 15).motion.velocity = velocity;
-  }
-}
-
 }  // namespace
 
-Scene make_street(std::uint32_t seed, bool lights) {
+Scene make_street(std::uint32_t seed) {
   SceneBuilder b("street", seed);
   Scene& scene = b.scene();
   scene.baseline = 0.3;
@@ -127,13 +114,11 @@ Scene make_street(std::uint32_t seed, bool lights) {
   scene.camera.yaw_swing = 0.02;
 
   b.ground(kGround, 40, -10, 160, asphalt());
-  std::vector<Vector3d> posts;
   for (const double side : {-1.0, 1.0}) {
     b.box({side * 5.5, kGround - 0.07, 60}, {1.7, 0.07, 70}, pavement());
     houses(b, side);
     for (double z = b.random(4, 7); z < 60; z += 9) {
-      posts.emplace_back(side * 4.1, kGround, z);
-      b.pole(posts.back(), 4.5, 0.055, paint(0.3, {1, 1, 1}));
+      b.pole({side * 4.1, kGround, z}, 4.5, 0.055, paint(0.3, {1, 1, 1}));
     }
   }
   b.box({0, kGround - 5, 95}, {9, 5, 2}, facade(b));
@@ -141,8 +126,7 @@ Scene make_street(std::uint32_t seed, bool lights) {
   car(b, {-2.9, kGround, 12}, {0.35f, 0.35f, 1.0f}, Vector3d::Zero());
   car(b, {-2.9, kGround, 19}, {1.0f, 0.8f, 0.5f}, Vector3d::Zero());
   car(b, {2.9, kGround, 14}, {0.95f, 0.95f, 0.95f}, Vector3d::Zero());
-  const Vector3d oncoming(1.2, kGround, 34), velocity(0, 0, -4);
-  car(b, oncoming, {0.5f, 0.9f, 0.9f}, velocity);
+  car(b, {1.2, kGround, 34}, {0.5f, 0.9f, 0.9f}, {0, 0, -4});
   tree(b, {-4.6, kGround, 8.5});
   tree(b, {4.7, kGround, 11});
   tree(b, {4.6, kGround, 24});
@@ -152,7 +136,6 @@ Scene make_street(std::uint32_t seed, bool lights) {
   Object& fence = b.rectangle({3.9, kGround - 0.55, 8.2}, 1.6, 0.55, paint(0.8, {1, 1, 1}), 0.9);
   fence.cutout = Cutout::kBars;
   fence.cutout_period = 0.22, fence.cutout_solid = 0.3;
-  if (lights) add_lights(b, posts, oncoming, velocity);
   return std::move(scene);
 }
 

@@ -34,14 +34,12 @@ struct Settings {
   double light = 1;       ///< light (aperture, exposure time) of both views; values above 255 clip
   double gain = 1;        ///< amplification of signal and noise in both views; clips too
   double exposure = 1.0;  ///< brightness of the right image relative to the left
-  double sky = 0.95;      ///< brightness of the sky at the bottom of the image; 1 = white
-  double sky_gradient = 0.15;  ///< what it loses up to the top of the image; 0 = a flat sky
-  double vignette = 0;         ///< fraction of the light that is lost in the corners
-  double blur = 0;      ///< standard deviation of the lens's blur, a Gaussian, in the center [px]
-  double rim_blur = 0;  ///< what it gains up to the corners [px]
-  bool mosaic = false;  ///< one color per pixel, and the processing of a camera that has this
-  int jpeg = 0;         ///< quality of JPEG compression, 1 to 100; 0 = no compression
-  Rig rig;              ///< errors of the right camera
+  double vignette = 0;    ///< fraction of the light that is lost in the corners
+  double blur = 0;        ///< standard deviation of the lens's blur, a Gaussian, in the center [px]
+  double rim_blur = 0;    ///< what it gains up to the corners [px]
+  bool mosaic = false;    ///< one color per pixel, and the processing of a camera that has this
+  int jpeg = 0;           ///< quality of JPEG compression, 1 to 100; 0 = no compression
+  Rig rig;                ///< errors of the right camera
   std::uint32_t seed = 1;  ///< seed of the noise
   int samples = 2;         ///< anti-aliasing: samples x samples rays per pixel
   int threads = 0;         ///< 0 = one per processor

@@ -60,8 +60,6 @@ struct Object {
   Cutout cutout = Cutout::kNone;
   double cutout_period = 0.1;  ///< from bar to bar [m]
   double cutout_solid = 0.3;   ///< solid fraction of a period
-  double glow = 0;             ///< brightness of a lamp, without shading and texture; 1 = white
-  double wet = 0;              ///< reflectivity for lamps and the sun, 0 .. 1
 
   /// The transform from object to world at a time [s].
   Eigen::Isometry3d pose_at(double time) const;

@@ -14,6 +14,8 @@ using Eigen::Vector3d;
 
 constexpr double kNear = 0.02;  // near clipping distance [m]
 constexpr int kTile = 16;       // [px]
+// The brightness of the sky at the bottom of the image, and what it loses up to the top; 1 = white.
+constexpr double kSky = 0.95, kSkyGradient = 0.15;
 
 }  // namespace
 
@@ -22,16 +24,9 @@ View::View(const Scene& scene, double time, const Settings& settings, const Came
       camera_(camera),
       ideal_(left_camera(settings)),
       ideal_height_(settings.height),
-      world_from_left_(scene.camera.pose_at(time).linear()),
-      sky_(settings.sky),
-      sky_gradient_(settings.sky_gradient),
       samples_(settings.samples) {
   choose_tiles(settings);
   const Eigen::Isometry3d camera_from_world = scene.camera.pose_at(time).inverse();
-  if (scene.sun.brightness > 0) {
-    const Vector3d to_sun = world_from_left_.transpose() * scene.sun.direction.normalized();
-    lamps_.push_back({camera.pose.linear().transpose() * to_sun, true, scene.sun.brightness});
-  }
   placed_.reserve(scene.objects.size());
   for (const Object& object : scene.objects) {
     place(object, camera_from_world, time, scene.to_light.normalized());
@@ -83,7 +78,6 @@ void View::place(const Object& object, const Eigen::Isometry3d& camera_from_worl
   placed.origin = object_from_eye.translation();
   placed.to_light = world_from_object.linear().transpose() * to_light;
   placed.nearest = 0;
-  if (object.glow > 0) lamps_.push_back({eye_from_object.translation(), false, object.glow});
   placed_.push_back(placed);
   sort_into_tiles(eye_from_object, static_cast<std::uint32_t>(placed_.size() - 1));
 }
@@ -157,17 +151,13 @@ std::optional<Seen> View::look(double x, double y) const {
   if (found.placed == nullptr) return std::nullopt;
   const Placed& placed = *found.placed;
   const Hit& hit = found.hit;
-  if (placed.object->glow > 0) {
-    return Seen{hit.t, static_cast<float>(placed.object->glow), placed.object};
-  }
   const double facing = std::abs(hit.normal.dot(placed.object_from_camera * ray)) / ray.norm();
   const double lit = std::abs(hit.normal.dot(placed.to_light));
   const double shade = scene_.ambient + (1 - scene_.ambient) * lit;
   const Texture& texture = placed.object->texture;
   // Image textures are sharp: each ray has its own part of the pixel.
   const double width = footprint(hit, ray, facing) / (texture.image ? samples_ : 1);
-  double gray = shade * gray_value(texture, hit.u, hit.v, width);
-  if (placed.object->wet > 0) gray += reflection(placed, hit, ray);
+  const double gray = shade * gray_value(texture, hit.u, hit.v, width);
   return Seen{hit.t, static_cast<float>(gray), placed.object};
 }
 
@@ -179,31 +169,12 @@ double View::footprint(const Hit& hit, const Vector3d& ray, double facing) const
   return hit.t / std::sqrt(camera_.lens->magnification(ray) * ray.norm() * slant);
 }
 
-// The mirror images of the lamps in a surface with fine ripples: light is reflected best where the
-// normal halves the angle between viewer and lamp. The image has the disparity of the lamp behind
-// the mirror, not that of the surface.
-double View::reflection(const Placed& placed, const Hit& hit, const Vector3d& ray) const {
-  constexpr double kSmoothness = 4000;
-  const Vector3d point = hit.t * ray, to_viewer = -ray.normalized();
-  const Vector3d normal = placed.object_from_camera.transpose() * hit.normal;
-  double sum = 0;
-  for (const Lamp& lamp : lamps_) {
-    const Vector3d to_lamp = (lamp.distant ? lamp.at : lamp.at - point).normalized();
-    if ((normal.dot(to_lamp) > 0) != (normal.dot(to_viewer) > 0)) continue;
-    const double along = std::abs(normal.dot((to_lamp + to_viewer).normalized()));
-    sum += lamp.brightness * std::pow(along, kSmoothness);
-  }
-  return placed.object->wet * sum;
-}
-
 float View::sky(double x, double y) const {
   const Vector3d from_left = camera_.pose.linear() * camera_.direction(x, y);
   double height = 1 - ideal_.project(from_left).y / ideal_height_;
   // The wide views of lenses see more sky than the gradient is made for.
   if (camera_.lens) height = std::clamp(height, 0.0, 1.0);
-  const double plain = std::max(0.0, sky_ - sky_gradient_ * height);
-  const Vector3d towards = world_from_left_ * from_left.normalized();
-  return static_cast<float>(plain + scene_.sun.glare(towards));
+  return static_cast<float>(std::max(0.0, kSky - kSkyGradient * height));
 }
 
 }  // namespace mtstereo::render

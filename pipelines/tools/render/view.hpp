@@ -15,7 +15,7 @@ namespace mtstereo::render {
 /// The result of a camera ray.
 struct Seen {
   double depth = 0;  ///< along the optical axis [m]
-  float gray = 0;    ///< shaded, 0 .. 1, or more in lamps and their reflections
+  float gray = 0;    ///< shaded, 0 .. 1
   const Object* object = nullptr;
 };
 
@@ -45,11 +45,6 @@ class View {
     Eigen::Vector3d to_light;  // unit length
     double nearest;            // depth of its nearest corner [m]
   };
-  struct Lamp {
-    Eigen::Vector3d at;  // the center in the camera's coordinates, or the direction to the sun
-    bool distant;
-    double brightness;
-  };
   struct Nearest {
     const Placed* placed = nullptr;
     Hit hit;
@@ -60,7 +55,6 @@ class View {
   void choose_tiles(const Settings& settings);
   double footprint(const Hit& hit, const Eigen::Vector3d& ray, double facing) const;
   void sort_into_tiles(const Eigen::Isometry3d& eye_from_object, std::uint32_t index);
-  double reflection(const Placed& placed, const Hit& hit, const Eigen::Vector3d& ray) const;
   Nearest nearest(const Eigen::Vector3d& direction) const;
 
   const Scene& scene_;
@@ -69,10 +63,7 @@ class View {
   int tiles_x_ = 0, tiles_y_ = 0;
   Camera ideal_;  // the left camera, without errors of the rig and without a lens
   int ideal_height_;
-  Eigen::Matrix3d world_from_left_;
-  double sky_, sky_gradient_;
   int samples_;
-  std::vector<Lamp> lamps_;
   std::vector<Placed> placed_;
   std::vector<std::vector<std::uint32_t>> tiles_;
 };

@@ -81,7 +81,7 @@ TEST_F(Program, RendersABadCameraWithTheTruthOfAGoodOne) {
                         "--size 48x27 --frames 1 --overwrite --shot-noise 0.1 --light 0.5 "
                         "--gain 2 --vignette 0.4 --blur 0.6 --rim-blur 1 --mosaic --jpeg 50 "
                         "--roll 0.5 --pitch 0.2 --yaw -0.1 "
-                        "--focal-ratio 1.01 --row-offset -2 --sky 2 --sky-gradient 0");
+                        "--focal-ratio 1.01 --row-offset -2");
   EXPECT_EQ(r.status, 0) << r.errors;
   EXPECT_EQ(truth, read_text(folder_ / "clip/truth/000000.pfm"));
   EXPECT_NE(right, read_text(folder_ / "clip/right/000000.png"));
@@ -176,12 +176,6 @@ TEST_F(Program, ShowsAImageOnTheBoard) {
   EXPECT_NE(missing.errors.find("/dev/null/x"), std::string::npos) << missing.errors;
 }
 
-TEST_F(Program, RendersWalls) {
-  const Outcome r = run(out() + "--size 48x27 --frames 1 --scene wall --distance 1,2");
-  EXPECT_EQ(r.status, 0) << r.errors;
-  EXPECT_TRUE(fs::is_regular_file(folder_ / "clip/truth/000000.pfm"));
-}
-
 struct Bad {
   const char* arguments;
   const char* says;
@@ -196,7 +190,7 @@ TEST_F(Program, RejectsInvalidOptionsByName) {
       {"--size 10x-4", "two numbers"},
       {"--frames 0", "--frames"},
       {"--frames many", "--frames"},
-      {"--scene moon", "street, garden, room, board, wall, thin"},
+      {"--scene moon", "street, garden, room, board, thin"},
       {"--baseline -1", "baseline"},
       {"--focal nan", "focal"},
       {"--noise 1e9", "noise"},
@@ -207,9 +201,6 @@ TEST_F(Program, RejectsInvalidOptionsByName) {
       {"--light 0", "light"},
       {"--gain 1e9", "gain"},
       {"--vignette 2", "vignette"},
-      {"--sky -1", "sky"},
-      {"--sky-gradient 2", "sky-gradient"},
-      {"--lights=maybe", "--lights"},
       {"--jpeg 101", "jpeg"},
       {"--jpeg good", "--jpeg"},
       {"--roll 90", "roll"},
@@ -228,9 +219,6 @@ TEST_F(Program, RejectsInvalidOptionsByName) {
       {"--lens wide --focal 300", "focal"},
       {"--raw x.yml --baseline 1", "baseline"},
       {"--raw /dev/null/x.yml", "/dev/null/x.yml"},
-      {"--scene wall --distance 0", "distance"},
-      {"--scene wall --distance near", "--distance"},
-      {"--scene wall --slant 89", "slant"},
       {"--scene board --squares 10", "--squares"},
       {"--scene board --squares 1x1", "squares"},
       {"--scene board --square 0", "square"},

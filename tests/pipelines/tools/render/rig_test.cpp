@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "tools/render/render.hpp"
+#include "tools/render/scene.hpp"
 
 namespace mtstereo::render::rig_test {
 namespace {
@@ -32,6 +33,14 @@ Rig crooked() {
 TEST(Rig, DefaultIsAligned) {
   EXPECT_TRUE(Rig().aligned());
   EXPECT_EQ(right_pixel(camera(), 12.25, 7.5), cv::Point2d(12.25, 7.5));
+}
+
+TEST(Rig, SkyStaysInPlaceWhenTheRightCameraPitches) {
+  const Scene empty = SceneBuilder("empty", 1).scene();
+  Settings s = camera();
+  const int aligned = render(empty, 0, s).right.at<std::uint8_t>(50, 50);
+  s.rig.pitch = -10;
+  EXPECT_LT(render(empty, 0, s).right.at<std::uint8_t>(50, 50), aligned);
 }
 
 TEST(Rig, EveryErrorIsOutOfLine) {
