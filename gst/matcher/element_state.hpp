@@ -30,8 +30,7 @@ struct FlowSettings {
 
 /// What the watchdog sees of the task of the source pad. Any thread.
 struct Progress {
-  std::atomic<bool> busy = false;  ///< a pair is being matched, or downstream blocks
-  std::atomic<guint64> flushes = 0;
+  std::atomic<bool> busy = false;         ///< a pair is being matched, or downstream blocks
   std::atomic<guint64> pairs_before = 0;  ///< matched pairs at the last flush
 };
 

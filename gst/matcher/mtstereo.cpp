@@ -145,7 +145,6 @@ GstClockTime next_time(GstAggregator* aggregator) { return next_deadline(state_o
 gboolean start(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
   state.restart();
-  state.progress.flushes = 0;
   state.progress.pairs_before = 0;
   state.pairing.start();
   state.pairing_reports.start();
@@ -170,12 +169,9 @@ gboolean stop(GstAggregator* aggregator) {
 
 GstFlowReturn flush(GstAggregator* aggregator) {
   ElementState& state = state_of(aggregator);
+  // Pairing, matcher and punctuality start over with the segments that follow.
   state.restart();
-  state.pairing.restart();
-  state.pairing_reports.restart();
-  state.engine.restart();
-  state.output.restart();
-  ++state.progress.flushes;
+  state.output.events.restart();
   state.progress.pairs_before = state.engine.statistics().pairs;
   return GST_FLOW_OK;
 }

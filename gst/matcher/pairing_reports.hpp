@@ -30,9 +30,7 @@ class PairingReports {
   /// A change to sync-mode=reference-timestamp was taken back.
   void warn_of_missing_reference(Side side);
 
-  /// A flush.
-  void restart() { unpaired_.reset(); }
-  void start() { restart(), doubts_ = {}; }
+  void start() { unpaired_ = {}, doubts_ = {}; }
 
  private:
   void log_offset();

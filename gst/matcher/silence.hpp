@@ -14,7 +14,7 @@ namespace mtstereo::plugin {
 struct StreamsObservation {
   std::array<bool, 2> waiting{};  ///< frames of this side wait for the other side
   std::array<bool, 2> ended{};    ///< the stream is at its end
-  std::uint64_t progress = 0;     ///< changes whenever frames are consumed or flushed
+  std::uint64_t progress = 0;     ///< changes whenever frames are consumed
   bool busy = false;              ///< the element matches a pair, or downstream blocks it
 };
 

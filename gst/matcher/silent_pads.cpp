@@ -26,8 +26,8 @@ StreamsObservation observe(const ElementState& state) {
   // A paused pipeline that has its first map is paused by its user, who may pause the sources too.
   const bool paused = !state.clock.playing() && pairs > state.progress.pairs_before;
   streams.busy = state.progress.busy || paused;
-  streams.progress = pairs + state.output.punctuality.skipped() + paired.dropped[0] +
-                     paired.dropped[1] + state.progress.flushes;
+  streams.progress =
+      pairs + state.output.punctuality.skipped() + paired.dropped[0] + paired.dropped[1];
   return streams;
 }
 

@@ -31,27 +31,11 @@ GstFlowReturn Output::make_map(GstBuffer* left, GstBuffer* right, BufferPointer&
   return flow;
 }
 
-void Output::advance_position(GstBuffer* map) {
-  if (!GST_BUFFER_PTS_IS_VALID(map)) return;
-  const ObjectLock lock(element_);
-  GstSegment& segment = GST_AGGREGATOR_PAD(pad())->segment;
-  segment.position = GST_BUFFER_PTS(map);
-  if (segment.rate > 0 && GST_BUFFER_DURATION_IS_VALID(map)) {
-    segment.position += GST_BUFFER_DURATION(map);
-  }
-}
-
 GstFlowReturn Output::send(BufferPointer map, const OutputTimes& times, double milliseconds) {
-  advance_position(map.get());
   events.before_buffer();
   punctuality.sent(times, milliseconds);
   GST_LOG_OBJECT(element_, "matched %" GST_PTR_FORMAT, static_cast<void*>(map.get()));
   return gst_aggregator_finish_buffer(element_, map.release());
-}
-
-void Output::restart() {
-  events.restart();
-  punctuality.restart();
 }
 
 void Output::start() {

@@ -37,16 +37,12 @@ class Output {
   /// Sends a map, `milliseconds` after the decision to match its pair.
   GstFlowReturn send(BufferPointer map, const OutputTimes& times, double milliseconds);
 
-  /// A flush.
-  void restart();
   void start();
 
   Punctuality punctuality;
   SourceEvents events;
 
  private:
-  void advance_position(GstBuffer* map);
-
   GstAggregator* const element_;
   GstVideoInfo info_{};
 };

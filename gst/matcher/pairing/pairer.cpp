@@ -55,13 +55,13 @@ PairingAction Pairer::next(const PairingRules& rules, Trigger trigger) {
 void Pairer::restart() {
   finder_.reset();
   clock_.reset();
+  unreferenced_since_.reset();
   ++restarts_;
 }
 
 void Pairer::clear() {
   paired_segments_ = {};
   working_mode_.reset();
-  unreferenced_since_.reset();
   restart();
 }
 

@@ -181,17 +181,11 @@ bool Pairing::has_news(Side side) const {
   return gst_aggregator_pad_has_buffer(pad(side)) || queues_[index_of(side)].ended();
 }
 
-void Pairing::restart() {
+void Pairing::start() {
   const Lock lock(mutex_);
   ended_ = false;
-  for (FrameQueue& queue : queues_) queue.clear();
   pairer_.clear();
   waiting_frame_ = {};
-}
-
-void Pairing::start() {
-  restart();
-  const Lock lock(mutex_);
   statistics_ = {};
   rules_.durations = {};
   latency_ = 0;
@@ -199,7 +193,6 @@ void Pairing::start() {
 }
 
 void Pairing::stop() {
-  restart();
   const Lock lock(mutex_);
   for (FrameQueue& queue : queues_) queue.reset();
 }

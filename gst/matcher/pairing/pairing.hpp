@@ -54,7 +54,7 @@ class Pairing {
   /// No pair can follow, until a flush: drops the frames of this side that wait, and refuses new
   /// ones of both sides.
   void refuse(Side side);
-  /// Drops the frames of one side that wait, without counting them.
+  /// A flush: drops the frames of one side that wait, without counting them.
   void clear(Side side);
 
   PairingStatistics statistics() const;
@@ -88,11 +88,9 @@ class Pairing {
 
   const Pairer& pairer() const { return pairer_; }
 
-  /// A flush: drops the frames that wait and forgets what was learned.
-  void restart();
-  /// The start of the element: forgets what was counted as well.
+  /// The start of the element: forgets what was learned and counted.
   void start();
-  /// The end: forgets the streams as well.
+  /// The end: drops the frames that wait, and forgets the streams.
   void stop();
 
  private:

@@ -37,7 +37,6 @@ class UnpairedWarning {
   void paired() { run_ = 0; }
   /// Number of consecutive frames without a partner.
   int run() const { return run_; }
-  void reset() { *this = UnpairedWarning(); }
 
  private:
   int run_ = 0;

@@ -203,12 +203,20 @@ TEST(Segments, AFrameOfANewOneIsNotInTheGapOfTheOldOne) {
 TEST(EndOfStream, OfOneSideWhileTheOtherOneIsSilentEndsTheOutput) {
   const std::string caps = raw_caps("GRAY8", kNumberedWidth, kNumberedHeight);
   for (const char* side : {"left", "right"}) {
-    Pipeline pipeline("mtstereo name=m ! fakesink appsrc name=left format=time caps=" + caps +
-                      " ! m.sink_left appsrc name=right format=time caps=" + caps +
-                      " ! m.sink_right");
+    Pipeline pipeline(
+        "mtstereo name=m ! fakesink name=out appsrc name=left format=time caps=" + caps +
+        " ! m.sink_left appsrc name=right format=time caps=" + caps + " ! m.sink_right");
     pipeline.set_state(GST_STATE_PLAYING);
     gst_app_src_end_of_stream(GST_APP_SRC(pipeline.named(side)));
     EXPECT_EQ(pipeline.wait_for_end(10), "") << side;
+    // Once more after a stop.
+    pipeline.set_state(GST_STATE_READY);
+    pipeline.set_state(GST_STATE_PLAYING);
+    gst_app_src_end_of_stream(GST_APP_SRC(pipeline.named(side)));
+    EXPECT_EQ(pipeline.wait_for_end(10), "") << side;
+    GstPad* const sink = gst_element_get_static_pad(pipeline.named("out"), "sink");
+    EXPECT_TRUE(EventPointer(gst_pad_get_sticky_event(sink, GST_EVENT_STREAM_START, 0))) << side;
+    gst_object_unref(sink);
   }
 }
 

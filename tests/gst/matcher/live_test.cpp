@@ -79,6 +79,20 @@ TEST_F(Live, WarnsIfACameraStopsSending) {
   EXPECT_NE(warning.text.find("latency"), std::string::npos) << warning.text;
 }
 
+TEST_F(Live, DoesNotWarnOfMissingFramesBetweenPairs) {
+  start(true);
+  GstClockTime time = 0;
+  for (GstClockTime drops = 1; drops <= 40; ++drops) {
+    left(++time * kFrame);
+    ASSERT_TRUE(pass_deadline()) << time;
+    ASSERT_TRUE(harness->wait_for_stats(drops / 20, drops, 0)) << time;
+    if (drops % 20 != 19) continue;
+    harness->push_pair(pair, ++time * kFrame);
+    ASSERT_TRUE(harness->pull());
+  }
+  EXPECT_TRUE(harness->warnings().empty());
+}
+
 TEST_F(Live, FramesWithoutTimeStampsWaitForTheirPartners) {
   start(true);
   left(GST_CLOCK_TIME_NONE);

@@ -71,6 +71,14 @@ TEST_F(Stream, SendsEndOfStreamOnce) {
   EXPECT_FALSE(harness->pull_event(GST_EVENT_EOS, 0.2));
 }
 
+TEST_F(Stream, SendsTheEndOfASegmentOfTheLeftStreamOnly) {
+  ASSERT_TRUE(next());
+  harness->event(Side::kRight, gst_event_new_segment_done(GST_FORMAT_TIME, kFrame));
+  harness->event(Side::kLeft, gst_event_new_segment_done(GST_FORMAT_TIME, kFrame));
+  ASSERT_TRUE(harness->pull_event(GST_EVENT_SEGMENT_DONE));
+  EXPECT_FALSE(harness->pull_event(GST_EVENT_SEGMENT_DONE, 0.2));
+}
+
 TEST_F(Stream, EndsWithoutFrames) {
   harness->end(Side::kLeft);
   harness->end(Side::kRight);

@@ -2,6 +2,8 @@
 // The property sync-mode: pairs by other times than the running times.
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "support/defective_streams.hpp"
 
 namespace mtstereo::test::sync_mode_test {
@@ -113,6 +115,32 @@ TEST(SyncMode, ReferenceTimestampIsTheLatestOfAFrame) {
     rights[i + 3].earlier_reference = rights[i + 2].reference;
   }
   expect_all_right(feed(lefts, rights, with_mode("reference-timestamp")), 60);
+}
+
+TEST(SyncMode, ReferenceTimestampPairsInReverse) {
+  StereoHarness harness(with_mode("reference-timestamp").properties);
+  harness.caps(raw_caps("GRAY8", kNumberedWidth, kNumberedHeight));
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.rate = -1, segment.stop = 60 * kFrame;
+  const CapsPointer clock(gst_caps_from_string("timestamp/x-ntp"));
+  const auto push = [&](Side side, int lost) {
+    harness.event(side, gst_event_new_segment(&segment));
+    for (int i = 49; i >= 0; --i) {
+      const GstClockTime time = static_cast<GstClockTime>(i) * kFrame;
+      GstBuffer* frame = numbered_frame(side, i, time);
+      gst_buffer_add_reference_timestamp_meta(frame, clock.get(), time, GST_CLOCK_TIME_NONE);
+      i % 5 != lost ? static_cast<void>(harness.push(side, frame)) : gst_buffer_unref(frame);
+    }
+    harness.end(side);
+  };
+  std::thread left([&] { push(Side::kLeft, 1); });
+  push(Side::kRight, 3);
+  left.join();
+  DifferenceCounter count;
+  while (const BufferPointer map = harness.pull(1)) count.add(frame_difference(map.get()));
+  EXPECT_EQ(count.wrong + count.unknown, 0);
+  EXPECT_EQ(count.maps, 30);
 }
 
 // RTP streams have no reference time stamps before the first report of their sender.
