@@ -31,7 +31,7 @@ void require_folder(const fs::path& root) {
 cv::Mat read_truth(const StereoPair& pair, cv::Size size, DmapMeaning meaning) {
   const std::string extension = files::extension_of(pair.truth);
   if (extension == ".pfm") return read_pfm_disparity(pair.truth);
-  if (extension != ".bin") return read_png_disparity(pair.truth);
+  if (extension != ".bin") return read_png_disparity(pair.truth) / pair.truth_factor;
 
   cv::Mat map = read_dmap(pair.truth, size);
   const bool has_cameras = !pair.cameras.first.empty() && !pair.cameras.second.empty();
@@ -89,8 +89,10 @@ Layout detect_layout(const fs::path& root) {
   }
   if (looks_like_trimbot(folders)) return trimbot_kind(root, folders);
   throw UserError(root,
-                  "has no known layout; docs/evaluation.md describes the layouts, and --dataset "
-                  "selects one");
+                  "has no known layout. Put the images into left/ and right/ there, and the ground "
+                  "truth of the left views into disparity/, with the same names: .pfm, or .png of "
+                  "16 bits (px = value / 256). docs/evaluation.md describes other layouts, and "
+                  "--dataset selects one");
 }
 
 DataSet find_pairs(const fs::path& root, Layout layout) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // KITTI 2015: training/image_2, image_3, disp_occ_0, disp_noc_0 and obj_map, where a frame has the
-// same name.
+// same name. KITTI 2012: training/colored_0, colored_1 (or image_0, image_1), disp_occ, disp_noc.
 
 #include <array>
 
@@ -27,8 +27,8 @@ fs::path first_folder(const fs::path& base, std::initializer_list<const char*> n
 }
 
 std::optional<Folders> folders_of(const fs::path& base) {
-  constexpr std::array<std::pair<const char*, const char*>, 2> kCameras{
-      {{"image_2", "image_3"}, {"image_0", "image_1"}}};
+  constexpr std::array<std::pair<const char*, const char*>, 3> kCameras{
+      {{"image_2", "image_3"}, {"colored_0", "colored_1"}, {"image_0", "image_1"}}};
   Folders folders;
   for (const auto& [left, right] : kCameras) {
     if (!files::is_folder(base / left)) continue;

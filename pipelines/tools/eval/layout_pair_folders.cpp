@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Middlebury and ETH3D: each pair is a folder with im0.png, im1.png, disp0GT.pfm and calib.txt.
+// Sets of Middlebury before 2014: view1.png, view5.png, disp1.png (2005, 2006) or im2, im6, disp2
+// (2001, 2003), with disparities times a factor in 8 bits.
 
 #include <algorithm>
 #include <array>
@@ -8,6 +10,8 @@
 #include <charconv>
 #include <sstream>
 
+#include "lib/files/file_names.hpp"
+#include "lib/images/images.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/files.hpp"
 #include "tools/eval/layouts.hpp"
@@ -16,8 +20,54 @@ namespace mtstereo::eval {
 namespace fs = std::filesystem;
 namespace {
 
+struct Names {
+  const char *left, *right, *truth;
+};
+
+constexpr std::array<Names, 4> kOldNames{{{"view1.png", "view5.png", "disp1.png"},
+                                          {"im2.png", "im6.png", "disp2.png"},
+                                          {"im2.ppm", "im6.ppm", "disp2.pgm"},
+                                          {"im2.ppm", "im6.ppm", "disp2.png"}}};
+
+// The names in a folder of an old set; none in other folders.
+const Names* old_names(const fs::path& folder) {
+  const auto* const found =
+      std::find_if(kOldNames.begin(), kOldNames.end(), [&](const Names& names) {
+        return is_file(folder / names.left) && is_file(folder / names.right) &&
+               is_file(folder / names.truth);
+      });
+  return found == kOldNames.end() ? nullptr : found;
+}
+
 bool holds_pair(const fs::path& folder) {
-  return is_file(folder / "im0.png") || is_file(folder / "im1.png");
+  return is_file(folder / "im0.png") || is_file(folder / "im1.png") || old_names(folder) != nullptr;
+}
+
+// By what the ground truth of an old set is multiplied: 8 in 2001 (images of 430 to 435 px); later
+// 1 at full size, 2 at half, and 3 (2005, 2006) or 4 (2003) at the smallest.
+int old_factor(const Names& names, int width) {
+  if (width > 1000) return 1;
+  if (width > 520) return 2;
+  if (names.left == kOldNames[0].left) return 3;
+  return width < 450 ? 8 : 4;
+}
+
+void add_old(DataSet& set, StereoPair pair, const fs::path& folder, const Names& names) {
+  pair.left = folder / names.left;
+  pair.right = folder / names.right;
+  pair.truth = folder / names.truth;
+  const int factor = old_factor(names, images::read(pair.left, cv::IMREAD_GRAYSCALE).cols);
+  pair.truth_factor = factor;
+  pair.max_disparity = 256 / factor;
+  set.pairs.push_back(std::move(pair));
+}
+
+// ETH3D has an archive of its own for the ground truth: two_view_training_gt/NAME.
+fs::path truth_folder(const fs::path& folder) {
+  const fs::path above = folder.parent_path();
+  const fs::path other = above.parent_path() / (above.filename().string() + "_gt");
+  const fs::path apart = other / folder.filename();
+  return above.has_filename() && files::is_folder(apart) ? apart : folder;
 }
 
 // An integer of calib.txt, as in "ndisp=290"; none if the line is missing.
@@ -59,15 +109,17 @@ void add_folder(DataSet& set, const fs::path& folder) {
   StereoPair pair;
   pair.name =
       folder == set.root ? own_name(folder) : folder.lexically_relative(set.root).generic_string();
+  if (const Names* names = old_names(folder)) return add_old(set, std::move(pair), folder, *names);
   pair.left = folder / "im0.png";
   pair.right = folder / "im1.png";
-  pair.truth = first_file(folder, {"disp0GT.pfm", "disp0.pfm"});
+  const fs::path truths = truth_folder(folder);
+  pair.truth = first_file(truths, {"disp0GT.pfm", "disp0.pfm"});
   for (const fs::path& file : {pair.left, pair.right, pair.truth}) {
     if (is_file(file)) continue;
     set.problems.push_back({pair.name, file.string() + ": no such file"});
     return;
   }
-  const fs::path mask = folder / "mask0nocc.png";
+  const fs::path mask = truths / "mask0nocc.png";
   if (is_file(mask)) pair.visible_mask = mask;
   try {
     pair.max_disparity = search_range(set.layout, folder / "calib.txt");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // Scene Flow (Driving, Monkaa, FlyingThings3D): frames_cleanpass/.../left/*.png, .../right/*.png
-// and disparity/.../left/*.pfm, with the same folders in between.
+// and disparity/.../left/*.pfm, with the same folders in between. The final pass is used where
+// there is no clean one.
 
 #include <algorithm>
 #include <set>
@@ -18,7 +19,10 @@ namespace {
 
 bool is_frames_folder(const fs::path& folder) {
   const std::string name = folder.filename().string();
-  return name == "frames_cleanpass" || name == "image_clean";
+  if (name == "frames_cleanpass" || name == "image_clean") return true;
+  const fs::path above = folder.parent_path();
+  return (name == "frames_finalpass" && !files::is_folder(above / "frames_cleanpass")) ||
+         (name == "image_final" && !files::is_folder(above / "image_clean"));
 }
 
 // The frames that the authors of FlyingThings3D withdrew: lines such as "TEST/A/0005/left/0006.png"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "expect_error.hpp"
 #include "support.hpp"
@@ -120,6 +121,49 @@ TEST_F(Layouts, Eth3dIsDetectedByItsNamesAndHasASmallerRange) {
   EXPECT_EQ(set.pairs[2].max_disparity, 20);
 }
 
+// A folder of an old Middlebury set with images of this width.
+void write_old_set(const TemporaryFolder& folder, const std::string& names, int width,
+                   const std::string& end = ".png") {
+  const bool views = names.ends_with("Art");
+  const cv::Mat gray(8, width, CV_8UC1, cv::Scalar(96));
+  const cv::Mat color(8, width, CV_8UC3, cv::Scalar(96, 96, 96));
+  write_image(folder / (names + (views ? "/view1" : "/im2") + end), color);
+  write_image(folder / (names + (views ? "/view5" : "/im6") + end), color);
+  write_image(folder / (names + (views           ? "/disp1.png"
+                                 : end == ".ppm" ? "/disp2.pgm"
+                                                 : "/disp2.png")),
+              gray);
+}
+
+TEST_F(Layouts, MiddleburyDividesTheDisparitiesOfOldSetsByTheFactorOfTheirSize) {
+  write_old_set(folder_, "full/Art", 1390);
+  write_old_set(folder_, "half/Art", 695);
+  write_old_set(folder_, "third/Art", 463);
+  write_old_set(folder_, "2003/cones", 450);
+  write_old_set(folder_, "2003half/cones", 900, ".ppm");
+  write_old_set(folder_, "2001/venus", 434, ".ppm");
+  std::map<std::string, std::pair<float, int>> read;
+  for (const StereoPair& pair : detect(Layout::kMiddlebury).pairs) {
+    read[pair.name] = {load_pair(pair).truth.disparity.at<float>(4, 20), *pair.max_disparity};
+  }
+  EXPECT_EQ(read, (std::map<std::string, std::pair<float, int>>{{"full/Art", {96, 256}},
+                                                                {"half/Art", {48, 128}},
+                                                                {"third/Art", {32, 85}},
+                                                                {"2003/cones", {24, 64}},
+                                                                {"2003half/cones", {48, 128}},
+                                                                {"2001/venus", {12, 32}}}));
+}
+
+TEST_F(Layouts, Eth3dMayHaveItsGroundTruthInAFolderOfItsOwn) {
+  write_pair_folder(folder_ / "two_view_training/forest_2s", small_pair(), 0);
+  std::filesystem::create_directories(folder_ / "two_view_training_gt/forest_2s");
+  std::filesystem::rename(folder_ / "two_view_training/forest_2s/disp0GT.pfm",
+                          folder_ / "two_view_training_gt/forest_2s/disp0GT.pfm");
+  EXPECT_EQ(detect(Layout::kEth3d).pairs.size(), 1U);
+  const std::filesystem::path part = folder_ / "two_view_training/";
+  EXPECT_EQ(find_pairs(part, Layout::kEth3d).pairs.size(), 1U);
+}
+
 // --- KITTI 2015
 
 void write_kitti_frame(const TemporaryFolder& folder, const std::string& name, bool occ, bool noc) {
@@ -154,6 +198,13 @@ TEST_F(Layouts, KittiAcceptsGrayCamerasAndTheTrainingFolder) {
   const DataSet set = detect(Layout::kKitti2015);
   ASSERT_EQ(set.pairs.size(), 1U);
   EXPECT_TRUE(load_pair(set.pairs[0]).truth.visible.empty());
+}
+
+TEST_F(Layouts, KittiReadsTheColorImagesOf2012) {
+  write_image(folder_ / "training/colored_0/000000_10.png", small_pair().left);
+  write_image(folder_ / "training/colored_1/000000_10.png", small_pair().right);
+  write_kitti_truth(folder_ / "training/disp_occ/000000_10.png", small_pair().truth);
+  EXPECT_EQ(detect(Layout::kKitti2015).pairs.size(), 1U);
 }
 
 TEST_F(Layouts, KittiNotesThatOnlyNonOccludedTruthExists) {
@@ -239,6 +290,15 @@ TEST_F(Layouts, SceneFlowReadsFramesDirectlyBelowThePass) {
             std::vector<std::string>{"0000"});
 }
 
+TEST_F(Layouts, SceneFlowReadsTheFinalPassWhereThereIsNoCleanOne) {
+  write_scene_flow(folder_, "one/", "0000");
+  write_image(folder_ / "frames_finalpass/one/left/0000.png", small_pair().left);
+  EXPECT_EQ(detect(Layout::kMonkaa).pairs.size(), 1U);
+  std::filesystem::remove_all(folder_ / "frames_finalpass");
+  std::filesystem::rename(folder_ / "frames_cleanpass", folder_ / "frames_finalpass");
+  EXPECT_EQ(names_of(detect(Layout::kMonkaa)), std::vector<std::string>{"one/0000"});
+}
+
 TEST_F(Layouts, SceneFlowNamesFramesWithoutPartner) {
   write_scene_flow(folder_, "one/", "0000");
   write_scene_flow(folder_, "one/", "0001");
@@ -258,7 +318,7 @@ TEST_F(Layouts, RejectFoldersWithoutALayout) {
   write_file(folder_ / "file", "");
   EXPECT_INPUT_ERROR(detect_layout(folder_ / "none"), "none: no such folder");
   EXPECT_INPUT_ERROR(detect_layout(folder_ / "file"), "file: is not a folder");
-  EXPECT_INPUT_ERROR(detect_layout(folder_.path()), "--dataset");
+  EXPECT_INPUT_ERROR(detect_layout(folder_.path()), "into left/ and right/");
   for (const std::string& name : layout_names()) {
     EXPECT_INPUT_ERROR(find_pairs(folder_.path(), *find_layout(name)), "layout of " + name);
   }
