@@ -2,7 +2,6 @@
 #include "tools/eval/official_report.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -140,18 +139,5 @@ json official_means_json(const Report& report) {
   }
   return result;
 }
-
-std::string official_csv_header() { return ",benchmark,wrong,wrong_est,wrong_bg,wrong_fg"; }
-
-std::string official_csv_fields(Benchmark benchmark, const OfficialFigures& figures) {
-  std::string text = "," + std::string(benchmark_name(benchmark));
-  for (const double figure :
-       {figures.wrong, figures.answered_wrong, figures.background, figures.foreground}) {
-    text += "," + (std::isfinite(figure) ? json(figure).dump() : std::string());
-  }
-  return text;
-}
-
-std::string no_official_csv_fields() { return ",,,,,"; }
 
 }  // namespace mtstereo::eval

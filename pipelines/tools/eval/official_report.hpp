@@ -34,9 +34,4 @@ nlohmann::json official_json(const OfficialCounts& counts);
 /// The means and notes of each benchmark.
 nlohmann::json official_means_json(const Report& report);
 
-/// The columns that --official appends to a line of CSV; each begins with a comma.
-std::string official_csv_header();
-std::string official_csv_fields(Benchmark benchmark, const OfficialFigures& figures);
-std::string no_official_csv_fields();
-
 }  // namespace mtstereo::eval

@@ -19,7 +19,7 @@ struct Texts {
   std::string dataset = "auto";
   std::string dmap = "auto";
   std::string format = "pfm";
-  std::string json, csv, disparity_folder, image_folder;
+  std::string json, disparity_folder, image_folder;
   std::vector<std::string> compare;
   std::vector<std::string> degrade;
   std::string alignment;
@@ -135,9 +135,6 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
   app.add_option("--json", texts.json, "write all figures to this file as JSON")
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--csv", texts.csv, "write all figures to this file as CSV")
-      ->type_name("FILE")
-      ->group(group);
   app.add_flag("--curve", options.run.curve,
                "sweep the confidence and print the errors at equal density; with --compare, sweep "
                "the uniquenessRatio of those matchers too; --json has the curves for plot.py")
@@ -202,7 +199,6 @@ void apply(const Texts& texts, Options& options) {
   if (!texts.alignment.empty()) options.run.align = texts.alignment == "correct";
   apply_degradations(texts, options.run.degradations);
   options.json = path_of(texts.json);
-  options.csv = path_of(texts.csv);
   options.run.disparity_folder = path_of(texts.disparity_folder);
   options.run.image_folder = path_of(texts.image_folder);
   if (options.run.stream) options.run.warm_up = 0;  // it would be an earlier frame

@@ -18,7 +18,6 @@ struct Options {
   int limit = 0;                  ///< maximum number of pairs; 0: all
   bool list = false;              ///< only list the pairs
   std::optional<std::filesystem::path> json;
-  std::optional<std::filesystem::path> csv;
   RunSettings run;
 };
 

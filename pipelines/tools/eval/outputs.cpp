@@ -2,10 +2,8 @@
 #include "tools/eval/outputs.hpp"
 
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "lib/outputs/json_text.hpp"
 #include "lib/outputs/user_error.hpp"
@@ -29,8 +27,9 @@ void refuse_inputs(const fs::path& file, const DataSet& set) {
 }
 
 // A report of this program begins in this way.
-void refuse_foreign(const fs::path& file, const std::string& mark) {
+void refuse_foreign(const fs::path& file) {
   constexpr std::size_t kHead = 512;  // bytes
+  constexpr const char* kMark = "{\n  \"compared_methods\"";
   std::error_code error;
   const fs::file_status status = fs::symlink_status(file, error);
   if (!fs::exists(status)) return;
@@ -41,7 +40,7 @@ void refuse_foreign(const fs::path& file, const std::string& mark) {
   std::string head(kHead, '\0');
   in.read(head.data(), kHead);
   head.resize(static_cast<std::size_t>(in.gcount()));
-  if (head.empty() || head.find(mark) != std::string::npos) return;
+  if (head.empty() || head.find(kMark) != std::string::npos) return;
   throw UserError(file,
                   "is in the way, and mtstereo-eval did not write it: move it, or choose "
                   "another output file");
@@ -56,37 +55,25 @@ void require_writable(const fs::path& file) {
   if (!was_there) fs::remove(file, ignored);
 }
 
-bool attempt(const std::function<void()>& write) {
+}  // namespace
+
+void check_outputs(const Options& options, const DataSet& set) {
+  if (!options.json) return;
+  refuse_inputs(*options.json, set);
+  refuse_foreign(*options.json);
+  require_writable(*options.json);
+}
+
+bool write_outputs(const Options& options, const Report& report) {
+  if (!options.json) return true;
+  const std::string text = outputs::text_of(to_json(report), 2) + "\n";
   try {
-    write();
+    write_bytes(*options.json, text);
     return true;
   } catch (const UserError& error) {
     std::cerr << "mtstereo-eval: " << error.what() << '\n';
     return false;
   }
-}
-
-}  // namespace
-
-void check_outputs(const Options& options, const DataSet& set) {
-  const std::pair<std::optional<fs::path>, const char*> files[] = {
-      {options.json, "{\n  \"compared_methods\""}, {options.csv, "pair,method,region,"}};
-  for (const auto& [file, mark] : files) {
-    if (!file) continue;
-    refuse_inputs(*file, set);
-    refuse_foreign(*file, mark);
-    require_writable(*file);
-  }
-}
-
-bool write_outputs(const Options& options, const Report& report) {
-  bool fine = true;
-  if (options.json) {
-    const std::string text = outputs::text_of(to_json(report), 2) + "\n";
-    fine &= attempt([&] { write_bytes(*options.json, text); });
-  }
-  if (options.csv) fine &= attempt([&] { write_bytes(*options.csv, to_csv(report)); });
-  return fine;
 }
 
 }  // namespace mtstereo::eval

@@ -32,8 +32,4 @@ void print_flicker(std::ostream& out, const Report& report);
 /// All figures; null if one could not be measured.
 nlohmann::json to_json(const Report& report);
 
-/// All figures, one line per pair, kind, method and region, followed by the means. A figure that
-/// could not be measured is empty. Fields with a comma or a quote are quoted (RFC 4180).
-std::string to_csv(const Report& report);
-
 }  // namespace mtstereo::eval

@@ -20,14 +20,13 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::Outcome;
-using testing::read_file;
 using testing::run_eval;
 
 class DegradeProgram : public testing::TwoPairs {};
 
 TEST_F(DegradeProgram, EvaluatesEachKindWithEachMethod) {
   const Outcome run = run_eval({set(), "--degrade", "noise=20,lower-right=3", "--compare", "bm",
-                                "--json", folder_ / "r.json", "--csv", folder_ / "r.csv"});
+                                "--json", folder_ / "r.json"});
   ASSERT_EQ(run.status, 0) << run.err;
   for (const char* line : {"clean          mtstereo", "clean          bm",
                            "noise=20       mtstereo", "lower-right=3  bm"}) {
@@ -42,8 +41,6 @@ TEST_F(DegradeProgram, EvaluatesEachKindWithEachMethod) {
     EXPECT_EQ(kind["mean"]["bm"]["pairs"], 2);
     EXPECT_LT(kind["mean"]["mtstereo"]["density"], clean["density"]);
   }
-  EXPECT_THAT(read_file(folder_ / "r.csv"), HasSubstr(",noise=20\n"));
-  EXPECT_THAT(read_file(folder_ / "r.csv"), HasSubstr(",clean\n"));
 }
 
 TEST_F(DegradeProgram, LeavesTheFiguresOfTheCleanImagesAlone) {
@@ -74,7 +71,7 @@ TEST_F(DegradeProgram, NamesAWrongKindAndItsRange) {
 TEST_F(DegradeProgram, CountsErrorsOfEnlargedImagesInPixelsOfTheOriginal) {
   const Outcome run = run_eval({set(), "--only", "A", "--degrade", "soft2x,cam1.5x", "--compare",
                                 "sgbm-hh", "--min-disparity", "3", "--json", folder_ / "r.json",
-                                "--csv", folder_ / "r.csv", "--write-disparity", folder_ / "maps"});
+                                "--write-disparity", folder_ / "maps"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("errors of enlarged images in px of the original"));
   const json pairs = report()["pairs"];

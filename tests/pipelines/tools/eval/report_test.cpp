@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -53,24 +52,6 @@ Report small_report() {
   report.pairs = {a, b};
   report.failures = {{"C", "C/im0.png: no such file"}};
   return report;
-}
-
-// The fields of a CSV line (RFC 4180).
-std::vector<std::string> split_csv(const std::string& line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (quoted && line[i] == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      fields.back() += line[i++];
-    } else if (line[i] == '"') {
-      quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
-      fields.emplace_back();
-    } else {
-      fields.back() += line[i];
-    }
-  }
-  return fields;
 }
 
 TEST(Summary, IsWeightedAndComparesTimesOfTheSamePairs) {
@@ -131,35 +112,6 @@ TEST(Json, HasNullForMissingFigures) {
   report.pairs[0].results[0].evaluation.all.avgerr = kNone;
   const json parsed = json::parse(to_json(report).dump());
   EXPECT_TRUE(parsed["pairs"][0]["results"]["mtstereo"]["all"]["avgerr"].is_null());
-}
-
-TEST(Csv, ParsesBackToTheFigures) {
-  std::istringstream lines(to_csv(small_report()));
-  std::string line;
-  ASSERT_TRUE(std::getline(lines, line));
-  const std::vector<std::string> header = split_csv(line);
-  const auto column = [&](const std::string& name) {
-    const auto found = std::find(header.begin(), header.end(), name);
-    EXPECT_NE(found, header.end()) << name;
-    return static_cast<std::size_t>(found - header.begin());
-  };
-  std::vector<std::vector<std::string>> rows;
-  while (std::getline(lines, line)) {
-    rows.push_back(split_csv(line));
-    EXPECT_EQ(rows.back().size(), header.size()) << line;
-  }
-  // A with two methods, B with two regions, the mean of both methods, one of them with two regions.
-  ASSERT_EQ(rows.size(), 7U);
-  EXPECT_EQ(rows[0][column("pair")], "A, \"the first\"");
-  EXPECT_EQ(std::stod(rows[0][column("avgerr")]), 1);
-  EXPECT_EQ(std::stod(rows[1][column("avgerr")]), 3);
-  EXPECT_EQ(rows[3][column("region")], "noc");
-  EXPECT_EQ(std::stod(rows[3][column("avgerr")]), 2);
-  EXPECT_EQ(std::stod(rows[0][column("bad0.5")]), 9);
-  EXPECT_EQ(std::stod(rows[0][column("density")]), 40);
-  EXPECT_EQ(rows[4][column("pair")], "mean");
-  EXPECT_EQ(std::stod(rows[4][column("avgerr")]), 2);
-  EXPECT_EQ(rows[4][column("seconds")], "");
 }
 
 TEST(Table, ShowsPairsMeansRegionsAndRatio) {
