@@ -114,7 +114,7 @@ eval::Flicker figures_of(const Clip& clip, const char* temporal, double noise) {
                             [&](int x, int y) { return clip.before(i, x, y); }, last, map),
                         .d_all = errors.d_all,
                         .avgerr = errors.avgerr,
-                        .edges = eval::measure_edges(map, {clip[i].truth.disparity})});
+                        .edges = eval::wrong_at_edges(map, clip[i].truth.disparity)});
     }
     last = map;
   }
@@ -130,7 +130,7 @@ std::vector<eval::Flicker> all_figures(const std::vector<Clip>& clips, const cha
   std::printf(
       "  %s, noise %.0f: come and go %.1f %%, density %.1f %%, D-all %.2f %%, avgerr %.3f px, %.2f "
       "%% wrong at edges\n",
-      temporal, noise, mean.come_and_go, mean.density, mean.d_all, mean.avgerr, mean.edges.wrong);
+      temporal, noise, mean.come_and_go, mean.density, mean.d_all, mean.avgerr, mean.edges);
   all.push_back(mean);
   return all;
 }
@@ -141,11 +141,11 @@ void expect_no_more_errors(const std::vector<eval::Flicker>& steady,
                            const std::vector<eval::Flicker>& off) {
   EXPECT_LE(steady.back().d_all, off.back().d_all);
   EXPECT_LE(steady.back().avgerr, off.back().avgerr);
-  EXPECT_LE(steady.back().edges.wrong, off.back().edges.wrong);
+  EXPECT_LE(steady.back().edges, off.back().edges);
   for (std::size_t i = 0; i < off.size(); ++i) {
     EXPECT_LE(steady[i].d_all, off[i].d_all + 0.03) << "scene " << i;
     EXPECT_LE(steady[i].avgerr, off[i].avgerr + 0.005) << "scene " << i;
-    EXPECT_LE(steady[i].edges.wrong, off[i].edges.wrong + 0.1) << "scene " << i;
+    EXPECT_LE(steady[i].edges, off[i].edges + 0.1) << "scene " << i;
   }
 }
 

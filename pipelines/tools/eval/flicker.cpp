@@ -6,6 +6,7 @@
 
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/degrade.hpp"
+#include "tools/eval/moving_edges.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -68,36 +69,13 @@ Flicker measure_flicker(const std::vector<cv::Mat>& maps) {
           100 * ratio(any - all, any), ratio(deviations, all)};
 }
 
-void measure_tepe(const std::vector<cv::Mat>& errors, Flicker& flicker) {
-  double count = 0, sum = 0, above1 = 0, above3 = 0;
-  for (std::size_t i = 1; i < errors.size(); ++i) {
-    for (int y = 0; y < errors[i].rows; ++y) {
-      for (int x = 0; x < errors[i].cols; ++x) {
-        const double error = std::abs(errors[i].at<float>(y, x) - errors[i - 1].at<float>(y, x));
-        if (std::isnan(error)) continue;
-        count += 1;
-        sum += error;
-        above1 += error > 1 ? 1 : 0;
-        above3 += error > 3 ? 1 : 0;
-      }
-    }
-  }
-  flicker.tepe = ratio(sum, count);
-  flicker.tepe1 = 100 * ratio(above1, count);
-  flicker.tepe3 = 100 * ratio(above3, count);
-}
-
 void FlickerWindow::add(const cv::Mat& map, const GroundTruth& truth) {
   maps_.push_back(map);
   metrics_.push_back(evaluate(map, truth).all);
-  errors_.push_back((map - truth.disparity) / truth.scale);
-  truths_.push_back(truth.disparity);
-  scale_ = truth.scale;
+  edges_ = wrong_at_edges(map, truth.disparity, truth.scale);
   if (maps_.size() <= kFlickerFrames) return;
   maps_.pop_front();
   metrics_.pop_front();
-  errors_.pop_front();
-  truths_.pop_front();
 }
 
 std::optional<Flicker> FlickerWindow::measure() const {
@@ -105,21 +83,15 @@ std::optional<Flicker> FlickerWindow::measure() const {
   Flicker flicker = measure_flicker({maps_.begin(), maps_.end()});
   flicker.d_all = mean_of(metrics_, &Metrics::d_all);
   flicker.avgerr = mean_of(metrics_, &Metrics::avgerr);
-  measure_tepe({errors_.begin(), errors_.end()}, flicker);
-  flicker.edges = measure_edges(maps_.back(), {truths_.begin(), truths_.end()}, scale_);
+  flicker.edges = edges_;
   return flicker;
 }
 
 Flicker mean(const std::vector<Flicker>& list) {
   Flicker result;
-  for (double Flicker::*figure :
-       {&Flicker::density, &Flicker::come_and_go, &Flicker::spread, &Flicker::d_all,
-        &Flicker::avgerr, &Flicker::tepe, &Flicker::tepe1, &Flicker::tepe3}) {
+  for (double Flicker::*figure : {&Flicker::density, &Flicker::come_and_go, &Flicker::spread,
+                                  &Flicker::d_all, &Flicker::avgerr, &Flicker::edges}) {
     result.*figure = mean_of(list, figure);
-  }
-  for (double EdgeErrors::*figure : {&EdgeErrors::wrong, &EdgeErrors::stale, &EdgeErrors::age}) {
-    result.edges.*figure =
-        mean_of(list, [figure](const Flicker& each) { return each.edges.*figure; });
   }
   return result;
 }

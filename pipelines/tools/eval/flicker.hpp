@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "tools/eval/metrics.hpp"
-#include "tools/eval/moving_edges.hpp"
 
 namespace mtstereo::eval {
 
@@ -25,21 +24,12 @@ struct Flicker {
   double spread = kNone;       ///< mean standard deviation of the pixels with one in all maps [px]
   double d_all = kNone;        ///< mean of the maps [%], over all pixels with ground truth
   double avgerr = kNone;       ///< the same [px]
-  /// Temporal end-point error (TEPE): the mean error of the change of a pixel's disparity from one
-  /// map to the next [px], and the shares of those above 1 and 3 px [%].
-  double tepe = kNone;
-  double tepe1 = kNone;
-  double tepe3 = kNone;
-  EdgeErrors edges = {};  ///< of the last map
+  double edges = kNone;        ///< wrong_at_edges() of the last map [%]
 };
 
 /// Compares disparity maps of the same size (CV_32FC1 [px], NaN = none). Throws UserError if the
 /// sizes differ or there are fewer than two maps.
 Flicker measure_flicker(const std::vector<cv::Mat>& maps);
-
-/// Measures the temporal end-point errors of successive maps into `flicker`, from the errors of
-/// their disparities (CV_32FC1 [px], NaN = unknown).
-void measure_tepe(const std::vector<cv::Mat>& errors, Flicker& flicker);
 
 /// The last kFlickerFrames maps of a stream and their errors.
 class FlickerWindow {
@@ -53,9 +43,7 @@ class FlickerWindow {
  private:
   std::deque<cv::Mat> maps_;
   std::deque<Metrics> metrics_;
-  std::deque<cv::Mat> errors_;
-  std::deque<cv::Mat> truths_;
-  double scale_ = 1;  ///< of the last one
+  double edges_ = kNone;  ///< of the last one
 };
 
 /// The mean over pairs; a figure that is NaN is left out.

@@ -33,12 +33,7 @@ TableRow flicker_row(const std::string& pair, const MethodFlicker& entry) {
           fixed(flicker.spread, 3),
           fixed(flicker.d_all, 2),
           fixed(flicker.avgerr, 3),
-          fixed(flicker.tepe, 3),
-          fixed(flicker.tepe1, 2),
-          fixed(flicker.tepe3, 2),
-          fixed(flicker.edges.wrong, 2),
-          fixed(flicker.edges.stale, 2),
-          fixed(flicker.edges.age, 1)};
+          fixed(flicker.edges, 2)};
 }
 
 }  // namespace
@@ -61,8 +56,8 @@ void print_kinds(std::ostream& out, const Report& report) {
 }
 
 void print_flicker(std::ostream& out, const Report& report) {
-  std::vector<TableRow> rows{{"pair", "method", "density", "come and go", "spread", "D-all",
-                              "avgerr", "TEPE", "> 1 px", "> 3 px", "edges", "stale", "age"}};
+  std::vector<TableRow> rows{
+      {"pair", "method", "density", "come and go", "spread", "D-all", "avgerr", "edges"}};
   for (const PairReport& pair : report.pairs) {
     for (const MethodFlicker& entry : pair.flicker) {
       rows.push_back(flicker_row(pair.pair.name, entry));
@@ -78,11 +73,8 @@ void print_flicker(std::ostream& out, const Report& report) {
     out << " frames of the stream up to each";
   }
   out << "; come and go: of the pixels with a disparity in\nany frame, those without one in "
-         "another, %; spread: standard deviation of the other pixels, px; TEPE: error of the "
-         "change of a\n"
-         "disparity from frame to frame, mean, px, and those above 1 and 3 px, %; edges: wrong "
-         "pixels (> 3 px) of the known ones\nwithin 5 px of jumps, %; stale: of the same, with "
-         "the true disparity of an earlier frame, %, and its mean age in frames\n";
+         "another, %; spread: standard deviation of the other pixels, px; edges: wrong pixels "
+         "(> 3 px) of the known ones\nwithin 5 px of jumps, %\n";
   print_rows(out, rows);
 }
 

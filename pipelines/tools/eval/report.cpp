@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tools/eval/exponential_filter.hpp"
 #include "tools/eval/json_number.hpp"
 #include "tools/eval/official_report.hpp"
 
@@ -48,12 +47,7 @@ json flicker_json(const std::vector<MethodFlicker>& list) {
                       {"spread", json_number(flicker.spread)},
                       {"d_all", json_number(flicker.d_all)},
                       {"avgerr", json_number(flicker.avgerr)},
-                      {"tepe", json_number(flicker.tepe)},
-                      {"tepe1", json_number(flicker.tepe1)},
-                      {"tepe3", json_number(flicker.tepe3)},
-                      {"edges", json_number(flicker.edges.wrong)},
-                      {"stale", json_number(flicker.edges.stale)},
-                      {"age", json_number(flicker.edges.age)}};
+                      {"edges", json_number(flicker.edges)}};
   }
   return result;
 }
@@ -158,7 +152,7 @@ std::vector<Summary> summarize(const Report& report, const std::string& kind) {
 
 std::vector<MethodFlicker> summarize_flicker(const Report& report) {
   std::vector<MethodFlicker> result;
-  const auto add_mean = [&](const std::string& method) {
+  for (const std::string& method : report.methods) {
     std::vector<Flicker> list;
     for (const PairReport& pair : report.pairs) {
       for (const MethodFlicker& entry : pair.flicker) {
@@ -166,10 +160,6 @@ std::vector<MethodFlicker> summarize_flicker(const Report& report) {
       }
     }
     if (!list.empty()) result.push_back({method, mean(list)});
-  };
-  for (const std::string& method : report.methods) {
-    add_mean(method);
-    add_mean(filtered_name(method));
   }
   return result;
 }

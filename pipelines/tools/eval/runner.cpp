@@ -101,18 +101,6 @@ bool aligns(const RunSettings& settings) {
   return settings.align.value_or(settings.parameters.preset() != Preset::kPaper);
 }
 
-void MethodStream::add(const cv::Mat& map, const GroundTruth& truth) {
-  maps_.add(map, truth);
-  if (is_filtered_) filtered_maps_.add(filter_.filtered(map), truth);
-}
-
-void MethodStream::append_to(std::vector<MethodFlicker>& list) const {
-  if (const auto flicker = maps_.measure()) list.push_back({method_, *flicker});
-  if (const auto flicker = filtered_maps_.measure()) {
-    list.push_back({filtered_name(method_), *flicker});
-  }
-}
-
 Runner::Runner(RunSettings settings) : settings_(std::move(settings)) {
   for (const auto& folder : {settings_.disparity_folder, settings_.image_folder}) {
     if (folder) listed(*folder);
@@ -264,9 +252,9 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
   result.evaluation = evaluate(disparity, images);
   if (settings_.official) result.official = count_official(disparity, report.pair, images.truth);
   if (settings_.stream) {
-    MethodStream& stream = streams_.try_emplace(method, method, method != kOwnMethod).first->second;
+    FlickerWindow& stream = streams_[method];
     stream.add(disparity, images.truth);
-    stream.append_to(report.flicker);
+    if (const auto flicker = stream.measure()) report.flicker.push_back({method, *flicker});
   }
   result.seconds = seconds;
   result.seconds_per_megapixel = seconds * 1e6 / static_cast<double>(images.left.total());
@@ -300,21 +288,16 @@ LoadedPair Runner::noisy(const LoadedPair& images, int frame) const {
   return result;
 }
 
-// The frames of a still scene, in order: those before the ones that are measured come first.
-template <typename Body>
-void Runner::each_noisy(const LoadedPair& images, bool leads, Body body) const {
-  for (int i = leads ? -kFlickerLead : 0; i < kFlickerFrames; ++i) {
-    body(noisy(images, i < 0 ? kFlickerFrames + kFlickerLead + i : i));
-  }
-}
-
+// The frames before the ones that are measured come first.
 void Runner::run_own_flicker(const LoadedPair& images, PairReport& report) {
   prepare_matcher(noisy(images, 0), report.max_disparity);
   const bool leads = settings_.parameters.text(Parameter::kTemporal) != "off";
-  MethodStream stream(kOwnMethod, false);
-  each_noisy(images, leads,
-             [&](const LoadedPair& frame) { stream.add(own_map(frame), images.truth); });
-  stream.append_to(report.flicker);
+  FlickerWindow stream;
+  for (int i = leads ? -kFlickerLead : 0; i < kFlickerFrames; ++i) {
+    const int frame = i < 0 ? kFlickerFrames + kFlickerLead + i : i;
+    stream.add(own_map(noisy(images, frame)), images.truth);
+  }
+  report.flicker.push_back({kOwnMethod, stream.measure().value()});
 }
 
 void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
@@ -323,12 +306,13 @@ void Runner::run_flicker(const LoadedPair& images, PairReport& report) {
     const std::string name(opencv_name(method));
     attempt(report, "flicker: " + name, [&] {
       OpenCvMatcher matcher(method, report.max_disparity);
-      MethodStream stream(name, true);
-      each_noisy(images, true, [&](const LoadedPair& frame) {
+      FlickerWindow stream;
+      for (int i = 0; i < kFlickerFrames; ++i) {
+        const LoadedPair frame = noisy(images, i);
         matcher.compute(frame.left, frame.right);
         stream.add(matcher.disparity(), images.truth);
-      });
-      stream.append_to(report.flicker);
+      }
+      report.flicker.push_back({name, stream.measure().value()});
     });
   }
 }

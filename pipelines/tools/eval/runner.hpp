@@ -16,7 +16,6 @@
 #include "tools/eval/curve_means.hpp"
 #include "tools/eval/datasets.hpp"
 #include "tools/eval/degradation.hpp"
-#include "tools/eval/exponential_filter.hpp"
 #include "tools/eval/flicker.hpp"
 #include "tools/eval/images.hpp"
 #include "tools/eval/metrics.hpp"
@@ -67,23 +66,6 @@ struct MethodResult {
 struct MethodFlicker {
   std::string method;
   Flicker flicker;
-};
-
-/// The last maps of one method in a stream, and those after the filter of depth cameras.
-class MethodStream {
- public:
-  /// `filtered`: whether the filter is applied, too.
-  MethodStream(std::string method, bool filtered)
-      : method_(std::move(method)), is_filtered_(filtered) {}
-  void add(const cv::Mat& map, const GroundTruth& truth);
-  /// Appends their flicker, unless there are too few maps.
-  void append_to(std::vector<MethodFlicker>& list) const;
-
- private:
-  std::string method_;
-  bool is_filtered_;
-  ExponentialFilter filter_;
-  FlickerWindow maps_, filtered_maps_;
 };
 
 /// The results of one pair and one kind of images.
@@ -138,8 +120,6 @@ class Runner {
   void run_flicker(const LoadedPair& images, PairReport& report);
   void run_own_flicker(const LoadedPair& images, PairReport& report);
   LoadedPair noisy(const LoadedPair& images, int frame) const;
-  template <typename Body>
-  void each_noisy(const LoadedPair& images, bool leads, Body body) const;
   cv::Mat own_map(const LoadedPair& images);
   void prepare_matcher(const LoadedPair& images, int max_disparity);
   int warm_up(const PairReport& report) const;
@@ -150,7 +130,7 @@ class Runner {
   std::map<std::filesystem::path, std::unique_ptr<outputs::ListedFolder>> folders_;
   std::optional<Matcher> matcher_;
   std::optional<AlignmentTracker> tracker_;
-  std::map<std::string, MethodStream> streams_;  // by method
+  std::map<std::string, FlickerWindow> streams_;  // by method
 };
 
 }  // namespace mtstereo::eval
