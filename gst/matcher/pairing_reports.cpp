@@ -2,6 +2,8 @@
 #include "matcher/pairing_reports.hpp"
 
 #include <cstdio>
+#include <cstdlib>
+#include <utility>
 
 #define GST_CAT_DEFAULT mtstereo_debug
 
@@ -14,11 +16,26 @@ std::string milliseconds(Nanoseconds time) {
   return text;
 }
 
+constexpr Nanoseconds kSecond = 1'000'000'000;
+
 Nanoseconds wall_clock() { return g_get_monotonic_time() * 1000; }
 
 constexpr const char* kIfTriggered =
     "If both cameras are triggered together, correct it by the property offset of a pad "
     "(sink_right::offset), or pair by sync-mode=first-pts or sync-mode=arrival.";
+
+/// What to do if the frames of two streams are never within the tolerance.
+std::string remedy_of_distance(Nanoseconds distance) {
+  if (distance <= kSecond) {
+    return "If the cameras are not triggered together, increase sync-tolerance; if the skew "
+           "between "
+           "the streams is constant, set the property offset of a pad (sink_right::offset).";
+  }
+  return "The frames of the two streams are " + std::to_string(distance / kSecond) +
+         " s apart, as if the streams counted from different starts: pair by sync-mode=first-pts "
+         "or "
+         "sync-mode=arrival.";
+}
 
 std::string missing_reference(Side side) {
   return std::string("A frame of ") + pad_name(side) +
@@ -31,14 +48,12 @@ std::string missing_reference(Side side) {
 
 void PairingReports::unpaired(Nanoseconds difference, Nanoseconds tolerance) {
   if (!unpaired_.dropped(wall_clock())) return;
-  messages_.warning(
-      "The last " + std::to_string(unpaired_.run()) +
-          " frames had no partner within the tolerance of " + milliseconds(tolerance) +
-          ". If the cameras are not triggered together, increase sync-tolerance; if the skew "
-          "between the streams is constant, set the property offset of a pad "
-          "(sink_right::offset).",
-      "the right frame is " + milliseconds(difference) +
-          " after the left frame (negative: before), tolerance " + milliseconds(tolerance));
+  messages_.warning("The last " + std::to_string(unpaired_.run()) +
+                        " frames had no partner within the tolerance of " +
+                        milliseconds(tolerance) + ". " + remedy_of_distance(std::llabs(difference)),
+                    "the right frame is " + milliseconds(difference) +
+                        " after the left frame (negative: before), tolerance " +
+                        milliseconds(tolerance));
 }
 
 void PairingReports::late(Side silent) {
@@ -64,11 +79,30 @@ void PairingReports::doubt(PairDoubt doubt) {
     return;
   }
   const DifferenceStatistics statistics = offset.line().statistics();
+  const auto spread = static_cast<Nanoseconds>(statistics.spread);
+  if (spread > std::llabs(offset.value())) {
+    messages_.warning("The time difference of the views varies by " + milliseconds(spread) +
+                          " (standard deviation), of a frame of " + frame +
+                          ": their time stamps cannot prove that they belong together. Use time "
+                          "stamps of the cameras instead of the times of arrival. If both cameras "
+                          "are triggered together and lose no frames, pair by sync-mode=arrival.",
+                      "the right frames are " + distance + " after the left ones");
+    return;
+  }
+  messages_.warning("The right frames are " + distance +
+                        " after the left ones (negative: before), of a frame of " + frame +
+                        ": their time stamps cannot prove that they belong together. " +
+                        kIfTriggered,
+                    "standard deviation " + milliseconds(spread));
+}
+
+void PairingReports::first_pair(Nanoseconds time, Nanoseconds now) {
+  if (std::exchange(first_seen_, true) || time - now < kFarAhead) return;
   messages_.warning(
-      "The right frames are " + distance +
-          " after the left ones (negative: before), of a frame of " + frame +
-          ": their time stamps cannot prove that they belong together. " + kIfTriggered,
-      "standard deviation " + milliseconds(static_cast<Nanoseconds>(statistics.spread)));
+      "The time stamps are " + std::to_string((time - now) / kSecond) +
+      " s ahead of the clock of the pipeline: a sink that synchronizes shows nothing until then. "
+      "Time stamps count from the start of the pipeline (appsrc do-timestamp=true), not from 1970; "
+      "or set sync=false on the sink.");
 }
 
 void PairingReports::log_offset() {

@@ -2,6 +2,8 @@
 // Live streams: deadlines, latency and quality of service, by a test clock.
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "support/fixtures.hpp"
 
 namespace mtstereo::test::live_test {
@@ -91,6 +93,38 @@ TEST_F(Live, DoesNotWarnOfMissingFramesBetweenPairs) {
     ASSERT_TRUE(harness->pull());
   }
   EXPECT_TRUE(harness->warnings().empty());
+}
+
+TEST_F(Live, WarnsOfTimeStampsForWhichSinksWouldWaitForHours) {
+  start(true);
+  harness->push_pair(pair, 10000 * GST_SECOND);
+  EXPECT_TRUE(harness->pull());
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("10000 s ahead of the clock"), std::string::npos) << warning.text;
+  EXPECT_NE(warning.text.find("sync=false"), std::string::npos) << warning.text;
+}
+
+TEST_F(Live, NamesFirstPtsIfTheStreamsCountFromDifferentStarts) {
+  start(false);
+  std::thread rights([&] {
+    for (GstClockTime i = 0; i < 4; ++i) right(5 * GST_SECOND + i * kFrame);
+  });
+  for (GstClockTime i = 0; i < 34; ++i) left(i * kFrame);
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("s apart"), std::string::npos) << warning.text;
+  EXPECT_NE(warning.text.find("first-pts"), std::string::npos) << warning.text;
+  harness->event(Side::kRight, gst_event_new_flush_start());  // ends the wait of the last frame
+  rights.join();
+}
+
+TEST_F(Live, NamesTheJitterOfTimeStampsThatProveNothing) {
+  start(false);
+  for (GstClockTime i = 1; i <= 40; ++i) {
+    left(i * kFrame);
+    right(i * kFrame + 18 * GST_MSECOND * (i % 2) - 9 * GST_MSECOND);
+  }
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("varies by"), std::string::npos) << warning.text;
 }
 
 TEST_F(Live, FramesWithoutTimeStampsWaitForTheirPartners) {
