@@ -21,9 +21,9 @@
 #include "support/pipeline.hpp"
 #include "support/sanitizers.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/wall_scene.hpp"
 #include "tools/eval/metrics.hpp"
 #include "tools/render/raw.hpp"
-#include "tools/render/scene.hpp"
 
 namespace mtstereo::chain_test {
 namespace {
@@ -164,9 +164,9 @@ TEST_P(Chain, DepthsOfWallsAreWithinOnePercent) {
   const double far = rectification.focal_length * rectification.baseline;
   std::vector<render::Scene> scenes;
   for (const double part : {4, 6, 10, 20}) {
-    scenes.push_back(render::make_wall({{far / part}, 0}, 1));
+    scenes.push_back(test::wall_scene(far / part));
   }
-  scenes.push_back(render::make_wall({{far / 10}, 30}, 1));
+  scenes.push_back(test::wall_scene(far / 10, 30));
   std::vector<render::StereoFrame> frames;
   for (const render::Scene& scene : scenes) frames.push_back(raw_frame(scene, s, rig));
   const Results results = run(frames, &rig);
@@ -244,7 +244,7 @@ std::vector<double> row_errors(const cv::Mat& image, const cv::Mat& ideal) {
 TEST_P(Chain, RectifiedRowsAreThoseOfTheTruth) {
   const Settings s = camera();
   const RawRig rig = rig_of(GetParam(), s);
-  const render::Scene scene = render::make_wall({{3.0}, 0}, 1);
+  const render::Scene scene = test::wall_scene(3);
   const Results results = run({raw_frame(scene, s, rig)}, &rig);
   ASSERT_EQ(results.left.size(), 1U);
   ASSERT_EQ(results.right.size(), 1U);

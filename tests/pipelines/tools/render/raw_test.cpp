@@ -7,16 +7,15 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 
 #include "support/error_of.hpp"
+#include "support/wall_scene.hpp"
 #include "tools/render/lens.hpp"
 #include "tools/render/render.hpp"
-#include "tools/render/scene.hpp"
 
 namespace mtstereo::render::raw_test {
 namespace {
@@ -28,17 +27,6 @@ Settings camera(int width = 240, int height = 160) {
   s.width = width, s.height = height, s.noise = 0, s.samples = 2;
   s.focal = 0.85 * width, s.baseline = 0.1;
   return s;
-}
-
-// A wall 2 m away with texture at every scale of the image; its right side is farther [degrees].
-Scene wall(double slant = 0) {
-  SceneBuilder b("wall", 1);
-  Texture grain;
-  grain.mean = 0.5, grain.noise_contrast = 0.25, grain.noise_size = 0.2, grain.octaves = 7;
-  grain.persistence = 0.85;
-  b.rectangle({0, 0, 2}, 30, 30, grain, -slant * std::numbers::pi / 180);
-  b.scene().ambient = 0.7;
-  return b.scene();
 }
 
 // A rectification by hand: x along the baseline, z in between.
@@ -90,7 +78,7 @@ double difference(const cv::Mat& corrected, const cv::Mat& ideal) {
 class BuiltIn : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(BuiltIn, CorrectedViewsAreThoseOfIdealCameras) {
-  const Scene scene = wall(25);
+  const Scene scene = test::wall_scene(2, 25);
   const Settings s = camera();
   const RawRig rig(built_in_rig(GetParam(), s));
   const Rectification r = rectification_for(rig.calibration, rig.calibration.left.focal_x);
@@ -152,7 +140,7 @@ TEST(Raw, RectifiedPairOfTheSettingsIsThatOfRender) {
 }
 
 TEST(Raw, CalibrationOfARigThatIsOutOfLineShowsTheSameViews) {
-  const Scene scene = wall();
+  const Scene scene = test::wall_scene(2);
   Settings s = camera(96, 64);
   s.rig.roll = 1, s.rig.pitch = -0.7, s.rig.yaw = 0.6, s.rig.focal_ratio = 1.02;
   s.rig.row_offset = 2.5;
@@ -191,7 +179,7 @@ TEST(Raw, ViewsHaveTheirOwnSizes) {
 }
 
 TEST(Raw, BlurSoftensTheViews) {
-  const Scene scene = wall();
+  const Scene scene = test::wall_scene(2);
   Settings s = camera(96, 64);
   const auto detail = [](const cv::Mat& image) {
     cv::Mat edges;
