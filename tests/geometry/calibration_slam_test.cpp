@@ -79,6 +79,9 @@ TEST_F(SlamFile, OfRectifiedViewsHasOneCameraAndTheBaseline) {
   EXPECT_EQ(stated.rectification->width, 640);
   const StereoCalibration product = read(orbslam("PinHole", "Camera1.k1: 0.0\nCamera.bf: 37.26\n"));
   EXPECT_NEAR(product.rectification->baseline, 0.12, 1e-12);
+  const StereoCalibration negative = read(orbslam("Rectified", "Camera.bf: -37.26\n"));
+  EXPECT_NEAR(negative.rectification->baseline, 0.12, 1e-12);
+  EXPECT_TRUE(negative.remarks.empty()) << "the cameras are not exchanged";
 }
 
 TEST_F(SlamFile, OfOrbSlamThatIsNoPairIsRefused) {

@@ -2,6 +2,7 @@
 // ORB-SLAM2 and ORB-SLAM3: Camera1.*, Camera2.* and Stereo.T_c1_c2, which moves points from the
 // right camera to the left one; or one camera and a baseline for views that are rectified.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,7 +73,8 @@ StereoCalibration read_rectified(const Entry& file, const CameraCalibration& cam
         "states one camera, and it has distortion; for raw views, Camera2.fx and Stereo.T_c1_c2, "
         "or LEFT.K and RIGHT.K are needed");
   }
-  const double baseline = length ? length->number() : product->number() / camera.focal_x;
+  // Camera.bf is sometimes an entry of P of the right camera, which is negative.
+  const double baseline = length ? length->number() : std::abs(product->number()) / camera.focal_x;
   Rectification rectification =
       rectification_from(views_of(camera, camera, camera.focal_x * baseline), file, file);
   rectification.baseline = baseline;
