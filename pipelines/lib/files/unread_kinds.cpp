@@ -64,6 +64,14 @@ const Kind* kind_of(const fs::path& file) {
   return kind == kKinds.end() ? nullptr : &*kind;
 }
 
+// A PNG file whose first chunks announce an animation.
+bool is_animated_png(const fs::path& file) {
+  std::string head(256, '\0');
+  std::ifstream(file, std::ios::binary)
+      .read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.starts_with("\x89PNG") && head.find("acTL") != std::string::npos;
+}
+
 // Whether a file begins with these bytes.
 bool begins_with(const fs::path& file, std::string_view bytes) {
   std::string head(bytes.size(), '\0');
@@ -84,6 +92,10 @@ std::string unread_kind(const fs::path& file) {
   if (begins_with(file, "GIF8")) {
     return "is a GIF, which repeats without an end: convert it to a video or to PNG images (ffmpeg "
            "-i FILE view.mkv)";
+  }
+  if (is_animated_png(file)) {
+    return "is an animated PNG, of which only the first image is read: convert it to a video or to "
+           "PNG images (ffmpeg -i FILE view.mkv)";
   }
   if (const Kind* const kind = kind_of(file)) return kind->what;
   if (!is_image(file) && begins_with(file, "\xff\xd8\xff")) {

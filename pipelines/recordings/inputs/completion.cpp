@@ -44,6 +44,26 @@ std::string advice_for(const Source& source) {
          "-map 0:v:0 -c copy left.mkv -map 0:v:1 -c copy right.mkv)";
 }
 
+// Whether every other row is of the other view: rows that are two apart are more alike.
+bool rows_alternate(const cv::Mat& frame) {
+  constexpr double kLess = 1.3;  // 0.5 to 1 in other images
+  const int rows = frame.rows - 2;
+  if (rows < 2) return false;
+  const auto difference = [&](int step) {
+    return cv::norm(frame.rowRange(0, rows), frame.rowRange(step, rows + step), cv::NORM_L1);
+  };
+  return difference(1) > kLess * difference(2);
+}
+
+// What to do with both views in alternating rows or columns; empty for other frames.
+std::string advice_for_alternation(const cv::Mat& frame) {
+  const bool rows = rows_alternate(frame);
+  if (!rows && !rows_alternate(frame.t())) return {};
+  return std::string(rows ? "its rows" : "its columns") +
+         " alternate between two views: put them side by side (ffmpeg -i FILE -vf stereo3d=" +
+         (rows ? "irl" : "icl") + ":sbsl views.mkv)";
+}
+
 // How the user gives the arrangement of a frame whose shape does not tell it.
 std::string advice_for_layout(const Recording& recording, const std::vector<cv::Mat>& frames) {
   const cv::Size size = frames.front().size();
@@ -54,6 +74,8 @@ std::string advice_for_layout(const Recording& recording, const std::vector<cv::
     return std::string("its halves match ") + name_of(each) + ": state --layout " +
            (beside ? "side-by-side" : "top-bottom");
   }
+  const std::string alternation = advice_for_alternation(frames.front());
+  if (!alternation.empty()) return alternation;
   return advice_for(recording.left) + ", or state the arrangement (--layout)";
 }
 

@@ -40,6 +40,7 @@ TEST_F(UnreadKinds, AreNamedWithTheRemedy) {
   EXPECT_THAT(unread_kind(write("a.svo2")), HasSubstr("ZED_SVO_Export"));
   EXPECT_THAT(unread_kind(write("a.tar.gz")), HasSubstr("unpack"));
   EXPECT_THAT(unread_kind(write("a.mp4", "GIF89a")), HasSubstr("is a GIF"));
+  EXPECT_THAT(unread_kind(write("a.apng", "\x89PNG\r\n IHDR acTL")), HasSubstr("animated PNG"));
   for (const char* name : {"a.png", "b.mkv"}) {
     EXPECT_THAT(unread_kind(write(name, "version https://git-lfs.github.com/spec/v1\noid")),
                 HasSubstr("(git lfs pull)"))

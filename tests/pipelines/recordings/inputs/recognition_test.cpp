@@ -315,6 +315,21 @@ TEST_F(Recordings, RefusesInterlacedVideo) {
               AllOf(HasSubstr(path("left.mpg") + ": the video is interlaced"), HasSubstr("bwdif")));
 }
 
+TEST_F(Recordings, NamesViewsInAlternatingRowsOrColumns) {
+  cv::Mat scene(kHeight, 2 * kWidth, CV_8UC1);
+  cv::RNG(5).fill(scene, cv::RNG::UNIFORM, 0, 256);
+  cv::GaussianBlur(scene, scene, {}, 2);
+  cv::Mat rows(kHeight * 2, kWidth, CV_8UC1);
+  for (int y = 0; y < rows.rows; ++y) {
+    const int shift = y % 2 == 0 ? 0 : 9;
+    scene.row(y / 2).colRange(shift, shift + kWidth).copyTo(rows.row(y));
+  }
+  cv::imwrite((folder_ / "rows.png").string(), rows);
+  cv::imwrite((folder_ / "columns.png").string(), rows.t());
+  EXPECT_THAT(error_of({"rows.png"}), HasSubstr("stereo3d=irl:sbsl"));
+  EXPECT_THAT(error_of({"columns.png"}), HasSubstr("its columns alternate"));
+}
+
 TEST_F(Recordings, DoesNotGuessWhatDoesNotMatch) {
   cv::Mat wide(kHeight, 2 * kWidth, CV_8UC1);
   cv::RNG(3).fill(wide, cv::RNG::UNIFORM, 0, 256);
