@@ -111,6 +111,28 @@ Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& vi
   return finish(sums);
 }
 
+std::optional<double> foreign_factor(const cv::Mat& estimate, const cv::Mat& truth) {
+  constexpr std::size_t kLeast = 100;
+  constexpr double kFar = 1.2, kSame = 0.05;
+  std::vector<float> factors;
+  for (int y = 0; y < truth.rows; ++y) {
+    for (int x = 0; x < truth.cols; ++x) {
+      const float factor = estimate.at<float>(y, x) / truth.at<float>(y, x);
+      if (std::isfinite(factor) && factor > 0) factors.push_back(factor);
+    }
+  }
+  if (factors.size() < kLeast) return std::nullopt;
+  const auto middle = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);
+  std::nth_element(factors.begin(), middle, factors.end());
+  const double median = *middle;
+  if (median < kFar && median > 1 / kFar) return std::nullopt;
+  const auto same = std::count_if(factors.begin(), factors.end(), [median](float factor) {
+    return std::abs(factor - median) <= kSame * median;
+  });
+  if (2 * static_cast<std::size_t>(same) < factors.size()) return std::nullopt;
+  return median;
+}
+
 Evaluation evaluate(const cv::Mat& estimate, const GroundTruth& truth) {
   Evaluation result;
   result.all = measure(estimate, truth.disparity, {}, truth.scale);

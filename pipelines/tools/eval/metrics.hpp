@@ -52,8 +52,12 @@ struct Evaluation {
 Metrics measure(const cv::Mat& estimate, const cv::Mat& truth, const cv::Mat& visible = {},
                 double scale = 1);
 
-/// The same with the density, for all pixels and, if known, for those visible in both views, at the
-/// scale of the truth.
+/// By how much most of the estimates are larger than the truth, if that is one factor far from 1,
+/// as where the truth has another scale.
+std::optional<double> foreign_factor(const cv::Mat& estimate, const cv::Mat& truth);
+
+/// Compares as measure() does, with the density, for all pixels and, if known, for those visible in
+/// both views, at the scale of the truth.
 Evaluation evaluate(const cv::Mat& estimate, const GroundTruth& truth);
 
 /// The same with the number of disparities in flat areas of these images.

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <utility>
 
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/degrade.hpp"
+#include "tools/eval/metrics.hpp"
 #include "tools/eval/opencv_sweep.hpp"
 
 namespace mtstereo::eval {
@@ -53,6 +55,17 @@ std::string output_name(const std::string& method, const PairReport& report,
   fs::path base = report.kind == kCleanKind ? fs::path() : fs::path(report.kind);
   if (method != kOwnMethod) base /= method;
   return (base / (report.pair.name + extension)).generic_string();
+}
+
+void note_foreign_factor(const cv::Mat& map, const LoadedPair& images, PairReport& report) {
+  const auto factor = foreign_factor(map, images.truth.disparity);
+  if (!factor) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << report.pair.name << ": most disparities are " << *factor
+       << " times the ground truth, which seems to have another scale: .pfm must have px, 16-bit "
+          ".png px * 256, and 8-bit .png px";
+  report.notes.push_back(text.str());
 }
 
 }  // namespace
@@ -230,6 +243,7 @@ void Runner::run_own(const LoadedPair& images, PairReport& report) {
   const cv::Mat map = to_float(found.disparity, matcher_->parameters().disparity_offset());
   const cv::Mat confidence = mat_of(found.confidence);
   finish(kOwnMethod, map, seconds, images, report);
+  if (report.kind == kCleanKind) note_foreign_factor(map, images, report);
   if (!settings_.curve) return;
   report.sweeps.push_back({kOwnMethod, confidence_sweep(map, confidence, images.truth)});
 }

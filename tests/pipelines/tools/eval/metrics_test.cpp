@@ -189,5 +189,15 @@ TEST(Mean, HasNonOccludedFiguresOfThePairsThatHaveThem) {
   EXPECT_DOUBLE_EQ(m.noc->avgerr, 3);
 }
 
+TEST(ForeignFactor, IsThatOfATruthInAnotherScale) {
+  cv::Mat estimate(20, 20, CV_32F);
+  cv::RNG(1).fill(estimate, cv::RNG::UNIFORM, 5, 50);
+  EXPECT_NEAR(foreign_factor(estimate, estimate / 4).value_or(0), 4, 1e-3);
+  EXPECT_NEAR(foreign_factor(estimate, estimate * 2).value_or(0), 0.5, 1e-3);
+  EXPECT_FALSE(foreign_factor(estimate, estimate * 1.02));
+  EXPECT_FALSE(foreign_factor(estimate, 500 / estimate)) << "depths";
+  EXPECT_FALSE(foreign_factor(estimate, estimate * 0)) << "nothing is known";
+}
+
 }  // namespace
 }  // namespace mtstereo::eval::metrics_test
