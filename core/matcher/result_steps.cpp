@@ -56,16 +56,16 @@ void LastPair::resize(const Settings& settings, const FrameSize& size, ReusedMem
 
 void measure_block_grid(const StepContext& step, const Views& views, ResultMaps& result,
                         ResultBuffers& buffers) {
-  const GridViews measured = {views.plain[0], result.disparity->view(), result.confidence->view(),
-                              step.settings.half() ? kHalvedBlockSide : kBlockSide};
-  for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grid = {measured.side};
+  const int side = views.borders.side;
+  for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grid = {};
   step.bands.rows([&](int y0, int y1, int worker) {
-    buffers.scratch[worker].grid.add(measure_grid(measured, y0, y1));
+    buffers.scratch[worker].grid.add(
+        measure_grid(result.disparity->view(), result.confidence->view(), side, y0, y1));
   });
-  BlockGrid grid = {measured.side};
+  BlockGrid grid;
   for (const ResultBuffers::Scratch& worker : buffers.scratch) grid.add(worker.grid);
-  result.grid_level = grid.level();
-  result.block_side = measured.side;
+  result.grid_level = grid.level(views.borders);
+  result.block_side = side;
 }
 
 void complete_map(const StepContext& step, ResultMaps& result) { complete_all(step.bands, result); }

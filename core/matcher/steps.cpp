@@ -35,6 +35,7 @@ constexpr Step kViewList[] = {
     {"view-shift",         [](S s) { return s.shifted(); },          on<shift_views>},
     {"sharpness",          [](S s) { return s.blurred(); },          on<match_sharpness>},
     {"halving",            [](S s) { return s.half(); },             on<halve>},
+    {"block-borders",      [](S s) { return s.by_paths(); },         on<measure_block_borders>},
     {"noise-filter",       [](S s) { return s.noise_filter; },       on<filter_views>},
 };
 

@@ -9,6 +9,7 @@
 namespace mtstereo {
 void Views::start(const Settings& settings, GrayView left_view, GrayView right_view) {
   left = left_view;
+  borders = {};
   input_noise = noise_level = rated_noise = 0;
   input = {left_view, right_view};
   matched = input;
@@ -110,6 +111,16 @@ void halve(const StepContext& step, Views& views) {
   });
 }
 
+void measure_block_borders(const StepContext& step, Views& views) {
+  const int side = step.settings.half() ? kHalvedBlockSide : kBlockSide;
+  for (Views::Scratch& worker : views.scratch) worker.borders = {side};
+  step.bands.rows([&](int y0, int y1, int worker) {
+    views.scratch[worker].borders.add(measure_borders(views.plain[0], side, y0, y1));
+  });
+  views.borders = {side};
+  for (const Views::Scratch& worker : views.scratch) views.borders.add(worker.borders);
+}
+
 void filter_views(const StepContext& step, Views& views) {
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int) {
     measure_blocks(views.matched[side], y0, y1, views.noise[side]);
@@ -117,9 +128,12 @@ void filter_views(const StepContext& step, Views& views) {
   const float levels[] = {noise_level(views.noise[0]), noise_level(views.noise[1])};
   views.noise_level = std::max(levels[0], levels[1]);
   views.rated_noise = std::max(views.noise_level, views.input_noise);
-  const bool lightly = step.settings.by_paths() && !paths_need_filter(views.noise_level);
+  const float block_threshold = compression_threshold(views.borders.visibility());
+  const bool lightly =
+      step.settings.by_paths() && block_threshold == 0 && !paths_need_filter(views.noise_level);
   if (lightly && step.settings.infers()) return;
-  const float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
+  const float threshold =
+      std::max({noise_threshold(levels[0]), noise_threshold(levels[1]), block_threshold});
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int worker) {
     NoiseFilterScratch& scratch = views.scratch[worker].noise_filter;
     if (lightly) {

@@ -9,6 +9,7 @@
 #include "matcher/frame_size.hpp"
 #include "matcher/step.hpp"
 #include "mtstereo/image.hpp"
+#include "stages/prepare/block_borders.hpp"
 #include "stages/prepare/camera_motion.hpp"
 #include "stages/prepare/census.hpp"
 #include "stages/prepare/noise_filter.hpp"
@@ -31,6 +32,7 @@ struct Views {
   std::array<Image<std::uint8_t>, 2> extended;  ///< with more columns, for negative disparities
   std::array<Image<std::uint8_t>, 2> halves;
   std::array<NoiseBlocks, 2> noise;
+  BlockBorders borders;   ///< of the left view; none with nodes
   float input_noise = 0;  ///< of the noisier view of the caller, if the views are averaged
   float noise_level = 0;  ///< of the noisier view, before it was filtered; 0 without the filter
   float rated_noise = 0;  ///< the same for the confidence: before the views were averaged
@@ -41,6 +43,7 @@ struct Views {
   struct Scratch {
     AlignmentScratch alignment;
     BlurScratch blur;
+    BlockBorders borders;  ///< of the thread's rows
     NoiseFilterScratch noise_filter;
     CensusScratch census;
   };
@@ -66,6 +69,8 @@ void match_sharpness(const StepContext& step, Views& views);
 void shift_views(const StepContext& step, Views& views);
 /// Halves the views.
 void halve(const StepContext& step, Views& views);
+/// Measures how clearly the left view shows the blocks of its compression.
+void measure_block_borders(const StepContext& step, Views& views);
 /// Filters both views alike, as the noisier one needs it.
 void filter_views(const StepContext& step, Views& views);
 /// Computes the census transform of the matched views.

@@ -145,6 +145,12 @@ float noise_threshold(float level) {
   return std::max(kTimes * level, kCompressed * (1 - level / kCamera));
 }
 
+float compression_threshold(double visibility) {
+  constexpr double kNone = 1.15, kAll = 1.45;
+  constexpr double kMost = 6;  // [gray values]
+  return static_cast<float>(kMost * std::clamp((visibility - kNone) / (kAll - kNone), 0.0, 1.0));
+}
+
 void NoiseFilterScratch::resize(int width, int rows) {
   const int padded = width + 2 * kReach;
   view.resize(padded, rows + 2 * kReach);

@@ -21,6 +21,11 @@ inline constexpr int kNoiseWindow = 7;
 /// fine detail a codec has removed or replaced.
 float noise_threshold(float level);
 
+/// The same for how clearly a view shows the blocks of its compression
+/// (BlockBorders::visibility()): the filter removes the rest of what the codec added. 0 in views
+/// without blocks.
+float compression_threshold(double visibility);
+
 /// Whether views with this noise [gray values] are filtered before they are matched along paths.
 /// These need fine texture more than nodes do; so only noise and compression are worth the filter.
 inline bool paths_need_filter(float level) {

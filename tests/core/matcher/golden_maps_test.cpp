@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0x96dd961a33043c7e},
-    {"default", "semi-dense", 0x7fd40ddc852e22ef},
-    {"default", "dense", 0x0429b55aafa52170},
-    {"default", "full", 0xb66268b4d4ac1e0a},
-    {"fast", "sparse", 0x6054fc0e5c185d3e},
-    {"fast", "semi-dense", 0xde3ba449360ebfe8},
-    {"fast", "dense", 0xbc988564b2f18da3},
-    {"fast", "full", 0x285d3d65f7309e2e},
+    {"default", "sparse", 0x1f8769998d18f33f},
+    {"default", "semi-dense", 0xb8aea80500b1ed9e},
+    {"default", "dense", 0x8fc09f1f2cd1406c},
+    {"default", "full", 0x9901c489a7d818f6},
+    {"fast", "sparse", 0xfa1b9b399e9fcd75},
+    {"fast", "semi-dense", 0x98807d80faf3869e},
+    {"fast", "dense", 0x274832cc97476123},
+    {"fast", "full", 0x19a034a8c245808d},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

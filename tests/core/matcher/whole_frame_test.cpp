@@ -3,6 +3,7 @@
 
 #include "mtstereo/matcher.hpp"
 #include "reference/frame.hpp"
+#include "support/blocks.hpp"
 #include "support/compare.hpp"
 #include "support/matching.hpp"
 #include "support/padded_image.hpp"
@@ -118,11 +119,13 @@ test::DisparityPlane expect_reference(FrameMatcher& matcher, const test::Pair& p
 
 /// A random pair, sometimes of unrelated views.
 test::Pair random_pair(int width, int height, Random& random) {
-  switch (random.below(6)) {
+  switch (random.below(7)) {
     case 0:
       return {test::noise(width, height, random.next()), test::noise(width, height, random.next())};
     case 1:
       return test::shifted_pair(width, height, random.below(width), random.next());
+    case 2:
+      return test::with_blocks(test::shifted_pair(width, height, 2, random.next()));
     default:
       return test::slanted_pair(width, height, std::max(width / 3, 1), random.next());
   }
@@ -172,11 +175,13 @@ TEST(WholeFrame, EqualsReferenceWithTheDefaultsOfAllModes) {
       SCOPED_TRACE(testing::Message() << "preset " << preset << ", mode " << mode);
       const Parameters parameters =
           test::parameters({{"preset", preset}, {"mode", mode}, {"max-disparity", "40"}});
-      const test::Pair pair = test::slanted_pair(180, 70, 30, 9);
-      FrameMatcher matcher{Settings(parameters)};
-      const test::DisparityPlane map =
-          expect_reference(matcher, pair, pair.left.view(), pair.right.view());
-      EXPECT_GT(test::known(map), 100);
+      const test::Pair sharp = test::slanted_pair(180, 70, 30, 9);
+      for (const test::Pair& pair : {sharp, test::with_blocks(sharp)}) {
+        FrameMatcher matcher{Settings(parameters)};
+        const test::DisparityPlane map =
+            expect_reference(matcher, pair, pair.left.view(), pair.right.view());
+        EXPECT_GT(test::known(map), 100);
+      }
     }
   }
 }

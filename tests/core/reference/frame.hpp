@@ -13,6 +13,7 @@
 #include "reference/pixels/agreement.hpp"
 #include "reference/pixels/path_matching.hpp"
 #include "reference/pixels/pixel_matching.hpp"
+#include "reference/prepare/block_borders.hpp"
 #include "reference/prepare/block_moves.hpp"
 #include "reference/prepare/halving.hpp"
 #include "reference/prepare/noise_filter.hpp"
@@ -51,6 +52,7 @@ struct Frame {
   float noise = 0;                 ///< of the noisier view, if the noise filter runs
   float rated_noise = 0;           ///< the same, before the views were averaged
   float detail = 1;                ///< the share of the finest octave, if it is measured
+  double borders = 0;              ///< how clearly the left view shows blocks
   int grid = 0;                    ///< the level of the block grid
   int block = 8;                   ///< side of its blocks [px]
   std::array<GrayPlane, 2> medians;
@@ -159,12 +161,18 @@ inline void filter_in_time(Frame& f) {
   f.left = f.input[0];
 }
 
+inline void measure_block_borders(Frame& f) {
+  f.block = f.settings.half() ? 4 : 8;
+  f.borders = border_visibility(f.plain[0], f.block);
+}
+
 inline void filter_noise(Frame& f) {
   const float levels[] = {noise_level(f.views[0]), noise_level(f.views[1])};
   f.noise = std::max(levels[0], levels[1]);
   f.rated_noise = std::max(f.noise, f.input_noise);
-  float threshold = std::max(noise_threshold(levels[0]), noise_threshold(levels[1]));
-  if (f.settings.by_paths() && !paths_need_filter(f.noise)) {
+  const float blocks = compression_threshold(f.borders);
+  float threshold = std::max({noise_threshold(levels[0]), noise_threshold(levels[1]), blocks});
+  if (f.settings.by_paths() && blocks == 0 && !paths_need_filter(f.noise)) {
     if (f.settings.mode == Mode::kDense || f.settings.mode == Mode::kFull) return;
     threshold = 0;
   }
@@ -302,8 +310,7 @@ inline void measure_fine_detail(Frame& f) {
 }
 
 inline void measure_block_grid(Frame& f) {
-  f.block = f.settings.half() ? 4 : 8;
-  f.grid = grid_level(f.plain[0], ConfidentMap{f.map, f.confidence}, f.block);
+  f.grid = grid_level(f.borders, ConfidentMap{f.map, f.confidence}, f.block);
 }
 
 inline void align_edges(Frame& f) {
@@ -401,6 +408,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"time-filter", filter_in_time},
     {"view-shift", shift_views},
     {"halving", halve},
+    {"block-borders", measure_block_borders},
     {"noise-filter", filter_noise},
     {"preprocessing", preprocess},
     {"max-trees", build_trees},

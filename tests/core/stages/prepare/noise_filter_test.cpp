@@ -101,5 +101,13 @@ TEST(NoiseThreshold, GrowsWithTheNoiseAndForCompressedViews) {
   EXPECT_GT(noise_threshold(0.1F), noise_threshold(0.2F));
 }
 
+TEST(NoiseThreshold, GrowsWithTheVisibilityOfBlocks) {
+  EXPECT_EQ(0, compression_threshold(0));
+  EXPECT_EQ(0, compression_threshold(1.1)) << "views without blocks have up to this much";
+  EXPECT_NEAR(3, compression_threshold(1.3), 0.01);
+  EXPECT_FLOAT_EQ(6, compression_threshold(1.5));
+  EXPECT_FLOAT_EQ(6, compression_threshold(100));
+}
+
 }  // namespace
 }  // namespace mtstereo::noise_filter_test

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "reference/prepare/block_borders.hpp"
 #include "reference/refine/block_grid.hpp"
+#include "support/blocks.hpp"
 #include "support/plane.hpp"
 #include "support/random.hpp"
 
@@ -17,30 +19,17 @@ struct Matched {
   int side = 8;
 
   int level(int band = 1 << 20) const {
-    BlockGrid grid = {side};
-    const GridViews views = {left.view(), in.map.view(), in.confidence.view(), side};
+    BlockGrid grid;
     for (int y = 0; y < left.height; y += band) {
-      grid.add(measure_grid(views, y, std::min(y + band, left.height)));
+      const int end = std::min(y + band, left.height);
+      grid.add(measure_grid(in.map.view(), in.confidence.view(), side, y, end));
     }
-    return grid.level();
+    return grid.level(measure_borders(left.view(), side, 0, left.height));
   }
-  int expected() const { return reference::grid_level(left, in, side); }
+  int expected() const {
+    return reference::grid_level(reference::border_visibility(left, side), in, side);
+  }
 };
-
-/// Blocks of constant gray value, the first of them cut off by `phase` columns; `noise` is added.
-GrayPlane blocks(int width, int height, int phase, int noise, std::uint64_t seed) {
-  test::Random random(seed);
-  GrayPlane grays(width / 8 + 2, height / 8 + 1);
-  for (std::uint8_t& gray : grays.pixels) gray = static_cast<std::uint8_t>(random.between(98, 104));
-  GrayPlane view(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      view(x, y) =
-          static_cast<std::uint8_t>(grays((x + phase) / 8, y / 8) + random.between(-noise, noise));
-    }
-  }
-  return view;
-}
 
 /// Disparities of 4 to 60 px, `percent` of them multiples of 8.
 Matched matched(const GrayPlane& left, int percent, std::uint64_t seed) {
@@ -60,7 +49,8 @@ TEST(BlockGrid, HasTheLevelOfThePlainSumsAtEveryWidthAndBand) {
   test::Random random(1);
   for (int i = 0; i < 1000; ++i) {
     const int width = random.between(1, 90), height = random.between(1, 60);
-    const GrayPlane left = blocks(width, height, random.between(0, 7), random.between(0, 2), i);
+    const GrayPlane left =
+        test::blocks(width, height, random.between(0, 7), random.between(0, 2), i);
     Matched in = matched(left, random.between(0, 14), i);
     in.side = random.below(3) == 0 ? 4 : 8;
     for (std::uint8_t& value : in.in.confidence.pixels) {
@@ -77,7 +67,7 @@ TEST(BlockGrid, HasTheLevelOfThePlainSumsAtEveryWidthAndBand) {
 }
 
 TEST(BlockGrid, IsMatchedWhereManyDisparitiesAreMultiplesOfBlocks) {
-  const GrayPlane left = blocks(200, 120, 0, 0, 2);
+  const GrayPlane left = test::blocks(200, 120, 0, 0, 2);
   EXPECT_EQ(0, matched(left, 0, 3).level());
   int last = 0;
   for (const int percent : {3, 6, 12, 40}) {
@@ -96,14 +86,8 @@ TEST(BlockGrid, IsNotThatOfViewsWithoutBlocks) {
   EXPECT_EQ(0, matched(noise, 40, 6).level()) << "a wall at 8 px in views without compression";
 }
 
-TEST(BlockGrid, IsFoundInCroppedViews) {
-  for (int phase = 0; phase < 8; ++phase) {
-    EXPECT_EQ(4, matched(blocks(200, 120, phase, 1, 7), 40, 8).level()) << phase;
-  }
-}
-
 TEST(BlockGrid, IsFoundInHalvedViews) {
-  Matched halved = matched(blocks(200, 120, 0, 0, 12), 0, 13);
+  Matched halved = matched(test::blocks(200, 120, 0, 0, 12), 0, 13);
   GrayPlane half(100, 60);
   for (int y = 0; y < 60; ++y) {
     for (int x = 0; x < 100; ++x) half(x, y) = halved.left(2 * x, 2 * y);
@@ -118,7 +102,7 @@ TEST(BlockGrid, IsFoundInHalvedViews) {
 }
 
 TEST(BlockGrid, IgnoresTheFarDistanceAndInferredPixels) {
-  const GrayPlane left = blocks(200, 120, 0, 0, 9);
+  const GrayPlane left = test::blocks(200, 120, 0, 0, 9);
   Matched sky = matched(left, 0, 10);
   for (int i = 0; i < 100 * 60; ++i) sky.in.map.pixels[i] = 1;
   EXPECT_EQ(0, sky.level());
