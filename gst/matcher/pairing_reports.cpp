@@ -28,13 +28,12 @@ constexpr const char* kIfTriggered =
 std::string remedy_of_distance(Nanoseconds distance) {
   if (distance <= kSecond) {
     return "If the cameras are not triggered together, increase sync-tolerance; if the skew "
-           "between "
-           "the streams is constant, set the property offset of a pad (sink_right::offset).";
+           "between the streams is constant, set the property offset of a pad "
+           "(sink_right::offset).";
   }
   return "The frames of the two streams are " + std::to_string(distance / kSecond) +
          " s apart, as if the streams counted from different starts: pair by sync-mode=first-pts "
-         "or "
-         "sync-mode=arrival.";
+         "or sync-mode=arrival.";
 }
 
 std::string missing_reference(Side side) {
