@@ -78,7 +78,8 @@ void match_reduced(const StepContext& step, const Views& views, Pyramid& pyramid
   const SearchWindows all;
   for (int i = kPyramidLevels - 1; i >= 0; --i) {
     PyramidLevel& level = pyramid.levels[i];
-    const PathMatchingOptions options = step.settings.path_matching(i + 1);
+    PathMatchingOptions options = step.settings.path_matching(i + 1);
+    options.smoothness.edge = views.edge;
     const PathMatchingInput input = {level.views[0].view(), level.census[0], level.census[1],
                                      expected, all};
     WindowVotes* votes = i == 0 ? &pyramid.votes : nullptr;
@@ -94,7 +95,8 @@ void choose_search_windows(const StepContext&, Pyramid& pyramid) {
 }
 
 void match_by_paths(const StepContext& step, const Views& views, Pyramid& pyramid, Maps& maps) {
-  const PathMatchingOptions options = step.settings.path_matching(0);
+  PathMatchingOptions options = step.settings.path_matching(0);
+  options.smoothness.edge = views.edge;
   const PathMatchingInput input = {views.matched[0], views.census[0], views.census[1],
                                    &pyramid.levels[0].disparity, pyramid.windows};
   match(step.bands, input, options, pyramid.scratch, maps.disparity, maps.ratio, nullptr);

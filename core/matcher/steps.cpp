@@ -36,6 +36,7 @@ constexpr Step kViewList[] = {
     {"sharpness",          [](S s) { return s.blurred(); },          on<match_sharpness>},
     {"halving",            [](S s) { return s.half(); },             on<halve>},
     {"block-borders",      [](S s) { return s.by_paths(); },         on<measure_block_borders>},
+    {"contrast",           [](S s) { return s.by_paths(); },         on<measure_contrast>},
     {"noise-filter",       [](S s) { return s.noise_filter; },       on<filter_views>},
 };
 

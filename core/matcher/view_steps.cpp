@@ -121,6 +121,16 @@ void measure_block_borders(const StepContext& step, Views& views) {
   for (const Views::Scratch& worker : views.scratch) views.borders.add(worker.borders);
 }
 
+void measure_contrast(const StepContext& step, Views& views) {
+  for (Views::Scratch& worker : views.scratch) worker.grays = {};
+  step.bands.rows([&](int y0, int y1, int worker) {
+    views.scratch[worker].grays.add(count_grays(views.plain[0], y0, y1));
+  });
+  GrayHistogram grays;
+  for (const Views::Scratch& worker : views.scratch) grays.add(worker.grays);
+  views.edge = edge_for_range(grays.range());
+}
+
 void filter_views(const StepContext& step, Views& views) {
   step.bands.rows_of_both_views([&](int side, int y0, int y1, int) {
     measure_blocks(views.matched[side], y0, y1, views.noise[side]);

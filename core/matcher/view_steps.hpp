@@ -9,9 +9,11 @@
 #include "matcher/frame_size.hpp"
 #include "matcher/step.hpp"
 #include "mtstereo/image.hpp"
+#include "stages/pixels/smoothness.hpp"
 #include "stages/prepare/block_borders.hpp"
 #include "stages/prepare/camera_motion.hpp"
 #include "stages/prepare/census.hpp"
+#include "stages/prepare/contrast.hpp"
 #include "stages/prepare/noise_filter.hpp"
 #include "stages/prepare/noise_level.hpp"
 #include "stages/prepare/row_alignment.hpp"
@@ -33,6 +35,7 @@ struct Views {
   std::array<Image<std::uint8_t>, 2> halves;
   std::array<NoiseBlocks, 2> noise;
   BlockBorders borders;   ///< of the left view; none with nodes
+  int edge = kUsualEdge;  ///< what counts as an edge in the left view [gray values]
   float input_noise = 0;  ///< of the noisier view of the caller, if the views are averaged
   float noise_level = 0;  ///< of the noisier view, before it was filtered; 0 without the filter
   float rated_noise = 0;  ///< the same for the confidence: before the views were averaged
@@ -44,6 +47,7 @@ struct Views {
     AlignmentScratch alignment;
     BlurScratch blur;
     BlockBorders borders;  ///< of the thread's rows
+    GrayHistogram grays;   ///< of the thread's rows
     NoiseFilterScratch noise_filter;
     CensusScratch census;
   };
@@ -71,6 +75,8 @@ void shift_views(const StepContext& step, Views& views);
 void halve(const StepContext& step, Views& views);
 /// Measures how clearly the left view shows the blocks of its compression.
 void measure_block_borders(const StepContext& step, Views& views);
+/// Measures the contrast of the left view.
+void measure_contrast(const StepContext& step, Views& views);
 /// Filters both views alike, as the noisier one needs it.
 void filter_views(const StepContext& step, Views& views);
 /// Computes the census transform of the matched views.

@@ -37,7 +37,8 @@ class ChunkMatching {
         lanes_(cost_lanes(options.cost.disparities)),
         cells_(largest_row()),
         smoothness_({options.smoothness.small_step * cost_scale(options.cost),
-                     options.smoothness.large_step * cost_scale(options.cost)}),
+                     options.smoothness.large_step * cost_scale(options.cost),
+                     options.smoothness.edge}),
         runner_up_(runner_up_table(options.selection.confidence)),
         any_runner_up_(runner_up_table(0)) {}
 

@@ -43,10 +43,11 @@ void expect_none_of(const Parameters& parameters, const Names& absent) {
 }
 
 TEST(Steps, RunInOrderWithTheDefaults) {
-  expect_order({}, {"block-borders", "noise-filter", "reduced-matching", "search-windows", "census",
-                    "path-matching", "guide-support", "guide-rating", "thin-search",
-                    "speckle-removal", "confidence", "smoothing", "fine-detail", "completion",
-                    "edge-check", "reliability", "rejection", "gap-closing", "thin-drawing"});
+  expect_order({}, {"block-borders",  "contrast",    "noise-filter",    "reduced-matching",
+                    "search-windows", "census",      "path-matching",   "guide-support",
+                    "guide-rating",   "thin-search", "speckle-removal", "confidence",
+                    "smoothing",      "fine-detail", "completion",      "edge-check",
+                    "reliability",    "rejection",   "gap-closing",     "thin-drawing"});
   expect_none_of({}, {"edge-alignment", "halving", "preprocessing", "max-trees", "node-matching",
                       "enlarging", "input-census", "refinement"});
 }
@@ -108,9 +109,9 @@ TEST(Steps, AreThoseOfThePaperInPresetPaper) {
   expect_order(paper, {"preprocessing", "max-trees", "cost-volume", "node-matching", "node-drawing",
                        "node-outliers", "node-extrapolation", "gradient-matching", "pixel-outliers",
                        "confidence"});
-  expect_none_of(paper, {"halving", "block-borders", "noise-filter", "census", "speckle-removal",
-                         "smoothing", "reduced-matching", "completion", "rejection", "enlarging",
-                         "input-census", "refinement"});
+  expect_none_of(paper, {"halving", "block-borders", "contrast", "noise-filter", "census",
+                         "speckle-removal", "smoothing", "reduced-matching", "completion",
+                         "rejection", "enlarging", "input-census", "refinement"});
 }
 
 TEST(Steps, AreEnabledBySettings) {

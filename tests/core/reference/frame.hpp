@@ -15,6 +15,7 @@
 #include "reference/pixels/pixel_matching.hpp"
 #include "reference/prepare/block_borders.hpp"
 #include "reference/prepare/block_moves.hpp"
+#include "reference/prepare/contrast.hpp"
 #include "reference/prepare/halving.hpp"
 #include "reference/prepare/noise_filter.hpp"
 #include "reference/prepare/time_filter.hpp"
@@ -53,6 +54,7 @@ struct Frame {
   float rated_noise = 0;           ///< the same, before the views were averaged
   float detail = 1;                ///< the share of the finest octave, if it is measured
   double borders = 0;              ///< how clearly the left view shows blocks
+  int edge = 8;                    ///< the change of the gray value that halves large steps
   int grid = 0;                    ///< the level of the block grid
   int block = 8;                   ///< side of its blocks [px]
   std::array<GrayPlane, 2> medians;
@@ -166,6 +168,14 @@ inline void measure_block_borders(Frame& f) {
   f.borders = border_visibility(f.plain[0], f.block);
 }
 
+inline void measure_contrast(Frame& f) { f.edge = std::clamp(gray_range(f.plain[0]) / 8, 2, 8); }
+
+inline PathMatchingOptions path_options(const Frame& f, int level) {
+  PathMatchingOptions options = f.settings.path_matching(level);
+  options.smoothness.edge = f.edge;
+  return options;
+}
+
 inline void filter_noise(Frame& f) {
   const float levels[] = {noise_level(f.views[0]), noise_level(f.views[1])};
   f.noise = std::max(levels[0], levels[1]);
@@ -241,10 +251,10 @@ inline void match_reduced(Frame& f) {
   for (int i = 3; i > 0; --i) {
     const DisparityPlane coarser = f.half_map;
     const PathInput input = {views[i][0], views[i][1], i == 3 ? nullptr : &coarser, {}, 1};
-    const RatedMap half = match_along_paths(input, f.settings.path_matching(i));
+    const RatedMap half = match_along_paths(input, path_options(f, i));
     f.half_map = half.map;
     f.half_ratio = half.ratio;
-    if (i == 1) f.half_map_by_cost = match_by_cost(input, f.settings.path_matching(i));
+    if (i == 1) f.half_map_by_cost = match_by_cost(input, path_options(f, i));
   }
 }
 
@@ -258,7 +268,7 @@ inline void choose_windows(Frame& f) {
 inline void match_by_paths(Frame& f) {
   const PathInput input = {f.views[0], f.views[1], &f.half_map, f.windows,
                            f.settings.census_scales};
-  take(f, match_along_paths(input, f.settings.path_matching(0)));
+  take(f, match_along_paths(input, path_options(f, 0)));
 }
 
 inline void support_guide(Frame& f) {
@@ -409,6 +419,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"view-shift", shift_views},
     {"halving", halve},
     {"block-borders", measure_block_borders},
+    {"contrast", measure_contrast},
     {"noise-filter", filter_noise},
     {"preprocessing", preprocess},
     {"max-trees", build_trees},

@@ -116,7 +116,7 @@ inline std::vector<RowCosts> column_paths(const PathInput& input,
 inline RatedMap match_along_paths(const PathInput& input, const PathMatchingOptions& options) {
   const int width = input.left.width, height = input.left.height, rows = options.cost.kernel_size;
   const SmoothnessOptions steps = {options.smoothness.small_step * rows,
-                                   options.smoothness.large_step * rows};
+                                   options.smoothness.large_step * rows, options.smoothness.edge};
   const std::vector<RowCosts> costs = path_matching_costs(input, options);
   const bool columns = options.column_paths != ColumnPaths::kNone;
   std::vector<RowCosts> above(height), below(height);

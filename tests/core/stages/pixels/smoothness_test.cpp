@@ -30,16 +30,25 @@ TEST(Smoothness, LargeStepsEqualReferenceForEveryChangeOnEveryInstructionSet) {
   test::for_each_simd_target([&] {
     for (const int large_step : {0, 1, 4, 20, 30, 149, 150, 250, 255, 300, 2550}) {
       for (const int small_step : {0, 1, 4, 20, 30, 250, 255, 300}) {
-        const SmoothnessOptions options = {small_step, large_step};
-        const Row up = large_steps(options, all, zero), down = large_steps(options, all, most);
-        for (int change = 0; change < 256; ++change) {
-          const int expected = reference::large_step(options, change);
-          ASSERT_EQ(expected, up[change]) << small_step << ", " << large_step << ", " << change;
-          ASSERT_EQ(expected, down[255 - change]) << small_step << ", " << large_step;
+        for (const int edge : {2, 5, kUsualEdge}) {
+          const SmoothnessOptions options = {small_step, large_step, edge};
+          const Row up = large_steps(options, all, zero), down = large_steps(options, all, most);
+          for (int change = 0; change < 256; ++change) {
+            const int expected = reference::large_step(options, change);
+            ASSERT_EQ(expected, up[change]) << small_step << ", " << large_step << ", " << change;
+            ASSERT_EQ(expected, down[255 - change]) << small_step << ", " << large_step;
+          }
         }
       }
     }
   });
+}
+
+TEST(Smoothness, EdgesAreSmallerInViewsOfLowContrast) {
+  EXPECT_EQ(kUsualEdge, edge_for_range(255));
+  EXPECT_EQ(kUsualEdge, edge_for_range(64));
+  EXPECT_EQ(4, edge_for_range(32));
+  EXPECT_EQ(2, edge_for_range(0));
 }
 
 TEST(Smoothness, LargeStepsEqualReferenceAtEveryWidth) {

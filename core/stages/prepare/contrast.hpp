@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "mtstereo/image.hpp"
+
+namespace mtstereo {
+
+/// The contrast of a view, from the histogram of its gray values. In a view of a dark scene the
+/// edges are as much smaller as its range of gray values.
+
+/// The rows that are counted: one of so many.
+inline constexpr int kContrastRows = 4;
+
+/// The gray values of some rows.
+struct GrayHistogram {
+  std::array<std::int64_t, 256> counts{};
+
+  /// Adds the values of other rows of the same view.
+  void add(const GrayHistogram& other);
+
+  /// How far apart the gray values are that 5 % of the pixels are below and above; 0 for no pixels.
+  int range() const;
+};
+
+/// Counts the rows y0 .. y1 - 1.
+GrayHistogram count_grays(GrayView view, int y0, int y1);
+
+}  // namespace mtstereo
