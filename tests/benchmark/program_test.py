@@ -58,9 +58,15 @@ class QuickRun(unittest.TestCase):
                 self.assertEqual(1, len(found), f"{method} with {threads} threads")
                 self.assertGreater(found[0]["density"], 0)
                 self.assertLessEqual(found[0]["density"], 1)
-                seconds = found[0]["s/MP"] * 640 * 480 / 1e6
-                self.assertAlmostEqual(1, seconds * found[0]["frames/s"], delta=0.2)
         self.assertEqual(2 * len(METHODS), len(medians))
+
+    def test_states_the_time_and_the_rate_of_each_repetition(self):
+        found = [entry for entry in self.result["benchmarks"]
+                 if entry["run_name"].startswith("frame/street-640x480-64/") and entry["run_type"] == "iteration"]
+        self.assertTrue(found)
+        for entry in found:
+            seconds = entry["s/MP"] * 640 * 480 / 1e6
+            self.assertAlmostEqual(1, seconds * entry["frames/s"], places=3)
 
     def test_has_every_stage_once(self):
         names = [name.split("/")[3] for name in self.medians("stage/")]
