@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
 
 #include "base/thread_pool.hpp"
 
@@ -35,6 +36,19 @@ class Bands {
       const int y0 = band * kRows;
       body(y0, std::min(y0 + kRows, height_), worker);
     });
+  }
+
+  /// Adds what measure(y0, y1) returns for bands of kRows rows to `sum`, by its add(), in any
+  /// order.
+  template <typename Sum, typename Measure>
+  Sum sum_of_rows(Sum sum, Measure&& measure) const {
+    std::mutex mutex;
+    rows([&](int y0, int y1, int) {
+      const Sum in_band = measure(y0, y1);
+      const std::lock_guard lock(mutex);
+      sum.add(in_band);
+    });
+    return sum;
   }
 
   /// Calls body(side, y0, y1, worker) for bands of kRows rows of both views, side 0 and 1.

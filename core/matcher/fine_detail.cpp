@@ -2,7 +2,6 @@
 #include "matcher/fine_detail.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
 
 namespace mtstereo {
@@ -43,6 +42,12 @@ std::optional<double> FineDetail::share() const {
   return std::max(static_cast<double>(fine) / static_cast<double>(coarse), 0.0);
 }
 
+void FineDetail::add(const FineDetail& other) {
+  fine += other.fine;
+  coarse += other.coarse;
+  points += other.points;
+}
+
 FineDetail measure_detail(const DetailViews& views, int y0, int y1) {
   FineDetail sums;
   const int first = (y0 + kDetailRows - 1) / kDetailRows * kDetailRows;
@@ -51,14 +56,8 @@ FineDetail measure_detail(const DetailViews& views, int y0, int y1) {
 }
 
 FineDetail measure_detail(const Bands& bands, const DetailViews& views) {
-  std::atomic<std::int64_t> fine{0}, coarse{0}, points{0};
-  bands.rows([&](int y0, int y1, int) {
-    const FineDetail in_band = measure_detail(views, y0, y1);
-    fine += in_band.fine;
-    coarse += in_band.coarse;
-    points += in_band.points;
-  });
-  return {fine, coarse, points};
+  return bands.sum_of_rows(FineDetail(),
+                           [&](int y0, int y1) { return measure_detail(views, y0, y1); });
 }
 
 }  // namespace mtstereo

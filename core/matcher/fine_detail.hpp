@@ -42,6 +42,9 @@ struct FineDetail {
   std::int64_t coarse = 0;  ///< the same of the next octave
   std::int64_t points = 0;
 
+  /// Adds the sums of other rows of the same views.
+  void add(const FineDetail& other);
+
   /// The energy in the finest octave, divided by that in the next one; at least 0. Nothing if there
   /// are too few points for it, or if the views have hardly any texture there.
   std::optional<double> share() const;

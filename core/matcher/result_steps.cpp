@@ -54,16 +54,11 @@ void LastPair::resize(const Settings& settings, const FrameSize& size, ReusedMem
   disparity.resize(width, height);
 }
 
-void measure_block_grid(const StepContext& step, const Views& views, ResultMaps& result,
-                        ResultBuffers& buffers) {
+void measure_block_grid(const StepContext& step, const Views& views, ResultMaps& result) {
   const int side = views.borders.side;
-  for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grid = {};
-  step.bands.rows([&](int y0, int y1, int worker) {
-    buffers.scratch[worker].grid.add(
-        measure_grid(result.disparity->view(), result.confidence->view(), side, y0, y1));
+  const BlockGrid grid = step.bands.sum_of_rows(BlockGrid(), [&](int y0, int y1) {
+    return measure_grid(result.disparity->view(), result.confidence->view(), side, y0, y1);
   });
-  BlockGrid grid;
-  for (const ResultBuffers::Scratch& worker : buffers.scratch) grid.add(worker.grid);
   result.grid_level = grid.level(views.borders);
   result.block_side = side;
 }
@@ -138,12 +133,8 @@ void fit_flat_areas(const StepContext& step, const Views& views, const Pyramid& 
   areas.count = 0;
   if (areas.gray.width() == 0 || areas.gray.height() == 0) return;
   const Bands bands = step.bands.of_height(areas.gray.height());
-  for (ResultBuffers::Scratch& worker : buffers.scratch) worker.grays = {};
-  bands.rows([&](int y0, int y1, int worker) {
-    buffers.scratch[worker].grays.add(sum_grays(view, y0, y1, areas));
-  });
-  GrayTotals grays;
-  for (const ResultBuffers::Scratch& worker : buffers.scratch) grays.add(worker.grays);
+  const GrayTotals grays = bands.sum_of_rows(
+      GrayTotals(), [&](int y0, int y1) { return sum_grays(view, y0, y1, areas); });
   const int connected = flat_step(grays, areas.scale, views.rated_noise);
   bands.rows([&](int y0, int y1, int) { find_runs(areas.gray, connected, y0, y1, areas.runs); });
   join_bands(areas.gray, connected, Bands::kRows, areas.runs);

@@ -28,9 +28,7 @@ struct ResultBuffers {
   Buffer<FlatPlane> planes;  ///< of the areas
 
   struct Scratch {
-    BlockGrid grid;  ///< of the thread's rows
     EdgeScratch edges;
-    GrayTotals grays;  ///< of the thread's rows
     PlaneVotes votes;
   };
   std::vector<Scratch> scratch;  ///< one for each thread
@@ -58,8 +56,7 @@ struct LastPair {
 };
 
 /// Finds whether the map matches the blocks of the views' compression.
-void measure_block_grid(const StepContext& step, const Views& views, ResultMaps& result,
-                        ResultBuffers& buffers);
+void measure_block_grid(const StepContext& step, const Views& views, ResultMaps& result);
 
 /// Gives the remaining pixels a disparity.
 void complete_map(const StepContext& step, ResultMaps& result);

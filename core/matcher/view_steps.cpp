@@ -113,21 +113,14 @@ void halve(const StepContext& step, Views& views) {
 
 void measure_block_borders(const StepContext& step, Views& views) {
   const int side = step.settings.half() ? kHalvedBlockSide : kBlockSide;
-  for (Views::Scratch& worker : views.scratch) worker.borders = {side};
-  step.bands.rows([&](int y0, int y1, int worker) {
-    views.scratch[worker].borders.add(measure_borders(views.plain[0], side, y0, y1));
+  views.borders = step.bands.sum_of_rows(BlockBorders{side}, [&](int y0, int y1) {
+    return measure_borders(views.plain[0], side, y0, y1);
   });
-  views.borders = {side};
-  for (const Views::Scratch& worker : views.scratch) views.borders.add(worker.borders);
 }
 
 void measure_contrast(const StepContext& step, Views& views) {
-  for (Views::Scratch& worker : views.scratch) worker.grays = {};
-  step.bands.rows([&](int y0, int y1, int worker) {
-    views.scratch[worker].grays.add(count_grays(views.plain[0], y0, y1));
-  });
-  GrayHistogram grays;
-  for (const Views::Scratch& worker : views.scratch) grays.add(worker.grays);
+  const GrayHistogram grays = step.bands.sum_of_rows(
+      GrayHistogram(), [&](int y0, int y1) { return count_grays(views.plain[0], y0, y1); });
   views.edge = edge_for_range(grays.range());
 }
 

@@ -46,8 +46,6 @@ struct Views {
   struct Scratch {
     AlignmentScratch alignment;
     BlurScratch blur;
-    BlockBorders borders;  ///< of the thread's rows
-    GrayHistogram grays;   ///< of the thread's rows
     NoiseFilterScratch noise_filter;
     CensusScratch census;
   };

@@ -18,7 +18,7 @@ constexpr int kMostStep = 8;
 /// What chance may add to the visibility is this divided by the root of the number of steps.
 constexpr double kChance = 6;
 
-/// Views without compression have less visibility than this.
+/// The least visibility of blocks. Sharp views without compression have less.
 constexpr double kVisible = 1.05;
 
 /// Adds the steps of a row, whole blocks of columns.

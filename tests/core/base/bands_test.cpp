@@ -32,6 +32,23 @@ class Visits {
 constexpr int kThreads[] = {1, 2, 3, 7};
 constexpr int kHeights[] = {1, 2, 31, 32, 33, 64, 100};
 
+/// Numbers of rows.
+struct Count {
+  int rows = 0;
+  void add(const Count& other) { rows += other.rows; }
+};
+
+TEST(Bands, AddWhatIsMeasuredInEachRow) {
+  for (const int threads : kThreads) {
+    ThreadPool pool(threads);
+    for (const int height : kHeights) {
+      const Count sum =
+          Bands(pool, height).sum_of_rows(Count{5}, [](int y0, int y1) { return Count{y1 - y0}; });
+      EXPECT_EQ(5 + height, sum.rows) << threads << " threads";
+    }
+  }
+}
+
 TEST(Bands, CoverEachRowOnceInBandsOfAFixedNumberOfRows) {
   for (const int threads : kThreads) {
     ThreadPool pool(threads);
