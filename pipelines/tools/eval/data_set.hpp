@@ -24,7 +24,6 @@ enum class Layout {
 /// The files of one pair and its properties in the data set. The files have not been read yet.
 struct StereoPair {
   std::string name;  ///< path relative to the data set's folder, without extension; unique
-  Layout layout = Layout::kMiddlebury;
   std::filesystem::path left;
   std::filesystem::path right;
   std::filesystem::path truth;  ///< .pfm, .png or _dmap.bin
@@ -34,10 +33,6 @@ struct StereoPair {
   std::filesystem::path visible_mask;
   /// ground truth of only the pixels that are visible in both views (KITTI); may be empty
   std::filesystem::path visible_truth;
-  /// `truth` itself has only the pixels that are visible in both views (KITTI)
-  bool truth_is_visible = false;
-  /// 0 = background, other values = foreground objects (KITTI); may be empty
-  std::filesystem::path object_map;
   /// *_cam.txt of left and right, for a depth map; may be empty
   std::pair<std::filesystem::path, std::filesystem::path> cameras;
   /// number of disparities to search [px]; none if the data set should state it and does not

@@ -122,7 +122,6 @@ DataSet find_pairs(const fs::path& root, Layout layout) {
     throw UserError(root, "holds no stereo pair in the layout of " +
                               std::string(layout_name(layout)) + " (see docs/evaluation.md)");
   }
-  for (StereoPair& pair : set.pairs) pair.layout = layout;
   std::sort(set.pairs.begin(), set.pairs.end(),
             [](const StereoPair& a, const StereoPair& b) { return a.name < b.name; });
   return set;
@@ -146,12 +145,6 @@ LoadedPair load_pair(const StereoPair& pair, DmapMeaning meaning) {
     loaded.truth.visible = visible == visible;
   }
   return loaded;
-}
-
-void load_objects(const StereoPair& pair, LoadedPair& images) {
-  if (pair.object_map.empty()) return;
-  images.truth.objects = read_object_map(pair.object_map);
-  require_size(pair.object_map, images.truth.objects, images.left.size(), kAdvice);
 }
 
 }  // namespace mtstereo::eval

@@ -45,8 +45,4 @@ struct LoadedPair {
 /// size.
 LoadedPair load_pair(const StereoPair& pair, DmapMeaning meaning = DmapMeaning::kAuto);
 
-/// Reads the object map of a pair into `truth.objects`, if the pair has one. Throws UserError as
-/// load_pair().
-void load_objects(const StereoPair& pair, LoadedPair& images);
-
 }  // namespace mtstereo::eval

@@ -173,8 +173,7 @@ DegradedPair enlarged(const LoadedPair& pair, int max_disparity, double scale) {
     return larger;
   };
   GroundTruth& truth = result.images.truth;
-  truth = {nearest(pair.truth.disparity), nearest(pair.truth.visible), nearest(pair.truth.objects),
-           pair.truth.scale * scale};
+  truth = {nearest(pair.truth.disparity), nearest(pair.truth.visible), pair.truth.scale * scale};
   truth.disparity *= scale;
   result.max_disparity = static_cast<int>(std::ceil(max_disparity * scale));
   return result;

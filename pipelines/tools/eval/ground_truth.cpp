@@ -154,15 +154,6 @@ cv::Mat read_visible_mask(const fs::path& file) {
   return stored == 255;
 }
 
-cv::Mat read_object_map(const fs::path& file) {
-  const cv::Mat stored = read_stored(file);
-  if (stored.channels() != 1) {
-    throw UserError(file, "is not an object map: it has " + std::to_string(stored.channels()) +
-                              " channels instead of one");
-  }
-  return stored != 0;
-}
-
 void require_size(const fs::path& file, const cv::Mat& map, cv::Size image,
                   const std::string& advice) {
   if (map.size() == image) return;

@@ -11,7 +11,6 @@ namespace mtstereo::eval {
 struct GroundTruth {
   cv::Mat disparity;  ///< CV_32FC1 [px], NaN = unknown
   cv::Mat visible;    ///< CV_8UC1, nonzero = visible in both views; empty if unknown
-  cv::Mat objects{};  ///< CV_8UC1, nonzero = foreground; empty if unknown, see load_objects()
   /// px of these maps per px of the original ones, for images that were enlarged: all errors are
   /// measured in px of the original
   double scale = 1;
@@ -59,9 +58,6 @@ cv::Mat read_gray(const std::filesystem::path& file);
 
 /// A mask as in Middlebury: 255 (visible in both views) stays 255, all other values become 0.
 cv::Mat read_visible_mask(const std::filesystem::path& file);
-
-/// An object map as in KITTI: 0 (background) stays 0, all other values become 255.
-cv::Mat read_object_map(const std::filesystem::path& file);
 
 /// Throws UserError, naming the file, unless its map has the size of the image. The message ends
 /// with the advice.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// KITTI 2015: training/image_2, image_3, disp_occ_0, disp_noc_0 and obj_map, where a frame has the
-// same name. KITTI 2012: training/colored_0, colored_1 (or image_0, image_1), disp_occ, disp_noc.
+// KITTI 2015: training/image_2, image_3, disp_occ_0 and disp_noc_0, where a frame has the same
+// name. KITTI 2012: training/colored_0, colored_1 (or image_0, image_1), disp_occ, disp_noc.
 
 #include <array>
 
@@ -16,7 +16,6 @@ namespace {
 struct Folders {
   fs::path left, right;
   fs::path occ, noc;  // empty if the folder does not exist
-  fs::path objects;   // the same
 };
 
 fs::path first_folder(const fs::path& base, std::initializer_list<const char*> names) {
@@ -38,7 +37,6 @@ std::optional<Folders> folders_of(const fs::path& base) {
   }
   folders.occ = first_folder(base, {"disp_occ_0", "disp_occ"});
   folders.noc = first_folder(base, {"disp_noc_0", "disp_noc"});
-  folders.objects = first_folder(base, {"obj_map"});
   if (folders.left.empty() || (folders.occ.empty() && folders.noc.empty())) return std::nullopt;
   return folders;
 }
@@ -68,9 +66,6 @@ void add_frame(DataSet& set, const Folders& folders, const fs::path& left) {
       return;
     }
   }
-  pair.truth_is_visible = !has_occ;
-  const fs::path objects = folders.objects / left.filename();
-  if (!folders.objects.empty() && is_file(objects)) pair.object_map = objects;
   pair.max_disparity = kKittiRange;
   set.pairs.push_back(std::move(pair));
 }

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "lib/outputs/user_error.hpp"
-#include "tools/eval/official_report.hpp"
 #include "tools/eval/options.hpp"
 #include "tools/eval/outputs.hpp"
 #include "tools/eval/report.hpp"
@@ -75,7 +74,6 @@ Report start_report(const Options& options, const DataSet& set) {
   report.kinds = kinds_of(options.run);
   report.flicker = options.run.flicker;
   report.stream = options.run.stream;
-  report.official = options.run.official;
   report.warm_up = options.run.warm_up;
   report.repeat = options.run.repeat;
   for (const ParameterInfo& info : parameter_table()) {
@@ -165,10 +163,6 @@ int list_pairs(const DataSet& set) {
 
 void print(const Report& report) {
   print_table(std::cout, report);
-  if (report.official) {
-    std::cout << '\n';
-    print_official(std::cout, report);
-  }
   if (report.kinds.size() > 1) {
     std::cout << '\n';
     print_kinds(std::cout, report);

@@ -104,9 +104,6 @@ void add_methods(CLI::App& app, Texts& texts, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(opencv_names()));
-  app.add_flag("--official", options.run.official,
-               "also print the measures of KITTI 2015, Middlebury v3 and ETH3D as these benchmarks "
-               "count them");
   app.add_option("--alignment", texts.alignment,
                  "correct: align the rows and even out the sharpness of each pair before mtstereo "
                  "matches it, as the element does; off: match it as it is [default: correct; off "

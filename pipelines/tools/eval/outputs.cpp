@@ -15,9 +15,8 @@ namespace {
 
 void refuse_inputs(const fs::path& file, const DataSet& set) {
   for (const StereoPair& pair : set.pairs) {
-    for (const fs::path& input :
-         {pair.left, pair.right, pair.truth, pair.visible_mask, pair.visible_truth, pair.object_map,
-          pair.cameras.first, pair.cameras.second}) {
+    for (const fs::path& input : {pair.left, pair.right, pair.truth, pair.visible_mask,
+                                  pair.visible_truth, pair.cameras.first, pair.cameras.second}) {
       std::error_code not_there;
       if (!input.empty() && fs::equivalent(file, input, not_there)) {
         throw UserError(file, "belongs to the data set: choose another output file");

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/eval/json_number.hpp"
-#include "tools/eval/official_report.hpp"
 
 namespace mtstereo::eval {
 namespace {
@@ -66,7 +65,6 @@ json pair_json(const PairReport& pair) {
               {"results", json::object()}};
   for (const MethodResult& method : pair.results) {
     json entry = evaluation_json(method.evaluation);
-    if (method.official) entry["official"] = official_json(*method.official);
     entry["seconds"] = json_number(method.seconds);
     entry["seconds_per_megapixel"] = json_number(method.seconds_per_megapixel);
     result["results"][method.method] = std::move(entry);
@@ -185,7 +183,6 @@ json to_json(const Report& report) {
                          {"frames", kFlickerFrames},
                          {"mean", flicker_json(summarize_flicker(report))}};
   }
-  if (report.official) result["official"] = official_means_json(report);
   add_kinds(report, result);
   for (const Problem& failure : report.failures) {
     result["failures"].push_back({{"pair", failure.pair}, {"reason", failure.reason}});

@@ -33,7 +33,6 @@ struct Report {
   std::vector<std::string> kinds{kCleanKind};                        ///< of images, see kinds_of()
   std::optional<double> flicker;  ///< with --flicker: standard deviation of the noise [gray values]
   bool stream = false;            ///< with --stream: the pairs are successive frames
-  bool official = false;          ///< with --official: the results have official counts
   std::vector<PairReport> pairs;  ///< of all kinds
   std::vector<Problem> failures;
   std::vector<CurveReport> curves;  ///< with --curve only, one for each kind

@@ -142,7 +142,6 @@ PairReport Runner::load(const StereoPair& pair, LoadedPair& images) const {
   report.pair = pair;
   attempt(report, "", [&] {
     images = load_pair(pair, settings_.dmap);
-    if (settings_.official) load_objects(pair, images);
     report.size = images.left.size();
     report.max_disparity =
         search_range(pair, settings_.parameters, report.size.width, report.notes);
@@ -264,7 +263,6 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
   MethodResult result;
   result.method = method;
   result.evaluation = evaluate(disparity, images);
-  if (settings_.official) result.official = count_official(disparity, report.pair, images.truth);
   if (settings_.stream) {
     FlickerWindow& stream = streams_[method];
     stream.add(disparity, images.truth);

@@ -19,7 +19,6 @@
 #include "tools/eval/flicker.hpp"
 #include "tools/eval/images.hpp"
 #include "tools/eval/metrics.hpp"
-#include "tools/eval/official.hpp"
 #include "tools/eval/opencv_matchers.hpp"
 
 namespace mtstereo::eval {
@@ -40,7 +39,6 @@ struct RunSettings {
   std::optional<std::filesystem::path> disparity_folder;
   DisparityFormat disparity_format = DisparityFormat::kPfm;
   std::optional<std::filesystem::path> image_folder;
-  bool official = false;                  ///< count as the benchmarks do
   bool curve = false;                     ///< sweep the confidence of every method
   std::vector<Degradation> degradations;  ///< evaluated in addition to the images as they are
   std::optional<double> flicker;          ///< standard deviation of its noise [gray values]
@@ -57,8 +55,7 @@ std::vector<std::string> kinds_of(const RunSettings& settings);
 struct MethodResult {
   std::string method;
   Evaluation evaluation;
-  std::optional<OfficialCounts> official;  ///< with --official, if the data set has such measures
-  double seconds = 0;                      ///< wall time of one frame, median [s]
+  double seconds = 0;                ///< wall time of one frame, median [s]
   double seconds_per_megapixel = 0;  ///< the same divided by the size of the left image [s/MP]
 };
 

@@ -61,7 +61,7 @@ TEST(ThresholdPoints, CountPixelsWithAtLeastThatConfidence) {
 TEST(ThresholdPoints, EqualTheEvaluationOfTheThresholdedMap) {
   cv::RNG random(7);
   cv::Mat estimate(37, 53, CV_32FC1), confidence(37, 53, CV_8UC1);
-  GroundTruth truth{cv::Mat(37, 53, CV_32FC1), {}, {}, 1.5};
+  GroundTruth truth{cv::Mat(37, 53, CV_32FC1), {}, 1.5};
   random.fill(estimate, cv::RNG::UNIFORM, 1, 60);
   random.fill(confidence, cv::RNG::UNIFORM, 0, 256);
   random.fill(truth.disparity, cv::RNG::UNIFORM, 1, 60);

@@ -51,7 +51,7 @@ TEST(Images, ErrorsOfEnlargedImagesHaveTheColorsOfTheOriginal) {
   const cv::Mat truth = (cv::Mat_<float>(1, 3) << 10, 10, 10);
   const cv::Mat found = (cv::Mat_<float>(1, 3) << 11, 13, 20);
   const cv::Mat original = color_error(found, {truth, {}});
-  EXPECT_EQ(cv::norm(original, color_error(2 * found, {2 * truth, {}, {}, 2}), cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(original, color_error(2 * found, {2 * truth, {}, 2}), cv::NORM_INF), 0);
 }
 
 TEST(Images, OverviewShowsTheLeftImageInItsCorner) {

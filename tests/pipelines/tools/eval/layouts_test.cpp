@@ -212,7 +212,6 @@ TEST_F(Layouts, KittiNotesThatOnlyNonOccludedTruthExists) {
   const DataSet set = detect(Layout::kKitti2015);
   ASSERT_EQ(set.pairs.size(), 1U);
   EXPECT_EQ(set.notes.size(), 1U);
-  EXPECT_TRUE(set.pairs[0].truth_is_visible);
   EXPECT_TRUE(std::isnan(load_pair(set.pairs[0]).truth.disparity.at<float>(5, 20)));
 }
 
@@ -228,22 +227,6 @@ TEST_F(Layouts, KittiNamesFramesWithoutPartner) {
   EXPECT_THAT(set.problems[0].reason, ::testing::HasSubstr("disp_occ_0/000001_10.png"));
   EXPECT_THAT(set.problems[1].reason, ::testing::HasSubstr("disp_noc_0/000002_10.png"));
   EXPECT_THAT(set.problems[2].reason, ::testing::HasSubstr("image_3/000003_10.png"));
-}
-
-TEST_F(Layouts, KittiReadsTheObjectMapOfAFrameThatHasOne) {
-  write_kitti_frame(folder_, "000000_10.png", true, true);
-  write_kitti_frame(folder_, "000001_10.png", true, true);
-  cv::Mat objects(24, 48, CV_8UC1, cv::Scalar(0));
-  objects.colRange(0, 5).setTo(7);
-  write_image(folder_ / "training/obj_map/000000_10.png", objects);
-  const DataSet set = detect(Layout::kKitti2015);
-  ASSERT_EQ(set.pairs.size(), 2U);
-  EXPECT_FALSE(set.pairs[0].truth_is_visible);
-  EXPECT_TRUE(set.pairs[1].object_map.empty());
-  LoadedPair pair = load_pair(set.pairs[0]);
-  EXPECT_TRUE(pair.truth.objects.empty()) << "it is read on request";
-  load_objects(set.pairs[0], pair);
-  EXPECT_EQ(cv::countNonZero(pair.truth.objects), 5 * 24);
 }
 
 // --- Scene Flow

@@ -90,7 +90,7 @@ TEST(Metrics, RejectMapsOfDifferentSizes) {
 TEST(Evaluate, TakesTheScaleOfTheTruth) {
   const cv::Mat found = (cv::Mat_<float>(1, 4) << 20, 26, kNan, 22);
   const cv::Mat mask = (cv::Mat_<std::uint8_t>(1, 4) << 255, 255, 255, 0);
-  const GroundTruth truth{cv::Mat(1, 4, CV_32FC1, cv::Scalar(20)), mask, {}, 2};
+  const GroundTruth truth{cv::Mat(1, 4, CV_32FC1, cv::Scalar(20)), mask, 2};
   const Evaluation result = evaluate(found, truth);
   EXPECT_DOUBLE_EQ(result.all.avgerr, (0 + 3 + 1) / 3.0);
   EXPECT_DOUBLE_EQ(result.noc->avgerr, (0 + 3) / 2.0);
