@@ -60,7 +60,7 @@ GstMemory* wrap(const Plane& plane, const Holder& holder) {
 }
 
 /// GStreamer calls it; it calls C functions only, so that it throws nothing.
-gboolean copy_meta(GstBuffer* from, GstMeta** meta, gpointer to) noexcept {
+gboolean copy_untagged(GstBuffer* from, GstMeta** meta, gpointer to) noexcept {
   const GstMetaInfo* info = (*meta)->info;
   const gchar* const* tags = gst_meta_api_type_get_tags(info->api);
   if (info->transform_func == nullptr || (tags != nullptr && tags[0] != nullptr)) return TRUE;
@@ -101,7 +101,7 @@ void copy_frame_details(GstBuffer* from, GstBuffer* to) {
   gst_buffer_copy_into(
       to, from, static_cast<GstBufferCopyFlags>(GST_BUFFER_COPY_FLAGS | GST_BUFFER_COPY_TIMESTAMPS),
       0, static_cast<gsize>(-1));
-  gst_buffer_foreach_meta(from, copy_meta, to);
+  gst_buffer_foreach_meta(from, copy_untagged, to);
 }
 
 }  // namespace mtstereo::plugin
