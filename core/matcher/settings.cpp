@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/ramp.hpp"
 #include "stages/prepare/halving.hpp"
 
 namespace mtstereo {
@@ -35,8 +36,8 @@ constexpr float kDoubtedNoise = 6.5F;
 constexpr float kDistrustedNoise = 9;
 int held_less(Mode mode, float noise) {
   if (mode != Mode::kSemiDense) return kHeldLess;
-  const float trust = (kDistrustedNoise - noise) / (kDistrustedNoise - kDoubtedNoise);
-  return static_cast<int>(static_cast<float>(kHeldLess) * std::clamp(trust, 0.0F, 1.0F));
+  return static_cast<int>(static_cast<float>(kHeldLess) *
+                          ramp(kDistrustedNoise, kDoubtedNoise, noise));
 }
 
 /// Converts a percentage to a fraction.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/ramp.hpp"
+
 namespace mtstereo {
 namespace {
 
@@ -219,8 +221,7 @@ void complete_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, in
 
 int plane_bonus(float noise, int grid_level) {
   if (grid_level > kMostPlaneGrid) return 0;
-  const float share = (kNoPlaneNoise - noise) / (kNoPlaneNoise - kFullPlaneNoise);
-  return static_cast<int>(kConfirmed * std::clamp(share, 0.0F, 1.0F));
+  return static_cast<int>(kConfirmed * ramp(kNoPlaneNoise, kFullPlaneNoise, noise));
 }
 
 void check_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, PlaneWeight weight,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/ramp.hpp"
 #include "mtstereo/parameters.hpp"
 
 namespace mtstereo {
@@ -74,8 +75,8 @@ GrayMapping find_gray_mapping(const RatedViews& views, const Image<std::int32_t>
   GrayMapping mapping;
   if (pixels < kLeastMappedPixels) return mapping;
   const float mean = sum / static_cast<float>(pixels);
-  const float share = std::min((mean - kLeastMapped) / (kFullyMapped - kLeastMapped), 1.0F);
-  if (share <= 0) return mapping;
+  const float share = ramp(kLeastMapped, kFullyMapped, mean);
+  if (share == 0) return mapping;
   mapping.is_identity = false;
   for (int gray = 0; gray < kGrays; ++gray) {
     const float mapped = static_cast<float>(gray) + share * difference_at(gray, bins);

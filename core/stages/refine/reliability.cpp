@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/ramp.hpp"
 #include "stages/refine/block_grid.hpp"
 #include "stages/refine/guide_clue.hpp"
 #include "stages/refine/reliability_rows.hpp"
@@ -223,11 +224,6 @@ constexpr float kMuchNoise = 5;
 /// The BlockGrid::level() of views whose blocks count in full.
 constexpr float kBlockyLevel = 2;
 
-/// 0 at `none`, 1 at `all`, and linear between.
-float share_between(float none, float all, float value) {
-  return std::clamp((value - none) / (all - none), 0.0F, 1.0F);
-}
-
 template <typename Value, std::size_t kEnds>
 constexpr std::uint8_t bin_of(Value value, const Value (&ends)[kEnds]) {
   std::uint8_t bin = 0;
@@ -347,9 +343,9 @@ void ReliabilityScratch::resize(int width) {
 }
 
 PartShares part_shares(const RatedViews& views) {
-  return {1, share_between(kSharpDetail, kSoftDetail, views.fine_detail),
-          share_between(kLittleNoise, kMuchNoise, views.noise_level),
-          share_between(0, kBlockyLevel, static_cast<float>(views.grid_level))};
+  return {1, ramp(kSharpDetail, kSoftDetail, views.fine_detail),
+          ramp(kLittleNoise, kMuchNoise, views.noise_level),
+          ramp(0, kBlockyLevel, static_cast<float>(views.grid_level))};
 }
 
 ReliabilityTable table_for(const TableParts& parts, const PartShares& shares) {
