@@ -1,18 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Measures, and writes the figures and the growth plot of docs/appendix/benchmark.md.
+"""Measures, and writes the figures of docs/appendix/benchmark.md.
 
 Runs the benchmarks of a build, or uses the results of an earlier run (--no-run). Replaces the text
 between the two marks of the page. The exit status is 1 if a program fails and 2 if a result or the
 page cannot be used; the page is not changed then.
 """
 import argparse
-import json
 import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 
 import tables
 from compare import InputError
@@ -20,8 +18,6 @@ from results import Result
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
-IMAGE = "benchmark-growth.png"
-PLOTTER = SOURCE / "pipelines/tools/eval/plot.py"
 
 
 class RunError(Exception):
@@ -47,20 +43,9 @@ def measure(build, result, element_result):
         run(element, f"--benchmark_out={element_result}", GST_PLUGIN_PATH=plugins)
 
 
-def draw_growth(result, image):
-    panels = tables.growth_panels(result)
-    if not panels:
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        plot = pathlib.Path(folder) / "plot.json"
-        plot.write_text(json.dumps({"title": tables.GROWTH_TITLE, "panels": panels}),
-                        encoding="utf-8")
-        run(PLOTTER, "growth", plot, image)
-
-
-def section(result, element_result, image):
+def section(result, element_result):
     parts = [tables.machine(result, element_result), tables.frames(result), tables.stages(result),
-             tables.targets(result), tables.growth(result, image), tables.memory(result)]
+             tables.targets(result), tables.growth(result), tables.memory(result)]
     if element_result:
         parts.append(tables.element(element_result))
     return "\n\n".join(part for part in parts if part)
@@ -87,17 +72,13 @@ def update(options):
     result = Result(result_file)
     has_element = options.element_result or element_file.exists()
     element_result = Result(element_file) if has_element else None
-    image = options.page.parent / "images" / IMAGE
     try:
-        text = section(result, element_result, f"images/{IMAGE}")
+        text = section(result, element_result)
         doubts = tables.doubts(result)
     except (ValueError, KeyError, IndexError, TypeError, ArithmeticError) as error:
         raise InputError(f"{result_file} or {element_file}: lacks figures that the current "
                          f"programs write: {error!r}") from error
-    draw_growth(result, image)
     options.page.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{after}", encoding="utf-8")
-    for panel in tables.growth_panels(result):
-        print(f"time over {panel['x']}: {panel['caption']}")
     for doubt in doubts:
         print(f"figures.py: repeat on a quiet machine: {doubt}", file=sys.stderr)
 

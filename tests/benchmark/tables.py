@@ -6,7 +6,6 @@ DEFAULT = "semi-dense"
 RIVALS = ("sgbm-3way", "bm")
 MOST_SPREAD = 0.05
 LEAST_PROCESSORS = 0.95  # of consecutive frames, with any number of threads
-GROWTH_TITLE = "Time of a frame: rendered street, defaults (semi-dense), 1 thread"
 
 
 def table(head, rows, texts=1):
@@ -122,43 +121,22 @@ def growth_points(result, what):
                   for one in result.of("scaling") if one.part(1) == what)
 
 
-def fixed_of(result, what, other):
-    """The value of `other`, which is constant while `what` grows."""
-    return next(one.value(other) for one in result.of("scaling") if one.part(1) == what)
-
-
-def growth_panels(result):
-    """The panels that plot.py draws."""
-    panels = []
-    for what, label in (("pixels", "pixels [MP]"), ("disparities", "disparities")):
-        points = growth_points(result, what)
-        if len({x for x, _ in points}) < 2:
-            continue
-        held = (f"{fixed_of(result, what, 'disparities'):.0f} disparities" if what == "pixels"
-                else f"{fixed_of(result, what, 'pixels') / 1e6:.2f} MP")
-        panels.append({"x": label, "y": "time [ms]", "points": points,
-                       "caption": f"{held}, exponent {exponent(points):.2f}"})
-    return panels
-
-
-def growth(result, image):
-    if not growth_panels(result):
-        return ""
+def growth(result):
     parts = ["### Growth with pixels and disparities",
-             f"![Time over pixels and over disparities]({image})",
              "Rendered street, `semi-dense`, 1 thread. The exponent is the slope of a line fitted "
              "to the logarithms: 1 is proportional growth, less is better."]
     for what, head in (("pixels", "frame"), ("disparities", "disparities")):
-        measured = [one for one in result.of("scaling") if one.part(1) == what]
-        if len(growth_points(result, what)) < 2:
+        points = growth_points(result, what)
+        if len({x for x, _ in points}) < 2:
             continue
+        measured = [one for one in result.of("scaling") if one.part(1) == what]
         rows = [[one.part(2), f"{one.milliseconds:.1f}", percent(one.spread),
                  f"{one.milliseconds * 1e6 / one.value('pixels'):.1f}",
                  f"{one.milliseconds * 1e6 / one.value('pixels') / one.value('disparities'):.3f}"]
                 for one in measured]
         parts.append(table([head, "ms", "spread %", "ns/px", "ns/px/disparity"], rows))
-        parts.append(f"Exponent over {what}: {exponent(growth_points(result, what)):.2f}.")
-    return "\n\n".join(parts)
+        parts.append(f"Exponent over {what}: {exponent(points):.2f}.")
+    return "\n\n".join(parts) if len(parts) > 2 else ""
 
 
 def memory(result):

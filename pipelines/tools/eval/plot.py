@@ -1,14 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Plots the figures that mtstereo's programs write as JSON.
+"""Plots the figures that mtstereo-eval writes as JSON.
 
   plot.py curve REPORT.json IMAGE.png   error against density; REPORT.json comes from
                                           'mtstereo-eval --curve ... --json REPORT.json'; with
                                           '--degrade ...', one panel for each kind of images
-  plot.py growth PLOT.json IMAGE.png    frame time against problem size; PLOT.json is
-                                          {"title": TEXT, "panels": [PANEL] or [PANEL, PANEL]}
-                                          with PANEL = {"x": LABEL, "y": LABEL, "caption": TEXT,
-                                          "points": [[X, Y], ...]}, x ascending
 
 '-' instead of the JSON file reads standard input. The exit status is 1 if matplotlib is missing or
 the image cannot be written, and 2 if the command or the JSON file is invalid.
@@ -22,7 +18,6 @@ import pathlib
 import sys
 
 COLORS = ("#d22828", "#1464be", "#1e8c46", "#8232aa", "#e68c00")  # of the methods; mtstereo: red
-PROPORTIONAL = "#969696"
 INK, GRID = "#282828", "#e1e1e1"
 DPI = 100
 MOST_DOTS = 20  # longer lines are drawn without a dot for each point
@@ -232,48 +227,6 @@ def draw_kinds(kinds, measure, texts):
     return canvas
 
 
-class Panel:
-    """One panel of a growth plot."""
-
-    def __init__(self, panel):
-        self.labels = text(panel["x"]), text(panel["y"])
-        self.caption = text(panel["caption"])
-        self.points = [(number(x), number(y)) for x, y in panel["points"]]
-        xs = [0.0] + [x for x, _ in self.points]
-        if len(self.points) < 2:
-            raise InputError("a panel needs at least 2 points")
-        if any(b <= a for a, b in zip(xs, xs[1:])) or any(y <= 0 for _, y in self.points):
-            raise InputError("all coordinates must be above 0, with x ascending")
-
-    def proportional(self):
-        """Where the last point would be if y were proportional to x."""
-        (x, y), (last, _) = self.points[0], self.points[-1]
-        return last, y / x * last
-
-
-def draw_growth(plot, options):
-    """Measured times, and the line that proportional growth from the first point would follow."""
-    panels = [Panel(panel) for panel in plot["panels"]]
-    if not 1 <= len(panels) <= 2:
-        raise InputError("a growth plot has 1 or 2 panels")
-    own_title = text(plot["title"])
-    canvas = Canvas(600 * len(panels), 420)
-    canvas.text(65, 28, options.title or own_title, LARGE + 1)
-    handles = []
-    for index, panel in enumerate(panels):
-        end = panel.proportional()
-        largest = max(y for _, y in [*panel.points, end])
-        axes = canvas.axes((65 + 600 * index, 110, 500, 250), panel.labels, (end[0], largest))
-        axes.set_title(panel.caption, loc="right", color=INK, fontsize=LARGE, parse_math=False)
-        measured, = axes.plot(*zip(*panel.points), color=COLORS[0], linewidth=1.7, marker="o",
-                              markersize=4.5, label="measured", zorder=4)
-        straight, = axes.plot((0, end[0]), (0, end[1]), color=PROPORTIONAL, linewidth=0.9,
-                              label="proportional growth from the first point")
-        handles = [measured, straight]
-    canvas.legend(handles, 42, 2)
-    return canvas
-
-
 def read_json(file):
     try:
         data = sys.stdin.buffer.read() if file == "-" else pathlib.Path(file).read_bytes()
@@ -288,14 +241,13 @@ def read_json(file):
 
 
 def plot(options):
-    draw = {"curve": draw_curve, "growth": draw_growth}[options.command]
     name = "standard input" if options.json == "-" else options.json
     try:
-        canvas = draw(read_json(options.json), options)
+        canvas = draw_curve(read_json(options.json), options)
     except InputError as error:
         raise InputError(f"{name}: {error}") from error
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise InputError(f"{name}: is not a {options.command} plot: {error!r}") from error
+        raise InputError(f"{name}: is not a curve plot: {error!r}") from error
     canvas.write(options.image)
 
 
@@ -303,15 +255,12 @@ def parse_options():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, what in (("curve", "plot error against density"),
-                       ("growth", "plot frame time against problem size")):
-        command = commands.add_parser(name, help=what)
-        command.add_argument("json", metavar="FILE.json", help="'-' reads standard input")
-        command.add_argument("image", metavar="IMAGE.png")
-        command.add_argument("--title", metavar="TEXT", help="replaces the title")
-        if name == "curve":
-            command.add_argument("--measure", choices=[key for key, _ in MEASURES],
-                                 default="avgerr", help="of the panels of degraded images")
+    command = commands.add_parser("curve", help="plot error against density")
+    command.add_argument("json", metavar="FILE.json", help="'-' reads standard input")
+    command.add_argument("image", metavar="IMAGE.png")
+    command.add_argument("--title", metavar="TEXT", help="replaces the title")
+    command.add_argument("--measure", choices=[key for key, _ in MEASURES], default="avgerr",
+                         help="of the panels of degraded images")
     return parser.parse_args()
 
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// plot.py as a process: the image of the curves, and invalid input. The tests of the benchmark
-// cover the growth plot.
+// plot.py as a process: the image of the curves, and invalid input.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
