@@ -9,13 +9,21 @@ from support import BUILD, ClipTest, SLOW, count_frames
 
 
 class Demo(ClipTest):
-    def demo(self, *words):
-        return self.run_script("demo.sh", "--no-build", "--build", BUILD, *words, seconds=120)
+    CLIP = ["--frames", "4", "--size", "320x240"]
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.crisp = cls.folder / "all of it"
+        cls.of_crisp = cls.demo("--out", cls.crisp.name, *cls.CLIP)
+
+    @classmethod
+    def demo(cls, *words):
+        return cls.run_script("demo.sh", "--no-build", "--build", BUILD, *words, seconds=120)
 
     def test_creates_all_outputs(self):
-        done = self.demo("--out", "all of it", "--frames", "4", "--size", "160x120")
+        done, out = self.of_crisp, self.crisp
         self.assert_succeeds(done)
-        out = self.folder / "all of it"
         for name in ("left.mp4", "right.mp4", "disparity-sparse.mkv", "disparity-semi-dense.mkv",
                      "disparity-dense.mkv", "disparity-full.mkv", "color.mp4", "demo.png"):
             self.assertGreater((out / name).stat().st_size, 0, name)
@@ -39,16 +47,16 @@ class Demo(ClipTest):
         self.assertEqual(float(rows["full"][3]), 100, "density")
 
     def test_soft_cameras_are_rendered_and_compressed(self):
-        clip = ["--frames", "2", "--size", "320x240"]
-        self.assert_succeeds(self.demo("--out", "crisp", *clip))
-        done = self.demo("--soft", "--out", "soft", *clip)
+        done = self.demo("--soft", "--out", "soft", *self.CLIP)
         self.assert_succeeds(done)
-        self.assertRegex(done.output, r"\nsemi-dense +2 ")
+        self.assertRegex(done.output, r"\nsemi-dense +4 ")
         for name, share in (("left.mp4", 0.2), ("right.mp4", 0.2), ("clip/left/000000.png", 0.95)):
-            crisp, soft = ((self.folder / out / name).stat().st_size for out in ("crisp", "soft"))
+            crisp, soft = ((out / name).stat().st_size
+                           for out in (self.crisp, self.folder / "soft"))
             self.assertLess(soft, share * crisp, name)
         for name in ("truth/000001.pfm", "mask/000001.png", "calib.txt"):
-            crisp, soft = ((self.folder / out / "clip" / name).read_bytes() for out in ("crisp", "soft"))
+            crisp, soft = ((out / "clip" / name).read_bytes()
+                           for out in (self.crisp, self.folder / "soft"))
             self.assertEqual(soft, crisp, name)
 
     @unittest.skipIf(SLOW > 1, "40 views of a board take minutes in a sanitized build")
@@ -75,11 +83,9 @@ class Demo(ClipTest):
             self.assertGreater((self.folder / "own" / name).stat().st_size, 0, name)
 
     def test_shows_the_elements_message_if_sizes_differ(self):
-        other = self.demo("--out", "other", "--frames", "2", "--size", "128x96")
-        self.assert_succeeds(other)
-        done = self.demo("left.mp4", "other/right.mp4", "--out", "differ")
+        done = self.demo("left.mp4", f"{self.crisp.name}/right.mp4", "--out", "differ")
         self.assert_rejects(done, "160x120", 1)
-        self.assertIn("128x96", done.errors)
+        self.assertIn("320x240", done.errors)
 
     def test_names_a_missing_file(self):
         self.assert_rejects(self.demo("left.mp4", "nothing.mp4"), "nothing.mp4", 1)

@@ -165,8 +165,9 @@ class ClipTest(unittest.TestCase):
         make_clip(cls.folder)
         make_videos(cls.folder)
 
-    def run_script(self, name, *words, seconds=60):
-        return run([PIPELINES / name, *words], self.folder, seconds)
+    @classmethod
+    def run_script(cls, name, *words, seconds=60):
+        return run([PIPELINES / name, *words], cls.folder, seconds)
 
     def assert_succeeds(self, outcome):
         self.assertEqual(outcome.status, 0, str(outcome))
