@@ -194,6 +194,41 @@ TEST_F(Layout, NamesOfPythonProgramsStateTheUnitAndTheSize) {
   EXPECT_THAT(refused(plain(json("translation"))), HasSubstr("add the entry 'length_unit: mm'"));
 }
 
+TEST_F(Layout, OfTomlIsThatOfYaml) {
+  const std::string camera =
+      "camera_matrix = [\n  [500, 0, 322],\n  [0, 501.5, 241],\n  [0, 0, 1]\n]  # K\n"
+      "distortion_coefficients = [0.1, 0.2, 0, 0, 0]\n";
+  const std::string text =
+      "[stereo]\nimage_size = [640, 480]\nunit = \"mm\"\n"
+      "rotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntranslation = [-120.5, 0, 0]\n\n"
+      "[stereo.left]\n" +
+      camera + "[stereo.right]\n" + camera;
+  const StereoCalibration calibration = read_valid(write(text));
+  EXPECT_EQ(calibration.left.focal_y, 501.5);
+  EXPECT_EQ(calibration.right.center_x, 322);
+  EXPECT_EQ(calibration.left.height, 480);
+  EXPECT_DOUBLE_EQ(calibration.baseline(), 0.1205);
+  EXPECT_THAT(refused(replaced(text, "[-120.5, 0, 0]", "[-120.5, 0")),
+              HasSubstr("line 7 is not valid YAML"));
+  EXPECT_THAT(refused("[a]\nx = [1]\n[b.b.b.b.b.b.b]\ny = 1\n"), HasSubstr("nested too deeply"));
+}
+
+TEST_F(Layout, OfTomlWithTablesInLines) {
+  const std::string rectified = "[intrinsics]\nK = [500, 0, 320, 0, 500, 240, 0, 0, 1]\n";
+  EXPECT_EQ(read_valid(write("baseline = 0.12\n" + rectified)).baseline(), 0.12);
+  const std::string inline_table =
+      "left = { fx = 500, cx = 320, cy = 240 }\nright = { fx = 500, cx = 320, cy = 240 }\n"
+      "[rig]\nsize = [640, 480]\n";
+  EXPECT_EQ(read_valid(write("baseline_mm = 120\n" + inline_table)).baseline(), 0.12);
+}
+
+TEST_F(Layout, OfJsonWithComments) {
+  const std::string text =
+      "// written by a program\n{\n  \"fx\": 500.5, // pixels\n  \"cx\": 320, \"cy\": 240,\n"
+      "  /* meters */ \"baseline\": 0.12\n}\n";
+  EXPECT_EQ(read_valid(write(text)).left.focal_x, 500.5);
+}
+
 TEST_F(Layout, OfFourIntrinsicsPerCamera) {
   const std::string pair =
       "Left: {Width: 640, Height: 480, K: [ 500, 501, 322, 241 ], D: [ 0.1, 0.2, 0, 0 ]}\n"

@@ -162,6 +162,11 @@ TEST_F(Remarks, ARectificationThatNoViewCanHaveIsLeftOut) {
   EXPECT_NEAR(calibration.baseline(), plumb_bob_pair().baseline(), 1e-6);
   EXPECT_THAT(calibration.remarks,
               ElementsAre(HasSubstr("P1 has the focal length -8800.5, which no view can have")));
+  const auto oblong = [](const std::string& p) { return replaced(p, " 530.25", " 531.75"); };
+  const std::string pixels = start + "P1: [ " + oblong(left) + "P2: [ " + oblong(right);
+  EXPECT_THAT(read_valid(read(pixels), 640, 480).remarks,
+              ElementsAre(AllOf(HasSubstr("P1 has the focal lengths 530.25 and 531.75"),
+                                HasSubstr("is not used, but computed"))));
   // Without R and T nothing else states the position.
   const std::string alone = "%YAML:1.0\n---\n" + views.substr(views.find("R1:"));
   EXPECT_THAT(read_refused(read(alone), 640, 480),

@@ -230,17 +230,24 @@ std::optional<Format> known_format(const Entry& root) {
   return std::nullopt;
 }
 
+/// Whether all is in one map that is an OpenCV file of its own, whose names need no prefix.
+bool wraps_opencv(const Value& value, const std::string& file) {
+  return value.items.size() == 1 && value.items[0].kind == Value::Kind::kMap &&
+         known_format(Entry(value.items[0], file, {})) == Format::kOpenCv;
+}
+
 /// Recognises the format of a parsed file. Rigs and parameters of ROS nodes have the calibration in
 /// maps of one entry.
 void find_format(Document& document) {
   const Value* inner = &document.root;
   std::string name;
   while (inner->kind == Value::Kind::kMap) {
-    if (const std::optional<Format> format = known_format(Entry(*inner, document.file, name))) {
+    const std::optional<Format> format = known_format(Entry(*inner, document.file, name));
+    if (format && !(format == Format::kOpenCv && wraps_opencv(*inner, document.file))) {
       document.format = *format;
       if (name.empty()) return;
       document.root = Value(*inner);  // a copy, since it is a part of what it replaces
-      document.name = name;
+      if (*format != Format::kOpenCv) document.name = name;
       return;
     }
     if (inner->items.size() != 1) break;
@@ -304,8 +311,10 @@ Document parse_document(const std::string& file) {
     document.root = parse_xml(text, file);
   } else if (is_mrcal(text)) {
     document.root = parse_mrcal(text, file);
-  } else if (start.front() == '{') {
+  } else if (start.front() == '{' || start.starts_with("//") || start.starts_with("/*")) {
     document.root = parse_json(text, file);
+  } else if (is_toml(text, file)) {
+    document.root = parse_toml(text, file);
   } else if (!start.starts_with("%YAML") && parse_as_lines(text, document)) {
     return document;
   } else {

@@ -62,7 +62,9 @@ class JsonHandler : public nlohmann::json_sax<nlohmann::json> {
 
 Value parse_json(const std::string& text, const std::string& file) {
   JsonHandler handler(text, file);
-  nlohmann::json::sax_parse(text, &handler);
+  constexpr bool kStrict = true, kComments = true;
+  nlohmann::json::sax_parse(text, &handler, nlohmann::json::input_format_t::json, kStrict,
+                            kComments);
   return handler.take();
 }
 

@@ -145,9 +145,20 @@ std::optional<double> unit_of(const OpenCvEntries& files, const std::optional<En
   return named ? named : unit_by_baseline(files, translation);
 }
 
-/// Whether no view can have this projection. stereoRectify() writes such ones for lens polynomials
-/// that turn back near the border of the image; the cameras themselves may be right.
-bool is_no_view(const std::vector<double>& projection) { return projection[0] < 0; }
+/// Why no rectified view can have this projection, or nothing. stereoRectify() writes negative
+/// focal lengths for lens polynomials that turn back near the border of the image; other programs
+/// write the pixels of the camera. The cameras themselves may be right.
+std::string no_view_text(const std::vector<double>& projection) {
+  if (projection[0] < 0) {
+    return " has the focal length " + number_text(projection[0]) +
+           ", which no view can have: the distortion may be wrong at the border of the image; "
+           "calibrate with views that cover it.";
+  }
+  if (std::abs(projection[0] - projection[5]) <= kRelativeFocalDifference * projection[0])
+    return {};
+  return " has the focal lengths " + number_text(projection[0]) + " and " +
+         number_text(projection[5]) + ", which must be equal in a rectified view.";
+}
 
 /// The rectification, if all four matrices are there. One that no view can have is left out if R
 /// and T are there (`motion`).
@@ -161,12 +172,11 @@ void read_rectification(const OpenCvEntries& files, double unit, bool motion,
   constexpr const char* kShape = "a 3x4 projection";
   const RectifiedViews views = {rotation_from(*r1), rotation_from(*r2), p1->numbers(12, kShape),
                                 p2->numbers(12, kShape)};
-  if (motion && is_no_view(views.left_projection)) {
-    calibration.remarks.push_back(
-        p1->name() + " has the focal length " + number_text(views.left_projection[0]) +
-        ", which no view can have: the rectification of the file is not used, but computed from "
-        "the cameras, R and T. The distortion may be wrong at the border of the image; calibrate "
-        "with views that cover it.");
+  const std::string problem = no_view_text(views.left_projection);
+  if (motion && !problem.empty()) {
+    calibration.remarks.push_back(p1->name() + problem +
+                                  " The rectification of the file is not used, but computed from "
+                                  "the cameras, R and T.");
     return;
   }
   Rectification rectification = rectification_from(views, *p1, *p2, unit);

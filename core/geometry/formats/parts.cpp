@@ -12,7 +12,6 @@
 namespace mtstereo::formats {
 namespace {
 
-constexpr double kRelativeFocalDifference = 1e-3;
 /// Largest difference of the rows of the principal points of rectified views [px].
 constexpr double kRowDifference = 0.1;
 

@@ -61,6 +61,9 @@ Motion motion_from(const Entry& entry);
 void set_size(CameraCalibration& camera, const Entry& width, const Entry& height);
 void set_size(CameraCalibration& camera, const Entry& both);
 
+/// Largest relative difference of the focal lengths of a rectified view.
+inline constexpr double kRelativeFocalDifference = 1e-3;
+
 /// The projections of a rectified pair, and the rotations where the file states them.
 struct RectifiedViews {
   Eigen::Matrix3d left_rotation = Eigen::Matrix3d::Identity();

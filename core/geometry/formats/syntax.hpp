@@ -50,7 +50,7 @@ class TreeBuilder {
 
 /// YAML, and the YAML that OpenCV writes, whose first line is "%YAML:1.0".
 Value parse_yaml(const std::string& text, const std::string& file);
-/// JSON.
+/// JSON, also with the comments of C++.
 Value parse_json(const std::string& text, const std::string& file);
 /// The XML that OpenCV writes: elements and text, without document types.
 Value parse_xml(std::string_view text, const std::string& file);
@@ -58,6 +58,9 @@ Value parse_xml(std::string_view text, const std::string& file);
 Value parse_lines(std::string_view text, char separator, const std::string& file);
 /// Lines of NAME=VALUE below lines of [SECTION], as a map of maps.
 Value parse_sections(std::string_view text, const std::string& file);
+/// TOML: tables of numbers, texts, arrays and inline tables.
+bool is_toml(std::string_view text, std::string_view file);
+Value parse_toml(std::string_view text, const std::string& file);
 /// The INI of ROS: names, and the lines of numbers after each. A map with the names of the YAML
 /// files of ROS, or a list of maps where there are several cameras.
 Value parse_camera_ini(std::string_view text, const std::string& file);
