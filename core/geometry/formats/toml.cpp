@@ -60,7 +60,9 @@ std::string as_yaml(std::string_view line, bool starts) {
 bool is_toml(std::string_view text, std::string_view file) {
   if (file.ends_with(".toml")) return true;
   bool header = false;
-  const bool array = text.find("= [") != std::string_view::npos;
+  // The INI of ROS follows what cameracalibrator prints in Python.
+  const bool array = text.find("= [") != std::string_view::npos &&
+                     text.find("# oST version") == std::string_view::npos;
   while (array && !header && !text.empty()) header = is_header(take_line(text));
   return header;
 }
