@@ -45,45 +45,9 @@ cv::Mat is_nan(const cv::Mat& values) {
   return mask;
 }
 
-cv::Mat to_kitti(const fs::path& file, const cv::Mat& disparity) {
-  constexpr double kScale = 256;
-  cv::Mat stored(disparity.size(), CV_16UC1);
-  for (int y = 0; y < disparity.rows; ++y) {
-    const auto* source = disparity.ptr<float>(y);
-    auto* target = stored.ptr<std::uint16_t>(y);
-    for (int x = 0; x < disparity.cols; ++x) {
-      if (std::isnan(source[x])) {
-        target[x] = 0;
-        continue;
-      }
-      const double value = std::round(source[x] * kScale);
-      if (value > std::numeric_limits<std::uint16_t>::max()) {
-        throw UserError(file, "a disparity of " + std::to_string(source[x]) +
-                                  " px is above 255.99 px, the largest of a KITTI PNG; use "
-                                  "--format pfm");
-      }
-      if (value < 0) {
-        throw UserError(file, "a disparity of " + std::to_string(source[x]) +
-                                  " px is negative, which a KITTI PNG cannot store; use --format "
-                                  "pfm");
-      }
-      target[x] = static_cast<std::uint16_t>(std::max(value, 1.0));
-    }
-  }
-  return stored;
-}
-
 }  // namespace
 
-const char* extension_of(DisparityFormat format) {
-  return format == DisparityFormat::kPfm ? ".pfm" : ".png";
-}
-
-void write_disparity(const fs::path& file, const cv::Mat& disparity, DisparityFormat format) {
-  if (format == DisparityFormat::kKitti) {
-    write_image(file, to_kitti(file, disparity));
-    return;
-  }
+void write_disparity(const fs::path& file, const cv::Mat& disparity) {
   cv::Mat values = disparity.clone();
   for (float& value : cv::Mat_<float>(values)) {
     if (std::isnan(value)) value = std::numeric_limits<float>::infinity();

@@ -8,19 +8,9 @@
 
 namespace mtstereo::eval {
 
-/// The file format of a written disparity map.
-enum class DisparityFormat {
-  kPfm,    ///< 32-bit float, infinity = none, as Middlebury requires
-  kKitti,  ///< 16-bit PNG, px = value / 256, 0 = none
-};
-
-/// The extension of files in this format, with the dot.
-const char* extension_of(DisparityFormat format);
-
-/// Writes a disparity map (CV_32FC1 [px], NaN = none). Throws UserError if the file cannot be
-/// written or a disparity is out of the format's range.
-void write_disparity(const std::filesystem::path& file, const cv::Mat& disparity,
-                     DisparityFormat format);
+/// Writes a disparity map (CV_32FC1 [px], NaN = none) as PFM, where infinity is none. Throws
+/// UserError if the file cannot be written.
+void write_disparity(const std::filesystem::path& file, const cv::Mat& disparity);
 
 /// A disparity map in color (CV_8UC3): 0 .. max_disparity in the color map Turbo, near is red;
 /// black = none. The range is fixed, so that the images of a run can be compared.

@@ -18,7 +18,6 @@ struct Texts {
   std::vector<std::string> folders;
   std::string dataset = "auto";
   std::string dmap = "auto";
-  std::string format = "pfm";
   std::string json, disparity_folder, image_folder;
   std::vector<std::string> compare;
   std::vector<std::string> degrade;
@@ -137,15 +136,8 @@ void add_outputs(CLI::App& app, Texts& texts, Options& options) {
                "the uniquenessRatio of those matchers too; --json has the curves for plot.py")
       ->group(group);
   app.add_option("--write-disparity", texts.disparity_folder,
-                 "write the disparity maps to this folder")
+                 "write the disparity maps to this folder as PFM: 32-bit float, infinity = none")
       ->type_name("DIR")
-      ->group(group);
-  app.add_option(
-         "--format", texts.format,
-         "format of these maps: pfm = 32-bit float, infinity = none; kitti = 16-bit PNG, px = "
-         "value / 256, 0 = none")
-      ->check(CLI::IsMember({"pfm", "kitti"}))
-      ->capture_default_str()
       ->group(group);
   app.add_option("--write-pictures", texts.image_folder,
                  "write an image of each pair to this folder: left image, ground truth, disparity "
@@ -199,7 +191,6 @@ void apply(const Texts& texts, Options& options) {
   options.run.disparity_folder = path_of(texts.disparity_folder);
   options.run.image_folder = path_of(texts.image_folder);
   if (options.run.stream) options.run.warm_up = 0;  // it would be an earlier frame
-  if (texts.format == "kitti") options.run.disparity_format = DisparityFormat::kKitti;
 }
 
 }  // namespace

@@ -273,10 +273,9 @@ void Runner::finish(const std::string& method, const cv::Mat& disparity, double 
   report.results.push_back(std::move(result));
 
   if (settings_.disparity_folder) {
-    const char* extension = extension_of(settings_.disparity_format);
-    const std::string name = output_name(method, report, extension);
+    const std::string name = output_name(method, report, ".pfm");
     outputs::ListedFolder& files = listed(*settings_.disparity_folder);
-    write_disparity(files.listed(name), disparity, settings_.disparity_format);
+    write_disparity(files.listed(name), disparity);
     files.measure(name);
   }
   if (settings_.image_folder) {

@@ -37,7 +37,6 @@ struct RunSettings {
   int repeat = 1;   ///< timed frames; the result is their median
   DmapMeaning dmap = DmapMeaning::kAuto;
   std::optional<std::filesystem::path> disparity_folder;
-  DisparityFormat disparity_format = DisparityFormat::kPfm;
   std::optional<std::filesystem::path> image_folder;
   bool curve = false;                     ///< sweep the confidence of every method
   std::vector<Degradation> degradations;  ///< evaluated in addition to the images as they are

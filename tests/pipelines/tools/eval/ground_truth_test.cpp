@@ -67,21 +67,6 @@ TEST_F(GroundTruthFiles, PngInColorIsRejected) {
   EXPECT_INPUT_ERROR(read_png_disparity(folder_ / "a.png"), "3 channels");
 }
 
-TEST_F(GroundTruthFiles, KittiPngRefusesNegativeDisparities) {
-  const cv::Mat map = (cv::Mat_<float>(1, 2) << 3, -0.5);
-  EXPECT_THROW(write_disparity(folder_ / "a.png", map, DisparityFormat::kKitti), UserError);
-  write_disparity(folder_ / "a.pfm", map, DisparityFormat::kPfm);
-}
-
-TEST_F(GroundTruthFiles, KittiPngRoundTripKeepsDisparities) {
-  const cv::Mat map = (cv::Mat_<float>(2, 3) << 1, kNan, 0.001F, 255.5F, 12.25F, 100);
-  write_disparity(folder_ / "a.png", map, DisparityFormat::kKitti);
-  const cv::Mat again = read_png_disparity(folder_ / "a.png");
-  // The smallest disparity that differs from none is 1 / 256 px.
-  expect_row(again, 0, {1, kNan, 1 / 256.0F});
-  expect_row(again, 1, {255.5F, 12.25F, 100});
-}
-
 TEST_F(GroundTruthFiles, DmapIsBigEndianColumnByColumn) {
   // Two columns of three rows.
   write_file(folder_ / "a_dmap.bin", float_bytes({1, 2, 3, 4, 5, 6}, true));

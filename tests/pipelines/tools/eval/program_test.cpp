@@ -79,7 +79,6 @@ TEST_F(Program, ExitsWith2AndNamesTheInvalidOption) {
       {{set(), "--compare", "sgbm,elas"}, "elas"},
       {{set(), "--repeat", "0"}, "--repeat"},
       {{set(), "--warm-up", "-1"}, "--warm-up"},
-      {{set(), "--format", "tiff"}, "--format"},
       {{set(), "--dmap", "meters"}, "--dmap"},
       {{set(), "--json"}, "--json"},
   };
@@ -151,13 +150,6 @@ TEST_F(Program, WritesDisparityMapsAndImages) {
   ASSERT_EQ(pfm.status, 0) << pfm.err;
   EXPECT_EQ(read_pfm(folder_ / "maps/A.pfm").size(), cv::Size(240, 120));
   EXPECT_EQ(cv::imread(folder_ / "images/A.png").size(), cv::Size(480, 240));
-
-  const Outcome kitti =
-      run_eval({set(), "--only", "A", "--write-disparity", folder_ / "maps", "--format", "kitti"});
-  ASSERT_EQ(kitti.status, 0) << kitti.err;
-  const cv::Mat map = cv::imread(folder_ / "maps/A.png", cv::IMREAD_UNCHANGED);
-  ASSERT_EQ(map.type(), CV_16UC1);
-  EXPECT_GT(cv::countNonZero(map), 240 * 120 / 20);
 }
 
 TEST_F(Program, RejectsAnUnwritableFileBeforeTheEvaluation) {
