@@ -100,8 +100,7 @@ StereoFrame raw_frame(const Scene& scene, double time, const Settings& settings,
 class Clip {
  public:
   explicit Clip(const Options& o) : o_(o), is_board_(o.scene == "board") {
-    if (o.scene == "thin") scene_ = make_thin(o.thin, o.settings.seed);
-    if (o.is_built_in()) scene_ = make_scene(o.scene, o.settings.seed);
+    if (!is_board_) scene_ = make_scene(o.scene, o.settings.seed);
     settings_ = complete(scene_, o.settings);
     rig_ = rig_of(o, settings_);
     if (is_board_) scene_ = board_scene(o, *rig_);

@@ -17,7 +17,7 @@ namespace {
 
 void define_clip(CLI::App& app, Options& o) {
   app.add_option("folder", o.folder, "output folder; created if missing")->required();
-  app.add_option("--scene", o.scene, "street, garden, room, board or thin")->capture_default_str();
+  app.add_option("--scene", o.scene, "street, garden, room or board")->capture_default_str();
   app.add_option("--size", o.size, "width and height of a view [px]")->capture_default_str();
   app.add_option("--frames", o.frames, "number of frames; board: that of all poses, others: 48")
       ->check(CLI::Range(1, 999999));
@@ -95,13 +95,6 @@ void define_scenes(CLI::App& app, Options& o) {
   const auto number = [&app](const char* name, auto& value, const char* help) {
     app.add_option(name, value, help)->check(options::finite())->capture_default_str();
   };
-  const std::map<std::string, ThinKind> kinds = {
-      {"posts", ThinKind::kPosts}, {"leaning", ThinKind::kLeaning}, {"rails", ThinKind::kRails},
-      {"wires", ThinKind::kWires}, {"fence", ThinKind::kFence},     {"stems", ThinKind::kStems}};
-  app.add_option("--thin", o.thin.kind, "thin: posts, leaning, rails, wires, fence or stems")
-      ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case))
-      ->default_str("posts");
-  number("--thin-width", o.thin.width, "thin: their width in a view 640 px wide [px]");
   app.add_option("--squares", o.board.squares, "board: columns and rows of the checkerboard")
       ->capture_default_str();
   number("--square", o.board.square, "board: edge of a square [m]");
@@ -120,7 +113,7 @@ void require(bool valid, const char* sentence) {
 
 void check_scene(const std::string& name) {
   std::vector<std::string> names = scene_names();
-  names.insert(names.end(), {"board", "thin"});
+  names.emplace_back("board");
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   std::string known;
   for (const auto& n : names) known += (known.empty() ? "" : ", ") + n;

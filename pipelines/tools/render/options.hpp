@@ -45,11 +45,8 @@ struct Options {
   double alpha = 0;               ///< of that rectification
   std::string rectified_size;     ///< of the views of that pair [px]; empty: that of the cameras
   BoardOptions board;             ///< of the scene `board`
-  Thin thin;                      ///< of the scene `thin`
   Settings settings;              ///< of the cameras
 
-  /// Whether make_scene() makes the scene.
-  bool is_built_in() const { return scene != "board" && scene != "thin"; }
   /// Whether the cameras are raw ones.
   bool has_raw_cameras() const { return !raw.empty() || !lens.empty(); }
 };

@@ -52,7 +52,7 @@ Scene make_street(std::uint32_t seed);
 Scene make_garden(std::uint32_t seed);
 Scene make_room(std::uint32_t seed);
 
-/// What the structures of the scene `thin` are.
+/// What the thin structures are.
 enum class ThinKind {
   kPosts,    ///< upright bars
   kLeaning,  ///< bars that lean by 0.2 to 0.6 px per row

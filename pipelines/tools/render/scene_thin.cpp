@@ -111,7 +111,7 @@ void add_stem(SceneBuilder& b, double width, int i) {
 
 Scene make_thin(const Thin& thin, std::uint32_t seed) {
   if (!(thin.width >= 0.5 && thin.width <= 20)) {
-    throw std::invalid_argument("thin-width must be 0.5 to 20 px");
+    throw std::invalid_argument("the width must be 0.5 to 20 px");
   }
   SceneBuilder b("thin", hash(seed, static_cast<std::uint32_t>(thin.kind), 0x7417u));
   b.scene().baseline = kBaseline;

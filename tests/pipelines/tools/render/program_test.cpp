@@ -190,7 +190,7 @@ TEST_F(Program, RejectsInvalidOptionsByName) {
       {"--size 10x-4", "two numbers"},
       {"--frames 0", "--frames"},
       {"--frames many", "--frames"},
-      {"--scene moon", "street, garden, room, board, thin"},
+      {"--scene moon", "street, garden, room, board"},
       {"--baseline -1", "baseline"},
       {"--focal nan", "focal"},
       {"--noise 1e9", "noise"},
