@@ -27,8 +27,8 @@ struct StereoPair {
   std::filesystem::path left;
   std::filesystem::path right;
   std::filesystem::path truth;  ///< .pfm, .png or _dmap.bin
-  /// what the values of an 8-bit image are divided by
-  int truth_factor = 1;
+  /// what the values of an image are divided by: gray values of 8 bits, 1/256 gray value of 16 bits
+  double truth_factor = 1;
   /// 255 = visible in both views, other values = not (Middlebury, ETH3D); may be empty
   std::filesystem::path visible_mask;
   /// ground truth of only the pixels that are visible in both views (KITTI); may be empty

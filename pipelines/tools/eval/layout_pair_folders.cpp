@@ -2,7 +2,8 @@
 
 // Middlebury and ETH3D: each pair is a folder with im0.png, im1.png, disp0GT.pfm and calib.txt.
 // Sets of Middlebury before 2014: view1.png, view5.png, disp1.png (2005, 2006) or im2, im6, disp2
-// (2001, 2003), with disparities times a factor in 8 bits.
+// (2001, 2003), with disparities times a factor in 8 bits. InStereo2K: left.png, right.png,
+// left_disp.png, with disparities times 100 in 16 bits.
 
 #include <algorithm>
 #include <array>
@@ -24,12 +25,13 @@ struct Names {
   const char *left, *right, *truth;
 };
 
-constexpr std::array<Names, 4> kOldNames{{{"view1.png", "view5.png", "disp1.png"},
+constexpr std::array<Names, 5> kOldNames{{{"view1.png", "view5.png", "disp1.png"},
                                           {"im2.png", "im6.png", "disp2.png"},
                                           {"im2.ppm", "im6.ppm", "disp2.pgm"},
-                                          {"im2.ppm", "im6.ppm", "disp2.png"}}};
+                                          {"im2.ppm", "im6.ppm", "disp2.png"},
+                                          {"left.png", "right.png", "left_disp.png"}}};
 
-// The names in a folder of an old set; none in other folders.
+// The names in a folder of an old set or InStereo2K; none in other folders.
 const Names* old_names(const fs::path& folder) {
   const auto* const found =
       std::find_if(kOldNames.begin(), kOldNames.end(), [&](const Names& names) {
@@ -56,9 +58,14 @@ void add_old(DataSet& set, StereoPair pair, const fs::path& folder, const Names&
   pair.left = folder / names.left;
   pair.right = folder / names.right;
   pair.truth = folder / names.truth;
-  const int factor = old_factor(names, images::read(pair.left, cv::IMREAD_GRAYSCALE).cols);
-  pair.truth_factor = factor;
-  pair.max_disparity = 256 / factor;
+  if (names.left == kOldNames.back().left) {
+    pair.truth_factor = 100 / 256.0;
+    pair.max_disparity = 256;
+  } else {
+    const int factor = old_factor(names, images::read(pair.left, cv::IMREAD_GRAYSCALE).cols);
+    pair.truth_factor = factor;
+    pair.max_disparity = 256 / factor;
+  }
   set.pairs.push_back(std::move(pair));
 }
 

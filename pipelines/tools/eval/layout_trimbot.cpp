@@ -2,7 +2,8 @@
 
 // The TrimBot2020 gardens: two folders of images, vcam_0 and vcam_1 (rendered), cam_0 and cam_1
 // (real) or left and right, and ground truth beside the left images or in its own folder. Files of
-// one frame have the same frame number, the last digits in the name.
+// one frame have the same frame number, the last digits in the name, or else the same name.
+// DrivingStereo: train-left-image/SCENE, train-right-image/SCENE, train-disparity-map/SCENE.
 
 #include <algorithm>
 #include <cctype>
@@ -22,6 +23,21 @@ struct Rig {
   fs::path left, right;
 };
 
+// The same folder with another word for "left-image" in its name or in that of the one above, as in
+// DrivingStereo; empty if neither name has it.
+fs::path driving_folder(const fs::path& left, const std::string& word) {
+  const fs::path above = left.parent_path();
+  for (const fs::path& named : {left, above}) {
+    std::string name = named.filename().string();
+    const std::string side = "left-image";
+    const std::size_t at = name.find(side);
+    if (at == std::string::npos) continue;
+    const fs::path other = named.parent_path() / name.replace(at, side.size(), word);
+    return named == left ? other : other / left.filename();
+  }
+  return {};
+}
+
 // The folder of the right camera, if this is the folder of a left one. In rigs with several pairs,
 // left cameras have even numbers: vcam_0 with vcam_1, vcam_2 with vcam_3.
 std::optional<Rig> rig_of(const fs::path& left) {
@@ -29,7 +45,7 @@ std::optional<Rig> rig_of(const fs::path& left) {
   fs::path right;
   if (name == "left") {
     right = left.parent_path() / "right";
-  } else {
+  } else if (right = driving_folder(left, "right-image"); right.empty()) {
     const std::size_t at = name.rfind("cam_");
     if (at == std::string::npos || name.size() != at + 5) return std::nullopt;
     const char digit = name.back();
@@ -67,25 +83,40 @@ bool is_truth(const fs::path& file, bool beside_images) {
 using Frames = std::map<std::string, std::vector<fs::path>>;
 
 template <typename Accept>
-Frames frames_in(const fs::path& folder, Accept accept) {
+Frames frames_in(const fs::path& folder, bool by_name, Accept accept) {
   Frames frames;
   for (const fs::path& file : files_in(folder)) {
-    if (accept(file)) frames[frame_of(file)].push_back(file);
+    if (accept(file)) frames[by_name ? file.stem().string() : frame_of(file)].push_back(file);
   }
   return frames;
 }
 
+// Whether frame numbers do not tell the files apart, as in 000000_10 and 000001_10 or in times with
+// milliseconds at the end, but the names do.
+bool names_tell_apart(const Rig& rig) {
+  const Frames numbers = frames_in(rig.left, false, is_view);
+  if (std::all_of(numbers.begin(), numbers.end(), [](auto& f) { return f.second.size() == 1; })) {
+    return false;
+  }
+  const Frames left = frames_in(rig.left, true, is_view);
+  const Frames right = frames_in(rig.right, true, is_view);
+  return std::all_of(left.begin(), left.end(), [&](auto& f) { return right.count(f.first) == 1; });
+}
+
 // The separate ground truth folder is searched first; with several cameras, its subfolder named
 // after the camera.
-Frames truths_of(const Rig& rig) {
+Frames truths_of(const Rig& rig, bool by_name) {
+  const auto is_map = [](const fs::path& f) { return is_truth(f, false); };
+  const fs::path driving = driving_folder(rig.left, "disparity-map");
+  if (!driving.empty()) return frames_in(driving, by_name, is_map);
   const fs::path up = rig.left.parent_path();
   for (const char* name : {"ground_truth_disparity", "ground_truth", "disparity", "disp", "gt"}) {
     for (const fs::path& folder : {up / name / rig.left.filename(), up / name}) {
-      Frames frames = frames_in(folder, [](const fs::path& f) { return is_truth(f, false); });
+      Frames frames = frames_in(folder, by_name, is_map);
       if (!frames.empty()) return frames;
     }
   }
-  return frames_in(rig.left, [](const fs::path& f) { return is_truth(f, true); });
+  return frames_in(rig.left, by_name, [](const fs::path& f) { return is_truth(f, true); });
 }
 
 // The camera of "vcam_0_f00001_undist.png" is in "vcam_0_f00001_cam.txt".
@@ -101,10 +132,16 @@ fs::path camera_file(const fs::path& image) {
 class RigFinder {
  public:
   RigFinder(DataSet& set, const Rig& rig)
-      : set_(set), rig_(rig), right_(frames_in(rig.right, is_view)), truth_(truths_of(rig)) {}
+      : set_(set),
+        rig_(rig),
+        by_name_(names_tell_apart(rig)),
+        right_(frames_in(rig.right, by_name_, is_view)),
+        truth_(truths_of(rig, by_name_)) {}
 
   void add_all() {
-    for (const auto& [frame, files] : frames_in(rig_.left, is_view)) add(frame, files);
+    for (const auto& [frame, files] : frames_in(rig_.left, by_name_, is_view)) {
+      add(frame, files);
+    }
   }
 
  private:
@@ -136,13 +173,15 @@ class RigFinder {
     pair.right = *right;
     pair.truth = *truth;
     pair.cameras = {camera_file(pair.left), camera_file(pair.right)};
-    pair.max_disparity =
-        set_.layout == Layout::kTrimbotSynthetic ? kTrimbotSyntheticRange : kTrimbotRealRange;
+    pair.max_disparity = set_.layout == Layout::kTrimbotSynthetic ? kTrimbotSyntheticRange
+                         : driving_folder(rig_.left, "").empty()  ? kTrimbotRealRange
+                                                                  : kDrivingStereoRange;
     set_.pairs.push_back(std::move(pair));
   }
 
   DataSet& set_;
   Rig rig_;
+  bool by_name_;
   Frames right_;
   Frames truth_;
 };

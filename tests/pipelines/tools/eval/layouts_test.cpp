@@ -121,6 +121,16 @@ TEST_F(Layouts, Eth3dIsDetectedByItsNamesAndHasASmallerRange) {
   EXPECT_EQ(set.pairs[2].max_disparity, 20);
 }
 
+TEST_F(Layouts, InStereo2kDividesTheDisparitiesBy100) {
+  write_image(folder_ / "000001/left.png", cv::Mat(8, 40, CV_8UC3, cv::Scalar(1, 2, 3)));
+  write_image(folder_ / "000001/right.png", cv::Mat(8, 40, CV_8UC3, cv::Scalar(1, 2, 3)));
+  write_image(folder_ / "000001/left_disp.png", cv::Mat(8, 40, CV_16UC1, cv::Scalar(1250)));
+  const DataSet set = find_pairs(folder_.path(), detect_layout(folder_.path()));
+  ASSERT_EQ(set.pairs.size(), 1U);
+  EXPECT_FLOAT_EQ(load_pair(set.pairs[0], DmapMeaning::kAuto).truth.disparity.at<float>(2, 3),
+                  12.5);
+}
+
 // A folder of an old Middlebury set with images of this width.
 void write_old_set(const TemporaryFolder& folder, const std::string& names, int width,
                    const std::string& end = ".png") {

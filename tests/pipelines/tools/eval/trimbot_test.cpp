@@ -44,6 +44,37 @@ class TrimBot : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(TrimBot, FramesWithTheSameLastNumberArePairedByTheirNames) {
+  for (const char* frame : {"000000_10", "000001_10"}) {
+    for (const char* place : {"left/", "right/", "disparity/"}) {
+      image(std::string(place) + frame + ".png");
+    }
+  }
+  const DataSet set = detect(Layout::kTrimbotReal);
+  EXPECT_TRUE(set.problems.empty());
+  ASSERT_EQ(set.pairs.size(), 2U);
+  EXPECT_EQ(set.pairs[1].right, folder_ / "right/000001_10.png");
+  EXPECT_EQ(set.pairs[1].truth, folder_ / "disparity/000001_10.png");
+}
+
+TEST_F(TrimBot, DrivingStereoHasFoldersOfScenesPerSide) {
+  for (const char* frame : {"2018-10-11-702", "2018-10-12-702"}) {
+    image(std::string("train-left-image/scene/") + frame + ".jpg");
+    image(std::string("train-right-image/scene/") + frame + ".jpg");
+    image(std::string("train-disparity-map/scene/") + frame + ".png");
+  }
+  image("left-image-half-size/7.jpg");
+  image("right-image-half-size/7.jpg");
+  image("disparity-map-half-size/7.png");
+  const DataSet set = detect(Layout::kTrimbotReal);
+  EXPECT_TRUE(set.problems.empty());
+  ASSERT_EQ(set.pairs.size(), 3U);
+  EXPECT_EQ(set.pairs[0].truth, folder_ / "disparity-map-half-size/7.png");
+  EXPECT_EQ(set.pairs[2].right, folder_ / "train-right-image/scene/2018-10-12-702.jpg");
+  EXPECT_EQ(set.pairs[2].truth, folder_ / "train-disparity-map/scene/2018-10-12-702.png");
+  EXPECT_EQ(set.pairs[2].max_disparity, 128);
+}
+
 TEST_F(TrimBot, SyntheticGardenPairsTheFramesOfTheTwoCameras) {
   rendered_frame("clear_0288", "00001");
   rendered_frame("clear_0288", "00012");
