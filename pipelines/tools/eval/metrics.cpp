@@ -3,14 +3,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "lib/outputs/user_error.hpp"
 #include "tools/eval/flat_answers.hpp"
-#include "tools/eval/weighted_mean.hpp"
 
 namespace mtstereo::eval {
 namespace {
+
+// part / whole [%]; NaN if the whole is 0.
+double percent(std::int64_t part, std::int64_t whole) {
+  if (whole == 0) return kNone;
+  return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+// A running weighted mean that ignores NaN.
+class WeightedMean {
+ public:
+  void add(double value, double weight) {
+    if (std::isnan(value)) return;
+    sum_ += value * weight;
+    weights_ += weight;
+  }
+  // NaN if there is no value.
+  double value() const { return weights_ > 0 ? sum_ / weights_ : kNone; }
+
+ private:
+  double sum_ = 0;
+  double weights_ = 0;
+};
 
 void require_same_size(const cv::Mat& estimate, const cv::Mat& truth) {
   if (estimate.size() == truth.size()) return;

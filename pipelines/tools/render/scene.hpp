@@ -87,7 +87,6 @@ class SceneBuilder {
   Object& box(const Eigen::Vector3d& center, const Eigen::Vector3d& half_size,
               const Texture& texture, double yaw = 0);
   Object& sphere(const Eigen::Vector3d& center, double radius, const Texture& texture);
-  /// A lamp with the shape of a sphere.
   /// A vertical round pole; `foot` is its lower end.
   Object& pole(const Eigen::Vector3d& foot, double height, double radius, const Texture& texture);
   /// A wide horizontal ground plane at height y, from z = from to z = to.
