@@ -92,7 +92,7 @@ void refuse_memory(ElementState& state) {
 GstFlowReturn match(ElementState& state, GstBuffer* left, GstBuffer* right) {
   const OutputTimes times = state.output.times(left);
   if (const auto now = state.clock.now(); now && GST_CLOCK_TIME_IS_VALID(times.running)) {
-    state.pairing_reports.first_pair(bounded(times.running), *now);
+    state.pairing_reports.matches(bounded(times.running), *now);
   }
   if (GST_CLOCK_TIME_IS_VALID(times.stream)) {
     gst_object_sync_values(GST_OBJECT_CAST(state.element), times.stream);

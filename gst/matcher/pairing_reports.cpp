@@ -56,6 +56,13 @@ void PairingReports::unpaired(Nanoseconds difference, Nanoseconds tolerance) {
 }
 
 void PairingReports::late(Side silent) {
+  constexpr int kStanding = 10;
+  if (same_times_ >= kStanding && !std::exchange(standing_seen_, true)) {
+    messages_.warning(
+        "The time stamps stand still: the last " + std::to_string(same_times_ + 1) +
+        " pairs have the same one, so frames are late and dropped. Give each frame its own time "
+        "(appsrc do-timestamp=true).");
+  }
   if (!unpaired_.dropped(wall_clock())) return;
   messages_.warning("The last " + std::to_string(unpaired_.run()) +
                     " frames had no partner, because no frame arrived in time on " +
@@ -95,7 +102,9 @@ void PairingReports::doubt(PairDoubt doubt) {
                     "standard deviation " + milliseconds(spread));
 }
 
-void PairingReports::first_pair(Nanoseconds time, Nanoseconds now) {
+void PairingReports::matches(Nanoseconds time, Nanoseconds now) {
+  same_times_ = first_seen_ && time == last_time_ ? same_times_ + 1 : 0;
+  last_time_ = time;
   if (std::exchange(first_seen_, true) || time - now < kFarAhead) return;
   messages_.warning(
       "The time stamps are " + std::to_string((time - now) / kSecond) +

@@ -17,8 +17,8 @@ class PairingReports {
 
   /// Two frames were paired. Logs the difference of the streams' times if it has changed.
   void paired();
-  /// The first pair since the start is matched. Running times of its map and of the clock.
-  void first_pair(Nanoseconds time, Nanoseconds now);
+  /// A pair is matched. Running times of its map and of the clock.
+  void matches(Nanoseconds time, Nanoseconds now);
   /// A frame had no partner, because the next one of the other side is too far away.
   void unpaired(Nanoseconds difference, Nanoseconds tolerance);
   /// A frame had no partner, because none arrived on this side in time.
@@ -32,7 +32,7 @@ class PairingReports {
   /// A change to sync-mode=reference-timestamp was taken back.
   void warn_of_missing_reference(Side side);
 
-  void start() { unpaired_ = {}, doubts_ = {}, first_seen_ = false; }
+  void start() { unpaired_ = {}, doubts_ = {}, first_seen_ = standing_seen_ = false; }
 
  private:
   static constexpr Nanoseconds kFarAhead = 3'600'000'000'000;  ///< no source is that early
@@ -44,6 +44,9 @@ class PairingReports {
   UnpairedWarning unpaired_;
   DoubtWarning doubts_;
   bool first_seen_ = false;
+  Nanoseconds last_time_ = 0;                 // of the last pair
+  int same_times_ = 0;                        // pairs in a row with the time of the one before
+  bool standing_seen_ = false;                // and warned of
   std::optional<Nanoseconds> logged_offset_;  // of the streams
   int logged_restarts_ = 0;                   // Pairer::restarts() then
 };

@@ -60,6 +60,9 @@ std::string format_problem(const GstStructure* fields, const GstStructure* accep
 std::string caps_problem(const GstCaps* caps, const GstCaps* accepted, FrameKind kind) {
   const GstStructure* fields = gst_caps_get_structure(caps, 0);
   const GstStructure* allowed = gst_caps_get_structure(accepted, 0);
+  if (gst_structure_has_name(fields, "video/x-bayer")) {
+    return "it is video/x-bayer, but raw video is required: put bayer2rgb upstream of it";
+  }
   if (!gst_structure_has_name(fields, "video/x-raw")) {
     return std::string("it is ") + gst_structure_get_name(fields) +
            ", but raw video is required: put a decoder (such as decodebin) upstream of it";

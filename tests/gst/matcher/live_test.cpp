@@ -95,6 +95,20 @@ TEST_F(Live, DoesNotWarnOfMissingFramesBetweenPairs) {
   EXPECT_TRUE(harness->warnings().empty());
 }
 
+TEST_F(Live, WarnsOfTimeStampsThatStandStill) {
+  start(true);
+  for (int i = 0; i < 11; ++i) {
+    harness->push_pair(pair, kFrame);
+    ASSERT_TRUE(harness->pull());
+  }
+  EXPECT_TRUE(harness->warnings().empty());
+  left(kFrame);
+  ASSERT_TRUE(pass_deadline());
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("the last 11 pairs have the same"), std::string::npos)
+      << warning.text;
+}
+
 TEST_F(Live, WarnsOfTimeStampsForWhichSinksWouldWaitForHours) {
   start(true);
   harness->push_pair(pair, 10000 * GST_SECOND);

@@ -102,6 +102,7 @@ TEST_P(RefusedCaps, NameTheFormat) {
 }
 
 TEST_P(RefusedCaps, NameTheKindOfStream) {
+  expect_error("video/x-bayer,format=rggb,width=64,height=48", {"video/x-bayer", "bayer2rgb"});
   expect_error("video/x-h264,width=64,height=48", {"video/x-h264", "decoder"});
   expect_error("audio/x-raw", {"audio/x-raw", "raw video is required"});
 }
