@@ -15,6 +15,8 @@ namespace {
 
 /// A smaller part of an image is not worth a word.
 constexpr double kFewPixels = 1e-3;
+/// A lens model that turns back before most of the image is not that of the camera.
+constexpr double kMostPixels = 0.5;
 /// A view that the camera fills less gives next to no matches.
 constexpr double kNearlyEmpty = 0.25;
 /// A field of view that a plane cannot show without shrinking its middle [degrees].
@@ -75,12 +77,16 @@ class Remarks {
 void Remarks::note_lens(Side side) {
   const double part = uncovered_part(camera(side));
   if (part < kFewPixels) return;
+  const bool most = part >= kMostPixels;
   remarks_.push_back({side,
                       "The lens model of the " + name_of(side) + " camera ends " +
                           whole(Lens(camera(side)).widest_angle() / kDegree) +
                           " degrees from its axis, where it turns back: " + percent(part) +
-                          " of its image is beyond that and is left out.",
-                      false, true});
+                          " of its image is beyond that and is left out." +
+                          (most ? " The distortion is hardly that of this camera; calibrate it "
+                                  "with views that cover its image."
+                                : ""),
+                      most, true});
 }
 
 void Remarks::note_field(Side side) {

@@ -129,6 +129,15 @@ TEST(WideLenses, RemarksStateWhatIsCutOff) {
   }
 }
 
+TEST(WideLenses, ALensModelThatEndsBeforeMostOfTheImageIsAWarning) {
+  StereoCalibration rig = plumb_bob_rig();
+  EXPECT_EQ(remarks_of(pole_rig(), rectified(pole_rig(), 0), true), "");
+  rig.left.coefficients = {-10, 0, 0, 0, 0};
+  const std::string text = remarks_of(rig, rectified(rig, 0), true);
+  EXPECT_NE(text.find("The lens model of the left camera ends 1"), std::string::npos) << text;
+  EXPECT_NE(text.find("is hardly that of this camera"), std::string::npos) << text;
+}
+
 TEST(WideLenses, AViewThatIsNearlyEmptyIsAWarning) {
   const StereoCalibration rig = plumb_bob_rig();
   Rectification r = rectified(rig, 0);

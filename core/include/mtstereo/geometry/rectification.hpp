@@ -115,8 +115,9 @@ struct RectificationRemark {
 };
 
 /// What is unusual about the rectified views: parts of the images that the lens model does not
-/// cover, fields of view that are too wide for a plane, and, as a warning, a view that the camera
-/// fills by less than a quarter. Both must belong to the same size of images.
+/// cover (most of an image: a warning), fields of view that are too wide for a plane, and, as a
+/// warning, a view that the camera fills by less than a quarter. Both must belong to the same size
+/// of images.
 MTSTEREO_API Result<std::vector<RectificationRemark>> rectification_remarks(
     const StereoCalibration& calibration, const Rectification& rectification) noexcept;
 
