@@ -35,7 +35,7 @@ struct Views {
   std::array<Image<std::uint8_t>, 2> halves;
   std::array<NoiseBlocks, 2> noise;
   BlockBorders borders;   ///< of the left view; none with nodes
-  int edge = kUsualEdge;  ///< what counts as an edge in the left view [gray values]
+  int edge = kUsualEdge;  ///< what counts as an edge in the left view [1 / kEdgeParts gray value]
   float input_noise = 0;  ///< of the noisier view of the caller, if the views are averaged
   float noise_level = 0;  ///< of the noisier view, before it was filtered; 0 without the filter
   float rated_noise = 0;  ///< the same for the confidence: before the views were averaged

@@ -17,7 +17,7 @@ void divide(int large_step, int edge, int least, const std::uint8_t* __restrict_
             std::uint8_t* __restrict__ large_steps) {
   const float dividend = static_cast<float>(large_step * edge) + 0.5F;
   for (int x = 0; x < width; ++x) {
-    const int change = std::abs(gray[x] - gray_before[x]);
+    const int change = kEdgeParts * std::abs(gray[x] - gray_before[x]);
     const int quotient = static_cast<int>(dividend / static_cast<float>(edge + change));
     const int cost = quotient < least ? least : quotient;
     large_steps[x] = static_cast<std::uint8_t>(cost > 255 ? 255 : cost);
@@ -33,8 +33,8 @@ namespace mtstereo {
 HWY_EXPORT(divide);
 
 int edge_for_range(int range) {
-  constexpr int kLeast = 2, kRangePerEdge = 8;
-  return std::clamp(range / kRangePerEdge, kLeast, kUsualEdge);
+  constexpr int kLeast = kEdgeParts / 2, kRangePerPart = 3;
+  return std::clamp(range / kRangePerPart, kLeast, kUsualEdge);
 }
 
 void find_large_steps(const SmoothnessOptions& options, const std::uint8_t* gray,

@@ -5,14 +5,17 @@
 
 namespace mtstereo {
 
+/// The unit of SmoothnessOptions::edge is this part of a gray value.
+inline constexpr int kEdgeParts = 8;
+
 /// The change of the gray value that counts as an edge in views of usual contrast.
-inline constexpr int kUsualEdge = 8;
+inline constexpr int kUsualEdge = 4 * kEdgeParts;
 
 /// The penalties of paths of semi-global matching, in units of the costs.
 struct SmoothnessOptions {
   int small_step;  ///< P1: cost of a step of one disparity from pixel to pixel
   int large_step;  ///< P2: cost of a larger step between equal gray values; 0 = no optimization
-  int edge = kUsualEdge;  ///< the change of the gray value that halves P2
+  int edge = kUsualEdge;  ///< the change of the gray value that halves P2 [1 / kEdgeParts]
 };
 
 /// SmoothnessOptions::edge for a view whose gray values have this range (GrayHistogram::range()):

@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0x1f8769998d18f33f},
-    {"default", "semi-dense", 0xb8aea80500b1ed9e},
-    {"default", "dense", 0x8fc09f1f2cd1406c},
-    {"default", "full", 0x9901c489a7d818f6},
-    {"fast", "sparse", 0xfa1b9b399e9fcd75},
-    {"fast", "semi-dense", 0x98807d80faf3869e},
-    {"fast", "dense", 0x274832cc97476123},
-    {"fast", "full", 0x19a034a8c245808d},
+    {"default", "sparse", 0xb39a99afd927e9b3},
+    {"default", "semi-dense", 0x8adf08373ce594fe},
+    {"default", "dense", 0x3b87055fd51b367b},
+    {"default", "full", 0x07040aced120d4cf},
+    {"fast", "sparse", 0x10f43509b58a451a},
+    {"fast", "semi-dense", 0x22928070789f1dda},
+    {"fast", "dense", 0x6e6ed484ff56f9e3},
+    {"fast", "full", 0x723b72d441da4ebc},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -54,7 +54,7 @@ struct Frame {
   float rated_noise = 0;           ///< the same, before the views were averaged
   float detail = 1;                ///< the share of the finest octave, if it is measured
   double borders = 0;              ///< how clearly the left view shows blocks
-  int edge = 8;                    ///< the change of the gray value that halves large steps
+  int edge = 32;                   ///< the change that halves large steps [1/8 gray value]
   int grid = 0;                    ///< the level of the block grid
   int block = 8;                   ///< side of its blocks [px]
   std::array<GrayPlane, 2> medians;
@@ -168,7 +168,7 @@ inline void measure_block_borders(Frame& f) {
   f.borders = border_visibility(f.plain[0], f.block);
 }
 
-inline void measure_contrast(Frame& f) { f.edge = std::clamp(gray_range(f.plain[0]) / 8, 2, 8); }
+inline void measure_contrast(Frame& f) { f.edge = std::clamp(gray_range(f.plain[0]) / 3, 4, 32); }
 
 inline PathMatchingOptions path_options(const Frame& f, int level) {
   PathMatchingOptions options = f.settings.path_matching(level);

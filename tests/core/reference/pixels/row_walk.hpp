@@ -12,7 +12,7 @@ namespace mtstereo::reference {
 inline int large_step(const SmoothnessOptions& options, int change) {
   if (options.large_step == 0) return 0;
   return std::min(
-      std::max(options.large_step * options.edge / (options.edge + change), options.small_step),
+      std::max(options.large_step * options.edge / (options.edge + kEdgeParts * change), options.small_step),
       255);
 }
 
