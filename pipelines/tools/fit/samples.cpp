@@ -131,8 +131,9 @@ int confidence(const ReliabilityTable& table, const Sample& sample) {
 
 std::vector<TrainingPair> pairs_in(const std::string& folder) {
   std::vector<TrainingPair> pairs;
-  for (const eval::StereoPair& pair : eval::find_pairs(folder, eval::detect_layout(folder)).pairs) {
-    pairs.push_back({pair.name, family_of(pair.layout), pair.max_disparity.value_or(kMaxDisparity),
+  const eval::DataSet set = eval::find_pairs(folder, eval::detect_layout(folder));
+  for (const eval::StereoPair& pair : set.pairs) {
+    pairs.push_back({pair.name, family_of(set.layout), pair.max_disparity.value_or(kMaxDisparity),
                      eval::load_pair(pair)});
   }
   return pairs;

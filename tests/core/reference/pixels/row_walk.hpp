@@ -11,9 +11,9 @@ namespace mtstereo::reference {
 /// P2 at a change of the gray value by `change`; 0 disables the optimization.
 inline int large_step(const SmoothnessOptions& options, int change) {
   if (options.large_step == 0) return 0;
-  return std::min(
-      std::max(options.large_step * options.edge / (options.edge + kEdgeParts * change), options.small_step),
-      255);
+  return std::min(std::max(options.large_step * options.edge / (options.edge + kEdgeParts * change),
+                           options.small_step),
+                  255);
 }
 
 /// The costs along the path from the left (direction 1) or from the right (-1).
