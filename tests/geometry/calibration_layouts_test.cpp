@@ -209,8 +209,10 @@ TEST_F(Layout, OfTomlIsThatOfYaml) {
   EXPECT_EQ(calibration.left.height, 480);
   EXPECT_DOUBLE_EQ(calibration.baseline(), 0.1205);
   EXPECT_THAT(refused(replaced(text, "[-120.5, 0, 0]", "[-120.5, 0")),
-              HasSubstr("line 7 is not valid YAML"));
-  EXPECT_THAT(refused("[a]\nx = [1]\n[b.b.b.b.b.b.b]\ny = 1\n"), HasSubstr("nested too deeply"));
+              HasSubstr("is not valid TOML: "));
+  std::string deep = "[a]\nx = [1]\n[b";
+  for (int i = 0; i < 60; ++i) deep += ".b";
+  EXPECT_THAT(refused(deep + "]\ny = 1\n"), HasSubstr("nested more than 50 times"));
 }
 
 TEST_F(Layout, OfTomlWithTablesInLines) {

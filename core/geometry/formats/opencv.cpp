@@ -154,8 +154,9 @@ std::string no_view_text(const std::vector<double>& projection) {
            ", which no view can have: the distortion may be wrong at the border of the image; "
            "calibrate with views that cover it.";
   }
-  if (std::abs(projection[0] - projection[5]) <= kRelativeFocalDifference * projection[0])
+  if (std::abs(projection[0] - projection[5]) <= kRelativeFocalDifference * projection[0]) {
     return {};
+  }
   return " has the focal lengths " + number_text(projection[0]) + " and " +
          number_text(projection[5]) + ", which must be equal in a rectified view.";
 }
