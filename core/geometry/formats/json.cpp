@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "geometry/formats/syntax.hpp"
 
@@ -47,9 +46,7 @@ class JsonHandler : public nlohmann::json_sax<nlohmann::json> {
 
  private:
   bool add(const std::string& text) {
-    Value value;
-    value.text = text;
-    builder_.add(std::move(value));
+    builder_.add_text(text);
     return true;
   }
 

@@ -25,6 +25,8 @@ class TreeBuilder {
   explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
 
   void add(Value value);
+  /// Adds a scalar.
+  void add_text(std::string text);
   void begin(Value::Kind kind);
   /// Ends the list or map that began last and returns a copy of it only if `copy` is true.
   Value end(bool copy = false);
@@ -58,8 +60,9 @@ Value parse_xml(std::string_view text, const std::string& file);
 Value parse_lines(std::string_view text, char separator, const std::string& file);
 /// Lines of NAME=VALUE below lines of [SECTION], as a map of maps.
 Value parse_sections(std::string_view text, const std::string& file);
-/// TOML: tables of numbers, texts, arrays and inline tables.
+/// Whether this is TOML, by the name of the file, or by a [TABLE] and an array.
 bool is_toml(std::string_view text, std::string_view file);
+/// TOML, whose tables become maps.
 Value parse_toml(std::string_view text, const std::string& file);
 /// The INI of ROS: names, and the lines of numbers after each. A map with the names of the YAML
 /// files of ROS, or a list of maps where there are several cameras.

@@ -4,7 +4,7 @@
 #define TOML_ENABLE_WINDOWS_COMPAT 0
 #include <toml++/toml.h>
 
-#include <utility>
+#include <cstdint>
 
 #include "geometry/formats/syntax.hpp"
 
@@ -14,12 +14,6 @@ namespace {
 bool is_header(std::string_view line) {
   return line.size() > 2 && line.front() == '[' && line.back() == ']' &&
          line.find_first_of(",= ") == std::string_view::npos;
-}
-
-void add_text(TreeBuilder& builder, std::string text) {
-  Value value;
-  value.text = std::move(text);
-  builder.add(std::move(value));
 }
 
 /// Dates and times become empty: no calibration needs them.
@@ -34,7 +28,7 @@ void build(TreeBuilder& builder, const toml::node& node) {
   if (const toml::table* table = node.as_table()) {
     builder.begin(Value::Kind::kMap);
     for (const auto& [name, entry] : *table) {
-      add_text(builder, std::string(name.str()));
+      builder.add_text(std::string(name.str()));
       build(builder, entry);
     }
     builder.end();
@@ -43,7 +37,7 @@ void build(TreeBuilder& builder, const toml::node& node) {
     for (const toml::node& item : *list) build(builder, item);
     builder.end();
   } else {
-    add_text(builder, text_of(node));
+    builder.add_text(text_of(node));
   }
 }
 

@@ -39,6 +39,12 @@ void TreeBuilder::add(Value value) {
   top.has_name = false;
 }
 
+void TreeBuilder::add_text(std::string text) {
+  Value value;
+  value.text = std::move(text);
+  add(std::move(value));
+}
+
 void TreeBuilder::begin(Value::Kind kind) {
   if (open_.size() >= kDeepestNesting) {
     throw FileError(file_ + ": lists and maps are nested more than " +
