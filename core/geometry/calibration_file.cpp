@@ -70,6 +70,10 @@ StereoCalibration read_one(const Document& document, const formats::Request& req
       return formats::read_middlebury(entry, request);
     case Format::kCityscapes:
       return formats::read_cityscapes(entry, request);
+    case Format::kCameraTables:
+      return formats::read_camera_tables(entry, request);
+    case Format::kAirSlam:
+      return formats::read_airslam(entry, request);
     case Format::kRectifiedView:
       return formats::read_rectified_view(entry, request);
     case Format::kDsec:

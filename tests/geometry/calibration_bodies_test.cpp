@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Calibrations with the poses of cameras on a body, of OKVIS, SVO and maplab, and that of
-// stella_vslam.
+// Calibrations with the poses of cameras on a body or in a world, of OKVIS, SVO, maplab, AirSLAM
+// and Anipose, and that of stella_vslam.
 #include "calibration_support.hpp"
 
 namespace mtstereo::test::calibration_bodies_test {
@@ -138,6 +138,72 @@ TEST_F(BodyFile, OfStellaThatIsNoPairIsRefused) {
               HasSubstr("there is no entry StereoRectifier.D_right"));
   EXPECT_THAT(refused(std::string(kStella) + replaced(kRectifier, "fisheye", "equirectangular")),
               HasSubstr("StereoRectifier.model is 'equirectangular', a lens model"));
+}
+
+/// A camera of Anipose, at this place along x in the world, which is turned by 90 degrees.
+std::string table(const char* name, const char* x, const char* rest = "") {
+  return std::string("[") + name + "]\nname = \"" + name +
+         "\"\nsize = [ 640, 480,]\nmatrix = [ [ 310.5, 0.0, 322.25,], [ 0.0, 311.5, 241.75,], "
+         "[ 0.0, 0.0, 1.0,],]\ndistortions = [ -0.25, 0.125, 0.001, 0.002,]\n"
+         "rotation = [ 0.0, 0.0, 1.5707963267948966,]\ntranslation = [ " +
+         x + ", 3.0, 0.5,]\n" + rest + "\n";
+}
+
+const std::string kMetadata = "[metadata]\nerror = 0.5\n";
+
+TEST_F(BodyFile, HasATablePerCamera) {
+  const std::string tables = table("cam_0", "0.02") + table("cam_1", "-0.1") + kMetadata;
+  const StereoCalibration pair = read(tables);
+  EXPECT_EQ(pair.format, "camera tables");
+  EXPECT_EQ(pair.left.width, 640);
+  EXPECT_DOUBLE_EQ(pair.right.focal_y, 311.5);
+  EXPECT_EQ(pair.left.coefficients, (std::vector<double>{-0.25, 0.125, 0.001, 0.002}));
+  expect_near(pair.rotation, kIdentity, 1e-12);
+  expect_near(pair.translation, Vector3{-0.12, 0, 0}, 1e-12);
+  const std::string more = table("back", "900") + tables;
+  const std::string path = folder_.write("cameras.toml", more);
+  EXPECT_NEAR(read_valid(path + "#cam_0-cam_1").baseline(), 0.12, 1e-12);
+  EXPECT_THAT(read_refused(path + "#cam_0-cam_7"), HasSubstr("there is no entry cam_7"));
+  const char* fisheye = "fisheye = true\n";
+  EXPECT_EQ(read(table("a", "0", fisheye) + table("b", "-0.1", fisheye)).left.lens,
+            LensModel::kFisheye);
+}
+
+TEST_F(BodyFile, WithTablesInMillimetersNeedsTheUnit) {
+  const std::string tables = table("cam_0", "20") + table("cam_1", "-100") + kMetadata;
+  EXPECT_THAT(refused(tables), AllOf(HasSubstr("cam_1.translation states a baseline of 120 m"),
+                                     HasSubstr("add the line 'length_unit = \"mm\"'")));
+  EXPECT_NEAR(read("length_unit = \"mm\"\n" + tables).baseline(), 0.12, 1e-12);
+}
+
+std::string airslam(const char* lens, const char* type, const char* coefficients) {
+  std::string text = std::string("%YAML:1.0\nimage_height: 480\nimage_width: 640\n") +
+                     "distortion_type: " + lens + "  # of both\n";
+  for (const char* name : {"cam0", "cam1"}) {
+    const bool to_body = std::string(type) == "0";
+    const char* x = name == std::string("cam0") ? "0" : to_body ? "0.12" : "-0.12";
+    text += std::string(name) + ":\n  intrinsics: [310.5, 311.5, 322.25, 241.75]\n" +
+            "  distortion_coeffs: " + coefficients + "\n  T_type: " + type +
+            "\n  T:\n  - [1.0, 0.0, 0.0, " + x +
+            "]\n  - [0.0, 1.0, 0.0, 0.0]\n  - [0.0, 0.0, 1.0, 0.0]\n  - [0.0, 0.0, 0.0, 1.0]\n";
+  }
+  return text;
+}
+
+TEST_F(BodyFile, OfAirSlamHasOneSizeAndLensForBoth) {
+  for (const char* type : {"0", "1"}) {
+    const StereoCalibration pair = read(airslam("1", type, "[-0.25, 0.125, 0.001, 0.002, 0]"));
+    EXPECT_EQ(pair.format, "AirSLAM");
+    EXPECT_EQ(pair.right.height, 480);
+    EXPECT_DOUBLE_EQ(pair.right.focal_y, 311.5);
+    EXPECT_EQ(pair.left.lens, LensModel::kPlumbBob);
+    expect_near(pair.translation, Vector3{-0.12, 0, 0}, 1e-12);
+  }
+  const StereoCalibration fisheye = read(airslam("2", "0", "[0.1, 0.2, 0.3, 0.4, 0]"));
+  EXPECT_EQ(fisheye.left.lens, LensModel::kFisheye);
+  EXPECT_EQ(fisheye.left.coefficients.size(), 4U);
+  EXPECT_EQ(read(airslam("0", "0", "[0, 0, 0, 0, 0]")).left.lens, LensModel::kNone);
+  EXPECT_THAT(refused(airslam("3", "0", "[0, 0, 0, 0, 0]")), HasSubstr("distortion_type"));
 }
 
 }  // namespace

@@ -220,6 +220,8 @@ std::optional<Format> known_format(const Entry& root) {
   if (root.find("lensmodel")) return Format::kMrcal;
   if (root.find("cam0_calib")) return Format::kVins;
   if (root.find("model_type")) return Format::kVinsCamera;
+  if (is_airslam(root)) return Format::kAirSlam;
+  if (has_camera_tables(root)) return Format::kCameraTables;
   if (chain || (root.find("cam1") && !is_opencv(root))) return Format::kKalibr;
   if (root.find("T_BS")) return Format::kEuroc;
   if (is_camera_info(root)) return Format::kCameraInfo;
@@ -277,7 +279,7 @@ bool is_mrcal(std::string_view text) {
 }  // namespace
 
 const char* name_of(Format format) {
-  constexpr std::array<const char*, 21> kNames = {"an OpenCV file",
+  constexpr std::array<const char*, 23> kNames = {"an OpenCV file",
                                                   "a ROS camera_info",
                                                   "a Kalibr camchain",
                                                   "a EuRoC sensor.yaml",
@@ -297,6 +299,8 @@ const char* name_of(Format format) {
                                                   "a camera of Cityscapes",
                                                   "a cam_to_cam.yaml of DSEC",
                                                   "a calibration of Argoverse",
+                                                  "a file with a table per camera",
+                                                  "a file of AirSLAM",
                                                   "a rectified view with a baseline"};
   return kNames[static_cast<std::size_t>(format)];
 }

@@ -35,6 +35,8 @@ enum class Format {
   kCityscapes,
   kDsec,
   kArgoverse,
+  kCameraTables,
+  kAirSlam,
   kRectifiedView,
 };
 

@@ -58,6 +58,10 @@ StereoCalibration read_cityscapes(const Entry& file, const Request& request);
 StereoCalibration read_dsec(const Entry& file, const Request& request);
 /// The cameras of a vehicle of Argoverse.
 StereoCalibration read_argoverse(const Entry& file, const Request& request);
+/// A table per camera, of Anipose, FreeMoCap, Caliscope or Pose2Sim.
+StereoCalibration read_camera_tables(const Entry& file, const Request& request);
+/// A camera file of AirSLAM.
+StereoCalibration read_airslam(const Entry& file, const Request& request);
 
 /// Whether a file is one of OpenCV's FileStorage: it has an entry with a name that read_opencv()
 /// knows, or a matrix.
@@ -77,6 +81,10 @@ bool is_rectified_view(const Entry& file);
 bool is_rectified_pair(const Entry& file);
 /// Whether a file is the cam_to_cam.yaml of DSEC.
 bool is_dsec(const Entry& file);
+/// Whether a file has a table for each of several cameras.
+bool has_camera_tables(const Entry& file);
+/// Whether a file is one of AirSLAM.
+bool is_airslam(const Entry& file);
 /// Whether a file is one of Basalt.
 bool is_basalt(const Entry& file);
 /// Whether a file is a camera_info of ROS.
