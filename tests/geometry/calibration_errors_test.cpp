@@ -83,16 +83,13 @@ TEST_F(BrokenFile, ThatIsEmptyBinaryOrCompressed) {
   EXPECT_THAT(refused(" \n\t\n"), HasSubstr("the file is empty"));
   EXPECT_THAT(refused(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)), HasSubstr("binary"));
   EXPECT_THAT(refused(stored_text("camchain.yaml") + '\0'), HasSubstr("is a binary file"));
-  EXPECT_THAT(refused("\x1f\x8b\x08\x01"), HasSubstr("decompress it"));
+  EXPECT_THAT(refused("\x1f\x8b\x08\x01"), HasSubstr("unpack it (tar xzf, or gunzip)"));
+  EXPECT_THAT(refused(std::string(257, '\0') + "ustar  "), HasSubstr("unpack it (tar xf)"));
 }
 
 TEST_F(BrokenFile, OfAnotherKindIsNamed) {
   const char* remedy = "write its matrices to a YAML file";
-  EXPECT_THAT(refused(std::string("PK\x03\x04\x14\0\0\0", 8)),
-              AllOf(HasSubstr("NumPy's .npz"), HasSubstr(remedy)));
-  EXPECT_THAT(refused(std::string("\x93NUMPY\x01\0", 8)), HasSubstr("is a NumPy array; "));
-  EXPECT_THAT(refused(std::string("MATLAB 5.0 MAT-file\0", 20)), HasSubstr("a MATLAB .mat"));
-  EXPECT_THAT(refused(std::string("\x80\x04\x95\0", 4)), HasSubstr("a Python pickle"));
+  EXPECT_THAT(refused(std::string("PK\x03\x04\x14\0\0\0", 8)), HasSubstr("unpack it (unzip)"));
   EXPECT_THAT(refused("% Stereo calibration parameters:\nom = [ 0.01 ; 0.02 ; 0.03 ];\n"),
               AllOf(HasSubstr("is a MATLAB script; "), HasSubstr(remedy)));
   EXPECT_THAT(refused("[StereoLeft]\nfc_x=785.4\nfc_y=785.2\n"),
@@ -113,6 +110,28 @@ TEST_F(BrokenFile, OfAnotherKindIsNamed) {
               HasSubstr("states no cameras (S_02, K_02 and others): KITTI has them in"));
   EXPECT_THAT(refused("S_101: 881 400\nK_101: 1000 0 440 0 1000 200 0 0 1\n"),
               HasSubstr("write the projections P_rect to a file, left as P0: and right as P1:"));
+}
+
+TEST_F(BrokenFile, OfAProgramGetsTheCommandThatConvertsIt) {
+  const auto conversion = [&](const std::string& text) {
+    return AllOf(HasSubstr(text), HasSubstr("python3 -c \"import json,sys,"),
+                 HasSubstr("> converted.json, and give converted.json"));
+  };
+  EXPECT_THAT(refused(std::string("PK\x03\x04\x14\0\0\0mtx.npy", 15)),
+              conversion("is a NumPy .npz; convert it: "));
+  EXPECT_THAT(refused(std::string("\x93NUMPY\x01\0", 8)),
+              conversion("is a NumPy array; convert all arrays of its folder: "));
+  for (const std::string& start : {std::string("(dp0\nS'K'\n"), std::string("\x80\x02}q", 4),
+                                   std::string("\x80\x05\x95\0", 4)}) {
+    EXPECT_THAT(refused(start), conversion("is a Python pickle; convert its dictionary: "));
+  }
+  EXPECT_THAT(refused(std::string("MATLAB 5.0 MAT-file\0", 20)),
+              AllOf(conversion("is a MATLAB .mat; "), HasSubstr("stereoParametersToOpenCV")));
+  folder_.write("mtx.npy", "");
+  EXPECT_THAT(read_refused(folder_.path("")), conversion("is a folder of NumPy arrays; "));
+  EXPECT_THAT(refused(R"({"board_config": {"cameras": {"CAM_B": {"hfov": 71.86}}}})"),
+              HasSubstr("describes a board of DepthAI, without its calibration"));
+  EXPECT_THAT(refused("K1 = 1 : 2 : 3\n"), HasSubstr("if it is no YAML, write its matrices"));
 }
 
 TEST_F(BrokenFile, ThatIsHuge) {

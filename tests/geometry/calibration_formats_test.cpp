@@ -102,6 +102,30 @@ TEST(CameraInfo, OfCamerasCalibratedAloneIsNoPair) {
                         "calibrate both cameras together"));
 }
 
+TEST(CameraInfo, HasBothCamerasInOneFile) {
+  const CalibrationFolder folder;
+  const auto indented = [](const char* name) {
+    std::string text = "  " + stored_text(name);
+    for (std::size_t at = 0; (at = text.find('\n', at)) + 1 < text.size(); at += 3) {
+      text.insert(at + 1, "  ");
+    }
+    return text + "\n";
+  };
+  const std::string left = stored_text("camera_info_left.yaml") + "\n";
+  const std::string right = stored_text("camera_info_right.yaml") + "\n";
+  const std::string maps =
+      "a:\n" + indented("camera_info_left.yaml") + "b:\n" + indented("camera_info_right.yaml");
+  for (const std::string& text : {maps, left + "---\n" + right, left + "---\n" + right + "---\n"}) {
+    expect_near(read_valid(folder.write("both.yaml", text)), plumb_bob_pair(), 3e-6);
+  }
+  // Messages of one camera, the last one cut off.
+  for (const std::string& more : {left, left.substr(0, 60) + "\n a: [", std::string()}) {
+    const std::string path = folder.write("left.yaml", left + "---\n" + more);
+    EXPECT_THAT(read_refused(path), HasSubstr("which has one camera"));
+    expect_near(read_valid(path + "," + folder.write("right.yaml", right)), plumb_bob_pair(), 3e-6);
+  }
+}
+
 TEST(CameraInfo, KnowsFisheyeLenses) {
   const CalibrationFolder folder;
   const auto fisheye = [&](const std::string& name) {

@@ -13,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "geometry/formats/other_files.hpp"
 #include "geometry/formats/readers.hpp"
 #include "geometry/formats/syntax.hpp"
 
@@ -45,11 +46,12 @@ std::string read_bytes(const std::string& file) {
   if (fstat(opened.get(), &status) != 0) {
     throw FileError(file + ": cannot be read: " + system_text(errno));
   }
-  if (S_ISDIR(status.st_mode)) throw FileError(file + ": is a folder, a file is needed");
+  if (S_ISDIR(status.st_mode)) refuse_folder(file);
   if (!S_ISREG(status.st_mode)) throw FileError(file + ": is not a regular file");
   if (static_cast<std::size_t>(status.st_size) > kLargestCalibrationFile) {
     throw FileError(file + ": has " + std::to_string(status.st_size) +
-                    " bytes, more than any calibration");
+                    " bytes, more than any calibration; give the file with the matrices of both "
+                    "cameras, not one with maps, images or the corners of boards");
   }
   std::string bytes;
   std::array<char, 65536> block{};
@@ -70,23 +72,7 @@ std::string read_text(const std::string& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw FileError(file + ": the file is empty");
   }
-  if (text.compare(0, 2, "\x1f\x8b") == 0) {
-    throw FileError(file + ": is compressed; decompress it with gunzip");
-  }
-  constexpr std::array<std::pair<std::string_view, const char*>, 6> kStarts = {
-      {{"PK\x03\x04", "a zip archive, as NumPy's .npz"},
-       {"\x93NUMPY", "a NumPy array"},
-       {"MATLAB 5.0", "a MATLAB .mat"},
-       {"\x89HDF", "an HDF5 file, as MATLAB's .mat"},
-       {"\x80\x03", "a Python pickle"},
-       {"\x80\x04", "a Python pickle"}}};
-  for (const auto& [start, name] : kStarts) {
-    if (text.starts_with(start)) {
-      throw FileError(file + ": is " + name +
-                      "; write its matrices to a YAML file with cv2.FileStorage, with the names "
-                      "M1, D1, M2, D2, R, T");
-    }
-  }
+  refuse_containers(text, file);
   const bool binary = std::any_of(text.begin(), text.end(), [](char byte) {
     return byte >= 0 && byte < ' ' && byte != '\t' && byte != '\r' && byte != '\n' && byte != '\f';
   });
@@ -115,47 +101,6 @@ int count_numbers(std::string_view line) {
     ++count;
   }
   return count;
-}
-
-/// Whether a text is a model of COLMAP, or the configuration of a rig.
-bool is_colmap(std::string_view text) {
-  for (const std::string_view start :
-       {"# Camera list with", "# Image list with", "# Rig calib list", "# Frame list with"}) {
-    if (text.starts_with(start)) return true;
-  }
-  return text.find("\"image_prefix\"") != std::string_view::npos;
-}
-
-/// Fails for files that calibration programs write beside the calibration.
-void refuse_other_files(std::string_view start, const std::string& file) {
-  if (start.starts_with("Calibration results")) {
-    throw FileError(file + ": is a report of Kalibr; give its camchain, a YAML file");
-  }
-  if (start.starts_with("version https://git-lfs")) {
-    throw FileError(file +
-                    ": is a pointer of Git LFS without the calibration; get it (git lfs pull)");
-  }
-  if (start.starts_with("<!DOCTYPE html") || start.starts_with("<html")) {
-    throw FileError(file + ": is a web page; download the file itself");
-  }
-  if (start.find("Intrinsic of \"Infrared 1\"") != std::string_view::npos) {
-    throw FileError(file +
-                    ": is a list of rs-enumerate-devices; write what it states for the size of the "
-                    "video to a YAML file: fx, fy, cx (PPX), cy (PPY) of Infrared 1, and baseline, "
-                    "the first value of the translation between Infrared 1 and 2");
-  }
-  if (is_colmap(start)) {
-    throw FileError(
-        file +
-        ": is of COLMAP, whose lengths have no unit; write K, distortion, R and T [m] of "
-        "one pair to a YAML file with the names M1, D1, M2, D2, R, T, or calibrate the "
-        "cameras as a pair (mtcalibrate)");
-  }
-  if (start.front() == '%' && !start.starts_with("%YAML") && !start.starts_with("%TAG")) {
-    throw FileError(file +
-                    ": is a MATLAB script; write its matrices to a YAML file with the names M1, "
-                    "D1, M2, D2, R, T, as OpenCV states them (stereoParametersToOpenCV)");
-  }
 }
 
 /// Recognises the formats that are lines of text, by the first line that belongs to one.
@@ -238,9 +183,48 @@ bool wraps_opencv(const Value& value, const std::string& file) {
          known_format(Entry(value.items[0], file, {})) == Format::kOpenCv;
 }
 
+/// Puts the cameras of a file with two camera_info into a list, whatever their names are.
+bool find_two_camera_infos(Document& document) {
+  const Value& root = document.root;
+  if (root.kind == Value::Kind::kScalar || root.items.size() != 2) return false;
+  for (const Value& camera : root.items) {
+    if (!is_camera_info(Entry(camera, document.file, {}))) return false;
+  }
+  document.format = Format::kCameraInfo;
+  Value list;
+  list.kind = Value::Kind::kList;
+  list.items = root.items;
+  document.root = std::move(list);
+  return true;
+}
+
+/// Adds the other camera of a file with two documents. Of messages of one camera the first counts,
+/// and the last one may be cut off.
+void add_second_camera_info(Document& document, const std::string& text) {
+  if (document.format != Format::kCameraInfo || document.entry().is_list()) return;
+  Value second;
+  try {
+    second = parse_yaml(text, document.file, 2);
+  } catch (const FileError&) {
+    return;
+  }
+  const Entry right(second, document.file, {});
+  if (!right.is_map() || !is_camera_info(right)) return;
+  const Entry left = document.entry();
+  for (const char* name : {"projection_matrix", "p", "P"}) {
+    const std::optional<Entry> a = left.find(name), b = right.find(name);
+    if (a && b && a->value() == b->value()) return;
+  }
+  Value list;
+  list.kind = Value::Kind::kList;
+  list.items = {document.root, second};
+  document.root = std::move(list);
+}
+
 /// Recognises the format of a parsed file. Rigs and parameters of ROS nodes have the calibration in
 /// maps of one entry.
 void find_format(Document& document) {
+  if (find_two_camera_infos(document)) return;
   const Value* inner = &document.root;
   std::string name;
   while (inner->kind == Value::Kind::kMap) {
@@ -255,6 +239,11 @@ void find_format(Document& document) {
     if (inner->items.size() != 1) break;
     name += (name.empty() ? "" : ".") + printable(inner->names[0]);
     inner = &inner->items[0];
+  }
+  if (document.entry().find("board_config")) {
+    document.entry().fail(
+        "describes a board of DepthAI, without its calibration; get that from the device: "
+        "device.readCalibration().eepromToJsonFile(FILE) in Python");
   }
   document.entry().fail(
       "is not a calibration of a known format: none of M1 (OpenCV), projection_matrix "
@@ -310,7 +299,8 @@ Document parse_document(const std::string& file) {
   Document document;
   document.file = file;
   const std::string_view start = std::string_view(text).substr(text.find_first_not_of(" \t\r\n"));
-  refuse_other_files(start, file);
+  refuse_reports(start, file);
+  bool yaml = false;
   if (start.front() == '<') {
     document.root = parse_xml(text, file);
   } else if (is_mrcal(text)) {
@@ -323,8 +313,10 @@ Document parse_document(const std::string& file) {
     return document;
   } else {
     document.root = parse_yaml(text, file);
+    yaml = true;
   }
   find_format(document);
+  if (yaml) add_second_camera_info(document, text);
   return document;
 }
 

@@ -16,9 +16,9 @@ using Names = std::string_view;
 
 /// Names of R and T; also the last part of a longer name.
 inline constexpr Names kRotationNames =
-    "r rotation rotationmatrix stereor rstereo rlr rmat rot rotate";
+    "r rotation rotationmatrix stereor rstereo rlr rmat rot rotmat rotate";
 inline constexpr Names kTranslationNames =
-    "t translation translationvector translationmatrix stereot tstereo tlr trans tvec";
+    "t translation translationvector translationmatrix stereot tstereo tlr trans transvec tvec";
 
 /// The name without upper case and the characters that programs put between words.
 inline std::string plain_name(std::string_view name) {

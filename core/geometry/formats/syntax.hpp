@@ -50,8 +50,9 @@ class TreeBuilder {
   std::size_t values_ = 0;
 };
 
-/// YAML, and the YAML that OpenCV writes, whose first line is "%YAML:1.0".
-Value parse_yaml(const std::string& text, const std::string& file);
+/// YAML, and the YAML that OpenCV writes, whose first line is "%YAML:1.0". Of several documents the
+/// one with this number from 1 on; null if there is none.
+Value parse_yaml(const std::string& text, const std::string& file, int number = 1);
 /// JSON, also with the comments of C++.
 Value parse_json(const std::string& text, const std::string& file);
 /// The XML that OpenCV writes: elements and text, without document types.

@@ -99,29 +99,39 @@ std::string with_separated_values(std::string_view text) {
   return separated;
 }
 
+/// Any text that has no other form is read as YAML.
+std::string remedy_of(const std::string& file) {
+  if (file.ends_with(".yaml") || file.ends_with(".yml")) return {};
+  return "; if it is no YAML, write its matrices to a YAML file with the names M1, D1, M2, D2, R, "
+         "T";
+}
+
 }  // namespace
 
-Value parse_yaml(const std::string& text, const std::string& file) {
+Value parse_yaml(const std::string& text, const std::string& file, int number) {
   // "%YAML:1.0" is no directive of YAML. A comment in its place keeps the numbers of the lines.
   const bool opencv = text.compare(0, 5, "%YAML") == 0;
   std::string yaml = opencv ? with_separated_values(text) : text;
   if (text.compare(0, 6, "%YAML:") == 0) yaml[0] = '#';
-  YamlHandler handler(file);
+  Value document;
   try {
     std::istringstream stream(yaml);
     YAML::Parser parser(stream);
-    parser.HandleNextDocument(handler);
+    for (int i = 0; i < number; ++i) {
+      YamlHandler handler(file);
+      document = parser.HandleNextDocument(handler) ? handler.take() : Value();
+    }
   } catch (const FileError&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const YAML::Exception& error) {
     throw FileError(file + ": line " + std::to_string(error.mark.line + 1) +
-                    " is not valid YAML: " + error.msg);
+                    " is not valid YAML: " + error.msg + remedy_of(file));
   } catch (const std::exception& error) {
     throw FileError(file + ": is not valid YAML: " + error.what());
   }
-  return handler.take();
+  return document;
 }
 
 }  // namespace mtstereo::formats

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "geometry/formats/other_files.hpp"
+
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "geometry/formats/value.hpp"
+
+namespace mtstereo::formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A command that prints a Python dictionary as JSON.
+std::string conversion(const std::string& modules, const std::string& dictionary,
+                       const std::string& argument) {
+  const bool plain = argument.find_first_of("'\n") == std::string::npos;
+  return "python3 -c \"import json,sys," + modules + ";print(json.dumps({" + dictionary + "}))\" " +
+         (plain ? "'" + argument + "'" : "FILE") + " > converted.json, and give converted.json";
+}
+
+/// The command for a folder of NumPy arrays; large ones are maps.
+std::string conversion_of_arrays(const fs::path& folder) {
+  return conversion("glob,os.path as p,numpy as n",
+                    "p.basename(f)[:-4]:n.load(f).tolist()for f in glob.glob(sys.argv[1]+'/*.npy')"
+                    "if n.load(f).size<99",
+                    folder.empty() ? "." : folder.string());
+}
+
+/// Fails for several arrays in one file of Python or MATLAB.
+void refuse_dictionaries(std::string_view text, const std::string& file) {
+  if (text.starts_with("PK\x03\x04") && text.substr(0, 200).find(".npy") != text.npos) {
+    throw FileError(file + ": is a NumPy .npz; convert it: " +
+                    conversion("numpy as n",
+                               "k:v.tolist()for k,v in n.load(sys.argv[1]).items()if v.size<99",
+                               file));
+  }
+  // The first protocol is text, the others have a number.
+  constexpr char kLatest = 5;
+  const bool numbered = text.size() > 2 && text[0] == '\x80' && text[1] > 0 && text[1] <= kLatest;
+  if (numbered || text.starts_with("(dp0\n") || text.starts_with("(dp1\n")) {
+    throw FileError(file + ": is a Python pickle; convert its dictionary: " +
+                    conversion("pickle,numpy as n",
+                               "k:n.asarray(v).tolist()for k,v in "
+                               "pickle.load(open(sys.argv[1],'rb')).items()",
+                               file));
+  }
+  if (text.starts_with("MATLAB 5.0")) {
+    throw FileError(file + ": is a MATLAB .mat; convert its matrices: " +
+                    conversion("scipy.io as s",
+                               "k:v.tolist()for k,v in s.loadmat(sys.argv[1]).items()if "
+                               "hasattr(v,'tolist')",
+                               file) +
+                    "; of an object stereoParams, write what stereoParametersToOpenCV states, with "
+                    "the names M1, D1, M2, D2, R, T, by jsonencode");
+  }
+}
+
+/// Whether a text is a model of COLMAP, or the configuration of a rig.
+bool is_colmap(std::string_view text) {
+  for (const std::string_view start :
+       {"# Camera list with", "# Image list with", "# Rig calib list", "# Frame list with"}) {
+    if (text.starts_with(start)) return true;
+  }
+  return text.find("\"image_prefix\"") != std::string_view::npos;
+}
+
+}  // namespace
+
+[[noreturn]] void refuse_folder(const std::string& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().extension() != ".npy") continue;
+    throw FileError(folder +
+                    ": is a folder of NumPy arrays; convert them: " + conversion_of_arrays(folder));
+  }
+  throw FileError(folder + ": is a folder, a file is needed");
+}
+
+void refuse_containers(const std::string& text, const std::string& file) {
+  const std::string_view start(text);
+  refuse_dictionaries(start, file);
+  if (start.starts_with("\x93NUMPY")) {
+    throw FileError(file + ": is a NumPy array; convert all arrays of its folder: " +
+                    conversion_of_arrays(fs::path(file).parent_path()));
+  }
+  if (start.starts_with("\x89HDF")) {
+    throw FileError(file +
+                    ": is an HDF5 file, as MATLAB's .mat; write its matrices to a YAML or JSON "
+                    "file with the names M1, D1, M2, D2, R, T");
+  }
+  constexpr std::size_t kTarMark = 257;
+  const bool tar = start.size() > kTarMark && start.substr(kTarMark).starts_with("ustar");
+  if (tar || start.starts_with("\x1f\x8b") || start.starts_with("PK\x03\x04")) {
+    throw FileError(file + ": is compressed or an archive; unpack it (" +
+                    (tar               ? "tar xf"
+                     : start[0] == 'P' ? "unzip"
+                                       : "tar xzf, or gunzip") +
+                    ") and give the calibration in it");
+  }
+}
+
+void refuse_reports(std::string_view start, const std::string& file) {
+  if (start.starts_with("Calibration results")) {
+    throw FileError(file + ": is a report of Kalibr; give its camchain, a YAML file");
+  }
+  if (start.starts_with("version https://git-lfs")) {
+    throw FileError(file +
+                    ": is a pointer of Git LFS without the calibration; get it (git lfs pull)");
+  }
+  if (start.starts_with("<!DOCTYPE html") || start.starts_with("<html")) {
+    throw FileError(file + ": is a web page; download the file itself");
+  }
+  if (start.find("Intrinsic of \"Infrared 1\"") != std::string_view::npos) {
+    throw FileError(file +
+                    ": is a list of rs-enumerate-devices; write what it states for the size of the "
+                    "video to a YAML file: fx, fy, cx (PPX), cy (PPY) of Infrared 1, and baseline, "
+                    "the first value of the translation between Infrared 1 and 2");
+  }
+  if (is_colmap(start)) {
+    throw FileError(
+        file +
+        ": is of COLMAP, whose lengths have no unit; write K, distortion, R and T [m] of "
+        "one pair to a YAML file with the names M1, D1, M2, D2, R, T, or calibrate the "
+        "cameras as a pair (mtcalibrate)");
+  }
+  if (start.front() == '%' && !start.starts_with("%YAML") && !start.starts_with("%TAG")) {
+    throw FileError(file +
+                    ": is a MATLAB script; write its matrices to a YAML file with the names M1, "
+                    "D1, M2, D2, R, T, as OpenCV states them (stereoParametersToOpenCV)");
+  }
+}
+
+}  // namespace mtstereo::formats
