@@ -122,6 +122,11 @@ GstFlowReturn match(ElementState& state, GstBuffer* left, GstBuffer* right) {
 
 GstFlowReturn match(ElementState& state, const PairingAction& pair) {
   state.pairing_reports.paired();
+  for (const auto& [side, frame] :
+       {std::pair{Side::kLeft, &pair.left}, {Side::kRight, &pair.right}}) {
+    state.pairing_reports.frame(
+        side, GST_BUFFER_FLAG_IS_SET(frame->buffer.get(), GST_BUFFER_FLAG_CORRUPTED));
+  }
   adopt_caps(state, Side::kLeft, pair.left.info);
   adopt_caps(state, Side::kRight, pair.right.info);
   adopt_segment(state, pair.left.segment);

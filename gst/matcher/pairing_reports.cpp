@@ -113,6 +113,13 @@ void PairingReports::matches(Nanoseconds time, Nanoseconds now) {
       "or set sync=false on the sink.");
 }
 
+void PairingReports::frame(Side side, bool damaged) {
+  if (!damaged || std::exchange(damage_seen_[index_of(side)], true)) return;
+  messages_.warning(std::string("The decoder marks a frame of ") + pad_name(side) +
+                    " as damaged, because data was lost: its map shows what the decoder concealed. "
+                    "To leave such frames out, set discard-corrupted-frames=true on the decoder.");
+}
+
 void PairingReports::log_offset() {
   if (logged_restarts_ != pairer_.restarts()) logged_offset_.reset();
   logged_restarts_ = pairer_.restarts();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "matcher/base/messages.hpp"
@@ -19,6 +20,8 @@ class PairingReports {
   void paired();
   /// A pair is matched. Running times of its map and of the clock.
   void matches(Nanoseconds time, Nanoseconds now);
+  /// A frame is matched that a decoder may have marked as damaged.
+  void frame(Side side, bool damaged);
   /// A frame had no partner, because the next one of the other side is too far away.
   void unpaired(Nanoseconds difference, Nanoseconds tolerance);
   /// A frame had no partner, because none arrived on this side in time.
@@ -32,7 +35,9 @@ class PairingReports {
   /// A change to sync-mode=reference-timestamp was taken back.
   void warn_of_missing_reference(Side side);
 
-  void start() { unpaired_ = {}, doubts_ = {}, first_seen_ = standing_seen_ = false; }
+  void start() {
+    unpaired_ = {}, doubts_ = {}, first_seen_ = standing_seen_ = false, damage_seen_ = {};
+  }
 
  private:
   static constexpr Nanoseconds kFarAhead = 3'600'000'000'000;  ///< no source is that early
@@ -47,6 +52,7 @@ class PairingReports {
   Nanoseconds last_time_ = 0;                 // of the last pair
   int same_times_ = 0;                        // pairs in a row with the time of the one before
   bool standing_seen_ = false;                // and warned of
+  std::array<bool, 2> damage_seen_ = {};      // of a side, and warned of
   std::optional<Nanoseconds> logged_offset_;  // of the streams
   int logged_restarts_ = 0;                   // Pairer::restarts() then
 };

@@ -154,6 +154,24 @@ TEST_F(Stream, KeepsTimesFlagsAndOffsetsOfTheLeftFrame) {
   EXPECT_FALSE(GST_BUFFER_FLAG_IS_SET(next.get(), GST_BUFFER_FLAG_CORRUPTED));
 }
 
+TEST_F(Stream, WarnsOnceOfEachSideThatADecoderMarksAsDamaged) {
+  for (GstClockTime i = 0; i < 4; ++i) {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const bool damaged = i >= (side == Side::kLeft ? 2U : 1U);
+      GstBuffer* frame =
+          frame_buffer(side == Side::kLeft ? pair.left : pair.right, i * kFrame, kFrame);
+      if (damaged) GST_BUFFER_FLAG_SET(frame, GST_BUFFER_FLAG_CORRUPTED);
+      harness->push(side, frame);
+    }
+    ASSERT_TRUE(harness->pull());
+  }
+  const std::vector<Report> warnings = harness->warnings();
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].text.find("a frame of sink_right as damaged"), std::string::npos);
+  EXPECT_NE(warnings[1].text.find("a frame of sink_left as damaged"), std::string::npos);
+  EXPECT_NE(warnings[1].text.find("discard-corrupted-frames=true"), std::string::npos);
+}
+
 TEST_F(Stream, CopiesTheMetasOfTheLeftFrameExceptItsLayout) {
   const CapsPointer reference(gst_caps_from_string("timestamp/x-ntp"));
   GstBuffer* left = frame_buffer(pair.left, 0, kFrame, {.padding = 16});
