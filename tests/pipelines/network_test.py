@@ -24,7 +24,8 @@ RATE = 30
 MEASURE = bool(os.environ.get("MTSTEREO_NETWORK"))
 FRAMES = 600 if MEASURE else 90
 NUMBERED = BUILD / "tests/gst/numbered-views"
-RAW = "rawvideoparse width=160 height=64 framerate=30/1 format="
+WIDTH, HEIGHT = 160, 32
+RAW = f"rawvideoparse width={WIDTH} height={HEIGHT} framerate=30/1 format="
 LOSS = 0.02
 LONG = ("--latency", "1000")
 PHRASE = ("--passphrase", "correct-horse-battery")
@@ -33,7 +34,7 @@ PHRASE = ("--passphrase", "correct-horse-battery")
 def make_views(folder):
     """left.mkv, right.mkv, and late.mkv: the right one without its first frame."""
     require(run([NUMBERED, "write", FRAMES, "left.gray", "right.gray"], folder))
-    (folder / "late.gray").write_bytes((folder / "right.gray").read_bytes()[160 * 64:])
+    (folder / "late.gray").write_bytes((folder / "right.gray").read_bytes()[WIDTH * HEIGHT:])
     for name in ("left", "right", "late"):
         require(launch(f"filesrc location={name}.gray ! {RAW}gray8 ! avenc_ffv1 ! matroskamux ! "
                        f"filesink location={name}.mkv", folder))

@@ -95,8 +95,7 @@ TEST_P(NewestPair, KeepsPairsRightDespiteLossAndSkew) {
       << summary(result);
 }
 
-INSTANTIATE_TEST_SUITE_P(Speeds, NewestPair,
-                         testing::Values(Speed{30, 2}, Speed{50, 5}, Speed{100, 3}),
+INSTANTIATE_TEST_SUITE_P(Speeds, NewestPair, testing::Values(Speed{30, 2}, Speed{100, 5}),
                          [](const auto& info) {
                            return std::to_string(info.param.framerate) + "fps";
                          });
@@ -158,8 +157,8 @@ TEST(NewestPairOfCameras, BoundsTheAgeWhileMatchingItselfIsSlow) {
     matching_ms = stats_of(pipeline.named("m")).mean_ms;
   }
   const int framerate = std::clamp(static_cast<int>(3000 / matching_ms), 2, 300);
-  // Two seconds, so that a busy computer has enough maps.
-  Pipeline pipeline(launch(framerate, 2 * framerate, true));
+  // Enough maps for a busy computer.
+  Pipeline pipeline(launch(framerate, std::min(2 * framerate, 200), true));
   AgeProbe probe(pipeline);
   EXPECT_EQ(pipeline.run(), "");
   const std::vector<double> ages = probe.ages();

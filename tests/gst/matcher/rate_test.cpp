@@ -52,7 +52,7 @@ class Rates : public testing::TestWithParam<Mode> {
 };
 
 TEST_P(Rates, PairTheSameFrames) {
-  for (const double loss : {0.0, 0.1, 0.3}) {
+  for (const double loss : {0.0, 0.3}) {
     for (const double rate : {0.5, 1.0, 2.0, 3.0, 4.0, 8.0, 16.0, -0.5, -1.0, -2.0, -4.0, -8.0}) {
       player->lose(rate == 4 || rate == -8 ? Side::kLeft : Side::kRight, loss);
       play_at(rate, loss);
@@ -69,10 +69,9 @@ TEST_P(Rates, PairNoNeighborsWithALargeTolerance) {
 
 const Mode kPlain = {"Plain", 0, 1};
 const Mode kTrickmode = {"Trickmode", GST_SEEK_FLAG_TRICKMODE, 1};
-const Mode kNoAudio = {"NoAudio", GST_SEEK_FLAG_TRICKMODE_NO_AUDIO, 1};
 const Mode kKeyUnits = {"KeyUnits", GST_SEEK_FLAG_TRICKMODE_KEY_UNITS, 0};
 
-INSTANTIATE_TEST_SUITE_P(Modes, Rates, testing::Values(kPlain, kTrickmode, kNoAudio, kKeyUnits),
+INSTANTIATE_TEST_SUITE_P(Modes, Rates, testing::Values(kPlain, kTrickmode, kKeyUnits),
                          [](const auto& info) { return info.param.name; });
 
 /// The key frames of streams with a skew have no partners.

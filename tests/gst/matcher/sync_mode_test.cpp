@@ -138,21 +138,24 @@ TEST(SyncMode, ReferenceTimestampPairsInReverse) {
   push(Side::kRight, 3);
   left.join();
   DifferenceCounter count;
-  while (const BufferPointer map = harness.pull(1)) count.add(frame_difference(map.get()));
+  ASSERT_TRUE(harness.pull_event(GST_EVENT_EOS));
+  while (const BufferPointer map = harness.pull(0)) count.add(frame_difference(map.get()));
   EXPECT_EQ(count.wrong + count.unknown, 0);
   EXPECT_EQ(count.maps, 30);
 }
 
 // RTP streams have no reference time stamps before the first report of their sender.
 TEST(SyncMode, ReferenceTimestampDropsLiveFramesWithoutOneAtTheStart) {
-  auto lefts = numbered_sequence(60);
-  auto rights = numbered_sequence(60);
+  auto lefts = numbered_sequence(60, kFrame / 2);
+  auto rights = lefts;
   for (std::size_t i = 0; i < 60; ++i) {
     if (i >= 20) lefts[i].reference = lefts[i].pts;
     if (i >= 10) rights[i].reference = rights[i].pts;
   }
   FeedOptions options = with_mode("reference-timestamp");
   options.live = true;
+  options.framerate = "60/1";
+  options.duration = kFrame / 2;
   const FeedResult result = feed(lefts, rights, options);
   EXPECT_EQ(result.error, "");
   EXPECT_GT(result.count.maps, 30) << summary(result);

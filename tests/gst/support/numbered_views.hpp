@@ -21,7 +21,7 @@ namespace mtstereo::test {
 
 /// Size of the views [px].
 inline constexpr int kNumberedWidth = 160;
-inline constexpr int kNumberedHeight = 64;
+inline constexpr int kNumberedHeight = 32;
 /// The disparity of two frames with the same number [px].
 inline constexpr int kNumberedBase = 32;
 /// The change of the disparity per frame [px].
@@ -29,7 +29,8 @@ inline constexpr int kNumberedStep = 4;
 /// Larger differences cannot be recognized with max-disparity=64.
 inline constexpr int kMaxDifference = 6;
 /// Properties of mtstereo for tests of many pairs: the fastest matching that states the difference.
-inline constexpr const char* kNumberedMatching = "preset=fast max-disparity=64 threads=1";
+inline constexpr const char* kNumberedMatching =
+    "preset=fast max-disparity=64 threads=1 alignment=off";
 
 /// The image of a frame. Tests have the same frames many times: each is drawn once.
 const GrayImage& numbered_image(Side side, std::int64_t number);
