@@ -22,7 +22,8 @@ bool refuse_segment(ElementState& state, Side side, GstEvent* event, GstFormat f
       GST_STREAM_ERROR, GST_STREAM_ERROR_FORMAT,
       std::string("The segment of ") + pad_name(side) + " is in " + gst_format_get_name(format) +
           ", but frames are paired by time: put a parser (such as rawvideoparse) upstream "
-          "of it, or set format=time if the source is an appsrc.");
+          "of it, or set format=time if the source is an appsrc, is-live=true and "
+          "do-timestamp=true if it is a shmsrc.");
   gst_event_unref(event);
   return false;
 }

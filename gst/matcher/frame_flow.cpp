@@ -33,6 +33,7 @@ void after_drop(ElementState& state, PairingAction& action) {
   GST_LOG_OBJECT(state.pairing.pad(action.side), "%s, dropping %" GST_PTR_FORMAT,
                  action.wrong_time ? "wrong time stamp" : "no partner",
                  static_cast<void*>(frame.buffer.get()));
+  state.pairing_reports.dropped(action.side);
   if (action.wrong_time || action.expected) return;
   if (!action.at_deadline) {
     state.pairing_reports.unpaired(action.difference, action.tolerance);
@@ -136,6 +137,7 @@ GstFlowReturn match(ElementState& state, const PairingAction& pair) {
 /// No pair can follow. Downstream may block the end of the output for long, which a source must not
 /// wait for: it ends with its next frame.
 GstFlowReturn end(ElementState& state) {
+  state.pairing_reports.ended();
   for (const Side side : kSides) state.pairing.refuse(side);
   if (state.end_seqnum) state.output.events.end(*state.end_seqnum);
   return GST_FLOW_EOS;

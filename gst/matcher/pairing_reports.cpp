@@ -134,7 +134,24 @@ void PairingReports::log_offset() {
                    static_cast<double>(mean) / 1e6, static_cast<double>(period) / 1e6);
 }
 
+void PairingReports::ended() {
+  const auto [left, right] = dropped_;
+  if (any_pair_ || unpaired_.warned() || left + right == 0) return;
+  if (left > 0 && right > 0) {
+    messages_.warning("The streams have ended, and no two of their frames were a pair: " +
+                      std::to_string(left) + " of sink_left, " + std::to_string(right) +
+                      " of sink_right. If their times have nothing in common, pair by "
+                      "sync-mode=first-pts or sync-mode=arrival.");
+    return;
+  }
+  const Side empty = left > 0 ? Side::kRight : Side::kLeft;
+  messages_.warning(std::string("The stream of ") + pad_name(empty) +
+                    " has ended without a frame, so nothing was matched: check what is upstream "
+                    "of it.");
+}
+
 void PairingReports::paired() {
+  any_pair_ = true;
   unpaired_.paired();
   log_offset();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "matcher/base/messages.hpp"
@@ -26,6 +27,10 @@ class PairingReports {
   void unpaired(Nanoseconds difference, Nanoseconds tolerance);
   /// A frame had no partner, because none arrived on this side in time.
   void late(Side silent);
+  /// A frame of this side is left out.
+  void dropped(Side side) { ++dropped_[index_of(side)]; }
+  /// The streams have ended.
+  void ended();
   /// The pairs may be wrong although their times fit.
   void doubt(PairDoubt doubt);
 
@@ -49,9 +54,11 @@ class PairingReports {
   UnpairedWarning unpaired_;
   DoubtWarning doubts_;
   bool first_seen_ = false;
-  Nanoseconds last_time_ = 0;                 // of the last pair
-  int same_times_ = 0;                        // pairs in a row with the time of the one before
-  bool standing_seen_ = false;                // and warned of
+  Nanoseconds last_time_ = 0;   // of the last pair
+  int same_times_ = 0;          // pairs in a row with the time of the one before
+  bool standing_seen_ = false;  // and warned of
+  bool any_pair_ = false;
+  std::array<std::int64_t, 2> dropped_ = {};  // frames of a side
   std::array<bool, 2> damage_seen_ = {};      // of a side, and warned of
   std::optional<Nanoseconds> logged_offset_;  // of the streams
   int logged_restarts_ = 0;                   // Pairer::restarts() then

@@ -37,6 +37,8 @@ class UnpairedWarning {
   void paired() { run_ = 0; }
   /// Number of consecutive frames without a partner.
   int run() const { return run_; }
+  /// Whether a warning was due.
+  bool warned() const { return last_.has_value(); }
 
  private:
   int run_ = 0;

@@ -56,6 +56,35 @@ TEST_F(Stream, MatchesTheWaitingPairBeforeItEnds) {
   EXPECT_TRUE(harness->pull(1));
 }
 
+TEST_F(Stream, WarnsIfItEndsWithoutAPair) {
+  left(0);
+  harness->end(Side::kRight);
+  left(kFrame);
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS));
+  EXPECT_NE(harness->warning().text.find("The stream of sink_right has ended without a frame"),
+            std::string::npos);
+}
+
+TEST_F(Stream, WarnsIfItEndsAndNoFramesWereAPair) {
+  left(0);
+  right(5 * GST_SECOND);
+  harness->end(Side::kLeft);
+  harness->end(Side::kRight);
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS));
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("1 of sink_left, 1 of sink_right"), std::string::npos)
+      << warning.text;
+  EXPECT_NE(warning.text.find("sync-mode=first-pts"), std::string::npos) << warning.text;
+}
+
+TEST_F(Stream, DoesNotWarnIfItEndsAfterAPair) {
+  ASSERT_TRUE(next());
+  left(kFrame);
+  harness->end(Side::kRight);
+  EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS));
+  EXPECT_TRUE(harness->warnings().empty());
+}
+
 TEST_F(Stream, EndsImmediatelyIfTheOtherStreamIsSilent) {
   ASSERT_TRUE(next());
   harness->end(Side::kLeft);
