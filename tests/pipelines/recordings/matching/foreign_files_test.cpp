@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
+#include <memory>
+#include <span>
 
 #include "recordings/media/frame_reader.hpp"
 #include "recordings/support/stereo_files.hpp"
@@ -30,51 +33,63 @@ using testing::write_text;
 constexpr int kFrames = 100;
 constexpr std::size_t kPixels = std::size_t{kStereoWidth} * kStereoHeight;
 
-constexpr const char* kSound = " -f lavfi -i sine=duration=4 ";
 const std::string kH264 = "-c:v libx264 -preset veryfast -bf 3 -g 20 -threads 1 ";
 const std::string kOpenGroups = kH264 + "-x264-params open_gop=1 ";
-constexpr const char* kEarlySound = "-itsoffset -0.5 -f lavfi -i sine=duration=4";
+const std::string kH265 =
+    "-c:v libx265 -preset ultrafast -x265-params log-level=none:open-gop=1:keyint=20:bframes=3 ";
 
-struct File {
-  const char* name;       // of the case
-  const char* file;       // its extension is that of the container
-  std::string inputs;     // of ffmpeg, besides the frames
-  std::string options;    // of ffmpeg; or the code of OpenCV
-  int count = kFrames;    // frames
-  double difference = 0;  // mean, of decoders whose transforms are not those of ffmpeg
+// The inputs of ffmpeg besides the frames.
+constexpr const char* kInputs =
+    " -f lavfi -i sine=duration=4 -itsoffset -0.5 -f lavfi -i sine=duration=4 "
+    "-f lavfi -i testsrc=size=96x64:rate=25:duration=2 ";
+const std::string kSound = "-map 1 ", kEarlySound = "-map 2 ", kSecondVideo = "-map 3 ";
+
+struct Output {
+  fs::path file;        // its extension is that of the container
+  std::string options;  // of ffmpeg
 };
 
-void PrintTo(const File& file, std::ostream* out) { *out << file.name; }
-
-// Writes the frames of a view by ffmpeg.
-fs::path write_by_ffmpeg(const TemporaryFolder& folder, View view, const std::string& file,
-                         const File& coding) {
+fs::path write_raw(const TemporaryFolder& folder, View view) {
   std::string frames;
   for (int i = 0; i < kFrames; ++i) {
-    const std::vector<std::uint8_t> frame = testing::stereo_frame(i, view);
+    const std::vector<std::uint8_t>& frame = testing::stereo_frame(i, view);
     frames.append(frame.begin(), frame.end());
   }
-  const fs::path raw = folder / "frames.gray", result = folder / file;
-  write_text(raw, frames);
-  const std::string size = std::to_string(view == View::kBoth ? 2 * kStereoWidth : kStereoWidth) +
-                           "x" + std::to_string(kStereoHeight);
-  run_command("ffmpeg -v error -y -f rawvideo -pix_fmt gray -s " + size + " -r 30 -i '" +
-              raw.string() + "' " + coding.inputs + " -pix_fmt yuv420p " + coding.options + " '" +
-              result.string() + "'");
-  return result;
+  write_text(folder / "frames.gray", frames);
+  return folder / "frames.gray";
 }
 
-// The luma of all frames as ffmpeg decodes them.
-std::vector<std::string> by_ffmpeg(const fs::path& video) {
-  const fs::path raw = video.string() + ".raw";
-  run_command("ffmpeg -v error -y -i '" + video.string() +
-              "' -map 0:v:0 -vsync passthrough -f rawvideo '" + raw.string() + "'");
-  const std::string bytes = bytes_of(raw);
-  std::vector<std::string> frames;
-  for (std::size_t at = 0; at + kPixels * 3 / 2 <= bytes.size(); at += kPixels * 3 / 2) {
-    frames.push_back(bytes.substr(at, kPixels));
+// Writes the frames of a view: one process for all files, since ffmpeg starts slowly.
+void write_by_ffmpeg(const std::vector<Output>& outputs, View view = View::kLeft) {
+  const TemporaryFolder folder;
+  std::string command = "ffmpeg -v error -y -f rawvideo -pix_fmt gray -s 160x96 -r 30 -i '" +
+                        write_raw(folder, view).string() + "'" + kInputs + "-vsync vfr";
+  for (const Output& output : outputs) {
+    command += " -map 0 -pix_fmt yuv420p " + output.options + " '" + output.file.string() + "'";
   }
-  return frames;
+  run_command(command);
+}
+
+// The luma of all frames of a video.
+using Frames = std::vector<std::string>;
+
+// What ffmpeg decodes, also by one process.
+std::vector<Frames> by_ffmpeg(const std::vector<fs::path>& videos) {
+  std::string inputs, outputs;
+  for (std::size_t i = 0; i < videos.size(); ++i) {
+    inputs += " -i '" + videos[i].string() + "'";
+    outputs += " -map " + std::to_string(i) + ":v:0 -f rawvideo '" + videos[i].string() + ".raw'";
+  }
+  run_command("ffmpeg -v error -y" + inputs + " -vsync passthrough" + outputs);
+  std::vector<Frames> all;
+  for (const fs::path& video : videos) {
+    const std::string bytes = bytes_of(video.string() + ".raw");
+    Frames& frames = all.emplace_back();
+    for (std::size_t at = 0; at + kPixels * 3 / 2 <= bytes.size(); at += kPixels * 3 / 2) {
+      frames.push_back(bytes.substr(at, kPixels));
+    }
+  }
+  return all;
 }
 
 double mean_difference(const std::string& a, const std::string& b) {
@@ -87,9 +102,8 @@ double mean_difference(const std::string& a, const std::string& b) {
   return sum / static_cast<double>(a.size());
 }
 
-void expect_frames(const fs::path& file, const File& expected) {
-  const std::vector<std::string> frames = by_ffmpeg(file);
-  ASSERT_EQ(frames.size(), static_cast<std::size_t>(expected.count));
+// `difference`: the largest mean, of decoders whose transforms are not those of ffmpeg.
+void expect_frames(const fs::path& file, const Frames& frames, double difference = 0) {
   const FrameIndex index = index_frames({file, {}, {}}, 0);
   EXPECT_EQ(index.damage, "");
   ASSERT_EQ(index.times.size(), frames.size());
@@ -105,52 +119,144 @@ void expect_frames(const fs::path& file, const File& expected) {
     ASSERT_EQ(frame.state, FrameState::kDecoded) << number << ' ' << reader->problem();
     ASSERT_LE(mean_difference(rows_of(frame.buffer.get(), frame.caps.get()),
                               frames[static_cast<std::size_t>(number)]),
-              expected.difference)
+              difference)
         << number;
   }
 }
 
-class OfFfmpeg : public ::testing::TestWithParam<File> {};
+struct File {
+  const char* name;       // of the case
+  const char* container;  // the extension
+  std::string options;    // of ffmpeg; or the code of OpenCV
+  int count = kFrames;    // frames
+  double difference = 0;  // see expect_frames()
+};
 
-TEST_P(OfFfmpeg, FramesAreThoseOfTheirNumbers) {
-  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
-  const TemporaryFolder folder;
-  expect_frames(write_by_ffmpeg(folder, View::kLeft, GetParam().file, GetParam()), GetParam());
-}
+void PrintTo(const File& file, std::ostream* out) { *out << file.name; }
+
+// Files that another program has written at once, and their frames as ffmpeg decodes them.
+class OfOthers : public ::testing::TestWithParam<File> {
+ protected:
+  static void SetUpTestSuite() { folder_ = std::make_unique<TemporaryFolder>(); }
+  static void TearDownTestSuite() {
+    frames_.clear();
+    folder_.reset();
+  }
+  static fs::path path_of(const File& file) {
+    return *folder_ / (std::string(file.name) + "." + file.container);
+  }
+  static void decode(std::span<const File> files) {
+    std::vector<fs::path> paths;
+    for (const File& file : files) paths.push_back(path_of(file));
+    std::vector<Frames> decoded = by_ffmpeg(paths);
+    for (std::size_t i = 0; i < paths.size(); ++i) frames_[paths[i]] = std::move(decoded[i]);
+  }
+  void check() {
+    if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+    const Frames& frames = frames_[path_of(GetParam())];
+    ASSERT_EQ(frames.size(), static_cast<std::size_t>(GetParam().count));
+    expect_frames(path_of(GetParam()), frames, GetParam().difference);
+  }
+
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+  static inline std::map<fs::path, Frames> frames_;
+};
+
+const File kOfFfmpeg[] = {
+    {"MatroskaWithSound", "mkv", kSound + kH264 + "-c:a aac"},
+    {"Mp4WithSound", "mp4", kSound + kH264 + "-c:a aac"},
+    {"FragmentedMp4", "mp4", kSound + kH264 + "-c:a aac -movflags frag_keyframe+empty_moov"},
+    {"TransportStreamWithSound", "ts", kSound + kH264 + "-c:a aac"},
+    {"ProgramStream", "mpg", kSound + "-c:v mpeg2video -bf 2 -g 12 -b:v 2M -c:a mp2", kFrames, 0.5},
+    {"OpenGroups", "mp4", kOpenGroups},
+    {"Hevc", "mkv", kH265},
+    {"VariableRateMatroska", "mkv", kH264 + "-vf select='mod(n\\,5)'", kFrames * 4 / 5},
+    {"VariableRateMp4", "mp4", kH264 + "-vf select='mod(n\\,5)'", kFrames * 4 / 5},
+    {"Avi", "avi", kSound + "-c:v mpeg4 -g 20 -q:v 3 -c:a mp3"},
+    {"AviWithBFrames", "avi", "-c:v mpeg4 -bf 2 -g 20 -q:v 3"},
+    {"H264InAvi", "avi", kH264},
+    {"MatroskaThatStartsWithSound", "mkv", kEarlySound + kH264 + "-c:a flac"},
+    {"Vp9", "webm", "-c:v libvpx-vp9 -deadline realtime -cpu-used 8"},
+    {"Ffv1", "mkv", kSound + "-c:v ffv1 -c:a flac"},
+    {"MotionJpeg", "avi", kSound + "-c:v mjpeg -pix_fmt yuvj420p -q:v 3", kFrames, 0.5}};
+
+class OfFfmpeg : public OfOthers {
+ protected:
+  static void SetUpTestSuite() {
+    OfOthers::SetUpTestSuite();
+    if (!have_ffmpeg()) return;
+    std::vector<Output> outputs;
+    for (const File& file : kOfFfmpeg) outputs.push_back({path_of(file), file.options});
+    write_by_ffmpeg(outputs);
+    decode(kOfFfmpeg);
+  }
+};
+
+TEST_P(OfFfmpeg, FramesAreThoseOfTheirNumbers) { check(); }
+
+INSTANTIATE_TEST_SUITE_P(Files, OfFfmpeg, ::testing::ValuesIn(kOfFfmpeg),
+                         [](const auto& info) { return info.param.name; });
+
+const File kOfOpenCv[] = {{"MotionJpeg", "avi", "MJPG", kFrames, 0.5},
+                          {"Mpeg4", "mp4", "mp4v"},
+                          {"Mpeg4InAvi", "avi", "XVID"}};
+
+class OfOpenCv : public OfOthers {
+ protected:
+  static void SetUpTestSuite() {
+    OfOthers::SetUpTestSuite();
+    if (!have_ffmpeg()) return;
+    // Its libraries may leak.
+    std::string command = "ASAN_OPTIONS=detect_leaks=0 '" OPENCV_WRITER "' 160 96 '" +
+                          write_raw(*folder_, View::kLeft).string() + "'";
+    for (const File& file : kOfOpenCv) command += " " + file.options + " " + path_of(file).string();
+    run_command(command);
+    decode(kOfOpenCv);
+  }
+};
+
+TEST_P(OfOpenCv, FramesAreThoseOfTheirNumbers) { check(); }
+
+INSTANTIATE_TEST_SUITE_P(Files, OfOpenCv, ::testing::ValuesIn(kOfOpenCv),
+                         [](const auto& info) { return info.param.name; });
 
 // The frames that lead the first keyframe refer to others that are not in the file. Matroska does
 // not state their times, and MP4 leaves them out by its edit list.
 TEST(OfFfmpegCut, StartsAtItsKeyframe) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
-  const std::string h265 =
-      "-c:v libx265 -preset ultrafast -x265-params "
-      "log-level=none:open-gop=1:keyint=20:bframes=3";
-  for (const std::string& coding : {kOpenGroups, h265}) {
-    const TemporaryFolder folder;
-    const fs::path whole = write_by_ffmpeg(folder, View::kLeft, "whole.mp4", {"", "", "", coding});
-    for (const char* name : {"cut.mkv", "cut.mp4"}) {
-      const fs::path cut = folder / name;
-      run_command("ffmpeg -v error -ss 1.2 -i '" + whole.string() + "' -c copy '" + cut.string() +
-                  "'");
-      SCOPED_TRACE(coding + name);
-      const auto count = static_cast<int>(by_ffmpeg(cut).size());
-      ASSERT_GT(count, kFrames / 3);
-      expect_frames(cut, {name, "", "", "", count});
+  const TemporaryFolder folder;
+  write_by_ffmpeg({{folder / "h264.mp4", kOpenGroups}, {folder / "h265.mp4", kH265}});
+  std::string inputs, outputs;
+  std::vector<fs::path> cuts;
+  for (const char* coding : {"h264", "h265"}) {
+    inputs += " -ss 1.2 -i '" + (folder / coding).string() + ".mp4'";
+    for (const char* container : {".mkv", ".mp4"}) {
+      cuts.push_back(folder / (std::string("cut-") + coding + container));
+      outputs += std::string(" -map ") + (coding == std::string("h264") ? "0" : "1") +
+                 " -c copy '" + cuts.back().string() + "'";
     }
+  }
+  run_command("ffmpeg -v error" + inputs + outputs);
+  const std::vector<Frames> frames = by_ffmpeg(cuts);
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    SCOPED_TRACE(cuts[i]);
+    ASSERT_GT(frames[i].size(), std::size_t{kFrames} / 3);
+    expect_frames(cuts[i], frames[i]);
   }
 }
 
 // Pieces of files in which a seek alone would give other frames.
 TEST(OfFfmpegInPieces, JoinedAreEqualToTheWhole) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
-  for (const File& file :
-       {File{"", "a.mkv", kEarlySound, kH264 + "-c:a flac"}, File{"", "a.avi", "", kH264}}) {
+  const TemporaryFolder all;
+  for (const auto& [name, view] : {std::pair("left", View::kLeft), {"right", View::kRight}}) {
+    write_by_ffmpeg({{all / (std::string(name) + ".mkv"), kEarlySound + kH264 + "-c:a flac"},
+                     {all / (std::string(name) + ".avi"), kH264}},
+                    view);
+  }
+  for (const std::string container : {".mkv", ".avi"}) {
     const TemporaryFolder folder;
-    const fs::path left =
-        write_by_ffmpeg(folder, View::kLeft, std::string("left_") + file.file, file);
-    const fs::path right =
-        write_by_ffmpeg(folder, View::kRight, std::string("right_") + file.file, file);
-    const Work work = testing::work_of(left, right, {});
+    const Work work = testing::work_of(all / ("left" + container), all / ("right" + container), {});
     process(work, testing::whole(work), folder / "whole", {});
     const std::vector<Range> ranges{{0, 67}, {67, 5}, {72, kFrames - 72}};
     std::vector<fs::path> pieces;
@@ -163,35 +269,9 @@ TEST(OfFfmpegInPieces, JoinedAreEqualToTheWhole) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Files, OfFfmpeg,
-    ::testing::Values(
-        File{"MatroskaWithSound", "a.mkv", kSound, kH264 + "-c:a aac"},
-        File{"Mp4WithSound", "a.mp4", kSound, kH264 + "-c:a aac"},
-        File{"FragmentedMp4", "a.mp4", kSound,
-             kH264 + "-c:a aac -movflags frag_keyframe+empty_moov"},
-        File{"TransportStreamWithSound", "a.ts", kSound, kH264 + "-c:a aac"},
-        File{"ProgramStream", "a.mpg", kSound, "-c:v mpeg2video -bf 2 -g 12 -b:v 2M -c:a mp2",
-             kFrames, 0.5},
-        File{"OpenGroups", "a.mp4", "", kOpenGroups},
-        File{"Hevc", "a.mkv", "",
-             "-c:v libx265 -preset ultrafast -x265-params "
-             "log-level=none:open-gop=1:keyint=20:bframes=3"},
-        File{"VariableRateMatroska", "a.mkv", "", kH264 + "-vf select='mod(n\\,5)' -vsync vfr",
-             kFrames * 4 / 5},
-        File{"VariableRateMp4", "a.mp4", "", kH264 + "-vf select='mod(n\\,5)' -vsync vfr",
-             kFrames * 4 / 5},
-        File{"Avi", "a.avi", kSound, "-c:v mpeg4 -g 20 -q:v 3 -c:a mp3"},
-        File{"AviWithBFrames", "a.avi", "", "-c:v mpeg4 -bf 2 -g 20 -q:v 3"},
-        File{"H264InAvi", "a.avi", "", kH264},
-        File{"MatroskaThatStartsWithSound", "a.mkv", kEarlySound, kH264 + "-c:a flac"},
-        File{"Vp9", "a.webm", "", "-c:v libvpx-vp9 -deadline realtime -cpu-used 8"},
-        File{"Ffv1", "a.mkv", kSound, "-c:v ffv1 -c:a flac"},
-        File{"MotionJpeg", "a.avi", kSound, "-c:v mjpeg -pix_fmt yuvj420p -q:v 3", kFrames, 0.5}),
-    [](const auto& info) { return info.param.name; });
-
-fs::path h264(const TemporaryFolder& folder, const std::string& file, const char* inputs = "") {
-  return write_by_ffmpeg(folder, View::kLeft, file, {"", "", inputs, kH264});
+fs::path h264(const TemporaryFolder& folder, const std::string& file) {
+  write_by_ffmpeg({{folder / file, kH264}});
+  return folder / file;
 }
 
 FrameIndex index_of(const fs::path& video) { return index_frames({video, {}, {}}, 0); }
@@ -252,41 +332,19 @@ TEST(TruncatedAvi, WithBFramesGivesWhatCanBeRead) {
 // The index and the reader take the same stream.
 TEST(SeveralVideoStreams, TheFirstOneIsUsedAndNamed) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
-  for (const char* name : {"a.mkv", "a.mp4", "a.ts"}) {
-    const TemporaryFolder folder;
-    const fs::path file = h264(folder, name,
-                               "-f lavfi -i testsrc=size=96x64:rate=25:duration=2 "
-                               "-map 0:v -map 1:v");
-    EXPECT_THAT(index_of(file).remarks,
-                ElementsAre(HasSubstr("2 streams with video: the first one, 160x96 px, is used")));
-    expect_frames(file, {"", "", "", ""});
-  }
-}
-
-// A view in a file of OpenCV.
-class OfOpenCv : public ::testing::TestWithParam<File> {};
-
-TEST_P(OfOpenCv, FramesAreThoseOfTheirNumbers) {
-  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   const TemporaryFolder folder;
-  const fs::path raw = folder / "frames.gray", file = folder / GetParam().file;
-  std::string frames;
-  for (int i = 0; i < kFrames; ++i) {
-    const std::vector<std::uint8_t> frame = testing::stereo_frame(i, View::kLeft);
-    frames.append(frame.begin(), frame.end());
+  const std::vector<fs::path> files{folder / "a.mkv", folder / "a.mp4", folder / "a.ts"};
+  std::vector<Output> outputs;
+  for (const fs::path& file : files) outputs.push_back({file, kSecondVideo + kH264});
+  write_by_ffmpeg(outputs);
+  const std::vector<Frames> frames = by_ffmpeg(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    EXPECT_THAT(index_of(files[i]).remarks,
+                ElementsAre(HasSubstr("2 streams with video: the first one, 160x96 px, is used")));
+    ASSERT_EQ(frames[i].size(), static_cast<std::size_t>(kFrames));
+    expect_frames(files[i], frames[i]);
   }
-  write_text(raw, frames);
-  // Its libraries may leak.
-  run_command("ASAN_OPTIONS=detect_leaks=0 '" OPENCV_WRITER "' " + GetParam().options +
-              " 160 96 '" + raw.string() + "' '" + file.string() + "'");
-  expect_frames(file, GetParam());
 }
-
-INSTANTIATE_TEST_SUITE_P(Files, OfOpenCv,
-                         ::testing::Values(File{"MotionJpeg", "a.avi", "", "MJPG", kFrames, 0.5},
-                                           File{"Mpeg4", "a.mp4", "", "mp4v"},
-                                           File{"Mpeg4InAvi", "a.avi", "", "XVID"}),
-                         [](const auto& info) { return info.param.name; });
 
 }  // namespace
 }  // namespace mtstereo::run::foreign_files_test

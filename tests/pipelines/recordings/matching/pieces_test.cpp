@@ -2,6 +2,8 @@
 // Pieces of recordings: selected by number, and joined to the bytes of one uncut run.
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "lib/outputs/user_error.hpp"
 #include "recordings/matching/json.hpp"
 #include "recordings/media/frame_reader.hpp"
@@ -23,7 +25,7 @@ using testing::whole;
 using testing::work_of;
 using testing::write_view;
 
-constexpr int kFrames = 100;
+constexpr int kFrames = 100;  // further than a reader decodes without a seek
 const Progress kNoProgress;
 
 struct File {
@@ -43,18 +45,22 @@ const std::string kOpenGop =
 
 class Pieces : public ::testing::TestWithParam<File> {
  protected:
-  void SetUp() override {
-    left_ = folder_ / (std::string("left.") + GetParam().extension);
-    right_ = folder_ / (std::string("right.") + GetParam().extension);
-    write(left_, View::kLeft);
-  }
-  static void write(const fs::path& file, View view) {
+  static void SetUpTestSuite() { videos_ = std::make_unique<TemporaryFolder>(); }
+  static void TearDownTestSuite() { videos_.reset(); }
+  // The video of a view, which the tests share.
+  static fs::path video_of(View view) {
+    const std::string name = std::string(view == View::kLeft ? "left" : "right") + GetParam().name;
+    const fs::path file = *videos_ / (name + "." + GetParam().extension);
+    if (fs::exists(file)) return file;
     const auto times = GetParam().variable_rate ? variable_times(kFrames) : constant_times(kFrames);
     write_view(file, view, GetParam().coding, times);
+    return file;
   }
 
   TemporaryFolder folder_;
-  fs::path left_, right_;
+
+ private:
+  static inline std::unique_ptr<TemporaryFolder> videos_;
 };
 
 // The luma of a frame.
@@ -67,9 +73,10 @@ std::string pixels_of(const DecodedFrame& frame) {
 }
 
 TEST_P(Pieces, FramesAreThoseOfTheirNumbers) {
-  const FrameIndex index = index_frames({left_, {}, {}}, 0);
+  const fs::path left = video_of(View::kLeft);
+  const FrameIndex index = index_frames({left, {}, {}}, 0);
   ASSERT_GE(index.times.size(), static_cast<std::size_t>(kFrames - 3));
-  const auto in_order = open_video(left_, index);
+  const auto in_order = open_video(left, index);
   std::vector<std::string> frames;
   for (std::size_t i = 0; i < index.times.size(); ++i) {
     const DecodedFrame frame = in_order->read(static_cast<std::int64_t>(i));
@@ -77,7 +84,7 @@ TEST_P(Pieces, FramesAreThoseOfTheirNumbers) {
     frames.push_back(pixels_of(frame));
     ASSERT_TRUE(i == 0 || frames[i] != frames[i - 1]) << i;
   }
-  const auto jumping = open_video(left_, index);
+  const auto jumping = open_video(left, index);
   for (const std::int64_t number : {75, 76, 2, 93, 94, 95, 30, 83, 29, 96, 60, 0, 90}) {
     const DecodedFrame frame = jumping->read(number);
     ASSERT_EQ(frame.state, FrameState::kDecoded) << number << jumping->problem();
@@ -86,13 +93,12 @@ TEST_P(Pieces, FramesAreThoseOfTheirNumbers) {
 }
 
 TEST_P(Pieces, JoinedAreEqualToTheWhole) {
-  write(right_, View::kRight);
   WorkOptions options;
   if (GetParam().all_products) {
     options.products = {Product::kDisparity, Product::kColor, Product::kConfidence,
                         Product::kRectifiedLeft, Product::kRectifiedRight};
   }
-  const Work work = work_of(left_, right_, options);
+  const Work work = work_of(video_of(View::kLeft), video_of(View::kRight), options);
   const auto pairs = static_cast<std::int64_t>(work.pairs.pairs.size());
   const PieceReport uncut = process(work, whole(work), folder_ / "whole", kNoProgress);
   EXPECT_EQ(uncut.frames.size(), work.pairs.pairs.size());

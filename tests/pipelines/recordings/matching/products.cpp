@@ -14,6 +14,7 @@ using testing::View;
 using testing::write_view;
 
 testing::TemporaryFolder* Products::folder_ = nullptr;
+std::map<std::string, std::vector<std::string>> Products::expected_;
 
 void Products::SetUpTestSuite() {
   folder_ = new testing::TemporaryFolder;
@@ -21,6 +22,11 @@ void Products::SetUpTestSuite() {
   write_view(*folder_ / "left.mkv", View::kLeft, coding, testing::constant_times(kFrames));
   write_view(*folder_ / "right.mkv", View::kRight, coding, testing::constant_times(kFrames));
   testing::write_stereo_calibration(folder_->path());
+}
+
+void Products::TearDownTestSuite() {
+  expected_.clear();
+  delete folder_;
 }
 
 fs::path Products::make(const std::vector<Product>& products, MapFormat format) {
@@ -34,9 +40,13 @@ fs::path Products::make(const std::vector<Product>& products, MapFormat format) 
   return results;
 }
 
-std::vector<std::string> Products::expected(const std::string& downstream) {
-  return frames_of(testing::matcher_line(file("left.mkv"), file("right.mkv"), "") + " ! " +
-                   downstream + " ! appsink name=out sync=false");
+const std::vector<std::string>& Products::expected(const std::string& downstream) {
+  std::vector<std::string>& frames = expected_[downstream];
+  if (frames.empty()) {
+    frames = frames_of(testing::matcher_line(file("left.mkv"), file("right.mkv"), "") + " ! " +
+                       downstream + " ! appsink name=out sync=false");
+  }
+  return frames;
 }
 
 std::string joined(const std::vector<std::string>& frames) {

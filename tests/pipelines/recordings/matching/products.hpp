@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,18 +22,19 @@ inline const Progress kNoProgress;
 class Products : public ::testing::Test {
  protected:
   static void SetUpTestSuite();
-  static void TearDownTestSuite() { delete folder_; }
+  static void TearDownTestSuite();
 
   static std::filesystem::path file(const std::string& name) { return *folder_ / name; }
 
   /// Makes the products of all pairs, and returns their folder.
   static std::filesystem::path make(const std::vector<Product>& products, MapFormat format);
-  /// What the elements give: the frames downstream of the matcher.
-  static std::vector<std::string> expected(const std::string& downstream);
+  /// What the elements give: the frames downstream of the matcher, which are made once.
+  static const std::vector<std::string>& expected(const std::string& downstream);
   static std::string depth() { return "mtdepth calibration=" + file("calib.txt").string(); }
 
  private:
   static testing::TemporaryFolder* folder_;
+  static std::map<std::string, std::vector<std::string>> expected_;
 };
 
 /// All frames one after another.

@@ -25,39 +25,33 @@ using testing::whole;
 using testing::work_of;
 using testing::write_view;
 
-// The frames of a video by ffmpeg.
-std::string by_ffmpeg(const fs::path& video, const std::string& format) {
-  const fs::path raw = video.string() + ".raw";
-  run_command("ffmpeg -v error -y -i " + video.string() + " -f rawvideo -pix_fmt " + format + " " +
-              raw.string());
-  return bytes_of(raw);
-}
+const std::vector<Product> kMaps{Product::kDisparity, Product::kDepth, Product::kColor,
+                                 Product::kConfidence};
+constexpr const char* kConfidence = "mtconfidence output=confidence";
+constexpr const char* kColor = "mtcolor ! video/x-raw,format=BGR";
 
 TEST_F(Products, VideosAreReadByGStreamer) {
-  const fs::path results =
-      make({Product::kDisparity, Product::kDepth, Product::kColor, Product::kConfidence},
-           MapFormat::kMatroska);
-  const std::vector<std::string> maps = expected("identity");
+  const fs::path results = make(kMaps, MapFormat::kMatroska);
+  const std::vector<std::string>& maps = expected("identity");
   ASSERT_EQ(maps.size(), static_cast<std::size_t>(kFrames));
   EXPECT_EQ(by_gstreamer(results / "disparity.mkv"), joined(maps));
   EXPECT_EQ(by_gstreamer(results / "depth.mkv"), joined(expected(depth())));
-  EXPECT_EQ(by_gstreamer(results / "confidence.mkv"),
-            joined(expected("mtconfidence output=confidence")));
-  EXPECT_EQ(by_gstreamer(results / "color.mkv", "BGR"),
-            joined(expected("mtcolor ! video/x-raw,format=BGR")));
+  EXPECT_EQ(by_gstreamer(results / "confidence.mkv"), joined(expected(kConfidence)));
+  EXPECT_EQ(by_gstreamer(results / "color.mkv", "BGR"), joined(expected(kColor)));
 }
 
 TEST_F(Products, VideosAreReadByFfmpeg) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
-  const fs::path results =
-      make({Product::kDisparity, Product::kDepth, Product::kColor, Product::kConfidence},
-           MapFormat::kMatroska);
-  EXPECT_EQ(by_ffmpeg(results / "disparity.mkv", "gray16le"), joined(expected("identity")));
-  EXPECT_EQ(by_ffmpeg(results / "depth.mkv", "gray16le"), joined(expected(depth())));
-  EXPECT_EQ(by_ffmpeg(results / "confidence.mkv", "gray"),
-            joined(expected("mtconfidence output=confidence")));
-  EXPECT_EQ(by_ffmpeg(results / "color.mkv", "bgr24"),
-            joined(expected("mtcolor ! video/x-raw,format=BGR")));
+  const fs::path results = make(kMaps, MapFormat::kMatroska);
+  const std::string in = results.string() + "/", out = " -f rawvideo -pix_fmt ";
+  run_command("ffmpeg -v error -i " + in + "disparity.mkv -i " + in + "depth.mkv -i " + in +
+              "confidence.mkv -i " + in + "color.mkv -map 0" + out + "gray16le " + in +
+              "disparity.raw -map 1" + out + "gray16le " + in + "depth.raw -map 2" + out + "gray " +
+              in + "confidence.raw -map 3" + out + "bgr24 " + in + "color.raw");
+  EXPECT_EQ(bytes_of(results / "disparity.raw"), joined(expected("identity")));
+  EXPECT_EQ(bytes_of(results / "depth.raw"), joined(expected(depth())));
+  EXPECT_EQ(bytes_of(results / "confidence.raw"), joined(expected(kConfidence)));
+  EXPECT_EQ(bytes_of(results / "color.raw"), joined(expected(kColor)));
   const std::vector<double> times = testing::ffprobe_times(results / "disparity.mkv");
   ASSERT_EQ(times.size(), static_cast<std::size_t>(kFrames));
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -90,16 +84,13 @@ TEST_F(Products, VideosStateWhatWasUsed) {
 }
 
 TEST_F(Products, ImagesAreReadByOpenCv) {
-  const fs::path results =
-      make({Product::kDisparity, Product::kDepth, Product::kColor, Product::kConfidence},
-           MapFormat::kPng);
-  const std::vector<std::pair<std::string, std::string>> kinds{
-      {"disparity", "identity"},
-      {"depth", depth()},
-      {"color", "mtcolor ! video/x-raw,format=BGR"},
-      {"confidence", "mtconfidence output=confidence"}};
+  const fs::path results = make(kMaps, MapFormat::kPng);
+  const std::vector<std::pair<std::string, std::string>> kinds{{"disparity", "identity"},
+                                                               {"depth", depth()},
+                                                               {"color", kColor},
+                                                               {"confidence", kConfidence}};
   for (const auto& [name, downstream] : kinds) {
-    const std::vector<std::string> frames = expected(downstream);
+    const std::vector<std::string>& frames = expected(downstream);
     for (int i = 0; i < kFrames; ++i) {
       const fs::path path = results / name / ("00000" + std::to_string(i) + ".png");
       const cv::Mat image = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
@@ -113,7 +104,7 @@ TEST_F(Products, ImagesAreReadByOpenCv) {
 
 TEST_F(Products, FloatingPointMapsAreInPixelsAndMeters) {
   const fs::path results = make({Product::kDisparity, Product::kDepth}, MapFormat::kPfm);
-  const std::vector<std::string> maps = expected("identity");
+  const std::vector<std::string>& maps = expected("identity");
   int known = 0;
   for (std::size_t i = 0; i < kFrames; ++i) {
     const std::string name = "00000" + std::to_string(i) + ".pfm";
