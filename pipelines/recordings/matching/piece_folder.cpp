@@ -43,6 +43,16 @@ std::size_t frames_in(const fs::path& file) {
   }
 }
 
+// What a run was writing when it was killed; nothing else of its kind can be there.
+outputs::WrittenFiles cut_files_in(const fs::path& folder) {
+  const outputs::WrittenFiles unfinished = unfinished_files_in(folder);
+  outputs::WrittenFiles cut;
+  for (const auto& [name, bytes] : unfinished.files()) {
+    if (fs::path(name).extension() == ".part") cut.add(name, bytes);
+  }
+  return cut;
+}
+
 }  // namespace
 
 PieceFolder::PieceFolder(const Work& work, Range range, fs::path folder, Existing existing)
@@ -52,6 +62,7 @@ PieceFolder::PieceFolder(const Work& work, Range range, fs::path folder, Existin
   check_results_folder(folder_, work.recording, work.options, existing, head);
   try {
     if (existing == Existing::kContinue && read_journal(head) && !read_whole()) keep_whole_frames();
+    outputs::remove_written(folder_, cut_files_in(folder_));
     if (done_.empty() && !whole_) outputs::remove_written(folder_, unfinished_files_in(folder_));
     fs::create_directories(this->unfinished());
     write_journal(head);

@@ -108,6 +108,16 @@ TEST_P(Interrupted, ContinuesWhereItWas) {
   expect_whole();
 }
 
+TEST_P(Interrupted, LeavesNothingOfAFileThatWasCutOff) {
+  run(7, Existing::kReplace);
+  const fs::path images = folder_ / "piece" / "unfinished" / "disparity";
+  fs::create_directories(images);
+  std::ofstream(images / "000007.png.123-4.part") << "cut";
+  run(kFrames + 1, Existing::kContinue);
+  expect_whole();
+  EXPECT_FALSE(fs::exists(folder_ / "piece" / "disparity" / "000007.png.123-4.part"));
+}
+
 TEST_P(Interrupted, StartsOverUnlessAskedToContinue) {
   run(7, Existing::kReplace);
   EXPECT_EQ(run(kFrames + 1, Existing::kReplace).front(), 1);
