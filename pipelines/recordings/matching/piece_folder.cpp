@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "recordings/matching/piece_folder.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
@@ -73,7 +75,12 @@ PieceFolder::PieceFolder(const Work& work, Range range, fs::path folder, Existin
 }
 
 PieceFolder::~PieceFolder() {
-  if (!any_done_) outputs::remove_written(folder_, unfinished_files_in(folder_));
+  if (any_done_) return;
+  // The folders of images have none if the first one failed.
+  for (const Product product : work_.options.products) {
+    rmdir((unfinished() / product_path(work_.options, product)).c_str());
+  }
+  outputs::remove_written(folder_, unfinished_files_in(folder_));
 }
 
 // Whether all pairs were done, and only their files have to be published.

@@ -2,8 +2,10 @@
 // Pieces that were interrupted, and recordings that end early.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <memory>
 
@@ -116,6 +118,20 @@ TEST_P(Interrupted, LeavesNothingOfAFileThatWasCutOff) {
   run(kFrames + 1, Existing::kContinue);
   expect_whole();
   EXPECT_FALSE(fs::exists(folder_ / "piece" / "disparity" / "000007.png.123-4.part"));
+}
+
+TEST_P(Interrupted, LeavesNothingIfTheFirstPairCannotBeWritten) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before = {};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small = {200, before.rlim_max};  // bytes; enough for the journal
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string message = refusal(Existing::kRefuse);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_THAT(message, HasSubstr("cannot be written: File too large"));
+  EXPECT_FALSE(fs::exists(folder_ / "piece" / "unfinished"));
+  run(kFrames + 1, Existing::kRefuse);
+  expect_whole();
 }
 
 TEST_P(Interrupted, StartsOverUnlessAskedToContinue) {
