@@ -12,7 +12,6 @@
 #include "support/counting_allocator.hpp"
 #include "support/matching.hpp"
 #include "support/random.hpp"
-#include "support/sanitizers.hpp"
 #include "support/soft_pair.hpp"
 
 namespace mtstereo::allocation_test {
@@ -22,8 +21,7 @@ class Allocation : public testing::Test {
  protected:
   void SetUp() override {
     if (!test::allocations_are_counted()) {
-      GTEST_SKIP() << (test::kSanitized ? "the sanitizer replaces the allocator"
-                                        : "the C library does not allow to replace the allocator");
+      GTEST_SKIP() << "the C library does not allow to replace the allocator";
     }
   }
   void TearDown() override { test::fail_allocation_after(-1); }

@@ -7,7 +7,7 @@ namespace mtstereo::test {
 /// allocation functions for the program and its libraries, on every thread: new, malloc, calloc,
 /// realloc, aligned_alloc, memalign and posix_memalign.
 
-/// True if the allocator is replaced (glibc without a sanitizer).
+/// True if the allocator is replaced (glibc).
 bool allocations_are_counted();
 
 /// Resets the count to 0.
