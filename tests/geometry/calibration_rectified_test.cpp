@@ -51,7 +51,7 @@ TEST(RectifiedView, StatesTheIntrinsicsAndTheBaseline) {
   const std::string inner = "camera:\n  fx: 500.5\n  cx: 321.25\n  cy: 240.75\n";
   const std::string matrix = "K: [500.5, 0, 321.25, 0, 500.5, 240.75, 0, 0, 1]\n";
   for (const std::string& text :
-       {k + "baseline: 0.063\n", k + "baseline_mm: 63\nd: [0, 0, 0, 0, 0]\n",
+       {k + "baseline: 0.063\n", k + "bl: 0.063\n", k + "baseline_mm: 63\nd: [0, 0, 0, 0, 0]\n",
         inner + "baseline: 0.063\n", matrix + "image: left.png\nBaseline: 0.063\n",
         k + "baseline: 6.3\nunit: cm\n", k + "baseline: 63\nbaseline_unit: mm\n",
         std::string("fx: 500.5\nppx: 321.25\nppy: 240.75\nbaseline_meters: 0.063\n"),

@@ -18,7 +18,8 @@ std::optional<std::pair<Entry, double>> find_baseline(const Entry& file) {
                                    {"baseline_meters", 1.0},
                                    {"baseline_cm", 0.01},
                                    {"baseline_mm", 0.001},
-                                   {"baseline", 0.0}}) {
+                                   {"baseline", 0.0},
+                                   {"bl", 0.0}}) {
     if (const std::optional<Entry> entry = file.find_any_case(name)) return {{*entry, unit}};
   }
   return std::nullopt;
