@@ -69,6 +69,17 @@ TEST_F(Layout, UnknownNamesAreRecognizedByStructure) {
                      {"stereo", "{R: " + std::string(kR) + ", t: " + kT + "}"}}));
 }
 
+TEST_F(Layout, AnEmptyListOfUnknownNameIsNoDistortion) {
+  const StereoCalibration calibration = read_valid(write(lines({{"Camera_Matrix_0", kLeftK},
+                                                                {"Dist_0", kLeftD},
+                                                                {"Camera_Matrix_1", kRightK},
+                                                                {"Dist_1", "[]"},
+                                                                {"R", kR},
+                                                                {"T", kT}})));
+  EXPECT_FALSE(calibration.left.coefficients.empty());
+  EXPECT_TRUE(calibration.right.coefficients.empty());
+}
+
 // Beside them, a calibration of both cameras must not be missed.
 TEST_F(Layout, PlacesOnABodyAreNotThoseOfTheCameras) {
   const auto cameras = [](const std::string& r, const std::string& t) {

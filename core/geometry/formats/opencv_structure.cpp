@@ -49,24 +49,32 @@ Shape shape_of(const std::vector<double>& v) {
   return v.size() == 3 ? Shape::kVector : Shape::kOther;
 }
 
+std::string last_part(const std::string& name) {
+  return plain_name(name.substr(name.rfind('.') + 1));
+}
+
+/// Whether a name is that of distortion coefficients.
+bool names_lens(const Entry& entry) {
+  const std::string name = plain_name(entry.name());
+  return name.find("dist") != std::string::npos || name.find("coef") != std::string::npos ||
+         last_part(entry.name()).substr(0, 1) == "d";
+}
+
 /// The entries that are lists of numbers or matrices.
 std::vector<Numbers> numbers_of(const std::vector<Entry>& entries) {
   std::vector<Numbers> numbers;
   for (const Entry& entry : entries) {
     try {
       std::vector<double> values = entry.numbers();
-      if (values.size() < 2) continue;
-      const Shape shape = shape_of(values);
+      const bool no_distortion = values.empty() && !entry.is_scalar() && names_lens(entry);
+      if (values.size() < 2 && !no_distortion) continue;
+      const Shape shape = no_distortion ? Shape::kLens : shape_of(values);
       numbers.push_back({entry, std::move(values), shape});
     } catch (const FileError&) {
       continue;  // a text
     }
   }
   return numbers;
-}
-
-std::string last_part(const std::string& name) {
-  return plain_name(name.substr(name.rfind('.') + 1));
 }
 
 bool contains(Names names, const std::string& name) {
@@ -166,11 +174,7 @@ void complete_by_structure(const std::vector<Entry>& entries, PairEntries& pair)
   const std::vector<Numbers> numbers = numbers_of(entries);
   complete_both(of_shape(numbers, Shape::kCamera), pair.left_matrix, pair.right_matrix);
   std::vector<Entry> lenses = of_shape(numbers, Shape::kLens);
-  keep_preferred(lenses, 2, [](const Entry& candidate) {
-    const std::string name = plain_name(candidate.name());
-    return name.find("dist") != std::string::npos || name.find("coef") != std::string::npos ||
-           last_part(candidate.name()).substr(0, 1) == "d";
-  });
+  keep_preferred(lenses, 2, names_lens);
   complete_both(lenses, pair.left_lens, pair.right_lens);
   // R1 and R2 turn the views: without R they are no rotation between the cameras.
   complete_one(of_shape(numbers, Shape::kRotation), kRotationNames, pair.rotation);
