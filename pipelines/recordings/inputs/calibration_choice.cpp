@@ -26,9 +26,10 @@ std::string lower_stem(const fs::path& file) {
   return stem;
 }
 
+// Those of Python and MATLAB cannot be read: the remark says how to convert them.
 bool may_be_calibration(const fs::path& file) {
-  constexpr std::array<std::string_view, 6> kExtensions{".yml",  ".yaml", ".txt",
-                                                        ".json", ".xml",  ".conf"};
+  constexpr std::array<std::string_view, 11> kExtensions{
+      ".yml", ".yaml", ".txt", ".json", ".xml", ".conf", ".toml", ".ini", ".npz", ".pkl", ".mat"};
   const std::string extension = files::extension_of(file);
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
@@ -96,7 +97,8 @@ void check_regular(const std::string& calibration) {
   for (const fs::path& file : recording_files(recording)) {
     std::error_code error;
     if (!fs::exists(file, error) || fs::is_regular_file(file, error)) continue;
-    throw UserError(file.string() + ": a calibration is a file, and no folder, pipe or device");
+    if (fs::is_directory(file, error)) continue;  // read_calibration() names the remedy
+    throw UserError(file.string() + ": a calibration is a file, and no pipe or device");
   }
 }
 

@@ -250,5 +250,16 @@ TEST_F(Inputs, PairFolders) {
   }
 }
 
+TEST_F(Inputs, CalibrationsOfOtherProgramsBesideTheViews) {
+  write_image("rig/left/0.png", View::kLeft, 0);
+  write_image("rig/right/0.png", View::kRight, 0);
+  write_text(path("rig/stereo.npz"), std::string("PK\x03\x04\x14\0\0\0mtx.npy", 15));
+  EXPECT_THAT(recognize({path("rig")}, {}).remarks,
+              ::testing::Contains(HasSubstr("No calibration is used: ")));
+  write_text(path("rig/calibration.toml"),
+             "baseline = 0.12\n[intrinsics]\nK = [150, 0, 80, 0, 150, 48, 0, 0, 1]\n");
+  EXPECT_EQ(recognize({path("rig")}, {}).calibration, path("rig/calibration.toml"));
+}
+
 }  // namespace
 }  // namespace mtstereo::run::inputs_test
