@@ -29,6 +29,9 @@ struct StereoPair {
   std::filesystem::path truth;  ///< .pfm, .png or _dmap.bin
   /// what the values of an image are divided by: gray values of 8 bits, 1/256 gray value of 16 bits
   double truth_factor = 1;
+  bool truth_of_sintel = false;  ///< three channels per value
+  /// If the values are depths: what they divide, which gives px; else 0
+  double truth_product = 0;
   /// 255 = visible in both views, other values = not (Middlebury, ETH3D); may be empty
   std::filesystem::path visible_mask;
   /// ground truth of only the pixels that are visible in both views (KITTI); may be empty

@@ -30,6 +30,8 @@ void require_folder(const fs::path& root) {
 
 cv::Mat read_truth(const StereoPair& pair, cv::Size size, DmapMeaning meaning) {
   const std::string extension = files::extension_of(pair.truth);
+  if (pair.truth_of_sintel) return read_sintel_disparity(pair.truth);
+  if (pair.truth_product > 0) return read_png_depth(pair.truth, pair.truth_product);
   if (extension == ".pfm") return read_pfm_disparity(pair.truth);
   if (extension != ".bin") return read_png_disparity(pair.truth) / pair.truth_factor;
 

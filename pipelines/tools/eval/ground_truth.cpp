@@ -80,6 +80,28 @@ cv::Mat read_png_disparity(const fs::path& file) {
   return map;
 }
 
+cv::Mat read_sintel_disparity(const fs::path& file) {
+  cv::Mat map = read_stored(file);
+  if (map.type() != CV_8UC3) throw UserError(file, "is no disparity of Sintel: it is not RGB");
+  const cv::Matx13f of_blue_green_red(1.0F / 16384, 1.0F / 64, 4);
+  map.convertTo(map, CV_32F);
+  cv::transform(map, map, of_blue_green_red);
+  map.setTo(kUnknown, map == 0);
+  return map;
+}
+
+cv::Mat read_png_depth(const fs::path& file, double product) {
+  const cv::Mat stored = read_stored(file);
+  if (stored.type() != CV_16UC1) throw UserError(file, "is no depth image: 16 bits are needed");
+  constexpr float kSky = 65535;
+  cv::Mat map;
+  stored.convertTo(map, CV_32F);
+  for (float& value : cv::Mat_<float>(map)) {
+    value = value > 0 && value < kSky ? static_cast<float>(product / value) : kUnknown;
+  }
+  return map;
+}
+
 cv::Mat read_dmap(const fs::path& file, cv::Size size) {
   const std::string bytes = read_bytes(file);
   const std::size_t needed = static_cast<std::size_t>(size.area()) * sizeof(float);

@@ -41,6 +41,12 @@ cv::Mat read_pfm_disparity(const std::filesystem::path& file);
 /// in 8 bit.
 cv::Mat read_png_disparity(const std::filesystem::path& file);
 
+/// Disparity from an RGB image of Sintel, 0 = unknown: px = 4 red + green / 64 + blue / 16384.
+cv::Mat read_sintel_disparity(const std::filesystem::path& file);
+
+/// Disparity from a PNG with 16-bit depths, 0 and 65535 = unknown: px = product / value.
+cv::Mat read_png_depth(const std::filesystem::path& file, double product);
+
 /// The values of a *_dmap.bin, which has no header: big-endian 32-bit floats, column by column.
 /// Values that are not finite, not positive or at least kDmapNothingHit are unknown (NaN).
 cv::Mat read_dmap(const std::filesystem::path& file, cv::Size size);

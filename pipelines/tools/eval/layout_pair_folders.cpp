@@ -112,6 +112,13 @@ fs::path first_file(const fs::path& folder, std::initializer_list<const char*> n
   return folder / *names.begin();
 }
 
+// Booster has a folder per camera and its maps as NumPy arrays.
+const char* remedy_of(const fs::path& folder) {
+  if (!files::is_folder(folder.parent_path() / "camera_02")) return "";
+  return "; for a pair of Booster, put camera_00/im0.png as im0.png, camera_02/im0.png as im1.png "
+         "and disp_00.npy as disp0GT.pfm (cv2.imwrite) into a folder of their own";
+}
+
 void add_folder(DataSet& set, const fs::path& folder) {
   StereoPair pair;
   pair.name =
@@ -123,7 +130,7 @@ void add_folder(DataSet& set, const fs::path& folder) {
   pair.truth = first_file(truths, {"disp0GT.pfm", "disp0.pfm"});
   for (const fs::path& file : {pair.left, pair.right, pair.truth}) {
     if (is_file(file)) continue;
-    set.problems.push_back({pair.name, file.string() + ": no such file"});
+    set.problems.push_back({pair.name, file.string() + ": no such file" + remedy_of(folder)});
     return;
   }
   const fs::path mask = truths / "mask0nocc.png";

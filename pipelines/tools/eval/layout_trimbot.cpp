@@ -4,8 +4,11 @@
 // (real) or left and right, and ground truth beside the left images or in its own folder. Files of
 // one frame have the same frame number, the last digits in the name, or else the same name.
 // DrivingStereo: train-left-image/SCENE, train-right-image/SCENE, train-disparity-map/SCENE.
+// Sintel: clean_left/SCENE, clean_right/SCENE, disparities/SCENE; the final pass where there is no
+// clean one. Virtual KITTI 2: rgb/Camera_0, rgb/Camera_1, depth/Camera_0.
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <string>
@@ -18,24 +21,43 @@ namespace mtstereo::eval {
 namespace fs = std::filesystem;
 namespace {
 
+// Of Virtual KITTI 2: the focal length [px] times the baseline [cm], which are the same everywhere.
+constexpr double kVirtualKittiProduct = 725.0087 * 53.2725;
+
 // The folders of one stereo rig.
 struct Rig {
   fs::path left, right;
 };
 
-// The same folder with another word for "left-image" in its name or in that of the one above, as in
-// DrivingStereo; empty if neither name has it.
-fs::path driving_folder(const fs::path& left, const std::string& word) {
+// Data sets with a folder of scenes for each side, named alike.
+struct Words {
+  const char *left, *right, *truth;
+};
+constexpr Words kDrivingStereo = {"left-image", "right-image", "disparity-map"};
+constexpr Words kVirtualKitti = {"rgb/Camera_0", "rgb/Camera_1", "depth/Camera_0"};
+constexpr Words kSintel = {"clean_left", "clean_right", "disparities"};
+constexpr Words kSintelFinal = {"final_left", "final_right", "disparities"};
+constexpr std::array kNamedSides = {kDrivingStereo, kVirtualKitti, kSintel, kSintelFinal};
+
+// Whether the folder or the one above is that of the left side in such a data set.
+bool has_side(const fs::path& left, const Words& words) {
   const fs::path above = left.parent_path();
-  for (const fs::path& named : {left, above}) {
-    std::string name = named.filename().string();
-    const std::string side = "left-image";
-    const std::size_t at = name.find(side);
-    if (at == std::string::npos) continue;
-    const fs::path other = named.parent_path() / name.replace(at, side.size(), word);
-    return named == left ? other : other / left.filename();
-  }
-  return {};
+  return (above.filename() / left.filename()).string().find(words.left) != std::string::npos;
+}
+
+// The words of the data set of a folder; none if it is of another one.
+const Words* words_of(const fs::path& left) {
+  const auto* const found = std::find_if(kNamedSides.begin(), kNamedSides.end(),
+                                         [&](const Words& words) { return has_side(left, words); });
+  return found == kNamedSides.end() ? nullptr : found;
+}
+
+// The folder with another one of its words.
+fs::path named_folder(const fs::path& left, const Words& words, const std::string& word) {
+  const fs::path above = left.parent_path();
+  std::string names = (above.filename() / left.filename()).string();
+  names.replace(names.find(words.left), std::string(words.left).size(), word);
+  return above.parent_path() / names;
 }
 
 // The folder of the right camera, if this is the folder of a left one. In rigs with several pairs,
@@ -45,7 +67,11 @@ std::optional<Rig> rig_of(const fs::path& left) {
   fs::path right;
   if (name == "left") {
     right = left.parent_path() / "right";
-  } else if (right = driving_folder(left, "right-image"); right.empty()) {
+  } else if (const Words* words = words_of(left)) {
+    right = named_folder(left, *words, words->right);
+    const bool final = words->left == kSintelFinal.left;
+    if (final && files::is_folder(named_folder(left, *words, kSintel.left))) return std::nullopt;
+  } else {
     const std::size_t at = name.rfind("cam_");
     if (at == std::string::npos || name.size() != at + 5) return std::nullopt;
     const char digit = name.back();
@@ -107,8 +133,9 @@ bool names_tell_apart(const Rig& rig) {
 // after the camera.
 Frames truths_of(const Rig& rig, bool by_name) {
   const auto is_map = [](const fs::path& f) { return is_truth(f, false); };
-  const fs::path driving = driving_folder(rig.left, "disparity-map");
-  if (!driving.empty()) return frames_in(driving, by_name, is_map);
+  if (const Words* words = words_of(rig.left)) {
+    return frames_in(named_folder(rig.left, *words, words->truth), by_name, is_map);
+  }
   const fs::path up = rig.left.parent_path();
   for (const char* name : {"ground_truth_disparity", "ground_truth", "disparity", "disp", "gt"}) {
     for (const fs::path& folder : {up / name / rig.left.filename(), up / name}) {
@@ -174,8 +201,10 @@ class RigFinder {
     pair.truth = *truth;
     pair.cameras = {camera_file(pair.left), camera_file(pair.right)};
     pair.max_disparity = set_.layout == Layout::kTrimbotSynthetic ? kTrimbotSyntheticRange
-                         : driving_folder(rig_.left, "").empty()  ? kTrimbotRealRange
-                                                                  : kDrivingStereoRange;
+                         : words_of(rig_.left) == nullptr         ? kTrimbotRealRange
+                                                                  : kNamedSidesRange;
+    pair.truth_of_sintel = has_side(rig_.left, kSintel) || has_side(rig_.left, kSintelFinal);
+    if (has_side(rig_.left, kVirtualKitti)) pair.truth_product = kVirtualKittiProduct;
     set_.pairs.push_back(std::move(pair));
   }
 

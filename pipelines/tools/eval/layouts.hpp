@@ -45,6 +45,6 @@ inline constexpr int kSceneFlowRange = 192;
 inline constexpr int kEth3dRange = 64;
 inline constexpr int kTrimbotSyntheticRange = 100;
 inline constexpr int kTrimbotRealRange = 64;
-inline constexpr int kDrivingStereoRange = 128;
+inline constexpr int kNamedSidesRange = 128;  ///< DrivingStereo, Sintel, Virtual KITTI 2
 
 }  // namespace mtstereo::eval

@@ -95,6 +95,15 @@ TEST_F(Layouts, MiddleburyNamesMissingFilesAndKeepsOtherPairs) {
   EXPECT_THAT(set.problems[2].reason, ::testing::HasSubstr("C/calib.txt: 'ndisp=many'"));
 }
 
+TEST_F(Layouts, MiddleburySaysHowToArrangeAPairOfBooster) {
+  const cv::Mat view(4, 6, CV_8UC3, cv::Scalar(1, 2, 3));
+  write_image(folder_ / "Bottle/camera_00/im0.png", view);
+  write_image(folder_ / "Bottle/camera_02/im0.png", view);
+  const DataSet set = detect(Layout::kMiddlebury);
+  ASSERT_EQ(set.problems.size(), 2U);
+  EXPECT_THAT(set.problems[0].reason, ::testing::HasSubstr("camera_02/im0.png as im1.png"));
+}
+
 TEST(MiddleburyWeights, HalveTheFiveDifficultTrainingPairs) {
   double sum = 0;
   for (const char* name :

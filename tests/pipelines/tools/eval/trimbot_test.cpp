@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+
 #include "expect_error.hpp"
 #include "support.hpp"
 #include "tools/eval/datasets.hpp"
@@ -73,6 +76,39 @@ TEST_F(TrimBot, DrivingStereoHasFoldersOfScenesPerSide) {
   EXPECT_EQ(set.pairs[2].right, folder_ / "train-right-image/scene/2018-10-12-702.jpg");
   EXPECT_EQ(set.pairs[2].truth, folder_ / "train-disparity-map/scene/2018-10-12-702.png");
   EXPECT_EQ(set.pairs[2].max_disparity, 128);
+}
+
+TEST_F(TrimBot, SintelHasFoldersOfScenesPerSide) {
+  for (const char* side :
+       {"clean_left", "clean_right", "final_left", "final_right", "disparities"}) {
+    image(std::string("training/") + side + "/alley_1/frame_0001.png");
+  }
+  image("other/final_left/cave_2/frame_0001.png");
+  image("other/final_right/cave_2/frame_0001.png");
+  // Blue, green, red: 4 * 3 + 2 / 64 + 1 / 16384 px.
+  image("other/disparities/cave_2/frame_0001.png");
+  const DataSet set = detect(Layout::kTrimbotReal);
+  EXPECT_TRUE(set.problems.empty());
+  ASSERT_EQ(set.pairs.size(), 2U);
+  EXPECT_EQ(set.pairs[0].name, "other/final_left/cave_2/frame_0001");
+  EXPECT_EQ(set.pairs[1].right, folder_ / "training/clean_right/alley_1/frame_0001.png");
+  const LoadedPair loaded = load_pair(set.pairs[0], DmapMeaning::kAuto);
+  EXPECT_FLOAT_EQ(loaded.truth.disparity.at<float>(0, 0), 12.03131103515625F);
+}
+
+TEST_F(TrimBot, VirtualKittiHasDepthsInCentimeters) {
+  const std::string frames = "Scene01/clone/frames/";
+  image(frames + "rgb/Camera_0/rgb_00000.jpg");
+  image(frames + "rgb/Camera_1/rgb_00000.jpg");
+  cv::Mat depth(kSize, CV_16UC1, cv::Scalar(1000));
+  depth.at<std::uint16_t>(0, 0) = 65535;
+  write_image(folder_ / (frames + "depth/Camera_0/depth_00000.png"), depth);
+  const DataSet set = detect(Layout::kTrimbotReal);
+  EXPECT_TRUE(set.problems.empty());
+  ASSERT_EQ(set.pairs.size(), 1U);
+  const cv::Mat map = load_pair(set.pairs[0], DmapMeaning::kAuto).truth.disparity;
+  EXPECT_TRUE(std::isnan(map.at<float>(0, 0)));
+  EXPECT_NEAR(map.at<float>(1, 1), 38.62, 0.01);  // px: 725 px * 0.5327 m / 10 m
 }
 
 TEST_F(TrimBot, SyntheticGardenPairsTheFramesOfTheTwoCameras) {
