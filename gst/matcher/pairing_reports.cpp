@@ -46,8 +46,8 @@ std::string missing_reference(Side side) {
 }  // namespace
 
 void PairingReports::unpaired(Nanoseconds difference, Nanoseconds tolerance) {
-  if (!unpaired_.dropped(wall_clock())) return;
-  messages_.warning("The last " + std::to_string(unpaired_.run()) +
+  if (!seen_.unpaired.dropped(wall_clock())) return;
+  messages_.warning("The last " + std::to_string(seen_.unpaired.run()) +
                         " frames had no partner within the tolerance of " +
                         milliseconds(tolerance) + ". " + remedy_of_distance(std::llabs(difference)),
                     "the right frame is " + milliseconds(difference) +
@@ -57,21 +57,21 @@ void PairingReports::unpaired(Nanoseconds difference, Nanoseconds tolerance) {
 
 void PairingReports::late(Side silent) {
   constexpr int kStanding = 10;
-  if (same_times_ >= kStanding && !std::exchange(standing_seen_, true)) {
+  if (seen_.same_times >= kStanding && !std::exchange(seen_.standing, true)) {
     messages_.warning(
-        "The time stamps stand still: the last " + std::to_string(same_times_ + 1) +
+        "The time stamps stand still: the last " + std::to_string(seen_.same_times + 1) +
         " pairs have the same one, so frames are late and dropped. Give each frame its own time "
         "(appsrc do-timestamp=true).");
   }
-  if (!unpaired_.dropped(wall_clock())) return;
-  messages_.warning("The last " + std::to_string(unpaired_.run()) +
+  if (!seen_.unpaired.dropped(wall_clock())) return;
+  messages_.warning("The last " + std::to_string(seen_.unpaired.run()) +
                     " frames had no partner, because no frame arrived in time on " +
                     pad_name(silent) +
                     ". If that stream is only delayed, increase the property latency.");
 }
 
 void PairingReports::doubt(PairDoubt doubt) {
-  if (doubt == PairDoubt::kNone || !doubts_.due(doubt, wall_clock())) return;
+  if (doubt == PairDoubt::kNone || !seen_.doubts.due(doubt, wall_clock())) return;
   const StreamOffset& offset = pairer_.finder().offset();
   const std::string distance = milliseconds(offset.value());
   const std::string frame = milliseconds(pairer_.finder().period());
@@ -103,9 +103,10 @@ void PairingReports::doubt(PairDoubt doubt) {
 }
 
 void PairingReports::matches(Nanoseconds time, Nanoseconds now) {
-  same_times_ = first_seen_ && time == last_time_ ? same_times_ + 1 : 0;
-  last_time_ = time;
-  if (std::exchange(first_seen_, true) || time - now < kFarAhead) return;
+  const bool first = seen_.same_times < 0;
+  seen_.same_times = !first && time == seen_.last_time ? seen_.same_times + 1 : 0;
+  seen_.last_time = time;
+  if (!first || time - now < kFarAhead) return;
   messages_.warning(
       "The time stamps are " + std::to_string((time - now) / kSecond) +
       " s ahead of the clock of the pipeline: a sink that synchronizes shows nothing until then. "
@@ -114,29 +115,29 @@ void PairingReports::matches(Nanoseconds time, Nanoseconds now) {
 }
 
 void PairingReports::frame(Side side, bool damaged) {
-  if (!damaged || std::exchange(damage_seen_[index_of(side)], true)) return;
+  if (!damaged || std::exchange(seen_.damage[index_of(side)], true)) return;
   messages_.warning(std::string("The decoder marks a frame of ") + pad_name(side) +
                     " as damaged, because data was lost: its map shows what the decoder concealed. "
                     "To leave such frames out, set discard-corrupted-frames=true on the decoder.");
 }
 
 void PairingReports::log_offset() {
-  if (logged_restarts_ != pairer_.restarts()) logged_offset_.reset();
-  logged_restarts_ = pairer_.restarts();
+  if (seen_.restarts != pairer_.restarts()) seen_.offset.reset();
+  seen_.restarts = pairer_.restarts();
   const DifferenceStatistics statistics = pairer_.finder().offset().line().statistics();
   if (statistics.pairs == 0) return;
   const auto mean = static_cast<Nanoseconds>(statistics.mean);
   const Nanoseconds period = pairer_.finder().period();
-  if (logged_offset_ && std::llabs(mean - *logged_offset_) <= period / 10) return;
-  logged_offset_ = mean;
+  if (seen_.offset && std::llabs(mean - *seen_.offset) <= period / 10) return;
+  seen_.offset = mean;
   GST_DEBUG_OBJECT(messages_.element(),
                    "the right frames are %.2f ms after the left ones, of a frame of %.2f ms",
                    static_cast<double>(mean) / 1e6, static_cast<double>(period) / 1e6);
 }
 
 void PairingReports::ended() {
-  const auto [left, right] = dropped_;
-  if (any_pair_ || unpaired_.warned() || left + right == 0) return;
+  const auto [left, right] = seen_.dropped;
+  if (seen_.any_pair || seen_.unpaired.warned() || left + right == 0) return;
   if (left > 0 && right > 0) {
     messages_.warning("The streams have ended, and no two of their frames were a pair: " +
                       std::to_string(left) + " of sink_left, " + std::to_string(right) +
@@ -151,8 +152,8 @@ void PairingReports::ended() {
 }
 
 void PairingReports::paired() {
-  any_pair_ = true;
-  unpaired_.paired();
+  seen_.any_pair = true;
+  seen_.unpaired.paired();
   log_offset();
 }
 

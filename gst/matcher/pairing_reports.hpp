@@ -28,7 +28,7 @@ class PairingReports {
   /// A frame had no partner, because none arrived on this side in time.
   void late(Side silent);
   /// A frame of this side is left out.
-  void dropped(Side side) { ++dropped_[index_of(side)]; }
+  void dropped(Side side) { ++seen_.dropped[index_of(side)]; }
   /// The streams have ended.
   void ended();
   /// The pairs may be wrong although their times fit.
@@ -40,28 +40,30 @@ class PairingReports {
   /// A change to sync-mode=reference-timestamp was taken back.
   void warn_of_missing_reference(Side side);
 
-  void start() {
-    unpaired_ = {}, doubts_ = {}, first_seen_ = standing_seen_ = false, damage_seen_ = {};
-  }
+  void start() { seen_ = {}; }
 
  private:
   static constexpr Nanoseconds kFarAhead = 3'600'000'000'000;  ///< no source is that early
+
+  /// Since the start of the element.
+  struct Seen {
+    UnpairedWarning unpaired;
+    DoubtWarning doubts;
+    bool any_pair = false;
+    Nanoseconds last_time = 0;                 // of the last pair that was matched
+    int same_times = -1;                       // pairs with the time of the one before; -1: no pair
+    bool standing = false;                     // times, and warned of
+    std::array<std::int64_t, 2> dropped = {};  // frames of a side
+    std::array<bool, 2> damage = {};           // of a side, and warned of
+    std::optional<Nanoseconds> offset;         // of the streams, logged
+    int restarts = 0;                          // Pairer::restarts() then
+  };
 
   void log_offset();
 
   Messages& messages_;
   const Pairer& pairer_;
-  UnpairedWarning unpaired_;
-  DoubtWarning doubts_;
-  bool first_seen_ = false;
-  Nanoseconds last_time_ = 0;   // of the last pair
-  int same_times_ = 0;          // pairs in a row with the time of the one before
-  bool standing_seen_ = false;  // and warned of
-  bool any_pair_ = false;
-  std::array<std::int64_t, 2> dropped_ = {};  // frames of a side
-  std::array<bool, 2> damage_seen_ = {};      // of a side, and warned of
-  std::optional<Nanoseconds> logged_offset_;  // of the streams
-  int logged_restarts_ = 0;                   // Pairer::restarts() then
+  Seen seen_;
 };
 
 }  // namespace mtstereo::plugin

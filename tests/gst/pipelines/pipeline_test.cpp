@@ -49,6 +49,25 @@ TEST(Pipelines, CanBeRestartedAfterNull) {
   }
 }
 
+TEST(Pipelines, WarnOfEachRunWithoutAPair) {
+  Pipeline pipeline(noise_launch(10, "max-disparity=16"));
+  int warnings = 0;
+  GstBus* bus = gst_element_get_bus(pipeline.element());
+  gst_bus_enable_sync_message_emission(bus);
+  const auto count = +[](GstBus*, GstMessage*, int* warnings) { ++*warnings; };
+  g_signal_connect(bus, "sync-message::warning", G_CALLBACK(count), &warnings);
+  gst_object_unref(bus);
+  ASSERT_EQ(pipeline.run(), "");
+  EXPECT_EQ(warnings, 0);
+  gst_child_proxy_set(GST_CHILD_PROXY(pipeline.named("m")), "sink_right::offset",
+                      gint64{5} * GST_SECOND, nullptr);
+  for (int run = 1; run <= 2; ++run) {
+    pipeline.set_state(GST_STATE_NULL);
+    ASSERT_EQ(pipeline.run(), "");
+    EXPECT_EQ(warnings, run);
+  }
+}
+
 TEST(Pipelines, DoNotAffectEachOtherInOneProcess) {
   const std::string one = noise_launch(15, "max-disparity=16 mode=sparse threads=2", 3);
   const std::string two = noise_launch(15, "max-disparity=32 mode=semi-dense gray-levels=12", 7);
