@@ -221,6 +221,10 @@ TEST_F(Layout, OfTomlIsThatOfYaml) {
   EXPECT_DOUBLE_EQ(calibration.baseline(), 0.1205);
   EXPECT_THAT(refused(replaced(text, "[-120.5, 0, 0]", "[-120.5, 0")),
               HasSubstr("is not valid TOML: "));
+  for (const char* name : {"[*a]", "[[%a]]", "[a.*b]"}) {
+    EXPECT_THAT(refused("x = [1]\n" + std::string(name) + "\ny = 1\n"),
+                HasSubstr("is not valid TOML: "));
+  }
   std::string deep = "[a]\nx = [1]\n[b";
   for (int i = 0; i < 60; ++i) deep += ".b";
   EXPECT_THAT(refused(deep + "]\ny = 1\n"), HasSubstr("nested more than 50 times"));

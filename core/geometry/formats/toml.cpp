@@ -1,4 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <stdexcept>
+
+namespace mtstereo::formats {
+
+/// toml++ asserts what a file can contradict, such as the first letter of the name of a table. That
+/// must not end the program.
+constexpr void expect_in_toml(bool expected) {
+  if (!expected) throw std::domain_error("unexpected character");
+}
+
+}  // namespace mtstereo::formats
+
+#undef NDEBUG  // with it, toml++ takes that for granted
+#define TOML_ASSERT(expression) mtstereo::formats::expect_in_toml(static_cast<bool>(expression))
 #define TOML_HEADER_ONLY 1
 #define TOML_ENABLE_FORMATTERS 0
 #define TOML_ENABLE_WINDOWS_COMPAT 0
@@ -61,6 +75,8 @@ Value parse_toml(std::string_view text, const std::string& file) {
   } catch (const toml::parse_error& error) {
     throw FileError(file + ": line " + std::to_string(error.source().begin.line) +
                     " is not valid TOML: " + printable(error.description()));
+  } catch (const std::domain_error& error) {
+    throw FileError(file + ": is not valid TOML: " + error.what());
   }
 }
 
