@@ -189,6 +189,14 @@ def calibrations_of_slam():
     yield "ini", ("\0\0" + ini.format(0) + "\1" + ini.format(-31)).encode()
     info = ("height: 480\nwidth: 640\ndistortion_model: plumb_bob\nd: [0.1, 0, 0, 0, 0]\nk: " + k + "\nr: " + r +
             "\np: {}\nbinning_x: 2\nbinning_y: 2\nroi: {{x_offset: 4, y_offset: 6, height: 360, width: 560}}\n")
+    yield "both-infos", ("\0\0" + info.format(p.format(0)) + "---\n" + info.format(p.format(-31))).encode()
+    table = (f"matrix = {k}\ndistortions = {d}\nsize = [640, 480]\nrotation = [0, 0, 0.1]\n"
+             "translation = [{}, 0, 0]\n")
+    yield "tables", ("\0\0" + "".join(f"[cam_{i}]\n" + table.format(-0.12 * i) for i in range(2))).encode()
+    yield "toml-assertion", b"\0\0x = [1]\n[*a]\ny = 1\n"
+    airslam = "cam{}:\n  intrinsics: [310, 311, 322, 241]\n  distortion_coeffs: [0.1, 0, 0, 0, 0]\n  T_type: {}\n  T: {}\n"
+    yield "airslam", ("\0\0image_width: 640\nimage_height: 480\ndistortion_type: 2\n" + "".join(
+        airslam.format(i, i, pose.format(0.12 * i)) for i in range(2))).encode()
     yield "region", ("\0\0" + info.format(p.format(0)) + "\1" + info.format(p.format(-31))).encode()
 
 
