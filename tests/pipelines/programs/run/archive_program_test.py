@@ -18,7 +18,7 @@ import unittest
 from processes import is_running
 
 PROGRAM = None  # set below
-FRAMES = 180
+FRAMES = 120
 SKIPPED = 77
 OPTIONS = ["--max-disparity", "16"]
 VIEWS = {"left": 0, "right": 8}  # columns of a moving test image
@@ -173,7 +173,7 @@ class Jobs(Archive):
         for view in VIEWS:
             shutil.copy(self.archive / f"first-{view}.mp4", self.archive / f"third-{view}.mp4")
         done = self.run_program(*self.command[1:], "--resume", expected=0)
-        self.assertIn("first: 180 pairs, 2 tasks, prepared before", done.stderr)
+        self.assertIn(f"first: {FRAMES} pairs, 2 tasks, prepared before", done.stderr)
         self.assertIn("2 of 2 tasks", done.stderr)
         self.assert_same(self.out / "third", "first")
 
@@ -258,8 +258,8 @@ class Damage(Archive):
             done = self.run_program("task", number, "--plan", self.out, expected=int(missing))
             self.assertEqual(str(file) in done.stderr, missing)
         messages, summary = self.merge()
-        self.assertIn("3 tasks are missing: 0-2; do them and merge again", messages)
-        self.assertEqual(summary["missing_tasks"], [0, 1, 2])
+        self.assertIn("2 tasks are missing: 0-1; do them and merge again", messages)
+        self.assertEqual(summary["missing_tasks"], [0, 1])
         self.assert_same(self.out / "recordings/second", "second")
 
 

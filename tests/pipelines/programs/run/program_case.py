@@ -12,6 +12,7 @@ import unittest
 
 PROGRAM = None  # set by main()
 FRAMES = 120
+SHORT = 20
 SKIPPED = 77
 
 
@@ -21,15 +22,13 @@ def run(*arguments):
     )
 
 
-def make_video(file, column, frames=FRAMES):
-    """A part of a moving test image by ffmpeg: views whose columns differ are a stereo pair."""
-    subprocess.run(
-        ["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", "testsrc2=size=168x96:rate=30"]
-        + ["-frames:v", str(frames), "-vf", f"crop=160:96:{column}:0"]
-        + ["-c:v", "libx264", "-preset", "veryfast", "-bf", "2", "-g", "30", str(file)],
-        check=True,
-        stdin=subprocess.DEVNULL,
-    )
+def make_videos(column, files):
+    """A part of a moving test image by ffmpeg: views whose columns differ are a stereo pair. `files`: their frames."""
+    command = ["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", "testsrc2=size=168x96:rate=30"]
+    for file, frames in files.items():
+        command += ["-frames:v", frames, "-vf", f"crop=160:96:{column}:0", "-c:v", "libx264"]
+        command += ["-preset", "veryfast", "-bf", "2", "-g", "30", file]
+    subprocess.run(list(map(str, command)), check=True, stdin=subprocess.DEVNULL)
 
 
 class ProgramCase(unittest.TestCase):
@@ -38,8 +37,10 @@ class ProgramCase(unittest.TestCase):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="mtstereo-run-"))
         cls.left = cls.folder / "left.mp4"
         cls.right = cls.folder / "right.mp4"
-        make_video(cls.left, 0)
-        make_video(cls.right, 8)
+        cls.short_left = cls.folder / "short-left.mp4"  # where the number of frames is no matter
+        cls.short_right = cls.folder / "short-right.mp4"
+        make_videos(0, {cls.left: FRAMES, cls.short_left: SHORT})
+        make_videos(8, {cls.right: FRAMES, cls.short_right: SHORT})
         cls.whole = cls.folder / "whole"
         cls.first = run(cls.left, cls.right, "--out", cls.whole, "--max-disparity", 32)
 

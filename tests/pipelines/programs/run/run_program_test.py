@@ -71,16 +71,17 @@ class Program(ProgramCase):
         self.assertEqual(found[0].read_bytes(), (self.whole / "disparity.mkv").read_bytes())
 
     def test_says_that_results_are_of_no_use(self):
+        exchanged = [self.short_right, self.short_left, "--out", self.out()]
         remedy = r"results are useless: The left and the right view are exchanged: .*--swap"
-        result = run(self.right, self.left, "--out", self.out(), "--max-disparity", 32)
+        result = run(*exchanged, "--max-disparity", 32)
         self.assertEqual(result.returncode, 4, result.stderr)
         self.assertRegex(result.stderr, remedy)
         self.assertIn("exchanged", json.loads((self.out() / "run.json").read_text())["doubt"])
-        again = run(self.right, self.left, "--out", self.out(), "--max-disparity", 32, "--resume")
+        again = run(*exchanged, "--max-disparity", 32, "--resume")
         self.assertEqual(again.returncode, 4, again.stderr)
         self.assertRegex(again.stderr, remedy)
         options = ["--overwrite", "--swap", "--max-disparity", 32]
-        swapped = run(self.right, self.left, "--out", self.out(), *options)
+        swapped = run(*exchanged, *options)
         self.assertEqual(swapped.returncode, 0, swapped.stderr)
         self.assertEqual(json.loads((self.out() / "run.json").read_text())["doubt"], "")
 
@@ -88,8 +89,8 @@ class Program(ProgramCase):
         archive = self.folder / "exchanged-archive"
         for name, left, right in (("good", "left", "right"), ("bad", "right", "left")):
             (archive / name).mkdir(parents=True)
-            shutil.copy(self.left, archive / name / (left + ".mp4"))
-            shutil.copy(self.right, archive / name / (right + ".mp4"))
+            shutil.copy(self.short_left, archive / name / (left + ".mp4"))
+            shutil.copy(self.short_right, archive / name / (right + ".mp4"))
         for jobs in (1, 2):
             out = self.out() / str(jobs)
             result = run(archive, "--out", out, "--max-disparity", 32, "--jobs", jobs)
@@ -98,18 +99,15 @@ class Program(ProgramCase):
             self.assertNotIn("good: the results", result.stderr)
 
     def test_processes_truncated_files(self):
-        for name in ("cut.mkv", "cut.mp4", "cut.ts"):
-            with self.subTest(name):
-                cut = self.folder / name
-                subprocess.run(
-                    ["ffmpeg", "-v", "error", "-y", "-i", self.right, "-frames:v", "90"]
-                    + ["-c", "copy", "-movflags", "faststart", cut],
-                    check=True,
-                )
+        cuts = [self.folder / name for name in ("cut.mkv", "cut.mp4", "cut.ts")]
+        copies = [word for cut in cuts for word in ("-frames:v", "90", "-c", "copy", "-movflags", "faststart", cut)]
+        subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", self.right, *copies], check=True)
+        for cut in cuts:
+            with self.subTest(cut.name):
                 # Within a packet of MPEG-TS: a cut between two packets cannot be seen for certain.
                 length = cut.stat().st_size * 2 // 3 // 188 * 188 + 100
                 cut.write_bytes(cut.read_bytes()[:length])
-                out = self.out() / name
+                out = self.out() / cut.name
                 result = run(self.left, cut, "--out", out, "--max-disparity", 32)
                 self.assertEqual(result.returncode, 3, result.stderr)
                 self.assertRegex(result.stderr, r"right view: the file is truncated after \d\.\d+ s")
@@ -178,7 +176,7 @@ class Program(ProgramCase):
         self.assertNotIn("Input:", quiet.stderr)
 
     def test_finds_the_range(self):
-        command = [self.left, self.right, "--out", self.out(), "--max-disparity", "auto"]
+        command = [self.short_left, self.short_right, "--out", self.out(), "--max-disparity", "auto"]
         result = run(*command)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("max-disparity is 16", result.stderr)

@@ -11,7 +11,7 @@ import subprocess
 import time
 
 import program_case
-from program_case import FRAMES, ProgramCase, run
+from program_case import SHORT, ProgramCase, run
 
 
 class UserFiles(ProgramCase):
@@ -87,8 +87,8 @@ class UserFiles(ProgramCase):
         archive = os.fsencode(self.folder / "names")
         for name in (b"bad\xff", b"red\x1b[31m", b"good"):
             os.makedirs(archive + b"/" + name)
-            shutil.copy(os.fsencode(self.left), archive + b"/" + name)
-            shutil.copy(os.fsencode(self.right), archive + b"/" + name)
+            shutil.copy(os.fsencode(self.short_left), archive + b"/" + name + b"/left.mp4")
+            shutil.copy(os.fsencode(self.short_right), archive + b"/" + name + b"/right.mp4")
         with open(archive + b"/good/right.mp4", "ab") as stream:  # a box with an impossible name
             stream.write(b"\0\1\x86\xa0\xff\x1b\0\xfcxxxx")
         for more in ([], ["--jobs", "2"]):
@@ -103,7 +103,7 @@ class UserFiles(ProgramCase):
             self.assertNotIn("\x1b", messages)
             for name in (r"bad\xff", r"red\x1b[31m", "good"):
                 report = json.loads((out / name / "run.json").read_text())
-                self.assertEqual(report["processed_pairs"], FRAMES)
+                self.assertEqual(report["processed_pairs"], SHORT)
             self.assertIn(r"bad\xff/left.mp4", (out / r"bad\xff/run.json").read_text().replace(r"\\", "\\"))
 
     def wait_for_handler(self, pid, number):
