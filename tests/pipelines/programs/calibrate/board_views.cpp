@@ -23,9 +23,9 @@ namespace {
 
 using namespace mtstereo::calibrate;
 
-constexpr int kWidth = 480;
-constexpr int kHeight = 360;
-constexpr double kFocal = 420;
+constexpr int kWidth = 384;
+constexpr int kHeight = 288;
+constexpr double kFocal = 336;
 constexpr int kScale = 32;  // pixels of the printed board per square
 constexpr double kRate = 30;
 constexpr int kRest = 3;

@@ -15,7 +15,8 @@ import unittest
 PROGRAM = os.environ["MTCALIBRATE"]
 VIEWS = os.environ["BOARD_VIEWS"]
 SLOW = float(os.environ.get("MTSTEREO_SLOW", "1"))
-FOCAL, BASELINE, DELAY = 420, 0.1, 12  # of board-views [px], [m]; of its film [ms]
+WIDTH, HEIGHT = 384, 288  # of board-views [px]
+FOCAL, BASELINE, DELAY = 336, 0.1, 12  # of board-views [px], [m]; of its film [ms]
 
 temporary = tempfile.TemporaryDirectory(prefix="mtstereo-")
 FOLDER = pathlib.Path(temporary.name)
@@ -121,7 +122,7 @@ class Calibration(Program):
         self.assertFalse(again["swapped"])
 
     def test_one_source_with_both_views(self):
-        for option, place in (("--side-by-side", "xpos=480"), ("--top-bottom", "ypos=360")):
+        for option, place in (("--side-by-side", f"xpos={WIDTH}"), ("--top-bottom", f"ypos={HEIGHT}")):
             both = (f"compositor name=c sink_1::{place} {film('left', 5, 'stills')} ! c.sink_0 "
                     f"{film('right', 5, 'stills')} ! c.sink_1 c. ")
             _, report, _ = self.calibrate(option, both, "--stills", "--views", "12")
@@ -130,7 +131,7 @@ class Calibration(Program):
 
     def test_files_with_wrong_times_are_paired_by_index(self):
         fast = film("right", 60)
-        self.refuse("views of the board", "--left", film("left"), "--right", fast)
+        self.refuse("views? of the board", "--left", film("left"), "--right", fast)
         _, report, _ = self.calibrate("--left", film("left"), "--right", fast, "--pairing", "index")
         self.check_figures(report)
 
