@@ -138,17 +138,16 @@ void PairingReports::log_offset() {
 void PairingReports::ended() {
   const auto [left, right] = seen_.dropped;
   if (seen_.any_pair || seen_.unpaired.warned() || left + right == 0) return;
+  if (std::exchange(seen_.end, true)) return;
   if (left > 0 && right > 0) {
-    messages_.warning("The streams have ended, and no two of their frames were a pair: " +
-                      std::to_string(left) + " of sink_left, " + std::to_string(right) +
-                      " of sink_right. If their times have nothing in common, pair by "
-                      "sync-mode=first-pts or sync-mode=arrival.");
+    messages_.warning(
+        "The streams have ended, and no two of their frames were a pair. If their times have "
+        "nothing in common, pair by sync-mode=first-pts or sync-mode=arrival.");
     return;
   }
   const Side empty = left > 0 ? Side::kRight : Side::kLeft;
-  messages_.warning(std::string("The stream of ") + pad_name(empty) +
-                    " has ended without a frame, so nothing was matched: check what is upstream "
-                    "of it.");
+  messages_.warning(std::string("The streams have ended, and no frame has arrived on ") +
+                    pad_name(empty) + ": check what is upstream of it.");
 }
 
 void PairingReports::paired() {

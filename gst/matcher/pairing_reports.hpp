@@ -54,6 +54,7 @@ class PairingReports {
     int same_times = -1;                       // pairs with the time of the one before; -1: no pair
     bool standing = false;                     // times, and warned of
     std::array<std::int64_t, 2> dropped = {};  // frames of a side
+    bool end = false;                          // without any pair, and warned of
     std::array<bool, 2> damage = {};           // of a side, and warned of
     std::optional<Nanoseconds> offset;         // of the streams, logged
     int restarts = 0;                          // Pairer::restarts() then
