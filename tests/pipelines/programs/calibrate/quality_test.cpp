@@ -42,11 +42,10 @@ struct Judged {
   Quality quality;
 };
 
-Judged judge_views(const std::vector<BoardView>& views,
-                   std::optional<Model> model = Model::kPlumbBob) {
+Judged judge_views(const std::vector<BoardView>& views) {
   Coverage coverage(kBoard, kSize, kSize);
   for (const BoardView& view : views) coverage.add(corners_of(view));
-  Judged result{calibrate(model, kSize, kSize, views), coverage, {}};
+  Judged result{calibrate(Model::kPlumbBob, kSize, kSize, views), coverage, {}};
   result.quality = judge(result.calibrated, coverage, std::nullopt);
   return result;
 }
@@ -54,7 +53,7 @@ Judged judge_views(const std::vector<BoardView>& views,
 /// Of many different views.
 const Judged& good() {
   static const Judged found =
-      judge_views(observe(plumb_bob_rig(), board_poses(plumb_bob_rig(), kBoard, 45), kBoard, 0.1));
+      judge_views(observe(plumb_bob_rig(), board_poses(plumb_bob_rig(), kBoard, 35), kBoard, 0.1));
   return found;
 }
 
@@ -71,7 +70,7 @@ TEST(Quality, ManyDifferentViewsAreGoodWithoutAWarning) {
 TEST(Quality, TheTrueErrorIsWithinThreeStandardDeviations) {
   const Rig truth = plumb_bob_rig();
   int inside = 0;
-  for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     const auto views =
         observe(truth, board_poses(truth, kBoard, 15, seed), kBoard, 0.2, 100 + seed);
     const Solution solution = solve(Model::kPlumbBob, kSize, kSize, views);
@@ -150,19 +149,10 @@ TEST(Quality, ParametersThatTheViewsDoNotDetermineAreNamed) {
   EXPECT_EQ(quality.grade, Grade::kPoor);
 }
 
-TEST(Quality, HeldOutViewsChooseTheModel) {
-  const Rig truth = fisheye_rig();
-  const auto views = observe(truth, board_poses(truth, kBoard, 20), kBoard, 0.05);
-  const Judged found = judge_views(views, std::nullopt);
-  EXPECT_EQ(found.calibrated.model, Model::kFisheye);
-  EXPECT_EQ(found.calibrated.trials.size(), 3U);
-  EXPECT_THAT(names_of(found.quality), Not(Contains("high-reprojection-error")));
-}
-
 TEST(Quality, AModelThatDoesNotFitIsNotGood) {
   const Rig truth = fisheye_rig();
   const auto views = observe(truth, board_poses(truth, kBoard, 20), kBoard, 0.05);
-  const Judged found = judge_views(views, Model::kPlumbBob);
+  const Judged found = judge_views(views);
   EXPECT_THAT(names_of(found.quality), Contains("wild-distortion"));
   EXPECT_NE(found.quality.grade, Grade::kGood);
 }
