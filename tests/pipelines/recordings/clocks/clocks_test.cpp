@@ -108,6 +108,7 @@ TEST_F(Clocks, FindsSevenSecondsAndADrift) {
   Shooting slow = street(false, 0);
   slow.scene.camera.velocity = {0, 0, 0.7};
   slow.rate = kSlowRate;
+  slow.size = {128, 72};
   slow.frames = kMany;
   const Shot left = shoot(slow);
   slow.right = true;
