@@ -69,16 +69,19 @@ class RealViews : public ::testing::Test {
     }
     add("kitti2015/training", "image_2", "image_3", 128);
     add("more/kitti2015/training", "image_0", "image_1", 128);
-    add("kitti_sequence", "image_l", "image_r", 100);
+    add("kitti_sequence", "image_l", "image_r", 100, 5);
     calibration_ = (folder_ / "more/kitti_raw/calib_cam_to_cam.txt#gray").string();
     const std::size_t raw = data_.size();
     add("more/kitti_raw", "image_00", "image_01", 112);
     for (std::size_t i = raw; i < data_.size(); ++i) data_[i].calibration = calibration_;
   }
-  void add(const char* folder, const char* left, const char* right, int max_disparity) {
-    for (const fs::path& file : sorted(folder_ / folder / left)) {
-      data_.push_back(
-          {file.string(), file, folder_ / folder / right / file.filename(), max_disparity});
+  // Every `step`-th pair of a folder.
+  void add(const char* folder, const char* left, const char* right, int max_disparity,
+           std::size_t step = 1) {
+    const std::vector<fs::path> files = sorted(folder_ / folder / left);
+    for (std::size_t i = 0; i < files.size(); i += step) {
+      data_.push_back({files[i].string(), files[i], folder_ / folder / right / files[i].filename(),
+                       max_disparity});
     }
   }
   // Some pairs of all kinds.
