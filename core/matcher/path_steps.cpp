@@ -37,7 +37,7 @@ void Pyramid::resize(const Settings& settings, const FrameSize& size, ReusedMemo
   scratch.resize(size.threads);
   ImageSize reduced = size.matched;
   votes.resize(reduced.width, reduced.height, cost_lanes(settings.disparities));
-  windows.resize(reduced.width, reduced.height);
+  windows.resize(reduced.width, reduced.height, cost_lanes(settings.disparities));
   agreement.resize(votes.columns, votes.rows);
   const ImageSize half = {half_of(reduced.width), half_of(reduced.height)};
   reused.start_group();  // support_guide() only

@@ -2,21 +2,14 @@
 #include "stages/pixels/search_windows.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
-#include "base/limits.hpp"
 #include "mtstereo/image.hpp"
-#include "mtstereo/parameters.hpp"
 
 namespace mtstereo {
 namespace {
 
 int tiles_of(int size) { return (size + kWindowTile - 1) / kWindowTile; }
-
-constexpr int kMostBins = (kLargestMaxDisparity + kCostStep) / kWindowStep;
-
-using BinVotes = std::array<int, kMostBins>;
 
 /// Votes for all bins within kVoteReach of twice each known disparity. Returns how many are known.
 int vote(const std::int32_t* disparities, int count, int bins, std::uint8_t* votes) {
@@ -59,53 +52,43 @@ int count_agreeing(const std::int32_t* by_path, const std::int32_t* by_cost, int
   return agreeing;
 }
 
-/// The votes in a tile and those around it.
-class Surroundings {
- public:
-  Surroundings(const WindowVotes& votes, int column, int row)
-      : votes_(votes),
-        x0_(std::max(column - 1, 0)),
-        x1_(std::min(column + 2, votes.columns)),
-        y0_(std::max(row - 1, 0)),
-        y1_(std::min(row + 2, votes.rows)) {}
-
-  bool known() const {
-    int known = 0;
-    for_each_tile([&](std::ptrdiff_t tile) { known += votes_.known[tile]; });
-    const int pixels = (x1_ - x0_) * (y1_ - y0_) * kVotingRows * kVotingRows;
-    return known * kLeastKnownShare >= pixels;
-  }
-
-  /// Per bin the votes of one kind.
-  BinVotes sums(const Buffer<std::uint8_t>& kind) const {
-    BinVotes sums;
-    std::fill_n(sums.begin(), votes_.bins, 0);
-    for_each_tile([&](std::ptrdiff_t tile) {
-      for (int bin = 0; bin < votes_.bins; ++bin) sums[bin] += kind[tile * votes_.bins + bin];
-    });
-    return sums;
-  }
-
- private:
-  template <class Visit>
-  void for_each_tile(Visit&& visit) const {
-    for (std::ptrdiff_t y = y0_; y < y1_; ++y) {
-      for (int x = x0_; x < x1_; ++x) visit(y * votes_.columns + x);
+/// Adds up the votes of each tile of a row and of the tiles around it. A tile has `count` of them.
+void sum_around(const Buffer<std::uint8_t>& votes, const WindowVotes& size, int row, int count,
+                Buffer<std::uint16_t>& rows, Buffer<std::uint16_t>& sums) {
+  const std::ptrdiff_t length = static_cast<std::ptrdiff_t>(size.columns) * count;
+  std::fill_n(rows.data(), rows.size(), std::uint16_t{0});
+  std::uint16_t* const middle = rows.data() + count;
+  for (int y = std::max(row - 1, 0); y < std::min(row + 2, size.rows); ++y) {
+    const std::uint8_t* const in = votes.data() + y * length;
+    for (std::ptrdiff_t i = 0; i < length; ++i) {
+      middle[i] = static_cast<std::uint16_t>(middle[i] + in[i]);
     }
   }
+  for (std::ptrdiff_t i = 0; i < length; ++i) {
+    sums[i] = static_cast<std::uint16_t>(middle[i - count] + middle[i] + middle[i + count]);
+  }
+}
 
-  const WindowVotes& votes_;
-  int x0_, x1_, y0_, y1_;
-};
+void sum_row(const WindowVotes& votes, int row, TileSums& sums) {
+  sum_around(votes.known, votes, row, 1, sums.rows, sums.known);
+  sum_around(votes.by_path, votes, row, votes.bins, sums.rows, sums.by_path);
+  sum_around(votes.by_cost, votes, row, votes.bins, sums.rows, sums.by_cost);
+}
 
-CostWindow chosen_window(const WindowVotes& votes, int column, int row) {
+/// Whether enough pixels of a tile and of those around it have a disparity.
+bool is_known(const WindowVotes& votes, const TileSums& sums, int column, int row) {
+  const int columns = std::min(column + 2, votes.columns) - std::max(column - 1, 0);
+  const int rows = std::min(row + 2, votes.rows) - std::max(row - 1, 0);
+  return sums.known[column] * kLeastKnownShare >= columns * rows * kVotingRows * kVotingRows;
+}
+
+CostWindow chosen_window(const WindowVotes& votes, const TileSums& sums, int column, int row) {
   const CostWindow all = {0, static_cast<std::uint16_t>(votes.bins * kWindowStep)};
-  const Surroundings around(votes, column, row);
-  if (!around.known()) return all;
-  const BinVotes by_path = around.sums(votes.by_path);
-  const BinVotes by_cost = around.sums(votes.by_cost);
+  if (!is_known(votes, sums, column, row)) return all;
+  const std::ptrdiff_t tile = static_cast<std::ptrdiff_t>(column) * votes.bins;
   const auto elected = [&](int bin) {
-    return by_path[bin] >= kLeastPathVotes || by_cost[bin] >= kLeastCostVotes;
+    return sums.by_path[tile + bin] >= kLeastPathVotes ||
+           sums.by_cost[tile + bin] >= kLeastCostVotes;
   };
   int first = 0, last = votes.bins - 1;
   while (first <= last && !elected(first)) ++first;
@@ -159,10 +142,18 @@ void count_votes(const std::int32_t* by_path, const std::int32_t* by_cost, int w
   }
 }
 
-void SearchWindows::resize(int width, int height) {
+void TileSums::resize(int columns, int bins) {
+  known.resize(columns);
+  by_path.resize(static_cast<std::size_t>(columns) * bins);
+  by_cost.resize(by_path.size());
+  rows.resize(by_path.size() + 2 * static_cast<std::size_t>(bins));
+}
+
+void SearchWindows::resize(int width, int height, int lanes) {
   columns_ = tiles_of(width);
   rows_ = tiles_of(height);
   height_ = height;
+  sums_.resize(columns_, lanes / kWindowStep);
   own_.resize(static_cast<std::size_t>(columns_) * rows_);
   joined_.resize(own_.size());
 }
@@ -182,9 +173,10 @@ const CostWindow* SearchWindows::covering(int first, int last) const {
 void choose_windows(const WindowVotes& votes, SearchWindows& windows) {
   const int columns = windows.columns_;
   for (int row = 0; row < windows.rows_; ++row) {
+    sum_row(votes, row, windows.sums_);
     CostWindow* const own = windows.own_.data() + static_cast<std::ptrdiff_t>(row) * columns;
     for (int column = 0; column < columns; ++column) {
-      own[column] = chosen_window(votes, column, row);
+      own[column] = chosen_window(votes, windows.sums_, column, row);
     }
   }
   const Buffer<CostWindow>& own = windows.own_;

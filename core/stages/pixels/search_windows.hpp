@@ -58,14 +58,24 @@ void clear_votes(int y0, int y1, WindowVotes& votes);
 void count_votes(const std::int32_t* by_path, const std::int32_t* by_cost, int width, int y,
                  WindowVotes& votes);
 
+/// The votes of the tiles of a row, each with those of the tiles around it.
+struct TileSums {
+  void resize(int columns, int bins);
+
+  Buffer<std::uint16_t> known;    ///< [column]
+  Buffer<std::uint16_t> by_path;  ///< [column][bin]
+  Buffer<std::uint16_t> by_cost;
+  Buffer<std::uint16_t> rows;  ///< scratch: the sums of three rows, with a tile more on both sides
+};
+
 /// The windows of a view.
 class SearchWindows {
  public:
   /// Windows that do not depend on votes: all disparities.
   SearchWindows() = default;
 
-  /// For views of this size.
-  void resize(int width, int height);
+  /// For views of this size, matched at so many lanes.
+  void resize(int width, int height, int lanes);
 
   /// The windows of the tiles of row y; nullptr = all lanes.
   const CostWindow* row(int y) const;
@@ -80,6 +90,7 @@ class SearchWindows {
   int columns_ = 0;  // tiles; 0 = all lanes
   int rows_ = 0;
   int height_ = 0;
+  TileSums sums_;
   Buffer<CostWindow> own_;
   Buffer<CostWindow> joined_;  // of a row of tiles and the one below
 };

@@ -22,7 +22,7 @@ inline SearchWindows random_windows(int width, int height, int lanes, Random& ra
     if (random.below(4) == 0) votes.by_path[tile * votes.bins + random.below(votes.bins)] = 64;
   }
   SearchWindows windows;
-  windows.resize(width, height);
+  windows.resize(width, height, lanes);
   choose_windows(votes, windows);
   return windows;
 }

@@ -110,7 +110,7 @@ TEST(PathMatching, CountsTheVotesOfPathsAndCosts) {
   votes.resize(2 * width, 2 * height, 64);
   const RatedMap out = matched(pair, nullptr, options, scratch, {}, &votes);
   SearchWindows windows;
-  windows.resize(2 * width, 2 * height);
+  windows.resize(2 * width, 2 * height, 64);
   choose_windows(votes, windows);
   const DisparityPlane by_cost =
       reference::match_by_cost({pair.left, pair.right, nullptr}, options);

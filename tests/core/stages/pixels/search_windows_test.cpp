@@ -25,7 +25,7 @@ SearchWindows chosen(const DisparityPlane& by_path, const DisparityPlane& by_cos
     }
   }
   SearchWindows windows;
-  windows.resize(width, height);
+  windows.resize(width, height, lanes);
   choose_windows(votes, windows);
   return windows;
 }
