@@ -239,6 +239,25 @@ TEST_F(Layout, OfTomlWithTablesInLines) {
   EXPECT_EQ(read_valid(write("baseline_mm = 120\n" + inline_table)).baseline(), 0.12);
 }
 
+TEST_F(Layout, InAMapBesideTextsIsFound) {
+  const std::string cameras =
+      lines({{"M1", kLeftK}, {"D1", kLeftD}, {"M2", kRightK}, {"D2", kRightD}});
+  std::string inner =
+      "  image_size: [640, 480]\n  R: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n  T: [-120, 0, 0]\n";
+  for (std::size_t at = 0; at < cameras.size(); at = cameras.find('\n', at) + 1) {
+    inner += "  " + cameras.substr(at, cameras.find('\n', at) + 1 - at);
+  }
+  const StereoCalibration opencv = read_valid(write("rms: 0.3\nunit: mm\nrig:\n" + inner));
+  EXPECT_EQ(opencv.left.width, 640);
+  EXPECT_NEAR(opencv.baseline(), 0.12, 1e-12);
+  const std::string view =
+      "{\"serial\": \"A1\", \"stereo\": {\"fx\": 500.5, \"cx\": 320, \"cy\": 240, ";
+  EXPECT_EQ(read_valid(write(view + "\"baseline\": 0.12}}")).left.focal_x, 500.5);
+  EXPECT_THAT(
+      refused("size: 2\nM1:\n  rows: 3\n  cols: 3\n  dt: d\n  data: " + std::string(kLeftK) + "\n"),
+      HasSubstr("there is no entry M2"));
+}
+
 TEST_F(Layout, OfJsonWithComments) {
   const std::string text =
       "// written by a program\n{\n  \"fx\": 500.5, // pixels\n  \"cx\": 320, \"cy\": 240,\n"
@@ -286,6 +305,12 @@ TEST_F(Layout, ABaselineWithAUnitStatesThatOfT) {
     expect_near(calibration.translation, Vector3{-0.12, 0.001, 0.002}, 1e-12);
   }
   // A wish, not what was calibrated.
+  const std::string four = "[500.5, 501, 321, 243]";
+  EXPECT_EQ(read_valid(write("images: left/\ncam0:\n  Kl: " + four + "\n  Kr: " + four +
+                             "\n  Dl: [0, 0, 0, 0]\n  Dr: [0, 0, 0, 0]\n  cam_bl: 0.12\n" +
+                             "  R: " + kR + "\n  t: " + kT + "\n"))
+                .right.focal_y,
+            501);
   EXPECT_THAT(refused(pair("[ -120., 1., 2. ]", "baseline_mm: 60")), HasSubstr("length_unit: mm"));
   EXPECT_THAT(refused(pair("[ -120., 1., 2. ]", "baseline_mm: wide")), HasSubstr("length_unit"));
 }

@@ -177,10 +177,34 @@ std::optional<Format> known_format(const Entry& root) {
   return std::nullopt;
 }
 
+/// The only map of a map, whose other entries are texts; none if that is a matrix.
+const Value* only_map(const Value& map) {
+  const Value* found = nullptr;
+  for (const Value& item : map.items) {
+    if (item.kind == Value::Kind::kScalar) continue;
+    if (item.kind != Value::Kind::kMap || found != nullptr) return nullptr;
+    found = &item;
+  }
+  const bool matrix = found != nullptr && std::find(found->names.begin(), found->names.end(),
+                                                    "data") != found->names.end();
+  return matrix ? nullptr : found;
+}
+
 /// Whether all is in one map that is an OpenCV file of its own, whose names need no prefix.
 bool wraps_opencv(const Value& value, const std::string& file) {
-  return value.items.size() == 1 && value.items[0].kind == Value::Kind::kMap &&
-         known_format(Entry(value.items[0], file, {})) == Format::kOpenCv;
+  const Value* const inner = only_map(value);
+  return inner != nullptr && known_format(Entry(*inner, file, {})) == Format::kOpenCv;
+}
+
+/// Adds the texts beside a map to it, such as the unit; its own ones count.
+void add_texts(const Value& from, Value& map) {
+  for (std::size_t i = 0; i < from.names.size() && i < from.items.size(); ++i) {
+    const bool known =
+        std::find(map.names.begin(), map.names.end(), from.names[i]) != map.names.end();
+    if (known || from.items[i].kind != Value::Kind::kScalar) continue;
+    map.names.push_back(from.names[i]);
+    map.items.push_back(from.items[i]);
+  }
 }
 
 /// Puts the cameras of a file with two camera_info into a list, whatever their names are.
@@ -222,23 +246,29 @@ void add_second_camera_info(Document& document, const std::string& text) {
 }
 
 /// Recognises the format of a parsed file. Rigs and parameters of ROS nodes have the calibration in
-/// maps of one entry.
+/// a map, maybe beside texts.
 void find_format(Document& document) {
   if (find_two_camera_infos(document)) return;
   const Value* inner = &document.root;
   std::string name;
-  while (inner->kind == Value::Kind::kMap) {
-    const std::optional<Format> format = known_format(Entry(*inner, document.file, name));
+  Value texts;
+  while (inner != nullptr && inner->kind == Value::Kind::kMap) {
+    const std::optional<Format> format = known_format(Entry(*inner, document.file, {}));
     if (format && !(format == Format::kOpenCv && wraps_opencv(*inner, document.file))) {
       document.format = *format;
       if (name.empty()) return;
-      document.root = Value(*inner);  // a copy, since it is a part of what it replaces
+      Value copy = *inner;  // it is a part of what it replaces
+      add_texts(texts, copy);
+      document.root = std::move(copy);
       if (*format != Format::kOpenCv) document.name = name;
       return;
     }
-    if (inner->items.size() != 1) break;
-    name += (name.empty() ? "" : ".") + printable(inner->names[0]);
-    inner = &inner->items[0];
+    add_texts(*inner, texts);
+    const Value* const next = only_map(*inner);
+    if (next == nullptr) break;
+    const auto index = static_cast<std::size_t>(next - inner->items.data());
+    name += (name.empty() ? "" : ".") + printable(inner->names[index]);
+    inner = next;
   }
   if (document.entry().find("board_config")) {
     document.entry().fail(
