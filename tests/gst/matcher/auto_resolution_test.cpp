@@ -109,11 +109,7 @@ TEST_F(AutoResolutionElement, BeginsAnewAfterAFlush) {
 TEST_F(AutoResolutionElement, BeginsAnewWithANewSegment) {
   match(true, kFrames + 1);
   ASSERT_TRUE(is_half());
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness.event(side, gst_event_new_segment(&segment));
-  }
+  harness.segment();
   match(true, 1);
   EXPECT_FALSE(is_half());
 }

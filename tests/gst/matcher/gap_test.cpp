@@ -159,14 +159,10 @@ TEST(Segments, EachNewOneIsSentOnce) {
   harness.caps(raw_caps("GRAY8", kNumberedWidth, kNumberedHeight));
   int segments = 0;
   count_segments(harness, &segments);
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
+  GstSegment segment = time_segment();
   for (int i = 0; i < 3; ++i) {
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      segment.start = static_cast<GstClockTime>(i) * GST_SECOND;
-      segment.base = segment.time = segment.start;
-      harness.event(side, gst_event_new_segment(&segment));
-    }
+    segment.start = segment.base = segment.time = static_cast<GstClockTime>(i) * GST_SECOND;
+    harness.segment(segment);
     for (const Side side : {Side::kLeft, Side::kRight}) {
       harness.push(side, numbered_frame(side, i, segment.start));
     }
@@ -188,12 +184,9 @@ TEST(Segments, AFrameOfANewOneIsNotInTheGapOfTheOldOne) {
   harness.event(Side::kRight, gst_event_new_gap(kFrame, GST_SECOND));
   harness.push(Side::kLeft, numbered_frame(Side::kLeft, 1, kFrame));
   EXPECT_TRUE(harness.wait_for_stats(1, 1, 0));
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
+  GstSegment segment = time_segment();
   segment.base = 2 * GST_SECOND;
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness.event(side, gst_event_new_segment(&segment));
-  }
+  harness.segment(segment);
   push_pair(2, 0);
   const BufferPointer map = harness.pull();
   ASSERT_TRUE(map);

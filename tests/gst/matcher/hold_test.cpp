@@ -116,11 +116,7 @@ TEST_F(HoldElement, BeginsAnewAfterAFlush) {
 }
 
 TEST_F(HoldElement, BeginsAnewWithANewSegment) {
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness.event(side, gst_event_new_segment(&segment));
-  }
+  harness.segment();
   EXPECT_FALSE(is_held(4 * kFrame));
 }
 

@@ -19,6 +19,12 @@ class Live : public StreamsTest {
     ASSERT_TRUE(next());
     gst_harness_set_time(harness->output(), 3 * kFrame);
   }
+  /// The next pair, which is late, is matched.
+  void expect_match(const char* why = "") {
+    harness->push_pair(pair, kFrame);
+    EXPECT_TRUE(harness->pull()) << why;
+    EXPECT_EQ(harness->stats().skipped, 0u);
+  }
   /// The sink reports the lateness of the first map.
   void report_from_sink(GstClockTimeDiff jitter, GstQOSType type = GST_QOS_TYPE_UNDERFLOW) {
     gst_harness_push_upstream_event(harness->output(), gst_event_new_qos(type, 1.0, jitter, 0));
@@ -219,26 +225,21 @@ TEST_F(Live, MatchesLatePairsIfTheSinkDoesNotSynchronize) {
   start(true);
   fall_behind();
   report_from_sink(0);
-  harness->push_pair(pair, kFrame);
-  EXPECT_TRUE(harness->pull());
-  EXPECT_EQ(harness->stats().skipped, 0u);
+  expect_match();
 }
 
 TEST_F(Live, MatchesLatePairsIfThrottlingIsAllThatTheSinkReports) {
   start(true);
   fall_behind();
   report_from_sink(kFrame, GST_QOS_TYPE_THROTTLE);
-  harness->push_pair(pair, kFrame);
-  EXPECT_TRUE(harness->pull());
+  expect_match();
 }
 
 TEST_F(Live, MatchesLatePairsIfQosIsDisabled) {
   start(true, "max-disparity=16 qos=false");
   fall_behind();
   report_from_sink(1);
-  harness->push_pair(pair, kFrame);
-  EXPECT_TRUE(harness->pull());
-  EXPECT_EQ(harness->stats().skipped, 0u);
+  expect_match();
 }
 
 TEST_F(Live, MatchesLatePairsInPaused) {
@@ -246,8 +247,7 @@ TEST_F(Live, MatchesLatePairsInPaused) {
   fall_behind();
   report_from_sink(1);
   gst_element_set_state(harness->element(), GST_STATE_PAUSED);
-  harness->push_pair(pair, kFrame);
-  EXPECT_TRUE(harness->pull()) << "the clock does not count before PLAYING";
+  expect_match("the clock does not count before PLAYING");
 }
 
 TEST_F(Live, ALatePairIsMatchedAfterAPauseOfOneSecond) {
@@ -268,24 +268,17 @@ TEST_F(Live, AFlushForgetsThatTheSinkSynchronizes) {
   fall_behind();
   report_from_sink(1);
   harness->flush(7);
-  harness->push_pair(pair, kFrame);
-  EXPECT_TRUE(harness->pull()) << "the sink has to preroll";
-  EXPECT_EQ(harness->stats().skipped, 0u);
+  expect_match("the sink has to preroll");
 }
 
 TEST_F(Live, ANewSegmentForgetsThatTheSinkSynchronizes) {
   start(true);
   fall_behind();
   report_from_sink(1);
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
+  GstSegment segment = time_segment();
   segment.start = kFrame;  // running times start over
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness->event(side, gst_event_new_segment(&segment));
-  }
-  harness->push_pair(pair, kFrame);
-  EXPECT_TRUE(harness->pull());
-  EXPECT_EQ(harness->stats().skipped, 0u);
+  harness->segment(segment);
+  expect_match();
 }
 
 TEST_F(Live, TheLatencyOfThePipelineIsNotLateness) {
@@ -294,9 +287,7 @@ TEST_F(Live, TheLatencyOfThePipelineIsNotLateness) {
   gst_harness_push_upstream_event(harness->output(), gst_event_new_latency(5 * GST_SECOND));
   gst_harness_set_time(harness->output(), 3 * kFrame);
   report_from_sink(1);
-  harness->push_pair(pair, kFrame);
-  EXPECT_TRUE(harness->pull());
-  EXPECT_EQ(harness->stats().skipped, 0u);
+  expect_match();
 }
 
 TEST_F(Live, AddsTheMatchingTimeToTheLateness) {

@@ -4,26 +4,13 @@
 
 #include <random>
 
-#include "support/stereo_harness.hpp"
+#include "support/fixtures.hpp"
 
 namespace mtstereo::test::pair_order_test {
 namespace {
 
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
-
-class PairOrder : public testing::Test {
+class PairOrder : public StreamsTest {
  protected:
-  void start(const std::string& properties = "max-disparity=16") {
-    harness = std::make_unique<StereoHarness>(properties);
-    harness->caps(raw_caps("GRAY8", kWidth, kHeight));
-  }
-  void left(GstClockTime time) {
-    harness->push(Side::kLeft, frame_buffer(pair.left, time, kFrame));
-  }
-  void right(GstClockTime time) {
-    harness->push(Side::kRight, frame_buffer(pair.right, time, kFrame));
-  }
   /// The time stamps of all maps until the end of the stream.
   std::vector<GstClockTime> times_until_end() {
     EXPECT_TRUE(harness->pull_event(GST_EVENT_EOS)) << "no end of stream";
@@ -31,9 +18,13 @@ class PairOrder : public testing::Test {
     while (BufferPointer buffer = harness->pull(0)) times.push_back(GST_BUFFER_PTS(buffer.get()));
     return times;
   }
-
-  Pair pair = noise_pair(kWidth, kHeight, 5, 1);
-  std::unique_ptr<StereoHarness> harness;
+  /// The time stamps of all maps of two streams.
+  std::vector<GstClockTime> times_of(const std::vector<GstClockTime>& lefts,
+                                     const std::vector<GstClockTime>& rights) {
+    Feeder first(*harness, Side::kLeft, pair, lefts);
+    Feeder second(*harness, Side::kRight, pair, rights);
+    return times_until_end();
+  }
 };
 
 TEST_F(PairOrder, OutputsEveryPairOnceInOrder) {
@@ -56,26 +47,15 @@ TEST_F(PairOrder, WaitsForBothFrames) {
   EXPECT_TRUE(harness->pull());
 }
 
-TEST_F(PairOrder, DropsAndCountsLeftFramesWithoutPartners) {
-  start();
-  left(0);
-  right(kFrame);
-  left(kFrame);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), kFrame);
-  EXPECT_TRUE(harness->wait_for_stats(1, 1, 0));
-}
-
-TEST_F(PairOrder, DropsAndCountsRightFramesWithoutPartners) {
-  start();
-  right(0);
-  left(kFrame);
-  right(kFrame);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), kFrame);
-  EXPECT_TRUE(harness->wait_for_stats(1, 0, 1));
+TEST_F(PairOrder, DropsAndCountsFramesWithoutPartners) {
+  for (const Side alone : {Side::kLeft, Side::kRight}) {
+    start();
+    push(alone, 0);
+    push(alone == Side::kLeft ? Side::kRight : Side::kLeft, kFrame);
+    push(alone, kFrame);
+    expect_map_at(kFrame);
+    EXPECT_TRUE(harness->wait_for_stats(1, alone == Side::kLeft, alone == Side::kRight));
+  }
 }
 
 TEST_F(PairOrder, PairsFramesLessThanHalfAFrameDurationApart) {
@@ -87,9 +67,7 @@ TEST_F(PairOrder, PairsFramesLessThanHalfAFrameDurationApart) {
       lefts.push_back(i * kFrame);
       rights.push_back(before ? i * kFrame - kFrame / 2 + 1 : i * kFrame + kFrame / 2 - 1);
     }
-    Feeder first(*harness, Side::kLeft, pair, lefts);
-    Feeder second(*harness, Side::kRight, pair, rights);
-    EXPECT_EQ(times_until_end(), lefts) << "the time stamps of the left frames";
+    EXPECT_EQ(times_of(lefts, rights), lefts) << "the time stamps of the left frames";
   }
 }
 
@@ -118,9 +96,7 @@ TEST_F(PairOrder, PairsADelayedStreamFromItsStart) {
   std::vector<GstClockTime> late;
   for (GstClockTime i = 0; i < 12; ++i) early.push_back(i * kFrame);
   for (GstClockTime i = 5; i < 12; ++i) late.push_back(i * kFrame);
-  Feeder lefts(*harness, Side::kLeft, pair, early);
-  Feeder rights(*harness, Side::kRight, pair, late);
-  EXPECT_EQ(times_until_end(), late);
+  EXPECT_EQ(times_of(early, late), late);
   EXPECT_EQ(harness->stats().dropped_left, 5u);
   EXPECT_EQ(harness->stats().dropped_right, 0u);
 }
@@ -137,9 +113,7 @@ TEST_F(PairOrder, LosesOnlyThePairsOfLostFrames) {
     if (!lost_right) rights.push_back(i * kFrame);
     if (!lost_left && !lost_right) both.push_back(i * kFrame);
   }
-  Feeder first(*harness, Side::kLeft, pair, lefts);
-  Feeder second(*harness, Side::kRight, pair, rights);
-  EXPECT_EQ(times_until_end(), both);
+  EXPECT_EQ(times_of(lefts, rights), both);
   EXPECT_EQ(harness->stats().pairs, both.size());
   EXPECT_EQ(harness->stats().dropped_left, lefts.size() - both.size());
   EXPECT_EQ(harness->stats().dropped_right, rights.size() - both.size());
@@ -155,9 +129,7 @@ TEST_F(PairOrder, PairsStreamsOfDifferentFrameratesAtTheLowerOne) {
     fast.push_back(time);
     if (i % 2 == 0) slow.push_back(time);
   }
-  Feeder lefts(*harness, Side::kLeft, pair, slow);
-  Feeder rights(*harness, Side::kRight, pair, fast);
-  EXPECT_EQ(times_until_end(), slow);
+  EXPECT_EQ(times_of(slow, fast), slow);
   EXPECT_EQ(harness->stats().dropped_left, 0u);
   EXPECT_EQ(harness->stats().dropped_right, 9u);
 }
@@ -195,10 +167,8 @@ TEST_F(PairOrder, PadOffsetDelaysAStream) {
 }
 
 TEST_F(PairOrder, ComparesRunningTimes) {
-  harness = std::make_unique<StereoHarness>("max-disparity=16");
-  harness->caps(raw_caps("GRAY8", kWidth, kHeight));
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
+  start();
+  GstSegment segment = time_segment();
   segment.start = 100 * GST_SECOND;
   segment.time = 100 * GST_SECOND;
   harness->event(Side::kRight, gst_event_new_segment(&segment));
@@ -208,19 +178,13 @@ TEST_F(PairOrder, ComparesRunningTimes) {
 }
 
 TEST_F(PairOrder, DropsFramesOutsideTheirSegment) {
-  harness = std::make_unique<StereoHarness>("max-disparity=16");
-  harness->caps(raw_caps("GRAY8", kWidth, kHeight));
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
+  start();
+  GstSegment segment = time_segment();
   segment.start = GST_SECOND;
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness->event(side, gst_event_new_segment(&segment));
-  }
+  harness->segment(segment);
   harness->push_pair(pair, 0);
   harness->push_pair(pair, GST_SECOND);
-  const BufferPointer map = harness->pull();
-  ASSERT_TRUE(map);
-  EXPECT_EQ(GST_BUFFER_PTS(map.get()), GST_SECOND);
+  expect_map_at(GST_SECOND);
   EXPECT_TRUE(harness->wait_for_stats(1, 0, 0));
 }
 
@@ -232,9 +196,7 @@ TEST_F(PairOrder, WarnsOnceIfNoFramesPair) {
     lefts.push_back(i * kFrame);
     rights.push_back(i * kFrame + 9'000'000);
   }
-  Feeder first(*harness, Side::kLeft, pair, lefts);
-  Feeder second(*harness, Side::kRight, pair, rights);
-  EXPECT_TRUE(times_until_end().empty());
+  EXPECT_TRUE(times_of(lefts, rights).empty());
   const Report warning = harness->warning();
   EXPECT_NE(warning.text.find("sync-tolerance"), std::string::npos) << warning.text;
   EXPECT_NE(warning.text.find("1.000 ms"), std::string::npos) << warning.text;

@@ -85,21 +85,14 @@ TEST_P(Skew, IsThatOfTheCamerasAtEveryRate) {
 INSTANTIATE_TEST_SUITE_P(Modes, Skew, testing::Values(kPlain, kTrickmode),
                          [](const auto& info) { return info.param.name; });
 
-/// Both streams of a source that plays at a rate by itself: the time stamps count its output.
-void send_segments(StereoHarness& harness, double applied_rate) {
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  segment.applied_rate = applied_rate;
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness.event(side, gst_event_new_segment(&segment));
-  }
-}
-
+/// A source plays at a rate by itself: the time stamps count its output.
 TEST(AppliedRate, PairsTheSameFrames) {
   for (const int rate : {1, 4, -8}) {
     StereoHarness harness(kNumberedMatching);
     harness.caps(raw_caps("GRAY8", kNumberedWidth, kNumberedHeight));
-    send_segments(harness, rate);
+    GstSegment segment = time_segment();
+    segment.applied_rate = rate;
+    harness.segment(segment);
     const auto push = [&](Side side, int lost) {
       for (int i = 0; i < 40; ++i) {
         const auto pts =

@@ -22,8 +22,7 @@ class Stream : public StreamsTest {
     GstEvent* end = gst_event_new_flush_stop(TRUE);
     gst_event_set_seqnum(end, seqnum);
     harness->event(side, end);
-    GstSegment segment;
-    gst_segment_init(&segment, GST_FORMAT_TIME);
+    const GstSegment segment = time_segment();
     harness->event(side, gst_event_new_segment(&segment));
   }
 };
@@ -128,8 +127,7 @@ TEST_F(Stream, SendsStreamStartCapsAndSegmentBeforeTheFirstMap) {
 }
 
 TEST_F(Stream, KeepsTheSegmentOfTheLeftStream) {
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
+  GstSegment segment = time_segment();
   segment.start = 3 * GST_SECOND;
   segment.time = 7 * GST_SECOND;
   segment.base = GST_SECOND;

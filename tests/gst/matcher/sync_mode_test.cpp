@@ -120,12 +120,11 @@ TEST(SyncMode, ReferenceTimestampIsTheLatestOfAFrame) {
 TEST(SyncMode, ReferenceTimestampPairsInReverse) {
   StereoHarness harness(with_mode("reference-timestamp").properties);
   harness.caps(raw_caps("GRAY8", kNumberedWidth, kNumberedHeight));
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
+  GstSegment segment = time_segment();
   segment.rate = -1, segment.stop = 60 * kFrame;
+  harness.segment(segment);
   const CapsPointer clock(gst_caps_from_string("timestamp/x-ntp"));
   const auto push = [&](Side side, int lost) {
-    harness.event(side, gst_event_new_segment(&segment));
     for (int i = 49; i >= 0; --i) {
       const GstClockTime time = static_cast<GstClockTime>(i) * kFrame;
       GstBuffer* frame = numbered_frame(side, i, time);

@@ -68,6 +68,12 @@ Stats stats_of(GstElement* element) {
   return stats;
 }
 
+GstSegment time_segment() {
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  return segment;
+}
+
 StereoHarness::StereoHarness(const std::string& properties, bool live) {
   element_ = make_element(properties);
   bus_ = gst_bus_new();
@@ -109,18 +115,18 @@ bool StereoHarness::event(Side which, GstEvent* event) {
   return gst_harness_push_event(side(which), event);
 }
 
+void StereoHarness::segment(const GstSegment& segment) {
+  for (const Side side : {Side::kLeft, Side::kRight}) event(side, gst_event_new_segment(&segment));
+}
+
 void StereoHarness::flush(std::uint32_t seqnum) {
   const auto send = [&](Side side, GstEvent* flush) {
     gst_event_set_seqnum(flush, seqnum);
     event(side, flush);
   };
   for (const Side side : {Side::kLeft, Side::kRight}) send(side, gst_event_new_flush_start());
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    send(side, gst_event_new_flush_stop(TRUE));
-    event(side, gst_event_new_segment(&segment));
-  }
+  for (const Side side : {Side::kLeft, Side::kRight}) send(side, gst_event_new_flush_stop(TRUE));
+  segment();
 }
 
 BufferPointer StereoHarness::pull(double seconds) {

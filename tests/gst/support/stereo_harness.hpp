@@ -39,6 +39,9 @@ struct Stats {
 };
 Stats stats_of(GstElement* element);
 
+/// A segment of times from 0 on.
+GstSegment time_segment();
+
 /// An mtstereo with a harness on each side: two pads push frames, one receives maps. The clock is a
 /// test clock at 0; the streams are not live by default.
 class StereoHarness {
@@ -65,6 +68,8 @@ class StereoHarness {
   void push_pair(const Pair& pair, GstClockTime pts, const Layout& left = {},
                  const Layout& right = {});
   bool event(Side side, GstEvent* event);
+  /// Begins a segment on both sides.
+  void segment(const GstSegment& segment = time_segment());
   /// Flushes both sides as one seek does, which needs a number of its own, and begins new segments.
   void flush(std::uint32_t seqnum);
   void end(Side side) { event(side, gst_event_new_eos()); }

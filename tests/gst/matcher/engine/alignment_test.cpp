@@ -43,23 +43,6 @@ Maps maps_with(const std::string& properties, const std::vector<Pair>& pairs) {
   return match_all(harness, pairs);
 }
 
-void flush(StereoHarness& harness) {
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness.event(side, gst_event_new_flush_start());
-  }
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness.event(side, gst_event_new_flush_stop(TRUE));
-  }
-}
-
-void new_segment(StereoHarness& harness) {
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    harness.event(side, gst_event_new_segment(&segment));
-  }
-}
-
 bool flag_of(const GstStructure* structure, const char* field) {
   gboolean flag = FALSE;
   EXPECT_TRUE(gst_structure_get_boolean(structure, field, &flag)) << field;
@@ -158,13 +141,12 @@ void expect_start_over(void (*start_over)(StereoHarness&)) {
 }
 
 TEST(Alignment, StartsOverAfterAFlush) {
-  expect_start_over([](StereoHarness& harness) {
-    flush(harness);
-    new_segment(harness);
-  });
+  expect_start_over([](StereoHarness& harness) { harness.flush(7); });
 }
 
-TEST(Alignment, StartsOverWithANewSegment) { expect_start_over(new_segment); }
+TEST(Alignment, StartsOverWithANewSegment) {
+  expect_start_over([](StereoHarness& harness) { harness.segment(); });
+}
 
 /// A pair that gives no field.
 Pair flat_pair(int width, int height) {
@@ -238,8 +220,7 @@ TEST(AlignmentField, AppliesAgainAfterAFlush) {
   const std::vector<Pair> one = first(aligned_pairs(), 1);
   const Maps before = match_all(harness, one);
   EXPECT_NE(before, maps_with("alignment=off", one)) << "the field had no effect";
-  flush(harness);
-  new_segment(harness);
+  harness.flush(7);
   EXPECT_EQ(before, match_all(harness, one));
 }
 
