@@ -26,6 +26,7 @@ using ::testing::Not;
 using testing::observe;
 using testing::plumb_bob_rig;
 using ::testing::ThrowsMessage;
+using testing::views_of;
 
 const cv::Size kSize(640, 480);
 const BoardOptions kBoard;
@@ -52,8 +53,7 @@ Judged judge_views(const std::vector<BoardView>& views) {
 
 /// Of many different views.
 const Judged& good() {
-  static const Judged found =
-      judge_views(observe(plumb_bob_rig(), board_poses(plumb_bob_rig(), kBoard, 35), kBoard, 0.1));
+  static const Judged found = judge_views(views_of(plumb_bob_rig(), 35, 0.1));
   return found;
 }
 
@@ -86,7 +86,7 @@ TEST(Quality, TheTrueErrorIsWithinThreeStandardDeviations) {
 
 TEST(Quality, FewViewsAreNamed) {
   const Rig truth = plumb_bob_rig();
-  const Judged found = judge_views(observe(truth, board_poses(truth, kBoard, 8), kBoard, 0.1));
+  const Judged found = judge_views(views_of(truth, 8, 0.1));
   EXPECT_THAT(names_of(found.quality), Contains("few-views"));
   EXPECT_THAT(names_of(found.quality), Contains("nothing-held-out"));
   EXPECT_NE(found.quality.grade, Grade::kGood);
@@ -120,7 +120,7 @@ TEST(Quality, ResultsThatDependOnTheChoiceOfViewsAreNamed) {
 
 TEST(Quality, InaccurateCornersAreNamed) {
   const Rig truth = plumb_bob_rig();
-  const Judged found = judge_views(observe(truth, board_poses(truth, kBoard, 15), kBoard, 1.5));
+  const Judged found = judge_views(views_of(truth, 15, 1.5));
   EXPECT_THAT(names_of(found.quality), Contains("high-reprojection-error"));
   EXPECT_THAT(names_of(found.quality), Contains("high-row-error"));
   EXPECT_EQ(found.quality.grade, Grade::kPoor);
@@ -151,7 +151,7 @@ TEST(Quality, ParametersThatTheViewsDoNotDetermineAreNamed) {
 
 TEST(Quality, AModelThatDoesNotFitIsNotGood) {
   const Rig truth = fisheye_rig();
-  const auto views = observe(truth, board_poses(truth, kBoard, 20), kBoard, 0.05);
+  const auto views = views_of(truth, 20, 0.05);
   const Judged found = judge_views(views);
   EXPECT_THAT(names_of(found.quality), Contains("wild-distortion"));
   EXPECT_NE(found.quality.grade, Grade::kGood);
@@ -159,7 +159,7 @@ TEST(Quality, AModelThatDoesNotFitIsNotGood) {
 
 TEST(Quality, SwappedViewsAreExchanged) {
   const Rig truth = plumb_bob_rig();
-  auto views = observe(truth, board_poses(truth, kBoard, 20), kBoard, 0.1);
+  auto views = views_of(truth, 20, 0.1);
   for (BoardView& view : views) std::swap(view.left, view.right);
   const Judged found = judge_views(views);
   EXPECT_TRUE(found.calibrated.swapped);
@@ -171,14 +171,14 @@ TEST(Quality, SwappedViewsAreExchanged) {
 TEST(Quality, CamerasOneAboveTheOtherAreRefused) {
   Rig truth = plumb_bob_rig();
   truth.right_from_left.translation = {0.003, -0.1, 0};
-  const auto views = observe(truth, board_poses(truth, kBoard, 20), kBoard, 0.1);
+  const auto views = views_of(truth, 20, 0.1);
   EXPECT_THAT([&] { judge_views(views); },
               ThrowsMessage<UserError>(HasSubstr("one is above the other")));
 }
 
 TEST(Quality, ABoardInMetersInsteadOfMillimetersIsRefused) {
   const Rig truth = plumb_bob_rig();
-  auto views = observe(truth, board_poses(truth, kBoard, 12), kBoard, 0.1);
+  auto views = views_of(truth, 12, 0.1);
   for (BoardView& view : views) {
     for (Observation& each : view.left) each.point *= 1000;
     for (Observation& each : view.right) each.point *= 1000;

@@ -15,10 +15,9 @@
 namespace mtstereo::calibrate::solving_test {
 namespace {
 
-using testing::board_poses;
 using testing::fisheye_rig;
-using testing::observe;
 using testing::plumb_bob_rig;
+using testing::views_of;
 
 const cv::Size kSize(640, 480);
 
@@ -34,8 +33,7 @@ void expect_close(const Rig& found, const Rig& truth, double focal, double basel
 
 TEST(Solving, ExactCornersGiveTheExactCameras) {
   const Rig truth = plumb_bob_rig();
-  const BoardOptions board;
-  const auto views = observe(truth, board_poses(truth, board, 12), board, 0);
+  const auto views = views_of(truth, 12, 0);
   const Solution solution = solve(Model::kPlumbBob, kSize, kSize, views);
   expect_close(solution.rig, truth, 1e-6, 1e-6);
   EXPECT_LT(solution.result.rms, 1e-5);
@@ -47,27 +45,17 @@ TEST(Solving, ExactCornersGiveTheExactCameras) {
 }
 
 TEST(Solving, FortyNoisyViewsGiveFocalLengthAndBaseline) {
-  const Rig truth = plumb_bob_rig();
-  const BoardOptions board;
-  const auto views = observe(truth, board_poses(truth, board, 40), board, 0.1);
-  const Solution solution = solve(Model::kPlumbBob, kSize, kSize, views);
-  expect_close(solution.rig, truth, 0.002, 0.005);
-  EXPECT_NEAR(solution.result.rms, 0.1 * std::sqrt(2), 0.01);
-}
-
-TEST(Solving, FortyNoisyViewsOfFisheyesGiveFocalLengthAndBaseline) {
-  const Rig truth = fisheye_rig();
-  const BoardOptions board;
-  const auto views = observe(truth, board_poses(truth, board, 40), board, 0.1);
-  const Solution solution = solve(Model::kFisheye, kSize, kSize, views);
-  expect_close(solution.rig, truth, 0.002, 0.005);
-  EXPECT_NEAR(solution.result.rms, 0.1 * std::sqrt(2), 0.01);
+  for (const auto& [model, truth] :
+       {std::pair(Model::kPlumbBob, plumb_bob_rig()), {Model::kFisheye, fisheye_rig()}}) {
+    const Solution solution = solve(model, kSize, kSize, views_of(truth, 40, 0.1));
+    expect_close(solution.rig, truth, 0.002, 0.005);
+    EXPECT_NEAR(solution.result.rms, 0.1 * std::sqrt(2), 0.01);
+  }
 }
 
 TEST(Solving, RationalModelFitsAWideLens) {
   const Rig truth = fisheye_rig();
-  const BoardOptions board;
-  const auto views = observe(truth, board_poses(truth, board, 25), board, 0.05);
+  const auto views = views_of(truth, 25, 0.05);
   const Solution solution = solve(Model::kRational, kSize, kSize, views);
   EXPECT_LT(solution.result.rms, 0.2);
   EXPECT_LT(relative(solution.rig.baseline(), truth.baseline()), 0.005);
@@ -75,8 +63,7 @@ TEST(Solving, RationalModelFitsAWideLens) {
 
 TEST(Solving, EqualsOpenCvOnTheSameCorners) {
   const Rig truth = plumb_bob_rig();
-  const BoardOptions board;
-  const auto views = observe(truth, board_poses(truth, board, 15), board, 0.1);
+  const auto views = views_of(truth, 15, 0.1);
   const Solution solution = solve(Model::kPlumbBob, kSize, kSize, views);
   std::vector<std::vector<cv::Point3f>> points;
   std::vector<std::vector<cv::Point2f>> lefts, rights;
@@ -108,8 +95,7 @@ TEST(Solving, EqualsOpenCvOnTheSameCorners) {
 
 TEST(Solving, WrongCornersAreRemoved) {
   const Rig truth = plumb_bob_rig();
-  const BoardOptions board;
-  auto views = observe(truth, board_poses(truth, board, 25), board, 0.1);
+  auto views = views_of(truth, 25, 0.1);
   for (std::size_t i = 0; i < views.size(); ++i) {
     views[i].left[i % views[i].left.size()].pixel.x() += 9;
     views[i].right[i % views[i].right.size()].pixel.y() -= 15;
@@ -123,8 +109,7 @@ TEST(Solving, WrongCornersAreRemoved) {
 
 TEST(Solving, WrongViewsAreRemovedAndNamed) {
   const Rig truth = plumb_bob_rig();
-  const BoardOptions board;
-  auto views = observe(truth, board_poses(truth, board, 25), board, 0.1);
+  auto views = views_of(truth, 25, 0.1);
   // The right camera of two views saw another moment.
   std::swap(views[3].right, views[11].right);
   const Solution solution = solve(Model::kPlumbBob, kSize, kSize, views);
@@ -134,16 +119,14 @@ TEST(Solving, WrongViewsAreRemovedAndNamed) {
 
 TEST(Solving, TooFewViewsAreRefused) {
   const Rig truth = plumb_bob_rig();
-  const BoardOptions board;
-  const auto views = observe(truth, board_poses(truth, board, 4), board, 0.1);
+  const auto views = views_of(truth, 4, 0.1);
   EXPECT_THROW(solve(Model::kPlumbBob, kSize, kSize, views), UserError);
   EXPECT_THROW(solve(Model::kPlumbBob, kSize, kSize, {}), UserError);
 }
 
 TEST(Solving, ViewsThatDoNotFitAreRefused) {
   const Rig truth = plumb_bob_rig();
-  const BoardOptions board;
-  auto views = observe(truth, board_poses(truth, board, 12), board, 0.1);
+  auto views = views_of(truth, 12, 0.1);
   std::mt19937 random(3);
   for (BoardView& view : views) {
     for (Observation& each : view.right) {

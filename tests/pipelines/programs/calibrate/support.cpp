@@ -105,6 +105,11 @@ std::vector<BoardView> observe(const Rig& rig, const std::vector<Pose>& poses,
   return views;
 }
 
+std::vector<BoardView> views_of(const Rig& rig, int count, double noise) {
+  const BoardOptions board;
+  return observe(rig, board_poses(rig, board, count), board, noise);
+}
+
 CornerPair corners_of(const BoardView& view) {
   return {corners_of(view.left), corners_of(view.right)};
 }

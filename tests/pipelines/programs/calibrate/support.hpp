@@ -28,6 +28,9 @@ std::vector<Observation> observe(const Camera& camera, const Pose& camera_from_b
 std::vector<BoardView> observe(const Rig& rig, const std::vector<Pose>& poses,
                                const BoardOptions& board, double noise, std::uint32_t seed = 1);
 
+/// The views of `count` such poses of the usual board.
+std::vector<BoardView> views_of(const Rig& rig, int count, double noise);
+
 /// The corners as a detector finds them.
 CornerPair corners_of(const BoardView& view);
 
