@@ -10,7 +10,7 @@
 namespace mtstereo::formats {
 namespace {
 
-CameraCalibration read_camera(const Entry& file, const Entry& entry) {
+CameraCalibration read_airslam_camera(const Entry& file, const Entry& entry) {
   constexpr std::array kModels = {LensModel::kNone, LensModel::kPlumbBob, LensModel::kFisheye};
   const int type = file.at("distortion_type").integer(0, 2);
   const LensModel lens = kModels[static_cast<std::size_t>(type)];
@@ -43,8 +43,8 @@ StereoCalibration read_airslam(const Entry& file, const Request& request) {
   const Entry right = file.at("cam1", "the right camera");
   StereoCalibration calibration;
   calibration.format = "AirSLAM";
-  calibration.left = read_camera(file, left);
-  calibration.right = read_camera(file, right);
+  calibration.left = read_airslam_camera(file, left);
+  calibration.right = read_airslam_camera(file, right);
   const Motion motion = motion_to_body(right).inverse().after(motion_to_body(left));
   check_translation(motion.translation, right.at("T"), "; it must be in meters");
   set_motion(calibration, motion);

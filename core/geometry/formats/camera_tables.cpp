@@ -12,7 +12,7 @@
 namespace mtstereo::formats {
 namespace {
 
-constexpr const char* kUnitRemedy =
+constexpr const char* kRemedyOfUnit =
     "add the line 'length_unit = \"mm\"' (or cm) before the first table";
 
 std::vector<std::string> names_of_cameras(const Entry& file) {
@@ -26,7 +26,7 @@ std::vector<std::string> names_of_cameras(const Entry& file) {
   return names;
 }
 
-CameraCalibration read_camera(const Entry& entry) {
+CameraCalibration read_table(const Entry& entry) {
   CameraCalibration camera;
   set_size(camera, entry.at("size"));
   set_camera_matrix(camera, entry.at("matrix"));
@@ -59,12 +59,12 @@ StereoCalibration read_camera_tables(const Entry& file, const Request& request) 
   const double meters = unit ? length_unit(*unit) : 1;
   StereoCalibration calibration;
   calibration.format = "camera tables";
-  calibration.left = read_camera(left);
-  calibration.right = read_camera(right);
+  calibration.left = read_table(left);
+  calibration.right = read_table(right);
   const Motion motion = from_world(right, meters).after(from_world(left, meters).inverse());
-  check_translation(motion.translation, right.at("translation"), std::string(": ") + kUnitRemedy);
+  check_translation(motion.translation, right.at("translation"), std::string(": ") + kRemedyOfUnit);
   set_motion(calibration, motion);
-  if (!unit) note_length(calibration, kUnitRemedy);
+  if (!unit) note_length(calibration, kRemedyOfUnit);
   return calibration;
 }
 
