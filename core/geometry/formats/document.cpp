@@ -196,7 +196,8 @@ bool wraps_opencv(const Value& value, const std::string& file) {
   return inner != nullptr && known_format(Entry(*inner, file, {})) == Format::kOpenCv;
 }
 
-/// Adds the texts beside a map to it, such as the unit; its own ones count.
+/// Adds the scalars next to a map, such as the unit, to it. Names that it already has stay as they
+/// are.
 void add_texts(const Value& from, Value& map) {
   for (std::size_t i = 0; i < from.names.size() && i < from.items.size(); ++i) {
     const bool known =
@@ -246,7 +247,7 @@ void add_second_camera_info(Document& document, const std::string& text) {
 }
 
 /// Recognises the format of a parsed file. Rigs and parameters of ROS nodes have the calibration in
-/// a map, maybe beside texts.
+/// a map, which may have scalars next to it.
 void find_format(Document& document) {
   if (find_two_camera_infos(document)) return;
   const Value* inner = &document.root;
