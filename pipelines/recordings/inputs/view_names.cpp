@@ -18,7 +18,8 @@ namespace {
 enum class Place {
   kAny,
   kWhole,  // not a part of a longer word or number
-  kEnd     // of a word in lower case or a number, as in imgL, imgL1 or 1L
+  kEnd,    // of a word in lower case or a number, as in imgL, imgL1 or 1L
+  kNumber  // after a number, as in 000001l
 };
 
 struct Words {
@@ -26,12 +27,14 @@ struct Words {
   Place place;
 };
 
-constexpr std::array<Words, 33> kWords{{{"left", "right", Place::kAny},
+constexpr std::array<Words, 37> kWords{{{"left", "right", Place::kAny},
                                         {"Left", "Right", Place::kAny},
                                         {"LEFT", "RIGHT", Place::kAny},
                                         {"l", "r", Place::kWhole},
                                         {"L", "R", Place::kWhole},
                                         {"L", "R", Place::kEnd},
+                                        {"l", "r", Place::kNumber},
+                                        {"LFT", "RGT", Place::kWhole},
                                         {"cam0", "cam1", Place::kWhole},
                                         {"cam_0", "cam_1", Place::kWhole},
                                         {"camera0", "camera1", Place::kWhole},
@@ -54,6 +57,8 @@ constexpr std::array<Words, 33> kWords{{{"left", "right", Place::kAny},
                                         {"infrared_1", "infrared_2", Place::kWhole},
                                         {"Infrared_1", "Infrared_2", Place::kWhole},
                                         {"Infrared 1", "Infrared 2", Place::kWhole},
+                                        {"ir1", "ir2", Place::kWhole},
+                                        {"fisheye1", "fisheye2", Place::kWhole},
                                         {"colored_0", "colored_1", Place::kWhole},
                                         {"image_00", "image_01", Place::kWhole},
                                         {"image_02", "image_03", Place::kWhole},
@@ -88,6 +93,10 @@ bool is_in_place(const std::string& name, std::size_t at, std::size_t length, Pl
   if (place == Place::kAny) return true;
   if (place == Place::kWhole) return is_whole(name, at, length);
   const std::size_t end = at + length;
+  if (place == Place::kNumber) {
+    return at > 0 && is_digit(name[at - 1]) &&
+           (end >= name.size() || !is_word_character(name[end]));
+  }
   return at > 0 &&
          (std::islower(static_cast<unsigned char>(name[at - 1])) != 0 || is_digit(name[at - 1])) &&
          (end >= name.size() || !is_letter(name[end]));

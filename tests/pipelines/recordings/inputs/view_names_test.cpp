@@ -41,6 +41,10 @@ TEST(ViewNames, FindsPairs) {
       {"cam1", {"cam2", ""}},
       {"a_Camera1_3.png", {"a_Camera2_3.png", "a_3.png"}},
       {"colored_0", {"colored_1", ""}},
+      {"000001l.png", {"000001r.png", "000001.png"}},
+      {"LFT_3008.tif", {"RGT_3008.tif", "3008.tif"}},
+      {"ir1", {"ir2", ""}},
+      {"fisheye1", {"fisheye2", ""}},
   };
   for (const auto& [left, expected] : known) {
     std::vector<fs::path> paths{fs::path("x") / expected.first, fs::path("x") / left,
@@ -65,6 +69,7 @@ TEST(ViewNames, LeavesMoreThanTwoCamerasCountedFromOne) {
 TEST(ViewNames, LeavesOtherNames) {
   for (const auto& [a, b] : {std::pair("small.mp4", "smarr.mp4"), std::pair("cam01", "cam11"),
                              std::pair("left1.mp4", "right2.mp4"), std::pair("cam2", "cam3"),
+                             std::pair("1la.png", "1ra.png"), std::pair("ir3", "ir4"),
                              std::pair("XL1.png", "XR1.png"), std::pair("xLa.png", "xRa.png")}) {
     std::vector<fs::path> paths{a, b};
     EXPECT_TRUE(take_pairs(paths).empty()) << a;
