@@ -5,6 +5,7 @@
 #include <sys/vfs.h>
 
 #include <algorithm>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -50,12 +51,27 @@ std::string unread_in(const fs::path& folder) {
   return unread;
 }
 
+// The folders with images in a folder, or in the first one below it that has two of them.
+std::vector<fs::path> image_folders(const fs::path& folder, int levels) {
+  if (is_of_kernel(folder)) return {};
+  const std::vector<fs::path> inner = files::folders_in(folder);
+  std::vector<fs::path> found;
+  std::copy_if(inner.begin(), inner.end(), std::back_inserter(found),
+               [](const fs::path& each) { return !files::images_in(each).empty(); });
+  for (const fs::path& each : inner) {
+    if (found.size() > 1 || levels == 0) break;
+    std::vector<fs::path> deeper = image_folders(each, levels - 1);
+    if (deeper.size() > 1) found = std::move(deeper);
+  }
+  return found;
+}
+
 // What to give instead of a folder in which no name tells the views apart.
 std::string views_to_give(const fs::path& folder) {
+  constexpr int kLevels = 3;
   std::vector<std::string> names;
-  for (const fs::path& inner : files::folders_in(folder)) {
-    if (!files::images_in(inner).empty())
-      names.push_back(outputs::printable(inner.filename().string()));
+  for (const fs::path& inner : image_folders(folder, kLevels)) {
+    names.push_back(outputs::printable(inner.lexically_relative(folder).string()));
   }
   if (names.size() < 2) {
     return "give the left and the right view, as two videos, images, folders or patterns";

@@ -163,6 +163,9 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   EXPECT_THAT(error_of({"rig"}), HasSubstr("such as primary and secondary, do not say"));
   write_images("rig/third", {"0.png"});
   EXPECT_THAT(error_of({"rig"}), HasSubstr("primary and secondary (of 3 folders with images)"));
+  write_images("set/scene/camera_5", {"0.png"});
+  write_images("set/scene/camera_6", {"0.png"});
+  EXPECT_THAT(error_of({"set"}), HasSubstr("such as scene/camera_5 and scene/camera_6, do not"));
   EXPECT_THAT(error_of({"left/%03d.png", "left"}), HasSubstr("no file has such a name"));
   EXPECT_THAT(error_of({"left", "broken.mp4"}), HasSubstr("one is a video"));
   EXPECT_THAT([] { recognize({"http://host/a.mjpg"}, {}); },
