@@ -166,5 +166,14 @@ TEST_F(SetFile, OfColmapIsRefusedByName) {
   }
 }
 
+TEST_F(SetFile, OfOtherReconstructionsIsRefusedWithTheRemedy) {
+  EXPECT_THAT(refused("{\"w\": 640, \"fl_x\": 500, \"cx\": 320, \"frames\": []}"),
+              AllOf(HasSubstr("is of nerfstudio"), HasSubstr("M1, D1, M2")));
+  EXPECT_THAT(refused("{\"intrinsics\": [{\"intrinsicId\": \"1\", \"type\": \"radial3\"}]}"),
+              AllOf(HasSubstr("is of Meshroom"), HasSubstr("M1, D1, M2")));
+  EXPECT_THAT(refused("<?xml version=\"1.0\"?>\n<calibration><f>500</f></calibration>\n"),
+              AllOf(HasSubstr("<calibration>"), HasSubstr("M1, D1, M2")));
+}
+
 }  // namespace
 }  // namespace mtstereo::test::calibration_sets_test

@@ -57,13 +57,16 @@ void refuse_dictionaries(std::string_view text, const std::string& file) {
   }
 }
 
-/// Whether a text is a model of COLMAP, or the configuration of a rig.
-bool is_colmap(std::string_view text) {
+/// The program of structure from motion that wrote a text; "" if none did.
+std::string_view reconstruction_program(std::string_view text) {
   for (const std::string_view start :
        {"# Camera list with", "# Image list with", "# Rig calib list", "# Frame list with"}) {
-    if (text.starts_with(start)) return true;
+    if (text.starts_with(start)) return "COLMAP";
   }
-  return text.find("\"image_prefix\"") != std::string_view::npos;
+  const auto has = [&](std::string_view entry) { return text.find(entry) != text.npos; };
+  if (has("\"image_prefix\"")) return "COLMAP";
+  if (has("\"fl_x\"")) return "nerfstudio";
+  return has("\"intrinsicId\"") ? "Meshroom" : "";
 }
 
 }  // namespace
@@ -119,12 +122,11 @@ void refuse_reports(std::string_view start, const std::string& file) {
                     "video to a YAML file: fx, fy, cx (PPX), cy (PPY) of Infrared 1, and baseline, "
                     "the first value of the translation between Infrared 1 and 2");
   }
-  if (is_colmap(start)) {
-    throw FileError(
-        file +
-        ": is of COLMAP, whose lengths have no unit; write K, distortion, R and T [m] of "
-        "one pair to a YAML file with the names M1, D1, M2, D2, R, T, or calibrate the "
-        "cameras as a pair (mtcalibrate)");
+  if (const std::string_view program = reconstruction_program(start); !program.empty()) {
+    throw FileError(file + ": is of " + std::string(program) +
+                    ", whose lengths have no unit; write K, distortion, R and T [m] of "
+                    "one pair to a YAML file with the names M1, D1, M2, D2, R, T, or calibrate the "
+                    "cameras as a pair (mtcalibrate)");
   }
   if (start.front() == '%' && !start.starts_with("%YAML") && !start.starts_with("%TAG")) {
     throw FileError(file +

@@ -23,7 +23,9 @@ class Reader {
     skip_prolog();
     const std::string_view root = start_tag();
     if (root != "opencv_storage") {
-      fail("the first element is <" + printable(root) + ">, <opencv_storage> is needed");
+      fail("the first element is <" + printable(root) +
+           ">, <opencv_storage> is needed: write its cameras to a YAML file with the names M1, D1, "
+           "M2, D2, R, T");
     }
     Value value = content(root, 0);
     if (value.kind == Value::Kind::kScalar) {
