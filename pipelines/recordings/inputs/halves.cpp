@@ -26,7 +26,9 @@ cv::Mat half_of(const cv::Mat& frame, Arrangement arrangement, int number, int w
   const cv::Size size(beside ? frame.cols / 2 : frame.cols, beside ? frame.rows : frame.rows / 2);
   const cv::Mat half = frame({number * (beside ? size.width : 0),
                               number * (beside ? 0 : size.height), size.width, size.height});
-  const double scale = std::min(1.0, static_cast<double>(width) / size.width);
+  if (half.empty()) return half;
+  const double least = 1.0 / std::min(size.width, size.height);  // a strip keeps a row or column
+  const double scale = std::clamp(static_cast<double>(width) / size.width, least, 1.0);
   cv::Mat small;
   cv::resize(half, small, {}, scale, scale, cv::INTER_AREA);
   return small;
@@ -44,6 +46,7 @@ HalvesMatch match_halves(const std::vector<cv::Mat>& frames, Arrangement arrange
   for (const cv::Mat& frame : frames) {
     const cv::Mat first = half_of(frame, arrangement, 0, kMatchedWidth);
     const cv::Mat second = half_of(frame, arrangement, 1, kMatchedWidth);
+    if (first.empty()) continue;
     const SearchRange range{0, static_cast<int>(kRangeShare * first.cols)};
     const auto add = [&](const cv::Mat& a, const cv::Mat& b, ViewMatch& match) {
       matcher.add(left ? left->apply(a) : a, right ? right->apply(b) : b, range, match);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "recordings/support/rig_views.hpp"
 
 namespace mtstereo::run::halves_test {
@@ -17,6 +19,18 @@ cv::Mat beside(const cv::Mat& first, const cv::Mat& second) {
   cv::Mat frame;
   cv::hconcat(first, second, frame);
   return frame;
+}
+
+TEST(Halves, OfStripsKeepARowAndAColumn) {
+  for (const auto& [arrangement, size] : {std::pair(Arrangement::kSideBySide, cv::Size(4000, 1)),
+                                          std::pair(Arrangement::kTopBottom, cv::Size(2000, 2))}) {
+    const cv::Mat strip(size, CV_8U, cv::Scalar(9));
+    EXPECT_EQ(cv::Size(2000, 1), half_of(strip, arrangement, 1, 480).size());
+    EXPECT_FALSE(match_halves({strip}, arrangement, std::nullopt).confirmed);
+  }
+  const cv::Mat row(1, 200, CV_8U, cv::Scalar(9));
+  EXPECT_FALSE(match_halves({row}, Arrangement::kTopBottom, std::nullopt).confirmed);
+  EXPECT_FALSE(match_halves({row.t()}, Arrangement::kSideBySide, std::nullopt).confirmed);
 }
 
 // The rows of a raw rig differ, and the principal points can make all disparities negative.
