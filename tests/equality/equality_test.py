@@ -113,7 +113,7 @@ def main():
         recorded = pathlib.Path(os.environ.get("MTSTEREO_TEST_DATA", "")) / "kitti_sequence"
         if (recorded / "image_l").is_dir():
             clip = Clip(recorded / "image_l/%06d.png", recorded / "image_r/%06d.png", 100, 0,
-                        min(arguments.frames, INTERVAL + 3))  # the second inspection, and a map after it
+                        min(arguments.frames, INTERVAL + 3))  # the second inspection, and maps after it
             (folder / "recorded").mkdir()
             check_clip("recorded", clip, arguments.match_raw, folder / "recorded")
         else:

@@ -21,8 +21,9 @@ struct HalvesMatch {
   bool swapped = false;    ///< the first half is the right view
 };
 
-/// A half of a frame with both views, of at most this width [px]; empty if the frame has a single
-/// row or column there. `number`: 0 or 1.
+/// A half of a frame with both views, reduced to this width [px] if it is wider; a strip is reduced
+/// less, to no less than one row. Empty if the frame has a single row or column to halve. `number`:
+/// 0 or 1.
 cv::Mat half_of(const cv::Mat& frame, Arrangement arrangement, int number, int width);
 
 /// Matches the halves of gray frames with each other, in both orders. With a calibration, they are
