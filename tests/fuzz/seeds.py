@@ -194,6 +194,7 @@ def calibrations_of_slam():
              "translation = [{}, 0, 0]\n")
     yield "tables", ("\0\0" + "".join(f"[cam_{i}]\n" + table.format(-0.12 * i) for i in range(2))).encode()
     yield "toml-assertion", b"\0\0x = [1]\n[*a]\ny = 1\n"
+    yield "toml-letter", "\0\0[a]\nb = [3é]\n".encode()
     airslam = "cam{}:\n  intrinsics: [310, 311, 322, 241]\n  distortion_coeffs: [0.1, 0, 0, 0, 0]\n  T_type: {}\n  T: {}\n"
     yield "airslam", ("\0\0image_width: 640\nimage_height: 480\ndistortion_type: 2\n" + "".join(
         airslam.format(i, i, pose.format(0.12 * i)) for i in range(2))).encode()

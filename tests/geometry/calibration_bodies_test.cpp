@@ -169,6 +169,10 @@ TEST_F(BodyFile, HasATablePerCamera) {
             LensModel::kFisheye);
 }
 
+TEST_F(BodyFile, WithALetterForANumberIsRefused) {
+  EXPECT_THAT(refused("[cam_0]\nsize = [64é]\n"), HasSubstr("line 2 is not valid TOML"));
+}
+
 TEST_F(BodyFile, WithTablesInMillimetersNeedsTheUnit) {
   const std::string tables = table("cam_0", "20") + table("cam_1", "-100") + kMetadata;
   EXPECT_THAT(refused(tables), AllOf(HasSubstr("cam_1.translation states a baseline of 120 m"),
