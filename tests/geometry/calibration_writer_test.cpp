@@ -71,6 +71,18 @@ TEST(WriteCalibration, KeepsWhatIsOpenAndDifferentSizes) {
   expect_equal(read_valid(path), pair);
 }
 
+// In files of others, a principal point near the middle of the turned image says that the height is
+// first.
+TEST(WriteCalibration, KeepsThePrincipalPointOfCutImages) {
+  const CalibrationFolder folder;
+  const std::string path = folder.path("calibration.yml");
+  StereoCalibration pair = plumb_bob_pair();
+  pair.left.center_x = pair.left.height / 2.0;
+  pair.left.center_y = pair.left.width / 2.0;
+  ASSERT_TRUE(write_calibration(pair, path).ok());
+  expect_equal(read_valid(path), pair);
+}
+
 TEST(WriteCalibration, StatesUnitAndDate) {
   const CalibrationFolder folder;
   const std::string path = folder.path("calibration.yml");

@@ -15,6 +15,7 @@
 namespace mtstereo::formats {
 namespace {
 
+constexpr const char* kOwnFormat = "mtstereo";
 constexpr Names kSize =
     "imagesize imagesize1 size imgsize framesize resolution leftsize "
     "leftimagesize leftresolution";
@@ -70,7 +71,7 @@ void read_sizes(const OpenCvEntries& files, const Request& request,
           files.find("imagesize2 rightsize rightimagesize rightresolution")) {
     set_size(calibration.right, *other);
   }
-  if (!both) return;
+  if (!both || calibration.format == kOwnFormat) return;
   for (CameraCalibration* camera : {&calibration.left, &calibration.right}) {
     put_width_first(*camera, calibration.remarks);
   }
@@ -273,7 +274,7 @@ StereoCalibration read_opencv(const std::vector<Entry>& documents, const Request
   no_selection(files.file(), request.selection);
   StereoCalibration calibration;
   const std::optional<Entry> writer = files.find("writtenby");
-  calibration.format = writer && writer->text() == "mtstereo" ? "mtstereo" : "OpenCV";
+  calibration.format = writer && writer->text() == kOwnFormat ? kOwnFormat : "OpenCV";
   const PairEntries pair = files.find_pair();
   refuse_single_cameras(files, documents, pair);
   read_cameras(files, pair, calibration);
