@@ -6,14 +6,18 @@
 #
 # FOLDER keeps the inputs: corpus/ those that reach new branches, and the files next to it those that fail. Without
 # FOLDER nothing is kept, and the input of a failure is printed as base64: decode it into a file of REGRESSIONS, which
-# is run by every build from then on.
+# is run by every build from then on. A build is then tried with the same inputs each time, as far as the system lets
+# addresses be fixed, which count among the branches, and no threads are involved.
 set -euo pipefail
 program=$1 name=$2 seeds=$3 regressions=$4 seconds=$5 folder=${6:-}
+fixed_addresses=() seed=0
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 
 if [ -z "$folder" ]; then
   folder=$(mktemp -d "${TMPDIR:-/tmp}/mtstereo-fuzz-$name-XXXXXX")
   trap 'rm -rf "$folder"' EXIT
+  seed=1 # 0 is one that libFuzzer chooses
+  ! setarch --addr-no-randomize true 2>/dev/null || fixed_addresses=(setarch --addr-no-randomize)
 fi
 mkdir -p "$folder/corpus"
 inputs=("$seeds")
@@ -23,5 +27,5 @@ export LSAN_OPTIONS=suppressions=$source_folder/tests/lsan.supp:print_suppressio
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 # Leaks are found only if GLib frees what it no longer needs.
 export G_SLICE=always-malloc
-"$program" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=3000 -max_len=4096 -print_final_stats=1 \
-  -artifact_prefix="$folder/" "$folder/corpus" "${inputs[@]}"
+"${fixed_addresses[@]}" "$program" -max_total_time="$seconds" -seed="$seed" -timeout=60 -rss_limit_mb=3000 \
+  -max_len=4096 -print_final_stats=1 -artifact_prefix="$folder/" "$folder/corpus" "${inputs[@]}"
