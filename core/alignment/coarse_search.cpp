@@ -12,6 +12,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
+/// The sums of the absolute differences of eight adjacent lanes each.
+template <typename Vector>
+auto sums_of_differences(Vector a, Vector b) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128
+  // One instruction; Highway has it from 1.1 on.
+  return hn::VFromD<hn::Repartition<std::uint64_t, hn::DFromV<Vector>>>{_mm_sad_epu8(a.raw, b.raw)};
+#else
+  return hn::SumsOf8(hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a)));
+#endif
+}
+
 /// The sum of the absolute differences of the rows y0 .. y1 - 1 of two patches.
 std::int32_t compare_rows(const std::uint8_t* patch, std::ptrdiff_t patch_stride,
                           const std::uint8_t* place, std::ptrdiff_t stride, int y0, int y1) {
@@ -21,8 +32,7 @@ std::int32_t compare_rows(const std::uint8_t* patch, std::ptrdiff_t patch_stride
   for (int y = y0; y < y1; ++y) {
     const auto a = hn::LoadU(d8, patch + y * patch_stride);
     const auto b = hn::LoadU(d8, place + y * stride);
-    const auto difference = hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a));
-    sums = hn::Add(sums, hn::SumsOf8(difference));
+    sums = hn::Add(sums, sums_of_differences(a, b));
   }
   return static_cast<std::int32_t>(hn::GetLane(hn::SumOfLanes(d64, sums)));
 }
