@@ -43,8 +43,12 @@ GrayView view_of(const cv::Mat& image) {
 /// The frames of a scene, and where the camera was.
 class Clip {
  public:
-  explicit Clip(const std::string& name) : path_(render::make_scene(name, 1).camera) {
-    for (int i = 0; i < kFrames; ++i) frames_.push_back(rendered_pair(name, kInterval * i));
+  explicit Clip(const std::string& name) {
+    const render::CameraPath path = render::make_scene(name, 1).camera;
+    for (int i = 0; i < kFrames; ++i) {
+      frames_.push_back(rendered_pair(name, kInterval * i));
+      back_.push_back(path.pose_at(kInterval * (i - 1)).inverse() * path.pose_at(kInterval * i));
+    }
     const render::Settings settings = rendered_settings(name);
     camera_ = render::left_camera(settings);
     reach_ = camera_.focal * settings.baseline;
@@ -57,8 +61,7 @@ class Clip {
     const float disparity = frames_[i].truth.disparity.at<float>(y, x);
     if (std::isnan(disparity)) return std::nullopt;
     const Eigen::Vector3d point = reach_ / disparity * camera_.direction(x, y);
-    const Eigen::Vector3d was =
-        path_.pose_at(kInterval * (i - 1)).inverse() * path_.pose_at(kInterval * i) * point;
+    const Eigen::Vector3d was = back_[i] * point;
     const cv::Point2d place = camera_.project(was / was.z());
     const cv::Point pixel(cvRound(place.x), cvRound(place.y));
     const cv::Mat& truth = frames_[i - 1].truth.disparity;
@@ -69,7 +72,7 @@ class Clip {
 
  private:
   std::vector<eval::LoadedPair> frames_;
-  render::CameraPath path_;
+  std::vector<Eigen::Isometry3d> back_;  ///< from the camera of a frame to that of the one before
   render::Camera camera_;
   double reach_ = 0;  ///< disparity times depth [px m]
 };

@@ -8,18 +8,13 @@
 
 namespace mtstereo::render {
 
-std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  std::uint32_t h =
-      a * 0x85ebca6bu ^ (b + 0x9e3779b9u) * 0xc2b2ae35u ^ (c + 0x7f4a7c15u) * 0x27d4eb2fu;
-  h ^= h >> 15;
-  h *= 0x2c1b3c6du;
-  h ^= h >> 12;
-  h *= 0x297a2d39u;
-  h ^= h >> 15;
-  return h;
-}
-
 namespace {
+
+/// std::floor(), which is a call on processors of unknown age.
+std::int64_t floor_of(double x) {
+  const auto whole = static_cast<std::int64_t>(x);
+  return whole - (static_cast<double>(whole) > x ? 1 : 0);
+}
 
 double smooth(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -38,10 +33,9 @@ double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
 // Perlin's gradient noise, about -1 .. 1, on the unit lattice.
 double gradient_noise(double u, double v, std::uint32_t seed) {
-  const double fu = std::floor(u), fv = std::floor(v);
-  const double x = u - fu, y = v - fv;
-  const auto i = static_cast<std::uint32_t>(static_cast<std::int64_t>(fu));
-  const auto j = static_cast<std::uint32_t>(static_cast<std::int64_t>(fv));
+  const std::int64_t left = floor_of(u), top_row = floor_of(v);
+  const double x = u - static_cast<double>(left), y = v - static_cast<double>(top_row);
+  const auto i = static_cast<std::uint32_t>(left), j = static_cast<std::uint32_t>(top_row);
   const double a = gradient(hash(i, j, seed), x, y);
   const double b = gradient(hash(i + 1, j, seed), x - 1, y);
   const double c = gradient(hash(i, j + 1, seed), x, y - 1);
@@ -57,7 +51,7 @@ double gradient_noise(double u, double v, std::uint32_t seed) {
 double pulse_train(double x, double duty, double w) {
   w = std::max(w, 1e-6);
   const auto integral = [duty](double p) {
-    const double whole = std::floor(p);
+    const auto whole = static_cast<double>(floor_of(p));
     return whole * duty + std::min(p - whole, duty);
   };
   return (integral(x + w / 2) - integral(x - w / 2)) / w;
@@ -68,9 +62,7 @@ double cell_visibility(double period, double footprint) {
   return smooth(1.0, 3.0, period / std::max(footprint, 1e-9));
 }
 
-std::uint32_t cell(double x) {
-  return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(x)));
-}
+std::uint32_t cell(double x) { return static_cast<std::uint32_t>(floor_of(x)); }
 
 double bricks(const Texture& t, double u, double v, double footprint) {
   const double row = v / t.period_v;
@@ -126,14 +118,17 @@ double hash_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 double gray_value(const Texture& texture, double u, double v, double footprint) {
   if (texture.image) return texture.image->mean(u, v, footprint);
   double value = texture.mean;
-  double size = texture.noise_size, amplitude = texture.noise_contrast;
+  double amplitude = texture.noise_contrast;
+  double grain = texture.noise_size / footprint;
+  double x = u / texture.noise_size, y = v / texture.noise_size;
   for (int octave = 0; octave < texture.octaves; ++octave) {
     // The pixel grid cannot represent a lattice finer than 1.5 footprints.
-    const double visible = smooth(1.5, 3.0, size / footprint);
+    const double visible = smooth(1.5, 3.0, grain);
     if (visible <= 0) break;
     const std::uint32_t seed = texture.seed + 0x9e37u * static_cast<std::uint32_t>(octave);
-    value += visible * amplitude * gradient_noise(u / size, v / size, seed);
-    size /= 2;
+    value += visible * amplitude * gradient_noise(x, y, seed);
+    grain /= 2;
+    x *= 2, y *= 2;
     amplitude *= texture.persistence;
   }
   if (texture.pattern_contrast != 0) {

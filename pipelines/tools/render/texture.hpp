@@ -36,7 +36,16 @@ struct Texture {
 };
 
 /// A hash of three numbers; the source of all random choices of the renderer.
-std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+inline std::uint32_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  std::uint32_t h =
+      a * 0x85ebca6bu ^ (b + 0x9e3779b9u) * 0xc2b2ae35u ^ (c + 0x7f4a7c15u) * 0x27d4eb2fu;
+  h ^= h >> 15;
+  h *= 0x2c1b3c6du;
+  h ^= h >> 12;
+  h *= 0x297a2d39u;
+  h ^= h >> 15;
+  return h;
+}
 
 /// The same as a number 0 <= h < 1.
 double hash_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c);
