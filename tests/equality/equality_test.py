@@ -61,8 +61,8 @@ def check(name, sources, raw_format, clip, match_raw, folder):
     for mode in ("sparse", "semi-dense"):
         wanted = folder / f"{files}-{mode}-library.raw"
         settings = [f"mode={mode}", f"max-disparity={clip.max_disparity}", "threads=1"]
-        run([match_raw, raw["left"], raw["right"], wanted, "--width", clip.width, "--height",
-             clip.height, "--frames", clip.count, "--inspect", INTERVAL, "--set", *settings])
+        run([match_raw, raw["left"], raw["right"], wanted, clip.width, clip.height, clip.count,
+             INTERVAL, *settings])
         for threads in (1, 2, 4):
             got = folder / f"{files}-{mode}-{threads}.raw"
             launch(f"mtstereo name=m mode={mode} max-disparity={clip.max_disparity} "

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Runs the library on raw frames in files, with their alignment corrected, and writes the expected
 // output of the element: 16-bit disparities with rows padded to 4 bytes.
-#include <CLI/CLI.hpp>
+//
+// usage: match-raw LEFT RIGHT OUT WIDTH HEIGHT FRAMES INTERVAL PARAMETER=VALUE...
+// The views are inspected every INTERVAL frames.
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -28,23 +30,16 @@ int fail(const std::string& message) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("The library's disparities of raw frames");
-  std::string left_file, right_file, out_file;
-  int width = 0, height = 0, frames = 0, interval = 0;
-  std::vector<std::string> settings;
-  app.add_option("left", left_file)->required();
-  app.add_option("right", right_file)->required();
-  app.add_option("out", out_file)->required();
-  app.add_option("--width", width)->required();
-  app.add_option("--height", height)->required();
-  app.add_option("--frames", frames, "frames in each file")->required();
-  app.add_option("--set", settings, "parameter=value");
-  app.add_option("--inspect", interval, "pairs from one inspection of the views to the next")
-      ->required();
-  CLI11_PARSE(app, argc, argv);
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  constexpr std::size_t kSettings = 7;
+  if (arguments.size() < kSettings) return fail("arguments are missing");
+  const std::string &left_file = arguments[0], &right_file = arguments[1], &out_file = arguments[2];
+  const int width = std::stoi(arguments[3]), height = std::stoi(arguments[4]);
+  const int frames = std::stoi(arguments[5]), interval = std::stoi(arguments[6]);
 
   Parameters parameters;
-  for (const std::string& setting : settings) {
+  for (std::size_t i = kSettings; i < arguments.size(); ++i) {
+    const std::string& setting = arguments[i];
     const auto equals = setting.find('=');
     const Status set = parameters.set(setting.substr(0, equals), setting.substr(equals + 1));
     if (!set) return fail(set.error().message);
