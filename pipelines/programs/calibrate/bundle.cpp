@@ -9,13 +9,15 @@
 namespace mtstereo::calibrate {
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::MatrixXd;
+using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrix23 = Eigen::Matrix<double, 2, 3>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kFarAway = 1e4;  // the residual of a point without an image [px]
-constexpr double kStep = 1e-6;    // of numeric derivatives, relative to the parameter if above 1
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e12;
 constexpr double kSmallDecrease = 1e-12;  // relative to the cost
@@ -40,6 +42,16 @@ VectorXd stacked(const Camera& camera, const Pose& pose, const std::vector<Obser
         image ? Eigen::Vector2d(each.pixel - *image) : Eigen::Vector2d(kFarAway, kFarAway);
     row += 2;
   }
+  return result;
+}
+
+// The derivative of an image by Pose::moved() of the pose that turned its point; without that, it
+// is the one by the point.
+Eigen::Matrix<double, 2, 6> by_motion(const Matrix23& by_point, const Vector3d& turned) {
+  Matrix3d cross;
+  cross << 0, turned.z(), -turned.y(), -turned.z(), 0, turned.x(), turned.y(), -turned.x(), 0;
+  Eigen::Matrix<double, 2, 6> result;
+  result << by_point * cross, by_point;
   return result;
 }
 
@@ -116,36 +128,27 @@ class Adjustment {
     const Camera& camera = left ? rig.left : rig.right;
     const auto& seen = left ? view.left : view.right;
     if (seen.empty()) return;
-    const Pose pose = left ? view.pose : rig.right_from_left * view.pose;
-    const VectorXd rest = stacked(camera, pose, seen);
-    MatrixXd global = MatrixXd::Zero(rest.size(), count_);
-    MatrixXd local(rest.size(), 6);
-    const auto derivative = [&](const auto& residuals_at, double step) -> VectorXd {
-      return (residuals_at(-step) - residuals_at(step)) / (2 * step);
-    };
-    Eigen::Index column = left ? 0 : static_cast<Eigen::Index>(left_.size());
-    for (const int index : left ? left_ : right_) {
-      const double value = camera.values[static_cast<std::size_t>(index)];
-      const auto at = [&](double step) {
-        Camera changed = camera;
-        changed.values[static_cast<std::size_t>(index)] += step;
-        return stacked(changed, pose, seen);
-      };
-      global.col(column++) = derivative(at, kStep * std::max(1.0, std::abs(value)));
-    }
+    const auto rows = 2 * static_cast<Eigen::Index>(seen.size());
+    VectorXd rest = VectorXd::Constant(rows, kFarAway);
+    MatrixXd global = MatrixXd::Zero(rows, count_);
+    MatrixXd local = MatrixXd::Zero(rows, 6);
     const auto rig_column = static_cast<Eigen::Index>(left_.size() + right_.size());
-    for (int i = 0; i < 6; ++i) {
-      const auto step_of = [i](double step) { return Vector6(Vector6::Unit(i) * step); };
-      const auto board_at = [&](double step) {
-        const Pose board = view.pose.moved(step_of(step));
-        return stacked(camera, left ? board : rig.right_from_left * board, seen);
-      };
-      local.col(i) = derivative(board_at, kStep);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const auto row = 2 * static_cast<Eigen::Index>(i);
+      const Vector3d turned = view.pose.rotation * seen[i].point;
+      const Vector3d in_left = turned + view.pose.translation;
+      const auto image = camera.linearize(left ? in_left : rig.right_from_left * in_left);
+      if (!image) continue;
+      rest.segment<2>(row) = seen[i].pixel - image->pixel;
+      Eigen::Index column = left ? 0 : static_cast<Eigen::Index>(left_.size());
+      for (const int index : left ? left_ : right_) {
+        global.block<2, 1>(row, column++) = image->by_values.col(index);
+      }
+      const Matrix3d& to_right = rig.right_from_left.rotation;
+      const Matrix23 by_left = left ? image->by_point : Matrix23(image->by_point * to_right);
+      local.middleRows<2>(row) = by_motion(by_left, turned);
       if (left || !options_.free_rig) continue;
-      const auto rig_at = [&](double step) {
-        return stacked(camera, rig.right_from_left.moved(step_of(step)) * view.pose, seen);
-      };
-      global.col(rig_column + i) = derivative(rig_at, kStep);
+      global.block<2, 6>(row, rig_column) = by_motion(image->by_point, to_right * in_left);
     }
     accumulate(rest, seen, global, local, equations);
   }

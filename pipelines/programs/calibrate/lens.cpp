@@ -30,6 +30,36 @@ Vector2d distort(const Camera& camera, const Vector2d& ideal) {
           y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
 }
 
+constexpr int kCoefficients = kMostParameters - kPinholeParameters;
+using ByCoefficients = Eigen::Matrix<double, 2, kCoefficients>;
+
+// The derivatives of distort().
+struct DistortionSlope {
+  Eigen::Matrix2d by_ideal;
+  ByCoefficients by_coefficients;
+};
+
+DistortionSlope distortion_slope(const Camera& camera, const Vector2d& ideal) {
+  const auto& v = camera.values;
+  const double k1 = v[4], k2 = v[5], p1 = v[6], p2 = v[7], k3 = v[8];
+  const double k4 = v[9], k5 = v[10], k6 = v[11];
+  const double x = ideal.x();
+  const double y = ideal.y();
+  const double r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
+  const double below = 1 + r2 * (k4 + r2 * (k5 + r2 * k6));
+  const double radial = (1 + r2 * (k1 + r2 * (k2 + r2 * k3))) / below;
+  const double by_r2 =
+      (k1 + r2 * (2 * k2 + r2 * 3 * k3) - radial * (k4 + r2 * (2 * k5 + r2 * 3 * k6))) / below;
+  DistortionSlope slope;
+  const double mixed = 2 * (x * y * by_r2 + p1 * x + p2 * y);
+  slope.by_ideal << radial + 2 * (x * x * by_r2 + p1 * y + 3 * p2 * x), mixed,  //
+      mixed, radial + 2 * (y * y * by_r2 + 3 * p1 * y + p2 * x);
+  const Vector2d above = ideal / below, under = -radial * above;
+  slope.by_coefficients << above * r2, above * r4, Vector2d(2 * x * y, r2 + 2 * y * y),
+      Vector2d(r2 + 2 * x * x, 2 * x * y), above * r6, under * r2, under * r4, under * r6;
+  return slope;
+}
+
 // The distance from the center, in units of the focal length, of a ray at this angle to the axis.
 double fisheye_radius(const Camera& camera, double angle) {
   const auto& v = camera.values;
@@ -59,31 +89,19 @@ std::optional<Vector3d> fisheye_ray(const Camera& camera, const Vector2d& distor
   return Vector3d(side.x(), side.y(), std::cos(angle));
 }
 
-// The derivative of distort().
-Eigen::Matrix2d distortion_slope(const Camera& camera, const Vector2d& ideal) {
-  constexpr double kStep = 1e-7;
-  Eigen::Matrix2d slope;
-  for (int axis = 0; axis < 2; ++axis) {
-    const Vector2d shift = kStep * Vector2d::Unit(axis);
-    slope.col(axis) =
-        (distort(camera, ideal + shift) - distort(camera, ideal - shift)) / (2 * kStep);
-  }
-  return slope;
-}
-
 // Newton's method from the center side, with steps that stay where the image does not fold back.
 std::optional<Vector3d> pinhole_ray(const Camera& camera, const Vector2d& distorted) {
   Vector2d ideal = distorted;
-  if (!(distortion_slope(camera, ideal).determinant() > 0)) ideal.setZero();
+  if (!(distortion_slope(camera, ideal).by_ideal.determinant() > 0)) ideal.setZero();
   Vector2d miss = distort(camera, ideal) - distorted;
   for (int i = 0; i < kMostSteps && miss.norm() > kSmallStep; ++i) {
-    Vector2d step = distortion_slope(camera, ideal).inverse() * miss;
+    Vector2d step = distortion_slope(camera, ideal).by_ideal.inverse() * miss;
     for (int half = 0;; ++half, step /= 2) {
       if (half == kMostSteps) return std::nullopt;
       const Vector2d trial = ideal - step;
       const Vector2d rest = distort(camera, trial) - distorted;
       const bool better = rest.norm() < miss.norm() || rest.norm() < kLargestMiss / 100;
-      if (!better || !(distortion_slope(camera, trial).determinant() > 0)) continue;
+      if (!better || !(distortion_slope(camera, trial).by_ideal.determinant() > 0)) continue;
       ideal = trial;
       miss = rest;
       break;
@@ -91,6 +109,43 @@ std::optional<Vector3d> pinhole_ray(const Camera& camera, const Vector2d& distor
   }
   if (!(miss.norm() <= kLargestMiss)) return std::nullopt;
   return Vector3d(ideal.x(), ideal.y(), 1).normalized();
+}
+
+// The derivatives of an image in units of the focal length.
+struct LensSlope {
+  Eigen::Matrix<double, 2, 3> by_point;
+  ByCoefficients by_coefficients = ByCoefficients::Zero();
+};
+
+LensSlope slope_of_pinhole(const Camera& camera, const Vector3d& point) {
+  const Vector2d ideal = point.head<2>() / point.z();
+  const DistortionSlope distortion = distortion_slope(camera, ideal);
+  Eigen::Matrix<double, 2, 3> ideal_by_point;
+  ideal_by_point << Eigen::Matrix2d::Identity(), -ideal;
+  return {distortion.by_ideal * ideal_by_point / point.z(), distortion.by_coefficients};
+}
+
+LensSlope slope_of_fisheye(const Camera& camera, const Vector3d& point) {
+  LensSlope slope;
+  const double side = point.head<2>().norm();
+  if (side < kSmallStep) {
+    slope.by_point << Eigen::Matrix2d::Identity() / point.z(), Vector2d::Zero();
+    return slope;
+  }
+  const double angle = std::atan2(side, point.z());
+  const double radius = fisheye_radius(camera, angle);
+  const Vector2d outward = point.head<2>() / side;
+  const Vector3d angle_by_point =
+      Vector3d(outward.x() * point.z(), outward.y() * point.z(), -side) / point.squaredNorm();
+  slope.by_point = outward * fisheye_slope(camera, angle) * angle_by_point.transpose();
+  slope.by_point.leftCols<2>() +=
+      radius / side * (Eigen::Matrix2d::Identity() - outward * outward.transpose());
+  double power = angle;
+  for (int i = 0; i < 4; ++i) {
+    power *= angle * angle;
+    slope.by_coefficients.col(i) = outward * power;
+  }
+  return slope;
 }
 
 CameraCalibration calibration_of(const Camera& camera) {
@@ -149,6 +204,23 @@ std::optional<Vector2d> Camera::project(const Vector3d& point) const {
     distorted = distort(*this, point.head<2>() / point.z());
   }
   return Vector2d(values[0] * distorted.x() + values[2], values[1] * distorted.y() + values[3]);
+}
+
+std::optional<Projection> Camera::linearize(const Vector3d& point) const {
+  const std::optional<Vector2d> pixel = project(point);
+  if (!pixel) return std::nullopt;
+  const LensSlope slope =
+      model == Model::kFisheye ? slope_of_fisheye(*this, point) : slope_of_pinhole(*this, point);
+  const Vector2d focal(values[0], values[1]);
+  const Vector2d center(values[2], values[3]);
+  Projection result;
+  result.pixel = *pixel;
+  result.by_point = focal.asDiagonal() * slope.by_point;
+  result.by_values.col(0) << (pixel->x() - center.x()) / focal.x(), 0;
+  result.by_values.col(1) << 0, (pixel->y() - center.y()) / focal.y();
+  result.by_values.middleCols<2>(2).setIdentity();
+  result.by_values.rightCols<kCoefficients>() = focal.asDiagonal() * slope.by_coefficients;
+  return result;
 }
 
 std::optional<Vector3d> Camera::ray(const Vector2d& pixel) const {

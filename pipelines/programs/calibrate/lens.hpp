@@ -29,6 +29,13 @@ inline constexpr int kPinholeParameters = 4;
 /// The number of parameters of a model.
 int parameter_count(Model model);
 
+/// An image point, and its derivatives.
+struct Projection {
+  Eigen::Vector2d pixel;                                ///< [px]
+  Eigen::Matrix<double, 2, 3> by_point;                 ///< by the point
+  Eigen::Matrix<double, 2, kMostParameters> by_values;  ///< by the parameters of the camera
+};
+
 /// A camera with its lens.
 struct Camera {
   Model model = Model::kPlumbBob;
@@ -41,6 +48,9 @@ struct Camera {
   /// The image of a point in the camera's coordinates [px]. std::nullopt for points behind the
   /// camera; the fisheye model has an image for all but the point opposite to its axis.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
+
+  /// The same with its derivatives.
+  std::optional<Projection> linearize(const Eigen::Vector3d& point) const;
 
   /// The direction that a pixel sees, of unit length. std::nullopt where the lens model has none.
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;

@@ -53,6 +53,32 @@ TEST(Lens, ProjectsAsOpenCvDoes) {
   }
 }
 
+TEST(Lens, HasTheDerivativesOfItsImages) {
+  constexpr double kStep = 1e-6;
+  for (const Camera& camera : {plumb_bob_rig().left, fisheye_rig().right, rational_camera()}) {
+    for (const double x : {-0.5, 0.0, 0.3}) {
+      const Eigen::Vector3d point(x, 0.4 * x, 1.1);
+      const auto image = camera.linearize(point);
+      ASSERT_TRUE(image);
+      EXPECT_EQ(image->pixel, *camera.project(point));
+      for (int i = 0; i < 3; ++i) {
+        const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
+        const Eigen::Vector2d change =
+            *camera.project(point + step) - *camera.project(point - step);
+        EXPECT_LT((change / (2 * kStep) - image->by_point.col(i)).norm(), 1e-4)
+            << model_name(camera.model) << " at " << x << ", coordinate " << i;
+      }
+      for (int i = 0; i < parameter_count(camera.model); ++i) {
+        Camera more = camera, less = camera;
+        more.values[i] += kStep, less.values[i] -= kStep;
+        const Eigen::Vector2d change = *more.project(point) - *less.project(point);
+        EXPECT_LT((change / (2 * kStep) - image->by_values.col(i)).norm(), 1e-4)
+            << model_name(camera.model) << " at " << x << ", parameter " << i;
+      }
+    }
+  }
+}
+
 TEST(Lens, RaysGoThroughTheirPixels) {
   for (const Camera& camera : {plumb_bob_rig().left, fisheye_rig().left, rational_camera()}) {
     for (int y = 0; y < 480; y += 40) {
