@@ -6,8 +6,8 @@
 #
 # FOLDER keeps the inputs: corpus/ those that reach new branches, and the files next to it those that fail. Without
 # FOLDER nothing is kept, and the input of a failure is printed as base64: decode it into a file of REGRESSIONS, which
-# is run by every build from then on. A build is then tried with the same inputs each time, as far as the system lets
-# addresses be fixed, which count among the branches, and no threads are involved.
+# is run by every build from then on. The inputs are then the same in each run of a build, unless the program has
+# threads or the system does not allow fixed addresses: what libFuzzer counts as a new branch depends on both.
 set -euo pipefail
 program=$1 name=$2 seeds=$3 regressions=$4 seconds=$5 folder=${6:-}
 fixed_addresses=() seed=0

@@ -71,9 +71,8 @@ TEST(WriteCalibration, KeepsWhatIsOpenAndDifferentSizes) {
   expect_equal(read_valid(path), pair);
 }
 
-// In files of others, a principal point near the middle of the turned image says that the height is
-// first.
-TEST(WriteCalibration, KeepsThePrincipalPointOfCutImages) {
+// In files of others, such a principal point indicates that the height is stated first.
+TEST(WriteCalibration, KeepsThePrincipalPointOfCroppedImages) {
   const CalibrationFolder folder;
   const std::string path = folder.path("calibration.yml");
   StereoCalibration pair = plumb_bob_pair();

@@ -33,7 +33,7 @@ int parameter_count(Model model);
 struct Projection {
   Eigen::Vector2d pixel;                                ///< [px]
   Eigen::Matrix<double, 2, 3> by_point;                 ///< by the point
-  Eigen::Matrix<double, 2, kMostParameters> by_values;  ///< by the parameters of the camera
+  Eigen::Matrix<double, 2, kMostParameters> by_values;  ///< by the parameters of the model, then 0
 };
 
 /// A camera with its lens.

@@ -10,7 +10,7 @@ namespace mtstereo::render {
 
 namespace {
 
-/// std::floor(), which is a call on processors of unknown age.
+/// std::floor() of a number below 2^63. Without SSE4.1, std::floor() is a function call.
 std::int64_t floor_of(double x) {
   const auto whole = static_cast<std::int64_t>(x);
   return whole - (static_cast<double>(whole) > x ? 1 : 0);
@@ -128,7 +128,8 @@ double gray_value(const Texture& texture, double u, double v, double footprint) 
     const std::uint32_t seed = texture.seed + 0x9e37u * static_cast<std::uint32_t>(octave);
     value += visible * amplitude * gradient_noise(x, y, seed);
     grain /= 2;
-    x *= 2, y *= 2;
+    x *= 2;
+    y *= 2;
     amplitude *= texture.persistence;
   }
   if (texture.pattern_contrast != 0) {
