@@ -12,12 +12,6 @@
 #include "stages/refine/thin_structures.hpp"
 
 namespace mtstereo {
-namespace {
-
-/// Areas that a thread takes at once; most are small.
-constexpr int kAreasAtOnce = 8;
-
-}  // namespace
 
 void ResultBuffers::resize(const Settings& settings, const FrameSize& size, ReusedMemory& reused) {
   if (!settings.by_paths()) return;
@@ -139,7 +133,8 @@ void fit_flat_areas(const StepContext& step, const Views& views, const Pyramid& 
   bands.rows([&](int y0, int y1, int) { find_runs(areas.gray, connected, y0, y1, areas.runs); });
   join_bands(areas.gray, connected, Bands::kRows, areas.runs);
   number_areas(areas);
-  bands.blocks(areas.count, kAreasAtOnce, [&](int first, int last, int worker) {
+  // One area may take as long as all others.
+  bands.blocks(areas.count, 1, [&](int first, int last, int worker) {
     fit_planes(areas, first, last, *result.disparity, *result.confidence,
                buffers.scratch[worker].votes, buffers.planes);
   });

@@ -66,7 +66,9 @@ int flat_step(const GrayTotals& totals, int scale, float noise) {
 void number_areas(FlatAreas& areas) {
   const SpeckleRuns& runs = areas.runs;
   std::uint32_t count = 0;
-  for_each_run(runs, [&](std::uint32_t run, int) { areas.area[run] = 0; });
+  for (int y = 0; y < runs.height; ++y) {
+    std::fill(areas.area.data() + runs.first[y], areas.area.data() + runs.last[y], 0U);
+  }
   for_each_run(runs, [&](std::uint32_t run, int) {
     const std::uint32_t root = root_of(runs, run);
     if ((runs.link[root] - kRootRun) * areas.scale * areas.scale < kLeastFlatArea) return;

@@ -52,10 +52,10 @@ void take_votes(const FlatAreas& areas, int area, const Image<std::int32_t>& map
   });
   if (!doubted || voters < kFewestVotes) return;
   const std::int64_t taken = std::min<std::int64_t>(voters, kMostVotes);
-  std::int64_t voter = 0;
+  std::int64_t voter = 0, next = 0;
   for_each_pixel(areas, area, [&](int x, int y) {
     const int weight = confidence.row(y)[x] - kLeastVoter;
-    if (weight <= 0 || voter++ != votes.count * voters / taken) return;
+    if (weight <= 0 || voter++ != next) return;
     const float disparity = static_cast<float>(map.row(y)[x]) / kOne;
     const int vote = votes.count++;
     votes.x[vote] = static_cast<float>(x);
@@ -63,6 +63,7 @@ void take_votes(const FlatAreas& areas, int area, const Image<std::int32_t>& map
     votes.disparity[vote] = disparity;
     votes.tolerance[vote] = std::max(1.0F, kVoteTolerance * disparity);
     votes.weight[vote] = weight;
+    next = votes.count * voters / taken;
   });
 }
 
