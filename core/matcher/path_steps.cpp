@@ -13,7 +13,7 @@ namespace {
 void match(const Bands& bands, const PathMatchingInput& input, const PathMatchingOptions& options,
            std::vector<Pyramid::Scratch>& scratch, Image<std::int32_t>& map,
            Image<std::uint8_t>& ratio, WindowVotes* votes) {
-  const int rows = path_rows(options.column_paths, map.height(), bands.threads());
+  const int rows = path_rows(options, map.height(), bands.threads());
   bands.blocks(map.height(), rows, [&](int y0, int y1, int worker) {
     match_along_paths(input, options, y0, y1, scratch[worker].matching, map, ratio, votes);
   });

@@ -112,6 +112,7 @@ PathMatchingOptions Settings::path_matching(int level) const {
   options.smoothness = kHalvedSmoothness;
   // Thin posts need other rows, but not those on both sides.
   options.column_paths = infers() ? ColumnPaths::kBoth : ColumnPaths::kFromAbove;
+  options.most_rows = kReducedPathRows;
   return options;
 }
 

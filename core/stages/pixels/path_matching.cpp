@@ -210,9 +210,9 @@ void PathMatchingScratch::resize(int width, int height, const PathMatchingOption
   walk.resize(width, disparities);
   for (Candidates& row : candidates) row.resize(width, disparities);
   const bool from_below = options.column_paths == ColumnPaths::kBoth;
-  const int rows = std::min(height + 1, kPathRows + 2 * kPathMargin);  // whole pairs
+  const int rows = std::min(height + 1, options.most_rows + 2 * kPathMargin);  // whole pairs
   costs.resize(cells * (from_below ? rows : kWalkedRows));
-  below.resize(from_below ? cells * (std::min(height, kPathRows) + 1) : 0);
+  below.resize(from_below ? cells * (std::min(height, options.most_rows) + 1) : 0);
   above.resize(options.column_paths == ColumnPaths::kNone ? 0 : kWalkedRows * cells);
   moved.resize(options.column_paths == ColumnPaths::kNone ? 0 : cells);
   least.resize(width);

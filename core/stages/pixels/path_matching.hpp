@@ -19,9 +19,12 @@ namespace mtstereo {
 /// Instead of the nodes, the map of the views at half the resolution says which disparities are
 /// expected.
 
-/// Rows of a chunk with paths along the columns, which is matched at once. Chunks begin at
-/// multiples of it.
-inline constexpr int kPathRows = 64;
+/// The most rows of a chunk, which is matched at once. The costs of more rows would leave the
+/// cache.
+inline constexpr int kPathRows = 32;
+
+/// The same at lower resolutions, which have shorter rows.
+inline constexpr int kReducedPathRows = 64;
 
 /// The paths along the columns start this many rows outside of a chunk, so that chunks do not
 /// depend on each other. What is further away has hardly any effect on them.
@@ -54,13 +57,17 @@ struct PathMatchingOptions {
   SmoothnessOptions smoothness;
   SelectionOptions selection;
   ColumnPaths column_paths;
+  int most_rows = kPathRows;  ///< of a chunk with column paths; a multiple of kWindowTile
 };
 
-/// Rows that are best matched at once. Without paths along the columns, chunks of any rows give the
-/// same result; the first rows of each take more time.
-inline int path_rows(ColumnPaths paths, int height, int threads) {
-  if (paths != ColumnPaths::kNone) return kPathRows;
-  return threads == 1 ? height : kPathRows / 2;
+/// Rows of a chunk. Paths along the columns depend on the chunks, so those are the same for any
+/// number of threads, and an even number of them keeps two threads busy. Without such paths, chunks
+/// of any rows give the same result; the first rows of each take more time.
+inline int path_rows(const PathMatchingOptions& options, int height, int threads) {
+  if (options.column_paths == ColumnPaths::kNone) return threads == 1 ? height : kPathRows;
+  const auto quotient = [](int a, int b) { return (a + b - 1) / b; };
+  const int chunks = 2 * quotient(height, 2 * options.most_rows);
+  return quotient(height, chunks * kWindowTile) * kWindowTile;  // whole tiles
 }
 
 /// Rows that are walked along together, in pairs, whose costs are found together.

@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0xb39a99afd927e9b3},
-    {"default", "semi-dense", 0x8adf08373ce594fe},
-    {"default", "dense", 0x3b87055fd51b367b},
-    {"default", "full", 0x07040aced120d4cf},
-    {"fast", "sparse", 0x10f43509b58a451a},
-    {"fast", "semi-dense", 0x22928070789f1dda},
-    {"fast", "dense", 0x6e6ed484ff56f9e3},
-    {"fast", "full", 0x723b72d441da4ebc},
+    {"default", "sparse", 0x9456c2b678b307bc},
+    {"default", "semi-dense", 0x25723ae7a1951fbd},
+    {"default", "dense", 0x0fb60b1d6dbd018a},
+    {"default", "full", 0x963925259350450e},
+    {"fast", "sparse", 0x3dd16088a38fc346},
+    {"fast", "semi-dense", 0x2c7146c1601efaf5},
+    {"fast", "dense", 0x10a1eb364c4de99c},
+    {"fast", "full", 0xb141845d28a5327e},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -90,15 +90,25 @@ inline DisparityPlane match_by_cost(const PathInput& input, const PathMatchingOp
   return out;
 }
 
+/// Rows of a chunk: those of the fewest chunks, even in number, rounded up to tiles of 16.
+inline int chunk_rows(int height, int most_rows) {
+  int chunks = 2;
+  while (chunks * most_rows < height) chunks += 2;
+  int rows = 16;
+  while (chunks * rows < height) rows += 16;
+  return rows;
+}
+
 /// The paths along the columns in all rows: from above (direction 1) or from below (-1). Each chunk
-/// of kPathRows rows has its own, which start kPathMargin rows before it.
+/// has its own, which start kPathMargin rows before it.
 inline std::vector<RowCosts> column_paths(const PathInput& input,
                                           const std::vector<RowCosts>& costs,
-                                          const SmoothnessOptions& steps, int direction) {
+                                          const SmoothnessOptions& steps, int chunk,
+                                          int direction) {
   const int height = input.left.height;
   std::vector<RowCosts> paths(height);
-  for (int y0 = 0; y0 < height; y0 += kPathRows) {
-    const int y1 = std::min(y0 + kPathRows, height);
+  for (int y0 = 0; y0 < height; y0 += chunk) {
+    const int y1 = std::min(y0 + chunk, height);
     const int rows = y1 - y0 + kPathMargin;
     RowCosts path;
     for (int i = 0; i < rows; ++i) {
@@ -121,10 +131,11 @@ inline RatedMap match_along_paths(const PathInput& input, const PathMatchingOpti
   const bool columns = options.column_paths != ColumnPaths::kNone;
   std::vector<RowCosts> above(height), below(height);
   if (columns) {
-    above = column_paths(input, costs, steps, 1);
+    const int chunk = chunk_rows(height, options.most_rows);
+    above = column_paths(input, costs, steps, chunk, 1);
     // The path from above alone counts twice.
     const bool both = options.column_paths == ColumnPaths::kBoth;
-    below = both ? column_paths(input, costs, steps, -1) : above;
+    below = both ? column_paths(input, costs, steps, chunk, -1) : above;
   }
   RatedMap out(width, height);
   for (int y = 0; y < height; ++y) {

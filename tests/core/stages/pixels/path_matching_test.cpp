@@ -33,7 +33,7 @@ RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
   const PathMatchingInput input = {pair.left.view(), census.left, census.right,
                                    half_map == nullptr ? nullptr : &half, windows};
   const int threads = height % 2 + 1;
-  const int rows = path_rows(options.column_paths, height, threads);
+  const int rows = path_rows(options, height, threads);
   for (int i = (height - 1) / rows; i >= 0; --i) {
     match_along_paths(input, options, i * rows, std::min((i + 1) * rows, height), scratch, map,
                       ratio, votes);
@@ -49,7 +49,8 @@ PathMatchingOptions random_options(int disparities, Random& random) {
           {random.below(51), random.below(51)},
           {disparities, 0.06 * random.below(2), false, random.between(-1, 2), random.below(2) == 0,
            random.below(50), random.between(-1, 3)},
-          static_cast<ColumnPaths>(random.below(3))};
+          static_cast<ColumnPaths>(random.below(3)),
+          kWindowTile * random.between(1, 4)};
 }
 
 /// A map of half the size with disparities near half of `around`, a third of it unknown.
