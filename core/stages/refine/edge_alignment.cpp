@@ -2,7 +2,8 @@
 #include "stages/refine/edge_alignment.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 
 #include "mtstereo/image.hpp"
@@ -10,6 +11,7 @@
 
 #define HWY_TARGET_INCLUDE "stages/refine/edge_alignment.cpp"
 #include "base/simd.hpp"
+#include "base/simd_bits-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -116,27 +118,32 @@ Vec medians_at(const EdgeWindow& rows, const std::uint8_t* near, int x) {
 
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(Words()));
 
-/// Runs body(x0, count) for vectors of columns that have all marked pixels of a row. Each begins at
-/// a marked pixel.
+/// Runs body(x0, lanes) for vectors of columns that have all marked pixels of a row. Each begins at
+/// a marked pixel; `lanes` has the bits of those in the row.
 template <typename Body>
 HWY_INLINE void for_each_marked(const std::uint8_t* marks, int width, Body&& body) {
   const auto next = [&](int x) {
-    return static_cast<int>(std::find(marks + std::min(x, width), marks + width, 1) - marks);
+    const void* mark = x < width ? std::memchr(marks + x, 1, width - x) : nullptr;
+    return mark == nullptr ? width
+                           : static_cast<int>(static_cast<const std::uint8_t*>(mark) - marks);
   };
   for (int x0 = next(0); x0 < width; x0 = next(x0 + kLanes)) {
-    body(x0, std::min(kLanes, width - x0));
+    body(x0, ~std::uint64_t{0} >> (64 - std::min(kLanes, width - x0)));
   }
 }
 
 /// Aligns a row; `near` marks its pixels near a jump.
 void align_row(const EdgeWindow& rows, const std::uint8_t* near, int width, std::int32_t* map,
                std::uint8_t* confidence) {
+  const Words d16;
   HWY_ALIGN std::int16_t medians[kLanes];
-  for_each_marked(near, width, [&](int x0, int count) {
-    const std::int16_t* own = rows.disparity[kSide / 2] + kEdgeRadius + x0;
-    hn::Store(medians_at(rows, near, x0), Words(), medians);
-    for (int i = 0; i < count; ++i) {
-      if (near[x0 + i] == 0 || std::abs(medians[i] - own[i]) < kEdgeKept) continue;
+  for_each_marked(near, width, [&](int x0, std::uint64_t lanes) {
+    const auto own = hn::LoadU(d16, rows.disparity[kSide / 2] + kEdgeRadius + x0);
+    const auto found = medians_at(rows, near, x0);
+    hn::Store(found, d16, medians);
+    for (std::uint64_t bits = lanes & bits_of(d16, hn::Ne(found, own)); bits != 0;
+         bits &= bits - 1) {
+      const int i = std::countr_zero(bits);
       map[x0 + i] = std::max(medians[i] * (kDisparityOne / kEdgeOne), 1);
       confidence[x0 + i] = std::min<std::uint8_t>(confidence[x0 + i], kMostInferred);
     }
@@ -149,37 +156,71 @@ void doubt_row(const EdgeWindow& rows, int width, std::uint8_t* near, std::uint8
   for (int x = 0; x < width; ++x) {
     near[x] &= static_cast<std::uint8_t>(confidence[x] > kMostInferred);
   }
+  const Words d16;
   HWY_ALIGN Weights weights;
-  HWY_ALIGN std::uint16_t kept[kLanes];
-  for_each_marked(near, width, [&](int x0, int count) {
+  for_each_marked(near, width, [&](int x0, std::uint64_t lanes) {
     const Weighed w = weigh(rows, x0, weights);
-    const hn::RebindToUnsigned<Words> d16;
-    hn::Store(hn::VecFromMask(d16, hn::RebindMask(d16, hn::AndNot(w.rises, w.stays))), d16, kept);
-    for (int i = 0; i < count; ++i) {
-      if (near[x0 + i] != 0 && kept[i] == 0) confidence[x0 + i] = kMostInferred;
+    const auto changed = hn::Or(w.rises, hn::Not(w.stays));
+    for (std::uint64_t bits = lanes & bits_of(d16, changed); bits != 0; bits &= bits - 1) {
+      const int x = x0 + std::countr_zero(bits);
+      if (near[x] != 0) confidence[x] = kMostInferred;
     }
   });
 }
 
-/// Marks the columns within kEdgeReach of a jump. `next` is the next row, or the row itself.
-void mark_row(const std::int32_t* row, const std::int32_t* next, int width, std::uint8_t* near) {
+/// Columns that are processed together.
+constexpr int kWord = 64;
+
+/// The bits of the first `count` columns of a word.
+constexpr std::uint64_t first_bits(int count) {
+  return count < kWord ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+}
+
+/// The jumps of kWord columns.
+struct Jumps {
+  std::uint64_t any = 0;    ///< to the next column or row
+  std::uint64_t right = 0;  ///< to the next column
+};
+
+/// The jumps of the columns from x0 on. The padding of the rows may hold some, too.
+HWY_INLINE Jumps find_word_jumps(const std::int32_t* row, const std::int32_t* next, int x0,
+                                 int width) {
   const hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)> d32;
-  const int lanes = static_cast<int>(hn::Lanes(d32));
   const auto jump = hn::Set(d32, kJump);
-  std::memset(near, 0, width);
-  for (int x0 = 0; x0 < width; x0 += lanes) {
-    // There are few jumps. The padding of the rows may hold some, too.
-    const auto own = hn::LoadU(d32, row + x0);
-    const auto down = hn::Abs(hn::Sub(own, hn::LoadU(d32, next + x0)));
-    const auto right = hn::Abs(hn::Sub(own, hn::LoadU(d32, row + x0 + 1)));
-    if (hn::AllFalse(d32, hn::Gt(hn::Max(down, right), jump))) continue;
-    for (int x = x0; x < std::min(x0 + lanes, width); ++x) {
-      const bool is_down = std::abs(row[x] - next[x]) > kJump;
-      const bool is_right = x + 1 < width && std::abs(row[x] - row[x + 1]) > kJump;
-      if (!is_down && !is_right) continue;
-      const int first = std::max(x - kEdgeReach, 0);
-      const int last = std::min(x + kEdgeReach + is_right, width - 1);
-      std::memset(near + first, 1, last + 1 - first);
+  Jumps jumps;
+  const int columns = std::min(width - x0, kWord);
+  for (int i = 0; i < columns; i += static_cast<int>(hn::Lanes(d32))) {
+    const auto own = hn::LoadU(d32, row + x0 + i);
+    const auto down = hn::Abs(hn::Sub(own, hn::LoadU(d32, next + x0 + i)));
+    const auto right = hn::Abs(hn::Sub(own, hn::LoadU(d32, row + x0 + i + 1)));
+    jumps.any |= bits_of(d32, hn::Gt(down, jump)) << i;
+    jumps.right |= bits_of(d32, hn::Gt(right, jump)) << i;
+  }
+  jumps.right &= first_bits(width - x0 - 1);
+  jumps.any = (jumps.any & first_bits(columns)) | jumps.right;
+  return jumps;
+}
+
+/// Marks the columns within kEdgeReach of a jump. `next` is the next row, or the row itself.
+/// Accesses the padding of the rows.
+void mark_row(const std::int32_t* row, const std::int32_t* next, int width, std::uint8_t* near) {
+  const hn::CappedTag<std::uint8_t, kAlignment> d8;
+  const auto one = hn::Set(d8, 1);
+  Jumps before, here = find_word_jumps(row, next, 0, width), after;
+  for (int x0 = 0; x0 < width; x0 += kWord, before = here, here = after) {
+    after = x0 + kWord < width ? find_word_jumps(row, next, x0 + kWord, width) : Jumps();
+    // A jump to the next column has a pixel on each side.
+    std::uint64_t marked =
+        here.any | here.right << (kEdgeReach + 1) | before.right >> (kWord - kEdgeReach - 1);
+    for (int away = 1; away <= kEdgeReach; ++away) {
+      marked |= here.any << away | before.any >> (kWord - away);
+      marked |= here.any >> away | after.any << (kWord - away);
+    }
+    std::uint8_t bits[2 * sizeof marked] = {};  // vectors read more than their own
+    std::memcpy(bits, &marked, sizeof marked);
+    for (int i = 0; i < kWord; i += static_cast<int>(hn::Lanes(d8))) {
+      const auto mask = hn::LoadMaskBits(d8, bits + i / 8);
+      hn::StoreU(hn::IfThenElseZero(mask, one), d8, near + x0 + i);
     }
   }
 }
