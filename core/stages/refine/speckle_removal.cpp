@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdlib>
 #include <utility>
 
 #include "mtstereo/image.hpp"
@@ -54,35 +53,40 @@ void write_columns(std::uint64_t bits, int first, std::uint16_t*& to) {
   }
 }
 
-/// Writes the first and last columns of a row's runs and returns the number of runs. Reads the
-/// row's padding.
+/// Writes the first and last columns of a row's runs, and, unless it is nullptr, the bits of the
+/// first ones. Returns the number of runs. Reads the row's padding.
 int find_row_runs(const std::int32_t* row, int width, std::int32_t tolerance, std::uint16_t* begin,
-                  std::uint16_t* last) {
+                  std::uint16_t* last, std::uint64_t* starts) {
   const std::uint16_t* const first_run = begin;
   std::uint64_t joined_before = 0;  // whether the last column is connected to the next one
   for (int x = 0; x < width; x += kWord) {
     ColumnBits bits = column_bits(row + x, std::min(kWord, width - x), tolerance);
     if (x + kWord >= width) bits.joined &= ~(std::uint64_t{1} << (width - 1 - x));
-    write_columns(bits.known & ~(bits.joined << 1 | joined_before), x, begin);
+    const std::uint64_t first = bits.known & ~(bits.joined << 1 | joined_before);
+    if (starts != nullptr) *starts++ = first;
+    write_columns(first, x, begin);
     write_columns(bits.known & ~bits.joined, x, last);
     joined_before = bits.joined >> (kWord - 1);
   }
   return static_cast<int>(begin - first_run);
 }
 
-}  // namespace mtstereo::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace mtstereo {
-
-HWY_EXPORT(find_row_runs);
-
-namespace {
-
-static_assert(kLargestImageSide <= 0xFFFF, "columns are kept in 16 bits");
-static_assert(1LL * kLargestImageSide * kLargestImageSide < kRootRun,
-              "neither an index nor a size reaches the flag");
+/// The bits of the first `columns` columns, at most kWord, that connect two rows.
+std::uint64_t connected_bits(const std::int32_t* above, const std::int32_t* row, int columns,
+                             std::int32_t tolerance) {
+  const Disparities d32;
+  const auto none = hn::Set(d32, kNoDisparity);
+  const auto most = hn::Set(d32, tolerance);
+  std::uint64_t apart = 0;
+  for (int i = 0; i < columns; i += static_cast<int>(hn::Lanes(d32))) {
+    const auto upper = hn::LoadU(d32, above + i);
+    const auto lower = hn::LoadU(d32, row + i);
+    const auto unknown = hn::Or(hn::Eq(upper, none), hn::Eq(lower, none));
+    const auto distant = hn::Gt(hn::Abs(hn::Sub(upper, lower)), most);
+    apart |= bits_of(d32, hn::Or(unknown, distant)) << i;
+  }
+  return ~apart & ~std::uint64_t{0} >> (kWord - columns);
+}
 
 bool is_root(std::uint32_t link) { return (link & kRootRun) != 0; }
 
@@ -108,48 +112,57 @@ void unite(std::uint32_t* link, std::uint32_t a, std::uint32_t b) {
   link[b] = a;
 }
 
-/// Writes the runs of one row from index `run` on and returns the index after the last one.
-std::uint32_t write_row_runs(const std::int32_t* row, std::int32_t tolerance, std::uint32_t run,
-                             SpeckleRuns& runs) {
+/// Connects the runs of row y - 1 to those of row y. Reads the rows' padding.
+void join_rows(const Image<std::int32_t>& map, std::int32_t tolerance, int y, SpeckleRuns& runs) {
+  const std::uint64_t* starts_above = runs.starts_of(y - 1);
+  const std::uint64_t* starts = runs.starts_of(y);
+  std::uint32_t above = runs.first[y - 1] - 1;  // the last run that begins before column x
+  std::uint32_t run = runs.first[y] - 1;
+  std::uint64_t before = 0;  // whether the last column connects the rows
+  for (int x = 0; x < runs.width; x += kWord, ++starts_above, ++starts) {
+    const int columns = std::min(kWord, runs.width - x);
+    const std::uint64_t connected =
+        connected_bits(map.row(y - 1) + x, map.row(y) + x, columns, tolerance);
+    const std::uint64_t again = (connected << 1 | before) & ~(*starts_above | *starts);
+    for (std::uint64_t bits = connected & ~again; bits != 0; bits &= bits - 1) {
+      const std::uint64_t up_to = bits ^ (bits - 1);
+      unite(runs.link.data(), above + std::popcount(*starts_above & up_to),
+            run + std::popcount(*starts & up_to));
+    }
+    above += std::popcount(*starts_above);
+    run += std::popcount(*starts);
+    before = connected >> (kWord - 1);
+  }
+}
+
+}  // namespace mtstereo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mtstereo {
+
+HWY_EXPORT(find_row_runs);
+HWY_EXPORT(join_rows);
+
+namespace {
+
+static_assert(kLargestImageSide <= 0xFFFF, "columns are kept in 16 bits");
+static_assert(1LL * kLargestImageSide * kLargestImageSide < kRootRun,
+              "neither an index nor a size reaches the flag");
+
+/// Writes the runs of row y from index `run` on and returns the index after the last one.
+std::uint32_t write_row_runs(const Image<std::int32_t>& map, std::int32_t tolerance, int y,
+                             std::uint32_t run, SpeckleRuns& runs) {
   std::uint16_t* begin = runs.begin.data() + run;
   std::uint16_t* end = runs.end.data() + run;
   std::uint32_t* link = runs.link.data() + run;
-  const int count = find_runs_of_row(row, runs.width, tolerance, begin, end);
+  const int count =
+      find_runs_of_row(map.row(y), runs.width, tolerance, begin, end, runs.starts_of(y));
   for (int i = 0; i < count; ++i) {
     ++end[i];  // one past the last column
     link[i] = kRootRun + static_cast<std::uint32_t>(end[i] - begin[i]);
   }
   return run + static_cast<std::uint32_t>(count);
-}
-
-/// Whether one of the columns begin .. end - 1, all known in both rows, connects them.
-bool columns_connect(const std::int32_t* above, const std::int32_t* row, std::int32_t tolerance,
-                     int begin, int end) {
-  for (int x = begin; x < end; ++x) {
-    if (std::abs(above[x] - row[x]) <= tolerance) return true;
-  }
-  return false;
-}
-
-/// Connects the runs of row y - 1 to those of row y.
-void join_rows(const Image<std::int32_t>& map, std::int32_t tolerance, int y, SpeckleRuns& runs) {
-  const std::uint32_t last_above = runs.last[y - 1];
-  const std::uint32_t last = runs.last[y];
-  std::uint32_t above = runs.first[y - 1];
-  std::uint32_t run = runs.first[y];
-  while (above < last_above && run < last) {
-    const int begin = std::max(runs.begin[above], runs.begin[run]);
-    const int end = std::min(runs.end[above], runs.end[run]);
-    if (columns_connect(map.row(y - 1), map.row(y), tolerance, begin, end)) {
-      unite(runs.link.data(), above, run);
-    }
-    // The run that ends first cannot overlap any run after the other one.
-    if (runs.end[above] == end) {
-      ++above;
-    } else {
-      ++run;
-    }
-  }
 }
 
 /// Entry k: the least share of a full component with the weight k, (k / 255)^10, in 1 / 2^32. The
@@ -179,13 +192,14 @@ void SpeckleRuns::resize(int map_width, int map_height) {
   begin.resize(pixels);
   end.resize(pixels);
   link.resize(pixels);
+  starts.resize(static_cast<std::size_t>(row_words(map_width)) * map_height);
   width = map_width;
   height = map_height;
 }
 
 int find_runs_of_row(const std::int32_t* row, int width, std::int32_t tolerance,
-                     std::uint16_t* begin, std::uint16_t* last) {
-  return HWY_DYNAMIC_DISPATCH(find_row_runs)(row, width, tolerance, begin, last);
+                     std::uint16_t* begin, std::uint16_t* last, std::uint64_t* starts) {
+  return HWY_DYNAMIC_DISPATCH(find_row_runs)(row, width, tolerance, begin, last, starts);
 }
 
 void find_runs(const Image<std::int32_t>& map, std::int32_t tolerance, int y0, int y1,
@@ -193,19 +207,21 @@ void find_runs(const Image<std::int32_t>& map, std::int32_t tolerance, int y0, i
   std::uint32_t run = static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(runs.width);
   for (int y = y0; y < y1; ++y) {
     runs.first[y] = run;
-    run = write_row_runs(map.row(y), tolerance, run, runs);
+    run = write_row_runs(map, tolerance, y, run, runs);
     runs.last[y] = run;
-    if (y > y0) join_rows(map, tolerance, y, runs);
+    if (y > y0) HWY_DYNAMIC_DISPATCH(join_rows)(map, tolerance, y, runs);
   }
 }
 
 void join_bands(const Image<std::int32_t>& map, std::int32_t tolerance, int band,
                 SpeckleRuns& runs) {
-  for (int y = band; y < runs.height; y += band) join_rows(map, tolerance, y, runs);
+  for (int y = band; y < runs.height; y += band) {
+    HWY_DYNAMIC_DISPATCH(join_rows)(map, tolerance, y, runs);
+  }
 }
 
 std::uint32_t root_of(const SpeckleRuns& runs, std::uint32_t run) {
-  while (!is_root(runs.link[run])) run = runs.link[run];
+  while ((runs.link[run] & kRootRun) == 0) run = runs.link[run];
   return run;
 }
 

@@ -235,7 +235,7 @@ void find_thin_runs(const Image<std::int32_t>& map, int row, int line0, int line
   for (int line = line0; line < line1; ++line) {
     const std::int32_t* pixels = map.row(row + line - line0);
     const int all = find_runs_of_row(pixels, map.width(), kDisparityOne, scratch.begin.data(),
-                                     scratch.last.data());
+                                     scratch.last.data(), nullptr);
     ThinRun* out = runs.run.data() + first;
     int count = 0;
     for (int i = 0; i < all && count < runs.capacity; ++i) {
