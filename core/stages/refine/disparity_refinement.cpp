@@ -73,14 +73,15 @@ void cost_row(const std::uint32_t* left, const std::uint32_t* right, const std::
     hn::Vec<hn::RebindToUnsigned<Ints>> even, odd;
     hn::LoadInterleaved2(du32, left + 2 * x, even, odd);
     const auto place = hn::LoadU(di32, places + x);
+    // The partners of the odd pixels are those of the even ones at the shift before.
+    auto odd_partners = hn::GatherIndex(du32, right + 2 * kReach + 1, place);
     for (int i = 0; i < Scratch::kShifts; ++i) {
-      const std::uint32_t* partners = right + 2 * kReach - i;
-      const auto even_cost =
-          hn::PopulationCount(hn::Xor(even, hn::GatherIndex(du32, partners, place)));
-      const auto odd_cost =
-          hn::PopulationCount(hn::Xor(odd, hn::GatherIndex(du32, partners + 1, place)));
+      const auto even_partners = hn::GatherIndex(du32, right + 2 * kReach - i, place);
+      const auto even_cost = hn::PopulationCount(hn::Xor(even, even_partners));
+      const auto odd_cost = hn::PopulationCount(hn::Xor(odd, odd_partners));
       const auto cost = hn::Mul(hn::Add(even_cost, odd_cost), known);
       hn::StoreU(hn::DemoteTo(d8, hn::BitCast(di32, cost)), d8, ring.costs[i] + x);
+      odd_partners = even_partners;
     }
   }
 }
