@@ -16,6 +16,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
 
+/// Columns whose bits fit into a word.
+constexpr int kWord = 64;
+
+/// The bits of the first `count` columns, those of all if there are more than kWord.
+constexpr std::uint64_t first_bits(int count) {
+  return count < kWord ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+}
+
 /// Bit i is lane i of the mask, at most 32.
 template <class D>
 HWY_INLINE std::uint64_t bits_of(D d, hn::Mask<D> mask) {

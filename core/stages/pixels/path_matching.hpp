@@ -61,8 +61,8 @@ struct PathMatchingOptions {
 };
 
 /// Rows of a chunk. Paths along the columns depend on the chunks, so those are the same for any
-/// number of threads, and an even number of them keeps two threads busy. Without such paths, chunks
-/// of any rows give the same result; the first rows of each take more time.
+/// number of threads: an even number of them, but for rounding, keeps two threads busy. Without
+/// such paths, chunks of any rows give the same result; the first rows of each take more time.
 inline int path_rows(const PathMatchingOptions& options, int height, int threads) {
   if (options.column_paths == ColumnPaths::kNone) return threads == 1 ? height : kPathRows;
   const auto quotient = [](int a, int b) { return (a + b - 1) / b; };

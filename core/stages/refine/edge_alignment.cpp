@@ -128,7 +128,7 @@ HWY_INLINE void for_each_marked(const std::uint8_t* marks, int width, Body&& bod
                            : static_cast<int>(static_cast<const std::uint8_t*>(mark) - marks);
   };
   for (int x0 = next(0); x0 < width; x0 = next(x0 + kLanes)) {
-    body(x0, ~std::uint64_t{0} >> (64 - std::min(kLanes, width - x0)));
+    body(x0, first_bits(std::min(kLanes, width - x0)));
   }
 }
 
@@ -166,14 +166,6 @@ void doubt_row(const EdgeWindow& rows, int width, std::uint8_t* near, std::uint8
       if (near[x] != 0) confidence[x] = kMostInferred;
     }
   });
-}
-
-/// Columns that are processed together.
-constexpr int kWord = 64;
-
-/// The bits of the first `count` columns of a word.
-constexpr std::uint64_t first_bits(int count) {
-  return count < kWord ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
 }
 
 /// The jumps of kWord columns.

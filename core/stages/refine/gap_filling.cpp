@@ -24,7 +24,7 @@ std::uint64_t known_bits(const std::int32_t* row, int count) {
   for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d32))) {
     unknown |= bits_of(d32, hn::Eq(hn::LoadU(d32, row + i), none)) << i;
   }
-  return ~unknown & ~std::uint64_t{0} >> (kGapColumns - count);
+  return ~unknown & first_bits(count);
 }
 
 }  // namespace mtstereo::HWY_NAMESPACE

@@ -8,6 +8,7 @@
 
 #define HWY_TARGET_INCLUDE "stages/refine/holding.cpp"
 #include "base/simd.hpp"
+#include "base/simd_bits-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -63,7 +64,7 @@ HWY_INLINE std::uint64_t find_bits(const std::uint8_t* confidence, int columns, 
   }
   std::uint64_t bits = 0;
   std::memcpy(&bits, bytes, sizeof(bits));
-  return bits & ~std::uint64_t{0} >> (64 - columns);
+  return bits & first_bits(columns);
 }
 
 /// Chooses those of the columns first .. end - 1 of a row whose confidence is from `least` to

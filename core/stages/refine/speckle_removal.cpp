@@ -18,9 +18,6 @@ namespace mtstereo::HWY_NAMESPACE {
 
 using Disparities = hn::CappedTag<std::int32_t, kAlignment / 4>;
 
-/// Columns that are processed together.
-constexpr int kWord = 64;
-
 /// Bit i of both words belongs to column i.
 struct ColumnBits {
   std::uint64_t known = 0;   ///< has a disparity
@@ -40,7 +37,7 @@ ColumnBits column_bits(const std::int32_t* row, int columns, std::int32_t tolera
     bits.known |= bits_of(d32, hn::Not(hn::Eq(here, none))) << i;
     bits.joined |= bits_of(d32, hn::Not(apart)) << i;
   }
-  bits.known &= ~std::uint64_t{0} >> (kWord - columns);
+  bits.known &= first_bits(columns);
   bits.joined &= bits.known;
   return bits;
 }
@@ -85,7 +82,7 @@ std::uint64_t connected_bits(const std::int32_t* above, const std::int32_t* row,
     const auto distant = hn::Gt(hn::Abs(hn::Sub(upper, lower)), most);
     apart |= bits_of(d32, hn::Or(unknown, distant)) << i;
   }
-  return ~apart & ~std::uint64_t{0} >> (kWord - columns);
+  return ~apart & first_bits(columns);
 }
 
 bool is_root(std::uint32_t link) { return (link & kRootRun) != 0; }

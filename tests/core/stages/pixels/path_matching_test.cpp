@@ -44,6 +44,20 @@ RatedMap matched(const Pair& pair, const DisparityPlane* half_map,
   return out;
 }
 
+TEST(PathMatching, KeepsTwoThreadsBusyAtReducedResolutions) {
+  PathMatchingOptions options = {};
+  options.column_paths = ColumnPaths::kFromAbove;
+  options.most_rows = kReducedPathRows;
+  // Half and quarter of 375, 480, 720 and 1080 rows.
+  for (const int height : {188, 94, 240, 120, 360, 180, 540, 270}) {
+    const int rows = path_rows(options, height, 2);
+    EXPECT_LE(rows, kReducedPathRows);
+    int first = 0;  // of threads that take chunks in turn
+    for (int y = 0; y < height; y += 2 * rows) first += std::min(rows, height - y);
+    EXPECT_LE(first, 0.55 * height) << height << " rows by " << rows;
+  }
+}
+
 PathMatchingOptions random_options(int disparities, Random& random) {
   return {{disparities, 2 * random.below(3) + 1, random.below(33)},
           {random.below(51), random.below(51)},

@@ -88,7 +88,7 @@ void expect_reference(int width, int height, const DisparityPlane& map) {
 
 TEST(EdgeAlignment, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
   test::for_each_simd_target([] {
-    for (int width = 1; width <= 70; ++width) {
+    for (int width = 1; width <= 200; width += width < 70 ? 1 : 29) {
       const int height = 1 + width % 23;
       expect_reference(width, height, whole_map(width, height, width));
     }
