@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Updates the generated parts of docs/: the images of the stages and of the architecture, the
-# table of parameters and the table of steps.
+# Updates the generated parts of docs/: the images of the stages and of the architecture, and the
+# tables of parameters, steps and features.
 # Usage: docs/update.sh [BUILD]; with --check it only reports whether the table of parameters is up to
 # date and docs/method.md describes every step.
 set -euo pipefail
@@ -41,6 +41,7 @@ done < "$work/list"
 if [ -z "$check" ]; then
   "$here/figures/architecture.py" table < "$work/list" > "$work/steps"
   update architecture.md steps
+  "$here/figures/features.py"
   "$figures" --images "$here/images/stages"
   "$here/figures/architecture.py" image "$here/images/architecture.png" < "$work/list"
 fi

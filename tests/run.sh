@@ -145,6 +145,7 @@ if build build all -Dbuildtype=release "${large[@]}"; then
   run_tests build --no-rebuild "${suites[@]}"
 fi
 
+# Feature: leaks, sanitizers, fuzzing
 if [ "$sanitizers" = yes ]; then
   export LSAN_OPTIONS=suppressions=$repository/tests/lsan.supp:print_suppressions=0
   export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1

@@ -1,5 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: the ABI of a version stays
 #
 # Compares a library's ABI with that of the last release, which libmtstereo.abi or libmtstereo-geometry.abi
 # describes. They may differ only if the soname does: docs/quality.md.

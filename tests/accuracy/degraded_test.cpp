@@ -118,6 +118,7 @@ class Degraded : public testing::TestWithParam<DegradedFigures> {
 
 DegradedImages Degraded::images_;
 
+// Feature: accuracy tests
 TEST_P(Degraded, KeepTheirAccuracy) {
   const DegradedFigures& row = GetParam();
   std::vector<eval::Evaluation> evaluations;
@@ -151,6 +152,7 @@ class EqualError : public testing::TestWithParam<Pairs> {
   }
 };
 
+// Feature: accuracy tests
 TEST_P(EqualError, KeepsTheDensity) {
   std::vector<EqualErrorFigures> rows;
   std::map<std::string, eval::CurveCollector> collectors;

@@ -112,6 +112,7 @@ const std::vector<Scene>& rendered() {
   return scenes;
 }
 
+// Feature: steady maps of still scenes, and before a moving camera
 TEST(HoldOnRenderedScenes, ReducesTheFlicker) {
   expect_within(compare(rendered(), "semi-dense", 1), {0.3, -0.75, 0.02, 0});
 }
@@ -120,6 +121,7 @@ TEST(HoldOnRenderedScenes, ReducesTheFlickerOfModeDense) {
   expect_within(compare(rendered(), "dense", 1), {0.56, -1.95, 0.02, 0.002});
 }
 
+// Feature: steady maps of still scenes, and before a moving camera
 TEST(FilterOnRenderedScenes, ReducesTheFlicker) {
   expect_within(compare(rendered(), "semi-dense", 1, "filter"), {0.2, -0.4, 0.05, 0});
   expect_within(compare(rendered(), "semi-dense", 5, "filter"), {0.2, 3.5, -0.2, -0.05});

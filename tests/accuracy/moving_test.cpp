@@ -153,6 +153,7 @@ void expect_no_more_errors(const std::vector<eval::Flicker>& steady,
   }
 }
 
+// Feature: steady maps of still scenes, and before a moving camera
 TEST(MovingCamera, HoldAndFilterReduceTheFlickerAndTheErrors) {
   const std::vector<Clip> clips = {Clip("street"), Clip("garden"), Clip("room")};
   const std::map<double, double> lost_density = {{1, 0.95}, {5, 3.25}, {10, 10}};

@@ -1,63 +1,63 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""docs/features.md names tests that exist, and every row has one."""
+"""docs/features.md has the tests that are marked as the proof of its rows, and every row has one."""
 import os
 import pathlib
-import re
+import subprocess
+import sys
+import types
 import unittest
 
-SOURCE = pathlib.Path(os.environ["MTSTEREO_SOURCE"])
-FEATURES = SOURCE / "docs/features.md"
-NAME = re.compile(r"`([^`]+)`")
-PYTHON_TEST = re.compile(r"\bdef (test_\w+)\(")
-CPP_TEST = re.compile(r"\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\)")
+PROGRAM = pathlib.Path(os.environ["MTSTEREO_SOURCE"]) / "docs/figures/features.py"
+PAGE = "# Features\n\n| feature | tests |\n| --- | --- |\n| gray input | `Old.Name` |\n"
 
 
-def rows():
-    """The cells of every row of the tables, without the headings."""
-    lines = [line for line in FEATURES.read_text().splitlines() if line.startswith("| ")]
-    cells = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in lines]
-    return [row for row in cells if row[0] not in ("feature", "---")]
+def load():
+    module = types.ModuleType("features")
+    module.__file__ = str(PROGRAM)
+    exec(compile(PROGRAM.read_text(), PROGRAM, "exec"), module.__dict__)  # without a cache beside it
+    return module
 
 
-def names_of(file, text):
-    """The tests that a file defines: Suite.Name (C++) or name (Python), and the file itself."""
-    if file.suffix == ".py":
-        return {file.name, *PYTHON_TEST.findall(text)}
-    return {file.name, *(f"{suite}.{test}" for suite, test in CPP_TEST.findall(text))}
+def marks(*lines):
+    return list(load().marks("\n".join(lines), "folder/a_test.cpp"))
 
 
-def all_tests():
-    files = [file for file in (SOURCE / "tests").rglob("*") if file.suffix in (".py", ".cpp", ".sh")]
-    return set().union(*(names_of(file, file.read_text()) for file in files))
+class Page(unittest.TestCase):
+    def test_is_that_of_the_marks(self):
+        run = subprocess.run([sys.executable, PROGRAM, "--check"], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_has_the_marked_tests_instead_of_others(self):
+        self.assertEqual(load().filled(PAGE, {"gray input": ["A.B", "test_c"]}),
+                         PAGE.replace("`Old.Name`", "`A.B`, `test_c`"))
+
+    def test_keeps_the_columns_between(self):
+        page = PAGE.replace("| gray input |", "| gray input | a reason |")
+        self.assertIn("| gray input | a reason | `A.B` |\n", load().filled(page, {"gray input": ["A.B"]}))
+
+    def test_may_not_have_a_row_without_a_test_or_twice(self):
+        with self.assertRaisesRegex(ValueError, "gray input.*no test"):
+            load().filled(PAGE, {})
+        with self.assertRaisesRegex(ValueError, "gray input: listed twice"):
+            load().filled(PAGE + PAGE, {"gray input": ["A.B"]})
+
+    def test_may_not_lack_the_row_of_a_mark(self):
+        with self.assertRaisesRegex(ValueError, "no row: grey input"):
+            load().filled(PAGE, {"gray input": ["A.B"], "grey input": ["A.B"]})
 
 
-class Features(unittest.TestCase):
-    def test_every_row_has_a_proof(self):
-        self.assertGreater(len(rows()), 70)
-        for row in rows():
-            with self.subTest(row[0]):
-                self.assertIn(len(row), (2, 3))
-                self.assertTrue(NAME.search(row[-1]), "no test is named")
+class Marks(unittest.TestCase):
+    def test_name_the_next_test(self):
+        self.assertEqual(marks("// Feature: one", "// More.", "TEST_P(Suite, Name) {"), [("one", "Suite.Name")])
+        self.assertEqual(marks("// Feature: one", "TEST(Suite,", "     Name) {"), [("one", "Suite.Name")])
+        self.assertEqual(marks("    # Feature: one", "    def test_a(self):"), [("one", "test_a")])
 
-    def test_no_feature_is_listed_twice(self):
-        names = [row[0] for row in rows()]
-        self.assertEqual(sorted(set(names)), sorted(names))
+    def test_may_be_several(self):
+        self.assertEqual(marks("// Feature: one", "// Feature: two", "TEST(A, B) {"), [("one", "A.B"), ("two", "A.B")])
 
-    def test_named_tests_exist(self):
-        tests = all_tests()
-        for row in rows():
-            for name in NAME.findall(row[-1]):
-                with self.subTest(row[0]):
-                    self.assertIn(name, tests)
-
-    def test_a_name_that_is_wrong_is_found(self):
-        text = "TEST_F(Plugin, RegistersItsElements) {\n  TEST(Other,\n      IsBroken) {"
-        self.assertEqual(names_of(pathlib.Path("a_test.cpp"), text),
-                         {"a_test.cpp", "Plugin.RegistersItsElements", "Other.IsBroken"})
-        self.assertEqual(names_of(pathlib.Path("a.py"), "def test_one(self):\ndef helper():"), {"a.py", "test_one"})
-        self.assertIn("test_a_name_that_is_wrong_is_found", all_tests())
-        self.assertNotIn("Plugin.RegistersNothing", all_tests())
+    def test_name_the_file_if_no_test_follows(self):
+        self.assertEqual(marks("// Feature: one", "", '#include "a.hpp"', "TEST(A, B) {"), [("one", "folder/a_test.cpp")])
 
 
 if __name__ == "__main__":

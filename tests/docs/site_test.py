@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: pages as a site, with a search without a network
 """The site of docs/site/ is complete, can be read without a server and loads nothing from other hosts."""
 import html.parser
 import json

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: files: complete and reproducible
 """The element gives the library's bytes: frames from PNG files and from H.264 files, 1, 2, 4 threads.
 
 Runs on a rendered clip, and on a recorded one if MTSTEREO_TEST_DATA has it.

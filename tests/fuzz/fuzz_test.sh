@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: leaks, sanitizers, fuzzing
 # fuzz_test.sh: runs one fuzzing program for a time.
 #
 # usage: fuzz_test.sh PROGRAM NAME SEEDS REGRESSIONS SECONDS [FOLDER]

@@ -109,6 +109,7 @@ TEST(FreeSpace, OfAnEmptyMapIsEmptyAndOfAFullOneTheMap) {
   EXPECT_TRUE(test::same_image(full, bounds_of(full)));
 }
 
+// Feature: free space
 TEST(FreeSpace, EqualsTheReferenceForAllSizesAndStrides) {
   FreeSpace space;
   std::uint64_t seed = 1;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: point cloud
 """Reads the files of write_cloud() by readers that share no code with it.
 
 cloud_reader.py, a strict reader of PLY and PCD by their specifications, always runs. Open3D (the

@@ -31,6 +31,7 @@ std::array<double, 2> rectified_position(const Rectification& r, const Matrix3& 
   return {r.focal_length * p[0] / p[2] + center_x, r.focal_length * p[1] / p[2] + r.center_y};
 }
 
+// Feature: rectification
 TEST(Rectify, RowsAndDepthsOfRandomPointsAreExact) {
   Random random(1);
   for (const StereoCalibration& rig : all_rigs()) {

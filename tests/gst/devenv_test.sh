@@ -1,5 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: installation
 #
 # Checks that GStreamer finds the plugin of the build folder inside of `meson devenv`, whatever the
 # environment outside of it and whatever else is installed.

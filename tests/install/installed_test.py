@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: installation
 """installed_test.py PLUGIN_FOLDER PREFIX LIBRARY_FOLDER INSTALL_TO BUILD MESON -- COMPILER...
 
 Installs the build below a temporary folder, and uses only what is there: programs, scripts, plugin and examples, without

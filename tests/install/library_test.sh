@@ -1,5 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: installation
+# Feature: few dependencies
 #
 # Installs the build to a temporary folder, builds a program against that folder with pkg-config
 # alone, runs it, and checks the exported names of the library.

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: Debian packages
 """lists_test.py MESON...: what debian/ says agrees with the rest of the source tree. Builds no package."""
 import fnmatch
 import json

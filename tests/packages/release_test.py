@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: files of a release
 """debian/release.sh, on repositories with files of this one: refusals, archive, site. Builds no package."""
 import os
 import pathlib

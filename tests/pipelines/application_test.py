@@ -73,6 +73,7 @@ class Application(ClipTest):
         program.write_text(text)
         return run([PYTHON, program, *arguments], self.folder, 120)
 
+    # Feature: results that other programs read
     def test_python_reads_the_results_of_recordings(self):
         self.need_numpy()
         if not shutil.which("ffmpeg"):

@@ -21,6 +21,7 @@ class Demo(ClipTest):
     def demo(cls, *words):
         return cls.run_script("demo.sh", "--no-build", "--build", BUILD, *words, seconds=120)
 
+    # Feature: demo, scripts and documentation
     def test_creates_all_outputs(self):
         done, out = self.of_crisp, self.crisp
         self.assert_succeeds(done)

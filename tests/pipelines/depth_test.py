@@ -126,6 +126,7 @@ class Depths(unittest.TestCase):
                        "video/x-raw,format=GRAY16_LE ! filesink location=mkv.raw", self.folder))
         self.assertEqual(words16((self.folder / "mkv.raw").read_bytes(), width), depth)
 
+    # Feature: depth in mm
     def test_of_kitti_equal_the_formula_and_are_read_back(self):
         if not (KITTI / "calib.txt").is_file():
             self.skipTest(f"there is no {KITTI}")

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: demo, scripts and documentation
+# Feature: recording without loss
 """documentation_test.py PART PARTS: runs every command of README.md and the pages of docs/, headless and on a small clip;
 with PARTS above 1 only those of every PARTS-th document, beginning with number PART. The appendix is dated, and not run.
 

@@ -142,6 +142,7 @@ class Pairs(unittest.TestCase):
                     self.assertLessEqual(outcome.wrong, most_wrong, f"{outcome}\n{outcome.log}")
                     self.assertGreater(outcome.pairs, least, f"{outcome}\n{outcome.log}")
 
+    # Feature: two videos from another computer
     def test_pairs_are_right_with_delay_and_loss(self):
         # Lost packets are sent again in time if the latency is some times the way there and back.
         self.check([Case("srt", (0, 50), both=LONG + PHRASE), Case("rtp", right=(30, 30)),
@@ -201,6 +202,7 @@ class Use(ClipTest):
         self.assertEqual(receiver.returncode, 1, errors)
         self.assertIn("Stream doesn't contain enough data", errors)
 
+    # Feature: two videos from another computer
     def test_left_and_right_are_linked_by_pid_and_session(self):
         srt = self.shown("from-network.sh")
         self.assertRegex(srt, r"net\.video_0_0041 .*m\.sink_left net\.video_0_0042 .*m\.sink_right")

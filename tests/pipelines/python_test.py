@@ -60,6 +60,7 @@ class PythonPage(ClipTest):
                                       r"nearest \d\.\d\d m, \d{4,5} points up to \d+\.\d\d m\n$")
         self.assertTrue((self.folder / "scene.ply").read_bytes().startswith(b"ply\n"))
 
+    # Feature: metas of the left frame are kept, and own metas can be read without headers
     def test_python_runs_and_finds_the_confidence(self):
         self.need("import gi; gi.require_version('GstApp', '1.0'); from gi.repository import GstApp",
                   "python3-gi, gir1.2-gst-plugins-base-1.0")

@@ -22,6 +22,7 @@ class ReadyPipelines(ClipTest):
                            self.folder))
         return [float(word) for word in done.output.split()[2:5]]
 
+    # Feature: recording without loss
     def test_files_are_recorded_without_lost_frames(self):
         done = self.run_script("from-files.sh", "left.mp4", "right.mp4", "--out", "files.mkv",
                                "--max-disparity", "32", "--set", "threads=1")
@@ -67,6 +68,8 @@ class ReadyPipelines(ClipTest):
             "from-side-by-side.sh", "side-by-side.mp4", "--calibration", "clip/calib.txt",
             "--depth", "20", *HEADLESS))
 
+    # Feature: recording without loss
+    # Feature: documented scale that can be selected
     def test_png_images_become_kitti_images(self):
         done = self.run_script("from-png.sh", "left/%06d.png", "right/%06d.png",
                                "new/folder/%06d.png")
@@ -163,6 +166,7 @@ class ReadyPipelines(ClipTest):
                       "width=320,height=240,framerate=15/1"):
             self.assertIn(words, done.output)
 
+    # Feature: demo, scripts and documentation
     def test_camera_pipelines_run_on_test_images(self):
         for words in (["from-cameras.sh", "/dev/video0", "/dev/video2"],
                       ["from-side-by-side.sh", "/dev/video0", "--size", "640x240"]):

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Feature: errors as messages with a remedy, no output on stdout
 #include "soak.hpp"
 #include "support/stereo_harness.hpp"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Feature: leaks, sanitizers, fuzzing
 // Plays the element in hostile ways for some time and prints what happened as a table.
 #include <gtest/gtest.h>
 

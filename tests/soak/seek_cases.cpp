@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Feature: seeks
 // Seeks and state changes in files, whose key frames and lengths differ.
 #include <array>
 

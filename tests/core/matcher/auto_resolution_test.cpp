@@ -63,6 +63,7 @@ TEST(AutoResolution, StaysFullForSharpViews) {
   }
 }
 
+// Feature: reduced resolution for speed
 TEST(AutoResolution, IsHalfForSoftViewsWithTheResultsOfHalfRefined) {
   Matcher matcher = auto_matcher();
   Matcher full = test::matcher({}), half = test::matcher({{"resolution", "half-refined"}});

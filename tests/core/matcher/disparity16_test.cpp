@@ -24,6 +24,7 @@ int written(std::int32_t disparity, int scale) {
   return out;
 }
 
+// Feature: float output
 TEST(WriteDisparity16, RoundsToTheNearestStep) {
   for (const int scale : {1, 2, 7, 16, 100, 256, 1000, 65535}) {
     for (std::int32_t d = 1; d < 1984 * 256; d += d < 2000 ? 1 : 997) {
@@ -38,6 +39,7 @@ TEST(WriteDisparity16, EqualsTheKittiFormatAtScale256) {
   EXPECT_EQ(37 * 256 + 128, written(37 * 256 + 128, 256));
 }
 
+// Feature: 0 marks unknown
 TEST(WriteDisparity16, WritesAtLeastOneForAKnownDisparity) {
   for (const int scale : {1, 16, 127, 256}) {
     EXPECT_EQ(0, written(kNoDisparity, scale));

@@ -107,6 +107,7 @@ TEST(Hold, ReducesTheFlickerAndNotTheDensity) {
   }
 }
 
+// Feature: filter of disparities over time
 TEST(Hold, KeepsOnlyWhatThePresentPairChose) {
   for (const char* const mode : kModes) {
     // Without steps that infer disparities from those that are kept.
@@ -130,6 +131,7 @@ TEST(Hold, KeepsOnlyWhatThePresentPairChose) {
   }
 }
 
+// Feature: steady maps of still scenes, and before a moving camera
 TEST(Hold, IsOffAfterACut) {
   const Pair other = frame(7, test::slanted_pair(240, 120, 30, 8));
   for (const char* const mode : kModes) {

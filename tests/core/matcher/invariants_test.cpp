@@ -55,6 +55,7 @@ double share_near(const DisparityPlane& map, double disparity) {
   return static_cast<double>(near) / static_cast<double>(std::max(test::known(map), 1L));
 }
 
+// Feature: sparse and dense modes
 TEST(Invariants, AShiftedPairHasItsShiftAsDisparityInAllModes) {
   for (const char* const mode : kModes) {
     for (const int shift : {3, 17, 40}) {
@@ -71,6 +72,7 @@ TEST(Invariants, AShiftedPairHasItsShiftAsDisparityInAllModes) {
   }
 }
 
+// Feature: reduced resolution for speed
 TEST(Invariants, AShiftedPairHasItsShiftAsDisparityAtHalfResolution) {
   for (const char* const mode : kModes) {
     for (const int shift : {4, 17, 40}) {
@@ -133,6 +135,7 @@ TEST(Invariants, FlatImagesHaveNoDisparities) {
   }
 }
 
+// Feature: any search range, also negative
 TEST(Invariants, EveryStepIsInRangeForExtremeSearchRanges) {
   for (const char* const mode : kModes) {
     for (const auto& [width, disparities] : {std::pair{1, 1},
@@ -229,6 +232,7 @@ TEST(Invariants, AnImageOfOnePixelHasNoDisparity) {
   }
 }
 
+// Feature: any search range, also negative
 TEST(Invariants, AWideImageHasItsLargeDisparities) {
   for (const char* const preset : kPresetNames) {
     for (const int shift : {900, 1960}) {
@@ -310,6 +314,7 @@ TEST(Invariants, ModeSemiDenseClosesGapsWithInferredPixels) {
   }
 }
 
+// Feature: left-right check, uniqueness, confidence threshold
 TEST(Invariants, NoDisparityHasLessThanTheMinimumConfidence) {
   const Pair pair = test::slanted_pair(200, 90, 30, 11);
   Matcher matcher = test::matcher({{"min-confidence", "0"}, {"max-gap", "0"}});

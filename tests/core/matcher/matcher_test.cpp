@@ -31,6 +31,7 @@ TEST(Matcher, HasTheParametersItIsCreatedWith) {
   EXPECT_EQ(Mode::kSparse, matcher.parameters().mode());
 }
 
+// Feature: reduced resolution for speed
 TEST(Matcher, ReturnsFullSizeMapsAtHalfResolution) {
   const Pair pair = test::slanted_pair(201, 91, 40, 3);
   Matcher matcher = test::matcher({{"preset", "fast"}, {"max-disparity", "61"}});

@@ -35,6 +35,7 @@ void expect_same_as_one_thread(const Pair& pair, Parameters parameters, int thre
   }
 }
 
+// Feature: own threads, with the same result for any number
 TEST(MatcherThreads, HaveTheSameResultForAnyNumber) {
   const Pair pair = test::slanted_pair(211, 139, 40, 1);
   for (const int threads : {0, 2, 3, 4, 7}) {
@@ -93,6 +94,7 @@ TEST(MatcherThreads, MayChangeFromFrameToFrame) {
   }
 }
 
+// Feature: several elements in one process
 TEST(MatcherThreads, ConcurrentMatchersDoNotAffectEachOther) {
   struct Worker {
     Pair pair;

@@ -59,6 +59,7 @@ void expect_moved(const DisparityPlane& unmoved, const DisparityPlane& map, int 
       [&](int x, int y) { return map(x + kBorder, y); }));
 }
 
+// Feature: any search range, also negative
 TEST(MinDisparity, OfAMovedViewGivesTheMovedMap) {
   const Pair pair = test::slanted_pair(640, 60, 40, 5);
   for (const char* const preset : kPresetNames) {
@@ -134,6 +135,7 @@ TEST(MinDisparity, IsTheSmallestOneAndEveryPartnerIsInTheRightView) {
   }
 }
 
+// Feature: any search range, also negative
 TEST(MinDisparity, OfConvergingCamerasFindsNegativeDisparities) {
   const Pair pair = test::shifted_pair(320, 80, 0, 7);
   Matcher matcher = test::matcher({{"min-disparity", "-30"}, {"max-disparity", "20"}});
@@ -168,6 +170,7 @@ TEST(MinDisparity, MustBeLessThanTheLargestOne) {
   EXPECT_TRUE(test::parameters({{"min-disparity", "63"}}).check_frame(640, 480).ok());
 }
 
+// Feature: any search range, also negative
 TEST(MinDisparity, MayNotLeaveMoreDisparitiesThanPossible) {
   const int most = kLargestMaxDisparity - kLargestMinDisparity;
   Parameters parameters =

@@ -110,6 +110,7 @@ TEST(Parameters, AcceptEveryDefaultOfTheTable) {
   }
 }
 
+// Feature: presets
 TEST(Parameters, HaveTheDefaultsOfPresetAndModeIfUnset) {
   const char* const presets[] = {"default", "fast", "paper"};
   const char* const modes[] = {"sparse", "semi-dense", "dense", "full"};

@@ -22,6 +22,7 @@ def map_of_disparities():
 
 
 class Calibrations(unittest.TestCase):
+    # Feature: calibrations, rectified views, depths and points
     def test_are_read_from_files(self):
         calibration = mtstereo.Calibration.read(OPENCV, 640, 480)
         self.assertEqual((calibration.format, calibration.left.width, calibration.right.height), ("OpenCV", 640, 480))
@@ -72,6 +73,7 @@ class Rectified(unittest.TestCase):
         self.assertEqual((small.width, small.height), (320, 240))
         self.assertLess(small.focal_length, self.rectification.focal_length)
 
+    # Feature: calibrations, rectified views, depths and points
     def test_views_of_every_layout_are_equal(self):
         rectifier = mtstereo.Rectifier(self.calibration, self.rectification)
         left, right = views(640, 480)
@@ -109,6 +111,7 @@ class Rectified(unittest.TestCase):
 
 
 class Depths(unittest.TestCase):
+    # Feature: calibrations, rectified views, depths and points
     def test_are_focal_length_times_baseline_over_disparity(self):
         disparity = map_of_disparities()
         expected = (100 / (disparity.astype(np.float64) + 1.5)).astype(np.float32)
@@ -140,6 +143,7 @@ class Depths(unittest.TestCase):
 
 
 class Clouds(unittest.TestCase):
+    # Feature: calibrations, rectified views, depths and points
     def test_have_the_points_colors_and_confidence_of_the_map(self):
         disparity = map_of_disparities()
         random = np.random.default_rng(2)

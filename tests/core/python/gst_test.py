@@ -50,6 +50,7 @@ class Samples(unittest.TestCase):
             self.assertTrue(sample, "no sample came")
             yield sample
 
+    # Feature: disparity and confidence as arrays, byte for byte those of library and element
     def test_have_the_maps_of_a_matcher(self):
         for width, height, keywords in ((161, 75, {"max_disparity": 32}), (64, 48, {"mode": "dense"}),
                                         (130, 60, {"min_disparity": -8, "mode": "full"}),

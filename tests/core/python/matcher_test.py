@@ -33,6 +33,7 @@ class Maps(unittest.TestCase):
             self.assertEqual(result.disparity.shape, pair[0].shape)
         return result
 
+    # Feature: disparity and confidence as arrays, byte for byte those of library and element
     def test_equal_those_of_the_library_in_every_mode_and_preset(self):
         modes, presets = (row.choices for row in (parameter("mode"), parameter("preset")))
         for mode, preset in itertools.product(modes, presets):
@@ -40,11 +41,13 @@ class Maps(unittest.TestCase):
                 result = self.check([views(161, 75)], mode=mode, preset=preset, max_disparity=32)
                 self.assertGreater(result.density, 0.01)
 
+    # Feature: disparity and confidence as arrays, byte for byte those of library and element
     def test_equal_those_of_the_library_at_every_size(self):
         for width, height in ((1, 1), (1, 9), (9, 1), (2, 2), (33, 7), (127, 65), (640, 480)):
             with self.subTest(width=width, height=height):
                 self.check([views(width, height)], max_disparity=min(width, 64))
 
+    # Feature: disparity and confidence as arrays, byte for byte those of library and element
     def test_equal_those_of_the_library_at_4k(self):
         result = self.check([views(3840, 2160, 20)], preset="fast", mode="sparse", max_disparity=64)
         self.assertGreater(result.density, 0.01)
@@ -59,6 +62,7 @@ class Maps(unittest.TestCase):
         result = self.check([(right, left)], min_disparity=-16, max_disparity=16)
         self.assertLess(np.nanmedian(result.disparity), -3)
 
+    # Feature: any strides, without a copy if the pixels of a row are contiguous
     def test_do_not_depend_on_strides(self):
         pair = views(161, 75)
         matcher = mtstereo.Matcher(max_disparity=32)
@@ -115,6 +119,7 @@ class Views(unittest.TestCase):
         tracemalloc.stop()
         return most
 
+    # Feature: any strides, without a copy if the pixels of a row are contiguous
     def test_are_not_copied_if_pixels_are_contiguous_in_rows(self):
         width, height = 321, 240
         pair, results = views(width, height), 5 * width * height
@@ -129,6 +134,7 @@ def parameter(name):
 
 
 class Parameters(unittest.TestCase):
+    # Feature: every parameter as a keyword, in types and texts
     def test_are_those_of_the_table(self):
         names = [row.name for row in mtstereo.parameter_table()]
         self.assertEqual(list(mtstereo.Matcher().parameters), names)

@@ -74,6 +74,7 @@ FRAMES = [
 
 
 class Misuse(unittest.TestCase):
+    # Feature: wrong use is an exception with a remedy
     def test_of_an_array_names_the_argument_and_the_remedy(self):
         matcher, alignment = mtstereo.Matcher(max_disparity=32), mtstereo.Alignment()
         expected = matcher(LEFT, RIGHT).disparity.tobytes()
@@ -90,6 +91,7 @@ class Misuse(unittest.TestCase):
                     alignment.inspect(LEFT, make(), 32)
                 self.assertEqual(matcher(LEFT, RIGHT).disparity.tobytes(), expected)
 
+    # Feature: wrong use is an exception with a remedy
     def test_of_a_keyword_names_it_and_what_is_allowed(self):
         matcher = mtstereo.Matcher()
         before = matcher.parameters
@@ -100,6 +102,7 @@ class Misuse(unittest.TestCase):
                         use(**keywords)
                 self.assertEqual(matcher.parameters, before)
 
+    # Feature: wrong use is an exception with a remedy
     def test_of_parameters_that_do_not_fit_says_what_fits(self):
         for keywords, message in FRAMES:
             with self.subTest(**keywords):
@@ -139,6 +142,7 @@ class Misuse(unittest.TestCase):
             with self.assertRaises(TypeError):
                 copied(mtstereo.Matcher())
 
+    # Feature: threads, processes and sub-interpreters
     def test_after_a_fork_is_an_error_and_no_hang(self):
         done = subprocess.run([sys.executable, "-c", textwrap.dedent("""
             import os, sys, mtstereo, numpy
@@ -157,6 +161,7 @@ class Misuse(unittest.TestCase):
         self.assertIn("make a Matcher in each process", done.stdout)
         self.assertEqual(done.stdout.splitlines()[-1], "0")
 
+    # Feature: threads, processes and sub-interpreters
     def test_in_a_sub_interpreter_is_refused(self):
         try:
             import _xxsubinterpreters as interpreters

@@ -33,6 +33,7 @@ class Stub(unittest.TestCase):
                 existing = {member for member in vars(getattr(mtstereo, name)) if not member.startswith("_")}
                 self.assertEqual(members_of_stub(node), existing)
 
+    # Feature: every parameter as a keyword, in types and texts
     def test_has_every_parameter_as_a_keyword(self):
         names = [row.name for row in mtstereo.parameter_table()]
         for part in classes_of_stub()["Matcher"].body:

@@ -29,16 +29,19 @@ class Threads(unittest.TestCase):
     def setUp(self):
         self.expected = maps_of(mtstereo.Matcher(max_disparity=32))
 
+    # Feature: threads, processes and sub-interpreters
     def test_with_a_matcher_each_get_the_same_maps(self):
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             matchers = [mtstereo.Matcher(max_disparity=32, threads=1) for _ in range(2)]
             self.assertEqual(list(pool.map(maps_of, matchers)), [self.expected] * 2)
 
+    # Feature: threads, processes and sub-interpreters
     def test_that_share_a_matcher_wait_for_each_other(self):
         matcher = mtstereo.Matcher(max_disparity=32)
         with concurrent.futures.ThreadPoolExecutor(4) as pool:
             self.assertEqual(list(pool.map(maps_of, [matcher] * 4)), [self.expected] * 4)
 
+    # Feature: threads, processes and sub-interpreters
     def test_run_while_another_one_matches(self):
         matcher, times, matched = mtstereo.Matcher(mode="full", max_disparity=256, threads=1), [], []
         pair = views(1280, 960)
@@ -66,6 +69,7 @@ class Threads(unittest.TestCase):
 
 
 class Memory(unittest.TestCase):
+    # Feature: no leak
     def test_does_not_grow(self):
         """Each call that leaked a map, or an array of another layout, would leak 60 KB."""
         matcher, alignment = mtstereo.Matcher(max_disparity=16, threads=1), mtstereo.Alignment()

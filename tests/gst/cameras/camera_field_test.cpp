@@ -63,6 +63,7 @@ class RectifiedCameras : public testing::Test {
   CalibrationFolder folder_;
 };
 
+// Feature: rectification
 TEST_F(RectifiedCameras, BothLeftByDefaultAreAnError) {
   const std::string error = Pipeline(launch("", "", "")).run();
   EXPECT_NE(error.find("on sink_right is from the left camera"), std::string::npos) << error;

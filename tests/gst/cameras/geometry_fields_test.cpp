@@ -34,6 +34,7 @@ std::optional<plugin::StereoGeometry> geometry_of(const GstCaps* caps) {
   return caps != nullptr ? plugin::read_geometry(gst_caps_get_structure(caps, 0)) : std::nullopt;
 }
 
+// Feature: calibration in caps, properties and files
 TEST(GeometryFields, AreThoseOfTheLeftStream) {
   StereoHarness harness;
   harness.caps(caps_with(700));

@@ -78,6 +78,7 @@ class MtRectify : public testing::Test {
   std::unique_ptr<CameraHarness> harness;
 };
 
+// Feature: rectification
 TEST_F(MtRectify, FramesAreThoseOfTheLibrary) {
   const GrayImage image = noise_image();
   for (const bool left : {true, false}) {

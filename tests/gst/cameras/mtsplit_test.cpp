@@ -86,6 +86,7 @@ struct Case {
 
 class Formats : public testing::TestWithParam<Case> {};
 
+// Feature: side-by-side and top-bottom streams
 TEST_P(Formats, HalvesAreThoseOfTheFrameAndNoPixelIsCopied) {
   const Case c = GetParam();
   for (const bool swap : {false, true}) {
@@ -275,6 +276,7 @@ TEST(MtSplit, OddWidthInAPipelineIsAClearError) {
   EXPECT_NE(pipeline.run().find("width must be even"), std::string::npos);
 }
 
+// Feature: side-by-side and top-bottom streams
 TEST(MtSplit, MatcherTakesBothViewsWithoutQueues) {
   for (const char* format : {"GRAY8", "NV12", "YUY2"}) {
     Pipeline pipeline(

@@ -23,6 +23,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// Feature: point cloud
 TEST(Cloud, HasThePointsOfTheMapInMeters) {
   const CloudFolder folder;
   CloudHarness harness(location(folder), false);

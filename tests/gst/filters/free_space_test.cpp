@@ -58,6 +58,7 @@ TEST(FreeSpaceProperty, IsOffByDefault) {
   expect_depths(depths(kMap), harness.pass(map_buffer(kMap)));
 }
 
+// Feature: free space
 TEST(FreeSpaceProperty, GivesPixelsWithoutADisparityTheDepthOfTheirBound) {
   MapHarness harness("mtdepth", "free-space=true");
   EXPECT_TRUE(free_space(harness.element()));

@@ -94,6 +94,7 @@ class ColorRow {
   std::vector<int> fourth_;
 };
 
+// Feature: color preview with a fixed range
 TEST(Color, NoDisparityIsBlackAndTheEndOfTheRangeIsRed) {
   ColorRow row("max-disparity=32", ",disparity-scale=256");
   const auto colors = row.colors({0, 1, 32 * 256, 65535});
@@ -137,6 +138,7 @@ TEST(Color, RangeBeginsAtTheOffsetOfTheCaps) {
   EXPECT_EQ(row.colors({32 * 256, 1})[0], kLast) << "the offset of the stream before";
 }
 
+// Feature: color preview with a fixed range
 TEST(Color, RangeDoesNotDependOnTheFrame) {
   ColorRow row("max-disparity=64", ",disparity-scale=256");
   const auto alone = row.colors({10 * 256, 10 * 256, 10 * 256});
@@ -161,6 +163,7 @@ TEST(Color, PaddingIsIgnored) {
 
 class ColorFormat : public testing::TestWithParam<const char*> {};
 
+// Feature: color preview with a fixed range
 TEST_P(ColorFormat, HasTheSameColors) {
   const std::vector<std::uint16_t> values = {0, 256, 10 * 256, 32 * 256, 5 * 256};
   ColorRow rgb("max-disparity=32", ",disparity-scale=256");

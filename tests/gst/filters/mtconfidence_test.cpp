@@ -148,6 +148,7 @@ Confidence bytes_of(GstBuffer* buffer) {
 
 class MinConfidence : public testing::TestWithParam<int> {};
 
+// Feature: confidence for each pixel
 TEST_P(MinConfidence, KeepsDisparitiesOfAtLeastThisConfidence) {
   Filter filter("min-confidence=" + std::to_string(GetParam()));
   const BufferPointer out = filter.pass(Filter::map());

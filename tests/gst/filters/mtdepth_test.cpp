@@ -57,6 +57,7 @@ void expect_map(const std::vector<std::uint16_t>& depths, const std::vector<std:
   EXPECT_EQ(first_difference(depths, actual, width), "");
 }
 
+// Feature: depth in mm
 TEST(Depth, IsFocalLengthTimesBaselineOverDisparityForAllValues) {
   Map16 all = {256, 256, std::vector<std::uint16_t>(65536)};
   std::iota(all.values.begin(), all.values.end(), std::uint16_t{0});
@@ -84,6 +85,7 @@ TEST(Depth, CapsHaveTheUnitAndTheGeometryInPlaceOfTheDisparity) {
   EXPECT_EQ(caps.find("disparity"), std::string::npos) << caps;
 }
 
+// Feature: calibration in caps, properties and files
 TEST(Depth, PropertiesOverrideTheCaps) {
   expect_map(expected(kMap, [](int value) { return depth_mm(value, 350 * 0.25); }),
              depths_of("focal-length=350 baseline=0.25", std::string(kScale) + kRig));
@@ -224,6 +226,7 @@ double number_of(const MessagePointer& message, const char* name) {
   return value;
 }
 
+// Feature: measurable range
 TEST(Depth, ReportsTheUncertaintyAtTheFarLimitOnce) {
   MapHarness harness("mtdepth", "far=20");
   harness.caps(kWidth, kHeight, std::string(kScale) + kRig);

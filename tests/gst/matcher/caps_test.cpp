@@ -27,6 +27,7 @@ struct TemplateCase {
 
 class Template : public testing::TestWithParam<TemplateCase> {};
 
+// Feature: odd sizes
 TEST_P(Template, HasTheSizeLimitsOfTheLibrary) {
   const auto [factory, pad, format] = GetParam();
   const CapsPointer caps = template_of(factory, pad);

@@ -18,6 +18,7 @@ void play(int frames, const FeedOptions& options = {}) {
   EXPECT_GE(result.count.maps, frames - 2);
 }
 
+// Feature: errors as messages with a remedy, no output on stdout
 TEST(DebugLog, ShowsCapsSettingsOffsetAndLatency) {
   DebugLog log(GST_LEVEL_DEBUG);
   play(30);

@@ -39,6 +39,7 @@ class DisparityScale : public StreamsTest {
   }
 };
 
+// Feature: documented scale that can be selected
 TEST_F(DisparityScale, FollowsTheRange) {
   start("max-disparity=64");
   for (const auto& [disparities, expected] :

@@ -38,6 +38,7 @@ class Refusal : public testing::Test {
   StereoHarness harness;
 };
 
+// Feature: different sizes are rejected
 TEST_F(Refusal, ReportsDifferentSizes) {
   harness.caps(raw_caps("GRAY8", 64, 48), raw_caps("GRAY8", 32, 24));
   const Pair left = noise_pair(64, 48, 4, 1);
@@ -74,6 +75,7 @@ TEST_F(Refusal, AFlushClearsTheError) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
+// Feature: interlaced video is rejected with a remedy
 TEST_F(Refusal, ReportsInterlacedVideo) {
   harness.caps(raw_caps("GRAY8", 64, 48),
                raw_caps("GRAY8", 64, 48) + ",interlace-mode=interleaved");
@@ -101,6 +103,7 @@ TEST_F(Refusal, ReportsAnOffsetThatNoClockCanWaitFor) {
   }
 }
 
+// Feature: interlaced video is rejected with a remedy
 TEST_F(Refusal, ReportsVideoThatMayBeInterlaced) {
   harness.caps(raw_caps("NV12", 64, 48) + ",interlace-mode=mixed", raw_caps("GRAY8", 64, 48));
   expect_one_error({"sink_left", "mixed", "deinterlace"}, {"NV12"});
@@ -155,6 +158,7 @@ TEST_F(Refusal, ReportsVideoThatIsTooLarge) {
   expect_one_error({"sink_right", "16385x48 px", "16384", "videoscale"}, {"GRAY8"});
 }
 
+// Feature: errors as messages with a remedy, no output on stdout
 TEST_F(Refusal, ReportsTwoInvalidStreamsOnce) {
   harness.caps(raw_caps("RGB8P", 64, 48), raw_caps("NV12_4L4", 64, 48));
   push();
@@ -234,6 +238,7 @@ class StartFails : public testing::Test {
   }
 };
 
+// Feature: wrong values are explained
 TEST_F(StartFails, IfDisparitiesExceedSixteenBits) {
   const Report error = start("max-disparity=300 disparity-scale=256");
   EXPECT_TRUE(has(error.text, "max-disparity")) << error.text;

@@ -32,6 +32,7 @@ std::vector<std::uint16_t> through_element(const Pair& pair, const Layout& left,
   return map_of(map.get(), width, height);
 }
 
+// Feature: metric disparity in fixed point
 TEST(Output, HasTheDisparityOfThePair) {
   const Pair pair = noise_pair(128, 96, 6, 4);
   const auto map = through_element(pair, {}, {});
@@ -43,6 +44,8 @@ TEST(Output, HasTheDisparityOfThePair) {
   EXPECT_NEAR(known[known.size() / 2] / 256.0, 6.0, 0.5);
 }
 
+// Feature: odd sizes
+// Feature: gray input
 TEST(Output, EqualsThatOfTheLibrary) {
   const Pair pair = noise_pair(128, 96, 6, 5);
   const auto expected = library_map(pair, small_range(), 256);
@@ -54,6 +57,8 @@ TEST(Output, EqualsThatOfTheLibrary) {
   }
 }
 
+// Feature: 8-bit disparity
+// Feature: documented scale that can be selected
 TEST(Output, UsesTheScale) {
   const Pair pair = noise_pair(128, 96, 6, 6);
   for (const int scale : {1, 16, 1000}) {
@@ -64,6 +69,7 @@ TEST(Output, UsesTheScale) {
   }
 }
 
+// Feature: metric disparity in fixed point
 TEST(Output, CapsHaveSizeFramerateAndScale) {
   StereoHarness harness("max-disparity=16 disparity-scale=64");
   harness.caps(
@@ -82,6 +88,7 @@ TEST(Output, CapsHaveSizeFramerateAndScale) {
 
 class LumaFormat : public testing::TestWithParam<const char*> {};
 
+// Feature: planar YUV without a copy
 TEST_P(LumaFormat, HasTheSameMapAsGray8) {
   const Pair pair = noise_pair(96, 64, 5, 8);
   const auto expected = through_element(pair, {}, {});
@@ -109,6 +116,8 @@ struct OddCase {
 
 class FrameLayout : public testing::TestWithParam<OddCase> {};
 
+// Feature: any stride and offset
+// Feature: planar YUV without a copy
 TEST_P(FrameLayout, IsReadInPlaceAndNotModified) {
   const auto [width, height, padding, offset] = GetParam();
   const Pair pair = noise_pair(width, height, 3, 9);
@@ -172,6 +181,7 @@ GstPadProbeReturn offer_padded_pool(GstPad*, GstPadProbeInfo* probe, gpointer st
   return GST_PAD_PROBE_HANDLED;
 }
 
+// Feature: buffer pools of downstream
 TEST(Output, UsesThePoolAndTheStrideOfDownstream) {
   const Pair pair = noise_pair(61, 47, 3, 10);
   GstBufferPool* pool = nullptr;
@@ -202,6 +212,7 @@ GstPadProbeReturn offer_alignment(GstPad*, GstPadProbeInfo* probe, gpointer) noe
   return GST_PAD_PROBE_HANDLED;
 }
 
+// Feature: buffer pools of downstream
 TEST(Output, HasTheMemoryAlignmentOfDownstream) {
   StereoHarness harness;
   gst_pad_add_probe(harness.output()->sinkpad, GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM, offer_alignment,
@@ -213,6 +224,7 @@ TEST(Output, HasTheMemoryAlignmentOfDownstream) {
   EXPECT_GE(gst_buffer_peek_memory(map.get(), 0)->align, 127u);
 }
 
+// Feature: any stride and offset
 TEST(Input, ProposesVideoMetaSoThatNoFrameIsCopied) {
   StereoHarness harness;
   harness.caps(raw_caps("GRAY8", 64, 48));

@@ -83,6 +83,7 @@ class GapsOfLength : public Gaps {
   }
 };
 
+// Feature: gaps and flags
 TEST_P(GapsOfLength, AnnouncedOnceDoNotBlock) { check(Announcement::kOnce); }
 TEST_P(GapsOfLength, AnnouncedPerFrameDoNotBlock) { check(Announcement::kPerFrame); }
 

@@ -101,6 +101,7 @@ TEST_F(HoldElement, BeginsAnewAfterMoreThanFiveFramesOfASlowStream) {
   EXPECT_FALSE(is_held(GST_SECOND + 5 * GST_SECOND + 1));
 }
 
+// Feature: steady maps of still scenes, and before a moving camera
 TEST_F(HoldElement, BeginsAnewAfterADiscontinuity) {
   GstClockTime time = 4 * kFrame;
   for (const Side side : {Side::kLeft, Side::kRight}) {

@@ -39,6 +39,7 @@ TEST_F(Live, PairsFramesThatArriveInTime) {
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(next()) << i;
 }
 
+// Feature: live: a lost frame never blocks
 TEST_F(Live, DropsAnUnpairedLeftFrameAtTheDeadlineAndSendsAGap) {
   start(true);
   ASSERT_TRUE(next());
@@ -53,6 +54,7 @@ TEST_F(Live, DropsAnUnpairedLeftFrameAtTheDeadlineAndSendsAGap) {
   EXPECT_EQ(time, kFrame);
 }
 
+// Feature: live: a lost frame never blocks
 TEST_F(Live, DropsAnUnpairedRightFrameAtTheDeadlineAndSendsAGap) {
   start(true);
   ASSERT_TRUE(next());
@@ -62,6 +64,7 @@ TEST_F(Live, DropsAnUnpairedRightFrameAtTheDeadlineAndSendsAGap) {
   EXPECT_TRUE(harness->pull_event(GST_EVENT_GAP));
 }
 
+// Feature: live: a lost frame never blocks
 TEST_F(Live, ContinuesAfterTheOutageOfACamera) {
   start(true);
   ASSERT_TRUE(next());
@@ -155,6 +158,7 @@ TEST_F(Live, FramesWithoutTimeStampsWaitForTheirPartners) {
   EXPECT_TRUE(harness->pull());
 }
 
+// Feature: files: complete and reproducible
 TEST_F(Live, StreamsThatAreNotLiveHaveNoDeadline) {
   start(false);
   left(0);
@@ -165,6 +169,7 @@ TEST_F(Live, StreamsThatAreNotLiveHaveNoDeadline) {
   EXPECT_TRUE(harness->wait_for_stats(1, 0, 0));
 }
 
+// Feature: latency
 TEST_F(Live, LatencyIncludesTheWaitForAPartner) {
   start(true);
   gst_harness_set_upstream_latency(harness->side(Side::kLeft), 10 * GST_MSECOND);
@@ -179,6 +184,7 @@ TEST_F(Live, LatencyIncludesALargeTolerance) {
   EXPECT_EQ(latency(), 100 * GST_MSECOND);
 }
 
+// Feature: latency
 TEST_F(Live, LatencyIncludesTheMatchingTime) {
   start(true);
   for (int i = 0; i < 4; ++i) ASSERT_TRUE(next());
@@ -187,6 +193,7 @@ TEST_F(Live, LatencyIncludesTheMatchingTime) {
   EXPECT_GT(harness->stats().mean_ms, 0.0);
 }
 
+// Feature: QoS
 TEST_F(Live, SkipsPairsThatWouldBeLateAtASinkThatSynchronizes) {
   start(true);
   fall_behind();
@@ -235,6 +242,7 @@ TEST_F(Live, MatchesLatePairsIfThrottlingIsAllThatTheSinkReports) {
   expect_match();
 }
 
+// Feature: QoS
 TEST_F(Live, MatchesLatePairsIfQosIsDisabled) {
   start(true, "max-disparity=16 qos=false");
   fall_behind();

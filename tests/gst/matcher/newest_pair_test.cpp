@@ -66,6 +66,7 @@ FeedResult play_live(const Speed& speed, const Defects& left, const Defects& rig
 
 class NewestPair : public testing::TestWithParam<Speed> {};
 
+// Feature: newest pair first if matching is too slow
 TEST_P(NewestPair, BoundsTheAgeOfTheMaps) {
   const Speed speed = GetParam();
   const int frames = speed.framerate;
@@ -140,6 +141,7 @@ class AgeProbe {
   std::vector<double> ages_;
 };
 
+// Feature: newest pair first if matching is too slow
 TEST(NewestPairOfCameras, BoundsTheAgeWhileMatchingItselfIsSlow) {
   const auto launch = [](int framerate, int frames, bool live) {
     return "videotestsrc pattern=snow num-buffers=1 ! "

@@ -47,6 +47,7 @@ TEST_F(PairOrder, WaitsForBothFrames) {
   EXPECT_TRUE(harness->pull());
 }
 
+// Feature: frames without a partner are counted and reported
 TEST_F(PairOrder, DropsAndCountsFramesWithoutPartners) {
   for (const Side alone : {Side::kLeft, Side::kRight}) {
     start();
@@ -71,6 +72,7 @@ TEST_F(PairOrder, PairsFramesLessThanHalfAFrameDurationApart) {
   }
 }
 
+// Feature: pairs by running time, with a tolerance
 TEST_F(PairOrder, UsesTheToleranceThatIsSet) {
   start("max-disparity=16 sync-tolerance=1000000");
   left(0);
@@ -119,6 +121,7 @@ TEST_F(PairOrder, LosesOnlyThePairsOfLostFrames) {
   EXPECT_EQ(harness->stats().dropped_right, rights.size() - both.size());
 }
 
+// Feature: the streams may differ in framerate and other caps
 TEST_F(PairOrder, PairsStreamsOfDifferentFrameratesAtTheLowerOne) {
   start();
   harness->caps(Side::kLeft, raw_caps("GRAY8", kWidth, kHeight, "15/1"));
@@ -134,6 +137,7 @@ TEST_F(PairOrder, PairsStreamsOfDifferentFrameratesAtTheLowerOne) {
   EXPECT_EQ(harness->stats().dropped_right, 9u);
 }
 
+// Feature: pairing by other times than running time
 TEST_F(PairOrder, PairsFramesWithoutTimeStampsInOrder) {
   start();
   for (int i = 0; i < 3; ++i) {
@@ -154,6 +158,7 @@ TEST_F(PairOrder, ReportsTimeStampsOnOneSideOnly) {
   EXPECT_EQ(harness->further_errors(), 0);
 }
 
+// Feature: correction of a constant skew
 TEST_F(PairOrder, PadOffsetDelaysAStream) {
   harness = std::make_unique<StereoHarness>("max-disparity=16");
   // As on the command line: mtstereo sink_right::offset=1000000000
@@ -188,6 +193,7 @@ TEST_F(PairOrder, DropsFramesOutsideTheirSegment) {
   EXPECT_TRUE(harness->wait_for_stats(1, 0, 0));
 }
 
+// Feature: frames without a partner are counted and reported
 TEST_F(PairOrder, WarnsOnceIfNoFramesPair) {
   start("max-disparity=16 sync-tolerance=1000000");
   std::vector<GstClockTime> lefts;

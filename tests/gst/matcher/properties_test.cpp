@@ -74,6 +74,7 @@ TEST_F(Properties, HaveTheDefaultsOfTheLibrary) {
   EXPECT_EQ(text("confidence-map"), "true");
 }
 
+// Feature: presets
 TEST_F(Properties, FollowPresetAndModeUnlessSet) {
   for (const char* const preset : {"paper", "fast", "default"}) {
     for (const char* const mode : {"sparse", "dense", "full", "semi-dense"}) {
@@ -113,6 +114,7 @@ TEST_F(Properties, TakeNodeLevelsAsText) {
   EXPECT_EQ(text("node-levels"), "3,1,0") << "a rejected value must not change the property";
 }
 
+// Feature: statistics
 TEST_F(Properties, HaveReadOnlyStatisticsThatStartAtZero) {
   const Stats stats = stats_of(element);
   EXPECT_EQ(stats.pairs + stats.dropped_left + stats.dropped_right + stats.skipped, 0u);
@@ -120,6 +122,7 @@ TEST_F(Properties, HaveReadOnlyStatisticsThatStartAtZero) {
   EXPECT_FALSE(find("stats")->flags & G_PARAM_WRITABLE);
 }
 
+// Feature: correction of a constant skew
 TEST_F(Properties, OfThePadsAreAvailableByChildProxy) {
   for (const char* name : {"sink_left", "sink_right", "src"}) {
     GObject* child = gst_child_proxy_get_child_by_name(GST_CHILD_PROXY(element), name);
@@ -140,6 +143,8 @@ struct Change {
 
 class ChangeWhilePlaying : public testing::TestWithParam<Change> {};
 
+// Feature: own properties change while playing
+// Feature: sparse and dense modes
 TEST_P(ChangeWhilePlaying, AppliesFromTheNextPair) {
   const auto [property, value] = GetParam();
   const Pair pair = noise_pair(128, 96, 5, 3);
@@ -177,6 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
+// Feature: own properties change while playing
 TEST(WhilePlaying, ChangesFromAnotherThreadLoseNoPair) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 5);
@@ -200,6 +206,7 @@ TEST(WhilePlaying, ChangesFromAnotherThreadLoseNoPair) {
   EXPECT_EQ(harness.stats().pairs, 40u);
 }
 
+// Feature: statistics
 TEST(WhilePlaying, StatisticsHavePairsTimeAndDensity) {
   StereoHarness harness("max-disparity=16 mode=semi-dense");
   const Pair pair = noise_pair(128, 96, 5, 6);

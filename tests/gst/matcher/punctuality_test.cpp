@@ -85,6 +85,7 @@ Shown play(const Video& video, bool live, double ratio, double seconds) {
   return result;
 }
 
+// Feature: QoS
 TEST(Punctuality, MostMapsAreShownLive) {
   for (const double ratio : {2.0, 5.0}) {
     const Shown result = play({}, true, ratio, 1.5);
@@ -101,6 +102,7 @@ TEST(Punctuality, MostMapsAreShownOfFiles) {
   EXPECT_GE(result.share(), 0.8) << result.shown << " of " << result.computed;
 }
 
+// Feature: newest pair first if matching is too slow
 TEST(Punctuality, ASinkWithoutSynchronizationGetsAllMaps) {
   for (const bool live : {false, true}) {
     const Shown result =

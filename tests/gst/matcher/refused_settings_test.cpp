@@ -53,6 +53,7 @@ struct Value {
 
 class RefusedValue : public Running, public testing::WithParamInterface<Value> {};
 
+// Feature: wrong values are explained
 TEST_P(RefusedValue, IsOneWarningAndTheLastValueStays) {
   const auto [name, value, accepted] = GetParam();
   start();
@@ -107,6 +108,7 @@ TEST_F(Running, WarningsArePostedWithoutALock) {
 
 // --- values that do not fit each other ---
 
+// Feature: wrong values are explained
 TEST_F(Running, ARefusedCombinationIsOneWarningAtTheNextPair) {
   start();
   set("max-disparity", "50");
@@ -229,6 +231,7 @@ TEST_F(Running, FrozenNotificationsKeepChangesTogetherAcrossPairs) {
   expect_no_message();
 }
 
+// Feature: own properties change while playing
 TEST_F(Running, OneCallThatSetsBothIsNeverSeenHalf) {
   start("max-disparity=64", 320, 40);
   std::atomic<bool> stop{false};

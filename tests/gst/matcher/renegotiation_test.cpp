@@ -30,6 +30,7 @@ TEST(Renegotiation, CapsMayArriveAfterFramesOfTheOtherSide) {
   }
 }
 
+// Feature: the size may change while playing
 TEST(Renegotiation, TheSizeMayChangeOnBothSides) {
   StereoHarness harness;
   GstClockTime time = 0;
@@ -48,6 +49,7 @@ TEST(Renegotiation, TheSizeMayChangeOnBothSides) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
+// Feature: the size may change while playing
 TEST(Renegotiation, FramesOfTheOldAndTheNewSizeAreNotPaired) {
   StereoHarness harness;
   const Pair old_pair = noise_pair(64, 48, 4, 3);
@@ -66,6 +68,7 @@ TEST(Renegotiation, FramesOfTheOldAndTheNewSizeAreNotPaired) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
+// Feature: the streams may differ in framerate and other caps
 TEST(Renegotiation, TheFormatMayChangeOnOneSide) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 4);
@@ -77,6 +80,7 @@ TEST(Renegotiation, TheFormatMayChangeOnOneSide) {
   expect_library_map(harness, pair);
 }
 
+// Feature: different sizes are rejected
 TEST(Renegotiation, ReportsASizeThatChangesOnOneSideOnly) {
   StereoHarness harness;
   harness.caps(raw_caps("GRAY8", 64, 48));
@@ -90,6 +94,7 @@ TEST(Renegotiation, ReportsASizeThatChangesOnOneSideOnly) {
   EXPECT_EQ(harness.further_errors(), 0);
 }
 
+// Feature: the size may change while playing
 TEST(Renegotiation, OutputCapsFollowTheScale) {
   StereoHarness harness;
   const Pair pair = noise_pair(64, 48, 4, 6);

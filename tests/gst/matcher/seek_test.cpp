@@ -89,6 +89,7 @@ TEST_P(Seeks, WithoutAFlush) {
   }
 }
 
+// Feature: seeks
 TEST_P(Seeks, ToExactPositions) {
   const int flags = GST_SEEK_FLAG_ACCURATE;
   play({{1, flags, 0}, {1, flags, 7}, {1, flags, 16}, {1, flags, 41}, {1, flags, 52}});
@@ -101,12 +102,14 @@ TEST_P(Seeks, OfSegments) {
   }
 }
 
+// Feature: seeks
 TEST_P(Seeks, AtDoubleRate) {
   for (const int flags : {GST_SEEK_FLAG_ACCURATE, GST_SEEK_FLAG_KEY_UNIT}) {
     play({{2, flags, 0}, {2, flags, 20}, {2, flags, 44}, {0.5, flags, 33}});
   }
 }
 
+// Feature: seeks
 TEST_P(Seeks, Backward) {
   for (const int flags : {0, int{GST_SEEK_FLAG_ACCURATE}, int{GST_SEEK_FLAG_KEY_UNIT}}) {
     play({{-1, flags, 0, kLeftFrames}, {-1, flags, 0}, {-1, flags, 0, 50}, {-2, flags, 0, 33}});

@@ -27,6 +27,7 @@ class Stream : public StreamsTest {
   }
 };
 
+// Feature: the end of one stream ends the output
 TEST_F(Stream, EndsAfterTheRightStream) {
   harness->push_pair(pair, 0);
   harness->end(Side::kRight);
@@ -37,6 +38,7 @@ TEST_F(Stream, EndsAfterTheRightStream) {
   EXPECT_EQ(left(2 * kFrame), GST_FLOW_EOS) << "the source of the other stream must stop";
 }
 
+// Feature: the end of one stream ends the output
 TEST_F(Stream, EndsAfterTheLeftStream) {
   harness->push_pair(pair, 0);
   right(kFrame);
@@ -46,6 +48,7 @@ TEST_F(Stream, EndsAfterTheLeftStream) {
   EXPECT_EQ(right(2 * kFrame), GST_FLOW_EOS);
 }
 
+// Feature: the end of one stream ends the output
 TEST_F(Stream, MatchesTheWaitingPairBeforeItEnds) {
   left(0);
   harness->end(Side::kLeft);
@@ -87,6 +90,7 @@ TEST_F(Stream, DoesNotWarnIfItEndsAfterAPair) {
   EXPECT_TRUE(harness->warnings().empty());
 }
 
+// Feature: the end of one stream ends the output
 TEST_F(Stream, EndsImmediatelyIfTheOtherStreamIsSilent) {
   ASSERT_TRUE(next());
   harness->end(Side::kLeft);
@@ -126,6 +130,7 @@ TEST_F(Stream, SendsStreamStartCapsAndSegmentBeforeTheFirstMap) {
   }
 }
 
+// Feature: times and segment of the left stream
 TEST_F(Stream, KeepsTheSegmentOfTheLeftStream) {
   GstSegment segment = time_segment();
   segment.start = 3 * GST_SECOND;
@@ -155,6 +160,8 @@ TEST_F(Stream, ReportsASegmentInBytes) {
   EXPECT_EQ(harness->further_errors(), 0);
 }
 
+// Feature: times and segment of the left stream
+// Feature: gaps and flags
 TEST_F(Stream, KeepsTimesFlagsAndOffsetsOfTheLeftFrame) {
   GstBuffer* left = frame_buffer(pair.left, 4 * kFrame, kFrame);
   GST_BUFFER_DTS(left) = 3 * kFrame;
@@ -202,6 +209,7 @@ TEST_F(Stream, WarnsOnceOfEachSideThatADecoderMarksAsDamaged) {
   EXPECT_NE(warnings[1].text.find("discard-corrupted-frames=true"), std::string::npos);
 }
 
+// Feature: metas of the left frame are kept, and own metas can be read without headers
 TEST_F(Stream, CopiesTheMetasOfTheLeftFrameExceptItsLayout) {
   const CapsPointer reference(gst_caps_from_string("timestamp/x-ntp"));
   GstBuffer* left = frame_buffer(pair.left, 0, kFrame, {.padding = 16});
@@ -220,6 +228,7 @@ TEST_F(Stream, CopiesTheMetasOfTheLeftFrameExceptItsLayout) {
   EXPECT_TRUE(video == nullptr || video->format == GST_VIDEO_FORMAT_GRAY16_LE);
 }
 
+// Feature: gaps and flags
 TEST_F(Stream, ForwardsAGapOfTheLeftStream) {
   ASSERT_TRUE(next());
   harness->event(Side::kLeft, gst_event_new_gap(kFrame, 2 * kFrame));
@@ -237,6 +246,7 @@ TEST_F(Stream, ForwardsAGapOfTheLeftStream) {
   EXPECT_TRUE(harness->wait_for_stats(2, 0, 1));
 }
 
+// Feature: times and segment of the left stream
 TEST_F(Stream, SendsTheSegmentBeforeAFirstGap) {
   harness->event(Side::kLeft, gst_event_new_gap(0, kFrame));
   right(0);
@@ -244,6 +254,7 @@ TEST_F(Stream, SendsTheSegmentBeforeAFirstGap) {
   EXPECT_TRUE(harness->pull_event(GST_EVENT_GAP)) << "the gap was sent before the segment";
 }
 
+// Feature: times and segment of the left stream
 TEST_F(Stream, SendsTheSegmentBeforeAGapAfterAFlush) {
   ASSERT_TRUE(next());
   for (const Side side : {Side::kLeft, Side::kRight}) flush(side, 7);
@@ -266,6 +277,7 @@ TEST(StreamStart, IgnoresAGapBeforeTheSegment) {
   EXPECT_TRUE(harness.pull());
 }
 
+// Feature: gaps and flags
 TEST_F(Stream, DropsLeftFramesInAGapOfTheRightStream) {
   ASSERT_TRUE(next());
   harness->event(Side::kRight, gst_event_new_gap(kFrame, kFrame));

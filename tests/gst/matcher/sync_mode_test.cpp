@@ -24,6 +24,7 @@ void expect_all_right(const FeedResult& result, int maps) {
   EXPECT_TRUE(result.warnings.empty()) << summary(result);
 }
 
+// Feature: pairing by other times than running time
 TEST(SyncMode, ArrivalPairsInOrderWhateverTheTimes) {
   const auto left = defective_sequence(60, {}, 1);
   for (const Defects& defects : {Defects{.skew = 25 * kMs}, Defects{.skew = 10'000 * kMs},
@@ -43,6 +44,7 @@ TEST(SyncMode, ArrivalEndsWithTheShorterStream) {
       feed(defective_sequence(60, {}, 1), defective_sequence(40, {}, 1), with_mode("arrival")), 40);
 }
 
+// Feature: pairing by other times than running time
 TEST(SyncMode, FirstPtsRemovesAConstantOffset) {
   const auto left = defective_sequence(100, {}, 1);
   for (const Nanoseconds offset : {10'000 * kMs, -900 * kMs, 25 * kMs, 16 * kMs}) {
@@ -82,6 +84,7 @@ std::vector<NumberedFrame> with_reference(int count, Nanoseconds skew, double lo
   return frames;
 }
 
+// Feature: pairing by other times than running time
 TEST(SyncMode, ReferenceTimestampPairsByTheTimesOfTheMetas) {
   const FeedOptions options = with_mode("reference-timestamp");
   expect_all_right(feed(with_reference(100, 0, 0, 1), with_reference(100, 0, 0, 2), options), 100);
@@ -107,6 +110,7 @@ TEST(SyncMode, ReferenceTimestampNamesThePadWithoutOne) {
 }
 
 // An RTP depayloader puts the rest of a lost picture, with its time, in front of the next one.
+// Feature: truncated frames, and RTP before its first report
 TEST(SyncMode, ReferenceTimestampIsTheLatestOfAFrame) {
   auto lefts = with_reference(60, 0, 0, 1);
   auto rights = with_reference(60, 0, 0, 2);
@@ -144,6 +148,7 @@ TEST(SyncMode, ReferenceTimestampPairsInReverse) {
 }
 
 // RTP streams have no reference time stamps before the first report of their sender.
+// Feature: truncated frames, and RTP before its first report
 TEST(SyncMode, ReferenceTimestampDropsLiveFramesWithoutOneAtTheStart) {
   auto lefts = numbered_sequence(60, kFrame / 2);
   auto rights = lefts;
@@ -162,6 +167,7 @@ TEST(SyncMode, ReferenceTimestampDropsLiveFramesWithoutOneAtTheStart) {
   EXPECT_EQ(result.count.wrong + result.count.unknown, 0) << summary(result);
 }
 
+// Feature: truncated frames, and RTP before its first report
 TEST(SyncMode, ReferenceTimestampNamesTheLivePadWithoutOneForTenSeconds) {
   auto lefts = numbered_sequence(60);
   auto rights = numbered_sequence(60);

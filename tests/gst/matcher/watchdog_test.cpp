@@ -24,6 +24,7 @@ class SilentPad : public StreamsTest {
   }
 };
 
+// Feature: a pad that is not linked or silent is reported
 TEST_F(SilentPad, IsNamedInAWarning) {
   for (const Side waiting : {Side::kLeft, Side::kRight}) {
     start();
@@ -102,6 +103,7 @@ TEST_F(SilentPad, IsNotReportedAfterTheElementWasStopped) {
   EXPECT_TRUE(harness->warnings(0.3).empty());
 }
 
+// Feature: a pad that is not linked or silent is reported
 TEST(UnlinkedPad, IsAnErrorThatNamesThePad) {
   for (const std::string linked : {"sink_left", "sink_right"}) {
     const std::string other = linked == "sink_left" ? "sink_right" : "sink_left";
@@ -124,6 +126,7 @@ TEST(UnlinkedPad, EndsTheOtherStream) {
   EXPECT_NE(ends[1].find("reason error"), std::string::npos) << ends[1] << ", of the source";
 }
 
+// Feature: a pad that is not linked or silent is reported
 TEST(UnlinkedPad, DoesNotBlockTheEndThatIsSentToTheSources) {
   // gst-launch-1.0 -e sends it while the pipeline prerolls. A source takes it between two frames.
   Pipeline pipeline(

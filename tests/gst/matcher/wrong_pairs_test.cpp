@@ -87,6 +87,7 @@ const Case kCases[] = {
 
 class WrongPairs : public testing::TestWithParam<Case> {};
 
+// Feature: pairs by running time, with a tolerance
 TEST_P(WrongPairs, AreNeverMatchedInSilence) {
   const Case& test = GetParam();
   // Without chance one run is enough.
@@ -129,6 +130,7 @@ class WrongTimes : public testing::TestWithParam<Side> {
   }
 };
 
+// Feature: frames without a partner are counted and reported
 TEST_P(WrongTimes, CostOnePair) {
   for (const int seconds : {3600, 3, -3}) {
     for (const std::size_t position : {1u, 20u, 58u}) {
@@ -149,6 +151,7 @@ INSTANTIATE_TEST_SUITE_P(Sides, WrongTimes, testing::Values(Side::kLeft, Side::k
 
 // --- statistics ---
 
+// Feature: statistics
 TEST(DifferenceStatistics, StateJitter) {
   const FeedResult result =
       feed(defective_sequence(300, {}, 1), defective_sequence(300, {.jitter = 5 * kMs}, 2),
@@ -158,6 +161,7 @@ TEST(DifferenceStatistics, StateJitter) {
   EXPECT_NEAR(result.stats.difference_spread_ms, 5 / 1.732, 0.6) << "of a uniform distribution";
 }
 
+// Feature: statistics
 TEST(DifferenceStatistics, StateADrift) {
   const FeedResult result = feed(defective_sequence(200, {}, 1),
                                  defective_sequence(200, {.drift = 0.0005}, 2), with_tolerance(0));

@@ -74,6 +74,7 @@ TEST_F(MtWhole, PassesPicturesThatAnotherOneFollows) {
   EXPECT_EQ(receiver.end(), (std::vector<int>{0, 1, 2, 3}));
 }
 
+// Feature: two videos from another computer
 TEST_F(MtWhole, DropsThePictureUpstreamOfAGap) {
   for (int i = 0; i < 5; ++i) {
     const std::string& picture = pictures[static_cast<std::size_t>(i)];

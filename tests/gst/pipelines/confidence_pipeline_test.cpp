@@ -79,6 +79,7 @@ TEST(MtConfidence, FiltersTheOutputOfMtstereo) {
   }
 }
 
+// Feature: confidence for each pixel
 TEST(MtConfidence, OutputsTheConfidenceOfMtstereo) {
   Pipeline pipeline(launch_with("", "mtconfidence output=confidence"));
   ASSERT_EQ(pipeline.run(), "");

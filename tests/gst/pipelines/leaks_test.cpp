@@ -201,6 +201,7 @@ TEST(Leaks, AreDetectedIfABufferIsNotFreed) {
 
 class NoLeaks : public testing::TestWithParam<const char*> {};
 
+// Feature: leaks, sanitizers, fuzzing
 TEST_P(NoLeaks, InScenario) {
   const Outcome outcome = run_alone(GetParam());
   EXPECT_EQ(outcome.status, 0) << outcome.output;

@@ -26,6 +26,8 @@ void expect_same(const std::vector<Sample>& expected, const std::vector<Sample>&
   }
 }
 
+// Feature: own threads, with the same result for any number
+// Feature: files: complete and reproducible
 TEST(Pipelines, AreDeterministicForAnyNumberOfThreads) {
   const auto expected = play(noise_launch(20, "max-disparity=16 threads=1"));
   EXPECT_EQ(expected.size(), 20u);
@@ -68,6 +70,7 @@ TEST(Pipelines, WarnOfEachRunWithoutAPair) {
   }
 }
 
+// Feature: several elements in one process
 TEST(Pipelines, DoNotAffectEachOtherInOneProcess) {
   const std::string one = noise_launch(15, "max-disparity=16 mode=sparse threads=2", 3);
   const std::string two = noise_launch(15, "max-disparity=32 mode=semi-dense gray-levels=12", 7);
@@ -83,6 +86,7 @@ TEST(Pipelines, DoNotAffectEachOtherInOneProcess) {
   expect_same(two_alone, second.samples(), "second");
 }
 
+// Feature: seeks
 TEST(Pipelines, SupportRepeatedFlushingSeeks) {
   Pipeline pipeline(noise_launch(-1, "max-disparity=16"));
   pipeline.set_state(GST_STATE_PAUSED);
@@ -116,6 +120,7 @@ gint64 duration_of(int left, int right) {
   return duration * 30 / static_cast<gint64>(GST_SECOND);
 }
 
+// Feature: seeks
 TEST(Pipelines, HaveTheDurationOfTheShorterStream) {
   EXPECT_EQ(duration_of(60, 60), 60);
   EXPECT_EQ(duration_of(60, 30), 30);
@@ -203,6 +208,7 @@ TEST(Pipelines, PlayLiveSources) {
   EXPECT_EQ(pipeline.samples().size(), stats.pairs);
 }
 
+// Feature: errors as messages with a remedy, no output on stdout
 TEST(Pipelines, PostTheErrorOfTheElementFirst) {
   Pipeline pipeline(
       "mtstereo name=m max-disparity=16 ! fakesink "
@@ -223,6 +229,7 @@ TEST(Pipelines, ReportInterlacedVideo) {
   EXPECT_NE(error.find("deinterlace"), std::string::npos) << error;
 }
 
+// Feature: interlaced video is rejected with a remedy
 TEST(Pipelines, AcceptDeinterlacedVideo) {
   Pipeline pipeline(
       "mtstereo name=m max-disparity=16 ! appsink name=out wait-on-eos=false sync=false "
@@ -233,6 +240,7 @@ TEST(Pipelines, AcceptDeinterlacedVideo) {
   EXPECT_FALSE(pipeline.samples().empty());
 }
 
+// Feature: a part of the image only
 TEST(Pipelines, SupportSideBySideVideoByVideocrop) {
   Pipeline pipeline(
       "videotestsrc num-buffers=5 pattern=ball ! video/x-raw,format=GRAY8,width=256,height=96 ! "
@@ -243,6 +251,7 @@ TEST(Pipelines, SupportSideBySideVideoByVideocrop) {
   EXPECT_EQ(pipeline.samples().size(), 5u);
 }
 
+// Feature: idle if nobody consumes
 TEST(Pipelines, StopBeforeTheEnd) {
   for (int i = 0; i < 10; ++i) {
     Pipeline pipeline(noise_launch(10000, "max-disparity=16"));

@@ -95,6 +95,7 @@ class RefusedCaps : public testing::TestWithParam<Target> {
   CalibrationFolder folder_;
 };
 
+// Feature: errors as messages with a remedy, no output on stdout
 TEST_P(RefusedCaps, NameTheFormat) {
   const std::string other = GetParam().valid == kGray ? "RGB8P" : "I420";
   expect_error("video/x-raw,format=" + other + ",width=64,height=48",

@@ -53,6 +53,7 @@ class ConfidenceMeta : public testing::Test {
   BufferPointer buffer;
 };
 
+// Feature: metas of the left frame are kept, and own metas can be read without headers
 TEST_F(ConfidenceMeta, IsRegisteredOnceByTheFirstCaller) {
   std::vector<std::thread> threads;
   std::vector<int> results(8, 0);

@@ -34,6 +34,7 @@ class DisparityMeta : public testing::Test {
   BufferPointer map;
 };
 
+// Feature: metric disparity in fixed point
 TEST_F(DisparityMeta, HasTheFieldsOfTheCaps) {
   int scale = 0, most = 0, least = 0, offset = 0;
   EXPECT_TRUE(gst_structure_get(fields(), "disparity-scale", G_TYPE_INT, &scale, "max-disparity",
@@ -81,6 +82,7 @@ TEST_F(DisparityMeta, IsIgnoredIfItIsNotValid) {
   EXPECT_EQ(disparity_unit_of(map.get()), std::nullopt);
 }
 
+// Feature: metric disparity in fixed point
 TEST(DisparityUnits, AreOnEveryMapAndFollowTheProperties) {
   StereoHarness harness("max-disparity=16 confidence-map=false");
   harness.caps(raw_caps("GRAY8", 64, 48));
@@ -178,6 +180,7 @@ std::optional<DisparityUnit> unit_after(const std::string& elements) {
   return unit;
 }
 
+// Feature: metric disparity in fixed point
 TEST(DisparityUnits, SurviveWhereThePixelsDo) {
   ASSERT_TRUE(plugin::register_disparity_meta());
   for (const char* elements :

@@ -122,6 +122,7 @@ struct Bytes {
 
 class StoredLuma : public testing::TestWithParam<Bytes> {};
 
+// Feature: gray and YUV of 10 to 16 bits
 TEST_P(StoredLuma, IsReadByItsHighestBitsAtEverySizeAndStride) {
   const auto [format, first, step] = GetParam();
   for (const auto& [width, height] : {std::pair(64, 48), {61, 47}, {33, 17}, {17, 1}}) {
@@ -170,6 +171,7 @@ bool is_rgb(const std::string& format) {
       gst_video_format_get_info(gst_video_format_from_string(format.c_str())));
 }
 
+// Feature: packed 4:2:2 as webcams send it
 TEST(Luma, OfEveryYuvAndGrayFormatHasTheMapOfGray8) {
   const Pair pair = noise_pair(96, 64, 5, 8);
   for (const std::string& format : readable_formats()) {
@@ -180,6 +182,7 @@ TEST(Luma, OfEveryYuvAndGrayFormatHasTheMapOfGray8) {
   }
 }
 
+// Feature: RGB input
 TEST(Luma, OfGrayInEveryRgbFormatIsNearThatOfGray8) {
   const GrayImage image = noise_pair(64, 48, 3, 1).left;
   int formats = 0;
@@ -201,6 +204,7 @@ TEST(Luma, OfGrayInEveryRgbFormatIsNearThatOfGray8) {
   EXPECT_GT(formats, 20);
 }
 
+// Feature: RGB input
 TEST(Luma, OfRgbHasTheWeightsOfBt601) {
   const std::vector<std::uint8_t> rgb = {200, 0, 0, 0, 0, 200, 0, 0, 0, 0, 200, 0};
   const GstVideoInfo info = info_of("RGBx", 3, 1);
@@ -331,6 +335,7 @@ TEST(InvalidFrame, ThatIsTooSmallIsRefused) {
 
 // --- links ---
 
+// Feature: packed 4:2:2 as webcams send it
 TEST(Link, OfACameraWithYuy2NeedsNoConversion) {
   for (const char* format : {"YUY2", "UYVY", "BGRx", "RGB", "GRAY16_LE", "P010_10LE"}) {
     const std::string source = std::string("videotestsrc num-buffers=2 ! video/x-raw,format=") +

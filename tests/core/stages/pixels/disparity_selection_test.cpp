@@ -200,6 +200,7 @@ TEST(DisparitySelection, SelectsTheSmallestDisparityOfEqualCosts) {
   EXPECT_EQ(20 * 256, OnePixel(costs).select(0.5).disparity);
 }
 
+// Feature: left-right check, uniqueness, confidence threshold
 TEST(DisparitySelection, RejectsADisparityWithACloseRunnerUp) {
   std::vector<int> costs(40, 200);
   costs[20] = 50;
@@ -234,6 +235,7 @@ TEST(DisparitySelection, RejectsPixelsWithoutExpectedDisparities) {
   EXPECT_EQ(0, OnePixel(costs).select(0.12, false, 1, 0).ratio);
 }
 
+// Feature: left-right check, uniqueness, confidence threshold
 TEST(DisparitySelection, RejectsADisparityThatTheRightPixelContradicts) {
   // Right pixel 30 corresponds to left pixel 50 at 20 px and to left pixel 50 + n at 20 + n px.
   std::vector<int> costs(40, 200);
@@ -253,6 +255,7 @@ TEST(DisparitySelection, RejectsADisparityThatTheRightPixelContradicts) {
   }
 }
 
+// Feature: sub-pixel disparities
 TEST(DisparitySelection, RefinesByTwoLinesOfEqualSlopeThroughThreeCosts) {
   for (const auto& [before, after] : {std::pair{150, 150}, {100, 200}, {51, 199}, {200, 50}}) {
     std::vector<int> costs(40, 250);

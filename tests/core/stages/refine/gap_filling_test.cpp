@@ -155,6 +155,7 @@ TEST(GapFilling, FillsTheLongestRowAndColumn) {
   }
 }
 
+// Feature: speckle filter, median, filling of gaps
 TEST(GapFilling, IsLinearBetweenTheEnds) {
   ConfidentMap gap{DisparityPlane(5, 1), GrayPlane(5, 1)};
   gap.map(0, 0) = 100;

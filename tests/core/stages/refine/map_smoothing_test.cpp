@@ -101,6 +101,7 @@ TEST(MapSmoothing, DoesNotMixSurfaces) {
   EXPECT_TRUE(same_image(map, smoothed(map, 5)));
 }
 
+// Feature: speckle filter, median, filling of gaps
 TEST(MapSmoothing, ReducesNoise) {
   const DisparityPlane noise = disparity_noise(90, 70, 0, 200, 1);
   DisparityPlane map = noise;

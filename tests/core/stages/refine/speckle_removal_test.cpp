@@ -199,6 +199,7 @@ TEST(SpeckleRemoval, FollowsAComb) {
   }
 }
 
+// Feature: speckle filter, median, filling of gaps
 TEST(SpeckleRemoval, RemovesComponentsSmallerThanTheSizeOnly) {
   DisparityPlane map(20, 70);
   for (int y = 30; y < 35; ++y) map(7, y) = 1000;

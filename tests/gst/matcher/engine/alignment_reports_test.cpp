@@ -108,6 +108,7 @@ TEST_P(GoodScene, CausesNoWarningIfItIsOutOfLine) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, GoodScene, testing::Values("street", "garden", "room"));
 
+// Feature: exchanged views are detected
 TEST(Warning, NamesSwappedViews) {
   for (const std::string& scene : render::scene_names()) {
     const auto first = clip(scene).begin();
@@ -242,6 +243,7 @@ class RealStreams : public testing::Test {
   fs::path folder_;
 };
 
+// Feature: misaligned rows are detected and corrected
 TEST_F(RealStreams, CauseNoWarningIfTheyAreGood) {
   int number = 0;
   for (const Pair& pair : still_pairs()) {
@@ -250,6 +252,7 @@ TEST_F(RealStreams, CauseNoWarningIfTheyAreGood) {
   expect_none(sequence(), "sequence");
 }
 
+// Feature: exchanged views are detected
 TEST_F(RealStreams, CauseAWarningIfTheViewsAreSwapped) {
   for (const Pair& pair : still_pairs()) {
     expect_only(PairProblem::kSwapped, std::vector<Pair>(4, swapped(pair)));

@@ -49,6 +49,7 @@ bool flag_of(const GstStructure* structure, const char* field) {
   return flag != FALSE;
 }
 
+// Feature: rectification
 TEST(Alignment, CorrectsEvenASinglePair) {
   const std::vector<Pair> one = first(crooked_pairs(), 1);
   const double aligned = density_of(maps_with("alignment=off", first(aligned_pairs(), 1))[0]);
@@ -64,6 +65,7 @@ TEST(Alignment, CorrectsWithPresetFast) {
             1.2 * density_of(maps_with("preset=fast alignment=off", one)[0]));
 }
 
+// Feature: misaligned rows are detected and corrected
 TEST(Alignment, IsReportedByTheStatistics) {
   StereoHarness harness(kRange);
   harness.caps(rendered_caps());

@@ -32,6 +32,8 @@ GstSample* sample_of(GstBuffer* map) {
 
 class ConfidenceSize : public testing::TestWithParam<std::pair<int, int>> {};
 
+// Feature: confidence for each pixel
+// Feature: odd sizes
 TEST_P(ConfidenceSize, EqualsThatOfTheLibrary) {
   const auto [width, height] = GetParam();
   const Pair pair = noise_pair(width, height, 4, 1);
@@ -60,6 +62,7 @@ TEST(Confidence, EqualsThatOfTheLibraryForPaddedFrames) {
   expect_library_confidence(map.get(), pair);
 }
 
+// Feature: 0 marks unknown
 TEST(Confidence, IsZeroExactlyWithoutADisparity) {
   const Pair pair = noise_pair(97, 61, 4, 3);
   StereoHarness harness;

@@ -162,6 +162,7 @@ TEST(ProcessingLatency, OneSlowPairHasALimitedEffect) {
   EXPECT_LT(latency.expected_ms(), 12);
 }
 
+// Feature: latency
 TEST(ProcessingLatency, FollowsALastingChange) {
   ProcessingLatency latency;
   latency.measured(10);

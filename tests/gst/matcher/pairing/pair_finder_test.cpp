@@ -176,6 +176,7 @@ TEST(PairFinder, PairsASkewOfLessThanAFifthOfAFrameWithoutLookingAhead) {
   EXPECT_TRUE(outcome.doubts.empty());
 }
 
+// Feature: pairs by running time, with a tolerance
 TEST(PairFinder, LosesOnlyThePairsOfLostFramesDespiteSkew) {
   for (const Nanoseconds tolerance : {kPeriod / 2, 20 * kMs, 30 * kMs}) {
     for (const Nanoseconds skew : {0 * kMs, 6 * kMs, 10 * kMs, 15 * kMs, -15 * kMs, -7 * kMs}) {
@@ -207,6 +208,7 @@ TEST(PairFinder, PairsJitteryStreamsWithLoss) {
   }
 }
 
+// Feature: pairs by running time, with a tolerance
 TEST(PairFinder, WarnsBeforeTheFirstWrongPairIfTimesCannotTell) {
   for (const Nanoseconds skew : {25 * kMs, 50 * kMs, -20 * kMs, 17 * kMs}) {
     for (const Nanoseconds tolerance : {kPeriod / 2, 20 * kMs}) {
@@ -327,6 +329,7 @@ TEST(PairFinder, PairsTheNearestFramesOfThirtyAndTwentyFivePerSecond) {
   EXPECT_EQ(outcome.pairs, 250);
 }
 
+// Feature: the streams may differ in framerate and other caps
 TEST(PairFinder, MeasuresTheRateIfCapsHaveNone) {
   const Frames left = lossy(steady(300), 0.1, 1);
   const Frames right = lossy(steady(300, 12 * kMs), 0.1, 2);

@@ -27,6 +27,7 @@ class UnreadKinds : public testing::Test {
   const test::TemporaryFolder folder_;
 };
 
+// Feature: recognition of videos, images and data sets
 TEST_F(UnreadKinds, AreNamedWithTheRemedy) {
   EXPECT_THAT(unread_kind(write("a.HEIC")), HasSubstr("convert it to PNG"));
   EXPECT_THAT(unread_kind(write("a.exr")), HasSubstr("the same curve to both views"));

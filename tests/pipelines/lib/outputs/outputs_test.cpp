@@ -167,6 +167,7 @@ TEST_F(Removal, DefectsAreNamed) {
 
 using Lock = Folder;
 
+// Feature: files of the user are kept
 TEST_F(Lock, IsHeldByOneAndNamesItsProcess) {
   const FolderLock lock(folder_ / "new/out");
   const std::string refused = error_of([&] { FolderLock(folder_ / "new/out"); });
@@ -254,6 +255,7 @@ TEST_F(WriteFile, StatesWhyAFileCannotBeWritten) {
 
 using Listed = Folder;
 
+// Feature: files of the user are kept
 TEST_F(Listed, ReplacesOnlyItsOwnFiles) {
   write("left/mine.png", "mine");
   {
@@ -314,6 +316,7 @@ TEST(Printable, EscapesWhatIsNoTextAndDoesItOnce) {
   EXPECT_EQ(printable_lines("two\nlines\x1b"), "two\nlines\\x1b");
 }
 
+// Feature: files of the user are kept
 TEST(Printable, NamesAreRestored) {
   std::string all;
   for (int byte = 1; byte < 256; ++byte) all += static_cast<char>(byte);

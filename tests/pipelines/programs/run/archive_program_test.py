@@ -140,6 +140,7 @@ class Jobs(Archive):
             time.sleep(0.02)
         return messages
 
+    # Feature: archives on a cluster
     def test_killed_parent_ends_its_tasks_and_is_resumed(self):
         self.end_parent(signal.SIGKILL)
         self.check_resumed()

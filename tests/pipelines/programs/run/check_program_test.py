@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: check of a recording, with remedies
 """check_program_test.py PROGRAM RENDERER: mtstereo-run --check on rendered cameras with one fault each, on good ones, and
 on inputs that cannot be checked. diagnosis_test.cpp has all arrangements that are recognized, and findings_test.cpp all
 findings with their limits."""

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
+# Feature: files of the user are kept
 """No run of mtstereo-run changes or removes an input or a foreign file.
 
 Random combinations of commands, options, places of the inputs, foreign files that have the names of

@@ -37,6 +37,7 @@ class Program(ProgramCase):
         self.assertIn("other options", other.stderr)
         self.assertEqual((self.whole / "disparity.mkv").stat().st_mtime_ns, before)
 
+    # Feature: interruptions and damaged files
     def test_continues_after_a_kill(self):
         process = self.start_and_send(signal.SIGKILL, [])
         self.assertEqual(process.returncode, -signal.SIGKILL)
@@ -55,6 +56,7 @@ class Program(ProgramCase):
         self.assertEqual(run(*self.command("--resume")).returncode, 0)
         self.assert_as_whole()
 
+    # Feature: interruptions and damaged files
     def test_names_broken_inputs_and_does_the_rest(self):
         archive = self.folder / "archive"
         for name in ("good", "bad"):

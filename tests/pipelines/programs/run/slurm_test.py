@@ -60,6 +60,7 @@ class Tasks(unittest.TestCase):
             time.sleep(0.001)
         raise AssertionError("no task runs\n" + self.logs())
 
+    # Feature: archives on a cluster
     def test_a_task_that_is_killed_is_done_again(self):
         array = self.submit("task", "--array=0-4")
         merge = self.submit("merge", f"--dependency=afterany:{array}")

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Feature: check of a recording, with remedies
 // What the figures of a check mean. check_program_test.py has whole recordings.
 #include "recordings/checks/findings.hpp"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Feature: two recorders that were started apart
 #include "recordings/clocks/frame_pairs.hpp"
 
 #include <gtest/gtest.h>

@@ -124,6 +124,7 @@ TEST_F(DataSets, KittiRaw) {
   }
 }
 
+// Feature: recognition of videos, images and data sets
 TEST_F(DataSets, Euroc) {
   const std::string base = "MH_01/mav0/";
   write_images(base + "cam0/data", {"1403636579763555584.png", "1403636579813555456.png"},

@@ -285,6 +285,7 @@ TEST_F(Recordings, NamesTheArrangementThatMatchesAgainstTheShape) {
   }
 }
 
+// Feature: recognition of videos, images and data sets
 TEST_F(Recordings, GuessesTheArrangementOfVideos) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   cv::imwrite((folder_ / "both.png").string(), both(false, false));
@@ -367,6 +368,7 @@ TEST_F(Recordings, RefusesFolderWithSeveralRecordings) {
   EXPECT_THAT(error_of({""}), HasSubstr("2 recordings, such as a and b"));
 }
 
+// Feature: recognition of videos, images and data sets
 TEST_F(Recordings, FindsAllOfAnArchive) {
   write_images("one/left", {"1.png"});
   write_images("one/right", {"1.png"}, true);

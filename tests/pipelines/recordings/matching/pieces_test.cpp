@@ -72,6 +72,7 @@ std::string pixels_of(const DecodedFrame& frame) {
   return bytes;
 }
 
+// Feature: long recordings in pieces
 TEST_P(Pieces, FramesAreThoseOfTheirNumbers) {
   const fs::path left = video_of(View::kLeft);
   const FrameIndex index = index_frames({left, {}, {}}, 0);
@@ -92,6 +93,7 @@ TEST_P(Pieces, FramesAreThoseOfTheirNumbers) {
   }
 }
 
+// Feature: long recordings in pieces
 TEST_P(Pieces, JoinedAreEqualToTheWhole) {
   WorkOptions options;
   if (GetParam().all_products) {

@@ -120,6 +120,7 @@ TEST_F(Preparation, TakesTheSearchRangeOfTheDataSet) {
   EXPECT_EQ(value_of(prepared(), "max-disparity"), "16");
 }
 
+// Feature: recognition of videos, images and data sets
 TEST_F(Preparation, FindsTheSearchRange) {
   write(12, 0);  // disparities of 6 and 11 px
   for (const char* const value : {"auto", "0"}) {

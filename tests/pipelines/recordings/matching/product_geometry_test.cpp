@@ -22,6 +22,7 @@ using testing::whole;
 using testing::work_of;
 using testing::write_view;
 
+// Feature: results that other programs read
 TEST_F(Products, CloudsAreThoseOfTheElement) {
   const fs::path results = make({Product::kCloud}, MapFormat::kMatroska);
   const fs::path clouds = file("clouds");

@@ -40,6 +40,7 @@ TEST_F(Products, VideosAreReadByGStreamer) {
   EXPECT_EQ(by_gstreamer(results / "color.mkv", "BGR"), joined(expected(kColor)));
 }
 
+// Feature: results that other programs read
 TEST_F(Products, VideosAreReadByFfmpeg) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   const fs::path results = make(kMaps, MapFormat::kMatroska);
@@ -59,6 +60,7 @@ TEST_F(Products, VideosAreReadByFfmpeg) {
   }
 }
 
+// Feature: results that other programs read
 TEST_F(Products, VideosStateWhatWasUsed) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   WorkOptions options;
@@ -83,6 +85,7 @@ TEST_F(Products, VideosStateWhatWasUsed) {
   }
 }
 
+// Feature: results that other programs read
 TEST_F(Products, ImagesAreReadByOpenCv) {
   const fs::path results = make(kMaps, MapFormat::kPng);
   const std::vector<std::pair<std::string, std::string>> kinds{{"disparity", "identity"},
@@ -102,6 +105,7 @@ TEST_F(Products, ImagesAreReadByOpenCv) {
   }
 }
 
+// Feature: results that other programs read
 TEST_F(Products, FloatingPointMapsAreInPixelsAndMeters) {
   const fs::path results = make({Product::kDisparity, Product::kDepth}, MapFormat::kPfm);
   const std::vector<std::string>& maps = expected("identity");

@@ -101,6 +101,7 @@ class Interrupted : public ::testing::TestWithParam<MapFormat> {
   static inline std::unique_ptr<TemporaryFolder> shared_;
 };
 
+// Feature: interruptions and damaged files
 TEST_P(Interrupted, ContinuesWhereItWas) {
   EXPECT_EQ(run(7, Existing::kReplace).size(), 7u);
   expect_no_results();
@@ -162,6 +163,7 @@ TEST_P(Interrupted, WhileItsFilesArePublishedIsFinished) {
   expect_whole();
 }
 
+// Feature: files of the user are kept
 TEST_P(Interrupted, RemovesNoForeignFile) {
   const fs::path piece = folder_ / "piece", unfinished = piece / "unfinished";
   run(7, Existing::kReplace);
@@ -235,6 +237,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, Interrupted,
 
 class Truncated : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
 
+// Feature: interruptions and damaged files
 TEST_P(Truncated, GivesWhatCanBeRead) {
   const auto& [extension, muxer] = GetParam();
   const TemporaryFolder folder;

@@ -50,6 +50,7 @@ class Merge : public ::testing::Test {
   std::atomic<int> joins_{0};
 };
 
+// Feature: archives on a cluster
 TEST_F(Merge, GivesTheBytesOfAnUncutRun) {
   do_tasks({0, 1, 2, 3, 4});
   const MergeResult result = merge_all();

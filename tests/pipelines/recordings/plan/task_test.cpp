@@ -209,6 +209,7 @@ TEST_F(Tasks, WithoutTheirWorkAreReported) {
   EXPECT_THAT(error_of(0), HasSubstr(files_.work("a").string()));
 }
 
+// Feature: archives on a cluster
 TEST_F(Tasks, MayBeDoneBySeveralProcessesAtTheSameTime) {
   std::atomic<int> waiting{0};
   options_.functions.process = [&](const Work& work, Range range, const fs::path& folder,

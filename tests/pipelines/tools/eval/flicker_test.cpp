@@ -23,6 +23,7 @@ TEST(Flicker, CountsPixelsThatComeAndGo) {
   EXPECT_EQ(flicker.spread, 0);
 }
 
+// Feature: filter of disparities over time
 TEST(Flicker, SpreadIsThatOfPixelsInAllMaps) {
   const Flicker flicker = measure_flicker({row({5, 10, 1}), row({7, 10, kNaN}), row({9, 10, 100})});
   EXPECT_NEAR(flicker.spread, std::sqrt(8.0 / 3) / 2, 1e-6);
