@@ -178,7 +178,7 @@ fi
 if [ "${CI:-}" = true ] && build build-aarch64 all --cross-file tests/cross/aarch64.txt \
   -Dbuildtype=release -Dgst=disabled -Dtools=disabled; then
   # What depends on the processor: kernels, types and results. Allocations and pages do not.
-  run_tests build-aarch64 --no-rebuild -t 10 core core-second core-threads
+  run_tests build-aarch64 --no-rebuild -t 10 core core-second core-threads step-instructions
 fi
 
 summary
