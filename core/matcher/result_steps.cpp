@@ -17,8 +17,9 @@ void ResultBuffers::resize(const Settings& settings, const FrameSize& size, Reus
   if (!settings.by_paths()) return;
   const auto [width, height] = size.matched;
   const ImageSize aligned = settings.keeps_all() ? size.frame : size.matched;
-  reused.start_group();  // the alignment of edges only
+  reused.start_group();  // the alignment of edges, and the planes before it
   edges.resize(aligned.width, aligned.height, &reused);
+  if (settings.mode == Mode::kFull) replaced.resize(width, height, &reused);
   rating.resize(width, height, size.threads, reused);
   scratch.resize(size.threads);
   for (Scratch& worker : scratch) worker.edges.resize(aligned.width);
@@ -62,15 +63,15 @@ void complete_map(const StepContext& step, ResultMaps& result) { complete_all(st
 namespace {
 
 void find_edges(const Bands& bands, GrayView left_view, const ResultMaps& result,
-                ResultBuffers& buffers) {
+                const Image<std::uint8_t>* changed, ResultBuffers& buffers) {
   bands.rows([&](int y0, int y1, int) {
-    find_jumps(left_view, *result.disparity, y0, y1, buffers.edges);
+    find_jumps(left_view, *result.disparity, changed, y0, y1, buffers.edges);
   });
 }
 
 void align_edges_of(const Bands& bands, GrayView left_view, ResultMaps& result,
-                    ResultBuffers& buffers) {
-  find_edges(bands, left_view, result, buffers);
+                    const Image<std::uint8_t>* changed, ResultBuffers& buffers) {
+  find_edges(bands, left_view, result, changed, buffers);
   bands.rows([&](int y0, int y1, int worker) {
     align_edges(buffers.edges, y0, y1, buffers.scratch[worker].edges, *result.disparity,
                 *result.confidence);
@@ -81,7 +82,7 @@ void align_edges_of(const Bands& bands, GrayView left_view, ResultMaps& result,
 
 void doubt_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
                      ResultBuffers& buffers) {
-  find_edges(step.bands, views.plain[0], result, buffers);
+  find_edges(step.bands, views.plain[0], result, nullptr, buffers);
   step.bands.rows([&](int y0, int y1, int worker) {
     doubt_edges(buffers.edges, y0, y1, buffers.scratch[worker].edges, *result.confidence);
   });
@@ -89,12 +90,17 @@ void doubt_map_edges(const StepContext& step, const Views& views, ResultMaps& re
 
 void align_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
                      ResultBuffers& buffers) {
-  align_edges_of(step.bands, views.plain[0], result, buffers);
+  align_edges_of(step.bands, views.plain[0], result, nullptr, buffers);
+}
+
+void align_plane_edges(const StepContext& step, const Views& views, ResultMaps& result,
+                       ResultBuffers& buffers) {
+  align_edges_of(step.bands, views.plain[0], result, &buffers.replaced, buffers);
 }
 
 void align_enlarged_edges(const StepContext& step, const Views& views, ResultMaps& result,
                           ResultBuffers& buffers) {
-  align_edges_of(step.input_bands, views.input[0], result, buffers);
+  align_edges_of(step.input_bands, views.input[0], result, nullptr, buffers);
 }
 
 RatedViews rated_views(const Views& views, const Pyramid& pyramid, const ResultMaps& result) {
@@ -140,10 +146,10 @@ void fit_flat_areas(const StepContext& step, const Views& views, const Pyramid& 
   });
 }
 
-void complete_flat_areas(const StepContext& step, ResultMaps& result,
-                         const ResultBuffers& buffers) {
+void complete_flat_areas(const StepContext& step, ResultMaps& result, ResultBuffers& buffers) {
   step.bands.rows([&](int y0, int y1, int) {
-    complete_planes(buffers.areas, buffers.planes, y0, y1, *result.confidence, *result.disparity);
+    complete_planes(buffers.areas, buffers.planes, y0, y1, *result.confidence, *result.disparity,
+                    buffers.replaced);
   });
 }
 

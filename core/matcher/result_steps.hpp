@@ -23,6 +23,7 @@ namespace mtstereo {
 
 struct ResultBuffers {
   EdgeMap edges;
+  Image<std::uint8_t> replaced;  ///< the pixels that have a plane, until their edges are aligned
   Rating rating;
   FlatAreas areas;
   Buffer<FlatPlane> planes;  ///< of the areas
@@ -69,6 +70,10 @@ void doubt_map_edges(const StepContext& step, const Views& views, ResultMaps& re
 void align_map_edges(const StepContext& step, const Views& views, ResultMaps& result,
                      ResultBuffers& buffers);
 
+/// The same of the jumps that complete_flat_areas() has made.
+void align_plane_edges(const StepContext& step, const Views& views, ResultMaps& result,
+                       ResultBuffers& buffers);
+
 /// The same of the map that is enlarged to the size of the input views.
 void align_enlarged_edges(const StepContext& step, const Views& views, ResultMaps& result,
                           ResultBuffers& buffers);
@@ -88,7 +93,7 @@ void fit_flat_areas(const StepContext& step, const Views& views, const Pyramid& 
                     const ResultMaps& result, ResultBuffers& buffers);
 
 /// Gives the doubted pixels of flat areas their planes.
-void complete_flat_areas(const StepContext& step, ResultMaps& result, const ResultBuffers& buffers);
+void complete_flat_areas(const StepContext& step, ResultMaps& result, ResultBuffers& buffers);
 
 /// Raises the confidence of what agrees with the planes of flat areas, and lowers that of what
 /// contradicts them.

@@ -82,7 +82,7 @@ constexpr Step kResultList[] = {
     {"flat-planes",        [](S s) { return s.infers() || s.checks_planes(); }, on<fit_flat_areas>},
     {"plane-check",        [](S s) { return s.checks_planes(); },    on<check_flat_areas>},
     {"plane-completion",   [](S s) { return s.mode == Mode::kFull; }, on<complete_flat_areas>},
-    {"plane-edges",        [](S s) { return s.mode == Mode::kFull && !s.half(); }, on<align_map_edges>},
+    {"plane-edges",        [](S s) { return s.mode == Mode::kFull && !s.half(); }, on<align_plane_edges>},
     {"camera-motion",      [](S s) { return s.follows(); },          on<find_camera_motion>},
     {"holding",            [](S s) { return s.holds(); },            on<hold_known>},
     {"rejection",          [](S s) { return s.rejects_unlikely(); }, on<reject_unlikely>},

@@ -174,33 +174,46 @@ struct Jumps {
   std::uint64_t right = 0;  ///< to the next column
 };
 
+/// The bits of kWord marks.
+HWY_INLINE std::uint64_t marked_bits(const std::uint8_t* marks) {
+  const hn::CappedTag<std::uint8_t, 32> d8;
+  std::uint64_t bits = 0;
+  for (int i = 0; i < kWord; i += static_cast<int>(hn::Lanes(d8))) {
+    bits |= bits_of(d8, hn::Ne(hn::LoadU(d8, marks + i), hn::Zero(d8))) << i;
+  }
+  return bits;
+}
+
 /// The jumps of the columns from x0 on. The padding of the rows may hold some, too.
-HWY_INLINE Jumps find_word_jumps(const std::int32_t* row, const std::int32_t* next, int x0,
-                                 int width) {
+HWY_INLINE Jumps find_word_jumps(const JumpRows& rows, int x0, int width) {
   const hn::CappedTag<std::int32_t, kAlignment / sizeof(std::int32_t)> d32;
   const auto jump = hn::Set(d32, kJump);
   Jumps jumps;
   const int columns = std::min(width - x0, kWord);
   for (int i = 0; i < columns; i += static_cast<int>(hn::Lanes(d32))) {
-    const auto own = hn::LoadU(d32, row + x0 + i);
-    const auto down = hn::Abs(hn::Sub(own, hn::LoadU(d32, next + x0 + i)));
-    const auto right = hn::Abs(hn::Sub(own, hn::LoadU(d32, row + x0 + i + 1)));
+    const auto own = hn::LoadU(d32, rows.map + x0 + i);
+    const auto down = hn::Abs(hn::Sub(own, hn::LoadU(d32, rows.next + x0 + i)));
+    const auto right = hn::Abs(hn::Sub(own, hn::LoadU(d32, rows.map + x0 + i + 1)));
     jumps.any |= bits_of(d32, hn::Gt(down, jump)) << i;
     jumps.right |= bits_of(d32, hn::Gt(right, jump)) << i;
+  }
+  if (rows.changed != nullptr) {
+    const std::uint64_t own = marked_bits(rows.changed + x0);
+    jumps.any &= own | marked_bits(rows.next_changed + x0);
+    jumps.right &= own | marked_bits(rows.changed + x0 + 1);
   }
   jumps.right &= first_bits(width - x0 - 1);
   jumps.any = (jumps.any & first_bits(columns)) | jumps.right;
   return jumps;
 }
 
-/// Marks the columns within kEdgeReach of a jump. `next` is the next row, or the row itself.
-/// Accesses the padding of the rows.
-void mark_row(const std::int32_t* row, const std::int32_t* next, int width, std::uint8_t* near) {
+/// Marks the columns within kEdgeReach of a jump. Accesses the padding of the rows.
+void mark_row(const JumpRows& rows, int width, std::uint8_t* near) {
   const hn::CappedTag<std::uint8_t, kAlignment> d8;
   const auto one = hn::Set(d8, 1);
-  Jumps before, here = find_word_jumps(row, next, 0, width), after;
+  Jumps before, here = find_word_jumps(rows, 0, width), after;
   for (int x0 = 0; x0 < width; x0 += kWord, before = here, here = after) {
-    after = x0 + kWord < width ? find_word_jumps(row, next, x0 + kWord, width) : Jumps();
+    after = x0 + kWord < width ? find_word_jumps(rows, x0 + kWord, width) : Jumps();
     // A jump to the next column has a pixel on each side.
     std::uint64_t marked =
         here.any | here.right << (kEdgeReach + 1) | before.right >> (kWord - kEdgeReach - 1);
@@ -272,8 +285,8 @@ void EdgeMap::resize(int width, int height, ReusedMemory* reused) {
 
 void EdgeScratch::resize(int width) { near.resize(width); }
 
-void find_jumps(GrayView left_view, const Image<std::int32_t>& map, int y0, int y1,
-                EdgeMap& edges) {
+void find_jumps(GrayView left_view, const Image<std::int32_t>& map,
+                const Image<std::uint8_t>* changed, int y0, int y1, EdgeMap& edges) {
   const int width = map.width();
   for (int y = y0; y < y1; ++y) {
     const std::int32_t* row = map.row(y);
@@ -284,8 +297,10 @@ void find_jumps(GrayView left_view, const Image<std::int32_t>& map, int y0, int 
     repeat_ends(disparity, width);
     std::memcpy(edges.gray.row(y) + kEdgeRadius, left_view.row(y), width);
     repeat_ends(edges.gray.row(y), width);
-    const std::int32_t* next = map.row(std::min(y + 1, map.height() - 1));
-    HWY_DYNAMIC_DISPATCH(mark_row)(row, next, width, edges.near.row(y));
+    const int next = std::min(y + 1, map.height() - 1);
+    const auto changed_row = [&](int i) { return changed == nullptr ? nullptr : changed->row(i); };
+    HWY_DYNAMIC_DISPATCH(mark_row)
+    ({row, map.row(next), changed_row(y), changed_row(next)}, width, edges.near.row(y));
   }
 }
 

@@ -41,8 +41,10 @@ struct EdgeMap {
   void resize(int width, int height, ReusedMemory* reused = nullptr);
 };
 
-/// Writes the rows y0 .. y1 - 1 of `edges`. A jump between two rows belongs to the upper one.
-void find_jumps(GrayView left_view, const Image<std::int32_t>& map, int y0, int y1, EdgeMap& edges);
+/// Writes the rows y0 .. y1 - 1 of `edges`. A jump between two rows belongs to the upper one. If
+/// `changed` is not nullptr, only jumps count that have a pixel on one side that it marks.
+void find_jumps(GrayView left_view, const Image<std::int32_t>& map,
+                const Image<std::uint8_t>* changed, int y0, int y1, EdgeMap& edges);
 
 /// Scratch memory of one thread.
 struct EdgeScratch {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-/// The window of edge_alignment.hpp, in the form that the kernels of all SIMD targets share.
+/// The inputs of edge_alignment.hpp, in the form that the kernels of all SIMD targets share.
 
 namespace mtstereo {
 
@@ -18,6 +18,15 @@ struct EdgeWindow {
   const std::int16_t* disparity[kEdgeSide];
   const std::uint8_t* gray[kEdgeSide];
   const std::uint8_t* middle;  ///< the gray values of the window's middle row
+};
+
+/// A row of the map and the next one, or the row itself; and which of their pixels changed, nullptr
+/// if that does not matter.
+struct JumpRows {
+  const std::int32_t* map;
+  const std::int32_t* next;
+  const std::uint8_t* changed;
+  const std::uint8_t* next_changed;
 };
 
 }  // namespace mtstereo

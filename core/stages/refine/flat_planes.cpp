@@ -211,11 +211,14 @@ void fit_planes(const FlatAreas& areas, int first, int last, const Image<std::in
 }
 
 void complete_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int y0, int y1,
-                     const Image<std::uint8_t>& confidence, Image<std::int32_t>& map) {
+                     const Image<std::uint8_t>& confidence, Image<std::int32_t>& map,
+                     Image<std::uint8_t>& replaced) {
   for (int y = y0; y < y1; ++y) {
+    std::fill_n(replaced.row(y), map.width(), std::uint8_t{0});
     for_each_plane(areas, planes, y, map.width(), [&](int x, float disparity) {
       if (confidence.row(y)[x] >= kDoubted) return;
       map.row(y)[x] = std::max(1, static_cast<int>(std::lround(disparity * kOne)));
+      replaced.row(y)[x] = 1;
     });
   }
 }

@@ -88,9 +88,11 @@ void fit_planes(const FlatAreas& areas, int first, int last, const Image<std::in
                 const Image<std::uint8_t>& confidence, PlaneVotes& votes,
                 Buffer<FlatPlane>& planes);
 
-/// Replaces the doubted disparities in the rows y0 .. y1 - 1 of the areas whose plane is accepted.
+/// Replaces the doubted disparities in the rows y0 .. y1 - 1 of the areas whose plane is accepted,
+/// and marks them by 1 in `replaced`, all others by 0.
 void complete_planes(const FlatAreas& areas, const Buffer<FlatPlane>& planes, int y0, int y1,
-                     const Image<std::uint8_t>& confidence, Image<std::int32_t>& map);
+                     const Image<std::uint8_t>& confidence, Image<std::int32_t>& map,
+                     Image<std::uint8_t>& replaced);
 
 /// What the confidence of a disparity gains by agreeing with the plane of its area, in views of
 /// this noise level and BlockGrid::level().

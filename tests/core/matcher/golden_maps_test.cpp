@@ -47,7 +47,7 @@ constexpr Golden kGolden[] = {
     {"default", "sparse", 0x9456c2b678b307bc},
     {"default", "semi-dense", 0x25723ae7a1951fbd},
     {"default", "dense", 0x0fb60b1d6dbd018a},
-    {"default", "full", 0x963925259350450e},
+    {"default", "full", 0x30190078b9bd68e2},
     {"fast", "sparse", 0x3dd16088a38fc346},
     {"fast", "semi-dense", 0x2c7146c1601efaf5},
     {"fast", "dense", 0x10a1eb364c4de99c},

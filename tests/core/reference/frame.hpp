@@ -75,6 +75,7 @@ struct Frame {
   GrayPlane ratio;
   GrayPlane area;  ///< weights of the areas
   GrayPlane confidence;
+  GrayPlane replaced;                    ///< by the planes of flat areas
   PastViews past;                        ///< with empty views: the pair is the first one
   DisparityPlane last;                   ///< the last map, empty for the first pair
   DisparityPlane kept;                   ///< this map, to be the last one of the next pair
@@ -347,7 +348,12 @@ inline void correct_strip(Frame& f) {
 }
 
 inline void complete_flat_areas(Frame& f) {
-  take(f, complete_flat_areas(f.plain[0], f.rated_noise, ConfidentMap{f.map, f.confidence}));
+  take(f, complete_flat_areas(f.plain[0], f.rated_noise, ConfidentMap{f.map, f.confidence},
+                              f.replaced));
+}
+
+inline void align_plane_edges(Frame& f) {
+  take(f, align_edges(f.plain[0], ConfidentMap{f.map, f.confidence}, &f.replaced));
 }
 
 inline void check_flat_areas(Frame& f) {
@@ -455,7 +461,7 @@ inline constexpr std::pair<std::string_view, void (*)(Frame&)> kScalarSteps[] = 
     {"flat-planes", nothing},
     {"plane-check", check_flat_areas},
     {"plane-completion", complete_flat_areas},
-    {"plane-edges", align_edges},
+    {"plane-edges", align_plane_edges},
     {"holding", hold_known},
     {"rejection", reject_unlikely},
     {"gap-closing", close_gaps},

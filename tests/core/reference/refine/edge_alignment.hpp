@@ -8,12 +8,18 @@
 namespace mtstereo::reference {
 
 /// Whether a jump of more than 2 px is at most 3 columns and rows away. A jump to the next row
-/// belongs to the upper row, and one to the next column to both columns.
-inline bool near_jump(const DisparityPlane& map, int x, int y) {
+/// belongs to the upper row, and one to the next column to both columns. With `changed`, one of the
+/// jump's pixels has a mark.
+inline bool near_jump(const DisparityPlane& map, const GrayPlane* changed, int x, int y) {
+  const auto counts = [&](int u, int v, int other_u, int other_v) {
+    return changed == nullptr || (*changed)(u, v) != 0 || changed->clamped(other_u, other_v) != 0;
+  };
   for (int v = std::max(y - 3, 0); v <= std::min(y + 3, map.height - 1); ++v) {
     for (int u = std::max(x - 4, 0); u <= std::min(x + 3, map.width - 1); ++u) {
-      const bool right = std::abs(map(u, v) - map.clamped(u + 1, v)) > 512;
-      const bool down = u >= x - 3 && std::abs(map(u, v) - map.clamped(u, v + 1)) > 512;
+      const bool right =
+          std::abs(map(u, v) - map.clamped(u + 1, v)) > 512 && counts(u, v, u + 1, v);
+      const bool down =
+          u >= x - 3 && std::abs(map(u, v) - map.clamped(u, v + 1)) > 512 && counts(u, v, u, v + 1);
       if (right || down) return true;
     }
   }
@@ -40,11 +46,12 @@ inline int weighted_median(const GrayPlane& gray, const DisparityPlane& map, int
   return 0;
 }
 
-inline ConfidentMap align_edges(const GrayPlane& gray, const ConfidentMap& in) {
+inline ConfidentMap align_edges(const GrayPlane& gray, const ConfidentMap& in,
+                                const GrayPlane* changed = nullptr) {
   ConfidentMap out = in;
   for (int y = 0; y < in.map.height; ++y) {
     for (int x = 0; x < in.map.width; ++x) {
-      if (!near_jump(in.map, x, y)) continue;
+      if (!near_jump(in.map, changed, x, y)) continue;
       const int median = weighted_median(gray, in.map, x, y);
       if (std::abs(median - in.map(x, y) / 16) < 8) continue;
       out.map(x, y) = std::max(16 * median, 1);

@@ -215,13 +215,16 @@ void for_each_flat_pixel(const GrayPlane& left, int scale, float noise, const Co
   }
 }
 
-/// Gives the doubted pixels of the left view's flat areas the planes of the believed ones.
-inline ConfidentMap complete_flat_areas(const GrayPlane& left, float noise,
-                                        const ConfidentMap& in) {
+/// Gives the doubted pixels of the left view's flat areas the planes of the believed ones, and
+/// marks them in `replaced`.
+inline ConfidentMap complete_flat_areas(const GrayPlane& left, float noise, const ConfidentMap& in,
+                                        GrayPlane& replaced) {
   ConfidentMap out = in;
+  replaced = GrayPlane(in.map.width, in.map.height);
   for_each_flat_pixel(left, 2, noise, in, [&](int x, int y, float disparity) {
     if (in.confidence(x, y) >= 100) return;
     out.map(x, y) = std::max(1, static_cast<int>(std::lround(disparity * 256)));
+    replaced(x, y) = 1;
   });
   return out;
 }

@@ -16,7 +16,8 @@ using reference::ConfidentMap;
 
 constexpr int kAllRows = 1 << 20;
 
-EdgeMap jumps_of(const GrayPlane& gray, const Image<std::int32_t>& map, int band) {
+EdgeMap jumps_of(const GrayPlane& gray, const Image<std::int32_t>& map,
+                 const Image<std::uint8_t>* changed, int band) {
   const int width = map.width(), height = map.height();
   EdgeMap edges;
   edges.resize(width, height);
@@ -27,15 +28,16 @@ EdgeMap jumps_of(const GrayPlane& gray, const Image<std::int32_t>& map, int band
   test::poison(edges.gray);
   test::poison(edges.near);
   for (int y = 0; y < height; y += band) {
-    find_jumps(gray.view(), map, y, std::min(y + band, height), edges);
+    find_jumps(gray.view(), map, changed, y, std::min(y + band, height), edges);
   }
   return edges;
 }
 
-ConfidentMap aligned(const GrayPlane& gray, const ConfidentMap& in, int band = kAllRows) {
+ConfidentMap aligned(const GrayPlane& gray, const ConfidentMap& in, int band = kAllRows,
+                     const Image<std::uint8_t>* changed = nullptr) {
   Image<std::int32_t> map = image_of(in.map);
   Image<std::uint8_t> confidence = image_of(in.confidence);
-  const EdgeMap edges = jumps_of(gray, map, band);
+  const EdgeMap edges = jumps_of(gray, map, changed, band);
   EdgeScratch scratch;
   scratch.resize(map.width());
   for (int y = 0; y < map.height(); y += band) {
@@ -46,7 +48,7 @@ ConfidentMap aligned(const GrayPlane& gray, const ConfidentMap& in, int band = k
 
 GrayPlane doubted(const GrayPlane& gray, const ConfidentMap& in, int band = kAllRows) {
   Image<std::uint8_t> confidence = image_of(in.confidence);
-  const EdgeMap edges = jumps_of(gray, image_of(in.map), band);
+  const EdgeMap edges = jumps_of(gray, image_of(in.map), nullptr, band);
   EdgeScratch scratch;
   scratch.resize(confidence.width());
   for (int y = 0; y < confidence.height(); y += band) {
@@ -71,6 +73,17 @@ DisparityPlane whole_map(int width, int height, std::uint64_t seed) {
   return map;
 }
 
+/// The marks, with padding that marks as well.
+Image<std::uint8_t> marks_of(const GrayPlane& marked) {
+  Image<std::uint8_t> marks;
+  marks.resize(marked.width, marked.height);
+  test::poison(marks);
+  for (int y = 0; y < marked.height; ++y) {
+    for (int x = 0; x < marked.width; ++x) marks.row(y)[x] = marked(x, y);
+  }
+  return marks;
+}
+
 void expect_reference(int width, int height, const DisparityPlane& map) {
   Random random(width);
   const GrayPlane gray = random_gray(width, height, random);
@@ -83,6 +96,14 @@ void expect_reference(int width, int height, const DisparityPlane& map) {
     EXPECT_TRUE(same_image(expected.map, actual.map)) << "bands of " << band << " rows";
     EXPECT_TRUE(same_image(expected.confidence, actual.confidence)) << band;
     EXPECT_TRUE(same_image(expected.confidence, doubted(gray, in, band))) << band;
+  }
+  // Few pixels changed: most jumps do not count.
+  GrayPlane changed(width, height);
+  for (std::uint8_t& mark : changed.pixels) mark = random.below(30) == 0 ? 1 : 0;
+  const Image<std::uint8_t> marks = marks_of(changed);
+  const ConfidentMap of_changed = reference::align_edges(gray, in, &changed);
+  for (const int band : {3, kAllRows}) {
+    EXPECT_TRUE(same_image(of_changed.map, aligned(gray, in, band, &marks).map)) << band;
   }
 }
 
@@ -128,6 +149,22 @@ TEST(EdgeAlignment, MovesAJumpToTheEdgeOfTheImage) {
     EXPECT_EQ(out.map(x, 20), object ? 7680 : 2560) << "column " << x;
     EXPECT_EQ(out.confidence(x, 20), changed ? kMostInferred : 200) << "column " << x;
   }
+}
+
+TEST(EdgeAlignment, LeavesJumpsAloneWhereNothingChanged) {
+  GrayPlane gray(80, 40, 60);
+  DisparityPlane map(80, 40, 2560);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 30; x < 50; ++x) gray(x, y) = 160;
+    for (int x = 28; x < 52; ++x) map(x, y) = 7680;
+  }
+  const ConfidentMap in = {map, GrayPlane(80, 40, 200)};
+  Image<std::uint8_t> changed = image_of(GrayPlane(80, 40));
+  EXPECT_EQ(aligned(gray, in, kAllRows, &changed), in);
+  for (int y = 0; y < 40; ++y) changed.row(y)[51] = 1;  // the right side of the object
+  const ConfidentMap out = aligned(gray, in, kAllRows, &changed);
+  EXPECT_EQ(out.map(28, 20), 7680);
+  EXPECT_EQ(out.map(51, 20), 2560);
 }
 
 }  // namespace

@@ -23,8 +23,9 @@ struct Run {
   int band = kWhole;     ///< rows
 };
 
-/// The map and its confidence, completed or checked.
-ConfidentMap result_of(const GrayPlane& view, const ConfidentMap& in, const Run& run) {
+/// The map and its confidence, completed or checked; `marks` becomes what completion replaced.
+ConfidentMap result_of(const GrayPlane& view, const ConfidentMap& in, const Run& run,
+                       GrayPlane* marks = nullptr) {
   FlatAreas areas;
   areas.scale = run.scale;
   areas.resize(view.width / run.scale, view.height / run.scale);
@@ -34,7 +35,7 @@ ConfidentMap result_of(const GrayPlane& view, const ConfidentMap& in, const Run&
   find_runs(areas.gray, step, 0, height, areas.runs);
   number_areas(areas);
   Image<std::int32_t> map = image_of(in.map);
-  Image<std::uint8_t> confidence = image_of(in.confidence);
+  Image<std::uint8_t> confidence = image_of(in.confidence), replaced = image_of(in.confidence);
   PlaneVotes votes;
   votes.resize();
   Buffer<FlatPlane> planes;
@@ -46,11 +47,12 @@ ConfidentMap result_of(const GrayPlane& view, const ConfidentMap& in, const Run&
   for (int y = 0; y < view.height; y += std::min(run.band, view.height)) {
     const int end = run.band < view.height - y ? y + run.band : view.height;
     if (run.completes) {
-      complete_planes(areas, planes, y, end, confidence, map);
+      complete_planes(areas, planes, y, end, confidence, map, replaced);
     } else {
       check_planes(areas, planes, {plane_bonus(0, 0), run.least}, y, end, map, confidence);
     }
   }
+  if (marks != nullptr) *marks = copy_of(replaced);
   return {copy_of(map), copy_of(confidence)};
 }
 
@@ -87,14 +89,16 @@ TEST(FlatPlanes, EqualReferenceAtEveryWidth) {
         in.confidence(x, y) = static_cast<std::uint8_t>(random.between(1, 255));
       }
     }
-    const ConfidentMap complete = reference::complete_flat_areas(view, 0, in);
+    GrayPlane expected_marks, marks;
+    const ConfidentMap complete = reference::complete_flat_areas(view, 0, in, expected_marks);
     const ConfidentMap expected = reference::check_flat_areas(view, 2, 1, 0, 0, in);
     const ConfidentMap coarse = reference::check_flat_areas(view, 4, 16, 0, 0, in);
     for (const int at_once : {1, 3, kWhole}) {
       const auto made = [&](bool completes, int scale, int least) {
-        return result_of(view, in, {completes, scale, least, at_once, 3 * at_once});
+        return result_of(view, in, {completes, scale, least, at_once, 3 * at_once}, &marks);
       };
       EXPECT_TRUE(same_image(complete.map, made(true, 2, 1).map)) << width;
+      EXPECT_TRUE(same_image(expected_marks, marks)) << width;
       EXPECT_TRUE(same_image(expected.confidence, made(false, 2, 1).confidence)) << width;
       EXPECT_TRUE(same_image(coarse.confidence, made(false, 4, 16).confidence)) << width;
     }
