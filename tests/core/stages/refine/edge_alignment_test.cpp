@@ -135,15 +135,23 @@ TEST(EdgeAlignment, LeavesSlantedSurfacesAlone) {
   EXPECT_EQ(doubted(gray, in), in.confidence);
 }
 
-TEST(EdgeAlignment, MovesAJumpToTheEdgeOfTheImage) {
-  // The object of 20 px at columns 30 .. 49 has become 2 px wider on both sides.
-  GrayPlane gray(80, 40, 60);
-  DisparityPlane map(80, 40, 2560);
-  for (int y = 0; y < 40; ++y) {
-    for (int x = 30; x < 50; ++x) gray(x, y) = 160;
-    for (int x = 28; x < 52; ++x) map(x, y) = 7680;
+/// An object of 20 px at columns 30 .. 49, in a map in which it has become 2 px wider on both
+/// sides.
+struct WideObject {
+  WideObject() : gray(80, 40, 60), in{DisparityPlane(80, 40, 2560), GrayPlane(80, 40, 200)} {
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 30; x < 50; ++x) gray(x, y) = 160;
+      for (int x = 28; x < 52; ++x) in.map(x, y) = 7680;
+    }
   }
-  const ConfidentMap out = aligned(gray, {map, GrayPlane(80, 40, 200)});
+
+  GrayPlane gray;
+  ConfidentMap in;
+};
+
+TEST(EdgeAlignment, MovesAJumpToTheEdgeOfTheImage) {
+  const WideObject scene;
+  const ConfidentMap out = aligned(scene.gray, scene.in);
   for (int x = 0; x < 80; ++x) {
     const bool object = x >= 30 && x < 50, changed = !object && x >= 28 && x < 52;
     EXPECT_EQ(out.map(x, 20), object ? 7680 : 2560) << "column " << x;
@@ -152,17 +160,11 @@ TEST(EdgeAlignment, MovesAJumpToTheEdgeOfTheImage) {
 }
 
 TEST(EdgeAlignment, LeavesJumpsAloneWhereNothingChanged) {
-  GrayPlane gray(80, 40, 60);
-  DisparityPlane map(80, 40, 2560);
-  for (int y = 0; y < 40; ++y) {
-    for (int x = 30; x < 50; ++x) gray(x, y) = 160;
-    for (int x = 28; x < 52; ++x) map(x, y) = 7680;
-  }
-  const ConfidentMap in = {map, GrayPlane(80, 40, 200)};
+  const WideObject scene;
   Image<std::uint8_t> changed = image_of(GrayPlane(80, 40));
-  EXPECT_EQ(aligned(gray, in, kAllRows, &changed), in);
+  EXPECT_EQ(aligned(scene.gray, scene.in, kAllRows, &changed), scene.in);
   for (int y = 0; y < 40; ++y) changed.row(y)[51] = 1;  // the right side of the object
-  const ConfidentMap out = aligned(gray, in, kAllRows, &changed);
+  const ConfidentMap out = aligned(scene.gray, scene.in, kAllRows, &changed);
   EXPECT_EQ(out.map(28, 20), 7680);
   EXPECT_EQ(out.map(51, 20), 2560);
 }
