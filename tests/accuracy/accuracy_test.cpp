@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Gate{"SemiDense", "mode=semi-dense", {0.237, 1.08, 73.4}},
                     Gate{"Dense", "mode=dense", {0.385, 2.7, 86.7}},
                     Gate{"Full", "mode=full", {0.53, 4.6, 100}},
-                    Gate{"FastFull", "preset=fast mode=full", {0.64, 5.66, 100}},
+                    Gate{"FastFull", "preset=fast mode=full", {0.645, 5.75, 100}},
                     Gate{"FastSparse", "preset=fast mode=sparse", {0.235, 0.28, 10.0}},
                     Gate{"FastSemiDense", "preset=fast mode=semi-dense", {0.29, 1.6, 66.5}},
                     Gate{"FastDense", "preset=fast mode=dense", {0.485, 3.95, 90.0}},

@@ -114,7 +114,7 @@ const std::vector<Scene>& rendered() {
 
 // Feature: steady maps of still scenes, and before a moving camera
 TEST(HoldOnRenderedScenes, ReducesTheFlicker) {
-  expect_within(compare(rendered(), "semi-dense", 1), {0.3, -0.75, 0.02, 0});
+  expect_within(compare(rendered(), "semi-dense", 1), {0.31, -0.75, 0.02, 0});
 }
 
 TEST(HoldOnRenderedScenes, ReducesTheFlickerOfModeDense) {
@@ -123,7 +123,7 @@ TEST(HoldOnRenderedScenes, ReducesTheFlickerOfModeDense) {
 
 // Feature: steady maps of still scenes, and before a moving camera
 TEST(FilterOnRenderedScenes, ReducesTheFlicker) {
-  expect_within(compare(rendered(), "semi-dense", 1, "filter"), {0.2, -0.4, 0.05, 0});
+  expect_within(compare(rendered(), "semi-dense", 1, "filter"), {0.215, -0.4, 0.05, 0});
   expect_within(compare(rendered(), "semi-dense", 5, "filter"), {0.2, 3.5, -0.2, -0.05});
 }
 
@@ -151,7 +151,7 @@ TEST(HoldOnRealPairs, ReducesTheFlicker) {
   const std::vector<Scene>& scenes = real();
   if (scenes.empty()) GTEST_SKIP() << "no test data";
   expect_within(compare(scenes, "semi-dense", 1), {0.35, -1.6, 0.01, 0});
-  expect_within(compare(scenes, "semi-dense", 3), {0.5, -3.7, -0.1, -0.02});
+  expect_within(compare(scenes, "semi-dense", 3), {0.5, -3.7, -0.095, -0.02});
 }
 
 TEST(FilterOnRealPairs, ReducesTheFlickerAndTheErrors) {

@@ -36,7 +36,7 @@ HWY_INLINE Vec weight_below(const EdgeWindow& rows, int x, const Weights& weight
   for (int row = 0; row < kSide; ++row) {
     const std::int16_t* disparities = rows.disparity[row] + x;
     for (int i = 0; i < kSide; ++i) {
-      const auto below = hn::Gt(end, hn::LoadU(d16, disparities + 2 * i));
+      const auto below = hn::Gt(end, hn::LoadU(d16, disparities + kEdgeStep * i));
       sum = hn::Add(sum, hn::IfThenElseZero(below, hn::Load(d16, weights.of[row][i])));
     }
   }
@@ -68,11 +68,11 @@ HWY_INLINE Weighed weigh(const EdgeWindow& rows, int x, Weights& weights) {
     const std::int16_t* disparities = rows.disparity[row] + x;
     const std::uint8_t* grays = rows.gray[row] + x;
     for (int i = 0; i < kSide; ++i) {
-      const auto other = hn::PromoteTo(d16, hn::LoadU(d8, grays + 2 * i));
+      const auto other = hn::PromoteTo(d16, hn::LoadU(d8, grays + kEdgeStep * i));
       const auto weight = hn::Max(hn::Sub(alike, hn::Abs(hn::Sub(gray, other))), one);
       hn::Store(weight, d16, weights.of[row][i]);
       total = hn::Add(total, weight);
-      const auto disparity = hn::LoadU(d16, disparities + 2 * i);
+      const auto disparity = hn::LoadU(d16, disparities + kEdgeStep * i);
       least = hn::Min(least, disparity);
       most = hn::Max(most, disparity);
       const auto larger = hn::Gt(disparity, below);
@@ -267,8 +267,8 @@ void mark_near(const EdgeMap& edges, int y, int width, int height, std::uint8_t*
 EdgeWindow window_rows(const EdgeMap& edges, int y, int height) {
   EdgeWindow rows{};
   rows.middle = edges.gray.row(y);
-  for (int i = 0; i <= kEdgeRadius; ++i) {
-    const int other = std::clamp(y + 2 * i - kEdgeRadius, 0, height - 1);
+  for (int i = 0; i < kEdgeSide; ++i) {
+    const int other = std::clamp(y + kEdgeStep * i - kEdgeRadius, 0, height - 1);
     rows.disparity[i] = edges.disparity.row(other);
     rows.gray[i] = edges.gray.row(other);
   }

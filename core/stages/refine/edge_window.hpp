@@ -7,11 +7,14 @@
 
 namespace mtstereo {
 
-/// Half the side of the window, of which every second row and column counts [px].
+/// Half the side of the window [px].
 inline constexpr int kEdgeRadius = 6;
 
+/// Every kEdgeStep-th row and column of the window counts.
+inline constexpr int kEdgeStep = 3;
+
 /// The window's rows that count, and as many columns.
-inline constexpr int kEdgeSide = kEdgeRadius + 1;
+inline constexpr int kEdgeSide = 2 * kEdgeRadius / kEdgeStep + 1;
 
 /// The rows of a window. Column x of the map is at kEdgeRadius + x.
 struct EdgeWindow {

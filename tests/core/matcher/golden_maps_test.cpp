@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0x9456c2b678b307bc},
-    {"default", "semi-dense", 0x25723ae7a1951fbd},
-    {"default", "dense", 0x0fb60b1d6dbd018a},
-    {"default", "full", 0x30190078b9bd68e2},
-    {"fast", "sparse", 0x3dd16088a38fc346},
-    {"fast", "semi-dense", 0x2c7146c1601efaf5},
-    {"fast", "dense", 0x10a1eb364c4de99c},
-    {"fast", "full", 0xb141845d28a5327e},
+    {"default", "sparse", 0x0464c0ae363f440c},
+    {"default", "semi-dense", 0xcbb4815debec3572},
+    {"default", "dense", 0x66567cfd6a6135db},
+    {"default", "full", 0x48ce89394e51d681},
+    {"fast", "sparse", 0xca33079e28c6e21f},
+    {"fast", "semi-dense", 0x6e492b525a063402},
+    {"fast", "dense", 0xab738c8b25b13d9b},
+    {"fast", "full", 0xdf2ff2ce39e03394},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

@@ -26,12 +26,12 @@ inline bool near_jump(const DisparityPlane& map, const GrayPlane* changed, int x
   return false;
 }
 
-/// The weighted median of every second row and column of the 13x13 window, in 1/16 px.
+/// The weighted median of every third row and column of the 13x13 window, in 1/16 px.
 inline int weighted_median(const GrayPlane& gray, const DisparityPlane& map, int x, int y) {
   std::map<int, int> weights;  // by disparity, ascending
   int total = 0;
-  for (int dy = -6; dy <= 6; dy += 2) {
-    for (int dx = -6; dx <= 6; dx += 2) {
+  for (int dy = -6; dy <= 6; dy += 3) {
+    for (int dx = -6; dx <= 6; dx += 3) {
       const int change = std::abs(gray(x, y) - gray.clamped(x + dx, y + dy));
       const int weight = 1 + std::max(24 - change, 0);
       weights[map.clamped(x + dx, y + dy) / 16] += weight;
