@@ -72,6 +72,8 @@ StereoCalibration read_one(const Document& document, const formats::Request& req
       return formats::read_cityscapes(entry, request);
     case Format::kCameraTables:
       return formats::read_camera_tables(entry, request);
+    case Format::kCalibIo:
+      return formats::read_calib_io(entry, request);
     case Format::kAirSlam:
       return formats::read_airslam(entry, request);
     case Format::kRectifiedView:

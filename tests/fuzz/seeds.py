@@ -198,6 +198,16 @@ def calibrations_of_slam():
     airslam = "cam{}:\n  intrinsics: [310, 311, 322, 241]\n  distortion_coeffs: [0.1, 0, 0, 0, 0]\n  T_type: {}\n  T: {}\n"
     yield "airslam", ("\0\0image_width: 640\nimage_height: 480\ndistortion_type: 2\n" + "".join(
         airslam.format(i, i, pose.format(0.12 * i)) for i in range(2))).encode()
+    parameters = {name: {"val": 0.1} for name in "k1 k2 k3 k4 k5 k6 p1 p2 s1 s2 s3 s4 tauX tauY".split()}
+    parameters |= {"f": {"val": 310}, "ar": {"val": 1}, "cx": {"val": 322}, "cy": {"val": 241}}
+    base = {"CameraModelBase": {"imageSize": {"width": 640, "height": 480}}}
+    model = {"polymorphic_name": "libCalib::CameraModelOpenCV",
+             "ptr_wrapper": {"data": {"CameraModelCRT": base, "parameters": parameters}}}
+    yield "calib.io", b"\0\0" + json.dumps({"Calibration": {"cameras": [
+        {"model": model, "transform": {"rotation": {"rx": 0, "ry": 0.1, "rz": 0},
+                                       "translation": {"x": x, "y": 0, "z": 0}}} for x in (0, -0.12)]}}).encode()
+    yield "omnidir", (f"\1\0K1: {k}\nD1: {d}\nxi1: 0.8\nK2: {k}\nD2: {d}\nxi2: 0.9\nrvec: [0, 0.1, 0]\n"
+                      "T: [-0.12, 0, 0]\n").encode()
     yield "region", ("\0\0" + info.format(p.format(0)) + "\1" + info.format(p.format(-31))).encode()
 
 

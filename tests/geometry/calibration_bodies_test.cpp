@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Calibrations with the poses of cameras on a body or in a world, of OKVIS, SVO, maplab, AirSLAM
-// and Anipose, and that of stella_vslam.
+// Calibrations with the poses of cameras on a body or in a world, of OKVIS, SVO, maplab, AirSLAM,
+// Anipose and calib.io, and that of stella_vslam.
 #include "calibration_support.hpp"
 
 namespace mtstereo::test::calibration_bodies_test {
@@ -208,6 +208,57 @@ TEST_F(BodyFile, OfAirSlamHasOneSizeAndLensForBoth) {
   EXPECT_EQ(fisheye.left.coefficients.size(), 4U);
   EXPECT_EQ(read(airslam("0", "0", "[0, 0, 0, 0, 0]")).left.lens, LensModel::kNone);
   EXPECT_THAT(refused(airslam("3", "0", "[0, 0, 0, 0, 0]")), HasSubstr("distortion_type"));
+}
+
+// The Calibrator of calib.io: only the first camera names the lens model.
+
+std::string calib_io_camera(const std::string& name, double focal, double x) {
+  std::string parameters = "\"f\": {\"state\": 0, \"val\": " + std::to_string(focal) + "}";
+  for (const char* entry :
+       {"\"ar\": {\"val\": 1.5}", "\"cx\": {\"val\": 322}", "\"cy\": {\"val\": 241}",
+        "\"k1\": {\"val\": -0.25}", "\"p2\": {\"val\": 0.002}", "\"tauX\": {\"val\": 0.01}"}) {
+    parameters += std::string(", ") + entry;
+  }
+  for (const char* zero : {"k2", "k3", "k4", "k5", "k6", "p1", "s1", "s2", "s3", "s4", "tauY"}) {
+    parameters += std::string(", \"") + zero + "\": {\"val\": 0.0}";
+  }
+  return "{\"model\": {" + name +
+         "\"ptr_wrapper\": {\"data\": {\"CameraModelCRT\": {\"CameraModelBase\": {\"imageSize\": "
+         "{\"width\": 640, \"height\": 480}}}, \"parameters\": {" +
+         parameters +
+         "}}}}, \"transform\": {\"rotation\": {\"rx\": 0, \"ry\": 0, \"rz\": 0}, \"translation\": "
+         "{\"x\": " +
+         std::to_string(x) + ", \"y\": 0, \"z\": 0}}}";
+}
+
+std::string calib_io(double x) {
+  return "{\"Calibration\": {\"cameras\": [" +
+         calib_io_camera("\"polymorphic_name\": \"libCalib::CameraModelOpenCV\", ", 500.5, 0) +
+         ", " + calib_io_camera("", 510.5, x) + "], \"targets\": []}}";
+}
+
+TEST_F(BodyFile, OfCalibIoHasTheModelOfOpenCv) {
+  const StereoCalibration pair = read(calib_io(-0.12));
+  EXPECT_EQ(pair.format, "calib.io");
+  EXPECT_EQ(pair.right.width, 640);
+  EXPECT_DOUBLE_EQ(pair.left.focal_y, 750.75);
+  EXPECT_DOUBLE_EQ(pair.right.focal_x, 510.5);
+  EXPECT_EQ(pair.left.coefficients,
+            (std::vector<double>{-0.25, 0, 0, 0.002, 0, 0, 0, 0, 0, 0, 0, 0, 0.01, 0}));
+  expect_near(pair.translation, Vector3{-0.12, 0, 0}, 1e-12);
+  const std::string millimeters = replaced(calib_io(-120), "{", "{\"length_unit\": \"mm\", ");
+  EXPECT_NEAR(read(millimeters).baseline(), 0.12, 1e-12);
+}
+
+TEST_F(BodyFile, OfCalibIoThatCannotBeIsRefused) {
+  EXPECT_THAT(refused(calib_io(-120)),
+              AllOf(HasSubstr("baseline of 120 m"), HasSubstr("add '\"length_unit\": \"mm\",'")));
+  EXPECT_THAT(refused(replaced(calib_io(-0.12), "OpenCV", "OpenCVFisheye")),
+              HasSubstr("'libCalib::CameraModelOpenCVFisheye', which is not supported"));
+  EXPECT_THAT(refused(replaced(calib_io(-0.12), "\"tauY\"", "\"other\"")),
+              HasSubstr("has no entry tauY"));
+  EXPECT_THAT(refused(replaced(calib_io(-0.12), "\"transform\"", "\"other\"")),
+              HasSubstr("has no entry transform"));
 }
 
 }  // namespace

@@ -165,6 +165,7 @@ std::optional<Format> known_format(const Entry& root) {
   if (root.find("lensmodel")) return Format::kMrcal;
   if (root.find("cam0_calib")) return Format::kVins;
   if (root.find("model_type")) return Format::kVinsCamera;
+  if (is_calib_io(root)) return Format::kCalibIo;
   if (is_airslam(root)) return Format::kAirSlam;
   if (has_camera_tables(root)) return Format::kCameraTables;
   if (chain || (root.find("cam1") && !is_opencv(root))) return Format::kKalibr;
@@ -299,7 +300,7 @@ bool is_mrcal(std::string_view text) {
 }  // namespace
 
 const char* name_of(Format format) {
-  constexpr std::array<const char*, 23> kNames = {"an OpenCV file",
+  constexpr std::array<const char*, 24> kNames = {"an OpenCV file",
                                                   "a ROS camera_info",
                                                   "a Kalibr camchain",
                                                   "a EuRoC sensor.yaml",
@@ -321,6 +322,7 @@ const char* name_of(Format format) {
                                                   "a calibration of Argoverse",
                                                   "a file with a table per camera",
                                                   "a file of AirSLAM",
+                                                  "a file of calib.io",
                                                   "a rectified view with a baseline"};
   return kNames[static_cast<std::size_t>(format)];
 }

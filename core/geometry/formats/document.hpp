@@ -37,6 +37,7 @@ enum class Format {
   kArgoverse,
   kCameraTables,
   kAirSlam,
+  kCalibIo,
   kRectifiedView,
 };
 

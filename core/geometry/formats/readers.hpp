@@ -60,6 +60,8 @@ StereoCalibration read_dsec(const Entry& file, const Request& request);
 StereoCalibration read_argoverse(const Entry& file, const Request& request);
 /// A table per camera, of Anipose, FreeMoCap, Caliscope or Pose2Sim.
 StereoCalibration read_camera_tables(const Entry& file, const Request& request);
+/// A file of the Calibrator of calib.io.
+StereoCalibration read_calib_io(const Entry& file, const Request& request);
 /// A camera file of AirSLAM.
 StereoCalibration read_airslam(const Entry& file, const Request& request);
 
@@ -83,6 +85,8 @@ bool is_rectified_pair(const Entry& file);
 bool is_dsec(const Entry& file);
 /// Whether a file has a table for each of several cameras.
 bool has_camera_tables(const Entry& file);
+/// Whether a file is one of calib.io.
+bool is_calib_io(const Entry& file);
 /// Whether a file is one of AirSLAM.
 bool is_airslam(const Entry& file);
 /// Whether a file is one of Basalt.
