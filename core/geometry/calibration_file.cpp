@@ -118,14 +118,14 @@ StereoCalibration read_two(const Document& first, const Document& second,
   }
 }
 
-/// Only OpenCV's calibration of single cameras leads to three files.
+/// Only the calibration of single cameras, by OpenCV or ROS, leads to three files.
 StereoCalibration read_three(const std::vector<Document>& documents,
                              const formats::Request& request) {
   std::vector<Entry> entries;
   for (const Document& document : documents) {
-    if (document.format != Format::kOpenCv) {
+    if (document.format != Format::kOpenCv && document.format != Format::kCameraInfo) {
       throw FileError(document.file + " is " + name_of(document.format) +
-                      "; only OpenCV files are read by three (LEFT,RIGHT,EXTRINSICS)");
+                      "; only files of OpenCV and ROS are read by three (LEFT,RIGHT,EXTRINSICS)");
     }
     entries.push_back(document.entry());
   }

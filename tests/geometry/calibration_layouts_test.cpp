@@ -152,11 +152,36 @@ TEST_F(Layout, CamerasThatAreCalibratedAloneNeedAThirdFile) {
   EXPECT_THAT(read_refused("none.yml," + right + "," + pose),
               HasSubstr("none.yml: cannot be read"));
   EXPECT_THAT(read_refused(left + "," + stored("camchain.yaml") + "," + pose),
-              HasSubstr("is a Kalibr camchain; only OpenCV files are read by three"));
+              HasSubstr("is a Kalibr camchain; only files of OpenCV and ROS are read by three"));
   // A number with such a name is none.
   EXPECT_THAT(refused(lines({{"k", "0.04"}, {"R", kR}, {"T", kT}})), HasSubstr("no entry M1"));
   const std::string other = camera("other.yml", kRightK, "[ 1, 2, 3 ]");
   EXPECT_THAT(read_refused(left + "," + other + "," + pose), HasSubstr("D1"));
+}
+
+TEST_F(Layout, CamerasOfRosThatAreCalibratedAloneNeedAThirdFile) {
+  const auto camera = [&](const char* name, const char* k, const char* d) {
+    return folder_.write(
+        name, lines({{"camera_name", name},
+                     {"image_width", "640"},
+                     {"image_height", "480"},
+                     {"camera_matrix", k},
+                     {"distortion_model", "plumb_bob"},
+                     {"distortion_coefficients", d},
+                     {"rectification_matrix", "[ 1., 0., 0., 0., 1., 0., 0., 0., 1. ]"},
+                     {"projection_matrix", "[ 500., 0, 330., 0, 0, 500., 240., 0, 0, 0, 1, 0 ]"}}));
+  };
+  const std::string both =
+      camera("l.yml", kLeftK, kLeftD) + "," + camera("r.yml", kRightK, kRightD);
+  EXPECT_THAT(read_refused(both), HasSubstr("states a baseline of 0"));
+  // RTAB-Map states the position so.
+  const StereoCalibration calibration = read_valid(
+      both + "," +
+      folder_.write("pose.yml", lines({{"rotation_matrix", kR}, {"translation_matrix", kT}})));
+  EXPECT_EQ(calibration.left.width, 640);
+  EXPECT_DOUBLE_EQ(calibration.left.focal_x, 500.5);
+  EXPECT_DOUBLE_EQ(calibration.right.coefficients[0], -0.5);
+  expect_near(calibration.translation, Vector3{-0.12, 0.001, 0.002}, 1e-12);
 }
 
 TEST_F(Layout, WithAChoiceIsRefusedAndTheNamesAreListed) {
@@ -277,6 +302,15 @@ TEST_F(Layout, OfFourIntrinsicsPerCamera) {
   EXPECT_EQ(calibration.translation, (Vector3{-0.12, 0, 0}));
 }
 
+TEST_F(Layout, NamesOfOtherProgramsStateTheUnitAndTheSize) {
+  const std::string pair =
+      lines({{"Kl", kLeftK}, {"Dl", kLeftD}, {"Kr", kRightK}, {"Dr", kRightD}, {"R", kR}});
+  const StereoCalibration calibration = read_valid(write(
+      "cam_width: 640\ncam_height: 480\nWorldUnits: centimeters\nt: [ -6.5, 0, 0 ]\n" + pair));
+  EXPECT_EQ(calibration.left.width, 640);
+  EXPECT_NEAR(calibration.baseline(), 0.065, 1e-12);
+}
+
 TEST_F(Layout, ABaselineWithAUnitStatesThatOfT) {
   const auto pair = [](const std::string& t, const std::string& baseline) {
     return lines({{"K1", kLeftK},
@@ -323,6 +357,46 @@ TEST_F(Layout, ARotationVectorIsNoTranslation) {
                              {"R", kR},
                              {"rvec", kT}})),
               HasSubstr("there is no entry T (translation between the cameras)"));
+}
+
+TEST_F(Layout, OfOmnidirHasXi) {
+  const std::string four = "[ -0.25, 0.125, 0.001, 0.002 ]";
+  const std::string cameras = lines({{"camera_matrix_1", kLeftK},
+                                     {"distortion_coefficients_1", four},
+                                     {"camera_matrix_2", kRightK},
+                                     {"distortion_coefficients_2", four}});
+  const std::string xi = "xi_1: 1.5\nxi_2: {rows: 1, cols: 1, dt: d, data: [ 1. ]}\n";
+  const std::string pose = lines({{"rvec", "[ 0., 0., 0. ]"}, {"tvec", kT}});
+  const StereoCalibration calibration = read_valid(write(cameras + xi + pose), 640, 480);
+  EXPECT_EQ(calibration.left.lens, LensModel::kOmnidirectional);
+  EXPECT_EQ(calibration.left.coefficients, (std::vector<double>{1.5, -0.25, 0.125, 0.001, 0.002}));
+  EXPECT_DOUBLE_EQ(calibration.left.focal_x, 200.2);
+  EXPECT_DOUBLE_EQ(calibration.right.focal_x, 255.25);
+  expect_near(calibration.rotation, kIdentity, 1e-12);
+  expect_near(calibration.translation, Vector3{-0.12, 0.001, 0.002}, 1e-12);
+  // Without xi, rvec is the place of a board.
+  EXPECT_THAT(refused(cameras + pose), HasSubstr("there is no entry R"));
+  EXPECT_THAT(refused(cameras + "xi_2: 1\nR: " + kR + "\nT: " + kT + "\n"),
+              HasSubstr("there is no entry xi1 (of the left camera)"));
+  EXPECT_THAT(refused(cameras + "xi_1: 1\nR: " + kR + "\nT: " + kT + "\n"),
+              HasSubstr("there is no entry xi2 (of the right camera)"));
+  EXPECT_THAT(refused(replaced(cameras, "0.002 ]", "0.002, 0 ]") + xi + pose),
+              HasSubstr("has 5 values, 4 are needed: k1, k2, p1, p2"));
+  EXPECT_THAT(refused(cameras + "xi_1: -1\nxi_2: 1\n" + pose), HasSubstr("must not be negative"));
+}
+
+TEST_F(Layout, OfCamerasThatOmnidirCalibratedAloneHasXi) {
+  const auto camera = [&](const char* name, const char* k, const char* xi) {
+    return folder_.write(name, lines({{"camera_matrix", k},
+                                      {"distortion_coefficients", "[ 0.1, 0., 0., 0. ]"},
+                                      {"xi", xi}}));
+  };
+  const StereoCalibration calibration =
+      read_valid(camera("l.yml", kLeftK, "1.") + "," + camera("r.yml", kRightK, "1.5") + "," +
+                     folder_.write("pose.yml", lines({{"R", kR}, {"T", kT}})),
+                 640, 480);
+  EXPECT_EQ(calibration.left.coefficients, (std::vector<double>{1, 0.1, 0, 0, 0}));
+  EXPECT_EQ(calibration.right.coefficients, (std::vector<double>{1.5, 0.1, 0, 0, 0}));
 }
 
 TEST_F(Layout, OfMatlabIsNamed) {

@@ -19,9 +19,10 @@ constexpr const char* kOwnFormat = "mtstereo";
 constexpr Names kSize =
     "imagesize imagesize1 size imgsize framesize resolution leftsize "
     "leftimagesize leftresolution";
-constexpr Names kWidth = "imagewidth width leftwidth leftimagewidth imagesizewidth resolutionwidth";
+constexpr Names kWidth =
+    "imagewidth width leftwidth leftimagewidth imagesizewidth resolutionwidth camwidth";
 constexpr Names kHeight =
-    "imageheight height leftheight leftimageheight imagesizeheight resolutionheight";
+    "imageheight height leftheight leftimageheight imagesizeheight resolutionheight camheight";
 constexpr const char* kUnitRemedy =
     "add the entry 'length_unit: mm' (or cm, in, or the meters that the length 1 has, such as the "
     "side of a square of the board: 'length_unit: 0.025')";
@@ -140,7 +141,7 @@ std::optional<double> unit_by_baseline(const OpenCvEntries& files,
 
 /// The unit of T and of the fourth columns of P1 and P2 [m], if it is stated.
 std::optional<double> unit_of(const OpenCvEntries& files, const std::optional<Entry>& translation) {
-  const std::optional<Entry> entry = files.find("lengthunit units unit");
+  const std::optional<Entry> entry = files.find("lengthunit units unit worldunits");
   if (entry) return length_unit(*entry);
   const std::optional<double> named = unit_in_name(translation);
   return named ? named : unit_by_baseline(files, translation);
@@ -228,6 +229,14 @@ void read_cameras(const OpenCvEntries& files, const PairEntries& pair,
   if (!pair.right_lens) files.fail_without("D2", "distortion of the right camera");
   set_camera_matrix(calibration.left, *pair.left_matrix);
   set_camera_matrix(calibration.right, *pair.right_matrix);
+  if (pair.left_xi || pair.right_xi) {
+    if (!pair.left_xi) files.fail_without("xi1", "of the left camera");
+    if (!pair.right_xi) files.fail_without("xi2", "of the right camera");
+    constexpr const char* kShape = "k1, k2, p1, p2, as cv::omnidir states them beside xi";
+    set_omnidirectional(calibration.left, *pair.left_xi, pair.left_lens->numbers(4, kShape));
+    set_omnidirectional(calibration.right, *pair.right_xi, pair.right_lens->numbers(4, kShape));
+    return;
+  }
   read_lens(files, "lensmodel1 leftdistortionmodel", *pair.left_lens, calibration.left,
             calibration.remarks);
   read_lens(files, "lensmodel2 rightdistortionmodel", *pair.right_lens, calibration.right,

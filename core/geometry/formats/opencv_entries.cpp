@@ -24,6 +24,9 @@ constexpr Names kRightLens =
     "distcoeffsright rightdistcoeffs rightdistortioncoefficients dr dright rightd distr "
     "distright drightfe";
 
+constexpr Names kLeftXi = "xi1 xil xileft leftxi";
+constexpr Names kRightXi = "xi2 xir xiright rightxi";
+
 bool is_one_of(std::string_view plain, Names names) {
   while (!names.empty()) {
     const std::string_view name = names.substr(0, names.find(' '));
@@ -84,6 +87,15 @@ std::optional<Entry> OpenCvEntries::find_matrix(Names names) const {
   return single ? std::nullopt : found;
 }
 
+std::optional<Entry> OpenCvEntries::find_xi(Names names, const std::optional<Entry>& lens) const {
+  std::optional<Entry> found = find(names);
+  for (const Entry& entry : entries_) {
+    const bool alone = !found && lens && entry.file() == lens->file();
+    if (alone && plain_name(entry.name()) == "xi") found = entry;
+  }
+  return found;
+}
+
 PairEntries OpenCvEntries::find_pair() const {
   PairEntries pair;
   pair.left_matrix = find(kLeftMatrix);
@@ -93,6 +105,9 @@ PairEntries OpenCvEntries::find_pair() const {
   pair.rotation = find_matrix(kRotationNames);
   pair.translation = find_matrix(kTranslationNames);
   complete_by_structure(entries_, pair);
+  pair.left_xi = find_xi(kLeftXi, pair.left_lens);
+  pair.right_xi = find_xi(kRightXi, pair.right_lens);
+  if (!pair.rotation && pair.left_xi) pair.rotation = find_matrix("rvec om");
   return pair;
 }
 

@@ -36,6 +36,9 @@ class OpenCvEntries {
   bool is_opencv() const;
 
  private:
+  /// The xi of a camera: by these names, or in the file of its coefficients.
+  std::optional<Entry> find_xi(Names names, const std::optional<Entry>& lens) const;
+
   std::vector<Entry> files_;
   std::vector<Entry> entries_;
 };

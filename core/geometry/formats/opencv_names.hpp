@@ -34,6 +34,7 @@ inline std::string plain_name(std::string_view name) {
 struct PairEntries {
   std::optional<Entry> left_matrix, right_matrix;  ///< K
   std::optional<Entry> left_lens, right_lens;      ///< distortion coefficients
+  std::optional<Entry> left_xi, right_xi;          ///< only of cv::omnidir
   std::optional<Entry> rotation, translation;      ///< from the left to the right camera
 };
 

@@ -121,7 +121,7 @@ void set_intrinsics(CameraCalibration& camera, const Entry& entry) {
 
 void set_omnidirectional(CameraCalibration& camera, const Entry& xi,
                          const std::vector<double>& distortion) {
-  const double value = xi.number();
+  const double value = xi.numbers(1, "xi").front();
   if (value < 0) xi.fail("is " + number_text(value) + "; xi must not be negative");
   camera.focal_x /= 1 + value;
   camera.focal_y /= 1 + value;
