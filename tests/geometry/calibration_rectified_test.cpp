@@ -58,7 +58,10 @@ TEST(RectifiedView, StatesTheIntrinsicsAndTheBaseline) {
         std::string("left: {fx: 500.5, cx: 321.25, cy: 240.75}\nright: {fx: 500.5, cx: 321.25, cy: "
                     "240.75}\n"
                     "baseline: 0.063\n"),
-        std::string(R"({"fx": 500.5, "cx": 321.25, "cy": 240.75, "baseline_m": 0.063})")}) {
+        std::string(R"({"fx": 500.5, "cx": 321.25, "cy": 240.75, "baseline_m": 0.063})"),
+        std::string("cam0: {cam_fx: 500.5, cam_fy: 500.5, cam_cx: 321.25, cam_cy: 240.75, cam_d0: "
+                    "0.0, cam_bl: 0.063, cam_width: 640, cam_height: 480, cam_model: Pinhole}\n"
+                    "images_subfolder_l: image_2/\n")}) {
     const StereoCalibration calibration = read_valid(write(text), 640, 480);
     EXPECT_EQ(calibration.format, "rectified view");
     EXPECT_DOUBLE_EQ(calibration.right.focal_x, 500.5) << text;
@@ -73,6 +76,10 @@ TEST(RectifiedView, StatesTheIntrinsicsAndTheBaseline) {
               HasSubstr("k1 is not 0"));
   EXPECT_THAT(read_refused(write(inner + "baseline: 0.06\ndistortion:\n  k1: -0.1\n")),
               HasSubstr("distortion is not 0"));
+  for (const char* name : {"dist", "distCoeffs", "dist_coeff", "kc", "cam_d1"}) {
+    EXPECT_THAT(read_refused(write(k + "baseline: 0.06\n" + name + ": [-0.1, 0, 0, 0]\n")),
+                HasSubstr(std::string(name) + " is not 0"));
+  }
   EXPECT_THAT(read_refused(write(k)), HasSubstr("fx, fy, cx, cy and baseline (in meters)"));
   EXPECT_THAT(read_refused(write("fx: 0\ncx: 1\ncy: 2\nbaseline: 1\n")), HasSubstr("fx = 0"));
 }

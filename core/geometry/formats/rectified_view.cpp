@@ -19,20 +19,26 @@ std::optional<std::pair<Entry, double>> find_baseline(const Entry& file) {
                                    {"baseline_cm", 0.01},
                                    {"baseline_mm", 0.001},
                                    {"baseline", 0.0},
-                                   {"bl", 0.0}}) {
+                                   {"bl", 0.0},
+                                   {"cam_bl", 0.0}}) {
     if (const std::optional<Entry> entry = file.find_any_case(name)) return {{*entry, unit}};
   }
   return std::nullopt;
 }
 
+// The names with "cam_" are those of PL-SLAM.
+std::optional<Entry> find_focal_x(const Entry& entry) { return entry.find_any({"fx", "cam_fx"}); }
+
 std::optional<Entry> find_center_x(const Entry& entry) {
-  return entry.find_any({"cx", "cx0", "cx_left", "ppx"});
+  return entry.find_any({"cx", "cx0", "cx_left", "ppx", "cam_cx"});
 }
 
-std::optional<Entry> find_center_y(const Entry& entry) { return entry.find_any({"cy", "ppy"}); }
+std::optional<Entry> find_center_y(const Entry& entry) {
+  return entry.find_any({"cy", "ppy", "cam_cy"});
+}
 
 bool has_intrinsics(const Entry& entry) {
-  return (entry.find("fx") && find_center_x(entry) && find_center_y(entry)) || entry.find("K");
+  return (find_focal_x(entry) && find_center_x(entry) && find_center_y(entry)) || entry.find("K");
 }
 
 /// The entry with one of these names, if it is a map with intrinsics.
@@ -62,8 +68,28 @@ bool is_zero(const Value& value) {
 
 /// A rectified view has no distortion.
 void refuse_distortion(const Entry& entry) {
-  for (const char* name : {"D", "d", "distortion", "dist_coeffs", "distortion_coeffs",
-                           "distortion_coefficients", "coeffs", "k1", "k2", "k3", "p1", "p2"}) {
+  for (const char* name : {"D",
+                           "dist",
+                           "distortion",
+                           "dist_coeff",
+                           "dist_coeffs",
+                           "dist_coefs",
+                           "distCoeffs",
+                           "distortion_coeffs",
+                           "distortion_coefficients",
+                           "distortionCoefficients",
+                           "coeffs",
+                           "kc",
+                           "d",
+                           "k1",
+                           "k2",
+                           "k3",
+                           "p1",
+                           "p2",
+                           "cam_d0",
+                           "cam_d1",
+                           "cam_d2",
+                           "cam_d3"}) {
     const std::optional<Entry> distortion = entry.find(name);
     if (!distortion || is_zero(distortion->value())) continue;
     distortion->fail(
@@ -77,15 +103,16 @@ RectifiedCamera read_camera(const Entry& entry, const Request& request) {
   CameraCalibration camera;
   camera.width = request.width;
   camera.height = request.height;
-  const std::optional<Entry> width = entry.find_any({"width", "image_width"});
-  const std::optional<Entry> height = entry.find_any({"height", "image_height"});
+  const std::optional<Entry> width = entry.find_any({"width", "image_width", "cam_width"});
+  const std::optional<Entry> height = entry.find_any({"height", "image_height", "cam_height"});
   if (width && height) set_size(camera, *width, *height);
   if (const std::optional<Entry> k = entry.find("K")) {
     set_camera_matrix(camera, *k);
     return {camera, entry};
   }
-  const double fx = entry.at("fx").number();
-  const double fy = entry.find("fy").value_or(entry.at("fx")).number();
+  const Entry focal = find_focal_x(entry).value_or(entry);
+  const double fx = focal.number();
+  const double fy = entry.find_any({"fy", "cam_fy"}).value_or(focal).number();
   const double cx = find_center_x(entry)->number(), cy = find_center_y(entry)->number();
   set_camera_matrix(camera, entry, {fx, 0, cx, 0, fy, cy, 0, 0, 1});
   return {camera, entry};
