@@ -92,6 +92,13 @@ TEST_F(BrokenFile, OfAnotherKindIsNamed) {
   EXPECT_THAT(refused(std::string("PK\x03\x04\x14\0\0\0", 8)), HasSubstr("unpack it (unzip)"));
   EXPECT_THAT(refused("% Stereo calibration parameters:\nom = [ 0.01 ; 0.02 ; 0.03 ];\n"),
               AllOf(HasSubstr("is a MATLAB script; "), HasSubstr(remedy)));
+  EXPECT_THAT(refused("{\"CameraParameters1\": {\"K\": [[500, 0, 321], [0, 501, 243], [0, 0, 1]], "
+                      "\"RadialDistortion\": [0.1, 0]}, \"RotationOfCamera2\": [1]}"),
+              AllOf(HasSubstr("is of MATLAB's stereoParameters"),
+                    HasSubstr("what stereoParametersToOpenCV states")));
+  EXPECT_THAT(
+      refused("stereoParams = \n\n  stereoParameters with properties:\n\n    PoseCamera2: [1x1]\n"),
+      HasSubstr("is of MATLAB's stereoParameters"));
   EXPECT_THAT(refused("[StereoLeft]\nfc_x=785.4\nfc_y=785.2\n"),
               AllOf(HasSubstr("if it is no ZED file, "), HasSubstr(remedy)));
   EXPECT_THAT(refused("Calibration results\n====\nCamera-system parameters:\n\tcam0 (/left):\n"),

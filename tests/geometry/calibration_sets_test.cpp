@@ -171,6 +171,8 @@ TEST_F(SetFile, OfOtherReconstructionsIsRefusedWithTheRemedy) {
               AllOf(HasSubstr("is of nerfstudio"), HasSubstr("M1, D1, M2")));
   EXPECT_THAT(refused("{\"intrinsics\": [{\"intrinsicId\": \"1\", \"type\": \"radial3\"}]}"),
               AllOf(HasSubstr("is of Meshroom"), HasSubstr("M1, D1, M2")));
+  EXPECT_THAT(refused("{\"sfm_data_version\": \"0.3\", \"intrinsics\": []}"),
+              AllOf(HasSubstr("is of OpenMVG"), HasSubstr("M1, D1, M2")));
   EXPECT_THAT(refused("<?xml version=\"1.0\"?>\n<calibration><f>500</f></calibration>\n"),
               AllOf(HasSubstr("<calibration>"), HasSubstr("M1, D1, M2")));
 }

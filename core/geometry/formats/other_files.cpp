@@ -66,6 +66,7 @@ std::string_view reconstruction_program(std::string_view text) {
   const auto has = [&](std::string_view entry) { return text.find(entry) != text.npos; };
   if (has("\"image_prefix\"")) return "COLMAP";
   if (has("\"fl_x\"")) return "nerfstudio";
+  if (has("\"sfm_data_version\"")) return "OpenMVG";
   return has("\"intrinsicId\"") ? "Meshroom" : "";
 }
 
@@ -127,6 +128,14 @@ void refuse_reports(std::string_view start, const std::string& file) {
                     ", whose lengths have no unit; write K, distortion, R and T [m] of "
                     "one pair to a YAML file with the names M1, D1, M2, D2, R, T, or calibrate the "
                     "cameras as a pair (mtcalibrate)");
+  }
+  const auto has = [&](std::string_view entry) { return start.find(entry) != start.npos; };
+  if ((has("RotationOfCamera2") || has("PoseCamera2")) && !has("IntrinsicMatrix") &&
+      (has("\"RadialDistortion\"") || has("stereoParameters with properties"))) {
+    throw FileError(file +
+                    ": is of MATLAB's stereoParameters, whose rotation is transposed; write what "
+                    "stereoParametersToOpenCV states to a YAML or JSON file with the names M1, D1, "
+                    "M2, D2, R, T");
   }
   if (start.front() == '%' && !start.starts_with("%YAML") && !start.starts_with("%TAG")) {
     throw FileError(file +
