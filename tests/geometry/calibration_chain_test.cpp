@@ -67,6 +67,7 @@ TEST_F(Chain, MayBeInMapsOfOneEntryAsInRigsAndParametersOfRos) {
   }
   const std::string node = "rectify:\n  ros__parameters:\n";
   expect_position(read_valid(folder_.write("node.yaml", node + inner)));
+  expect_position(read_valid(folder_.write("all.yaml", replaced(node, "rectify", "/**") + inner)));
   expect_position(read_valid(folder_.write("rig.yaml", "%YAML:1.0\nstereo0:\n" + inner)));
   std::string wrong = inner;
   wrong.replace(wrong.find("310.5"), 5, "-3.10");

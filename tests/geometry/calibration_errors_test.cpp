@@ -83,6 +83,10 @@ TEST_F(BrokenFile, ThatIsEmptyBinaryOrCompressed) {
   EXPECT_THAT(refused(" \n\t\n"), HasSubstr("the file is empty"));
   EXPECT_THAT(refused(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)), HasSubstr("binary"));
   EXPECT_THAT(refused(stored_text("camchain.yaml") + '\0'), HasSubstr("is a binary file"));
+  EXPECT_THAT(refused(std::string("\xff\xfe"
+                                  "M\0001\0:\0",
+                                  8)),
+              HasSubstr("is a text in UTF-16"));
   EXPECT_THAT(refused("\x1f\x8b\x08\x01"), HasSubstr("unpack it (tar xzf, or gunzip)"));
   EXPECT_THAT(refused(std::string(257, '\0') + "ustar  "), HasSubstr("unpack it (tar xf)"));
 }

@@ -297,6 +297,12 @@ bool is_mrcal(std::string_view text) {
   return false;
 }
 
+/// Whether a text begins with a map or a comment of JSON. Parameters of ROS 2 begin with "/**:".
+bool begins_as_json(std::string_view text) {
+  const bool comment = text.starts_with("//") || text.starts_with("/*");
+  return text.front() == '{' || (comment && !text.starts_with("/**:"));
+}
+
 }  // namespace
 
 const char* name_of(Format format) {
@@ -338,7 +344,7 @@ Document parse_document(const std::string& file) {
     document.root = parse_xml(text, file);
   } else if (is_mrcal(text)) {
     document.root = parse_mrcal(text, file);
-  } else if (start.front() == '{' || start.starts_with("//") || start.starts_with("/*")) {
+  } else if (begins_as_json(start)) {
     document.root = parse_json(text, file);
   } else if (is_toml(text, file)) {
     document.root = parse_toml(text, file);

@@ -95,6 +95,11 @@ void refuse_containers(const std::string& text, const std::string& file) {
                     ": is an HDF5 file, as MATLAB's .mat; write its matrices to a YAML or JSON "
                     "file with the names M1, D1, M2, D2, R, T");
   }
+  if (start.starts_with("\xff\xfe") || start.starts_with("\xfe\xff")) {
+    throw FileError(file +
+                    ": is a text in UTF-16, as PowerShell writes it; convert it to UTF-8 "
+                    "(iconv -f utf-16 -t utf-8)");
+  }
   constexpr std::size_t kTarMark = 257;
   const bool tar = start.size() > kTarMark && start.substr(kTarMark).starts_with("ustar");
   if (tar || start.starts_with("\x1f\x8b") || start.starts_with("PK\x03\x04")) {
