@@ -44,6 +44,8 @@ StereoCalibration read_one(const Document& document, const formats::Request& req
       return formats::read_orbslam(entry, request);
     case Format::kVins:
       return formats::read_vins(entry, request);
+    case Format::kOv2Slam:
+      return formats::read_ov2slam(entry, request);
     case Format::kBasalt:
       return formats::read_basalt(entry, request);
     case Format::kCameraList:

@@ -157,6 +157,12 @@ def calibrations_of_slam():
                    "\2%YAML:1.0\nmodel_type: PINHOLE\nimage_width: 640\nimage_height: 480\ndistortion_parameters:\n"
                    "   {k1: 0.1, k2: 0, p1: 0, p2: 0}\nprojection_parameters: {fx: 310, fy: 311, cx: 322, cy: 241}\n"
                    ).encode()
+    yield "ov2slam", ("\0\0%YAML 1.0\n---\n" + "".join(
+        f"Camera.model_{side}: {model}\nCamera.{side}_nwidth: 640\nCamera.{side}_nheight: 480\n" + "".join(
+            f"Camera.{name}{side[0]}: {value}\n" for name, value in (
+                ("fx", 310), ("fy", 311), ("cx", 322), ("cy", 241), ("k1", 0.1), ("k2", 0), ("p1", 0), ("p2", 0)))
+        for side, model in (("left", "pinhole"), ("right", "fisheye"))) +
+        f"body_T_cam0: {pose.format(0)}\nbody_T_cam1: {pose.format(0.12)}\n").encode()
     yield "omni", ("\0\0%YAML:1.0\n" + "".join(f"cam{i}:\n{camera}" for i in range(2)) +
                    f"  T_cn_cnm1: {pose.format(-0.12)}\n").replace("pinhole", "omni").replace(
                        "[310, 311", "[0.8, 834, 831").replace("equidistant", "radtan").encode()

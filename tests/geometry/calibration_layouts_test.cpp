@@ -309,6 +309,11 @@ TEST_F(Layout, NamesOfOtherProgramsStateTheUnitAndTheSize) {
       "cam_width: 640\ncam_height: 480\nWorldUnits: centimeters\nt: [ -6.5, 0, 0 ]\n" + pair));
   EXPECT_EQ(calibration.left.width, 640);
   EXPECT_NEAR(calibration.baseline(), 0.065, 1e-12);
+  const std::string meters = pair + "t: [ -0.065, 0, 0 ]\n";
+  EXPECT_EQ(read_valid(write(meters + "resolution: 640x480\n")).right.height, 480);
+  for (const char* size : {"640x", "640x480x3", "0x480", "640x.nan"}) {
+    EXPECT_THAT(refused(meters + "resolution: " + size + "\n"), HasSubstr("resolution is "));
+  }
 }
 
 TEST_F(Layout, ABaselineWithAUnitStatesThatOfT) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Calibrations in the configuration of SLAM programs: ORB-SLAM, VINS-Fusion, Basalt; and mrcal and
-// ROS's INI. The right camera is always 0.12 m beside the left one and 0.01 m in front of it.
+// Calibrations in the configuration of SLAM programs: ORB-SLAM, VINS-Fusion, OV2SLAM, Basalt; and
+// mrcal and ROS's INI. The right camera is always 0.12 m beside the left one and 0.01 m in front of
+// it.
 #include "calibration_support.hpp"
 
 namespace mtstereo::test::calibration_slam_test {
@@ -176,6 +177,45 @@ TEST_F(SlamFile, OfVinsFusionWithoutItsCamerasIsRefused) {
   EXPECT_THAT(refused(vins("other.yaml", "left.yaml")),
               AllOf(HasSubstr("other.yaml: model_type is 'SCARAMUZZA'"),
                     HasSubstr("calibrate both cameras as PINHOLE, KANNALA_BRANDT or MEI")));
+}
+
+// OV2SLAM
+
+std::string ov2slam() {
+  std::string text = "%YAML 1.0\n---\nstereo: 1\n";
+  for (const std::string side : {"left", "right"}) {
+    text += "Camera.model_" + side + ": pinhole\nCamera." + side + "_nwidth: 640\nCamera." + side +
+            "_nheight: 480\n";
+    for (const auto& [name, value] : {std::pair{"fx", "310.5"},
+                                      {"fy", "311.5"},
+                                      {"cx", "322.25"},
+                                      {"cy", "241.75"},
+                                      {"k1", "0.01"},
+                                      {"k2", "-0.02"},
+                                      {"p1", "0.003"},
+                                      {"p2", "-0.004"}}) {
+      text += std::string("Camera.") + name + side[0] + ": " + value + "\n";
+    }
+  }
+  return text + "body_T_cam0: [1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0.5, 0, 0, 0, 1]\n" +
+         "body_T_cam1: [1, 0, 0, 0.37, 0, 1, 0, 0, 0, 0, 1, 0.51, 0, 0, 0, 1]\n";
+}
+
+TEST_F(SlamFile, OfOv2SlamHasBothCameras) {
+  const StereoCalibration pinhole = read(ov2slam());
+  expect_position(pinhole);
+  EXPECT_EQ(pinhole.format, "OV2SLAM");
+  EXPECT_EQ(pinhole.right.width, 640);
+  EXPECT_DOUBLE_EQ(pinhole.left.focal_y, 311.5);
+  EXPECT_EQ(pinhole.right.lens, LensModel::kPlumbBob);
+  EXPECT_EQ(pinhole.right.coefficients, (std::vector<double>{0.01, -0.02, 0.003, -0.004}));
+  const StereoCalibration fisheye =
+      read(replaced(replaced(ov2slam(), "pinhole", "fisheye"), "pinhole", "fisheye"));
+  EXPECT_EQ(fisheye.left.lens, LensModel::kFisheye);
+  EXPECT_THAT(refused(replaced(ov2slam(), "pinhole", "ds")),
+              HasSubstr("Camera.model_left is 'ds', only pinhole and fisheye"));
+  EXPECT_THAT(refused(replaced(ov2slam(), "Camera.k2r", "k2r")), HasSubstr("Camera.k2r"));
+  EXPECT_THAT(refused(replaced(ov2slam(), "body_T_cam1", "T")), HasSubstr("body_T_cam1"));
 }
 
 // Basalt

@@ -164,6 +164,7 @@ std::optional<Format> known_format(const Entry& root) {
   if (is_stella(root)) return Format::kStella;
   if (root.find("lensmodel")) return Format::kMrcal;
   if (root.find("cam0_calib")) return Format::kVins;
+  if (root.find("Camera.fxl")) return Format::kOv2Slam;
   if (root.find("model_type")) return Format::kVinsCamera;
   if (is_calib_io(root)) return Format::kCalibIo;
   if (is_airslam(root)) return Format::kAirSlam;
@@ -306,7 +307,7 @@ bool begins_as_json(std::string_view text) {
 }  // namespace
 
 const char* name_of(Format format) {
-  constexpr std::array<const char*, 24> kNames = {"an OpenCV file",
+  constexpr std::array<const char*, 25> kNames = {"an OpenCV file",
                                                   "a ROS camera_info",
                                                   "a Kalibr camchain",
                                                   "a EuRoC sensor.yaml",
@@ -318,6 +319,7 @@ const char* name_of(Format format) {
                                                   "a file of ORB-SLAM",
                                                   "a file of VINS-Fusion",
                                                   "a camera of VINS-Fusion",
+                                                  "a file of OV2SLAM",
                                                   "a calibration of Basalt",
                                                   "a .cameramodel of mrcal",
                                                   "a list of cameras (OKVIS, SVO, maplab)",

@@ -27,6 +27,7 @@ enum class Format {
   kOrbSlam,
   kVins,
   kVinsCamera,
+  kOv2Slam,
   kBasalt,
   kMrcal,
   kCameraList,

@@ -32,6 +32,17 @@ double focal_length_of(const std::vector<double>& p, const Entry& entry) {
   return p[0];
 }
 
+/// Width and height as two numbers, or as in "640x480".
+std::vector<double> sides_of(const Entry& both) {
+  const std::string text = both.is_scalar() ? both.text() : std::string();
+  const std::size_t sign = text.find('x');
+  if (sign == std::string::npos) return both.numbers(2, "width and height");
+  const std::optional<double> width = parse_number(text.substr(0, sign));
+  const std::optional<double> height = parse_number(text.substr(sign + 1));
+  if (!width || !height) both.fail("is '" + printable(text) + "', as in 640x480 is needed");
+  return {*width, *height};
+}
+
 }  // namespace
 
 Motion Motion::inverse() const {
@@ -201,7 +212,7 @@ void set_size(CameraCalibration& camera, const Entry& width, const Entry& height
 }
 
 void set_size(CameraCalibration& camera, const Entry& both) {
-  const std::vector<double> size = both.numbers(2, "width and height");
+  const std::vector<double> size = sides_of(both);
   for (const double side : size) {
     if (side < 1 || side > kLargestImageSide || side != std::floor(side)) {
       both.fail("is " + number_text(size[0]) + "x" + number_text(size[1]) +

@@ -40,6 +40,8 @@ StereoCalibration read_zed(const Entry& file, const Request& request);
 StereoCalibration read_orbslam(const Entry& file, const Request& request);
 /// A file of VINS-Fusion, and the camera files that it names.
 StereoCalibration read_vins(const Entry& file, const Request& request);
+/// A file of OV2SLAM.
+StereoCalibration read_ov2slam(const Entry& file, const Request& request);
 /// A calibration of Basalt.
 StereoCalibration read_basalt(const Entry& file, const Request& request);
 /// The .cameramodel files of mrcal, left and right.

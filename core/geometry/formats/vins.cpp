@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // VINS-Fusion: a file that names the files of its cameras, in the same folder. body_T_cam0 moves
-// points from the camera to the body.
+// points from the camera to the body. OV2SLAM has the same poses, and the cameras in one file.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -68,7 +68,36 @@ CameraCalibration read_named(const Entry& name) {
   return read_vins_camera(document.entry());
 }
 
+/// The camera of OV2SLAM whose entries end in the first letter of the side.
+CameraCalibration read_ov2slam_camera(const Entry& file, const std::string& side) {
+  const auto at = [&](const std::string& name) { return file.at("Camera." + name); };
+  const auto number = [&](const char* name) { return at(name + side.substr(0, 1)).number(); };
+  CameraCalibration camera;
+  set_size(camera, at(side + "_nwidth"), at(side + "_nheight"));
+  set_camera_matrix(camera, at("fx" + side.substr(0, 1)),
+                    {number("fx"), 0, number("cx"), 0, number("fy"), number("cy"), 0, 0, 1});
+  const Entry model = at("model_" + side);
+  if (model.text() != "pinhole" && model.text() != "fisheye") {
+    model.fail("is '" + printable(model.text()) + "', only pinhole and fisheye are supported");
+  }
+  camera.lens = model.text() == "fisheye" ? LensModel::kFisheye : LensModel::kPlumbBob;
+  // Those of a fisheye lens have these names, too.
+  for (const char* name : {"k1", "k2", "p1", "p2"}) camera.coefficients.push_back(number(name));
+  return camera;
+}
+
 }  // namespace
+
+StereoCalibration read_ov2slam(const Entry& file, const Request& request) {
+  no_selection(file, request.selection);
+  StereoCalibration calibration;
+  calibration.format = "OV2SLAM";
+  calibration.left = read_ov2slam_camera(file, "left");
+  calibration.right = read_ov2slam_camera(file, "right");
+  set_motion_on_body(calibration, file.at("body_T_cam0", "position of the left camera"),
+                     file.at("body_T_cam1", "position of the right camera"));
+  return calibration;
+}
 
 StereoCalibration read_vins(const Entry& file, const Request& request) {
   no_selection(file, request.selection);
