@@ -117,6 +117,8 @@ TEST_F(BrokenFile, OfAnotherKindIsNamed) {
   EXPECT_THAT(
       refused("Device info: \n  Name : Intel RealSense D435\n Intrinsic of \"Infrared 1\"\n"),
       HasSubstr("to a YAML file: fx, fy, cx (PPX), cy (PPY) of Infrared 1, and baseline"));
+  EXPECT_THAT(refused("{\"parameters\": {\"aux-param-disparityshift\": \"0\"}}"),
+              HasSubstr("has settings of a RealSense camera, not its calibration"));
   EXPECT_THAT(refused("calib_time: 15-Mar-2012 11:37:16\nR: 1 0 0 0 1 0 0 0 1\nT: 0.1 0 0\n"),
               HasSubstr("states no cameras (S_02, K_02 and others): KITTI has them in"));
   EXPECT_THAT(refused("S_101: 881 400\nK_101: 1000 0 440 0 1000 200 0 0 1\n"),

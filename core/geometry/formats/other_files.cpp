@@ -128,6 +128,11 @@ void refuse_reports(std::string_view start, const std::string& file) {
                     "video to a YAML file: fx, fy, cx (PPX), cy (PPY) of Infrared 1, and baseline, "
                     "the first value of the translation between Infrared 1 and 2");
   }
+  if (start.find("\"aux-param-") != std::string_view::npos) {
+    throw FileError(file +
+                    ": has settings of a RealSense camera, not its calibration; give what "
+                    "rs-enumerate-devices -c states for it");
+  }
   if (const std::string_view program = reconstruction_program(start); !program.empty()) {
     throw FileError(file + ": is of " + std::string(program) +
                     ", whose lengths have no unit; write K, distortion, R and T [m] of "
