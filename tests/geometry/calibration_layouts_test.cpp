@@ -311,6 +311,7 @@ TEST_F(Layout, NamesOfOtherProgramsStateTheUnitAndTheSize) {
   EXPECT_NEAR(calibration.baseline(), 0.065, 1e-12);
   const std::string meters = pair + "t: [ -0.065, 0, 0 ]\n";
   EXPECT_EQ(read_valid(write(meters + "resolution: 640x480\n")).right.height, 480);
+  EXPECT_EQ(read_valid(write(meters + "res1: [640, 480]\nres2: [320, 240]\n")).right.width, 320);
   for (const char* size : {"640x", "640x480x3", "0x480", "640x.nan"}) {
     EXPECT_THAT(refused(meters + "resolution: " + size + "\n"), HasSubstr("resolution is "));
   }

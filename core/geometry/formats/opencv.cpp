@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kOwnFormat = "mtstereo";
 constexpr Names kSize =
     "imagesize imagesize1 size imgsize framesize resolution leftsize "
-    "leftimagesize leftresolution";
+    "leftimagesize leftresolution res1";
 constexpr Names kWidth =
     "imagewidth width leftwidth leftimagewidth imagesizewidth resolutionwidth camwidth";
 constexpr Names kHeight =
@@ -69,7 +69,7 @@ void read_sizes(const OpenCvEntries& files, const Request& request,
   calibration.right.width = left.width;
   calibration.right.height = left.height;
   if (const std::optional<Entry> other =
-          files.find("imagesize2 rightsize rightimagesize rightresolution")) {
+          files.find("imagesize2 rightsize rightimagesize rightresolution res2")) {
     set_size(calibration.right, *other);
   }
   if (!both || calibration.format == kOwnFormat) return;
