@@ -212,6 +212,8 @@ def calibrations_of_slam():
     yield "calib.io", b"\0\0" + json.dumps({"Calibration": {"cameras": [
         {"model": model, "transform": {"rotation": {"rx": 0, "ry": 0.1, "rz": 0},
                                        "translation": {"x": x, "y": 0, "z": 0}}} for x in (0, -0.12)]}}).encode()
+    yield "appended", (f"\1\0%YAML:1.0\n---\nK1: {k}\nD1: {d}\n...\n---\nK2: {k}\nD2: {d}\n...\n---\n"
+                       f"R: {r}\nT: [-0.12, 0, 0]\n").encode()
     yield "omnidir", (f"\1\0K1: {k}\nD1: {d}\nxi1: 0.8\nK2: {k}\nD2: {d}\nxi2: 0.9\nrvec: [0, 0.1, 0]\n"
                       "T: [-0.12, 0, 0]\n").encode()
     yield "region", ("\0\0" + info.format(p.format(0)) + "\1" + info.format(p.format(-31))).encode()

@@ -88,6 +88,29 @@ TEST(OpenCvNames, OfSeveralProgramsAreKnown) {
   }
 }
 
+TEST(OpenCvDocuments, ThatAreAppendedBelongToTheFile) {
+  for (const char* name : {"c.yml", "c.xml", "c.json"}) {
+    const CalibrationFolder folder;
+    const std::string path = folder.path(name);
+    const StereoCalibration pair = plumb_bob_pair();
+    {
+      cv::FileStorage file(path, cv::FileStorage::WRITE);
+      file << "K1" << camera_matrix(pair.left) << "D1" << row(pair.left.coefficients);
+    }
+    {
+      cv::FileStorage file(path, cv::FileStorage::APPEND);
+      file << "K2" << camera_matrix(pair.right) << "D2" << row(pair.right.coefficients);
+    }
+    {
+      cv::FileStorage file(path, cv::FileStorage::APPEND);
+      file << "R" << matrix(pair.rotation) << "T" << cv::Mat(translation(pair.translation) / 0.001);
+      file << "length_unit"
+           << "mm";
+    }
+    expect_near(read_valid(path, 640, 480), pair, 1e-12, false);
+  }
+}
+
 TEST(OpenCvUnits, OtherThanMetersAreStatedOrRefused) {
   const CalibrationFolder folder;
   const auto write = [&](const char* name, double unit, const char* word) {

@@ -248,6 +248,20 @@ void add_second_camera_info(Document& document, const std::string& text) {
   document.root = std::move(list);
 }
 
+/// The entries of all documents, which FileStorage::APPEND adds to a file.
+void add_appended(Document& document, const std::string& text) {
+  if (!text.starts_with("%YAML:") || text.find("\n...") == std::string::npos) return;
+  constexpr std::size_t kMost = 8;
+  Value& root = document.root;
+  const std::vector<Value> documents = parse_yaml_documents(text, document.file, kMost);
+  for (std::size_t i = 1; i < documents.size(); ++i) {
+    const Value& next = documents[i];
+    if (root.kind != Value::Kind::kMap || next.kind != Value::Kind::kMap) return;
+    root.names.insert(root.names.end(), next.names.begin(), next.names.end());
+    root.items.insert(root.items.end(), next.items.begin(), next.items.end());
+  }
+}
+
 /// Recognises the format of a parsed file. Rigs and parameters of ROS nodes have the calibration in
 /// a map, which may have scalars next to it.
 void find_format(Document& document) {
@@ -354,6 +368,7 @@ Document parse_document(const std::string& file) {
     return document;
   } else {
     document.root = parse_yaml(text, file);
+    add_appended(document, text);
     yaml = true;
   }
   find_format(document);

@@ -52,7 +52,10 @@ class TreeBuilder {
 
 /// YAML, and the YAML that OpenCV writes, whose first line is "%YAML:1.0". Of several documents the
 /// one with this number from 1 on; null if there is none.
-Value parse_yaml(const std::string& text, const std::string& file, int number = 1);
+Value parse_yaml(const std::string& text, const std::string& file, std::size_t number = 1);
+/// The first documents of YAML, at most so many.
+std::vector<Value> parse_yaml_documents(const std::string& text, const std::string& file,
+                                        std::size_t most);
 /// JSON, also with the comments of C++.
 Value parse_json(const std::string& text, const std::string& file);
 /// The XML that OpenCV writes: elements and text, without document types.

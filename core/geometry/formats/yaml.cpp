@@ -108,18 +108,20 @@ std::string remedy_of(const std::string& file) {
 
 }  // namespace
 
-Value parse_yaml(const std::string& text, const std::string& file, int number) {
+std::vector<Value> parse_yaml_documents(const std::string& text, const std::string& file,
+                                        std::size_t most) {
   // "%YAML:1.0" is no directive of YAML. A comment in its place keeps the numbers of the lines.
   const bool opencv = text.compare(0, 5, "%YAML") == 0;
   std::string yaml = opencv ? with_separated_values(text) : text;
   if (text.compare(0, 6, "%YAML:") == 0) yaml[0] = '#';
-  Value document;
+  std::vector<Value> documents;
   try {
     std::istringstream stream(yaml);
     YAML::Parser parser(stream);
-    for (int i = 0; i < number; ++i) {
+    while (documents.size() < most) {
       YamlHandler handler(file);
-      document = parser.HandleNextDocument(handler) ? handler.take() : Value();
+      if (!parser.HandleNextDocument(handler)) break;
+      documents.push_back(handler.take());
     }
   } catch (const FileError&) {
     throw;
@@ -131,7 +133,12 @@ Value parse_yaml(const std::string& text, const std::string& file, int number) {
   } catch (const std::exception& error) {
     throw FileError(file + ": is not valid YAML: " + error.what());
   }
-  return document;
+  return documents;
+}
+
+Value parse_yaml(const std::string& text, const std::string& file, std::size_t number) {
+  std::vector<Value> documents = parse_yaml_documents(text, file, number);
+  return documents.size() == number ? std::move(documents.back()) : Value();
 }
 
 }  // namespace mtstereo::formats
