@@ -175,6 +175,11 @@ def calibrations_of_slam():
            "distortion: {{type: none, parameters: []}}}}, T_B_C: {}}}")
     yield "svo", ("\0\0sensors:\n  - cameras:\n" + "".join(
         f"    - {svo.format(pose.format(x))}\n" for x in (0, 0.12))).encode()
+    yield "spectacular-ai", b"\0\0" + json.dumps({"cameras": [
+        {"focalLengthX": 310, "focalLengthY": 311, "principalPointX": 322, "principalPointY": 241, "model": model,
+         "distortionCoefficients": [0.1, 0, 0, 0], "imageWidth": 640, "imageHeight": 480,
+         "imuToCamera": [[1, 0, 0, x], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}
+        for model, x in (("kannala-brandt4", 0), ("brown-conrady", -0.12))]}).encode()
     yield "stella", (
         "\0\0Camera: {setup: stereo, model: perspective, fx: 310, fy: 310, cx: 322, cy: 241, cols: 640, rows: 480, "
         f"focal_x_baseline: 31}}\nStereoRectifier: {{model: fisheye, K_left: {k}, K_right: {k}, D_left: {d}, "

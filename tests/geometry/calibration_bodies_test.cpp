@@ -74,6 +74,34 @@ TEST_F(BodyFile, OfSvoAndMaplabHasAllCameras) {
                    svo("    ")));
 }
 
+std::string spectacular_ai(const std::string& model, const std::string& coefficients) {
+  std::string text = "{\"cameras\": [";
+  for (const char* x : {"0.5", "0.38"}) {
+    text += std::string(text.back() == '[' ? "" : ", ") +
+            "{\"focalLengthX\": 310.5, \"focalLengthY\": 311.5, \"principalPointX\": 322.25, "
+            "\"principalPointY\": 241.75, \"model\": \"" +
+            model + "\", \"distortionCoefficients\": [" + coefficients +
+            "], \"imageWidth\": 640, \"imageHeight\": 480, \"imuToCamera\": [[1, 0, 0, " + x +
+            "], [0, 0, 1, 0.25], [0, -1, 0, 0.125], [0, 0, 0, 1]]}";
+  }
+  return text + "]}";
+}
+
+TEST_F(BodyFile, OfSpectacularAiHasPosesOfTheImu) {
+  const StereoCalibration wide = read(spectacular_ai("kannala-brandt4", "0.1, 0.2, 0.3, 0.4"));
+  expect_pair(wide);
+  EXPECT_EQ(wide.left.lens, LensModel::kFisheye);
+  const StereoCalibration brown =
+      read(spectacular_ai("brown-conrady", "0.1, 0.2, 0.01, 0.02, 0, 0, 0, 0.5"));
+  EXPECT_EQ(brown.right.coefficients, (std::vector<double>{0.1, 0.2, 0.01, 0.02, 0, 0, 0, 0.5}));
+  EXPECT_EQ(read(spectacular_ai("pinhole", "")).left.lens, LensModel::kNone);
+  EXPECT_THAT(refused(spectacular_ai("pinhole", "0.1")), HasSubstr("the lens model is \"none\""));
+  EXPECT_THAT(refused(spectacular_ai("fov", "0.1")),
+              HasSubstr("is 'fov', only pinhole, kannala-brandt4 and brown-conrady"));
+  EXPECT_THAT(refused(replaced(spectacular_ai("pinhole", ""), "\"model\"", "\"lens\"")),
+              HasSubstr("cameras[0] has no entry model"));
+}
+
 TEST_F(BodyFile, WithoutAPairIsRefused) {
   const std::string good = okvis("equidistant", "[0.1, 0, 0, 0]");
   const std::string one = good.substr(0, good.rfind("   - {T_SC"));

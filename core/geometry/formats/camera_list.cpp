@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Lists of cameras on a body: OKVIS (T_SC), and SVO, maplab and Kalibr's exporter (T_B_C). Both
-// poses move points from a camera to the body.
+// poses move points from a camera to the body; that of Spectacular AI (imuToCamera) moves them
+// back.
 #include <optional>
 #include <vector>
 
@@ -32,8 +33,34 @@ CameraCalibration read_okvis(const Entry& entry) {
   return camera;
 }
 
+CameraCalibration read_spectacular_ai(const Entry& entry) {
+  CameraCalibration camera;
+  const std::optional<Entry> width = entry.find("imageWidth"), height = entry.find("imageHeight");
+  if (width && height) set_size(camera, *width, *height);
+  const auto number = [&](const char* name) { return entry.at(name).number(); };
+  set_camera_matrix(camera, entry,
+                    {number("focalLengthX"), 0, number("principalPointX"), 0,
+                     number("focalLengthY"), number("principalPointY"), 0, 0, 1});
+  const Entry model = entry.at("model", "the lens model");
+  LensModel lens = LensModel::kNone;
+  if (model.text() == "kannala-brandt4") {
+    lens = LensModel::kFisheye;
+  } else if (model.text() == "brown-conrady") {
+    lens = LensModel::kPlumbBob;
+  } else if (model.text() != "pinhole") {
+    model.fail("is '" + printable(model.text()) +
+               "', only pinhole, kannala-brandt4 and brown-conrady are supported");
+  }
+  const std::optional<Entry> coefficients = entry.find("distortionCoefficients");
+  if (coefficients || lens != LensModel::kNone) {
+    set_lens(camera, lens, entry.at("distortionCoefficients"));
+  }
+  return camera;
+}
+
 CameraCalibration read_listed_camera(const Entry& entry) {
   if (entry.find("T_SC")) return read_okvis(entry);
+  if (entry.find("imuToCamera")) return read_spectacular_ai(entry);
   CameraCalibration camera;
   const Entry inner = entry.at("camera");
   const Entry type = inner.at("type");
@@ -48,7 +75,13 @@ CameraCalibration read_listed_camera(const Entry& entry) {
 }
 
 Entry pose_of(const Entry& camera) {
-  return camera.find("T_SC") ? camera.at("T_SC") : camera.at("T_B_C", "the position on the body");
+  const std::optional<Entry> pose = camera.find_any({"imuToCamera", "T_SC"});
+  return pose ? *pose : camera.at("T_B_C", "the position on the body");
+}
+
+Motion to_body(const Entry& camera) {
+  const Motion motion = motion_from(pose_of(camera));
+  return camera.find("imuToCamera") ? motion.inverse() : motion;
 }
 
 }  // namespace
@@ -56,7 +89,7 @@ Entry pose_of(const Entry& camera) {
 bool is_camera_list(const Entry& file) {
   const std::optional<Entry> cameras = cameras_of(file);
   if (!cameras || !cameras->is_list() || cameras->value().items.empty()) return false;
-  return cameras->list().front().find_any({"T_SC", "T_B_C"}).has_value();
+  return cameras->list().front().find_any({"T_SC", "T_B_C", "imuToCamera"}).has_value();
 }
 
 StereoCalibration read_camera_list(const Entry& file, const Request& request) {
@@ -66,7 +99,9 @@ StereoCalibration read_camera_list(const Entry& file, const Request& request) {
   calibration.format = "camera list";
   calibration.left = read_listed_camera(cameras[pair.left]);
   calibration.right = read_listed_camera(cameras[pair.right]);
-  set_motion_on_body(calibration, pose_of(cameras[pair.left]), pose_of(cameras[pair.right]));
+  const Motion motion = to_body(cameras[pair.right]).inverse().after(to_body(cameras[pair.left]));
+  check_translation(motion.translation, pose_of(cameras[pair.right]), "; it must be in meters");
+  set_motion(calibration, motion);
   return calibration;
 }
 
