@@ -80,7 +80,8 @@ TEST(RectifiedView, StatesTheIntrinsicsAndTheBaseline) {
     EXPECT_THAT(read_refused(write(k + "baseline: 0.06\n" + name + ": [-0.1, 0, 0, 0]\n")),
                 HasSubstr(std::string(name) + " is not 0"));
   }
-  EXPECT_THAT(read_refused(write(k)), HasSubstr("fx, fy, cx, cy and baseline (in meters)"));
+  EXPECT_THAT(read_refused(write(k)),
+              HasSubstr("fx, fy, cx, cy and baseline (in meters) are enough, of others M1"));
   EXPECT_THAT(read_refused(write("fx: 0\ncx: 1\ncy: 2\nbaseline: 1\n")), HasSubstr("fx = 0"));
 }
 

@@ -298,7 +298,7 @@ void find_format(Document& document) {
       "(DepthAI), [LEFT_CAM_...] (ZED), Camera1.fx (ORB-SLAM), cam0_calib (VINS-Fusion), "
       "value0 (Basalt), lensmodel (mrcal), cameras (OKVIS, SVO, maplab), intrinsic.u0 "
       "(Cityscapes), camRect0 (DSEC), camera_data_ (Argoverse) is in it; of rectified views, fx, "
-      "fy, cx, cy and baseline (in meters) are enough");
+      "fy, cx, cy and baseline (in meters) are enough, of others M1, D1, M2, D2, R and T");
 }
 
 /// Whether a text is a Python literal of mrcal; it may begin with comments.
