@@ -365,6 +365,22 @@ TEST_F(Layout, ARotationVectorIsNoTranslation) {
               HasSubstr("there is no entry T (translation between the cameras)"));
 }
 
+TEST_F(Layout, ALargeRotationVectorIsNoted) {
+  const auto remarks = [&](const char* vector) {
+    return read_valid(write(lines({{"K1", kLeftK},
+                                   {"D1", kLeftD},
+                                   {"K2", kRightK},
+                                   {"D2", kRightD},
+                                   {"R", vector},
+                                   {"T", kT}})),
+                      640, 480)
+        .remarks;
+  };
+  EXPECT_TRUE(remarks("[ 0.1, 0.1, 0.1 ]").empty());
+  EXPECT_THAT(remarks("[ 0., 0.5, 0. ]"),
+              ::testing::ElementsAre(HasSubstr("R is a vector that turns the cameras by 29")));
+}
+
 TEST_F(Layout, OfOmnidirHasXi) {
   const std::string four = "[ -0.25, 0.125, 0.001, 0.002 ]";
   const std::string cameras = lines({{"camera_matrix_1", kLeftK},

@@ -3,6 +3,7 @@
 // other programs give to the same matrices, and the file of write_calibration().
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -256,6 +257,14 @@ void read_motion(const OpenCvEntries& files, const PairEntries& pair, double uni
   if (!pair.rotation) files.fail_without("R", "rotation between the cameras");
   if (!pair.translation) files.fail_without("T", "translation between the cameras");
   const std::vector<double> v = pair.translation->numbers(3, "a vector");
+  const std::vector<double> r = pair.rotation->numbers();
+  constexpr double kLargeTurn = 0.2;  // [rad]
+  if (r.size() == 3 && std::hypot(r[0], r[1], r[2]) > kLargeTurn) {
+    calibration.remarks.push_back(
+        pair.rotation->name() + " is a vector that turns the cameras by " +
+        number_text(std::round(std::hypot(r[0], r[1], r[2]) * 180 / std::numbers::pi)) +
+        " degrees to each other: it must be a rotation vector in radians.");
+  }
   Motion motion;
   motion.rotation = rotation_from(*pair.rotation);
   motion.translation = Eigen::Vector3d(v[0], v[1], v[2]) * unit;
