@@ -12,6 +12,7 @@
 
 #include "lib/outputs/folder_lock.hpp"
 #include "lib/outputs/printable.hpp"
+#include "lib/outputs/user_error.hpp"
 #include "programs/run/check_command.hpp"
 #include "programs/run/cluster_commands.hpp"
 #include "programs/run/interruption.hpp"
@@ -28,8 +29,12 @@ namespace fs = std::filesystem;
 constexpr const char* kInterrupted = "mtstereo-run: interrupted; --resume continues\n";
 
 void print_problem(const Problem& problem) {
-  std::cerr << "mtstereo-run: " << outputs::printable(problem.input + ": " + problem.reason)
-            << '\n';
+  std::cerr << "mtstereo-run: " << outputs::printable(text_of(problem)) << '\n';
+}
+
+[[noreturn]] void fail_with(const std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i + 1 < problems.size(); ++i) print_problem(problems[i]);
+  throw UserError(outputs::printable(text_of(problems.back())));
 }
 
 // One recording, or those in a folder.
@@ -38,7 +43,7 @@ std::vector<Recording> find(const Options& options, std::vector<Problem>& proble
   if (options.inputs.size() == 1 && fs::is_directory(options.inputs.front(), error)) {
     std::vector<Recording> found = find_recordings(options.inputs.front(), options.input, problems);
     if (!found.empty()) return found;
-    problems.clear();
+    if (!problems.empty()) fail_with(problems);
   }
   return {recognize(options.inputs, options.input)};
 }

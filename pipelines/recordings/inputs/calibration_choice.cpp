@@ -118,7 +118,12 @@ void use(Recording& recording, const std::string& path, const StereoCalibration&
                            : "The views are not rectified: they are rectified by it first."));
 }
 
-// The files that can be used of those beside the input.
+bool are_equal(const StereoCalibration& a, const StereoCalibration& b) {
+  return a.left == b.left && a.right == b.right && a.rotation == b.rotation &&
+         a.translation == b.translation && a.rectification == b.rectification;
+}
+
+// The files that can be used of those beside the input, without those that state the same.
 struct Usable {
   std::vector<std::pair<std::string, StereoCalibration>> calibrations;
   std::string first_problem;
@@ -129,7 +134,11 @@ Usable usable_of(const std::vector<std::string>& beside, int width, int height) 
   for (const std::string& path : beside) {
     Result<StereoCalibration> calibration = fitting(path, width, height);
     if (calibration) {
-      usable.calibrations.emplace_back(path, std::move(*calibration));
+      auto& known = usable.calibrations;
+      const bool is_new = std::none_of(known.begin(), known.end(), [&](const auto& each) {
+        return are_equal(each.second, *calibration);
+      });
+      if (is_new) known.emplace_back(path, std::move(*calibration));
     } else if (usable.first_problem.empty()) {
       usable.first_problem = calibration.error().message;
     }

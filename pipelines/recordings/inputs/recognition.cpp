@@ -30,14 +30,6 @@ bool is_of_kernel(const fs::path& folder) {
   return found.f_type == PROC_SUPER_MAGIC || found.f_type == SYSFS_MAGIC;
 }
 
-// A reason may name the input, or a file in it.
-std::string text_of(const Problem& problem, const std::string& between) {
-  const std::string name = problem.input + ": ";
-  const bool named = problem.reason.starts_with(name);
-  if (!named && problem.reason.starts_with(problem.input)) return problem.reason;
-  return problem.input + between + (named ? problem.reason.substr(name.size()) : problem.reason);
-}
-
 std::string remark_on(const Problem& unread) {
   return unread.input + " is not used: it " + unread.reason + ".";
 }
@@ -90,7 +82,7 @@ Recording only_recording(const std::string& folder, FolderContents contents) {
       if (!unread.empty()) throw UserError(unread);
       throw UserError(folder + ": no recording is in this folder: " + views_to_give(folder));
     }
-    throw UserError(text_of(contents.problems.front(), ": "));
+    throw UserError(text_of(contents.problems.front()));
   }
   if (contents.recordings.size() > 1) {
     throw UserError(folder + ": there are " + std::to_string(contents.recordings.size()) +
@@ -182,6 +174,13 @@ class ArchiveSearch {
 };
 
 }  // namespace
+
+std::string text_of(const Problem& problem, const std::string& between) {
+  const std::string name = problem.input + ": ";
+  const bool named = problem.reason.starts_with(name);
+  if (!named && problem.reason.starts_with(problem.input)) return problem.reason;
+  return problem.input + between + (named ? problem.reason.substr(name.size()) : problem.reason);
+}
 
 Recording recognize(const std::vector<std::string>& inputs, const InputOptions& options) {
   if (inputs.empty() || inputs.size() > 2) {

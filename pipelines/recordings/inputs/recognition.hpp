@@ -20,4 +20,7 @@ Recording recognize(const std::vector<std::string>& inputs, const InputOptions& 
 std::vector<Recording> find_recordings(const std::filesystem::path& archive,
                                        const InputOptions& options, std::vector<Problem>& problems);
 
+/// The input and what is wrong with it. The reason may name the input, or a file in it.
+std::string text_of(const Problem& problem, const std::string& between = ": ");
+
 }  // namespace mtstereo::run

@@ -72,6 +72,18 @@ class Program(ProgramCase):
         self.assertIn("good", str(found[0]))
         self.assertEqual(found[0].read_bytes(), (self.whole / "disparity.mkv").read_bytes())
 
+    def test_names_what_is_wrong_in_folders_without_a_usable_recording(self):
+        archive = self.folder / "unusable"
+        for name in ("day/one", "day/two"):
+            (archive / name).mkdir(parents=True)
+            shutil.copy(self.short_left, archive / name / "front.mp4")
+        result = run(archive, "--out", self.out())
+        self.assertEqual(result.returncode, 1, result.stderr)
+        lines = result.stderr.splitlines()
+        self.assertEqual(len(lines), 2, result.stderr)
+        for line, name in zip(lines, ("day/one", "day/two"), strict=True):
+            self.assertRegex(line, f"^mtstereo-run: {archive}/{name}/front.mp4: 160x96 px is the")
+
     def test_says_that_results_are_of_no_use(self):
         exchanged = [self.short_right, self.short_left, "--out", self.out()]
         remedy = r"results are useless: The left and the right view are exchanged: .*--swap"

@@ -227,22 +227,31 @@ TEST_F(DataSets, TwoCalibrationsBesideTheInputAreRefused) {
   write_images("left", {"0.png"}, {848, 480});
   write_images("right", {"0.png"}, {848, 480});
   copy_calibration("camchain.yaml", "camchain.yaml");
-  copy_calibration("camchain.yaml", "left/calibration.yaml");
+  copy_calibration("kitti_calib.txt", "left/calibration.txt");
   EXPECT_THAT(
       [&] {
         recognize({path("left"), path("right")}, {});
       },
-      ThrowsMessage<UserError>(AllOf(HasSubstr("camchain.yaml"), HasSubstr("left/calibration.yaml"),
+      ThrowsMessage<UserError>(AllOf(HasSubstr("camchain.yaml"), HasSubstr("left/calibration.txt"),
                                      HasSubstr("--calibration"))));
   InputOptions options;
   options.calibration = path("camchain.yaml");
   EXPECT_EQ(recognize({path("left"), path("right")}, options).calibration, path("camchain.yaml"));
   // One that cannot be read, or is of another size, is none.
-  write_text(folder_ / "left/calibration.yaml", "nonsense");
+  write_text(folder_ / "left/calibration.txt", "nonsense");
   EXPECT_EQ(recognize({path("left"), path("right")}, {}).calibration, path("camchain.yaml"));
-  fs::remove(path("left/calibration.yaml"));
+  fs::remove(path("left/calibration.txt"));
   copy_calibration("middlebury_calib.txt", "calib.txt");
   EXPECT_EQ(recognize({path("left"), path("right")}, {}).calibration, path("camchain.yaml"));
+}
+
+// As Kalibr writes them without and with the inertial sensor.
+TEST_F(DataSets, TwoCalibrationsThatAreEqualAreOne) {
+  write_images("left", {"0.png"}, {848, 480});
+  write_images("right", {"0.png"}, {848, 480});
+  copy_calibration("camchain.yaml", "camchain.yaml");
+  copy_calibration("camchain.yaml", "rig-camchain.yaml");
+  EXPECT_EQ(recognized("").calibration, path("camchain.yaml"));
 }
 
 TEST_F(DataSets, CalibrationOutsideOfTheInputIsNotUsed) {
