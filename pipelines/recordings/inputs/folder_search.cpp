@@ -38,9 +38,12 @@ std::string name_of_images(const ViewImages& views, const fs::path& folder) {
 // Whether a name is that of other data than a view, such as its depths.
 bool is_other_data(const std::string& name) {
   static const std::regex words(
-      "(^|[^a-z])(depth|disp|disparity|flow|mask|normals?|seg)([^a-z]|$)|Flow$|Segmentation$");
+      "(^|[^a-z])([Dd]epth|[Dd]isp|[Dd]isparity|[Oo]cclusions?|[Gg]round_?[Tt]ruth|boundaries|flow|"
+      "maps?|mask|normals?|seg)([^a-z]|$)|Flow$|Segmentation$");
   return std::regex_search(name, words);
 }
+
+bool is_other_folder(const fs::path& folder) { return is_other_data(folder.filename().string()); }
 
 // Moves what belongs to the views, such as their depths, to the rest of the images.
 void leave_other_data(std::vector<ViewImages>& all_views, std::vector<fs::path>& rest) {
@@ -128,10 +131,11 @@ class FolderSearch {
     const auto rest = std::stable_partition(folders.begin(), folders.end(), [](const auto& folder) {
       return !images_of_folder(folder).empty() || videos_in(folder).size() == 1;
     });
-    add_nested({rest, folders.end()});
-    leave_other_folders({rest, folders.end()});
+    const std::vector<fs::path> outer(rest, folders.end());
+    add_nested(outer);
     folders.erase(rest, folders.end());
     const std::vector<PathPair> pairs = take_views_of_folders(folders);
+    leave_other_folders(outer, !pairs.empty() && !is_other_folder(pairs.front().left));
     for (const PathPair& pair : pairs) {
       contents_.used_folders.insert(contents_.used_folders.end(), {pair.left, pair.right});
       const bool only = pairs.size() == 1 || pair.common.empty();
@@ -147,34 +151,32 @@ class FolderSearch {
 
   // The pairs of folders, without those of what belongs to views beside them, such as their depths.
   std::vector<PathPair> take_views_of_folders(std::vector<fs::path>& folders) {
-    const auto is_other = [](const fs::path& folder) {
-      return is_other_data(folder.filename().string());
-    };
     const std::vector<fs::path> all = folders;
     std::vector<PathPair> pairs = take_pairs(folders);
-    const auto others = std::stable_partition(
-        pairs.begin(), pairs.end(), [&](const PathPair& pair) { return !is_other(pair.left); });
+    const auto others = std::stable_partition(pairs.begin(), pairs.end(), [](const PathPair& pair) {
+      return !is_other_folder(pair.left);
+    });
     if (others == pairs.begin()) return pairs;
     pairs.erase(others, pairs.end());
-    std::erase_if(folders, is_other);
-    std::copy_if(all.begin(), all.end(), std::back_inserter(contents_.used_folders), is_other);
+    std::erase_if(folders, is_other_folder);
+    std::copy_if(all.begin(), all.end(), std::back_inserter(contents_.used_folders),
+                 is_other_folder);
     return pairs;
   }
 
-  // Those of other data with the same folders as those of the views, such as depth/Camera_0 and
-  // rgb/Camera_0.
-  void leave_other_folders(const std::vector<fs::path>& folders) {
-    const auto is_other = [](const fs::path& folder) {
-      return is_other_data(folder.filename().string());
-    };
+  // Those of other data beside views, or with the same folders as those of the views, such as
+  // depth/Camera_0 and rgb/Camera_0.
+  void leave_other_folders(const std::vector<fs::path>& folders, bool beside_views) {
     for (const fs::path& folder : folders) {
+      if (!is_other_folder(folder)) continue;
       const std::vector<fs::path> inner = files::folders_in(folder);
-      const bool beside =
-          !inner.empty() && is_other(folder) &&
-          std::any_of(folders.begin(), folders.end(), [&](const fs::path& views) {
-            return !is_other(views) && files::is_folder(views / inner.front().filename());
-          });
-      if (beside) contents_.used_folders.push_back(folder);
+      const auto has_same = [&inner](const fs::path& views) {
+        return !inner.empty() && !is_other_folder(views) &&
+               files::is_folder(views / inner.front().filename());
+      };
+      if (beside_views || std::any_of(folders.begin(), folders.end(), has_same)) {
+        contents_.used_folders.push_back(folder);
+      }
     }
   }
 

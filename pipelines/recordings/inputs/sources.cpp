@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 
 #include "lib/files/file_names.hpp"
 #include "lib/files/unread_kinds.hpp"
@@ -103,7 +104,13 @@ std::string reason_of_absence(const std::string& input) {
 
 std::vector<fs::path> images_of_folder(const fs::path& folder) {
   std::vector<fs::path> images = files::images_in(folder);
-  return images.empty() ? files::images_in(folder / "data") : images;
+  for (const char* name : {"data", "images"}) {
+    // One image may be that of the vignette.
+    if (images.size() > 1) break;
+    std::vector<fs::path> inner = files::images_in(folder / name);
+    if (inner.size() > images.size()) images = std::move(inner);
+  }
+  return images;
 }
 
 const fs::path& file_of(const Source& source) {

@@ -10,7 +10,7 @@
 
 namespace mtstereo::run {
 
-/// The images of a folder, or of the folder data in it.
+/// The images of a folder, or of the folder data or images in it.
 std::vector<std::filesystem::path> images_of_folder(const std::filesystem::path& folder);
 
 /// The videos of a folder, without the results of earlier runs.

@@ -27,7 +27,9 @@ struct Words {
   Place place;
 };
 
-constexpr std::array<Words, 37> kWords{{{"left", "right", Place::kAny},
+// Words of cameras come first: left and right may be directions of both, as in lcam_left.
+constexpr std::array<Words, 37> kWords{{{"lcam", "rcam", Place::kWhole},
+                                        {"left", "right", Place::kAny},
                                         {"Left", "Right", Place::kAny},
                                         {"LEFT", "RIGHT", Place::kAny},
                                         {"l", "r", Place::kWhole},
@@ -42,7 +44,6 @@ constexpr std::array<Words, 37> kWords{{{"left", "right", Place::kAny},
                                         {"Camera0", "Camera1", Place::kWhole},
                                         {"Camera_0", "Camera_1", Place::kWhole},
                                         {"camera_00", "camera_01", Place::kWhole},
-                                        {"lcam", "rcam", Place::kWhole},
                                         {"camA", "camB", Place::kWhole},
                                         {"cam_a", "cam_b", Place::kWhole},
                                         {"camera_a", "camera_b", Place::kWhole},

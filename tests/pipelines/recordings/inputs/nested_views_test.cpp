@@ -146,6 +146,31 @@ TEST_F(NestedFolders, OfDepthsBesideThoseOfViewsAreNoViews) {
   EXPECT_THAT(found(), ElementsAre(HasSubstr(": depth test/left/1.png"), HasSubstr("frames/rgb")));
 }
 
+// Those of Scene Flow, Spring and SERV-CT.
+TEST_F(NestedFolders, OfOtherDataBesideViewsAreNoViews) {
+  write_images({"flow/frames/A/left/1.png", "flow/frames/A/right/1.png",
+                "flow/motion_boundaries/A/left/1.png", "flow/motion_boundaries/A/right/1.png",
+                "spring/frame_left/1.png", "spring/frame_right/1.png",
+                "spring/maps/skymap_left/1.png", "spring/maps/skymap_right/1.png",
+                "scope/Left_rectified/1.png", "scope/Right_rectified/1.png",
+                "scope/Ground_truth_CT/DepthL/1.png", "scope/Ground_truth_CT/DepthR/1.png",
+                "tof/Left/1.png", "tof/Right/1.png", "tof/Depth_L/1.png", "tof/Depth_R/1.png",
+                "tof/OcclusionL/1.png", "tof/OcclusionR/1.png"});
+  EXPECT_THAT(found(),
+              ElementsAre(HasSubstr(": flow/frames/A/left/1.png"),
+                          HasSubstr(": scope/Left_rectified/1.png"),
+                          HasSubstr(": spring/frame_left/1.png"), HasSubstr(": tof/Left/1.png")));
+  EXPECT_THAT(problems_, IsEmpty());
+}
+
+// The vignettes of TUM-VI.
+TEST_F(NestedFolders, OfOneImageHaveTheViewsInTheFolderImages) {
+  write_images({"dso/cam0/vignette.png", "dso/cam0/images/1.png", "dso/cam0/images/2.png",
+                "dso/cam1/vignette.png", "dso/cam1/images/1.png", "dso/cam1/images/2.png"});
+  EXPECT_THAT(found(), ElementsAre("dso: dso/cam0/images/1.png dso/cam1/images/1.png"));
+  EXPECT_THAT(problems_, IsEmpty());
+}
+
 TEST_F(NestedFolders, WithNothingInCommonAreNoViews) {
   write_images({"left/a/1.png", "right/b/1.png"});
   EXPECT_TRUE(nested_views(path("left"), path("right")).pairs.empty());

@@ -58,6 +58,18 @@ TEST(ViewNames, FindsPairs) {
   }
 }
 
+// As in TartanAir V2: left and right may be directions of both cameras.
+TEST(ViewNames, PreferTheWordsOfCameras) {
+  std::vector<fs::path> paths{"lcam_left", "lcam_right", "rcam_left", "rcam_right"};
+  const std::vector<PathPair> pairs = take_pairs(paths);
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_EQ(pairs[0].left, "lcam_left");
+  EXPECT_EQ(pairs[0].right, "rcam_left");
+  EXPECT_EQ(pairs[0].common, "left");
+  EXPECT_EQ(pairs[1].right, "rcam_right");
+  EXPECT_EQ(name_without_view("000001_rcam_left", true), "000001_left");
+}
+
 TEST(ViewNames, LeavesMoreThanTwoCamerasCountedFromOne) {
   std::vector<fs::path> three{"cam1", "cam2", "cam3"}, from_zero{"cam0", "cam1", "cam2"};
   EXPECT_TRUE(take_pairs(three).empty());
