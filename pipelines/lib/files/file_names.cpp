@@ -23,6 +23,11 @@ namespace {
 
 bool is_digit(char each) { return std::isdigit(static_cast<unsigned char>(each)) != 0; }
 
+std::string in_lower_case(std::string text) {
+  for (char& each : text) each = static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
+  return text;
+}
+
 // Removes and returns the digits at the beginning, without leading zeros.
 std::string_view take_number(std::string_view& text) {
   std::size_t end = 0;
@@ -140,13 +145,9 @@ std::string last_number(const fs::path& file) {
   return std::string(take_number(rest));
 }
 
-std::string extension_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& each : extension) {
-    each = static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
-  }
-  return extension;
-}
+std::string extension_of(const fs::path& file) { return in_lower_case(file.extension()); }
+
+std::string lower_stem(const fs::path& file) { return in_lower_case(file.stem()); }
 
 bool is_image(const fs::path& file) {
   constexpr std::array<std::string_view, 9> kKnown{".png", ".tif", ".tiff", ".bmp", ".jp2",

@@ -19,6 +19,8 @@ std::string last_number(const std::filesystem::path& file);
 
 /// The extension in lower case, with its dot.
 std::string extension_of(const std::filesystem::path& file);
+/// The name without its extension, in lower case.
+std::string lower_stem(const std::filesystem::path& file);
 /// By its extension: an image that OpenCV reads.
 bool is_image(const std::filesystem::path& file);
 /// The same: a JPEG image, also one with both views (.jps).

@@ -2,72 +2,21 @@
 #include "recordings/inputs/calibration_choice.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
-#include <string_view>
+#include <regex>
 #include <utility>
 
 #include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "mtstereo/geometry/calibration.hpp"
 #include "recordings/inputs/recording_files.hpp"
-#include "recordings/inputs/view_names.hpp"
+#include "recordings/inputs/sources.hpp"
 
 namespace mtstereo::run {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string lower_stem(const fs::path& file) {
-  std::string stem = file.stem().string();
-  for (char& each : stem) each = static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
-  return stem;
-}
-
-// Those of Python and MATLAB cannot be read: the remark says how to convert them.
-bool may_be_calibration(const fs::path& file) {
-  constexpr std::array<std::string_view, 11> kExtensions{
-      ".yml", ".yaml", ".txt", ".json", ".xml", ".conf", ".toml", ".ini", ".npz", ".pkl", ".mat"};
-  const std::string extension = files::extension_of(file);
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
-
-// Whether the name is that of a calibration of both cameras.
-bool is_calibration_name(const fs::path& file) {
-  const std::string stem = lower_stem(file);
-  if (files::extension_of(file) == ".conf" && stem.starts_with("sn")) return true;
-  constexpr std::array<std::string_view, 3> kWords{"calib", "stereo", "camchain"};
-  return std::any_of(kWords.begin(), kWords.end(), [&stem](std::string_view word) {
-    return stem.find(word) != std::string::npos;
-  });
-}
-
-// Whether a file of one view has poses or times, as in TartanAir.
-bool has_poses_or_times(const fs::path& file) {
-  const std::string stem = lower_stem(file);
-  return files::extension_of(file) == ".txt" &&
-         (stem.find("pose") != std::string::npos || stem.find("time") != std::string::npos);
-}
-
-void add_pairs(std::vector<std::string>& found, std::vector<fs::path> files) {
-  const std::vector<PathPair> pairs = take_pairs(files);
-  const auto find = [&files](const char* word) {
-    return std::find_if(files.begin(), files.end(), [word](const fs::path& file) {
-      return lower_stem(file).find(word) != std::string::npos;
-    });
-  };
-  const auto intrinsics = find("intrinsic"), extrinsics = find("extrinsic");
-  for (const PathPair& pair : pairs) {
-    const std::string both = pair.left.string() + "," + pair.right.string();
-    found.push_back(both);
-    if (extrinsics != files.end()) found.push_back(both + "," + extrinsics->string());
-  }
-  if (intrinsics != files.end() && extrinsics != files.end()) {
-    found.push_back(intrinsics->string() + "," + extrinsics->string());
-  }
-}
 
 bool is_identity(const Matrix3& rotation) {
   constexpr Matrix3 kIdentity{1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -109,9 +58,9 @@ Result<StereoCalibration> fitting(const std::string& path, int width, int height
 }
 
 void use(Recording& recording, const std::string& path, const StereoCalibration& calibration,
-         const InputOptions& options) {
+         bool rectified) {
   recording.calibration = path;
-  recording.rectified = options.rectified.value_or(is_rectified(calibration));
+  recording.rectified = rectified;
   recording.remarks.push_back(
       "Calibration: " + path + " (" + calibration.format + "). " +
       (recording.rectified ? "The views are taken as rectified; it gives the meters."
@@ -123,74 +72,116 @@ bool are_equal(const StereoCalibration& a, const StereoCalibration& b) {
          a.translation == b.translation && a.rectification == b.rectification;
 }
 
-// The files that can be used of those beside the input, without those that state the same.
+// Whether the views are rectified by the names of the file or the folders around it.
+std::optional<bool> rectified_by_name(fs::path view) {
+  static const std::regex raw("(un|no[nt][_-]?)rectified|(^|[^n])distorted");
+  static const std::regex rectified("undistorted|rectified|(^|[^a-z])rect([^a-z]|$)");
+  constexpr int kLevels = 3;
+  for (int i = 0; i <= kLevels && view.has_filename(); ++i, view = view.parent_path()) {
+    const std::string name = files::lower_stem(view);
+    if (std::regex_search(name, raw)) return false;
+    if (std::regex_search(name, rectified)) return true;
+  }
+  return std::nullopt;
+}
+
+// Why a calibration is not the one of these views, by their names; empty if it may be.
+std::string contradiction(const std::string& path, const StereoCalibration& calibration,
+                          const fs::path& view) {
+  const std::optional<bool> named = rectified_by_name(view);
+  if (!named || *named == is_rectified(calibration)) return {};
+  if (*named && calibration.rectification) return {};  // it describes these views, too
+  return path + ": describes " + (*named ? "raw" : "rectified") + " views, and those of " +
+         view.parent_path().string() + (*named ? " are" : " are not") +
+         " rectified, by their names; --calibration uses it";
+}
+
+// The files that can be used, without those that state the same.
 struct Usable {
   std::vector<std::pair<std::string, StereoCalibration>> calibrations;
-  std::string first_problem;
+  std::string problem;  // of one that cannot be used
 };
 
-Usable usable_of(const std::vector<std::string>& beside, int width, int height) {
+// What a calibration is to be read as for these views: KITTI has two pairs of cameras.
+std::string with_choice(const std::string& path, const Recording& recording, int width,
+                        int height) {
+  for (const fs::path& part : file_of(recording.left)) {
+    if (part != "image_0" && part != "image_00") continue;
+    if (read_calibration(path + "#gray", width, height)) return path + "#gray";
+  }
+  return path;
+}
+
+Usable usable_of(const std::vector<std::string>& paths, const Recording& recording,
+                 const InputOptions& options, int width, int height) {
   Usable usable;
-  for (const std::string& path : beside) {
+  auto& known = usable.calibrations;
+  for (const std::string& each : paths) {
+    const std::string path = with_choice(each, recording, width, height);
     Result<StereoCalibration> calibration = fitting(path, width, height);
-    if (calibration) {
-      auto& known = usable.calibrations;
-      const bool is_new = std::none_of(known.begin(), known.end(), [&](const auto& each) {
-        return are_equal(each.second, *calibration);
-      });
-      if (is_new) known.emplace_back(path, std::move(*calibration));
-    } else if (usable.first_problem.empty()) {
-      usable.first_problem = calibration.error().message;
+    if (!calibration) {
+      if (usable.problem.empty()) usable.problem = calibration.error().message;
+      continue;
+    }
+    const std::string contrary =
+        options.rectified ? "" : contradiction(path, *calibration, file_of(recording.left));
+    const bool is_known = std::any_of(known.begin(), known.end(), [&](const auto& other) {
+      return are_equal(other.second, *calibration);
+    });
+    if (!contrary.empty()) {
+      usable.problem = contrary;
+    } else if (!is_known) {
+      known.emplace_back(path, std::move(*calibration));
     }
   }
   return usable;
 }
 
-}  // namespace
-
-std::vector<std::string> calibrations_in(const std::vector<fs::path>& folders) {
-  std::vector<std::string> found;
-  for (const fs::path& folder : folders) {
-    std::vector<fs::path> files = files::files_in(folder);
-    std::erase_if(files, [](const fs::path& file) { return !may_be_calibration(file); });
-    for (const fs::path& file : files) {
-      if (is_calibration_name(file)) found.push_back(file.string());
-    }
-    std::erase_if(files, has_poses_or_times);
-    add_pairs(found, files);
-  }
-  std::vector<std::string> unique;
-  for (const std::string& each : found) {
-    if (std::find(unique.begin(), unique.end(), each) == unique.end()) unique.push_back(each);
-  }
-  return unique;
+std::string several(const Usable& usable) {
+  return "such as " + usable.calibrations[0].first + " and " + usable.calibrations[1].first +
+         ": choose one by --calibration";
 }
 
-void choose_calibration(Recording& recording, const std::vector<std::string>& beside,
-                        const InputOptions& options, int width, int height) {
+// Uses the one that is found at a level. False if there is none.
+bool use_one_of(const Usable& usable, Recording& recording, const InputOptions& options) {
+  if (usable.calibrations.empty()) return false;
+  if (usable.calibrations.size() > 1) {
+    recording.remarks.push_back("No calibration is used: there are several, " + several(usable) +
+                                ".");
+  } else {
+    const auto& [path, calibration] = usable.calibrations.front();
+    const bool named = rectified_by_name(file_of(recording.left)).value_or(false);
+    use(recording, path, calibration,
+        options.rectified.value_or(named || is_rectified(calibration)));
+  }
+  return true;
+}
+
+}  // namespace
+
+void choose_calibration(FoundRecording& found, const InputOptions& options, int width, int height) {
+  Recording& recording = found.recording;
   recording.rectified = options.rectified.value_or(true);
   recording.shape = options.shape;
   if (!options.calibration.empty()) {
     check_regular(options.calibration);
     const Result<StereoCalibration> given = fitting(options.calibration, width, height);
     if (!given) throw UserError(given.error().message);
-    use(recording, options.calibration, *given, options);
+    use(recording, options.calibration, *given, options.rectified.value_or(is_rectified(*given)));
     return;
   }
-  const Usable usable = usable_of(beside, width, height);
-  if (usable.calibrations.size() > 1) {
-    throw UserError("there are several calibrations beside the input, such as " +
-                    usable.calibrations[0].first + " and " + usable.calibrations[1].first +
-                    ": choose one by --calibration");
+  const Usable beside = usable_of(found.calibrations, recording, options, width, height);
+  if (beside.calibrations.size() > 1) {
+    throw UserError("there are several calibrations beside the input, " + several(beside));
   }
-  if (usable.calibrations.size() == 1) {
-    const auto& [path, calibration] = usable.calibrations.front();
-    use(recording, path, calibration, options);
-    return;
+  if (use_one_of(beside, recording, options)) return;
+  std::string problem = beside.problem;
+  for (const CalibrationLevel& level : found.calibrations_above) {
+    const Usable above = usable_of(level, recording, options, width, height);
+    if (use_one_of(above, recording, options)) return;
+    if (problem.empty()) problem = above.problem;
   }
-  if (!usable.first_problem.empty()) {
-    recording.remarks.push_back("No calibration is used: " + usable.first_problem);
-  }
+  if (!problem.empty()) recording.remarks.push_back("No calibration is used: " + problem);
   if (options.rectified == false) {
     throw UserError(recording.name + ": raw views need a calibration (--calibration)");
   }

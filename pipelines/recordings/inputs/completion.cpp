@@ -159,7 +159,7 @@ void complete_one(FoundRecording& found, const InputOptions& options) {
   if (!options.arrangement) recording.arrangement = guess_arrangement(recording, size);
   recording.swapped = options.swap;
   const cv::Size half = half_size(size, recording.arrangement, file_of(recording.left));
-  choose_calibration(recording, found.calibrations, options, half.width, half.height);
+  choose_calibration(found, options, half.width, half.height);
   if (!options.arrangement) confirm_arrangement(recording, size, half, options.swap);
 }
 
@@ -175,7 +175,7 @@ Recording completed(FoundRecording found, const InputOptions& options) {
   }
   if (options.swap) std::swap(recording.left, recording.right);
   const cv::Size size = size_of_two(recording);
-  choose_calibration(recording, found.calibrations, options, size.width, size.height);
+  choose_calibration(found, options, size.width, size.height);
   return std::move(recording);
 }
 

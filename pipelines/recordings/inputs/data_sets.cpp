@@ -269,9 +269,12 @@ std::optional<FoundRecording> find_euroc(const fs::path& folder) {
   }
   start_at_zero(left_source, right_source);
   set_timed_images(recording, left_source, right_source);
+  const fs::path chain = base / ".." / "dso" / "camchain.yaml";  // of TUM-VI
   if (is_there(left / "sensor.yaml") && is_there(right / "sensor.yaml")) {
     found.calibrations.push_back((left / "sensor.yaml").string() + "," +
                                  (right / "sensor.yaml").string());
+  } else if (is_there(chain)) {
+    found.calibrations.push_back(chain.lexically_normal().string());
   }
   found.used_folders = files::folders_in(folder);
   return found;

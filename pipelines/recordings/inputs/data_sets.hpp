@@ -10,11 +10,15 @@
 
 namespace mtstereo::run {
 
+/// The calibrations for all recordings in a folder.
+using CalibrationLevel = std::vector<std::string>;
+
 /// A recording as it lies in a folder, before its frames are looked at.
 struct FoundRecording {
   Recording recording;
-  std::vector<std::string> calibrations;            ///< for choose_calibration()
-  std::vector<std::filesystem::path> used_folders;  ///< folders in which nothing else is searched
+  std::vector<std::string> calibrations;             ///< beside the views, for read_calibration()
+  std::vector<CalibrationLevel> calibrations_above;  ///< used without one beside the views
+  std::vector<std::filesystem::path> used_folders;   ///< folders in which nothing else is searched
 };
 
 /// A folder of KITTI odometry: image_0 and image_1 or image_2 and image_3, calib.txt, times.txt.

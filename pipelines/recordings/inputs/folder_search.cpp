@@ -11,7 +11,7 @@
 #include "lib/files/file_names.hpp"
 #include "lib/files/unread_kinds.hpp"
 #include "lib/outputs/user_error.hpp"
-#include "recordings/inputs/calibration_choice.hpp"
+#include "recordings/inputs/calibration_search.hpp"
 #include "recordings/inputs/completion.hpp"
 #include "recordings/inputs/data_sets.hpp"
 #include "recordings/inputs/nested_views.hpp"
@@ -60,8 +60,11 @@ void leave_other_data(std::vector<ViewImages>& all_views, std::vector<fs::path>&
 
 class FolderSearch {
  public:
-  FolderSearch(fs::path folder, const InputOptions& options, bool asked)
-      : folder_(std::move(folder)), options_(options), asked_(asked) {}
+  FolderSearch(fs::path folder, const fs::path& named, const InputOptions& options, bool asked)
+      : folder_(std::move(folder)), options_(options), asked_(asked) {
+    const fs::path below = folder_.lexically_relative(named).lexically_normal();
+    if (below != ".") levels_ = static_cast<int>(std::distance(below.begin(), below.end()));
+  }
 
   FolderContents run() {
     if (!add_data_sets()) {
@@ -96,13 +99,14 @@ class FolderSearch {
     return true;
   }
 
-  // `problem_of`: the input of a problem; empty if there is no problem. `calibrations`: more of
-  // them than those beside the views.
+  // `problem_of`: the input of a problem; empty if there is no problem.
   void add(const Source& left, const Source& right, const std::string& name,
-           const std::string& problem_of, const std::vector<std::string>& calibrations = {}) {
+           const std::string& problem_of) {
     try {
       FoundRecording found = recording_of(left, right, options_);
-      found.calibrations.insert(found.calibrations.end(), calibrations.begin(), calibrations.end());
+      found.calibrations_above =
+          calibrations_above(file_of(left).parent_path(),
+                             file_of(right.empty() ? left : right).parent_path(), folder_, levels_);
       found.recording.name = name;
       contents_.recordings.push_back(completed(std::move(found), options_));
     } catch (const UserError& error) {
@@ -192,7 +196,7 @@ class FolderSearch {
         std::string name = prefix + scene.common;
         std::replace(name.begin(), name.end(), '/', '-');
         add(source_of(scene.left.string()), source_of(scene.right.string()), name,
-            scene.left.string(), calibrations_in({folder_}));
+            scene.left.string());
       }
       for (const fs::path& scene : scenes.lonely) {
         std::error_code error;
@@ -235,13 +239,15 @@ class FolderSearch {
   fs::path folder_;
   const InputOptions& options_;
   bool asked_;
+  int levels_ = 0;  // below the folder that the user gave
   FolderContents contents_;
 };
 
 }  // namespace
 
-FolderContents search_folder(const fs::path& folder, const InputOptions& options, bool asked) {
-  return FolderSearch(folder, options, asked).run();
+FolderContents search_folder(const fs::path& folder, const fs::path& named,
+                             const InputOptions& options, bool asked) {
+  return FolderSearch(folder, named, options, asked).run();
 }
 
 }  // namespace mtstereo::run

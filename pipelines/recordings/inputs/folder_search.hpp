@@ -18,8 +18,10 @@ struct FolderContents {
   std::vector<std::filesystem::path> used_folders;  ///< in which nothing else is searched
 };
 
-/// Searches a folder. `asked`: the user has named it, so that images of any kind in it count.
-FolderContents search_folder(const std::filesystem::path& folder, const InputOptions& options,
+/// Searches a folder, and for its calibrations also the folders around it up to `named`, which the
+/// user gave. `asked`: images of any kind in it count.
+FolderContents search_folder(const std::filesystem::path& folder,
+                             const std::filesystem::path& named, const InputOptions& options,
                              bool asked);
 
 }  // namespace mtstereo::run

@@ -124,7 +124,7 @@ class ArchiveSearch {
     const bool is_new = std::find(entered_.begin(), entered_.end(), real) == entered_.end();
     if (error || !is_new || is_result(folder)) return;
     entered_.push_back(real);
-    FolderContents contents = search_folder(folder, options_, false);
+    FolderContents contents = search_folder(folder, archive_, options_, false);
     const std::size_t first = recordings_.size();
     for (Recording& recording : contents.recordings) {
       recording.name = name_in(archive_, folder, recording.name);
@@ -193,7 +193,7 @@ Recording recognize(const std::vector<std::string>& inputs, const InputOptions& 
     const Source first = source_of(left);
     return completed(recording_of(first, source_of(inputs[1]), options), options);
   }
-  if (files::is_folder(left)) return only_recording(left, search_folder(left, options, true));
+  if (files::is_folder(left)) return only_recording(left, search_folder(left, left, options, true));
   return completed(recording_of(source_of(left), {}, options), options);
 }
 

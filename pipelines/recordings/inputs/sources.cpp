@@ -10,7 +10,7 @@
 #include "lib/files/file_names.hpp"
 #include "lib/files/unread_kinds.hpp"
 #include "lib/outputs/user_error.hpp"
-#include "recordings/inputs/calibration_choice.hpp"
+#include "recordings/inputs/calibration_search.hpp"
 #include "recordings/inputs/image_lists.hpp"
 #include "recordings/inputs/own_names.hpp"
 #include "recordings/inputs/view_names.hpp"
@@ -30,6 +30,23 @@ fs::path folder_of(const Source& source) {
 
 std::string name_of_one(const Source& source) {
   return source.video.empty() ? folder_name(folder_of(source)) : source.video.stem().string();
+}
+
+// The folders of both views, those in which these have the same path, such as left and right of
+// left/data and right/data, and the one that has them.
+std::vector<fs::path> folders_beside(const Source& left, const Source& right) {
+  fs::path a = folder_of(left).lexically_normal(), b = folder_of(right).lexically_normal();
+  std::vector<fs::path> beside{folder_of(left)};
+  if (a == b) return beside;
+  beside.push_back(folder_of(right));
+  while (a.has_parent_path() && b.has_parent_path() && a.filename() == b.filename()) {
+    a = a.parent_path();
+    b = b.parent_path();
+    beside.insert(beside.end(), {a, b});
+  }
+  const fs::path both = (a / "..").lexically_normal();
+  if (both == (b / "..").lexically_normal()) beside.push_back(both);
+  return beside;
 }
 
 // What the names of the views have in common, or the folder that has both.
@@ -195,15 +212,7 @@ FoundRecording recording_of(const Source& left, const Source& right, const Input
     recording.right = right;
   }
   recording.name = two ? name_of_two(left, right) : name_of_one(left);
-  const fs::path folder = folder_of(left);
-  std::vector<fs::path> beside{folder};
-  if (two && folder_of(right) != folder) {
-    beside.push_back(folder_of(right));
-    // The folder that has those of both views.
-    const fs::path both = (folder / "..").lexically_normal();
-    if (both == (folder_of(right) / "..").lexically_normal()) beside.push_back(both);
-  }
-  found.calibrations = calibrations_in(beside);
+  found.calibrations = calibrations_in(folders_beside(left, two ? right : left));
   return found;
 }
 
