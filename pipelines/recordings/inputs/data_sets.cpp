@@ -12,6 +12,7 @@
 #include "lib/files/file_names.hpp"
 #include "lib/outputs/user_error.hpp"
 #include "recordings/inputs/image_lists.hpp"
+#include "recordings/inputs/name_times.hpp"
 
 namespace mtstereo::run {
 

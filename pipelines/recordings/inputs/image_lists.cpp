@@ -15,6 +15,7 @@
 #include "lib/files/file_names.hpp"
 #include "lib/files/unread_kinds.hpp"
 #include "lib/outputs/user_error.hpp"
+#include "recordings/inputs/name_times.hpp"
 #include "recordings/inputs/view_names.hpp"
 
 namespace mtstereo::run {
@@ -175,43 +176,6 @@ void note_kinds(Recording& recording, const std::vector<fs::path>& images) {
       " are both taken as views. A pattern takes some of them only.");
 }
 
-// The digits of a time in seconds at the end of a name, such as 1403636579.763556, in ns.
-std::optional<Nanoseconds> seconds_in(const std::string& stem) {
-  constexpr std::size_t kEpoch = 10, kMicro = 6, kNano = 9;  // digits
-  const std::size_t point = stem.find_last_not_of("0123456789");
-  if (point == std::string::npos || point == 0 || stem[point] != '.') return std::nullopt;
-  const std::size_t before = stem.find_last_not_of("0123456789", point - 1);
-  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-  std::string fraction = stem.substr(point + 1);
-  const std::size_t whole = point - begin;
-  const bool is_time = whole == kEpoch ? !fraction.empty() && fraction.size() <= kNano
-                                       : fraction.size() == kMicro || fraction.size() == kNano;
-  if (!is_time || whole == 0 || whole > kEpoch) return std::nullopt;
-  fraction.resize(kNano, '0');
-  const std::string digits = stem.substr(begin, whole) + fraction;
-  Nanoseconds time = 0;
-  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), time);
-  return error == std::errc() ? std::optional(time) : std::nullopt;
-}
-
-// The times in the names of both lists, from the first one on. False if they state none.
-bool set_times_of_names(Source& left, Source& right) {
-  for (Source* source : {&left, &right}) {
-    source->times.clear();
-    for (const fs::path& image : source->images) {
-      const std::optional<Nanoseconds> time = time_in_name(image);
-      if (!time || (!source->times.empty() && *time <= source->times.back())) return false;
-      source->times.push_back(*time);
-    }
-  }
-  Nanoseconds first = left.times.front();
-  if (!right.times.empty()) first = std::min(first, right.times.front());
-  for (Source* source : {&left, &right}) {
-    for (Nanoseconds& time : source->times) time -= first;
-  }
-  return true;
-}
-
 // Removes what cannot be read, and what has no later time than its predecessor.
 void remove_broken(Recording& recording, Source& source) {
   Source good;
@@ -241,32 +205,6 @@ void remove_broken(Recording& recording, Source& source) {
 }
 
 }  // namespace
-
-std::optional<std::int64_t> frame_number(const fs::path& image) {
-  const std::string digits = files::last_digits(image);
-  std::int64_t number = 0;
-  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return error == std::errc() ? std::optional(number) : std::nullopt;
-}
-
-std::optional<Nanoseconds> time_in_name(const fs::path& image) {
-  if (const std::optional<Nanoseconds> time = seconds_in(image.stem().string())) return time;
-  const std::optional<std::int64_t> number = frame_number(image);
-  const std::string digits = files::last_digits(image);
-  if (!number || digits.starts_with('0')) return std::nullopt;
-  switch (digits.size()) {
-    case 19:
-      return number;
-    case 18:  // of a clock that began later than 1970; .NET counts 100 ns from the year 1
-      return digits.starts_with("63") || digits.starts_with("64") ? std::nullopt : number;
-    case 16:
-      return *number * 1000;
-    case 13:
-      return *number * 1'000'000;
-    default:
-      return std::nullopt;
-  }
-}
 
 std::string image_problem(const fs::path& image) {
   const std::string head = bytes_of(image, 0, 8);

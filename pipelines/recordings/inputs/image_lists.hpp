@@ -2,19 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "recordings/inputs/recording.hpp"
 
 namespace mtstereo::run {
-
-/// The number of a frame: the last digits in the name of its image; none without digits.
-std::optional<std::int64_t> frame_number(const std::filesystem::path& image);
-
-/// The time that a name states: 18 or 19 digits are nanoseconds, 16 microseconds, 13 milliseconds.
-std::optional<Nanoseconds> time_in_name(const std::filesystem::path& image);
 
 /// Why an image cannot be read, by its first and last bytes: such as "is empty" or "is truncated";
 /// "" if nothing is wrong with these.

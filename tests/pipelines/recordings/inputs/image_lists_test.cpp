@@ -7,6 +7,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "recordings/inputs/name_times.hpp"
 #include "recordings/support/recordings_folder.hpp"
 
 namespace mtstereo::run::image_lists_test {
@@ -58,6 +59,29 @@ TEST_F(Recordings, NamesThatAreTimes) {
   const Recording recording = recognized({"cam0", "cam1"});
   EXPECT_THAT(recording.left.times, ElementsAre(0, 49'999'872));
   EXPECT_THAT(recording.right.times, ElementsAre(415, 49'999'872));
+}
+
+TEST_F(Recordings, NamesThatAreDates) {
+  write_images("left", {"2026-11-26_09-59-59.900000.png", "2026-11-26_10-00-00.100000.png",
+                        "2026-11-26_10-00-00.300000.png"});
+  write_images("right", {"cam_20261126T095959_901.png", "cam_20261126T100000301.png"}, true);
+  const Recording recording = recognized({"left", "right"});
+  EXPECT_THAT(recording.left.times, ElementsAre(0, 200'000'000, 400'000'000));
+  EXPECT_THAT(recording.right.times, ElementsAre(1'000'000, 401'000'000));
+  EXPECT_THAT(recording.remarks, IsEmpty());
+}
+
+// Numbers after the date at which the recording began, which is not that of the other camera.
+TEST_F(Recordings, NamesThatBeginWithADate) {
+  write_images("left", {"20261126_093059_000101.png", "20261126_093059_000102.png"});
+  write_images("right", {"20261126_093104_000101.png", "20261126_093104_000102.png"}, true);
+  Recording recording = recognized({"left", "right"});
+  EXPECT_THAT(recording.left.times, IsEmpty());
+  EXPECT_EQ(recording.frame_rate, 30);
+  write_images("burst", {"20261126_093059_001.png", "20261126_093059_002.png",
+                         "20261126_093101_001.png", "20261126_139999_001.png"});
+  recording = recognized({"burst", "left"});
+  EXPECT_THAT(recording.remarks, Contains(HasSubstr("no numbers in common")));
 }
 
 TEST_F(Recordings, NamesThatAreSeconds) {
