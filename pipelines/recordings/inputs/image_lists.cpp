@@ -49,6 +49,18 @@ Numbers numbers_of(const std::vector<fs::path>& images) {
   return numbers;
 }
 
+// The numbers before the last ones, which all names share, such as that of the camera.
+Numbers inner_numbers_of(const std::vector<fs::path>& images) {
+  std::vector<fs::path> beginnings;
+  const std::string last = files::last_digits(images.front());
+  for (const fs::path& image : images) {
+    if (last.empty() || files::last_digits(image) != last) return {};
+    const std::string stem = image.stem().string();
+    beginnings.emplace_back(stem.substr(0, stem.rfind(last)) + ".");
+  }
+  return numbers_of(beginnings);
+}
+
 struct NumberedLess {
   bool operator()(const std::string& a, const std::string& b) const {
     return files::numbered_less(a, b);
@@ -149,6 +161,8 @@ std::pair<Numbers, Numbers> common_numbers(Recording& recording, const std::vect
       return numbers;
     }
   }
+  numbers = {inner_numbers_of(left), inner_numbers_of(right)};
+  if (fit(numbers.first, numbers.second)) return numbers;
   numbers.first.resize(left.size());
   numbers.second.resize(right.size());
   std::iota(numbers.first.begin(), numbers.first.end(), 0);

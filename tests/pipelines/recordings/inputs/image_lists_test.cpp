@@ -71,6 +71,17 @@ TEST_F(Recordings, NamesThatAreDates) {
   EXPECT_THAT(recording.remarks, IsEmpty());
 }
 
+// The number of the camera follows that of the frame.
+TEST_F(Recordings, NamesThatEndWithTheSameNumber) {
+  write_images("a", {"000001_40123.png", "000003_40123.png", "000004_40123.png"});
+  write_images("b", {"000001_40129.png", "000002_40129.png", "000004_40129.png"}, true);
+  const Recording recording = recognized({"a", "b"});
+  EXPECT_THAT(recording.remarks, IsEmpty());
+  EXPECT_EQ(recording.left.times.back(), recording.right.times.back());
+  EXPECT_EQ(recording.left.times.front(), recording.right.times.front());
+  EXPECT_GT(recording.left.times[1], recording.right.times[1]);
+}
+
 // Numbers after the date at which the recording began, which is not that of the other camera.
 TEST_F(Recordings, NamesThatBeginWithADate) {
   write_images("left", {"20261126_093059_000101.png", "20261126_093059_000102.png"});
