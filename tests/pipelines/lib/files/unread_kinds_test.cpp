@@ -56,6 +56,39 @@ TEST_F(UnreadKinds, AreNamedWithTheRemedy) {
   EXPECT_THROW(refuse_unread(write("a.npz")), UserError);
 }
 
+// An image file directory with a width and a height; `next`: the place of the next one.
+std::string directory(bool big, char side, char next) {
+  const auto number = [big](char value, std::size_t bytes) {
+    std::string text(bytes, '\0');
+    text[big ? bytes - 1 : 0] = value;
+    return text;
+  };
+  std::string text = number(2, 2);
+  for (const char each : {'\0', '\1'}) {
+    const std::string id{big ? '\1' : each, big ? each : '\1'};
+    text += id + number(3, 2) + number(1, 4) + number(side, 2) + std::string(2, '\0');
+  }
+  return text + number(next, 4);
+}
+
+TEST_F(UnreadKinds, ArePagesOfTiff) {
+  const auto tiff = [this](bool big, char second_side, char next) {
+    const std::string head =
+        big ? std::string("MM\0*\0\0\0\10", 8) : std::string("II*\0\10\0\0\0", 8);
+    const fs::path file = folder_ / "a.tif";
+    std::ofstream(file) << head << directory(big, 9, next) << directory(big, second_side, 0);
+    return unread_kind(file);
+  };
+  constexpr char kSecond = 8 + 2 + 2 * 12 + 4;
+  for (const bool big : {false, true}) {
+    EXPECT_THAT(tiff(big, 9, kSecond), HasSubstr("several images, of which only the first"));
+    EXPECT_THAT(tiff(big, 3, kSecond), IsEmpty()) << "a preview";
+    EXPECT_THAT(tiff(big, 9, 0), IsEmpty());
+    EXPECT_THAT(tiff(big, 9, 100), IsEmpty()) << "beyond the end";
+    EXPECT_THAT(tiff(big, 9, 8), HasSubstr("several images")) << "a circle";
+  }
+}
+
 TEST_F(UnreadKinds, AreNoOthers) {
   for (const char* name : {"a.png", "a.mkv", "a.jp2", "a", ".a", "a.ba", "a.", "a. .heic .x"}) {
     EXPECT_THAT(unread_kind(write(name)), IsEmpty()) << name;
