@@ -13,6 +13,7 @@
 #include "recordings/inputs/sources.hpp"
 #include "recordings/inputs/unused_bits.hpp"
 #include "recordings/inputs/view_rectifier.hpp"
+#include "recordings/media/container.hpp"
 #include "recordings/media/sample_frames.hpp"
 #include "recordings/media/video_scan.hpp"
 
@@ -36,6 +37,11 @@ const char* name_of(Arrangement arrangement) {
 std::string advice_for(const Source& source) {
   if (source.images.size() > 1) return "give the views as two images, folders or patterns";
   if (source.video.empty()) return "give the other view too";
+  if (has_second_view(source.video)) {
+    return "it is a spatial video (MV-HEVC), of which one view is decoded: put both side by side "
+           "(ffmpeg 7.1 or later: ffmpeg -i FILE -filter_complex '[0:v:view:0][0:v:view:1]hstack' "
+           "views.mkv)";
+  }
   VideoScan scan(source.video, Reading::kGray);
   scan.next();
   if (scan.video_streams() < 2) return "give the other view too";

@@ -14,6 +14,7 @@
 #include "recordings/inputs/calibration_search.hpp"
 #include "recordings/inputs/completion.hpp"
 #include "recordings/inputs/data_sets.hpp"
+#include "recordings/inputs/image_sizes.hpp"
 #include "recordings/inputs/nested_views.hpp"
 #include "recordings/inputs/sources.hpp"
 #include "recordings/inputs/view_names.hpp"
@@ -102,6 +103,16 @@ class FolderSearch {
   // `problem_of`: the input of a problem; empty if there is no problem.
   void add(const Source& left, const Source& right, const std::string& name,
            const std::string& problem_of) {
+    // The name of a folder below that of the user becomes a part of the whole name.
+    const bool is_of_folder = levels_ > 0 && name == folder_name(folder_);
+    for (const ImagesOfSize& part : by_size(left, right)) {
+      const std::string sized = is_of_folder ? part.size : name + "-" + part.size;
+      add_part(part.left, part.right, part.size.empty() ? name : sized, problem_of);
+    }
+  }
+
+  void add_part(const Source& left, const Source& right, const std::string& name,
+                const std::string& problem_of) {
     try {
       FoundRecording found = recording_of(left, right, options_);
       found.calibrations_above =

@@ -145,7 +145,8 @@ UserError FrameFeeder::other_size(const Side& side, const GstVideoInfo& info,
                    (images ? " (" + source.images.front().string() + ")" : "") + " to " +
                    std::to_string(info.width) + "x" + std::to_string(info.height) + " px (" +
                    (images ? source.images[number].string() : "frame " + std::to_string(number)) +
-                   "): give frames of one size only" + (images ? ", such as by a pattern" : ""));
+                   "): give frames of one size only" +
+                   (images ? ", such as by a pattern, or the folder of both views" : ""));
 }
 
 void FrameFeeder::set_caps(const Side& side, Target& target, const DecodedFrame& frame,

@@ -52,6 +52,11 @@ constexpr std::string_view kMatroska = "\x1a\x45\xdf\xa3", kAvi = "RIFF", kOgg =
 
 }  // namespace
 
+bool has_second_view(const fs::path& file) {
+  Bytes bytes(file);
+  return is_mp4(bytes) && second_view_in_mp4(bytes);
+}
+
 bool is_avi(const fs::path& file) { return Bytes(file).at(0, 4) == kAvi; }
 
 bool is_matroska(const fs::path& file) { return Bytes(file).at(0, 4) == kMatroska; }

@@ -25,6 +25,10 @@ bool is_avi(const std::filesystem::path& file);
 /// Whether a file is one of Matroska or WebM.
 bool is_matroska(const std::filesystem::path& file);
 
+/// Whether an MP4 or QuickTime file has a second view in its HEVC stream (MV-HEVC), as the spatial
+/// videos of phones: decoders leave it out.
+bool has_second_view(const std::filesystem::path& file);
+
 /// Whether the last frame of an MPEG-TS may lack its end: the stream does not state the length of
 /// its frames, and the last one fills its last packet, as one of 184 does that is whole.
 bool may_lack_end(const std::filesystem::path& file);

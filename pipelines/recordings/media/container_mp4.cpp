@@ -81,6 +81,20 @@ bool is_mp4(Bytes& bytes) {
   return std::find(kFirst.begin(), kFirst.end(), bytes.at(4, 4)) != kFirst.end();
 }
 
+bool second_view_in_mp4(Bytes& bytes) {
+  constexpr std::uint64_t kMost = 1 << 20;  // the descriptions of the streams are at the beginning
+  for (std::uint64_t start = 0; start < bytes.size();) {
+    const std::optional<Box> box = box_at(bytes, start);
+    if (!box || box->end < box->data) return false;
+    if (box->name == "moov") {
+      const std::string index = bytes.up_to(box->data, std::min(box->end - box->data, kMost));
+      return index.find("lhvC") != std::string::npos;  // the configuration of the second layer
+    }
+    start = box->end;
+  }
+  return false;
+}
+
 std::string missing_of_mp4(Bytes& bytes) {
   bool has_index = false;
   for (std::uint64_t start = 0; start < bytes.size();) {

@@ -7,6 +7,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "recordings/inputs/image_sizes.hpp"
 #include "recordings/inputs/name_times.hpp"
 #include "recordings/support/recordings_folder.hpp"
 
@@ -69,6 +70,45 @@ TEST_F(Recordings, NamesThatAreDates) {
   EXPECT_THAT(recording.left.times, ElementsAre(0, 200'000'000, 400'000'000));
   EXPECT_THAT(recording.right.times, ElementsAre(1'000'000, 401'000'000));
   EXPECT_THAT(recording.remarks, IsEmpty());
+}
+
+// As in KITTI 2015.
+TEST_F(Recordings, ImagesOfEachSizeAreARecording) {
+  const auto write = [this](const char* name, int columns, bool right) {
+    cv::imwrite((folder_ / name).string(), view(right).colRange(0, columns));
+  };
+  for (const bool right : {false, true}) {
+    const std::string folder = right ? "set/right/" : "set/left/";
+    write((folder + "0.png").c_str(), 200, right);
+    write((folder + "1.jpg").c_str(), 180, right);
+    write((folder + "2.png").c_str(), 200, right);
+    if (!right) write((folder + "3.png").c_str(), 160, right);
+  }
+  std::vector<Problem> problems;
+  const std::vector<Recording> recordings = found(problems);
+  ASSERT_THAT(recordings, SizeIs(2));
+  EXPECT_THAT(problems, IsEmpty());
+  EXPECT_EQ(recordings[0].name, "set-180x120");
+  EXPECT_EQ(recordings[1].name, "set-200x120");
+  EXPECT_THAT(names_of(recordings[0].right.images), ElementsAre("1.jpg"));
+  EXPECT_THAT(names_of(recordings[1].left.images), ElementsAre("0.png", "2.png"));
+}
+
+TEST_F(Recordings, SizesOfBrokenImagesAreUnknown) {
+  for (const char* name : {"a.png", "a.jpg"}) {
+    cv::imwrite((folder_ / name).string(), view(false));
+    EXPECT_EQ(stated_size(path(name)), "200x120") << name;
+    for (const double part : {0.0, 0.001, 0.002, 0.01}) {
+      write_beginning(path(name), path("part"), part);
+      EXPECT_THAT(stated_size(path("part")), ::testing::AnyOf("", "200x120")) << part;
+    }
+  }
+  for (const char* bytes :
+       {"\xff\xd8\xff\xe0", "\xff\xd8\xff\xe0\x01\x01zz", "\x89P", "GIF8", ""}) {
+    write_text(folder_ / "b", bytes);
+    EXPECT_THAT(stated_size(path("b")), IsEmpty());
+  }
+  EXPECT_THAT(stated_size(path("none")), IsEmpty());
 }
 
 // The number of the camera follows that of the frame.

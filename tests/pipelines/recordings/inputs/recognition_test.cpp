@@ -308,6 +308,19 @@ TEST_F(Recordings, NamesTheStreamsOfAFileWithTwo) {
   EXPECT_THAT(error_of({"two.mkv"}), HasSubstr("one view: it has 2 video streams"));
 }
 
+// The name of the stream stands for the box of its second layer.
+TEST_F(Recordings, NamesSpatialVideosOfPhones) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  for (const std::string name : {"usual", "lhvC"}) {
+    run_command(
+        "ffmpeg -v error -f lavfi -i testsrc=size=160x120:duration=0.2 -c:v mjpeg "
+        "-metadata:s:v handler_name=" +
+        name + " '" + path(name + ".mov") + "'");
+  }
+  EXPECT_THAT(error_of({"usual.mov"}), HasSubstr("one view: give the other view too"));
+  EXPECT_THAT(error_of({"lhvC.mov"}), HasSubstr("one view: it is a spatial video (MV-HEVC)"));
+}
+
 TEST_F(Recordings, RefusesInterlacedVideo) {
   if (!have_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
   run_command(
