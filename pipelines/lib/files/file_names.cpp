@@ -50,7 +50,7 @@ std::vector<fs::path> entries_of(const fs::path& folder, Accept accept) {
   for (fs::directory_iterator each(folder, error), end; !error && each != end;
        each.increment(error)) {
     const fs::path& path = each->path();
-    if (!path.filename().string().starts_with('.') && accept(path)) found.push_back(path);
+    if (!path.filename().string().starts_with('.') && accept(*each)) found.push_back(path);
   }
   std::sort(found.begin(), found.end(), [](const fs::path& a, const fs::path& b) {
     return numbered_less(a.filename().string(), b.filename().string());
@@ -58,9 +58,10 @@ std::vector<fs::path> entries_of(const fs::path& folder, Accept accept) {
   return found;
 }
 
-bool is_file(const fs::path& path) {
+// Most file systems state with the name what an entry is.
+bool is_file(const fs::directory_entry& entry) {
   std::error_code error;
-  return fs::is_regular_file(path, error);
+  return entry.is_regular_file(error);
 }
 
 // The name of a pattern: what is before and after its number, and the width of the number.
@@ -175,10 +176,17 @@ bool is_folder(const fs::path& path) {
 
 std::vector<fs::path> files_in(const fs::path& folder) { return entries_of(folder, is_file); }
 
-std::vector<fs::path> folders_in(const fs::path& folder) { return entries_of(folder, is_folder); }
+std::vector<fs::path> folders_in(const fs::path& folder) {
+  return entries_of(folder, [](const fs::directory_entry& entry) {
+    std::error_code error;
+    return entry.is_directory(error);
+  });
+}
 
 std::vector<fs::path> images_in(const fs::path& folder) {
-  return entries_of(folder, [](const fs::path& path) { return is_image(path) && is_file(path); });
+  return entries_of(folder, [](const fs::directory_entry& entry) {
+    return is_image(entry.path()) && is_file(entry);
+  });
 }
 
 bool is_pattern(const std::string& path) {
@@ -189,8 +197,8 @@ bool is_pattern(const std::string& path) {
 namespace {
 
 std::vector<fs::path> files_of_shell_pattern(const fs::path& folder, const std::string& name) {
-  return entries_of(folder, [&name](const fs::path& file) {
-    return fnmatch(name.c_str(), file.filename().c_str(), 0) == 0 && is_file(file);
+  return entries_of(folder, [&name](const fs::directory_entry& entry) {
+    return fnmatch(name.c_str(), entry.path().filename().c_str(), 0) == 0 && is_file(entry);
   });
 }
 

@@ -115,14 +115,24 @@ class FolderSearch {
                 const std::string& problem_of) {
     try {
       FoundRecording found = recording_of(left, right, options_);
-      found.calibrations_above =
-          calibrations_above(file_of(left).parent_path(),
-                             file_of(right.empty() ? left : right).parent_path(), folder_, levels_);
+      found.calibrations_above = calibrations_above_views(
+          file_of(left).parent_path(), file_of(right.empty() ? left : right).parent_path());
       found.recording.name = name;
       contents_.recordings.push_back(completed(std::move(found), options_));
     } catch (const UserError& error) {
       if (!problem_of.empty()) contents_.problems.push_back({problem_of, error.what()});
     }
+  }
+
+  // A folder may have thousands of recordings: what was found for the last one is kept.
+  const std::vector<CalibrationLevel>& calibrations_above_views(const fs::path& left,
+                                                                const fs::path& right) {
+    if (left != last_left_ || right != last_right_) {
+      calibrations_ = calibrations_above(left, right, folder_, levels_);
+      last_left_ = left;
+      last_right_ = right;
+    }
+    return calibrations_;
   }
 
   void add_videos() {
@@ -251,6 +261,8 @@ class FolderSearch {
   const InputOptions& options_;
   bool asked_;
   int levels_ = 0;  // below the folder that the user gave
+  fs::path last_left_, last_right_;
+  std::vector<CalibrationLevel> calibrations_;  // around these folders
   FolderContents contents_;
 };
 
