@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <regex>
 #include <utility>
 
@@ -168,6 +169,12 @@ void choose_calibration(FoundRecording& found, const InputOptions& options, int 
     const Result<StereoCalibration> given = fitting(options.calibration, width, height);
     if (!given) throw UserError(given.error().message);
     use(recording, options.calibration, *given, options.rectified.value_or(is_rectified(*given)));
+    const std::optional<bool> named = rectified_by_name(file_of(recording.left));
+    if (!options.rectified && named && *named != recording.rectified) {
+      recording.remarks.push_back(std::string("By the names of their folders, the views are ") +
+                                  (*named ? "rectified: if so, state --rectified yes."
+                                          : "raw: if so, state --rectified no."));
+    }
     return;
   }
   const Usable beside = usable_of(found.calibrations, recording, options, width, height);

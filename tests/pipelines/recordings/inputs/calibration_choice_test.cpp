@@ -125,7 +125,9 @@ TEST_F(Calibrations, OfRawViewsAreNotUsedForViewsThatAreNamedRectified) {
                                                 HasSubstr("undistorted_images/cam0"))));
   InputOptions options;
   options.calibration = path("undistorted_images/stereo.yml");
-  EXPECT_FALSE(recognized({"undistorted_images"}, options).rectified);
+  recording = recognized({"undistorted_images"}, options);
+  EXPECT_FALSE(recording.rectified);
+  EXPECT_THAT(recording.remarks, Contains(HasSubstr("if so, state --rectified yes")));
   options = {};
   options.rectified = true;
   EXPECT_THAT(recognized({"undistorted_images"}, options).calibration, HasSubstr("stereo.yml"));
