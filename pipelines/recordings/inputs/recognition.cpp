@@ -120,6 +120,13 @@ class ArchiveSearch {
       problems_.push_back({folder.string(), "has files of the kernel, and no recordings"});
       return;
     }
+    const fs::directory_iterator readable(folder, error);
+    if (error) {
+      // Each disk has a folder of this name that only its administrator can read.
+      if (folder.filename() == "lost+found") return;
+      problems_.push_back({folder.string(), "the folder cannot be read: " + error.message()});
+      return;
+    }
     const fs::path real = fs::canonical(folder, error);
     const bool is_new = std::find(entered_.begin(), entered_.end(), real) == entered_.end();
     if (error || !is_new || is_result(folder)) return;

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -379,6 +380,25 @@ TEST_F(Recordings, RefusesFolderWithSeveralRecordings) {
     write_video(folder_ / name, "jpegenc ! avimux", constant_times(2));
   }
   EXPECT_THAT(error_of({""}), HasSubstr("2 recordings, such as a and b"));
+}
+
+TEST_F(Recordings, FoldersThatCannotBeReadAreNamed) {
+  write_images("day/left", {"1.png"});
+  write_images("day/right", {"1.png"}, true);
+  fs::create_directory(path("lost+found"));
+  fs::permissions(path(""), fs::perms::all);
+  for (const char* name : {"day", "lost+found"}) fs::permissions(path(name), fs::perms::none);
+  constexpr uid_t kNobody = 65534;
+  const uid_t user = geteuid();
+  ASSERT_EQ(seteuid(user == 0 ? kNobody : user), 0);  // root reads everything
+  std::vector<Problem> problems;
+  const std::vector<Recording> recordings = found(problems);
+  ASSERT_EQ(seteuid(user), 0);
+  for (const char* name : {"day", "lost+found"}) fs::permissions(path(name), fs::perms::all);
+  EXPECT_THAT(recordings, IsEmpty());
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems.front().input, path("day"));
+  EXPECT_THAT(problems.front().reason, HasSubstr("the folder cannot be read: "));
 }
 
 // Feature: recognition of videos, images and data sets
