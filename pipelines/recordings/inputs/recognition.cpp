@@ -34,11 +34,15 @@ std::string remark_on(const Problem& unread) {
   return unread.input + " is not used: it " + unread.reason + ".";
 }
 
+constexpr int kLevels = 3;  // below the given folder, to say what to give instead
+
 // A file that may be a view and is of a kind that is not read, in a folder or those in it.
-std::string unread_in(const fs::path& folder) {
+std::string unread_in(const fs::path& folder, int levels) {
+  if (is_of_kernel(folder)) return {};
   std::string unread = files::first_unread(files::files_in(folder));
   for (const fs::path& inner : files::folders_in(folder)) {
-    if (unread.empty()) unread = files::first_unread(files::files_in(inner));
+    if (!unread.empty() || levels == 0) break;
+    unread = unread_in(inner, levels - 1);
   }
   return unread;
 }
@@ -60,7 +64,6 @@ std::vector<fs::path> image_folders(const fs::path& folder, int levels) {
 
 // What to give instead of a folder in which no name tells the views apart.
 std::string views_to_give(const fs::path& folder) {
-  constexpr int kLevels = 3;
   std::vector<std::string> names;
   for (const fs::path& inner : image_folders(folder, kLevels)) {
     names.push_back(outputs::printable(inner.lexically_relative(folder).string()));
@@ -78,7 +81,7 @@ std::string views_to_give(const fs::path& folder) {
 Recording only_recording(const std::string& folder, FolderContents contents) {
   if (contents.recordings.empty()) {
     if (contents.problems.empty()) {
-      const std::string unread = unread_in(folder);
+      const std::string unread = unread_in(folder, kLevels);
       if (!unread.empty()) throw UserError(unread);
       throw UserError(folder + ": no recording is in this folder: " + views_to_give(folder));
     }
