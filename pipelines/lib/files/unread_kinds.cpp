@@ -22,10 +22,11 @@ struct Kind {
   std::string_view extensions;
   const char* what;
   bool recording = false;  // of both views
+  bool photo = false;
 };
 
 constexpr std::array<Kind, 15> kKinds{
-    {{" .heic .heif .avif ", "is a kind of image that is not read: convert it to PNG"},
+    {{" .heic .heif .avif ", "is a kind of image that is not read: convert it to PNG", false, true},
      {" .tga .pam .pcx .sgi .dpx .jxl ",
       "is a kind of image that is not read: convert it to PNG (ffmpeg -i FILE view.png)"},
      {" .exr .hdr ",
@@ -37,7 +38,8 @@ constexpr std::array<Kind, 15> kKinds{
       "is a list of the parts of a video: write its video to one file (ffmpeg -i FILE -c copy "
       "view.mkv)"},
      {" .cr2 .cr3 .nef .arw .raf .rw2 .orf .dng ",
-      "is raw data of a camera: develop both views with the same settings to 16-bit PNG or TIFF"},
+      "is raw data of a camera: develop both views with the same settings to 16-bit PNG or TIFF",
+      false, true},
      {" .mpo ",
       "has one image after the other: the left view is the first one (cp FILE left.jpg), the right "
       "one the second (exiftool -b -mpimage2 FILE > right.jpg)"},
@@ -179,6 +181,11 @@ std::vector<fs::path> unread_recordings(std::vector<fs::path> files) {
     return kind == nullptr || !kind->recording;
   });
   return files;
+}
+
+bool is_unread_photo(const fs::path& file) {
+  const Kind* const kind = kind_of(file);
+  return kind != nullptr && kind->photo;
 }
 
 void refuse_unread(const fs::path& file) {

@@ -18,6 +18,9 @@ std::string first_unread(const std::vector<std::filesystem::path>& files);
 /// Those of some files that are recordings of both views in such a kind, by their extensions only.
 std::vector<std::filesystem::path> unread_recordings(std::vector<std::filesystem::path> files);
 
+/// Whether a file is a photo of such a kind, by its extension only.
+bool is_unread_photo(const std::filesystem::path& file);
+
 /// Throws UserError for a file of such a kind.
 void refuse_unread(const std::filesystem::path& file);
 

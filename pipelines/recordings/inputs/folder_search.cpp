@@ -210,7 +210,10 @@ class FolderSearch {
     const std::vector<PathPair> views = take_views_of_folders(folders);
     for (const PathPair& view : views) {
       const NestedViews scenes = nested_views(view.left, view.right);
-      if (scenes.pairs.empty()) continue;
+      if (scenes.pairs.empty()) {
+        note_unread_photos(view.left);
+        continue;
+      }
       contents_.used_folders.insert(contents_.used_folders.end(), {view.left, view.right});
       const std::string prefix = views.size() == 1 || view.common.empty() ? "" : view.common + "-";
       for (const PathPair& scene : scenes.pairs) {
@@ -245,6 +248,12 @@ class FolderSearch {
     } else if (!rest.empty() && contents_.recordings.empty() && contents_.problems.empty()) {
       add({{}, rest, {}}, {}, folder_name(folder_), asked_ ? folder_.string() : "");
     }
+  }
+
+  void note_unread_photos(const fs::path& view) {
+    const std::vector<fs::path> files = files::files_in(view);
+    if (files.empty() || !files::is_unread_photo(files.front())) return;
+    contents_.problems.push_back({files.front().string(), files::unread_kind(files.front())});
   }
 
   void note_unread_recordings() {

@@ -108,6 +108,20 @@ TEST_F(Recordings, OfRosOrAZedAmongOthersAreNamedOncePerFolder) {
   EXPECT_THAT(problems[1].reason, Not(HasSubstr("such files")));
 }
 
+TEST_F(Recordings, PhotosThatAreNotReadAreNamedAmongOthers) {
+  write_images("one/left", {"1.png"});
+  write_images("one/right", {"1.png"}, true);
+  for (const char* name : {"two/left/1.HEIC", "two/left/2.HEIC", "two/right/1.HEIC",
+                           "one/disparity/left/1.pfm", "one/disparity/right/1.pfm"}) {
+    write_text(folder_ / name, "x");
+  }
+  std::vector<Problem> problems;
+  EXPECT_EQ(found(problems).size(), 1U);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems.front().input, path("two/left/1.HEIC"));
+  EXPECT_THAT(problems.front().reason, HasSubstr("convert it to PNG"));
+}
+
 TEST_F(Recordings, FolderWithTwoVideos) {
   write_video(folder_ / "day/left.ts", std::string(kBFrames) + " ! mpegtsmux", constant_times(5));
   write_video(folder_ / "day/right.ts", std::string(kBFrames) + " ! mpegtsmux", constant_times(5));
