@@ -147,8 +147,7 @@ std::string several(const Usable& usable) {
 bool use_one_of(const Usable& usable, Recording& recording, const InputOptions& options) {
   if (usable.calibrations.empty()) return false;
   if (usable.calibrations.size() > 1) {
-    recording.remarks.push_back("No calibration is used: there are several, " + several(usable) +
-                                ".");
+    recording.remarks.push_back(kNoCalibration + ("there are several, " + several(usable)) + ".");
   } else {
     const auto& [path, calibration] = usable.calibrations.front();
     const bool named = rectified_by_name(file_of(recording.left)).value_or(false);
@@ -188,7 +187,7 @@ void choose_calibration(FoundRecording& found, const InputOptions& options, int 
     if (use_one_of(above, recording, options)) return;
     if (problem.empty()) problem = above.problem;
   }
-  if (!problem.empty()) recording.remarks.push_back("No calibration is used: " + problem);
+  if (!problem.empty()) recording.remarks.push_back(kNoCalibration + problem);
   if (options.rectified == false) {
     throw UserError(recording.name + ": raw views need a calibration (--calibration)");
   }

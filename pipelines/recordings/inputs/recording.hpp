@@ -42,6 +42,9 @@ struct Recording {
   std::vector<std::string> remarks;  ///< what was guessed, as sentences for the user
 };
 
+/// The remark that names a calibration that cannot be used begins with it.
+inline constexpr const char* kNoCalibration = "No calibration is used: ";
+
 /// What the command line states about inputs; the rest is recognized.
 struct InputOptions {
   std::optional<Arrangement> arrangement;

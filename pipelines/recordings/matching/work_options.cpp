@@ -85,11 +85,12 @@ void check_products(const Recording& recording, const WorkOptions& options) {
         ": the views are not rectified, and there is no calibration; give one (--calibration)");
   }
   const bool meters = makes(options, Product::kDepth) || makes(options, Product::kCloud);
-  if (meters && recording.calibration.empty()) {
-    throw UserError(name +
-                    ": depths and clouds need a calibration, and none lies beside the input; give "
-                    "one (--calibration)");
+  if (!meters || !recording.calibration.empty()) return;
+  const std::string needed = name + ": depths and clouds need a calibration";
+  for (const std::string& remark : recording.remarks) {
+    if (remark.starts_with(kNoCalibration)) throw UserError(needed + ". " + remark);
   }
+  throw UserError(needed + ", and none lies beside the input; give one (--calibration)");
 }
 
 ViewSize view_size(const Work& work) {

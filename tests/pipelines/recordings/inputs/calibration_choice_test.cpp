@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "recordings/matching/work_options.hpp"
 #include "recordings/support/recordings_folder.hpp"
 
 namespace mtstereo::run::calibration_choice_test {
@@ -123,6 +124,11 @@ TEST_F(Calibrations, OfRawViewsAreNotUsedForViewsThatAreNamedRectified) {
   EXPECT_TRUE(recording.rectified);
   EXPECT_THAT(recording.remarks, Contains(AllOf(HasSubstr("stereo.yml: describes raw views"),
                                                 HasSubstr("undistorted_images/cam0"))));
+  WorkOptions depth;
+  depth.products = {Product::kDepth};
+  EXPECT_THAT(test::error_of<UserError>([&] { check_products(recording, depth); }),
+              AllOf(HasSubstr("depths and clouds need a calibration. No calibration is used: "),
+                    HasSubstr("--calibration uses it")));
   InputOptions options;
   options.calibration = path("undistorted_images/stereo.yml");
   recording = recognized({"undistorted_images"}, options);
