@@ -97,6 +97,14 @@ std::string contradiction(const std::string& path, const StereoCalibration& cali
          " rectified, by their names; --calibration uses it";
 }
 
+// Whether a file states the size of the views, and not only their shape.
+bool states_size(const std::string& path, int width, int height) {
+  const Result<StereoCalibration> any = read_calibration(path);
+  if (any && any->left.width == 0) return false;
+  const Result<StereoCalibration> fitting = read_calibration(path, width, height);
+  return fitting && fitting->left.width == width && fitting->left.height == height;
+}
+
 // The files that can be used, without those that state the same.
 struct Usable {
   std::vector<std::pair<std::string, StereoCalibration>> calibrations;
@@ -113,19 +121,23 @@ std::string with_choice(const std::string& path, const Recording& recording, int
   return path;
 }
 
-Usable usable_of(const std::vector<std::string>& paths, const Recording& recording,
+Usable usable_of(const CalibrationLevel& level, const Recording& recording,
                  const InputOptions& options, int width, int height) {
   Usable usable;
   auto& known = usable.calibrations;
-  for (const std::string& each : paths) {
+  for (const std::string& each : level.paths) {
     const std::string path = with_choice(each, recording, width, height);
     Result<StereoCalibration> calibration = fitting(path, width, height);
     if (!calibration) {
       if (usable.problem.empty()) usable.problem = calibration.error().message;
       continue;
     }
-    const std::string contrary =
+    std::string contrary =
         options.rectified ? "" : contradiction(path, *calibration, file_of(recording.left));
+    if (!level.is_of_views && !states_size(path, width, height)) {
+      contrary =
+          path + ": is not beside the views and does not state their size; --calibration uses it";
+    }
     const bool is_known = std::any_of(known.begin(), known.end(), [&](const auto& other) {
       return are_equal(other.second, *calibration);
     });
@@ -176,7 +188,7 @@ void choose_calibration(FoundRecording& found, const InputOptions& options, int 
     }
     return;
   }
-  const Usable beside = usable_of(found.calibrations, recording, options, width, height);
+  const Usable beside = usable_of({found.calibrations, true}, recording, options, width, height);
   if (beside.calibrations.size() > 1) {
     throw UserError("there are several calibrations beside the input, " + several(beside));
   }

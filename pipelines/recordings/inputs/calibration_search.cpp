@@ -81,18 +81,25 @@ void append_files(std::vector<fs::path>& files, const fs::path& folder, const fs
   }
 }
 
-// The files of a folder for calibrations that have the name of the scene, or otherwise all.
-std::vector<fs::path> files_for(const fs::path& folder, const fs::path& scene) {
+// The files of a folder for calibrations that have the name of the scene.
+std::vector<fs::path> files_of_scene(const fs::path& folder, const fs::path& scene) {
   std::vector<fs::path> files;
+  if (scene.empty()) return files;
   append_files(files, folder / scene, {});
-  if (scene.empty() || !files.empty()) return files;
+  if (!files.empty()) return files;
   for (const fs::path& name : scene) {
     append_files(files, folder / name, {});
     append_files(files, folder, name);
     for (const fs::path& inner : files::folders_in(folder)) append_files(files, inner, name);
   }
-  if (files.empty()) append_files(files, folder, {});
   return files;
+}
+
+void append_calibrations(std::vector<std::string>& found, std::vector<fs::path> files) {
+  std::erase_if(files, [](const fs::path& file) { return !may_be_calibration(file); });
+  for (const fs::path& file : files) found.push_back(file.string());
+  std::erase_if(files, has_poses_or_times);
+  add_pairs(found, files);
 }
 
 }  // namespace
@@ -119,17 +126,16 @@ std::vector<CalibrationLevel> calibrations_above(const fs::path& left, const fs:
                                                  fs::path folder, int levels) {
   std::vector<CalibrationLevel> found;
   for (int level = 0; level <= levels; ++level, folder = folder.parent_path()) {
-    CalibrationLevel calibrations = calibrations_in({folder});
+    CalibrationLevel of_scene{{}, true}, others{calibrations_in({folder}), level == 0};
     const fs::path scene = scene_of(left, right, folder);
     for (const fs::path& inner : files::folders_in(folder)) {
       if (!is_calibration_folder(inner, scene)) continue;
-      std::vector<fs::path> files = files_for(inner, scene);
-      std::erase_if(files, [](const fs::path& file) { return !may_be_calibration(file); });
-      for (const fs::path& file : files) calibrations.push_back(file.string());
-      std::erase_if(files, has_poses_or_times);
-      add_pairs(calibrations, files);
+      const std::vector<fs::path> files = files_of_scene(inner, scene);
+      append_calibrations(of_scene.paths, files);
+      if (files.empty()) append_calibrations(others.paths, files::files_in(inner));
     }
-    found.push_back(std::move(calibrations));
+    found.push_back(std::move(of_scene));
+    found.push_back(std::move(others));
   }
   return found;
 }

@@ -10,8 +10,13 @@
 
 namespace mtstereo::run {
 
-/// The calibrations for all recordings in a folder.
-using CalibrationLevel = std::vector<std::string>;
+/// Calibrations in a folder around the views, for read_calibration().
+struct CalibrationLevel {
+  std::vector<std::string> paths;
+  /// They lie with the views, or have the name of the scene. Others must state the size of the
+  /// views, since a folder may have those of other cameras.
+  bool is_of_views = false;
+};
 
 /// A recording as it lies in a folder, before its frames are looked at.
 struct FoundRecording {

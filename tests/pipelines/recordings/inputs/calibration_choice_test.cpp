@@ -25,6 +25,14 @@ std::string projections(const char* baseline_times_focal_length) {
          baseline_times_focal_length + " 0 100 59.5 0 0 0 1 0\n";
 }
 
+// The same with the size of the views, as Middlebury has it.
+std::string sized(const char* baseline) {
+  return std::string(
+             "cam0=[100 0 99.5; 0 100 59.5; 0 0 1]\ncam1=[100 0 99.5; 0 100 59.5; 0 0 1]\n"
+             "doffs=0\nwidth=200\nheight=120\nbaseline=") +
+         baseline + "\n";
+}
+
 const char* const kRaw =
     "K1: [ 100, 0, 99.5, 0, 100, 59.5, 0, 0, 1 ]\nD1: [ -0.2, 0.05, 0, 0 ]\n"
     "K2: [ 100, 0, 99.5, 0, 100, 59.5, 0, 0, 1 ]\nD2: [ -0.2, 0.05, 0, 0 ]\n"
@@ -59,13 +67,27 @@ class Calibrations : public testing::Recordings {
 
 TEST_F(Calibrations, MayBeInAFolderAroundThatOfTheViews) {
   write_views("day/drive/undistorted/cam0", "day/drive/undistorted/cam1");
-  write("day/calibration/rig.txt", projections("10"));
+  write("day/calibration/rig.txt", sized("100"));
   EXPECT_EQ(only().calibration, path("day/calibration/rig.txt"));
   EXPECT_TRUE(only().rectified);
-  write("day/drive/calib.txt", projections("20"));
+  write("day/drive/calib.txt", sized("200"));
   EXPECT_EQ(only().calibration, path("day/drive/calib.txt"));
   write("day/drive/undistorted/calib_rig/a.txt", projections("30"));
   EXPECT_EQ(only().calibration, path("day/drive/undistorted/calib_rig/a.txt"));
+}
+
+// A folder may have those of other cameras.
+TEST_F(Calibrations, AroundTheViewsMustStateTheirSize) {
+  write_views("day/drive/left", "day/drive/right");
+  write("day/calibration/rig.txt", projections("10"));
+  EXPECT_THAT(only().calibration, IsEmpty());
+  EXPECT_THAT(only().remarks, Contains(HasSubstr("rig.txt: is not beside the views and does not")));
+  std::string twice = sized("100");
+  twice.replace(twice.find("200"), 3, "400").replace(twice.find("120"), 3, "240");
+  write("day/calibration/rig.txt", twice);
+  EXPECT_THAT(only().calibration, IsEmpty());
+  write("day/calibration/rig.txt", sized("100"));
+  EXPECT_EQ(only().calibration, path("day/calibration/rig.txt"));
 }
 
 TEST_F(Calibrations, OutsideOfTheGivenFolderAreNotUsed) {
@@ -146,7 +168,7 @@ TEST_F(Calibrations, OfRawViewsAreNotUsedForViewsThatAreNamedRectified) {
 
 TEST_F(Calibrations, OfRectifiedViewsAreNotUsedForViewsThatAreNamedDistorted) {
   write_views("images/left/distorted", "images/right/distorted");
-  write("calibration/rig.txt", projections("10"));
+  write("calibration/rig.txt", sized("100"));
   EXPECT_THAT(only().calibration, IsEmpty());
   EXPECT_THAT(only().remarks, Contains(HasSubstr("rig.txt: describes rectified views")));
 }
