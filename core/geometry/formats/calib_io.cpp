@@ -13,7 +13,7 @@ namespace mtstereo::formats {
 namespace {
 
 constexpr const char* kModel = "libCalib::CameraModelOpenCV";
-constexpr const char* kRemedyOfUnit = R"(add '"length_unit": "mm",' (or cm) before "Calibration")";
+constexpr const char* kUnitInCalibIo = R"(add '"length_unit": "mm",' (or cm) before "Calibration")";
 
 /// The name of the lens model, which cameras after the first one leave out if it is the same.
 std::optional<Entry> find_model(const Entry& camera) {
@@ -76,9 +76,9 @@ StereoCalibration read_calib_io(const Entry& file, const Request& request) {
   calibration.right = read_camera(cameras[pair.right]);
   const Motion motion = read_transform(cameras[pair.right], meters)
                             .after(read_transform(cameras[pair.left], meters).inverse());
-  check_translation(motion.translation, cameras[pair.right], std::string(": ") + kRemedyOfUnit);
+  check_translation(motion.translation, cameras[pair.right], std::string(": ") + kUnitInCalibIo);
   set_motion(calibration, motion);
-  if (!unit) note_length(calibration, kRemedyOfUnit);
+  if (!unit) note_length(calibration, kUnitInCalibIo);
   return calibration;
 }
 
