@@ -103,7 +103,7 @@ inline constexpr double kLongestBaseline = 10;
 /// the file of write_calibration().
 ///
 /// `path`: a file, or two files separated by a comma where the format has one file per camera
-/// (left, right) or one for intrinsics and one for extrinsics, or three (OpenCV: left, right,
+/// (left, right) or one for intrinsics and one for extrinsics, or three (OpenCV, ROS: left, right,
 /// extrinsics). "FILE#CHOICE" selects: "#gray" or "#color" (KITTI), "#cam1-cam0" (Kalibr:
 /// left-right), "#1-2" (DepthAI: sockets left-right), "#HD" (ZED: resolution). `width`, `height`:
 /// the size of the video [px], or 0 if it is not known; a format that states several resolutions
