@@ -41,8 +41,10 @@ def filled(page, tests):
         cells = line.strip("|").split(" | ")
         feature = cells[0].strip()
         if line.startswith("| ") and feature not in ("feature", "---"):
-            if feature in features or feature not in tests:
-                raise ValueError(f"{feature}: listed twice, or no test has this mark")
+            if feature in features:
+                raise ValueError(f"{feature}: listed twice")
+            if feature not in tests:
+                raise ValueError(f"{feature}: no test has this mark")
             features.add(feature)
             names = ", ".join(f"`{name}`" for name in tests[feature])
             line = "|" + " | ".join([*cells[:-1], names]) + " |"

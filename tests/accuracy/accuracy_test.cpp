@@ -58,19 +58,19 @@ TEST_P(RenderedScenes, KeepTheirAccuracy) {
   expect_kept(mean_of(evaluations), GetParam().limit);
 }
 
-// Measured: 0.128 px, 0.07 %, 51.9 %; 0.229, 1.03, 73.7; 0.361, 2.47, 88.5; 0.509, 4.47, 100; with
-// preset fast 0.176, 0.18, 51.7; 0.287, 1.48, 71.0; 0.476, 3.62, 91.2; 0.634, 5.57, 100 (full
+// Measured: 0.131 px, 0.08 %, 53.6 %; 0.233, 1.04, 74.3; 0.358, 2.43, 88.9; 0.505, 4.43, 100; with
+// preset fast 0.175, 0.14, 53.0; 0.275, 1.32, 71.2; 0.447, 3.27, 91.0; 0.641, 5.73, 100 (full
 // follows dense); with the paper's parameters 0.641, 6.06, 12.2 and 1.09, 10.9, 44.8.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RenderedScenes,
-    testing::Values(Gate{"Sparse", "mode=sparse", {0.14, 0.09, 51.0}},
-                    Gate{"SemiDense", "mode=semi-dense", {0.237, 1.08, 73.4}},
-                    Gate{"Dense", "mode=dense", {0.385, 2.7, 86.7}},
-                    Gate{"Full", "mode=full", {0.53, 4.6, 100}},
+    testing::Values(Gate{"Sparse", "mode=sparse", {0.14, 0.09, 53.0}},
+                    Gate{"SemiDense", "mode=semi-dense", {0.237, 1.08, 73.8}},
+                    Gate{"Dense", "mode=dense", {0.365, 2.52, 88.3}},
+                    Gate{"Full", "mode=full", {0.52, 4.55, 100}},
                     Gate{"FastFull", "preset=fast mode=full", {0.645, 5.75, 100}},
-                    Gate{"FastSparse", "preset=fast mode=sparse", {0.235, 0.28, 10.0}},
-                    Gate{"FastSemiDense", "preset=fast mode=semi-dense", {0.29, 1.6, 66.5}},
-                    Gate{"FastDense", "preset=fast mode=dense", {0.485, 3.95, 90.0}},
+                    Gate{"FastSparse", "preset=fast mode=sparse", {0.182, 0.16, 52.2}},
+                    Gate{"FastSemiDense", "preset=fast mode=semi-dense", {0.283, 1.38, 70.5}},
+                    Gate{"FastDense", "preset=fast mode=dense", {0.46, 3.4, 90.4}},
                     Gate{"PaperSparse", "preset=paper mode=sparse", {0.66, 6.3, 12.0}},
                     Gate{"PaperSemiDense", "preset=paper mode=semi-dense", {1.12, 11.2, 44.0}}),
     gate_name);
@@ -112,16 +112,16 @@ void raise_gamma(cv::Mat& image) {
 // Feature: accuracy tests
 TEST_P(RealPairs, KeepTheirAccuracy) { expect_kept(evaluate_all(keep_as_it_is), GetParam().limit); }
 
-// Measured: 0.228 px, 0.05 %, 45.2 %; 0.300, 0.41, 72.2; 0.477, 1.27, 83.0; 1.109, 4.62, 100; with
-// preset fast 0.222, 0.09, 43.6; 0.325, 0.58, 67.9; 0.569, 2.05, 84.0; 1.218, 5.80, 100; with the
+// Measured: 0.231 px, 0.04 %, 45.9 %; 0.302, 0.41, 72.4; 0.480, 1.32, 83.1; 1.087, 4.57, 100; with
+// preset fast 0.228, 0.10, 44.0; 0.326, 0.57, 68.4; 0.560, 1.97, 84.0; 1.207, 5.85, 100; with the
 // paper's parameters 0.834, 4.18, 10.3 and 1.78, 10.5, 45.9.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RealPairs,
     testing::Values(Gate{"Sparse", "mode=sparse", {0.245, 0.07, 44.0}},
                     Gate{"SemiDense", "mode=semi-dense", {0.305, 0.43, 71.8}},
                     Gate{"Dense", "mode=dense", {0.49, 1.33, 82.7}},
-                    Gate{"Full", "mode=full", {1.15, 4.85, 100}},
-                    Gate{"FastFull", "preset=fast mode=full", {1.27, 6.1, 100}},
+                    Gate{"Full", "mode=full", {1.12, 4.7, 100}},
+                    Gate{"FastFull", "preset=fast mode=full", {1.24, 6.0, 100}},
                     Gate{"FastSparse", "preset=fast mode=sparse", {0.24, 0.13, 42.5}},
                     Gate{"FastSemiDense", "preset=fast mode=semi-dense", {0.335, 0.63, 66.8}},
                     Gate{"FastDense", "preset=fast mode=dense", {0.60, 2.15, 83.6}},
