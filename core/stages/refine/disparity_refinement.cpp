@@ -8,6 +8,7 @@
 
 #define HWY_TARGET_INCLUDE "stages/refine/disparity_refinement.cpp"
 #include "base/simd.hpp"
+#include "base/simd_transpose-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -57,31 +58,46 @@ void round_row(const std::int32_t* __restrict__ disparity, int width,
 
 using Vec = hn::Vec<Ints>;
 
-/// The costs of a row at all shifts, of two pixels of the full views each; 0 for pixels without a
-/// disparity. `right` begins kReach before the row's first pixel.
-void cost_row(const std::uint32_t* left, const std::uint32_t* right, const std::int32_t* places,
-              int width, const RingRow& ring) {
-  const Ints di32;
-  const hn::RebindToUnsigned<Ints> du32;
-  const hn::Rebind<std::uint8_t, Ints> d8;
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(di32))) {
-    const auto known = hn::PromoteTo(du32, hn::LoadU(d8, ring.known + x));
-    if (hn::AllTrue(du32, hn::Eq(known, hn::Zero(du32)))) {
-      for (std::uint8_t* costs : ring.costs) hn::StoreU(hn::Zero(d8), d8, costs + x);
-      continue;
+/// The words of the right view that a pixel of the map is compared with: from that of its odd pixel
+/// at the last shift up to that of its even pixel at the first shift.
+constexpr int kPartners = Scratch::kShifts + 1;
+
+/// Copies the partners, four pixels at a time: row i of `partners` has those at right + places + i.
+/// Processors load blocks and transpose them in less time than they gather words.
+void copy_partners(const std::uint32_t* right, const std::int32_t* places, int width,
+                   std::ptrdiff_t stride, std::uint32_t* partners) {
+  for (int x = 0; x < width; x += 4) {
+    const std::uint32_t* of[4];
+    for (int i = 0; i < 4; ++i) of[i] = right + places[x + i];
+    for (const int first : {0, kPartners - 4}) {
+      std::uint32_t* out[4];
+      for (int i = 0; i < 4; ++i) out[i] = partners + (first + i) * stride;
+      transpose_four(of, first, out, x);
     }
-    hn::Vec<hn::RebindToUnsigned<Ints>> even, odd;
-    hn::LoadInterleaved2(du32, left + 2 * x, even, odd);
-    const auto place = hn::LoadU(di32, places + x);
-    // The partners of the odd pixels are those of the even ones at the shift before.
-    auto odd_partners = hn::GatherIndex(du32, right + 2 * kReach + 1, place);
+  }
+}
+
+/// The costs of a row at all shifts, of two pixels of the full views each; 0 for pixels without a
+/// disparity.
+void cost_row(const std::uint32_t* left, const std::uint32_t* partners, std::ptrdiff_t stride,
+              int width, const RingRow& ring) {
+  const hn::CappedTag<std::uint32_t, kAlignment / sizeof(std::uint32_t)> d32;
+  const hn::Repartition<std::uint8_t, decltype(d32)> bytes;
+  const hn::Rebind<std::uint8_t, decltype(d32)> d8;
+  const auto each = hn::Set(d32, 0x01010101);
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
+    const auto known = hn::Sub(hn::Zero(d8), hn::LoadU(d8, ring.known + x));
+    hn::Vec<decltype(d32)> even, odd;
+    hn::LoadInterleaved2(d32, left + 2 * x, even, odd);
+    const auto bits_of = [&](auto pixel, int partner) HWY_ATTR {
+      const auto of = hn::LoadU(d32, partners + partner * stride + x);
+      return hn::PopulationCount(hn::BitCast(bytes, hn::Xor(pixel, of)));
+    };
     for (int i = 0; i < Scratch::kShifts; ++i) {
-      const auto even_partners = hn::GatherIndex(du32, right + 2 * kReach - i, place);
-      const auto even_cost = hn::PopulationCount(hn::Xor(even, even_partners));
-      const auto odd_cost = hn::PopulationCount(hn::Xor(odd, odd_partners));
-      const auto cost = hn::Mul(hn::Add(even_cost, odd_cost), known);
-      hn::StoreU(hn::DemoteTo(d8, hn::BitCast(di32, cost)), d8, ring.costs[i] + x);
-      odd_partners = even_partners;
+      // The partners of the odd pixels are those of the even ones at the shift before.
+      const auto bits = hn::Add(bits_of(even, kPartners - 2 - i), bits_of(odd, kPartners - 1 - i));
+      const auto cost = hn::ShiftRight<24>(hn::Mul(hn::BitCast(d32, bits), each));
+      hn::StoreU(hn::And(known, hn::U8FromU32(cost)), d8, ring.costs[i] + x);
     }
   }
 }
@@ -104,7 +120,9 @@ void fill_ring_row(const CensusImage& left, const CensusImage& right,
   std::fill_n(line, kReach, line[kReach]);
   std::fill_n(line + kReach + columns, kReach + 1, line[kReach + columns - 1]);
   round_row(map.row(y), width, scratch.places.data(), ring.rounded, ring.known);
-  cost_row(scratch.left.data(), line, scratch.places.data(), width, ring);
+  std::uint32_t* partners = scratch.partners.data();
+  copy_partners(line, scratch.places.data(), width, scratch.stride, partners);
+  cost_row(scratch.left.data(), partners, scratch.stride, width, ring);
 }
 
 /// Advances the sums of columns by one row.
@@ -246,6 +264,7 @@ void RefinementScratch::resize(int width) {
   std::memset(left.data(), 0, left.size() * sizeof(left[0]));
   right.resize(2 * width + kShifts + 1);
   places.resize(stride);
+  partners.resize((kShifts + 1) * stride);
   costs.resize(kRows * kShifts * stride);
   rounded.resize(kRows * stride);
   known.resize(kRows * stride);

@@ -31,6 +31,7 @@ struct RefinementScratch {
   Buffer<std::uint32_t> left;          ///< a row of the left view, its last pixel repeated
   Buffer<std::uint32_t> right;         ///< a row of the right view with its ends repeated
   Buffer<std::int32_t> places;         ///< per pixel of the map: its partner's column there
+  Buffer<std::uint32_t> partners;      ///< kShifts + 1 rows: the words from there on
   Buffer<std::uint8_t> costs;          ///< kRows x kShifts rows [bits]
   Buffer<std::int8_t> rounded;         ///< kRows rows: rounding errors [1/128 px]
   Buffer<std::uint8_t> known;          ///< kRows rows: 1 for a pixel with a disparity

@@ -8,26 +8,10 @@
 
 #define HWY_TARGET_INCLUDE "stages/refine/thin_chains.cpp"
 #include "base/simd.hpp"
+#include "base/simd_transpose-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
-
-/// Transposes four columns of four rows each: the elements at `x` become the rows of `out`.
-HWY_INLINE void transpose_four(const std::int32_t* const* rows, int x, std::int32_t* const* out,
-                               int y) {
-  const hn::FixedTag<std::int32_t, 4> d32;
-  const hn::FixedTag<std::int64_t, 2> d64;
-  const auto a = hn::LoadU(d32, rows[0] + x), b = hn::LoadU(d32, rows[1] + x);
-  const auto c = hn::LoadU(d32, rows[2] + x), d = hn::LoadU(d32, rows[3] + x);
-  const auto ab0 = hn::BitCast(d64, hn::InterleaveLower(d32, a, b));
-  const auto ab2 = hn::BitCast(d64, hn::InterleaveUpper(d32, a, b));
-  const auto cd0 = hn::BitCast(d64, hn::InterleaveLower(d32, c, d));
-  const auto cd2 = hn::BitCast(d64, hn::InterleaveUpper(d32, c, d));
-  hn::StoreU(hn::BitCast(d32, hn::InterleaveLower(d64, ab0, cd0)), d32, out[0] + y);
-  hn::StoreU(hn::BitCast(d32, hn::InterleaveUpper(d64, ab0, cd0)), d32, out[1] + y);
-  hn::StoreU(hn::BitCast(d32, hn::InterleaveLower(d64, ab2, cd2)), d32, out[2] + y);
-  hn::StoreU(hn::BitCast(d32, hn::InterleaveUpper(d64, ab2, cd2)), d32, out[3] + y);
-}
 
 /// Writes the columns x0 .. x1 - 1 of the map as the first rows, where their number is a multiple
 /// of four.
