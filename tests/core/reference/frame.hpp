@@ -35,6 +35,7 @@
 #include "reference/refine/thin_chains.hpp"
 #include "reference/refine/thin_structures.hpp"
 #include "stages/prepare/noise_filter.hpp"
+#include "stages/refine/clues.hpp"
 #include "stages/refine/thin_chains.hpp"
 
 namespace mtstereo::reference {
