@@ -115,7 +115,8 @@ void rate_confidence(const StepContext& step, Maps& maps) {
 void threshold_support(const StepContext& step, Maps& maps) {
   const Settings& settings = step.settings;
   step.bands.rows([&](int y0, int y1, int worker) {
-    rate_support(maps.support, maps.ratio, y0, y1, maps.scratch[worker].support, maps.confidence);
+    rate_support(maps.support, maps.ratio, settings.by_paths() ? kSupportStep : 1, y0, y1,
+                 maps.scratch[worker].support, maps.confidence);
     if (settings.removes_speckles()) weigh_confidence(maps.area, y0, y1, maps.confidence);
     if (settings.min_confidence > 0 && !settings.keeps_likely_only()) {
       threshold_confidence(settings.min_confidence, y0, y1, maps.disparity, maps.confidence);

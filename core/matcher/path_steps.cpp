@@ -109,8 +109,8 @@ void support_guide(const StepContext& step, Pyramid& pyramid) {
     copy_support(level.disparity, level.ratio, y0, y1, pyramid.support);
   });
   bands.rows([&](int y0, int y1, int worker) {
-    rate_support(pyramid.support, level.ratio, y0, y1, pyramid.scratch[worker].support,
-                 pyramid.confidence);
+    rate_support(pyramid.support, level.ratio, kSupportStep, y0, y1,
+                 pyramid.scratch[worker].support, pyramid.confidence);
     complete_rows(y0, y1, level.disparity, pyramid.confidence);
   });
   complete_empty_rows(level.disparity, pyramid.confidence);

@@ -58,8 +58,8 @@ TEST_P(RenderedScenes, KeepTheirAccuracy) {
   expect_kept(mean_of(evaluations), GetParam().limit);
 }
 
-// Measured: 0.131 px, 0.08 %, 53.6 %; 0.233, 1.04, 74.3; 0.358, 2.43, 88.9; 0.505, 4.43, 100; with
-// preset fast 0.175, 0.14, 53.0; 0.275, 1.32, 71.2; 0.447, 3.27, 91.0; 0.641, 5.73, 100 (full
+// Measured: 0.132 px, 0.08 %, 53.2 %; 0.233, 1.05, 74.0; 0.359, 2.44, 89.0; 0.505, 4.43, 100; with
+// preset fast 0.177, 0.14, 52.6; 0.276, 1.33, 70.9; 0.446, 3.26, 90.9; 0.641, 5.73, 100 (full
 // follows dense); with the paper's parameters 0.641, 6.06, 12.2 and 1.09, 10.9, 44.8.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RenderedScenes,
@@ -112,15 +112,15 @@ void raise_gamma(cv::Mat& image) {
 // Feature: accuracy tests
 TEST_P(RealPairs, KeepTheirAccuracy) { expect_kept(evaluate_all(keep_as_it_is), GetParam().limit); }
 
-// Measured: 0.231 px, 0.04 %, 45.9 %; 0.302, 0.41, 72.4; 0.480, 1.32, 83.1; 1.087, 4.57, 100; with
-// preset fast 0.228, 0.10, 44.0; 0.326, 0.57, 68.4; 0.560, 1.97, 84.0; 1.207, 5.85, 100; with the
+// Measured: 0.232 px, 0.04 %, 45.4 %; 0.301, 0.40, 72.2; 0.476, 1.29, 83.0; 1.081, 4.54, 100; with
+// preset fast 0.230, 0.10, 43.6; 0.327, 0.59, 68.2; 0.560, 1.98, 83.9; 1.211, 5.85, 100; with the
 // paper's parameters 0.834, 4.18, 10.3 and 1.78, 10.5, 45.9.
 INSTANTIATE_TEST_SUITE_P(
     Modes, RealPairs,
     testing::Values(Gate{"Sparse", "mode=sparse", {0.245, 0.07, 44.0}},
                     Gate{"SemiDense", "mode=semi-dense", {0.305, 0.43, 71.8}},
-                    Gate{"Dense", "mode=dense", {0.49, 1.33, 82.7}},
-                    Gate{"Full", "mode=full", {1.12, 4.7, 100}},
+                    Gate{"Dense", "mode=dense", {0.485, 1.31, 82.7}},
+                    Gate{"Full", "mode=full", {1.11, 4.65, 100}},
                     Gate{"FastFull", "preset=fast mode=full", {1.24, 6.0, 100}},
                     Gate{"FastSparse", "preset=fast mode=sparse", {0.24, 0.13, 42.5}},
                     Gate{"FastSemiDense", "preset=fast mode=semi-dense", {0.335, 0.63, 66.8}},
@@ -165,7 +165,7 @@ TEST_P(Road, KeepsItsAccuracy) {
   FAIL() << "the pair is missing";
 }
 
-// Measured: 0.512 px, 0.11 %, 63.3 %.
+// Measured: 0.505 px, 0.08 %, 62.5 %.
 INSTANTIATE_TEST_SUITE_P(Modes, Road,
                          testing::Values(Gate{"SemiDense", "mode=semi-dense", {0.53, 0.2, 62.2}}),
                          gate_name);

@@ -10,7 +10,6 @@
 
 #define HWY_TARGET_INCLUDE "stages/refine/confidence.cpp"
 #include "base/simd.hpp"
-#include "base/simd_gather-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace mtstereo::HWY_NAMESPACE {
@@ -74,11 +73,26 @@ struct Largest {
   hn::Vec<Signed> of[kSupportRadius + 1];
 };
 
+/// Counts and ratios that are added up in the same words, up to 15 of them.
+struct SupportSums {
+  HWY_INLINE SupportSums() : together(hn::Zero(Words())), count(together), ratio(together) {}
+
+  /// Moves them to `count` and `ratio`.
+  HWY_INLINE void split() {
+    const Words d16;
+    count = hn::Add(count, hn::ShiftRight<12>(together));
+    ratio = hn::Add(ratio, hn::And(together, hn::Set(d16, kSupportOne - 1)));
+    together = hn::Zero(d16);
+  }
+
+  hn::Vec<Words> together, count, ratio;
+};
+
 /// Adds the support of a vector of disparities from one row of their windows, if it is in the
 /// image.
-template <int kLine, class V>
+template <int kStep, int kLine>
 HWY_INLINE void add_line(const SupportRows& rows, int x, const Largest& largest,
-                         const std::int16_t* widest, V& count, V& ratio) {
+                         const std::int16_t* widest, SupportSums& sums) {
   if (!rows.inside[kLine]) return;
   const Words d16;
   const Signed di16;
@@ -87,23 +101,39 @@ HWY_INLINE void add_line(const SupportRows& rows, int x, const Largest& largest,
   const auto distance_of = [](int i) {
     return i < kSupportRadius ? kSupportRadius - i : i - kSupportRadius;
   };
-  V sum = hn::Zero(d16);
-  for (int i = 0; i < kSupportSide; ++i) {
+  for (int i = 0; i < kSupportSide; i += kStep) {
     const int away = std::max(distance_of(i), distance_of(kLine));
     // A pixel supports the middle if middle + tolerance - disparity is 0 .. 2 * tolerance.
     const auto distance =
         hn::Sub(largest.of[away], hn::BitCast(di16, hn::LoadU(d16, disparities + i)));
     const auto most = hn::Load(di16, widest + away * kSupportLanes);
     const auto exceeds = hn::RebindMask(d16, hn::Gt(distance, most));
-    sum = hn::Add(sum, hn::IfThenZeroElse(exceeds, hn::LoadU(d16, ratios + i)));
+    const auto ratio = hn::IfThenZeroElse(exceeds, hn::LoadU(d16, ratios + i));
+    sums.together = hn::Add(sums.together, ratio);
   }
-  count = hn::Add(count, hn::ShiftRight<12>(sum));
-  ratio = hn::Add(ratio, hn::And(sum, hn::Set(d16, kSupportOne - 1)));
+}
+
+/// Sums up the support of a vector of disparities.
+template <int kStep>
+HWY_INLINE SupportSums sum_support(const SupportRows& rows, int x, const Largest& largest,
+                                   const std::int16_t* widest) {
+  constexpr int kLines = support_side(kStep);
+  constexpr int kTogether = 15 / kLines;  // so many rows, each with kLines pixels
+  SupportSums sums;
+  [&]<int... kLine>(std::integer_sequence<int, kLine...>) HWY_ATTR {
+    ((add_line<kStep, kLine * kStep>(rows, x, largest, widest, sums),
+      (kLine + 1) % kTogether == 0 || kLine + 1 == kLines ? sums.split() : void()),
+     ...);
+  }
+  (std::make_integer_sequence<int, kLines>());
+  return sums;
 }
 
 /// Sums up the support of each pixel of a row. The count is 0 for pixels without a disparity and
 /// where `asked` is 0.
-void sum_row(const SupportMap& support, const std::uint8_t* asked, int y, SupportScratch& scratch) {
+template <int kStep>
+void sum_row_by(const SupportMap& support, const std::uint8_t* asked, int y,
+                SupportScratch& scratch) {
   const Words d16;
   const hn::Rebind<std::uint8_t, Words> d8;
   const Signed di16;
@@ -117,55 +147,47 @@ void sum_row(const SupportMap& support, const std::uint8_t* asked, int y, Suppor
   const auto lowest = hn::Set(d16, std::uint16_t{1} << 15);
   for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d16))) {
     const auto disparity = hn::LoadU(d16, row + x);
-    auto count = hn::Zero(d16);
-    auto ratio = hn::Zero(d16);
     const auto unasked = hn::Eq(hn::PromoteTo(d16, hn::LoadU(d8, asked + x)), hn::Zero(d16));
     const auto missing = hn::Or(unasked, hn::Eq(disparity, none));
+    SupportSums sums;
     if (!hn::AllTrue(d16, missing)) {
       const Largest largest(hn::BitCast(di16, hn::Sub(disparity, lowest)));
-      [&]<int... kLines>(std::integer_sequence<int, kLines...>) HWY_ATTR {
-        (add_line<kLines>(rows, x, largest, widest, count, ratio), ...);
-      }
-      (std::make_integer_sequence<int, kSupportSide>());
+      sums = sum_support<kStep>(rows, x, largest, widest);
     }
-    hn::StoreU(hn::IfThenZeroElse(missing, count), d16, counts + x);
-    hn::StoreU(ratio, d16, ratios + x);
+    hn::StoreU(hn::IfThenZeroElse(missing, sums.count), d16, counts + x);
+    hn::StoreU(sums.ratio, d16, ratios + x);
   }
+}
+
+void sum_row(const SupportMap& support, const std::uint8_t* asked, int step, int y,
+             SupportScratch& scratch) {
+  const auto sum = step == 1 ? sum_row_by<1> : sum_row_by<kSupportStep>;
+  sum(support, asked, y, scratch);
 }
 
 /// count * count * ratio / (255 * pixels^3) for windows of `pixels` pixels, in steps of
 /// 1 / kSupportSteps, plus 1; 0 if the count is 0.
 void find_steps(int pixels, int width, SupportScratch& scratch) {
-  const hn::CappedTag<double, kAlignment / 8> df64;
-  const hn::Rebind<std::int32_t, decltype(df64)> d32;
-  const hn::Rebind<std::uint16_t, decltype(df64)> d16;
-  // Adding one half keeps exact whole quotients above the whole number by more than any rounding
-  // error: the numerator is a whole number below 2^40, `all` is below 2^28.
-  const double all = 255.0 * pixels * pixels * pixels;
-  const auto scale = hn::Set(df64, 1 / all);
-  const auto half = hn::Set(df64, 0.5);
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(df64))) {
+  const hn::CappedTag<std::int32_t, kAlignment / 4> d32;
+  const hn::Rebind<float, decltype(d32)> df32;
+  const hn::Rebind<std::uint16_t, decltype(d32)> d16;
+  const int all = 255 * pixels * pixels * pixels;
+  const auto divisor = hn::Set(d32, all);
+  const auto scale = hn::Set(df32, static_cast<float>(kSupportSteps / static_cast<double>(all)));
+  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
     const auto count = hn::PromoteTo(d32, hn::LoadU(d16, scratch.count.data() + x));
     const auto ratio = hn::PromoteTo(d32, hn::LoadU(d16, scratch.ratio.data() + x));
-    const auto product = hn::PromoteTo(df64, hn::Mul(hn::Mul(count, count), ratio));
-    const auto numerator = hn::Add(hn::Mul(product, hn::Set(df64, kSupportSteps)), half);
-    const auto steps = hn::DemoteTo(d32, hn::Mul(numerator, scale));
+    const auto product = hn::Mul(hn::Mul(count, count), ratio);
+    // Rounding errors make this at most 1 too low or too high. The remainder, for which the lower
+    // 32 bits are sufficient, tells.
+    const auto steps = hn::ConvertTo(d32, hn::Mul(hn::ConvertTo(df32, product), scale));
+    const auto remainder = hn::Sub(hn::ShiftLeft<kSupportBits>(product), hn::Mul(steps, divisor));
+    const auto above = hn::VecFromMask(d32, hn::Lt(remainder, hn::Zero(d32)));
+    const auto exact = hn::VecFromMask(d32, hn::Lt(remainder, divisor));
+    // The masks are -1: plus 1, or 0 for the exact ones, or minus 1. One more if there is support.
+    const auto next = hn::Add(hn::Add(steps, hn::Set(d32, 1)), hn::Add(above, exact));
     const auto some = hn::Min(count, hn::Set(d32, 1));
-    hn::StoreU(hn::DemoteTo(d16, hn::Add(steps, some)), d16, scratch.steps.data() + x);
-  }
-}
-
-/// Writes the roots of the steps. Accesses the padding of the rows.
-void look_up_row(const std::uint8_t* roots, const std::uint16_t* steps, int width,
-                 std::uint8_t* confidence) {
-  const hn::CappedTag<std::int32_t, kAlignment / 4> d32;
-  const hn::Rebind<std::uint16_t, decltype(d32)> d16;
-  const hn::Rebind<std::uint8_t, decltype(d32)> d8;
-  // Those after the end of the row may be any.
-  const auto most = hn::Set(d32, kSupportSteps + 1);
-  for (int x = 0; x < width; x += static_cast<int>(hn::Lanes(d32))) {
-    const auto places = hn::Min(hn::PromoteTo(d32, hn::LoadU(d16, steps + x)), most);
-    hn::StoreU(hn::DemoteTo(d8, bytes_at(d32, roots, places)), d8, confidence + x);
+    hn::StoreU(hn::DemoteTo(d16, hn::Add(next, some)), d16, scratch.steps.data() + x);
   }
 }
 
@@ -220,7 +242,6 @@ namespace mtstereo {
 HWY_EXPORT(copy_row);
 HWY_EXPORT(sum_row);
 HWY_EXPORT(find_steps);
-HWY_EXPORT(look_up_row);
 HWY_EXPORT(remove_below);
 HWY_EXPORT(weigh_row);
 HWY_EXPORT(clear_row);
@@ -229,9 +250,9 @@ namespace {
 
 /// Entry i + 1: 255 times the cube root of i / kSupportSteps, rounded half up, at least 1. Entry 0:
 /// 0. Computed in whole numbers, since 255 times the cube root of 1/8 is halfway between two whole
-/// numbers, and the result of std::cbrt() differs between libraries. bytes_at() reads three more.
-constexpr std::array<std::uint8_t, kSupportSteps + 2 + 3> kCubeRoots = [] {
-  std::array<std::uint8_t, kSupportSteps + 2 + 3> roots{};
+/// numbers, and the result of std::cbrt() differs between libraries.
+constexpr std::array<std::uint8_t, kSupportSteps + 2> kCubeRoots = [] {
+  std::array<std::uint8_t, kSupportSteps + 2> roots{};
   std::int64_t root = 0;
   for (std::int64_t i = 0; i <= kSupportSteps; ++i) {
     // Rounds up if root + 1/2 is not above the exact root.
@@ -242,17 +263,18 @@ constexpr std::array<std::uint8_t, kSupportSteps + 2 + 3> kCubeRoots = [] {
   return roots;
 }();
 
-/// Number of a window's kSupportSide rows or columns that are inside of the image.
-int inside(int middle, int size) {
-  return std::min(middle + kSupportRadius, size - 1) - std::max(middle - kSupportRadius, 0) + 1;
+/// Number of a window's support_side() rows or columns that are inside of the image.
+int inside(int middle, int size, int step) {
+  return std::min(middle, kSupportRadius) / step + 1 +
+         std::min(size - 1 - middle, kSupportRadius) / step;
 }
 
 /// Corrects the steps of the columns whose windows the image's border cuts off.
-void find_border_steps(int rows, int width, SupportScratch& scratch) {
+void find_border_steps(int rows, int width, int step, SupportScratch& scratch) {
   for (int x = 0; x < width; ++x) {
     if (x == kSupportRadius) x = std::max(x, width - kSupportRadius);
     if (x == width) break;
-    const std::uint64_t pixels = static_cast<std::uint64_t>(rows) * inside(x, width);
+    const std::uint64_t pixels = static_cast<std::uint64_t>(rows) * inside(x, width, step);
     const std::uint64_t count = scratch.count[x];
     if (count == 0) continue;
     const std::uint64_t product = count * count * scratch.ratio[x];
@@ -300,16 +322,17 @@ void find_support_steps(int pixels, int width, SupportScratch& scratch) {
   HWY_DYNAMIC_DISPATCH(find_steps)(pixels, width, scratch);
 }
 
-void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, int y0, int y1,
-                  SupportScratch& scratch, Image<std::uint8_t>& confidence) {
+void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, int step, int y0,
+                  int y1, SupportScratch& scratch, Image<std::uint8_t>& confidence) {
   const int width = confidence.width();
   for (int y = y0; y < y1; ++y) {
-    const int rows = inside(y, confidence.height());
-    HWY_DYNAMIC_DISPATCH(sum_row)(support, asked.row(y), y, scratch);
-    find_support_steps(rows * kSupportSide, width, scratch);
-    find_border_steps(rows, width, scratch);
-    HWY_DYNAMIC_DISPATCH(look_up_row)
-    (kCubeRoots.data(), scratch.steps.data(), width, confidence.row(y));
+    const int rows = inside(y, confidence.height(), step);
+    HWY_DYNAMIC_DISPATCH(sum_row)(support, asked.row(y), step, y, scratch);
+    find_support_steps(rows * support_side(step), width, scratch);
+    find_border_steps(rows, width, step, scratch);
+    const std::uint16_t* steps = scratch.steps.data();
+    std::uint8_t* row = confidence.row(y);
+    for (int x = 0; x < width; ++x) row[x] = kCubeRoots[steps[x]];
   }
 }
 

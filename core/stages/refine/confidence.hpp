@@ -17,6 +17,14 @@ inline constexpr int kSupportRadius = 4;
 /// Side of the window [px].
 inline constexpr int kSupportSide = 2 * kSupportRadius + 1;
 
+/// The window's pixels may be those of every second row and column: the ones between them say much
+/// the same. A step of 1 takes all, as the paper does.
+inline constexpr int kSupportStep = 2;
+static_assert(kSupportRadius % kSupportStep == 0);
+
+/// Rows and columns of the window that count.
+constexpr int support_side(int step) { return 2 * (kSupportRadius / step) + 1; }
+
 /// A disparity supports another one at a distance of n px (the larger of columns and rows) if the
 /// two differ by at most kSupportTolerance + n * kSupportSlope, since surfaces may be slanted.
 inline constexpr int kSupportTolerance = 32;  ///< [1 / kVoteOne px]
@@ -29,11 +37,12 @@ constexpr int support_tolerance(int away) { return kSupportTolerance + away * kS
 inline constexpr std::uint16_t kSupportNone = 0xFC00;
 
 /// Added to the ratio of each disparity, so that the upper bits of a sum of ratios count them. The
-/// sum of a row of the window fits into 16 bits.
+/// sum of 15 pixels fits into 16 bits.
 inline constexpr std::uint16_t kSupportOne = 1 << 12;
 
 /// Steps per 1 of the product whose cube root is the confidence.
-inline constexpr int kSupportSteps = 4096;
+inline constexpr int kSupportBits = 12;
+inline constexpr int kSupportSteps = 1 << kSupportBits;
 
 /// Copies of a disparity map and its peak ratios in the form that the sums need, with a border of
 /// kSupportRadius columns on both sides.
@@ -68,8 +77,9 @@ struct SupportScratch {
 /// ratios (0 .. 1) divided by the number of the window's pixels. The product is truncated to whole
 /// steps of 1 / kSupportSteps. The confidence is 0 for pixels without a disparity and where `asked`
 /// is 0; such a pixel can still support others. The window is cut off at the image's border.
-void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, int y0, int y1,
-                  SupportScratch& scratch, Image<std::uint8_t>& confidence);
+/// `step`: 1 or kSupportStep.
+void rate_support(const SupportMap& support, const Image<std::uint8_t>& asked, int step, int y0,
+                  int y1, SupportScratch& scratch, Image<std::uint8_t>& confidence);
 
 /// The part of rate_support() whose exactness is not obvious, available for tests: computes
 /// SupportScratch::steps from `count` and `ratio`, for windows of `pixels` pixels (up to 81).

@@ -44,14 +44,14 @@ struct Golden {
 
 // clang-format off
 constexpr Golden kGolden[] = {
-    {"default", "sparse", 0x0464c0ae363f440c},
-    {"default", "semi-dense", 0xcbb4815debec3572},
-    {"default", "dense", 0x66567cfd6a6135db},
-    {"default", "full", 0x48ce89394e51d681},
-    {"fast", "sparse", 0xca33079e28c6e21f},
-    {"fast", "semi-dense", 0x6e492b525a063402},
-    {"fast", "dense", 0xab738c8b25b13d9b},
-    {"fast", "full", 0xdf2ff2ce39e03394},
+    {"default", "sparse", 0x55822a340270731f},
+    {"default", "semi-dense", 0xdda3771099482c3b},
+    {"default", "dense", 0x244946ec47b7b399},
+    {"default", "full", 0x35ecd305c4811503},
+    {"fast", "sparse", 0x72b1b71c039f39e9},
+    {"fast", "semi-dense", 0x38d3c7c1b0a6ad79},
+    {"fast", "dense", 0xf83d518a83a9ca3a},
+    {"fast", "full", 0xe984fa107b9e78e6},
     {"paper", "sparse", 0x98e213ddc5698efd},
     {"paper", "semi-dense", 0x2b88bcb41e29aab0},
 };

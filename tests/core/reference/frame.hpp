@@ -274,7 +274,7 @@ inline void match_by_paths(Frame& f) {
 }
 
 inline void support_guide(Frame& f) {
-  f.guide = complete(ConfidentMap{f.half_map, rate_support(f.half_map, f.half_ratio)});
+  f.guide = complete(ConfidentMap{f.half_map, rate_support(f.half_map, f.half_ratio, 2)});
 }
 
 inline void rate_guide(Frame& f) {
@@ -304,7 +304,7 @@ inline void remove_speckles(Frame& f) {
 
 inline void rate_confidence(Frame& f) {
   const Settings& s = f.settings;
-  f.confidence = rate_support(f.map, f.ratio);
+  f.confidence = rate_support(f.map, f.ratio, s.by_paths() ? 2 : 1);
   if (s.speckle_size > 1) f.confidence = weighed(f.confidence, f.area);
   const auto keep_where = [&](auto&& keep) {
     for (std::size_t i = 0; i < f.map.pixels.size(); ++i) {

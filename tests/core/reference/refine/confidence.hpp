@@ -26,12 +26,14 @@ struct Support {
 };
 
 /// A disparity n px away (the larger of the distances in columns and rows) supports if it differs
-/// by at most (32 + 13 n) / 32 px; disparities are compared in 1/32 px.
-inline Support support_of(const DisparityPlane& map, const GrayPlane& ratio, int x, int y) {
+/// by at most (32 + 13 n) / 32 px; disparities are compared in 1/32 px. Pixels count in every
+/// `step`-th row and column.
+inline Support support_of(const DisparityPlane& map, const GrayPlane& ratio, int step, int x,
+                          int y) {
   const auto steps = [](int disparity) { return (disparity + 4) / 8; };
   Support support;
-  for (int v = y - 4; v <= y + 4; ++v) {
-    for (int u = x - 4; u <= x + 4; ++u) {
+  for (int v = y - 4; v <= y + 4; v += step) {
+    for (int u = x - 4; u <= x + 4; u += step) {
       if (u < 0 || u >= map.width || v < 0 || v >= map.height) continue;
       ++support.pixels;
       if (map(u, v) == 0) continue;
@@ -55,12 +57,12 @@ inline int cube_root(long steps) {
 }
 
 /// The cube root of each fraction of support, at least 1; 0 for an unknown disparity.
-inline GrayPlane rate_support(const DisparityPlane& map, const GrayPlane& ratio) {
+inline GrayPlane rate_support(const DisparityPlane& map, const GrayPlane& ratio, int step) {
   GrayPlane out(map.width, map.height);
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       if (map(x, y) == 0) continue;
-      const long steps = support_of(map, ratio, x, y).share_steps();
+      const long steps = support_of(map, ratio, step, x, y).share_steps();
       out(x, y) = static_cast<std::uint8_t>(std::max(cube_root(steps), 1));
     }
   }

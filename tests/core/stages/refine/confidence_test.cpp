@@ -29,7 +29,7 @@ GrayPlane random_ratios(const DisparityPlane& map, Random& random) {
 }
 
 /// The confidence of the pixels that have a ratio in `asked`, or in `ratio` without `asked`.
-GrayPlane rated(const DisparityPlane& map, const GrayPlane& ratio, int band = 1 << 20,
+GrayPlane rated(const DisparityPlane& map, const GrayPlane& ratio, int step = 1, int band = 1 << 20,
                 const GrayPlane* asked = nullptr) {
   SupportMap support;
   SupportScratch scratch;
@@ -45,21 +45,27 @@ GrayPlane rated(const DisparityPlane& map, const GrayPlane& ratio, int band = 1 
   };
   for_bands([&](int y0, int y1) { copy_support(image_of(map), image_of(ratio), y0, y1, support); });
   for_bands([&](int y0, int y1) {
-    rate_support(support, image_of(asked != nullptr ? *asked : ratio), y0, y1, scratch, confidence);
+    rate_support(support, image_of(asked != nullptr ? *asked : ratio), step, y0, y1, scratch,
+                 confidence);
   });
   return copy_of(confidence);
 }
 
-void expect_reference(const DisparityPlane& map, Random& random, int band) {
+void expect_reference(const DisparityPlane& map, Random& random, int band, int step) {
+  SCOPED_TRACE(testing::Message() << "step " << step << ", bands of " << band << " rows");
   const GrayPlane ratio = random_ratios(map, random);
-  GrayPlane expected = reference::rate_support(map, ratio);
-  EXPECT_TRUE(same_image(expected, rated(map, ratio, band))) << "bands of " << band << " rows";
+  GrayPlane expected = reference::rate_support(map, ratio, step);
+  EXPECT_TRUE(same_image(expected, rated(map, ratio, step, band)));
   GrayPlane asked = ratio;
   for (std::size_t i = 0; i < asked.pixels.size(); ++i) {
     if (random.below(4) == 0) continue;
     asked.pixels[i] = expected.pixels[i] = 0;
   }
-  EXPECT_TRUE(same_image(expected, rated(map, ratio, band, &asked))) << "at selected pixels";
+  EXPECT_TRUE(same_image(expected, rated(map, ratio, step, band, &asked))) << "at selected pixels";
+}
+
+void expect_reference(const DisparityPlane& map, Random& random, int band) {
+  for (const int step : {1, kSupportStep}) expect_reference(map, random, band, step);
 }
 
 TEST(Confidence, EqualsReferenceAtEveryWidthOnEveryInstructionSet) {
@@ -116,11 +122,12 @@ TEST(Confidence, IsTheCubeRootOfTheFractionOfSupport) {
   for (int seed = 0; seed < 20; ++seed) {
     const DisparityPlane map = patches(50, 40, seed / 2, 200 + seed);
     const GrayPlane ratio = random_ratios(map, random);
-    const GrayPlane confidence = rated(map, ratio);
+    const int step = seed % 4 < 2 ? 1 : kSupportStep;
+    const GrayPlane confidence = rated(map, ratio, step);
     for (int y = 0; y < map.height; ++y) {
       for (int x = 0; x < map.width; ++x) {
         if (map(x, y) == 0) continue;
-        const double share = reference::support_of(map, ratio, x, y).share();
+        const double share = reference::support_of(map, ratio, step, x, y).share();
         const double least = 255 * std::cbrt(std::max(share - 1.0 / 4096, 0.0)) - 0.51;
         ASSERT_LE(confidence(x, y), std::max(255 * std::cbrt(share) + 0.51, 1.0)) << x << ", " << y;
         ASSERT_GE(confidence(x, y), std::max(least, 1.0)) << x << ", " << y;
@@ -136,7 +143,7 @@ TEST(Confidence, TruncatesEveryFractionLikeIntegerArithmetic) {
   test::for_each_simd_target([] {
     SupportScratch scratch;
     scratch.resize(255 * 81 + 1);
-    for (int pixels = 9; pixels <= 81; pixels += 9) {
+    for (const int pixels : {5, 9, 10, 15, 18, 20, 25, 27, 36, 45, 54, 63, 72, 81}) {
       for (int count = 0; count <= pixels; ++count) {
         const int width = 255 * count + 1;
         for (int ratio = 0; ratio < width; ++ratio) {
@@ -165,7 +172,7 @@ TEST(Confidence, RoundsAnExactCubeRootHalfUp) {
       ratio(x, y) = 255;
     }
   }
-  EXPECT_EQ(512, reference::support_of(map, ratio, 4, 3).share_steps());
+  EXPECT_EQ(512, reference::support_of(map, ratio, 1, 4, 3).share_steps());
   EXPECT_EQ(128, rated(map, ratio)(4, 3));
 }
 
