@@ -147,6 +147,7 @@ StereoCalibration read_files(const std::string& path, int width, int height) {
   if (const Status status = check_calibration(calibration); !status) {
     throw FileError(path + ": " + status.error().message);
   }
+  state_rectification(calibration);
   note_centers(calibration);
   return calibration;
 }

@@ -29,6 +29,11 @@ std::string digits(double number) {
 /// How far a center is from the middle, as a part of the side.
 double shift_of(double center, int side) { return std::abs(center - (side - 1) / 2.0) / side; }
 
+bool are_near(const Matrix3& a, const Matrix3& b) {
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](double x, double y) { return std::abs(x - y) <= 1e-9; });
+}
+
 void exchange(Rectification& rectification) {
   std::swap(rectification.left_rotation, rectification.right_rotation);
   std::swap(rectification.left_center_x, rectification.right_center_x);
@@ -69,6 +74,26 @@ void put_in_order(StereoCalibration& calibration) {
       "they are exchanged, and the left view must be from the second camera. If it is from the "
       "first one, exchange the views; if R and T of the file are the pose of the right camera "
       "(X_left = R X_right + T), write their inverse, R' and -R' T.");
+}
+
+void state_rectification(StereoCalibration& calibration) {
+  const CameraCalibration &left = calibration.left, &right = calibration.right;
+  const bool pinholes = left.lens == LensModel::kNone && right.lens == LensModel::kNone;
+  if (!pinholes || calibration.rectification || left.width != right.width) return;
+  constexpr double kTolerance = 1e-3;  // [px], and of the baseline
+  constexpr Matrix3 kIdentity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const auto are_equal = [](double a, double b) { return std::abs(a - b) <= kTolerance; };
+  const Vector3& t = calibration.translation;
+  const double focal = left.focal_x, baseline = -t[0];
+  const bool parallel = are_near(calibration.rotation, kIdentity) &&
+                        std::max(std::abs(t[1]), std::abs(t[2])) < kTolerance * baseline;
+  const bool same = are_equal(right.focal_x, focal) && are_equal(right.focal_y, left.focal_y) &&
+                    are_equal(right.center_x, left.center_x) &&
+                    are_equal(right.center_y, left.center_y);
+  if (!parallel || !same || std::abs(left.focal_y - focal) > kTolerance * focal) return;
+  calibration.rectification =
+      Rectification{left.width,    left.height,   kIdentity,     kIdentity, focal,
+                    left.center_x, left.center_x, left.center_y, baseline};
 }
 
 void note_length(StereoCalibration& calibration, std::string_view remedy, std::string_view unit) {

@@ -12,6 +12,10 @@ namespace mtstereo {
 /// Exchanges the cameras if the first one is to the right of the second one, and notes that.
 void put_in_order(StereoCalibration& calibration);
 
+/// Parallel cameras without distortion that are equal, with square pixels, are a rectified pair:
+/// adds that rectification, unless there is one.
+void state_rectification(StereoCalibration& calibration);
+
 /// Notes a baseline that no usual pair of cameras has, for a file that does not state the unit of
 /// its lengths. `remedy` is what to do if they are not in `unit`.
 void note_length(StereoCalibration& calibration, std::string_view remedy,

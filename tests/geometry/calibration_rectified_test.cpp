@@ -23,6 +23,47 @@ TEST(Middlebury, BaselineIsInMillimetersAndTheOffsetIsKept) {
   EXPECT_EQ(calibration.rectification->height, 1988);
 }
 
+// Two cameras of Kalibr without distortion.
+std::string parallel_chain(const std::string& right) {
+  const std::string lens = "  camera_model: pinhole\n  distortion_model: none\n";
+  return "cam0:\n" + lens + "  intrinsics: [500.0, 500.0, 310.0, 240.0]\n" +
+         "  resolution: [640, 480]\ncam1:\n" + lens + "  intrinsics: " + right +
+         "\n  resolution: [640, 480]\n  T_cn_cnm1:\n  - [1.0, 0.0, 0.0, -0.12]\n" +
+         "  - [0.0, 1.0, 0.0, 0.0]\n  - [0.0, 0.0, 1.0, 0.0]\n  - [0.0, 0.0, 0.0, 1.0]\n";
+}
+
+// Their views need no rectification: another one would contradict them.
+TEST(ParallelCameras, WithoutDistortionAreARectifiedPair) {
+  const CalibrationFolder folder;
+  const auto read = [&](const std::string& text) { return read_valid(folder.write("c", text)); };
+  const std::string same = parallel_chain("[500.0, 500.0, 310.0, 240.0]");
+  const StereoCalibration pair = read(same);
+  ASSERT_TRUE(pair.rectification.has_value());
+  EXPECT_EQ(pair.rectification->left_rotation, kIdentity);
+  EXPECT_EQ(pair.rectification->width, 640);
+  EXPECT_DOUBLE_EQ(pair.rectification->focal_length, 500);
+  EXPECT_DOUBLE_EQ(pair.rectification->left_center_x, 310);
+  EXPECT_DOUBLE_EQ(pair.rectification->center_y, 240);
+  EXPECT_EQ(pair.rectification->principal_offset(), 0);
+  EXPECT_DOUBLE_EQ(pair.rectification->baseline, 0.12);
+  for (const char* other : {"[501.0, 501.0, 310.0, 240.0]", "[500.0, 505.0, 310.0, 240.0]",
+                            "[500.0, 500.0, 310.0, 241.0]", "[500.0, 500.0, 312.5, 240.0]"}) {
+    EXPECT_FALSE(read(parallel_chain(other)).rectification) << other;
+  }
+  const std::string wide =
+      replaced(parallel_chain("[500.0, 505.0, 310.0, 240.0]"), "500.0, 500.0", "500.0, 505.0");
+  EXPECT_FALSE(read(wide).rectification) << "its pixels are not square";
+  const std::string turned =
+      replaced(replaced(same, "0.0, 1.0, 0.0, 0.0]", "0.0, 0.9998, -0.02, 0.0]"),
+               "0.0, 0.0, 1.0, 0.0]", "0.0, 0.02, 0.9998, 0.0]");
+  EXPECT_FALSE(read(turned).rectification);
+  const std::string higher = replaced(same, "0.0, 1.0, 0.0, 0.0]", "0.0, 1.0, 0.0, 0.01]");
+  EXPECT_FALSE(read(higher).rectification);
+  const std::string lens = replaced(same, "distortion_model: none",
+                                    "distortion_model: radtan\n  distortion_coeffs: [0, 0, 0, 0]");
+  EXPECT_FALSE(read(lens).rectification);
+}
+
 TEST(FoundationStereo, StatesKAndTheBaselineInTwoLines) {
   const CalibrationFolder folder;
   const auto write = [&](const std::string& text) { return folder.write("K.txt", text); };

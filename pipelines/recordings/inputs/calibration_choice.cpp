@@ -27,17 +27,17 @@ bool is_identity(const Matrix3& rotation) {
   return true;
 }
 
-// Cameras without distortion that look in the same direction, side by side: their views are a
-// rectified pair.
+// Cameras without distortion whose views are the rectified ones that the calibration describes.
 bool is_rectified(const StereoCalibration& calibration) {
   const CameraCalibration &left = calibration.left, &right = calibration.right;
   if (left.lens != LensModel::kNone || right.lens != LensModel::kNone) return false;
-  const double sideways = std::abs(calibration.translation[0]) * 1e-3;
-  return is_identity(calibration.rotation) && std::abs(left.focal_x - right.focal_x) < 1e-3 &&
-         std::abs(left.focal_y - right.focal_y) < 1e-3 &&
-         std::abs(left.center_y - right.center_y) < 1e-3 &&
-         std::abs(calibration.translation[1]) < sideways &&
-         std::abs(calibration.translation[2]) < sideways;
+  const std::optional<Rectification>& views = calibration.rectification;
+  const auto are_equal = [](double a, double b) { return std::abs(a - b) < 1e-3; };
+  return views && is_identity(views->left_rotation) && is_identity(views->right_rotation) &&
+         are_equal(left.focal_x, views->focal_length) &&
+         are_equal(right.focal_x, views->focal_length) &&
+         are_equal(left.center_x, views->left_center_x) &&
+         are_equal(right.center_x, views->right_center_x);
 }
 
 // Reading a pipe or a device may never end.

@@ -76,6 +76,32 @@ TEST_F(Calibrations, MayBeInAFolderAroundThatOfTheViews) {
   EXPECT_EQ(only().calibration, path("day/drive/undistorted/calib_rig/a.txt"));
 }
 
+// Of Kalibr, without distortion and rotation.
+std::string parallel(const std::string& left, const std::string& right) {
+  const std::string lens = "  camera_model: pinhole\n  distortion_model: none\n";
+  const std::string size = "\n  resolution: [ 400, 240 ]\n";
+  return "cam0:\n" + lens + "  intrinsics: " + left + size + "cam1:\n" + lens +
+         "  intrinsics: " + right + size +
+         "  T_cn_cnm1: [[1, 0, 0, -0.1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n";
+}
+
+TEST_F(Calibrations, OfParallelCamerasDescribeTheViewsAsTheyAre) {
+  write_views("left", "right");
+  write("camchain.yaml", parallel("[ 200, 200, 199.5, 119.5 ]", "[ 200, 200, 199.5, 119.5 ]"));
+  EXPECT_EQ(only().calibration, path("camchain.yaml"));
+  EXPECT_TRUE(only().rectified);
+  for (const char* other :
+       {"[ 200, 200, 199.5, 129.5 ]", "[ 202, 202, 199.5, 119.5 ]", "[ 200, 200, 209.5, 119.5 ]"}) {
+    write("camchain.yaml", parallel("[ 200, 200, 199.5, 119.5 ]", other));
+    EXPECT_FALSE(only().rectified) << other;
+  }
+  // The pixels are not square: those of rectified views are.
+  const std::string tall = "[ 200, 210, 199.5, 119.5 ]";
+  write("camchain.yaml", parallel(tall, tall));
+  EXPECT_EQ(only().calibration, path("camchain.yaml"));
+  EXPECT_FALSE(only().rectified);
+}
+
 // A folder may have those of other cameras.
 TEST_F(Calibrations, AroundTheViewsMustStateTheirSize) {
   write_views("day/drive/left", "day/drive/right");
