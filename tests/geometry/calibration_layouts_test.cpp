@@ -10,6 +10,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* kLeftK = "[ 500.5, 0., 321., 0., 501.5, 243., 0., 0., 1. ]";
 constexpr const char* kRightK = "[ 510.5, 0., 319., 0., 511.5, 241., 0., 0., 1. ]";
@@ -434,6 +435,36 @@ TEST_F(Layout, OfMatlabIsNamed) {
                              {"RotationOfCamera2", kR},
                              {"TranslationOfCamera2", kT}})),
               HasSubstr("IntrinsicMatrix1 is transposed, as MATLAB states it; transpose it"));
+}
+
+// The parts of the image that stereoRectify() leaves valid, rotations, and fx, fy, cx, cy.
+TEST_F(Layout, FourNumbersAreNoLensUnlessTheirNamesSaySo) {
+  const auto with = [](const std::string& left, const std::string& right,
+                       const std::string& numbers) {
+    return lines(
+        {{"K1", kLeftK}, {left, numbers}, {"K2", kRightK}, {right, numbers}, {"R", kR}, {"T", kT}});
+  };
+  for (const char* name : {"roi", "q", "intrinsics_vector"}) {
+    EXPECT_THAT(refused(with(name + std::string("1"), name + std::string("2"), "[1, 0, 0, 0]")),
+                HasSubstr("there is no entry D1 (distortion of the left camera)"));
+  }
+  for (const char* name : {"kc", "lens_coeffs", "cam_dist"}) {
+    const std::string text =
+        with(name + std::string("1"), name + std::string("2"), "[0.1, 0, 0, 0]");
+    EXPECT_EQ(read_valid(write(text)).left.coefficients.size(), 4U) << name;
+  }
+}
+
+// As in SERV-CT.
+TEST_F(Layout, WithProjectionsOnlyIsNamed) {
+  const std::string p1 = "[[440, 0, 330, 0], [0, 440, 240, 0], [0, 0, 1, 0]]";
+  const std::string p2 = "[[440, 0, 350, -2200], [0, 440, 240, 0], [0, 0, 1, 0]]";
+  const std::string both = "\"P1\": " + p1 + ", \"P2\": " + p2;
+  EXPECT_THAT(
+      refused("{" + both + "}"),
+      HasSubstr("has P1 and P2 of rectified views only; of P1 = [f 0 cx 0, 0 f cy 0, ...]"));
+  EXPECT_THAT(refused("{\"P0\": " + p1 + ", " + both + "}"),
+              Not(HasSubstr("rectified views only")));
 }
 
 /// A file of ORB-SLAM2 with the rectification of raw views, as people write it: without blanks.

@@ -224,6 +224,12 @@ void refuse_single_cameras(const OpenCvEntries& files, const std::vector<Entry>&
 
 void read_cameras(const OpenCvEntries& files, const PairEntries& pair,
                   StereoCalibration& calibration) {
+  if (!pair.left_matrix && files.has_projections_only()) {
+    files.file().fail(
+        "has P1 and P2 of rectified views only; of P1 = [f 0 cx 0, 0 f cy 0, ...] and P2 = [f 0 "
+        "cx_right t, ...] write fx, fy, cx, cy, cx_right and baseline (-t / f in meters, or "
+        "baseline_mm) to a YAML file");
+  }
   if (!pair.left_matrix) files.fail_without("M1", "K of the left camera");
   if (!pair.right_matrix) files.fail_without("M2", "K of the right camera");
   if (!pair.left_lens) files.fail_without("D1", "distortion of the left camera");

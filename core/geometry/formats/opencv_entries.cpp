@@ -119,6 +119,11 @@ int OpenCvEntries::single_cameras() const {
   }));
 }
 
+bool OpenCvEntries::has_projections_only() const {
+  return find_matrix("p1") && find_matrix("p2") && !find("p0") &&
+         count_camera_matrices(entries_) == 0;
+}
+
 bool OpenCvEntries::is_opencv() const {
   const auto is_known = [&](const Entry& entry) {
     const std::string name = plain_name(entry.name());
@@ -130,6 +135,7 @@ bool OpenCvEntries::is_opencv() const {
   };
   if (std::any_of(entries_.begin(), entries_.end(), is_known)) return true;
   if (find(kRotationNames) && find(kTranslationNames)) return true;
+  if (has_projections_only()) return true;
   return count_camera_matrices(entries_) > 0 || !transposed_matrix(entries_).empty();
 }
 

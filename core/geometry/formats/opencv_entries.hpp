@@ -32,6 +32,8 @@ class OpenCvEntries {
   const Entry& file() const { return files_.front(); }
   /// How many files have one camera: a camera matrix that is neither the left nor the right one.
   int single_cameras() const;
+  /// Whether the files have P1 and P2, but no camera matrix. P0 is of KITTI.
+  bool has_projections_only() const;
   /// Whether the files have a matrix of OpenCV, or a camera matrix.
   bool is_opencv() const;
 

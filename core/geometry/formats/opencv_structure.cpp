@@ -60,6 +60,14 @@ bool names_lens(const Entry& entry) {
          last_part(entry.name()).substr(0, 1) == "d";
 }
 
+/// Whether four numbers are those of a part of the image, of a rotation, or fx, fy, cx, cy, unless
+/// the name is that of a lens.
+bool is_other_four(const Entry& entry) {
+  constexpr std::size_t kFour = 4;
+  return entry.numbers().size() == kFour && !names_lens(entry) &&
+         last_part(entry.name()).substr(0, 1) != "k";
+}
+
 /// The entries that are lists of numbers or matrices.
 std::vector<Numbers> numbers_of(const std::vector<Entry>& entries) {
   std::vector<Numbers> numbers;
@@ -174,6 +182,7 @@ void complete_by_structure(const std::vector<Entry>& entries, PairEntries& pair)
   const std::vector<Numbers> numbers = numbers_of(entries);
   complete_both(of_shape(numbers, Shape::kCamera), pair.left_matrix, pair.right_matrix);
   std::vector<Entry> lenses = of_shape(numbers, Shape::kLens);
+  std::erase_if(lenses, is_other_four);
   keep_preferred(lenses, 2, names_lens);
   complete_both(lenses, pair.left_lens, pair.right_lens);
   // R1 and R2 turn the views: without R they are no rotation between the cameras.
