@@ -47,6 +47,39 @@ Rectification views(double focal, double left_x, double right_x, double y, doubl
   return rectification;
 }
 
+constexpr const char* kDrivingStereo =
+    "S_101: 640 480\nK_101: 700 0 330 0 702 236 0 0 1\nD_101: -0.1 0.01 0 0 0\n"
+    "R_101: 1 0 0 0 1 0 0 0 1\nT_101: 0 0 0\nS_rect_101: 640 480\n"
+    "R_rect_101: 1 0 0 0 1 0 0 0 1\nP_rect_101: 600 0 320 0 0 602 240 0 0 0 1 0\n"
+    "S_rect_103: 640 480\nP_rect_103: 600 0 320 -324 0 602 240 0 0 0 1 0\n";
+
+// All its views are rectified, with pixels that are not square: they are no rectification.
+TEST_F(SetFile, OfDrivingStereoStatesItsProjections) {
+  const StereoCalibration calibration = read(kDrivingStereo);
+  EXPECT_EQ(calibration.format, "DrivingStereo");
+  EXPECT_EQ(calibration.left.lens, LensModel::kNone);
+  EXPECT_EQ(calibration.right, calibration.left);
+  EXPECT_EQ(calibration.left.width, 640);
+  EXPECT_EQ(calibration.left.focal_x, 600);
+  EXPECT_EQ(calibration.left.focal_y, 602);
+  EXPECT_EQ(calibration.rotation, kIdentity);
+  expect_near(calibration.translation, Vector3{-0.54, 0, 0}, 1e-12);
+  EXPECT_FALSE(calibration.rectification);
+  const std::string square = replaced(replaced(kDrivingStereo, "0 0 602 240", "0 0 600 240"),
+                                      "-324 0 602 240", "-324 0 600 240");
+  expect_rectified(read(square), views(600, 320, 320, 240, 0.54));
+}
+
+TEST_F(SetFile, OfDrivingStereoIsRefusedWithTheEntry) {
+  EXPECT_THAT(changed(kDrivingStereo, "P_rect_103", "P_rect_104"),
+              HasSubstr("there is no entry P_rect_103 (projection of the right camera)"));
+  EXPECT_THAT(changed(kDrivingStereo, "-324", "0"),
+              HasSubstr("P_rect_103 states a baseline of 0 m"));
+  EXPECT_THAT(changed(kDrivingStereo, "320 -324 0 602 240 0 0 0 1 0", "320 -324"),
+              HasSubstr("P_rect_103 has 4 values, 12 are needed"));
+  EXPECT_THAT(refused(kDrivingStereo, "#gray"), HasSubstr("this format has no choices"));
+}
+
 constexpr const char* kCityscapes = R"({
   "extrinsic": {"baseline": 0.25, "pitch": 0.04, "roll": 0.0, "x": 1.5, "y": 0.1, "yaw": -0.02, "z": 1.25},
   "intrinsic": {"fx": 700.5, "fy": 701.25, "u0": 330.5, "v0": 236.0}

@@ -123,7 +123,8 @@ bool parse_as_lines(std::string_view text, Document& document) {
       return true;
     }
     if (has_name(line, ':',
-                 {"calib_time", "corner_dist", "S_00", "S_01", "S_02", "S_03", "S_101", "K_00"})) {
+                 {"calib_time", "corner_dist", "S_00", "S_01", "S_02", "S_03", "S_101", "K_00",
+                  "K_101", "R_101", "P_rect_101"})) {
       document.format = Format::kKittiRaw;
       document.root = parse_lines(text, ':', document.file);
       return true;

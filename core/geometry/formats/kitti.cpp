@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // KITTI: calib_cam_to_cam.txt of the raw data, with the cameras as they were calibrated (to camera
 // 00) and as rectified, and calib.txt of the odometry and object data, with projections only.
+// DrivingStereo names its cameras 101 and 103.
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/formats/parts.hpp"
 #include "geometry/formats/readers.hpp"
@@ -59,8 +61,7 @@ Pair choose_pair(const Entry& file, const Request& request) {
   }
   file.fail(
       "states no cameras (S_02, K_02 and others): KITTI has them in calib_cam_to_cam.txt; of other "
-      "rectified views (DrivingStereo) write the projections P_rect to a file, left as P0: and "
-      "right as P1:");
+      "rectified views write the projections P_rect to a file, left as P0: and right as P1:");
 }
 
 CameraCalibration read_camera(const Entry& file, int camera) {
@@ -68,6 +69,32 @@ CameraCalibration read_camera(const Entry& file, int camera) {
   (void)at(file, "S", camera);
   set_camera_matrix(calibration, at(file, "K", camera));
   set_lens(calibration, LensModel::kPlumbBob, at(file, "D", camera));
+  return calibration;
+}
+
+/// DrivingStereo: rectified views. They are no rectification if their pixels are not square.
+StereoCalibration read_driving_stereo(const Entry& file, const Request& request) {
+  no_selection(file, request.selection);
+  const Entry p1 = file.at("P_rect_101", "projection of the left camera");
+  const Entry p2 = file.at("P_rect_103", "projection of the right camera");
+  const auto camera_of = [&](const Entry& projection) {
+    CameraCalibration camera;
+    camera.width = request.width;
+    camera.height = request.height;
+    if (const std::optional<Entry> size = file.find("S_rect_101")) set_size(camera, *size);
+    const std::vector<double> p = projection.numbers(12, "a 3x4 projection");
+    set_camera_matrix(camera, projection, {p[0], p[1], p[2], p[4], p[5], p[6], p[8], p[9], p[10]});
+    return camera;
+  };
+  StereoCalibration calibration;
+  calibration.format = "DrivingStereo";
+  calibration.left = camera_of(p1);
+  calibration.right = camera_of(p2);
+  const double left = p1.numbers()[3] / calibration.left.focal_x;
+  Motion motion;
+  motion.translation.x() = p2.numbers()[3] / calibration.right.focal_x - left;
+  check_translation(motion.translation, p2, "");
+  set_motion(calibration, motion);
   return calibration;
 }
 
@@ -98,6 +125,7 @@ std::string date_of(const Entry& file) {
 }  // namespace
 
 StereoCalibration read_kitti_raw(const Entry& file, const Request& request) {
+  if (file.find("P_rect_101") || file.find("P_rect_103")) return read_driving_stereo(file, request);
   const Pair pair = choose_pair(file, request);
   StereoCalibration calibration;
   calibration.left = read_camera(file, pair.left);
