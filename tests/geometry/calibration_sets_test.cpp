@@ -210,5 +210,41 @@ TEST_F(SetFile, OfOtherReconstructionsIsRefusedWithTheRemedy) {
               AllOf(HasSubstr("<calibration>"), HasSubstr("M1, D1, M2")));
 }
 
+TEST_F(SetFile, OfProgramsWithoutAReaderGetsWhatToWrite) {
+  const char* const cameras = R"("intrinsics": {"focal": [500, 500], "principal": [320, 240],
+    "distortion_params": []}})";
+  EXPECT_THAT(refused(std::string("[{\"cameras\": [{") + cameras + "]}]"),
+              AllOf(HasSubstr("is an .edex of cuVSLAM; "), HasSubstr("M1, D1, M2, D2, R, T")));
+  EXPECT_THAT(refused("%YAML:1.0\n---\nin_left_map:\n   -\n      fx: 400.\n      coeffs: [ 0.1 ]\n"
+                      "ex_left_to_right:\n   translation: [ -80., 0., 0. ]\n"),
+              AllOf(HasSubstr("is of the SDK of MYNT EYE; "), HasSubstr("length_unit: mm")));
+  EXPECT_THAT(refused("type_of_vi: 3\ncam0_intrinsics: [380, 380, 320, 240]\n"
+                      "cam1_intrinsics: [380, 380, 320, 240]\n"),
+              AllOf(HasSubstr("is of FLVIS; "), HasSubstr("the inverse of T_cam0_cam1")));
+  EXPECT_THAT(refused(R"({"camera_settings": [{"intrinsic_settings": {"fx": 700},
+                      "captured_image_size": {"width": 640}}]})"),
+              AllOf(HasSubstr("is of NDDS, without a baseline; "), HasSubstr("the data set")));
+  EXPECT_THAT(refused("# INTERNAL CAMERA PARAMETERS\n\nParGroup: Camera: Parameter\n  \"x\";\n"),
+              AllOf(HasSubstr("is of HALCON, "), HasSubstr("(mtcalibrate)")));
+  const char* const kWithoutUnit = "whose lengths have no unit; write K, distortion, R and T [m]";
+  for (const auto& [text, program] :
+       {std::pair{R"({"camera_angle_x": 0.7, "frames": []})", "NeRF"},
+        {R"({"rig": {"projection_type": "brown", "focal_x": 0.8}})", "OpenSfM"},
+        {R"({"priors": [{"image_name": "left.jpg", "focal_length": 500}]})", "Theia"},
+        {"<?xml version=\"1.0\"?>\n<calibration><projection>frame</projection></calibration>\n",
+         "Metashape"},
+        {"<document version=\"1.5\"><chunk label=\"1\"></chunk></document>\n", "Metashape"}}) {
+    EXPECT_THAT(refused(text), HasSubstr(std::string("is of ") + program + ", " + kWithoutUnit));
+  }
+}
+
+// Entries of them in files of others.
+TEST_F(SetFile, IsNotTakenForThatOfAnotherProgram) {
+  const std::string pair = stored_text("camchain.yaml");
+  for (const char* comment : {"# in_left is cam0\n", "# type_of_vi\n", "# focal, principal\n"}) {
+    EXPECT_EQ(read(comment + pair).format, "Kalibr camchain");
+  }
+}
+
 }  // namespace
 }  // namespace mtstereo::test::calibration_sets_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "geometry/formats/other_files.hpp"
 
+#include <array>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -57,6 +58,38 @@ void refuse_dictionaries(std::string_view text, const std::string& file) {
   }
 }
 
+/// A file by two texts in it, and what to do instead of giving it.
+struct OtherFile {
+  std::string_view mark, other_mark;
+  const char* what;
+};
+
+constexpr std::array<OtherFile, 7> kOtherFiles = {{
+    {"Intrinsic of \"Infrared 1\"", "",
+     "is a list of rs-enumerate-devices; write what it states for the size of the video to a YAML "
+     "file: fx, fy, cx (PPX), cy (PPY) of Infrared 1, and baseline, the first value of the "
+     "translation between Infrared 1 and 2"},
+    {"\"aux-param-", "",
+     "has settings of a RealSense camera, not its calibration; give what rs-enumerate-devices -c "
+     "states for it"},
+    {"in_left", "  coeffs:",
+     "is of the SDK of MYNT EYE; write in_left as M1: [fx, 0, cx, 0, fy, cy, 0, 0, 1] and D1 "
+     "(coeffs), in_right as M2 and D2, rotation as R, translation as T, and length_unit: mm"},
+    {"type_of_vi", "cam1_intrinsics",
+     "is of FLVIS; write both intrinsics as M1: [fx, 0, cx, 0, fy, cy, 0, 0, 1] and M2, the "
+     "coefficients as D1 and D2, and as R and T the pose of cam0 in the axes of cam1 (the "
+     "inverse of T_cam0_cam1)"},
+    {"\"intrinsic_settings\"", "\"captured_image_size\"",
+     "is of NDDS, without a baseline; write fx, fy, cx, cy and the baseline that the data set "
+     "states to a YAML file"},
+    {"\"distortion_params\"", "\"principal\"",
+     "is an .edex of cuVSLAM; give the camera_info of both cameras (LEFT,RIGHT), or write K and "
+     "distortion of both, R and T [m] to a YAML file with the names M1, D1, M2, D2, R, T"},
+    {"ParGroup: Camera", "",
+     "is of HALCON, whose lens model is another one; calibrate the cameras as a pair "
+     "(mtcalibrate)"},
+}};
+
 /// The program of structure from motion that wrote a text; "" if none did.
 std::string_view reconstruction_program(std::string_view text) {
   for (const std::string_view start :
@@ -66,7 +99,11 @@ std::string_view reconstruction_program(std::string_view text) {
   const auto has = [&](std::string_view entry) { return text.find(entry) != text.npos; };
   if (has("\"image_prefix\"")) return "COLMAP";
   if (has("\"fl_x\"")) return "nerfstudio";
+  if (has("\"camera_angle_x\"")) return "NeRF";
   if (has("\"sfm_data_version\"")) return "OpenMVG";
+  if (has("\"projection_type\"")) return "OpenSfM";
+  if (has("\"priors\"") && has("\"image_name\"")) return "Theia";
+  if (has("<chunk ") || has("<projection>frame")) return "Metashape";
   return has("\"intrinsicId\"") ? "Meshroom" : "";
 }
 
@@ -122,16 +159,10 @@ void refuse_reports(std::string_view start, const std::string& file) {
   if (start.starts_with("<!DOCTYPE html") || start.starts_with("<html")) {
     throw FileError(file + ": is a web page; download the file itself");
   }
-  if (start.find("Intrinsic of \"Infrared 1\"") != std::string_view::npos) {
-    throw FileError(file +
-                    ": is a list of rs-enumerate-devices; write what it states for the size of the "
-                    "video to a YAML file: fx, fy, cx (PPX), cy (PPY) of Infrared 1, and baseline, "
-                    "the first value of the translation between Infrared 1 and 2");
-  }
-  if (start.find("\"aux-param-") != std::string_view::npos) {
-    throw FileError(file +
-                    ": has settings of a RealSense camera, not its calibration; give what "
-                    "rs-enumerate-devices -c states for it");
+  for (const OtherFile& other : kOtherFiles) {
+    if (start.find(other.mark) == start.npos || start.find(other.other_mark) == start.npos)
+      continue;
+    throw FileError(file + ": " + other.what);
   }
   if (const std::string_view program = reconstruction_program(start); !program.empty()) {
     throw FileError(file + ": is of " + std::string(program) +
