@@ -47,17 +47,19 @@ std::string unread_in(const fs::path& folder, int levels) {
   return unread;
 }
 
-// The folders with images in a folder, or in the first one below it that has two of them.
+// The folders with images in a folder, or in the first one below it that has two of them, or else
+// all below it.
 std::vector<fs::path> image_folders(const fs::path& folder, int levels) {
   if (is_of_kernel(folder)) return {};
   const std::vector<fs::path> inner = files::folders_in(folder);
   std::vector<fs::path> found;
   std::copy_if(inner.begin(), inner.end(), std::back_inserter(found),
                [](const fs::path& each) { return !files::images_in(each).empty(); });
+  if (found.size() > 1 || levels == 0) return found;
   for (const fs::path& each : inner) {
-    if (found.size() > 1 || levels == 0) break;
-    std::vector<fs::path> deeper = image_folders(each, levels - 1);
-    if (deeper.size() > 1) found = std::move(deeper);
+    const std::vector<fs::path> deeper = image_folders(each, levels - 1);
+    if (deeper.size() > 1) return deeper;
+    found.insert(found.end(), deeper.begin(), deeper.end());
   }
   return found;
 }
@@ -68,8 +70,13 @@ std::string views_to_give(const fs::path& folder) {
   for (const fs::path& inner : image_folders(folder, kLevels)) {
     names.push_back(outputs::printable(inner.lexically_relative(folder).string()));
   }
-  if (names.size() < 2) {
+  if (names.empty()) {
     return "give the left and the right view, as two videos, images, folders or patterns";
+  }
+  if (names.size() == 1) {
+    return "the images in " + names[0] +
+           " do not say by their names which view is left: give two patterns of their names in "
+           "quotes, the left one first";
   }
   const std::string more =
       names.size() == 2 ? "" : " (of " + std::to_string(names.size()) + " folders with images)";
@@ -188,6 +195,9 @@ class ArchiveSearch {
 std::string text_of(const Problem& problem, const std::string& between) {
   const std::string name = problem.input + ": ";
   const bool named = problem.reason.starts_with(name);
+  // Of a file in it or beside it, such as one of the other view.
+  const std::string beside = fs::path(problem.input).parent_path().string();
+  if (!named && !beside.empty() && problem.reason.starts_with(beside + "/")) return problem.reason;
   if (!named && problem.reason.starts_with(problem.input)) return problem.reason;
   return problem.input + between + (named ? problem.reason.substr(name.size()) : problem.reason);
 }

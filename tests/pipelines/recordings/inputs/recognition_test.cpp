@@ -182,6 +182,14 @@ TEST_F(Recordings, NamesInputsThatCannotBeRead) {
   write_images("set/scene/camera_5", {"0.png"});
   write_images("set/scene/camera_6", {"0.png"});
   EXPECT_THAT(error_of({"set"}), HasSubstr("such as scene/camera_5 and scene/camera_6, do not"));
+  write_images("sim/camera/rgb", {"0.png"});
+  EXPECT_THAT(error_of({"sim"}), HasSubstr("the images in camera/rgb do not say by their names"));
+  write_images("sim/camera_01/rgb", {"0.png"});
+  EXPECT_THAT(error_of({"sim"}), HasSubstr("such as camera/rgb and camera_01/rgb, do not say"));
+  write_images("half/left", {"0.png"});
+  fs::create_directories(folder_ / "half/right");
+  write_text(folder_ / "half/right/0.png", "");
+  EXPECT_EQ(error_of({"half"}).rfind(path("half/right") + ": no image can be read", 0), 0U);
   EXPECT_THAT(error_of({"left/%03d.png", "left"}), HasSubstr("no file has such a name"));
   EXPECT_THAT(error_of({"left", "broken.mp4"}), HasSubstr("one is a video"));
   EXPECT_THAT([] { recognize({"http://host/a.mjpg"}, {}); },
