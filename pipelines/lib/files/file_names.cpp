@@ -43,6 +43,12 @@ bool has_extension(const fs::path& file, const std::array<std::string_view, kCou
   return std::find(known.begin(), known.end(), extension_of(file)) != known.end();
 }
 
+// What systems write beside files: previews and the metadata of other systems.
+bool is_of_system(const std::string& name) {
+  return name.starts_with('.') || name == "@eaDir" || name == "__MACOSX" ||
+         name == "$RECYCLE.BIN" || name == "#recycle";
+}
+
 template <typename Accept>
 std::vector<fs::path> entries_of(const fs::path& folder, Accept accept) {
   std::vector<fs::path> found;
@@ -50,7 +56,7 @@ std::vector<fs::path> entries_of(const fs::path& folder, Accept accept) {
   for (fs::directory_iterator each(folder, error), end; !error && each != end;
        each.increment(error)) {
     const fs::path& path = each->path();
-    if (!path.filename().string().starts_with('.') && accept(*each)) found.push_back(path);
+    if (!is_of_system(path.filename().string()) && accept(*each)) found.push_back(path);
   }
   std::sort(found.begin(), found.end(), [](const fs::path& a, const fs::path& b) {
     return numbered_less(a.filename().string(), b.filename().string());

@@ -40,6 +40,16 @@ TEST_F(FileNames, SortsByNumbers) {
               ElementsAre("f1.png", "f009.png", "f9.png", "f10.png"));
 }
 
+TEST_F(FileNames, LeavesWhatSystemsWriteBesideFiles) {
+  for (const char* folder : {"left", "@eaDir", "__MACOSX", "$RECYCLE.BIN", "#recycle", "@home"}) {
+    fs::create_directories(folder_ / folder);
+  }
+  create({"._1.png", ".DS_Store", "Thumbs.db", "1.png"});
+  EXPECT_THAT(names_of(folders_in(folder_.path())), ElementsAre("@home", "left"));
+  EXPECT_THAT(names_of(files_in(folder_.path())), ElementsAre("1.png", "Thumbs.db"));
+  EXPECT_THAT(names_of(images_in(folder_.path())), ElementsAre("1.png"));
+}
+
 TEST_F(FileNames, ComparesNumbersLongerThanAnInteger) {
   EXPECT_TRUE(numbered_less("99999999999999999999998.png", "99999999999999999999999.png"));
   EXPECT_FALSE(numbered_less("99999999999999999999999.png", "99999999999999999999998.png"));
