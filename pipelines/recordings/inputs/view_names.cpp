@@ -28,7 +28,7 @@ struct Words {
 };
 
 // Words of cameras come first: left and right may be directions of both, as in lcam_left.
-constexpr std::array<Words, 37> kWords{{{"lcam", "rcam", Place::kWhole},
+constexpr std::array<Words, 40> kWords{{{"lcam", "rcam", Place::kWhole},
                                         {"left", "right", Place::kAny},
                                         {"Left", "Right", Place::kAny},
                                         {"LEFT", "RIGHT", Place::kAny},
@@ -53,6 +53,9 @@ constexpr std::array<Words, 37> kWords{{{"lcam", "rcam", Place::kWhole},
                                         {"izquierda", "derecha", Place::kWhole},
                                         {"sinistra", "destra", Place::kWhole},
                                         {"esquerda", "direita", Place::kWhole},
+                                        {"левый", "правый", Place::kAny},
+                                        {"левая", "правая", Place::kAny},
+                                        {"左", "右", Place::kAny},
                                         {"CAM_B", "CAM_C", Place::kWhole},
                                         {"infra1", "infra2", Place::kWhole},
                                         {"infrared_1", "infrared_2", Place::kWhole},

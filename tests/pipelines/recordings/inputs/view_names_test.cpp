@@ -34,6 +34,9 @@ TEST(ViewNames, FindsPairs) {
       {"izquierda_1.png", {"derecha_1.png", "1.png"}},
       {"sinistra_1.png", {"destra_1.png", "1.png"}},
       {"esquerda_1.png", {"direita_1.png", "1.png"}},
+      {"левый_1.png", {"правый_1.png", "1.png"}},
+      {"камера левая", {"камера правая", "камера"}},
+      {"左カメラ", {"右カメラ", "カメラ"}},
       {"OAK_CAM_B.mp4", {"OAK_CAM_C.mp4", "OAK.mp4"}},
       {"Camera_0", {"Camera_1", ""}},
       {"camera_00", {"camera_02", ""}},
@@ -124,7 +127,8 @@ TEST(ViewNames, RecognizesNamesOfOneView) {
   for (const char* name : {"left.mp4", "x_right.mp4", "a_l.mkv", "cam1", "image_03"}) {
     EXPECT_TRUE(is_view_name(name)) << name;
   }
-  for (const char* name : {"bright.mp4", "leftover.mp4", "left_right.mp4", "all.mkv", "cam10"}) {
+  for (const char* name :
+       {"bright.mp4", "leftover.mp4", "left_right.mp4", "all.mkv", "cam10", "左右.mp4"}) {
     EXPECT_FALSE(is_view_name(name)) << name;
   }
 }
