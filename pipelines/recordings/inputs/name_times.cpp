@@ -16,9 +16,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The digits of a time in seconds at the end of a name, such as 1403636579.763556, in ns.
+// The digits of a time in seconds at the end of a name, such as 1403636579.763556, or in ms, such
+// as 1403636579763.556 (rs-convert), in ns.
 std::optional<Nanoseconds> seconds_in(const std::string& stem) {
-  constexpr std::size_t kEpoch = 10, kMicro = 6, kNano = 9;  // digits
+  constexpr std::size_t kEpoch = 10, kMilli = 13, kMicro = 6, kNano = 9;  // digits
   const std::size_t point = stem.find_last_not_of("0123456789");
   if (point == std::string::npos || point == 0 || stem[point] != '.') return std::nullopt;
   const std::size_t before = stem.find_last_not_of("0123456789", point - 1);
@@ -27,8 +28,9 @@ std::optional<Nanoseconds> seconds_in(const std::string& stem) {
   const std::size_t whole = point - begin;
   const bool is_time = whole == kEpoch ? !fraction.empty() && fraction.size() <= kNano
                                        : fraction.size() == kMicro || fraction.size() == kNano;
-  if (!is_time || whole == 0 || whole > kEpoch) return std::nullopt;
-  fraction.resize(kNano, '0');
+  const bool is_milli = whole == kMilli && !fraction.empty();
+  if (!is_milli && (!is_time || whole == 0 || whole > kEpoch)) return std::nullopt;
+  fraction.resize(is_milli ? kMicro : kNano, '0');
   const std::string digits = stem.substr(begin, whole) + fraction;
   Nanoseconds time = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), time);

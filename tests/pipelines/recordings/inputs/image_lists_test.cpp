@@ -149,6 +149,20 @@ TEST_F(Recordings, NamesThatAreSeconds) {
   }
 }
 
+// As rs-convert writes them.
+TEST_F(Recordings, NamesThatAreMillisecondsWithAFraction) {
+  write_images("day", {"a_Infrared_1_1403636579900.25.png", "a_Infrared_1_1403636579933.5.png"});
+  write_images(
+      "day", {"a_Infrared_2_1403636579900.75.png", "a_Infrared_2_1403636579933.00000000000000.png"},
+      true);
+  const Recording recording = recognized({"day"});
+  EXPECT_THAT(recording.left.times, ElementsAre(0, 33'250'000));
+  EXPECT_THAT(recording.right.times, ElementsAre(500'000, 32'750'000));
+  for (const char* name : {"140363657990.5.png", "14036365799000.5.png"}) {
+    EXPECT_FALSE(time_in_name(name)) << name;
+  }
+}
+
 TEST_F(Recordings, NamesWithNumbersThatAreNoFrames) {
   EXPECT_EQ(time_in_name("left_315978406032859416.jpg"), 315'978'406'032'859'416);
   EXPECT_FALSE(time_in_name("638400000000000000.jpg"));
