@@ -133,6 +133,13 @@ cv::Size half_size(cv::Size size, Arrangement arrangement, const fs::path& file)
   return beside ? cv::Size(size.width / 2, size.height) : cv::Size(size.width, size.height / 2);
 }
 
+// Encoders take no frames of a single row or column.
+void refuse_line(const fs::path& file, cv::Size size) {
+  if (size.width > 1 && size.height > 1) return;
+  throw UserError(file.string() + ": " + size_text(size) +
+                  " is a single row or column, and no view: give whole images");
+}
+
 void note_mosaic(Recording& recording, const cv::Mat& frame) {
   if (!is_mosaic(frame)) return;
   recording.remarks.emplace_back(
@@ -144,6 +151,7 @@ void note_mosaic(Recording& recording, const cv::Mat& frame) {
 // The size of a view.
 cv::Size size_of_two(Recording& recording) {
   const cv::Mat first = first_frame(recording.left);
+  refuse_line(file_of(recording.left), first.size());
   note_mosaic(recording, first);
   note_narrow_video(recording, first);
   const cv::Size left = first.size();
@@ -165,6 +173,7 @@ void complete_one(FoundRecording& found, const InputOptions& options) {
   if (!options.arrangement) recording.arrangement = guess_arrangement(recording, size);
   recording.swapped = options.swap;
   const cv::Size half = half_size(size, recording.arrangement, file_of(recording.left));
+  refuse_line(file_of(recording.left), half);
   choose_calibration(found, options, half.width, half.height);
   if (!options.arrangement) confirm_arrangement(recording, size, half, options.swap);
 }

@@ -20,6 +20,8 @@ using ::testing::HasSubstr;
 using testing::have_ffmpeg;
 using ::testing::IsEmpty;
 using testing::kBFrames;
+using testing::kHeight;
+using testing::kWidth;
 using testing::Recordings;
 using testing::run_command;
 using testing::view;
@@ -103,6 +105,24 @@ TEST_F(Recordings, NotesVideoThatUsesFewOf16Bits) {
               ElementsAre(AllOf(HasSubstr("few of the values of 16 bits: matching sees about "),
                                 HasSubstr("-vf 'lut=(val-7"))));
   EXPECT_THAT(recognized({"left-wide.mkv", "right-wide.mkv"}).remarks, IsEmpty());
+}
+
+TEST_F(Recordings, RefusesViewsOfASingleRowOrColumn) {
+  const auto write = [this](int rows, int cols) {
+    for (const bool right : {false, true}) {
+      cv::imwrite(path(right ? "right.png" : "left.png"), view(right)(cv::Rect(0, 0, cols, rows)));
+    }
+  };
+  write(1, kWidth);
+  EXPECT_THAT(error_of({"left.png", "right.png"}),
+              HasSubstr("left.png: 200x1 px is a single row or column, and no view"));
+  write(kHeight, 1);
+  EXPECT_THAT(error_of({"left.png", "right.png"}), HasSubstr("left.png: 1x120 px is a single row"));
+  write(2, kWidth);
+  InputOptions halves;
+  halves.arrangement = Arrangement::kTopBottom;
+  EXPECT_THAT(error_of({"left.png"}, halves), HasSubstr("left.png: 200x1 px is a single row"));
+  EXPECT_EQ(recognized({"left.png", "right.png"}).left.images.size(), 1U);
 }
 
 TEST_F(Recordings, NotesTheMosaicOfAColorCamera) {
