@@ -161,8 +161,9 @@ FrameIndex index_of_images(const Source& source, double frame_rate) {
     for (std::size_t i = 0; i < source.images.size(); ++i) {
       index.times.push_back(std::llround(static_cast<double>(i) * kSecond / frame_rate));
     }
+    if (index.times.size() == 1) index.period = std::llround(kSecond / frame_rate);
   }
-  index.period = median_period(index.times);
+  if (index.times.size() > 1) index.period = median_period(index.times);
   return index;
 }
 

@@ -14,8 +14,8 @@ struct FrameIndex {
   /// Stream times, increasing [ns]. A frame with the time of its predecessor is not listed.
   std::vector<Nanoseconds> times;
   int width = 0, height = 0;  ///< of a frame [px]
-  Nanoseconds period = 0;     ///< the median of the differences [ns]; 0 with one frame
-  std::string codec;          ///< such as "H.264" or "PNG", for the report
+  Nanoseconds period = 0;  ///< the median of the differences [ns]; of one image by the rate, or 0
+  std::string codec;       ///< such as "H.264" or "PNG", for the report
   /// Why the source ends where it ends, if it is broken there ("the file is truncated after
   /// 12.3 s"), or how many frames within it cannot be decoded; empty if it is whole.
   std::string damage;

@@ -320,6 +320,10 @@ TEST_F(FrameIndexTest, ImagesHaveTheirTimes) {
   EXPECT_EQ(by_rate.codec, "PNG");
   EXPECT_EQ(by_rate.width, 40);
   EXPECT_EQ(by_rate.height, 30);
+  source.images.resize(1);
+  EXPECT_EQ(index_frames(source, 10).period, 100'000'000) << "the rate of a single image";
+  source.times = {7};
+  EXPECT_EQ(index_frames(source, 10).period, 0);
   source.times = {0, 5, 11};
   EXPECT_EQ(index_frames(source, 0).times, source.times);
   source.times.clear();
