@@ -6,6 +6,7 @@
 #include <chrono>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lib/files/file_names.hpp"
@@ -57,16 +58,24 @@ std::optional<Nanoseconds> date_in(const fs::path& image) {
          std::stoi(fraction);
 }
 
-// The times of images by a function; none if one has no later time than its predecessor.
+// The images in the order of their times by a function, and these; none if two are equal. By their
+// names, 9.1235 follows 9.12349.
 template <typename Read>
-std::vector<Nanoseconds> read_times(const std::vector<fs::path>& images, Read read) {
-  std::vector<Nanoseconds> times;
-  for (const fs::path& image : images) {
+Source in_order_of_times(const Source& source, Read read) {
+  std::vector<std::pair<Nanoseconds, fs::path>> timed;
+  for (const fs::path& image : source.images) {
     const std::optional<Nanoseconds> time = read(image);
-    if (!time || (!times.empty() && *time <= times.back())) return {};
-    times.push_back(*time);
+    if (!time) return {};
+    timed.emplace_back(*time, image);
   }
-  return times;
+  std::sort(timed.begin(), timed.end());
+  Source sorted;
+  for (auto& [time, image] : timed) {
+    if (!sorted.times.empty() && time <= sorted.times.back()) return {};
+    sorted.times.push_back(time);
+    sorted.images.push_back(std::move(image));
+  }
+  return sorted;
 }
 
 // Whether what follows the date is the fraction of the second. Otherwise it may be the number of an
@@ -106,13 +115,16 @@ std::optional<Nanoseconds> time_in_name(const fs::path& image) {
 }
 
 bool set_times_of_names(Source& left, Source& right) {
-  left.times = read_times(left.images, date_in);
-  right.times = read_times(right.images, date_in);
-  if (!has_fractions(left.times) || (!right.images.empty() && !has_fractions(right.times))) {
-    left.times = read_times(left.images, time_in_name);
-    right.times = read_times(right.images, time_in_name);
+  Source a = in_order_of_times(left, date_in), b = in_order_of_times(right, date_in);
+  if (!has_fractions(a.times) || (!right.images.empty() && !has_fractions(b.times))) {
+    a = in_order_of_times(left, time_in_name);
+    b = in_order_of_times(right, time_in_name);
   }
-  if (left.times.empty() || right.times.empty() != right.images.empty()) return false;
+  if (a.images.empty() || b.images.empty() != right.images.empty()) return false;
+  left.images = std::move(a.images);
+  left.times = std::move(a.times);
+  right.images = std::move(b.images);
+  right.times = std::move(b.times);
   Nanoseconds first = left.times.front();
   if (!right.times.empty()) first = std::min(first, right.times.front());
   for (Source* source : {&left, &right}) {

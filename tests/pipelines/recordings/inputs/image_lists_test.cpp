@@ -149,6 +149,25 @@ TEST_F(Recordings, NamesThatAreSeconds) {
   }
 }
 
+// As Python prints them: by their digits, .7 and .70003 precede .12345.
+TEST_F(Recordings, NamesThatAreSecondsWithFewOrManyDigits) {
+  write_images("left", {"1403636579.7.png", "1403636579.70003.png", "1403636579.12345.png"});
+  write_images("right", {"1403636579.123.png", "1403636579.6999999.png", "1403636579.8.png"}, true);
+  Recording recording = recognized({"left", "right"});
+  EXPECT_THAT(names_of(recording.left.images),
+              ElementsAre("1403636579.12345.png", "1403636579.7.png", "1403636579.70003.png"));
+  EXPECT_THAT(recording.left.times, ElementsAre(450'000, 577'000'000, 577'030'000));
+  EXPECT_THAT(names_of(recording.right.images),
+              ElementsAre("1403636579.123.png", "1403636579.6999999.png", "1403636579.8.png"));
+  EXPECT_THAT(recording.right.times, ElementsAre(0, 576'999'900, 677'000'000));
+  EXPECT_THAT(recording.remarks, IsEmpty());
+  // The same time twice: they are no times of frames.
+  write_images("right", {"1403636579.80.png"}, true);
+  recording = recognized({"left", "right"});
+  EXPECT_EQ(recording.left.images.front().filename(), "1403636579.7.png");
+  EXPECT_THAT(recording.remarks, Contains(HasSubstr("no numbers in common")));
+}
+
 // As rs-convert writes them.
 TEST_F(Recordings, NamesThatAreMillisecondsWithAFraction) {
   write_images("day", {"a_Infrared_1_1403636579900.25.png", "a_Infrared_1_1403636579933.5.png"});
