@@ -25,19 +25,23 @@ struct Kind {
   bool photo = false;
 };
 
-constexpr std::array<Kind, 15> kKinds{
+constexpr std::array<Kind, 16> kKinds{
     {{" .heic .heif .avif ", "is a kind of image that is not read: convert it to PNG", false, true},
      {" .tga .pam .pcx .sgi .dpx .jxl ",
       "is a kind of image that is not read: convert it to PNG (ffmpeg -i FILE view.png)"},
      {" .exr .hdr ",
       "has light without an upper limit: apply the same curve to both views, and write 16-bit PNG "
       "(of EXR: ffmpeg -apply_trc iec61966_2_1 -i FILE -pix_fmt rgb48be view.png)"},
+     {" .fits .fit .czi .nd2 .lif .dcm .img .vic .cub ",
+      "has scientific images (FITS, PDS, microscopes), which are not read: write each view as "
+      "16-bit "
+      "PNG or TIFF (Fiji, gdal_translate)"},
      {" .nut ",
       "is a kind of video that stops its reader: rewrite it (ffmpeg -i FILE -c copy view.mkv)"},
      {" .m3u8 .m3u .mpd ",
       "is a list of the parts of a video: write its video to one file (ffmpeg -i FILE -c copy "
       "view.mkv)"},
-     {" .cr2 .cr3 .nef .arw .raf .rw2 .orf .dng ",
+     {" .cr2 .cr3 .nef .arw .raf .rw2 .orf .dng .gpr .pef .srw ",
       "is raw data of a camera: develop both views with the same settings to 16-bit PNG or TIFF",
       false, true},
      {" .mpo ",

@@ -36,6 +36,8 @@ TEST_F(UnreadKinds, AreNamedWithTheRemedy) {
   EXPECT_THAT(unread_kind(write("a.nut")), HasSubstr("rewrite it"));
   EXPECT_THAT(unread_kind(write("a.mpd")), HasSubstr("-c copy view.mkv"));
   EXPECT_THAT(unread_kind(write("a.dng")), HasSubstr("develop both views"));
+  EXPECT_THAT(unread_kind(write("a.GPR")), HasSubstr("develop both views"));
+  EXPECT_THAT(unread_kind(write("a.IMG")), HasSubstr("write each view as 16-bit PNG"));
   EXPECT_THAT(unread_kind(write("a.MPO")), HasSubstr("-mpimage2"));
   EXPECT_THAT(unread_kind(write("a.mcap")), HasSubstr("recording of ROS"));
   EXPECT_THAT(unread_kind(write("a.svo2")), HasSubstr("ZED_SVO_Export"));
