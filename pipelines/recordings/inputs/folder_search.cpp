@@ -46,6 +46,14 @@ bool is_other_data(const std::string& name) {
 
 bool is_other_folder(const fs::path& folder) { return is_other_data(folder.filename().string()); }
 
+// Whether a folder of a view has nothing but its other data, such as left/disparity beside
+// left/rgb.
+bool is_only_other_data(const fs::path& folder) {
+  static const std::regex whole(
+      "(depth|disp|disparity|flow|mask|normal|occlusion|seg)(s|_?maps?)?");
+  return std::regex_match(files::lower_stem(folder), whole);
+}
+
 // Moves what belongs to the views, such as their depths, to the rest of the images.
 void leave_other_data(std::vector<ViewImages>& all_views, std::vector<fs::path>& rest) {
   const auto others =
@@ -209,7 +217,12 @@ class FolderSearch {
   void add_nested(std::vector<fs::path> folders) {
     const std::vector<PathPair> views = take_views_of_folders(folders);
     for (const PathPair& view : views) {
-      const NestedViews scenes = nested_views(view.left, view.right);
+      NestedViews scenes = nested_views(view.left, view.right);
+      std::erase_if(scenes.lonely, is_only_other_data);
+      const auto is_other = [](const PathPair& scene) { return is_only_other_data(scene.left); };
+      if (!std::all_of(scenes.pairs.begin(), scenes.pairs.end(), is_other)) {
+        std::erase_if(scenes.pairs, is_other);
+      }
       if (scenes.pairs.empty()) {
         note_unread_photos(view.left);
         continue;

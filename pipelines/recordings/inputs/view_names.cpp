@@ -28,7 +28,7 @@ struct Words {
 };
 
 // Words of cameras come first: left and right may be directions of both, as in lcam_left.
-constexpr std::array<Words, 40> kWords{{{"lcam", "rcam", Place::kWhole},
+constexpr std::array<Words, 41> kWords{{{"lcam", "rcam", Place::kWhole},
                                         {"left", "right", Place::kAny},
                                         {"Left", "Right", Place::kAny},
                                         {"LEFT", "RIGHT", Place::kAny},
@@ -64,6 +64,7 @@ constexpr std::array<Words, 40> kWords{{{"lcam", "rcam", Place::kWhole},
                                         {"ir1", "ir2", Place::kWhole},
                                         {"fisheye1", "fisheye2", Place::kWhole},
                                         {"colored_0", "colored_1", Place::kWhole},
+                                        {"Image0", "Image1", Place::kWhole},
                                         {"image_00", "image_01", Place::kWhole},
                                         {"image_02", "image_03", Place::kWhole},
                                         {"image_0", "image_1", Place::kWhole},

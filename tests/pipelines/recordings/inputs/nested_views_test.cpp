@@ -163,6 +163,24 @@ TEST_F(NestedFolders, OfOtherDataBesideViewsAreNoViews) {
   EXPECT_THAT(problems_, IsEmpty());
 }
 
+// As in the data set of FoundationStereo.
+TEST_F(NestedFolders, OfOtherDataInEachViewAreNoViews) {
+  write_images({"a/left/rgb/1.png", "a/left/disparity/1.png", "a/right/rgb/1.png"});
+  EXPECT_THAT(found(), ElementsAre("a-rgb: a/left/rgb/1.png a/right/rgb/1.png"));
+  EXPECT_THAT(problems_, IsEmpty());
+  write_images({"a/left/depth_map/1.png", "a/right/depth_map/1.png"});
+  EXPECT_THAT(found(), ElementsAre("a-rgb: a/left/rgb/1.png a/right/rgb/1.png"));
+  EXPECT_THAT(problems_, IsEmpty());
+  // Scenes may have such words in their names.
+  write_images(
+      {"a/left/river_flow/1.png", "a/right/river_flow/1.png", "a/left/depths of sea/1.png"});
+  EXPECT_THAT(found(), ElementsAre(HasSubstr("a-rgb: "), HasSubstr("a-river_flow: ")));
+  EXPECT_EQ(problems_.size(), 1U);
+  write_images({"b/left/depth/1.png", "b/right/depth/1.png"});
+  EXPECT_THAT(found(), ElementsAre(HasSubstr("a-rgb: "), HasSubstr("a-river_flow: "),
+                                   "b-depth: b/left/depth/1.png b/right/depth/1.png"));
+}
+
 // The vignettes of TUM-VI.
 TEST_F(NestedFolders, OfOneImageHaveTheViewsInTheFolderImages) {
   write_images({"dso/cam0/vignette.png", "dso/cam0/images/1.png", "dso/cam0/images/2.png",

@@ -44,6 +44,7 @@ TEST(ViewNames, FindsPairs) {
       {"cam1", {"cam2", ""}},
       {"a_Camera1_3.png", {"a_Camera2_3.png", "a_3.png"}},
       {"colored_0", {"colored_1", ""}},
+      {"Image0", {"Image1", ""}},
       {"000001l.png", {"000001r.png", "000001.png"}},
       {"LFT_3008.tif", {"RGT_3008.tif", "3008.tif"}},
       {"ir1", {"ir2", ""}},
