@@ -17,9 +17,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The digits of a time in seconds at the end of a name, such as 1403636579.763556, or in ms, such
+// The last digits of a name that are a time in seconds, such as 1403636579.763556, or in ms, such
 // as 1403636579763.556 (rs-convert), in ns.
-std::optional<Nanoseconds> seconds_in(const std::string& stem) {
+std::optional<Nanoseconds> seconds_in(std::string stem) {
+  stem.resize(stem.find_last_of("0123456789") + 1);
   constexpr std::size_t kEpoch = 10, kMilli = 13, kMicro = 6, kNano = 9;  // digits
   const std::size_t point = stem.find_last_not_of("0123456789");
   if (point == std::string::npos || point == 0 || stem[point] != '.') return std::nullopt;

@@ -143,8 +143,10 @@ TEST_F(Recordings, NamesThatAreSeconds) {
   EXPECT_THAT(recording.right.times, ElementsAre(400'000, 400'000'000));
   EXPECT_THAT(recording.remarks, IsEmpty());
   EXPECT_EQ(time_in_name("left_1625.123456.png"), 1'625'123'456'000);
+  EXPECT_EQ(time_in_name("a1_1625.123456_left.png"), 1'625'123'456'000);
   // Versions and dates are no times, and neither is what 64 bits cannot count.
-  for (const char* name : {"v2.001.png", "12345678901.123456.png", "9999999999.5.png", "a.5.png"}) {
+  for (const char* name : {"v2.001.png", "12345678901.123456.png", "9999999999.5.png", "a.5.png",
+                           "1625.1234_left.png", "1625.123456_2.png", "left.png"}) {
     EXPECT_FALSE(time_in_name(name)) << name;
   }
 }
