@@ -27,6 +27,7 @@ bool may_be_calibration(const fs::path& file) {
 bool is_calibration_name(const fs::path& file) {
   const std::string stem = files::lower_stem(file);
   if (files::extension_of(file) == ".conf" && stem.starts_with("sn")) return true;
+  if (file.filename() == "K.txt") return true;  // of FoundationStereo
   constexpr std::array<std::string_view, 3> kWords{"calib", "stereo", "camchain"};
   return std::any_of(kWords.begin(), kWords.end(), [&stem](std::string_view word) {
     return stem.find(word) != std::string::npos;

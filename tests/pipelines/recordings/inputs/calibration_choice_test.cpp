@@ -85,6 +85,18 @@ std::string parallel(const std::string& left, const std::string& right) {
          "  T_cn_cnm1: [[1, 0, 0, -0.1], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n";
 }
 
+TEST_F(Calibrations, OfFoundationStereoAreBesideTheViews) {
+  write_images("demo", {"left.png"});
+  write_images("demo", {"right.png"}, true);
+  write("demo/k.txt", "100 0 99.5 0 100 59.5 0 0 1\n0.063\n");
+  EXPECT_THAT(calibration_of("demo"), IsEmpty());
+  write("demo/K.txt", "100 0 99.5 0 100 59.5 0 0 1\n0.063\n");
+  EXPECT_EQ(calibration_of("demo"), path("demo/K.txt"));
+  write("demo/K.txt", "100 0 99.5 0 100 59.5 0 0 1\n");
+  EXPECT_THAT(calibration_of("demo"), IsEmpty());
+  EXPECT_THAT(recognized({"demo"}).remarks, Contains(HasSubstr("K.txt")));
+}
+
 TEST_F(Calibrations, OfParallelCamerasDescribeTheViewsAsTheyAre) {
   write_views("left", "right");
   write("camchain.yaml", parallel("[ 200, 200, 199.5, 119.5 ]", "[ 200, 200, 199.5, 119.5 ]"));
