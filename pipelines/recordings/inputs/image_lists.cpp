@@ -49,13 +49,12 @@ Numbers numbers_of(const std::vector<fs::path>& images) {
   return numbers;
 }
 
-// The numbers before the last ones, which all names share, such as that of the camera.
+// The numbers before the last ones, which may be those of the camera or an exposure.
 Numbers inner_numbers_of(const std::vector<fs::path>& images) {
   std::vector<fs::path> beginnings;
-  const std::string last = files::last_digits(images.front());
   for (const fs::path& image : images) {
-    if (last.empty() || files::last_digits(image) != last) return {};
-    const std::string stem = image.stem().string();
+    const std::string last = files::last_digits(image), stem = image.stem().string();
+    if (last.empty()) return {};
     beginnings.emplace_back(stem.substr(0, stem.rfind(last)) + ".");
   }
   return numbers_of(beginnings);
@@ -88,14 +87,16 @@ std::pair<Numbers, Numbers> places_of(const std::vector<fs::path>& left,
   return {place_of(left, false), place_of(right, true)};
 }
 
+std::size_t count_common(const std::pair<Numbers, Numbers>& numbers) {
+  const std::set<std::int64_t> in_left(numbers.first.begin(), numbers.first.end());
+  return static_cast<std::size_t>(
+      std::count_if(numbers.second.begin(), numbers.second.end(),
+                    [&in_left](std::int64_t number) { return in_left.contains(number); }));
+}
+
 // Whether more than half of the frames of the shorter list are in the other one.
-bool fit(const Numbers& left, const Numbers& right) {
-  if (left.empty() || right.empty()) return false;
-  const std::set<std::int64_t> in_left(left.begin(), left.end());
-  const auto common = std::count_if(right.begin(), right.end(), [&in_left](std::int64_t number) {
-    return in_left.contains(number);
-  });
-  return 2 * static_cast<std::size_t>(common) > std::min(left.size(), right.size());
+bool fit(const std::pair<Numbers, Numbers>& numbers) {
+  return 2 * count_common(numbers) > std::min(numbers.first.size(), numbers.second.size());
 }
 
 bool increase(const Numbers& numbers) {
@@ -154,15 +155,13 @@ std::vector<Nanoseconds> times_of(const Numbers& numbers, double frame_rate) {
 std::pair<Numbers, Numbers> common_numbers(Recording& recording, const std::vector<fs::path>& left,
                                            const std::vector<fs::path>& right) {
   std::pair<Numbers, Numbers> numbers{numbers_of(left), numbers_of(right)};
-  if (fit(numbers.first, numbers.second)) return numbers;
+  const std::pair<Numbers, Numbers> inner{inner_numbers_of(left), inner_numbers_of(right)};
+  if (fit(numbers)) return count_common(inner) > count_common(numbers) ? inner : numbers;
   for (const bool by_view : {false, true}) {
     numbers = places_of(left, right, by_view);
-    if (increase(numbers.first) && increase(numbers.second) && fit(numbers.first, numbers.second)) {
-      return numbers;
-    }
+    if (increase(numbers.first) && increase(numbers.second) && fit(numbers)) return numbers;
   }
-  numbers = {inner_numbers_of(left), inner_numbers_of(right)};
-  if (fit(numbers.first, numbers.second)) return numbers;
+  if (fit(inner)) return inner;
   numbers.first.resize(left.size());
   numbers.second.resize(right.size());
   std::iota(numbers.first.begin(), numbers.first.end(), 0);

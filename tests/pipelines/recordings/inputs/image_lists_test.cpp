@@ -122,6 +122,26 @@ TEST_F(Recordings, NamesThatEndWithTheSameNumber) {
   EXPECT_GT(recording.left.times[1], recording.right.times[1]);
 }
 
+// The exposure follows the number of the frame, and some exposures are those of other frames.
+TEST_F(Recordings, NamesThatEndWithOtherNumbers) {
+  write_images("a", {"01_exp50.png", "02_exp60.png", "03_exp70.png", "04_exp80.png"});
+  write_images("b", {"01_exp60.png", "02_exp70.png", "04_exp81.png"}, true);
+  Recording recording = recognized({"a", "b"});
+  EXPECT_THAT(recording.left.times, ElementsAre(0, 33'333'333, 66'666'667, 100'000'000));
+  EXPECT_THAT(recording.right.times, ElementsAre(0, 33'333'333, 100'000'000));
+  EXPECT_THAT(recording.remarks, IsEmpty());
+  write_images("e", {"01_exp51.png", "02_exp61.png", "04_exp81.png"}, true);
+  recording = recognized({"a", "e"});
+  EXPECT_THAT(recording.right.times, ElementsAre(0, 33'333'333, 100'000'000));
+  EXPECT_THAT(recording.remarks, IsEmpty());
+  // Those of the frames are the last ones, if as many of them are on both sides.
+  write_images("c", {"1_7.png", "2_8.png", "3_9.png"});
+  write_images("d", {"1_8.png", "2_9.png", "4_10.png"}, true);
+  recording = recognized({"c", "d"});
+  EXPECT_THAT(recording.left.times, ElementsAre(0, 33'333'333, 66'666'667));
+  EXPECT_THAT(recording.right.times, ElementsAre(33'333'333, 66'666'667, 100'000'000));
+}
+
 // Numbers after the date at which the recording began, which is not that of the other camera.
 TEST_F(Recordings, NamesThatBeginWithADate) {
   write_images("left", {"20261126_093059_000101.png", "20261126_093059_000102.png"});
