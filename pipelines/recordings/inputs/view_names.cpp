@@ -17,9 +17,10 @@ namespace {
 
 enum class Place {
   kAny,
-  kWhole,  // not a part of a longer word or number
-  kEnd,    // of a word in lower case or a number, as in imgL, imgL1 or 1L
-  kNumber  // after a number, as in 000001l
+  kWhole,   // not a part of a longer word or number
+  kEnd,     // of a word in lower case or a number, as in imgL, imgL1 or 1L
+  kNumber,  // after a number, as in 000001l
+  kBefore   // a number, and not within a word, as in L0001
 };
 
 struct Words {
@@ -28,7 +29,7 @@ struct Words {
 };
 
 // Words of cameras come first: left and right may be directions of both, as in lcam_left.
-constexpr std::array<Words, 41> kWords{{{"lcam", "rcam", Place::kWhole},
+constexpr std::array<Words, 43> kWords{{{"lcam", "rcam", Place::kWhole},
                                         {"left", "right", Place::kAny},
                                         {"Left", "Right", Place::kAny},
                                         {"LEFT", "RIGHT", Place::kAny},
@@ -36,6 +37,8 @@ constexpr std::array<Words, 41> kWords{{{"lcam", "rcam", Place::kWhole},
                                         {"L", "R", Place::kWhole},
                                         {"L", "R", Place::kEnd},
                                         {"l", "r", Place::kNumber},
+                                        {"L", "R", Place::kBefore},
+                                        {"l", "r", Place::kBefore},
                                         {"LFT", "RGT", Place::kWhole},
                                         {"cam0", "cam1", Place::kWhole},
                                         {"cam_0", "cam_1", Place::kWhole},
@@ -98,6 +101,10 @@ bool is_in_place(const std::string& name, std::size_t at, std::size_t length, Pl
   if (place == Place::kAny) return true;
   if (place == Place::kWhole) return is_whole(name, at, length);
   const std::size_t end = at + length;
+  if (place == Place::kBefore) {
+    return (at == 0 || !is_word_character(name[at - 1])) && end < name.size() &&
+           is_digit(name[end]);
+  }
   if (place == Place::kNumber) {
     return at > 0 && is_digit(name[at - 1]) &&
            (end >= name.size() || !is_word_character(name[end]));

@@ -21,6 +21,8 @@ TEST(ViewNames, FindsPairs) {
       {"imgL.png", {"imgR.png", "img.png"}},
       {"imageL10.png", {"imageR10.png", "image10.png"}},
       {"10L.png", {"10R.png", "10.png"}},
+      {"L0001.png", {"R0001.png", "0001.png"}},
+      {"a_l1.png", {"a_r1.png", "a_1.png"}},
       {"cam0", {"cam1", ""}},
       {"image_02", {"image_03", ""}},
       {"infra1", {"infra2", ""}},
@@ -83,10 +85,12 @@ TEST(ViewNames, LeavesMoreThanTwoCamerasCountedFromOne) {
 }
 
 TEST(ViewNames, LeavesOtherNames) {
-  for (const auto& [a, b] : {std::pair("small.mp4", "smarr.mp4"), std::pair("cam01", "cam11"),
-                             std::pair("left1.mp4", "right2.mp4"), std::pair("cam2", "cam3"),
-                             std::pair("1la.png", "1ra.png"), std::pair("ir3", "ir4"),
-                             std::pair("XL1.png", "XR1.png"), std::pair("xLa.png", "xRa.png")}) {
+  for (const auto& [a, b] :
+       {std::pair("small.mp4", "smarr.mp4"), std::pair("cam01", "cam11"),
+        std::pair("left1.mp4", "right2.mp4"), std::pair("cam2", "cam3"),
+        std::pair("1la.png", "1ra.png"), std::pair("ir3", "ir4"), std::pair("XL1.png", "XR1.png"),
+        std::pair("Lx1.png", "Rx1.png"), std::pair("2l1.png", "2r1.png"),
+        std::pair("L1.png", "R2.png"), std::pair("xLa.png", "xRa.png")}) {
     std::vector<fs::path> paths{a, b};
     EXPECT_TRUE(take_pairs(paths).empty()) << a;
     EXPECT_EQ(paths.size(), 2U);
