@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/silence.hpp"
 
+#include <utility>
+
 namespace mtstereo::plugin {
 namespace {
 
@@ -25,6 +27,16 @@ std::optional<Side> SilenceDetector::silent(const StreamsObservation& streams, N
   if (!side_ || reported_ || now - since_ < timeout) return std::nullopt;
   reported_ = true;
   return side_;
+}
+
+bool LongWait::due(bool waits, Nanoseconds now, Nanoseconds timeout) {
+  if (!waits) {
+    *this = {};
+    return false;
+  }
+  if (!since_) since_ = now;
+  if (now - *since_ < timeout) return false;
+  return !std::exchange(reported_, true);
 }
 
 }  // namespace mtstereo::plugin

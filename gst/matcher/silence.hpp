@@ -16,6 +16,7 @@ struct StreamsObservation {
   std::array<bool, 2> ended{};    ///< the stream is at its end
   std::uint64_t progress = 0;     ///< changes whenever frames are consumed
   bool busy = false;              ///< the element matches a pair, or downstream blocks it
+  bool starting = false;          ///< downstream holds the first map until other sinks have data
 };
 
 /// Detects a stream that is silent while frames of the other stream wait for it. It is asked at
@@ -31,6 +32,17 @@ class SilenceDetector {
   std::optional<Side> side_;  // the silent side
   Nanoseconds since_ = 0;
   std::uint64_t progress_ = 0;
+  bool reported_ = false;
+};
+
+/// Detects a state that lasts for long. It is asked at regular times.
+class LongWait {
+ public:
+  /// The state at the wall clock time `now` [ns]. True once it has lasted for `timeout`.
+  bool due(bool waits, Nanoseconds now, Nanoseconds timeout);
+
+ private:
+  std::optional<Nanoseconds> since_;
   bool reported_ = false;
 };
 

@@ -13,6 +13,22 @@ Nanoseconds timeout_of(const ElementState& state) {
       std::min<guint64>(state.flow_settings().timeout, static_cast<guint64>(G_MAXINT64)));
 }
 
+/// True if the pipeline waits until each of its sinks has data.
+bool prerolls(GstElement* element) {
+  auto* top = GST_OBJECT_CAST(gst_object_ref(element));
+  while (GstObject* parent = gst_object_get_parent(top)) {
+    gst_object_unref(top);
+    top = parent;
+  }
+  bool waits = false;
+  {
+    const ObjectLock lock(top);
+    waits = GST_STATE_RETURN(top) == GST_STATE_CHANGE_ASYNC;
+  }
+  gst_object_unref(top);
+  return waits;
+}
+
 StreamsObservation observe(const ElementState& state) {
   StreamsObservation streams;
   for (const Side side : kSides) {
@@ -23,9 +39,10 @@ StreamsObservation observe(const ElementState& state) {
   }
   const guint64 pairs = state.engine.statistics().pairs;
   const PairingStatistics paired = state.pairing.statistics();
+  const bool mapped = pairs > state.progress.pairs_before;
+  streams.starting = mapped && state.progress.busy && prerolls(GST_ELEMENT_CAST(state.element));
   // A paused pipeline that has its first map is paused by its user, who may pause the sources too.
-  const bool paused = !state.clock.playing() && pairs > state.progress.pairs_before;
-  streams.busy = state.progress.busy || paused;
+  streams.busy = state.progress.busy || (mapped && !state.clock.playing());
   streams.progress =
       pairs + state.output.punctuality.skipped() + paired.dropped[0] + paired.dropped[1];
   return streams;
@@ -60,11 +77,20 @@ void report(ElementState& state, Side silent, Nanoseconds timeout) {
   state.pairing.refuse(waiting);
 }
 
+void report_start(ElementState& state, Nanoseconds timeout) {
+  state.messages.warning_of_pad(
+      "The pipeline does not start: downstream holds a map for " + seconds(timeout) +
+          ", because another sink has no data yet. Put a queue in each branch of a tee; where an "
+          "encoder collects frames first, set it to low latency (x264enc tune=zerolatency).",
+      "waited for " + seconds(timeout) + " (property timeout)");
+}
+
 }  // namespace
 
 Watchdog::Functions watch_pads(ElementState& state) {
   return {[&state] { return observe(state); }, [&state] { return timeout_of(state); },
-          [&state](Side silent, Nanoseconds timeout) { report(state, silent, timeout); }};
+          [&state](Side silent, Nanoseconds timeout) { report(state, silent, timeout); },
+          [&state](Nanoseconds timeout) { report_start(state, timeout); }};
 }
 
 }  // namespace mtstereo::plugin

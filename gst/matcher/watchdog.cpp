@@ -44,6 +44,7 @@ void Watchdog::start() {
   const std::lock_guard lock(mutex_);
   cancel();
   detector_ = {};
+  start_ = {};
   schedule();
 }
 
@@ -76,15 +77,21 @@ void Watchdog::schedule() {
 void Watchdog::check(GstClockID timer) {
   const StreamsObservation streams = functions_.observe();
   const Nanoseconds timeout = functions_.timeout();
+  const Nanoseconds now = g_get_monotonic_time() * 1000;
   std::optional<Side> silent;
+  bool stuck = false;
   {
     const std::lock_guard lock(mutex_);
     if (timer != timer_) return;  // stopped in the meantime
-    if (timeout > 0) silent = detector_.silent(streams, g_get_monotonic_time() * 1000, timeout);
+    if (timeout > 0) {
+      silent = detector_.silent(streams, now, timeout);
+      stuck = start_.due(streams.starting, now, timeout);
+    }
     gst_clock_id_unref(timer_);
     schedule();
   }
   if (silent) functions_.report(*silent, timeout);
+  if (stuck) functions_.report_start(timeout);
 }
 
 }  // namespace mtstereo::plugin

@@ -10,8 +10,8 @@
 
 namespace mtstereo::plugin {
 
-/// Reports a stream that is silent for too long. The system clock calls it at regular times, in a
-/// thread that all elements of the process share.
+/// Reports a stream that is silent, or a start that takes, too long. The system clock calls it at
+/// regular times, in a thread that all elements of the process share.
 class Watchdog {
  public:
   /// What it asks and calls, in its thread, while it holds a reference to the element.
@@ -19,6 +19,7 @@ class Watchdog {
     std::function<StreamsObservation()> observe;
     std::function<Nanoseconds()> timeout;  ///< 0: no report
     std::function<void(Side silent, Nanoseconds timeout)> report;
+    std::function<void(Nanoseconds timeout)> report_start;  ///< the pipeline does not start
   };
 
   Watchdog(gpointer element, Functions functions)
@@ -43,6 +44,7 @@ class Watchdog {
   std::mutex mutex_;            // guards the members below
   GstClockID timer_ = nullptr;  // nullptr: stopped
   SilenceDetector detector_;
+  LongWait start_;
 };
 
 }  // namespace mtstereo::plugin

@@ -89,5 +89,22 @@ TEST(Silence, IsNotCountedWhileTheElementIsBusy) {
   EXPECT_TRUE(detector.silent(streams, 1110, kTimeout));
 }
 
+TEST(LongWait, IsDueOnceAfterTheTimeout) {
+  LongWait wait;
+  EXPECT_FALSE(wait.due(true, 1000, kTimeout));
+  EXPECT_FALSE(wait.due(true, 1099, kTimeout));
+  EXPECT_TRUE(wait.due(true, 1100, kTimeout));
+  EXPECT_FALSE(wait.due(true, 2000, kTimeout));
+}
+
+TEST(LongWait, StartsOverAfterAnInterruption) {
+  LongWait wait;
+  EXPECT_FALSE(wait.due(false, 0, kTimeout));
+  EXPECT_FALSE(wait.due(true, 1000, kTimeout));
+  EXPECT_FALSE(wait.due(false, 1090, kTimeout));
+  EXPECT_FALSE(wait.due(true, 1100, kTimeout));
+  EXPECT_TRUE(wait.due(true, 1200, kTimeout));
+}
+
 }  // namespace
 }  // namespace mtstereo::plugin::silence_test

@@ -193,6 +193,39 @@ TEST_F(PausedPipeline, ThatIsPausedWhileFramesWaitReportsNothing) {
   EXPECT_FALSE(warned(0.4));
 }
 
+/// An mtstereo whose maps a tee distributes; `first` and `second` are the branches. Waits for a
+/// warning in this state: its text, "" if none comes.
+std::string warning_of_branches(const std::string& first, const std::string& second, double seconds,
+                                GstState state = GST_STATE_PAUSED, const char* live = "") {
+  const std::string source =
+      std::string("videotestsrc ") + live + " ! " + raw_caps("GRAY8", kWidth, kHeight);
+  Pipeline pipeline(std::string("mtstereo name=m alignment=off ") + kShort + " ! tee name=t t. ! " +
+                    first + " t. ! " + second + " " + source + " ! m.sink_left " + source +
+                    " ! m.sink_right");
+  pipeline.set_state(state);
+  GstBus* bus = gst_element_get_bus(pipeline.element());
+  const MessagePointer message(gst_bus_timed_pop_filtered(
+      bus, static_cast<GstClockTime>(seconds * GST_SECOND), GST_MESSAGE_WARNING));
+  gst_object_unref(bus);
+  return message ? report_of(message.get()).text : "";
+}
+
+TEST(BlockedStart, OfATeeWithoutQueuesIsReportedWithTheRemedy) {
+  for (const char* live : {"", "is-live=true"}) {
+    const std::string text =
+        warning_of_branches("fakesink", "mtcolor ! fakesink", 20, GST_STATE_PLAYING, live);
+    EXPECT_NE(text.find("does not start"), std::string::npos) << text;
+    EXPECT_NE(text.find("queue in each branch"), std::string::npos) << text;
+  }
+}
+
+TEST(BlockedStart, IsNotReportedIfAllSinksHaveData) {
+  for (const GstState state : {GST_STATE_PAUSED, GST_STATE_PLAYING}) {
+    EXPECT_EQ(warning_of_branches("queue ! fakesink", "queue ! fakesink", 0.5, state), "");
+    EXPECT_EQ(warning_of_branches("fakesink", "fakesink async=false", 0.5, state), "");
+  }
+}
+
 TEST(Watchdog, IsSafeAgainstStateChangesAndTheEndOfTheElement) {
   for (int i = 0; i < 40; ++i) {
     StereoHarness harness("max-disparity=16 timeout=1000");
