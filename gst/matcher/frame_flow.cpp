@@ -27,6 +27,18 @@ void send_gap_for_right(ElementState& state, const QueuedFrame& right) {
   if (time) state.output.events.send_gap_at(*time, GST_BUFFER_DURATION(right.buffer.get()));
 }
 
+LateFrame late_frame(const ElementState& state, Side side, const QueuedFrame& frame) {
+  LateFrame late{.side = side};
+  const auto now = state.clock.now();
+  const auto time = frame.running_time();
+  const GstClockTime latency = gst_aggregator_get_latency(state.element);
+  if (now && time && GST_CLOCK_TIME_IS_VALID(latency)) {
+    late.lateness = *now - *time - bounded(latency);
+  }
+  late.partner_linked = gst_pad_is_linked(GST_PAD_CAST(state.pairing.pad(other_side(side))));
+  return late;
+}
+
 /// Reports a dropped frame.
 void after_drop(ElementState& state, PairingAction& action) {
   const QueuedFrame& frame = action.frame();
@@ -34,6 +46,7 @@ void after_drop(ElementState& state, PairingAction& action) {
                  action.wrong_time ? "wrong time stamp" : "no partner",
                  static_cast<void*>(frame.buffer.get()));
   state.pairing_reports.dropped(action.side);
+  if (action.wrong_time) state.pairing_reports.wrong_time(action.side);
   if (action.wrong_time || action.expected) return;
   if (!action.at_deadline) {
     state.pairing_reports.unpaired(action.difference, action.tolerance);
@@ -44,7 +57,7 @@ void after_drop(ElementState& state, PairingAction& action) {
   } else {
     send_gap_for_right(state, frame);
   }
-  state.pairing_reports.late(other_side(action.side));
+  state.pairing_reports.late(late_frame(state, action.side, frame));
 }
 
 /// Reports a frame without a time. GST_FLOW_OK if pairing continues: a change of `sync-mode` that

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matcher/pairing_reports.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
@@ -55,7 +56,7 @@ void PairingReports::unpaired(Nanoseconds difference, Nanoseconds tolerance) {
                         milliseconds(tolerance));
 }
 
-void PairingReports::late(Side silent) {
+void PairingReports::late(const LateFrame& frame) {
   constexpr int kStanding = 10;
   if (seen_.same_times >= kStanding && !std::exchange(seen_.standing, true)) {
     messages_.warning(
@@ -63,11 +64,36 @@ void PairingReports::late(Side silent) {
         " pairs have the same one, so frames are late and dropped. Give each frame its own time "
         "(appsrc do-timestamp=true).");
   }
+  seen_.lateness[index_of(frame.side)] = frame.lateness;
   if (!seen_.unpaired.dropped(wall_clock())) return;
   messages_.warning("The last " + std::to_string(seen_.unpaired.run()) +
-                    " frames had no partner, because no frame arrived in time on " +
-                    pad_name(silent) +
-                    ". If that stream is only delayed, increase the property latency.");
+                    " frames had no partner, because " + cause_of(frame));
+}
+
+std::string PairingReports::cause_of(const LateFrame& frame) const {
+  const Side silent = other_side(frame.side);
+  if (!frame.partner_linked) {
+    return std::string(pad_name(silent)) + " is not linked. " + how_to_link(silent);
+  }
+  const auto [left, right] = seen_.lateness;
+  const Side later = left > right ? Side::kLeft : Side::kRight;
+  if (const Nanoseconds lateness = std::max(left, right); lateness > kSecond / 2) {
+    return std::string("the time stamps of ") + pad_name(later) + " are " + milliseconds(lateness) +
+           " behind the clock of the pipeline, so that its frames are late. Time stamps count "
+           "nanoseconds from the start of the pipeline (appsrc do-timestamp=true). If the stream "
+           "is only delayed, increase the property latency.";
+  }
+  return std::string("no frame arrived in time on ") + pad_name(silent) +
+         ". If that stream is only delayed, increase the property latency.";
+}
+
+void PairingReports::wrong_time(Side side) {
+  constexpr int kMany = 30;
+  if (++seen_.wrong[index_of(side)] != kMany) return;
+  messages_.warning(std::to_string(kMany) + " frames of " + pad_name(side) +
+                    " were dropped, because their time stamps jump or repeat. Give each frame its "
+                    "own time (appsrc do-timestamp=true), send a new segment where times start "
+                    "over, or pair by sync-mode=arrival.");
 }
 
 void PairingReports::doubt(PairDoubt doubt) {
@@ -153,6 +179,7 @@ void PairingReports::ended() {
 void PairingReports::paired() {
   seen_.any_pair = true;
   seen_.unpaired.paired();
+  seen_.lateness = {};
   log_offset();
 }
 

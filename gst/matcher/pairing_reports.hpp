@@ -4,12 +4,20 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "matcher/base/messages.hpp"
 #include "matcher/pairing/pairer.hpp"
 #include "matcher/pairing/unpaired.hpp"
 
 namespace mtstereo::plugin {
+
+/// A frame that was dropped at its deadline.
+struct LateFrame {
+  Side side = Side::kLeft;
+  Nanoseconds lateness = 0;    ///< how long after the deadline that follows from its time stamp
+  bool partner_linked = true;  ///< the pad of the other side
+};
 
 /// The messages about frames and pairs. Used by the task of the source pad, without locks, and by
 /// start and flush while the task does not run.
@@ -25,8 +33,10 @@ class PairingReports {
   void frame(Side side, bool damaged);
   /// A frame had no partner, because the next one of the other side is too far away.
   void unpaired(Nanoseconds difference, Nanoseconds tolerance);
-  /// A frame had no partner, because none arrived on this side in time.
-  void late(Side silent);
+  /// A frame had no partner, because none arrived on the other side in time.
+  void late(const LateFrame& frame);
+  /// A frame was dropped, because its time stamp jumps or repeats.
+  void wrong_time(Side side);
   /// A frame of this side is left out.
   void dropped(Side side) { ++seen_.dropped[index_of(side)]; }
   /// The streams have ended.
@@ -54,6 +64,8 @@ class PairingReports {
     int same_times = -1;                       // pairs with the time of the one before; -1: no pair
     bool standing = false;                     // times, and warned of
     std::array<std::int64_t, 2> dropped = {};  // frames of a side
+    std::array<int, 2> wrong = {};             // of these, with a wrong time stamp
+    std::array<Nanoseconds, 2> lateness = {};  // of a side since the last pair
     bool end = false;                          // without any pair, and warned of
     std::array<bool, 2> damage = {};           // of a side, and warned of
     std::optional<Nanoseconds> offset;         // of the streams, logged
@@ -61,6 +73,7 @@ class PairingReports {
   };
 
   void log_offset();
+  std::string cause_of(const LateFrame& frame) const;
 
   Messages& messages_;
   const Pairer& pairer_;

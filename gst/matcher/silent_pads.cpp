@@ -70,8 +70,7 @@ void report(ElementState& state, Side silent, Nanoseconds timeout) {
     return;
   }
   state.messages.error_of_pad(std::string("Frames wait on ") + pad_name(waiting) + ", but " + pad +
-                                  " is not linked. Link the other stream to it, by \"! NAME." +
-                                  pad + "\" on a command line.",
+                                  " is not linked. " + how_to_link(silent),
                               details);
   // The source of the other stream gets the error with its next frame.
   state.pairing.refuse(waiting);

@@ -5,6 +5,11 @@ namespace mtstereo::plugin {
 
 GST_DEBUG_CATEGORY(mtstereo_debug);
 
+std::string how_to_link(Side side) {
+  return std::string("Link the other stream to it, by \"! NAME.") + pad_name(side) +
+         "\" on a command line.";
+}
+
 void Messages::post(GstMessageType type, GQuark domain, gint code, const std::string& text,
                     const std::string& details) const {
   // gst_element_message_full() frees both texts.

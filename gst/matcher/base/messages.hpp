@@ -13,6 +13,9 @@ namespace mtstereo::plugin {
 /// The debug category of the element.
 GST_DEBUG_CATEGORY_EXTERN(mtstereo_debug);
 
+/// What to do about a pad that is not linked, as a sentence.
+std::string how_to_link(Side side);
+
 /// The errors and warnings of the element. `text` is for the user: what is wrong and how to correct
 /// it; `facts` are details. Call it without locks.
 class Messages {

@@ -90,6 +90,20 @@ TEST_F(Live, WarnsIfACameraStopsSending) {
   EXPECT_NE(warning.text.find("latency"), std::string::npos) << warning.text;
 }
 
+TEST_F(Live, NamesTimeStampsThatAreFarBehindTheClock) {
+  start(true);
+  ASSERT_TRUE(next());
+  gst_harness_set_time(harness->output(), 60 * GST_SECOND);
+  for (GstClockTime i = 1; i <= 30; ++i) {  // such as times in microseconds
+    right(i * kFrame);
+    ASSERT_TRUE(pass_deadline()) << i;
+    ASSERT_TRUE(harness->wait_for_stats(1, 0, i)) << i;
+  }
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("of sink_right are 59"), std::string::npos) << warning.text;
+  EXPECT_NE(warning.text.find("do-timestamp=true"), std::string::npos) << warning.text;
+}
+
 TEST_F(Live, DoesNotWarnOfMissingFramesBetweenPairs) {
   start(true);
   GstClockTime time = 0;

@@ -311,6 +311,20 @@ TEST_F(Stream, AFlushAfterTheEndRestartsTheStream) {
   EXPECT_TRUE(harness->pull());
 }
 
+TEST_F(Stream, WithManyWrongTimeStampsIsReportedWithTheRemedy) {
+  std::vector<GstClockTime> lefts, rights;
+  for (GstClockTime i = 0; i < 80; ++i) {
+    lefts.push_back(i / 2 * kFrame);  // each one twice
+    rights.push_back(i * kFrame);
+  }
+  const Feeder left(*harness, Side::kLeft, pair, lefts);
+  const Feeder right(*harness, Side::kRight, pair, rights);
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("30 frames of sink_left"), std::string::npos) << warning.text;
+  EXPECT_NE(warning.text.find("jump or repeat"), std::string::npos) << warning.text;
+  EXPECT_NE(warning.text.find("do-timestamp=true"), std::string::npos) << warning.text;
+}
+
 TEST_F(Stream, ReleasesInputFrames) {
   GstBuffer* left = frame_buffer(pair.left, 0, kFrame);
   GstBuffer* right = frame_buffer(pair.right, 0, kFrame);

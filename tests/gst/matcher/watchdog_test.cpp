@@ -17,6 +17,15 @@ constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 constexpr const char* kShort = "max-disparity=16 timeout=100000000";
 
+/// The text of the next warning of a pipeline; "" if none comes.
+std::string warning_of(const Pipeline& pipeline, double seconds) {
+  GstBus* bus = gst_element_get_bus(pipeline.element());
+  const MessagePointer message(gst_bus_timed_pop_filtered(
+      bus, static_cast<GstClockTime>(seconds * GST_SECOND), GST_MESSAGE_WARNING));
+  gst_object_unref(bus);
+  return message ? report_of(message.get()).text : "";
+}
+
 class SilentPad : public StreamsTest {
  protected:
   void start(const std::string& properties = kShort, bool live = false) {
@@ -115,6 +124,16 @@ TEST(UnlinkedPad, IsAnErrorThatNamesThePad) {
   }
 }
 
+TEST(UnlinkedPad, OfALivePipelineIsNamedInTheWarningOfLostFrames) {
+  Pipeline pipeline(
+      "videotestsrc is-live=true ! video/x-raw,format=GRAY8,framerate=100/1 ! queue ! m.sink_left "
+      "mtstereo name=m ! fakesink");
+  pipeline.set_state(GST_STATE_PLAYING);
+  const std::string text = warning_of(pipeline, 20);
+  EXPECT_NE(text.find("sink_right is not linked"), std::string::npos) << text;
+  EXPECT_NE(text.find("NAME.sink_right"), std::string::npos) << text;
+}
+
 TEST(UnlinkedPad, EndsTheOtherStream) {
   Pipeline pipeline(
       "videotestsrc ! video/x-raw,format=GRAY8 ! m.sink_left mtstereo name=m "
@@ -154,13 +173,7 @@ class PausedPipeline : public testing::Test {
     gst_app_src_push_buffer(GST_APP_SRC(pipeline_.named(source)),
                             frame_buffer(image, time, kFrame));
   }
-  bool warned(double seconds) {
-    GstBus* bus = gst_element_get_bus(pipeline_.element());
-    const MessagePointer message(gst_bus_timed_pop_filtered(
-        bus, static_cast<GstClockTime>(seconds * GST_SECOND), GST_MESSAGE_WARNING));
-    gst_object_unref(bus);
-    return message != nullptr;
-  }
+  bool warned(double seconds) { return !warning_of(pipeline_, seconds).empty(); }
 
   Pair pair_ = noise_pair(kWidth, kHeight, 5, 3);
   Pipeline pipeline_;
@@ -203,11 +216,7 @@ std::string warning_of_branches(const std::string& first, const std::string& sec
                     first + " t. ! " + second + " " + source + " ! m.sink_left " + source +
                     " ! m.sink_right");
   pipeline.set_state(state);
-  GstBus* bus = gst_element_get_bus(pipeline.element());
-  const MessagePointer message(gst_bus_timed_pop_filtered(
-      bus, static_cast<GstClockTime>(seconds * GST_SECOND), GST_MESSAGE_WARNING));
-  gst_object_unref(bus);
-  return message ? report_of(message.get()).text : "";
+  return warning_of(pipeline, seconds);
 }
 
 TEST(BlockedStart, OfATeeWithoutQueuesIsReportedWithTheRemedy) {
