@@ -154,6 +154,23 @@ std::string split_problem(const GstVideoInfo& whole, SplitLayout layout) {
          "(ffmpeg -i FILE -pix_fmt gray -c:v ffv1 views.mkv).";
 }
 
+std::string layout_contradiction(const GstVideoInfo& whole, SplitLayout layout, bool swap) {
+  const GstVideoMultiviewMode mode = GST_VIDEO_INFO_MULTIVIEW_MODE(&whole);
+  if (mode < GST_VIDEO_MULTIVIEW_MODE_SIDE_BY_SIDE) return {};  // none, mono or a single view
+  const std::string stated = std::string("The stream states multiview-mode=") +
+                             gst_video_multiview_mode_to_caps_string(mode);
+  const bool beside = mode == GST_VIDEO_MULTIVIEW_MODE_SIDE_BY_SIDE;
+  if (!beside && mode != GST_VIDEO_MULTIVIEW_MODE_TOP_BOTTOM) {
+    return stated + ", but mtsplit separates only views side by side or above each other.";
+  }
+  if (beside != (layout == SplitLayout::kSideBySide)) {
+    return stated + ": set layout=" + (beside ? "side-by-side" : "top-bottom") + " on mtsplit.";
+  }
+  const int flags = GST_VIDEO_INFO_MULTIVIEW_FLAGS(&whole);
+  if ((flags & GST_VIDEO_MULTIVIEW_FLAGS_RIGHT_VIEW_FIRST) == 0 || swap) return {};
+  return stated + " with the right view first: set swap=true on mtsplit.";
+}
+
 CapsPointer half_caps(const GstCaps* caps, SplitLayout layout) {
   return with_lengths(caps, layout, halve);
 }

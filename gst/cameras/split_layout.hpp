@@ -21,6 +21,10 @@ std::string split_formats();
 /// Why frames cannot be split, as a sentence with a remedy; "" if they can.
 std::string split_problem(const GstVideoInfo& whole, SplitLayout layout);
 
+/// What the stream says of its views if that is not what is split, as a sentence with a remedy; ""
+/// if it says the same, or nothing. A stream may be wrong about itself.
+std::string layout_contradiction(const GstVideoInfo& whole, SplitLayout layout, bool swap);
+
 /// The caps of one half. `caps` may be anything that a query has; structures of sizes that cannot
 /// be split are removed.
 CapsPointer half_caps(const GstCaps* caps, SplitLayout layout);

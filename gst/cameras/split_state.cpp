@@ -77,7 +77,8 @@ GstFlowReturn push_half(SplitState& state, SplitOutput& output, GstBuffer* whole
 }  // namespace
 
 bool send_half_caps(SplitState& state, GstCaps* caps, guint32 seqnum) {
-  const SplitLayout layout = state.current_settings().layout;
+  const SplitSettings settings = state.current_settings();
+  const SplitLayout layout = settings.layout;
   GstVideoInfo whole;
   const bool known = gst_video_info_from_caps(&whole, caps);
   const std::string problem = known ? split_problem(whole, layout) : "The caps are incomplete.";
@@ -88,6 +89,10 @@ bool send_half_caps(SplitState& state, GstCaps* caps, guint32 seqnum) {
                        caps_text(caps).c_str()));
     state.caps.reset();
     return false;
+  }
+  if (const std::string text = layout_contradiction(whole, layout, settings.swap); !text.empty()) {
+    GST_ELEMENT_WARNING(state.element, STREAM, FORMAT, ("%s", text.c_str()),
+                        ("sink received %s", caps_text(caps).c_str()));
   }
   const CapsPointer half = half_caps(caps, layout);
   if (!gst_video_info_from_caps(&state.half, half.get())) return false;

@@ -94,6 +94,37 @@ TEST(MtSplitStreams, FlowsOfBothPadsAreCombined) {
   EXPECT_EQ(splitter.input().push(frame_buffer(image, kFrame, kFrame)), GST_FLOW_EOS);
 }
 
+/// The warning of an mtsplit about caps with these fields; "" if there is none.
+std::string warning_of(const std::string& properties, const std::string& fields) {
+  g_type_ensure(GST_TYPE_VIDEO_MULTIVIEW_FLAGSET);  // for the caps
+  Splitter splitter(properties);
+  splitter.input().caps(raw_caps("GRAY8", 64, 48) + fields);
+  EXPECT_TRUE(splitter.caps(Side::kLeft)) << fields;
+  return splitter.input().report(GST_MESSAGE_WARNING);
+}
+
+constexpr const char* kRightFirst =
+    ", multiview-mode=(string)top-bottom, "
+    "multiview-flags=(GstVideoMultiviewFlagsSet)1:ffffffff:/right-view-first";
+
+TEST(MtSplitStreams, WarnOfLayoutsThatTheyContradict) {
+  EXPECT_NE(warning_of("", ",multiview-mode=(string)top-bottom").find("set layout=top-bottom"),
+            std::string::npos);
+  EXPECT_NE(warning_of("layout=top-bottom", ",multiview-mode=(string)side-by-side")
+                .find("set layout=side-by-side"),
+            std::string::npos);
+  EXPECT_NE(warning_of("", ",multiview-mode=(string)row-interleaved").find("row-interleaved, but"),
+            std::string::npos);
+  EXPECT_NE(warning_of("layout=top-bottom", kRightFirst).find("set swap=true"), std::string::npos);
+}
+
+TEST(MtSplitStreams, WithTheLayoutThatTheyStateCauseNoWarning) {
+  EXPECT_EQ(warning_of("", ""), "");
+  EXPECT_EQ(warning_of("", ",multiview-mode=(string)mono"), "");
+  EXPECT_EQ(warning_of("", ",multiview-mode=(string)side-by-side"), "");
+  EXPECT_EQ(warning_of("layout=top-bottom swap=true", kRightFirst), "");
+}
+
 TEST(MtSplitStreams, LatencyIsThatOfUpstream) {
   Splitter splitter;
   splitter.input().caps(raw_caps("GRAY8", 64, 48));
