@@ -71,6 +71,18 @@ void Engine::publish_alignment() {
   reports_.announce(report);
 }
 
+/// Warns once if the maps are nearly black, or the views too dark for better ones.
+void Engine::warn_of_black_maps(GrayView left, GrayView right) {
+  const auto density =
+      black_maps_.mean(result_.statistics.density, alignment_.report().problems != 0);
+  if (!density) return;
+  const bool sparse = settings_.parameters.text(Parameter::kMode) == "sparse";
+  const std::string text = black_maps_text(*density, sparse, left, right);
+  if (text.empty()) return;
+  messages_.warning(text);
+  black_maps_.report();
+}
+
 /// Inspects, corrects and matches a pair.
 Status Engine::match_views(const MappedFrame& left_frame, const MappedFrame& right_frame,
                            ImageView<std::uint16_t> map) {
@@ -84,6 +96,7 @@ Status Engine::match_views(const MappedFrame& left_frame, const MappedFrame& rig
   const Result<FrameResult> result = matcher_->compute(left, right);
   if (!result) return result.error();
   result_ = *result;
+  warn_of_black_maps(left, right);
   return write_disparity16(result_.disparity, settings_.disparity_scale, map);
 }
 
@@ -185,6 +198,7 @@ void Engine::forget() {
 void Engine::start() {
   alignment_ = PairAlignment();
   reports_.restart();
+  black_maps_ = {};
   logged_half_ = false;
   const Lock lock(mutex_);
   statistics_ = {};

@@ -7,6 +7,7 @@
 
 #include "matcher/base/messages.hpp"
 #include "matcher/engine/alignment_reports.hpp"
+#include "matcher/engine/black_maps.hpp"
 #include "matcher/engine/confidence.hpp"
 #include "matcher/engine/match_settings.hpp"
 #include "matcher/engine/view_borders.hpp"
@@ -64,6 +65,7 @@ class Engine {
   GstFlowReturn refuse_frame(const char* source, const MappedFrame& frame);
   bool continues(GstBuffer* left, GstBuffer* right) const;
   void publish_alignment();
+  void warn_of_black_maps(GrayView left, GrayView right);
   void count_pair(const GstVideoInfo& map_info);
 
   Messages& messages_;
@@ -77,6 +79,7 @@ class Engine {
   std::array<LumaReader, 2> luma_;                // by side
   PairAlignment alignment_;
   AlignmentReports reports_;
+  BlackMaps black_maps_;
   Borders borders_;         // of the last pair
   long border_pixels_ = 0;  // disparities that were removed from the last map, as in a border
   ConfidenceMaps confidence_;

@@ -325,6 +325,17 @@ TEST_F(Stream, WithManyWrongTimeStampsIsReportedWithTheRemedy) {
   EXPECT_NE(warning.text.find("do-timestamp=true"), std::string::npos) << warning.text;
 }
 
+TEST_F(Stream, OfDarkViewsIsReportedOnce) {
+  for (GrayImage* image : {&pair.left, &pair.right}) {
+    for (std::uint8_t& pixel : image->pixels) pixel /= 64;  // as of 10 bits in GRAY16_LE
+  }
+  for (int i = 0; i < 60; ++i) ASSERT_TRUE(next()) << i;
+  const Report warning = harness->warning();
+  EXPECT_NE(warning.text.find("no more than 4 gray values"), std::string::npos) << warning.text;
+  for (int i = 0; i < 60; ++i) ASSERT_TRUE(next()) << i;
+  EXPECT_TRUE(harness->warnings().empty());
+}
+
 TEST_F(Stream, ReleasesInputFrames) {
   GstBuffer* left = frame_buffer(pair.left, 0, kFrame);
   GstBuffer* right = frame_buffer(pair.right, 0, kFrame);
