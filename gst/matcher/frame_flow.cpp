@@ -102,6 +102,15 @@ void refuse_memory(ElementState& state) {
                            std::to_string(state.output.info().size) + " bytes.");
 }
 
+/// The sources end with an error that names them only.
+void warn_of_unlinked_output(ElementState& state) {
+  if (gst_pad_is_linked(state.output.pad())) return;  // the fault is further downstream
+  state.messages.warning(
+      "There is no use for the maps: the pad src is not linked. Link it, for example by \"! "
+      "mtcolor "
+      "! videoconvert ! autovideosink\".");
+}
+
 /// A pair passes the engine and the output.
 GstFlowReturn match(ElementState& state, GstBuffer* left, GstBuffer* right) {
   const OutputTimes times = state.output.times(left);
@@ -130,8 +139,10 @@ GstFlowReturn match(ElementState& state, GstBuffer* left, GstBuffer* right) {
   if (flow != GST_FLOW_OK) return flow;
   flow = state.engine.match(left, right, map.get(), state.output.info());
   if (flow != GST_FLOW_OK) return flow;
-  return state.output.send(std::move(map), times,
+  flow = state.output.send(std::move(map), times,
                            static_cast<double>(g_get_monotonic_time() - start) / 1000);
+  if (flow == GST_FLOW_NOT_LINKED) warn_of_unlinked_output(state);
+  return flow;
 }
 
 GstFlowReturn match(ElementState& state, const PairingAction& pair) {

@@ -134,6 +134,14 @@ TEST(UnlinkedPad, OfALivePipelineIsNamedInTheWarningOfLostFrames) {
   EXPECT_NE(text.find("NAME.sink_right"), std::string::npos) << text;
 }
 
+TEST(UnlinkedPad, OfTheMapsIsNamedInAWarning) {
+  const std::string source = "videotestsrc ! video/x-raw,format=GRAY8 ! queue ! m.sink_";
+  Pipeline pipeline("mtstereo name=m alignment=off " + source + "left " + source + "right");
+  pipeline.set_state(GST_STATE_PLAYING);
+  const std::string text = warning_of(pipeline, 20);
+  EXPECT_NE(text.find("src is not linked"), std::string::npos) << text;
+}
+
 TEST(UnlinkedPad, EndsTheOtherStream) {
   Pipeline pipeline(
       "videotestsrc ! video/x-raw,format=GRAY8 ! m.sink_left mtstereo name=m "
