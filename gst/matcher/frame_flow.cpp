@@ -102,6 +102,16 @@ void refuse_memory(ElementState& state) {
                            std::to_string(state.output.info().size) + " bytes.");
 }
 
+/// A pair is matched this long after the running time of its map.
+void report_lateness(ElementState& state, Nanoseconds lateness) {
+  const GstClockTime latency = gst_aggregator_get_latency(state.element);
+  const MatchStatistics matched = state.engine.statistics();
+  if (!GST_CLOCK_TIME_IS_VALID(latency) || matched.pairs == 0) return;
+  const double mean = matched.total_ms / static_cast<double>(matched.pairs);  // [ms]
+  state.pairing_reports.late_pair(lateness - bounded(latency),
+                                  static_cast<Nanoseconds>(mean * 1e6));
+}
+
 /// The sources end with an error that names them only.
 void warn_of_unlinked_output(ElementState& state) {
   if (gst_pad_is_linked(state.output.pad())) return;  // the fault is further downstream
@@ -116,6 +126,7 @@ GstFlowReturn match(ElementState& state, GstBuffer* left, GstBuffer* right) {
   const OutputTimes times = state.output.times(left);
   if (const auto now = state.clock.now(); now && GST_CLOCK_TIME_IS_VALID(times.running)) {
     state.pairing_reports.matches(bounded(times.running), *now);
+    report_lateness(state, *now - bounded(times.running));
   }
   if (GST_CLOCK_TIME_IS_VALID(times.stream)) {
     gst_object_sync_values(GST_OBJECT_CAST(state.element), times.stream);

@@ -140,6 +140,25 @@ void PairingReports::matches(Nanoseconds time, Nanoseconds now) {
       "or set sync=false on the sink.");
 }
 
+void PairingReports::late_pair(Nanoseconds lateness, Nanoseconds matching) {
+  constexpr int kMany = 10;
+  if (lateness < kSecond) {
+    seen_.late_pairs = 0;
+    return;
+  }
+  if (++seen_.late_pairs == 1) seen_.least_lateness = lateness;
+  seen_.least_lateness = std::min(seen_.least_lateness, lateness);
+  // A constant lateness is that of the time stamps.
+  const bool grows = lateness - seen_.least_lateness >= kSecond;
+  if (seen_.late_pairs < kMany || !grows || std::exchange(seen_.slow, true)) return;
+  messages_.warning(
+      "Matching is slower than the streams, and its maps get ever older: this pair is " +
+      milliseconds(lateness) + " late, and one takes " + milliseconds(matching) +
+      ". To skip older pairs, set newest-pair=true, or sync=true and qos=true on the sink; to "
+      "match "
+      "faster, preset=fast or a smaller max-disparity.");
+}
+
 void PairingReports::frame(Side side, bool damaged) {
   if (!damaged || std::exchange(seen_.damage[index_of(side)], true)) return;
   messages_.warning(std::string("The decoder marks a frame of ") + pad_name(side) +

@@ -29,6 +29,8 @@ class PairingReports {
   void paired();
   /// A pair is matched. Running times of its map and of the clock.
   void matches(Nanoseconds time, Nanoseconds now);
+  /// A pair of live streams is matched, this long after its deadline. `matching`: mean time.
+  void late_pair(Nanoseconds lateness, Nanoseconds matching);
   /// A frame is matched that a decoder may have marked as damaged.
   void frame(Side side, bool damaged);
   /// A frame had no partner, because the next one of the other side is too far away.
@@ -66,6 +68,9 @@ class PairingReports {
     std::array<std::int64_t, 2> dropped = {};  // frames of a side
     std::array<int, 2> wrong = {};             // of these, with a wrong time stamp
     std::array<Nanoseconds, 2> lateness = {};  // of a side since the last pair
+    int late_pairs = 0;                        // successive ones
+    Nanoseconds least_lateness = 0;            // of these
+    bool slow = false;                         // matching, and warned of
     bool end = false;                          // without any pair, and warned of
     std::array<bool, 2> damage = {};           // of a side, and warned of
     std::optional<Nanoseconds> offset;         // of the streams, logged

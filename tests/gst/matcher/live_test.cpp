@@ -104,6 +104,30 @@ TEST_F(Live, NamesTimeStampsThatAreFarBehindTheClock) {
   EXPECT_NE(warning.text.find("do-timestamp=true"), std::string::npos) << warning.text;
 }
 
+/// The warning after 40 pairs, the first of which is 2 s late and each one later by `growth`.
+class LatePairs : public Live {
+ protected:
+  std::vector<Report> warnings_of(GstClockTime growth) {
+    start(true);
+    EXPECT_TRUE(next());
+    for (GstClockTime i = 1; i <= 40; ++i) {
+      gst_harness_set_time(harness->output(), 2 * GST_SECOND + i * (kFrame + growth));
+      EXPECT_TRUE(next()) << i;
+    }
+    return harness->warnings();
+  }
+};
+
+TEST_F(LatePairs, ThatGetEverLaterAreReportedWithTheRemedy) {
+  const std::vector<Report> warnings = warnings_of(kFrame);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].text.find("slower than the streams"), std::string::npos)
+      << warnings[0].text;
+  EXPECT_NE(warnings[0].text.find("newest-pair=true"), std::string::npos) << warnings[0].text;
+}
+
+TEST_F(LatePairs, OfConstantLatenessAreNotReported) { EXPECT_TRUE(warnings_of(0).empty()); }
+
 TEST_F(Live, DoesNotWarnOfMissingFramesBetweenPairs) {
   start(true);
   GstClockTime time = 0;
