@@ -73,12 +73,13 @@ const char* problem_text(PairProblem problem) noexcept {
       return "The left and the right view are swapped: exchange the two streams.";
     case PairProblem::kNotAPair:
       return "Few points of the left view are found in the right one. Possible causes: streams of "
-             "different cameras, a view that is upside down or mirrored, views that are not "
-             "rectified or rectified for other cameras, a search range that is too small.";
+             "different cameras, a view that is upside down or mirrored, cameras above each other, "
+             "views that are not rectified or rectified for other cameras, a search range that is "
+             "too small.";
     case PairProblem::kOutOfStep:
       return "Points of the two views disagree about the rows. Possible causes: views that were "
-             "not taken at the same time, that are not rectified or rectified for other cameras, a "
-             "search range that is too small.";
+             "not taken at the same time, that are not rectified or rectified for other cameras, "
+             "cameras above each other, a search range that is too small.";
     case PairProblem::kSharpnessDiffers:
       return "One view is less sharp than the other: clean and focus its lens.";
     case PairProblem::kLeftBlank:
