@@ -34,7 +34,9 @@ std::optional<double> BlackMaps::mean(double density, bool explained) {
 }
 
 std::string black_maps_text(double density, bool sparse, GrayView left, GrayView right) {
+  constexpr double kUsual = 0.5;  // such maps are not worth a look at the views
   constexpr int kFewValues = 16;  // as of 12 of 16 bits
+  if (density > kUsual) return {};
   char share[40];
   std::snprintf(share, sizeof share, "%.1f %% of the pixels", 100 * density);
   const int values = std::max(contrast(left), contrast(right)) + 1;

@@ -55,6 +55,7 @@ TEST(BlackMaps, OfViewsWithFewGrayValuesGetAnotherRemedy) {
   EXPECT_NE(text.find("no more than 16 gray values"), std::string::npos) << text;
   EXPECT_NE(text.find("of 16 bits"), std::string::npos) << text;
   EXPECT_EQ(text_of(0.5, false, 16), "");
+  EXPECT_EQ(text_of(0.51, false, 15), "");
 }
 
 }  // namespace
