@@ -77,11 +77,12 @@ TEST_P(Seeks, WhilePlaying) {
 }
 
 TEST_P(Seeks, WithoutAFlush) {
-  // Each stream plays a few more frames of the old segment than the other one.
+  // Each stream plays a few more frames of the old segment than the other one. The end of the files
+  // is far, as a stream that has ended does not seek without a flush.
   for (int i = 0; i < 12; ++i) {
     const int from = i * 17 % 40;
     const int flags = i % 2 == 0 ? GST_SEEK_FLAG_KEY_UNIT : GST_SEEK_FLAG_ACCURATE;
-    player->play({.from = (from + 20) % 40}, 4 + i % 3);
+    player->play({.from = from / 4}, 4 + i % 3);
     const DifferenceCounter count = player->play(
         {.rate = i % 4 == 3 ? 2.0 : 1.0, .flags = flags, .from = from, .flush = false}, 15);
     EXPECT_EQ(count.wrong + count.unknown, 0) << "seek " << i << " to frame " << from;
