@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "lib/files/file_names.hpp"
@@ -50,27 +52,39 @@ cv::Mat read(const fs::path& file) {
   return image;
 }
 
-// The first image whose number the others do not have; empty if an image has no number.
-fs::path without_partner(const std::vector<fs::path>& images, const std::vector<fs::path>& others) {
+// The images whose number the others do not have; none if an image has no number.
+std::vector<fs::path> without_partner(const std::vector<fs::path>& images,
+                                      const std::vector<fs::path>& others) {
+  std::set<std::string> numbers;
+  for (const fs::path& other : others) numbers.insert(files::last_number(other));
+  std::vector<fs::path> alone;
   for (const fs::path& image : images) {
     const std::string number = files::last_number(image);
     if (number.empty()) return {};
-    const bool found = std::any_of(others.begin(), others.end(), [&](const fs::path& other) {
-      return files::last_number(other) == number;
-    });
-    if (!found) return image;
+    if (!numbers.contains(number)) alone.push_back(image);
   }
-  return {};
+  return alone;
 }
 
 [[noreturn]] void refuse_counts(const SourceOptions& options, const std::vector<fs::path>& left,
                                 const std::vector<fs::path>& right) {
-  fs::path alone = without_partner(left, right);
+  std::vector<fs::path> alone = without_partner(left, right);
   if (alone.empty()) alone = without_partner(right, left);
   throw UserError(options.left + " has " + outputs::counted(left.size(), "image") + ", but " +
                   options.right + " has " + std::to_string(right.size()) +
                   ": they are paired in order" +
-                  (alone.empty() ? "" : "; " + alone.string() + " has no partner"));
+                  (alone.empty() ? "" : "; " + alone[0].string() + " has no partner"));
+}
+
+// In lists of one length, an image may be missing on each side. If most numbers are those of both
+// sides, the others show it.
+void check_numbers(const std::vector<fs::path>& left, const std::vector<fs::path>& right) {
+  const std::vector<fs::path> alone = without_partner(left, right);
+  const std::vector<fs::path> other = without_partner(right, left);
+  if (alone.empty() || other.empty() || 2 * alone.size() >= left.size()) return;
+  throw UserError(alone[0].string() + " and " + other[0].string() +
+                  " have no partner with their number, but images are paired in order: remove "
+                  "both, or give images of one moment the same number");
 }
 
 bool is_line(const std::string& source) {
@@ -103,6 +117,7 @@ class ImageSource : public PairSource {
     if (arrangement_ != Arrangement::kTwoSources) return;
     right_ = list_images(options.right);
     if (left_.size() != right_.size()) refuse_counts(options, left_, right_);
+    check_numbers(left_, right_);
   }
 
   SourceState next(ImagePair& pair) override {

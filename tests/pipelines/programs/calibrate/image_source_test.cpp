@@ -2,7 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
 
 #include "lib/outputs/user_error.hpp"
 #include "programs/calibrate/source.hpp"
@@ -44,6 +48,35 @@ TEST(ImageSource, KeepsImagesOf8BitsAndBlackOnes) {
   const ImagePair pair = read_pair(gray, cv::Mat(1, 3, CV_16UC1, cv::Scalar(0)));
   EXPECT_EQ(cv::norm(pair.left, gray, cv::NORM_INF), 0);
   EXPECT_EQ(cv::countNonZero(pair.right), 0);
+}
+
+// Empty images with these numbers in their names.
+void write_numbered(const std::string& folder, std::initializer_list<int> numbers) {
+  std::filesystem::create_directory(folder);
+  for (const int number : numbers) std::ofstream(folder + "/" + std::to_string(number) + ".png");
+}
+
+TEST(ImageSource, RefusesListsOfOneLengthThatMissDifferentImages) {
+  const test::TemporaryFolder folder;
+  SourceOptions options;
+  options.left = folder / "left";
+  options.right = folder / "right";
+  write_numbered(options.left, {1, 2, 4, 5, 10});
+  write_numbered(options.right, {1, 2, 3, 5, 10});
+  EXPECT_THAT([&options] { open_source(options); },
+              ::testing::ThrowsMessage<UserError>(::testing::AllOf(
+                  ::testing::HasSubstr("left/4.png and "), ::testing::HasSubstr("right/3.png"),
+                  ::testing::HasSubstr("no partner with their number"))));
+}
+
+TEST(ImageSource, TakesNumbersThatAreNotThoseOfPairs) {
+  const test::TemporaryFolder folder;
+  SourceOptions options;
+  options.left = folder / "left";
+  options.right = folder / "right";
+  write_numbered(options.left, {100, 203, 305, 400});  // such as times
+  write_numbered(options.right, {101, 203, 306, 402});
+  EXPECT_NO_THROW(open_source(options));
 }
 
 TEST(ImageSource, NamesTheRemedyForAGif) {
