@@ -116,9 +116,8 @@ void report_lateness(ElementState& state, Nanoseconds lateness) {
 void warn_of_unlinked_output(ElementState& state) {
   if (gst_pad_is_linked(state.output.pad())) return;  // the fault is further downstream
   state.messages.warning(
-      "There is no use for the maps: the pad src is not linked. Link it, for example by \"! "
-      "mtcolor "
-      "! videoconvert ! autovideosink\".");
+      "There is no use for the maps: the pad src is not linked. Link it, for example by "
+      "\"! mtcolor ! videoconvert ! autovideosink\".");
 }
 
 /// A pair passes the engine and the output.

@@ -155,8 +155,7 @@ void PairingReports::late_pair(Nanoseconds lateness, Nanoseconds matching) {
       "Matching is slower than the streams, and its maps get ever older: this pair is " +
       milliseconds(lateness) + " late, and one takes " + milliseconds(matching) +
       ". To skip older pairs, set newest-pair=true, or sync=true and qos=true on the sink; to "
-      "match "
-      "faster, preset=fast or a smaller max-disparity.");
+      "match faster, preset=fast or a smaller max-disparity.");
 }
 
 void PairingReports::frame(Side side, bool damaged) {
