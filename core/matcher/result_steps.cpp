@@ -103,11 +103,13 @@ void align_enlarged_edges(const StepContext& step, const Views& views, ResultMap
   align_edges_of(step.input_bands, views.input[0], result, nullptr, buffers);
 }
 
-RatedViews rated_views(const Views& views, const Pyramid& pyramid, const ResultMaps& result) {
-  return {
-      views.plain[0],     views.plain[1],    views.rated_noise,
-      &pyramid.agreement, kWindowTile,       {&pyramid.levels[0].disparity, &pyramid.confidence},
-      result.fine_detail, result.grid_level, result.block_side};
+RatedViews rated_views(const Settings& settings, const Views& views, const Pyramid& pyramid,
+                       const ResultMaps& result) {
+  return {views.plain[0],     views.plain[1],
+          views.rated_noise,  &pyramid.agreement,
+          kWindowTile,        {&pyramid.levels[0].disparity, &pyramid.confidence},
+          result.fine_detail, result.grid_level,
+          result.block_side,  settings.half()};
 }
 
 void calibrate_confidence(const StepContext& step, const Views& views, const Pyramid& pyramid,
@@ -115,8 +117,8 @@ void calibrate_confidence(const StepContext& step, const Views& views, const Pyr
   const Settings& settings = step.settings;
   const TableParts& parts = kReliabilityTables[static_cast<int>(settings.rated_map())];
   const Inferred inferred = settings.keeps_inferred() ? Inferred::kLikeMatched : Inferred::kApart;
-  rate(step.bands, rated_views(views, pyramid, result), *result.disparity, parts, inferred,
-       buffers.rating, *result.confidence);
+  rate(step.bands, rated_views(step.settings, views, pyramid, result), *result.disparity, parts,
+       inferred, buffers.rating, *result.confidence);
 }
 
 void correct_strip(const StepContext& step, ResultMaps& result) {

@@ -79,7 +79,8 @@ void align_enlarged_edges(const StepContext& step, const Views& views, ResultMap
                           ResultBuffers& buffers);
 
 /// What the clues of the reliability are about; all arguments must outlive it.
-RatedViews rated_views(const Views& views, const Pyramid& pyramid, const ResultMaps& result);
+RatedViews rated_views(const Settings& settings, const Views& views, const Pyramid& pyramid,
+                       const ResultMaps& result);
 
 /// Replaces the confidence of the complete map by its reliability.
 void calibrate_confidence(const StepContext& step, const Views& views, const Pyramid& pyramid,

@@ -84,6 +84,7 @@ struct RatedViews {
   float fine_detail = kUnknownDetail;  ///< FineDetail::share()
   int grid_level = 0;                  ///< BlockGrid::level()
   int block_side = kBlockSide;         ///< BlockGrid::side
+  bool halved = false;                 ///< the views have half the resolution of the input
 };
 
 /// The gray value of the left view for each of the right one.

@@ -213,8 +213,11 @@ constexpr float kNoiseEnds[] = {.1F, .3F, .6F, 1, 1.5F, 2, 2.5F, 3, 4, 5, 7, 10}
 constexpr float kDetailEnds[] = {.024F, .03F, .037F, .045F, .06F, .1F, .2F};
 
 /// Views are sharp from the first share of fine detail on, and soft at the second one.
-constexpr float kSharpDetail = .12F;
-constexpr float kSoftDetail = .03F;
+struct DetailLimits {
+  float sharp, soft;
+};
+constexpr DetailLimits kDetailLimits = {.2F, .06F};
+constexpr DetailLimits kHalvedDetailLimits = {.12F, .03F};
 
 /// Views have little noise up to the first level, and are noisy from the second one on [gray
 /// values].
@@ -343,7 +346,8 @@ void ReliabilityScratch::resize(int width) {
 }
 
 PartShares part_shares(const RatedViews& views) {
-  return {1, ramp(kSharpDetail, kSoftDetail, views.fine_detail),
+  const DetailLimits detail = views.halved ? kHalvedDetailLimits : kDetailLimits;
+  return {1, ramp(detail.sharp, detail.soft, views.fine_detail),
           ramp(kLittleNoise, kMuchNoise, views.noise_level),
           ramp(0, kBlockyLevel, static_cast<float>(views.grid_level))};
 }

@@ -191,7 +191,7 @@ PairSamples take_samples(const TrainingPair& pair, const std::string& kind, Rate
     } else if (step.name == "guide-support") {
       guide_confidence = rated_guide(memory, guide);
     } else if (step.name == (settings.infers() ? "edge-alignment" : "edge-check") && !is_guide) {
-      RatedViews views = rated_views(memory.views, pyramid, memory.result);
+      RatedViews views = rated_views(settings, memory.views, pyramid, memory.result);
       views.guide.confidence = &guide_confidence;
       Bins bins(views, *memory.result.disparity, *memory.result.confidence);
       sample(bins, is_half(rated) ? 2 : 1);

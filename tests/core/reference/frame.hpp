@@ -283,7 +283,8 @@ inline void rate_guide(Frame& f) {
   const Grays grays = map_grays(halves[0], halves[1], f.guide);
   const RatedPair pair = {halves[0], halves[1], f.noise, f.agreement, 8, grays};
   const auto table = static_cast<int>(mtstereo::RatedMap::kGuide);
-  const auto entries = table_of(kReliabilityTables[table], f.noise, mtstereo::kUnknownDetail, 0);
+  const auto entries =
+      table_of(kReliabilityTables[table], f.noise, mtstereo::kUnknownDetail, 0, true);
   f.guide.confidence = rate_reliability(pair, f.guide, entries, false);
 }
 
@@ -340,7 +341,8 @@ inline void calibrate_confidence(Frame& f) {
                           grays,      &f.guide,   f.detail,      f.grid,      f.block};
   const bool apart = !f.settings.keeps_inferred();
   const auto table = static_cast<int>(f.settings.rated_map());
-  const auto entries = table_of(kReliabilityTables[table], f.rated_noise, f.detail, f.grid);
+  const auto entries =
+      table_of(kReliabilityTables[table], f.rated_noise, f.detail, f.grid, f.settings.half());
   f.confidence = rate_reliability(pair, complete, entries, apart);
 }
 

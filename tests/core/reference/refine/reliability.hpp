@@ -145,8 +145,9 @@ class PixelClues {
 };
 
 /// The table of soft, noisy and compressed views.
-inline ReliabilityTable table_of(const TableParts& parts, double noise, double detail, int grid) {
-  const double soft = std::clamp((0.12 - detail) / 0.09, 0.0, 1.0);
+inline ReliabilityTable table_of(const TableParts& parts, double noise, double detail, int grid,
+                                 bool halved) {
+  const double soft = std::clamp(halved ? (0.12 - detail) / 0.09 : (0.2 - detail) / 0.14, 0.0, 1.0);
   const double noisy = std::clamp((noise - 3) / 2, 0.0, 1.0);
   const double blocky = std::min(grid / 2.0, 1.0);
   ReliabilityTable table = parts[0];

@@ -89,22 +89,28 @@ TEST(Reliability, AddsTheSharesOfTheParts) {
   parts[kSoftPart][kShareClue][3] = -40;
   parts[kNoisyPart][kShareClue][3] = 11;
   parts[kBlockyPart][kShareClue][3] = 10;
+  bool halved = false;
   const auto entry = [&](float noise, float detail, int grid_level = 0) {
     RatedViews views = {{}, {}, noise, nullptr, 0};
     views.fine_detail = detail;
     views.grid_level = grid_level;
+    views.halved = halved;
     return table_for(parts, part_shares(views))[kShareClue][3];
   };
   EXPECT_EQ(entry(0, kUnknownDetail), 100);
-  EXPECT_EQ(entry(3, 0.12F), 100);
-  EXPECT_EQ(entry(0, 0.03F), 60);
+  EXPECT_EQ(entry(3, 0.2F), 100);
+  EXPECT_EQ(entry(0, 0.06F), 60);
   EXPECT_EQ(entry(0, 0), 60);
-  EXPECT_EQ(entry(0, 0.075F), 80);
+  EXPECT_EQ(entry(0, 0.13F), 80);
   EXPECT_EQ(entry(4, 0.2F), 106);
   EXPECT_EQ(entry(20, 0.2F), 111);
   EXPECT_EQ(entry(5, 0.03F), 71);
   EXPECT_EQ(entry(0, 0.2F, 1), 105);
   EXPECT_EQ(entry(0, 0.2F, 4), 110);
+  halved = true;
+  EXPECT_EQ(entry(3, 0.12F), 100);
+  EXPECT_EQ(entry(0, 0.03F), 60);
+  EXPECT_EQ(entry(0, 0.075F), 80);
 }
 
 TEST(Reliability, KeepsInferredDisparitiesApart) {
