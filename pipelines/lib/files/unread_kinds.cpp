@@ -34,8 +34,7 @@ constexpr std::array<Kind, 16> kKinds{
       "(of EXR: ffmpeg -apply_trc iec61966_2_1 -i FILE -pix_fmt rgb48be view.png)"},
      {" .fits .fit .czi .nd2 .lif .dcm .img .vic .cub ",
       "has scientific images (FITS, PDS, microscopes), which are not read: write each view as "
-      "16-bit "
-      "PNG or TIFF (Fiji, gdal_translate)"},
+      "16-bit PNG or TIFF (Fiji, gdal_translate)"},
      {" .nut ",
       "is a kind of video that stops its reader: rewrite it (ffmpeg -i FILE -c copy view.mkv)"},
      {" .m3u8 .m3u .mpd ",

@@ -77,14 +77,22 @@ std::vector<fs::path> without_partner(const std::vector<fs::path>& images,
 }
 
 // In lists of one length, an image may be missing on each side. If most numbers are those of both
-// sides, the others show it.
+// sides, images show it whose partner is at another place. Two without partners may be of one
+// moment, as their numbers may be times in seconds.
 void check_numbers(const std::vector<fs::path>& left, const std::vector<fs::path>& right) {
   const std::vector<fs::path> alone = without_partner(left, right);
   const std::vector<fs::path> other = without_partner(right, left);
   if (alone.empty() || other.empty() || 2 * alone.size() >= left.size()) return;
-  throw UserError(alone[0].string() + " and " + other[0].string() +
-                  " have no partner with their number, but images are paired in order: remove "
-                  "both, or give images of one moment the same number");
+  const auto has = [](const std::vector<fs::path>& list, const fs::path& image) {
+    return std::find(list.begin(), list.end(), image) != list.end();
+  };
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (files::last_number(left[i]) == files::last_number(right[i])) continue;
+    if (has(alone, left[i]) && has(other, right[i])) continue;
+    throw UserError(alone[0].string() + " and " + other[0].string() +
+                    " have no partner with their number, but images are paired in order: remove "
+                    "both, or give images of one moment the same number");
+  }
 }
 
 bool is_line(const std::string& source) {

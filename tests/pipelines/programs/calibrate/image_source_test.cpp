@@ -61,11 +61,11 @@ TEST(ImageSource, RefusesListsOfOneLengthThatMissDifferentImages) {
   SourceOptions options;
   options.left = folder / "left";
   options.right = folder / "right";
-  write_numbered(options.left, {1, 2, 4, 5, 10});
-  write_numbered(options.right, {1, 2, 3, 5, 10});
+  write_numbered(options.left, {1, 2, 4, 5, 6, 10});
+  write_numbered(options.right, {1, 2, 3, 4, 5, 10});
   EXPECT_THAT([&options] { open_source(options); },
               ::testing::ThrowsMessage<UserError>(::testing::AllOf(
-                  ::testing::HasSubstr("left/4.png and "), ::testing::HasSubstr("right/3.png"),
+                  ::testing::HasSubstr("left/6.png and "), ::testing::HasSubstr("right/3.png"),
                   ::testing::HasSubstr("no partner with their number"))));
 }
 
@@ -76,6 +76,16 @@ TEST(ImageSource, TakesNumbersThatAreNotThoseOfPairs) {
   options.right = folder / "right";
   write_numbered(options.left, {100, 203, 305, 400});  // such as times
   write_numbered(options.right, {101, 203, 306, 402});
+  EXPECT_NO_THROW(open_source(options));
+}
+
+TEST(ImageSource, TakesTimesThatDifferByASecondNowAndThen) {
+  const test::TemporaryFolder folder;
+  SourceOptions options;
+  options.left = folder / "left";
+  options.right = folder / "right";
+  write_numbered(options.left, {92610, 92615, 92619, 92630});
+  write_numbered(options.right, {92610, 92616, 92619, 92630});
   EXPECT_NO_THROW(open_source(options));
 }
 
